@@ -156,7 +156,7 @@ std::string proposed_scene_text(const ViewSearch& search, const Candidate& candi
   text.value("position", place(v.viewer), search.ground.at(v.viewer) == nullptr ? "outside of the data, which begin in front of it" : "");
   text.value("height_m", fmt::format("{:.0f}", v.eye_m), "bent level ground touches the line of sight at the horizon");
   text.value("azimuth_deg", fmt::format("{:.1f}", turned_deg(v.azimuth_deg)), fmt::format("to the {}", compass(v.azimuth_deg)));
-  text.value("pitch_deg", fmt::format("{:.2f}", v.pitch_deg), fmt::format("{:.0f} % of the picture is sky", 100.0 * m.sky));
+  text.value("pitch_deg", fmt::format("{:.2f}", v.pitch_deg), fmt::format("{:.0f} % of the picture is sky", 100.0 * m.skyline.mean));
   text.value("field_of_view_deg", fmt::format("{:.1f}", v.field_of_view_deg));
   text.line();
   text.line("[sun]");

@@ -41,16 +41,18 @@ double mean_of(const std::vector<double>& v, std::size_t from, std::size_t to) {
   return to > from ? sum / static_cast<double>(to - from) : 0.0;
 }
 
-void measure_skyline(const std::vector<double>& skyline, ViewMeasures& out) {
-  if (skyline.empty()) return;
-  out.sky_low = percentile(skyline, lowest_share);
-  out.sky_middle = percentile(skyline, 0.5);
-  out.sky_summit = *std::min_element(skyline.begin(), skyline.end());
-  out.sky = mean_of(skyline, 0, skyline.size());
+SkylineMeasures measure_skyline(const std::vector<double>& heights) {
+  SkylineMeasures out;
+  if (heights.empty()) return out;
+  out.low = percentile(heights, lowest_share);
+  out.median = percentile(heights, 0.5);
+  out.summit = *std::min_element(heights.begin(), heights.end());
+  out.mean = mean_of(heights, 0, heights.size());
   double sum = 0.0;
-  for (const double y : skyline) sum += square(y - out.sky);
-  out.skyline = std::sqrt(sum / static_cast<double>(skyline.size()));
-  out.hump = hump_of(skyline);
+  for (const double y : heights) sum += square(y - out.mean);
+  out.deviation = std::sqrt(sum / static_cast<double>(heights.size()));
+  out.hump = hump_of(heights);
+  return out;
 }
 
 // What the lower edge does to the ground it lies on, followed outwards: it cuts a mountain where the ground on it stands high over its
@@ -257,18 +259,18 @@ double lower_edge_angle_deg(const SightModel& sight) {
 void add_shares(ViewMeasures& out, const Sums& sums) {
   const double columns = std::max(1.0, sums.columns);
   const double edge = std::max(1.0, sums.edge_columns);
-  out.empty_edge = sums.edge_empty / edge;
-  out.cut = sums.edge_cut / edge;
+  out.lower_edge.empty = sums.edge_empty / edge;
+  out.lower_edge.cut = sums.edge_cut / edge;
   out.ranges = sums.jumps / edge;
-  out.rim = sums.rim / columns;
-  out.rim_near = sums.rim_near / columns;
-  out.floor = sums.floor / columns;
+  out.rim.share = sums.rim / columns;
+  out.rim.near_share = sums.rim_near / columns;
+  out.floor.share = sums.floor / columns;
   out.water = sums.water / columns;
   out.flat = sums.flat / columns;
-  for (const double share : sums.floor_by_depth) out.floor_depth += 0.25 * std::min(1.0, share / columns / 0.012);
-  for (const double share : sums.floor_by_third) out.floor_across += std::min(1.0, share / columns / 0.015) / 3.0;
-  if (sums.area > 0.0) out.ground = sums.area_seen / sums.area;
-  if (sums.area_floor > 0.0) out.floor_open = sums.area_floor_seen / sums.area_floor;
+  for (const double share : sums.floor_by_depth) out.floor.depth_spread += 0.25 * std::min(1.0, share / columns / 0.012);
+  for (const double share : sums.floor_by_third) out.floor.width_spread += std::min(1.0, share / columns / 0.015) / 3.0;
+  if (sums.area > 0.0) out.visible_ground = sums.area_seen / sums.area;
+  if (sums.area_floor > 0.0) out.floor.visible = sums.area_floor_seen / sums.area_floor;
   if (sums.all > 0.0) {
     out.forms = std::sqrt(sums.forms / sums.all);
     out.haze = sums.haze / sums.all;
@@ -310,14 +312,14 @@ ViewMeasures measure_view(const CoarseGround& ground, const SightModel& sight, c
   for (const glm::dvec2 direction : sight.directions) walk_line(view, ground, sight, anchors, direction, air);
 
   ViewMeasures out;
-  measure_skyline(view.skyline, out);
+  out.skyline = measure_skyline(view.skyline);
   add_shares(out, view.sums);
   if (view.far.weight > 0.0 && view.near.weight > 0.0)
     out.rise = (view.far.sum / view.far.weight - view.near.sum / view.near.weight) / ground.relief_m;
   out.area = 0.5 * sight.width * (square(sight.far_m) - square(sight.near_m)) / square(ground.side_m);
   constexpr double judged_px = 2400.0;
-  out.cell_px = ground.source_cell_m / std::max(1e-6, sight.width * sight.near_m / judged_px);
-  out.angle_deg = lower_edge_angle_deg(sight);
+  out.lower_edge.cell_px = ground.source_cell_m / std::max(1e-6, sight.width * sight.near_m / judged_px);
+  out.lower_edge.angle_deg = lower_edge_angle_deg(sight);
   for (std::size_t k = 0; k < anchors.size(); ++k) {
     AnchorSight placed = sight_of(ground, sight, anchors[k]);
     if (anchors[k].kind != AnchorKind::summit && view.subjects[k].area > 0.0) placed.seen = view.subjects[k].seen / view.subjects[k].area;

@@ -39,31 +39,49 @@ struct AnchorSight {
   double distance_m = 0.0;
 };
 
+// Heights from the top of the picture, in picture heights.
+struct SkylineMeasures {
+  double mean = 0.0;  // share of the picture above the skyline
+  double low = 0.0;   // its low places: 96 % of it are higher
+  double median = 0.0;
+  double summit = 0.0;     // its highest
+  double deviation = 0.0;  // standard deviation
+  double hump = 0.0;       // 0…1: how much it is one hump that falls off to the sides, without peaks
+};
+
+struct ValleyFloorMeasures {
+  double visible = 0.0;       // share of the valley floor in view that is seen
+  double share = 0.0;         // of the picture
+  double depth_spread = 0.0;  // 0…1: how evenly over near and far
+  double width_spread = 0.0;  // 0…1: how evenly from left to right
+};
+
+struct LowerEdgeMeasures {
+  double empty = 0.0;      // share without ground
+  double cut = 0.0;        // share that cuts through mountains
+  double angle_deg = 0.0;  // in its middle, between line of sight and bent ground
+  double cell_px = 0.0;    // width of a cell of the data, on a picture 2400 wide
+};
+
+// Ground nearer to the end of the data than the fade.
+struct RimMeasures {
+  double share = 0.0;       // of the picture
+  double near_share = 0.0;  // of that what lies in the nearer half
+};
+
 struct ViewMeasures {
-  double sky = 0.0;                  // mean share of the picture above the skyline
-  double sky_low = 0.0;              // the skyline's low places: 96 % of it are higher
-  double sky_middle = 0.0;           // its median
-  double sky_summit = 0.0;           // its highest
-  double skyline = 0.0;              // standard deviation of its height
-  double empty_edge = 0.0;           // share of the lower edge without ground
-  double rim = 0.0;                  // share of the picture nearer to the end of the data than the fade
-  double rim_near = 0.0;             // of that what lies in the nearer half
-  double ground = 0.0;               // share of the ground in view that is seen
-  double floor_open = 0.0;           // share of the valley floor in view that is seen
-  double floor = 0.0;                // share of the picture that is valley floor
-  double floor_depth = 0.0;          // 0…1: how evenly over near and far
-  double floor_across = 0.0;         // 0…1: how evenly from left to right
-  double water = 0.0;                // share of the picture that is water
+  SkylineMeasures skyline;
+  ValleyFloorMeasures floor;
+  LowerEdgeMeasures lower_edge;
+  RimMeasures rim;
+  double visible_ground = 0.0;       // share of the ground in view that is seen
+  double water = 0.0;                // share of the picture
   double flat = 0.0;                 // share of the picture that is low ground
   double ranges = 0.0;               // edges of one range before another, a column
-  double forms = 0.0;                // height of forms over their valleys, in picture heights: root of the mean square over the picture
-  double cut = 0.0;                  // share of the lower edge that cuts through mountains
+  double forms = 0.0;                // height of forms over their valleys, in picture heights: root mean square
   double rise = 0.0;                 // how much higher the far ground is than the near, in reliefs
   double area = 0.0;                 // ground in view, in areas of the region
-  double angle_deg = 0.0;            // in the middle of the lower edge, between line of sight and bent ground
   double haze = 0.0;                 // mean of the air's share over the ground
-  double cell_px = 0.0;              // width of a cell of the data at the lower edge, on a picture 2400 wide
-  double hump = 0.0;                 // 0…1: how much the skyline is one hump that falls off to the sides, without peaks
   std::vector<AnchorSight> anchors;  // of the massifs asked for, in their order
 };
 

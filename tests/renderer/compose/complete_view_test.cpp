@@ -54,7 +54,7 @@ TEST(CompleteView, AGivenEyeSettlesTheBend) {
     const double over = eye_m - view->base_m - view->level_m;
     EXPECT_NEAR(view->radius_m / ((view->far_m * view->far_m - view->crest_m * view->crest_m) / (2.0 * over)), 1.0, 1e-12);
     expect_horizon_at_far(*view);
-    EXPECT_NEAR(measure_view(ground, *view, {}).sky, found.sky, 0.02) << eye_m;
+    EXPECT_NEAR(measure_view(ground, *view, {}).skyline.mean, found.skyline.mean, 0.02) << eye_m;
   }
 }
 

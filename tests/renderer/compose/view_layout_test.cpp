@@ -59,10 +59,10 @@ TEST_P(Layout, TheSkyHasItsShare) {
   ASSERT_TRUE(view);
   const ViewMeasures m = measure_view(ground, *view, {});
   // Either most of the skyline, or the highest summit, is where it shall be, by the samples of another fan.
-  const double over_summit = m.sky_summit - parameters.over_summit;
+  const double over_summit = m.skyline.summit - parameters.over_summit;
   EXPECT_GT(over_summit, -0.012);
-  EXPECT_GT(m.sky_middle, parameters.sky - 0.012);
-  EXPECT_LT(std::min(over_summit, m.sky_middle - 0.02 - parameters.sky), 0.012);
+  EXPECT_GT(m.skyline.median, parameters.sky - 0.012);
+  EXPECT_LT(std::min(over_summit, m.skyline.median - 0.02 - parameters.sky), 0.012);
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, Layout,

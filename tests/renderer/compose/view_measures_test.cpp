@@ -30,13 +30,13 @@ TEST(ViewMeasures, OfAConeOnAPlain) {
   EXPECT_TRUE(m.anchors[0].inside);
   EXPECT_EQ(m.anchors[0].seen, 1.0);
   EXPECT_NEAR(m.anchors[0].place.x, 0.5, 0.01);
-  EXPECT_NEAR(m.anchors[0].place.y, m.sky_summit, 0.02) << "the cone's top is the highest of the skyline";
+  EXPECT_NEAR(m.anchors[0].place.y, m.skyline.summit, 0.02) << "the cone's top is the highest of the skyline";
   EXPECT_NEAR(m.anchors[0].distance_m, 40000.0, 450.0);
   // A plain that is bent convexly hides nothing of itself; only what lies behind the cone is hidden.
-  EXPECT_GT(m.ground, 0.75);
-  EXPECT_LT(m.ground, 0.999);
-  EXPECT_EQ(m.empty_edge, 0.0);
-  EXPECT_EQ(m.cut, 0.0);
+  EXPECT_GT(m.visible_ground, 0.75);
+  EXPECT_LT(m.visible_ground, 0.999);
+  EXPECT_EQ(m.lower_edge.empty, 0.0);
+  EXPECT_EQ(m.lower_edge.cut, 0.0);
   EXPECT_GT(m.flat, 0.5) << "most of it is plain";
   // Sector between the lower edge and the horizon, over the region.
   EXPECT_NEAR(m.area, 0.5 * 0.7679 * (view.far_m * view.far_m - view.near_m * view.near_m) / (ground.side_m * ground.side_m), 1e-3);
@@ -57,7 +57,7 @@ TEST(ViewMeasures, WhatStandsBehindAWallIsHidden) {
   const ViewMeasures m = measure_view(ground, view, {hill, before});
   EXPECT_EQ(m.anchors[0].seen, 0.0);
   EXPECT_EQ(m.anchors[1].seen, 1.0);
-  EXPECT_LT(m.ground, 0.75);
+  EXPECT_LT(m.visible_ground, 0.75);
 }
 
 TEST(ViewMeasures, ACanyonIsSeenAlongAndHiddenAcross) {
@@ -76,9 +76,9 @@ TEST(ViewMeasures, ALowerEdgeThroughMountainsIsCut) {
   const CoarseGround ground = test::chain_region();
   // The chain lies 20 km before the horizon's middle, or the lower edge half way up its front, or behind its crest, where no top is cut
   // off.
-  EXPECT_EQ(measure_view(ground, view_of(ground, 30.0, -8.0, 0.0, 56000.0), {}).cut, 0.0);
-  EXPECT_GT(measure_view(ground, view_of(ground, 30.0, 14.0, 0.0, 30000.0), {}).cut, 0.3);
-  EXPECT_EQ(measure_view(ground, view_of(ground, 30.0, 20.5, 0.0, 30000.0), {}).cut, 0.0);
+  EXPECT_EQ(measure_view(ground, view_of(ground, 30.0, -8.0, 0.0, 56000.0), {}).lower_edge.cut, 0.0);
+  EXPECT_GT(measure_view(ground, view_of(ground, 30.0, 14.0, 0.0, 30000.0), {}).lower_edge.cut, 0.3);
+  EXPECT_EQ(measure_view(ground, view_of(ground, 30.0, 20.5, 0.0, 30000.0), {}).lower_edge.cut, 0.0);
 }
 
 TEST(ViewMeasures, APlateauOnTheLowerEdgeIsNotCut) {
@@ -92,7 +92,7 @@ TEST(ViewMeasures, APlateauOnTheLowerEdgeIsNotCut) {
   const GroundCell* edge = ground.at(view.viewer + glm::dvec2(2000.0, view.near_m));
   ASSERT_TRUE(edge);
   EXPECT_GT(static_cast<double>(edge->above_m), 0.40 * ground.relief_m);
-  EXPECT_LT(measure_view(ground, view, {}).cut, 0.05);
+  EXPECT_LT(measure_view(ground, view, {}).lower_edge.cut, 0.05);
 }
 
 TEST(ViewMeasures, AHumpFallsOffAndHasNoPeaks) {
@@ -111,15 +111,15 @@ TEST(ViewMeasures, AHumpFallsOffAndHasNoPeaks) {
   EXPECT_NEAR(hump(0.25, 0.018), 0.5, 0.15);
   EXPECT_EQ(hump(0.25, 0.045), 0.0) << "mountains that stand apart";
   const CoarseGround chain = test::chain_region();
-  EXPECT_EQ(measure_view(chain, view_of(chain, 30.0, -8.0, 0.0, 56000.0), {}).hump, 0.0);
+  EXPECT_EQ(measure_view(chain, view_of(chain, 30.0, -8.0, 0.0, 56000.0), {}).skyline.hump, 0.0);
 }
 
 TEST(ViewMeasures, TheEndOfTheDataShows) {
   const CoarseGround ground = test::chain_region();
   const ViewMeasures inside = measure_view(ground, view_of(ground, 30.0, -8.0, 0.0, 56000.0), {});
   const ViewMeasures corner = measure_view(ground, view_of(ground, 12.0, -8.0, 0.0, 56000.0), {});
-  EXPECT_GT(corner.empty_edge + corner.rim_near, inside.empty_edge + inside.rim_near);
-  EXPECT_LT(inside.empty_edge, 0.01);
+  EXPECT_GT(corner.lower_edge.empty + corner.rim.near_share, inside.lower_edge.empty + inside.rim.near_share);
+  EXPECT_LT(inside.lower_edge.empty, 0.01);
 }
 
 }  // namespace

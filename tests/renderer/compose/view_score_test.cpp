@@ -23,9 +23,10 @@ TEST(Plateau, RisesAndFalls) {
 // A view that is good at everything.
 ViewMeasures good_measures() {
   ViewMeasures m;
-  m.sky = 0.13, m.sky_low = 0.17, m.sky_middle = 0.15, m.skyline = 0.04;
-  m.ground = 0.8, m.floor_open = 1.0, m.floor = 0.05, m.floor_depth = 1.0, m.floor_across = 1.0, m.water = 0.05;
-  m.ranges = 3.0, m.forms = 0.18, m.rise = 0.5, m.area = 0.6, m.angle_deg = 36.0, m.haze = 0.2, m.cell_px = 8.0;
+  m.skyline.mean = 0.13, m.skyline.low = 0.17, m.skyline.median = 0.15, m.skyline.deviation = 0.04;
+  m.visible_ground = 0.8, m.floor.visible = 1.0, m.floor.share = 0.05, m.floor.depth_spread = 1.0, m.floor.width_spread = 1.0,
+  m.water = 0.05;
+  m.ranges = 3.0, m.forms = 0.18, m.rise = 0.5, m.area = 0.6, m.lower_edge.angle_deg = 36.0, m.haze = 0.2, m.lower_edge.cell_px = 8.0;
   m.anchors = {{.inside = true, .seen = 1.0, .place = {0.35, 0.08}, .size = 0.3, .along = 1.0, .distance_m = 30000.0}};
   return m;
 }
@@ -45,16 +46,16 @@ TEST(ViewScore, EveryMeasureCounts) {
     change(m);
     return best - total(score_terms(m, context()));
   };
-  EXPECT_NEAR(worse([](ViewMeasures& m) { m.sky = 0.40; }), 8.0 * 0.21, 1e-9);
-  EXPECT_GT(worse([](ViewMeasures& m) { m.sky = 0.02; }), 0.5);
-  EXPECT_GT(worse([](ViewMeasures& m) { m.cut = 0.30; }), 1.0);
-  EXPECT_GT(worse([](ViewMeasures& m) { m.empty_edge = 0.2; }), 1.0);
+  EXPECT_NEAR(worse([](ViewMeasures& m) { m.skyline.mean = 0.40; }), 8.0 * 0.21, 1e-9);
+  EXPECT_GT(worse([](ViewMeasures& m) { m.skyline.mean = 0.02; }), 0.5);
+  EXPECT_GT(worse([](ViewMeasures& m) { m.lower_edge.cut = 0.30; }), 1.0);
+  EXPECT_GT(worse([](ViewMeasures& m) { m.lower_edge.empty = 0.2; }), 1.0);
   EXPECT_GT(worse([](ViewMeasures& m) { m.anchors[0].seen = 0.0; }), 1.0);
   EXPECT_GT(worse([](ViewMeasures& m) { m.anchors[0].inside = false; }), 2.0);
-  EXPECT_GT(worse([](ViewMeasures& m) { m.cell_px = 30.0; }), 1.0);
+  EXPECT_GT(worse([](ViewMeasures& m) { m.lower_edge.cell_px = 30.0; }), 1.0);
   EXPECT_GT(worse([](ViewMeasures& m) { m.forms = 0.05; }), 1.0);
   EXPECT_GT(worse([](ViewMeasures& m) { m.ranges = 0.5; }), 0.5);
-  EXPECT_GT(worse([](ViewMeasures& m) { m.angle_deg = 60.0; }), 0.5);
+  EXPECT_GT(worse([](ViewMeasures& m) { m.lower_edge.angle_deg = 60.0; }), 0.5);
   EXPECT_EQ(worse([](ViewMeasures& m) { m.haze = 0.9; }), 0.0) << "said, but follows from the layout in every proposal";
 }
 
@@ -66,20 +67,20 @@ TEST(ViewScore, AdvisesWhereItIsNotGoodAlone) {
   };
   for (const ScoreTerm& term : score_terms(good_measures(), context())) EXPECT_EQ(term.advice(), "") << term.name;
   ViewMeasures m = good_measures();
-  m.sky = 0.3;
+  m.skyline.mean = 0.3;
   m.haze = 0.9;
   m.anchors[0].along = 0.0;
   EXPECT_NE(advice(m, "sky").find("much sky"), std::string::npos);
   EXPECT_NE(advice(m, "haze").find("drowns"), std::string::npos);
   EXPECT_EQ(advice(m, "along"), "") << "the subject is no canyon";
-  m.sky = 0.05;
+  m.skyline.mean = 0.05;
   EXPECT_NE(advice(m, "sky").find("little sky"), std::string::npos);
 }
 
 TEST(ViewScore, ValleysHiddenBehindRangesAreNoFaultAViewWithoutAnyIs) {
   const auto told = [](double floor_open) {
     ViewMeasures m = good_measures();
-    m.floor_open = floor_open;
+    m.floor.visible = floor_open;
     std::vector<std::string> out;
     for (const ScoreTerm& term : score_terms(m, context()))
       if (!term.advice().empty()) out.emplace_back(term.name);
@@ -88,13 +89,13 @@ TEST(ViewScore, ValleysHiddenBehindRangesAreNoFaultAViewWithoutAnyIs) {
   EXPECT_EQ(told(0.41), std::vector<std::string>{});
   EXPECT_EQ(told(0.10), std::vector<std::string>{"valley"});
   ViewMeasures fewer = good_measures();
-  fewer.floor_open = 0.41;
+  fewer.floor.visible = 0.41;
   EXPECT_LT(total(score_terms(fewer, context())), total(score_terms(good_measures(), context()))) << "more is still better";
 }
 
 TEST(ViewScore, AMountainThatStandsAloneHasSkyToItsSides) {
   ViewMeasures m = good_measures();
-  m.sky = 0.27, m.sky_low = 0.38;
+  m.skyline.mean = 0.27, m.skyline.low = 0.38;
   const auto lost = [&](double lone) {
     ScoreContext c = context();
     c.lone = lone;
@@ -110,7 +111,7 @@ TEST(ViewScore, AMountainThatStandsAloneHasSkyToItsSides) {
 
 TEST(ViewScore, AHumpCostsAndIsTold) {
   ViewMeasures m = good_measures();
-  m.hump = 0.5;
+  m.skyline.hump = 0.5;
   EXPECT_NEAR(total(score_terms(good_measures(), context())) - total(score_terms(m, context())), 0.6, 1e-9);
   for (const ScoreTerm& term : score_terms(m, context()))
     if (term.name == "hump") {
@@ -120,10 +121,10 @@ TEST(ViewScore, AHumpCostsAndIsTold) {
 
 TEST(ViewScore, GainsAreToldByPoints) {
   ViewMeasures worse = good_measures();
-  worse.ground = 0.4;        // of 1.5 points
-  worse.floor_depth = 0.5;   // of .8
-  worse.floor_across = 0.9;  // of .5
-  worse.sky_low = 0.16;      // no loss
+  worse.visible_ground = 0.4;      // of 1.5 points
+  worse.floor.depth_spread = 0.5;  // of .8
+  worse.floor.width_spread = 0.9;  // of .5
+  worse.skyline.low = 0.16;        // no loss
   EXPECT_EQ(describe_gains(score_terms(worse, context()), score_terms(good_measures(), context())), "ground 40 to 80 %, depth 50 to 100 %");
   EXPECT_EQ(describe_gains(score_terms(worse, context()), score_terms(worse, context())), "a little of everything");
 }

@@ -33,7 +33,6 @@ struct LayersFitOptions {
   std::string functions = "fitted";
   std::string model = "product";
   std::vector<std::string> inputs;
-  int children = 4;
   int threads = 0;
   bool quiet = false;
 };
@@ -49,7 +48,6 @@ void check_options(const LayersFitOptions& options) {
   if (options.model != "product" && options.model != "additive") refuse("--model", options.model, "product, additive");
   if (options.functions == "histogram" && options.model != "product")
     refuse("--functions", "histograms are functions of a product", "--model product");
-  if (options.children < 1 || options.children > 12) refuse("--children", fmt::format("{}", options.children), "1…12");
   std::set<std::string> read = {options.from.dem,  options.from.image,   options.from.classes,
                                 options.from.mask, options.from.regions, options.climate.stations};
   if (read.contains(options.out)) refuse(options.out, "is read as well", "another name for the result");
@@ -140,7 +138,6 @@ int run(const LayersFitOptions& options) {
   GroundFitParameters parameters;
   parameters.model = options.model == "product" ? LayerModel::product : LayerModel::additive;
   parameters.functions = options.functions == "fitted" ? FunctionSource::fitted : FunctionSource::histogram;
-  parameters.children = options.children;
   const GroundFit fit = fit_ground(known, parameters);
   if (known.picture) refuse_cloud(options, known, fit);
   note_fit(known, fit, findings);
@@ -183,7 +180,6 @@ Action add_layers_fit(CommandOptions& command) {
           "A satellite picture of it: a GeoTIFF (the DEM is brought onto its cells), or PNG or JPEG with a pixel for each cell of the DEM")
       .type_name("FILE");
   command.add_option("--classes", options->from.classes, "Instead of a picture: a land-cover raster").type_name("FILE");
-  command.add_option("--classes-band", options->from.classes_band, "Which band of it; default 1").type_name("N").positive();
   command.add_option("--legend", options->from.legend, "What its codes mean: a legend's name or file (docs/legends.md)").type_name("NAME");
   command.add_option("--out", options->out, "The layers: a .toml file of some ten KB, which needs the picture no more")
       .required()
@@ -206,7 +202,6 @@ Action add_layers_fit(CommandOptions& command) {
       .add_option("--inputs", options->inputs, "What functions are of, instead of what suits the model: altitude,slope,… (docs/layers.md)")
       .list(',')
       .type_name("NAMES");
-  command.add_option("--children", options->children, "Colours of a class, 1…12; default 4").type_name("N");
   command
       .add_option("--report", options->report, "A folder for a page on what was learned and how it does on ground not seen; takes a minute")
       .type_name("DIR");

@@ -24,7 +24,6 @@ struct LayersPictureOptions : RunOptions {
   std::string layers, dem, out;
   GroundClimateOptions climate;
   LayerPictureParameters picture;
-  bool no_beds = false;
 };
 
 Grid<std::uint8_t> band(const Grid<glm::vec3>& rows, int c) {
@@ -39,8 +38,7 @@ int run(const LayersPictureOptions& options) {
     throw Error(ErrorKind::usage, options.out, "the same file twice", "a file of its own");
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
-  LayerPictureParameters parameters = options.picture;
-  parameters.beds = !options.no_beds;
+  const LayerPictureParameters& parameters = options.picture;
   check_layer_picture(parameters);
   const SurfaceLayers layers = read_surface_layers(options.layers);
   const Dem dem = read_layer_dem(options.dem, progress);
@@ -81,11 +79,6 @@ Action add_layers_picture(CommandOptions& command) {
   command.add_option("--finer", picture.finer, "Places a cell of the DEM, across and down; 1 to 16, default 4").type_name("N");
   command.add_option("--light-from", picture.light_from, "Where the light comes from, degrees clockwise from north; default 315")
       .type_name("DEG");
-  command.add_option("--light-height", picture.light_height, "How high it stands, 5 to 90 degrees; default 45").type_name("DEG");
-  command.add_option("--shade", picture.shade, "Brightness of slopes turned away from the light, 0 to 1; default .35").type_name("SHARE");
-  command.add_option("--relief", picture.relief, "Slopes are lit as if so many times as steep, 0 to 20; default 1").type_name("TIMES");
-  command.add_flag("--no-beds", options->no_beds,
-                   "Lakes keep the colour of their layers; else they are seen through, down to made-up beds");
   add_ground_climate(command, options->climate);
   command.add_option("--seed", picture.seed, "Another seed, another grain of the layers; default 1").type_name("N");
   add_run_options(command, *options);

@@ -134,7 +134,7 @@ void classes_of_picture(const FitSources& from, const FitGround& ground, KnownGr
 
 void classes_of_map(const FitSources& from, const FitGround& ground, KnownGround& known, FitFindings& findings, Progress& progress) {
   const Legend legend = read_legend(from.legend);
-  const Raster<std::int32_t> codes = warp_codes({source_of(from.classes, from.classes_band)}, frame_of(ground.dem), progress);
+  const Raster<std::int32_t> codes = warp_codes({source_of(from.classes)}, frame_of(ground.dem), progress);
   known.labels.assign(ground.use.size(), no_class);
   std::array<int, 256> number{};
   number.fill(-1);

@@ -19,7 +19,6 @@ struct FitSources {
   std::string dem, image, classes, legend;
   std::string mask;     // cells that are left out; may be empty
   std::string regions;  // of a picture's colours; may be empty
-  int classes_band = 1;
 };
 
 // What was found on the way, for the terminal and for the report.

@@ -20,6 +20,7 @@
 #include "tools/options/options.h"
 #include "tools/options/run_options.h"
 #include "tools/report/report.h"
+#include "tools/report/report_pictures.h"
 
 namespace belvedere::tools {
 namespace {
@@ -95,12 +96,12 @@ void write_report(const CompositeLearnOptions& options, const TextureCrop& crop,
   report.section("pictures", "Crop and composite",
                  "The crop with its labels, and what is made from the model alone: over the crop's own map, and over a made one. Look at "
                  "borders first: are they as ragged, and do labels lie as they should?");
-  report.picture("crop", encoded_picture(crop.picture), "the crop");
+  report.picture("crop", to_picture(crop.picture), "the crop");
   report.picture("labels", label_colours(labels.labels, labels.names), "its labels");
   report.next_row();
-  report.picture("filled", encoded_picture(found.filled), "made over the crop's labels");
+  report.picture("filled", to_picture(found.filled), "made over the crop's labels");
   report.next_row();
-  report.picture("made", encoded_picture(found.made), "made over made labels");
+  report.picture("made", to_picture(found.made), "made over made labels");
   report.picture("map", label_colours(found.map, found.names), "made labels");
   report.section("labels", "Labels");
   ReportTable table({{"label", "label"}, {"pixels", "pixels"}, {"types", "types"}});

@@ -21,6 +21,7 @@
 #include "tools/options/options.h"
 #include "tools/options/run_options.h"
 #include "tools/report/report.h"
+#include "tools/report/report_pictures.h"
 
 namespace belvedere::tools {
 namespace {
@@ -56,7 +57,7 @@ void write_report(const CompositeMakeOptions& options, const std::vector<std::st
   report.section("pictures", "Pictures",
                  "Left what lies where, right what is made of it. Look at borders first: are they as ragged as a painter's?");
   report.picture("labels", label_colours(labels, names), options.labels.empty() ? "made labels" : "drawn labels");
-  report.picture("made", encoded_picture(made), fmt::format("made with seed {}", options.seed));
+  report.picture("made", to_picture(made), fmt::format("made with seed {}", options.seed));
   report.section("figures", "Figures");
   report.table(table);
   report.write(

@@ -63,11 +63,10 @@ void write_report(const TextureErodeOptions& options, const Grid<std::uint8_t>& 
   report.picture("steps", steps_picture(labels, label, eroded, steps), "step by step");
   report.section("figures", "Figures");
   report.table(table);
-  report.write(
-      {.title = "Mask taken back: " + file_name(options.mask),
-       .lead = fmt::format("{} steps of {} pixels.", steps, options.erosion.step),
-       .command = fmt::format("belvedere texture erode {} --steps {} --step-px {} --ragged {} --seed {} --out {}", file_name(options.mask),
-                              steps, options.erosion.step, options.erosion.ragged, options.erosion.seed, file_name(options.out))});
+  report.write({.title = "Mask taken back: " + file_name(options.mask),
+                .lead = fmt::format("{} steps of {} pixels.", steps, options.erosion.step),
+                .command = fmt::format("belvedere texture erode {} --steps {} --step-px {} --seed {} --out {}", file_name(options.mask),
+                                       steps, options.erosion.step, options.erosion.seed, file_name(options.out))});
 }
 
 int run(const TextureErodeOptions& options) {
@@ -122,11 +121,6 @@ Action add_texture_erode(CommandOptions& command) {
   command.add_option("--step-px", options->erosion.step, "How far a straight border goes back from one to the next. Default: 8")
       .range(0.5, 1000.0)
       .type_name("PX");
-  command
-      .add_option("--ragged", options->erosion.ragged,
-                  "How much faster it goes in some places than in others: 0 peels evenly, 1 is torn. Default: .4")
-      .range(0.0, 1.0)
-      .type_name("SHARE");
   command
       .add_option("--label", options->label,
                   "Of a map of classes: the number that draws back; each pixel it leaves goes to the number that came there first")

@@ -20,6 +20,7 @@
 #include "tools/options/options.h"
 #include "tools/options/run_options.h"
 #include "tools/report/report.h"
+#include "tools/report/report_pictures.h"
 
 namespace belvedere::tools {
 namespace {
@@ -93,8 +94,8 @@ void write_report(const TextureLearnOptions& options, const TextureCrop& crop, c
   report.section("pictures", "Crop and texture",
                  "Left the crop, right what is made from the model alone. Look at single dabs, then from afar: an even busyness without "
                  "accents is what such a model gives.");
-  report.picture("crop", encoded_picture(crop.picture), "the crop");
-  report.picture("texture", encoded_picture(found.made), fmt::format("made, {} × {} pixels", found.made.width(), found.made.height()));
+  report.picture("crop", to_picture(crop.picture), "the crop");
+  report.picture("texture", to_picture(found.made), fmt::format("made, {} × {} pixels", found.made.width(), found.made.height()));
   report.section("distances", "Distances");
   ReportTable distances({{"of", ""},
                          {"selected", "types it holds", ".3f"},

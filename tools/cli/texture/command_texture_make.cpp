@@ -1,11 +1,8 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <optional>
 
-#include "base/angle.h"
 #include "base/error.h"
-#include "base/math_exact.h"
 #include "base/parallel.h"
 #include "base/text/json.h"
 #include "renderer/image/output_file.h"
@@ -19,6 +16,7 @@
 #include "tools/options/options.h"
 #include "tools/options/run_options.h"
 #include "tools/report/report.h"
+#include "tools/report/report_pictures.h"
 
 namespace belvedere::tools {
 namespace {
@@ -27,16 +25,8 @@ struct TextureMakeOptions : RunOptions {
   std::string model, out, report;
   std::vector<int> size;
   std::vector<int> window;
-  std::optional<double> direction_deg;
   std::uint64_t seed = 1;
 };
-
-// All strokes one way, clockwise from level.
-DirectionField one_way(double deg) {
-  const exact::Turn turn = exact::turn(to_radians(deg));
-  const glm::vec2 along(static_cast<float>(turn.cosine), static_cast<float>(turn.sine));
-  return [along](double, double) { return along; };
-}
 
 std::string asked_for(const TextureMakeOptions& options) {
   return options.size.empty() ? fmt::format("--window {}", fmt::join(options.window, ","))
@@ -49,7 +39,7 @@ void write_report(const TextureMakeOptions& options, const CliqueModel& model, c
   report.section("pictures", "Pictures",
                  "Look at single dabs, then from afar: an even busyness without accents is what such a model gives. The page of texture "
                  "learn has the crop beside it.");
-  report.picture("texture", encoded_picture(made), fmt::format("made with seed {}", options.seed));
+  report.picture("texture", to_picture(made), fmt::format("made with seed {}", options.seed));
   report.section("figures", "Figures");
   report.table(ReportTable({{"what", "model"}, {"value", ""}})
                    .row("types of pairs", model.cliques.size())
@@ -74,7 +64,6 @@ int run(const TextureMakeOptions& options) {
   const CliqueModel model = read_model(options.model);
   TextureParameters parameters;
   parameters.seed = options.seed;
-  if (options.direction_deg) parameters.direction = one_way(*options.direction_deg);
   Grid<Rgb8> made;
   if (!options.size.empty()) {
     made = make_texture(model, options.size[0], options.size[1], parameters, progress);
@@ -108,11 +97,6 @@ Action add_texture_make(CommandOptions& command) {
       .range(-(1 << 28), 1 << 28)
       .type_name("X,Y,W,H");
   command.add_option("--seed", options->seed, "Another seed, another texture of the same look. Default: 1").type_name("N");
-  command
-      .add_option("--direction", options->direction_deg,
-                  "Where strokes run, degrees clockwise from level; of models that begin with streaks.\n"
-                  "Default: as in the crop")
-      .type_name("DEGREES");
   add_run_options(command, *options);
   command.add_option("--report", options->report, "A page with the texture and what its model is").type_name("FOLDER");
   command.footer(

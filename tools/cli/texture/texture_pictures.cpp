@@ -12,6 +12,7 @@
 #include "renderer/image/output_file.h"
 #include "texture/statistical/band_pyramid.h"
 #include "tools/cli/file_names.h"
+#include "tools/report/report_pictures.h"
 
 namespace belvedere::tools {
 
@@ -63,12 +64,6 @@ void note_rounding(const std::string& read, const std::string& out, Progress& pr
     progress.note(fmt::format("{} has more than 8 bits, a .png keeps 8 of them: name a .tif to keep 16", file_name(read)));
 }
 
-Grid<glm::vec3> encoded_picture(const Grid<Rgb8>& picture) {
-  Grid<glm::vec3> out(picture.width(), picture.height());
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = glm::vec3(picture[i][0], picture[i][1], picture[i][2]) / 255.F;
-  return out;
-}
-
 void check_texture_name(const std::string& path) {
   check_place(path);
   if (const std::string ending = lower_ending(path); ending != ".png" && ending != ".tif" && ending != ".tiff")
@@ -76,7 +71,7 @@ void check_texture_name(const std::string& path) {
 }
 
 void write_texture(const std::string& path, const Grid<Rgb8>& picture, const std::string& note) {
-  write_encoded_texture(path, encoded_picture(picture), note);
+  write_encoded_texture(path, to_picture(picture), note);
 }
 
 void write_encoded_texture(const std::string& path, const Grid<glm::vec3>& picture, const std::string& note) {

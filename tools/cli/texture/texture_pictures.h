@@ -31,8 +31,6 @@ void note_rounding(const std::string& read, const std::string& out, Progress& pr
 // A grey mask of a picture's size: 1 where it is not 0. Error(input) for another size.
 Grid<std::uint8_t> read_mask_of(const std::string& path, const std::string& picture_path, const Grid<Rgb8>& picture);
 
-Grid<glm::vec3> encoded_picture(const Grid<Rgb8>& picture);
-
 // Writes a picture in the format of its ending that holds 8 bits or more without linear light: Error(usage) for others.
 void write_texture(const std::string& path, const Grid<Rgb8>& picture, const std::string& note);
 // The same of encoded sRGB, 0…1.

@@ -46,8 +46,6 @@ Action add_web(CommandOptions& command) {
                   "Another picture of the same view, to be compared by a border that is moved; may be repeated: --also winter=Winter")
       .type_name("DIR[=NAME]")
       .repeated();
-  command.add_option("--quality", options->page.quality, "Of the tiles' JPEG").type_name("1…100").show_default().range(1, 100);
-  command.add_option("--tile-size", options->page.tile_px, "Side of a tile in pixels").type_name("N").show_default().range(64, 4096);
   command.add_option("--cells", options->page.ground_cells, "How many places of the picture the page knows; 9 bytes each")
       .type_name("N")
       .show_default()
