@@ -14,8 +14,9 @@
 #include "base/error.h"
 #include "base/text/letters.h"
 
-// In this version some malformed texts reach the library's own assertions, which would end the program, or, compiled out, leave it
-// undefined. Thrown instead they are one more syntax error. (Its mode without exceptions reaches more of them.)
+// In this version some malformed texts trigger the library's own assertions, which would end the
+// program or, compiled out, be undefined behaviour. Thrown as exceptions they become syntax errors.
+// (The library's mode without exceptions reaches more of these assertions.)
 namespace belvedere {
 struct BrokenAssertion {};
 [[noreturn]] static void break_assertion() { throw BrokenAssertion(); }
@@ -34,15 +35,17 @@ namespace {
 constexpr std::size_t max_bytes = std::size_t{1} << 20;
 constexpr int max_nesting = 100;
 
-[[noreturn]] void refuse_nesting(const std::string& name, ConfigPlace place) {
-  throw Error(ErrorKind::usage, config_where(name, place), "tables and arrays are nested too deeply",
-              fmt::format("{} levels", max_nesting));
+[[noreturn]] void refuse_nesting(const std::string& name, ConfigPosition position) {
+  throw Error(ErrorKind::usage, config_where(name, position),
+              "tables and arrays are nested too deeply",
+              fmt::format("at most {} levels", max_nesting));
 }
 
-// A scan over the raw text that follows brackets and dots of keys. The library recurses, both where it reads and where it
-// frees tables, and a key such as a.a.a.a… nests without any bracket: so depth is bounded before it sees the text. The scan counts
-// a few levels too many at most, hence the slack; convert() below is exact. On text that is no TOML it agrees with the
-// library up to the first mistake, and there the library stops.
+// Scans the raw text for the depth of brackets and dotted keys. The library recurses when it reads
+// and frees tables, and a key such as a.a.a.a… nests without any bracket, so depth is bounded
+// before parsing. The scan counts a few levels too many at most, hence the slack; convert() below
+// is exact. On text that is not TOML the scan agrees with the library up to the first error, where
+// the library stops.
 class NestingScan {
  public:
   NestingScan(std::string_view text, const std::string& name) : text_(text), name_(name) {}
@@ -118,24 +121,27 @@ class NestingScan {
   std::size_t i_ = 0;
   std::size_t line_start_ = 0;
   int line_ = 1;
-  int depth_ = 0;  // dots of all open levels together
+  int depth_ = 0;  // total number of dots in all open levels
 };
 
-ConfigPlace place_of(const toml::source_region& source) {
+ConfigPosition position_of(const toml::source_region& source) {
   return {static_cast<int>(source.begin.line), static_cast<int>(source.begin.column)};
 }
 
 ConfigValue convert(const toml::node& node, const std::string& name, int depth) {
-  ConfigValue out{.value = false, .place = place_of(node.source())};
-  if (depth > max_nesting) refuse_nesting(name, out.place);
+  ConfigValue out{.value = false, .position = position_of(node.source())};
+  if (depth > max_nesting) refuse_nesting(name, out.position);
   if (const auto* table = node.as_table()) {
     ConfigTable entries;
     for (const auto& [key, value] : *table)
-      entries.push_back({std::string(key.str()), place_of(key.source()), convert(value, name, depth + 1)});
-    // The library sorts by name; people read, and are told of mistakes, in the order of the file.
-    std::stable_sort(entries.begin(), entries.end(), [](const ConfigEntry& a, const ConfigEntry& b) {
-      return std::pair(a.key_place.line, a.key_place.column) < std::pair(b.key_place.line, b.key_place.column);
-    });
+      entries.push_back(
+          {std::string(key.str()), position_of(key.source()), convert(value, name, depth + 1)});
+    // The library sorts by name; messages and listings follow the order of the file.
+    std::stable_sort(entries.begin(), entries.end(),
+                     [](const ConfigEntry& a, const ConfigEntry& b) {
+                       return std::pair(a.key_position.line, a.key_position.column) <
+                              std::pair(b.key_position.line, b.key_position.column);
+                     });
     out.value = std::move(entries);
   } else if (const auto* array = node.as_array()) {
     ConfigArray values;
@@ -160,17 +166,19 @@ ConfigValue convert(const toml::node& node, const std::string& name, int depth) 
   return out;
 }
 
-// Sentences of the library, made to fit into ours: no trailing stop or line break.
+// Makes the library's sentences fit into ours: no final full stop or line break.
 std::string tidy(std::string_view message) {
   std::string out(message);
   std::replace(out.begin(), out.end(), '\n', ' ');
   return out;
 }
 
-// An assertion names no place. But only a text that holds the line breaks it, so the line is found by halving.
+// An assertion has no position. Only texts that contain the bad line trigger it, so the line is
+// found by bisection.
 int line_of_broken_assertion(std::string_view text) {
   std::vector<std::size_t> ends;  // of the lines
-  for (std::size_t i = text.find('\n'); i != std::string_view::npos; i = text.find('\n', i + 1)) ends.push_back(i + 1);
+  for (std::size_t i = text.find('\n'); i != std::string_view::npos; i = text.find('\n', i + 1))
+    ends.push_back(i + 1);
   ends.push_back(text.size());
   const auto breaks = [&](std::size_t end) {
     try {
@@ -182,15 +190,16 @@ int line_of_broken_assertion(std::string_view text) {
     }
     return false;
   };
-  const auto first = std::partition_point(ends.begin(), ends.end(), [&](std::size_t end) { return !breaks(end); });
+  const auto first =
+      std::partition_point(ends.begin(), ends.end(), [&](std::size_t end) { return !breaks(end); });
   return static_cast<int>(first - ends.begin()) + 1;
 }
 
 void forget_places(ConfigValue& value) {
-  value.place = {};
+  value.position = {};
   if (auto* table = std::get_if<ConfigTable>(&value.value)) {
     for (ConfigEntry& entry : *table) {
-      entry.key_place = {};
+      entry.key_position = {};
       forget_places(entry.value);
     }
   } else if (auto* array = std::get_if<ConfigArray>(&value.value)) {
@@ -198,7 +207,7 @@ void forget_places(ConfigValue& value) {
   }
 }
 
-// What a message may show of somebody's text: short, on one line, without control characters.
+// The part of a user's text that a message shows: short, on one line, without control characters.
 std::string in_quotes(std::string_view text) {
   constexpr std::size_t longest = 60;
   std::string out = "\"";
@@ -216,16 +225,20 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   for (std::size_t i = 1; i <= a.size(); ++i) {
     row[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      row[j] = std::min({previous[j] + 1, row[j - 1] + 1, previous[j - 1] + (a[i - 1] == b[j - 1] ? 0U : 1U)});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) row[j] = std::min(row[j], before[j - 2] + 1);
+      row[j] = std::min(
+          {previous[j] + 1, row[j - 1] + 1, previous[j - 1] + (a[i - 1] == b[j - 1] ? 0U : 1U)});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        row[j] = std::min(row[j], before[j - 2] + 1);
     }
     before = std::exchange(previous, row);
   }
   return previous[b.size()];
 }
 
-[[noreturn]] void wrong_type(const ConfigValue& value, const std::string& name, const std::string& allowed) {
-  throw Error(ErrorKind::usage, config_where(name, value.place), "this is " + describe(value), allowed);
+[[noreturn]] void wrong_type(const ConfigValue& value, const std::string& name,
+                             const std::string& allowed) {
+  throw Error(ErrorKind::usage, config_where(name, value.position), "found " + describe(value),
+              allowed);
 }
 
 template <class T>
@@ -237,7 +250,8 @@ const T& as(const ConfigValue& value, const std::string& name, const std::string
 
 void check_size(std::uintmax_t bytes, const std::string& name) {
   if (bytes > max_bytes)
-    throw Error(ErrorKind::usage, name, fmt::format("the text is longer than {} bytes", max_bytes), "at most 1 MiB of text");
+    throw Error(ErrorKind::usage, name, fmt::format("longer than {} bytes", max_bytes),
+                "at most 1 MiB of text");
 }
 
 }  // namespace
@@ -245,33 +259,37 @@ void check_size(std::uintmax_t bytes, const std::string& name) {
 ConfigValue parse_config(std::string_view text, const std::string& name) {
   check_size(text.size(), name);
   NestingScan(text, name).run();
-  const auto refuse = [&](ConfigPlace place, const std::string& found) {
-    throw Error(ErrorKind::usage, config_where(name, place), found, "TOML 1.0 (https://toml.io)");
+  const auto refuse = [&](ConfigPosition position, const std::string& found) {
+    throw Error(ErrorKind::usage, config_where(name, position), found,
+                "TOML 1.0 (https://toml.io)");
   };
   toml::table table;
   try {
     table = toml::parse(text, name);
   } catch (const toml::parse_error& error) {
-    refuse(place_of(error.source()), tidy(error.description()));
+    refuse(position_of(error.source()), tidy(error.description()));
   } catch (const BrokenAssertion&) {
-    refuse({line_of_broken_assertion(text), 1}, "this line cannot be read");
+    refuse({line_of_broken_assertion(text), 1}, "cannot parse this line");
   }
   ConfigValue root = convert(table, name, 0);
-  root.place = {1, 1};
+  root.position = {1, 1};
   return root;
 }
 
 ConfigValue read_config(const std::string& path) {
   std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored)) throw Error(ErrorKind::input, path, "there is no such file");
-  if (std::filesystem::is_directory(path, ignored)) throw Error(ErrorKind::input, path, "this is a folder", "a TOML file");
-  if (std::filesystem::is_regular_file(path, ignored)) check_size(std::filesystem::file_size(path, ignored), path);
+  if (!std::filesystem::exists(path, ignored))
+    throw Error(ErrorKind::input, path, "file not found");
+  if (std::filesystem::is_directory(path, ignored))
+    throw Error(ErrorKind::input, path, "is a folder", "a TOML file");
+  if (std::filesystem::is_regular_file(path, ignored))
+    check_size(std::filesystem::file_size(path, ignored), path);
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw Error(ErrorKind::input, path, "the file cannot be opened", "a file that you may read");
-  // Pipes and devices state no size: so no more than one byte too many is ever taken in.
+  if (!file) throw Error(ErrorKind::input, path, "cannot open the file", "a readable file");
+  // Pipes and devices have no size: read at most one byte more than allowed.
   std::string text(max_bytes + 1, '\0');
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (file.bad()) throw Error(ErrorKind::input, path, "the file cannot be read");
+  if (file.bad()) throw Error(ErrorKind::input, path, "cannot read the file");
   text.resize(static_cast<std::size_t>(file.gcount()));
   return parse_config(text, path);
 }
@@ -279,55 +297,66 @@ ConfigValue read_config(const std::string& path) {
 ConfigValue parse_config_value(std::string_view text, const std::string& name) {
   check_size(text.size(), name);
   const std::size_t first = text.find_first_not_of(" \t");
-  const bool structured = first != std::string_view::npos && std::string_view("\"'[{").find(text[first]) != std::string_view::npos;
+  const bool structured = first != std::string_view::npos &&
+                          std::string_view("\"'[{").find(text[first]) != std::string_view::npos;
   if (text.find_first_of("\r\n") != std::string_view::npos)
-    throw Error(ErrorKind::usage, name, "the value " + in_quotes(text) + " has more than one line", "one value");
+    throw Error(ErrorKind::usage, name, "the value " + in_quotes(text) + " has more than one line",
+                "one value");
   if (!structured) {
-    // A bare word (summer, EPSG:32632, my dem.tif) is no TOML; it means itself. So does nothing at all: the empty string.
+    // A bare word (summer, EPSG:32632, my dem.tif) is not TOML and stands for itself. No text at
+    // all is the empty string.
     try {
-      if (toml::parse("v = " + std::string(text)).size() != 1) return {.value = std::string(text), .place = {}};
+      if (toml::parse("v = " + std::string(text)).size() != 1)
+        return {.value = std::string(text), .position = {}};
     } catch (const toml::parse_error&) {
-      return {.value = std::string(text), .place = {}};
+      return {.value = std::string(text), .position = {}};
     } catch (const BrokenAssertion&) {
-      return {.value = std::string(text), .place = {}};
+      return {.value = std::string(text), .position = {}};
     }
   }
   ConfigValue root;
   try {
     root = parse_config("v = " + std::string(text), name);
-  } catch (const Error& error) {  // the place would be in a text that nobody wrote
-    throw Error(error.kind(), name, "the value " + in_quotes(text) + " cannot be read: " + error.found(), error.allowed());
+  } catch (const Error& error) {  // its position refers to "v = …", not to the input
+    throw Error(error.kind(), name,
+                "the value " + in_quotes(text) + " is not valid: " + error.found(),
+                error.allowed());
   }
   ConfigValue value = std::get<ConfigTable>(root.value).front().value;
   forget_places(value);
   return value;
 }
 
-std::string config_where(const std::string& name, ConfigPlace place) {
-  return place.line > 0 ? fmt::format("{}:{}:{}", name, place.line, place.column) : name;
+std::string config_where(const std::string& name, ConfigPosition position) {
+  return position.line > 0 ? fmt::format("{}:{}:{}", name, position.line, position.column) : name;
 }
 
 std::string describe(const ConfigValue& value) {
   struct Visitor {
     std::string operator()(bool b) const { return b ? "true" : "false"; }
     std::string operator()(std::int64_t i) const { return fmt::format("the number {}", i); }
-    std::string operator()(double d) const { return std::isnan(d) ? "not a number (nan)" : fmt::format("the number {}", d); }
+    std::string operator()(double d) const {
+      return std::isnan(d) ? "not a number (nan)" : fmt::format("the number {}", d);
+    }
     std::string operator()(const std::string& s) const { return "the string " + in_quotes(s); }
-    std::string operator()(const ConfigArray& a) const { return fmt::format("an array of {}", a.size()); }
+    std::string operator()(const ConfigArray& a) const {
+      return fmt::format("an array of {}", a.size());
+    }
     std::string operator()(const ConfigTable&) const { return "a table"; }
   };
   return std::visit(Visitor{}, value.value);
 }
 
 std::string nearest_word(std::string_view word, const std::vector<std::string>& candidates) {
-  constexpr std::size_t longest = 64;  // no key of ours is nearly as long; keeps the distance cheap
+  constexpr std::size_t longest = 64;  // no key is nearly as long; bounds the cost
   if (word.empty() || word.size() > longest) return {};
   const std::string given = lower_case(std::string(word));
   std::string best;
-  std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3 + 1);  // so many edits are no slip any more
+  std::size_t best_distance =
+      std::max<std::size_t>(2, word.size() / 3 + 1);  // from here on it is not a typing error
   for (const std::string& candidate : candidates) {
     const std::string known = lower_case(candidate);
-    // A unit too much or too little (pitch_deg for pitch) is a small slip, however long it is.
+    // A missing or extra unit (pitch_deg for pitch) is a small error, however long it is.
     const bool same_stem = given.starts_with(known + "_") || known.starts_with(given + "_");
     const std::size_t distance = same_stem ? 1 : edit_distance(given, known);
     if (distance < best_distance) {
@@ -338,36 +367,52 @@ std::string nearest_word(std::string_view word, const std::vector<std::string>& 
   return best;
 }
 
-const ConfigTable& as_table(const ConfigValue& value, const std::string& name) { return as<ConfigTable>(value, name, "a table"); }
-const ConfigArray& as_array(const ConfigValue& value, const std::string& name) { return as<ConfigArray>(value, name, "an array"); }
-const std::string& as_string(const ConfigValue& value, const std::string& name) { return as<std::string>(value, name, "a string"); }
-bool as_bool(const ConfigValue& value, const std::string& name) { return as<bool>(value, name, "true or false"); }
-std::int64_t as_integer(const ConfigValue& value, const std::string& name) { return as<std::int64_t>(value, name, "a whole number"); }
+const ConfigTable& as_table(const ConfigValue& value, const std::string& name) {
+  return as<ConfigTable>(value, name, "a table");
+}
+const ConfigArray& as_array(const ConfigValue& value, const std::string& name) {
+  return as<ConfigArray>(value, name, "an array");
+}
+const std::string& as_string(const ConfigValue& value, const std::string& name) {
+  return as<std::string>(value, name, "a string");
+}
+bool as_bool(const ConfigValue& value, const std::string& name) {
+  return as<bool>(value, name, "true or false");
+}
+std::int64_t as_integer(const ConfigValue& value, const std::string& name) {
+  return as<std::int64_t>(value, name, "a whole number");
+}
 
 double as_number(const ConfigValue& value, const std::string& name) {
-  if (const auto* integer = std::get_if<std::int64_t>(&value.value)) return static_cast<double>(*integer);
+  if (const auto* integer = std::get_if<std::int64_t>(&value.value))
+    return static_cast<double>(*integer);
   const double number = as<double>(value, name, "a number");
   if (!std::isfinite(number)) wrong_type(value, name, "a finite number");
   return number;
 }
 
 const ConfigValue* find(const ConfigTable& table, std::string_view key) {
-  const auto entry = std::find_if(table.begin(), table.end(), [&](const ConfigEntry& e) { return e.key == key; });
+  const auto entry =
+      std::find_if(table.begin(), table.end(), [&](const ConfigEntry& e) { return e.key == key; });
   return entry == table.end() ? nullptr : &entry->value;
 }
 
-void allow_only(const ConfigTable& table, const std::vector<std::string>& allowed, const std::string& name) {
+void allow_only(const ConfigTable& table, const std::vector<std::string>& allowed,
+                const std::string& name) {
   for (const ConfigEntry& entry : table) {
     if (std::find(allowed.begin(), allowed.end(), entry.key) != allowed.end()) continue;
     const std::string near = nearest_word(entry.key, allowed);
-    throw Error(ErrorKind::usage, config_where(name, entry.key_place),
-                "unknown key " + in_quotes(entry.key) + (near.empty() ? "" : "; did you mean \"" + near + "\"?"),
+    throw Error(ErrorKind::usage, config_where(name, entry.key_position),
+                "unknown key " + in_quotes(entry.key) +
+                    (near.empty() ? "" : "; did you mean \"" + near + "\"?"),
                 fmt::format("{}", fmt::join(allowed, ", ")));
   }
 }
 
-void refuse_value(const ConfigValue& value, const std::string& name, std::string found, std::string allowed) {
-  throw Error(ErrorKind::usage, config_where(name, value.place), std::move(found), std::move(allowed));
+void refuse_value(const ConfigValue& value, const std::string& name, std::string found,
+                  std::string allowed) {
+  throw Error(ErrorKind::usage, config_where(name, value.position), std::move(found),
+              std::move(allowed));
 }
 
 }  // namespace belvedere

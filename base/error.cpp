@@ -5,7 +5,8 @@
 namespace belvedere {
 namespace {
 
-std::string make_message(const std::string& where, const std::string& found, const std::string& allowed) {
+std::string make_message(const std::string& where, const std::string& found,
+                         const std::string& allowed) {
   std::string message = where.empty() ? found : where + ": " + found;
   if (!allowed.empty()) message += "\n  allowed: " + allowed;
   return message;

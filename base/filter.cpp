@@ -33,7 +33,7 @@ std::vector<float> half_kernel(double sigma) {
   return kernel;
 }
 
-// How often the resolution is halved, and the kernel that remains: the same for every bundle, so made once.
+// How often the resolution is halved, and the remaining kernel; computed once for all bundles.
 struct BlurPlan {
   int halvings = 0;
   std::vector<float> kernel;
@@ -41,29 +41,37 @@ struct BlurPlan {
 
 BlurPlan plan_blur(double sigma) {
   BlurPlan plan;
-  for (; sigma > widest_sampled_sigma; ++plan.halvings) sigma = std::sqrt((sigma * sigma - 2.0) / 4.0);
+  for (; sigma > widest_sampled_sigma; ++plan.halvings)
+    sigma = std::sqrt((sigma * sigma - 2.0) / 4.0);
   plan.kernel = half_kernel(sigma);
   return plan;
 }
 
 constexpr int columns_at_once = 16;  // a cache line
 
-// A line on its way, with room for what is replicated on both sides (base/lines/blur_lines.h).
+// A line in progress, with room for replicated elements on both sides (base/lines/blur_lines.h).
 class PaddedLine {
  public:
   PaddedLine(int before, int count, int after, int step)
-      : before_(before), count_(count), after_(after), step_(step), numbers_(std::make_unique_for_overwrite<float[]>(at(count + after))) {}
+      : before_(before),
+        count_(count),
+        after_(after),
+        step_(step),
+        numbers_(std::make_unique_for_overwrite<float[]>(at(count + after))) {}
   int count() const { return count_; }
   // Element i, from -before to count + after - 1.
   float* operator[](int i) { return numbers_.get() + at(i); }
-  // To be called when the elements are there.
+  // To be called when the elements are set.
   void replicate_ends() {
     for (int i = -before_; i < 0; ++i) std::copy_n((*this)[0], step_, (*this)[i]);
-    for (int i = count_; i < count_ + after_; ++i) std::copy_n((*this)[count_ - 1], step_, (*this)[i]);
+    for (int i = count_; i < count_ + after_; ++i)
+      std::copy_n((*this)[count_ - 1], step_, (*this)[i]);
   }
 
  private:
-  std::size_t at(int i) const { return static_cast<std::size_t>(before_ + i) * static_cast<std::size_t>(step_); }
+  std::size_t at(int i) const {
+    return static_cast<std::size_t>(before_ + i) * static_cast<std::size_t>(step_);
+  }
   int before_;
   int count_;
   int after_;
@@ -71,11 +79,11 @@ class PaddedLine {
   std::unique_ptr<float[]> numbers_;
 };
 
-// Of a line halved: its element j lies over 2 (j - 1). The first and the last element see nothing but the replicated border, so
-// replicating the halved line is exactly halving the replicated line.
+// Of a halved line: its element j lies over 2 (j - 1). The first and last elements depend only on
+// the replicated border, so replicating the halved line equals halving the replicated line.
 int halved_count(int count) { return (count + 2) / 2 + 2; }
 
-// A line with the room that blurring it takes.
+// A line with the room that blurring needs.
 PaddedLine line_to_blur(int count, int step, const BlurPlan& plan, int halvings_left) {
   const int radius = static_cast<int>(plan.kernel.size()) - 1;
   if (halvings_left == 0) return {radius, count, radius, step};
@@ -86,10 +94,12 @@ PaddedLine line_to_blur(int count, int step, const BlurPlan& plan, int halvings_
 void blur(PaddedLine& line, int step, const BlurPlan& plan, int halvings_left, float* out) {
   line.replicate_ends();
   if (halvings_left == 0)
-    return blur_lines::convolve(line[0], line.count() * step, step, plan.kernel.data(), static_cast<int>(plan.kernel.size()) - 1, out);
+    return blur_lines::convolve(line[0], line.count() * step, step, plan.kernel.data(),
+                                static_cast<int>(plan.kernel.size()) - 1, out);
   PaddedLine halved = line_to_blur(halved_count(line.count()), step, plan, halvings_left - 1);
   blur_lines::halve(line[-4], halved.count(), step, halved[0]);
-  const auto blurred = std::make_unique_for_overwrite<float[]>(static_cast<std::size_t>(halved.count()) * static_cast<std::size_t>(step));
+  const auto blurred = std::make_unique_for_overwrite<float[]>(
+      static_cast<std::size_t>(halved.count()) * static_cast<std::size_t>(step));
   blur(halved, step, plan, halvings_left - 1, blurred.get());
   blur_lines::refine(blurred.get(), line.count(), step, out);
 }
@@ -113,7 +123,8 @@ void blur_columns(Grid<float>& values, double sigma) {
   const int height = values.height();
   parallel_ranges((width + n - 1) / n, 1, [&](int begin, int end) {
     PaddedLine lines = line_to_blur(height, n, plan, plan.halvings);
-    const auto blurred = std::make_unique_for_overwrite<float[]>(static_cast<std::size_t>(height) * n);
+    const auto blurred =
+        std::make_unique_for_overwrite<float[]>(static_cast<std::size_t>(height) * n);
     for (int first = begin * n; first < std::min(end * n, width); first += n) {
       const int used = std::min(n, width - first);
       for (int y = 0; y < height; ++y) {
@@ -122,15 +133,18 @@ void blur_columns(Grid<float>& values, double sigma) {
         std::fill(lines[y] + used, lines[y] + n, row[used - 1]);
       }
       blur(lines, n, plan, plan.halvings, blurred.get());
-      for (int y = 0; y < height; ++y) std::copy_n(blurred.get() + static_cast<std::ptrdiff_t>(y) * n, used, values.row(y) + first);
+      for (int y = 0; y < height; ++y)
+        std::copy_n(blurred.get() + static_cast<std::ptrdiff_t>(y) * n, used,
+                    values.row(y) + first);
     }
   });
 }
 
-// The whole cell at or before a place; places far outside the grid come to its border, so that an int can hold them.
-int whole_cell(double& place, int count) {
-  place = std::clamp(place, -4.0, count + 3.0);
-  return static_cast<int>(std::floor(place));
+// The cell at or before a position. Positions far outside the grid are clamped to its border so
+// that they fit an int.
+int whole_cell(double& position, int count) {
+  position = std::clamp(position, -4.0, count + 3.0);
+  return static_cast<int>(std::floor(position));
 }
 
 template <class Value, class Wide>
@@ -139,14 +153,18 @@ auto bilinear(const Grid<Value>& values, double x, double y, Wide&& wide) {
   const int y0 = whole_cell(y, values.height());
   const double tx = x - x0;
   const double ty = y - y0;
-  const auto top = (1.0 - tx) * wide(values.clamped(x0, y0)) + tx * wide(values.clamped(x0 + 1, y0));
-  const auto bottom = (1.0 - tx) * wide(values.clamped(x0, y0 + 1)) + tx * wide(values.clamped(x0 + 1, y0 + 1));
+  const auto top =
+      (1.0 - tx) * wide(values.clamped(x0, y0)) + tx * wide(values.clamped(x0 + 1, y0));
+  const auto bottom =
+      (1.0 - tx) * wide(values.clamped(x0, y0 + 1)) + tx * wide(values.clamped(x0 + 1, y0 + 1));
   return (1.0 - ty) * top + ty * bottom;
 }
 
 }  // namespace
 
-Grid<float> gaussian_blur(const Grid<float>& values, double sigma) { return gaussian_blur(values, sigma, sigma); }
+Grid<float> gaussian_blur(const Grid<float>& values, double sigma) {
+  return gaussian_blur(values, sigma, sigma);
+}
 
 Grid<float> gaussian_blur(const Grid<float>& values, double sigma_x, double sigma_y) {
   if (values.empty() || sigma_x <= 0.0) {
@@ -161,7 +179,8 @@ Grid<float> gaussian_blur(const Grid<float>& values, double sigma_x, double sigm
 }
 
 float sample_bilinear(const Grid<float>& values, double x, double y) {
-  return static_cast<float>(bilinear(values, x, y, [](float value) { return static_cast<double>(value); }));
+  return static_cast<float>(
+      bilinear(values, x, y, [](float value) { return static_cast<double>(value); }));
 }
 
 glm::dvec2 sample_bilinear(const Grid<glm::vec2>& values, double x, double y) {

@@ -1,4 +1,4 @@
-// Minimum, maximum and nearest-mark filters: exact, at a cost that does not depend on the distance they look.
+// Minimum, maximum and nearest-mark filters: exact, at a cost that does not depend on the radius.
 
 #include <algorithm>
 #include <cstdint>
@@ -12,7 +12,8 @@
 namespace belvedere {
 namespace {
 
-// van Herk & Gil-Werman: extremes from each block's start and to each block's end; a window of one block's length spans two.
+// van Herk & Gil-Werman: running extremes from each block's start and to each block's end; a window
+// as long as a block spans two.
 template <class Pick>
 LineBundle window_extreme(const LineBundle& lines, int radius, Pick pick) {
   constexpr int n = LineBundle::lanes;
@@ -41,12 +42,14 @@ Grid<float> filter_window(const Grid<float>& values, int radius, Pick pick) {
   if (values.empty() || radius <= 0) return out;
   const int radius_x = std::min(radius, values.width() - 1);
   const int radius_y = std::min(radius, values.height() - 1);
-  transform_rows(out, [&](const LineBundle& lines) { return window_extreme(lines, radius_x, pick); });
-  transform_columns(out, [&](const LineBundle& lines) { return window_extreme(lines, radius_y, pick); });
+  transform_rows(out,
+                 [&](const LineBundle& lines) { return window_extreme(lines, radius_x, pick); });
+  transform_columns(out,
+                    [&](const LineBundle& lines) { return window_extreme(lines, radius_y, pick); });
   return out;
 }
 
-// Row of the nearest mark within each column, -1 where the column has none; ties to the upper one.
+// Row of the nearest mark within each column, -1 if the column has none; ties go to the upper one.
 Grid<std::int32_t> nearest_in_columns(const Grid<std::uint8_t>& mask) {
   const int width = mask.width();
   const int height = mask.height();
@@ -79,18 +82,20 @@ struct Parabola {
   std::int64_t x;
   std::int64_t mark_y;
   std::int64_t height;  // squared distance to the row
-  std::int64_t from;    // first x of the row where it is the nearest
+  std::int64_t from;    // first x of the row at which it is the nearest
 };
 
-// Last x at which the left parabola is preferred to the right one: nearer, or as near and of the lower index. Two parabolas of
-// one shape cross once, so this order has one change along the row, ties included.
+// Last x at which the left parabola is preferred to the right one: nearer, or equally near with the
+// lower index. Two parabolas of one shape cross once, so the preference changes once along the row,
+// ties included.
 std::int64_t last_preferred(const Parabola& left, const Parabola& right) {
   const std::int64_t numerator = right.x * right.x + right.height - left.x * left.x - left.height;
   const std::int64_t denominator = 2 * (right.x - left.x);
   std::int64_t quotient = numerator / denominator;
   if (numerator % denominator < 0) --quotient;  // floor
   const bool tie = quotient * denominator == numerator;
-  const bool left_is_lower = left.mark_y <= right.mark_y;  // in the same row left.x < right.x decides
+  const bool left_is_lower =
+      left.mark_y <= right.mark_y;  // in the same row left.x < right.x decides
   return tie && !left_is_lower ? quotient - 1 : quotient;
 }
 

@@ -11,8 +11,8 @@
 
 namespace belvedere {
 
-// A width × height array of values, row-major, row 0 on top. No geography: a Raster adds that.
-// x is the column, y the row. Indices are not checked in release builds of the hot loops.
+// A width × height array of values, row-major, row 0 on top, without geography (see Raster). x is
+// the column, y the row. Indices are not checked in release builds.
 template <class T>
 class Grid {
  public:
@@ -20,8 +20,11 @@ class Grid {
 
   Grid() = default;
   Grid(int width, int height, const T& fill = T{})
-      : width_(width), height_(height), values_(filled(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), fill)) {}
-  Grid(const Grid& other) : width_(other.width_), height_(other.height_), values_(copied(other.values_)) {}
+      : width_(width),
+        height_(height),
+        values_(filled(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), fill)) {}
+  Grid(const Grid& other)
+      : width_(other.width_), height_(other.height_), values_(copied(other.values_)) {}
   Grid(Grid&&) noexcept = default;
   Grid& operator=(const Grid& other) {
     if (this != &other) *this = Grid(other);
@@ -41,14 +44,15 @@ class Grid {
   }
 
   std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+           static_cast<std::size_t>(x);
   }
   T& operator()(int x, int y) { return values_[index(x, y)]; }
   const T& operator()(int x, int y) const { return values_[index(x, y)]; }
   T& operator[](std::size_t i) { return values_[i]; }
   const T& operator[](std::size_t i) const { return values_[i]; }
 
-  // The value at the nearest place inside the grid: borders replicate.
+  // The value at the nearest position inside the grid: borders replicate.
   const T& clamped(int x, int y) const { return (*this)(within(x, width_), within(y, height_)); }
 
   T* row(int y) { return values_.data() + index(0, y); }
@@ -64,19 +68,21 @@ class Grid {
   bool operator==(const Grid&) const = default;
 
  private:
-  // An index held within 0…count - 1; count is at least 1.
+  // An index clamped to 0…count - 1; count is at least 1.
   static constexpr int within(int i, int count) { return i < 0 ? 0 : i < count ? i : count - 1; }
 
   using Values = std::vector<T, ZeroedAllocator<T>>;
-  // Values that new memory may be left without: they are written as bytes.
-  static constexpr bool plain = std::is_trivially_copyable_v<T> && std::is_trivially_default_constructible_v<T>;
+  // Values for which new memory may stay uninitialized by a constructor: they are written as bytes.
+  static constexpr bool plain =
+      std::is_trivially_copyable_v<T> && std::is_trivially_default_constructible_v<T>;
 
-  // A grid of zeros, as most begin, is not touched before it is filled.
+  // A grid of zeros is not touched before it is filled.
   static Values filled(std::size_t size, const T& fill) {
     if constexpr (plain) {
       Values values(size);
       constexpr std::array<unsigned char, sizeof(T)> zeros{};
-      if (std::memcmp(&fill, zeros.data(), sizeof(T)) != 0) fill_in_parallel(values.data(), &fill, sizeof(T), size);
+      if (std::memcmp(&fill, zeros.data(), sizeof(T)) != 0)
+        fill_in_parallel(values.data(), &fill, sizeof(T), size);
       return values;
     } else {
       return Values(size, fill);

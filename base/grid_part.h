@@ -12,7 +12,8 @@ template <class T>
 Grid<T> part_of(const Grid<T>& grid, PixelRect rect) {
   Grid<T> part(rect.width(), rect.height());
   parallel_ranges(rect.height(), 64, [&](int begin, int end) {
-    for (int y = begin; y != end; ++y) std::copy_n(grid.row(rect.y0 + y) + rect.x0, rect.width(), part.row(y));
+    for (int y = begin; y != end; ++y)
+      std::copy_n(grid.row(rect.y0 + y) + rect.x0, rect.width(), part.row(y));
   });
   return part;
 }
@@ -21,7 +22,8 @@ Grid<T> part_of(const Grid<T>& grid, PixelRect rect) {
 template <class T>
 void copy_part(Grid<T>& whole, const Grid<T>& part, int x0, int y0) {
   parallel_ranges(part.height(), 64, [&](int begin, int end) {
-    for (int y = begin; y != end; ++y) std::copy_n(part.row(y), part.width(), whole.row(y0 + y) + x0);
+    for (int y = begin; y != end; ++y)
+      std::copy_n(part.row(y), part.width(), whole.row(y0 + y) + x0);
   });
 }
 

@@ -17,60 +17,68 @@
 
 namespace belvedere {
 
-// The one table of what guidance buffers hold. Files and their reading, the sheet of example panels, the README and the tests take the
-// channels from it, so that a new one is a row here, its member in GuidanceBuffers and the stage that fills it.
+// The table of all guidance channels. Reading and writing files, the sheet of example panels,
+// docs/guidance.md and the tests use it, so a new channel is a row here, its member in
+// GuidanceBuffers and the stage that fills it.
 
-// Which grid of the buffers; std::visit gives it with the type of its values.
-using GuidanceMember = std::variant<Grid<float> GuidanceBuffers::*, Grid<glm::vec2> GuidanceBuffers::*, Grid<glm::vec3> GuidanceBuffers::*,
-                                    Grid<LandCoverClass> GuidanceBuffers::*, Grid<std::uint32_t> GuidanceBuffers::*>;
+// The grid in the buffers; std::visit gives it with its value type.
+using GuidanceMember =
+    std::variant<Grid<float> GuidanceBuffers::*, Grid<glm::vec2> GuidanceBuffers::*,
+                 Grid<glm::vec3> GuidanceBuffers::*, Grid<LandCoverClass> GuidanceBuffers::*,
+                 Grid<std::uint32_t> GuidanceBuffers::*>;
 
 enum class ChannelKind {
-  number,       // a number, or components that are numbers of their own
-  direction,    // unit vector, or zero where there is none; made unit again after reading, as half is not exact
+  number,       // a number, or independent components
+  direction,    // unit vector, or zero; normalized again after reading, since half is not exact
   class_id,     // a LandCoverClass
   stroke_id,    // counts from 1
-  pixel_index,  // row-major index of a pixel of the same picture: moves with the picture
+  pixel_index,  // row-major index of a pixel of the same picture; changes when the picture is
+                // cropped
 };
 
-// How values lie in a file: half where 11 bits are enough, uint32 for ids, which are never filtered.
+// Type of the values in a file: half if 11 bits are enough, uint32 for ids, which are never
+// filtered.
 enum class ChannelStorage { half, float32, uint32 };
 
-// Who fills a channel, and so who may lack it. Scanned paintings have what was drawn or found for them, of whatever kind.
+// Which stage fills a channel, and so which pictures may lack it. Scanned paintings have the
+// channels that were drawn or derived for them, of whatever kind.
 enum class ChannelMaker {
   trace,    // trace_guidance: every picture of a terrain has it
   relief,   // renderer/rock: every picture with light
   light,    // tone and base picture: every picture with light
-  strokes,  // example paintings whose strokes the program laid itself; no other picture
+  strokes,  // only example paintings whose strokes the program made
 };
 
 struct GuidanceChannel {
   GuidanceMember member;
-  std::array<std::string_view, 3> names = {};  // in the file, one for each component; "" where there are fewer
-  std::string_view part = {};                  // of the file: what is used together stands together
+  std::array<std::string_view, 3> names =
+      {};                      // in the file, one for each component; "" for unused ones
+  std::string_view part = {};  // part of the file; channels used together share one
   ChannelStorage type = ChannelStorage::half;
   ChannelKind kind = ChannelKind::number;
   ChannelMaker maker = ChannelMaker::trace;
-  std::string_view unit = {};  // "" where it has none
+  std::string_view unit = {};  // "" if it has none
   std::string_view meaning = {};
-  glm::vec3 sky{0.F};                   // component by component, where the picture shows sky; ids as numbers
-  std::optional<glm::vec3> paper = {};  // the same of bare paper between the panels of a sheet, where it differs from sky
+  glm::vec3 sky{0.F};  // components of sky pixels; ids as numbers
+  std::optional<glm::vec3> paper =
+      {};  // components of bare paper between the panels of a sheet, if different from sky
 
   std::size_t components() const;
 };
 
-// In the order of the file; the channels of a part follow each other.
+// In the order of the file; the channels of a part are adjacent.
 std::span<const GuidanceChannel> guidance_channels();
 const GuidanceChannel& channel_of(GuidanceMember member);
 
-// The table as Markdown for people: a head and one row for each grid.
+// The table in Markdown, with a header and one row per grid.
 std::string describe_guidance_channels();
 
 // Whether the buffers have that channel, in their size.
 bool has_channel(const GuidanceBuffers& guidance, GuidanceMember member);
-// What a stage needs, checked once at its entrance. Throws Error(kind) where a channel is absent or has another size than the depths,
-// naming the stage, the channel and what fills it.
-void require_channels(const GuidanceBuffers& guidance, std::initializer_list<GuidanceMember> needed, const std::string& where,
-                      ErrorKind kind = ErrorKind::bug);
+// Checks the channels that a stage needs, once when it starts. Throws Error(kind) if a channel is
+// absent or differs in size from the depths, with the stage, the channel and what fills it.
+void require_channels(const GuidanceBuffers& guidance, std::initializer_list<GuidanceMember> needed,
+                      const std::string& where, ErrorKind kind = ErrorKind::bug);
 
 // A value from its components.
 template <class T>
@@ -84,7 +92,8 @@ T value_of(glm::vec3 components) {
   }
 }
 
-// Makes the grid of a channel with one value all over.
-void fill_channel(GuidanceBuffers& guidance, const GuidanceChannel& channel, int width, int height, glm::vec3 components);
+// Makes the grid of a channel with one value everywhere.
+void fill_channel(GuidanceBuffers& guidance, const GuidanceChannel& channel, int width, int height,
+                  glm::vec3 components);
 
 }  // namespace belvedere

@@ -10,21 +10,22 @@
 namespace belvedere {
 namespace {
 
-// Place among instruction_sets(); their count where there is none of that name.
+// Index in instruction_sets(); their count for unknown names.
 std::size_t rank_of(const std::string& name) {
   const std::vector<std::string>& names = instruction_sets();
   return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
-// What Embree asks for before it uses each of them.
+// The features that Embree checks before it uses each set.
 std::size_t rank_of_processor() {
   if (!__builtin_cpu_supports("sse4.2") || !__builtin_cpu_supports("popcnt")) return 0;
   if (!__builtin_cpu_supports("avx")) return 1;
-  if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma") || !__builtin_cpu_supports("bmi") ||
-      !__builtin_cpu_supports("bmi2"))
+  if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma") ||
+      !__builtin_cpu_supports("bmi") || !__builtin_cpu_supports("bmi2"))
     return 2;
-  if (!__builtin_cpu_supports("avx512f") || !__builtin_cpu_supports("avx512dq") || !__builtin_cpu_supports("avx512cd") ||
-      !__builtin_cpu_supports("avx512bw") || !__builtin_cpu_supports("avx512vl"))
+  if (!__builtin_cpu_supports("avx512f") || !__builtin_cpu_supports("avx512dq") ||
+      !__builtin_cpu_supports("avx512cd") || !__builtin_cpu_supports("avx512bw") ||
+      !__builtin_cpu_supports("avx512vl"))
     return 3;
   return 4;
 }
@@ -32,7 +33,8 @@ std::size_t rank_of_processor() {
 std::size_t known_rank(const std::string& name, const std::string& where, const char* or_else) {
   const std::size_t rank = rank_of(name);
   if (rank == instruction_sets().size())
-    throw Error(ErrorKind::usage, where, fmt::format("\"{}\"", name), fmt::format("{}{}", fmt::join(instruction_sets(), ", "), or_else));
+    throw Error(ErrorKind::usage, where, fmt::format("\"{}\"", name),
+                fmt::format("{}{}", fmt::join(instruction_sets(), ", "), or_else));
   return rank;
 }
 
@@ -59,8 +61,9 @@ std::string choose_instruction_set(const std::string& pinned) {
   std::string widest = machine_instruction_set();
   if (pinned == "any") return widest;
   if (known_rank(pinned, "instruction_set", " or any") > rank_of(widest))
-    throw Error(ErrorKind::limit, "instruction_set", fmt::format("pinned to {}, which this processor lacks", instruction_set_title(pinned)),
-                fmt::format("a machine that has it, or \"{}\" or less, or \"any\"", widest));
+    throw Error(ErrorKind::limit, "instruction_set",
+                fmt::format("this processor does not support {}", instruction_set_title(pinned)),
+                fmt::format("a processor with it, \"{}\" or narrower, or \"any\"", widest));
   return pinned;
 }
 

@@ -5,7 +5,8 @@
 namespace belvedere {
 
 std::string_view class_name(LandCoverClass id) {
-  return static_cast<std::size_t>(id) < land_cover_table.size() ? class_info(id).name : std::string_view("unknown");
+  return static_cast<std::size_t>(id) < land_cover_table.size() ? class_info(id).name
+                                                                : std::string_view("unknown");
 }
 
 std::optional<LandCoverClass> find_class(std::string_view name) {
@@ -17,7 +18,8 @@ std::optional<LandCoverClass> find_class(std::string_view name) {
 ClassPairs with_stand_ins(ClassPairs fallback) {
   const ClassPairs said = fallback;
   for (const LandCoverClassInfo& info : land_cover_table) {
-    const bool is_said = std::any_of(said.begin(), said.end(), [&](const auto& pair) { return pair.first == info.id; });
+    const bool is_said = std::any_of(said.begin(), said.end(),
+                                     [&](const auto& pair) { return pair.first == info.id; });
     if (info.stand_in != info.id && !is_said) fallback.emplace_back(info.id, info.stand_in);
   }
   return fallback;

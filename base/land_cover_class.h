@@ -10,8 +10,9 @@
 
 namespace belvedere {
 
-// The classes a panorama is painted in. A legend maps the codes of a land-cover raster to these; palettes and brushes
-// exist for each. The numbers are written to guidance files and never change; new classes get new numbers.
+// The classes that a panorama is painted in. A legend maps the codes of a land-cover raster to
+// them; each has palettes and brushes. The numbers are written to guidance files and never change;
+// new classes get new numbers.
 enum class LandCoverClass : std::uint8_t {
   sky = 0,
   water = 1,
@@ -28,21 +29,22 @@ enum class LandCoverClass : std::uint8_t {
   sand = 12,
 };
 
-// What is so of a class or not.
+// Properties that a class has or not.
 enum class ClassTrait : std::uint32_t {
   none = 0,
-  open_high = 1U << 0,     // forest thins out towards it, in contrast to ground that people keep clear
-  own_relief = 1U << 1,    // light falls on the ungeneralized surface's detail, else on the generalized one's
+  open_high = 1U << 0,  // forest thins out towards it; not so for ground that people keep clear
+  own_relief =
+      1U << 1,  // lit with the ungeneralized surface's detail, else with the generalized surface
   bleaches = 1U << 2,      // high grass: fresh in hollows, bleached on ridges
   drifts = 1U << 3,        // its hue changes slowly over the ground
-  stales = 1U << 4,        // a green that loses its freshness with distance
-  gravel_banks = 1U << 5,  // rivers throw up gravel on it
-  level = 1U << 6,         // strokes lie level, not along the fall line
+  desaturates = 1U << 4,   // a green that desaturates with distance
+  gravel_banks = 1U << 5,  // rivers deposit gravel on it
+  level = 1U << 6,         // strokes are horizontal, not along the fall line
   tight = 1U << 7,         // strokes must not smear across the smallest ridge
-  icy = 1U << 8,           // thick, smooth paint of little bristle
+  icy = 1U << 8,           // thick, smooth paint with little bristle texture
   turf = 1U << 9,          // grows over the rims of rock
-  lone_trees = 1U << 10,   // trees stand scattered on it
-  accents = 1U << 11,      // takes accents of light on edges and of dark in hollows
+  lone_trees = 1U << 10,   // scattered trees
+  accents = 1U << 11,      // gets accents of light on edges and of dark in hollows
 };
 constexpr ClassTrait operator|(ClassTrait a, ClassTrait b) {
   return static_cast<ClassTrait>(static_cast<std::uint32_t>(a) | static_cast<std::uint32_t>(b));
@@ -52,20 +54,21 @@ constexpr ClassTrait operator|(ClassTrait a, ClassTrait b) {
 struct ClassTone {
   float detail;    // share of the detailed normal, 0…1; the rest is the smooth one
   float edges;     // strength of light on ridges and of dark in hollows
-  float ribs;      // of ribs and gullies on slopes
-  float contrast;  // around the middle tone; 1 leaves tones as they are
+  float ribs;      // strength of ribs and gullies on slopes
+  float contrast;  // around the middle tone; 1 leaves tones unchanged
   float lift;      // added to the tone
 };
 
-// Grass turns towards ripe yellow (+) or fresh green (-): by noise of 60, 210 and 660 m, and all over.
+// Shift of grass towards ripe yellow (+) or fresh green (-): by noise of 60, 210 and 660 m, and
+// uniformly.
 struct ClassRipeness {
   float n3, n8, n25, mean;
 };
 
-// How a class's colour leaves its ramp.
+// How a class's colour deviates from its ramp.
 struct ClassHue {
   ClassRipeness ripeness;
-  float warmth;         // share of the foreground's warmth it takes, 0…1
+  float warmth;         // share of the foreground's warmth that applies to it, 0…1
   float relief_accent;  // how strongly ridges and hollows are marked, 0…1
 };
 
@@ -73,15 +76,16 @@ struct LandCoverClassInfo {
   LandCoverClass id;
   std::string_view name;     // as written in scenes, legends and file headers
   std::string_view meaning;  // for the table of docs/legends.md
-  std::uint32_t rgb;         // 0xrrggbb, for class maps only; the painting's colours are in palettes
-  LandCoverClass stand_in;   // copied from where no exemplar has any of this class and the scene says nothing; itself: no class
+  std::uint32_t rgb;        // 0xrrggbb, for class maps only; the painting's colours are in palettes
+  LandCoverClass stand_in;  // class to copy from if no exemplar has this one and the scene sets
+                            // nothing; itself: none
   ClassTrait traits;
   ClassTone tone;
   ClassHue hue;
 };
 
-// The one table: a new class is an enumerator above and a row here, in the order of ids. No member has a default, so a row that leaves one
-// out does not compile.
+// The table of all classes: a new class is an enumerator above and a row here, in the order of ids.
+// No member has a default, so an incomplete row does not compile.
 inline constexpr auto land_cover_table = [] {
   using enum LandCoverClass;
   using enum ClassTrait;
@@ -107,7 +111,7 @@ inline constexpr auto land_cover_table = [] {
        .meaning = "fields, meadows and parks of the valley bottom",
        .rgb = 0xe6dc6e,
        .stand_in = valley_floor,
-       .traits = drifts | stales | gravel_banks | level | lone_trees | accents,
+       .traits = drifts | desaturates | gravel_banks | level | lone_trees | accents,
        .tone = {.detail = 0.45F, .edges = 0.07F, .ribs = 0.00F, .contrast = 0.55F, .lift = 0.10F},
        .hue = {.ripeness = {0.00F, 0.12F, 0.00F, 0.00F}, .warmth = 1.00F, .relief_accent = 0.35F}},
       {.id = settlement,
@@ -123,7 +127,7 @@ inline constexpr auto land_cover_table = [] {
        .meaning = "upright trees",
        .rgb = 0x1e5a28,
        .stand_in = forest,
-       .traits = drifts | stales | turf,
+       .traits = drifts | desaturates | turf,
        .tone = {.detail = 0.45F, .edges = 0.10F, .ribs = 0.05F, .contrast = 1.20F, .lift = 0.00F},
        .hue = {.ripeness = {0.00F, 0.00F, 0.00F, 0.00F}, .warmth = 1.00F, .relief_accent = 0.35F}},
       {.id = alpine_grass,
@@ -131,7 +135,7 @@ inline constexpr auto land_cover_table = [] {
        .meaning = "grass above the treeline",
        .rgb = 0x96aa46,
        .stand_in = alpine_grass,
-       .traits = open_high | bleaches | drifts | stales | turf | lone_trees | accents,
+       .traits = open_high | bleaches | drifts | desaturates | turf | lone_trees | accents,
        .tone = {.detail = 0.45F, .edges = 0.07F, .ribs = 0.10F, .contrast = 1.00F, .lift = 0.00F},
        .hue = {.ripeness = {0.14F, 0.22F, 0.12F, -0.15F}, .warmth = 1.00F, .relief_accent = 0.35F}},
       {.id = scree,
@@ -160,7 +164,7 @@ inline constexpr auto land_cover_table = [] {
        .hue = {.ripeness = {0.00F, 0.00F, 0.00F, 0.00F}, .warmth = 0.40F, .relief_accent = 0.60F}},
       {.id = glacier,
        .name = "glacier",
-       .meaning = "ice, and snow that stays all year",
+       .meaning = "ice and perennial snow",
        .rgb = 0xb4e6ff,
        .stand_in = glacier,
        .traits = open_high | tight | icy | accents,
@@ -171,7 +175,7 @@ inline constexpr auto land_cover_table = [] {
        .meaning = "grass on slopes below the treeline",
        .rgb = 0xb4d25a,
        .stand_in = pasture,
-       .traits = bleaches | drifts | stales | gravel_banks | turf | lone_trees | accents,
+       .traits = bleaches | drifts | desaturates | gravel_banks | turf | lone_trees | accents,
        .tone = {.detail = 0.45F, .edges = 0.07F, .ribs = 0.00F, .contrast = 1.00F, .lift = 0.00F},
        .hue = {.ripeness = {0.12F, 0.20F, 0.12F, -0.15F}, .warmth = 1.00F, .relief_accent = 0.35F}},
       {.id = shrub,
@@ -179,7 +183,7 @@ inline constexpr auto land_cover_table = [] {
        .meaning = "shrubland, heath, sagebrush",
        .rgb = 0x7d8246,
        .stand_in = shrub,
-       .traits = open_high | bleaches | drifts | stales | turf | accents,
+       .traits = open_high | bleaches | drifts | desaturates | turf | accents,
        .tone = {.detail = 0.45F, .edges = 0.09F, .ribs = 0.07F, .contrast = 1.05F, .lift = 0.00F},
        .hue = {.ripeness = {0.14F, 0.22F, 0.10F, -0.05F}, .warmth = 1.00F, .relief_accent = 0.35F}},
       {.id = sand,
@@ -199,12 +203,15 @@ static_assert(
         if (static_cast<std::size_t>(land_cover_table[i].id) != i) return false;
       return true;
     }(),
-    "the rows of land_cover_table stand in the order of ids");
+    "the rows of land_cover_table must be in the order of ids");
 
 // The id must be one of the classes.
-constexpr const LandCoverClassInfo& class_info(LandCoverClass id) { return land_cover_table[static_cast<std::size_t>(id)]; }
+constexpr const LandCoverClassInfo& class_info(LandCoverClass id) {
+  return land_cover_table[static_cast<std::size_t>(id)];
+}
 constexpr bool has_trait(LandCoverClass id, ClassTrait trait) {
-  return (static_cast<std::uint32_t>(class_info(id).traits) & static_cast<std::uint32_t>(trait)) != 0U;
+  return (static_cast<std::uint32_t>(class_info(id).traits) & static_cast<std::uint32_t>(trait)) !=
+         0U;
 }
 
 // In the order of their ids.
@@ -212,8 +219,8 @@ constexpr const auto& land_cover_classes() { return land_cover_table; }
 std::string_view class_name(LandCoverClass id);
 std::optional<LandCoverClass> find_class(std::string_view name);
 
-// Class and the class it is copied from where no exemplar has any of it: what a scene says, and the stand-ins of the classes of which it
-// says nothing.
+// Pairs of a class and the class it is copied from if no exemplar has it: as the scene sets, else
+// by the stand-ins.
 using ClassPairs = std::vector<std::pair<LandCoverClass, LandCoverClass>>;
 ClassPairs with_stand_ins(ClassPairs fallback);
 

@@ -4,27 +4,28 @@
 
 namespace belvedere {
 
-// Small formulas that many stages share. All are plain arithmetic in the type they are given, so the same bits everywhere.
+// Small formulas that many stages share. All are plain arithmetic in the type of their arguments,
+// so they give the same bits everywhere.
 
 template <std::floating_point T>
 constexpr T square(T v) {
   return v * v;
 }
 
-// The value held within 0…1.
+// The value clamped to 0…1.
 template <std::floating_point T>
 constexpr T unit(T v) {
   return v < T{0} ? T{0} : T{1} < v ? T{1} : v;
 }
 
-// 3t² - 2t³ with t held within 0…1: rises from 0 to 1, level at both ends.
+// 3t² - 2t³ with t clamped to 0…1: rises from 0 to 1, with slope 0 at both ends.
 template <std::floating_point T>
 constexpr T smoothstep(T t) {
   t = unit(t);
   return t * t * (T{3} - T{2} * t);
 }
 
-// The same between two places: 0 up to low, 1 from high on; low < high.
+// The same between two values: 0 up to low, 1 from high on; low < high.
 template <std::floating_point T>
 constexpr T smoothstep(T low, T high, T x) {
   return smoothstep((x - low) / (high - low));

@@ -11,14 +11,16 @@ namespace belvedere::exact {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-// π/2 in parts: the first has 33 bits, so that its products with the quarter turns of angles up to 1e6 are exact.
+// π/2 in parts: the first has 33 bits, so its products with the quarter turns of angles up to 1e6
+// are exact.
 constexpr double half_pi_high = 0x1.921fb544p+0;
 constexpr double half_pi_low = 0x1.0b4611a626331p-34;
 constexpr double ln2 = 0.69314718055994530942;
 constexpr double log10_e = 0.43429448190325182765;
 constexpr double root_half = 0.70710678118654752440;
 
-// 1 / (n (n + 1)), from one term of the series of sine and cosine to the next, and 1 / n: divided once, when the program is compiled.
+// 1 / (n (n + 1)), the ratio of consecutive terms of the sine and cosine series, and 1 / n;
+// computed at compile time.
 constexpr auto step_parts = [] {
   std::array<double, 18> of{};
   for (int n = 1; n < 18; ++n) of[static_cast<std::size_t>(n)] = 1.0 / (n * (n + 1.0));
@@ -30,7 +32,7 @@ constexpr auto parts = [] {
   return of;
 }();
 
-// Taylor's series of sine and cosine for |x| ≤ π/4: what is left out is below x^19 / 19! = 9e-20.
+// Taylor series of sine and cosine for |x| ≤ π/4; the remainder is below x^19 / 19! = 9e-20.
 Turn small_turn(double x) {
   const double z = x * x;
   double sine = 1.0;
@@ -40,7 +42,8 @@ Turn small_turn(double x) {
   return {cosine, x * sine};
 }
 
-// atan of 0 ≤ t ≤ 1. Two halvings of the angle, t → t / (1 + √(1 + t²)), bring it to .199; the series leaves out t^25 / 25 = 1e-19.
+// atan of 0 ≤ t ≤ 1. Two halvings of the angle, t → t / (1 + √(1 + t²)), reduce it to .199; the
+// remainder of the series is t^25 / 25 = 1e-19.
 double small_atan(double t) {
   for (int halving = 0; halving < 2; ++halving) t = t / (1.0 + std::sqrt(1.0 + t * t));
   const double z = t * t;
@@ -58,28 +61,32 @@ struct Parts {
   int exponent;
 };
 
-// x = fraction · 2^exponent as frexp has it, for x > 0 and finite: from the bits, which takes no call of the library.
+// x = fraction · 2^exponent as by frexp, for x > 0 and finite: from the bits, without a library
+// call.
 Parts split(double x) {
   const auto bits = std::bit_cast<std::uint64_t>(x);
   const int biased = static_cast<int>(bits >> fraction_bits);
-  if (biased == 0) {  // subnormal: made normal first
+  if (biased == 0) {  // subnormal: normalized first
     const Parts of = split(x * 0x1p54);
     return {of.fraction, of.exponent - 54};
   }
-  return {std::bit_cast<double>((bits & fraction_mask) | (std::uint64_t{1022} << fraction_bits)), biased - 1022};
+  return {std::bit_cast<double>((bits & fraction_mask) | (std::uint64_t{1022} << fraction_bits)),
+          biased - 1022};
 }
 
-// 2^whole for |whole| ≤ 1022, so that it is normal.
+// 2^whole for |whole| ≤ 1022, so that the result is normal.
 double power_of_two(double whole) {
-  return std::bit_cast<double>(static_cast<std::uint64_t>(static_cast<std::int64_t>(whole) + 1023) << fraction_bits);
+  return std::bit_cast<double>(static_cast<std::uint64_t>(static_cast<std::int64_t>(whole) + 1023)
+                               << fraction_bits);
 }
 
 struct BinaryLog {
   double whole;
-  double natural_rest;  // of what is left, -ln2/2 … ln2/2
+  double natural_rest;  // of the remainder, -ln2/2 … ln2/2
 };
 
-// x = 2^whole · m with √½ ≤ m < √2; log m = 2 artanh((m - 1) / (m + 1)), where |…| ≤ .172: the series leaves out .172^23 / 23 = 1e-19.
+// x = 2^whole · m with √½ ≤ m < √2; log m = 2 artanh((m - 1) / (m + 1)), where |…| ≤ .172: the
+// remainder of the series is .172^23 / 23 = 1e-19.
 BinaryLog split_log(double x) {
   auto [m, exponent] = split(x);
   if (m < root_half) {
@@ -99,7 +106,8 @@ double log_of_edge(double x) {
   return x > 0.0 ? x : std::numeric_limits<double>::quiet_NaN();
 }
 
-// 2^whole · e^rest for |rest| ≤ .36 and |whole| ≤ 1000: the series leaves out rest^15 / 15! = 2e-19.
+// 2^whole · e^rest for |rest| ≤ .36 and |whole| ≤ 1000: the remainder of the series is rest^15 /
+// 15! = 2e-19.
 double scaled_exp(double whole, double rest) {
   double sum = 1.0;
   for (std::size_t n = 14; n > 0; --n) sum = 1.0 + rest * parts[n] * sum;
@@ -141,7 +149,7 @@ double atan2(double y, double x) {
 }
 
 double atan(double slope) { return atan2(slope, 1.0); }
-// The other side of the triangle as a product: 1 - sine² would lose digits near 1.
+// The other leg of the triangle as a product: 1 - sine² would lose digits near 1.
 double asin(double sine) { return atan2(sine, std::sqrt((1.0 - sine) * (1.0 + sine))); }
 double acos(double cosine) { return atan2(std::sqrt((1.0 - cosine) * (1.0 + cosine)), cosine); }
 
@@ -178,7 +186,9 @@ double cbrt(double x) {
   if (x == 0.0 || !std::isfinite(x)) return x;
   const double size = std::abs(x);
   const double root = exp2(log2(size) / 3.0);
-  const double better = root - (root * root * root - size) / (3.0 * root * root);  // Newton's step takes the power's error away
+  const double better =
+      root - (root * root * root - size) /
+                 (3.0 * root * root);  // a Newton step removes the error of the power
   return x < 0.0 ? -better : better;
 }
 

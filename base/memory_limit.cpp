@@ -18,14 +18,14 @@ namespace {
 
 constexpr double mib = 1024.0 * 1024.0;
 
-// What the control group of a container allows, or the greatest number.
+// The limit of the container's control group, or the largest number.
 std::uint64_t control_group_bytes() {
   std::ifstream file("/sys/fs/cgroup/memory.max");
   std::uint64_t bytes = 0;
   return file >> bytes && bytes > 0 ? bytes : UINT64_MAX;
 }
 
-// Limits that are alive; few, and asked for once a file.
+// Limits in effect; few, and read once per file.
 std::mutex limits_mutex;
 std::multiset<std::uint64_t> limits;
 
@@ -52,22 +52,26 @@ std::uint64_t memory_budget_bytes() {
     std::uint64_t value = 0;
     const char* end = text + std::strlen(text);
     const auto [stop, error] = std::from_chars(text, end, value);
-    if (error == std::errc{} && stop == end && value > 0 && value < (std::uint64_t{1} << 40)) return value << 20;
-    throw Error(ErrorKind::usage, "BELVEDERE_MEMORY_MIB", fmt::format("\"{}\"", text), "a whole number of MiB above 0");
+    if (error == std::errc{} && stop == end && value > 0 && value < (std::uint64_t{1} << 40))
+      return value << 20;
+    throw Error(ErrorKind::usage, "BELVEDERE_MEMORY_MIB", fmt::format("\"{}\"", text),
+                "a whole number of MiB above 0");
   }
   const long pages = sysconf(_SC_PHYS_PAGES);
   const long page = sysconf(_SC_PAGE_SIZE);
   const std::uint64_t machine =
-      pages > 0 && page > 0 ? static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page) : std::uint64_t{4} << 30;
+      pages > 0 && page > 0 ? static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page)
+                            : std::uint64_t{4} << 30;
   return std::min(machine, control_group_bytes()) / 4 * 3;
 }
 
 void check_memory(const std::string& where, double bytes) {
   const auto limit = static_cast<double>(memory_budget_bytes());
   if (bytes <= limit) return;
-  throw Error(
-      ErrorKind::limit, where, fmt::format("needs {:.0f} MiB of memory", bytes / mib),
-      fmt::format("up to {:.0f} MiB here; a smaller extent, larger cells, or more memory (--memory, BELVEDERE_MEMORY_MIB)", limit / mib));
+  throw Error(ErrorKind::limit, where, fmt::format("needs {:.0f} MiB of memory", bytes / mib),
+              fmt::format("at most {:.0f} MiB; use a smaller extent, larger cells or more memory "
+                          "(--memory, BELVEDERE_MEMORY_MIB)",
+                          limit / mib));
 }
 
 }  // namespace belvedere

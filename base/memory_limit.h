@@ -5,12 +5,13 @@
 
 namespace belvedere {
 
-// Bytes that the program may use: what the strictest MemoryLimit alive says, else $BELVEDERE_MEMORY_MIB where it is set to a number, else
-// three quarters of what the machine has (or of what its control group allows, where that is less).
+// Bytes that the program may use: the strictest MemoryLimit in effect, else $BELVEDERE_MEMORY_MIB
+// if it is a number, else three quarters of the machine's memory (or of its control group's limit,
+// if that is less).
 std::uint64_t memory_budget_bytes();
 
-// Limits the bytes that the program may use while it lives; 0 limits nothing. Like ThreadLimit it holds for the whole process, so that
-// whatever reads a file meets it without being told.
+// Limits the bytes that the program may use while it lives; 0 limits nothing. Like ThreadLimit it
+// applies to the whole process, so that file readers need no parameter for it.
 class MemoryLimit {
  public:
   explicit MemoryLimit(std::uint64_t bytes);
@@ -22,8 +23,9 @@ class MemoryLimit {
   std::uint64_t bytes_;
 };
 
-// Error(limit) naming `where` and both figures if `bytes` are more than the limit. To be called before allocating anything
-// whose size comes from a file or a scene; `bytes` in double so that products of wild sizes cannot wrap around.
+// Error(limit) with `where` and both figures if `bytes` exceed the limit. Call it before allocating
+// anything whose size comes from a file or a scene. `bytes` is a double so that products of extreme
+// sizes cannot overflow.
 void check_memory(const std::string& where, double bytes);
 
 }  // namespace belvedere

@@ -29,9 +29,10 @@ SplineWeights spline_weights(double position) {
   return s;
 }
 
-constexpr double spacing_per_sigma = 1.7320508075688772;  // the B-spline's deviation is spacing / sqrt(3)
+constexpr double spacing_per_sigma =
+    1.7320508075688772;  // the B-spline's deviation is spacing / sqrt(3)
 
-// The lattice under a place.
+// The lattice cells around a position.
 struct LatticePatch {
   std::array<double, 16> normal{};  // row by row
   std::uint64_t seed = 0;
@@ -40,18 +41,20 @@ struct LatticePatch {
   bool known = false;
 };
 
-// Places that are asked for one after the other mostly lie over the same patch, or over one of a few of several seeds: each thread keeps
-// some, where their key says. They are functions of that key, so what is kept does not show.
+// Consecutive positions mostly lie over the same patch of the lattice, or over one of a few of
+// several seeds. Each thread caches some patches by key. They are functions of that key, so the
+// cache does not affect results.
 const LatticePatch& lattice_patch(std::uint64_t seed, std::int64_t x, std::int64_t y) {
   constexpr std::size_t kept = 64;
   thread_local std::array<LatticePatch, kept> patches;
-  const std::uint64_t key =
-      (seed + static_cast<std::uint64_t>(x) * 0xa0761d6478bd642fULL + static_cast<std::uint64_t>(y) * 0xd6e8feb86659fd93ULL) *
-      0x9e3779b97f4a7c15ULL;
+  const std::uint64_t key = (seed + static_cast<std::uint64_t>(x) * 0xa0761d6478bd642fULL +
+                             static_cast<std::uint64_t>(y) * 0xd6e8feb86659fd93ULL) *
+                            0x9e3779b97f4a7c15ULL;
   LatticePatch& patch = patches[key >> 58];
   if (patch.known && patch.seed == seed && patch.x == x && patch.y == y) return patch;
   for (int j = 0; j < 4; ++j)
-    for (int i = 0; i < 4; ++i) patch.normal[static_cast<std::size_t>(4 * j + i)] = random_normal(seed, x + i, y + j);
+    for (int i = 0; i < 4; ++i)
+      patch.normal[static_cast<std::size_t>(4 * j + i)] = random_normal(seed, x + i, y + j);
   patch.seed = seed;
   patch.x = x;
   patch.y = y;
@@ -68,43 +71,52 @@ double gaussian_noise(std::uint64_t seed, double x, double y, double sigma_x, do
   double sum = 0.0;
   for (int j = 0; j < 4; ++j) {
     double row = 0.0;
-    for (int i = 0; i < 4; ++i) row += sx.weight[i] * patch.normal[static_cast<std::size_t>(4 * j + i)];
+    for (int i = 0; i < 4; ++i)
+      row += sx.weight[i] * patch.normal[static_cast<std::size_t>(4 * j + i)];
     sum += sy.weight[j] * row;
   }
   return sum * sx.inverse_deviation * sy.inverse_deviation;
 }
 
-double gaussian_noise(std::uint64_t seed, double x, double y, double sigma) { return gaussian_noise(seed, x, y, sigma, sigma); }
+double gaussian_noise(std::uint64_t seed, double x, double y, double sigma) {
+  return gaussian_noise(seed, x, y, sigma, sigma);
+}
 
 NoiseColumns plan_noise_columns(double x, double step, int count, double sigma) {
-  NoiseColumns places;
-  places.spacing = sigma * spacing_per_sigma;
-  if (count <= 0) return places;
-  places.first_column = spline_weights(x / places.spacing).first;
-  places.lattice_columns = static_cast<int>(spline_weights((x + step * (count - 1)) / places.spacing).first + 3 - places.first_column) + 1;
-  places.columns.resize(static_cast<std::size_t>(count));
+  NoiseColumns positions;
+  positions.spacing = sigma * spacing_per_sigma;
+  if (count <= 0) return positions;
+  positions.first_column = spline_weights(x / positions.spacing).first;
+  positions.lattice_columns =
+      static_cast<int>(spline_weights((x + step * (count - 1)) / positions.spacing).first + 3 -
+                       positions.first_column) +
+      1;
+  positions.columns.resize(static_cast<std::size_t>(count));
   for (int k = 0; k < count; ++k) {
-    const SplineWeights s = spline_weights((x + step * k) / places.spacing);
-    NoiseColumns::Column& column = places.columns[static_cast<std::size_t>(k)];
-    column.first = static_cast<int>(s.first - places.first_column);
+    const SplineWeights s = spline_weights((x + step * k) / positions.spacing);
+    NoiseColumns::Column& column = positions.columns[static_cast<std::size_t>(k)];
+    column.first = static_cast<int>(s.first - positions.first_column);
     std::copy(s.weight.begin(), s.weight.end(), column.weight);
     column.inverse_deviation = s.inverse_deviation;
   }
-  return places;
+  return positions;
 }
 
-void gaussian_noise_row(const NoiseColumns& places, std::uint64_t seed, double y, float* out) {
-  const SplineWeights sy = spline_weights(y / places.spacing);
-  // The lattice under this row, summed up over y once.
-  std::vector<double> lattice(static_cast<std::size_t>(places.lattice_columns));
-  for (int i = 0; i < places.lattice_columns; ++i) {
+void gaussian_noise_row(const NoiseColumns& positions, std::uint64_t seed, double y, float* out) {
+  const SplineWeights sy = spline_weights(y / positions.spacing);
+  // The lattice under this row, summed over y once.
+  std::vector<double> lattice(static_cast<std::size_t>(positions.lattice_columns));
+  for (int i = 0; i < positions.lattice_columns; ++i) {
     double sum = 0.0;
-    for (int j = 0; j < 4; ++j) sum += sy.weight[static_cast<std::size_t>(j)] * random_normal(seed, places.first_column + i, sy.first + j);
+    for (int j = 0; j < 4; ++j)
+      sum += sy.weight[static_cast<std::size_t>(j)] *
+             random_normal(seed, positions.first_column + i, sy.first + j);
     lattice[static_cast<std::size_t>(i)] = sum * sy.inverse_deviation;
   }
-  for (const NoiseColumns::Column& column : places.columns) {
+  for (const NoiseColumns::Column& column : positions.columns) {
     const double* c = lattice.data() + column.first;
-    const double sum = column.weight[0] * c[0] + column.weight[1] * c[1] + column.weight[2] * c[2] + column.weight[3] * c[3];
+    const double sum = column.weight[0] * c[0] + column.weight[1] * c[1] + column.weight[2] * c[2] +
+                       column.weight[3] * c[3];
     *out++ = static_cast<float>(sum * column.inverse_deviation);
   }
 }

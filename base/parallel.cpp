@@ -18,26 +18,34 @@
 namespace belvedere {
 
 struct ThreadLimit::Control {
-  explicit Control(std::size_t threads) : limit(tbb::global_control::max_allowed_parallelism, threads) {}
+  explicit Control(std::size_t threads)
+      : limit(tbb::global_control::max_allowed_parallelism, threads) {}
   tbb::global_control limit;
 };
 
-ThreadLimit::ThreadLimit(int threads) : control_(new Control(static_cast<std::size_t>(threads > 0 ? threads : max_threads()))) {}
+ThreadLimit::ThreadLimit(int threads)
+    : control_(new Control(static_cast<std::size_t>(threads > 0 ? threads : max_threads()))) {}
 
 ThreadLimit::~ThreadLimit() { delete control_; }
 
-int max_threads() { return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)); }
+int max_threads() {
+  return static_cast<int>(
+      tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+}
 
 #if defined(__SANITIZE_THREAD__)
-// TBB is not instrumented: the thread sanitizer would take every hand-over between caller and task for a race. In that build two plain
-// threads, whose start and end it knows, share the ranges, so that a race of two tasks is found and nothing else.
-void run_ranges(std::size_t count, std::size_t grain, FunctionRef<void(std::size_t begin, std::size_t end)> f) {
+// TBB is not instrumented: the thread sanitizer would report every hand-over between caller and
+// task as a race. That build uses two plain threads, whose start and end the sanitizer sees, so
+// that it reports only races between tasks.
+void run_ranges(std::size_t count, std::size_t grain,
+                FunctionRef<void(std::size_t begin, std::size_t end)> f) {
   const std::size_t step = std::max(std::max<std::size_t>(grain, 1), count / 8);
   std::atomic<std::size_t> next{0};
   std::array<std::exception_ptr, 2> failed;
   const auto work = [&](std::size_t who) {
     try {
-      for (std::size_t begin = next.fetch_add(step); begin < count; begin = next.fetch_add(step)) f(begin, std::min(begin + step, count));
+      for (std::size_t begin = next.fetch_add(step); begin < count; begin = next.fetch_add(step))
+        f(begin, std::min(begin + step, count));
     } catch (...) {
       failed[who] = std::current_exception();
     }
@@ -51,13 +59,16 @@ void run_ranges(std::size_t count, std::size_t grain, FunctionRef<void(std::size
 
 void isolated(FunctionRef<void()> f) { f(); }
 #else
-void run_ranges(std::size_t count, std::size_t grain, FunctionRef<void(std::size_t begin, std::size_t end)> f) {
-  // A context of its own: an exception cancels the loop it leaves. Loops inside other tasks of that loop would be cancelled with it,
-  // without an exception of their own, and their callers would go on with half of the values.
+void run_ranges(std::size_t count, std::size_t grain,
+                FunctionRef<void(std::size_t begin, std::size_t end)> f) {
+  // A context of its own: an exception cancels the loop it leaves. Otherwise loops inside other
+  // tasks of that loop would be cancelled without an exception of their own, and their callers
+  // would go on with half of the values.
   tbb::task_group_context context(tbb::task_group_context::isolated);
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, count, grain),
-      [&](const tbb::blocked_range<std::size_t>& range) { f(range.begin(), range.end()); }, context);
+      [&](const tbb::blocked_range<std::size_t>& range) { f(range.begin(), range.end()); },
+      context);
 }
 
 void isolated(FunctionRef<void()> f) {

@@ -8,7 +8,7 @@
 
 namespace belvedere {
 
-// Limits the number of worker threads while it lives. 0 means all of the machine.
+// Limits the number of worker threads while it lives. 0 means all processors of the machine.
 class ThreadLimit {
  public:
   explicit ThreadLimit(int threads);
@@ -18,26 +18,33 @@ class ThreadLimit {
 
  private:
   struct Control;
-  Control* control_;  // owned; a pointer, so that <memory> is not read where loops are parallel
+  Control* control_;  // owned; a pointer, so that this header need not include <memory>
 };
 
-// The highest number of threads that work at the same time: that of the machine, or the lowest ThreadLimit that exists.
+// The maximum number of threads that work at the same time: that of the machine, or the lowest
+// ThreadLimit in effect.
 int max_threads();
 
-// Calls f(begin, end) for ranges that cover 0 <= i < count, none split that is `grain` or shorter; each must write only values of its own.
-// f is called once per range, through a pointer, so the loop over the range belongs in f, where the compiler can optimize it. An exception
-// ends this loop and is thrown to the caller; loops inside other tasks run to their end.
-void run_ranges(std::size_t count, std::size_t grain, FunctionRef<void(std::size_t begin, std::size_t end)> f);
+// Calls f(begin, end) for ranges that cover 0 <= i < count. Ranges of `grain` or less are not
+// split. Each call must write only values of its own. f is called once per range through a pointer,
+// so put the loop over the range into f, where the compiler can optimize it. An exception ends this
+// loop and is thrown to the caller; loops inside other tasks run to their end.
+void run_ranges(std::size_t count, std::size_t grain,
+                FunctionRef<void(std::size_t begin, std::size_t end)> f);
 
-// Calls f(), in which a thread that waits for others takes up no work from outside: so its caller may hold a lock.
+// Calls f(). A thread that waits for others inside it takes up no other work, so the caller may
+// hold a lock.
 void isolated(FunctionRef<void()> f);
 
-// run_ranges with indices of any type; a count below 0 is none.
+// run_ranges with indices of any type; a negative count is treated as 0.
 template <class Index, class F>
 void parallel_ranges(Index count, Index grain, F&& f) {
   if (!(Index{0} < count)) return;
-  run_ranges(static_cast<std::size_t>(count), grain > Index{1} ? static_cast<std::size_t>(grain) : std::size_t{1},
-             [&](std::size_t begin, std::size_t end) { f(static_cast<Index>(begin), static_cast<Index>(end)); });
+  run_ranges(static_cast<std::size_t>(count),
+             grain > Index{1} ? static_cast<std::size_t>(grain) : std::size_t{1},
+             [&](std::size_t begin, std::size_t end) {
+               f(static_cast<Index>(begin), static_cast<Index>(end));
+             });
 }
 
 // Calls f(y) for every row; each row must write only values of its own.
@@ -48,7 +55,8 @@ void parallel_rows(int height, F&& f) {
   });
 }
 
-// Calls f(PixelRect) for every tile of a fixed grid of tiles; each tile must write only values of its own.
+// Calls f(PixelRect) for every tile of a fixed grid of tiles; each tile must write only values of
+// its own.
 template <class F>
 void parallel_tiles(int width, int height, int tile_size, F&& f) {
   const int across = (width + tile_size - 1) / tile_size;
@@ -62,7 +70,8 @@ void parallel_tiles(int width, int height, int tile_size, F&& f) {
   });
 }
 
-// Sum of f(i) for 0 <= i < count, in double, in an order that no thread count changes: fixed chunks, added in sequence.
+// Sum of f(i) for 0 <= i < count, in double, in an order that does not depend on the thread count:
+// fixed chunks, added in sequence.
 template <class F>
 double deterministic_sum(std::size_t count, F&& f) {
   constexpr std::size_t chunk = 8192;

@@ -15,14 +15,17 @@ struct PixelRect {
 };
 
 inline PixelRect intersection(const PixelRect& a, const PixelRect& b) {
-  return {a.x0 > b.x0 ? a.x0 : b.x0, a.y0 > b.y0 ? a.y0 : b.y0, a.x1 < b.x1 ? a.x1 : b.x1, a.y1 < b.y1 ? a.y1 : b.y1};
+  return {a.x0 > b.x0 ? a.x0 : b.x0, a.y0 > b.y0 ? a.y0 : b.y0, a.x1 < b.x1 ? a.x1 : b.x1,
+          a.y1 < b.y1 ? a.y1 : b.y1};
 }
 
-// A rectangle and what lies within `margin` of it.
+// A rectangle grown by `margin` on all sides.
 inline PixelRect grown(const PixelRect& rect, int margin) {
   return {rect.x0 - margin, rect.y0 - margin, rect.x1 + margin, rect.y1 + margin};
 }
 
-inline PixelRect moved(const PixelRect& rect, int x, int y) { return {rect.x0 + x, rect.y0 + y, rect.x1 + x, rect.y1 + y}; }
+inline PixelRect moved(const PixelRect& rect, int x, int y) {
+  return {rect.x0 + x, rect.y0 + y, rect.x1 + x, rect.y1 + y};
+}
 
 }  // namespace belvedere

@@ -21,7 +21,7 @@ void extend_linearly(float* padded, int count, int margin) {
     if (count == 1) {
       padded[-i] = padded[0];
       padded[i] = padded[0];
-    } else if (count == 2) {  // the inner cell lies itself in the extension
+    } else if (count == 2) {  // the inner cell is itself part of the extension
       padded[-i] = padded[0] + static_cast<float>(i) * (padded[0] - padded[1]);
       padded[last + i] = padded[1] + static_cast<float>(i) * (padded[1] - padded[0]);
     } else {
@@ -31,14 +31,14 @@ void extend_linearly(float* padded, int count, int margin) {
   }
 }
 
-// Row y of a grid; rows up to two outside are extended linearly into `spare`.
+// Row y of a grid; up to two rows outside are extended linearly into `spare`.
 const float* extended_row(const Grid<float>& grid, int y, std::vector<float>& spare) {
   const int last = grid.height() - 1;
   if (y >= 0 && y <= last) return grid.row(y);
   if (last == 0) return grid.row(0);
   const int edge = y < 0 ? 0 : last;
   const int beyond = y < 0 ? -y : y - last;
-  // Two rows only: the inner row lies itself in the extension.
+  // Two rows only: the inner row is itself part of the extension.
   const int inner = last == 1 ? 1 - edge : (y < 0 ? beyond : last - beyond);
   const float weight = last == 1 ? static_cast<float>(beyond) : 1.0F;
   const float* a = grid.row(edge);
@@ -62,7 +62,8 @@ Grid<float> reduce(const Grid<float>& level) {
     const float* e = extended_row(level, 2 * y + 2, spare[3]);
     std::vector<float> padded(static_cast<std::size_t>(width) + 4);
     float* column = padded.data() + 2;
-    for (int x = 0; x < width; ++x) column[x] = 0.4F * c[x] + 0.25F * (b[x] + d[x]) + 0.05F * (a[x] + e[x]);
+    for (int x = 0; x < width; ++x)
+      column[x] = 0.4F * c[x] + 0.25F * (b[x] + d[x]) + 0.05F * (a[x] + e[x]);
     extend_linearly(column, width, 2);
     float* target = out.row(y);
     for (int x = 0; x < out.width(); ++x) {
@@ -101,23 +102,24 @@ void expand_row(const Grid<float>& coarser, int y, int width, float* out) {
 
 Grid<float> expand(const Grid<float>& coarser, int width, int height) {
   if (half_size(width) != coarser.width() || half_size(height) != coarser.height()) {
-    throw Error(ErrorKind::bug, "expand", "a size that does not reduce to the coarser level's");
+    throw Error(ErrorKind::bug, "expand", "the size does not reduce to that of the coarser level");
   }
   Grid<float> out(width, height);
   parallel_rows(height, [&](int y) { expand_row(coarser, y, width, out.row(y)); });
   return out;
 }
 
-int most_bands(int width, int height) {
+int max_bands(int width, int height) {
   int bands = 0;
-  for (int side = std::min(width, height); half_size(side) >= 2 && side > 2; side = half_size(side)) ++bands;
+  for (int side = std::min(width, height); half_size(side) >= 2 && side > 2; side = half_size(side))
+    ++bands;
   return bands;
 }
 
 LaplacianPyramid make_laplacian_pyramid(const Grid<float>& values, int bands) {
   LaplacianPyramid pyramid;
   pyramid.base = values;
-  const int count = std::min(bands, most_bands(values.width(), values.height()));
+  const int count = std::min(bands, max_bands(values.width(), values.height()));
   for (int i = 0; i < count; ++i) {
     Grid<float> band = std::move(pyramid.base);
     pyramid.base = reduce(band);

@@ -7,17 +7,19 @@
 namespace belvedere {
 
 // Gaussian and Laplacian pyramids (Burt & Adelson 1983) with the 5-tap kernel [.05 .25 .4 .25 .05].
-// Any grid size: a level of n cells has a coarser level of (n + 1) / 2, whose cell i lies over cell 2 i. Level 0 is the finest;
-// so band i holds features of about 2^i to 2^(i+1) cells.
-// Borders are extended linearly (2·edge - inner, a single cell is repeated), because replication bends a ramp when band weights
-// differ from 1: a ramp has no bands at all. Values may so leave their range by a little near borders; clamp shares and masks.
-// All functions are linear in their values and give the same bits for any number of threads.
+// Any grid size: a level of n cells has a coarser level of (n + 1) / 2, whose cell i lies over cell
+// 2 i. Level 0 is the finest; band i holds features of about 2^i to 2^(i+1) cells. Borders are
+// extended linearly (2·edge - inner; a single cell is repeated), because replication bends a ramp
+// when band weights differ from 1, while a linearly extended ramp has no bands. Values may
+// therefore leave their range slightly near borders; clamp shares and masks. All functions are
+// linear in their values and give the same bits for any number of threads.
 
-// What `level` looks like at half the size.
+// `level` at half the size.
 Grid<float> reduce(const Grid<float>& level);
-// A coarser level brought to width × height, which must reduce to the coarser level's size.
+// A coarser level expanded to width × height, which must reduce to the coarser level's size.
 Grid<float> expand(const Grid<float>& coarser, int width, int height);
-// Row y of expand(coarser, width, …), for stages that need no whole grid of it; `out` has room for width values.
+// Row y of expand(coarser, width, …), for stages that do not need the whole grid; `out` has room
+// for width values.
 void expand_row(const Grid<float>& coarser, int y, int width, float* out);
 
 struct LaplacianPyramid {
@@ -25,11 +27,12 @@ struct LaplacianPyramid {
   Grid<float> base;                // the coarsest Gaussian level
 };
 
-// `bands` bands, or fewer where the next level would have less than 2 cells on a side.
+// `bands` bands, or fewer if the next level would have less than 2 cells on a side.
 LaplacianPyramid make_laplacian_pyramid(const Grid<float>& values, int bands);
-// The Gaussian levels of a mask or weight, level 0 first; `levels` of them (small ones may be a single cell).
+// The Gaussian levels of a mask or weight, level 0 first; `levels` of them (small ones may be a
+// single cell).
 std::vector<Grid<float>> make_gaussian_pyramid(const Grid<float>& values, int levels);
-// How many bands a grid of this size can have: the limit of make_laplacian_pyramid.
-int most_bands(int width, int height);
+// Maximum number of bands for a grid of this size: the limit of make_laplacian_pyramid.
+int max_bands(int width, int height);
 
 }  // namespace belvedere

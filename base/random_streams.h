@@ -6,8 +6,9 @@
 
 namespace belvedere {
 
-// What random numbers are drawn for: each purpose has a stream of its own, so that no two things in a picture are alike by the accident
-// of one key. A stream's number is part of every picture: a new one goes to the end, and none is taken out.
+// The purposes of random numbers: each has a stream of its own, so that no two things in a picture
+// are correlated by a shared key. Stream numbers are part of every picture: append new ones and
+// never remove any.
 enum class Stream : std::uint16_t {
   // Strokes, a stream for each kind (texture/strokes/stroke_table.cpp).
   sky,
@@ -41,8 +42,8 @@ enum class Stream : std::uint16_t {
   churches,
   farms,
   accents,
-  // Noises that strokes are steered by: where they gather, how groups of them differ.
-  church_middles,
+  // Noises that steer strokes: where they gather, how groups of them differ.
+  church_centres,
   forest_masses,
   forest_groups,
   forest_edge_groups,
@@ -95,18 +96,18 @@ enum class Stream : std::uint16_t {
   // Land cover by rules.
   class_noise,
   towns,
-  // Copying from paintings, and how copies are judged.
+  // Copying from paintings, and evaluation of copies.
   synthesis,
   patch_samples,
   // Example sheets.
   sheet_panels,
   sheet_terrains,
-  // Made-up terrain; its plan has numbers of its own (terrain/synthetic/synthetic_plan.h).
+  // Synthetic terrain; its plan has numbers of its own (terrain/synthetic/synthetic_plan.h).
   ridged_terrain,
-  // What came later: their numbers are their places.
+  // Added later: numbers are positions in this list.
   sand,
   sand_patches,
-  layers_fit,  // which cells surface layers are fitted on, where clusters begin
+  layers_fit,  // cells that surface layers are fitted on, initial positions of clusters
   rock_spurs,
   rock_funnels,
   rock_bands,
@@ -131,12 +132,12 @@ enum class Stream : std::uint16_t {
   statistical_moves,
   statistical_directions,
   label_maps,
-  feature_edges,  // how unevenly lines of features are drawn
+  feature_edges,  // roughness of lines of features
   water_wind,     // where wind ruffles lakes
   wind_streaks,
   river_foam,
   sea_surf,
-  surf_breaks,  // where the line of surf is broken
+  surf_breaks,  // gaps in the line of surf
   lake_ice,
   mist_layers,
   mist_billows,
@@ -147,11 +148,11 @@ enum class Stream : std::uint16_t {
   front_decks,
   cloud_shadows,
 
-  count  // no stream: how many there are
+  count  // not a stream: their number
 };
 
-// The seed of a stream in a picture whose seed is `seed`; `part` tells those of one purpose apart: octaves, layers, panels. Neighbouring
-// seeds share nothing.
+// The seed of a stream in a picture whose seed is `seed`; `part` separates streams of one purpose:
+// octaves, layers, panels. Neighbouring seeds are unrelated.
 constexpr std::uint64_t stream_seed(std::uint64_t seed, Stream stream, std::uint64_t part = 0) {
   std::uint64_t h = mix_bits(seed + 0x9e3779b97f4a7c15ULL);
   h = mix_bits(h ^ ((static_cast<std::uint64_t>(stream) + 1) * 0xd6e8feb86659fd93ULL));

@@ -8,8 +8,9 @@
 
 namespace belvedere {
 
-// Stages that are gone through again and again, one piece after the other. What they remark is passed on once. Of few pieces each stage
-// may be told of; of many, all are one stage, begun by whoever calls them, and only a wish to stop comes through to them.
+// Progress of stages that are repeated for each piece. A remark is passed on once. For few pieces
+// each stage is reported; for many, all count as one stage that the caller begins, and only a
+// request to stop is passed through.
 class RepeatedStages final : public Progress {
  public:
   RepeatedStages(Progress& outer, bool tell_each) : outer_(outer), tell_each_(tell_each) {}

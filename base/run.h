@@ -11,16 +11,18 @@ namespace belvedere {
 class Cache;
 const Cache& no_cache();  // base/cache/cache.h
 
-// How a job is done: by how many, with how much, and who is told. Changes no bit of what it makes.
+// How a job runs: threads, memory, progress and cache. Does not change any bit of the result.
 struct Run {
-  int threads = 0;                 // 0: all of the machine
-  std::uint64_t memory_bytes = 0;  // what pictures and rasters may take; 0: the default of base/memory_limit.h
-  int tile_px = 32;                // side of the tiles that threads work on, 8…4096
+  int threads = 0;  // 0: all of the machine
+  std::uint64_t memory_bytes =
+      0;             // memory for pictures and rasters; 0: the default of base/memory_limit.h
+  int tile_px = 32;  // side of the tiles that threads work on, 8…4096
   Progress& progress = silent_progress();
-  const Cache& cache = no_cache();  // what is slow and made from inputs alone, kept from earlier jobs
+  const Cache& cache =
+      no_cache();  // keeps products that are slow to make and depend on inputs alone
 };
 
-// Holds the process to a run's threads and memory while it lives.
+// Applies a run's threads and memory to the process while it lives.
 class RunLimits {
  public:
   explicit RunLimits(const Run& run) : threads_(run.threads), memory_(run.memory_bytes) {}

@@ -15,7 +15,8 @@ double median(std::vector<double> values) {
 
 double percentile(std::vector<double> values, double share) {
   if (values.empty()) return 0.0;
-  return value_at_rank(values, static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5));
+  return value_at_rank(
+      values, static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5));
 }
 
 }  // namespace belvedere

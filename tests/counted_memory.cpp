@@ -19,8 +19,8 @@ std::atomic<std::ptrdiff_t> peak{0};
 void count(std::ptrdiff_t bytes) {
   if (!counting.load(std::memory_order_relaxed)) return;
   const std::ptrdiff_t now = held.fetch_add(bytes) + bytes;
-  std::ptrdiff_t most = peak.load();
-  while (now > most && !peak.compare_exchange_weak(most, now)) {
+  std::ptrdiff_t max = peak.load();
+  while (now > max && !peak.compare_exchange_weak(max, now)) {
   }
 }
 
@@ -58,5 +58,7 @@ std::size_t CountedMemory::peak_bytes() const { return static_cast<std::size_t>(
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 void* operator new(std::size_t bytes) { return belvedere::test::counted_new(bytes); }
 void operator delete(void* memory) noexcept { belvedere::test::counted_delete(memory); }
-void operator delete(void* memory, std::size_t) noexcept { belvedere::test::counted_delete(memory); }
+void operator delete(void* memory, std::size_t) noexcept {
+  belvedere::test::counted_delete(memory);
+}
 #endif

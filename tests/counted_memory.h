@@ -4,8 +4,9 @@
 
 namespace belvedere::test {
 
-// Counts the bytes that the program allocates while this object exists, with new and for grids. Unlike resident memory the count does not
-// depend on other programs or on what earlier tests left in the heap. Only one may exist at a time.
+// Counts the bytes that the program allocates while this object exists, with new and for grids.
+// Unlike resident memory the count does not depend on other programs or on what earlier tests left
+// in the heap. Only one may exist at a time.
 class CountedMemory {
  public:
   CountedMemory();

@@ -23,19 +23,24 @@ inline std::string read_bytes(const std::filesystem::path& path) {
 }
 
 inline void write_bytes(const std::filesystem::path& path, std::string_view bytes) {
-  std::ofstream(path, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  std::ofstream(path, std::ios::binary)
+      .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
 }
 
-// A folder of one test's own, so that tests may run side by side; gone with the object. `name` tells several of one test apart.
+// A folder of one test's own, so that tests may run side by side; gone with the object. `name`
+// tells several of one test apart.
 class Folder {
  public:
   explicit Folder(const std::string& name = "files") {
     const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    const std::string whose = test == nullptr ? std::string("all") : std::string(test->test_suite_name()) + "." + test->name();
+    const std::string whose = test == nullptr
+                                  ? std::string("all")
+                                  : std::string(test->test_suite_name()) + "." + test->name();
     std::string single = whose + "-" + name;
     for (char& c : single)
       if (c == '/') c = '_';  // of tests with parameters
-    path_ = std::filesystem::path(::testing::TempDir()) / ("belvedere-" + std::to_string(getpid()) + "-" + single);
+    path_ = std::filesystem::path(::testing::TempDir()) /
+            ("belvedere-" + std::to_string(getpid()) + "-" + single);
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
   }
@@ -56,7 +61,8 @@ class Folder {
   }
   // Files and folders right in it.
   std::size_t count() const {
-    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(path_), std::filesystem::directory_iterator()));
+    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(path_),
+                                                  std::filesystem::directory_iterator()));
   }
 
  private:

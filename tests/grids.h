@@ -23,7 +23,8 @@ Grid<float> grid_of(int width, int height, F&& f) {
 inline double largest_difference(const Grid<float>& a, const Grid<float>& b) {
   EXPECT_TRUE(a.same_size(b));
   double largest = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, std::abs(static_cast<double>(a[i]) - b[i]));
+  for (std::size_t i = 0; i < a.size(); ++i)
+    largest = std::max(largest, std::abs(static_cast<double>(a[i]) - b[i]));
   return largest;
 }
 

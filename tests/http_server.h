@@ -27,7 +27,9 @@ class HttpServers {
   static std::string ask(const std::string& line) {
     static HttpServers servers;
     const std::string all = line + "\n";
-    if (servers.child_ <= 0 || write(servers.to_, all.data(), all.size()) != static_cast<ssize_t>(all.size())) return {};
+    if (servers.child_ <= 0 ||
+        write(servers.to_, all.data(), all.size()) != static_cast<ssize_t>(all.size()))
+      return {};
     std::string answer;
     for (char c = 0; read(servers.from_, &c, 1) == 1 && c != '\n';) answer += c;
     return answer;
@@ -63,7 +65,8 @@ class HttpServers {
   int from_ = -1;
 };
 
-// A server of a folder, which takes calls as long as the object is there. Modes as tests/http_server.py says.
+// A server of a folder, which takes calls as long as the object is there. Modes as
+// tests/http_server.py says.
 class HttpServer {
  public:
   explicit HttpServer(const std::string& folder, const std::vector<std::string>& modes = {}) {
@@ -78,7 +81,9 @@ class HttpServer {
   HttpServer(const HttpServer&) = delete;
   HttpServer& operator=(const HttpServer&) = delete;
 
-  std::string address(const std::string& file) const { return "http://127.0.0.1:" + port_ + "/" + file; }
+  std::string address(const std::string& file) const {
+    return "http://127.0.0.1:" + port_ + "/" + file;
+  }
 
  private:
   std::string port_;

@@ -42,7 +42,9 @@ class Handler(http.server.BaseHTTPRequestHandler):
         server = self.server
         server.good_before -= 1
         if server.log:
-            server.log.write(f"{self.command} {self.path} {self.headers.get('Range', '')} [{self.headers.get('User-Agent', '')}]\n")
+            server.log.write(
+                f"{self.command} {self.path} {self.headers.get('Range', '')} [{self.headers.get('User-Agent', '')}]\n"
+            )
             server.log.flush()
         if server.happens("fail"):
             return self.refuse(503)

@@ -4,7 +4,8 @@
 
 namespace belvedere::test {
 
-// The only file that knows absolute paths, so that all others compile to the same objects in any checkout.
+// The only file that knows absolute paths, so that all others compile to the same objects in any
+// checkout.
 std::string source_folder() { return BELVEDERE_SOURCE_DIR; }
 std::string build_folder() { return BELVEDERE_BINARY_DIR; }
 

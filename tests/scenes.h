@@ -8,8 +8,8 @@
 // Scenes that several tests use.
 namespace belvedere::test {
 
-// A scene that is made in a second: hills of 12 × 12 km, seen from the south in 96 × 80 pixels of 1 mm. What follows from the region is
-// written: tests set such keys to see what they do.
+// A scene that is made in a second: hills of 12 × 12 km, seen from the south in 96 × 80 pixels of 1
+// mm. What follows from the region is written: tests set such keys to see what they do.
 constexpr const char* small_scene_text = R"(version = 1
 [terrain.synthetic]
 width = 120
@@ -50,8 +50,10 @@ inline const std::string small_mountains =
     "[terrain.synthetic]\nwidth = 96\nheight = 96\ncell_m = 200\n"
     "[camera]\nposition = [9000, -9000]\nheight_m = 9000\npitch_deg = -25\n";
 
-inline LoadedScene small_scene(const std::vector<std::string>& settings = {}, const std::string& folder = ".") {
-  return parse_scene(small_scene_text, "small.toml", folder, {.data_folders = {}, .settings = settings});
+inline LoadedScene small_scene(const std::vector<std::string>& settings = {},
+                               const std::string& folder = ".") {
+  return parse_scene(small_scene_text, "small.toml", folder,
+                     {.data_folders = {}, .settings = settings});
 }
 
 }  // namespace belvedere::test

@@ -12,7 +12,9 @@ void ByteWriter::add(const void* bytes, std::size_t count) {
   if (count > 0) parts_.emplace_back(static_cast<const std::byte*>(bytes), count);
 }
 
-void ByteWriter::put_number(std::uint64_t number) { add(&numbers_.emplace_back(number), sizeof number); }
+void ByteWriter::put_number(std::uint64_t number) {
+  add(&numbers_.emplace_back(number), sizeof number);
+}
 
 bool ByteReader::has(std::uint64_t count, std::uint64_t bytes_each) {
   if (count > rest_.size() / bytes_each) failed_ = true;

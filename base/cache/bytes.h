@@ -13,9 +13,9 @@
 
 namespace belvedere {
 
-// Values as bytes and back, for this machine and this build: caches and scratch files, nothing that travels. A type of several fields names
-// them once for both ways, and by their number, so that a new one cannot be forgotten:
-//
+// Values as bytes and back, for this machine and this build: for caches and scratch files, not for
+// exchange. A type of several fields lists them once for reading and writing, by structured
+// binding, so that a new field cannot be forgotten:
 //   void each_field(auto& bytes, FieldsOf<Dem> auto& dem) {
 //     auto& [altitude_m, filled, transform, crs] = dem;
 //     bytes(altitude_m, filled, transform, crs);
@@ -28,7 +28,7 @@ using Bytes = std::vector<std::byte>;
 template <class T>
 concept PlainBytes = std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>;
 
-// Collects parts without copying grids and texts: what is written must outlive the writer's parts.
+// Collects parts without copying grids and texts: the values written must outlive the parts.
 class ByteWriter {
  public:
   template <class... T>
@@ -65,10 +65,11 @@ class ByteWriter {
   }
 
   std::vector<std::span<const std::byte>> parts_;
-  std::deque<std::uint64_t> numbers_;  // stay where they are
+  std::deque<std::uint64_t> numbers_;  // a deque: addresses stay valid
 };
 
-// Reads the same values in the same order. Bytes that end too early leave values empty, and then is_done() says no.
+// Reads the same values in the same order. If the bytes end too early, the remaining values stay
+// empty and is_done() is false.
 class ByteReader {
  public:
   explicit ByteReader(std::span<const std::byte> bytes) : rest_(bytes) {}
@@ -76,7 +77,7 @@ class ByteReader {
   void operator()(T&... values) {
     (take(values), ...);
   }
-  // Whether all that was asked for was there, and nothing is left.
+  // Whether everything requested was there and nothing is left.
   bool is_done() const { return !failed_ && rest_.empty(); }
 
  private:
@@ -110,10 +111,11 @@ class ByteReader {
       failed_ = true;
       return;
     }
-    grid = width * height == 0 ? Grid<T>() : Grid<T>(static_cast<int>(width), static_cast<int>(height));
+    grid = width * height == 0 ? Grid<T>()
+                               : Grid<T>(static_cast<int>(width), static_cast<int>(height));
     copy(grid.data(), grid.size() * sizeof(T));
   }
-  // Asked before anything of a size that was read is allocated.
+  // Checked before memory of a size that was read is allocated.
   bool has(std::uint64_t count, std::uint64_t bytes_each);
 
   static constexpr std::uint64_t largest_side = INT32_MAX;

@@ -24,16 +24,17 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view magic = "Belvedere cache 1\n";
-constexpr std::string_view ending = ".cache";
-constexpr std::string_view temporary_ending = ".cache-tmp";
+constexpr std::string_view extension = ".cache";
+constexpr std::string_view temporary_extension = ".cache-tmp";
 constexpr std::size_t digits = 32;  // of a hash
-constexpr std::uint64_t most_header_bytes = std::uint64_t{1} << 24;
-constexpr auto forgotten = std::chrono::hours(24);  // no write takes so long: its program has ended
+constexpr std::uint64_t max_header_bytes = std::uint64_t{1} << 24;
+constexpr auto forgotten = std::chrono::hours(24);  // no write takes this long: its program ended
 
 // A file that closes itself.
 class Descriptor {
  public:
-  Descriptor(const std::string& path, int flags) : file_(::open(path.c_str(), flags | O_CLOEXEC | O_NONBLOCK, 0600)) {}
+  Descriptor(const std::string& path, int flags)
+      : file_(::open(path.c_str(), flags | O_CLOEXEC | O_NONBLOCK, 0600)) {}
   ~Descriptor() {
     if (file_ >= 0) ::close(file_);
   }
@@ -41,7 +42,7 @@ class Descriptor {
   Descriptor& operator=(const Descriptor&) = delete;
 
   bool is_open() const { return file_ >= 0; }
-  // Of a plain file; nothing for what else may have such a name.
+  // The size of a regular file; nothing for anything else of that name.
   std::optional<std::uint64_t> size() const {
     struct stat status {};
     if (file_ < 0 || ::fstat(file_, &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
@@ -74,7 +75,8 @@ class Descriptor {
   int file_;
 };
 
-// What stands before the payload: the magic, sizes of four parts as 64 bits, and the first three parts.
+// The header before the payload: the magic, the sizes of four parts as 64-bit numbers, and the
+// first three parts.
 struct Header {
   std::string product;
   std::string subject;
@@ -84,38 +86,47 @@ struct Header {
 
 std::string written(const Header& header) {
   std::string out(magic);
-  for (const std::uint64_t size : {static_cast<std::uint64_t>(header.product.size()), static_cast<std::uint64_t>(header.subject.size()),
-                                   static_cast<std::uint64_t>(header.text.size()), header.payload_bytes})
+  for (const std::uint64_t size :
+       {static_cast<std::uint64_t>(header.product.size()),
+        static_cast<std::uint64_t>(header.subject.size()),
+        static_cast<std::uint64_t>(header.text.size()), header.payload_bytes})
     out.append(reinterpret_cast<const char*>(&size), sizeof size);
   return out + header.product + header.subject + header.text;
 }
 
-// Nothing where this is no whole entry: the sizes must be those of the file.
+// Nothing if the entry is incomplete: the sizes must match the file's.
 std::optional<Header> read_header(const Descriptor& file) {
   const std::optional<std::uint64_t> size = file.size();
   std::array<char, magic.size()> begin{};
   std::array<std::uint64_t, 4> sizes{};
-  if (!size || !file.read(begin.data(), begin.size()) || std::string_view(begin.data(), begin.size()) != magic ||
+  if (!size || !file.read(begin.data(), begin.size()) ||
+      std::string_view(begin.data(), begin.size()) != magic ||
       !file.read(sizes.data(), sizeof sizes))
     return std::nullopt;
   const auto [product, subject, text, payload] = sizes;
-  if (product > most_header_bytes || subject > most_header_bytes || text > most_header_bytes || payload > *size ||
+  if (product > max_header_bytes || subject > max_header_bytes || text > max_header_bytes ||
+      payload > *size ||
       begin.size() + sizeof sizes + product + subject + text + payload + digits != *size)
     return std::nullopt;
-  Header header{std::string(product, '\0'), std::string(subject, '\0'), std::string(text, '\0'), payload};
+  Header header{std::string(product, '\0'), std::string(subject, '\0'), std::string(text, '\0'),
+                payload};
   for (std::string* part : {&header.product, &header.subject, &header.text})
     if (!file.read(part->data(), part->size())) return std::nullopt;
   return header;
 }
 
-bool is_hexadecimal(std::string_view text) { return text.find_first_not_of("0123456789abcdef") == std::string_view::npos; }
+bool is_hexadecimal(std::string_view text) {
+  return text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+}
 
 bool is_entry_name(const std::string& name) {
-  return name.size() == digits + ending.size() && name.ends_with(ending) && is_hexadecimal(std::string_view(name).substr(0, digits));
+  return name.size() == digits + extension.size() && name.ends_with(extension) &&
+         is_hexadecimal(std::string_view(name).substr(0, digits));
 }
 
 bool is_temporary_name(const std::string& name) {
-  return name.size() > digits && name.ends_with(temporary_ending) && is_hexadecimal(std::string_view(name).substr(0, digits));
+  return name.size() > digits && name.ends_with(temporary_extension) &&
+         is_hexadecimal(std::string_view(name).substr(0, digits));
 }
 
 struct Found {
@@ -124,21 +135,25 @@ struct Found {
   fs::file_time_type used;
 };
 
-// Entries, or what was left of them, in no order. Files may go while they are looked at.
-std::vector<Found> files_in(const std::string& folder, bool (*wanted)(const std::string&), std::error_code& problem) {
+// Entries, or their temporary files, in no order. Files may disappear during the search.
+std::vector<Found> files_in(const std::string& folder, bool (*wanted)(const std::string&),
+                            std::error_code& problem) {
   std::vector<Found> found;
-  for (fs::directory_iterator at(folder, problem), end; !problem && at != end; at.increment(problem)) {
+  for (fs::directory_iterator at(folder, problem), end; !problem && at != end;
+       at.increment(problem)) {
     if (!wanted(at->path().filename().string())) continue;
     std::error_code gone;
     const bool plain = fs::is_regular_file(at->symlink_status(gone));
     const std::uint64_t bytes = plain && !gone ? fs::file_size(at->path(), gone) : 0;
-    const fs::file_time_type used = plain && !gone ? fs::last_write_time(at->path(), gone) : fs::file_time_type();
+    const fs::file_time_type used =
+        plain && !gone ? fs::last_write_time(at->path(), gone) : fs::file_time_type();
     if (plain && !gone) found.push_back({at->path(), bytes, used});
   }
   return found;
 }
 
-// Until the entries fit the limit those go that were used least lately. Others may do the same at once: what is gone is gone.
+// Removes the least recently used entries until the limit is met. Other programs may do the same at
+// the same time; files already removed are no error.
 void trim(const std::string& folder, std::uint64_t limit_bytes) {
   std::error_code ignored;
   for (const Found& file : files_in(folder, is_temporary_name, ignored))
@@ -147,8 +162,9 @@ void trim(const std::string& folder, std::uint64_t limit_bytes) {
   std::uint64_t sum = 0;
   for (const Found& entry : entries) sum += entry.bytes;
   if (sum <= limit_bytes) return;
-  std::sort(entries.begin(), entries.end(),
-            [](const Found& a, const Found& b) { return std::pair(a.used, a.path) < std::pair(b.used, b.path); });
+  std::sort(entries.begin(), entries.end(), [](const Found& a, const Found& b) {
+    return std::pair(a.used, a.path) < std::pair(b.used, b.path);
+  });
   for (const Found& entry : entries) {
     if (sum <= limit_bytes) return;
     fs::remove(entry.path, ignored);
@@ -157,7 +173,8 @@ void trim(const std::string& folder, std::uint64_t limit_bytes) {
 }
 
 std::string entry_path(const std::string& folder, const CacheKey& key) {
-  return (fs::path(folder) / (hash_bytes(key.product + '\n' + key.text) + std::string(ending))).string();
+  return (fs::path(folder) / (hash_bytes(key.product + '\n' + key.text) + std::string(extension)))
+      .string();
 }
 
 std::string reason_of(int code) { return std::generic_category().message(code); }
@@ -167,7 +184,8 @@ std::string reason_of(int code) { return std::generic_category().message(code); 
 Cache::Cache(CacheParameters parameters) : parameters_(std::move(parameters)) {}
 
 void Cache::note_once(const std::string& reason, Progress& progress) const {
-  if (!noted_.exchange(true)) progress.note(fmt::format("the cache {} is not used: {}", parameters_.folder, reason));
+  if (!noted_.exchange(true))
+    progress.note(fmt::format("cache {} is not used: {}", parameters_.folder, reason));
 }
 
 std::optional<Bytes> Cache::find(const CacheKey& key, Progress& progress) const {
@@ -191,14 +209,17 @@ std::optional<Bytes> Cache::find(const CacheKey& key, Progress& progress) const 
   std::error_code ignored;
   if (!whole) {
     fs::remove(path, ignored);
-    progress.note(fmt::format("a damaged entry of the cache is made again: {} of {}", key.product, key.subject));
+    progress.note(
+        fmt::format("damaged cache entry is recomputed: {} of {}", key.product, key.subject));
     return std::nullopt;
   }
-  fs::last_write_time(path, fs::file_time_type::clock::now(), ignored);  // the use that its age counts from
+  fs::last_write_time(path, fs::file_time_type::clock::now(),
+                      ignored);  // the modification time is the time of the last use
   return payload;
 }
 
-void Cache::store(const CacheKey& key, std::span<const std::span<const std::byte>> parts, Progress& progress) const {
+void Cache::store(const CacheKey& key, std::span<const std::span<const std::byte>> parts,
+                  Progress& progress) const {
   if (!is_on()) return;
   std::error_code problem;
   fs::create_directories(parameters_.folder, problem);
@@ -211,19 +232,22 @@ void Cache::store(const CacheKey& key, std::span<const std::span<const std::byte
   }
   const std::string begin = written(header);
   const std::string end = hash.digits();
-  const std::uint64_t limit = parameters_.limit_bytes > 0 ? parameters_.limit_bytes : default_cache_limit(parameters_.folder);
+  const std::uint64_t limit = parameters_.limit_bytes > 0 ? parameters_.limit_bytes
+                                                          : default_cache_limit(parameters_.folder);
   if (begin.size() + header.payload_bytes + end.size() > limit) return;
 
-  // A name that no other thread or process takes.
+  // A name that no other thread or process uses.
   static std::atomic<std::uint64_t> number = 0;
   const std::string path = entry_path(parameters_.folder, key);
   const std::string temporary =
-      fmt::format("{}-{}-{}{}", path.substr(0, path.size() - ending.size()), ::getpid(), number.fetch_add(1), temporary_ending);
+      fmt::format("{}-{}-{}{}", path.substr(0, path.size() - extension.size()), ::getpid(),
+                  number.fetch_add(1), temporary_extension);
   int code = 0;
   {
     const Descriptor file(temporary, O_WRONLY | O_CREAT | O_TRUNC);
     bool done = file.is_open() && file.write(begin.data(), begin.size());
-    for (const std::span<const std::byte> part : parts) done = done && file.write(part.data(), part.size());
+    for (const std::span<const std::byte> part : parts)
+      done = done && file.write(part.data(), part.size());
     done = done && file.write(end.data(), end.size());
     if (!done) code = errno;
   }
@@ -242,24 +266,29 @@ const Cache& no_cache() {
 
 std::string user_cache_folder() {
   if (const char* own = std::getenv("BELVEDERE_CACHE")) return own;
-  // The standard says that relative paths are to be ignored.
-  if (const char* xdg = std::getenv("XDG_CACHE_HOME"); xdg != nullptr && *xdg == '/') return (fs::path(xdg) / "belvedere").string();
-  if (const char* home = std::getenv("HOME"); home != nullptr && *home == '/') return (fs::path(home) / ".cache" / "belvedere").string();
+  // The standard requires that relative paths be ignored.
+  if (const char* xdg = std::getenv("XDG_CACHE_HOME"); xdg != nullptr && *xdg == '/')
+    return (fs::path(xdg) / "belvedere").string();
+  if (const char* home = std::getenv("HOME"); home != nullptr && *home == '/')
+    return (fs::path(home) / ".cache" / "belvedere").string();
   return {};
 }
 
 std::vector<CacheEntry> cache_entries(const std::string& folder) {
   std::error_code problem;
   std::vector<Found> files = files_in(folder, is_entry_name, problem);
-  if (problem && problem != std::errc::no_such_file_or_directory) throw Error(ErrorKind::input, folder, problem.message());
-  std::sort(files.begin(), files.end(),
-            [](const Found& a, const Found& b) { return std::pair(b.used, b.path) < std::pair(a.used, a.path); });
+  if (problem && problem != std::errc::no_such_file_or_directory)
+    throw Error(ErrorKind::input, folder, problem.message());
+  std::sort(files.begin(), files.end(), [](const Found& a, const Found& b) {
+    return std::pair(b.used, b.path) < std::pair(a.used, a.path);
+  });
   const auto now = fs::file_time_type::clock::now();
   std::vector<CacheEntry> entries;
   for (const Found& file : files) {
     const std::optional<Header> header = read_header(Descriptor(file.path.string(), O_RDONLY));
     const auto age = std::chrono::duration_cast<std::chrono::seconds>(now - file.used);
-    entries.push_back({file.path.string(), header ? header->product : "damaged", header ? header->subject : "", file.bytes,
+    entries.push_back({file.path.string(), header ? header->product : "damaged",
+                       header ? header->subject : "", file.bytes,
                        std::max<std::int64_t>(age.count(), 0)});
   }
   return entries;
@@ -271,7 +300,9 @@ std::vector<CacheEntry> clear_cache(const std::string& folder, std::int64_t olde
     if (entry.age_s < older_than_s) continue;
     std::error_code problem;
     fs::remove(entry.path, problem);
-    if (problem) throw Error(ErrorKind::output, entry.path, "cannot be removed: " + problem.message());
+    if (problem)
+      throw Error(ErrorKind::output, entry.path,
+                  "cannot remove the cache entry: " + problem.message());
     removed.push_back(std::move(entry));
   }
   std::error_code ignored;
@@ -281,13 +312,13 @@ std::vector<CacheEntry> clear_cache(const std::string& folder, std::int64_t olde
 }
 
 std::uint64_t default_cache_limit(const std::string& folder) {
-  constexpr std::uint64_t most = std::uint64_t{20} << 30;
+  constexpr std::uint64_t max = std::uint64_t{20} << 30;
   std::error_code problem;
   const fs::space_info space = fs::space(folder, problem);
-  if (problem) return most;
-  std::uint64_t own = 0;  // is free for the cache as well
+  if (problem) return max;
+  std::uint64_t own = 0;  // its space counts as free for the cache
   for (const Found& entry : files_in(folder, is_entry_name, problem)) own += entry.bytes;
-  return std::min(most, (static_cast<std::uint64_t>(space.available) + own) / 10);
+  return std::min(max, (static_cast<std::uint64_t>(space.available) + own) / 10);
 }
 
 }  // namespace belvedere

@@ -17,10 +17,10 @@
 
 namespace belvedere {
 
-// What a product of the cache was made from, as a text in which equal values are equal and others are not: numbers to the last bit
-// (hexadecimal floating point), texts with their length, grids by their size and the hash of their cells. Every value that goes in must
-// stand here, else the cache would change pixels: parameters are best taken apart by structured bindings, which name all fields or do not
-// compile.
+// The inputs of a cached product as a text that is equal if and only if the values are: numbers to
+// the last bit (hexadecimal floating point), texts with their length, grids by their size and the
+// hash of their cells. Every input must be included, or the cache would change pixels. Take
+// parameters apart by structured bindings, which name all fields or do not compile.
 class CacheKeyText {
  public:
   template <class T>
@@ -74,8 +74,10 @@ class CacheKeyText {
   }
   template <class T>
   void put(const Grid<T>& grid) {
-    static_assert(std::has_unique_object_representations_v<T> || std::is_floating_point_v<T>, "equal cells must be equal bytes");
-    put_grid(grid.width(), grid.height(), {reinterpret_cast<const char*>(grid.data()), grid.size() * sizeof(T)});
+    static_assert(std::has_unique_object_representations_v<T> || std::is_floating_point_v<T>,
+                  "equal cells must be equal bytes");
+    put_grid(grid.width(), grid.height(),
+             {reinterpret_cast<const char*>(grid.data()), grid.size() * sizeof(T)});
   }
   template <class List>
   void put_list(const List& values) {

@@ -32,30 +32,38 @@ struct ContentHash::State {
 };
 
 ContentHash::ContentHash() : state_(std::make_unique<State>()) {
-  if (state_->hash == nullptr || XXH3_128bits_reset(state_->hash.get()) != XXH_OK) throw std::bad_alloc();
+  if (state_->hash == nullptr || XXH3_128bits_reset(state_->hash.get()) != XXH_OK)
+    throw std::bad_alloc();
 }
 ContentHash::~ContentHash() = default;
 ContentHash::ContentHash(ContentHash&&) noexcept = default;
 ContentHash& ContentHash::operator=(ContentHash&&) noexcept = default;
 
-void ContentHash::add(const void* bytes, std::size_t count) { XXH3_128bits_update(state_->hash.get(), bytes, count); }
+void ContentHash::add(const void* bytes, std::size_t count) {
+  XXH3_128bits_update(state_->hash.get(), bytes, count);
+}
 
-std::string ContentHash::digits() const { return hexadecimal(XXH3_128bits_digest(state_->hash.get())); }
+std::string ContentHash::digits() const {
+  return hexadecimal(XXH3_128bits_digest(state_->hash.get()));
+}
 
-std::string hash_bytes(std::string_view bytes) { return hexadecimal(XXH3_128bits(bytes.data(), bytes.size())); }
+std::string hash_bytes(std::string_view bytes) {
+  return hexadecimal(XXH3_128bits(bytes.data(), bytes.size()));
+}
 
 std::string hash_file(const std::string& path) {
   std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) throw Error(ErrorKind::input, path, "this is a folder", "a file");
+  if (std::filesystem::is_directory(path, ignored))
+    throw Error(ErrorKind::input, path, "is a folder", "a file");
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw Error(ErrorKind::input, path, "the file cannot be opened", "a file that exists and that you may read");
+  if (!file) throw Error(ErrorKind::input, path, "cannot open the file", "a readable file");
   ContentHash hash;
   std::string buffer(std::size_t{1} << 18, '\0');
   do {
     file.read(buffer.data(), static_cast<std::streamsize>(buffer.size()));
     hash.add(buffer.data(), static_cast<std::size_t>(file.gcount()));
   } while (file);
-  if (file.bad()) throw Error(ErrorKind::input, path, "the file cannot be read to its end");
+  if (file.bad()) throw Error(ErrorKind::input, path, "cannot read the whole file");
   return hash.digits();
 }
 

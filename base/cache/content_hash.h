@@ -7,10 +7,11 @@
 
 namespace belvedere {
 
-// XXH3-128 of bytes, 32 hexadecimal digits as `xxhsum -H2` prints them: tells contents apart, fast enough for whole rasters. No protection
-// against somebody who wants two contents to have one hash.
+// XXH3-128 of bytes, 32 hexadecimal digits as `xxhsum -H2` prints them. It identifies contents and
+// is fast enough for whole rasters. It is not cryptographic: collisions can be constructed.
 std::string hash_bytes(std::string_view bytes);
-// The same of a file's bytes; Error(input) where it cannot be read. Memory does not grow with the file.
+// The same of a file's bytes; Error(input) if it cannot be read. Memory does not grow with the
+// file.
 std::string hash_file(const std::string& path);
 
 // The same of bytes that come in parts.
@@ -23,7 +24,7 @@ class ContentHash {
 
   void add(const void* bytes, std::size_t count);
   void add(std::string_view bytes) { add(bytes.data(), bytes.size()); }
-  // Of all that was added.
+  // The hash of everything added.
   std::string digits() const;
 
  private:

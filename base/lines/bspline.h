@@ -4,11 +4,12 @@
 
 namespace belvedere {
 
-// Weights of the four coefficients of a uniform cubic B-spline around a place t in 0…1 after the second, 1 together, and how they change
-// with t.
+// Weights of the four coefficients of a uniform cubic B-spline at a position t in 0…1 after the
+// second (their sum is 1), and their derivatives by t.
 constexpr std::array<double, 4> bspline_weights(double t) {
   const double u = 1.0 - t;
-  return {u * u * u / 6.0, (4.0 - 6.0 * t * t + 3.0 * t * t * t) / 6.0, (4.0 - 6.0 * u * u + 3.0 * u * u * u) / 6.0, t * t * t / 6.0};
+  return {u * u * u / 6.0, (4.0 - 6.0 * t * t + 3.0 * t * t * t) / 6.0,
+          (4.0 - 6.0 * u * u + 3.0 * u * u * u) / 6.0, t * t * t / 6.0};
 }
 constexpr std::array<double, 4> bspline_slopes(double t) {
   const double u = 1.0 - t;

@@ -9,16 +9,20 @@
 
 namespace belvedere {
 
-// For separable filters: sixteen neighbouring rows or columns side by side, element i of all of them in one cache line. One
-// filter then serves both directions, and the compiler turns its inner loop over the lanes into vector instructions.
+// For separable filters: sixteen neighbouring rows or columns interleaved, element i of all of them
+// in one cache line. One filter then works for both directions, and the compiler vectorizes its
+// inner loop over the lanes.
 class LineBundle {
  public:
   static constexpr int lanes = 16;
-  explicit LineBundle(int count) : count_(count), values_(static_cast<std::size_t>(count) * lanes) {}
+  explicit LineBundle(int count)
+      : count_(count), values_(static_cast<std::size_t>(count) * lanes) {}
   int count() const { return count_; }
   // The sixteen values of element i.
   float* operator[](int i) { return values_.data() + static_cast<std::ptrdiff_t>(i) * lanes; }
-  const float* operator[](int i) const { return values_.data() + static_cast<std::ptrdiff_t>(i) * lanes; }
+  const float* operator[](int i) const {
+    return values_.data() + static_cast<std::ptrdiff_t>(i) * lanes;
+  }
 
  private:
   int count_;
@@ -30,12 +34,15 @@ inline LineBundle replicate_ends(const LineBundle& lines, int before, int after)
   LineBundle out(before + lines.count() + after);
   const int last = lines.count() - 1;
   for (int i = 0; i < before; ++i) std::copy_n(lines[0], LineBundle::lanes, out[i]);
-  std::copy_n(lines[0], static_cast<std::ptrdiff_t>(lines.count()) * LineBundle::lanes, out[before]);
-  for (int i = 0; i < after; ++i) std::copy_n(lines[last], LineBundle::lanes, out[before + lines.count() + i]);
+  std::copy_n(lines[0], static_cast<std::ptrdiff_t>(lines.count()) * LineBundle::lanes,
+              out[before]);
+  for (int i = 0; i < after; ++i)
+    std::copy_n(lines[last], LineBundle::lanes, out[before + lines.count() + i]);
   return out;
 }
 
-// Replaces every row by what filter(LineBundle) makes of it; the count must stay. Spare lanes repeat the last row.
+// Replaces every row by filter(LineBundle), which must keep the count. Spare lanes repeat the last
+// row.
 template <class F>
 void transform_rows(Grid<float>& values, F&& filter) {
   constexpr int n = LineBundle::lanes;

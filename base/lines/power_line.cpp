@@ -17,9 +17,10 @@
 namespace belvedere::power_lines {
 constexpr double ln2 = 0.69314718055994530942;
 constexpr double root_half = 0.70710678118654752440;
-constexpr double whole_from = 0x1p52;     // added to a small whole number its bits are the last of the sum
-constexpr double most_exponent = 1000.0;  // beyond it exact::exp2 ends
-// 1 / n, as exact::pow has them.
+constexpr double whole_from =
+    0x1p52;  // added to a small whole number, moves its bits to the end of the sum
+constexpr double max_exponent = 1000.0;  // the limit of exact::exp2
+// 1 / n, as in exact::pow.
 constexpr auto parts = [] {
   std::array<double, 24> of{};
   for (int n = 1; n < 24; ++n) of[static_cast<std::size_t>(n)] = 1.0 / n;
@@ -46,9 +47,11 @@ void Powers(const float* bases, double exponent, int count, float* out) {
     const auto plain = hn::And(hn::Gt(x, hn::Zero(d)), hn::Le(x, one(3.5e38)));
     // x = 2^whole · m with √½ ≤ m < √2.
     const auto word = hn::BitCast(bits, x);
-    const auto field = hn::BitCast(d, hn::Or(hn::ShiftRight<52>(word), hn::Set(bits, std::uint64_t{0x433} << 52)));
+    const auto field =
+        hn::BitCast(d, hn::Or(hn::ShiftRight<52>(word), hn::Set(bits, std::uint64_t{0x433} << 52)));
     auto whole = hn::Sub(hn::Sub(field, one(whole_from)), one(1022.0));
-    auto m = hn::BitCast(d, hn::Or(hn::And(word, hn::Set(bits, (std::uint64_t{1} << 52) - 1)), hn::Set(bits, std::uint64_t{0x3FE} << 52)));
+    auto m = hn::BitCast(d, hn::Or(hn::And(word, hn::Set(bits, (std::uint64_t{1} << 52) - 1)),
+                                   hn::Set(bits, std::uint64_t{0x3FE} << 52)));
     const auto small = hn::Lt(m, one(root_half));
     m = hn::IfThenElse(small, hn::Mul(m, one(2.0)), m);
     whole = hn::IfThenElse(small, hn::Sub(whole, one(1.0)), whole);
@@ -61,19 +64,23 @@ void Powers(const float* bases, double exponent, int count, float* out) {
     const auto log2 = hn::Add(whole, hn::Div(rest, one(ln2)));
     // exp2() and scaled_exp().
     const auto power = hn::Mul(one(exponent), log2);
-    const auto in_range = hn::And(plain, hn::Le(hn::Abs(power), one(most_exponent)));
+    const auto in_range = hn::And(plain, hn::Le(hn::Abs(power), one(max_exponent)));
     if (!hn::AllTrue(d, in_range)) {
-      for (int k = i; k < i + n; ++k) out[k] = static_cast<float>(exact::pow(static_cast<double>(bases[k]), exponent));
+      for (int k = i; k < i + n; ++k)
+        out[k] = static_cast<float>(exact::pow(static_cast<double>(bases[k]), exponent));
       continue;
     }
     const auto up = hn::Floor(hn::Add(power, one(0.5)));
     const auto left = hn::Mul(hn::Sub(power, up), one(ln2));
     auto series = one(1.0);
-    for (std::size_t k = 14; k > 0; --k) series = hn::Add(one(1.0), hn::Mul(hn::Mul(left, one(parts[k])), series));
-    const auto scale = hn::ShiftLeft<52>(hn::BitCast(bits, hn::Add(hn::Add(up, one(1023.0)), one(whole_from))));
+    for (std::size_t k = 14; k > 0; --k)
+      series = hn::Add(one(1.0), hn::Mul(hn::Mul(left, one(parts[k])), series));
+    const auto scale =
+        hn::ShiftLeft<52>(hn::BitCast(bits, hn::Add(hn::Add(up, one(1023.0)), one(whole_from))));
     hn::StoreU(hn::DemoteTo(narrow, hn::Mul(series, hn::BitCast(d, scale))), narrow, out + i);
   }
-  for (; i < count; ++i) out[i] = static_cast<float>(exact::pow(static_cast<double>(bases[i]), exponent));
+  for (; i < count; ++i)
+    out[i] = static_cast<float>(exact::pow(static_cast<double>(bases[i]), exponent));
 }
 
 }  // namespace HWY_NAMESPACE

@@ -15,16 +15,17 @@
 namespace belvedere {
 namespace {
 
-constexpr int usual = 256;   // slowness of a cell that is neither slow nor fast
-constexpr int fastest = 90;  // and its bounds
+constexpr int usual = 256;   // slowness of an average cell
+constexpr int fastest = 90;  // its bounds
 constexpr int slowest = 700;
-constexpr double by_standing = .8;  // slowness that a full surrounding has more than an empty one
-// A front finds its way around slow places and runs ahead in fast ones, so it comes further than the mean slowness says: that much,
-// measured on flat borders for steps of 1 to 16 cells (within 7 %).
+constexpr double by_standing = .8;  // extra slowness of a full neighbourhood over an empty one
+// A front passes around slow cells and runs ahead in fast ones, so it advances further than the
+// mean slowness suggests. This factor was measured on flat borders for steps of 1 to 16 cells
+// (within 7 %).
 double detours(double ragged) { return 1.0 + .2 * ragged + .7 * ragged * ragged; }
-constexpr std::uint64_t noise_part = 77;  // of the stream that classes take
+constexpr std::uint64_t noise_part = 77;  // part of the stream used for classes
 
-// Ways of a front from a cell: sides, corners and knight's moves, with lengths in 1/1024 cells.
+// Steps of a front from a cell: sides, corners and knight's moves, with lengths in 1/1024 cells.
 struct Way {
   int dx, dy;
   std::uint64_t length;
@@ -46,16 +47,19 @@ constexpr std::array<Way, 16> ways = {{{1, 0, 1024},
                                        {-1, 2, 2290},
                                        {-1, -2, 2290}}};
 
-int layer_cells(const ErosionParameters& p) { return std::max(2, static_cast<int>(std::ceil(p.step / p.cell))); }
+int layer_cells(const ErosionParameters& p) {
+  return std::max(2, static_cast<int>(std::ceil(p.step / p.cell)));
+}
 
-// The mean share that stands around the cells of a layer behind a flat border: the j-th of n has radius + j columns of 2 radius + 1.
+// The mean share of the label around the cells of a layer behind a flat border: the j-th of n has
+// radius + j columns of 2 radius + 1.
 double flat_standing(const ErosionParameters& p) {
   const double layer = std::max(1.0, std::round(p.step / p.cell));
   const int radius = layer_cells(p);
   return (radius + (layer + 1.0) / 2.0) / (2.0 * radius + 1.0);
 }
 
-// How many cells of `label` stand in the rectangle up to and with a cell, for means over boxes.
+// Number of cells of `label` in the rectangle up to and including a cell (summed-area table).
 Grid<std::uint32_t> sums_of(const Grid<std::uint8_t>& labels, std::uint8_t label) {
   Grid<std::uint32_t> sums(labels.width() + 1, labels.height() + 1);
   for (int y = 0; y < labels.height(); ++y) {
@@ -70,7 +74,8 @@ Grid<std::uint32_t> sums_of(const Grid<std::uint8_t>& labels, std::uint8_t label
 
 class Front {
  public:
-  Front(const Grid<std::uint8_t>& labels, std::uint8_t label, const std::array<bool, 256>& opens, const ErosionParameters& p)
+  Front(const Grid<std::uint8_t>& labels, std::uint8_t label, const std::array<bool, 256>& opens,
+        const ErosionParameters& p)
       : labels_(labels),
         label_(label),
         opens_(opens),
@@ -83,11 +88,11 @@ class Front {
         slowness_(labels.width(), labels.height()),
         best_(labels.width(), labels.height(), never) {}
 
-  // Time at which a cell is reached (upper bits) and the label that comes (lowest 8).
+  // Time at which a cell is reached (upper bits) and the label that reaches it (lowest 8).
   static constexpr std::uint64_t never = ~std::uint64_t{0};
 
   const Grid<std::uint64_t>& run() {
-    // Times count 1/1024 cells times slowness.
+    // Times are in 1/1024 cells times slowness.
     const auto limit = static_cast<std::uint64_t>(p_.step / p_.cell * 1024.0 * usual);
     for (int y = 0; y < labels_.height(); ++y)
       for (int x = 0; x < labels_.width(); ++x)
@@ -111,15 +116,18 @@ class Front {
     const int y0 = std::max(0, y - radius_);
     const int x1 = std::min(labels_.width(), x + radius_ + 1);
     const int y1 = std::min(labels_.height(), y + radius_ + 1);
-    const std::uint32_t count = standing_(x1, y1) - standing_(x0, y1) - standing_(x1, y0) + standing_(x0, y0);
+    const std::uint32_t count =
+        standing_(x1, y1) - standing_(x0, y1) - standing_(x1, y0) + standing_(x0, y0);
     const double share = static_cast<double>(count) / (static_cast<double>(x1 - x0) * (y1 - y0));
     double slow = 1.0 + by_standing * (share - flat_);
     if (p_.ragged > 0.0) {
       const double px = p_.x + x * p_.dx;
       const double py = p_.y + y * p_.dy;
-      slow += p_.ragged * (.8 * gaussian_noise(noise_, px, py, 2.0 * p_.step) + .5 * gaussian_noise(noise_ + 1, px, py, .6 * p_.step));
+      slow += p_.ragged * (.8 * gaussian_noise(noise_, px, py, 2.0 * p_.step) +
+                           .5 * gaussian_noise(noise_ + 1, px, py, .6 * p_.step));
     }
-    known = static_cast<std::uint16_t>(std::clamp(static_cast<int>(std::floor(detours_ * slow * usual + .5)), fastest, slowest));
+    known = static_cast<std::uint16_t>(
+        std::clamp(static_cast<int>(std::floor(detours_ * slow * usual + .5)), fastest, slowest));
     return known;
   }
 
@@ -133,8 +141,9 @@ class Front {
       if (!labels_.contains(tx, ty) || labels_(tx, ty) != label_) continue;
       const int there = slowness(tx, ty);
       const int slow = outside ? there : (slowness(x, y) + there) / 2;
-      // A border lies half a cell before the first middle behind it.
-      const std::uint64_t at = time + (outside ? way.length - 512 : way.length) * static_cast<std::uint64_t>(slow);
+      // A border lies half a cell before the first cell centre behind it.
+      const std::uint64_t at =
+          time + (outside ? way.length - 512 : way.length) * static_cast<std::uint64_t>(slow);
       if (at > limit) continue;
       const std::uint64_t found = at << 8U | (key & 0xffU);
       const std::size_t index = labels_.index(tx, ty);
@@ -161,12 +170,13 @@ class Front {
 
 }  // namespace
 
-Erosion erode(const Grid<std::uint8_t>& labels, std::uint8_t label, const std::array<bool, 256>& opens, const ErosionParameters& parameters,
+Erosion erode(const Grid<std::uint8_t>& labels, std::uint8_t label,
+              const std::array<bool, 256>& opens, const ErosionParameters& parameters,
               Progress& progress) {
   if (parameters.levels < 1 || parameters.levels > 255 || parameters.step < .5 * parameters.cell)
     throw Error(ErrorKind::bug, "erode", "no levels, or layers thinner than half a cell");
   Erosion out{labels, Grid<std::uint8_t>(labels.width(), labels.height())};
-  progress.begin("taking back", parameters.levels);
+  progress.begin("eroding", parameters.levels);
   for (int level = 1; level <= parameters.levels; ++level) {
     const Grid<std::uint8_t> before = out.labels;
     Front front(before, label, opens, parameters);

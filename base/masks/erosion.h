@@ -8,16 +8,17 @@
 
 namespace belvedere {
 
-// Labels whose areas are peeled level by level, as snow melts back and forest retreats (Zalesny, Ferrari, Caenen, Van Gool, "Composite
-// Texture Synthesis", 2005, section 7: masks of one texture give way to those around).
+// Erodes the areas of labels level by level, as snow melts back and forest retreats (Zalesny,
+// Ferrari, Caenen, Van Gool, "Composite Texture Synthesis", 2005, section 7: masks of one texture
+// give way to neighbouring ones).
 struct ErosionParameters {
-  int levels = 1;      // how often a layer is taken off, 1…255
-  double step = 8.0;   // thickness of a layer in the mean, in the unit of `cell`; 0.5 cells and more
+  int levels = 1;      // number of layers to remove, 1…255
+  double step = 8.0;   // average thickness of a layer in the unit of `cell`; at least 0.5 cells
   double cell = 1.0;   // side of a cell
-  double ragged = .4;  // how far slow and fast places of the ground differ, 0…1; 0: none do
+  double ragged = .4;  // difference between slow and fast ground, 0…1; 0: uniform
   std::uint64_t seed = 1;
-  // Place of the first cell's middle and the way to the next column and row, in the unit of `cell`: slow and fast places hang on it, so
-  // that grids that show the same ground erode alike.
+  // Centre of the first cell and the vectors to the next column and row, in the unit of `cell`.
+  // Slow and fast positions depend on it, so that grids of the same ground erode alike.
   double x = 0.0;
   double y = 0.0;
   double dx = 1.0;
@@ -25,20 +26,23 @@ struct ErosionParameters {
 };
 
 struct Erosion {
-  Grid<std::uint8_t> labels;  // each cell that was taken has the label that took it
-  Grid<std::uint8_t> level;   // at which it was taken, 1…levels; 0: it was not
+  Grid<std::uint8_t> labels;  // with each eroded cell set to the label that replaced it
+  Grid<std::uint8_t> level;   // at which it was eroded, 1…levels; 0: it was not
 };
 
-// Takes `label` back from every cell of a label that `opens`: those cells keep theirs. A layer is what a front reaches that sets out from
-// there all at once and takes its time by the ground: longer where noise of four and of 1.2 layers' width says so and where much of the
-// label still stands around, so that tongues and islands go before bays. A flat border goes back by a step a level in the mean. What a
-// front took belongs to the nearest label in its time (ties: to the lower one). Each level is taken from what the one before left: levels
-// are nested. Integers decide, so a cell's answer is the same in any part of the grid that holds erosion_reach around it.
-// Progress: one step a level.
-Erosion erode(const Grid<std::uint8_t>& labels, std::uint8_t label, const std::array<bool, 256>& opens, const ErosionParameters& parameters,
+// Erodes `label` from every cell of a label that `opens`; those cells keep their labels. A layer is
+// the area that a front reaches from all of them at once. The front is slower where noise with
+// widths of four and of 1.2 layers is high and where much of the label remains around, so tongues
+// and islands disappear before bays. A flat border recedes by one step per level on average. An
+// eroded cell gets the label that reaches it first (ties: the lower one). Each level starts from
+// the result of the previous one, so levels are nested. Arithmetic is in integers, so a cell's
+// result is the same in any part of the grid that includes erosion_reach around it. Progress: one
+// step per level.
+Erosion erode(const Grid<std::uint8_t>& labels, std::uint8_t label,
+              const std::array<bool, 256>& opens, const ErosionParameters& parameters,
               Progress& progress = silent_progress());
 
-// Cells around a cell that can matter to it.
+// Radius in cells of the neighbourhood that can affect a cell.
 int erosion_reach(const ErosionParameters& parameters);
 
 }  // namespace belvedere

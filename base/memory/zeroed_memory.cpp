@@ -7,10 +7,11 @@
 namespace belvedere {
 namespace {
 
-// From here on a block is the system's: below, the C library's own memory is used again without a fault for each page.
+// Blocks from this size on come from the system. Below it, the C library reuses its own memory
+// without a fault per page.
 constexpr std::size_t large_block_bytes = std::size_t{16} << 20;
 
-// The address sanitizer watches the C library's blocks alone.
+// The address sanitizer watches only the C library's blocks.
 #ifdef __SANITIZE_ADDRESS__
 constexpr bool from_system = false;
 #else
@@ -20,7 +21,8 @@ constexpr bool from_system = true;
 bool is_large(std::size_t bytes) { return from_system && bytes >= large_block_bytes; }
 
 void observe(std::ptrdiff_t bytes) {
-  if (auto* const observer = zeroed_memory_observer.load(std::memory_order_relaxed)) observer(bytes);
+  if (auto* const observer = zeroed_memory_observer.load(std::memory_order_relaxed))
+    observer(bytes);
 }
 
 }  // namespace
@@ -36,7 +38,7 @@ void* allocate_zeroed(std::size_t bytes) {
   }
   void* memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (memory == MAP_FAILED) throw std::bad_alloc();
-  madvise(memory, bytes, MADV_HUGEPAGE);  // a wish: where the system has none, pages stay small
+  madvise(memory, bytes, MADV_HUGEPAGE);  // only a hint: without large pages, pages stay small
   return memory;
 }
 

@@ -8,16 +8,18 @@
 
 namespace belvedere {
 
-// Memory whose bits are all zero. A large block comes from the system, which clears a page when it is first written: so the threads that
-// fill a grid bring its pages as well, and nothing is cleared twice. It asks for large pages, because at 4 KiB a page the faults alone took
-// a tenth of a picture's time. Throws std::bad_alloc.
+// Memory whose bits are all zero. A large block comes from the system, which clears a page when it
+// is first written, so the threads that fill a grid also fault in its pages and nothing is cleared
+// twice. It requests large pages: with pages of 4 KiB the faults alone took a tenth of a picture's
+// time. Throws std::bad_alloc.
 void* allocate_zeroed(std::size_t bytes);
-// bytes: those that were asked for.
+// bytes: the number requested.
 void free_zeroed(void* memory, std::size_t bytes) noexcept;
 // For tests that count allocations: called with the size of each block, negative when it is freed.
 extern std::atomic<void (*)(std::ptrdiff_t bytes)> zeroed_memory_observer;
 
-// Of a std::vector: an element that is made from nothing, of a type without initializers, is left as the memory is, and that is zero.
+// Allocator for std::vector: a default-constructed element of a type without initializers is left
+// as the memory is, which is zero.
 template <class T>
 struct ZeroedAllocator {
   using value_type = T;
@@ -34,9 +36,9 @@ struct ZeroedAllocator {
   void deallocate(T* memory, std::size_t count) noexcept { free_zeroed(memory, count * sizeof(T)); }
 
   template <class U, class... Arguments>
-  void construct(U* place, Arguments&&... arguments) {
+  void construct(U* position, Arguments&&... arguments) {
     if constexpr (sizeof...(Arguments) > 0 || !std::is_trivially_default_constructible_v<U>)
-      ::new (static_cast<void*>(place)) U(std::forward<Arguments>(arguments)...);
+      ::new (static_cast<void*>(position)) U(std::forward<Arguments>(arguments)...);
   }
 
   bool operator==(const ZeroedAllocator&) const = default;

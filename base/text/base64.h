@@ -6,7 +6,7 @@
 
 namespace belvedere {
 
-// Bytes as letters and back (RFC 4648, section 4). What is not of that form is nothing.
+// Bytes as base64 and back (RFC 4648, section 4); nothing for malformed text.
 std::string base64(std::string_view bytes);
 std::optional<std::string> base64_bytes(std::string_view text);
 

@@ -10,22 +10,23 @@
 
 namespace belvedere {
 
-// Reads values of one table into members, each with its range, so that what a style file allows stands in one line a key. All throw
-// Error(usage) at the value's line and column.
+// Reads values of one table into members, each with its range, so that a style file's keys take one
+// line each. All throw Error(usage) at the value's line and column.
 class ConfigReader {
  public:
   // Both must outlive it.
-  ConfigReader(const ConfigValue& value, const std::string& name) : table_(as_table(value, name)), name_(name) {}
+  ConfigReader(const ConfigValue& value, const std::string& name)
+      : table_(as_table(value, name)), name_(name) {}
 
-  // Each leaves `to` as it is where the key is not there.
-  void number(const char* key, double& to, double least, double most);
-  void pair(const char* key, glm::dvec2& to, double least, double most);
+  // Each leaves `to` unchanged if the key is absent.
+  void number(const char* key, double& to, double min, double max);
+  void pair(const char* key, glm::dvec2& to, double min, double max);
   void flag(const char* key, bool& to);
   void text(const char* key, std::string& to);
   void texts(const char* key, std::vector<std::string>& to);
   // "#rrggbb" as encoded sRGB 0…1.
   void colour(const char* key, glm::vec3& to);
-  // The same as it is written.
+  // The same as text.
   void colour(const char* key, std::string& to);
   template <class T>
   void word(const char* key, T& to, const std::vector<std::pair<std::string, T>>& words) {
@@ -42,9 +43,9 @@ class ConfigReader {
     }
     fail(*value, all);
   }
-  // The value of a key, which counts as known from then on; null where it is not there.
+  // The value of a key, which is then known; null if it is absent.
   const ConfigValue* known(const char* key);
-  // Every key that was not asked for is none.
+  // Error(usage) for every key that was not read.
   void end() const { allow_only(table_, keys_, name_); }
 
  private:

@@ -6,10 +6,11 @@
 
 namespace belvedere {
 
-// The files below data/ and scenes/demo/ that are built into the program, so that it runs from anywhere:
-// "palettes/summer.toml", "legends/nlcd.toml", "layers/life_zones.toml", "scenes/demo/demo.toml" … Throws Error(bug) for an unknown name.
+// The files below data/ and scenes/demo/ that are built into the program, so that it does not
+// depend on its location: "palettes/summer.toml", "legends/nlcd.toml", "layers/life_zones.toml",
+// "scenes/demo/demo.toml" … Throws Error(bug) for an unknown name.
 std::string_view embedded_file(std::string_view name);
-// All names in a folder, without folder and ending: embedded_names("legends") has "nlcd".
+// All names in a folder, without folder and extension: embedded_names("legends") has "nlcd".
 std::vector<std::string> embedded_names(std::string_view folder);
 
 }  // namespace belvedere

@@ -7,9 +7,9 @@
 
 namespace belvedere {
 
-// "#rrggbb" of a colour 0…1, cut to that and rounded to 8 bits.
+// "#rrggbb" of a colour, clamped to 0…1 and rounded to 8 bits.
 std::string hex_colour(glm::vec3 colour);
-// The colour that such a text means; nothing for any other text.
+// The colour of such a text; nothing for any other text.
 std::optional<glm::vec3> colour_of_hex(std::string_view text);
 
 }  // namespace belvedere

@@ -33,7 +33,9 @@ Json Json::array(std::vector<Json> elements) {
 
 Json Json::text(std::string_view text) { return Json(json_quoted(text)); }
 
-Json Json::number(double value) { return std::isfinite(value) ? Json(fmt::format("{}", value)) : text(fmt::format("{}", value)); }
+Json Json::number(double value) {
+  return std::isfinite(value) ? Json(fmt::format("{}", value)) : text(fmt::format("{}", value));
+}
 
 Json Json::texts(const std::vector<std::string>& texts) {
   Json out("[]");
@@ -54,7 +56,8 @@ std::string Json::str(int depth) const {
   const bool is_array = scalar_ == "[]";
   std::string out;
   for (const auto& [key, value] : members_)
-    out += (out.empty() ? "\n" : ",\n") + indent + (is_array ? "" : json_quoted(key) + ": ") + value.str(depth + 1);
+    out += (out.empty() ? "\n" : ",\n") + indent + (is_array ? "" : json_quoted(key) + ": ") +
+           value.str(depth + 1);
   out += "\n" + indent.substr(2);
   return is_array ? "[" + out + "]" : "{" + out + "}";
 }

@@ -7,23 +7,25 @@
 
 namespace belvedere {
 
-// A JSON text under construction, for machines that read what the program says. Members stay in the order they were added.
+// Builds a JSON text. Members stay in the order they were added.
 class Json {
  public:
   static Json object() { return Json("{}"); }
   static Json array(std::vector<Json> elements = {});
   static Json text(std::string_view text);
-  // Shortest form that reads back the same. JSON has no infinities and no nan: those come as texts "inf", "-inf", "nan".
+  // Shortest form that reads back the same. JSON has no infinities and no NaN: those become the
+  // strings "inf", "-inf", "nan".
   static Json number(double value);
   static Json boolean(bool value) { return Json(value ? "true" : "false"); }
-  // What is JSON already.
+  // Text that is already JSON.
   static Json raw(std::string json) { return Json(std::move(json)); }
   static Json texts(const std::vector<std::string>& texts);
   // An array of them on one line.
   template <class Values>
   static Json numbers(const Values& values) {
     std::string list;
-    for (const auto value : values) list += (list.empty() ? "" : ", ") + number(static_cast<double>(value)).scalar_;
+    for (const auto value : values)
+      list += (list.empty() ? "" : ", ") + number(static_cast<double>(value)).scalar_;
     return Json("[" + list + "]");
   }
 
@@ -31,7 +33,7 @@ class Json {
   Json& add(std::string_view key, Json value);
   Json& add(Json value);
 
-  // Nothing was added to it.
+  // Whether nothing was added to it.
   bool empty() const { return members_.empty(); }
 
   // Indented by two spaces a level, no line break at the end.
@@ -44,7 +46,7 @@ class Json {
   std::vector<std::pair<std::string, Json>> members_;
 };
 
-// Between quotation marks, with the escapes that JSON and TOML share.
+// In quotation marks, with the escapes that JSON and TOML share.
 std::string json_quoted(std::string_view text);
 
 }  // namespace belvedere

@@ -8,12 +8,15 @@
 namespace belvedere {
 
 std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  std::transform(text.begin(), text.end(), text.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
   return text;
 }
 
-std::string lower_ending(const std::string& path) { return lower_case(std::filesystem::path(path).extension().string()); }
+std::string lower_extension(const std::string& path) {
+  return lower_case(std::filesystem::path(path).extension().string());
+}
 
 std::string grouped(std::size_t number) {
   std::string digits = fmt::format("{}", number);

@@ -27,7 +27,7 @@ std::string markup_text(std::string_view text) {
 
 std::string script_json(std::string_view json) {
   std::string out;
-  for (const char c : json)  // only texts hold a <
+  for (const char c : json)  // a < occurs only in texts
     c == '<' ? out += "\\u003c" : out += c;
   return out;
 }
@@ -36,7 +36,9 @@ std::string filled_page(std::string_view page, const std::map<std::string, std::
   std::string out;
   for (std::size_t at = 0; at < page.size();) {
     const std::size_t end = page[at] == '{' ? page.find('}', at) : std::string_view::npos;
-    const auto text = end == std::string_view::npos ? texts.end() : texts.find(std::string(page.substr(at + 1, end - at - 1)));
+    const auto text = end == std::string_view::npos
+                          ? texts.end()
+                          : texts.find(std::string(page.substr(at + 1, end - at - 1)));
     if (text != texts.end()) {
       out += text->second;
       at = end + 1;

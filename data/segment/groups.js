@@ -30,7 +30,7 @@ class Groups {
   constructor(data) {
     this.data = data;
     this.pieceCount = data.joins.length + 1;
-    this.states = [data.groups.map((node) => ({ nodes: [node], name: data.guess[node] }))];
+    this.states = [data.groups.map((node) => ({ nodes: [node], name: data.inferred[node] }))];
     this.now = 0;
   }
   get groups() { return this.states[this.now]; }

@@ -9,4 +9,4 @@ for scene in "$scenes"/*.toml; do
   [ -e "${scene%.toml}.lock" ] || echo "$scene has no lock: belvedere lock $scene --data $data" >&2
 done
 exec "${BELVEDERE:-belvedere}" verify "$scenes"/*.toml --data "$data" --quiet \
-  --out pictures --junit verify.xml --page verify.html ${AGAINST:+--against "$AGAINST"}
+  --out pictures --junit verify.xml --report verify.html ${AGAINST:+--against "$AGAINST"}

@@ -18,8 +18,9 @@ CoarseGround widened_ground(const CoarseGround& ground, double width_m) {
   }
   WidenValleysParameters parameters;
   parameters.width_m = static_cast<float>(width_m);
-  Raster<float> raster{widen_valleys(altitude, lakes, ground.cell_m, parameters, silent_progress()).altitude_m, ground.transform,
-                       ground.crs};
+  Raster<float> raster{
+      widen_valleys(altitude, lakes, ground.cell_m, parameters, silent_progress()).altitude_m,
+      ground.transform, ground.crs};
   for (std::size_t i = 0; i < altitude.size(); ++i)
     if (!ground.cells[i].known) raster.cells[i] = std::numeric_limits<float>::quiet_NaN();
   CoarseGround out = make_coarse_ground(std::move(raster), ground.source_cell_m);
@@ -36,7 +37,8 @@ CoarseGround widened_ground(const CoarseGround& ground, double width_m) {
   return out;
 }
 
-CoarseGround raised_ground(const CoarseGround& ground, const std::vector<SummitExaggeration>& summits) {
+CoarseGround raised_ground(const CoarseGround& ground,
+                           const std::vector<SummitExaggeration>& summits) {
   DeformParameters change;
   change.summits = summits;
   const Deformation deformation(change, {0.0, 0.0});

@@ -7,13 +7,16 @@
 
 namespace belvedere {
 
-// A coarse ground as a scene would change it before it is raised as a whole and bent. What views are judged by stays the region's: its
-// side, relief, plateau and distances to the rim.
+// A coarse ground with the changes that a scene makes before it is raised as a whole and bent. The
+// reference values of evaluation stay the region's: its side, relief, plateau and distances to the
+// rim.
 
-// Its valleys wider by so many metres (terrain/generalize/widen_valleys.h); lakes stay.
+// Its valleys widened by this many metres (terrain/generalize/widen_valleys.h); lakes are
+// unchanged.
 CoarseGround widened_ground(const CoarseGround& ground, double width_m);
 
-// Its summits raised each by itself.
-CoarseGround raised_ground(const CoarseGround& ground, const std::vector<SummitExaggeration>& summits);
+// Its summits raised individually.
+CoarseGround raised_ground(const CoarseGround& ground,
+                           const std::vector<SummitExaggeration>& summits);
 
 }  // namespace belvedere

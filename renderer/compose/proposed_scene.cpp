@@ -16,7 +16,8 @@ namespace belvedere {
 namespace {
 
 std::string_view compass(double azimuth_deg) {
-  constexpr std::array<std::string_view, 8> names = {"north", "northeast", "east", "southeast", "south", "southwest", "west", "northwest"};
+  constexpr std::array<std::string_view, 8> names = {"north", "northeast", "east", "southeast",
+                                                     "south", "southwest", "west", "northwest"};
   return names[static_cast<std::size_t>(std::floor(turned_deg(azimuth_deg) / 45.0 + 0.5)) % 8];
 }
 
@@ -25,11 +26,12 @@ double km(double metres) { return metres / 1000.0; }
 class Text {
  public:
   void line(const std::string& text = {}) { out_ += text + "\n"; }
-  // key = value, and why, in a column.
+  // key = value, and its reason, in a column.
   void value(const std::string& key, const std::string& value, const std::string& why = {}) {
     std::string text = key + " = " + value;
     constexpr std::size_t column = 34;
-    if (!why.empty()) text += std::string(text.size() < column ? column - text.size() : 2, ' ') + "# " + why;
+    if (!why.empty())
+      text += std::string(text.size() < column ? column - text.size() : 2, ' ') + "# " + why;
     line(text);
   }
   std::string str() && { return std::move(out_); }
@@ -39,42 +41,50 @@ class Text {
 };
 
 std::string metres(double m) { return fmt::format("{:.0f}", rounded_m(m)); }
-std::string place(glm::dvec2 p) { return fmt::format("[{:.0f}, {:.0f}]", p.x, p.y); }
+std::string position(glm::dvec2 p) { return fmt::format("[{:.0f}, {:.0f}]", p.x, p.y); }
 
 void write_source(Text& text, const ProposedFile& source) {
   text.value("file", json_quoted(source.file));
   if (source.band != 1) text.value("band", fmt::format("{}", source.band), "of the file's bands");
-  if (!source.crs.empty()) text.value("crs", json_quoted(source.crs), "the file does not say it");
-  if (source.lowest_m) text.value("lowest_m", fmt::format("{:.0f}", *source.lowest_m), "lower values are faults of the data");
+  if (!source.crs.empty()) text.value("crs", json_quoted(source.crs), "the file does not state it");
+  if (source.lowest_m)
+    text.value("lowest_m", fmt::format("{:.0f}", *source.lowest_m),
+               "lower values are errors of the data");
   if (!source.origin.empty()) text.value("origin", json_quoted(source.origin));
-  if (!source.licence.empty()) text.value("licence", json_quoted(source.licence), "goes into every picture's file");
+  if (!source.licence.empty())
+    text.value("licence", json_quoted(source.licence), "is written to every picture's file");
   if (!source.get_from.empty()) text.value("get_from", json_quoted(source.get_from));
 }
 
 std::string subject_words(const Anchor& anchor, const Massifs& massifs) {
   if (anchor.kind != AnchorKind::summit) return describe_anchor(anchor);
   if (massifs.lone > 0.5) return fmt::format("a lone mountain of {:.0f} m", anchor.altitude_m);
-  return fmt::format("{}, {:.0f} m over its valleys", describe_anchor(anchor), anchor.stands_m);
+  return fmt::format("{}, {:.0f} m above its valleys", describe_anchor(anchor), anchor.stands_m);
 }
 
-// The main summit a little more than its neighbours; what wins by being raised, by that.
+// The main summit slightly more than its neighbours; other summits by the factor that improves the
+// view.
 void write_summits(Text& text, const ViewSearch& search, const Candidate& candidate) {
   std::vector<RaisedSummit> summits = candidate.changes.summits;
   const int main = candidate.plan.anchor;
   const Massifs& massifs = search.massifs;
   const Anchor& leads = massifs.anchors[static_cast<std::size_t>(main)];
-  const bool done = std::any_of(summits.begin(), summits.end(), [&](const RaisedSummit& s) { return s.anchor == main; });
+  const bool done = std::any_of(summits.begin(), summits.end(),
+                                [&](const RaisedSummit& s) { return s.anchor == main; });
   if (leads.kind == AnchorKind::summit && massifs.lone < 0.99 && !done)
-    summits.push_back({.anchor = main, .by = raise_of(leads, candidate.view, 1.0 + 0.15 * (1.0 - massifs.lone)), .gain = {}});
+    summits.push_back({.anchor = main,
+                       .by = raise_of(leads, candidate.view, 1.0 + 0.15 * (1.0 - massifs.lone)),
+                       .gain = {}});
   for (const RaisedSummit& summit : summits) {
     text.line("[[deform.summits]]");
     text.value("name", json_quoted(summit.anchor == main ? "main summit" : "summit"),
                subject_words(massifs.anchors[static_cast<std::size_t>(summit.anchor)], massifs));
-    text.value("position", place(summit.by.center));
+    text.value("position", position(summit.by.centre));
     text.value("radius_m", metres(summit.by.radius_m));
     text.value("factor", fmt::format("{:.2f}", summit.by.factor),
-               summit.gain.words.empty() ? "a little more than its neighbours, so that it leads" : "that wins " + summit.gain.words);
-    text.value("base_m", fmt::format("{:.0f}", summit.by.base_m), "its upper part alone");
+               summit.gain.words.empty() ? "slightly more than its neighbours, to emphasize it"
+                                         : "improves " + summit.gain.words);
+    text.value("base_m", fmt::format("{:.0f}", summit.by.base_m), "only its upper part");
     text.line();
   }
 }
@@ -84,36 +94,45 @@ void write_summits(Text& text, const ViewSearch& search, const Candidate& candid
 std::string describe_view(const ViewSearch& search, const Candidate& candidate) {
   const ViewShape& v = candidate.view;
   const Anchor& anchor = search.massifs.anchors[static_cast<std::size_t>(candidate.plan.anchor)];
-  const AnchorSight& sight = candidate.measures.anchors[static_cast<std::size_t>(candidate.plan.anchor)];
-  const std::string_view where = sight.place.x < 0.42   ? "left of the middle"
-                                 : sight.place.x > 0.58 ? "right of the middle"
-                                                        : "in the middle";
+  const AnchorSight& sight =
+      candidate.measures.anchors[static_cast<std::size_t>(candidate.plan.anchor)];
+  const std::string_view where = sight.position.x < 0.42   ? "left of the centre"
+                                 : sight.position.x > 0.58 ? "right of the centre"
+                                                           : "at the centre";
   return fmt::format("{} ({:.0f}°), {:.0f} to {:.0f} km, {:.0f}° wide: {} {}; merit {:.1f}",
-                     v.field_of_view_deg >= 359.0 ? "all around from" : fmt::format("looks {}", compass(v.azimuth_deg)),
-                     turned_deg(v.azimuth_deg), km(v.near_m), km(v.far_m), v.field_of_view_deg, subject_words(anchor, search.massifs),
-                     where, candidate.merit);
+                     v.field_of_view_deg >= 359.0 ? "full circle from"
+                                                  : fmt::format("looks {}", compass(v.azimuth_deg)),
+                     turned_deg(v.azimuth_deg), km(v.near_m), km(v.far_m), v.field_of_view_deg,
+                     subject_words(anchor, search.massifs), where, candidate.merit);
 }
 
-std::string proposed_scene_text(const ViewSearch& search, const Candidate& candidate, const ProposedScene& about) {
+std::string proposed_scene_text(const ViewSearch& search, const Candidate& candidate,
+                                const ProposedScene& about) {
   const ViewShape& v = candidate.view;
   const ViewMeasures& m = candidate.measures;
   const HorizonDefaults horizon = defaults_of_horizon(v.far_m);
   const PainterSun sun = painter_sun(turned_deg(v.azimuth_deg));
   Text text;
+  text.line(fmt::format("# Proposed by belvedere new{}: {}.",
+                        about.number.empty() ? "" : ", " + about.number,
+                        describe_view(search, candidate)));
   text.line(
-      fmt::format("# Proposed by belvedere new{}: {}.", about.number.empty() ? "" : ", " + about.number, describe_view(search, candidate)));
-  text.line(fmt::format("# Every length follows from the region: its side is {:.0f} km, the horizon of this view lies at {:.1f} km.",
-                        km(search.ground.side_m), km(v.far_m)));
+      fmt::format("# Every length is derived from the region: its side is {:.0f} km, the horizon "
+                  "of this view is at {:.1f} km.",
+                  km(search.ground.side_m), km(v.far_m)));
   text.value("version", "1");
   text.value("title", json_quoted(about.title));
   if (!about.palette.empty()) text.value("palette", json_quoted(about.palette), about.palette_why);
   text.line();
   if (!about.crs.empty() || search.ground.void_share > 0.2) {
     text.line("[terrain]");
-    if (!about.crs.empty()) text.value("crs", json_quoted(about.crs), "metres, true to scale here; all places below are in it");
+    if (!about.crs.empty())
+      text.value("crs", json_quoted(about.crs),
+                 "metres, true to scale here; all positions below are in it");
     if (search.ground.void_share > 0.2)
-      text.value("max_void_share", fmt::format("{:.2f}", std::min(0.9, search.ground.void_share + 0.1)),
-                 fmt::format("{:.0f} % of the data's frame is empty", 100.0 * search.ground.void_share));
+      text.value(
+          "max_void_share", fmt::format("{:.2f}", std::min(0.9, search.ground.void_share + 0.1)),
+          fmt::format("{:.0f} % of the data's extent is empty", 100.0 * search.ground.void_share));
     text.line();
   }
   for (const ProposedFile& source : about.sources) {
@@ -128,11 +147,14 @@ std::string proposed_scene_text(const ViewSearch& search, const Candidate& candi
   if (about.land_cover || !about.rock.empty()) {
     text.line("[land_cover]");
     if (about.land_cover) text.value("legend", json_quoted(about.legend));
-    if (about.land_cover && !about.unknown.empty()) text.value("unknown", json_quoted(about.unknown), "codes that the legend lacks");
+    if (about.land_cover && !about.unknown.empty())
+      text.value("unknown", json_quoted(about.unknown), "codes that the legend lacks");
     if (!about.rock.empty()) text.value("rock", json_quoted(about.rock), about.rock_why);
     text.line();
   }
-  text.line("# Large forms are raised a little near by; far away, where ranges stand close together, fine ones go.");
+  text.line(
+      "# Large forms are raised a little near the viewer; far away, where ranges are close "
+      "together, fine ones are removed.");
   text.line("[generalize]");
   text.line("foreground = [1.1, 1.1, 1.1, 1.0, 1.0, 0.9]");
   text.line("background = [1.2, 1.2, 1.1, 0.8, 0.5, 0.3]");
@@ -140,34 +162,48 @@ std::string proposed_scene_text(const ViewSearch& search, const Candidate& candi
   text.value("background_from_m", metres(horizon.background_from_m), "0.95 of it");
   text.value("crest", "0.4");
   if (candidate.changes.widen_valleys_m > 0.0)
-    text.value("widen_valleys_m", metres(candidate.changes.widen_valleys_m), "that wins " + candidate.changes.widened.words);
+    text.value("widen_valleys_m", metres(candidate.changes.widen_valleys_m),
+               "improves " + candidate.changes.widened.words);
   text.line();
   text.line("[deform]");
-  text.value("exaggeration", fmt::format("{:.2f}", v.exaggeration),
-             fmt::format("forms then stand {:.0f} % of the picture high over their valleys", 100.0 * m.forms));
-  text.value("exaggeration_base_m", fmt::format("{:.0f}", v.base_m), "a tenth of the ground in view is lower: valleys stay where they are");
+  text.value(
+      "exaggeration", fmt::format("{:.2f}", v.exaggeration),
+      fmt::format("so that landforms take {:.0f} % of the picture's height above their valleys",
+                  100.0 * m.forms));
+  text.value("exaggeration_base_m", fmt::format("{:.0f}", v.base_m),
+             "a tenth of the ground in view is lower, so that valleys stay in place");
   text.line("[deform.bend]");
-  text.value("radius_m", metres(v.radius_m), fmt::format("level ground at {:.1f} km then lies on the lower edge", km(v.near_m)));
-  text.value("crest_m", metres(v.crest_m), "level here, tipped towards the viewer before, sinking to the horizon behind");
+  text.value("radius_m", metres(v.radius_m),
+             fmt::format("so that level ground at {:.1f} km is on the lower edge", km(v.near_m)));
+  text.value("crest_m", metres(v.crest_m),
+             "level here, tilted towards the viewer before it, sinking to the horizon behind it");
   text.line();
   write_summits(text, search, candidate);
   text.line("[camera]");
-  if (v.cylinder) text.value("projection", "\"cylindrical\"", "a picture so wide would be stretched at its sides by a plane");
-  text.value("position", place(v.viewer), search.ground.at(v.viewer) == nullptr ? "outside of the data, which begin in front of it" : "");
-  text.value("height_m", fmt::format("{:.0f}", v.eye_m), "bent level ground touches the line of sight at the horizon");
-  text.value("azimuth_deg", fmt::format("{:.1f}", turned_deg(v.azimuth_deg)), fmt::format("to the {}", compass(v.azimuth_deg)));
-  text.value("pitch_deg", fmt::format("{:.2f}", v.pitch_deg), fmt::format("{:.0f} % of the picture is sky", 100.0 * m.skyline.mean));
+  if (v.cylinder)
+    text.value("projection", "\"cylindrical\"",
+               "a plane projection would stretch the sides of a picture this wide");
+  text.value(
+      "position", position(v.viewer),
+      search.ground.at(v.viewer) == nullptr ? "outside the data, which begin in front of it" : "");
+  text.value("height_m", fmt::format("{:.0f}", v.eye_m),
+             "so that the line of sight touches the bent level ground at the horizon");
+  text.value("azimuth_deg", fmt::format("{:.1f}", turned_deg(v.azimuth_deg)),
+             fmt::format("to the {}", compass(v.azimuth_deg)));
+  text.value("pitch_deg", fmt::format("{:.2f}", v.pitch_deg),
+             fmt::format("{:.0f} % of the picture is sky", 100.0 * m.skyline.mean));
   text.value("field_of_view_deg", fmt::format("{:.1f}", v.field_of_view_deg));
   text.line();
   text.line("[sun]");
-  text.value("azimuth_deg", fmt::format("{:.0f}", sun.azimuth_deg), "from the upper left of the picture, as on maps");
+  text.value("azimuth_deg", fmt::format("{:.0f}", sun.azimuth_deg),
+             "from the upper left of the picture, as on maps");
   text.value("altitude_deg", fmt::format("{:.0f}", sun.altitude_deg));
   text.line();
   text.line("[air]");
   text.value("from_m", metres(horizon.air_from_m), "behind the foreground");
-  text.value("scale_m", metres(horizon.air_scale_m), "far ranges turn blue, and stay readable");
+  text.value("scale_m", metres(horizon.air_scale_m), "far ranges turn blue but stay readable");
   text.value("haze", fmt::format("{}", view_haze));
-  text.value("rim_fade_m", metres(horizon.rim_fade_m), "the end of the data goes under in haze");
+  text.value("rim_fade_m", metres(horizon.rim_fade_m), "the end of the data disappears in haze");
   text.line();
   text.line("[output]");
   text.value("width", fmt::format("{}", about.width_px));

@@ -18,20 +18,26 @@ RegionClimate region_climate(const CoarseGround& ground) {
   dem.transform = ground.transform;
   dem.crs = ground.crs;
   dem.altitude_m = Grid<float>(ground.cells.width(), ground.cells.height());
-  for (std::size_t i = 0; i < ground.cells.size(); ++i) dem.altitude_m[i] = ground.cells[i].altitude_m;
+  for (std::size_t i = 0; i < ground.cells.size(); ++i)
+    dem.altitude_m[i] = ground.cells[i].altitude_m;
   dem.filled = Grid<std::uint8_t>(ground.cells.width(), ground.cells.height(), 0);
   const Climate climate = make_climate(
-      dem, {}, [](glm::dvec2 lonlat_deg) { return default_climate(lonlat_deg.x, lonlat_deg.y); }, silent_progress());
+      dem, {}, [](glm::dvec2 lonlat_deg) { return default_climate(lonlat_deg.x, lonlat_deg.y); },
+      silent_progress());
   const RuleClimate rules = make_map_climate(dem, climate, {});
   const int width = dem.width();
-  std::vector<float> moisture(static_cast<std::size_t>(width)), rain(moisture.size()), warmth(moisture.size());
+  std::vector<float> moisture(static_cast<std::size_t>(width)), rain(moisture.size()),
+      warmth(moisture.size());
   double sums[3] = {0.0, 0.0, 0.0};
   double count = 0.0;
   for (int y = 0; y < dem.height(); ++y) {
     const float* altitude_m = dem.altitude_m.row(y);
-    fill_climate_row(rules, ClimateVariable::moisture, dem.transform, y, width, altitude_m, moisture.data());
-    fill_climate_row(rules, ClimateVariable::rain, dem.transform, y, width, altitude_m, rain.data());
-    fill_climate_row(rules, ClimateVariable::temperature, dem.transform, y, width, altitude_m, warmth.data());
+    fill_climate_row(rules, ClimateVariable::moisture, dem.transform, y, width, altitude_m,
+                     moisture.data());
+    fill_climate_row(rules, ClimateVariable::rain, dem.transform, y, width, altitude_m,
+                     rain.data());
+    fill_climate_row(rules, ClimateVariable::temperature, dem.transform, y, width, altitude_m,
+                     warmth.data());
     for (int x = 0; x < width; ++x) {
       if (!ground.cells(x, y).known) continue;
       const auto i = static_cast<std::size_t>(x);
@@ -42,7 +48,10 @@ RegionClimate region_climate(const CoarseGround& ground) {
     }
   }
   if (count == 0.0) return out;
-  return {.known = true, .moisture = sums[0] / count, .rain_mm = sums[1] / count, .temperature_c = sums[2] / count};
+  return {.known = true,
+          .moisture = sums[0] / count,
+          .rain_mm = sums[1] / count,
+          .temperature_c = sums[2] / count};
 }
 
 bool is_canyon_country(const RegionClimate& climate) {

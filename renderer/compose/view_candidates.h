@@ -14,20 +14,20 @@
 
 namespace belvedere {
 
-// What a user asks of the view.
-struct ViewWishes {
+// The user's request for the view.
+struct ViewRequest {
   ViewFormat format = {};
-  std::optional<double> towards_deg = {};  // azimuth of the view, to 15° either way
-  std::optional<glm::dvec2> from = {};     // the viewer stands here, scene CRS
+  std::optional<double> towards_deg = {};  // azimuth of the view, ±15°
+  std::optional<glm::dvec2> from = {};     // position of the viewer, scene CRS
   struct Place {
     std::string name;
-    glm::dvec2 place{0.0};  // scene CRS
+    glm::dvec2 position{0.0};  // scene CRS
   };
   std::vector<Place> include = {};  // must be in the picture
-  bool plain = false;               // no valley widened, no summit raised by itself
+  bool plain = false;               // no valley widened, no summit raised individually
 };
 
-// What a view is found by; all else follows.
+// The parameters of a search for a view; all else is derived.
 struct ViewPlan {
   int anchor = 0;  // that the picture is about
   double azimuth_deg = 0.0;
@@ -36,13 +36,13 @@ struct ViewPlan {
   double near_share = 0.42;  // of far
   double crest_share = 0.80;
   double anchor_share = 0.76;  // distance of the anchor
-  double across = 0.5;         // where the anchor is in the picture
+  double across = 0.5;         // position of the anchor in the picture
 };
 
-// What a means beyond the usual ones makes better in a view.
+// The improvement of a view by a change beyond the usual ones.
 struct ViewGain {
   double merit = 0.0;
-  std::string words;  // what is won, "ground 47 to 55 %"; empty: it is not used
+  std::string words;  // the improvement, "ground 47 to 55 %"; empty: the change is not used
 };
 
 // A summit that is raised more than the rest.
@@ -52,14 +52,14 @@ struct RaisedSummit {
   ViewGain gain;
 };
 
-// What is done to the ground of a view besides raising and bending it (view_changes.h).
+// Changes to the ground of a view besides raising and bending it (view_changes.h).
 struct ViewChanges {
   double widen_valleys_m = 0.0;
   ViewGain widened;
   std::vector<RaisedSummit> summits;
 };
 
-// A view that was laid out and judged.
+// A view that was laid out and evaluated.
 struct Candidate {
   ViewPlan plan;
   ViewShape view;
@@ -70,22 +70,24 @@ struct Candidate {
   ViewChanges changes;
 };
 
-// The ground, what is on it, and what is asked of it: of one search.
+// The ground, its subjects, and the request: of one search.
 struct ViewSearch {
   const CoarseGround& ground;
   const Massifs& massifs;
-  ViewWishes wishes;
+  ViewRequest request;
 };
 
-// The view that a plan means, without its layout.
+// The view of a plan, without its layout.
 ViewShape shape_of(const ViewSearch& search, const ViewPlan& plan);
-// Laid out and judged; nothing where the data do not fill it.
-std::optional<Candidate> judge(const ViewSearch& search, const ViewPlan& plan, const MeasureParameters& measure = {});
-// All first candidates: anchors × azimuths × distances × places across × sizes. In a fixed order.
+// Laid out and evaluated; nothing where the data do not fill it.
+std::optional<Candidate> judge(const ViewSearch& search, const ViewPlan& plan,
+                               const MeasureParameters& measure = {});
+// All first candidates: anchors × azimuths × distances × positions across × sizes. In a fixed
+// order.
 std::vector<Candidate> first_candidates(const ViewSearch& search);
-// Steps from a candidate while they make it better, halved a few times.
+// Steps from a candidate while they improve it, halved a few times.
 Candidate refine(const ViewSearch& search, Candidate from);
-// Short steps alone, from a candidate whose ground has changed a little.
-Candidate settle(const ViewSearch& search, Candidate from);
+// Only short steps, from a candidate whose ground has changed a little.
+Candidate resolve(const ViewSearch& search, Candidate from);
 
 }  // namespace belvedere

@@ -12,7 +12,7 @@
 namespace belvedere {
 namespace {
 
-// Points of the score, of some 15, that a change must win.
+// Points of the score, of about 15, that a change must gain.
 constexpr double wide_wins = 0.20;
 constexpr double summit_wins = 0.25;
 constexpr double widest_m = 2000.0;
@@ -23,53 +23,60 @@ std::vector<SummitExaggeration> raised(const ViewChanges& changes) {
   return out;
 }
 
-// The region's anchors, as high as they then are.
+// The region's anchors, with their changed heights.
 Massifs raised_anchors(const Massifs& massifs, const ViewChanges& changes) {
   Massifs out = massifs;
   for (const RaisedSummit& summit : changes.summits) {
     Anchor& anchor = out.anchors[static_cast<std::size_t>(summit.anchor)];
-    const double more = (summit.by.factor - 1.0) * std::max(0.0, anchor.altitude_m - summit.by.base_m);
+    const double more =
+        (summit.by.factor - 1.0) * std::max(0.0, anchor.altitude_m - summit.by.base_m);
     anchor.altitude_m += more;
     anchor.stands_m += more;
   }
   return out;
 }
 
-std::optional<Candidate> judge_changed(const ViewSearch& search, const CoarseGround& ground, const ViewChanges& changes,
-                                       const ViewPlan& plan) {
+std::optional<Candidate> judge_changed(const ViewSearch& search, const CoarseGround& ground,
+                                       const ViewChanges& changes, const ViewPlan& plan) {
   const Massifs massifs = raised_anchors(search.massifs, changes);
-  std::optional<Candidate> out = judge({ground, massifs, search.wishes}, plan);
+  std::optional<Candidate> out = judge({ground, massifs, search.request}, plan);
   if (out) out->changes = changes;
   return out;
 }
 
 // The summits of a view that may be raised: the first of the region that are in the picture.
 std::vector<int> summits_in(const ViewSearch& search, const Candidate& view) {
-  constexpr std::size_t most = 3;
+  constexpr std::size_t max = 3;
   std::vector<int> out;
-  for (std::size_t i = 0; i < search.massifs.anchors.size() && out.size() < most; ++i)
-    if (search.massifs.anchors[i].kind == AnchorKind::summit && view.measures.anchors[i].inside) out.push_back(static_cast<int>(i));
+  for (std::size_t i = 0; i < search.massifs.anchors.size() && out.size() < max; ++i)
+    if (search.massifs.anchors[i].kind == AnchorKind::summit && view.measures.anchors[i].inside)
+      out.push_back(static_cast<int>(i));
   return out;
 }
 
 bool is_raised(const Candidate& view, int anchor) {
   const std::vector<RaisedSummit>& done = view.changes.summits;
-  return std::any_of(done.begin(), done.end(), [&](const RaisedSummit& s) { return s.anchor == anchor; });
+  return std::any_of(done.begin(), done.end(),
+                     [&](const RaisedSummit& s) { return s.anchor == anchor; });
 }
 
-// The view with the one more summit that wins most, or as it is.
-Candidate with_a_summit(const ViewSearch& search, const CoarseGround& ground, const Candidate& from) {
+// The view with the one more summit that gains most, or unchanged.
+Candidate with_a_summit(const ViewSearch& search, const CoarseGround& ground,
+                        const Candidate& from) {
   Candidate best = from;
   for (const int anchor : summits_in(search, from)) {
     if (is_raised(from, anchor)) continue;
     const Anchor& summit = search.massifs.anchors[static_cast<std::size_t>(anchor)];
     for (const double factor : {1.15, 1.3}) {
       ViewChanges changes = from.changes;
-      changes.summits.push_back({.anchor = anchor, .by = raise_of(summit, from.view, factor), .gain = {}});
-      std::optional<Candidate> next = judge_changed(search, raised_ground(ground, raised(changes)), changes, from.plan);
+      changes.summits.push_back(
+          {.anchor = anchor, .by = raise_of(summit, from.view, factor), .gain = {}});
+      std::optional<Candidate> next =
+          judge_changed(search, raised_ground(ground, raised(changes)), changes, from.plan);
       if (!next || next->score < from.score + summit_wins || next->score <= best.score) continue;
       best = std::move(*next);
-      best.changes.summits.back().gain = {.merit = best.merit - from.merit, .words = describe_gains(from.terms, best.terms)};
+      best.changes.summits.back().gain = {.merit = best.merit - from.merit,
+                                          .words = describe_gains(from.terms, best.terms)};
     }
   }
   return best;
@@ -79,7 +86,7 @@ Candidate with_a_summit(const ViewSearch& search, const CoarseGround& ground, co
 
 SummitExaggeration raise_of(const Anchor& summit, const ViewShape& view, double factor) {
   constexpr double reach = 0.10, upper_part = 0.3;
-  return {.center = {std::round(summit.place.x), std::round(summit.place.y)},
+  return {.centre = {std::round(summit.position.x), std::round(summit.position.y)},
           .radius_m = rounded_m(reach * view.far_m),
           .factor = factor,
           .base_m = std::round(view.base_m + upper_part * (summit.altitude_m - view.base_m))};
@@ -88,13 +95,15 @@ SummitExaggeration raise_of(const Anchor& summit, const ViewShape& view, double 
 std::vector<WideGround> widen_grounds(const CoarseGround& ground) {
   std::vector<WideGround> out;
   for (const double share : {0.006, 0.012}) {  // of the side
-    const double width_m = std::min(std::max(1.0, std::round(share * ground.side_m / 50.0)) * 50.0, widest_m);
+    const double width_m =
+        std::min(std::max(1.0, std::round(share * ground.side_m / 50.0)) * 50.0, widest_m);
     out.push_back({width_m, widened_ground(ground, width_m)});
   }
   return out;
 }
 
-Candidate with_changes(const ViewSearch& search, const std::vector<WideGround>& wide, const Candidate& from) {
+Candidate with_changes(const ViewSearch& search, const std::vector<WideGround>& wide,
+                       const Candidate& from) {
   Candidate best = from;
   const CoarseGround* ground = &search.ground;
   for (const WideGround& tried : wide) {
@@ -103,18 +112,20 @@ Candidate with_changes(const ViewSearch& search, const std::vector<WideGround>& 
     std::optional<Candidate> next = judge_changed(search, tried.ground, changes, from.plan);
     if (!next || next->score < from.score + wide_wins || next->score <= best.score) continue;
     best = std::move(*next);
-    best.changes.widened = {.merit = best.merit - from.merit, .words = describe_gains(from.terms, best.terms)};
+    best.changes.widened = {.merit = best.merit - from.merit,
+                            .words = describe_gains(from.terms, best.terms)};
     ground = &tried.ground;
   }
-  constexpr int most_summits = 2;
-  for (int k = 0; k < most_summits; ++k) best = with_a_summit(search, *ground, best);
+  constexpr int max_summits = 2;
+  for (int k = 0; k < max_summits; ++k) best = with_a_summit(search, *ground, best);
   ViewChanges changes = best.changes;
   if (changes.widen_valleys_m == 0.0 && changes.summits.empty()) return best;
-  // On the ground as it is now the view may stand a little better elsewhere.
+  // On the changed ground a slightly different view may be better.
   const CoarseGround changed = raised_ground(*ground, raised(changes));
   const Massifs massifs = raised_anchors(search.massifs, changes);
-  Candidate out = settle({changed, massifs, search.wishes}, best);
-  (changes.widen_valleys_m > 0.0 ? changes.widened : changes.summits.back().gain).merit += out.merit - best.merit;
+  Candidate out = resolve({changed, massifs, search.request}, best);
+  (changes.widen_valleys_m > 0.0 ? changes.widened : changes.summits.back().gain).merit +=
+      out.merit - best.merit;
   out.changes = std::move(changes);
   return out;
 }
@@ -123,11 +134,13 @@ std::string describe_changes(const ViewSearch& search, const Candidate& candidat
   std::vector<std::string> out;
   const ViewChanges& changes = candidate.changes;
   if (changes.widen_valleys_m > 0.0)
-    out.push_back(fmt::format("valleys {:.0f} m wider win {}", changes.widen_valleys_m, changes.widened.words));
+    out.push_back(fmt::format("valleys {:.0f} m wider improve {}", changes.widen_valleys_m,
+                              changes.widened.words));
   for (const RaisedSummit& summit : changes.summits)
-    out.push_back(fmt::format("{} raised by {:.2f} wins {}",
-                              describe_anchor(search.massifs.anchors[static_cast<std::size_t>(summit.anchor)]), summit.by.factor,
-                              summit.gain.words));
+    out.push_back(fmt::format(
+        "{} raised by {:.2f} improves {}",
+        describe_anchor(search.massifs.anchors[static_cast<std::size_t>(summit.anchor)]),
+        summit.by.factor, summit.gain.words));
   return fmt::format("{}", fmt::join(out, "; "));
 }
 

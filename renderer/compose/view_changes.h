@@ -7,10 +7,11 @@
 
 namespace belvedere {
 
-// What painters do to the land besides raising and bending all of it: wider valleys, summits raised by themselves. A view takes of it only
-// what makes it clearly better, because whoever reads a map finds the land as it is.
+// Changes that painters make to the land besides raising and bending all of it: wider valleys,
+// summits raised individually. A view uses only those that clearly improve it, because readers of a
+// map expect the land as it is.
 
-// Grounds with wider valleys, the same for all views of a search.
+// Grounds with wider valleys, shared by all views of a search.
 struct WideGround {
   double width_m = 0.0;
   CoarseGround ground;
@@ -20,11 +21,14 @@ std::vector<WideGround> widen_grounds(const CoarseGround& ground);
 // How the upper part of a summit is raised in a view.
 SummitExaggeration raise_of(const Anchor& summit, const ViewShape& view, double factor);
 
-// A refined candidate with what of this makes it clearly better: valleys of one width, and two summits at most; else itself. It is judged
-// on the ground as it then is; viewer, bend and frame follow by the same layout.
-Candidate with_changes(const ViewSearch& search, const std::vector<WideGround>& wide, const Candidate& from);
+// A refined candidate with those changes that clearly improve it: valleys of one width, and two
+// summits at most; else itself. It is evaluated on the changed ground; viewer, bend and frame
+// follow by the same layout.
+Candidate with_changes(const ViewSearch& search, const std::vector<WideGround>& wide,
+                       const Candidate& from);
 
-// What a candidate does beyond the usual, with what that wins: "valleys 450 m wider win floor 19 to 59 %"; empty where there is nothing.
+// The unusual changes of a candidate, with their improvement: "valleys 450 m wider improve floor 19
+// to 59 %"; empty if none.
 std::string describe_changes(const ViewSearch& search, const Candidate& candidate);
 
 }  // namespace belvedere

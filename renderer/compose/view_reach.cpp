@@ -9,8 +9,9 @@
 namespace belvedere {
 namespace {
 
-// Two fifths of the known ground between two distances in view, or of all of it, are lower.
-double level_of(const CoarseGround& ground, const CameraParameters& camera, glm::dvec2 viewer, double near_m, double far_m) {
+// Two fifths of the ground with data between two distances in view, or of all of it, are lower.
+double level_of(const CoarseGround& ground, const CameraParameters& camera, glm::dvec2 viewer,
+                double near_m, double far_m) {
   std::vector<float> altitudes;
   if (far_m > near_m) {
     ViewShape view;
@@ -20,7 +21,8 @@ double level_of(const CoarseGround& ground, const CameraParameters& camera, glm:
     view.near_m = near_m;
     view.far_m = far_m;
     for (const WedgePoint& p : wedge_points(view))
-      if (const GroundCell* c = ground.at(p.place); c != nullptr && c->known) altitudes.push_back(c->altitude_m);
+      if (const GroundCell* c = ground.at(p.position); c != nullptr && c->known)
+        altitudes.push_back(c->altitude_m);
   }
   constexpr std::size_t fewest = 40;
   if (altitudes.size() < fewest) {
@@ -31,8 +33,9 @@ double level_of(const CoarseGround& ground, const CameraParameters& camera, glm:
   return static_cast<double>(value_at_rank(altitudes, altitudes.size() * 2 / 5));
 }
 
-// The farthest ground there is, in the middle of the directions.
-double farthest_m(const CoarseGround& ground, const std::vector<glm::dvec2>& directions, glm::dvec2 viewer, double azimuth_deg) {
+// The farthest ground, at the centre of the directions.
+double farthest_m(const CoarseGround& ground, const std::vector<glm::dvec2>& directions,
+                  glm::dvec2 viewer, double azimuth_deg) {
   constexpr int steps = 400;
   std::vector<double> reach;
   for (const glm::dvec2& direction : directions) {
@@ -50,9 +53,10 @@ double farthest_m(const CoarseGround& ground, const std::vector<glm::dvec2>& dir
 
 }  // namespace
 
-CameraPicture::CameraPicture(const CameraParameters& parameters) : camera_(make_camera(parameters)), azimuth_deg_(parameters.azimuth_deg) {}
+CameraPicture::CameraPicture(const CameraParameters& parameters)
+    : camera_(make_camera(parameters)), azimuth_deg_(parameters.azimuth_deg) {}
 
-glm::dvec2 CameraPicture::place(glm::dvec2 direction, double depression) const {
+glm::dvec2 CameraPicture::position(glm::dvec2 direction, double depression) const {
   constexpr double away_m = 10000.0;
   const glm::dvec2 on_map = to_map(direction, azimuth_deg_);
   const auto at = camera_->project(camera_->eye() + away_m * glm::dvec3(on_map, -depression));
@@ -64,7 +68,8 @@ std::vector<glm::dvec2> camera_directions(const CameraParameters& camera, int co
   return fan_directions(camera.field_of_view_deg, camera.projection != "perspective", columns);
 }
 
-ViewReach find_reach(const CoarseGround& ground, const Deformation& deformation, const CameraParameters& camera) {
+ViewReach find_reach(const CoarseGround& ground, const Deformation& deformation,
+                     const CameraParameters& camera) {
   const glm::dvec2 viewer = deformation.viewer_xy();
   const std::vector<glm::dvec2> directions = camera_directions(camera, MeasureParameters{}.columns);
   const double farthest = farthest_m(ground, directions, viewer, camera.azimuth_deg);
@@ -77,7 +82,7 @@ ViewReach find_reach(const CoarseGround& ground, const Deformation& deformation,
   const double base = deformation.parameters().exaggeration_base_m;
   const double smallest = std::max(10.0, 0.001 * ground.side_m);
   ViewReach reach;
-  // The horizon decides which ground is in view, and that which level the horizon is of.
+  // The horizon determines which ground is in view, and that ground the level of the horizon.
   for (int round = 0; round < 2; ++round) {
     const double level_m = level_of(ground, camera, viewer, reach.near_m, reach.far_m);
     const auto depression = [&](double d) {
@@ -85,15 +90,17 @@ ViewReach find_reach(const CoarseGround& ground, const Deformation& deformation,
       return (camera.eye.z - z + deformation.drop_m(d)) / d;
     };
     constexpr int steps = 600;
-    const std::vector<double> distances = growing_distances(smallest, std::max(2.0 * smallest, farthest), steps);
+    const std::vector<double> distances =
+        growing_distances(smallest, std::max(2.0 * smallest, farthest), steps);
     reach = {0.0, farthest};
     std::size_t highest = 0;
     for (std::size_t i = 0; i < distances.size(); ++i) {
       const double t = depression(distances[i]);
-      if (reach.near_m == 0.0 && picture.place({0.0, 1.0}, t).y <= 1.0) reach.near_m = distances[i];
+      if (reach.near_m == 0.0 && picture.position({0.0, 1.0}, t).y <= 1.0)
+        reach.near_m = distances[i];
       if (t < depression(distances[highest])) highest = i;
     }
-    // Between its neighbours, by thirds.
+    // Interpolated between its neighbours, in thirds.
     double from = distances[highest == 0 ? 0 : highest - 1];
     double to = distances[std::min(highest + 1, distances.size() - 1)];
     for (int third = 0; third < 40; ++third) {

@@ -11,26 +11,28 @@
 
 namespace belvedere {
 
-// A camera's own picture, whatever its projection.
+// A camera's own picture, in any projection.
 class CameraPicture final : public PictureMap {
  public:
   explicit CameraPicture(const CameraParameters& parameters);
-  glm::dvec2 place(glm::dvec2 direction, double depression) const override;
+  glm::dvec2 position(glm::dvec2 direction, double depression) const override;
 
  private:
   std::unique_ptr<Camera> camera_;
   double azimuth_deg_;
 };
 
-// The directions that a camera looks in, (right, ahead), one a column.
+// The directions that a camera looks in, (right, ahead), one per column.
 std::vector<glm::dvec2> camera_directions(const CameraParameters& camera, int columns);
 
-// From where level ground meets the lower edge of a picture to its horizon, where level ground is highest in it. Level ground is what two
-// fifths of that in view are lower than, raised and bent as the view is.
+// From where level ground meets the lower edge of a picture to its horizon, where level ground is
+// highest in it. Level ground is at the altitude that two fifths of the ground in view lie below,
+// raised and bent as in the view.
 struct ViewReach {
   double near_m = 0.0;
   double far_m = 0.0;  // 0: no data lie in the direction of the view
 };
-ViewReach find_reach(const CoarseGround& ground, const Deformation& deformation, const CameraParameters& camera);
+ViewReach find_reach(const CoarseGround& ground, const Deformation& deformation,
+                     const CameraParameters& camera);
 
 }  // namespace belvedere

@@ -9,11 +9,11 @@
 
 namespace belvedere {
 
-// What a view is judged against besides its measures.
+// Reference values of the evaluation of a view.
 struct ScoreContext {
   double lone = 0.0;     // of the massifs
   double plateau = 0.0;  // of the ground
-  int main = 0;          // anchor that the picture is about; -1: none
+  int main = 0;          // anchor that is the subject; -1: none
   std::vector<Anchor> anchors;
 };
 
@@ -23,37 +23,41 @@ struct Plateau {
 };
 double plateau(double x, const Plateau& p);
 
-// How a term's measure counts: by where it lies on its plateau; by how far it lies outside of b…c; or it is told alone.
+// How a term's measure counts: by its position on the plateau; by its distance outside b…c; or it
+// is only reported.
 enum class TermKind : int { plateau, excess, told };
 enum class TermUnit : int { share, number, degrees, pixels };
 
-// A row of the one table of what makes a view good.
+// A row of the table that evaluates views.
 struct ScoreTerm {
   std::string_view name;
-  double weight = 1.0;  // of a full plateau; or what one unit outside costs
+  double weight = 1.0;  // of a full plateau; or the cost of one unit outside
   TermKind kind = TermKind::plateau;
   Plateau good;
   TermUnit unit = TermUnit::share;
   double value = 0.0;
-  std::string_view meaning;  // what is measured
-  std::string_view too_low;  // what to say, and to do, where it is less than good; empty: cannot be too little
+  std::string_view meaning;  // what is measured; printed after the value
+  std::string_view too_low;  // message, with what to do, where it is too small; empty: never
   std::string_view too_high;
 
   double points() const;
-  // What to say of it; empty where it is good, or nearly.
+  // The applicable message; empty where the value is good, or nearly.
   std::string_view advice() const;
-  // The most it can give.
-  double most() const { return kind == TermKind::plateau ? weight : 0.0; }
+  // The maximum of points().
+  double max() const { return kind == TermKind::plateau ? weight : 0.0; }
 };
 
 // The table, filled in for a view.
 std::vector<ScoreTerm> score_terms(const ViewMeasures& measures, const ScoreContext& context);
 double total(const std::vector<ScoreTerm>& terms);
-// The measures that make one of two views of a region better, in words: the two that gain most points.
-std::string describe_gains(const std::vector<ScoreTerm>& before, const std::vector<ScoreTerm>& after);
-// Of the anchors inside of the picture that which makes the most of it as its subject; the first where none is inside.
+// The measures in which the second of two views of a region is better, in words: the two that gain
+// most points.
+std::string describe_gains(const std::vector<ScoreTerm>& before,
+                           const std::vector<ScoreTerm>& after);
+// Of the anchors inside the picture, the one that gives the highest score as its subject; the first
+// where none is inside.
 int leading_anchor(const ViewMeasures& measures, ScoreContext context);
-// Figure of merit: the total over the most that a picture of the region can have, 0…10.
+// Figure of merit: the total relative to the maximum of a picture of the region, 0…10.
 double merit(const std::vector<ScoreTerm>& terms, const ScoreContext& context);
 
 }  // namespace belvedere

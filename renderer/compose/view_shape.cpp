@@ -21,28 +21,32 @@ double tangent(double angle_rad) {
 FormatLimits limits_of(const ViewFormat& format) {
   FormatLimits out;
   if (format.full_turn) {
-    // A ring of ground: the far half of it is as near to the viewer as the near half, so the lower edge comes closer.
+    // A ring of ground: the far half of it is as near to the viewer as the near half, so the lower
+    // edge comes closer.
     out = {.cylinder = true,
            .field_of_view_deg = 360.0,
-           .least_field_deg = 360.0,
-           .most_field_deg = 360.0,
+           .min_field_deg = 360.0,
+           .max_field_deg = 360.0,
            .near_share = 0.3,
-           .least_near = 0.16,
-           .most_near = 0.5};
+           .min_near = 0.16,
+           .max_near = 0.5};
     return out;
   }
-  // A field that is wider by the root of the aspect: half of a longer sheet goes into width, half into a lower strip of land.
+  // A field that is wider by the square root of the aspect: half of the additional length of a
+  // sheet widens the view, half makes the strip of land lower.
   const double grow = std::sqrt(format.aspect / 2.0);
-  constexpr double usual = 22.0, least = 17.0, most = 28.0;  // halves, for 2 : 1
+  constexpr double usual = 22.0, min = 17.0, max = 28.0;  // halves, for 2 : 1
   out.field_of_view_deg = 2.0 * arc_tangent_deg(grow * tangent(to_radians(usual)));
-  out.least_field_deg = 2.0 * arc_tangent_deg(grow * tangent(to_radians(least)));
-  out.most_field_deg = 2.0 * arc_tangent_deg(grow * tangent(to_radians(most)));
+  out.min_field_deg = 2.0 * arc_tangent_deg(grow * tangent(to_radians(min)));
+  out.max_field_deg = 2.0 * arc_tangent_deg(grow * tangent(to_radians(max)));
   constexpr double widest_plane = 3.2;
   out.cylinder = format.aspect > widest_plane;
   return out;
 }
 
-double ViewShape::drop_m(double distance_m) const { return square(distance_m - crest_m) / (2.0 * radius_m); }
+double ViewShape::drop_m(double distance_m) const {
+  return square(distance_m - crest_m) / (2.0 * radius_m);
+}
 double ViewShape::slope(double distance_m) const { return (crest_m - distance_m) / radius_m; }
 
 double picture_height(const ViewShape& view) {
@@ -57,17 +61,19 @@ ComposedPicture::ComposedPicture(const ViewShape& view) : cylinder_(view.cylinde
   const exact::Turn turn = exact::turn(down);
   cosine_ = turn.cosine;
   sine_ = turn.sine;
-  middle_ = sine_ / cosine_;
+  centre_ = sine_ / cosine_;
   half_width_ = cylinder_ ? half : tangent(half);
   half_height_ = half_width_ / view.aspect;
 }
 
-glm::dvec2 ComposedPicture::place(glm::dvec2 direction, double depression) const {
+glm::dvec2 ComposedPicture::position(glm::dvec2 direction, double depression) const {
   if (cylinder_)
-    return {0.5 + 0.5 * exact::atan2(direction.x, direction.y) / half_width_, 0.5 + 0.5 * (depression - middle_) / half_height_};
+    return {0.5 + 0.5 * exact::atan2(direction.x, direction.y) / half_width_,
+            0.5 + 0.5 * (depression - centre_) / half_height_};
   const double depth = direction.y * cosine_ + depression * sine_;
   const double up = direction.y * sine_ - depression * cosine_;
-  if (!(depth > 1e-9)) return {0.5 + 1e6 * direction.x, 1e6};  // below or behind what a plane can show
+  if (!(depth > 1e-9))
+    return {0.5 + 1e6 * direction.x, 1e6};  // below or behind what a plane can show
   return {0.5 + 0.5 * direction.x / (depth * half_width_), 0.5 - 0.5 * up / (depth * half_height_)};
 }
 
@@ -95,7 +101,8 @@ std::vector<glm::dvec2> fan_directions(double field_of_view_deg, bool cylinder, 
 
 glm::dvec2 to_map(glm::dvec2 direction, double azimuth_deg) {
   const exact::Turn turn = exact::turn(to_radians(azimuth_deg));
-  return {direction.x * turn.cosine + direction.y * turn.sine, direction.y * turn.cosine - direction.x * turn.sine};
+  return {direction.x * turn.cosine + direction.y * turn.sine,
+          direction.y * turn.cosine - direction.x * turn.sine};
 }
 
 std::vector<double> growing_distances(double from, double to, int count) {

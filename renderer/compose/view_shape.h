@@ -8,19 +8,21 @@ namespace belvedere {
 // The shape of a sheet.
 struct ViewFormat {
   double aspect = 2.0;     // width over height, 0.5…12
-  bool full_turn = false;  // all around the viewer, on a cylinder
+  bool full_turn = false;  // full circle around the viewer, on a cylinder
 };
 
-// Between which values a search may choose for a format.
+// Bounds of a search for a format.
 struct FormatLimits {
   bool cylinder = false;  // wide pictures: a plane would stretch their sides
-  double field_of_view_deg = 44.0, least_field_deg = 34.0, most_field_deg = 56.0;
-  double near_share = 0.42, least_near = 0.28, most_near = 0.66;  // distance of the lower edge, of the horizon's
+  double field_of_view_deg = 44.0, min_field_deg = 34.0, max_field_deg = 56.0;
+  double near_share = 0.42, min_near = 0.28,
+         max_near = 0.66;  // distance of the lower edge, of the horizon's
 };
 FormatLimits limits_of(const ViewFormat& format);
 
-// A view with its bend: all that a picture's geometry depends on. The ground is first exaggerated about a base, then bent by a parabola:
-// level ground at the distance d is tipped towards the viewer by (crest - d) / radius. So far is the horizon of all level ground.
+// A view with its bend: all that a picture's geometry depends on. The ground is first exaggerated
+// about a base, then bent by a parabola: level ground at the distance d is tilted towards the
+// viewer by (crest - d) / radius. far_m is the horizon of all level ground.
 struct ViewShape {
   glm::dvec2 viewer{0.0};
   double azimuth_deg = 0.0;
@@ -28,51 +30,55 @@ struct ViewShape {
   double aspect = 2.0;
   bool cylinder = false;
   double near_m = 0.0;   // where level ground meets the lower edge
-  double far_m = 0.0;    // the horizon: there bent level ground touches the line of sight
+  double far_m = 0.0;    // the horizon: there the line of sight touches bent level ground
   double crest_m = 0.0;  // where bent ground is level
   double exaggeration = 1.5;
   double base_m = 0.0;    // altitude that exaggeration keeps
-  double level_m = 0.0;   // level ground over the base, exaggerated
+  double level_m = 0.0;   // level ground above the base, exaggerated
   double radius_m = 0.0;  // of the bend
   double eye_m = 0.0;     // height of the eye
   double pitch_deg = 0.0;
 
-  // How far bent ground sinks; counted from the crest of the parabola.
+  // How far bent ground sinks, relative to the crest of the parabola.
   double drop_m(double distance_m) const;
-  // The tangent by which level ground is tipped towards the viewer.
+  // The tangent by which level ground is tilted towards the viewer.
   double slope(double distance_m) const;
   double raised_m(double altitude_m) const { return base_m + exaggeration * (altitude_m - base_m); }
 };
 
-// Where lines of sight lie in a picture, 0…1 from its left and upper edge. A line is a level direction (to the right, ahead; a unit vector)
-// and the tangent of its depression.
+// Position of lines of sight in a picture, 0…1 from its left and upper edge. A line is a level
+// direction (to the right, ahead; a unit vector) and the tangent of its depression.
 class PictureMap {
  public:
   virtual ~PictureMap() = default;
-  virtual glm::dvec2 place(glm::dvec2 direction, double depression) const = 0;
+  virtual glm::dvec2 position(glm::dvec2 direction, double depression) const = 0;
 };
 
 class ComposedPicture final : public PictureMap {
  public:
   explicit ComposedPicture(const ViewShape& view);
-  glm::dvec2 place(glm::dvec2 direction, double depression) const override;
+  glm::dvec2 position(glm::dvec2 direction, double depression) const override;
 
  private:
   bool cylinder_ = false;
-  double half_width_ = 1.0, half_height_ = 1.0;  // tangents; of a cylinder half of its turn, and tangents of elevation
-  double cosine_ = 1.0, sine_ = 0.0;             // of the pitch, downwards
-  double middle_ = 0.0;                          // of a cylinder: the tangent of depression in the middle
+  double half_width_ = 1.0,
+         half_height_ =
+             1.0;  // tangents; of a cylinder half of its angle, and tangents of elevation
+  double cosine_ = 1.0, sine_ = 0.0;  // of the pitch, downwards
+  double centre_ = 0.0;               // of a cylinder: the tangent of depression at the centre
 };
 
-// Height of the picture as an angle: 2 atan(tan(field / 2) / aspect); of a cylinder the field over the aspect, in tangents.
+// Height of the picture as an angle: 2 atan(tan(field / 2) / aspect); of a cylinder the field over
+// the aspect, in tangents.
 double picture_height(const ViewShape& view);
-// Level directions (right, ahead) evenly over the picture's width, and a little beyond its edges where a tilted picture shows more below.
+// Level directions (right, ahead) evenly over the picture's width, and a little beyond its edges
+// where a tilted picture shows more below.
 std::vector<glm::dvec2> fan_directions(double field_of_view_deg, bool cylinder, int columns);
-// With the same bits everywhere; angles in radians.
+// Bit-identical on all machines; angles in radians.
 double tangent(double angle_rad);
 // (right, ahead) to (east, north).
 glm::dvec2 to_map(glm::dvec2 direction, double azimuth_deg);
-// Distances from `from` to `to` whose ratios are equal.
+// Distances from `from` to `to` with equal ratios.
 std::vector<double> growing_distances(double from, double to, int count);
 
 }  // namespace belvedere

@@ -19,8 +19,8 @@
 #include "base/guidance_channels.h"
 #include "base/parallel.h"
 #include "base/random_streams.h"
+#include "renderer/exemplar/available_texels.h"
 #include "renderer/exemplar/seam_picture.h"
-#include "renderer/exemplar/texel_supply.h"
 #include "renderer/ground/cached_products.h"
 #include "renderer/image/srgb.h"
 #include "renderer/paint/composite.h"
@@ -35,7 +35,8 @@ namespace {
 
 const glm::vec3 paper{0.957F, 0.937F, 0.886F};  // encoded sRGB
 
-// An example sheet is one stage for those who watch, not sixteen times ten; remarks about its panels are not theirs either.
+// An example sheet is reported as one stage, not sixteen times ten, and without notes about its
+// panels.
 class OneStage : public Progress {
  public:
   explicit OneStage(Progress& watcher) : watcher_(watcher) {}
@@ -45,39 +46,44 @@ class OneStage : public Progress {
   Progress& watcher_;
 };
 
-// What bare paper has in a channel.
+// Value of bare paper in a channel.
 glm::vec3 paper_value(const GuidanceChannel& channel) {
   if (channel.member == GuidanceMember(&GuidanceBuffers::base))
-    return {static_cast<float>(srgb_decoded(static_cast<double>(paper.x))), static_cast<float>(srgb_decoded(static_cast<double>(paper.y))),
+    return {static_cast<float>(srgb_decoded(static_cast<double>(paper.x))),
+            static_cast<float>(srgb_decoded(static_cast<double>(paper.y))),
             static_cast<float>(srgb_decoded(static_cast<double>(paper.z)))};
   return channel.paper.value_or(channel.sky);
 }
 
-// Indices of pixels in the panel become indices in the example sheet; bare paper grew where it lies.
-void insert_indices(Grid<std::uint32_t>& whole, const Grid<std::uint32_t>& part, glm::ivec2 row_size, int x0, int y0, int row_y0) {
+// Converts pixel indices in the panel to indices in the example sheet; bare paper refers to itself.
+void insert_indices(Grid<std::uint32_t>& whole, const Grid<std::uint32_t>& part,
+                    glm::ivec2 row_size, int x0, int y0, int row_y0) {
   const auto width = static_cast<std::uint32_t>(row_size.x);
   if (whole.empty()) {
     whole = Grid<std::uint32_t>(row_size.x, row_size.y);
-    for (std::size_t i = 0; i < whole.size(); ++i) whole[i] = static_cast<std::uint32_t>(row_y0) * width + static_cast<std::uint32_t>(i);
+    for (std::size_t i = 0; i < whole.size(); ++i)
+      whole[i] = static_cast<std::uint32_t>(row_y0) * width + static_cast<std::uint32_t>(i);
   }
   const auto part_width = static_cast<std::uint32_t>(part.width());
   for (int y = 0; y < part.height(); ++y)
     for (int x = 0; x < part.width(); ++x) {
       const std::uint32_t index = part(x, y);
       whole(x0 + x, y0 + y) =
-          (static_cast<std::uint32_t>(row_y0 + y0) + index / part_width) * width + static_cast<std::uint32_t>(x0) + index % part_width;
+          (static_cast<std::uint32_t>(row_y0 + y0) + index / part_width) * width +
+          static_cast<std::uint32_t>(x0) + index % part_width;
     }
 }
 
-void insert_channel(const GuidanceChannel& channel, GuidanceBuffers& row, const GuidanceBuffers& panel, glm::ivec2 row_size, int x0, int y0,
-                    int row_y0) {
+void insert_channel(const GuidanceChannel& channel, GuidanceBuffers& row,
+                    const GuidanceBuffers& panel, glm::ivec2 row_size, int x0, int y0, int row_y0) {
   std::visit(
       [&](auto member) {
         const auto& part = panel.*member;
         auto& whole = row.*member;
         if (part.empty()) return;
         if constexpr (std::is_same_v<std::decay_t<decltype(part)>, Grid<std::uint32_t>>) {
-          if (channel.kind == ChannelKind::pixel_index) return insert_indices(whole, part, row_size, x0, y0, row_y0);
+          if (channel.kind == ChannelKind::pixel_index)
+            return insert_indices(whole, part, row_size, x0, y0, row_y0);
         }
         if (whole.empty()) fill_channel(row, channel, row_size.x, row_size.y, paper_value(channel));
         copy_part(whole, part, x0, y0);
@@ -87,13 +93,14 @@ void insert_channel(const GuidanceChannel& channel, GuidanceBuffers& row, const 
 
 void insert_panel(ExamplePainting& row, ExamplePainting panel, int x0, int y0, int row_y0) {
   const glm::dvec3 shift = panel.guidance.origin_m - row.guidance.origin_m;
-  for (glm::vec3& place : panel.guidance.position_m) place += glm::vec3(shift);
+  for (glm::vec3& position : panel.guidance.position_m) position += glm::vec3(shift);
   const glm::ivec2 row_size{row.ground_layer.width(), row.ground_layer.height()};
   for (const GuidanceChannel& channel : guidance_channels())
     insert_channel(channel, row.guidance, panel.guidance, row_size, x0, y0, row_y0);
   copy_part(row.ground_layer, panel.ground_layer, x0, y0);
   if (!panel.painting.empty()) {
-    if (row.painting.empty()) row.painting = Grid<glm::vec3>(row.ground_layer.width(), row.ground_layer.height(), paper);
+    if (row.painting.empty())
+      row.painting = Grid<glm::vec3>(row.ground_layer.width(), row.ground_layer.height(), paper);
     copy_part(row.painting, panel.painting, x0, y0);
   }
 }
@@ -105,7 +112,7 @@ struct ExampleSheetPainter::State {
   ExampleSheetHand hand;
   struct Terrain {
     std::shared_ptr<const Dem> dem;
-    std::unique_ptr<Catchments> catchments;  // found once for all panels
+    std::unique_ptr<Catchments> catchments;  // computed once for all panels
   };
   std::map<std::string, Terrain> terrains;
   std::map<std::string, std::shared_ptr<const LandCover>> covers;
@@ -114,11 +121,11 @@ struct ExampleSheetPainter::State {
 
   static std::string name_of_terrain(const LoadedScene& loaded) {
     const SyntheticParameters& synthetic = loaded.scene.terrain.synthetic.value();
-    return fmt::format("{} {} {} {} {} {}", synthetic.width, synthetic.height, synthetic.cell_m, synthetic.lowest_m, synthetic.highest_m,
-                       synthetic.seed);
+    return fmt::format("{} {} {} {} {} {}", synthetic.width, synthetic.height, synthetic.cell_m,
+                       synthetic.lowest_m, synthetic.highest_m, synthetic.seed);
   }
 
-  // The drainage of a terrain is found on one thread, so the terrains are made in parallel.
+  // The drainage of a terrain is computed on one thread, so the terrains are made in parallel.
   void make_terrains(const Run& run) {
     std::map<std::string, LoadedScene> scenes;
     for (int panel = 0; panel < static_cast<int>(plan.panels.size()); ++panel) {
@@ -129,11 +136,12 @@ struct ExampleSheetPainter::State {
     std::map<std::string, Terrain> made;
     std::vector<std::pair<const LoadedScene*, Terrain*>> work;
     for (const auto& [name, loaded] : scenes) work.emplace_back(&loaded, &made[name]);
-    // Progress is for one thread, so a request to stop takes effect after them.
+    // Progress is single-threaded, so a request to stop takes effect after them.
     parallel_ranges(work.size(), std::size_t{1}, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i != end; ++i) {
         const auto& [loaded, terrain] = work[i];
-        terrain->dem = std::make_shared<const Dem>(make_scene_dem(*loaded, silent_progress(), run.cache));
+        terrain->dem =
+            std::make_shared<const Dem>(make_scene_dem(*loaded, silent_progress(), run.cache));
         terrain->catchments = std::make_unique<Catchments>(*terrain->dem);
         terrain->catchments->km2();
       }
@@ -150,32 +158,37 @@ struct ExampleSheetPainter::State {
     const std::string name = name_of_terrain(loaded);
     const auto& [dem, catchments] = terrains.at(name);
     std::string rules = name + " " + loaded.scene.land_cover.rules;
-    for (const auto& [key, value] : loaded.scene.land_cover.settings) rules += fmt::format(" {}={}", key, value);
+    for (const auto& [key, value] : loaded.scene.land_cover.settings)
+      rules += fmt::format(" {}={}", key, value);
     auto cover = covers.find(rules);
     if (cover == covers.end())
-      cover =
-          covers
-              .emplace(rules, std::make_shared<const LandCover>(make_scene_land_cover(loaded, *dem, progress, run.cache, catchments.get())))
-              .first;
+      cover = covers
+                  .emplace(rules, std::make_shared<const LandCover>(make_scene_land_cover(
+                                      loaded, *dem, progress, run.cache, catchments.get())))
+                  .first;
 
-    // No two panels have strokes at the same places. Files hold no more than 53 bits of a seed.
-    loaded.scene.seed = stream_seed(plan.seed, Stream::sheet_panels, static_cast<std::uint64_t>(panel)) >> 11;
+    // No two panels have strokes at the same positions. Files hold at most 53 bits of a seed.
+    loaded.scene.seed =
+        stream_seed(plan.seed, Stream::sheet_panels, static_cast<std::uint64_t>(panel)) >> 11;
     const World world =
-        make_world(loaded, progress, no_cache(), {dem, cover->second, std::make_unique<Catchments>(*dem, catchments->km2())});
+        make_world(loaded, progress, no_cache(),
+                   {dem, cover->second, std::make_unique<Catchments>(*dem, catchments->km2())});
     instruction_set = world.tracer.description();
     const PixelRect whole{0, 0, loaded.scene.output.width, loaded.scene.output.height};
-    ExamplePainting painted = paint_example(world, hand.palette, make_lit_picture(world, hand.palette, whole, run), layers, progress);
-    std::uint32_t most = 0;
+    ExamplePainting painted = paint_example(
+        world, hand.palette, make_lit_picture(world, hand.palette, whole, run), layers, progress);
+    std::uint32_t max = 0;
     for (std::uint32_t& stroke : painted.guidance.stroke) {
-      most = std::max(most, stroke);
+      max = std::max(max, stroke);
       if (stroke > 0) stroke += strokes;
     }
-    strokes += most;
+    strokes += max;
     return painted;
   }
 };
 
-ExampleSheetPainter::ExampleSheetPainter(ExampleSheetPlan plan, ExampleSheetHand hand) : state_(std::make_unique<State>()) {
+ExampleSheetPainter::ExampleSheetPainter(ExampleSheetPlan plan, ExampleSheetHand hand)
+    : state_(std::make_unique<State>()) {
   state_->plan = std::move(plan);
   state_->hand = std::move(hand);
 }
@@ -186,14 +199,17 @@ const ExampleSheetPlan& ExampleSheetPainter::plan() const { return state_->plan;
 
 const std::string& ExampleSheetPainter::instruction_set() const { return state_->instruction_set; }
 
-int ExampleSheetPainter::rows() const { return static_cast<int>(state_->plan.panels.size()) / state_->plan.columns; }
+int ExampleSheetPainter::rows() const {
+  return static_cast<int>(state_->plan.panels.size()) / state_->plan.columns;
+}
 
 std::pair<int, int> ExampleSheetPainter::row_span(int row) const {
   const PixelRect cell = panel_cell(state_->plan, row * state_->plan.columns);
   return {cell.y0, cell.y1};
 }
 
-ExamplePainting ExampleSheetPainter::paint_row(int row, const ExampleLayers& layers, const Run& run) {
+ExamplePainting ExampleSheetPainter::paint_row(int row, const ExampleLayers& layers,
+                                               const Run& run) {
   const ExampleSheetPlan& plan = state_->plan;
   const auto [y0, y1] = row_span(row);
   ExamplePainting whole;
@@ -217,29 +233,31 @@ ExampleSheetPlan plan_for(const SceneExemplar& settings, const Scene& scene, con
   plan.width = size.x;
   plan.height = size.y;
   plan.seed = settings.seed;
-  plan.dots_per_inch = 50.8 * scene.pixels_per_unit();  // strokes as large as the picture's
+  plan.dots_per_inch = 50.8 * scene.pixels_per_unit();  // strokes of the same size as the picture's
   plan.light_from_deg = view.sun.azimuth_deg - view.camera.azimuth_deg;
   return plan;
 }
 
-// What is painted, before synthesis looks at it.
+// The painted sheet, before it is prepared for synthesis.
 struct SheetPaint {
   Grid<glm::vec3> picture;
   Grid<glm::vec3> base;
   GuideStack guides;
 };
 
-SheetPaint paint_sheet(const ExampleSheetPlan& plan, const ExampleSheetHand& hand, Progress& progress, const Cache& cache) {
+SheetPaint paint_sheet(const ExampleSheetPlan& plan, const ExampleSheetHand& hand,
+                       Progress& progress, const Cache& cache) {
   ExampleSheetPainter painter(plan, hand);
-  progress.begin("painting a sheet to copy from", static_cast<double>(plan.panels.size()));
+  progress.begin("painting the example sheet", static_cast<double>(plan.panels.size()));
   SheetPaint sheet;
   GuideStack& guides = sheet.guides;
   sheet.picture = sheet.base = Grid<glm::vec3>(plan.width, plan.height);
   guides.label = Grid<std::uint8_t>(plan.width, plan.height);
   for (int row = 0; row < painter.rows(); ++row) {
     const auto [y0, y1] = painter.row_span(row);
-    ExamplePainting part = painter.paint_row(row, {.painting = false, .sky = false}, {.progress = progress, .cache = cache});
-    // classes_of_paint takes indices in the part.
+    ExamplePainting part = painter.paint_row(row, {.painting = false, .sky = false},
+                                             {.progress = progress, .cache = cache});
+    // classes_of_paint needs indices in the part.
     const auto first = static_cast<std::uint32_t>(y0) * static_cast<std::uint32_t>(plan.width);
     for (std::uint32_t& from : part.guidance.ground_from) from -= first;
     const PaintedClasses classes = classes_of_paint(part.guidance, part.guidance.ground_from);
@@ -248,8 +266,10 @@ SheetPaint paint_sheet(const ExampleSheetPlan& plan, const ExampleSheetHand& han
     copy_part(sheet.base, classes.base, 0, y0);
     copy_part(guides.label, of_part.label, 0, y0);
     if (guides.guides.empty())
-      for (const Guide& guide : of_part.guides) guides.guides.push_back({guide.name, Grid<std::uint8_t>(plan.width, plan.height)});
-    for (std::size_t g = 0; g < of_part.guides.size(); ++g) copy_part(guides.guides[g].values, of_part.guides[g].values, 0, y0);
+      for (const Guide& guide : of_part.guides)
+        guides.guides.push_back({guide.name, Grid<std::uint8_t>(plan.width, plan.height)});
+    for (std::size_t g = 0; g < of_part.guides.size(); ++g)
+      copy_part(guides.guides[g].values, of_part.guides[g].values, 0, y0);
   }
   return sheet;
 }
@@ -273,41 +293,54 @@ void each_field(auto& bytes, FieldsOf<SheetPaint> auto& sheet) {
 
 namespace {
 
-// All that paint_sheet takes: the plan as its file would say it, the palette, the light. What the panels have from elsewhere (rules, the
-// instruction set of rays) is the program's own.
-CacheKey sheet_key(const ExampleSheetPlan& plan, const ExampleSheetHand& hand, const std::string& subject) {
+// All inputs of paint_sheet: the plan as its file would state it, the palette, the light. Other
+// inputs of the panels (rules, the instruction set of rays) belong to the program.
+CacheKey sheet_key(const ExampleSheetPlan& plan, const ExampleSheetHand& hand,
+                   const std::string& subject) {
   CacheKeyText key;
   key.add("plan", write_example_sheet_plan(plan));
   const auto& [palette, light] = hand;
-  const auto& [name, winter, treeline_m, lakes_freeze_from_m, classes, sky, cloud_light, cloud_shade, haze_near, haze_far, range_mist,
-               growth, haze_share, warm_share, ground_drift_share, forest_drift_share, rock_drift_share] = palette;
+  const auto& [name, winter, treeline_m, lakes_freeze_from_m, classes, sky, cloud_light,
+               cloud_shade, haze_near, haze_far, range_mist, growth, haze_share, warm_share,
+               ground_drift_share, forest_drift_share, rock_drift_share] = palette;
   key.add("palette", name).add("winter", winter).add("treeline_m", treeline_m);
   key.add("lakes_freeze_from_m", lakes_freeze_from_m);
   for (const auto& [stops] : classes) {
     key.add("class", stops.size());
-    for (const auto& [altitude_m, ramp] : stops) key.add("altitude_m", altitude_m).add("ramp", ramp);
+    for (const auto& [altitude_m, ramp] : stops)
+      key.add("altitude_m", altitude_m).add("ramp", ramp);
   }
   key.add("sky", sky).add("cloud_light", cloud_light).add("cloud_shade", cloud_shade);
   key.add("haze_near", haze_near).add("haze_far", haze_far).add("range_mist", range_mist);
   const auto& [leaves, leaf_share, larch, larch_share] = growth;
-  key.add("leaves", leaves).add("leaf_share", leaf_share).add("larch", larch).add("larch_share", larch_share);
+  key.add("leaves", leaves)
+      .add("leaf_share", leaf_share)
+      .add("larch", larch)
+      .add("larch_share", larch_share);
   key.add("haze_share", haze_share).add("warm_share", warm_share);
   key.add("ground_drift_share", ground_drift_share).add("forest_drift_share", forest_drift_share);
   key.add("rock_drift_share", rock_drift_share).add("own light", !light.has_value());
-  const auto& [sun, sky_light, relief, shadow_depth, contrast, model] = light.value_or(LightParameters());
-  key.add("sun", sun).add("sky light", sky_light).add("relief", relief).add("shadow_depth", shadow_depth).add("contrast", contrast);
+  const auto& [sun, sky_light, relief, shadow_depth, contrast, model] =
+      light.value_or(LightParameters());
+  key.add("sun", sun)
+      .add("sky light", sky_light)
+      .add("relief", relief)
+      .add("shadow_depth", shadow_depth)
+      .add("contrast", contrast);
   if (model != LightParameters().model) key.add("model", model);
   return make_cache_key(CachedProduct::example_sheet, key, subject);
 }
 
 }  // namespace
 
-PaintedExemplar paint_example_sheet(const SceneExemplar& settings, const Scene& scene, const View& view, const Palette& palette,
-                                    Progress& progress, const Cache& cache) {
+PaintedExemplar paint_example_sheet(const SceneExemplar& settings, const Scene& scene,
+                                    const View& view, const Palette& palette, Progress& progress,
+                                    const Cache& cache) {
   const ExampleSheetPlan plan = plan_for(settings, scene, view);
   const ExampleSheetHand hand{palette, scene.light};
   const std::string subject =
-      fmt::format("{}{}{}, {} × {} texels", scene.title, scene.title.empty() ? "" : ", ", palette.name, plan.width, plan.height);
+      fmt::format("{}{}{}, {} × {} texels", scene.title, scene.title.empty() ? "" : ", ",
+                  palette.name, plan.width, plan.height);
   SheetPaint sheet = cached<SheetPaint>(
       cache, [&] { return sheet_key(plan, hand, subject); }, progress,
       [&](Progress& watcher) { return paint_sheet(plan, hand, watcher, cache); });
@@ -316,37 +349,47 @@ PaintedExemplar paint_example_sheet(const SceneExemplar& settings, const Scene& 
   painted.exemplar.guides = std::move(sheet.guides);
   painted.picture = std::move(sheet.picture);
   painted.base = std::move(sheet.base);
-  painted.exemplar.picture = seam_picture(painted, painted.exemplar.guides.label, scene.synthesis.residual);
+  painted.exemplar.picture =
+      seam_picture(painted, painted.exemplar.guides.label, scene.synthesis.residual);
   return painted;
 }
 
 glm::ivec2 example_sheet_size(const SceneExemplar& settings, const SceneOutput& output) {
   constexpr double pixels_per_texel = 8.0;
-  constexpr double least_texels = 2000.0 * 1400.0;
-  constexpr double most_texels = 24e6;
+  constexpr double min_texels = 2000.0 * 1400.0;
+  constexpr double max_texels = 24e6;
   constexpr double wide = 10.0 / 7.0;
-  constexpr int least_side = 64;
-  const auto side = [&](double px) { return std::max(least_side, static_cast<int>(std::lround(px))); };
-  if (settings.width > 0 && settings.height > 0) return {side(settings.width), side(settings.height)};
+  constexpr int min_side = 64;
+  const auto side = [&](double px) {
+    return std::max(min_side, static_cast<int>(std::lround(px)));
+  };
+  if (settings.width > 0 && settings.height > 0)
+    return {side(settings.width), side(settings.height)};
   if (settings.width > 0) return {side(settings.width), side(settings.width / wide)};
   if (settings.height > 0) return {side(settings.height * wide), side(settings.height)};
   const double pixels = static_cast<double>(output.width) * output.height;
-  const double texels = std::clamp(pixels / pixels_per_texel, least_texels, most_texels);
+  const double texels = std::clamp(pixels / pixels_per_texel, min_texels, max_texels);
   return {side(std::sqrt(texels * wide)), side(std::sqrt(texels / wide))};
 }
 
-std::vector<LandCoverClass> classes_of_example_sheet(const SceneExemplar& settings, const Scene& scene, const View& view,
-                                                     const Palette& palette, Progress& progress, const Cache& cache) {
-  // What occurs in panoramas stands in the demand that the plan was made for, and a test holds sheets of this size to it.
-  constexpr int least_width = 500;
-  constexpr int least_height = 350;
+std::vector<LandCoverClass> classes_of_example_sheet(const SceneExemplar& settings,
+                                                     const Scene& scene, const View& view,
+                                                     const Palette& palette, Progress& progress,
+                                                     const Cache& cache) {
+  // The plan was made for the classes that occur in panoramas, and a test checks sheets of this
+  // size.
+  constexpr int min_width = 500;
+  constexpr int min_height = 350;
   std::vector<LandCoverClass> classes;
-  if (const glm::ivec2 size = example_sheet_size(settings, scene.output); size.x >= least_width && size.y >= least_height) {
+  if (const glm::ivec2 size = example_sheet_size(settings, scene.output);
+      size.x >= min_width && size.y >= min_height) {
     for (const LandCoverClassInfo& info : land_cover_classes())
-      if (built_in_demand().texels[static_cast<std::size_t>(info.id)]) classes.push_back(info.id);
+      if (built_in_needed_texels().texels[static_cast<std::size_t>(info.id)])
+        classes.push_back(info.id);
     return classes;
   }
-  const PaintedExemplar painted = paint_example_sheet(settings, scene, view, palette, progress, cache);
+  const PaintedExemplar painted =
+      paint_example_sheet(settings, scene, view, palette, progress, cache);
   std::array<bool, 256> found{};
   for (const std::uint8_t label : painted.exemplar.guides.label) found[label] = true;
   for (const LandCoverClassInfo& info : land_cover_classes())

@@ -17,13 +17,14 @@
 
 namespace belvedere {
 
-// What an example sheet takes over from the picture that will copy it.
+// What an example sheet takes from the picture that will copy it.
 struct ExampleSheetHand {
   Palette palette;
-  std::optional<LightParameters> light;  // else each panel's own
+  std::optional<LightParameters> light;  // otherwise each panel's own
 };
 
-// Paints the panels of an example sheet, row by row. Terrains that several panels show are made once.
+// Paints the panels of an example sheet, row by row. Terrains shared by several panels are made
+// once.
 class ExampleSheetPainter {
  public:
   ExampleSheetPainter(ExampleSheetPlan plan, ExampleSheetHand hand);
@@ -34,10 +35,11 @@ class ExampleSheetPainter {
   int rows() const;
   // Rows of pixels that a row of panels covers, margins included.
   std::pair<int, int> row_span(int row) const;
-  // What rays were traced with, for provenance; known after the first row.
+  // Instruction set of the rays, for provenance; known after the first row.
   const std::string& instruction_set() const;
-  // A row of panels with their margins, as wide as the example sheet. painted_from and ground_from count in the pixels of the whole of it.
-  // Margins are bare paper: they count as sky, and nothing is copied from them.
+  // A row of panels with their margins, as wide as the example sheet. Indices in painted_from and
+  // ground_from refer to the whole of it. Margins are bare paper: they count as sky, and nothing is
+  // copied from them.
   ExamplePainting paint_row(int row, const ExampleLayers& layers, const Run& run);
 
  private:
@@ -48,18 +50,24 @@ class ExampleSheetPainter {
 // The name of its exemplar, in messages.
 inline constexpr const char* example_sheet_name = "painted sheet";
 
-// The example sheet that is painted for a picture: with its palette, light and size of stroke, so that every guide of it is exactly known.
-// It carries no trees, no houses and no sky: those are painted on the target last. The cache keeps it, and the terrains of its panels with
-// their land cover: pictures with another sun or another palette share these.
-PaintedExemplar paint_example_sheet(const SceneExemplar& settings, const Scene& scene, const View& view, const Palette& palette,
-                                    Progress& progress, const Cache& cache = no_cache());
+// The example sheet that is painted for a picture: with its palette, light and size of strokes, so
+// that all its guides are known exactly. It has no trees, houses or sky, because those are painted
+// on the target last. The sheet is cached, and so are the terrains and land cover of its panels,
+// which pictures with another sun or palette share.
+PaintedExemplar paint_example_sheet(const SceneExemplar& settings, const Scene& scene,
+                                    const View& view, const Palette& palette, Progress& progress,
+                                    const Cache& cache = no_cache());
 
-// Width and height of the sheet that is painted for a print of that many pixels: as the scene says, else a texel for eight pixels of it,
-// 10 : 7, from 2000 × 1400 to 24 Mpx. Fewer, and a large print repeats; what more would cost is not seen.
+// Size of the sheet for a print of that many pixels: as in the scene, else one texel for eight
+// pixels, 10 : 7, from 2000 × 1400 to 24 Mpx. With fewer texels a large print repeats; more bring
+// no visible gain.
 glm::ivec2 example_sheet_size(const SceneExemplar& settings, const SceneOutput& output);
 
-// The classes that such a sheet has texels of, known without painting it where it is large enough; else it is painted.
-std::vector<LandCoverClass> classes_of_example_sheet(const SceneExemplar& settings, const Scene& scene, const View& view,
-                                                     const Palette& palette, Progress& progress, const Cache& cache = no_cache());
+// The classes that such a sheet has texels of, known without painting it if it is large enough;
+// otherwise it is painted.
+std::vector<LandCoverClass> classes_of_example_sheet(const SceneExemplar& settings,
+                                                     const Scene& scene, const View& view,
+                                                     const Palette& palette, Progress& progress,
+                                                     const Cache& cache = no_cache());
 
 }  // namespace belvedere

@@ -31,15 +31,18 @@ using Named = std::vector<std::pair<std::string, std::vector<std::string>>>;
 Named read_named(const ConfigTable& root, const char* key, const std::string& name) {
   Named named;
   if (const ConfigValue* table = find(root, key))
-    for (const ConfigEntry& entry : as_table(*table, name)) named.emplace_back(entry.key, read_texts(entry.value, name));
+    for (const ConfigEntry& entry : as_table(*table, name))
+      named.emplace_back(entry.key, read_texts(entry.value, name));
   return named;
 }
 
-void append_named(ExampleSheetPanel& panel, const ConfigTable& table, const char* key, const Named& named, const std::string& name) {
+void append_named(ExampleSheetPanel& panel, const ConfigTable& table, const char* key,
+                  const Named& named, const std::string& name) {
   const ConfigValue* value = find(table, key);
   if (value == nullptr) return;
   const std::string& given = as_string(*value, name);
-  const auto found = std::find_if(named.begin(), named.end(), [&](const auto& n) { return n.first == given; });
+  const auto found =
+      std::find_if(named.begin(), named.end(), [&](const auto& n) { return n.first == given; });
   if (found == named.end()) {
     std::string known;
     for (const auto& n : named) known += (known.empty() ? "" : ", ") + n.first;
@@ -50,11 +53,13 @@ void append_named(ExampleSheetPanel& panel, const ConfigTable& table, const char
 }
 
 template <class T>
-void read_number(const ConfigTable& table, const char* key, double least, double most, const std::string& name, T& number) {
+void read_number(const ConfigTable& table, const char* key, double min, double max,
+                 const std::string& name, T& number) {
   const ConfigValue* value = find(table, key);
   if (value == nullptr) return;
   const double found = as_number(*value, name);
-  if (!(found >= least && found <= most)) refuse_value(*value, name, fmt::format("{} = {}", key, found), fmt::format("{}…{}", least, most));
+  if (!(found >= min && found <= max))
+    refuse_value(*value, name, fmt::format("{} = {}", key, found), fmt::format("{}…{}", min, max));
   number = static_cast<T>(found);
 }
 
@@ -64,7 +69,9 @@ std::string quoted_list(const std::vector<std::string>& texts) {
   return out + "]";
 }
 
-int rows_of(const ExampleSheetPlan& plan) { return static_cast<int>(plan.panels.size()) / plan.columns; }
+int rows_of(const ExampleSheetPlan& plan) {
+  return static_cast<int>(plan.panels.size()) / plan.columns;
+}
 
 int row_top(const ExampleSheetPlan& plan, int row) {
   const int rows = rows_of(plan);
@@ -80,22 +87,26 @@ int column_left(const ExampleSheetPlan& plan, int column) {
 ExampleSheetPlan build_plan(const ConfigValue& root, const std::string& name) {
   const ConfigTable& table = as_table(root, name);
   allow_only(table,
-             {"width", "height", "dots_per_inch", "palette", "seed", "light_from_deg", "columns", "scene", "terrains", "views", "panels"},
+             {"width", "height", "dots_per_inch", "palette", "seed", "light_from_deg", "columns",
+              "scene", "terrains", "views", "panels"},
              name);
   ExampleSheetPlan plan;
   read_number(table, "width", 256, 16384, name, plan.width);
   read_number(table, "height", 256, 16384, name, plan.height);
   read_number(table, "dots_per_inch", 5, 2540, name, plan.dots_per_inch);
-  read_number(table, "seed", 0, static_cast<double>(ExampleSheetPlan::largest_seed), name, plan.seed);
+  read_number(table, "seed", 0, static_cast<double>(ExampleSheetPlan::largest_seed), name,
+              plan.seed);
   read_number(table, "light_from_deg", -360, 360, name, plan.light_from_deg);
   read_number(table, "columns", 1, 16, name, plan.columns);
   if (const ConfigValue* palette = find(table, "palette")) plan.palette = as_string(*palette, name);
   const ConfigValue* scene = find(table, "scene");
-  plan.scene = scene != nullptr ? as_string(*scene, name) : std::string(embedded_file("sheet/scene.toml"));
+  plan.scene =
+      scene != nullptr ? as_string(*scene, name) : std::string(embedded_file("sheet/scene.toml"));
   const Named terrains = read_named(table, "terrains", name);
   const Named views = read_named(table, "views", name);
   const ConfigValue* panels = find(table, "panels");
-  if (panels == nullptr) refuse_value(root, name, "no panels", "[[panels]], row by row");
+  if (panels == nullptr)
+    refuse_value(root, name, "the panels are missing", "[[panels]], row by row");
   for (const ConfigValue& value : as_array(*panels, name)) {
     const ConfigTable& one = as_table(value, name);
     allow_only(one, {"name", "terrain", "view", "set", "set_in_winter"}, name);
@@ -104,12 +115,16 @@ ExampleSheetPlan build_plan(const ConfigValue& root, const std::string& name) {
     append_named(panel, one, "view", views, name);
     if (const ConfigValue* own = find(one, "name")) panel.name = as_string(*own, name);
     if (const ConfigValue* set = find(one, "set"))
-      for (std::string& setting : read_texts(*set, name)) panel.settings.push_back(std::move(setting));
-    if (const ConfigValue* set = find(one, "set_in_winter")) panel.snow_settings = read_texts(*set, name);
+      for (std::string& setting : read_texts(*set, name))
+        panel.settings.push_back(std::move(setting));
+    if (const ConfigValue* set = find(one, "set_in_winter"))
+      panel.snow_settings = read_texts(*set, name);
     plan.panels.push_back(std::move(panel));
   }
   if (plan.panels.empty() || plan.panels.size() % static_cast<std::size_t>(plan.columns) != 0)
-    refuse_value(*panels, name, fmt::format("{} panels in rows of {}", plan.panels.size(), plan.columns), "full rows");
+    refuse_value(*panels, name,
+                 fmt::format("{} panels in rows of {}", plan.panels.size(), plan.columns),
+                 "full rows");
   return plan;
 }
 
@@ -119,17 +134,27 @@ ExampleSheetPlan parse_example_sheet_plan(std::string_view text, const std::stri
   return build_plan(parse_config(text, name), name);
 }
 
-ExampleSheetPlan built_in_example_sheet_plan() { return parse_example_sheet_plan(embedded_file("sheet/plan.toml"), "sheet/plan.toml"); }
+ExampleSheetPlan built_in_example_sheet_plan() {
+  return parse_example_sheet_plan(embedded_file("sheet/plan.toml"), "sheet/plan.toml");
+}
 
-ExampleSheetPlan read_example_sheet_plan(const std::string& path) { return build_plan(read_config(path), path); }
+ExampleSheetPlan read_example_sheet_plan(const std::string& path) {
+  return build_plan(read_config(path), path);
+}
 
 std::string write_example_sheet_plan(const ExampleSheetPlan& plan) {
-  std::string out = "# An example sheet: belvedere exemplar paint --plan THIS_FILE --out DIR paints it again.\n";
-  out += fmt::format("width = {}\nheight = {}\ndots_per_inch = {}\npalette = {}\nseed = {}\nlight_from_deg = {}\ncolumns = {}\n",
-                     plan.width, plan.height, plan.dots_per_inch, json_quoted(plan.palette), plan.seed, plan.light_from_deg, plan.columns);
-  out += "# What all panels have in common.\nscene = '''\n" + plan.scene + "'''\n";
+  std::string out =
+      "# An example sheet. To paint it again: belvedere exemplar paint --plan THIS_FILE --out "
+      "DIR\n";
+  out += fmt::format(
+      "width = {}\nheight = {}\ndots_per_inch = {}\npalette = {}\nseed = {}\nlight_from_deg = "
+      "{}\ncolumns = {}\n",
+      plan.width, plan.height, plan.dots_per_inch, json_quoted(plan.palette), plan.seed,
+      plan.light_from_deg, plan.columns);
+  out += "# Common to all panels.\nscene = '''\n" + plan.scene + "'''\n";
   for (const ExampleSheetPanel& panel : plan.panels)
-    out += fmt::format("\n[[panels]]\nname = {}\nset = {}\nset_in_winter = {}\n", json_quoted(panel.name), quoted_list(panel.settings),
+    out += fmt::format("\n[[panels]]\nname = {}\nset = {}\nset_in_winter = {}\n",
+                       json_quoted(panel.name), quoted_list(panel.settings),
                        quoted_list(panel.snow_settings));
   return out;
 }
@@ -137,12 +162,14 @@ std::string write_example_sheet_plan(const ExampleSheetPlan& plan) {
 PixelRect panel_cell(const ExampleSheetPlan& plan, int panel) {
   const int column = panel % plan.columns;
   const int row = panel / plan.columns;
-  return {column_left(plan, column), row_top(plan, row), column_left(plan, column + 1), row_top(plan, row + 1)};
+  return {column_left(plan, column), row_top(plan, row), column_left(plan, column + 1),
+          row_top(plan, row + 1)};
 }
 
 PixelRect panel_rect(const ExampleSheetPlan& plan, int panel) {
   const PixelRect cell = panel_cell(plan, panel);
-  const int margin = std::max(1, static_cast<int>(std::lround(0.5 * margin_mm * plan.dots_per_inch / 25.4)));
+  const int margin =
+      std::max(1, static_cast<int>(std::lround(0.5 * margin_mm * plan.dots_per_inch / 25.4)));
   const int across = std::min(margin, (cell.width() - 16) / 2);
   const int down = std::min(margin, (cell.height() - 16) / 2);
   return {cell.x0 + across, cell.y0 + down, cell.x1 - across, cell.y1 - down};
@@ -151,10 +178,13 @@ PixelRect panel_rect(const ExampleSheetPlan& plan, int panel) {
 LoadedScene panel_scene(const ExampleSheetPlan& plan, int panel, bool winter) {
   const ExampleSheetPanel& shown = plan.panels[static_cast<std::size_t>(panel)];
   SceneFileOptions options;
-  // A winter example sheet has every class all the same, for land cover that comes from maps; panels say where snow lies over them.
+  // A winter example sheet still has every class, for land cover from maps; panels set where it is
+  // covered by snow.
   options.settings.emplace_back("land_cover.settings.winter=0");
   options.settings.insert(options.settings.end(), shown.settings.begin(), shown.settings.end());
-  if (winter) options.settings.insert(options.settings.end(), shown.snow_settings.begin(), shown.snow_settings.end());
+  if (winter)
+    options.settings.insert(options.settings.end(), shown.snow_settings.begin(),
+                            shown.snow_settings.end());
   const PixelRect rect = panel_rect(plan, panel);
   options.settings.push_back(fmt::format("output.width={}", rect.width()));
   options.settings.push_back(fmt::format("output.height={}", rect.height()));
@@ -163,14 +193,18 @@ LoadedScene panel_scene(const ExampleSheetPlan& plan, int panel, bool winter) {
   scene.title = shown.name;
   scene.palette = plan.palette;
   scene.output.sheet_width_mm = rect.width() / plan.dots_per_inch * 25.4;
-  double light_deg = std::remainder(scene.camera.azimuth_deg.value_or(0.0) + plan.light_from_deg, 360.0);
+  double light_deg =
+      std::remainder(scene.camera.azimuth_deg.value_or(0.0) + plan.light_from_deg, 360.0);
   if (light_deg < 0.0) light_deg += 360.0;
   scene.sun.azimuth_deg = light_deg;
-  // The terrains were chosen for the plan's own seed; another one makes others. Small panels show no more than coarse ones do.
+  // The terrains were chosen for the plan's own seed; another seed makes others. Small panels show
+  // no more detail than coarse terrains have.
   const ExampleSheetPlan usual;
   SyntheticParameters& terrain = scene.terrain.synthetic.value();
-  if (plan.seed != usual.seed) terrain.seed = stream_seed(terrain.seed, Stream::sheet_terrains, plan.seed) >> 11;
-  const double coarser = std::clamp(fine_panel_px / std::min(rect.width(), rect.height()), 1.0, 4.0);
+  if (plan.seed != usual.seed)
+    terrain.seed = stream_seed(terrain.seed, Stream::sheet_terrains, plan.seed) >> 11;
+  const double coarser =
+      std::clamp(fine_panel_px / std::min(rect.width(), rect.height()), 1.0, 4.0);
   terrain.width = static_cast<int>(std::lround(terrain.width / coarser));
   terrain.height = static_cast<int>(std::lround(terrain.height / coarser));
   terrain.cell_m *= coarser;

@@ -7,23 +7,28 @@
 
 namespace belvedere {
 
-std::vector<PaintedExemplar> make_exemplars(const LoadedScene& loaded, const View& view, const Palette& palette,
-                                            std::vector<ScannedPainting> scans, Progress& progress, const Cache& cache) {
+std::vector<PaintedExemplar> make_exemplars(const LoadedScene& loaded, const View& view,
+                                            const Palette& palette,
+                                            std::vector<ScannedPainting> scans, Progress& progress,
+                                            const Cache& cache) {
   const Scene& scene = loaded.scene;
   std::vector<PaintedExemplar> exemplars;
   for (std::size_t i = 0; i < scene.exemplars.size(); ++i) {
     if (!scene.exemplars[i].model.empty()) continue;
     if (scene.exemplars[i].picture.empty())
-      exemplars.push_back(paint_example_sheet(scene.exemplars[i], scene, view, palette, progress, cache));
+      exemplars.push_back(
+          paint_example_sheet(scene.exemplars[i], scene, view, palette, progress, cache));
     else if (i < scans.size() && !scans[i].painted.picture.empty())
       exemplars.push_back(std::move(scans[i].painted));
   }
-  if (exemplars.empty()) exemplars.push_back(paint_example_sheet({}, scene, view, palette, progress, cache));
+  if (exemplars.empty())
+    exemplars.push_back(paint_example_sheet({}, scene, view, palette, progress, cache));
   return exemplars;
 }
 
 ExemplarClasses look_at_classes(const LoadedScene& loaded, const View& view, const Palette& palette,
-                                const std::vector<ScannedPainting>& scans, Progress& progress, const Cache& cache) {
+                                const std::vector<ScannedPainting>& scans, Progress& progress,
+                                const Cache& cache) {
   const Scene& scene = loaded.scene;
   ExemplarClasses found;
   std::vector<std::string> models;
@@ -33,7 +38,8 @@ ExemplarClasses look_at_classes(const LoadedScene& loaded, const View& view, con
   }
   const auto add_sheet = [&](const SceneExemplar& settings) {
     found.names.emplace_back(example_sheet_name);
-    for (const LandCoverClass id : classes_of_example_sheet(settings, scene, view, palette, progress, cache))
+    for (const LandCoverClass id :
+         classes_of_example_sheet(settings, scene, view, palette, progress, cache))
       found.offered[static_cast<std::size_t>(id)] = true;
   };
   for (std::size_t i = 0; i < scene.exemplars.size(); ++i) {

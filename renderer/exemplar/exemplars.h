@@ -15,17 +15,22 @@
 
 namespace belvedere {
 
-// All exemplars of a scene: its paintings (read_scans), and example sheets in the hand of its view for the blocks that name none; one
-// example sheet where there is nothing else. Texture models (texture_models.h) are none of them.
-std::vector<PaintedExemplar> make_exemplars(const LoadedScene& scene, const View& view, const Palette& palette,
-                                            std::vector<ScannedPainting> scans, Progress& progress, const Cache& cache = no_cache());
+// All exemplars of a scene: its paintings (read_scans), and example sheets in the style of its view
+// for blocks without a painting; one example sheet if there is nothing else. Texture models
+// (texture_models.h) are separate.
+std::vector<PaintedExemplar> make_exemplars(const LoadedScene& scene, const View& view,
+                                            const Palette& palette,
+                                            std::vector<ScannedPainting> scans, Progress& progress,
+                                            const Cache& cache = no_cache());
 
-// Names of those exemplars and which classes they have texels of, without painting the sheets; of texture models as well.
+// Names of those exemplars and of texture models, and the classes of which they have texels,
+// without painting the sheets.
 struct ExemplarClasses {
   std::vector<std::string> names;
   std::array<bool, land_cover_class_count> offered{};
 };
 ExemplarClasses look_at_classes(const LoadedScene& scene, const View& view, const Palette& palette,
-                                const std::vector<ScannedPainting>& scans, Progress& progress, const Cache& cache = no_cache());
+                                const std::vector<ScannedPainting>& scans, Progress& progress,
+                                const Cache& cache = no_cache());
 
 }  // namespace belvedere

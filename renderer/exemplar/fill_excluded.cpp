@@ -19,11 +19,13 @@ namespace belvedere {
 namespace {
 
 constexpr int joined_px = 16;  // letters nearer than twice this are filled together
-constexpr int around_px = 96;  // of a group that its models are learnt from; where that is too little, ever twice as far
+constexpr int around_px = 96;  // width around a group from which its models are learnt; doubled
+                               // until there is enough paint
 constexpr int learnt_types = 32;
 constexpr std::size_t min_crop_texels = std::size_t{min_crop_px} * min_crop_px;
 
-// Excluded pixels without a class take that of what is nearest, from the rim inwards; row by row where two are as near.
+// Excluded pixels without a class take that of the nearest pixel, from the edge inwards; ties are
+// resolved row by row.
 void spread_classes(Grid<std::uint8_t>& labels, const Grid<std::uint8_t>& excluded) {
   std::vector<std::pair<int, int>> open;
   for (int y = 0; y < labels.height(); ++y)
@@ -36,7 +38,8 @@ void spread_classes(Grid<std::uint8_t>& labels, const Grid<std::uint8_t>& exclud
     for (const auto& [x, y] : open) {
       std::uint8_t label = unused_label;
       for (const auto& step : beside)
-        if (label == unused_label && labels.contains(x + step[0], y + step[1])) label = labels(x + step[0], y + step[1]);
+        if (label == unused_label && labels.contains(x + step[0], y + step[1]))
+          label = labels(x + step[0], y + step[1]);
       if (label == unused_label)
         still.emplace_back(x, y);
       else
@@ -48,7 +51,7 @@ void spread_classes(Grid<std::uint8_t>& labels, const Grid<std::uint8_t>& exclud
   }
 }
 
-// Boxes of what is excluded, group by group, and for each pixel which it belongs to, from 1.
+// Bounding boxes of the excluded areas, group by group, and the group of each pixel, from 1.
 struct Groups {
   Grid<std::uint16_t> of;
   std::vector<PixelRect> boxes;
@@ -58,11 +61,11 @@ Groups find_groups(const Grid<std::uint8_t>& excluded) {
   const Grid<std::uint8_t> joined = widened(excluded, joined_px);
   Groups groups{Grid<std::uint16_t>(joined.width(), joined.height()), {}};
   std::vector<std::pair<int, int>> front;
-  constexpr std::size_t most = 4096;  // what comes after the last of them belongs to it
+  constexpr std::size_t max = 4096;  // later areas belong to the last group
   for (int y = 0; y < joined.height(); ++y)
     for (int x = 0; x < joined.width(); ++x) {
       if (joined(x, y) == 0 || groups.of(x, y) != 0) continue;
-      if (groups.boxes.size() < most) groups.boxes.push_back({x, y, x, y});
+      if (groups.boxes.size() < max) groups.boxes.push_back({x, y, x, y});
       PixelRect& box = groups.boxes.back();
       const auto number = static_cast<std::uint16_t>(groups.boxes.size());
       groups.of(x, y) = number;
@@ -70,7 +73,8 @@ Groups find_groups(const Grid<std::uint8_t>& excluded) {
       while (!front.empty()) {
         const auto [u, v] = front.back();
         front.pop_back();
-        box = {std::min(box.x0, u), std::min(box.y0, v), std::max(box.x1, u + 1), std::max(box.y1, v + 1)};
+        box = {std::min(box.x0, u), std::min(box.y0, v), std::max(box.x1, u + 1),
+               std::max(box.y1, v + 1)};
         for (const auto& [i, j] : {std::pair{u - 1, v}, {u + 1, v}, {u, v - 1}, {u, v + 1}})
           if (joined.contains(i, j) && joined(i, j) != 0 && groups.of(i, j) == 0) {
             groups.of(i, j) = number;
@@ -81,7 +85,7 @@ Groups find_groups(const Grid<std::uint8_t>& excluded) {
   return groups;
 }
 
-// A part of a painting, and what of it is of a class.
+// A part of a painting, and its pixels of one class.
 struct Part {
   PixelRect rect;
   Grid<Rgb8> picture;
@@ -89,7 +93,8 @@ struct Part {
   std::size_t count = 0;
 };
 
-Part part_around(const FilledPaint& paint, const Grid<std::uint8_t>& excluded, std::uint8_t label, PixelRect box, int around) {
+Part part_around(const FilledPaint& paint, const Grid<std::uint8_t>& excluded, std::uint8_t label,
+                 PixelRect box, int around) {
   Part part;
   part.rect = intersection(grown(box, around), {0, 0, excluded.width(), excluded.height()});
   part.picture = Grid<Rgb8>(part.rect.width(), part.rect.height());
@@ -105,8 +110,11 @@ Part part_around(const FilledPaint& paint, const Grid<std::uint8_t>& excluded, s
   return part;
 }
 
-// A model of a class around a group: as near as there is enough, as far as the painting goes.
-std::optional<CliqueModel> learn_around(const FilledPaint& paint, const Grid<std::uint8_t>& excluded, std::uint8_t label, PixelRect box) {
+// A model of a class around a group: from the smallest surroundings with enough paint, up to the
+// whole painting.
+std::optional<CliqueModel> learn_around(const FilledPaint& paint,
+                                        const Grid<std::uint8_t>& excluded, std::uint8_t label,
+                                        PixelRect box) {
   const int farthest = std::max(excluded.width(), excluded.height());
   for (int around = around_px;; around *= 2) {
     const Part part = part_around(paint, excluded, label, box, around);
@@ -117,7 +125,7 @@ std::optional<CliqueModel> learn_around(const FilledPaint& paint, const Grid<std
       try {
         return learn_texture(part.picture, part.known, learning).model;
       } catch (const Error&) {
-        // Of one colour all over: farther away it may not be.
+        // One flat colour: it may vary farther away.
       }
     }
     if (around > farthest) return std::nullopt;
@@ -126,14 +134,15 @@ std::optional<CliqueModel> learn_around(const FilledPaint& paint, const Grid<std
 
 }  // namespace
 
-FilledPaint fill_excluded(const Grid<glm::vec3>& picture, const Grid<std::uint8_t>& labels, const Grid<std::uint8_t>& excluded,
-                          Progress& progress) {
+FilledPaint fill_excluded(const Grid<glm::vec3>& picture, const Grid<std::uint8_t>& labels,
+                          const Grid<std::uint8_t>& excluded, Progress& progress) {
   if (!labels.same_size(picture) || !excluded.same_size(picture))
-    throw Error(ErrorKind::bug, "fill_excluded", "picture, classes and exclusion have different sizes");
+    throw Error(ErrorKind::bug, "fill_excluded",
+                "picture, classes and exclusion have different sizes");
   FilledPaint paint{picture, labels, 0, 0};
   spread_classes(paint.labels, excluded);
   const Groups groups = find_groups(excluded);
-  progress.begin("filling what is excluded", static_cast<double>(groups.boxes.size()));
+  progress.begin("filling excluded areas", static_cast<double>(groups.boxes.size()));
   for (std::size_t g = 0; g < groups.boxes.size(); ++g) {
     const PixelRect box = groups.boxes[g];
     const auto within = [&](std::size_t i) { return excluded[i] != 0 && groups.of[i] == g + 1; };
@@ -144,7 +153,8 @@ FilledPaint fill_excluded(const Grid<glm::vec3>& picture, const Grid<std::uint8_
     for (std::size_t id = 0; id < wanted.size(); ++id) {
       if (wanted[id] == 0) continue;
       const auto label = static_cast<std::uint8_t>(id);
-      const std::optional<CliqueModel> model = id == unused_label ? std::nullopt : learn_around(paint, excluded, label, box);
+      const std::optional<CliqueModel> model =
+          id == unused_label ? std::nullopt : learn_around(paint, excluded, label, box);
       const Part part = part_around(paint, excluded, label, box, around_px);
       Grid<std::uint8_t> hole(part.picture.width(), part.picture.height());
       for (int y = box.y0; y < box.y1; ++y)

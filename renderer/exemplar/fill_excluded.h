@@ -9,17 +9,20 @@
 
 namespace belvedere {
 
-// Paint for what is excluded from a painting (lettering, figures, frames): `excluded` not 0 is made anew class by class, by models of the
-// paint of that class around it (texture/statistical: make_texture.h), so that copying finds whole paint there. Excluded pixels without a
-// class (unused_label) get that of the nearest pixel that has one. Where there is too little paint of a class to learn from they become
-// unused_label and stay as they are. Nothing else changes.
+// Paint for the excluded areas of a painting (lettering, figures, frames): where `excluded` is not
+// 0, paint is synthesized class by class, by models of the paint of that class around it
+// (texture/statistical: make_texture.h), so that copying finds complete paint there. Excluded
+// pixels without a class (unused_label) get that of the nearest pixel that has one. Where there is
+// too little paint of a class to learn from they become unused_label and stay unchanged. Nothing
+// else changes.
 struct FilledPaint {
   Grid<glm::vec3> picture;    // encoded sRGB
   Grid<std::uint8_t> labels;  // class ids
   std::size_t filled = 0;
   std::size_t left = 0;  // excluded pixels that stay unused
 };
-FilledPaint fill_excluded(const Grid<glm::vec3>& picture, const Grid<std::uint8_t>& labels, const Grid<std::uint8_t>& excluded,
+FilledPaint fill_excluded(const Grid<glm::vec3>& picture, const Grid<std::uint8_t>& labels,
+                          const Grid<std::uint8_t>& excluded,
                           Progress& progress = silent_progress());
 
 }  // namespace belvedere

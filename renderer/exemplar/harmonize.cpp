@@ -20,10 +20,11 @@
 namespace belvedere {
 namespace {
 
-constexpr std::size_t least_texels = 32;   // fewer tell no spread
-constexpr double least_deviation = 0.004;  // OKLab; what is flatter than this is taken to be this rough, so that noise is not blown up
-constexpr double largest_gain = 3.0;       // of a deviation, up or down
-constexpr double border_texels = 1.5;      // sigma of the blend of maps across borders
+constexpr std::size_t min_texels = 32;   // fewer give no spread
+constexpr double min_deviation = 0.004;  // OKLab; flatter colours are treated as having this
+                                         // deviation, so that noise is not amplified
+constexpr double largest_gain = 3.0;     // factor on a deviation, up or down
+constexpr double border_texels = 1.5;    // sigma of the blend of maps across borders
 
 struct Statistics {
   std::size_t count = 0;
@@ -50,7 +51,8 @@ Eigen decompose(glm::dmat3 a) {
       for (int q = p + 1; q < 3; ++q) {
         if (std::abs(a[q][p]) < 1e-18) continue;
         const double theta = (a[q][q] - a[p][p]) / (2.0 * a[q][p]);
-        const double t = (theta >= 0.0 ? 1.0 : -1.0) / (std::abs(theta) + std::sqrt(theta * theta + 1.0));
+        const double t =
+            (theta >= 0.0 ? 1.0 : -1.0) / (std::abs(theta) + std::sqrt(theta * theta + 1.0));
         const double c = 1.0 / std::sqrt(t * t + 1.0);
         glm::dmat3 turn(1.0);
         turn[p][p] = turn[q][q] = c;
@@ -76,9 +78,10 @@ glm::dmat3 root(const glm::dmat3& a) {
   return spectral(a, [](double v) { return std::sqrt(std::max(v, 0.0)); });
 }
 
-// The map of one spread to another that moves colours least: A^-½ (A^½ B A^½)^½ A^-½, symmetric and positive.
+// The map of one spread to another that changes colours least: A^-½ (A^½ B A^½)^½ A^-½, symmetric
+// and positive.
 glm::dmat3 spread_map(const glm::dmat3& from, const glm::dmat3& to) {
-  const glm::dmat3 floor = glm::dmat3(least_deviation * least_deviation);
+  const glm::dmat3 floor = glm::dmat3(min_deviation * min_deviation);
   const glm::dmat3 half = root(from + floor);
   const glm::dmat3 inverse = glm::inverse(half);
   const glm::dmat3 map = inverse * root(half * (to + floor) * half) * inverse;
@@ -112,19 +115,20 @@ Grid<glm::dvec3> to_lab(const Grid<glm::vec3>& picture) {
   return lab;
 }
 
-// What each label shall be like, and how many paintings have it.
+// The target statistics of each label, and the number of paintings that contain it.
 struct Goal {
   Statistics look;
   int paintings = 0;
 };
 
-std::array<Goal, 256> find_goals(const std::vector<LabelStatistics>& all, std::optional<std::size_t> reference) {
+std::array<Goal, 256> find_goals(const std::vector<LabelStatistics>& all,
+                                 std::optional<std::size_t> reference) {
   std::array<Goal, 256> goals;
   for (std::size_t label = 0; label < unused_label; ++label) {
     Goal& goal = goals[label];
     for (const LabelStatistics& one : all) {
       const Statistics& s = one[label];
-      if (s.count < least_texels) continue;
+      if (s.count < min_texels) continue;
       ++goal.paintings;
       const double count = static_cast<double>(s.count);
       goal.look.count += s.count;
@@ -135,19 +139,22 @@ std::array<Goal, 256> find_goals(const std::vector<LabelStatistics>& all, std::o
       goal.look.mean /= static_cast<double>(goal.look.count);
       goal.look.covariance = goal.look.covariance / static_cast<double>(goal.look.count);
     }
-    if (reference && all[*reference][label].count >= least_texels)
+    if (reference && all[*reference][label].count >= min_texels)
       goal.look = all[*reference][label];
     else if (reference)
-      goal.paintings = 0;  // nothing to be like
+      goal.paintings = 0;  // no target
   }
   return goals;
 }
 
-std::array<ColourMap, 256> find_maps(const LabelStatistics& own, const std::array<Goal, 256>& goals) {
+std::array<ColourMap, 256> find_maps(const LabelStatistics& own,
+                                     const std::array<Goal, 256>& goals) {
   std::array<ColourMap, 256> maps;
   glm::dvec3 shift(0.0);
   double count = 0.0;
-  const auto shared = [&](std::size_t label) { return own[label].count >= least_texels && goals[label].paintings > 1; };
+  const auto shared = [&](std::size_t label) {
+    return own[label].count >= min_texels && goals[label].paintings > 1;
+  };
   for (std::size_t label = 0; label < unused_label; ++label) {
     if (!shared(label)) continue;
     const Statistics& goal = goals[label].look;
@@ -161,8 +168,9 @@ std::array<ColourMap, 256> find_maps(const LabelStatistics& own, const std::arra
   return maps;
 }
 
-// Each texel by the maps of the labels around it, by how much of each there is.
-Grid<glm::vec3> apply_maps(const LabelledPicture& painting, const Grid<glm::dvec3>& lab, const std::array<ColourMap, 256>& maps) {
+// Maps each texel by the maps of the labels around it, weighted by their shares.
+Grid<glm::vec3> apply_maps(const LabelledPicture& painting, const Grid<glm::dvec3>& lab,
+                           const std::array<ColourMap, 256>& maps) {
   const Grid<std::uint8_t>& labels = *painting.labels;
   Grid<glm::dvec3> sum(lab.width(), lab.height(), glm::dvec3(0.0));
   Grid<float> weight(lab.width(), lab.height(), 0.F);
@@ -186,7 +194,8 @@ Grid<glm::vec3> apply_maps(const LabelledPicture& painting, const Grid<glm::dvec
   parallel_rows(lab.height(), [&](int y) {
     for (int x = 0; x < lab.width(); ++x) {
       const std::size_t i = lab.index(x, y);
-      if (labels[i] != unused_label && weight[i] > 0.F) out[i] = glm::clamp(from_oklab(sum[i] / static_cast<double>(weight[i])), 0.F, 1.F);
+      if (labels[i] != unused_label && weight[i] > 0.F)
+        out[i] = glm::clamp(from_oklab(sum[i] / static_cast<double>(weight[i])), 0.F, 1.F);
     }
   });
   return out;
@@ -194,15 +203,18 @@ Grid<glm::vec3> apply_maps(const LabelledPicture& painting, const Grid<glm::dvec
 
 }  // namespace
 
-std::vector<Grid<glm::vec3>> harmonize(const std::vector<LabelledPicture>& pictures, std::optional<std::size_t> reference) {
+std::vector<Grid<glm::vec3>> harmonize(const std::vector<LabelledPicture>& pictures,
+                                       std::optional<std::size_t> reference) {
   if (reference && *reference >= pictures.size())
-    throw Error(ErrorKind::usage, "harmonize", fmt::format("there is no painting {}", *reference + 1),
+    throw Error(ErrorKind::usage, "harmonize",
+                fmt::format("painting {} does not exist", *reference + 1),
                 fmt::format("1 … {}", pictures.size()));
   std::vector<Grid<glm::dvec3>> labs;
   std::vector<LabelStatistics> statistics;
   for (const LabelledPicture& painting : pictures) {
     if (!painting.picture->same_size(*painting.labels))
-      throw Error(ErrorKind::usage, "harmonize", "a painting and its labels have different sizes", "the same size");
+      throw Error(ErrorKind::usage, "harmonize", "a painting and its labels have different sizes",
+                  "the same size");
     labs.push_back(to_lab(*painting.picture));
     statistics.push_back(measure(labs.back(), *painting.labels));
   }
@@ -217,10 +229,12 @@ std::vector<Grid<glm::vec3>> harmonize(const std::vector<LabelledPicture>& pictu
   return out;
 }
 
-std::vector<Grid<glm::vec3>> harmonize_as(const std::string& how, const std::vector<LabelledPicture>& pictures) {
+std::vector<Grid<glm::vec3>> harmonize_as(const std::string& how,
+                                          const std::vector<LabelledPicture>& pictures) {
   if (how == "common") return harmonize(pictures, std::nullopt);
   if (how == "first") return harmonize(pictures, 0);
-  if (how != "off" && how != "regions") throw Error(ErrorKind::usage, "harmonize", how, "off, common, first or regions");
+  if (how != "off" && how != "regions")
+    throw Error(ErrorKind::usage, "harmonize", how, "off, common, first or regions");
   std::vector<Grid<glm::vec3>> out;
   std::vector<Grid<std::uint8_t>> counts;
   bool first_counts = false;
@@ -228,13 +242,18 @@ std::vector<Grid<glm::vec3>> harmonize_as(const std::string& how, const std::vec
     out.push_back(*each.picture);
     if (how == "off") continue;
     if (!each.labels->same_size(*each.picture))
-      throw Error(ErrorKind::usage, "harmonize", "a painting and its labels have different sizes", "the same size");
-    Grid<std::uint8_t>& counted = counts.emplace_back(each.picture->width(), each.picture->height());
-    for (std::size_t i = 0; i < counted.size(); ++i) counted[i] = (*each.labels)[i] != unused_label ? 1 : 0;
-    const bool any = std::any_of(counted.begin(), counted.end(), [](std::uint8_t c) { return c != 0; });
+      throw Error(ErrorKind::usage, "harmonize", "a painting and its labels have different sizes",
+                  "the same size");
+    Grid<std::uint8_t>& counted =
+        counts.emplace_back(each.picture->width(), each.picture->height());
+    for (std::size_t i = 0; i < counted.size(); ++i)
+      counted[i] = (*each.labels)[i] != unused_label ? 1 : 0;
+    const bool any =
+        std::any_of(counted.begin(), counted.end(), [](std::uint8_t c) { return c != 0; });
     if (counts.size() == 1) first_counts = any;
     if (counts.size() == 1 || !any || !first_counts) continue;
-    const Grid<glm::vec3> corrected = correct_colours(*each.picture, *pictures.front().picture, {}, counted, counts.front());
+    const Grid<glm::vec3> corrected =
+        correct_colours(*each.picture, *pictures.front().picture, {}, counted, counts.front());
     for (std::size_t i = 0; i < counted.size(); ++i)
       if (counted[i] != 0) out.back()[i] = corrected[i];
   }
@@ -255,7 +274,8 @@ double colour_distance(const LabelledPicture& a, const LabelledPicture& b, std::
       count += 1.0;
       for (int c = 0; c < 3; ++c) {
         const auto axis = static_cast<std::size_t>(c);
-        h[axis][static_cast<std::size_t>(std::clamp((lab[c] - low[axis]) / width[axis] * bins, 0.0, bins - 1.0))] += 1.0;
+        h[axis][static_cast<std::size_t>(
+            std::clamp((lab[c] - low[axis]) / width[axis] * bins, 0.0, bins - 1.0))] += 1.0;
       }
     }
     for (auto& axis : h)
@@ -267,7 +287,7 @@ double colour_distance(const LabelledPicture& a, const LabelledPicture& b, std::
   if (!of_a || !of_b) return 0.0;
   double distance = 0.0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    double ahead = 0.0;  // how much of a stands below this bin beyond what of b does
+    double ahead = 0.0;  // how much more of a than of b is below this bin
     for (std::size_t bin = 0; bin < bins; ++bin) {
       ahead += (*of_a)[axis][bin] - (*of_b)[axis][bin];
       distance += std::abs(ahead) * width[axis] / bins / 3.0;

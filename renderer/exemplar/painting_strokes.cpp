@@ -11,14 +11,16 @@
 namespace belvedere {
 namespace {
 
-constexpr double around_strokes = 1.5;       // sigma of the mean over neighbours, in widths of a stroke
-constexpr float least_coherence = 0.2F;      // (λ1 - λ2) / (λ1 + λ2): 0 no direction, 1 lines
-constexpr float least_variation = 1e-7F;     // of squared slopes of lightness; less is flat paint
+constexpr double around_strokes = 1.5;  // sigma of the mean over neighbours, in widths of a stroke
+constexpr float min_coherence = 0.2F;   // (λ1 - λ2) / (λ1 + λ2): 0 no direction, 1 lines
+constexpr float min_variation =
+    1e-7F;  // of squared gradients of lightness; below this, paint is flat
 constexpr float steepness_of_lying = 0.26F;  // sine of 15°
 
 }  // namespace
 
-Grid<glm::vec2> find_stroke_direction(const Grid<glm::vec3>& picture, const Grid<std::uint8_t>& labels, double stroke_px) {
+Grid<glm::vec2> find_stroke_direction(const Grid<glm::vec3>& picture,
+                                      const Grid<std::uint8_t>& labels, double stroke_px) {
   const int width = picture.width();
   const int height = picture.height();
   Grid<float> lightness(width, height);
@@ -36,10 +38,14 @@ Grid<glm::vec2> find_stroke_direction(const Grid<glm::vec3>& picture, const Grid
       for (int v = -1; v <= 1 && inside; ++v)
         for (int u = -1; u <= 1 && inside; ++u) inside = labels(x + u, y + v) == label;
       if (!inside) continue;
-      // Scharr's weights: the direction is true to a tenth of a degree.
+      // Scharr's weights: the direction is accurate to a tenth of a degree.
       const auto at = [&](int u, int v) { return lightness(x + u, y + v); };
-      const float gx = (3.F * (at(1, -1) - at(-1, -1)) + 10.F * (at(1, 0) - at(-1, 0)) + 3.F * (at(1, 1) - at(-1, 1))) / 32.F;
-      const float gy = (3.F * (at(-1, 1) - at(-1, -1)) + 10.F * (at(0, 1) - at(0, -1)) + 3.F * (at(1, 1) - at(1, -1))) / 32.F;
+      const float gx = (3.F * (at(1, -1) - at(-1, -1)) + 10.F * (at(1, 0) - at(-1, 0)) +
+                        3.F * (at(1, 1) - at(-1, 1))) /
+                       32.F;
+      const float gy = (3.F * (at(-1, 1) - at(-1, -1)) + 10.F * (at(0, 1) - at(0, -1)) +
+                        3.F * (at(1, 1) - at(1, -1))) /
+                       32.F;
       xx(x, y) = gx * gx;
       xy(x, y) = gx * gy;
       yy(x, y) = gy * gy;
@@ -56,10 +62,14 @@ Grid<glm::vec2> find_stroke_direction(const Grid<glm::vec3>& picture, const Grid
       const float sum = xx[i] + yy[i];
       const double difference = xx[i] - yy[i];
       const double twice = 2.0 * static_cast<double>(xy[i]);
-      if (sum < least_variation || std::sqrt(difference * difference + twice * twice) < static_cast<double>(least_coherence * sum))
+      if (sum < min_variation || std::sqrt(difference * difference + twice * twice) <
+                                     static_cast<double>(min_coherence * sum))
         continue;
-      const double across = 0.5 * exact::atan2(twice, difference);  // where lightness changes most: across the strokes
-      glm::vec2 along(static_cast<float>(-exact::sin(across)), static_cast<float>(exact::cos(across)));
+      const double across =
+          0.5 * exact::atan2(
+                    twice, difference);  // of the steepest change of lightness: across the strokes
+      glm::vec2 along(static_cast<float>(-exact::sin(across)),
+                      static_cast<float>(exact::cos(across)));
       if (along.y < 0.F) along = -along;
       if (along.y >= steepness_of_lying) direction[i] = along;
     }

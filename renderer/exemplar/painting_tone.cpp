@@ -13,14 +13,15 @@
 namespace belvedere {
 namespace {
 
-// Share of a label's texels that are darker, and their tone: how tone is spread over targets.
+// Share of a label's texels that are darker, and their tone: the distribution of tone in targets.
 struct Knot {
   double share;
   double tone;
 };
-constexpr std::array<Knot, 5> spread = {{{0.01, 0.10}, {0.25, 0.43}, {0.50, 0.64}, {0.75, 0.86}, {0.99, 1.00}}};
+constexpr std::array<Knot, 5> spread = {
+    {{0.01, 0.10}, {0.25, 0.43}, {0.50, 0.64}, {0.75, 0.86}, {0.99, 1.00}}};
 constexpr double flat_tone = 0.64;
-constexpr double flat_lightness = 1e-4;  // differences that are none
+constexpr double flat_lightness = 1e-4;  // smaller differences count as none
 
 struct Box {
   int x0, y0, x1 = -1, y1 = -1;  // inclusive; x1 < x0: no texel
@@ -38,13 +39,15 @@ std::vector<Box> boxes_of(const Grid<std::uint8_t>& labels) {
 
 }  // namespace
 
-Grid<float> blur_within_labels(const Grid<float>& values, const Grid<std::uint8_t>& labels, double sigma) {
+Grid<float> blur_within_labels(const Grid<float>& values, const Grid<std::uint8_t>& labels,
+                               double sigma) {
   const std::vector<Box> boxes = boxes_of(labels);
   Grid<float> out(values.width(), values.height(), 0.F);
   for (std::size_t label = 0; label < unused_label; ++label) {
     const Box& box = boxes[label];
     if (box.x1 < box.x0) continue;
-    // Beyond the box there is nothing of the label, but the blur repeats what stands at its border: one empty cell around stops that.
+    // Outside the box the label has no texels, but the blur repeats the values at its border: one
+    // empty cell around prevents that.
     const int width = box.x1 - box.x0 + 3;
     const int height = box.y1 - box.y0 + 3;
     Grid<float> sum(width, height, 0.F);
@@ -67,10 +70,12 @@ Grid<float> blur_within_labels(const Grid<float>& values, const Grid<std::uint8_
   return out;
 }
 
-Grid<float> estimate_tone(const Grid<glm::vec3>& picture, const Grid<std::uint8_t>& labels, double stroke_px) {
+Grid<float> estimate_tone(const Grid<glm::vec3>& picture, const Grid<std::uint8_t>& labels,
+                          double stroke_px) {
   Grid<float> lightness(picture.width(), picture.height());
   parallel_rows(picture.height(), [&](int y) {
-    for (int x = 0; x < picture.width(); ++x) lightness(x, y) = static_cast<float>(to_oklab(picture(x, y)).x);
+    for (int x = 0; x < picture.width(); ++x)
+      lightness(x, y) = static_cast<float>(to_oklab(picture(x, y)).x);
   });
   Grid<float> tone = blur_within_labels(lightness, labels, stroke_px);
   std::array<std::vector<float>, 256> sorted;
@@ -82,7 +87,8 @@ Grid<float> estimate_tone(const Grid<glm::vec3>& picture, const Grid<std::uint8_
     if (values.empty()) continue;
     std::sort(values.begin(), values.end());
     for (std::size_t k = 0; k < spread.size(); ++k)
-      lights[label][k] = static_cast<double>(values[static_cast<std::size_t>(spread[k].share * static_cast<double>(values.size() - 1))]);
+      lights[label][k] = static_cast<double>(values[static_cast<std::size_t>(
+          spread[k].share * static_cast<double>(values.size() - 1))]);
   }
   parallel_rows(tone.height(), [&](int y) {
     for (int x = 0; x < tone.width(); ++x) {

@@ -30,19 +30,21 @@ namespace {
 
 constexpr auto sky_label = static_cast<std::uint8_t>(LandCoverClass::sky);
 
-void check_same_size(const std::string& file, int width, int height, const Grid<glm::vec3>& picture) {
+void check_same_size(const std::string& file, int width, int height,
+                     const Grid<glm::vec3>& picture) {
   if (width != picture.width() || height != picture.height())
     throw Error(ErrorKind::input, file,
-                fmt::format("{}×{} pixels beside a picture of {}×{}", width, height, picture.width(), picture.height()),
-                "the picture's size");
+                fmt::format("{}×{} pixels, but the picture has {}×{}", width, height,
+                            picture.width(), picture.height()),
+                "the size of the picture");
 }
 
-// A painting as it stands in its files.
+// A painting as read from its files.
 struct Raw {
   Grid<glm::vec3> picture;
   GuidanceBuffers guidance;
-  bool measured = false;      // guidance is a renderer's: distances and all
-  Grid<std::uint8_t> labels;  // class ids, sky included; unused_label is never copied from
+  bool measured = false;  // guidance comes from the renderer: with distances and all other channels
+  Grid<std::uint8_t> labels;  // class ids, sky included; unused_label is never copied
 };
 
 // A grey image as 0…1.
@@ -53,7 +55,8 @@ Grid<float> read_share(const std::string& path, const Grid<glm::vec3>& picture) 
   for (const std::uint16_t value : grey)
     if (value > 255) highest = 65535;
   Grid<float> share(grey.width(), grey.height());
-  for (std::size_t i = 0; i < grey.size(); ++i) share[i] = static_cast<float>(grey[i]) / static_cast<float>(highest);
+  for (std::size_t i = 0; i < grey.size(); ++i)
+    share[i] = static_cast<float>(grey[i]) / static_cast<float>(highest);
   return share;
 }
 
@@ -65,29 +68,35 @@ void read_masks(const SceneExemplar& settings, const LoadedScene& scene, Raw& ra
   guidance.depth_m = Grid<float>(ids.width(), ids.height(), 1.F);
   guidance.land_cover = Grid<LandCoverClass>(ids.width(), ids.height());
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    guidance.land_cover[i] = static_cast<LandCoverClass>(std::min<std::uint16_t>(ids[i], unused_label));
-    if (guidance.land_cover[i] == LandCoverClass::sky) guidance.depth_m[i] = std::numeric_limits<float>::infinity();
+    guidance.land_cover[i] =
+        static_cast<LandCoverClass>(std::min<std::uint16_t>(ids[i], unused_label));
+    if (guidance.land_cover[i] == LandCoverClass::sky)
+      guidance.depth_m[i] = std::numeric_limits<float>::infinity();
   }
   if (settings.altitude.empty()) return;
   guidance.altitude_m = read_share(find_scene_file(scene, settings.altitude), raw.picture);
   for (float& value : guidance.altitude_m)
     value = static_cast<float>(settings.altitude_range_m[0] +
-                               (settings.altitude_range_m[1] - settings.altitude_range_m[0]) * static_cast<double>(value));
+                               (settings.altitude_range_m[1] - settings.altitude_range_m[0]) *
+                                   static_cast<double>(value));
 }
 
-// Two files of one painting by the program say that the same scene made them. A disk that ran full between them, or a copy of one alone,
-// leaves a pair that is not registered.
-void check_same_painting(const FileNotes& picture, const FileNotes& guidance, const std::string& path) {
+// Files of one painting written by the program name the scene they were made from. A disk that
+// filled up between them, or a copy of only one, leaves a pair that is not registered.
+void check_same_painting(const FileNotes& picture, const FileNotes& guidance,
+                         const std::string& path) {
   const auto made_by = picture.find("belvedere:scene");
   const auto its = guidance.find("belvedere:scene");
   if (made_by == picture.end() || its == guidance.end() || made_by->second == its->second) return;
-  throw Error(ErrorKind::input, path, "it belongs to another painting than the picture beside it: other scenes made them",
-              "the guidance.exr that was written with the picture");
+  throw Error(ErrorKind::input, path,
+              "it belongs to a different painting: the picture was made from another scene",
+              "the guidance.exr written together with the picture");
 }
 
-// A painting the program painted knows where its paint grew: class and base colour go by that place. The file of the layer without
-// trees says in its header that it is that.
-void take_paint(const SceneExemplar& settings, const LoadedScene& scene, GuidanceBuffers& guidance) {
+// A painting made by the program contains the origin of its paint: class and base colour are read
+// there. The header of the file marks the layer without trees.
+void take_paint(const SceneExemplar& settings, const LoadedScene& scene,
+                GuidanceBuffers& guidance) {
   const FileNotes notes = read_image_info(find_scene_file(scene, settings.picture)).notes;
   const std::string path = find_scene_file(scene, settings.guidance);
   check_same_painting(notes, read_image_info(path).notes, path);
@@ -97,23 +106,31 @@ void take_paint(const SceneExemplar& settings, const LoadedScene& scene, Guidanc
   if (from.empty() || guidance.base.empty()) return;
   for (const std::uint32_t index : from)
     if (index >= from.size())
-      throw Error(ErrorKind::input, path, fmt::format("paint from pixel {}", index),
-                  fmt::format("pixels of the picture, fewer than {}", from.size()));
+      throw Error(ErrorKind::input, path,
+                  fmt::format("a pixel index of {} in painted_from or ground_from", index),
+                  fmt::format("indices of the picture's pixels, below {}", from.size()));
   PaintedClasses classes = classes_of_paint(guidance, from);
   guidance.land_cover = std::move(classes.land_cover);
   guidance.base = decode_srgb(classes.base);
 }
 
-// Takes what is excluded out of the labels; or fills it with the paint around it, where the block says so.
-void exclude(const SceneExemplar& settings, const LoadedScene& scene, Raw& raw, Progress& progress) {
+// Removes excluded pixels from the labels; or fills them with the paint around them if the block
+// requests it.
+void exclude(const SceneExemplar& settings, const LoadedScene& scene, Raw& raw,
+             Progress& progress) {
   if (settings.exclude.empty()) return;
   const Grid<float> mask = read_share(find_scene_file(scene, settings.exclude), raw.picture);
   Grid<std::uint8_t> excluded(mask.width(), mask.height());
   for (std::size_t i = 0; i < mask.size(); ++i) excluded[i] = mask[i] > 0.F ? 1 : 0;
   if (settings.excluded == "fill") {
     FilledPaint paint = fill_excluded(raw.picture, raw.labels, excluded, progress);
-    progress.note(fmt::format("{}: {} excluded pixels are filled with the paint around them{}", settings.picture, paint.filled,
-                              paint.left > 0 ? fmt::format(", {} have too little of their class around and stay unused", paint.left) : ""));
+    progress.note(fmt::format(
+        "{}: {} excluded pixels are filled with the paint around them{}", settings.picture,
+        paint.filled,
+        paint.left > 0
+            ? fmt::format(", {} have too little paint of their class around them and stay unused",
+                          paint.left)
+            : ""));
     raw.picture = std::move(paint.picture);
     raw.labels = std::move(paint.labels);
     for (std::size_t i = 0; i < excluded.size(); ++i)
@@ -131,16 +148,19 @@ Raw read_raw(const SceneExemplar& settings, const LoadedScene& scene, Progress& 
     const std::string path = find_scene_file(scene, settings.guidance);
     raw.guidance = read_guidance(path);
     raw.measured = true;
-    require_channels(raw.guidance, {&GuidanceBuffers::depth_m, &GuidanceBuffers::land_cover}, path, ErrorKind::input);
+    require_channels(raw.guidance, {&GuidanceBuffers::depth_m, &GuidanceBuffers::land_cover}, path,
+                     ErrorKind::input);
     check_same_size(path, raw.guidance.width(), raw.guidance.height(), raw.picture);
     take_paint(settings, scene, raw.guidance);
   } else {
     read_masks(settings, scene, raw);
   }
-  if (!settings.shadow.empty()) raw.guidance.shadow = read_share(find_scene_file(scene, settings.shadow), raw.picture);
+  if (!settings.shadow.empty())
+    raw.guidance.shadow = read_share(find_scene_file(scene, settings.shadow), raw.picture);
   raw.labels = Grid<std::uint8_t>(raw.picture.width(), raw.picture.height());
   for (std::size_t i = 0; i < raw.labels.size(); ++i)
-    raw.labels[i] = raw.guidance.is_sky(i) ? sky_label : static_cast<std::uint8_t>(raw.guidance.land_cover[i]);
+    raw.labels[i] =
+        raw.guidance.is_sky(i) ? sky_label : static_cast<std::uint8_t>(raw.guidance.land_cover[i]);
   // Bare paper between the panels of an example sheet is neither ground nor sky.
   for (std::size_t i = 0; i < raw.guidance.sky_view.size(); ++i)
     if (raw.guidance.is_sky(i) && raw.guidance.sky_view[i] <= 0.F) raw.labels[i] = unused_label;
@@ -164,16 +184,16 @@ void harmonize_all(std::vector<Raw>& raws, const std::string& how, Progress& pro
 
 glm::vec3 median_colour(std::vector<glm::vec3>& colours) {
   glm::vec3 out{};
-  const auto middle = static_cast<std::ptrdiff_t>(colours.size() / 2);
+  const auto centre = static_cast<std::ptrdiff_t>(colours.size() / 2);
   for (int c = 0; c < 3; ++c) {
-    std::nth_element(colours.begin(), colours.begin() + middle, colours.end(),
+    std::nth_element(colours.begin(), colours.begin() + centre, colours.end(),
                      [c](const glm::vec3& a, const glm::vec3& b) { return a[c] < b[c]; });
-    out[c] = colours[static_cast<std::size_t>(middle)][c];
+    out[c] = colours[static_cast<std::size_t>(centre)][c];
   }
   return out;
 }
 
-// The painted sky as a gradient over its height, and its light and dark parts as clouds.
+// The painted sky as a vertical gradient, and its light and dark parts as clouds.
 void learn_sky(const Raw& raw, ScannedPainting& scan) {
   constexpr int bands = 5;
   int top = raw.picture.height();
@@ -190,13 +210,17 @@ void learn_sky(const Raw& raw, ScannedPainting& scan) {
   for (int y = top; y <= bottom; ++y)
     for (int x = 0; x < raw.picture.width(); ++x) {
       if (raw.labels(x, y) != sky_label) continue;
-      colours[static_cast<std::size_t>((y - top) * bands / (bottom - top + 1))].push_back(raw.picture(x, y));
+      colours[static_cast<std::size_t>((y - top) * bands / (bottom - top + 1))].push_back(
+          raw.picture(x, y));
       all.push_back(raw.picture(x, y));
     }
-  if (all.size() < least_texels) return;
+  if (all.size() < min_texels) return;
   for (std::size_t k = 0; k < colours.size(); ++k)
-    if (!colours[k].empty()) scan.sky.emplace_back(static_cast<double>(k) / (bands - 1), median_colour(colours[k]));
-  std::sort(all.begin(), all.end(), [](const glm::vec3& a, const glm::vec3& b) { return a.x + a.y + a.z < b.x + b.y + b.z; });
+    if (!colours[k].empty())
+      scan.sky.emplace_back(static_cast<double>(k) / (bands - 1), median_colour(colours[k]));
+  std::sort(all.begin(), all.end(), [](const glm::vec3& a, const glm::vec3& b) {
+    return a.x + a.y + a.z < b.x + b.y + b.z;
+  });
   const auto part = static_cast<std::ptrdiff_t>(std::max<std::size_t>(all.size() / 12, 1));
   std::vector<glm::vec3> light(all.end() - part, all.end());
   std::vector<glm::vec3> shade(all.begin() + 3 * part, all.begin() + 4 * part);
@@ -210,26 +234,32 @@ const Grid<std::uint8_t>& values_of(const GuideStack& guides, const char* name) 
   return found == nullptr ? none : *found;
 }
 
-ScannedPainting finish_scan(const SceneExemplar& settings, Raw raw, double residual, Progress& progress) {
+ScannedPainting finish_scan(const SceneExemplar& settings, Raw raw, double residual,
+                            Progress& progress) {
   ScannedPainting scan;
   learn_sky(raw, scan);
   for (std::uint8_t& label : raw.labels)
     if (label == sky_label) label = unused_label;  // the sky is painted, not copied
   GuidanceBuffers& guidance = raw.guidance;
-  if (guidance.tone.empty()) guidance.tone = estimate_tone(raw.picture, raw.labels, settings.stroke_px);
+  if (guidance.tone.empty())
+    guidance.tone = estimate_tone(raw.picture, raw.labels, settings.stroke_px);
   if (guidance.shadow.empty() && settings.found_shadow != "ignore") {
     guidance.shadow = find_shadow(raw.picture, raw.labels, settings.stroke_px);
     std::size_t shaded = 0;
-    for (std::size_t i = 0; i < raw.labels.size(); ++i) shaded += raw.labels[i] != unused_label && guidance.shadow[i] < lit_from ? 1 : 0;
-    progress.note(fmt::format("{}: {:.1f} % of it is taken for cast shadow", settings.picture,
-                              100.0 * static_cast<double>(shaded) / static_cast<double>(raw.labels.size())));
+    for (std::size_t i = 0; i < raw.labels.size(); ++i)
+      shaded += raw.labels[i] != unused_label && guidance.shadow[i] < lit_from ? 1 : 0;
+    progress.note(
+        fmt::format("{}: {:.1f} % of it is classified as cast shadow", settings.picture,
+                    100.0 * static_cast<double>(shaded) / static_cast<double>(raw.labels.size())));
   }
-  if (guidance.fall_line.empty()) guidance.fall_line = find_stroke_direction(raw.picture, raw.labels, settings.stroke_px);
+  if (guidance.fall_line.empty())
+    guidance.fall_line = find_stroke_direction(raw.picture, raw.labels, settings.stroke_px);
   PaintedExemplar& painted = scan.painted;
   painted.exemplar.name = settings.picture;
   painted.exemplar.guides = make_guide_stack(guidance, guidance.land_cover);
   GuideStack& guides = painted.exemplar.guides;
-  if (!raw.measured) std::erase_if(guides.guides, [](const Guide& guide) { return guide.name == "distance"; });
+  if (!raw.measured)
+    std::erase_if(guides.guides, [](const Guide& guide) { return guide.name == "distance"; });
   const Grid<std::uint8_t>& distance = values_of(guides, "distance");
   scan.ramps = fit_ramps(raw.picture, raw.labels, guidance.tone, distance);
   if (!guidance.base.empty())
@@ -239,7 +269,9 @@ ScannedPainting finish_scan(const SceneExemplar& settings, Raw raw, double resid
   const bool leave_shadow = settings.found_shadow == "exclude" && !guidance.shadow.empty();
   for (std::size_t i = 0; i < raw.labels.size(); ++i) {
     const auto id = static_cast<LandCoverClass>(raw.labels[i]);
-    const bool served = settings.serves.empty() || std::find(settings.serves.begin(), settings.serves.end(), id) != settings.serves.end();
+    const bool served =
+        settings.serves.empty() ||
+        std::find(settings.serves.begin(), settings.serves.end(), id) != settings.serves.end();
     if (!served || (leave_shadow && guidance.shadow[i] < lit_from)) raw.labels[i] = unused_label;
   }
   guides.label = std::move(raw.labels);
@@ -249,29 +281,32 @@ ScannedPainting finish_scan(const SceneExemplar& settings, Raw raw, double resid
   return scan;
 }
 
-// A painting's own light is often fainter than relief needs to be read, and much of it is in strokes, which ramps leave out. The ramp gets
-// at least this share of the palette's range of lightness (OKLab), about its middle, hue and saturation kept; stretched at most threefold.
-constexpr double least_range_share = 0.8;
+// A painting's own light is often too faint to show relief, and much of it is in strokes, which
+// ramps leave out. The ramp gets at least this share of the palette's range of lightness (OKLab),
+// about its centre, with hue and saturation kept; stretched at most threefold.
+constexpr double min_range_share = 0.8;
 constexpr double largest_stretch = 3.0;
 ToneRamp stretch(const ToneRamp& ramp, const ToneRamp& target) {
   const auto range = [](const ToneRamp& r) { return to_oklab(r.back()).x - to_oklab(r.front()).x; };
-  const double factor = std::clamp(least_range_share * range(target) / std::max(range(ramp), 1e-3), 1.0, largest_stretch);
-  double middle = 0.0;
-  for (const glm::vec3& colour : ramp) middle += to_oklab(colour).x / static_cast<double>(ramp.size());
+  const double factor = std::clamp(min_range_share * range(target) / std::max(range(ramp), 1e-3),
+                                   1.0, largest_stretch);
+  double centre = 0.0;
+  for (const glm::vec3& colour : ramp)
+    centre += to_oklab(colour).x / static_cast<double>(ramp.size());
   ToneRamp out = ramp;
   for (glm::vec3& colour : out) {
     glm::dvec3 lab = to_oklab(colour);
-    lab.x = std::clamp(middle + factor * (lab.x - middle), 0.0, 1.0);
+    lab.x = std::clamp(centre + factor * (lab.x - centre), 0.0, 1.0);
     colour = glm::clamp(from_oklab(lab), 0.F, 1.F);
   }
   return out;
 }
 
-glm::vec3 gradient_at(const std::vector<std::pair<double, glm::vec3>>& gradient, double place) {
+glm::vec3 gradient_at(const std::vector<std::pair<double, glm::vec3>>& gradient, double position) {
   for (std::size_t k = 1; k < gradient.size(); ++k)
-    if (place <= gradient[k].first) {
+    if (position <= gradient[k].first) {
       const double width = gradient[k].first - gradient[k - 1].first;
-      const double share = std::clamp((place - gradient[k - 1].first) / width, 0.0, 1.0);
+      const double share = std::clamp((position - gradient[k - 1].first) / width, 0.0, 1.0);
       return glm::mix(gradient[k - 1].second, gradient[k].second, static_cast<float>(share));
     }
   return gradient.back().second;
@@ -285,8 +320,9 @@ std::vector<ScannedPainting> read_scans(const LoadedScene& scene, Progress& prog
   for (std::size_t i = 0; i < paintings.size(); ++i) {
     if (paintings[i].picture.empty()) continue;
     if (find_scene_file(scene, paintings[i].picture).empty()) {
-      // Missing files that are not optional were refused before the work began.
-      progress.note(fmt::format("exemplar {} is not there and is left out; get it from {}", paintings[i].picture, paintings[i].get_from));
+      // Missing files that are not optional were rejected before the work began.
+      progress.note(fmt::format("exemplar {} does not exist and is left out; get it from {}",
+                                paintings[i].picture, paintings[i].get_from));
       continue;
     }
     raws[i] = read_raw(paintings[i], scene, progress);
@@ -294,21 +330,26 @@ std::vector<ScannedPainting> read_scans(const LoadedScene& scene, Progress& prog
   harmonize_all(raws, scene.scene.synthesis.harmonize, progress);
   std::vector<ScannedPainting> scans(paintings.size());
   for (std::size_t i = 0; i < paintings.size(); ++i)
-    if (!raws[i].picture.empty()) scans[i] = finish_scan(paintings[i], std::move(raws[i]), scene.scene.synthesis.residual, progress);
-  // A model has no texels, but colours.
+    if (!raws[i].picture.empty())
+      scans[i] =
+          finish_scan(paintings[i], std::move(raws[i]), scene.scene.synthesis.residual, progress);
+  // A model has colours but no texels.
   const std::vector<SceneTextureModel> models = read_texture_models(scene);
   for (const SceneTextureModel& model : models)
-    for (const LandCoverClass id : model.serves) scans[model.block].ramps[static_cast<std::size_t>(id)] = model_ramps(models, model, id);
+    for (const LandCoverClass id : model.serves)
+      scans[model.block].ramps[static_cast<std::size_t>(id)] = model_ramps(models, model, id);
   return scans;
 }
 
 void check_paintings(const LoadedScene& scene) {
   read_texture_models(scene);
   for (const SceneExemplar& settings : scene.scene.exemplars) {
-    const std::string path = settings.picture.empty() ? std::string() : find_scene_file(scene, settings.picture);
+    const std::string path =
+        settings.picture.empty() ? std::string() : find_scene_file(scene, settings.picture);
     if (path.empty()) continue;
     const Grid<glm::vec3> picture = read_picture(path);
-    for (const std::string* file : {&settings.guidance, &settings.classes, &settings.altitude, &settings.shadow, &settings.exclude}) {
+    for (const std::string* file : {&settings.guidance, &settings.classes, &settings.altitude,
+                                    &settings.shadow, &settings.exclude}) {
       if (file->empty()) continue;
       const std::string guide = find_scene_file(scene, *file);
       const ImageInfo info = read_image_info(guide);
@@ -321,9 +362,10 @@ void check_paintings(const LoadedScene& scene) {
 Palette take_colours(const Palette& palette, const std::vector<ScannedPainting>& scans,
                      const std::vector<std::pair<LandCoverClass, LandCoverClass>>& fallback) {
   Palette out = palette;
-  constexpr double usual_altitude_m = 1500.0;  // where palettes that change with altitude are compared
+  constexpr double usual_altitude_m =
+      1500.0;  // altitude at which palettes that change with altitude are compared
   std::array<bool, land_cover_class_count> known{};
-  // Nearest distance: what air does to it is the scene's.
+  // Nearest distance: the scene sets the effect of air on it.
   for (std::size_t id = 1; id < known.size(); ++id) {
     ToneRamp sum{};
     float texels = 0.F;
@@ -339,7 +381,8 @@ Palette take_colours(const Palette& palette, const std::vector<ScannedPainting>&
     for (glm::vec3& colour : sum) colour /= texels;
     ToneRamp own{};
     for (std::size_t t = 0; t < own.size(); ++t)
-      own[t] = palette_colour(palette, static_cast<LandCoverClass>(id), usual_altitude_m, ramp_tones[t]);
+      own[t] =
+          palette_colour(palette, static_cast<LandCoverClass>(id), usual_altitude_m, ramp_tones[t]);
     out.classes[id].stops = {{0.0, stretch(sum, own)}};
   }
   const int classes = static_cast<int>(std::count(known.begin(), known.end(), true));
@@ -348,25 +391,28 @@ Palette take_colours(const Palette& palette, const std::vector<ScannedPainting>&
   for (std::size_t id = 1; id < known.size(); ++id)
     for (std::size_t t = 0; t < shift.size() && known[id]; ++t)
       shift[t] += (out.classes[id].stops.front().ramp[t] -
-                   palette_colour(palette, static_cast<LandCoverClass>(id), usual_altitude_m, ramp_tones[t])) /
+                   palette_colour(palette, static_cast<LandCoverClass>(id), usual_altitude_m,
+                                  ramp_tones[t])) /
                   static_cast<float>(classes);
   for (std::size_t id = 1; id < known.size(); ++id) {
     if (known[id]) continue;
-    const auto stand_in =
-        std::find_if(fallback.begin(), fallback.end(), [&](const auto& pair) { return pair.first == static_cast<LandCoverClass>(id); });
+    const auto stand_in = std::find_if(fallback.begin(), fallback.end(), [&](const auto& pair) {
+      return pair.first == static_cast<LandCoverClass>(id);
+    });
     if (stand_in != fallback.end() && known[static_cast<std::size_t>(stand_in->second)]) {
       out.classes[id].stops = out.classes[static_cast<std::size_t>(stand_in->second)].stops;
       continue;
     }
     for (ClassPalette::Stop& stop : out.classes[id].stops)
-      for (std::size_t t = 0; t < shift.size(); ++t) stop.ramp[t] = glm::clamp(stop.ramp[t] + shift[t], 0.F, 1.F);
+      for (std::size_t t = 0; t < shift.size(); ++t)
+        stop.ramp[t] = glm::clamp(stop.ramp[t] + shift[t], 0.F, 1.F);
   }
   for (const ScannedPainting& scan : scans) {
     if (scan.sky.empty()) continue;
     out.sky = scan.sky;
     out.cloud_light = scan.cloud_light;
     out.cloud_shade = scan.cloud_shade;
-    // Air is the sky's blue where it begins and its horizon far away.
+    // Air has the sky's blue where it begins and the horizon's colour far away.
     out.haze_near = gradient_at(scan.sky, 0.35);
     out.haze_far = gradient_at(scan.sky, 0.8);
     out.range_mist = gradient_at(scan.sky, 0.85);

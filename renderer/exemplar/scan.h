@@ -12,28 +12,32 @@
 
 namespace belvedere {
 
-// A painting from files, ready to copy from, and what was learnt of its colours.
+// A painting from files, ready for copying, and what was learnt of its colours.
 struct ScannedPainting {
-  PaintedExemplar painted;                        // picture empty: the block names none, or an optional file is missing
-  FittedRamps ramps;                              // by class id
-  std::vector<std::pair<double, glm::vec3>> sky;  // from its top (0) to its horizon (1); empty where the mask has no sky
+  PaintedExemplar painted;  // picture empty: the block has none, or an optional file is missing
+  FittedRamps ramps;        // by class id
+  std::vector<std::pair<double, glm::vec3>>
+      sky;  // from its top (0) to its horizon (1); empty where the mask has no sky
   glm::vec3 cloud_light{1.0F};
   glm::vec3 cloud_shade{0.7F};
 };
 
-// The paintings of a scene's [[exemplar]] blocks, one result for each block. Each is a picture with a guidance file, or with a class mask
-// and perhaps altitude, shadow and exclusion masks. What is not there is estimated from the painting itself: the tone (painting_tone.h),
-// cast shadow (shadow_texels.h), the direction of strokes (painting_strokes.h), the base picture (fitted_ramps.h). Colours are harmonized
-// first where the scene says so. An optional painting whose file is missing is noted.
+// The paintings of a scene's [[exemplar]] blocks, one result for each block. Each is a picture with
+// a guidance file, or with a class mask and perhaps altitude, shadow and exclusion masks. Missing
+// guides are estimated from the painting itself: the tone (painting_tone.h), cast shadow
+// (shadow_texels.h), the direction of strokes (painting_strokes.h), the base picture
+// (fitted_ramps.h). Colours are harmonized first if the scene requests it. An optional painting
+// whose file is missing is noted.
 std::vector<ScannedPainting> read_scans(const LoadedScene& scene, Progress& progress);
 
-// Error(input) naming the file where a painting cannot be read whole or its guides have another size, Error(limit) where it takes too
-// much memory: to be called before the work begins.
+// Error(input) with the name of the file if a painting cannot be read whole or its guides have
+// another size, Error(limit) if it takes too much memory: to be called before the work begins.
 void check_paintings(const LoadedScene& scene);
 
-// `palette` with the paintings' colours: ramps of the classes they have, weighted by texels and with light enough to show relief; those of
-// a fallback class where they lack a class, or else the palette's own, moved as far as the paintings' known classes are from its; sky,
-// clouds and air from a painted sky. Without any painting, the palette as it is.
+// `palette` with the paintings' colours: ramps of their classes, weighted by texels and with enough
+// light to show relief; for missing classes those of a fallback class, or the palette's own,
+// shifted by the mean difference of the known classes from it; sky, clouds and air from a painted
+// sky. Without any painting, the palette unchanged.
 Palette take_colours(const Palette& palette, const std::vector<ScannedPainting>& scans,
                      const std::vector<std::pair<LandCoverClass, LandCoverClass>>& fallback);
 

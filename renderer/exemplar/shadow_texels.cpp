@@ -13,17 +13,17 @@
 namespace belvedere {
 namespace {
 
-constexpr double blue_share = 0.5;     // of the way from yellow to blue that counts as darkness
-constexpr double least_darker = 0.07;  // OKLab lightness by which the group in shadow is darker …
-constexpr double least_bluer = 0.006;  // … and bluer, between the means of the groups
+constexpr double blue_share = 0.5;   // weight of the yellow–blue axis in darkness
+constexpr double min_darker = 0.07;  // OKLab lightness by which the shadow group is darker …
+constexpr double min_bluer = 0.006;  // … and bluer, between the means of the groups
 constexpr std::size_t min_shaded_texels = 64;
-constexpr double least_share = 0.01;  // of a label's texels; fewer are strokes
-constexpr double soft = 0.02;         // half width of the transition, OKLab
+constexpr double min_share = 0.01;  // of a label's texels; a smaller group is strokes
+constexpr double soft = 0.02;       // half width of the transition, OKLab
 constexpr int bins = 256;
 constexpr double lowest = -0.2;  // of darkness in the histogram
 constexpr double highest = 1.2;
 
-// Darkness: + dark and blue.
+// Darkness: positive for dark and blue.
 double darkness(double lightness, double yellow) { return 1.0 - lightness - blue_share * yellow; }
 
 struct Group {
@@ -37,7 +37,7 @@ struct Group {
   }
 };
 
-// Darkness from which texels of a label lie in shadow; beyond all where none do.
+// Darkness from which texels of a label are in shadow; above the maximum if none are.
 double find_threshold(const std::array<Group, bins>& histogram) {
   constexpr double none = 1e9;
   Group all;
@@ -49,23 +49,25 @@ double find_threshold(const std::array<Group, bins>& histogram) {
   for (std::size_t k = 0; k + 1 < bins; ++k) {
     lit.add(histogram[k]);
     const double shaded = all.count - lit.count;
-    if (lit.count < least_share * all.count || shaded < least_share * all.count) continue;
+    if (lit.count < min_share * all.count || shaded < min_share * all.count) continue;
     const double between = (all.darkness - lit.darkness) / shaded - lit.darkness / lit.count;
     const double score = lit.count * shaded * between * between;
     if (score <= best) continue;
     best = score;
     const double darker = lit.lightness / lit.count - (all.lightness - lit.lightness) / shaded;
     const double bluer = lit.yellow / lit.count - (all.yellow - lit.yellow) / shaded;
-    threshold = darker >= least_darker && bluer >= least_bluer
-                    ? lowest + (highest - lowest) * static_cast<double>(k + 1) / static_cast<double>(bins)
-                    : none;
+    threshold =
+        darker >= min_darker && bluer >= min_bluer
+            ? lowest + (highest - lowest) * static_cast<double>(k + 1) / static_cast<double>(bins)
+            : none;
   }
   return threshold;
 }
 
 }  // namespace
 
-Grid<float> find_shadow(const Grid<glm::vec3>& picture, const Grid<std::uint8_t>& labels, double stroke_px) {
+Grid<float> find_shadow(const Grid<glm::vec3>& picture, const Grid<std::uint8_t>& labels,
+                        double stroke_px) {
   Grid<float> lightness(picture.width(), picture.height());
   Grid<float> yellow(picture.width(), picture.height());
   parallel_rows(picture.height(), [&](int y) {
@@ -81,11 +83,13 @@ Grid<float> find_shadow(const Grid<glm::vec3>& picture, const Grid<std::uint8_t>
   std::vector<std::array<Group, bins>> histograms(256);
   for (std::size_t i = 0; i < labels.size(); ++i) {
     const double dark = darkness(lightness[i], yellow[i]);
-    const double place = (dark - lowest) / (highest - lowest) * bins;
-    histograms[labels[i]][static_cast<std::size_t>(std::clamp(place, 0.0, bins - 1.0))].add({1.0, dark, lightness[i], yellow[i]});
+    const double position = (dark - lowest) / (highest - lowest) * bins;
+    histograms[labels[i]][static_cast<std::size_t>(std::clamp(position, 0.0, bins - 1.0))].add(
+        {1.0, dark, lightness[i], yellow[i]});
   }
   std::array<double, 256> threshold{};
-  for (std::size_t label = 0; label < threshold.size(); ++label) threshold[label] = find_threshold(histograms[label]);
+  for (std::size_t label = 0; label < threshold.size(); ++label)
+    threshold[label] = find_threshold(histograms[label]);
   Grid<float> shadow(picture.width(), picture.height(), 1.F);
   parallel_rows(picture.height(), [&](int y) {
     for (int x = 0; x < picture.width(); ++x) {

@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "texture/composite/composite_model.h"
 #include "texture/statistical/model_file.h"
-#include "texture/synthesis/class_supply.h"
+#include "texture/synthesis/class_texels.h"
 
 namespace belvedere {
 namespace {
@@ -28,25 +28,28 @@ ModelLight light_of(const std::string& name) {
 }
 
 // The first model that serves a class in that light.
-std::vector<SceneTextureModel>::const_iterator find_model(const std::vector<SceneTextureModel>& models, LandCoverClass id,
-                                                          ModelLight light) {
+std::vector<SceneTextureModel>::const_iterator find_model(
+    const std::vector<SceneTextureModel>& models, LandCoverClass id, ModelLight light) {
   return std::find_if(models.begin(), models.end(), [&](const SceneTextureModel& model) {
     const bool lights = model.light == ModelLight::any || model.light == light;
     return lights && std::find(model.serves.begin(), model.serves.end(), id) != model.serves.end();
   });
 }
 
-// The land cover is the map of labels: each label that is the number of a class paints that class.
-void add_labels(CompositeModel composite, const std::string& path, const SceneTextureModel& plain, std::vector<SceneTextureModel>& models) {
+// Labels of a composite are class numbers: each paints its class.
+void add_labels(CompositeModel composite, const std::string& path, const SceneTextureModel& plain,
+                std::vector<SceneTextureModel>& models) {
   for (CompositeLabel& label : composite.labels) {
     int number = -1;
     const char* end = label.name.data() + label.name.size();
     const auto [last, problem] = std::from_chars(label.name.data(), end, number);
     if (problem != std::errc() || last != end || number < 0 || number >= land_cover_class_count)
-      throw Error(ErrorKind::usage, path, "a composite with the label " + label.name,
-                  "labels that are numbers of classes: `belvedere composite learn` with a mask of classes");
+      throw Error(
+          ErrorKind::usage, path, "a composite with the label " + label.name,
+          "labels that are class numbers: run `belvedere composite learn` with a mask of classes");
     const auto id = static_cast<LandCoverClass>(number);
-    const bool served = plain.serves.empty() || std::find(plain.serves.begin(), plain.serves.end(), id) != plain.serves.end();
+    const bool served = plain.serves.empty() || std::find(plain.serves.begin(), plain.serves.end(),
+                                                          id) != plain.serves.end();
     if (id == LandCoverClass::sky || !served) continue;  // the sky is the scene's
     SceneTextureModel& model = models.emplace_back(plain);
     model.name = fmt::format("{} ({})", plain.name, class_name(id));
@@ -64,7 +67,7 @@ std::vector<SceneTextureModel> read_texture_models(const LoadedScene& loaded) {
     const SceneExemplar& settings = exemplars[i];
     if (settings.model.empty()) continue;
     const std::string path = find_scene_file(loaded, settings.model);
-    if (path.empty()) continue;  // optional: others were refused before the work began
+    if (path.empty()) continue;  // optional: others were rejected before the work began
     const SceneTextureModel plain{.name = settings.model,
                                   .model = {},
                                   .serves = settings.serves,
@@ -82,8 +85,10 @@ std::vector<SceneTextureModel> read_texture_models(const LoadedScene& loaded) {
   return models;
 }
 
-std::vector<ModelledClass> choose_modelled(const std::vector<SceneTextureModel>& models, const std::vector<Exemplar>& exemplars,
-                                           const Grid<std::uint8_t>& target, const SynthesisParameters& parameters) {
+std::vector<ModelledClass> choose_modelled(const std::vector<SceneTextureModel>& models,
+                                           const std::vector<Exemplar>& exemplars,
+                                           const Grid<std::uint8_t>& target,
+                                           const SynthesisParameters& parameters) {
   Counts texels{};
   for (const Exemplar& exemplar : exemplars) {
     const Counts own = count_labels(exemplar.guides.label);
@@ -104,37 +109,46 @@ std::vector<ModelledClass> choose_modelled(const std::vector<SceneTextureModel>&
     if (!always && texels[label] > 0 && !few) continue;
     std::string why;
     if (pixels[label] > 0 || always)
-      why = fmt::format("{} is painted from the texture model {}: {}", info.name,
-                        model == shaded ? model->name : fmt::format("{}, in the shade {}", model->name, shaded->name),
-                        always               ? std::string("the scene prefers it")
-                        : texels[label] == 0 ? std::string("no exemplar has texels of it")
-                                             : fmt::format("too few texels, {} for {} pixels", texels[label], asked));
-    chosen.push_back(
-        {info.id, static_cast<std::size_t>(model - models.begin()), static_cast<std::size_t>(shaded - models.begin()), std::move(why)});
+      why = fmt::format(
+          "{} is painted from the texture model {}: {}", info.name,
+          model == shaded ? model->name
+                          : fmt::format("{}, in the shade {}", model->name, shaded->name),
+          always ? std::string("the scene prefers it")
+          : texels[label] == 0
+              ? std::string("no exemplar has texels of it")
+              : fmt::format("too few texels, {} for {} pixels", texels[label], asked));
+    chosen.push_back({info.id, static_cast<std::size_t>(model - models.begin()),
+                      static_cast<std::size_t>(shaded - models.begin()), std::move(why)});
   }
   return chosen;
 }
 
 LabelRamps model_ramps(const CliqueModel& model) {
-  // How far the first band reaches from its mean: its own histogram at the coarsest level that has one.
+  // Deviation of the first band from its mean: its own histogram at the coarsest level that has
+  // one.
   CliqueKnots knots{};
   for (const Clique& clique : model.cliques)
     if (clique.type.single() && clique.type.head == 0) {
       knots = decode_knots(model.bands, clique);
       break;
     }
-  constexpr std::array<float, 4> shares = {.05F, .34F, .66F, .95F};  // darkest and lightest strokes are no light
+  constexpr std::array<float, 4> shares = {
+      .05F, .34F, .66F, .95F};  // the darkest and lightest strokes do not count as light
   ToneRamp ramp{};
   for (std::size_t t = 0; t < ramp.size(); ++t)
     for (int c = 0; c < 3; ++c)
-      ramp[t][c] = glm::clamp(
-          (model.bands.mean[static_cast<std::size_t>(c)] + model.bands.axis(0, c) * value_at_share(knots, shares[t])) / 255.F, 0.F, 1.F);
+      ramp[t][c] = glm::clamp((model.bands.mean[static_cast<std::size_t>(c)] +
+                               model.bands.axis(0, c) * value_at_share(knots, shares[t])) /
+                                  255.F,
+                              0.F, 1.F);
   return {.distances = {0.0},
           .ramps = {ramp},
-          .texels = static_cast<std::size_t>(model.crop_width) * static_cast<std::size_t>(model.crop_height)};
+          .texels = static_cast<std::size_t>(model.crop_width) *
+                    static_cast<std::size_t>(model.crop_height)};
 }
 
-LabelRamps model_ramps(const std::vector<SceneTextureModel>& models, const SceneTextureModel& model, LandCoverClass id) {
+LabelRamps model_ramps(const std::vector<SceneTextureModel>& models, const SceneTextureModel& model,
+                       LandCoverClass id) {
   LabelRamps ramps = model_ramps(model.model);
   if (model.light == ModelLight::any) return ramps;
   const bool lit = model.light == ModelLight::lit;

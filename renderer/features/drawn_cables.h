@@ -15,8 +15,10 @@ struct CableMaking {
   double foreground_m_per_px;
 };
 
-// A lift: its rope straight from station to station of the line, over the ground by the style's height, tightened over hollows, on
-// pylons that stand where the style has room for them. Appends what is seen and counts it.
-void draw_cable(const CableMaking& making, const Feature& feature, std::vector<DrawnLine>& lines, DrawnCount& count);
+// A lift: its rope straight from station to station of the line, at the style's height above the
+// ground, taut over hollows, on pylons at the style's spacing. Appends the visible parts and counts
+// them.
+void draw_cable(const CableMaking& making, const Feature& feature, std::vector<DrawnLine>& lines,
+                DrawnCount& count);
 
 }  // namespace belvedere

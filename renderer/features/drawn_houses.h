@@ -14,12 +14,14 @@ struct HouseMaking {
   const FeatureKind& kind;
   double px_per_mm;
   double foreground_m_per_px;
-  glm::dvec3 sun;  // unit, towards it
+  glm::dvec3 sun;  // unit, towards the sun
 };
 
-// A house on its footprint: as long, wide and turned as that is, never shorter on the sheet than the style says, with a saddle roof along
-// its longer side, or along that of each of its wings. A point becomes one of usual size whose ridge points down the slope. Appends it
-// where it is seen, and counts it.
-void draw_house(const HouseMaking& making, const Feature& feature, std::vector<DrawnHouse>& houses, DrawnCount& count);
+// A house on its footprint, with its length, width and orientation, not smaller on the sheet than
+// the style's minimum, with a saddle roof along its longer side or along that of each wing. A point
+// becomes a house of standard size whose ridge points down the slope. Appends it if visible, and
+// counts it.
+void draw_house(const HouseMaking& making, const Feature& feature, std::vector<DrawnHouse>& houses,
+                DrawnCount& count);
 
 }  // namespace belvedere

@@ -13,7 +13,7 @@
 namespace belvedere {
 namespace {
 
-constexpr std::size_t most_unknown = 1000;  // different words that are remembered
+constexpr std::size_t max_unknown = 1000;  // different words that are remembered
 
 bool fits(FeatureGeometry wanted, MapShape shape) {
   switch (wanted) {
@@ -29,14 +29,16 @@ bool fits(FeatureGeometry wanted, MapShape shape) {
   return false;
 }
 
-// "7.5", "7,5", "12 m"; nothing where it is no length.
+// "7.5", "7,5", "12 m"; nothing for other text.
 std::optional<double> metres_of(std::string text) {
   for (char& c : text)
     if (c == ',') c = '.';
   double value = 0.0;
   const auto [stop, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
   const std::string rest(stop, static_cast<const char*>(text.data() + text.size()));
-  if (problem != std::errc() || !(value >= 0.0 && value <= 1e5) || (!rest.empty() && rest != "m" && rest != " m")) return std::nullopt;
+  if (problem != std::errc() || !(value >= 0.0 && value <= 1e5) ||
+      (!rest.empty() && rest != "m" && rest != " m"))
+    return std::nullopt;
   return value;
 }
 
@@ -45,12 +47,15 @@ int kind_of_word(const FeatureStyle& style, const std::string& word, const std::
   if (kind >= 0) return kind;
   const std::string near = nearest_word(word, style.names());
   throw Error(ErrorKind::usage, key,
-              fmt::format("the style {} has no kind \"{}\"{}", style.name, word, near.empty() ? "" : "; is \"" + near + "\" meant?"),
+              fmt::format("the style {} has no kind \"{}\"{}", style.name, word,
+                          near.empty() ? "" : "; did you mean \"" + near + "\"?"),
               fmt::format("{}", fmt::join(style.names(), ", ")));
 }
 
-void add_source(FeatureSet& set, const FeatureSource& source, int number, const std::string& crs, const std::optional<MapBox>& ground) {
-  const int usual = source.kind.empty() ? -1 : kind_of_word(set.style, source.kind, source.key + ".kind");
+void add_source(FeatureSet& set, const FeatureSource& source, int number, const std::string& crs,
+                const std::optional<MapBox>& ground) {
+  const int usual =
+      source.kind.empty() ? -1 : kind_of_word(set.style, source.kind, source.key + ".kind");
   MapQuery query{.layer = source.layer, .where = source.where, .columns = {}, .box = ground};
   const bool by_column = !source.kind_of.empty();
   if (by_column) query.columns.push_back(source.kind_of);
@@ -60,7 +65,7 @@ void add_source(FeatureSet& set, const FeatureSource& source, int number, const 
   };
   const std::size_t width_at = column_of(source.width_of);
   const std::size_t level_at = column_of(source.level_of);
-  const std::size_t people_at = column_of(source.people_of);
+  const std::size_t people_at = column_of(source.population_of);
   MapFeatures found = read_map_features(source.path, query, crs);
   SourceReading& reading = set.readings.emplace_back();
   reading.file = source.path;
@@ -76,7 +81,8 @@ void add_source(FeatureSet& set, const FeatureSource& source, int number, const 
     if (kind < 0) kind = usual;
     if (kind < 0) {
       std::string word = one.values[0].substr(0, 60);
-      if (reading.unknown.size() < most_unknown || reading.unknown.contains(word)) ++reading.unknown[word];
+      if (reading.unknown.size() < max_unknown || reading.unknown.contains(word))
+        ++reading.unknown[word];
       continue;
     }
     const FeatureKind& style = set.style.kinds[static_cast<std::size_t>(kind)];
@@ -100,18 +106,20 @@ void add_source(FeatureSet& set, const FeatureSource& source, int number, const 
         ++reading.wrong_width;
     }
     feature.real_m = static_cast<float>(real_m);
-    const auto number_in = [&](const std::string& name, std::size_t column, double least, double most, float& to) {
+    const auto number_in = [&](const std::string& name, std::size_t column, double min, double max,
+                               float& to) {
       if (name.empty() || one.values[column].empty()) return;
       const std::string& text = one.values[column];
       double value = 0.0;
       const auto [stop, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-      if (problem == std::errc() && stop == text.data() + text.size() && value >= least && value <= most)
+      if (problem == std::errc() && stop == text.data() + text.size() && value >= min &&
+          value <= max)
         to = static_cast<float>(value);
       else
         ++reading.wrong_number;
     };
     number_in(source.level_of, level_at, -500.0, 9000.0, feature.level_m);
-    number_in(source.people_of, people_at, 0.0, 1e8, feature.people);
+    number_in(source.population_of, people_at, 0.0, 1e8, feature.people);
     ++reading.taken;
     set.features.push_back(std::move(feature));
   }
@@ -119,10 +127,11 @@ void add_source(FeatureSet& set, const FeatureSource& source, int number, const 
 
 }  // namespace
 
-FeatureSet read_feature_set(const FeatureStyle& style, const std::vector<FeatureSource>& sources, const std::string& crs,
-                            const std::optional<MapBox>& ground) {
+FeatureSet read_feature_set(const FeatureStyle& style, const std::vector<FeatureSource>& sources,
+                            const std::string& crs, const std::optional<MapBox>& ground) {
   FeatureSet set{.style = style, .features = {}, .readings = {}};
-  for (std::size_t i = 0; i < sources.size(); ++i) add_source(set, sources[i], static_cast<int>(i), crs, ground);
+  for (std::size_t i = 0; i < sources.size(); ++i)
+    add_source(set, sources[i], static_cast<int>(i), crs, ground);
   return set;
 }
 

@@ -20,18 +20,20 @@ struct DrawWord {
   FeatureDraw draw;
   FeatureGeometry geometry;
 };
-// Every way of drawing, with what it is drawn from.
-constexpr std::array draw_words = {DrawWord{"line", FeatureDraw::line, FeatureGeometry::line},
-                                   DrawWord{"band", FeatureDraw::band, FeatureGeometry::line},
-                                   DrawWord{"cable", FeatureDraw::cable, FeatureGeometry::line},
-                                   DrawWord{"building", FeatureDraw::building, FeatureGeometry::point_or_area},
-                                   DrawWord{"river", FeatureDraw::river, FeatureGeometry::line},
-                                   DrawWord{"area", FeatureDraw::area, FeatureGeometry::area},
-                                   DrawWord{"coast", FeatureDraw::coast, FeatureGeometry::line_or_area},
-                                   DrawWord{"town", FeatureDraw::town, FeatureGeometry::point_or_area}};
+// Every kind of drawing, with its geometry.
+constexpr std::array draw_words = {
+    DrawWord{"line", FeatureDraw::line, FeatureGeometry::line},
+    DrawWord{"band", FeatureDraw::band, FeatureGeometry::line},
+    DrawWord{"cable", FeatureDraw::cable, FeatureGeometry::line},
+    DrawWord{"building", FeatureDraw::building, FeatureGeometry::point_or_area},
+    DrawWord{"river", FeatureDraw::river, FeatureGeometry::line},
+    DrawWord{"area", FeatureDraw::area, FeatureGeometry::area},
+    DrawWord{"coast", FeatureDraw::coast, FeatureGeometry::line_or_area},
+    DrawWord{"town", FeatureDraw::town, FeatureGeometry::point_or_area}};
 
 const DrawWord& row_of(FeatureDraw draw) {
-  return *std::find_if(draw_words.begin(), draw_words.end(), [&](const DrawWord& row) { return row.draw == draw; });
+  return *std::find_if(draw_words.begin(), draw_words.end(),
+                       [&](const DrawWord& row) { return row.draw == draw; });
 }
 
 void read_colours(ConfigReader& read, FeatureColours& to) {
@@ -50,10 +52,12 @@ FeatureKind read_kind(const ConfigEntry& entry, const std::string& name) {
   read.word("draw", kind.draw, ways);
   read.number("rank", kind.rank, 0.0, 100.0);
   read.number("width_mm", kind.width_mm, 0.0, 50.0);
-  read.number("least_px", kind.least_px, 0.0, 100.0);
+  read.number("min_px", kind.min_px, 0.0, 100.0);
+  read.number("least_px", kind.min_px, 0.0, 100.0);  // its name in version 0.1
   read.number("real_m", kind.real_m, 0.0, 10000.0);
   read.number("shrink", kind.shrink, 0.0, 1.0);
-  read.number("least_share", kind.least_share, 0.0, 1.0);
+  read.number("min_share", kind.min_share, 0.0, 1.0);
+  read.number("least_share", kind.min_share, 0.0, 1.0);  // its name in version 0.1
   read.number("casing_mm", kind.casing_mm, 0.0, 10.0);
   read.number("bed_mm", kind.bed_mm, 0.0, 50.0);
   read.number("soft_mm", kind.soft_mm, 0.0, 20.0);
@@ -76,16 +80,18 @@ FeatureKind read_kind(const ConfigEntry& entry, const std::string& name) {
   if (const ConfigValue* ground = read.known("ground")) {
     kind.ground = find_class(as_string(*ground, name));
     if (!kind.ground || *kind.ground == LandCoverClass::sky)
-      throw Error(ErrorKind::usage, config_where(name, ground->place), describe(*ground), "a class of ground, such as \"forest\"");
+      throw Error(ErrorKind::usage, config_where(name, ground->position), describe(*ground),
+                  "a land-cover class, such as \"forest\"");
   }
   read.end();
   if (kind.draw == FeatureDraw::area && !kind.ground)
-    throw Error(ErrorKind::usage, config_where(name, entry.key_place), fmt::format("the areas \"{}\" have no class", kind.name),
+    throw Error(ErrorKind::usage, config_where(name, entry.key_position),
+                fmt::format("the area kind \"{}\" has no class", kind.name),
                 "ground = \"forest\" or another class");
   return kind;
 }
 
-// A word that means two kinds means none.
+// A word must not name two kinds.
 void check_words(const FeatureStyle& style) {
   std::set<std::string> seen;
   for (const FeatureKind& kind : style.kinds) {
@@ -93,7 +99,8 @@ void check_words(const FeatureStyle& style) {
     for (const std::string& word : kind.also) own.insert(lower_case(word));
     for (const std::string& word : own)
       if (!seen.insert(word).second)
-        throw Error(ErrorKind::usage, style.name, fmt::format("\"{}\" means two kinds", word), "each word once");
+        throw Error(ErrorKind::usage, style.name, fmt::format("\"{}\" names two kinds", word),
+                    "each word for one kind only");
   }
 }
 
@@ -103,12 +110,15 @@ FeatureStyle read_style(const ConfigValue& document, const std::string& name) {
   ConfigReader read(document, name);
   double version = 0.0;
   read.number("version", version, 1.0, 1.0);
-  if (version != 1.0) throw Error(ErrorKind::usage, name, "no version", "version = 1");
+  if (version != 1.0) throw Error(ErrorKind::usage, name, "the version is missing", "version = 1");
   const ConfigValue* kinds = read.known("kinds");
   read.end();
   if (kinds != nullptr)
-    for (const ConfigEntry& entry : as_table(*kinds, name)) style.kinds.push_back(read_kind(entry, name));
-  if (style.kinds.empty()) throw Error(ErrorKind::usage, name, "no kinds of features", "[kinds.road] and the like");
+    for (const ConfigEntry& entry : as_table(*kinds, name))
+      style.kinds.push_back(read_kind(entry, name));
+  if (style.kinds.empty())
+    throw Error(ErrorKind::usage, name, "the style has no kinds",
+                "at least one, such as [kinds.road]");
   check_words(style);
   return style;
 }
@@ -118,8 +128,8 @@ FeatureStyle read_style(const ConfigValue& document, const std::string& name) {
 FeatureGeometry geometry_of(FeatureDraw draw) { return row_of(draw).geometry; }
 
 bool becomes_ground(const FeatureKind& kind) {
-  return kind.draw == FeatureDraw::river || kind.draw == FeatureDraw::area || kind.draw == FeatureDraw::coast ||
-         kind.draw == FeatureDraw::town;
+  return kind.draw == FeatureDraw::river || kind.draw == FeatureDraw::area ||
+         kind.draw == FeatureDraw::coast || kind.draw == FeatureDraw::town;
 }
 
 const char* name_of(FeatureDraw draw) { return row_of(draw).word; }
@@ -142,7 +152,8 @@ int FeatureStyle::find(const std::string& word) const {
   const std::string wanted = lower_case(word);
   for (std::size_t k = 0; k < kinds.size(); ++k)
     if (lower_case(kinds[k].name) == wanted ||
-        std::any_of(kinds[k].also.begin(), kinds[k].also.end(), [&](const std::string& other) { return lower_case(other) == wanted; }))
+        std::any_of(kinds[k].also.begin(), kinds[k].also.end(),
+                    [&](const std::string& other) { return lower_case(other) == wanted; }))
       return static_cast<int>(k);
   return -1;
 }
@@ -153,13 +164,15 @@ std::vector<std::string> FeatureStyle::names() const {
   return all;
 }
 
-FeatureStyle parse_feature_style(const std::string& text, const std::string& name) { return read_style(parse_config(text, name), name); }
+FeatureStyle parse_feature_style(const std::string& text, const std::string& name) {
+  return read_style(parse_config(text, name), name);
+}
 
 FeatureStyle load_feature_style(const std::string& name_or_file) {
   if (name_or_file.ends_with(".toml")) return read_style(read_config(name_or_file), name_or_file);
   const std::vector<std::string> names = embedded_names("features");
   if (std::find(names.begin(), names.end(), name_or_file) == names.end())
-    throw Error(ErrorKind::usage, "the style of features", '"' + name_or_file + '"',
+    throw Error(ErrorKind::usage, "feature style", '"' + name_or_file + '"',
                 fmt::format("\"{}\" or a .toml file", fmt::join(names, "\", \"")));
   const std::string file = "features/" + name_or_file + ".toml";
   return parse_feature_style(std::string(embedded_file(file)), file);

@@ -11,7 +11,7 @@
 
 namespace belvedere {
 
-// How the features of one kind come into the picture.
+// How the features of one kind are drawn.
 enum class FeatureDraw : int {
   line,      // drawn on the ground: a fill between two darker edges, or dashes
   band,      // a broad soft band that tints the ground: ski runs
@@ -19,8 +19,9 @@ enum class FeatureDraw : int {
   building,  // walls and a roof
   river,     // a line that becomes water in its valley
   area,      // an area that becomes a class of ground
-  coast,     // a line with land to its left: the sea beyond it becomes a class of ground; areas are islands
-  town       // a place that houses stand in: points with a population, or areas
+  coast,     // a line with land to its left: the sea beyond it becomes a class of ground; areas are
+             // islands
+  town       // a place with houses: points with a population, or areas
 };
 
 // What features are made of.
@@ -28,7 +29,7 @@ enum class FeatureGeometry : int { line, area, point_or_area, line_or_area };
 
 FeatureGeometry geometry_of(FeatureDraw draw);
 struct FeatureKind;
-// Rivers, areas, coasts and towns: what the ground is made of and nothing that is drawn on it.
+// Rivers, areas, coasts and towns: they become the ground instead of being drawn on it.
 bool becomes_ground(const FeatureKind& kind);
 // "lines", "areas", for messages.
 const char* name_of(FeatureGeometry geometry);
@@ -38,49 +39,51 @@ const char* name_of(FeatureDraw draw);
 struct FeatureColours {
   glm::vec3 fill{0.95F, 0.92F, 0.82F};
   glm::vec3 casing{0.35F, 0.30F, 0.26F};
-  glm::vec3 bed{0.97F, 0.98F, 1.0F};  // what is made of the ground below: a groomed slope, a lane
+  glm::vec3 bed{0.97F, 0.98F, 1.0F};  // treated ground below: a groomed slope, a lane
 };
 
-// How the features of one kind are drawn. Lengths in mm of the sheet unless they say otherwise.
+// How the features of one kind are drawn. Lengths in mm of the sheet unless stated otherwise.
 struct FeatureKind {
-  std::string name;               // as scenes and files say it: "road"
+  std::string name;               // as in scenes and files: "road"
   std::vector<std::string> also;  // other words for it
   FeatureDraw draw = FeatureDraw::line;
-  double rank = 50.0;        // the larger lies over the smaller, 0…100
-  double width_mm = 0.6;     // of the fill in the foreground, 0…50
-  double least_px = 0.8;     // never narrower on the picture, 0…100
-  double real_m = 0.0;       // never narrower than so much of the ground, 0…10000
-  double shrink = 0.5;       // width goes with distance to the power of minus this, 0 everywhere alike … 1 as in nature
-  double least_share = 0.3;  // but never below so much of width_mm, 0…1
-  double casing_mm = 0.14;   // of each edge; 0: none, 0…10
-  double bed_mm = 0.0;       // how far the bed reaches out on each side; 0: none, 0…50
-  double soft_mm = 0.0;      // how softly fill and bed end, 0…20
-  double opacity = 1.0;      // of fill and casing, 0…1
-  glm::dvec2 dash_mm{0.0};   // of the fill: on and off; 0, 0: drawn through, 0…100
-  double hand = 0.12;        // how unevenly it is drawn, of its width, 0…1
-  double coarsest_m = 0.0;   // left out where a mm of the sheet shows more metres; 0: never, 0…100000
-  double clear_mm = 0.0;     // trees and houses keep so far away; 0: they may stand on it, 0…50
-  double height_mm = 1.2;    // of cables over the ground, and at least height_m, 0…50
-  double height_m = 10.0;    // m, 0…500
-  double pylon_mm = 6.0;     // from pylon to pylon; 0: none, 0…500
+  double rank = 50.0;     // larger ranks are on top, 0…100
+  double width_mm = 0.6;  // of the fill in the foreground, 0…50
+  double min_px = 0.8;    // min width in the picture, 0…100
+  double real_m = 0.0;    // min width on the ground, 0…10000
+  double shrink = 0.5;  // width is proportional to distance to the power of minus this: 0 constant
+                        // … 1 true perspective
+  double min_share = 0.3;   // but at least this share of width_mm, 0…1
+  double casing_mm = 0.14;  // of each edge; 0: none, 0…10
+  double bed_mm = 0.0;      // extent of the bed on each side; 0: none, 0…50
+  double soft_mm = 0.0;     // softness of the edges of fill and bed, 0…20
+  double opacity = 1.0;     // of fill and casing, 0…1
+  glm::dvec2 dash_mm{0.0};  // of the fill: on and off; 0, 0: continuous, 0…100
+  double hand = 0.12;       // unevenness of the brushwork, relative to its width, 0…1
+  double coarsest_m =
+      0.0;  // left out where 1 mm of the sheet covers more metres; 0: never, 0…100000
+  double clear_mm = 0.0;  // distance kept clear of trees and houses; 0: they may stand on it, 0…50
+  double height_mm = 1.2;  // of cables above the ground, and at least height_m, 0…50
+  double height_m = 10.0;  // m, 0…500
+  double pylon_mm = 6.0;   // from pylon to pylon; 0: none, 0…500
   FeatureColours summer;
-  FeatureColours winter;                 // where the style says nothing as in summer
-  std::optional<LandCoverClass> ground;  // what an area or a river makes of the ground
-  bool level = false;                    // areas of it are level, as lakes are
+  FeatureColours winter;                 // where not given, as in summer
+  std::optional<LandCoverClass> ground;  // class that an area or a river gives the ground
+  bool level = false;                    // its areas are level, as lakes are
 };
 
 struct FeatureStyle {
   std::string name;                // of the file, for messages
   std::vector<FeatureKind> kinds;  // in the order of the file
 
-  // The kind that a word means, small and capital letters alike; -1 where none does.
+  // The kind for a word, case-insensitive; -1 if there is none.
   int find(const std::string& word) const;
   // All names, for messages.
   std::vector<std::string> names() const;
 };
 
-// A built-in style ("classic", "ski") or a .toml file. Throws Error(usage) at line and column for what is no style, Error(input) where the
-// file is missing.
+// A built-in style ("classic", "ski") or a .toml file. Throws Error(usage) with line and column for
+// an invalid style, Error(input) if the file is missing.
 FeatureStyle load_feature_style(const std::string& name_or_file);
 FeatureStyle parse_feature_style(const std::string& text, const std::string& name);
 

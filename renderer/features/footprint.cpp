@@ -13,29 +13,32 @@
 namespace belvedere {
 namespace {
 
-constexpr double nearly_rectangle = 0.86;  // of the rectangle around it: bays and porches are no wings
-constexpr double least_gain = 0.05;        // of the house: what a further wing must add
-constexpr double least_cover = 0.7;        // of the house, by all wings together
-constexpr int most_wings = 8;
-constexpr std::size_t most_lines = 14;  // of the net each way
-constexpr double same_line = 0.05;      // of the rectangle's shorter side: corners so near lie in one line
+constexpr double nearly_rectangle =
+    0.86;                          // of the bounding rectangle: bays and porches are not wings
+constexpr double min_gain = 0.05;  // of the house: min area that a further wing adds
+constexpr double min_cover = 0.7;  // of the house: min area of all wings together
+constexpr int max_wings = 8;
+constexpr std::size_t max_lines = 14;  // of the grid in each direction
+constexpr double same_line =
+    0.05;  // of the rectangle's shorter side: closer corners are on one line
 
-// Coordinates of corners, those near each other as one.
-std::vector<double> lines_through(std::vector<double> values, double least) {
+// Coordinates of corners, with close ones merged.
+std::vector<double> lines_through(std::vector<double> values, double min) {
   std::sort(values.begin(), values.end());
   std::vector<double> lines = {values.front()};
   for (const double value : values)
-    if (value - lines.back() > least) lines.push_back(value);
+    if (value - lines.back() > min) lines.push_back(value);
   const double last = values.back();
   if (lines.size() > 1 && last > lines.back()) lines.back() = last;
-  if (lines.size() <= most_lines) return lines;
+  if (lines.size() <= max_lines) return lines;
   lines.clear();
-  for (std::size_t k = 0; k < most_lines; ++k)
-    lines.push_back(values.front() + (last - values.front()) * static_cast<double>(k) / static_cast<double>(most_lines - 1));
+  for (std::size_t k = 0; k < max_lines; ++k)
+    lines.push_back(values.front() + (last - values.front()) * static_cast<double>(k) /
+                                         static_cast<double>(max_lines - 1));
   return lines;
 }
 
-// The house in its own directions, as a net through its corners whose cells lie in it or not.
+// The house in its own axes, as a grid through its corners whose cells are inside or outside.
 struct Net {
   std::vector<double> x, y;
   Grid<std::uint8_t> inside;
@@ -48,12 +51,13 @@ struct Net {
   double open_area() const {
     double sum = 0.0;
     for (int r = 0; r < inside.height(); ++r)
-      for (int c = 0; c < inside.width(); ++c) sum += inside(c, r) != 0 && covered(c, r) == 0 ? area(c, r) : 0.0;
+      for (int c = 0; c < inside.width(); ++c)
+        sum += inside(c, r) != 0 && covered(c, r) == 0 ? area(c, r) : 0.0;
     return sum;
   }
 };
 
-Net net_of(const std::vector<std::vector<glm::dvec2>>& rings, double least) {
+Net net_of(const std::vector<std::vector<glm::dvec2>>& rings, double min) {
   Net net;
   std::vector<double> x;
   std::vector<double> y;
@@ -62,8 +66,8 @@ Net net_of(const std::vector<std::vector<glm::dvec2>>& rings, double least) {
       x.push_back(corner.x);
       y.push_back(corner.y);
     }
-  net.x = lines_through(std::move(x), least);
-  net.y = lines_through(std::move(y), least);
+  net.x = lines_through(std::move(x), min);
+  net.y = lines_through(std::move(y), min);
   const int columns = static_cast<int>(net.x.size()) - 1;
   const int rows = static_cast<int>(net.y.size()) - 1;
   if (columns < 1 || rows < 1) return net;
@@ -73,31 +77,34 @@ Net net_of(const std::vector<std::vector<glm::dvec2>>& rings, double least) {
     for (int c = 0; c < columns; ++c) {
       const auto i = static_cast<std::size_t>(c);
       const auto j = static_cast<std::size_t>(r);
-      net.inside(c, r) = encloses(rings, {0.5 * (net.x[i] + net.x[i + 1]), 0.5 * (net.y[j] + net.y[j + 1])}) ? 1 : 0;
+      net.inside(c, r) =
+          encloses(rings, {0.5 * (net.x[i] + net.x[i + 1]), 0.5 * (net.y[j] + net.y[j + 1])}) ? 1
+                                                                                              : 0;
     }
   return net;
 }
 
 struct Wing {
-  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // cells of the net
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // cells of the grid
   double gain = 0.0;                   // area that no other wing covers
   double area = 0.0;
 };
 
-// The rectangle of inner cells that covers most of what is open; of equal ones the largest, then the first.
+// The rectangle of inside cells that covers most uncovered area; of equal ones the largest, then
+// the first.
 Wing best_wing(const Net& net) {
   Wing best;
   for (int y0 = 0; y0 < net.inside.height(); ++y0)
     for (int x0 = 0; x0 < net.inside.width(); ++x0) {
-      int most_x = net.inside.width();
-      std::vector<double> gain(static_cast<std::size_t>(most_x), 0.0);
+      int max_x = net.inside.width();
+      std::vector<double> gain(static_cast<std::size_t>(max_x), 0.0);
       std::vector<double> area = gain;
       for (int y1 = y0; y1 < net.inside.height(); ++y1) {
         double row_gain = 0.0;
         double row_area = 0.0;
-        for (int x1 = x0; x1 < most_x; ++x1) {
+        for (int x1 = x0; x1 < max_x; ++x1) {
           if (net.inside(x1, y1) == 0) {
-            most_x = x1;
+            max_x = x1;
             break;
           }
           row_area += net.area(x1, y1);
@@ -106,8 +113,10 @@ Wing best_wing(const Net& net) {
           gain[k] += row_gain;
           area[k] += row_area;
           const double more = 1.0 + 1e-6;
-          if (gain[k] > best.gain * more || (gain[k] * more > best.gain && area[k] > best.area * more))
-            best = {.x0 = x0, .y0 = y0, .x1 = x1 + 1, .y1 = y1 + 1, .gain = gain[k], .area = area[k]};
+          if (gain[k] > best.gain * more ||
+              (gain[k] * more > best.gain && area[k] > best.area * more))
+            best = {
+                .x0 = x0, .y0 = y0, .x1 = x1 + 1, .y1 = y1 + 1, .gain = gain[k], .area = area[k]};
         }
       }
     }
@@ -118,7 +127,7 @@ Wing best_wing(const Net& net) {
 
 Footprint footprint_of(const std::vector<glm::dvec2>& outline) {
   Footprint best;
-  double least = std::numeric_limits<double>::infinity();
+  double min = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < outline.size(); ++i) {
     const glm::dvec2 edge = outline[(i + 1) % outline.size()] - outline[i];
     if (glm::length(edge) < 1e-6) continue;
@@ -132,10 +141,10 @@ Footprint footprint_of(const std::vector<glm::dvec2>& outline) {
       high = glm::max(high, at);
     }
     const glm::dvec2 size = high - low;
-    if (size.x * size.y >= least * (1.0 - 1e-9)) continue;
-    least = size.x * size.y;
-    const glm::dvec2 middle = 0.5 * (low + high);
-    best.middle = outline[0] + middle.x * u + middle.y * v;
+    if (size.x * size.y >= min * (1.0 - 1e-9)) continue;
+    min = size.x * size.y;
+    const glm::dvec2 centre = 0.5 * (low + high);
+    best.centre = outline[0] + centre.x * u + centre.y * v;
     best.along = 0.5 * size.x * u;
     best.across = 0.5 * size.y * v;
   }
@@ -152,26 +161,31 @@ std::vector<Footprint> wings_of(const std::vector<std::vector<glm::dvec2>>& ring
   const glm::dvec2 v = whole.across / half_width;
   std::vector<std::vector<glm::dvec2>> own = rings;
   for (auto& ring : own)
-    for (glm::dvec2& corner : ring) corner = {glm::dot(corner - whole.middle, u), glm::dot(corner - whole.middle, v)};
+    for (glm::dvec2& corner : ring)
+      corner = {glm::dot(corner - whole.centre, u), glm::dot(corner - whole.centre, v)};
   Net net = net_of(own, same_line * 2.0 * half_width);
   const double all = net.inside.empty() ? 0.0 : net.open_area();
   if (all <= 0.0 || all > nearly_rectangle * 4.0 * half_length * half_width) return {whole};
   std::vector<Footprint> wings;
-  for (int k = 0; k < most_wings; ++k) {
+  for (int k = 0; k < max_wings; ++k) {
     const Wing wing = best_wing(net);
-    if (wing.gain < least_gain * all) break;
+    if (wing.gain < min_gain * all) break;
     for (int y = wing.y0; y < wing.y1; ++y)
       for (int x = wing.x0; x < wing.x1; ++x) net.covered(x, y) = 1;
-    const auto at = [](const std::vector<double>& lines, int i) { return lines[static_cast<std::size_t>(i)]; };
+    const auto at = [](const std::vector<double>& lines, int i) {
+      return lines[static_cast<std::size_t>(i)];
+    };
     const glm::dvec2 low{at(net.x, wing.x0), at(net.y, wing.y0)};
     const glm::dvec2 high{at(net.x, wing.x1), at(net.y, wing.y1)};
-    const glm::dvec2 middle = 0.5 * (low + high);
+    const glm::dvec2 centre = 0.5 * (low + high);
     const glm::dvec2 half = 0.5 * (high - low);
-    Footprint foot{.middle = whole.middle + middle.x * u + middle.y * v, .along = half.x * u, .across = half.y * v};
+    Footprint foot{.centre = whole.centre + centre.x * u + centre.y * v,
+                   .along = half.x * u,
+                   .across = half.y * v};
     if (half.x < half.y) std::swap(foot.along, foot.across);
     wings.push_back(foot);
   }
-  if (wings.empty() || net.open_area() > (1.0 - least_cover) * all) return {whole};
+  if (wings.empty() || net.open_area() > (1.0 - min_cover) * all) return {whole};
   return wings;
 }
 

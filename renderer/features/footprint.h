@@ -5,9 +5,9 @@
 
 namespace belvedere {
 
-// A rectangle on the map: its middle, half of its longer side and half of its shorter one as vectors.
+// A rectangle on the map: its centre, and half of its longer and shorter sides as vectors.
 struct Footprint {
-  glm::dvec2 middle{0.0};
+  glm::dvec2 centre{0.0};
   glm::dvec2 along{0.0};
   glm::dvec2 across{0.0};
 };
@@ -15,12 +15,13 @@ struct Footprint {
 // A quarter turn to the left.
 inline glm::dvec2 perpendicular(glm::dvec2 v) { return {-v.y, v.x}; }
 
-// The rectangle around an outline that has the least area.
+// The rectangle of minimum area around an outline.
 Footprint footprint_of(const std::vector<glm::dvec2>& outline);
 
-// The wings of a house: rectangles that cover its outline without its courts, the first the largest. They lie as the rectangle around the
-// whole does, and reach into each other where they meet, so that ridge meets ridge. One for what is nearly a rectangle, or what no few
-// rectangles cover: that around the whole.
+// The wings of a house: rectangles that cover its outline without its courts, the largest first.
+// They have the orientation of the rectangle around the whole, and overlap where they meet, so that
+// ridges meet. One for a nearly rectangular house or one that a few rectangles cannot cover: the
+// rectangle around the whole.
 std::vector<Footprint> wings_of(const std::vector<std::vector<glm::dvec2>>& rings);
 
 }  // namespace belvedere

@@ -18,23 +18,26 @@ bool holds(const PixelRect& posts, glm::dvec2 at) {
 
 }  // namespace
 
-GroundSight::GroundSight(const GeoTransform& transform, const DeformedSurface& surface, const Camera& camera, const Tracer& tracer,
-                         const Grid<glm::vec2>& goes_to)
+GroundSight::GroundSight(const GeoTransform& transform, const DeformedSurface& surface,
+                         const Camera& camera, const Tracer& tracer, const Grid<glm::vec2>& goes_to)
     : transform_(transform),
       surface_(surface),
       camera_(camera),
       tracer_(tracer),
       goes_to_(goes_to),
-      cell_m_(0.5 * (transform.cell_x + transform.cell_y) / std::ldexp(1.0, static_cast<int>(surface.windows.size()))) {}
+      cell_m_(0.5 * (transform.cell_x + transform.cell_y) /
+              std::ldexp(1.0, static_cast<int>(surface.windows.size()))) {}
 
-std::optional<glm::dvec3> GroundSight::ground(glm::dvec2 place) const {
-  glm::dvec2 at = drawn_cell(goes_to_, transform_.to_cell(place.x, place.y));
-  if (!holds({0, 0, surface_.vertices_m.width(), surface_.vertices_m.height()}, at)) return std::nullopt;
+std::optional<glm::dvec3> GroundSight::ground(glm::dvec2 position) const {
+  glm::dvec2 at = drawn_cell(goes_to_, transform_.to_cell(position.x, position.y));
+  if (!holds({0, 0, surface_.vertices_m.width(), surface_.vertices_m.height()}, at))
+    return std::nullopt;
   const DeformedSurface* finest = &surface_;
   for (const SurfaceWindow& window : surface_.windows) {
     if (!holds(window.replaces, at)) break;
-    // Post (x, y) of a part lies on post (x / 2, y / 2) of the surface before it.
-    at = glm::dvec2(window.part.x0, window.part.y0) + 2.0 * (at - glm::dvec2(window.replaces.x0, window.replaces.y0));
+    // Post (x, y) of a part is at post (x / 2, y / 2) of the surface before it.
+    at = glm::dvec2(window.part.x0, window.part.y0) +
+         2.0 * (at - glm::dvec2(window.replaces.x0, window.replaces.y0));
     finest = &window.surface;
   }
   return finest->origin + on_facet(finest->vertices_m, at);
@@ -46,7 +49,7 @@ double GroundSight::distance_m(glm::dvec3 point, glm::dvec2 pixel) const {
 }
 
 double GroundSight::metres_per_px(glm::dvec3 point, glm::dvec2 pixel) const {
-  // Across the line of sight, on the level.
+  // Across the line of sight, horizontal.
   const glm::dvec3 sight = camera_.ray(pixel).direction;
   glm::dvec3 across{sight.y, -sight.x, 0.0};
   const double level = glm::length(across);
@@ -65,9 +68,10 @@ std::vector<double> GroundSight::hidden_by_m(const std::vector<Target>& targets)
   tracer_.intersect(rays, hits);
   std::vector<double> hidden(targets.size(), 0.0);
   for (std::size_t i = 0; i < targets.size(); ++i) {
-    // A point on the ground is in front of itself by rounding.
+    // By rounding, a ground point may appear in front of itself.
     const double rounding_m = 0.1 + 1e-6 * targets[i].distance_m;
-    if (hits[i].found && hits[i].distance_m < targets[i].distance_m - rounding_m) hidden[i] = targets[i].distance_m - hits[i].distance_m;
+    if (hits[i].found && hits[i].distance_m < targets[i].distance_m - rounding_m)
+      hidden[i] = targets[i].distance_m - hits[i].distance_m;
   }
   return hidden;
 }
@@ -84,7 +88,8 @@ double GroundSight::nearest_metres_per_px() const {
       const Ray ray = camera_.ray(pixel);
       Hit hit;
       tracer_.intersect(std::span(&ray, 1), std::span(&hit, 1));
-      if (hit.found) found.push_back(metres_per_px(ray.origin + ray.direction * hit.distance_m, pixel));
+      if (hit.found)
+        found.push_back(metres_per_px(ray.origin + ray.direction * hit.distance_m, pixel));
     }
     if (2 * found.size() < columns) continue;
     return middle_value(std::move(found));

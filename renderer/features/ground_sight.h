@@ -12,22 +12,24 @@
 
 namespace belvedere {
 
-// Where places of the map lie on the drawn ground and in the picture: generalized, exaggerated, bent, of the finest window that holds them.
-// All calls are safe from any thread; the parts must outlive it.
+// Position and visibility of map positions on the drawn ground and in the picture: generalized,
+// exaggerated, bent, in the finest window that contains them. All calls are safe from any thread;
+// the parts must outlive it.
 class GroundSight {
  public:
-  // goes_to: where what lies on each cell of the whole surface is drawn in widened valleys (moved_ground.h); empty: nothing moved.
-  GroundSight(const GeoTransform& transform, const DeformedSurface& surface, const Camera& camera, const Tracer& tracer,
-              const Grid<glm::vec2>& goes_to);
+  // goes_to: where each cell's content of the whole surface is drawn after valleys were widened
+  // (moved_ground.h); empty: nothing moved.
+  GroundSight(const GeoTransform& transform, const DeformedSurface& surface, const Camera& camera,
+              const Tracer& tracer, const Grid<glm::vec2>& goes_to);
 
   // The drawn ground in the deformed world; nothing outside the terrain.
-  std::optional<glm::dvec3> ground(glm::dvec2 place) const;
+  std::optional<glm::dvec3> ground(glm::dvec2 position) const;
   std::optional<glm::dvec2> pixel(glm::dvec3 point) const { return camera_.project(point); }
   // From the eye, along the line of sight of its pixel.
   double distance_m(glm::dvec3 point, glm::dvec2 pixel) const;
-  // The direction in which a pixel looks.
+  // The view direction of a pixel.
   glm::dvec3 sight_at(glm::dvec2 pixel) const { return camera_.ray(pixel).direction; }
-  // How many metres across the line of sight a pixel shows there.
+  // Metres per pixel there, across the line of sight.
   double metres_per_px(glm::dvec3 point, glm::dvec2 pixel) const;
 
   struct Target {
@@ -35,15 +37,16 @@ class GroundSight {
     glm::dvec2 pixel;
     double distance_m;
   };
-  // How much nearer than each point ground stands before it, m; 0 where none does.
+  // Distance between each point and the ground in front of it, m; 0 if there is none.
   std::vector<double> hidden_by_m(const std::vector<Target>& targets) const;
 
   glm::ivec2 size() const { return camera_.size(); }
   // Side of the finest cells, m of the ground.
   double cell_m() const { return cell_m_; }
-  // Metres that a pixel shows of the ground at the picture's lower edge: the median of what is ground there, or above it.
+  // Ground metres per pixel at the picture's lower edge: the median of the ground pixels in the
+  // lowest row that has enough of them.
   double nearest_metres_per_px() const;
-  // One unit of the CRS in metres is taken as one: terrain is metric.
+  // One unit of the CRS is taken as one metre: terrain is metric.
   const GeoTransform& transform() const { return transform_; }
   glm::dvec2 cells() const { return {surface_.vertices_m.width(), surface_.vertices_m.height()}; }
 

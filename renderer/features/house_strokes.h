@@ -8,8 +8,8 @@
 
 namespace belvedere {
 
-// Houses of the map as strokes, as those of towns that are made up: a shadow away from the sun, walls, the two sides of a roof, each in its
-// light. Those whose foot the scene's buffers hold.
+// Houses of the map as strokes, like those of inferred towns: a shadow away from the sun, walls,
+// the two sides of a roof, each in its light. Only houses whose foot is inside the scene's buffers.
 std::vector<Stroke> house_strokes(const DrawnFeatures& features, const StrokeScene& scene);
 
 }  // namespace belvedere

@@ -10,11 +10,13 @@
 namespace belvedere {
 namespace {
 
-constexpr double beside = 0.1;     // of the picture's size: lines are followed so far beyond its border
-constexpr double chord_px = 0.3;   // how far a line may run beside the ground's
-constexpr double end_px = 0.5;     // how exactly the end of what is seen is found
-constexpr double lift_mm = 0.1;    // on the sheet: what bumps may hide of a line and it is seen yet
-constexpr int most_halvings = 24;  // of a segment
+constexpr double beside =
+    0.1;  // of the picture's size: lines are followed this far beyond its border
+constexpr double chord_px = 0.3;  // max deviation of a line from the ground's
+constexpr double end_px = 0.5;    // precision of the end of visible parts
+constexpr double lift_mm =
+    0.1;  // on the sheet: a bump that hides less than this of a line is ignored
+constexpr int max_halvings = 24;  // of a segment
 constexpr double finest_cells = 1.0 / 16.0;
 
 LineSample sample_at(const GroundSight& sight, glm::dvec2 map) {
@@ -30,7 +32,8 @@ LineSample sample_at(const GroundSight& sight, glm::dvec2 map) {
   sample.pixel = *pixel;
   sample.projected = true;
   const glm::dvec2 room = beside * size;
-  sample.in_picture = pixel->x > -room.x && pixel->y > -room.y && pixel->x < size.x + room.x && pixel->y < size.y + room.y;
+  sample.in_picture = pixel->x > -room.x && pixel->y > -room.y && pixel->x < size.x + room.x &&
+                      pixel->y < size.y + room.y;
   if (sample.in_picture) sample.distance_m = sight.distance_m(*point, *pixel);
   return sample;
 }
@@ -43,26 +46,28 @@ bool beyond_one_border(const GroundSight& sight, const LineSample& a, const Line
   return high.x < -beside * size.x || low.x > (1.0 + beside) * size.x || high.y < -beside * size.y;
 }
 
-void halve(const GroundSight& sight, const LineSample& a, const LineSample& b, int depth, std::vector<LineSample>& out) {
-  if (depth >= most_halvings) return;
+void halve(const GroundSight& sight, const LineSample& a, const LineSample& b, int depth,
+           std::vector<LineSample>& out) {
+  if (depth >= max_halvings) return;
   const double cells = glm::length(b.map - a.map) / sight.cell_m();
   const bool both = a.projected && b.projected;
-  // Terrain may begin, and the eye be passed, between two places that show neither: cells are the finest that is looked at.
+  // Terrain may begin, or the line pass the eye, between two positions that are both invisible: the
+  // search stops at cell size.
   if (!both && cells <= 1.0) return;
   if (both && beyond_one_border(sight, a, b) && cells <= 64.0) return;
   const double px = both ? glm::length(b.pixel - a.pixel) : 1e9;
   const bool coarse = cells > 0.5 && px > 1.0;
   if (!coarse && (!both || px <= 1.0 || cells <= finest_cells)) return;
-  const LineSample middle = sample_at(sight, 0.5 * (a.map + b.map));
+  const LineSample centre = sample_at(sight, 0.5 * (a.map + b.map));
   if (!coarse) {
-    if (!middle.projected) return;
+    if (!centre.projected) return;
     const glm::dvec2 way = b.pixel - a.pixel;
-    const glm::dvec2 off = middle.pixel - a.pixel;
+    const glm::dvec2 off = centre.pixel - a.pixel;
     if (std::abs(way.x * off.y - way.y * off.x) / px <= chord_px) return;
   }
-  halve(sight, a, middle, depth + 1, out);
-  out.push_back(middle);
-  halve(sight, middle, b, depth + 1, out);
+  halve(sight, a, centre, depth + 1, out);
+  out.push_back(centre);
+  halve(sight, centre, b, depth + 1, out);
 }
 
 }  // namespace
@@ -73,8 +78,9 @@ void find_seen(const GroundSight& sight, std::vector<LineSample>& samples, doubl
   for (std::size_t i = 0; i < samples.size(); ++i) {
     LineSample& sample = samples[i];
     if (!sample.in_picture) continue;
-    // A hair over the ground: what a bump hides of less is no gap to a painter.
-    const double lift_m = 0.05 + lift_mm * px_per_mm * sight.metres_per_px(sample.point, sample.pixel);
+    // Slightly above the ground: painters ignore the gap behind a smaller bump.
+    const double lift_m =
+        0.05 + lift_mm * px_per_mm * sight.metres_per_px(sample.point, sample.pixel);
     const glm::dvec3 lifted = sample.point + glm::dvec3(0.0, 0.0, lift_m);
     const auto pixel = sight.pixel(lifted);
     if (!pixel) continue;
@@ -88,7 +94,8 @@ void find_seen(const GroundSight& sight, std::vector<LineSample>& samples, doubl
   }
 }
 
-std::vector<LineSample> sample_line(const GroundSight& sight, const std::vector<glm::dvec2>& line, double px_per_mm) {
+std::vector<LineSample> sample_line(const GroundSight& sight, const std::vector<glm::dvec2>& line,
+                                    double px_per_mm) {
   std::vector<LineSample> samples = {sample_at(sight, line.front())};
   for (std::size_t i = 1; i < line.size(); ++i) {
     const LineSample next = sample_at(sight, line[i]);
@@ -97,12 +104,14 @@ std::vector<LineSample> sample_line(const GroundSight& sight, const std::vector<
     samples.push_back(next);
   }
   find_seen(sight, samples, px_per_mm);
-  // Ends of what is seen, found by halves.
+  // Ends of visible parts, by bisection.
   std::vector<LineSample> fine;
   fine.reserve(samples.size());
   for (std::size_t i = 0; i < samples.size(); ++i) {
     fine.push_back(samples[i]);
-    if (i + 1 == samples.size() || !samples[i].in_picture || !samples[i + 1].in_picture || samples[i].seen == samples[i + 1].seen) continue;
+    if (i + 1 == samples.size() || !samples[i].in_picture || !samples[i + 1].in_picture ||
+        samples[i].seen == samples[i + 1].seen)
+      continue;
     LineSample a = samples[i];
     LineSample b = samples[i + 1];
     std::vector<LineSample> between(1);
@@ -118,13 +127,15 @@ std::vector<LineSample> sample_line(const GroundSight& sight, const std::vector<
   return fine;
 }
 
-PointLook look_at(const GroundSight& sight, glm::dvec3 point, glm::dvec2 pixel, const FeatureKind& kind, double width_mm, double real_m,
-                  double px_per_mm, double foreground_m_per_px) {
+PointLook look_at(const GroundSight& sight, glm::dvec3 point, glm::dvec2 pixel,
+                  const FeatureKind& kind, double width_mm, double real_m, double px_per_mm,
+                  double foreground_m_per_px) {
   const double m_per_px = sight.metres_per_px(point, pixel);
   PointLook look;
   const double nearer = std::clamp(foreground_m_per_px / m_per_px, 1e-6, 1.0);
-  look.share = std::max(kind.least_share, exact::pow(nearer, kind.shrink));
-  look.half_px = 0.5 * std::max({width_mm * px_per_mm * look.share, kind.least_px, real_m / m_per_px});
+  look.share = std::max(kind.min_share, exact::pow(nearer, kind.shrink));
+  look.half_px =
+      0.5 * std::max({width_mm * px_per_mm * look.share, kind.min_px, real_m / m_per_px});
   look.too_far = kind.coarsest_m > 0.0 && m_per_px * px_per_mm > kind.coarsest_m;
   return look;
 }

@@ -7,7 +7,7 @@
 namespace belvedere {
 namespace {
 
-// `move` is pwrite or pread of the bytes that are left.
+// `move` is pwrite or pread of the remaining bytes.
 template <class Move>
 int move_all(std::size_t count, int at_end, Move&& move) {
   for (std::size_t done = 0; done < count;) {
@@ -22,13 +22,15 @@ int move_all(std::size_t count, int at_end, Move&& move) {
 }  // namespace
 
 int write_bytes_at(int file, const std::byte* bytes, std::size_t count, std::uint64_t at) {
-  return move_all(count, ENOSPC,
-                  [&](std::size_t done, std::size_t left) { return ::pwrite(file, bytes + done, left, static_cast<::off_t>(at + done)); });
+  return move_all(count, ENOSPC, [&](std::size_t done, std::size_t left) {
+    return ::pwrite(file, bytes + done, left, static_cast<::off_t>(at + done));
+  });
 }
 
 int read_bytes_at(int file, std::byte* bytes, std::size_t count, std::uint64_t at) {
-  return move_all(count, EIO,
-                  [&](std::size_t done, std::size_t left) { return ::pread(file, bytes + done, left, static_cast<::off_t>(at + done)); });
+  return move_all(count, EIO, [&](std::size_t done, std::size_t left) {
+    return ::pread(file, bytes + done, left, static_cast<::off_t>(at + done));
+  });
 }
 
 }  // namespace belvedere

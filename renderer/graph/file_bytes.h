@@ -5,8 +5,9 @@
 
 namespace belvedere {
 
-// All bytes at a place of an open file, however often the system interrupts or gives less than asked for. 0, or the system's number of what
-// is wrong: no room where it takes no more, an error of reading where the file ends before.
+// Reads or writes all bytes at a position of an open file, despite interruptions and partial
+// transfers. Returns 0 or an errno: no space where no more can be written, a read error where the
+// file ends early.
 int write_bytes_at(int file, const std::byte* bytes, std::size_t count, std::uint64_t at);
 int read_bytes_at(int file, std::byte* bytes, std::size_t count, std::uint64_t at);
 

@@ -8,7 +8,8 @@
 
 namespace belvedere {
 
-// The grids of a product, whatever they hold: what a store of tiles copies. Values must be plain bytes.
+// The grids of a product, of any type, as a store of tiles copies them. Values must be trivially
+// copyable.
 struct Plane {
   std::byte* values = nullptr;
   std::size_t value_bytes = 0;
@@ -22,7 +23,8 @@ using Planes = std::vector<Plane>;
 template <class T>
 Plane plane_of(Grid<T>& grid) {
   static_assert(std::is_trivially_copyable_v<T>);
-  return {grid.empty() ? nullptr : reinterpret_cast<std::byte*>(grid.data()), sizeof(T), grid.width(), grid.height()};
+  return {grid.empty() ? nullptr : reinterpret_cast<std::byte*>(grid.data()), sizeof(T),
+          grid.width(), grid.height()};
 }
 
 }  // namespace belvedere

@@ -19,13 +19,14 @@
 
 namespace belvedere {
 
-// A graph of declared stages. Each stage says once what it reads and how far around its own pixels; the executor derives the rest: which
-// pixels of which stage a rectangle needs, in what order they are made, how long tiles stay in memory, and what all of it takes.
-//
-// Tiles are made once, where somebody asks, and kept until no remaining request needs them. A *view* only rearranges other stages: it is
-// made for each reader and kept nowhere. A stage's function gets its inputs as values and never asks a store for anything.
+// A graph of declared stages. Each stage declares what it reads and how far around its own pixels;
+// the executor derives the rest: which pixels of which stage a rectangle needs, the order in which
+// they are made, how long tiles stay in memory, and the memory needed.
+// Tiles are made once, on request, and kept until no remaining request needs them. A *view* only
+// rearranges other stages: it is made for each reader and not kept. A stage's function gets its
+// inputs as values and does not access a store.
 
-// How far a reader looks around its own pixels, px of its own.
+// How far a reader reads around its own pixels, in its own px.
 struct Reach {
   int columns = 0;  // left and right
   int rows = 0;     // up and down
@@ -34,20 +35,20 @@ struct Reach {
 constexpr Reach around(int px) { return {px, px}; }
 constexpr Reach rows_around(int px) { return {0, px}; }
 
-// What a stage is asked for.
+// What is requested of a stage.
 struct Tile {
   PixelRect rect;     // of its own pixels
   bool wide = false;  // whether its condition holds, so that it reads within its wide reach
 };
 
-// The smallest rectangle around two; an empty one counts for nothing.
+// The smallest rectangle around two; an empty one is ignored.
 PixelRect bounding_rect(const PixelRect& a, const PixelRect& b);
 
-// A stage, whatever it makes: its declaration, and what the executor derives from it.
+// A stage of any product: its declaration, and what the executor derives from it.
 class StageNode {
  public:
   struct Source {
-    StageNode* stage = nullptr;  // null: the scene has none, and nothing is read
+    StageNode* stage = nullptr;  // null: not in this scene, nothing is read
     Reach reach;
     Reach wide_reach;              // where the condition holds; never smaller
     double bytes_per_pixel = 0.0;  // of the grids that are read
@@ -61,10 +62,11 @@ class StageNode {
   struct Declaration {
     std::string name;
     glm::ivec2 size_px{0};
-    int scale = 1;                      // pixels of the sheet to one of these, along x and y
-    int tile_px = 0;                    // side of its tiles; 0: a view
-    bool whole_tiles = false;           // equal only where its own tiles are made whole
-    double work_bytes_per_pixel = 0.0;  // that its function takes for each pixel of its largest input besides inputs and result
+    int scale = 1;             // pixels of the sheet to one of these, along x and y
+    int tile_px = 0;           // side of its tiles; 0: a view
+    bool whole_tiles = false;  // the result is reproducible only if its own tiles are made whole
+    double work_bytes_per_pixel = 0.0;  // memory of its function for each pixel of its largest
+                                        // input, in addition to inputs and result
     std::optional<Condition> condition = {};
   };
 
@@ -78,14 +80,16 @@ class StageNode {
   PixelRect sheet() const { return {0, 0, declaration_.size_px.x, declaration_.size_px.y}; }
   std::uint64_t made_px() const { return made_px_; }
 
-  // Makes the tiles that a rectangle lacks. All inputs of a tile are prepared before memory is taken for the first of them: otherwise the
-  // windows of every stage behind would stand in memory around that of the first.
+  // Makes the missing tiles of a rectangle. All inputs of a tile are prepared before memory for the
+  // first is taken: otherwise the windows of all earlier stages would be in memory at the same
+  // time.
   virtual void prepare(PixelRect rect) = 0;
-  // The part of the sheet that will still be asked for: tiles beside it are forgotten, and no pixel beside it is made.
+  // The part of the sheet that will still be requested: tiles outside it are dropped, and no pixel
+  // outside it is made.
   virtual void keep_only(PixelRect wanted) = 0;
-  // A rectangle's window in a source, cut by its sheet.
+  // A rectangle's window in a source, clipped to its sheet.
   PixelRect window(const Source& source, const Tile& tile) const;
-  // The most memory that a square of `side` pixels takes while it is made, its inputs being prepared, bytes.
+  // The max memory to make a square of `side` pixels, with its inputs prepared, bytes.
   double bytes_to_make(int side) const;
   virtual double bytes_per_pixel() const = 0;
 
@@ -102,7 +106,7 @@ class StageNode {
   PixelRect wanted_;
 };
 
-// What is read of a product where not all of it is: a blank one, whose empty grids are left out.
+// Reads only part of a product: a blank one, whose empty grids are skipped.
 template <class Product>
 using Wanted = std::function<Product(int width, int height)>;
 
@@ -118,16 +122,16 @@ class Stage : public StageNode {
     read_into(rect, out);
     return out;
   }
-  // The same into the grids that `out` has, of what is prepared.
+  // The same into the grids present in `out`, from prepared tiles.
   virtual void read_into(PixelRect rect, Product& out) = 0;
   virtual const ProductFormat<Product>& format() const = 0;
   double bytes_per_pixel() const override { return format().bytes_per_pixel(); }
 };
 
-// An input as its reader gets it: a window of another stage.
+// An input as passed to its reader: a window of another stage.
 template <class Product>
 struct Window {
-  Product value;   // empty where there is nothing to read
+  Product value;   // empty if there is nothing to read
   PixelRect rect;  // of the source's pixels
   int scale = 1;   // pixels of the sheet to one of these
   glm::ivec2 origin_px() const { return {rect.x0, rect.y0}; }
@@ -135,13 +139,13 @@ struct Window {
   PixelRect inside(PixelRect of_sheet) const { return moved(of_sheet, -rect.x0, -rect.y0); }
 };
 
-// An input that its reader takes piece by piece, so that not all of it stands in memory at once.
-void check_inside(PixelRect window, PixelRect rect);  // Error(bug) where it is not
+// An input that its reader takes piece by piece, so that it is never in memory as a whole.
+void check_inside(PixelRect window, PixelRect rect);  // Error(bug) otherwise
 template <class Product>
 class WindowReader {
  public:
   WindowReader(Stage<Product>* stage, PixelRect rect) : stage_(stage), rect_(rect) {}
-  // Fills the grids that `out` has. Error(bug) beyond the declared window.
+  // Fills the grids present in `out`. Error(bug) beyond the declared window.
   void read_into(PixelRect rect, Product& out) const {
     check_inside(rect_, rect);
     stage_->read_into(rect, out);
@@ -153,7 +157,7 @@ class WindowReader {
   PixelRect rect_;
 };
 
-// What a stage reads: of which stage, how far around, and which grids of it (none named: all).
+// What a stage reads: which stage, how far around, and which of its grids (none named: all).
 template <class Product>
 struct Reads {
   Stage<Product>* stage = nullptr;
@@ -163,12 +167,14 @@ struct Reads {
 
   StageNode::Source source() const {
     if (stage == nullptr) return {};
-    const ProductFormat<Product> format{wanted ? wanted : stage->format().blank, stage->format().planes};
+    const ProductFormat<Product> format{wanted ? wanted : stage->format().blank,
+                                        stage->format().planes};
     return {stage, reach, wide_reach.value_or(reach), format.bytes_per_pixel()};
   }
   Window<Product> take(PixelRect rect) const {
     if (stage == nullptr) return {};
-    Window<Product> window{(wanted ? wanted : stage->format().blank)(rect.width(), rect.height()), rect, stage->declaration().scale};
+    Window<Product> window{(wanted ? wanted : stage->format().blank)(rect.width(), rect.height()),
+                           rect, stage->declaration().scale};
     stage->read_into(rect, window.value);
     return window;
   }
@@ -191,27 +197,34 @@ template <class Product>
 ReadsInPieces<Product> reads_in_pieces(Stage<Product>* stage, Reach reach = {}) {
   return {stage, reach};
 }
-// A condition: whether `test` is true of a window of another stage.
+// A condition: whether `test` is true for a window of another stage.
 template <class Product, class Test>
-StageNode::Condition seen_in(Stage<Product>* stage, Reach reach, Wanted<Product> wanted, Test test) {
+StageNode::Condition seen_in(Stage<Product>* stage, Reach reach, Wanted<Product> wanted,
+                             Test test) {
   return {stage, reach,
-          [stage, wanted = std::move(wanted), test = std::move(test)](PixelRect window) { return test(stage->read(window, wanted)); }};
+          [stage, wanted = std::move(wanted), test = std::move(test)](PixelRect window) {
+            return test(stage->read(window, wanted));
+          }};
 }
 
 class StageGraph {
  public:
-  // `place`: where tiles are kept. Both must outlive the graph. `progress` is asked between tiles whether to stop.
-  explicit StageGraph(TileStore::Place& place, Progress& progress) : place_(place), progress_(progress) {}
+  // `position`: where tiles are kept. Both must outlive the graph. `progress` is polled between
+  // tiles for interruption.
+  explicit StageGraph(TileStore::Place& position, Progress& progress)
+      : position_(position), progress_(progress) {}
 
   // A stage whose tiles are kept: make(tile, window of each input …) returns a tile.
   template <class Product, class... Inputs, class Make>
-  Stage<Product>* add_tiles(StageNode::Declaration declaration, ProductFormat<Product> format, std::tuple<Inputs...> inputs, Make make);
-  // A view: fill(tile, out, window of each input …) fills the grids that `out` has.
+  Stage<Product>* add_tiles(StageNode::Declaration declaration, ProductFormat<Product> format,
+                            std::tuple<Inputs...> inputs, Make make);
+  // A view: fill(tile, out, window of each input …) fills the grids present in `out`.
   template <class Product, class... Inputs, class Fill>
-  Stage<Product>* add_view(StageNode::Declaration declaration, ProductFormat<Product> format, std::tuple<Inputs...> inputs, Fill fill);
+  Stage<Product>* add_view(StageNode::Declaration declaration, ProductFormat<Product> format,
+                           std::tuple<Inputs...> inputs, Fill fill);
 
-  // What will still be asked for, of all stages; everything else is forgotten, and only what these need is made. To ask for more costs time
-  // alone. Until it is called everything may be asked for.
+  // What will still be requested, for all stages; everything else is dropped, and only what these
+  // need is made. Requesting more only costs time. Until this is called anything may be requested.
   struct Request {
     StageNode* stage;
     PixelRect rect;
@@ -220,10 +233,11 @@ class StageGraph {
 
   // In the order in which they were added: each after those that it reads.
   const std::vector<std::unique_ptr<StageNode>>& stages() const { return stages_; }
-  // The most memory that `output`, or the tiles of any stage, take for a square of the sheet of `side` pixels, bytes.
+  // The max memory for `output`, or for the tiles of any stage, for a square of the sheet of `side`
+  // pixels, bytes.
   double bytes_to_make(const StageNode& output, int side) const;
-  // The stages as a drawing in the language of Mermaid: boxes are kept in tiles, round ones are views, and arrows say how far around a
-  // pixel the reader looks, in units of .5 mm.
+  // The stages as a Mermaid diagram: boxes are kept in tiles, round ones are views, and arrows show
+  // how far around a pixel the reader reads, in units of 0.5 mm.
   std::string draw(double pixels_per_unit) const;
 
  private:
@@ -233,7 +247,7 @@ class StageGraph {
     stages_.push_back(std::move(stage));
     return added;
   }
-  TileStore::Place& place_;
+  TileStore::Place& position_;
   Progress& progress_;
   std::vector<std::unique_ptr<StageNode>> stages_;
 };
@@ -242,12 +256,15 @@ namespace stages {
 
 template <class... Inputs>
 std::vector<StageNode::Source> sources_of(const std::tuple<Inputs...>& inputs) {
-  return std::apply([](const auto&... input) { return std::vector<StageNode::Source>{input.source()...}; }, inputs);
+  return std::apply(
+      [](const auto&... input) { return std::vector<StageNode::Source>{input.source()...}; },
+      inputs);
 }
 
 // Takes the inputs of a tile, one after the other, and calls `use` with them.
 template <class... Inputs, class Use>
-auto with_inputs(const StageNode& stage, const Tile& tile, const std::tuple<Inputs...>& inputs, const Use& use) {
+auto with_inputs(const StageNode& stage, const Tile& tile, const std::tuple<Inputs...>& inputs,
+                 const Use& use) {
   std::size_t next = 0;
   const auto take = [&](const auto& input) {
     const StageNode::Source& source = stage.sources()[next++];
@@ -264,15 +281,16 @@ auto with_inputs(const StageNode& stage, const Tile& tile, const std::tuple<Inpu
 template <class Product, class Inputs, class Make>
 class Tiles final : public Stage<Product> {
  public:
-  Tiles(StageNode::Declaration declaration, ProductFormat<Product> format, Inputs inputs, Make make, TileStore::Place& place,
-        Progress& progress)
+  Tiles(StageNode::Declaration declaration, ProductFormat<Product> format, Inputs inputs, Make make,
+        TileStore::Place& position, Progress& progress)
       : Stage<Product>(std::move(declaration), sources_of(inputs)),
         format_(std::move(format)),
         inputs_(std::move(inputs)),
         make_(std::move(make)),
         progress_(progress),
         wanted_(this->sheet()),
-        store_(place, this->sheet().x1, this->sheet().y1, this->declaration().tile_px, value_bytes(format_)) {}
+        store_(position, this->sheet().x1, this->sheet().y1, this->declaration().tile_px,
+               value_bytes(format_)) {}
 
   void prepare(PixelRect rect) override {
     visit(rect, [&](int column, int row, PixelRect part) {
@@ -281,7 +299,9 @@ class Tiles final : public Stage<Product> {
   }
   void read_into(PixelRect rect, Product& out) override {
     const Planes planes = format_.planes(out);
-    visit(rect, [&](int column, int row, PixelRect part) { store_.get(column, row, part, rect.x0, rect.y0, planes); });
+    visit(rect, [&](int column, int row, PixelRect part) {
+      store_.get(column, row, part, rect.x0, rect.y0, planes);
+    });
   }
   void keep_only(PixelRect wanted) override {
     wanted_ = intersection(this->sheet(), wanted);
@@ -299,7 +319,7 @@ class Tiles final : public Stage<Product> {
     return bytes;
   }
 
-  // Each tile that a rectangle touches, and the part of the rectangle in it.
+  // Visits each tile that a rectangle touches, with the part of the rectangle in it.
   template <class Visit>
   void visit(PixelRect rect, const Visit& visit_tile) const {
     const int side = this->declaration().tile_px;
@@ -308,7 +328,8 @@ class Tiles final : public Stage<Product> {
         visit_tile(column, row, intersection(rect, store_.rect(column, row)));
   }
 
-  // Of a tile at the border of what is wanted only the part inside; what is asked for beyond it is made again, with its whole tile.
+  // Of a tile at the border of the wanted part only the part inside; what is requested beyond it
+  // later is made again, with its whole tile.
   PixelRect part_to_make(PixelRect tile, PixelRect asked) const {
     const PixelRect part = intersection(tile, wanted_);
     return intersection(part, asked) == asked && !this->declaration().whole_tiles ? part : tile;
@@ -317,9 +338,11 @@ class Tiles final : public Stage<Product> {
   void make(int column, int row, PixelRect asked) {
     const Tile tile = this->tile_of(part_to_make(store_.rect(column, row), asked));
     this->prepare_sources(tile);
-    Product made = with_inputs(*this, tile, inputs_, [&](const auto&... windows) { return make_(tile, windows...); });
+    Product made = with_inputs(*this, tile, inputs_,
+                               [&](const auto&... windows) { return make_(tile, windows...); });
     store_.put(column, row, tile.rect, format_.planes(made));
-    this->made_px_ += static_cast<std::uint64_t>(tile.rect.width()) * static_cast<std::uint64_t>(tile.rect.height());
+    this->made_px_ += static_cast<std::uint64_t>(tile.rect.width()) *
+                      static_cast<std::uint64_t>(tile.rect.height());
     progress_.advance(0.0);
   }
 
@@ -343,7 +366,8 @@ class View final : public Stage<Product> {
   void prepare(PixelRect rect) override { this->prepare_sources(this->tile_of(rect)); }
   void read_into(PixelRect rect, Product& out) override {
     const Tile tile = this->tile_of(rect);
-    with_inputs(*this, tile, inputs_, [&](const auto&... windows) { fill_(tile, out, windows...); });
+    with_inputs(*this, tile, inputs_,
+                [&](const auto&... windows) { fill_(tile, out, windows...); });
   }
   void keep_only(PixelRect) override {}
   const ProductFormat<Product>& format() const override { return format_; }
@@ -357,17 +381,20 @@ class View final : public Stage<Product> {
 }  // namespace stages
 
 template <class Product, class... Inputs, class Make>
-Stage<Product>* StageGraph::add_tiles(StageNode::Declaration declaration, ProductFormat<Product> format, std::tuple<Inputs...> inputs,
+Stage<Product>* StageGraph::add_tiles(StageNode::Declaration declaration,
+                                      ProductFormat<Product> format, std::tuple<Inputs...> inputs,
                                       Make make) {
   return adopt<Product>(std::make_unique<stages::Tiles<Product, std::tuple<Inputs...>, Make>>(
-      std::move(declaration), std::move(format), std::move(inputs), std::move(make), place_, progress_));
+      std::move(declaration), std::move(format), std::move(inputs), std::move(make), position_,
+      progress_));
 }
 
 template <class Product, class... Inputs, class Fill>
-Stage<Product>* StageGraph::add_view(StageNode::Declaration declaration, ProductFormat<Product> format, std::tuple<Inputs...> inputs,
+Stage<Product>* StageGraph::add_view(StageNode::Declaration declaration,
+                                     ProductFormat<Product> format, std::tuple<Inputs...> inputs,
                                      Fill fill) {
-  return adopt<Product>(std::make_unique<stages::View<Product, std::tuple<Inputs...>, Fill>>(std::move(declaration), std::move(format),
-                                                                                             std::move(inputs), std::move(fill)));
+  return adopt<Product>(std::make_unique<stages::View<Product, std::tuple<Inputs...>, Fill>>(
+      std::move(declaration), std::move(format), std::move(inputs), std::move(fill)));
 }
 
 }  // namespace belvedere

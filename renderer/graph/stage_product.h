@@ -10,28 +10,30 @@
 
 namespace belvedere {
 
-// How the executor handles what a stage makes: a value with grids.
+// How the executor handles the product of a stage: a value with grids.
 template <class Product>
 struct ProductFormat {
-  std::function<Product(int width, int height)> blank;  // one without values
-  std::function<Planes(Product&)> planes;               // its grids; those that are empty have no values
+  std::function<Product(int width, int height)> blank;  // without values
+  std::function<Planes(Product&)> planes;               // its grids; empty ones have no values
   double bytes_per_pixel() const {
     Product sample = blank(1, 1);
     double bytes = 0.0;
-    for (const Plane& plane : planes(sample)) bytes += plane.values == nullptr ? 0.0 : static_cast<double>(plane.value_bytes);
+    for (const Plane& plane : planes(sample))
+      bytes += plane.values == nullptr ? 0.0 : static_cast<double>(plane.value_bytes);
     return bytes;
   }
 };
 
-// A product of some of a struct's grids; the others stay empty. All at once: new memory is first written by all threads, as it takes the
-// system longer to give it than to fill it.
+// A product of some of a struct's grids; the others stay empty. All are allocated together and
+// first written by all threads, because page faults take longer than filling.
 template <class Product, class... Grids>
 std::function<Product(int, int)> with_grids(Grids Product::*... grids) {
   return [grids...](int width, int height) {
     Product product;
     const auto maker = [&](auto grid) {
-      return std::function<void()>(
-          [&product, grid, width, height] { product.*grid = std::decay_t<decltype(product.*grid)>(width, height); });
+      return std::function<void()>([&product, grid, width, height] {
+        product.*grid = std::decay_t<decltype(product.*grid)>(width, height);
+      });
     };
     const std::array<std::function<void()>, sizeof...(Grids)> make = {maker(grids)...};
     parallel_ranges(make.size(), std::size_t{1}, [&](std::size_t begin, std::size_t end) {
@@ -44,13 +46,15 @@ std::function<Product(int, int)> with_grids(Grids Product::*... grids) {
 // A struct whose grids are these.
 template <class Product, class... Grids>
 ProductFormat<Product> grids_of(Grids Product::*... grids) {
-  return {.blank = with_grids(grids...), .planes = [grids...](Product& product) { return Planes{plane_of(product.*grids)...}; }};
+  return {.blank = with_grids(grids...),
+          .planes = [grids...](Product& product) { return Planes{plane_of(product.*grids)...}; }};
 }
 
 // One grid.
 template <class Grid>
 ProductFormat<Grid> one_grid() {
-  return {.blank = [](int width, int height) { return Grid(width, height); }, .planes = [](Grid& grid) { return Planes{plane_of(grid)}; }};
+  return {.blank = [](int width, int height) { return Grid(width, height); },
+          .planes = [](Grid& grid) { return Planes{plane_of(grid)}; }};
 }
 
 // A value that is never kept in tiles.

@@ -20,33 +20,37 @@ namespace belvedere {
 namespace {
 
 [[noreturn]] void throw_scratch_error(const std::string& folder, const char* what, int code) {
-  throw Error(ErrorKind::output, folder, fmt::format("{}: {}", what, std::generic_category().message(code)),
-              "room for what is worked on: a larger disk, another --out, or more --memory");
+  throw Error(
+      ErrorKind::output, folder, fmt::format("{}: {}", what, std::generic_category().message(code)),
+      "enough space for intermediate results: a larger disk, another --out, or more --memory");
 }
 
-// What makes a task of some use: memory that is written for the first time is slow, and all threads can write it.
+// Bytes that make a task worthwhile: the first write to memory is slow, and all threads can do it.
 constexpr std::size_t bytes_per_task = std::size_t{1} << 18;
 constexpr int rows_per_task = 64;
 
 void copy_block(std::byte* to, const std::byte* from, std::size_t bytes) {
-  parallel_ranges(bytes, bytes_per_task, [&](std::size_t begin, std::size_t end) { std::memcpy(to + begin, from + begin, end - begin); });
+  parallel_ranges(bytes, bytes_per_task, [&](std::size_t begin, std::size_t end) {
+    std::memcpy(to + begin, from + begin, end - begin);
+  });
 }
 
-// A file without a name.
+// An unnamed file.
 int open_scratch(const std::string& folder) {
   std::error_code code;
   std::filesystem::create_directories(folder, code);
   std::string name = folder + "/scratch-XXXXXX";
   const int file = ::mkstemp(name.data());
-  if (file < 0) throw_scratch_error(folder, "no scratch file can be made in this folder", errno);
+  if (file < 0) throw_scratch_error(folder, "cannot create a scratch file in this folder", errno);
   ::unlink(name.c_str());
   return file;
 }
 
 }  // namespace
 
-TileStore::TileStore(Place& place, int sheet_width, int sheet_height, int tile_px, std::vector<std::size_t> value_bytes)
-    : place_(place),
+TileStore::TileStore(Place& position, int sheet_width, int sheet_height, int tile_px,
+                     std::vector<std::size_t> value_bytes)
+    : position_(position),
       width_(sheet_width),
       height_(sheet_height),
       tile_px_(tile_px),
@@ -54,60 +58,70 @@ TileStore::TileStore(Place& place, int sheet_width, int sheet_height, int tile_p
       down_((sheet_height + tile_px - 1) / tile_px),
       value_bytes_(std::move(value_bytes)),
       tiles_(static_cast<std::size_t>(across_) * static_cast<std::size_t>(down_)) {
-  const std::size_t bytes = std::accumulate(value_bytes_.begin(), value_bytes_.end(), std::size_t{0});
+  const std::size_t bytes =
+      std::accumulate(value_bytes_.begin(), value_bytes_.end(), std::size_t{0});
   slot_bytes_ = bytes * static_cast<std::size_t>(tile_px_) * static_cast<std::size_t>(tile_px_);
 }
 
 TileStore::~TileStore() {
-  for (const Tile& tile : tiles_) place_.memory_bytes += tile.memory_bytes;
+  for (const Tile& tile : tiles_) position_.memory_bytes += tile.memory_bytes;
   if (file_ >= 0) ::close(file_);
 }
 
 TileStore::Tile& TileStore::tile(int column, int row) {
-  return tiles_[static_cast<std::size_t>(row) * static_cast<std::size_t>(across_) + static_cast<std::size_t>(column)];
+  return tiles_[static_cast<std::size_t>(row) * static_cast<std::size_t>(across_) +
+                static_cast<std::size_t>(column)];
 }
 const TileStore::Tile& TileStore::tile(int column, int row) const {
-  return tiles_[static_cast<std::size_t>(row) * static_cast<std::size_t>(across_) + static_cast<std::size_t>(column)];
+  return tiles_[static_cast<std::size_t>(row) * static_cast<std::size_t>(across_) +
+                static_cast<std::size_t>(column)];
 }
 
 PixelRect TileStore::rect(int column, int row) const {
-  return {column * tile_px_, row * tile_px_, std::min(width_, (column + 1) * tile_px_), std::min(height_, (row + 1) * tile_px_)};
+  return {column * tile_px_, row * tile_px_, std::min(width_, (column + 1) * tile_px_),
+          std::min(height_, (row + 1) * tile_px_)};
 }
 
-bool TileStore::has(int column, int row, PixelRect part) const { return intersection(part, tile(column, row).held) == part; }
+bool TileStore::has(int column, int row, PixelRect part) const {
+  return intersection(part, tile(column, row).held) == part;
+}
 
 void TileStore::put(int column, int row, PixelRect held, const Planes& planes) {
   if (held.empty() || intersection(held, rect(column, row)) != held)
-    throw Error(ErrorKind::bug, "tiles", "a rectangle that is not the tile's");
+    throw Error(ErrorKind::bug, "tiles", "a rectangle outside the tile");
   std::size_t bytes = 0;
   for (std::size_t i = 0; i < value_bytes_.size(); ++i) {
-    if (i >= planes.size() || planes[i].value_bytes != value_bytes_[i] || planes[i].width != held.width() ||
-        planes[i].height != held.height())
-      throw Error(ErrorKind::bug, "tiles", "planes that are not the store's");
+    if (i >= planes.size() || planes[i].value_bytes != value_bytes_[i] ||
+        planes[i].width != held.width() || planes[i].height != held.height())
+      throw Error(ErrorKind::bug, "tiles", "planes that do not match the store's");
     bytes += planes[i].bytes();
   }
   drop(column, row);
   Tile& to = tile(column, row);
-  if (bytes <= place_.memory_bytes) {
-    place_.memory_bytes -= bytes;
-    to.memory = std::make_unique_for_overwrite<std::byte[]>(bytes);  // whoever copies a part writes it for the first time
+  if (bytes <= position_.memory_bytes) {
+    position_.memory_bytes -= bytes;
+    to.memory = std::make_unique_for_overwrite<std::byte[]>(
+        bytes);  // first written by the thread that copies a part
     to.memory_bytes = bytes;
     std::byte* at = to.memory.get();
-    for (std::size_t i = 0; i < value_bytes_.size(); at += planes[i].bytes(), ++i) copy_block(at, planes[i].values, planes[i].bytes());
+    for (std::size_t i = 0; i < value_bytes_.size(); at += planes[i].bytes(), ++i)
+      copy_block(at, planes[i].values, planes[i].bytes());
   } else {
-    if (file_ < 0) file_ = open_scratch(place_.folder);
+    if (file_ < 0) file_ = open_scratch(position_.folder);
     if (free_slots_.empty()) free_slots_.push_back(slots_++);
     to.slot = free_slots_.back();
     free_slots_.pop_back();
     std::uint64_t at = static_cast<std::uint64_t>(to.slot) * slot_bytes_;
     for (std::size_t i = 0; i < value_bytes_.size(); at += planes[i].bytes(), ++i)
-      if (const int code = write_bytes_at(file_, planes[i].values, planes[i].bytes(), at); code != 0)
-        throw_scratch_error(place_.folder, "a scratch file cannot be written", code);
+      if (const int code = write_bytes_at(file_, planes[i].values, planes[i].bytes(), at);
+          code != 0)
+        throw_scratch_error(position_.folder, "cannot write a scratch file", code);
   }
   to.held = held;
 }
 
-void TileStore::get(int column, int row, PixelRect from, int origin_x, int origin_y, const Planes& wanted) const {
+void TileStore::get(int column, int row, PixelRect from, int origin_x, int origin_y,
+                    const Planes& wanted) const {
   const Tile& of = tile(column, row);
   const PixelRect area = of.held;
   std::size_t start = 0;  // of the plane in the tile
@@ -125,16 +139,19 @@ void TileStore::get(int column, int row, PixelRect from, int origin_x, int origi
           const std::size_t bytes = row_bytes * static_cast<std::size_t>(end - begin);
           rows = std::make_unique_for_overwrite<std::byte[]>(bytes);
           source = rows.get();
-          const std::uint64_t place = static_cast<std::uint64_t>(of.slot) * slot_bytes_ + skipped;
-          if (const int code = read_bytes_at(file_, rows.get(), bytes, place); code != 0)
-            throw_scratch_error(place_.folder, "a scratch file cannot be read", code);
+          const std::uint64_t position =
+              static_cast<std::uint64_t>(of.slot) * slot_bytes_ + skipped;
+          if (const int code = read_bytes_at(file_, rows.get(), bytes, position); code != 0)
+            throw_scratch_error(position_.folder, "cannot read a scratch file", code);
         } else {
           source = of.memory.get() + skipped;
         }
         for (int y = begin; y != end; ++y, source += row_bytes)
-          std::memcpy(to.values + to.row_bytes() * static_cast<std::size_t>(from.y0 + y - origin_y) +
+          std::memcpy(to.values +
+                          to.row_bytes() * static_cast<std::size_t>(from.y0 + y - origin_y) +
                           size * static_cast<std::size_t>(from.x0 - origin_x),
-                      source + size * static_cast<std::size_t>(from.x0 - area.x0), size * static_cast<std::size_t>(from.width()));
+                      source + size * static_cast<std::size_t>(from.x0 - area.x0),
+                      size * static_cast<std::size_t>(from.width()));
       });
     }
     start += row_bytes * static_cast<std::size_t>(area.height());
@@ -144,7 +161,7 @@ void TileStore::get(int column, int row, PixelRect from, int origin_x, int origi
 void TileStore::drop(int column, int row) {
   Tile& old = tile(column, row);
   if (old.held.empty()) return;
-  place_.memory_bytes += old.memory_bytes;
+  position_.memory_bytes += old.memory_bytes;
   if (old.slot >= 0) free_slots_.push_back(old.slot);
   old = {};
 }

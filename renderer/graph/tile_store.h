@@ -10,18 +10,21 @@
 
 namespace belvedere {
 
-// Fixed tiles of one product of the sheet, kept until they are dropped: in memory as far as the store's share goes, then in a scratch file
-// that has no name, so that nothing is left of it however the program ends. All tiles have the same planes; those at the right and bottom
-// edge are smaller. Of a tile a rectangle may be held alone: what lies beside it is not asked for.
+// Fixed tiles of one product of the sheet, kept until they are dropped: in memory up to the store's
+// share, then in an unnamed scratch file, so that nothing is left of it however the program ends.
+// All tiles have the same planes; those at the right and bottom edge are smaller. A tile may hold
+// only a rectangle; the rest of it is then never requested.
 class TileStore {
  public:
-  // What several stores share: a folder for scratch files, and the bytes of memory that tiles of all of them may take.
+  // Shared by several stores: a folder for scratch files, and the bytes of memory that the tiles of
+  // all of them may take.
   struct Place {
     std::string folder;
     std::uint64_t memory_bytes = 0;  // still free
   };
-  // value_bytes: of each plane. `place` must outlive the store.
-  TileStore(Place& place, int sheet_width, int sheet_height, int tile_px, std::vector<std::size_t> value_bytes);
+  // value_bytes: of each plane. `position` must outlive the store.
+  TileStore(Place& position, int sheet_width, int sheet_height, int tile_px,
+            std::vector<std::size_t> value_bytes);
   ~TileStore();
   TileStore(const TileStore&) = delete;
   TileStore& operator=(const TileStore&) = delete;
@@ -31,26 +34,27 @@ class TileStore {
   PixelRect rect(int column, int row) const;
   // Whether a tile holds this rectangle of the sheet, which lies inside it.
   bool has(int column, int row, PixelRect part) const;
-  // What a tile holds from now on: all planes, of the size of `held`, a rectangle of the sheet inside the tile. Error(output) where the
-  // scratch file cannot grow.
+  // Sets the content of a tile: all planes, of the size of `held`, a rectangle of the sheet inside
+  // the tile. Error(output) if the scratch file cannot grow.
   void put(int column, int row, PixelRect held, const Planes& planes);
-  // Copies `from` (a rectangle of the sheet that the tile holds) into grids whose pixel (0, 0) is the sheet's `origin`. wanted[i] is for
-  // plane i; one without values is skipped.
-  void get(int column, int row, PixelRect from, int origin_x, int origin_y, const Planes& wanted) const;
-  // Forgets the tiles for which nobody will ask again.
+  // Copies `from` (a rectangle of the sheet that the tile holds) into grids whose pixel (0, 0) is
+  // the sheet's `origin`. wanted[i] is for plane i; empty ones are skipped.
+  void get(int column, int row, PixelRect from, int origin_x, int origin_y,
+           const Planes& wanted) const;
+  // Drops tiles that will not be requested again.
   void drop(int column, int row);
 
  private:
   struct Tile {
     std::unique_ptr<std::byte[]> memory;  // planes one after the other, or
     std::size_t memory_bytes = 0;
-    std::int64_t slot = -1;  // place in the scratch file, in slots; -1: none
+    std::int64_t slot = -1;  // slot in the scratch file; -1: none
     PixelRect held;          // empty: nothing
   };
   Tile& tile(int column, int row);
   const Tile& tile(int column, int row) const;
 
-  Place& place_;
+  Place& position_;
   int width_;
   int height_;
   int tile_px_;

@@ -21,18 +21,20 @@ constexpr std::array<CachedProductInfo, 8> table = {{
     {CachedProduct::river_courses, "rivers of maps", 1},
 }};
 
-// Two builds of one version may differ, so the file that runs counts. Where it cannot be read the version must do.
+// Two builds of one version may differ, so the running file is hashed. Where it cannot be read the
+// version is used.
 std::string hash_of_program() {
   const std::string file = "/proc/self/exe";
   return std::ifstream(file).good() ? hash_file(file) : std::string();
 }
 
 const CacheKeyText& program_text() {
-  static const CacheKeyText text = CacheKeyText()
-                                       .add("program", program_version())
-                                       .add("libraries", library_versions())
-                                       .add("instruction set", instruction_set_title(machine_instruction_set()))
-                                       .add("file", hash_of_program());
+  static const CacheKeyText text =
+      CacheKeyText()
+          .add("program", program_version())
+          .add("libraries", library_versions())
+          .add("instruction set", instruction_set_title(machine_instruction_set()))
+          .add("file", hash_of_program());
   return text;
 }
 
@@ -43,7 +45,8 @@ std::span<const CachedProductInfo> cached_products() { return table; }
 CacheKey make_cache_key(CachedProduct product, const CacheKeyText& made_from, std::string subject) {
   const CachedProductInfo& info = table[static_cast<std::size_t>(product)];
   const CacheKeyText format = CacheKeyText().add("format", info.format);
-  return {std::string(info.name), std::move(subject), program_text().str() + format.str() + made_from.str()};
+  return {std::string(info.name), std::move(subject),
+          program_text().str() + format.str() + made_from.str()};
 }
 
 std::string subject_of(const LoadedScene& scene) {

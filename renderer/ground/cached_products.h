@@ -15,7 +15,8 @@
 
 namespace belvedere {
 
-// The one table of what the cache keeps. A product is worth a row where making it takes much longer than reading it.
+// The table of cached products. A product is worth a row if making it takes much longer than
+// reading it.
 enum class CachedProduct {
   synthetic_terrain,
   land_cover,
@@ -29,18 +30,19 @@ enum class CachedProduct {
 struct CachedProductInfo {
   CachedProduct id;
   std::string_view name;  // in `belvedere cache list`
-  int format;             // of its bytes and of its key's text: one more whenever either changes its meaning
+  int format;  // of its bytes and its key's text: increment when either changes its meaning
 };
 std::span<const CachedProductInfo> cached_products();
 
-// The key of a product made from `made_from`. This program goes in as well, by version, libraries, the processor's vector instructions and
-// the hash of its own file: a changed program finds nothing of what another made. subject: for people, of what scene.
+// The key of a product made from `made_from`. It includes this program: version, libraries, the
+// processor's vector instructions and the hash of its own file, so a changed program does not find
+// the products of another. subject: shown to users, the scene.
 CacheKey make_cache_key(CachedProduct product, const CacheKeyText& made_from, std::string subject);
 
-// What a scene's products are called in lists of the cache.
+// Name of a scene's products in lists of the cache.
 std::string subject_of(const LoadedScene& scene);
 
-// Collects the remarks of a stage on their way, so that a product of the cache brings them along. Of the stage itself nothing is hidden.
+// Collects the notes of a stage while passing them on, so that a cached product can repeat them.
 class KeptNotes : public Progress {
  public:
   explicit KeptNotes(Progress& watcher) : watcher_(watcher) {}
@@ -59,8 +61,8 @@ class KeptNotes : public Progress {
   std::vector<std::string> notes_;
 };
 
-// What `make(progress)` gives, from the cache where it is kept there. Value: one that base/cache/bytes.h can write. `make_key` is asked
-// only where there is a cache.
+// The result of `make(progress)`, from the cache if it is there. Value: a type that
+// base/cache/bytes.h can write. `make_key` is called only if there is a cache.
 template <class Value, class MakeKey, class Make>
 Value cached(const Cache& cache, MakeKey&& make_key, Progress& progress, Make&& make) {
   if (!cache.is_on()) return make(progress);

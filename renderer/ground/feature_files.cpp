@@ -11,7 +11,7 @@
 namespace belvedere {
 namespace {
 
-// Whether features of a block can become ground; where a column says what they are they can.
+// Whether features of a block can become ground; with a kind column they can.
 bool may_be_ground(const FeatureStyle& style, const FeatureSource& source) {
   if (!source.kind_of.empty()) return true;
   const int kind = style.find(source.kind);
@@ -19,12 +19,16 @@ bool may_be_ground(const FeatureStyle& style, const FeatureSource& source) {
 }
 
 std::string extent_of(const MapBox& box) {
-  return fmt::format("E {:.0f} … {:.0f}, N {:.0f} … {:.0f}", box.low.x, box.high.x, box.low.y, box.high.y);
+  return fmt::format("E {:.0f} … {:.0f}, N {:.0f} … {:.0f}", box.low.x, box.high.x, box.low.y,
+                     box.high.y);
 }
 
 }  // namespace
 
-MapBox box_of(const Dem& dem) { return {dem.transform.to_crs(-0.5, dem.height() - 0.5), dem.transform.to_crs(dem.width() - 0.5, -0.5)}; }
+MapBox box_of(const Dem& dem) {
+  return {dem.transform.to_crs(-0.5, dem.height() - 0.5),
+          dem.transform.to_crs(dem.width() - 0.5, -0.5)};
+}
 
 FeatureStyle read_scene_feature_style(const LoadedScene& loaded) {
   return load_feature_style(find_named_file(loaded, "features", loaded.scene.features_style));
@@ -44,31 +48,38 @@ std::vector<FeatureSource> feature_sources(const LoadedScene& loaded) {
                        .width_mm = block.width_mm,
                        .width_of = block.width_of,
                        .level_of = block.level_of,
-                       .people_of = block.people_of,
+                       .population_of = block.population_of,
                        .block = static_cast<int>(i),
                        .key = fmt::format("features.{}", i)});
   }
   return sources;
 }
 
-FeatureSet read_ground_features(const LoadedScene& loaded, const FeatureStyle& style, const Dem& dem, Progress& progress) {
+FeatureSet read_ground_features(const LoadedScene& loaded, const FeatureStyle& style,
+                                const Dem& dem, Progress& progress) {
   const MapBox ground = box_of(dem);
   std::vector<FeatureSource> sources = feature_sources(loaded);
-  std::erase_if(sources, [&](const FeatureSource& source) { return !may_be_ground(style, source); });
+  std::erase_if(sources,
+                [&](const FeatureSource& source) { return !may_be_ground(style, source); });
   FeatureSet set = read_feature_set(style, sources, dem.crs, ground);
-  // Where a column says what features are, those beside the terrain may be none of the ground's: who draws them says so.
+  // With a kind column, the features outside the terrain may all be drawn kinds: the drawing code
+  // reports those.
   std::vector<bool> all_ground;
   for (const FeatureSource& source : sources) all_ground.push_back(source.kind_of.empty());
   for (std::size_t r = 0; r < set.readings.size(); ++r) {
     const SourceReading& reading = set.readings[r];
-    if (reading.at_zero > 0) progress.note(fmt::format("{}: {} of its features lie at 0, 0", reading.file, reading.at_zero));
+    if (reading.at_zero > 0)
+      progress.note(fmt::format("{}: {} features are at 0, 0", reading.file, reading.at_zero));
     if (reading.beside == 0) continue;
     if (all_ground[r] && reading.taken + reading.wrong_shape + reading.unknown.size() == 0)
       throw Error(
           ErrorKind::usage, reading.file,
-          fmt::format("none of {} features lies on the terrain: they lie {}", reading.beside, extent_of({reading.low, reading.high})),
-          fmt::format("places within {} ({}); a file that states its own coordinate system", extent_of(ground), describe_crs(dem.crs)));
-    progress.note(fmt::format("{}: {} of its features lie beside the terrain", reading.file, reading.beside));
+          fmt::format("none of {} features lies on the terrain; their extent is {}", reading.beside,
+                      extent_of({reading.low, reading.high})),
+          fmt::format("coordinates within {} ({}), or a file that states its own coordinate system",
+                      extent_of(ground), describe_crs(dem.crs)));
+    progress.note(
+        fmt::format("{}: {} features are outside the terrain", reading.file, reading.beside));
   }
   return set;
 }

@@ -12,15 +12,17 @@ namespace belvedere {
 // The outer edges of a terrain.
 MapBox box_of(const Dem& dem);
 
-// The style a scene names.
+// The style named in a scene.
 FeatureStyle read_scene_feature_style(const LoadedScene& loaded);
 
-// What a scene's blocks of features say is read, in their order. A file that is missing is left out here, and said by those who need it.
+// The scene's blocks of features as sources, in their order. A missing file is skipped here;
+// callers that need it report it.
 std::vector<FeatureSource> feature_sources(const LoadedScene& loaded);
 
-// Features of a scene's files that become ground, and of its blocks only those that can hold such. Of what lies beside the terrain only how
-// much it is, which is noted. Throws Error(usage) with both extents where all of a file lies beside the terrain: its coordinate system then
-// is another than it says.
-FeatureSet read_ground_features(const LoadedScene& loaded, const FeatureStyle& style, const Dem& dem, Progress& progress);
+// Features of a scene's files that become ground, only from blocks that can contain such. Features
+// outside the terrain are only counted and noted. Throws Error(usage) with both extents if all of a
+// file lies outside the terrain: its coordinate system is then probably wrong.
+FeatureSet read_ground_features(const LoadedScene& loaded, const FeatureStyle& style,
+                                const Dem& dem, Progress& progress);
 
 }  // namespace belvedere

@@ -17,58 +17,67 @@
 namespace belvedere {
 namespace {
 
-// Of each river its group and number of places; east, north and half a width of each place.
-PackedRows pack(const Courses& courses) {
+// For each river its group and number of positions; east, north and half width at each position.
+PackedRows pack(const RiverCentrelines& centrelines) {
   std::vector<std::int32_t> counts;
   std::vector<double> numbers;
-  for (const Course& course : courses.lines) {
-    counts.insert(counts.end(), {course.group, static_cast<std::int32_t>(course.places.size())});
-    for (std::size_t i = 0; i < course.places.size(); ++i)
-      numbers.insert(numbers.end(), {course.places[i].x, course.places[i].y, static_cast<double>(course.half_width_m[i])});
+  for (const RiverCentreline& centreline : centrelines.lines) {
+    counts.insert(counts.end(),
+                  {centreline.group, static_cast<std::int32_t>(centreline.positions.size())});
+    for (std::size_t i = 0; i < centreline.positions.size(); ++i)
+      numbers.insert(numbers.end(), {centreline.positions[i].x, centreline.positions[i].y,
+                                     static_cast<double>(centreline.half_width_m[i])});
   }
   return {row_of(counts), row_of(numbers)};
 }
 
-constexpr float most_widened = 3.F;
-// Of least_px: guessed rivers that stay below the first, at their widest, are not drawn, from the second on they are.
+constexpr float max_widened = 3.F;
+// Factors on min_px: inferred rivers narrower than the first at their widest are not drawn, from
+// the second on they are.
 constexpr float faded_below = 0.4F;
 constexpr float full_from = 0.8F;
-// Guessed rivers of half this width, m, are drawn with least_px; larger ones by the root of how much they are, so that one that has taken
-// in others is seen to.
-constexpr double least_of_half_m = 12.0;
-constexpr double most_grown = 2.2;
+// Inferred rivers of this half width, m, are drawn with min_px; larger ones with the root of the
+// ratio, so that a river is visibly wider below its confluences.
+constexpr double min_of_half_m = 12.0;
+constexpr double max_grown = 2.2;
 
-std::vector<CoverCourse> unpack(const PackedRows& packed, const MapRivers& rivers) {
-  std::vector<CoverCourse> courses;
+std::vector<CoverRiver> unpack(const PackedRows& packed, const MapRivers& rivers) {
+  std::vector<CoverRiver> centrelines;
   std::size_t n = 0;
   for (std::size_t c = 0; c + 2 <= packed.counts.size(); c += 2) {
     const auto group = static_cast<std::size_t>(packed.counts[c]);
-    CoverCourse course = rivers.looks[group];
+    CoverRiver centreline = rivers.looks[group];
     for (std::int32_t i = 0; i < packed.counts[c + 1]; ++i) {
-      course.places.emplace_back(packed.numbers[n], packed.numbers[n + 1]);
-      course.half_width_m.push_back(static_cast<float>(packed.numbers[n + 2]));
+      centreline.positions.emplace_back(packed.numbers[n], packed.numbers[n + 1]);
+      centreline.half_width_m.push_back(static_cast<float>(packed.numbers[n + 2]));
       n += 3;
     }
-    courses.push_back(std::move(course));
+    centrelines.push_back(std::move(centreline));
   }
-  return courses;
+  return centrelines;
 }
 
-// What rivers see of the ground: where water runs, and how high it lies.
+// Ground values that rivers depend on: flow and altitude.
 void add_ground(CacheKeyText& key, const Dem& dem) {
   const auto& [altitude_m, filled, transform, crs, entries, halved] = dem;
   const auto& [origin_x, origin_y, cell_x, cell_y] = transform;
-  key.add("altitude_m", altitude_m).add("origin_x", origin_x).add("origin_y", origin_y).add("cell_x", cell_x).add("cell_y", cell_y);
+  key.add("altitude_m", altitude_m)
+      .add("origin_x", origin_x)
+      .add("origin_y", origin_y)
+      .add("cell_x", cell_x)
+      .add("cell_y", cell_y);
   for (const auto& [x, y, km2] : entries) key.add("entry_x", x).add("entry_y", y).add("km2", km2);
 }
 
-CacheKey courses_key(const LoadedScene& loaded, const MapRivers& rivers, const Dem& dem) {
+CacheKey rivers_key(const LoadedScene& loaded, const MapRivers& rivers, const Dem& dem) {
   CacheKeyText key;
   std::vector<double> numbers;
-  for (const DrawnCourse& river : rivers.lines) {
-    const auto& [places, width_m, least_width_m, snap_m, group] = river;
-    numbers.insert(numbers.end(), {width_m, least_width_m, snap_m, static_cast<double>(group), static_cast<double>(places.size())});
-    for (const glm::dvec2 place : places) numbers.insert(numbers.end(), {place.x, place.y});
+  for (const MappedRiver& river : rivers.lines) {
+    const auto& [positions, width_m, min_width_m, snap_m, group] = river;
+    numbers.insert(numbers.end(), {width_m, min_width_m, snap_m, static_cast<double>(group),
+                                   static_cast<double>(positions.size())});
+    for (const glm::dvec2 position : positions)
+      numbers.insert(numbers.end(), {position.x, position.y});
   }
   key.add("rivers", row_of(numbers));
   add_ground(key, dem);
@@ -77,59 +86,71 @@ CacheKey courses_key(const LoadedScene& loaded, const MapRivers& rivers, const D
 
 }  // namespace
 
-std::vector<CoverCourse> lay_rivers(const MapRivers& rivers, const LoadedScene& loaded, const Dem& dem, Progress& progress,
-                                    const Cache& cache, Catchments* catchments) {
+std::vector<CoverRiver> lay_rivers(const MapRivers& rivers, const LoadedScene& loaded,
+                                   const Dem& dem, Progress& progress, const Cache& cache,
+                                   Catchments* catchments) {
   if (rivers.lines.empty()) return {};
   const PackedRows packed = cached<PackedRows>(
-      cache, [&] { return courses_key(loaded, rivers, dem); }, progress,
+      cache, [&] { return rivers_key(loaded, rivers, dem); }, progress,
       [&](Progress& watcher) {
-        watcher.begin("laying rivers into their valleys", 0.0);
+        watcher.begin("aligning rivers with their valleys", 0.0);
         Catchments own(dem);
-        const Courses laid = lay_courses(rivers.lines, dem, (catchments != nullptr ? *catchments : own).km2());
+        const RiverCentrelines laid =
+            snap_rivers(rivers.lines, dem, (catchments != nullptr ? *catchments : own).km2());
         if (laid.lines.empty()) return PackedRows{};
-        watcher.note(fmt::format(
-            "rivers of the map: {} in {} pieces, moved to the bottoms of their valleys by {:.0f} m in the mean, {:.0f} m at most",
-            laid.lines.size(), laid.lines.size() + laid.joined, laid.mean_moved_m, laid.most_moved_m));
+        watcher.note(
+            fmt::format("rivers of the map: {} in {} pieces, moved to the bottoms of their valleys "
+                        "by {:.0f} m on average, {:.0f} m at most",
+                        laid.lines.size(), laid.lines.size() + laid.joined, laid.mean_moved_m,
+                        laid.max_moved_m));
         return pack(laid);
       });
   return unpack(packed, rivers);
 }
 
-CoverCourse widen_for_view(CoverCourse course, const RiverLook& look, const Dem& dem, const SeenFrom& from) {
+CoverRiver widen_for_view(CoverRiver centreline, const RiverLook& look, const Dem& dem,
+                          const SeenFrom& from) {
   constexpr double step_m = 30.0;
-  constexpr int passes = 40;  // ground turns from one cell to the next; widths do not
-  const auto seen = [&](glm::dvec2 place) {
-    const glm::dvec2 cell = dem.transform.to_cell(place.x, place.y);
-    return from.camera.project(from.deformation.point({place, sample_bilinear(dem.altitude_m, cell.x, cell.y)}));
+  constexpr int passes = 40;  // the ground's direction changes from cell to cell; widths do not
+  const auto seen = [&](glm::dvec2 position) {
+    const glm::dvec2 cell = dem.transform.to_cell(position.x, position.y);
+    return from.camera.project(
+        from.deformation.point({position, sample_bilinear(dem.altitude_m, cell.x, cell.y)}));
   };
-  std::vector<float> wanted = course.half_width_m;
-  const std::size_t last = course.places.size() - 1;
+  std::vector<float> wanted = centreline.half_width_m;
+  const std::size_t last = centreline.positions.size() - 1;
   for (std::size_t i = 0; i <= last; ++i) {
-    const glm::dvec2 along = course.places[std::min(i + 1, last)] - course.places[i - std::min<std::size_t>(i, 1)];
+    const glm::dvec2 along = centreline.positions[std::min(i + 1, last)] -
+                             centreline.positions[i - std::min<std::size_t>(i, 1)];
     const double length = glm::length(along);
     if (!(length > 0.0)) continue;
     const glm::dvec2 ahead = along * (step_m / length);
-    const auto here = seen(course.places[i]);
-    const auto on = seen(course.places[i] + ahead);
-    const auto beside = seen(course.places[i] + glm::dvec2(-ahead.y, ahead.x));
+    const auto here = seen(centreline.positions[i]);
+    const auto on = seen(centreline.positions[i] + ahead);
+    const auto beside = seen(centreline.positions[i] + glm::dvec2(-ahead.y, ahead.x));
     if (!here || !on || !beside) continue;
     const glm::dvec2 a = (*on - *here) / step_m;
     const glm::dvec2 b = (*beside - *here) / step_m;
-    // A strip 1 m wide is so many pixels thick.
+    // Thickness in pixels of a strip 1 m wide.
     const double thick = std::abs(a.x * b.y - a.y * b.x) / std::max(glm::length(a), 1e-12);
-    const float half = course.half_width_m[i];
-    const auto needed = static_cast<float>(0.5 * look.least_px / std::max(thick, 1e-9));
-    const double grown = look.fades ? std::clamp(std::sqrt(static_cast<double>(half) / least_of_half_m), 1.0, most_grown) : 1.0;
-    wanted[i] = std::clamp(needed * static_cast<float>(grown), half, most_widened * half);
-    if (look.fades) wanted[i] *= smoothstep(faded_below, full_from, wanted[i] / std::max(needed, 1e-6F));
+    const float half = centreline.half_width_m[i];
+    const auto needed = static_cast<float>(0.5 * look.min_px / std::max(thick, 1e-9));
+    const double grown =
+        look.fades
+            ? std::clamp(std::sqrt(static_cast<double>(half) / min_of_half_m), 1.0, max_grown)
+            : 1.0;
+    wanted[i] = std::clamp(needed * static_cast<float>(grown), half, max_widened * half);
+    if (look.fades)
+      wanted[i] *= smoothstep(faded_below, full_from, wanted[i] / std::max(needed, 1e-6F));
   }
   for (int pass = 0; pass < passes && wanted.size() > 2; ++pass) {
     std::vector<float> next = wanted;
-    for (std::size_t i = 1; i < last; ++i) next[i] = 0.5F * wanted[i] + 0.25F * (wanted[i - 1] + wanted[i + 1]);
+    for (std::size_t i = 1; i < last; ++i)
+      next[i] = 0.5F * wanted[i] + 0.25F * (wanted[i - 1] + wanted[i + 1]);
     wanted.swap(next);
   }
-  course.half_width_m = std::move(wanted);
-  return course;
+  centreline.half_width_m = std::move(wanted);
+  return centreline;
 }
 
 }  // namespace belvedere

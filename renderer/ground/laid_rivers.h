@@ -10,33 +10,36 @@
 #include "terrain/deform/deform.h"
 #include "terrain/io/dem.h"
 #include "terrain/shape/catchments.h"
-#include "terrain/shape/courses.h"
+#include "terrain/shape/river_centrelines.h"
 
 namespace belvedere {
 
-// Rivers of a map, before they lie in the valleys of a DEM.
+// Rivers of a map, before they are aligned with the valleys of a DEM.
 struct MapRivers {
-  std::vector<DrawnCourse> lines;  // their group: the row of `looks`
-  std::vector<CoverCourse> looks;  // class and rank of groups of rivers; without places
+  std::vector<MappedRiver> lines;  // their group is the row of `looks`
+  std::vector<CoverRiver> looks;   // class and rank of groups of rivers; without positions
 };
 
-// What rivers are looked at with.
+// The view in which rivers are drawn.
 struct SeenFrom {
   const Camera& camera;
   const Deformation& deformation;
 };
 
-// The courses they take in the valleys of this DEM, with their own widths; the cache keeps them. Says how far they moved. `catchments`: of
-// the DEM, where somebody has them.
-std::vector<CoverCourse> lay_rivers(const MapRivers& rivers, const LoadedScene& loaded, const Dem& dem, Progress& progress,
-                                    const Cache& cache = no_cache(), Catchments* catchments = nullptr);
+// The centrelines in the valleys of this DEM, with the rivers' own widths; cached. Notes how far
+// they moved. `catchments`: of the DEM, if available.
+std::vector<CoverRiver> lay_rivers(const MapRivers& rivers, const LoadedScene& loaded,
+                                   const Dem& dem, Progress& progress,
+                                   const Cache& cache = no_cache(),
+                                   Catchments* catchments = nullptr);
 
-// The same as a picture draws them: those that would be narrower than least_px are wider, up to three times. Guessed rivers that are too
-// narrow even so fade, as dots are worse than nothing; those of maps stay.
+// The same as drawn in a picture: rivers narrower than min_px are widened, up to three times.
+// Inferred rivers that are still too narrow fade instead of breaking into dots; those of maps stay.
 struct RiverLook {
-  double least_px = 0.0;  // across their way in the picture
+  double min_px = 0.0;  // width across the river in the picture
   bool fades = false;
 };
-CoverCourse widen_for_view(CoverCourse river, const RiverLook& look, const Dem& dem, const SeenFrom& seen);
+CoverRiver widen_for_view(CoverRiver river, const RiverLook& look, const Dem& dem,
+                          const SeenFrom& seen);
 
 }  // namespace belvedere

@@ -9,7 +9,8 @@
 
 namespace belvedere {
 
-// A list of things of different length as the cache keeps it: whole numbers and others, each in a row, in the order of the things.
+// A list of items of different length in the form that the cache stores: a row of integers and a
+// row of other numbers, in the order of the items.
 struct PackedRows {
   Grid<std::int32_t> counts;
   Grid<double> numbers;

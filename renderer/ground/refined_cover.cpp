@@ -8,9 +8,10 @@
 namespace belvedere {
 namespace {
 
-LandCoverClass nearest_class(const LandCover& cover, glm::dvec2 place) {
-  const glm::dvec2 at = cover.classes.transform.to_cell(place.x, place.y);
-  return cover.classes.cells.clamped(static_cast<int>(std::lround(at.x)), static_cast<int>(std::lround(at.y)));
+LandCoverClass nearest_class(const LandCover& cover, glm::dvec2 position) {
+  const glm::dvec2 at = cover.classes.transform.to_cell(position.x, position.y);
+  return cover.classes.cells.clamped(static_cast<int>(std::lround(at.x)),
+                                     static_cast<int>(std::lround(at.y)));
 }
 
 }  // namespace
@@ -29,14 +30,16 @@ void refine_by_rules(LandCover& cover, const LandCover& rules, const CoverRefine
   });
 }
 
-std::vector<CoverCourse> refine_rivers(std::vector<CoverCourse> rivers, const LandCover& cover, const CoverRefinement& refine) {
+std::vector<CoverRiver> refine_rivers(std::vector<CoverRiver> rivers, const LandCover& cover,
+                                      const CoverRefinement& refine) {
   const auto to_water = [](const auto& row) { return row.first == LandCoverClass::water; };
   if (std::none_of(refine.begin(), refine.end(), to_water)) return {};
-  for (CoverCourse& river : rivers)
-    for (std::size_t i = 0; i < river.places.size(); ++i) {
-      const LandCoverClass here = nearest_class(cover, river.places[i]);
+  for (CoverRiver& river : rivers)
+    for (std::size_t i = 0; i < river.positions.size(); ++i) {
+      const LandCoverClass here = nearest_class(cover, river.positions[i]);
       const auto allows = [&](const auto& row) { return to_water(row) && row.second == here; };
-      if (here != LandCoverClass::water && std::none_of(refine.begin(), refine.end(), allows)) river.half_width_m[i] = 0.F;
+      if (here != LandCoverClass::water && std::none_of(refine.begin(), refine.end(), allows))
+        river.half_width_m[i] = 0.F;
     }
   return rivers;
 }

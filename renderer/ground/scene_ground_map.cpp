@@ -29,23 +29,26 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int head_counts = 4;
-constexpr char guessed_kind[] = "river";  // the word by which a style knows what is guessed
-// Of areas and rivers, while they are laid: as MapCover::bytes() has it, four times, as they are and as they are seen.
+constexpr char inferred_kind[] = "river";  // the word by which a style addresses inferred rivers
+// Of areas and rivers while they are built: MapCover::bytes() four times, original and widened.
 constexpr double bytes_a_place = 360.0;
 
-// Features that become ground. Of each: its kind, block, shape, number of parts, and the number of places of each part; its width, level
-// and inhabitants before its places.
+// Features that become ground. For each: kind, block, shape, number of parts, and the number of
+// positions of each part; its width, level and inhabitants before its positions.
 PackedRows pack(const FeatureSet& set) {
   std::vector<std::int32_t> counts;
   std::vector<double> numbers;
   for (const Feature& feature : set.features) {
     if (!becomes_ground(set.style.kinds[static_cast<std::size_t>(feature.kind)])) continue;
-    counts.insert(counts.end(), {feature.kind, feature.block, static_cast<int>(feature.shape), static_cast<int>(feature.parts.size())});
+    counts.insert(counts.end(), {feature.kind, feature.block, static_cast<int>(feature.shape),
+                                 static_cast<int>(feature.parts.size())});
     numbers.insert(numbers.end(),
-                   {static_cast<double>(feature.real_m), static_cast<double>(feature.level_m), static_cast<double>(feature.people)});
+                   {static_cast<double>(feature.real_m), static_cast<double>(feature.level_m),
+                    static_cast<double>(feature.people)});
     for (const auto& part : feature.parts) {
       counts.push_back(static_cast<std::int32_t>(part.size()));
-      for (const glm::dvec2 place : part) numbers.insert(numbers.end(), {place.x, place.y});
+      for (const glm::dvec2 position : part)
+        numbers.insert(numbers.end(), {position.x, position.y});
     }
   }
   return {row_of(counts), row_of(numbers)};
@@ -67,9 +70,9 @@ std::vector<Feature> unpack(const PackedRows& packed) {
     feature.people = static_cast<float>(packed.numbers[n++]);
     for (auto& part : feature.parts) {
       part.resize(static_cast<std::size_t>(packed.counts[c++]));
-      for (glm::dvec2& place : part) {
-        place.x = packed.numbers[n++];
-        place.y = packed.numbers[n++];
+      for (glm::dvec2& position : part) {
+        position.x = packed.numbers[n++];
+        position.y = packed.numbers[n++];
       }
     }
     features.push_back(std::move(feature));
@@ -77,28 +80,29 @@ std::vector<Feature> unpack(const PackedRows& packed) {
   return features;
 }
 
-// A shapefile's attributes and CRS stand in files beside it.
+// A shapefile's attributes and CRS are in companion files.
 std::string hash_with_companions(const std::string& path) {
   std::string all = hash_file(path);
   const fs::path file(path);
-  for (const char* ending : {".dbf", ".shx", ".prj", ".cpg"}) {
+  for (const char* extension : {".dbf", ".shx", ".prj", ".cpg"}) {
     std::error_code ignored;
-    const fs::path other = fs::path(file).replace_extension(ending);
+    const fs::path other = fs::path(file).replace_extension(extension);
     if (fs::is_regular_file(other, ignored)) all += ' ' + hash_file(other.string());
   }
   return all;
 }
 
-// The blocks by what their files hold, the style by its text, the terrain by its place.
+// Keyed by the content of the blocks' files, the text of the style and the position of the terrain.
 CacheKey features_key(const LoadedScene& loaded, const Dem& dem) {
   CacheKeyText key;
   for (const SceneFeatures& block : loaded.scene.features) {
-    const auto& [source, layer, where, kind, kind_of, width_mm, width_of, level_of, people_of, snap_m, keep_guesses, origin, licence,
-                 get_from, optional] = block;
+    const auto& [source, layer, where, kind, kind_of, width_mm, width_of, level_of, population_of,
+                 snap_m, keep_inferred, origin, licence, get_from, optional] = block;
     const std::string path = find_scene_file(loaded, source);
-    key.add("file", source).add("content", path.empty() ? std::string("none") : hash_with_companions(path));
+    key.add("file", source)
+        .add("content", path.empty() ? std::string("none") : hash_with_companions(path));
     key.add("layer", layer).add("where", where).add("kind", kind).add("kind_of", kind_of);
-    key.add("width_of", width_of).add("level_of", level_of).add("people_of", people_of);
+    key.add("width_of", width_of).add("level_of", level_of).add("population_of", population_of);
   }
   const std::string style = find_named_file(loaded, "features", loaded.scene.features_style);
   key.add("style", style.ends_with(".toml") ? hash_file(style) : style);
@@ -109,17 +113,19 @@ CacheKey features_key(const LoadedScene& loaded, const Dem& dem) {
 
 double area_m2(const std::vector<std::vector<glm::dvec2>>& rings) {
   double sum = 0.0;
-  for (std::size_t r = 0; r < rings.size(); ++r) sum += (r == 0 ? 1.0 : -1.0) * std::abs(signed_area(rings[r]));
+  for (std::size_t r = 0; r < rings.size(); ++r)
+    sum += (r == 0 ? 1.0 : -1.0) * std::abs(signed_area(rings[r]));
   return std::max(0.0, sum);
 }
 
-glm::dvec2 middle_of(const std::vector<glm::dvec2>& ring) {
+glm::dvec2 centre_of(const std::vector<glm::dvec2>& ring) {
   glm::dvec2 sum(0.0);
-  for (const glm::dvec2 place : ring) sum += place - ring[0];
+  for (const glm::dvec2 position : ring) sum += position - ring[0];
   return ring[0] + sum / static_cast<double>(ring.size());
 }
 
-// Coast lines of all files together; areas among them are islands, whichever way their outlines run.
+// Coastlines of all files together; areas among them are islands, whatever the orientation of their
+// outlines.
 void add_coast_line(const Feature& feature, std::vector<std::vector<glm::dvec2>>& lines) {
   lines.push_back(feature.parts[0]);
   if (feature.shape != MapShape::area) return;
@@ -127,27 +133,30 @@ void add_coast_line(const Feature& feature, std::vector<std::vector<glm::dvec2>>
   lines.back().push_back(lines.back().front());
 }
 
-// The sea that they bound.
-void add_sea(const std::vector<std::vector<glm::dvec2>>& lines, const FeatureKind& kind, const MapBox& box, GroundMap& map,
-             Progress& progress) {
+// The sea enclosed by the coastlines.
+void add_sea(const std::vector<std::vector<glm::dvec2>>& lines, const FeatureKind& kind,
+             const MapBox& box, GroundMap& map, Progress& progress) {
   const CoastAreas coast = close_coast(lines, box.low, box.high);
   if (!coast.problem.empty())
-    progress.note(coast.problem + ": coast lines are left out, and the sea is what the elevation model has of it");
+    progress.note(coast.problem +
+                  ": coastlines are left out, and the sea comes from the elevation model");
   if (coast.rings.empty()) return;
   const LandCoverClass painted_as = kind.ground.value_or(LandCoverClass::water);
   const bool still = kind.level && painted_as == LandCoverClass::water;
-  if (still) map.lakes.push_back({.rings = coast.rings, .level_m = std::nullopt, .where = "the sea"});
-  map.areas.push_back({.rings = coast.rings, .painted_as = painted_as, .rank = kind.rank, .still = still});
+  if (still)
+    map.lakes.push_back({.rings = coast.rings, .level_m = std::nullopt, .where = "the sea"});
+  map.areas.push_back(
+      {.rings = coast.rings, .painted_as = painted_as, .rank = kind.rank, .still = still});
 }
 
-// How wide a river of this kind is on the picture at least.
-double least_river_px(const FeatureKind& kind, const LoadedScene& loaded) {
+// Minimum width of a river of this kind in the picture.
+double min_river_px(const FeatureKind& kind, const LoadedScene& loaded) {
   const double px_per_mm = loaded.scene.output.width / loaded.scene.output.sheet_width_mm;
-  return std::max(kind.least_px, kind.width_mm * kind.least_share * px_per_mm);
+  return std::max(kind.min_px, kind.width_mm * kind.min_share * px_per_mm);
 }
 
-GroundMap sort_out(const LoadedScene& loaded, const FeatureStyle& style, std::vector<Feature>&& features, const MapBox& box,
-                   Progress& progress) {
+GroundMap sort_out(const LoadedScene& loaded, const FeatureStyle& style,
+                   std::vector<Feature>&& features, const MapBox& box, Progress& progress) {
   GroundMap map;
   map.rivers.looks.resize(style.kinds.size());
   std::size_t without_size = 0;
@@ -161,13 +170,14 @@ GroundMap sort_out(const LoadedScene& loaded, const FeatureStyle& style, std::ve
     const SceneFeatures& block = loaded.scene.features[static_cast<std::size_t>(feature.block)];
     if (kind.draw == FeatureDraw::river) {
       rivers = true;
-      keeps = keeps || block.keep_guesses;
-      map.rivers.looks[static_cast<std::size_t>(feature.kind)].painted_as = kind.ground.value_or(LandCoverClass::water);
+      keeps = keeps || block.keep_inferred;
+      map.rivers.looks[static_cast<std::size_t>(feature.kind)].painted_as =
+          kind.ground.value_or(LandCoverClass::water);
       map.rivers.looks[static_cast<std::size_t>(feature.kind)].rank = kind.rank;
       map.rivers.looks[static_cast<std::size_t>(feature.kind)].kind = feature.kind;
-      map.rivers.lines.push_back({.places = std::move(feature.parts[0]),
+      map.rivers.lines.push_back({.positions = std::move(feature.parts[0]),
                                   .width_m = 0.0,
-                                  .least_width_m = static_cast<double>(feature.real_m),
+                                  .min_width_m = static_cast<double>(feature.real_m),
                                   .snap_m = block.snap_m,
                                   .group = feature.kind});
       continue;
@@ -179,16 +189,18 @@ GroundMap sort_out(const LoadedScene& loaded, const FeatureStyle& style, std::ve
     }
     if (kind.draw == FeatureDraw::town) {
       towns = true;
-      keeps = keeps || block.keep_guesses;
+      keeps = keeps || block.keep_inferred;
       const bool is_area = feature.shape == MapShape::area;
-      // A built-up area is what it is; its circle only tells the rules where people live.
+      // A built-up area keeps its outline; the circle only tells the rules where people live.
       constexpr double within = 0.8;
-      const double radius_m =
-          is_area ? within * std::sqrt(area_m2(feature.parts) / std::numbers::pi) : town_radius_m(static_cast<double>(feature.people));
+      const double radius_m = is_area
+                                  ? within * std::sqrt(area_m2(feature.parts) / std::numbers::pi)
+                                  : town_radius_m(static_cast<double>(feature.people));
       if (radius_m > 0.0)
-        map.towns.push_back({.place = is_area ? middle_of(feature.parts[0]) : feature.parts[0][0],
-                             .radius_m = std::min(radius_m, largest_town_radius_m),
-                             .name = fmt::format("a town of {}", block.source)});
+        map.towns.push_back(
+            {.position = is_area ? centre_of(feature.parts[0]) : feature.parts[0][0],
+             .radius_m = std::min(radius_m, largest_town_radius_m),
+             .name = fmt::format("a town in {}", block.source)});
       else
         ++without_size;
       if (!is_area) continue;
@@ -197,16 +209,22 @@ GroundMap sort_out(const LoadedScene& loaded, const FeatureStyle& style, std::ve
     const bool is_lake = kind.level && painted_as == LandCoverClass::water;
     if (is_lake)
       map.lakes.push_back({.rings = feature.parts,
-                           .level_m = std::isnan(feature.level_m) ? std::nullopt : std::optional<double>(feature.level_m),
+                           .level_m = std::isnan(feature.level_m)
+                                          ? std::nullopt
+                                          : std::optional<double>(feature.level_m),
                            .where = block.source});
-    map.areas.push_back({.rings = std::move(feature.parts), .painted_as = painted_as, .rank = kind.rank, .still = is_lake});
+    map.areas.push_back({.rings = std::move(feature.parts),
+                         .painted_as = painted_as,
+                         .rank = kind.rank,
+                         .still = is_lake});
   }
   if (coast_kind != nullptr) add_sea(coast_lines, *coast_kind, box, map, progress);
   map.keeps_rivers = !rivers || keeps;
   map.keeps_towns = !towns || keeps;
   if (without_size > 0)
     progress.note(
-        fmt::format("{} towns that are points do not say how large they are and are left out: people_of names the column of their "
+        fmt::format("{} towns given as points have no population and are left out: "
+                    "set population_of to the column of their "
                     "inhabitants",
                     without_size));
   return map;
@@ -214,7 +232,8 @@ GroundMap sort_out(const LoadedScene& loaded, const FeatureStyle& style, std::ve
 
 }  // namespace
 
-GroundMap read_ground_map(const LoadedScene& loaded, const Dem& dem, Progress& progress, const Cache& cache) {
+GroundMap read_ground_map(const LoadedScene& loaded, const Dem& dem, Progress& progress,
+                          const Cache& cache) {
   if (loaded.scene.features.empty()) return {};
   const FeatureStyle style = read_scene_feature_style(loaded);
   const PackedRows packed = cached<PackedRows>(
@@ -223,10 +242,12 @@ GroundMap read_ground_map(const LoadedScene& loaded, const Dem& dem, Progress& p
   return sort_out(loaded, style, unpack(packed), box_of(dem), progress);
 }
 
-void level_scene_lakes(Dem& dem, const LoadedScene& loaded, Progress& progress, const Cache& cache, const Dem* whole) {
+void level_scene_lakes(Dem& dem, const LoadedScene& loaded, Progress& progress, const Cache& cache,
+                       const Dem* whole) {
   const GroundMap map = read_ground_map(loaded, whole != nullptr ? *whole : dem, progress, cache);
   if (map.lakes.empty()) return;
-  const std::vector<LakeLevel> levels = find_lake_levels(whole != nullptr ? *whole : dem, map.lakes);
+  const std::vector<LakeLevel> levels =
+      find_lake_levels(whole != nullptr ? *whole : dem, map.lakes);
   level_known_lakes(dem, map.lakes, levels);
   std::size_t refused = 0;
   std::size_t uneven = 0;
@@ -238,26 +259,33 @@ void level_scene_lakes(Dem& dem, const LoadedScene& loaded, Progress& progress, 
   }
   if (refused > 0)
     progress.note(fmt::format(
-        "{} of {} lakes say an altitude more than 40 m from the ground in them, as where it is in feet: they stand as high as the ground",
+        "{} of {} lakes have an altitude that differs by more than 40 m from their ground, "
+        "perhaps in feet: the altitude of the ground is used",
         refused, levels.size()));
   if (uneven > 0)
-    progress.note(fmt::format("{} of {} lakes lie on ground that falls by more than 15 m: it stays as it is", uneven, levels.size()));
+    progress.note(
+        fmt::format("{} of {} lakes are on ground that falls by more than 15 m: it stays unchanged",
+                    uneven, levels.size()));
   if (banks > 0)
     progress.note(
-        fmt::format("{} of {} lakes have outlines of which a tenth and more lies over 25 m above the water: that ground stays as it is",
+        fmt::format("{} of {} lakes have a tenth or more of their outline over 25 m above "
+                    "the water: that ground stays unchanged",
                     banks, levels.size()));
 }
 
 namespace {
 
-// Rivers as they are seen; `fade` rather than break into dots.
-std::vector<CoverCourse> widen_rivers(std::vector<CoverCourse> rivers, bool fade, const FeatureStyle& style, const LoadedScene& loaded,
-                                      const Dem& dem, const SeenFrom& seen) {
+// Rivers widened for visibility; `fade` instead of breaking into dots.
+std::vector<CoverRiver> widen_rivers(std::vector<CoverRiver> rivers, bool fade,
+                                     const FeatureStyle& style, const LoadedScene& loaded,
+                                     const Dem& dem, const SeenFrom& seen) {
   parallel_ranges<std::size_t>(rivers.size(), 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i != end; ++i) {
       const int kind = rivers[i].kind;
-      const FeatureKind of_kind = kind >= 0 ? style.kinds[static_cast<std::size_t>(kind)] : FeatureKind();
-      rivers[i] = widen_for_view(std::move(rivers[i]), {least_river_px(of_kind, loaded), fade}, dem, seen);
+      const FeatureKind of_kind =
+          kind >= 0 ? style.kinds[static_cast<std::size_t>(kind)] : FeatureKind();
+      rivers[i] =
+          widen_for_view(std::move(rivers[i]), {min_river_px(of_kind, loaded), fade}, dem, seen);
     }
   });
   return rivers;
@@ -265,44 +293,55 @@ std::vector<CoverCourse> widen_rivers(std::vector<CoverCourse> rivers, bool fade
 
 }  // namespace
 
-void lay_ground_map(LandCover& cover, const LoadedScene& loaded, const Dem& dem, Progress& progress, const Cache& cache,
-                    Catchments* catchments, const SeenFrom* seen) {
+void lay_ground_map(LandCover& cover, const LoadedScene& loaded, const Dem& dem, Progress& progress,
+                    const Cache& cache, Catchments* catchments, const SeenFrom* seen) {
   const GroundMap map = read_ground_map(loaded, dem, silent_progress(), cache);
-  std::vector<CoverCourse> rivers = lay_rivers(map.rivers, loaded, dem, progress, cache, catchments);
+  std::vector<CoverRiver> rivers = lay_rivers(map.rivers, loaded, dem, progress, cache, catchments);
   if (!map.areas.empty() || !rivers.empty()) {
-    std::size_t places = 0;
+    std::size_t positions = 0;
     for (const CoverArea& area : map.areas)
-      for (const auto& ring : area.rings) places += ring.size();
-    for (const CoverCourse& river : rivers) places += river.places.size();
-    check_memory(fmt::format("areas and rivers of {} places, a river's a cell apart,", places),
-                 bytes_a_place * static_cast<double>(places));
+      for (const auto& ring : area.rings) positions += ring.size();
+    for (const CoverRiver& river : rivers) positions += river.positions.size();
+    check_memory(fmt::format("areas and rivers of {} points", positions),
+                 bytes_a_place * static_cast<double>(positions));
     const MapBox box = box_of(dem);
-    // Cells are the ground's, whoever looks at it; only what is asked for a place of the picture is as wide as it must be to be seen.
+    // The cover's cells do not depend on the view; only lookups for positions of the picture use
+    // the widened rivers.
     const auto own = std::make_shared<const MapCover>(map.areas, rivers, box.low, box.high);
     if (seen == nullptr || rivers.empty()) {
       lay_map(cover, own);
     } else {
-      rivers = widen_rivers(std::move(rivers), false, read_scene_feature_style(loaded), loaded, dem, *seen);
-      lay_map(cover, std::make_shared<const MapCover>(map.areas, std::move(rivers), box.low, box.high), own.get());
+      rivers = widen_rivers(std::move(rivers), false, read_scene_feature_style(loaded), loaded, dem,
+                            *seen);
+      lay_map(cover,
+              std::make_shared<const MapCover>(map.areas, std::move(rivers), box.low, box.high),
+              own.get());
     }
   }
-  lay_guessed_rivers(cover, loaded, dem, seen);
+  lay_inferred_rivers(cover, loaded, dem, seen);
 }
 
-void lay_guessed_rivers(LandCover& cover, const LoadedScene& loaded, const Dem& dem, const SeenFrom* seen) {
-  std::vector<CoverCourse> rivers = std::exchange(cover.guessed_rivers, {});
+void lay_inferred_rivers(LandCover& cover, const LoadedScene& loaded, const Dem& dem,
+                         const SeenFrom* seen) {
+  std::vector<CoverRiver> rivers = std::exchange(cover.inferred_rivers, {});
   if (rivers.empty()) return;
   const FeatureStyle style = read_scene_feature_style(loaded);
-  const int kind = style.find(guessed_kind);
-  for (CoverCourse& river : rivers) {
+  const int kind = style.find(inferred_kind);
+  for (CoverRiver& river : rivers) {
     river.kind = kind;
-    if (kind >= 0) river.painted_as = style.kinds[static_cast<std::size_t>(kind)].ground.value_or(river.painted_as);
+    if (kind >= 0)
+      river.painted_as =
+          style.kinds[static_cast<std::size_t>(kind)].ground.value_or(river.painted_as);
   }
   const MapBox box = box_of(dem);
-  const auto own = std::make_shared<const MapCover>(std::vector<CoverArea>(), rivers, box.low, box.high);
-  if (seen == nullptr) return lay_guessed(cover, own);
+  const auto own =
+      std::make_shared<const MapCover>(std::vector<CoverArea>(), rivers, box.low, box.high);
+  if (seen == nullptr) return lay_inferred(cover, own);
   rivers = widen_rivers(std::move(rivers), true, style, loaded, dem, *seen);
-  lay_guessed(cover, std::make_shared<const MapCover>(std::vector<CoverArea>(), std::move(rivers), box.low, box.high), own.get());
+  lay_inferred(cover,
+               std::make_shared<const MapCover>(std::vector<CoverArea>(), std::move(rivers),
+                                                box.low, box.high),
+               own.get());
 }
 
 }  // namespace belvedere

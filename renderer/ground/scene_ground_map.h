@@ -16,32 +16,38 @@
 
 namespace belvedere {
 
-// What a scene's [[features]] make of the ground: classes of areas, rivers, lakes, towns.
+// The ground that a scene's [[features]] define: classes of areas, rivers, lakes, towns.
 struct GroundMap {
-  std::vector<CoverArea> areas;  // lakes among them
+  std::vector<CoverArea> areas;  // including lakes
   MapRivers rivers;
   std::vector<KnownLake> lakes;  // level water
-  std::vector<KnownTown> towns;  // that say how large they are
-  bool keeps_rivers = true;      // guessed rivers stay
-  bool keeps_towns = true;       // guessed villages stay
+  std::vector<KnownTown> towns;  // with a known size
+  bool keeps_rivers = true;      // inferred rivers stay
+  bool keeps_towns = true;       // inferred villages stay
 
   bool empty() const { return areas.empty() && rivers.lines.empty() && towns.empty(); }
 };
 
-// Reads them, where any can be ground; the cache keeps what was read, by the content of the files. Notes what is left out and why.
-GroundMap read_ground_map(const LoadedScene& loaded, const Dem& dem, Progress& progress, const Cache& cache = no_cache());
+// Reads them if any can be ground; cached by the content of the files. Notes what is left out and
+// why.
+GroundMap read_ground_map(const LoadedScene& loaded, const Dem& dem, Progress& progress,
+                          const Cache& cache = no_cache());
 
-// Makes the map's lakes level in the DEM. `whole`: of a window, the DEM that it is part of, whose lakes are level already.
-void level_scene_lakes(Dem& dem, const LoadedScene& loaded, Progress& progress, const Cache& cache = no_cache(),
-                       const Dem* whole = nullptr);
+// Levels the map's lakes in the DEM. `whole`: for a window, the DEM that it is part of, whose lakes
+// are already level.
+void level_scene_lakes(Dem& dem, const LoadedScene& loaded, Progress& progress,
+                       const Cache& cache = no_cache(), const Dem* whole = nullptr);
 
-// Lays the map over classes: areas as they are, rivers in the valleys of this DEM, and below all of them the rivers that rules guessed. The
-// cache keeps where rivers run. With a camera no river is drawn so narrow that it breaks into dots, as long as it need not be more than
-// three times as wide for that; the cells of the cover know no camera.
-void lay_ground_map(LandCover& cover, const LoadedScene& loaded, const Dem& dem, Progress& progress, const Cache& cache = no_cache(),
-                    Catchments* catchments = nullptr, const SeenFrom* seen = nullptr);
+// Lays the map over classes: areas as they are, rivers in the valleys of this DEM, and below all of
+// them the rivers inferred by rules. River centrelines are cached. With a camera, rivers that would
+// break into dots are widened, up to three times; the cells of the cover do not depend on the
+// camera.
+void lay_ground_map(LandCover& cover, const LoadedScene& loaded, const Dem& dem, Progress& progress,
+                    const Cache& cache = no_cache(), Catchments* catchments = nullptr,
+                    const SeenFrom* seen = nullptr);
 
-// The last of that alone: rivers that rules guessed, as those of the scene's style.
-void lay_guessed_rivers(LandCover& cover, const LoadedScene& loaded, const Dem& dem, const SeenFrom* seen = nullptr);
+// Only the last of these: rivers inferred by rules, in the scene's style.
+void lay_inferred_rivers(LandCover& cover, const LoadedScene& loaded, const Dem& dem,
+                         const SeenFrom* seen = nullptr);
 
 }  // namespace belvedere

@@ -7,7 +7,8 @@
 
 namespace belvedere {
 
-// Packs bytes as zlib does (RFC 1950), by libdeflate: the same bytes for the same level and version, on any processor. One for each thread.
+// Packs bytes like zlib (RFC 1950), by libdeflate: the same bytes for the same level and version,
+// on any processor. One for each thread.
 class Deflater {
  public:
   // level: 1 packs fastest, 12 smallest
@@ -23,7 +24,7 @@ class Deflater {
   std::unique_ptr<State> state_;
 };
 
-// The checksum that ZIP and PNG take (CRC-32), of bytes that follow those of `before`; 0: of the first.
+// The checksum of ZIP and PNG (CRC-32), of bytes that follow those of `before`; 0: of the first.
 std::uint32_t crc32_after(std::uint32_t before, const void* bytes, std::size_t count);
 
 }  // namespace belvedere

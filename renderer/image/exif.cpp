@@ -40,7 +40,8 @@ class ExifWriter {
     entries_.push_back({tag, 5, 1, std::move(bytes)});
   }
 
-  // Little-endian: the head, one directory of entries in the order of their tags, then what is longer than the 4 bytes of an entry.
+  // Little-endian: the header, one directory of entries in the order of their tags, then values
+  // longer than the 4 bytes of an entry.
   Bytes bytes() const {
     Bytes out;
     for (const char c : std::string_view("II*\0", 4)) out.push_back(static_cast<std::uint8_t>(c));
@@ -77,7 +78,7 @@ class ExifWriter {
   std::vector<Entry> entries_;
 };
 
-// Places beyond its end read as 0.
+// Offsets beyond its end read as 0.
 class ExifReader {
  public:
   explicit ExifReader(const Bytes& tiff) : tiff_(tiff), big_(!tiff.empty() && tiff[0] == 'M') {}
@@ -87,7 +88,8 @@ class ExifReader {
     const std::size_t count = number(entry + 4, 4);
     const std::size_t at = count > 4 ? number(entry + 8, 4) : entry + 8;
     if (count == 0 || at > tiff_.size() || count > tiff_.size() - at) return {};
-    const std::string text(tiff_.begin() + static_cast<std::ptrdiff_t>(at), tiff_.begin() + static_cast<std::ptrdiff_t>(at + count));
+    const std::string text(tiff_.begin() + static_cast<std::ptrdiff_t>(at),
+                           tiff_.begin() + static_cast<std::ptrdiff_t>(at + count));
     return text.substr(0, text.find('\0'));
   }
   double dots_per_inch() const {
@@ -97,19 +99,20 @@ class ExifReader {
     const double divisor = number(at + 4, 4);
     const double resolution = divisor > 0.0 ? number(at, 4) / divisor : 0.0;
     const std::size_t unit = find(tag_resolution_unit);
-    return unit != 0 && number(unit + 8, 2) == 3 ? resolution * 2.54 : resolution;  // 3: a centimetre, else an inch
+    return unit != 0 && number(unit + 8, 2) == 3 ? resolution * 2.54
+                                                 : resolution;  // 3: per centimetre, else per inch
   }
 
  private:
   std::uint32_t number(std::size_t at, std::size_t count) const {
     std::uint32_t out = 0;
     for (std::size_t i = 0; i < count; ++i) {
-      const std::size_t place = at + (big_ ? i : count - 1 - i);
-      out = out << 8 | (place < tiff_.size() ? tiff_[place] : 0U);
+      const std::size_t position = at + (big_ ? i : count - 1 - i);
+      out = out << 8 | (position < tiff_.size() ? tiff_[position] : 0U);
     }
     return out;
   }
-  // Where the entry stands, 0 where there is none.
+  // Offset of the entry, 0 where there is none.
   std::size_t find(std::uint16_t tag) const {
     const std::size_t directory = number(4, 4);
     const std::size_t count = number(directory, 2);

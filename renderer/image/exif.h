@@ -6,7 +6,8 @@
 
 namespace belvedere {
 
-// What the program says and reads in Exif (CIPA DC-008), the small TIFF that many formats carry for the purpose.
+// Exif (CIPA DC-008), the small TIFF that many formats embed, as far as the program writes and
+// reads it.
 struct ExifTags {
   std::string description;     // ImageDescription
   std::string software;        // Software
@@ -15,7 +16,7 @@ struct ExifTags {
 };
 
 std::vector<std::uint8_t> write_exif(const ExifTags& tags);
-// Of any program, in either order of bytes. What is damaged reads as not stated.
+// Of any program, in either byte order. Damaged fields read as not stated.
 ExifTags read_exif(const std::vector<std::uint8_t>& bytes);
 
 }  // namespace belvedere

@@ -49,7 +49,9 @@ namespace image_io {
 
 std::string first_bytes(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw Error(ErrorKind::input, path, "cannot be opened: " + std::generic_category().message(errno));
+  if (!file)
+    throw Error(ErrorKind::input, path,
+                "cannot be opened: " + std::generic_category().message(errno));
   std::string head(16, '\0');
   file.read(head.data(), static_cast<std::streamsize>(head.size()));
   head.resize(static_cast<std::size_t>(file.gcount()));
@@ -57,13 +59,15 @@ std::string first_bytes(const std::string& path) {
 }
 
 Error no_grey_picture(const std::string& path) {
-  return {ErrorKind::input, path, "is no grey or palette picture of at most 16 bits",
+  return {ErrorKind::input, path, "is not a grey or palette picture of at most 16 bits",
           "PNG or TIFF, grey, 1 to 16 bits; PNG with a palette"};
 }
 
 void throw_damaged(const std::string& path, const std::string& reason) {
-  const std::string first = reason.substr(0, reason.find('\n'));  // libraries complain once for each row
-  throw Error(ErrorKind::input, path, "is damaged or cut off" + (first.empty() ? std::string() : " (" + first + ")"));
+  const std::string first =
+      reason.substr(0, reason.find('\n'));  // libraries report the same for each row
+  throw Error(ErrorKind::input, path,
+              "is damaged or truncated" + (first.empty() ? std::string() : " (" + first + ")"));
 }
 
 void check_memory(const std::string& path, std::int64_t width, std::int64_t height, double bytes) {
@@ -71,9 +75,13 @@ void check_memory(const std::string& path, std::int64_t width, std::int64_t heig
   const double limit = static_cast<double>(memory_budget_bytes());
   constexpr std::int64_t longest = std::numeric_limits<int>::max() / 64;
   if (bytes <= limit && width <= longest && height <= longest) return;
-  const auto mib = [](double b) { return std::to_string(static_cast<std::int64_t>(std::ceil(std::min(b, 1e18) / 1048576.0))) + " MiB"; };
+  const auto mib = [](double b) {
+    return std::to_string(static_cast<std::int64_t>(std::ceil(std::min(b, 1e18) / 1048576.0))) +
+           " MiB";
+  };
   throw Error(ErrorKind::limit, path,
-              "its " + std::to_string(width) + " × " + std::to_string(height) + " pixels need " + mib(bytes) + " of memory",
+              "its " + std::to_string(width) + " × " + std::to_string(height) + " pixels need " +
+                  mib(bytes) + " of memory",
               "up to " + mib(limit) + " (set by BELVEDERE_MEMORY_MIB)");
 }
 
@@ -81,7 +89,8 @@ std::string join_notes(const FileNotes& notes) {
   if (notes.empty()) return {};
   std::string text(notes_mark);
   for (const auto& [key, value] : notes) {
-    if (key.empty() || key.find(": ") != std::string::npos || key.find_first_of("\n\\") != std::string::npos) {
+    if (key.empty() || key.find(": ") != std::string::npos ||
+        key.find_first_of("\n\\") != std::string::npos) {
       throw Error(ErrorKind::bug, "notes", "the key \"" + key + "\" cannot be written");
     }
     text += key + ": " + escape(value) + "\n";
@@ -101,13 +110,15 @@ FileNotes split_notes(const std::string& text) {
     const std::string_view line = rest.substr(0, rest.find('\n'));
     rest.remove_prefix(std::min(rest.size(), line.size() + 1));
     const std::size_t colon = line.find(": ");
-    if (colon != std::string_view::npos) notes[std::string(line.substr(0, colon))] = unescape(line.substr(colon + 2));
+    if (colon != std::string_view::npos)
+      notes[std::string(line.substr(0, colon))] = unescape(line.substr(colon + 2));
   }
   return notes;
 }
 
 template <class Number>
-void quantize_rows(const Grid<glm::vec3>& encoded, int first, int rows, int row_pixels, Number* out) {
+void quantize_rows(const Grid<glm::vec3>& encoded, int first, int rows, int row_pixels,
+                   Number* out) {
   constexpr double highest = static_cast<double>(std::numeric_limits<Number>::max());
   const std::size_t row_values = static_cast<std::size_t>(row_pixels) * 3;
   parallel_rows(rows, [&](int r) {
@@ -116,8 +127,10 @@ void quantize_rows(const Grid<glm::vec3>& encoded, int first, int rows, int row_
     for (int x = 0; x < encoded.width(); ++x) {
       for (int c = 0; c < 3; ++c) {
         const double v = from[x][c];
-        const double cut = v > 0.0 ? (v < 1.0 ? v : 1.0) : 0.0;  // NaN fails the comparison and becomes 0
-        // NOLINTNEXTLINE(bugprone-incorrect-roundings): never negative, and lround would be a call for each value
+        const double cut =
+            v > 0.0 ? (v < 1.0 ? v : 1.0) : 0.0;  // NaN fails the comparison and becomes 0
+        // NOLINTNEXTLINE(bugprone-incorrect-roundings): never negative, and lround would be a call
+        // for each value
         to[3 * x + c] = static_cast<Number>(cut * highest + 0.5);
       }
     }

@@ -8,25 +8,29 @@
 #include "base/image.h"
 #include "renderer/image/image_file.h"
 
-// What the files of one format each share with those of the others.
+// Shared by the files of the formats.
 namespace belvedere::image_io {
 
-// The first bytes of a file, at most 16: formats are known by them. Error(input) where it cannot be opened.
+// The first bytes of a file, at most 16, which identify its format. Error(input) where it cannot be
+// opened.
 std::string first_bytes(const std::string& path);
 // For a file that read_grey refuses.
 Error no_grey_picture(const std::string& path);
 [[noreturn]] void throw_damaged(const std::string& path, const std::string& reason);
-// Error(limit) where `bytes`, needed to read this width × height picture, are over memory_budget_bytes().
+// Error(limit) where `bytes`, needed to read this width × height picture, are over
+// memory_budget_bytes().
 void check_memory(const std::string& path, std::int64_t width, std::int64_t height, double bytes);
 
-// Notes as one text for formats that have a single description: a first line that says so, then `key: value` lines with \n and \\ for
-// line feed and backslash. Text without that first line gives one note, "ImageDescription".
+// Notes as one text for formats that have a single description: a first line that marks it, then
+// `key: value` lines with \n and \\ for line feed and backslash. Text without that first line gives
+// one note, "ImageDescription".
 std::string join_notes(const FileNotes& notes);
 FileNotes split_notes(const std::string& text);
 
-// Rows [first, first + rows) of a picture as whole numbers 0…`highest`, rounded; a row of `out` has room for row_pixels ≥ width pixels, of
-// which those beyond the picture stay as they are.
+// Rows [first, first + rows) of a picture as whole numbers 0…`highest`, rounded; a row of `out` has
+// room for row_pixels ≥ width pixels, of which those beyond the picture are not changed.
 template <class Number>
-void quantize_rows(const Grid<glm::vec3>& encoded, int first, int rows, int row_pixels, Number* out);
+void quantize_rows(const Grid<glm::vec3>& encoded, int first, int rows, int row_pixels,
+                   Number* out);
 
 }  // namespace belvedere::image_io

@@ -7,7 +7,9 @@ namespace belvedere {
 
 ImageInfo read_image_info(const std::string& path) { return format_of_file(path).read_info(path); }
 
-Grid<glm::vec3> read_picture(const std::string& path, Grid<float>* alpha) { return format_of_file(path).read_picture(path, alpha); }
+Grid<glm::vec3> read_picture(const std::string& path, Grid<float>* alpha) {
+  return format_of_file(path).read_picture(path, alpha);
+}
 
 void read_picture_rows(const std::string& path, const UsePictureRows& use) {
   const PictureFormat& format = format_of_file(path);

@@ -15,12 +15,14 @@
 namespace belvedere {
 namespace {
 
-constexpr std::size_t most_colours = 64;
+constexpr std::size_t max_colours = 64;
 
 bool is_drawn_in_colours(const std::string& path) {
   const ImageInfo info = read_image_info(path);
-  if (info.format == "openexr" || info.parts.empty() || info.parts.front().channels.size() < 3) return false;
-  return info.format != "png" || !image_io::read_png_kind(path).palette;  // a palette's indices are numbers
+  if (info.format == "openexr" || info.parts.empty() || info.parts.front().channels.size() < 3)
+    return false;
+  return info.format != "png" ||
+         !image_io::read_png_kind(path).palette;  // a palette's indices are numbers
 }
 
 Grid<std::uint8_t> read_numbers(const std::string& path) {
@@ -28,7 +30,8 @@ Grid<std::uint8_t> read_numbers(const std::string& path) {
   Grid<std::uint8_t> labels(grey.width(), grey.height());
   for (std::size_t i = 0; i < grey.size(); ++i) {
     if (grey[i] > unused_label)
-      throw Error(ErrorKind::input, path, fmt::format("has a label {}", grey[i]), "0 … 254, and 255 for what must not be used");
+      throw Error(ErrorKind::input, path, fmt::format("has a label {}", grey[i]),
+                  "0 … 254, and 255 for unused pixels");
     labels[i] = static_cast<std::uint8_t>(grey[i]);
   }
   return labels;
@@ -36,7 +39,9 @@ Grid<std::uint8_t> read_numbers(const std::string& path) {
 
 std::uint32_t packed(glm::vec3 colour) {
   std::uint32_t out = 0;
-  for (int c = 0; c < 3; ++c) out = out << 8 | static_cast<std::uint32_t>(std::lround(std::clamp(colour[c], 0.F, 1.F) * 255.F));
+  for (int c = 0; c < 3; ++c)
+    out =
+        out << 8 | static_cast<std::uint32_t>(std::lround(std::clamp(colour[c], 0.F, 1.F) * 255.F));
   return out;
 }
 
@@ -54,7 +59,8 @@ bool is_flat(const Grid<std::uint32_t>& colours, int x, int y) {
   return true;
 }
 
-Grid<std::uint8_t> name_colours(const Grid<std::uint32_t>& colours, const std::map<std::uint32_t, std::uint8_t>& names) {
+Grid<std::uint8_t> name_colours(const Grid<std::uint32_t>& colours,
+                                const std::map<std::uint32_t, std::uint8_t>& names) {
   Grid<std::uint8_t> known(colours.width(), colours.height(), 0);
   for (std::size_t i = 0; i < colours.size(); ++i) known[i] = names.contains(colours[i]) ? 1 : 0;
   const Grid<std::int32_t> nearest = nearest_marked(known);
@@ -73,35 +79,43 @@ LabelImages read_label_images(const std::vector<std::string>& paths) {
   for (const std::string& path : paths) {
     if (!is_drawn_in_colours(path)) {
       if (!drawings.empty())
-        throw Error(ErrorKind::input, path, fmt::format("holds numbers, but {} is drawn in colours", paths.front()),
+        throw Error(ErrorKind::input, path,
+                    fmt::format("contains numbers, but {} is drawn in colours", paths.front()),
                     "masks that all hold numbers, or are all drawn in the same colours");
       out.labels.push_back(read_numbers(path));
       continue;
     }
     if (!out.labels.empty())
-      throw Error(ErrorKind::input, path, fmt::format("is drawn in colours, but {} holds numbers", paths.front()),
+      throw Error(ErrorKind::input, path,
+                  fmt::format("is drawn in colours, but {} contains numbers", paths.front()),
                   "masks that all hold numbers, or are all drawn in the same colours");
     drawings.push_back(read_colours(path));
     const Grid<std::uint32_t>& drawing = drawings.back();
     bool any = false;
-    for (int y = 0; y < drawing.height() && names.size() <= most_colours; ++y)
+    for (int y = 0; y < drawing.height() && names.size() <= max_colours; ++y)
       for (int x = 0; x < drawing.width(); ++x)
         if (is_flat(drawing, x, y)) {
           any = true;
           names.emplace(drawing(x, y), std::uint8_t{0});
         }
-    if (!any || names.size() > most_colours)
-      throw Error(ErrorKind::input, path,
-                  any ? fmt::format("has more than {} flat colours", most_colours) : std::string("has no flat colour"),
-                  fmt::format("a mask as PNG or TIFF, grey with numbers, or drawn in at most {} flat colours", most_colours));
+    if (!any || names.size() > max_colours)
+      throw Error(
+          ErrorKind::input, path,
+          any ? fmt::format("has more than {} flat colours", max_colours)
+              : std::string("has no flat colour"),
+          fmt::format(
+              "a mask as PNG or TIFF, grey with numbers, or drawn in at most {} flat colours",
+              max_colours));
   }
   if (drawings.empty()) return out;
   for (auto& [colour, label] : names) {
     label = static_cast<std::uint8_t>(out.colours.size());
-    out.colours.push_back(
-        {static_cast<std::uint8_t>(colour >> 16), static_cast<std::uint8_t>(colour >> 8 & 255U), static_cast<std::uint8_t>(colour & 255U)});
+    out.colours.push_back({static_cast<std::uint8_t>(colour >> 16),
+                           static_cast<std::uint8_t>(colour >> 8 & 255U),
+                           static_cast<std::uint8_t>(colour & 255U)});
   }
-  for (const Grid<std::uint32_t>& drawing : drawings) out.labels.push_back(name_colours(drawing, names));
+  for (const Grid<std::uint32_t>& drawing : drawings)
+    out.labels.push_back(name_colours(drawing, names));
   return out;
 }
 

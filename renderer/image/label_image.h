@@ -9,16 +9,17 @@
 
 namespace belvedere {
 
-// Label masks of one piece of work, which say the same by the same label.
+// Label masks that share their labels.
 struct LabelImages {
   std::vector<Grid<std::uint8_t>> labels;  // one for each file
-  std::vector<Rgb8> colours;               // label k was drawn in colours[k]; empty where files hold numbers
+  std::vector<Rgb8> colours;  // label k was drawn in colours[k]; empty where files hold numbers
 };
 
-// Masks as numbers (grey or palette images, 0 … 254, 255 unused), or drawn in flat colours in a paint program: then the colours that fill
-// any place of 3 × 3 pixels, in any of the files, are the labels, in rising order of red, green, blue. Pixels of other colours are soft
-// edges of the drawing and take the label of the nearest flat one. Error(input) for files of both sorts together, numbers over 255,
-// drawings without flat colours (JPEG has none) or with more than 64.
+// Masks as numbers (grey or palette images, 0 … 254, 255 unused), or drawn in flat colours in a
+// paint program: then the colours that fill any square of 3 × 3 pixels, in any of the files, are
+// the labels, in ascending order of red, green, blue. Pixels of other colours are soft edges of the
+// drawing and take the label of the nearest flat one. Error(input) for files of both kinds
+// together, numbers over 255, drawings without flat colours (JPEG has none) or with more than 64.
 LabelImages read_label_images(const std::vector<std::string>& paths);
 
 }  // namespace belvedere

@@ -23,13 +23,16 @@ constexpr int band_rows = 64;
 
 class OiioReader {
  public:
-  // `header_only`: CMYK is taken as well, with its own four channels.
-  OiioReader(const std::string& path, const std::string& format, bool header_only = false) : path_(path), format_(format) {
-    if (format_ == "png" && !image_io::is_png_complete(path)) image_io::throw_damaged(path, "a piece is missing or has a wrong checksum");
+  // `header_only`: CMYK is accepted as well, with its own four channels.
+  OiioReader(const std::string& path, const std::string& format, bool header_only = false)
+      : path_(path), format_(format) {
+    if (format_ == "png" && !image_io::is_png_complete(path))
+      image_io::throw_damaged(path, "a piece is missing or has a wrong checksum");
     input_ = OIIO::ImageInput::create(format_);
     if (input_ == nullptr) throw Error(ErrorKind::bug, path, "OpenImageIO cannot read " + format_);
     OIIO::ImageSpec settings;
-    settings.attribute("oiio:UnassociatedAlpha", 1);  // colours as they stand in the file, not multiplied by alpha
+    settings.attribute("oiio:UnassociatedAlpha",
+                       1);  // colours as in the file, not multiplied by alpha
     if (!input_->open(path, spec_, settings)) image_io::throw_damaged(path, input_->geterror());
     image_io::check_memory(path, spec_.width, spec_.height, 0.0);
     const std::string coding = spec_.get_string_attribute("jpeg:ColorSpace");
@@ -41,7 +44,8 @@ class OiioReader {
         if (!input_->open(path, spec_, settings)) image_io::throw_damaged(path, input_->geterror());
         return;
       }
-      throw Error(ErrorKind::input, path, "is a CMYK picture", "RGB or grey: convert it with its own profile first");
+      throw Error(ErrorKind::input, path, "is a CMYK picture",
+                  "RGB or grey: convert it with its own profile first");
     }
   }
 
@@ -50,22 +54,29 @@ class OiioReader {
   void check_memory(double bytes_a_pixel) const {
     const double pixels = static_cast<double>(spec_.width) * static_cast<double>(spec_.height);
     // The file's own pixels once more: a TIFF may be one strip, which is unpacked whole.
-    image_io::check_memory(path_, spec_.width, spec_.height, pixels * bytes_a_pixel + static_cast<double>(spec_.image_bytes(true)));
+    image_io::check_memory(path_, spec_.width, spec_.height,
+                           pixels * bytes_a_pixel + static_cast<double>(spec_.image_bytes(true)));
   }
 
-  // Calls use(y0, y1, values) for bands of rows from top to bottom: all channels of a pixel together.
+  // Calls use(y0, y1, values) for bands of rows from top to bottom: all channels of a pixel
+  // together.
   template <class T, class F>
   void read_bands(OIIO::TypeDesc type, F&& use) {
     const int step = spec_.tile_height > 0 ? spec_.tile_height : band_rows;
-    std::vector<T> band(static_cast<std::size_t>(spec_.width) * static_cast<std::size_t>(spec_.nchannels) * static_cast<std::size_t>(step));
+    std::vector<T> band(static_cast<std::size_t>(spec_.width) *
+                        static_cast<std::size_t>(spec_.nchannels) * static_cast<std::size_t>(step));
     for (int y = 0; y < spec_.height; y += step) {
       const int end = std::min(y + step, spec_.height);
       const int top = spec_.y;
-      const bool ok = spec_.tile_width > 0 ? input_->read_tiles(0, 0, spec_.x, spec_.x + spec_.width, top + y, top + end, 0, 1, 0,
-                                                                spec_.nchannels, type, band.data())
-                                           : input_->read_scanlines(0, 0, top + y, top + end, 0, 0, spec_.nchannels, type, band.data());
-      // Half a file reads as true: only the message tells.
-      if (const std::string message = input_->geterror(); !ok || !message.empty()) image_io::throw_damaged(path_, message);
+      const bool ok =
+          spec_.tile_width > 0
+              ? input_->read_tiles(0, 0, spec_.x, spec_.x + spec_.width, top + y, top + end, 0, 1,
+                                   0, spec_.nchannels, type, band.data())
+              : input_->read_scanlines(0, 0, top + y, top + end, 0, 0, spec_.nchannels, type,
+                                       band.data());
+      // Reading half a file returns true: only the message reveals it.
+      if (const std::string message = input_->geterror(); !ok || !message.empty())
+        image_io::throw_damaged(path_, message);
       use(y, end, band.data());
     }
   }
@@ -111,21 +122,25 @@ ImageInfo read_oiio_info(const std::string& path, const std::string& format) {
   info.width = spec.width;
   info.height = spec.height;
   PartSpec part;
-  for (int c = 0; c < spec.nchannels; ++c) part.channels.push_back({spec.channel_name(c), channel_type(spec.channelformat(c))});
+  for (int c = 0; c < spec.nchannels; ++c)
+    part.channels.push_back({spec.channel_name(c), channel_type(spec.channelformat(c))});
   info.parts.push_back(std::move(part));
   info.notes = image_io::split_notes(spec.get_string_attribute("ImageDescription"));
   for (const char* key : {"Software", "Artist", "Copyright", "DateTime", "DocumentName"}) {
-    if (const std::string value = spec.get_string_attribute(key); !value.empty()) info.notes.emplace(key, value);
+    if (const std::string value = spec.get_string_attribute(key); !value.empty())
+      info.notes.emplace(key, value);
   }
   info.dots_per_inch = dots_per_inch(spec);
-  if (const OIIO::ParamValue* icc = spec.find_attribute("ICCProfile"); icc != nullptr && icc->type().elementsize() == 1) {
+  if (const OIIO::ParamValue* icc = spec.find_attribute("ICCProfile");
+      icc != nullptr && icc->type().elementsize() == 1) {
     const auto* bytes = static_cast<const std::uint8_t*>(icc->data());
     info.icc_profile.assign(bytes, bytes + icc->datasize());
   }
   return info;
 }
 
-Grid<glm::vec3> read_oiio_picture(const std::string& path, const std::string& format, Grid<float>* alpha) {
+Grid<glm::vec3> read_oiio_picture(const std::string& path, const std::string& format,
+                                  Grid<float>* alpha) {
   OiioReader reader(path, format);
   const int channels = reader.spec().nchannels;
   reader.check_memory(alpha != nullptr ? 16.0 : 12.0);
@@ -156,15 +171,20 @@ void read_oiio_rows(const std::string& path, const std::string& format, const Us
 
 Grid<std::uint16_t> read_oiio_grey(const std::string& path, const std::string& format) {
   const Error refused = image_io::no_grey_picture(path);
-  if (format == "png" && image_io::read_png_kind(path).palette) return image_io::read_palette_png(path);
+  if (format == "png" && image_io::read_png_kind(path).palette)
+    return image_io::read_palette_png(path);
   OiioReader reader(path, format);
   const OIIO::ImageSpec& spec = reader.spec();
   const bool wide = spec.format == OIIO::TypeDesc::UINT16;
   const bool grey = spec.nchannels == 1 || (spec.nchannels == 2 && spec.alpha_channel == 1);
-  if (!grey || (!wide && spec.format != OIIO::TypeDesc::UINT8) || spec.get_string_attribute("tiff:ColorSpace") == "palette") throw refused;
+  if (!grey || (!wide && spec.format != OIIO::TypeDesc::UINT8) ||
+      spec.get_string_attribute("tiff:ColorSpace") == "palette")
+    throw refused;
   reader.check_memory(2.0);
-  // Fewer than 8 bits come stretched to 0…255 (or 10, 12 bits to 0…65535): that is undone.
-  const int bits = format == "png" ? image_io::read_png_kind(path).bits : spec.get_int_attribute("oiio:BitsPerSample", wide ? 16 : 8);
+  // Samples of fewer than 8 bits are returned stretched to 0…255 (10 and 12 bits to 0…65535): this
+  // undoes it.
+  const int bits = format == "png" ? image_io::read_png_kind(path).bits
+                                   : spec.get_int_attribute("oiio:BitsPerSample", wide ? 16 : 8);
   const int full_bits = wide ? 16 : 8;
   const int full = (1 << full_bits) - 1;
   const int highest = bits > 0 && bits < full_bits ? (1 << bits) - 1 : full;
@@ -172,7 +192,8 @@ Grid<std::uint16_t> read_oiio_grey(const std::string& path, const std::string& f
   const auto use = [&](int y0, int y1, const auto* from) {
     for (std::size_t i = out.index(0, y0); i < out.index(0, y1); ++i, from += spec.nchannels) {
       out[i] = static_cast<std::uint16_t>(
-          (static_cast<std::uint32_t>(*from) * static_cast<std::uint32_t>(highest) + static_cast<std::uint32_t>(full) / 2) /
+          (static_cast<std::uint32_t>(*from) * static_cast<std::uint32_t>(highest) +
+           static_cast<std::uint32_t>(full) / 2) /
           static_cast<std::uint32_t>(full));
     }
   };
@@ -188,9 +209,11 @@ namespace {
 
 OIIO::ImageSpec make_png_spec(int width, int height, const PictureFileOptions& options) {
   OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
-  spec.attribute("png:compressionLevel", 4);  // measured: 3.5 times as fast as the default 6, the same size
+  spec.attribute("png:compressionLevel",
+                 4);  // measured: 3.5 times as fast as the default 6, the same size
   spec.attribute("Software", "Belvedere " + program_version());
-  if (const std::string notes = image_io::join_notes(options.notes); !notes.empty()) spec.attribute("ImageDescription", notes);
+  if (const std::string notes = image_io::join_notes(options.notes); !notes.empty())
+    spec.attribute("ImageDescription", notes);
   if (options.dots_per_inch > 0.0) {
     // PNG counts whole pixels a metre.
     const auto per_metre = static_cast<float>(std::lround(options.dots_per_inch / 0.0254));
@@ -217,12 +240,14 @@ class PngRows : public PictureRows {
     if (file_ == nullptr) throw Error(ErrorKind::bug, path, "OpenImageIO cannot write PNG");
     band_.resize(row_bytes() * band_rows);
   }
-  // libpng prints where a file that is open has too few rows for its first piece of data: one that is given up gets the rest of them black.
+  // libpng prints a message where an open file has too few rows for its first piece of data: the
+  // rest of an abandoned file is filled with black.
   ~PngRows() override {
     std::fill(band_.begin(), band_.end(), std::uint8_t{0});
     for (bool ok = true; ok && rows_ > 0 && rows_ < height();) {
       const int end = std::min(rows_ + band_rows, height());
-      ok = file_->write_scanlines(rows_, end, 0, OIIO::TypeDesc::UINT8, band_.data()) && file_->geterror().empty();
+      ok = file_->write_scanlines(rows_, end, 0, OIIO::TypeDesc::UINT8, band_.data()) &&
+           file_->geterror().empty();
       rows_ = end;
     }
   }
@@ -231,7 +256,8 @@ class PngRows : public PictureRows {
 
  private:
   void take(const Grid<glm::vec3>& from, int first, int rows, int at) override {
-    image_io::quantize_rows(from, first, rows, width(), band_.data() + row_bytes() * static_cast<std::size_t>(at));
+    image_io::quantize_rows(from, first, rows, width(),
+                            band_.data() + row_bytes() * static_cast<std::size_t>(at));
   }
   void write_band(int y0, int rows) override {
     if (y0 == 0 && !file_->open(output_.temporary(), spec_)) output_.fail(file_->geterror());
@@ -241,25 +267,29 @@ class PngRows : public PictureRows {
   }
   void complete() override {
     check(file_->close());
-    // On a full disk all of the above says that it succeeded, so every row is read again.
+    // On a full disk all of the above reports success, so every row is read again.
     ContentHash read;
     try {
       OiioReader reader(output_.temporary(), "png");
-      if (reader.spec().width != width() || reader.spec().height != height() || reader.spec().nchannels != 3)
+      if (reader.spec().width != width() || reader.spec().height != height() ||
+          reader.spec().nchannels != 3)
         output_.fail("it has another size");
-      reader.read_bands<std::uint8_t>(OIIO::TypeDesc::UINT8,
-                                      [&](int y0, int y1, const std::uint8_t* from) { read.add(text_of(from, y1 - y0)); });
+      reader.read_bands<std::uint8_t>(
+          OIIO::TypeDesc::UINT8,
+          [&](int y0, int y1, const std::uint8_t* from) { read.add(text_of(from, y1 - y0)); });
     } catch (const Error& e) {
       if (e.kind() != ErrorKind::input) throw;
       output_.fail(e.found());
     }
-    if (read.digits() != written_.digits()) output_.fail("it reads otherwise than it was written");
+    if (read.digits() != written_.digits())
+      output_.fail("it reads back differently from what was written");
     output_.prepare();
   }
   void replace() override { output_.commit(); }
 
   void check(bool ok) const {
-    if (const std::string message = file_->geterror(); !ok || !message.empty()) output_.fail(message);
+    if (const std::string message = file_->geterror(); !ok || !message.empty())
+      output_.fail(message);
   }
   std::size_t row_bytes() const { return static_cast<std::size_t>(width()) * 3; }
   std::string_view text_of(const std::uint8_t* first, int rows) const {
@@ -276,16 +306,18 @@ class PngRows : public PictureRows {
 
 }  // namespace
 
-std::unique_ptr<PictureRows> open_png8(const std::string& path, int width, int height, const PictureFileOptions& options) {
+std::unique_ptr<PictureRows> open_png8(const std::string& path, int width, int height,
+                                       const PictureFileOptions& options) {
   return std::make_unique<PngRows>(path, width, height, options);
 }
 
 double png8_writer_bytes(int width, int) {
   constexpr double libraries = 4.0 * 1024 * 1024;
-  return 3.0 * 2 * band_rows * width + libraries;  // a band when it is written, another when it is read back
+  return 3.0 * 2 * band_rows * width + libraries;  // a band for writing, another for reading back
 }
 
-void write_png8(const std::string& path, const Grid<glm::vec3>& encoded, const PictureFileOptions& options) {
+void write_png8(const std::string& path, const Grid<glm::vec3>& encoded,
+                const PictureFileOptions& options) {
   write_whole(*open_png8(path, encoded.width(), encoded.height(), options), encoded);
 }
 
@@ -298,8 +330,10 @@ void write_jpeg(const std::string& path, const Grid<glm::vec3>& encoded, int qua
   std::vector<std::uint8_t> bytes;
   bytes.reserve(3 * encoded.size());
   for (const glm::vec3& pixel : encoded)
-    for (int c = 0; c < 3; ++c) bytes.push_back(static_cast<std::uint8_t>(std::clamp(pixel[c], 0.0F, 1.0F) * 255.0F + 0.5F));
-  const bool written = output->open(file.temporary(), spec) && output->write_image(OIIO::TypeDesc::UINT8, bytes.data()) && output->close();
+    for (int c = 0; c < 3; ++c)
+      bytes.push_back(static_cast<std::uint8_t>(std::clamp(pixel[c], 0.0F, 1.0F) * 255.0F + 0.5F));
+  const bool written = output->open(file.temporary(), spec) &&
+                       output->write_image(OIIO::TypeDesc::UINT8, bytes.data()) && output->close();
   if (!written) file.fail(output->geterror());
   file.commit();
 }

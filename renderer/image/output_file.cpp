@@ -19,7 +19,8 @@ namespace {
   throw Error(ErrorKind::output, path, what + ": " + std::generic_category().message(code));
 }
 
-// Brings what was written to a file or folder to disk. Some file systems cannot do that for a folder, which is no fault.
+// Flushes a file or folder to disk. Some file systems cannot do that for a folder, which is not an
+// error.
 void synchronize(const std::string& path, const std::string& named, bool folder) {
   const int file = ::open(path.c_str(), folder ? O_RDONLY | O_DIRECTORY : O_RDWR);
   if (file < 0) {
@@ -28,17 +29,18 @@ void synchronize(const std::string& path, const std::string& named, bool folder)
   }
   const int code = ::fsync(file) == 0 ? 0 : errno;
   ::close(file);
-  if (code != 0 && !folder) throw_system(named, "cannot be brought to disk", code);
+  if (code != 0 && !folder) throw_system(named, "cannot be flushed to disk", code);
 }
 
 }  // namespace
 
 OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
   std::filesystem::path name(path_);
-  if (name.filename().empty()) throw Error(ErrorKind::output, path_, "is a folder", "the name of a file");
-  std::filesystem::path ending = name.extension();
-  temporary_ = name.replace_extension().string() + ".tmp" + ending.string();
-  // Tried at once: the reason is then known before an image library hides it.
+  if (name.filename().empty())
+    throw Error(ErrorKind::output, path_, "is a folder", "the name of a file");
+  std::filesystem::path extension = name.extension();
+  temporary_ = name.replace_extension().string() + ".tmp" + extension.string();
+  // Checked at once: the reason is then known before an image library hides it.
   const int file = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (file < 0) throw_system(path_, "cannot be created", errno);
   ::close(file);
@@ -51,13 +53,15 @@ OutputFile::~OutputFile() {
 void OutputFile::prepare() {
   synchronize(temporary_, path_, false);
   std::error_code ignored;
-  if (std::filesystem::is_directory(path_, ignored)) throw_system(path_, "cannot be replaced", EISDIR);
+  if (std::filesystem::is_directory(path_, ignored))
+    throw_system(path_, "cannot be replaced", EISDIR);
   prepared_ = true;
 }
 
 void OutputFile::commit() {
   if (!prepared_) prepare();
-  if (std::rename(temporary_.c_str(), path_.c_str()) != 0) throw_system(path_, "cannot be replaced", errno);
+  if (std::rename(temporary_.c_str(), path_.c_str()) != 0)
+    throw_system(path_, "cannot be replaced", errno);
   committed_ = true;
   const std::string folder = std::filesystem::path(path_).parent_path().string();
   synchronize(folder.empty() ? "." : folder, path_, true);
@@ -68,18 +72,19 @@ void OutputFile::fail(const std::string& reason) const {
   std::error_code code;
   const std::filesystem::space_info space = std::filesystem::space(temporary_, code);
   if (!code && space.available < (std::uintmax_t{1} << 20)) text += ": the disk is full";
-  if (!reason.empty()) text += ": " + reason.substr(0, reason.find('\n'));  // some say the same once for each row
+  if (!reason.empty())
+    text += ": " + reason.substr(0, reason.find('\n'));  // some report the same once for each row
   throw Error(ErrorKind::output, path_, text);
 }
 
 void check_output_folder(const std::string& folder) {
-  const std::string place = folder.empty() ? "." : folder;
+  const std::string position = folder.empty() ? "." : folder;
   std::error_code code;
-  std::filesystem::create_directories(place, code);
-  if (code) throw_system(place, "this folder cannot be made", code.value());
-  std::string name = place + "/.belvedere-XXXXXX";
+  std::filesystem::create_directories(position, code);
+  if (code) throw_system(position, "cannot create this folder", code.value());
+  std::string name = position + "/.belvedere-XXXXXX";
   const int file = ::mkstemp(name.data());
-  if (file < 0) throw_system(place, "no file can be created in this folder", errno);
+  if (file < 0) throw_system(position, "cannot create a file in this folder", errno);
   ::close(file);
   ::unlink(name.c_str());
 }

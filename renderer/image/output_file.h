@@ -4,9 +4,10 @@
 
 namespace belvedere {
 
-// A file that appears whole or not at all: written under a temporary name in the same folder (`x.tif` as `x.tmp.tif`, because image
-// libraries go by the ending), then renamed. Until commit() an older file of that name stays as it is; without it the temporary
-// file is removed. Throws Error(output) with the system's reason.
+// A file that appears complete or not at all: written under a temporary name in the same folder
+// (`x.tif` as `x.tmp.tif`, because image libraries go by the extension), then renamed. Until
+// commit() an older file of that name is unchanged; without it the temporary file is removed.
+// Throws Error(output) with the system's reason.
 class OutputFile {
  public:
   explicit OutputFile(std::string path);
@@ -16,11 +17,13 @@ class OutputFile {
 
   const std::string& path() const { return path_; }
   const std::string& temporary() const { return temporary_; }
-  // Brings the temporary file to disk. Who writes several files that belong together prepares all before the first is renamed.
+  // Flushes the temporary file to disk. For several files that belong together, all are prepared
+  // before the first is renamed.
   void prepare();
-  // prepare(), where that was not done, and the rename.
+  // prepare(), if not done yet, and the rename.
   void commit();
-  // Throws Error(output) for a library's `reason`, and says so where the disk is full: most libraries do not.
+  // Throws Error(output) for a library's `reason`, and reports a full disk, which most libraries do
+  // not.
   [[noreturn]] void fail(const std::string& reason) const;
 
  private:
@@ -30,10 +33,10 @@ class OutputFile {
   bool committed_ = false;
 };
 
-// Writes a text, whole or not at all. Error(output).
+// Writes a text, complete or not at all. Error(output).
 void write_text_file(const std::string& path, const std::string& text);
 
-// Error(output) unless a file could be created in the folder (made where it is missing).
+// Error(output) unless a file can be created in the folder (which is created if missing).
 void check_output_folder(const std::string& folder);
 
 }  // namespace belvedere

@@ -20,7 +20,8 @@ double distance(double a, double b) {
   return std::isnan(d) ? std::numeric_limits<double>::infinity() : d;
 }
 
-// d(i) is the absolute difference of pixel i. Sums run in a fixed order, so that the figures do not depend on threads.
+// d(i) is the absolute difference of pixel i. Sums run in a fixed order, so that the figures do not
+// depend on threads.
 template <class Distance>
 ChannelDifference summarize(const std::string& name, std::size_t count, Distance&& d) {
   ChannelDifference out;
@@ -28,8 +29,10 @@ ChannelDifference summarize(const std::string& name, std::size_t count, Distance
   if (count == 0) return out;
   const auto pixels = static_cast<double>(count);
   out.mean = deterministic_sum(count, d) / pixels;
-  out.rms = std::sqrt(deterministic_sum(count, [&](std::size_t i) { return d(i) * d(i); }) / pixels);
-  out.differing_share = deterministic_sum(count, [&](std::size_t i) { return d(i) > 0.0 ? 1.0 : 0.0; }) / pixels;
+  out.rms =
+      std::sqrt(deterministic_sum(count, [&](std::size_t i) { return d(i) * d(i); }) / pixels);
+  out.differing_share =
+      deterministic_sum(count, [&](std::size_t i) { return d(i) > 0.0 ? 1.0 : 0.0; }) / pixels;
   for (std::size_t i = 0; i < count; ++i) out.max = std::max(out.max, d(i));
   return out;
 }
@@ -37,31 +40,38 @@ ChannelDifference summarize(const std::string& name, std::size_t count, Distance
 std::map<std::string, bool> channels_of(const ImageInfo& info) {
   std::map<std::string, bool> is_id;
   for (const PartSpec& part : info.parts)
-    for (const ChannelSpec& channel : part.channels) is_id[channel.name] = channel.type == ChannelType::uint32;
+    for (const ChannelSpec& channel : part.channels)
+      is_id[channel.name] = channel.type == ChannelType::uint32;
   return is_id;
 }
 
 // One channel at a time, so that memory does not grow with their number.
-void compare_exr(const std::string& a, const std::string& b, const ImageInfo& info_a, const ImageInfo& info_b, PictureDifference& out) {
+void compare_exr(const std::string& a, const std::string& b, const ImageInfo& info_a,
+                 const ImageInfo& info_b, PictureDifference& out) {
   const auto channels_a = channels_of(info_a);
   const auto channels_b = channels_of(info_b);
   for (const auto& [name, is_id] : channels_b)
-    if (!channels_a.contains(name)) out.mismatches.push_back(fmt::format("channel {} is only in {}", name, b));
+    if (!channels_a.contains(name))
+      out.mismatches.push_back(fmt::format("channel {} is only in {}", name, b));
   for (const auto& [name, is_id] : channels_a) {
     const auto other = channels_b.find(name);
     if (other == channels_b.end()) {
       out.mismatches.push_back(fmt::format("channel {} is only in {}", name, a));
     } else if (other->second != is_id) {
-      out.mismatches.push_back(fmt::format("channel {} holds ids in one file and values in the other", name));
+      out.mismatches.push_back(
+          fmt::format("channel {} contains ids in one file and values in the other", name));
     } else if (is_id) {
       const Grid<std::uint32_t> ids_a = read_id_channel(a, name);
       const Grid<std::uint32_t> ids_b = read_id_channel(b, name);
-      out.channels.push_back(summarize(name, ids_a.size(), [&](std::size_t i) { return ids_a[i] == ids_b[i] ? 0.0 : 1.0; }));
+      out.channels.push_back(summarize(
+          name, ids_a.size(), [&](std::size_t i) { return ids_a[i] == ids_b[i] ? 0.0 : 1.0; }));
       out.channels.back().is_id = true;
     } else {
       const Grid<float> values_a = read_channel(a, name);
       const Grid<float> values_b = read_channel(b, name);
-      out.channels.push_back(summarize(name, values_a.size(), [&](std::size_t i) { return distance(values_a[i], values_b[i]); }));
+      out.channels.push_back(summarize(name, values_a.size(), [&](std::size_t i) {
+        return distance(values_a[i], values_b[i]);
+      }));
     }
   }
 }
@@ -73,11 +83,15 @@ void compare_colours(const std::string& a, const std::string& b, PictureDifferen
   const Grid<glm::vec3> colours_b = read_picture(b, &alpha_b);
   static constexpr std::array<const char*, 3> names = {"R", "G", "B"};
   for (int c = 0; c < 3; ++c)
-    out.channels.push_back(summarize(names[static_cast<std::size_t>(c)], colours_a.size(),
-                                     [&](std::size_t i) { return distance(colours_a[i][c], colours_b[i][c]); }));
-  const auto opaque = [](const Grid<float>& alpha) { return std::all_of(alpha.begin(), alpha.end(), [](float v) { return v == 1.F; }); };
+    out.channels.push_back(
+        summarize(names[static_cast<std::size_t>(c)], colours_a.size(),
+                  [&](std::size_t i) { return distance(colours_a[i][c], colours_b[i][c]); }));
+  const auto opaque = [](const Grid<float>& alpha) {
+    return std::all_of(alpha.begin(), alpha.end(), [](float v) { return v == 1.F; });
+  };
   if (!opaque(alpha_a) || !opaque(alpha_b))
-    out.channels.push_back(summarize("A", alpha_a.size(), [&](std::size_t i) { return distance(alpha_a[i], alpha_b[i]); }));
+    out.channels.push_back(summarize(
+        "A", alpha_a.size(), [&](std::size_t i) { return distance(alpha_a[i], alpha_b[i]); }));
 }
 
 }  // namespace
@@ -89,7 +103,8 @@ PictureDifference compare_pictures(const std::string& a, const std::string& b) {
   out.width = info_a.width;
   out.height = info_a.height;
   if (info_a.width != info_b.width || info_a.height != info_b.height) {
-    out.mismatches.push_back(fmt::format("{} × {} pixels against {} × {}", info_a.width, info_a.height, info_b.width, info_b.height));
+    out.mismatches.push_back(fmt::format("{} × {} pixels against {} × {}", info_a.width,
+                                         info_a.height, info_b.width, info_b.height));
     return out;
   }
   if (info_a.format == "openexr" && info_b.format == "openexr")
@@ -103,7 +118,9 @@ bool is_same(const PictureDifference& difference, const DifferenceLimits& limits
   // Written so that a nan is never within a limit.
   return difference.mismatches.empty() &&
          std::all_of(difference.channels.begin(), difference.channels.end(),
-                     [&](const ChannelDifference& c) { return c.mean <= limits.mean && (c.is_id || c.max <= limits.max); });
+                     [&](const ChannelDifference& c) {
+                       return c.mean <= limits.mean && (c.is_id || c.max <= limits.max);
+                     });
 }
 
 }  // namespace belvedere

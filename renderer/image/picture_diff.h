@@ -5,12 +5,14 @@
 
 namespace belvedere {
 
-// How one channel differs between two pictures. Values as in the file; those of integer formats 0…1. Equal infinities and two nan count as
-// equal, an infinity or nan against anything else as an infinite difference.
+// Difference of one channel between two pictures. Values as in the file; those of integer formats
+// 0…1. Equal infinities and two nan count as equal, an infinity or nan against anything else as an
+// infinite difference.
 struct ChannelDifference {
   std::string name;
-  bool is_id = false;  // ids are equal or not: their difference is 0 or 1, so mean is the differing share
-  double mean = 0.0;   // of the absolute differences
+  bool is_id =
+      false;  // ids are equal or not: their difference is 0 or 1, so mean is the differing share
+  double mean = 0.0;  // of the absolute differences
   double max = 0.0;
   double rms = 0.0;
   double differing_share = 0.0;  // of the pixels, 0…1
@@ -20,17 +22,20 @@ struct PictureDifference {
   int width = 0;
   int height = 0;
   std::vector<ChannelDifference> channels;  // that both have
-  std::vector<std::string> mismatches;      // what makes them incomparable: another size, channels that one of them lacks
+  std::vector<std::string> mismatches;      // reasons why they cannot be compared: another size,
+                                            // channels that one of them lacks
 };
 
-// Thresholds; a picture within them counts as the same. Ids have no size of difference, so max does not hold for them.
+// Thresholds; a picture within them counts as equal. Ids have no magnitude of difference, so max
+// does not apply to them.
 struct DifferenceLimits {
   double mean = 0.0;
   double max = 0.0;
 };
 
-// Compares PNG, TIFF, JPEG and OpenEXR files: two OpenEXR files channel by channel by name, anything else as R, G, B and alpha.
-// Error(input) for files that cannot be read, Error(limit) over memory_budget_bytes().
+// Compares PNG, TIFF, JPEG and OpenEXR files: two OpenEXR files channel by channel by name,
+// anything else as R, G, B and alpha. Error(input) for files that cannot be read, Error(limit) over
+// memory_budget_bytes().
 PictureDifference compare_pictures(const std::string& a, const std::string& b);
 // No mismatch and every channel within the limits.
 bool is_same(const PictureDifference& difference, const DifferenceLimits& limits);

@@ -1,6 +1,7 @@
 #include "renderer/image/png_check.h"
 
-// What a PNG says of itself, read without libpng: that prints where data is missing, and does not miss the end of a file.
+// Checks a PNG without libpng, which prints messages where data is missing, and does not notice a
+// missing end of file.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -31,7 +32,8 @@ bool is_png_complete(const std::string& path) {
   while (file.read(head.data(), 8)) {
     std::uint32_t crc = crc32_after(0, head.data() + 4, 4);
     for (std::uint64_t left = big_endian(head.data()); left > 0;) {
-      const std::size_t count = static_cast<std::size_t>(std::min<std::uint64_t>(left, buffer.size()));
+      const std::size_t count =
+          static_cast<std::size_t>(std::min<std::uint64_t>(left, buffer.size()));
       if (!file.read(buffer.data(), static_cast<std::streamsize>(count))) return false;
       crc = crc32_after(crc, buffer.data(), count);
       left -= count;

@@ -4,7 +4,7 @@
 
 namespace belvedere::image_io {
 
-// Whether a PNG reaches its end, all checksums right.
+// Whether a PNG is complete, with all checksums right.
 bool is_png_complete(const std::string& path);
 struct PngKind {
   int bits = 8;  // a channel, 1…16

@@ -1,7 +1,7 @@
 #include "renderer/image/png_palette.h"
 
-// The one file that knows libpng, for what nobody else here gives: the indices of a palette image, as masks drawn in a painting program
-// are often saved, and masks of our own as plain numbers.
+// The one file that uses libpng for what no other library here provides: the indices of a palette
+// image, as masks drawn in a painting program are often saved, and our own masks as plain numbers.
 #include <png.h>
 
 #include <cstring>
@@ -15,19 +15,20 @@
 namespace belvedere::image_io {
 namespace {
 
-// libpng's simplified reader; it frees itself whatever happens.
+// libpng's simplified reader; it frees itself in all cases.
 struct PngReader {
   png_image image{};
   explicit PngReader(const std::string& path) {
     image.version = PNG_IMAGE_VERSION;
-    if (png_image_begin_read_from_file(&image, path.c_str()) == 0) throw_damaged(path, image.message);
+    if (png_image_begin_read_from_file(&image, path.c_str()) == 0)
+      throw_damaged(path, image.message);
   }
   ~PngReader() { png_image_free(&image); }
   PngReader(const PngReader&) = delete;
   PngReader& operator=(const PngReader&) = delete;
 };
 
-// A byte a pixel, grey or a number of a colour.
+// One byte per pixel, grey or the number of a colour.
 void write_bytes_png(const std::string& path, const Grid<std::uint8_t>& bytes, png_uint_32 format,
                      const std::vector<std::array<std::uint8_t, 3>>& colours) {
   OutputFile file(path);
@@ -37,7 +38,8 @@ void write_bytes_png(const std::string& path, const Grid<std::uint8_t>& bytes, p
   image.height = static_cast<png_uint_32>(bytes.height());
   image.format = format;
   image.colormap_entries = static_cast<png_uint_32>(colours.size());
-  const int written = png_image_write_to_file(&image, file.temporary().c_str(), 0, bytes.row(0), 0, colours.data());
+  const int written =
+      png_image_write_to_file(&image, file.temporary().c_str(), 0, bytes.row(0), 0, colours.data());
   const std::string reason = image.message;
   png_image_free(&image);
   if (written == 0) file.fail(reason);
@@ -55,15 +57,18 @@ Grid<std::uint16_t> read_palette_png(const std::string& path) {
   image.format = PNG_FORMAT_RGBA_COLORMAP;
   std::vector<png_byte> indices(PNG_IMAGE_SIZE(image));
   std::vector<png_byte> colours(PNG_IMAGE_COLORMAP_SIZE(image));
-  if (png_image_finish_read(&image, nullptr, indices.data(), 0, colours.data()) == 0) throw_damaged(path, image.message);
-  // A warning of a finished read means that something was not as it should be: a cut-off file, for one.
+  if (png_image_finish_read(&image, nullptr, indices.data(), 0, colours.data()) == 0)
+    throw_damaged(path, image.message);
+  // A warning of a finished read means an irregular file, such as a truncated one.
   if (PNG_IMAGE_FAILED(image)) throw_damaged(path, image.message);
   Grid<std::uint16_t> out(static_cast<int>(image.width), static_cast<int>(image.height));
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = indices[i];
   return out;
 }
 
-void write_grey_png(const std::string& path, const Grid<std::uint8_t>& grey) { write_bytes_png(path, grey, PNG_FORMAT_GRAY, {}); }
+void write_grey_png(const std::string& path, const Grid<std::uint8_t>& grey) {
+  write_bytes_png(path, grey, PNG_FORMAT_GRAY, {});
+}
 
 void write_palette_png(const std::string& path, const Grid<std::uint8_t>& numbers,
                        const std::vector<std::array<std::uint8_t, 3>>& colours) {

@@ -9,9 +9,12 @@ namespace belvedere {
 
 std::string program_version() { return BELVEDERE_VERSION; }
 
-std::string library_versions() { return fmt::format("{}, oneTBB {}.{}", BELVEDERE_LIBRARIES, TBB_VERSION_MAJOR, TBB_VERSION_MINOR); }
+std::string library_versions() {
+  return fmt::format("{}, oneTBB {}.{}", BELVEDERE_LIBRARIES, TBB_VERSION_MAJOR, TBB_VERSION_MINOR);
+}
 
-Provenance make_provenance(const std::string& scene_text, const std::map<std::string, std::string>& inputs) {
+Provenance make_provenance(const std::string& scene_text,
+                           const std::map<std::string, std::string>& inputs) {
   Provenance provenance{.program_version = program_version(),
                         .libraries = library_versions(),
                         .instruction_set = instruction_set_title(machine_instruction_set()),

@@ -6,9 +6,13 @@
 
 namespace belvedere {
 
-// The curve of IEC 61966-2-1 for one channel, continued beyond 0 and 1. In double, so that the float of the result is the same whichever
-// version of pow the C library chooses for the machine.
-inline double srgb_encoded(double linear) { return linear <= 0.0031308 ? 12.92 * linear : 1.055 * exact::pow(linear, 1.0 / 2.4) - 0.055; }
-inline double srgb_decoded(double encoded) { return encoded <= 0.04045 ? encoded / 12.92 : exact::pow((encoded + 0.055) / 1.055, 2.4); }
+// The curve of IEC 61966-2-1 for one channel, continued beyond 0 and 1. In double, so that the
+// float result does not depend on the version of pow that the C library chooses for the machine.
+inline double srgb_encoded(double linear) {
+  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * exact::pow(linear, 1.0 / 2.4) - 0.055;
+}
+inline double srgb_decoded(double encoded) {
+  return encoded <= 0.04045 ? encoded / 12.92 : exact::pow((encoded + 0.055) / 1.055, 2.4);
+}
 
 }  // namespace belvedere

@@ -1,6 +1,7 @@
 #include "renderer/image/tiff_file.h"
 
-// The one file that knows libtiff; its tiles are packed on all threads before it gets them. See image_io.h for why not OpenImageIO.
+// The one file that uses libtiff; its tiles are packed on all threads before they are passed to it.
+// See image_io.h for why not OpenImageIO.
 #include <tiffio.h>
 
 #include <algorithm>
@@ -23,17 +24,19 @@
 namespace belvedere {
 namespace {
 
-constexpr int tiff_tile_size = 256;  // pixels; 384 KiB a tile, small enough for viewers, large enough to compress
+constexpr int tiff_tile_size =
+    256;  // pixels; 384 KiB a tile, small enough for viewers, large enough to compress
 constexpr std::size_t tile_pixels = std::size_t{tiff_tile_size} * tiff_tile_size;
 constexpr int tiff_compression_level = 6;
-constexpr int tiff_tiles_per_batch = 32;  // are packed together, then written: more would be held
+constexpr int tiff_tiles_per_batch = 32;  // are packed together, then written; limits memory
 
 struct CloseTiff {
   void operator()(TIFF* tiff) const { TIFFClose(tiff); }
 };
 using Tiff = std::unique_ptr<TIFF, CloseTiff>;
 
-// The library calls these instead of printing; `user` is the std::string that keeps the first message.
+// The library calls these instead of printing; `user` is the std::string that keeps the first
+// message.
 int keep_message(TIFF*, void* user, const char*, const char* format, va_list arguments) {
   char text[512];
   std::vsnprintf(text, sizeof text, format, arguments);
@@ -44,42 +47,52 @@ int keep_message(TIFF*, void* user, const char*, const char* format, va_list arg
 int ignore_message(TIFF*, void*, const char*, const char*, va_list) { return 1; }
 
 Tiff open_tiff(const std::string& path, const char* mode, std::string& message) {
-  const std::unique_ptr<TIFFOpenOptions, void (*)(TIFFOpenOptions*)> options(TIFFOpenOptionsAlloc(), TIFFOpenOptionsFree);
+  const std::unique_ptr<TIFFOpenOptions, void (*)(TIFFOpenOptions*)> options(TIFFOpenOptionsAlloc(),
+                                                                             TIFFOpenOptionsFree);
   TIFFOpenOptionsSetErrorHandlerExtR(options.get(), keep_message, &message);
   TIFFOpenOptionsSetWarningHandlerExtR(options.get(), ignore_message, nullptr);
   return Tiff(TIFFOpenExt(path.c_str(), mode, options.get()));
 }
 
-// Horizontal differencing of pixels within a tile (TIFF 6.0, section 14), in place; arithmetic modulo 2^16 or 2^8.
+// Horizontal differencing of pixels within a tile (TIFF 6.0, section 14), in place; arithmetic
+// modulo 2^16 or 2^8.
 template <class Number>
 void difference(Number* row, int channels) {
-  for (int i = channels * tiff_tile_size - 1; i >= channels; --i) row[i] = static_cast<Number>(row[i] - row[i - channels]);
+  for (int i = channels * tiff_tile_size - 1; i >= channels; --i)
+    row[i] = static_cast<Number>(row[i] - row[i - channels]);
 }
 
-// Some tiles of a row of `across`, packed; the same bytes whatever the number of threads. `band` has tiff_tile_size full rows.
+// Some tiles of a row of `across`, packed; the same bytes whatever the number of threads. `band`
+// has tiff_tile_size full rows.
 template <class Number>
-std::vector<std::vector<std::uint8_t>> pack_tiles(const std::vector<Number>& band, int channels, int across, int first, int count) {
+std::vector<std::vector<std::uint8_t>> pack_tiles(const std::vector<Number>& band, int channels,
+                                                  int across, int first, int count) {
   const std::size_t row_values = static_cast<std::size_t>(channels) * tiff_tile_size;
   std::vector<std::vector<std::uint8_t>> out(static_cast<std::size_t>(count));
   parallel_rows(count, [&](int i) {
     std::vector<Number> tile(row_values * tiff_tile_size);
     for (std::size_t y = 0; y < tiff_tile_size; ++y) {
-      const Number* from = band.data() + (y * static_cast<std::size_t>(across) + static_cast<std::size_t>(first + i)) * row_values;
-      std::copy(from, from + row_values, tile.begin() + static_cast<std::ptrdiff_t>(y * row_values));
+      const Number* from =
+          band.data() +
+          (y * static_cast<std::size_t>(across) + static_cast<std::size_t>(first + i)) * row_values;
+      std::copy(from, from + row_values,
+                tile.begin() + static_cast<std::ptrdiff_t>(y * row_values));
       difference(tile.data() + y * row_values, channels);
     }
-    out[static_cast<std::size_t>(i)] = Deflater(tiff_compression_level).pack(tile.data(), tile.size() * sizeof(Number));
+    out[static_cast<std::size_t>(i)] =
+        Deflater(tiff_compression_level).pack(tile.data(), tile.size() * sizeof(Number));
   });
   return out;
 }
 
-// What the numbers of a pixel are.
+// Meaning of the numbers of a pixel.
 struct PixelForm {
   int channels;  // 3: red, green, blue; 4: cyan, magenta, yellow, black
   int bits;
 };
 
-bool set_fields(TIFF* tiff, int width, int height, PixelForm form, const PictureFileOptions& options) {
+bool set_fields(TIFF* tiff, int width, int height, PixelForm form,
+                const PictureFileOptions& options) {
   bool ok = TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, static_cast<std::uint32_t>(width)) != 0;
   ok &= TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, static_cast<std::uint32_t>(height)) != 0;
   ok &= TIFFSetField(tiff, TIFFTAG_TILEWIDTH, static_cast<std::uint32_t>(tiff_tile_size)) != 0;
@@ -87,7 +100,8 @@ bool set_fields(TIFF* tiff, int width, int height, PixelForm form, const Picture
   ok &= TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, form.bits) != 0;
   ok &= TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, form.channels) != 0;
   ok &= TIFFSetField(tiff, TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_UINT) != 0;
-  ok &= TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, form.channels == 4 ? PHOTOMETRIC_SEPARATED : PHOTOMETRIC_RGB) != 0;
+  ok &= TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC,
+                     form.channels == 4 ? PHOTOMETRIC_SEPARATED : PHOTOMETRIC_RGB) != 0;
   if (form.channels == 4) ok &= TIFFSetField(tiff, TIFFTAG_INKSET, INKSET_CMYK) != 0;
   ok &= TIFFSetField(tiff, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG) != 0;
   ok &= TIFFSetField(tiff, TIFFTAG_COMPRESSION, COMPRESSION_ADOBE_DEFLATE) != 0;
@@ -108,28 +122,35 @@ bool set_fields(TIFF* tiff, int width, int height, PixelForm form, const Picture
   return ok;
 }
 
-std::string_view text_of(const std::vector<std::uint8_t>& bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
+std::string_view text_of(const std::vector<std::uint8_t>& bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
 
-// Tiles of whole numbers; what they are made of pictures, derived classes know.
+// Tiles of whole numbers; derived classes make them from pictures.
 template <class Number>
 class TileRows : public PictureRows {
  public:
-  TileRows(const std::string& path, int width, int height, int channels, const PictureFileOptions& options)
+  TileRows(const std::string& path, int width, int height, int channels,
+           const PictureFileOptions& options)
       : PictureRows(path, width, height, tiff_tile_size),
         output_(path),
         channels_(channels),
         across_((width + tiff_tile_size - 1) / tiff_tile_size),
         row_values_(static_cast<std::size_t>(channels) * tiff_tile_size) {
     const auto pixel_bytes = static_cast<std::uint64_t>(channels) * sizeof(Number);
-    const bool big = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) * pixel_bytes >= options.big_tiff_from_bytes;
+    const bool big =
+        static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) * pixel_bytes >=
+        options.big_tiff_from_bytes;
     const PixelForm form = {channels, 8 * static_cast<int>(sizeof(Number))};
-    tiff_ = open_tiff(output_.temporary(), big ? "w8l" : "w4l", message_);  // l: little-endian on any machine
-    if (tiff_ == nullptr || !set_fields(tiff_.get(), width, height, form, options)) output_.fail(message_);
+    tiff_ = open_tiff(output_.temporary(), big ? "w8l" : "w4l",
+                      message_);  // l: little-endian on any machine
+    if (tiff_ == nullptr || !set_fields(tiff_.get(), width, height, form, options))
+      output_.fail(message_);
     band_.resize(static_cast<std::size_t>(across_) * row_values_ * tiff_tile_size);
   }
 
  protected:
-  // Pixels of a row of the band, with those beyond the picture.
+  // Pixels of a row of the band, including those beyond the picture.
   int row_pixels() const { return across_ * tiff_tile_size; }
   Number* band_row(int row) { return band_.data() + row_at(row); }
 
@@ -137,15 +158,17 @@ class TileRows : public PictureRows {
   void write_band(int, int rows) override {
     std::fill(band_.begin() + static_cast<std::ptrdiff_t>(row_at(rows)), band_.end(), Number{0});
     for (int t = 0; t < across_; t += tiff_tiles_per_batch) {
-      for (std::vector<std::uint8_t>& packed : pack_tiles(band_, channels_, across_, t, std::min(tiff_tiles_per_batch, across_ - t))) {
+      for (std::vector<std::uint8_t>& packed :
+           pack_tiles(band_, channels_, across_, t, std::min(tiff_tiles_per_batch, across_ - t))) {
         const auto bytes = static_cast<tmsize_t>(packed.size());
         written_.add(text_of(packed));
-        if (TIFFWriteRawTile(tiff_.get(), tiles_++, packed.data(), bytes) != bytes) output_.fail(message_);
+        if (TIFFWriteRawTile(tiff_.get(), tiles_++, packed.data(), bytes) != bytes)
+          output_.fail(message_);
       }
     }
   }
   void complete() override {
-    // The directory is written here and not by closing, which cannot say that it failed.
+    // The directory is written here and not by closing, which cannot report a failure.
     if (TIFFWriteDirectory(tiff_.get()) == 0 || !message_.empty()) output_.fail(message_);
     tiff_.reset();
     read_back();
@@ -153,7 +176,7 @@ class TileRows : public PictureRows {
   }
   void replace() override { output_.commit(); }
 
-  // Every tile is found by the file's own directory and is as it was packed.
+  // Finds every tile by the file's own directory, and compares it with what was packed.
   void read_back() {
     const Tiff tiff = open_tiff(output_.temporary(), "r", message_);
     if (tiff == nullptr) output_.fail(message_);
@@ -161,22 +184,27 @@ class TileRows : public PictureRows {
     std::uint32_t high = 0;
     TIFFGetField(tiff.get(), TIFFTAG_IMAGEWIDTH, &wide);
     TIFFGetField(tiff.get(), TIFFTAG_IMAGELENGTH, &high);
-    if (wide != static_cast<std::uint32_t>(width()) || high != static_cast<std::uint32_t>(height()) ||
-        TIFFNumberOfTiles(tiff.get()) != tiles_)
+    if (wide != static_cast<std::uint32_t>(width()) ||
+        high != static_cast<std::uint32_t>(height()) || TIFFNumberOfTiles(tiff.get()) != tiles_)
       output_.fail("it has another size");
     ContentHash read;
     std::vector<std::uint8_t> packed;
     for (ttile_t tile = 0; tile < tiles_; ++tile) {
       const std::uint64_t bytes = TIFFGetStrileByteCount(tiff.get(), tile);
-      if (bytes == 0 || bytes > 2 * row_values_ * tiff_tile_size * sizeof(Number)) output_.fail("a tile is missing");
+      if (bytes == 0 || bytes > 2 * row_values_ * tiff_tile_size * sizeof(Number))
+        output_.fail("a tile is missing");
       packed.resize(bytes);
-      if (TIFFReadRawTile(tiff.get(), tile, packed.data(), static_cast<tmsize_t>(bytes)) != static_cast<tmsize_t>(bytes))
+      if (TIFFReadRawTile(tiff.get(), tile, packed.data(), static_cast<tmsize_t>(bytes)) !=
+          static_cast<tmsize_t>(bytes))
         output_.fail(message_);
       read.add(text_of(packed));
     }
-    if (read.digits() != written_.digits()) output_.fail("it reads otherwise than it was written");
+    if (read.digits() != written_.digits())
+      output_.fail("it reads back differently from what was written");
   }
-  std::size_t row_at(int row) const { return static_cast<std::size_t>(row) * static_cast<std::size_t>(across_) * row_values_; }
+  std::size_t row_at(int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(across_) * row_values_;
+  }
 
   OutputFile output_;
   int channels_;
@@ -191,7 +219,8 @@ class TileRows : public PictureRows {
 
 class RgbRows final : public TileRows<std::uint16_t> {
  public:
-  RgbRows(const std::string& path, int width, int height, const PictureFileOptions& options) : TileRows(path, width, height, 3, options) {}
+  RgbRows(const std::string& path, int width, int height, const PictureFileOptions& options)
+      : TileRows(path, width, height, 3, options) {}
 
  private:
   void take(const Grid<glm::vec3>& from, int first, int rows, int at) override {
@@ -203,7 +232,8 @@ class RgbRows final : public TileRows<std::uint16_t> {
 template <class Number>
 class InkRows final : public TileRows<Number> {
  public:
-  InkRows(const std::string& path, int width, int height, const PictureFileOptions& options, MakeInks make_inks)
+  InkRows(const std::string& path, int width, int height, const PictureFileOptions& options,
+          MakeInks make_inks)
       : TileRows<Number>(path, width, height, 4, options), make_inks_(std::move(make_inks)) {}
 
  private:
@@ -217,7 +247,8 @@ class InkRows final : public TileRows<Number> {
       for (int x = 0; x < inks.width(); ++x)
         for (int c = 0; c < 4; ++c)
           // NOLINTNEXTLINE(bugprone-incorrect-roundings): never negative
-          to[4 * x + c] = static_cast<Number>(std::clamp(static_cast<double>(inks(x, y)[c]), 0.0, 1.0) * highest + 0.5);
+          to[4 * x + c] = static_cast<Number>(
+              std::clamp(static_cast<double>(inks(x, y)[c]), 0.0, 1.0) * highest + 0.5);
     }
   }
 
@@ -227,25 +258,33 @@ class InkRows final : public TileRows<Number> {
 double writer_bytes(int width, double pixel_bytes) {
   const int across = (width + tiff_tile_size - 1) / tiff_tile_size;
   const double tile_bytes = static_cast<double>(tile_pixels) * pixel_bytes;
-  return tile_bytes * (across + 2.0 * tiff_tiles_per_batch);  // a row of tiles, those that are packed at once
+  return tile_bytes *
+         (across + 2.0 * tiff_tiles_per_batch);  // a row of tiles, those that are packed at once
 }
 
 }  // namespace
 
-std::unique_ptr<PictureRows> open_tiff_inks(const std::string& path, int width, int height, int bits, const PictureFileOptions& options,
+std::unique_ptr<PictureRows> open_tiff_inks(const std::string& path, int width, int height,
+                                            int bits, const PictureFileOptions& options,
                                             MakeInks make_inks) {
-  if (bits == 8) return std::make_unique<InkRows<std::uint8_t>>(path, width, height, options, std::move(make_inks));
-  if (bits == 16) return std::make_unique<InkRows<std::uint16_t>>(path, width, height, options, std::move(make_inks));
+  if (bits == 8)
+    return std::make_unique<InkRows<std::uint8_t>>(path, width, height, options,
+                                                   std::move(make_inks));
+  if (bits == 16)
+    return std::make_unique<InkRows<std::uint16_t>>(path, width, height, options,
+                                                    std::move(make_inks));
   throw Error(ErrorKind::usage, path, std::to_string(bits) + " bits", "8, 16");
 }
 
-std::unique_ptr<PictureRows> open_tiff16(const std::string& path, int width, int height, const PictureFileOptions& options) {
+std::unique_ptr<PictureRows> open_tiff16(const std::string& path, int width, int height,
+                                         const PictureFileOptions& options) {
   return std::make_unique<RgbRows>(path, width, height, options);
 }
 
 double tiff16_writer_bytes(int width, int) { return writer_bytes(width, 6.0); }
 
-void write_tiff16(const std::string& path, const Grid<glm::vec3>& encoded, const PictureFileOptions& options) {
+void write_tiff16(const std::string& path, const Grid<glm::vec3>& encoded,
+                  const PictureFileOptions& options) {
   write_whole(*open_tiff16(path, encoded.width(), encoded.height(), options), encoded);
 }
 

@@ -9,8 +9,9 @@
 
 namespace belvedere {
 
-// What is drawn over a picture or beside it, in pixels of the sheet, x right, y down; colours "#rrggbb" (sRGB), empty: none. The same
-// drawing becomes SVG (drawing_svg) and pixels (SheetPainter).
+// Vector shapes over a picture or beside it, in pixels of the sheet, x right, y down; colours
+// "#rrggbb" (sRGB), empty: none. The same drawing becomes SVG (drawing_svg) and pixels
+// (SheetPainter).
 
 struct DrawnPath {
   std::vector<glm::dvec2> points;
@@ -18,46 +19,50 @@ struct DrawnPath {
   std::string fill;
   std::string stroke;
   double width_px = 0.0;
-  std::vector<double> dashes_px = {};  // drawn, not drawn, drawn …; empty: all
+  std::vector<double> dashes_px = {};  // dash pattern: on, off …; empty: solid
   double opacity = 1.0;                // of fill and stroke, 0…1
 };
 
 struct DrawnCircle {
-  glm::dvec2 middle{0.0};
+  glm::dvec2 centre{0.0};
   double radius_px = 0.0;
   std::string fill;
   std::string stroke;
   double width_px = 0.0;
 };
 
-// A line of text on a level baseline, or, with `along`, on a bent one.
+// A line of text on a level baseline, or, with `along`, on a curved one.
 struct DrawnText {
   std::string text;
   TextStyle type;
   glm::dvec2 at{0.0};   // on the baseline
-  double anchor = 0.0;  // which part of the text stands there: 0 its left end, .5 its middle, 1 its right end
+  double anchor = 0.0;  // anchor of the text: 0 its left end, .5 its centre, 1 its right end
   std::string colour;
   std::string halo = {};
-  double halo_px = 0.0;                // around the letters
-  std::vector<glm::dvec2> along = {};  // the baseline, from left to right; the text stands in its middle
+  double halo_px = 0.0;  // around the letters
+  std::vector<glm::dvec2> along =
+      {};  // the baseline, from left to right; the text is centred on it
 };
 
 using DrawnShape = std::variant<DrawnPath, DrawnCircle, DrawnText>;
 
 struct Drawing {
   glm::dvec2 size_px{0.0};
-  std::vector<DrawnShape> shapes;  // the first lies lowest
+  std::vector<DrawnShape> shapes;  // the first is at the bottom
 };
 
 void move_shape(DrawnShape& shape, glm::dvec2 by);
 
-// Where the middle of each letter stands on a bent baseline, and how it is turned: the tangent of the line under its own width.
-struct LetterPlace {
-  glm::dvec2 at{0.0};          // on the baseline, under the letter's middle
+// The centre of each letter on a curved baseline, and its rotation: the tangent of the line under
+// its own width.
+struct LetterPosition {
+  glm::dvec2 at{0.0};          // on the baseline, under the letter's centre
   glm::dvec2 tangent{1.0, 0};  // of length 1
 };
-// Letters of those widths, one after the other, in the middle of a line; nothing where they are longer than it.
-std::vector<LetterPlace> set_along(const std::vector<double>& widths_px, const std::vector<glm::dvec2>& line);
+// Letters of these widths, one after the other, centred on a line; nothing where they are longer
+// than it.
+std::vector<LetterPosition> set_along(const std::vector<double>& widths_px,
+                                      const std::vector<glm::dvec2>& line);
 double length_of(const std::vector<glm::dvec2>& line);
 
 }  // namespace belvedere

@@ -14,13 +14,13 @@
 namespace belvedere {
 namespace {
 
-// A hundredth of a pixel is finer than any printer, and the same text on every machine.
+// A hundredth of a pixel is finer than any printer, and gives the same text on every machine.
 std::string px(double value) {
   const double rounded = std::round(value * 100.0) / 100.0;
   return fmt::format("{:.2f}", rounded == 0.0 ? 0.0 : rounded);
 }
 
-// A sine or cosine: as fine over the width of a letter.
+// A sine or cosine: equally fine over the width of a letter.
 std::string share(double value) {
   const double rounded = std::round(value * 1e5) / 1e5;
   return fmt::format("{:.5f}", rounded == 0.0 ? 0.0 : rounded);
@@ -34,12 +34,15 @@ std::string path_data(const std::vector<glm::dvec2>& points, bool closed) {
 
 std::string paint_svg(const std::string& fill, const std::string& stroke, double width_px) {
   std::string out = fmt::format(" fill=\"{}\"", fill.empty() ? "none" : fill);
-  if (!stroke.empty()) out += fmt::format(" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\"", stroke, px(width_px));
+  if (!stroke.empty())
+    out += fmt::format(" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\"", stroke,
+                       px(width_px));
   return out;
 }
 
 std::string svg_of(const DrawnPath& path) {
-  std::string out = "<path d=\"" + path_data(path.points, path.closed) + '"' + paint_svg(path.fill, path.stroke, path.width_px);
+  std::string out = "<path d=\"" + path_data(path.points, path.closed) + '"' +
+                    paint_svg(path.fill, path.stroke, path.width_px);
   if (!path.dashes_px.empty()) {
     std::string dashes;
     for (const double dash : path.dashes_px) dashes += (dashes.empty() ? "" : " ") + px(dash);
@@ -52,41 +55,49 @@ std::string svg_of(const DrawnPath& path) {
 }
 
 std::string svg_of(const DrawnCircle& circle) {
-  return fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\"{}/>", px(circle.middle.x), px(circle.middle.y), px(circle.radius_px),
+  return fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\"{}/>", px(circle.centre.x),
+                     px(circle.centre.y), px(circle.radius_px),
                      paint_svg(circle.fill, circle.stroke, circle.width_px));
 }
 
-// Of the type's size: outlines that differ by less are the same letter.
+// Relative to the font size: outlines that differ by less are the same letter.
 constexpr double same_outline = 2e-3;
 
-// Where a letter of a line stands if it is set alone: its left end in the line's own, and its width. Nothing where it looks another way.
+// Position of a letter of a line that is set alone: its left end in the line's coordinates, and its
+// width. Nothing where its shape then differs.
 struct LetterAlone {
   double offset_px = 0.0;
   double width_px = 0.0;
 };
-std::optional<LetterAlone> set_alone(const TextLetter& letter, const TextStyle& type, const TextMeasure& measure) {
+std::optional<LetterAlone> set_alone(const TextLetter& letter, const TextStyle& type,
+                                     const TextMeasure& measure) {
   TextStyle plain = type;
   plain.spacing = 0.0;
   const std::vector<TextLetter> letters = measure.letters(letter.text, plain);
-  if (letters.size() != 1 || letters.front().outline.size() != letter.outline.size()) return std::nullopt;
+  if (letters.size() != 1 || letters.front().outline.size() != letter.outline.size())
+    return std::nullopt;
   const Outline& alone = letters.front().outline;
   const glm::dvec2 offset = letter.outline.front().points[0] - alone.front().points[0];
-  const double most_px = same_outline * type.size_px;
+  const double max_px = same_outline * type.size_px;
   for (std::size_t i = 0; i < alone.size(); ++i) {
     if (alone[i].kind != letter.outline[i].kind) return std::nullopt;
     for (int k = 0; k < points_of(alone[i].kind); ++k) {
       const auto at = static_cast<std::size_t>(k);
-      if (glm::length(letter.outline[i].points[at] - alone[i].points[at] - offset) > most_px) return std::nullopt;
+      if (glm::length(letter.outline[i].points[at] - alone[i].points[at] - offset) > max_px)
+        return std::nullopt;
     }
   }
-  if (std::abs(offset.y) > most_px) return std::nullopt;
+  if (std::abs(offset.y) > max_px) return std::nullopt;
   return LetterAlone{offset.x, letters.front().width_px};
 }
 
 std::string path_of(const Outline& outline) {
   std::string data;
   for (const OutlineStep& step : outline) {
-    data += step.kind == OutlineStep::move ? "M" : step.kind == OutlineStep::line ? "L" : step.kind == OutlineStep::curve ? "C" : "Z";
+    data += step.kind == OutlineStep::move    ? "M"
+            : step.kind == OutlineStep::line  ? "L"
+            : step.kind == OutlineStep::curve ? "C"
+                                              : "Z";
     for (int k = 0; k < points_of(step.kind); ++k) {
       const glm::dvec2 p = step.points[static_cast<std::size_t>(k)];
       data += (k == 0 ? "" : " ") + px(p.x) + ' ' + px(p.y);
@@ -96,7 +107,8 @@ std::string path_of(const Outline& outline) {
 }
 
 // `look`: attributes of the font and its colour.
-std::string bent_text_svg(const DrawnText& text, const std::string& look, const TextMeasure& measure) {
+std::string bent_text_svg(const DrawnText& text, const std::string& look,
+                          const TextMeasure& measure) {
   const std::vector<PlacedLetter> placed = place_letters(text, measure);
   std::string letters;
   for (const PlacedLetter& letter : placed) {
@@ -106,42 +118,51 @@ std::string bent_text_svg(const DrawnText& text, const std::string& look, const 
       letters = "<path d=\"" + path_of(outline_of(placed)) + "\"/>";
       break;
     }
-    // By its middle, so that a font that stands in for the right one is spread as evenly.
-    const glm::dvec2 middle = letter.at + (alone->offset_px + .5 * alone->width_px) * letter.tangent;
-    letters += fmt::format("<text transform=\"matrix({0} {1} {2} {0} {3} {4})\">{5}</text>", share(letter.tangent.x),
-                           share(letter.tangent.y), share(-letter.tangent.y), px(middle.x), px(middle.y), markup_text(letter.letter.text));
+    // Anchored at its centre, so that a substituted font is spread as evenly.
+    const glm::dvec2 centre =
+        letter.at + (alone->offset_px + .5 * alone->width_px) * letter.tangent;
+    letters +=
+        fmt::format("<text transform=\"matrix({0} {1} {2} {0} {3} {4})\">{5}</text>",
+                    share(letter.tangent.x), share(letter.tangent.y), share(-letter.tangent.y),
+                    px(centre.x), px(centre.y), markup_text(letter.letter.text));
   }
-  // Halos lie below all letters: that of one would cover a part of its neighbour.
+  // Halos lie below all letters: otherwise one would cover a part of its neighbour.
   std::string halo;
   if (!text.halo.empty() && text.halo_px > 0.0)
-    halo = fmt::format("<g aria-hidden=\"true\" stroke=\"{}\" stroke-width=\"{}px\" stroke-linejoin=\"round\">{}</g>", text.halo,
-                       px(2.0 * text.halo_px), letters);
-  return fmt::format("<g role=\"img\"{} text-anchor=\"middle\"><title>{}</title>{}{}</g>", look, markup_text(text.text), halo, letters);
+    halo = fmt::format(
+        "<g aria-hidden=\"true\" stroke=\"{}\" stroke-width=\"{}px\" "
+        "stroke-linejoin=\"round\">{}</g>",
+        text.halo, px(2.0 * text.halo_px), letters);
+  return fmt::format("<g role=\"img\"{} text-anchor=\"middle\"><title>{}</title>{}{}</g>", look,
+                     markup_text(text.text), halo, letters);
 }
 
-// `measure` gives what letters are measured with.
+// `measure` provides the measure of letters.
 std::string svg_of(const DrawnText& text, const std::function<const TextMeasure&()>& measure) {
   const TextStyle& type = text.type;
-  std::string look =
-      fmt::format(" font-family=\"{}\" font-size=\"{}px\" fill=\"{}\"", markup_text(type.family), px(type.size_px), text.colour);
+  std::string look = fmt::format(" font-family=\"{}\" font-size=\"{}px\" fill=\"{}\"",
+                                 markup_text(type.family), px(type.size_px), text.colour);
   if (type.bold) look += " font-weight=\"bold\"";
   if (type.italic) look += " font-style=\"italic\"";
   if (!text.along.empty()) return bent_text_svg(text, look, measure());
-  if (type.spacing > 0.0) look += fmt::format(" letter-spacing=\"{}px\"", px(type.spacing * type.size_px));
-  // The halo is the letters' own outline, painted before them: SVG 2, which browsers, Inkscape and librsvg know.
+  if (type.spacing > 0.0)
+    look += fmt::format(" letter-spacing=\"{}px\"", px(type.spacing * type.size_px));
+  // The halo is the letters' own outline, painted before them: SVG 2, supported by browsers,
+  // Inkscape and librsvg.
   if (!text.halo.empty() && text.halo_px > 0.0)
-    look += fmt::format(" style=\"paint-order: stroke; stroke: {}; stroke-width: {}px; stroke-linejoin: round\"", text.halo,
-                        px(2.0 * text.halo_px));
+    look += fmt::format(
+        " style=\"paint-order: stroke; stroke: {}; stroke-width: {}px; stroke-linejoin: round\"",
+        text.halo, px(2.0 * text.halo_px));
   const char* anchor = text.anchor <= .25 ? "start" : text.anchor < .75 ? "middle" : "end";
-  return fmt::format("<text x=\"{}\" y=\"{}\"{} text-anchor=\"{}\">{}</text>", px(text.at.x), px(text.at.y), look, anchor,
-                     markup_text(text.text));
+  return fmt::format("<text x=\"{}\" y=\"{}\"{} text-anchor=\"{}\">{}</text>", px(text.at.x),
+                     px(text.at.y), look, anchor, markup_text(text.text));
 }
 
 }  // namespace
 
 std::string shapes_svg(const std::vector<DrawnShape>& shapes) {
   std::string out;
-  // Fonts are asked only where a baseline is bent.
+  // Fonts are needed only for a curved baseline.
   std::unique_ptr<TextMeasure> fonts;
   const auto measure = [&]() -> const TextMeasure& {
     if (!fonts) fonts = std::make_unique<TextMeasure>();
@@ -159,9 +180,11 @@ std::string shapes_svg(const std::vector<DrawnShape>& shapes) {
 
 std::string drawing_svg(const Drawing& drawing, double width_mm) {
   return fmt::format(
-             "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" "
+             "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg "
+             "xmlns=\"http://www.w3.org/2000/svg\" "
              "width=\"{:.3f}mm\" height=\"{:.3f}mm\" viewBox=\"0 0 {} {}\">\n",
-             width_mm, width_mm * drawing.size_px.y / drawing.size_px.x, px(drawing.size_px.x), px(drawing.size_px.y)) +
+             width_mm, width_mm * drawing.size_px.y / drawing.size_px.x, px(drawing.size_px.x),
+             px(drawing.size_px.y)) +
          shapes_svg(drawing.shapes) + "</svg>\n";
 }
 

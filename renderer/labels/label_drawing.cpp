@@ -6,22 +6,30 @@
 namespace belvedere {
 namespace {
 
-void draw_mark(const LabelKindStyle& kind, glm::dvec2 at, double across, std::vector<DrawnShape>& shapes) {
+void draw_mark(const LabelKindStyle& kind, glm::dvec2 at, double across,
+               std::vector<DrawnShape>& shapes) {
   const double r = .5 * across;
   const auto polygon = [&](std::vector<glm::dvec2> points) {
-    shapes.push_back(DrawnPath{.points = std::move(points), .closed = true, .fill = kind.colour, .stroke = {}});
+    shapes.push_back(
+        DrawnPath{.points = std::move(points), .closed = true, .fill = kind.colour, .stroke = {}});
   };
   switch (kind.mark) {
     case LabelMarkShape::none:
       break;
     case LabelMarkShape::dot:
-      shapes.push_back(DrawnCircle{.middle = at, .radius_px = r, .fill = kind.colour, .stroke = {}});
+      shapes.push_back(
+          DrawnCircle{.centre = at, .radius_px = r, .fill = kind.colour, .stroke = {}});
       break;
     case LabelMarkShape::ring:
-      shapes.push_back(DrawnCircle{.middle = at, .radius_px = .7 * r, .fill = kind.halo, .stroke = kind.colour, .width_px = .6 * r});
+      shapes.push_back(DrawnCircle{.centre = at,
+                                   .radius_px = .7 * r,
+                                   .fill = kind.halo,
+                                   .stroke = kind.colour,
+                                   .width_px = .6 * r});
       break;
     case LabelMarkShape::square:
-      polygon({at + glm::dvec2(-r, -r), at + glm::dvec2(r, -r), at + glm::dvec2(r, r), at + glm::dvec2(-r, r)});
+      polygon({at + glm::dvec2(-r, -r), at + glm::dvec2(r, -r), at + glm::dvec2(r, r),
+               at + glm::dvec2(-r, r)});
       break;
     case LabelMarkShape::triangle:  // its tip on the summit
       polygon({at + glm::dvec2(0, -r), at + glm::dvec2(r, .8 * r), at + glm::dvec2(-r, .8 * r)});
@@ -73,10 +81,11 @@ std::vector<DrawnGroup> draw_labels(const LabelSheet& sheet) {
   for (const Label& label : sheet.labels)
     if (label.spot.placed && label.spot.has_leader) {
       const double foot = label.mark.pixel.y - .5 * sheet.kind_of(label).mark_mm * sheet.px_per_mm;
-      leaders.shapes.push_back(DrawnPath{.points = {{label.mark.pixel.x, label.spot.leader_top_px}, {label.mark.pixel.x, foot}},
-                                         .fill = {},
-                                         .stroke = sheet.style.leader,
-                                         .width_px = sheet.style.leader_mm * sheet.px_per_mm});
+      leaders.shapes.push_back(DrawnPath{
+          .points = {{label.mark.pixel.x, label.spot.leader_top_px}, {label.mark.pixel.x, foot}},
+          .fill = {},
+          .stroke = sheet.style.leader,
+          .width_px = sheet.style.leader_mm * sheet.px_per_mm});
     }
   if (!leaders.shapes.empty()) groups.push_back(std::move(leaders));
   for (std::size_t k = 0; k < sheet.style.kinds.size(); ++k) {
@@ -84,7 +93,8 @@ std::vector<DrawnGroup> draw_labels(const LabelSheet& sheet) {
     DrawnGroup group{kind.name, {}};
     for (const Label& label : sheet.labels) {
       if (!label.spot.placed || label.point.kind != static_cast<int>(k)) continue;
-      if (label.spot.baseline.empty()) draw_mark(kind, label.mark.pixel, kind.mark_mm * sheet.px_per_mm, group.shapes);
+      if (label.spot.baseline.empty())
+        draw_mark(kind, label.mark.pixel, kind.mark_mm * sheet.px_per_mm, group.shapes);
       group.shapes.push_back(draw_name(sheet, label));
     }
     if (!group.shapes.empty()) groups.push_back(std::move(group));
@@ -94,7 +104,8 @@ std::vector<DrawnGroup> draw_labels(const LabelSheet& sheet) {
 
 Drawing label_drawing(const LabelSheet& sheet) {
   Drawing drawing{.size_px = sheet.size_px, .shapes = {}};
-  for (DrawnGroup& group : draw_labels(sheet)) std::move(group.shapes.begin(), group.shapes.end(), std::back_inserter(drawing.shapes));
+  for (DrawnGroup& group : draw_labels(sheet))
+    std::move(group.shapes.begin(), group.shapes.end(), std::back_inserter(drawing.shapes));
   return drawing;
 }
 

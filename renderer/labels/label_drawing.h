@@ -13,8 +13,9 @@ struct DrawnGroup {
   std::vector<DrawnShape> shapes;
 };
 
-// Tracks (hidden pieces dashed, then edges, then what is seen) and placed names with marks and leaders, a group for each kind, in the order
-// in which they lie over each other. Leaders of all kinds come before the first name: none crosses another's letters.
+// Tracks (hidden pieces dashed, then edges, then visible pieces) and placed names with marks and
+// leaders, a group for each kind, in drawing order. Leaders of all kinds come before the first
+// name, so that none crosses the letters of another.
 std::vector<DrawnGroup> draw_labels(const LabelSheet& sheet);
 
 // All groups as one drawing of the picture's size.

@@ -6,19 +6,21 @@
 
 namespace belvedere {
 
-// The placed labels, and the tracks below them, as SVG 1.1, over the picture pixel by pixel: text as text, one group a kind, so that all
-// can be changed in Inkscape or Illustrator. The sheet's size stands in millimetres. `under`: a picture's path to show beneath, as the SVG
-// shall name it; empty: none.
+// The placed labels, and the tracks below them, as SVG 1.1, over the picture pixel by pixel: text
+// as text, one group per kind, so that all can be edited in Inkscape or Illustrator. The sheet's
+// size is in millimetres. `under`: path of a picture to show below, as written to the SVG; empty:
+// none.
 std::string labels_svg(const LabelSheet& sheet, const std::string& under = {});
 
-// Every point, placed or not: a table for spreadsheets, places in the scene's CRS.
+// Every point, placed or not: a table for spreadsheets, positions in the scene's CRS.
 std::string labels_csv(const LabelSheet& sheet);
 
-// The same of points of which no names are set: what stands for "placed" or "no room" there is "seen" here, and the ground that hides a
-// point follows in two more columns.
+// The same for points without labels: "seen" replaces "placed" and "no room", and two more columns
+// give the ground that hides a point.
 std::string places_csv(const LabelSheet& sheet);
 
-// labels_csv as GeoJSON (RFC 7946), places in longitude and latitude. `crs`: the scene's; Error(usage) where it is empty.
+// labels_csv as GeoJSON (RFC 7946), positions in longitude and latitude. `crs`: the scene's;
+// Error(usage) where it is empty.
 std::string labels_geojson(const LabelSheet& sheet, const std::string& crs);
 
 }  // namespace belvedere

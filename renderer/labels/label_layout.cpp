@@ -9,7 +9,7 @@
 namespace belvedere {
 namespace {
 
-// A place that a name could take. Smaller costs come first.
+// A possible position of a name. Smaller costs come first.
 struct Candidate {
   LabelBox text;
   const BentRoom* bent = nullptr;
@@ -18,9 +18,12 @@ struct Candidate {
   double cost = 0.0;
 };
 
-LabelBox grown(const LabelBox& box, double by) { return {box.left - by, box.top - by, box.right + by, box.bottom + by}; }
+LabelBox grown(const LabelBox& box, double by) {
+  return {box.left - by, box.top - by, box.right + by, box.bottom + by};
+}
 
-// Whether a text, of a bent name one of its letters, lies over a box, or nearer to it than `by`.
+// Whether a text, for a curved name one of its letters, overlaps a box or is nearer to it than
+// `by`.
 bool lies_over(const Candidate& a, double by, const LabelBox& box) {
   if (!grown(a.text, by).overlaps(box)) return false;
   if (a.bent == nullptr) return true;
@@ -31,7 +34,8 @@ bool lies_over(const Candidate& a, double by, const LabelBox& box) {
 bool texts_overlap(const Candidate& a, const Candidate& b, double by) {
   if (!grown(a.text, by).overlaps(b.text)) return false;
   if (b.bent == nullptr) return lies_over(a, by, b.text);
-  return std::any_of(b.bent->letters.begin(), b.bent->letters.end(), [&](const LabelBox& letter) { return lies_over(a, by, letter); });
+  return std::any_of(b.bent->letters.begin(), b.bent->letters.end(),
+                     [&](const LabelBox& letter) { return lies_over(a, by, letter); });
 }
 
 LabelBox mark_box(const LabelRequest& request) {
@@ -39,14 +43,15 @@ LabelBox mark_box(const LabelRequest& request) {
   return {request.mark.x - r, request.mark.y - r, request.mark.x + r, request.mark.y + r};
 }
 
-// A leader as a box of no width: it may touch nothing but its own mark and text.
+// A leader as a box of no width: it may touch only its own mark and text.
 LabelBox leader_box(const LabelRequest& request, double top_px) {
   return {request.mark.x - .5, top_px, request.mark.x + .5, request.mark.y - .5 * request.mark_px};
 }
 
 class Layout {
  public:
-  Layout(const std::vector<LabelRequest>& requests, const std::vector<double>& skyline_px, const LabelLayoutParameters& parameters)
+  Layout(const std::vector<LabelRequest>& requests, const std::vector<double>& skyline_px,
+         const LabelLayoutParameters& parameters)
       : requests_(requests), skyline_px_(skyline_px), p_(parameters), chosen_(requests.size()) {
     for (const LabelRequest& request : requests_) candidates_.push_back(candidates_of(request));
   }
@@ -54,13 +59,18 @@ class Layout {
   std::vector<LabelSpot> run() {
     std::vector<std::size_t> order(requests_.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return requests_[a].rank < requests_[b].rank; });
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return requests_[a].rank < requests_[b].rank;
+    });
     for (const std::size_t i : order)
       if (!place_free(i)) place_by_moving_one(i);
     std::vector<LabelSpot> spots(requests_.size());
     for (std::size_t i = 0; i < spots.size(); ++i)
       if (const std::optional<Candidate>& c = chosen_[i]) {
-        spots[i] = {.placed = true, .text = c->text, .has_leader = c->has_leader, .leader_top_px = c->leader_top_px};
+        spots[i] = {.placed = true,
+                    .text = c->text,
+                    .has_leader = c->has_leader,
+                    .leader_top_px = c->leader_top_px};
         if (c->bent != nullptr) {
           spots[i].letters = c->bent->letters;
           spots[i].baseline = c->bent->baseline;
@@ -70,15 +80,17 @@ class Layout {
   }
 
  private:
-  // All that a request could take, best first.
+  // All candidates of a request, best first.
   std::vector<Candidate> candidates_of(const LabelRequest& request) const {
     std::vector<Candidate> all;
     if (!request.bent.empty()) {
       add_bent(request, all);
       return all;
     }
-    if (request.mark.x < 0.0 || request.mark.y < 0.0 || request.mark.x > p_.width_px || request.mark.y > p_.height_px) return all;
-    switch (request.place) {
+    if (request.mark.x < 0.0 || request.mark.y < 0.0 || request.mark.x > p_.width_px ||
+        request.mark.y > p_.height_px)
+      return all;
+    switch (request.position) {
       case LabelPlace::above:
         request.on_skyline ? add_rows(request, all) : add_above(request, all);
         break;
@@ -88,11 +100,12 @@ class Layout {
       case LabelPlace::over:
         for (const double dy : {0.0, -.6, .6, -1.2, 1.2})
           for (const double dx : {0.0, -.35, .35})
-            add(request, request.mark.x + dx * request.width_px, request.mark.y + (dy + .5) * request.height_px,
-                std::abs(dy) + std::abs(dx), all);
+            add(request, request.mark.x + dx * request.width_px,
+                request.mark.y + (dy + .5) * request.height_px, std::abs(dy) + std::abs(dx), all);
         break;
     }
-    std::stable_sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
+    std::stable_sort(all.begin(), all.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
     return all;
   }
 
@@ -101,47 +114,55 @@ class Layout {
       if (bent.letters.empty()) continue;
       LabelBox box = bent.letters.front();
       for (const LabelBox& letter : bent.letters)
-        box = {std::min(box.left, letter.left), std::min(box.top, letter.top), std::max(box.right, letter.right),
-               std::max(box.bottom, letter.bottom)};
-      if (is_inside(box)) all.push_back({.text = box, .bent = &bent, .cost = static_cast<double>(all.size())});
+        box = {std::min(box.left, letter.left), std::min(box.top, letter.top),
+               std::max(box.right, letter.right), std::max(box.bottom, letter.bottom)};
+      if (is_inside(box))
+        all.push_back({.text = box, .bent = &bent, .cost = static_cast<double>(all.size())});
     }
   }
 
   bool is_inside(const LabelBox& box) const {
-    return box.left >= p_.margin_px && box.top >= p_.margin_px && box.right <= p_.width_px - p_.margin_px &&
-           box.bottom <= p_.height_px - p_.margin_px;
+    return box.left >= p_.margin_px && box.top >= p_.margin_px &&
+           box.right <= p_.width_px - p_.margin_px && box.bottom <= p_.height_px - p_.margin_px;
   }
 
-  // The text with the middle of its lower edge there; nothing where it would leave the picture.
-  Candidate* add(const LabelRequest& request, double middle, double bottom, double cost, std::vector<Candidate>& all) const {
-    const LabelBox box{middle - .5 * request.width_px, bottom - request.height_px, middle + .5 * request.width_px, bottom};
+  // The text with the centre of its lower edge there; nothing where it would leave the picture.
+  Candidate* add(const LabelRequest& request, double centre, double bottom, double cost,
+                 std::vector<Candidate>& all) const {
+    const LabelBox box{centre - .5 * request.width_px, bottom - request.height_px,
+                       centre + .5 * request.width_px, bottom};
     if (!is_inside(box)) return nullptr;
     all.push_back({.text = box, .cost = cost});
     return &all.back();
   }
 
-  // Middles of the text over a leader, as shares of its width from the leader. Texts begin and end with a little room, so that lines of
-  // neighbours pass beside.
+  // Centres of the text over a leader, as shares of its width from the leader. Both ends of a text
+  // leave a little room, so that lines of neighbours pass beside it.
   static constexpr std::array<double, 7> shifts = {0.0, -.18, .18, -.34, .34, -.46, .46};
 
-  double foot_of(const LabelRequest& request) const { return request.mark.y - .5 * request.mark_px - p_.gap_px; }
+  double foot_of(const LabelRequest& request) const {
+    return request.mark.y - .5 * request.mark_px - p_.gap_px;
+  }
 
-  void lead(const LabelRequest& request, double bottom, double cost, std::vector<Candidate>& all) const {
+  void lead(const LabelRequest& request, double bottom, double cost,
+            std::vector<Candidate>& all) const {
     for (const double shift : shifts)
-      if (Candidate* c = add(request, request.mark.x + shift * request.width_px, bottom, cost + 1.5 * std::abs(shift), all)) {
+      if (Candidate* c = add(request, request.mark.x + shift * request.width_px, bottom,
+                             cost + 1.5 * std::abs(shift), all)) {
         c->has_leader = foot_of(request) - bottom > .5 * p_.row_px;
         c->leader_top_px = bottom;
       }
   }
 
-  // Straight over the mark, or ever higher on a leader.
+  // Straight above the mark, or higher and higher on a leader.
   void add_above(const LabelRequest& request, std::vector<Candidate>& all) const {
     const double foot = foot_of(request);
-    for (int row = 0; row * p_.row_px <= p_.longest_leader_px; ++row) lead(request, foot - row * p_.row_px, row, all);
+    for (int row = 0; row * p_.row_px <= p_.longest_leader_px; ++row)
+      lead(request, foot - row * p_.row_px, row, all);
   }
 
-  // Rows count from the upper margin, so that names of all summits stand on the same ones. The lowest whose text has only sky behind it
-  // comes first; rows in front of land are a last resort.
+  // Rows count from the upper margin, so that the names of all summits share them. The lowest whose
+  // text has only sky behind it comes first; rows in front of land are a last resort.
   void add_rows(const LabelRequest& request, std::vector<Candidate>& all) const {
     const double foot = foot_of(request);
     const double first = p_.margin_px + request.height_px;
@@ -154,19 +175,21 @@ class Layout {
       for (std::size_t k = before; k < all.size(); ++k)
         if (skyline_over(all[k].text) < all[k].text.bottom + p_.clearance_px) all[k].cost += 20.0;
     }
-    // Where the picture's edge leaves no row, as over any other summit.
+    // Where the picture's edge leaves no row, as above any other summit.
     if (all.empty()) add_above(request, all);
   }
 
   double skyline_over(const LabelBox& box) const {
     double row = static_cast<double>(p_.height_px);
     const int from = std::max(0, static_cast<int>(std::floor(box.left)));
-    const int to = std::min(static_cast<int>(skyline_px_.size()) - 1, static_cast<int>(std::ceil(box.right)));
+    const int to =
+        std::min(static_cast<int>(skyline_px_.size()) - 1, static_cast<int>(std::ceil(box.right)));
     for (int x = from; x <= to; ++x) row = std::min(row, skyline_px_[static_cast<std::size_t>(x)]);
     return row;
   }
 
-  // The eight places around a mark as cartographers rank them (Imhof 1975): upper right first, then right, upper left, left, below, above.
+  // The eight positions around a mark as cartographers rank them (Imhof 1975): upper right first,
+  // then right, upper left, left, below, above.
   void add_around(const LabelRequest& request, std::vector<Candidate>& all) const {
     const double r = .5 * request.mark_px + p_.gap_px;
     const double w = .5 * request.width_px;
@@ -188,15 +211,20 @@ class Layout {
     if (texts_overlap(a, b, p_.clearance_px)) return true;
     if (requests_[j].mark_px > 0.0 && lies_over(a, 0.0, mark_b)) return true;
     if (requests_[i].mark_px > 0.0 && lies_over(b, 0.0, mark_a)) return true;
-    const auto lies_on = [&](const LabelBox& leader, std::size_t other, const Candidate& theirs, const LabelBox& mark) {
-      return lies_over(theirs, .5 * p_.clearance_px, leader) || (requests_[other].mark_px > 0.0 && leader.overlaps(mark)) ||
-             (theirs.has_leader && grown(leader, p_.clearance_px).overlaps(leader_box(requests_[other], theirs.leader_top_px)));
+    const auto lies_on = [&](const LabelBox& leader, std::size_t other, const Candidate& theirs,
+                             const LabelBox& mark) {
+      return lies_over(theirs, .5 * p_.clearance_px, leader) ||
+             (requests_[other].mark_px > 0.0 && leader.overlaps(mark)) ||
+             (theirs.has_leader &&
+              grown(leader, p_.clearance_px)
+                  .overlaps(leader_box(requests_[other], theirs.leader_top_px)));
     };
-    if (a.has_leader && lies_on(leader_box(requests_[i], a.leader_top_px), j, b, mark_b)) return true;
+    if (a.has_leader && lies_on(leader_box(requests_[i], a.leader_top_px), j, b, mark_b))
+      return true;
     return b.has_leader && lies_on(leader_box(requests_[j], b.leader_top_px), i, a, mark_a);
   }
 
-  // Names in the way of a candidate: none, one, or more than one (requests_.size()).
+  // Names that block a candidate: none, one, or more than one (requests_.size()).
   std::optional<std::size_t> in_the_way(std::size_t i, const Candidate& candidate) const {
     std::optional<std::size_t> found;
     for (std::size_t j = 0; j < chosen_.size(); ++j) {
@@ -216,7 +244,7 @@ class Layout {
     return false;
   }
 
-  // Where one name alone is in the way, and that one has another place, it moves.
+  // A single blocking name moves if it has another position.
   void place_by_moving_one(std::size_t i) {
     for (const Candidate& candidate : candidates_[i]) {
       const std::optional<std::size_t> j = in_the_way(i, candidate);
@@ -239,7 +267,8 @@ class Layout {
 
 }  // namespace
 
-std::vector<LabelSpot> place_labels(const std::vector<LabelRequest>& requests, const std::vector<double>& skyline_px,
+std::vector<LabelSpot> place_labels(const std::vector<LabelRequest>& requests,
+                                    const std::vector<double>& skyline_px,
                                     const LabelLayoutParameters& parameters) {
   return Layout(requests, skyline_px, parameters).run();
 }

@@ -19,22 +19,23 @@ struct LabelBox {
   }
 };
 
-// A bent way that a name could stand on, with the boxes of its letters.
+// A curved line that a name could be set on, with the boxes of its letters.
 struct BentRoom {
   std::vector<glm::dvec2> baseline;
   std::vector<LabelBox> letters;
 };
 
-// A name that asks for room.
+// A name to be placed.
 struct LabelRequest {
   glm::dvec2 mark{0.0};    // px
   double mark_px = 0.0;    // across, 0 without a mark
   double width_px = 0.0;   // of the text
   double height_px = 0.0;  // of the text
-  LabelPlace place = LabelPlace::above;
-  bool on_skyline = false;          // only sky over the mark: the name goes to a row of the sky
-  double rank = 5.0;                // small ones choose first; equal ones in their order
-  std::vector<BentRoom> bent = {};  // of a name that follows a shape, best first; place and mark are then not asked
+  LabelPlace position = LabelPlace::above;
+  bool on_skyline = false;  // only sky above the mark: the name goes to a row of the sky
+  double rank = 5.0;        // small ranks are placed first; equal ones in their order
+  std::vector<BentRoom> bent =
+      {};  // for a name that follows a shape, best first; position and mark are then ignored
 };
 
 struct LabelLayoutParameters {
@@ -47,21 +48,23 @@ struct LabelLayoutParameters {
   double longest_leader_px = 160.0;
 };
 
-// Where a name stands.
+// Position of a name.
 struct LabelSpot {
   bool placed = false;
-  LabelBox text;                          // of a bent name around all its letters
-  std::vector<LabelBox> letters = {};     // of a bent name
-  std::vector<glm::dvec2> baseline = {};  // of a bent name; empty: level
-  bool has_leader = false;                // an upright line from the mark up to leader_top_px
+  LabelBox text;                          // for a curved name around all its letters
+  std::vector<LabelBox> letters = {};     // of a curved name
+  std::vector<glm::dvec2> baseline = {};  // of a curved name; empty: level
+  bool has_leader = false;                // a vertical line from the mark up to leader_top_px
   double leader_top_px = 0.0;
 };
 
-// Finds room for names so that no text lies over another, over a mark or over a leader, and no leader over a text or a mark. Ranks decide:
-// a name that has found room keeps its place or moves to another that is free, but never goes for one of lower rank. What does not fit is
-// not placed. `skyline_px`: for each column of the picture the row above which there is sky (0 where there is none): names of the skyline
-// stand over it, in rows that all share. The same for the same requests.
-std::vector<LabelSpot> place_labels(const std::vector<LabelRequest>& requests, const std::vector<double>& skyline_px,
+// Finds positions for names so that no text overlaps another, a mark or a leader, and no leader a
+// text or a mark. Ranks decide: a placed name keeps its position or moves to another free one, but
+// is never dropped for one of lower rank. Names that do not fit are not placed. `skyline_px`: for
+// each column of the picture the row above which there is sky (0 where there is none): names of the
+// skyline are above it, in shared rows. Deterministic.
+std::vector<LabelSpot> place_labels(const std::vector<LabelRequest>& requests,
+                                    const std::vector<double>& skyline_px,
                                     const LabelLayoutParameters& parameters);
 
 }  // namespace belvedere

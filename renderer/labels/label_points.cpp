@@ -27,7 +27,7 @@ const std::string& text_of(const PointTable::Point& point, int column) {
   return column < 0 ? nothing : point.values[static_cast<std::size_t>(column)];
 }
 
-// The columns of those names that a table has: layers of one file may each have another.
+// Indices of those columns in a table: layers of one file may have different ones.
 std::vector<int> columns_of(const PointTable& table, std::span<const char* const> names) {
   std::vector<int> columns;
   for (const char* name : names)
@@ -35,38 +35,48 @@ std::vector<int> columns_of(const PointTable& table, std::span<const char* const
   return columns;
 }
 
-// The first of them that a point has something in; -1: none.
+// The first of them that is not empty for a point; -1: none.
 int filled(const PointTable::Point& point, const std::vector<int>& columns) {
-  const auto found = std::find_if(columns.begin(), columns.end(), [&](int column) { return !text_of(point, column).empty(); });
+  const auto found = std::find_if(columns.begin(), columns.end(),
+                                  [&](int column) { return !text_of(point, column).empty(); });
   return found == columns.end() ? -1 : *found;
 }
 
-std::optional<double> number_of(const PointTable& table, const PointTable::Point& point, int column, double least, double most) {
+std::optional<double> number_of(const PointTable& table, const PointTable::Point& point, int column,
+                                double min, double max) {
   const std::string& text = text_of(point, column);
   if (text.empty()) return std::nullopt;
   double value = 0.0;
   const auto [stop, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (problem != std::errc() || stop != text.data() + text.size() || !(value >= least && value <= most))
-    throw Error(ErrorKind::usage, point.where, fmt::format("{} is \"{}\"", table.columns[static_cast<std::size_t>(column)], text),
-                fmt::format("a number, {:g} … {:g}; empty where it is not known", least, most));
+  if (problem != std::errc() || stop != text.data() + text.size() ||
+      !(value >= min && value <= max))
+    throw Error(ErrorKind::usage, point.where,
+                fmt::format("{} is \"{}\"", table.columns[static_cast<std::size_t>(column)], text),
+                fmt::format("a number, {:g} … {:g}; empty if not known", min, max));
   return value;
 }
 
-// Letters as Unicode has them, none written longer than it must be, no half of a pair (RFC 3629).
+// Valid UTF-8 (RFC 3629): no overlong forms, no surrogates.
 bool is_utf8(std::string_view text) {
   for (std::size_t i = 0; i < text.size();) {
     const auto byte = [&](std::size_t k) {
-      return i + k < text.size() ? static_cast<unsigned>(static_cast<unsigned char>(text[i + k])) : 0U;
+      return i + k < text.size() ? static_cast<unsigned>(static_cast<unsigned char>(text[i + k]))
+                                 : 0U;
     };
-    const std::size_t more = byte(0) < 0x80 ? 0 : byte(0) >> 5 == 6 ? 1 : byte(0) >> 4 == 14 ? 2 : byte(0) >> 3 == 30 ? 3 : 9;
+    const std::size_t more = byte(0) < 0x80       ? 0
+                             : byte(0) >> 5 == 6  ? 1
+                             : byte(0) >> 4 == 14 ? 2
+                             : byte(0) >> 3 == 30 ? 3
+                                                  : 9;
     if (more > 3) return false;
     unsigned letter = more == 0 ? byte(0) : byte(0) & (0x3FU >> more);
     for (std::size_t k = 1; k <= more; ++k) {
       if (byte(k) >> 6 != 2) return false;
       letter = letter << 6 | (byte(k) & 0x3FU);
     }
-    constexpr std::array least{0U, 0x80U, 0x800U, 0x10000U};
-    if (letter < least[more] || letter > 0x10FFFFU || (letter >= 0xD800U && letter <= 0xDFFFU)) return false;
+    constexpr std::array min{0U, 0x80U, 0x800U, 0x10000U};
+    if (letter < min[more] || letter > 0x10FFFFU || (letter >= 0xD800U && letter <= 0xDFFFU))
+      return false;
     i += more + 1;
   }
   return true;
@@ -75,9 +85,10 @@ bool is_utf8(std::string_view text) {
 constexpr std::array kind_columns{"kind", "type", "natural", "place", "tourism"};
 constexpr std::array altitude_columns{"ele", "altitude_m", "altitude", "elevation", "height"};
 
-// The points of a file of any format, of vector files those of all its layers.
-PointTable read_table(const std::string& path, const std::string& crs, NamesAre names, Progress& progress) {
-  if (lower_ending(path) == ".csv" || crs.empty()) return read_points(path, crs);
+// The points of a file of any format, for vector files those of all its layers.
+PointTable read_table(const std::string& path, const std::string& crs, NamesAre names,
+                      Progress& progress) {
+  if (lower_extension(path) == ".csv" || crs.empty()) return read_points(path, crs);
   MapQuery query;
   (names == NamesAre::needed ? query.columns : query.also).emplace_back("name");
   query.also.insert(query.also.end(), kind_columns.begin(), kind_columns.end());
@@ -90,28 +101,36 @@ PointTable read_table(const std::string& path, const std::string& crs, NamesAre 
   table.columns.insert(table.columns.end(), altitude_columns.begin(), altitude_columns.end());
   for (MapFeature& feature : file.features)
     if (feature.shape == MapShape::point)
-      table.points.push_back({.where = feature.where, .place = feature.parts.front().front(), .values = std::move(feature.values)});
+      table.points.push_back({.where = feature.where,
+                              .position = feature.parts.front().front(),
+                              .values = std::move(feature.values)});
   if (file.unplaceable > 0)
-    progress.note(fmt::format("{}: {} features with places outside of {} are left out", path, file.unplaceable, describe_crs(crs)));
+    progress.note(fmt::format("{}: {} features outside {} are left out", path, file.unplaceable,
+                              describe_crs(crs)));
   if (table.points.empty())
-    throw Error(ErrorKind::input, path, "no points in it", "points; lines and areas with names are --shapes, or [[labels.shapes]]");
+    throw Error(ErrorKind::input, path, "no points in it",
+                "points; lines and areas with names are --shapes, or [[labels.shapes]]");
   return table;
 }
 
 }  // namespace
 
-// Bytes that begin one.
+// Continuation bytes do not count.
 std::size_t letters_of(const std::string& text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
-std::vector<LabelPoint> read_label_points(const std::string& path, const std::string& crs, const LabelStyle& style, Progress& progress,
+std::vector<LabelPoint> read_label_points(const std::string& path, const std::string& crs,
+                                          const LabelStyle& style, Progress& progress,
                                           NamesAre names) {
   const bool all = names == NamesAre::optional;
   const PointTable table = read_table(path, crs, names, progress);
   const int name = table.find("name");
   if (name < 0 && !all)
-    throw Error(ErrorKind::usage, path, fmt::format("no column of names; there are {}", fmt::join(table.columns, ", ")), "name");
+    throw Error(ErrorKind::usage, path,
+                fmt::format("no column of names; there are {}", fmt::join(table.columns, ", ")),
+                "name");
   const std::vector<int> kind = columns_of(table, kind_columns);
   const int rank = table.find("rank");
   const std::vector<int> altitude = columns_of(table, altitude_columns);
@@ -122,7 +141,7 @@ std::vector<LabelPoint> read_label_points(const std::string& path, const std::st
   for (const PointTable::Point& row : table.points) {
     LabelPoint point;
     point.name = text_of(row, name);
-    point.place = row.place;
+    point.position = row.position;
     point.where = row.where;
     if (point.name.empty() && !all) {
       ++unnamed;
@@ -132,7 +151,9 @@ std::vector<LabelPoint> read_label_points(const std::string& path, const std::st
       ++too_long;
       continue;
     }
-    if (!is_utf8(point.name)) throw Error(ErrorKind::input, row.where, "the name is no text in UTF-8", "a file that is saved as UTF-8");
+    if (!is_utf8(point.name))
+      throw Error(ErrorKind::input, row.where, "the name is not valid UTF-8",
+                  "a file that is saved as UTF-8");
     if (const std::string& word = text_of(row, filled(row, kind)); !word.empty()) {
       const int found = style.find(word);
       if (found < 0) strange.insert(word);
@@ -144,39 +165,49 @@ std::vector<LabelPoint> read_label_points(const std::string& path, const std::st
   }
   if (points.empty() && !table.points.empty())
     throw Error(ErrorKind::usage, path,
-                fmt::format("none of its {} points has a name of 1 … {} letters", table.points.size(), longest_name),
-                "names that a panorama has room for, in the column name");
-  if (unnamed > 0) progress.note(fmt::format("{}: {} of {} points have no name and are left out", path, unnamed, table.points.size()));
+                fmt::format("none of its {} points has a name of 1 … {} letters",
+                            table.points.size(), longest_name),
+                "names that fit in a panorama, in the column name");
+  if (unnamed > 0)
+    progress.note(fmt::format("{}: {} of {} points have no name and are left out", path, unnamed,
+                              table.points.size()));
   if (too_long > 0)
-    progress.note(
-        fmt::format("{}: {} names of more than {} letters are left out: a panorama has no room for them", path, too_long, longest_name));
+    progress.note(fmt::format(
+        "{}: {} names of more than {} letters are left out: they do not fit in a panorama", path,
+        too_long, longest_name));
   if (!strange.empty() && !all)
-    progress.note(fmt::format("{}: {} of which the style {} knows nothing: set as {}", path,
-                              strange.size() == 1 ? "a kind" : fmt::format("{} kinds", strange.size()), style.name, style.kinds[0].name) +
-                  fmt::format(" ({})", fmt::join(strange, ", ")));
+    progress.note(
+        fmt::format("{}: {} points of kinds that the style {} does not contain: set as {}", path,
+                    strange.size() == 1 ? "a kind" : fmt::format("{} kinds", strange.size()),
+                    style.name, style.kinds[0].name) +
+        fmt::format(" ({})", fmt::join(strange, ", ")));
   return points;
 }
 
-std::vector<LabelPoint> unnamed_summits(const std::vector<Summit>& summits, const GeoTransform& transform, double cell_m,
-                                        const std::vector<LabelPoint>& named, const LabelStyle& style) {
+std::vector<LabelPoint> unnamed_summits(const std::vector<Summit>& summits,
+                                        const GeoTransform& transform, double cell_m,
+                                        const std::vector<LabelPoint>& named,
+                                        const LabelStyle& style) {
   const int kind = std::max(0, style.find("summit"));
-  // A file's place of a summit is some hundred metres off at worst, and so is a coarse DEM's.
+  // Summit positions in files are up to some hundred metres off, and so are those of a coarse DEM.
   const double same_m = std::max(style.kinds[static_cast<std::size_t>(kind)].climb_m, 2.0 * cell_m);
   const double metres = cell_m / transform.cell_x;
   std::vector<LabelPoint> points;
   for (const Summit& summit : summits) {
-    const glm::dvec2 place = transform.to_crs(summit.x, summit.y);
+    const glm::dvec2 position = transform.to_crs(summit.x, summit.y);
     const bool known = std::any_of(named.begin(), named.end(), [&](const LabelPoint& point) {
-      return point.kind == kind && glm::length(point.place - place) * metres <= same_m;
+      return point.kind == kind && glm::length(point.position - position) * metres <= same_m;
     });
     if (known) continue;
-    const double rank = std::clamp(9.0 - static_cast<double>(summit.prominence_m) / 400.0, 6.0, 9.0);
+    const double rank =
+        std::clamp(9.0 - static_cast<double>(summit.prominence_m) / 400.0, 6.0, 9.0);
     points.push_back({.name = {},
                       .kind = kind,
                       .rank = rank,
                       .altitude_m = std::nullopt,
-                      .place = place,
-                      .where = fmt::format("summit of the DEM, {:.0f} m over its saddle", summit.prominence_m)});
+                      .position = position,
+                      .where = fmt::format("summit of the DEM, {:.0f} m above its saddle",
+                                           summit.prominence_m)});
   }
   return points;
 }

@@ -19,7 +19,9 @@ LabelKindStyle read_kind(const ConfigEntry& entry, const std::string& name) {
   kind.name = entry.key;
   ConfigReader read(entry.value, name);
   read.texts("also", kind.also);
-  read.word<LabelPlace>("place", kind.place, {{"above", LabelPlace::above}, {"beside", LabelPlace::beside}, {"over", LabelPlace::over}});
+  read.word<LabelPlace>(
+      "place", kind.position,
+      {{"above", LabelPlace::above}, {"beside", LabelPlace::beside}, {"over", LabelPlace::over}});
   read.text("family", kind.family);
   read.number("size_mm", kind.size_mm, 0.5, 100.0);
   read.flag("bold", kind.bold);
@@ -74,7 +76,8 @@ LabelStyle read_style(const ConfigValue& document, const std::string& name) {
   double version = 0.0;
   read.number("version", version, 1.0, 1.0);
   if (version != 1.0) throw Error(ErrorKind::usage, name, "no version", "version = 1");
-  read.number("least_px", style.least_px, 0.0, 1000.0);
+  read.number("min_px", style.min_px, 0.0, 1000.0);
+  read.number("least_px", style.min_px, 0.0, 1000.0);  // its name in version 0.1
   read.number("gap_mm", style.gap_mm, 0.0, 100.0);
   read.number("row_mm", style.row_mm, 0.5, 200.0);
   read.number("longest_leader_mm", style.longest_leader_mm, 0.0, 1000.0);
@@ -86,9 +89,12 @@ LabelStyle read_style(const ConfigValue& document, const std::string& name) {
   if (const ConfigValue* track = read.known("track")) style.track = read_track(*track, name);
   if (const ConfigValue* margin = read.known("margin")) style.margin = read_margin(*margin, name);
   read.end();
-  if (kinds == nullptr) throw Error(ErrorKind::usage, name, "no kinds of names", "[kinds.summit] and the like");
-  for (const ConfigEntry& entry : as_table(*kinds, name)) style.kinds.push_back(read_kind(entry, name));
-  if (style.kinds.empty()) throw Error(ErrorKind::usage, name, "no kinds of names", "[kinds.summit] and the like");
+  if (kinds == nullptr)
+    throw Error(ErrorKind::usage, name, "no kinds of names", "[kinds.summit] and the like");
+  for (const ConfigEntry& entry : as_table(*kinds, name))
+    style.kinds.push_back(read_kind(entry, name));
+  if (style.kinds.empty())
+    throw Error(ErrorKind::usage, name, "no kinds of names", "[kinds.summit] and the like");
   return style;
 }
 
@@ -98,12 +104,15 @@ int LabelStyle::find(const std::string& word) const {
   const std::string wanted = lower_case(word);
   for (std::size_t k = 0; k < kinds.size(); ++k)
     if (lower_case(kinds[k].name) == wanted ||
-        std::any_of(kinds[k].also.begin(), kinds[k].also.end(), [&](const std::string& other) { return lower_case(other) == wanted; }))
+        std::any_of(kinds[k].also.begin(), kinds[k].also.end(),
+                    [&](const std::string& other) { return lower_case(other) == wanted; }))
       return static_cast<int>(k);
   return -1;
 }
 
-LabelStyle parse_label_style(const std::string& text, const std::string& name) { return read_style(parse_config(text, name), name); }
+LabelStyle parse_label_style(const std::string& text, const std::string& name) {
+  return read_style(parse_config(text, name), name);
+}
 
 LabelStyle load_label_style(const std::string& name_or_file) {
   if (name_or_file.ends_with(".toml")) return read_style(read_config(name_or_file), name_or_file);
@@ -111,7 +120,8 @@ LabelStyle load_label_style(const std::string& name_or_file) {
   if (std::find(names.begin(), names.end(), name_or_file) == names.end()) {
     std::string all;
     for (const std::string& name : names) all += '"' + name + "\", ";
-    throw Error(ErrorKind::usage, "the style of names", '"' + name_or_file + '"', all + "or a .toml file");
+    throw Error(ErrorKind::usage, "the style of names", '"' + name_or_file + '"',
+                all + "or a .toml file");
   }
   const std::string file = "labels/" + name_or_file + ".toml";
   return parse_label_style(std::string(embedded_file(file)), file);

@@ -5,37 +5,40 @@
 
 namespace belvedere {
 
-// Where a name stands by its mark.
+// Position of a name relative to its mark.
 enum class LabelPlace : int {
-  above,   // over the mark, higher up with a leader where that is taken; on the skyline in rows
+  above,   // above the mark, higher up with a leader where that is taken; on the skyline in rows
   beside,  // on any side of the mark
-  over     // in the middle of the place itself
+  over     // centred on the position itself
 };
 
 enum class LabelMarkShape : int { none, dot, ring, triangle, square };
 
-// How the names of one kind are set. Lengths in mm of the sheet; colours "#rrggbb".
+// Style of the names of one kind. Lengths in mm of the sheet; colours "#rrggbb".
 struct LabelKindStyle {
-  std::string name;               // as files say it: "summit"
+  std::string name;               // as in files: "summit"
   std::vector<std::string> also;  // other words for it
-  LabelPlace place = LabelPlace::beside;
-  std::string family = "serif";  // as fontconfig knows them, several parted by commas: the first that is installed
-  double size_mm = 3.5;          // of the type, 0.5…100
+  LabelPlace position = LabelPlace::beside;
+  std::string family =
+      "serif";  // as known to fontconfig, several separated by commas: the first that is installed
+  double size_mm = 3.5;  // of the type, 0.5…100
   bool bold = false;
   bool italic = false;
-  double lift = -0.3;    // how high the baseline of a bent name lies over its line, of the type's size, -3…3
-  double aside = 0.0;    // how far below or above that it may lie where others are in the way, of the type's size, 0…5
+  double lift =
+      -0.3;  // height of the baseline of a curved name above its line, of the type's size, -3…3
+  double aside =
+      0.0;  // further offsets below or above where others block it, of the type's size, 0…5
   double spacing = 0.0;  // between letters, of the type's size, 0…2
   std::string colour = "#202020";
   std::string halo = "#ffffff";  // around the letters
   double halo_mm = 0.4;          // 0…10
   LabelMarkShape mark = LabelMarkShape::dot;
   double mark_mm = 1.0;   // across, 0…20
-  bool altitude = false;  // said behind the name
-  double climb_m = 0.0;   // the mark goes to the drawn summit that far away at most, 0…5000
+  bool altitude = false;  // written after the name
+  double climb_m = 0.0;   // maximum distance of the drawn summit that the mark moves to, 0…5000
 };
 
-// How ways are drawn.
+// Style of tracks.
 struct TrackStyle {
   std::string colour = "#c1272d";
   double width_mm = 0.8;  // 0.05…20
@@ -55,7 +58,7 @@ struct MarginStyle {
 
 struct LabelStyle {
   std::string name;  // of the file, for messages
-  double least_px = 11.0;
+  double min_px = 11.0;
   double gap_mm = 0.9;
   double row_mm = 6.5;
   double longest_leader_mm = 75.0;
@@ -65,14 +68,15 @@ struct LabelStyle {
   double leader_mm = 0.22;
   TrackStyle track;
   MarginStyle margin;
-  std::vector<LabelKindStyle> kinds;  // in the order of the file; the first is that of points that say no kind
+  std::vector<LabelKindStyle>
+      kinds;  // in the order of the file; the first is that of points without a kind
 
-  // The kind that a word means, small and capital letters alike; -1 where none does.
+  // The kind that a word denotes, ignoring case; -1 where none does.
   int find(const std::string& word) const;
 };
 
-// A built-in style ("classic") or a .toml file. Throws Error(usage) at line and column for what is no style; Error(input) where the file is
-// missing.
+// A built-in style ("classic") or a .toml file. Throws Error(usage) with line and column for an
+// invalid style; Error(input) where the file is missing.
 LabelStyle load_label_style(const std::string& name_or_file);
 LabelStyle parse_label_style(const std::string& text, const std::string& name);
 

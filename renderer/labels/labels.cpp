@@ -15,7 +15,8 @@
 namespace belvedere {
 namespace {
 
-// Room at both ends of a text, of its type's size: names that follow each other in a row stay two names.
+// Space at both ends of a text, of its type's size, so that names that follow each other in a row
+// stay separate.
 constexpr double end_room = 0.25;
 
 std::string set_text(const LabelPoint& point, const LabelMark& mark, const LabelKindStyle& kind) {
@@ -24,53 +25,61 @@ std::string set_text(const LabelPoint& point, const LabelMark& mark, const Label
   return altitude.empty() ? point.name : point.name + "\u2002" + altitude;
 }
 
-// How far a name is spread along its shape: over so much of the line, its letters at most so far from each other.
+// Limits of letter spacing along a shape: the share of the line, and the space between letters.
 constexpr double spread_share = 0.55;
-constexpr double most_spacing = 0.9;  // of the type's size, over the kind's
+constexpr double max_spacing = 0.9;  // of the type's size, above the kind's
 
-// Whether letters of the text join each other, as those of Arabic and Syriac do (U+0600 … U+077F): drawn apart they would be torn. First
-// bytes of UTF-8 tell.
+// Whether letters of the text join, as in Arabic and Syriac (U+0600 … U+077F), so that they cannot
+// be drawn apart. The first bytes of UTF-8 are sufficient.
 bool joins(const std::string& text) {
-  return std::any_of(text.begin(), text.end(),
-                     [](char c) { return static_cast<unsigned char>(c) >= 0xD8 && static_cast<unsigned char>(c) <= 0xDD; });
+  return std::any_of(text.begin(), text.end(), [](char c) {
+    return static_cast<unsigned char>(c) >= 0xD8 && static_cast<unsigned char>(c) <= 0xDD;
+  });
 }
 
-double spacing_of(const LabelKindStyle& kind, const std::string& text) { return joins(text) ? 0.0 : kind.spacing; }
+double spacing_of(const LabelKindStyle& kind, const std::string& text) {
+  return joins(text) ? 0.0 : kind.spacing;
+}
 
-// The box of a letter that stands turned on a baseline.
-LabelBox letter_box(const LetterPlace& place, double width, const TextRoom& room) {
-  const glm::dvec2 down(-place.tangent.y, place.tangent.x);
-  LabelBox box{place.at.x, place.at.y, place.at.x, place.at.y};
+// The box of a rotated letter on a baseline.
+LabelBox letter_box(const LetterPosition& position, double width, const TextRoom& room) {
+  const glm::dvec2 down(-position.tangent.y, position.tangent.x);
+  LabelBox box{position.at.x, position.at.y, position.at.x, position.at.y};
   for (const double x : {-.5 * width, .5 * width})
     for (const double y : {-room.up_px, room.down_px}) {
-      const glm::dvec2 p = place.at + x * place.tangent + y * down;
-      box = {std::min(box.left, p.x), std::min(box.top, p.y), std::max(box.right, p.x), std::max(box.bottom, p.y)};
+      const glm::dvec2 p = position.at + x * position.tangent + y * down;
+      box = {std::min(box.left, p.x), std::min(box.top, p.y), std::max(box.right, p.x),
+             std::max(box.bottom, p.y)};
     }
   return box;
 }
 
-// Ways for a name along its shape; the label's spacing becomes what it is spread with.
-std::vector<BentRoom> bent_rooms(Label& label, const LabelKindStyle& kind, TextStyle type, const std::vector<glm::dvec2>& line,
-                                 const TextMeasure& measure) {
+// Baselines for a name along its shape; the label's spacing is set to its letter spacing.
+std::vector<BentRoom> bent_rooms(Label& label, const LabelKindStyle& kind, TextStyle type,
+                                 const std::vector<glm::dvec2>& line, const TextMeasure& measure) {
   const double count = static_cast<double>(std::max<std::size_t>(2, letters_of(label.text)));
   const double free_px = spread_share * length_of(line) - label.room.width_px;
   const double usual = spacing_of(kind, label.text);
-  label.spacing = usual + (joins(label.text) ? 0.0 : std::clamp(free_px / (count * type.size_px), 0.0, most_spacing));
+  label.spacing =
+      usual +
+      (joins(label.text) ? 0.0 : std::clamp(free_px / (count * type.size_px), 0.0, max_spacing));
   type.spacing = label.spacing;
   label.room = measure.measure(label.text, type);
   std::vector<double> widths;
-  for (const TextLetter& letter : measure.letters(label.text, type)) widths.push_back(letter.width_px);
+  for (const TextLetter& letter : measure.letters(label.text, type))
+    widths.push_back(letter.width_px);
   std::vector<BentRoom> rooms;
-  for (std::vector<glm::dvec2>& baseline :
-       fitted_baselines(line, label.room.width_px, kind.lift * type.size_px, kind.aside * type.size_px)) {
-    const std::vector<LetterPlace> places = set_along(widths, baseline);
-    if (places.empty()) continue;
+  for (std::vector<glm::dvec2>& baseline : fitted_baselines(
+           line, label.room.width_px, kind.lift * type.size_px, kind.aside * type.size_px)) {
+    const std::vector<LetterPosition> positions = set_along(widths, baseline);
+    if (positions.empty()) continue;
     BentRoom room{.baseline = std::move(baseline), .letters = {}};
-    for (std::size_t i = 0; i < places.size(); ++i) room.letters.push_back(letter_box(places[i], widths[i], label.room));
+    for (std::size_t i = 0; i < positions.size(); ++i)
+      room.letters.push_back(letter_box(positions[i], widths[i], label.room));
     rooms.push_back(std::move(room));
   }
   if (!rooms.empty()) return rooms;
-  // No arc is smooth or long enough: as a point's name, in its usual spacing.
+  // No arc is smooth or long enough: set like a point's name, in its usual spacing.
   label.spacing = type.spacing = usual;
   label.room = measure.measure(label.text, type);
   return rooms;
@@ -89,12 +98,13 @@ LabelLayoutParameters layout_parameters(const LabelSheet& sheet) {
 
 }  // namespace
 
-std::string hiding_name(const std::vector<LabelPoint>& points, const std::vector<LabelMark>& marks, std::size_t i) {
+std::string hiding_name(const std::vector<LabelPoint>& points, const std::vector<LabelMark>& marks,
+                        std::size_t i) {
   std::string name;
   double nearest_m = hiding_name_m;
   if (marks[i].state != MarkState::hidden || !marks[i].in_front) return name;
   for (std::size_t k = 0; k < points.size(); ++k) {
-    const double away_m = glm::length(marks[k].drawn_place - marks[i].in_front->place);
+    const double away_m = glm::length(marks[k].drawn_position - marks[i].in_front->position);
     if (points[k].name.empty() || away_m >= nearest_m || k == i) continue;
     nearest_m = away_m;
     name = points[k].name;
@@ -108,7 +118,11 @@ std::string altitude_text(const LabelPoint& point, const LabelMark& mark) {
 }
 
 TextStyle text_style(const LabelKindStyle& kind, double px_per_mm) {
-  return {.family = kind.family, .size_px = kind.size_mm * px_per_mm, .bold = kind.bold, .italic = kind.italic, .spacing = kind.spacing};
+  return {.family = kind.family,
+          .size_px = kind.size_mm * px_per_mm,
+          .bold = kind.bold,
+          .italic = kind.italic,
+          .spacing = kind.spacing};
 }
 
 TextStyle LabelSheet::type_of(const Label& label) const {
@@ -122,7 +136,7 @@ LabelSheet empty_label_sheet(LabelStyle style, glm::ivec2 size_px, double sheet_
   for (const LabelKindStyle& kind : style.kinds) smallest_mm = std::min(smallest_mm, kind.size_mm);
   return {.size_px = size_px,
           .sheet_width_mm = sheet_width_mm,
-          .px_per_mm = std::max(size_px.x / sheet_width_mm, style.least_px / smallest_mm),
+          .px_per_mm = std::max(size_px.x / sheet_width_mm, style.min_px / smallest_mm),
           .style = std::move(style),
           .labels = {}};
 }
@@ -135,8 +149,8 @@ std::vector<double> find_skyline(const GeoMap& map, glm::ivec2 size_px) {
       double land = size_px.y;
       if (map.to_geo({x + .5, 0.0})) land = 0.0;
       while (land - sky > .25) {
-        const double middle = .5 * (sky + land);
-        (map.to_geo({x + .5, middle}) ? land : sky) = middle;
+        const double centre = .5 * (sky + land);
+        (map.to_geo({x + .5, centre}) ? land : sky) = centre;
       }
       skyline[static_cast<std::size_t>(x)] = land;
     }
@@ -144,10 +158,12 @@ std::vector<double> find_skyline(const GeoMap& map, glm::ivec2 size_px) {
   return skyline;
 }
 
-LabelSheet make_labels(const std::vector<LabelPoint>& points, const std::vector<LabelMark>& marks, const std::vector<double>& skyline_px,
-                       LabelStyle style, glm::ivec2 size_px, double sheet_width_mm, const std::vector<std::vector<glm::dvec2>>& lines) {
+LabelSheet make_labels(const std::vector<LabelPoint>& points, const std::vector<LabelMark>& marks,
+                       const std::vector<double>& skyline_px, LabelStyle style, glm::ivec2 size_px,
+                       double sheet_width_mm, const std::vector<std::vector<glm::dvec2>>& lines) {
   if (marks.size() != points.size())
-    throw Error(ErrorKind::bug, "labels", fmt::format("{} marks of {} points", marks.size(), points.size()));
+    throw Error(ErrorKind::bug, "labels",
+                fmt::format("{} marks of {} points", marks.size(), points.size()));
   LabelSheet sheet = empty_label_sheet(std::move(style), size_px, sheet_width_mm);
   const TextMeasure measure;
   std::vector<LabelRequest> requests;
@@ -168,10 +184,12 @@ LabelSheet make_labels(const std::vector<LabelPoint>& points, const std::vector<
       const bool follows = i < lines.size() && lines[i].size() > 1;
       if (follows) bent = bent_rooms(label, kind, type, lines[i], measure);
       requests.push_back({.mark = label.mark.pixel,
-                          .mark_px = follows || kind.mark == LabelMarkShape::none ? 0.0 : kind.mark_mm * sheet.px_per_mm,
+                          .mark_px = follows || kind.mark == LabelMarkShape::none
+                                         ? 0.0
+                                         : kind.mark_mm * sheet.px_per_mm,
                           .width_px = label.room.width_px + 2.0 * end_room * type.size_px,
                           .height_px = label.room.up_px + label.room.down_px,
-                          .place = kind.place,
+                          .position = kind.position,
                           .on_skyline = label.mark.on_skyline,
                           .rank = label.point.rank,
                           .bent = std::move(bent)});

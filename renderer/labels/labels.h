@@ -15,51 +15,61 @@
 
 namespace belvedere {
 
-// A point with its name as it is set, and where.
+// A point with its set name and position.
 struct Label {
   LabelPoint point;
   LabelMark mark;
   std::string text;       // name and altitude
-  TextRoom room;          // that the text takes
-  std::string hidden_by;  // the named point nearest to the ground in front of a hidden mark, within hiding_name_m; may be empty
-  double spacing = 0.0;   // between letters, of the type's size: the kind's, more where a name is spread along its shape
-  LabelSpot spot;         // placed or not; only what is seen asks for a place
+  TextRoom room;          // of the text
+  std::string hidden_by;  // the named point nearest to the ground in front of a hidden mark, within
+                          // hiding_name_m; may be empty
+  double spacing = 0.0;   // between letters, of the type's size: the kind's, more where a name is
+                          // spread along its shape
+  LabelSpot spot;         // placed or not; only visible points are placed
 };
 
 inline constexpr double hiding_name_m = 2500.0;
 
-// The named point nearest to the ground that hides point i, no farther than that from it; empty where there is none, or nothing hides it.
-std::string hiding_name(const std::vector<LabelPoint>& points, const std::vector<LabelMark>& marks, std::size_t i);
+// The named point nearest to the ground that hides point i, within that distance; empty where there
+// is none, or nothing hides it.
+std::string hiding_name(const std::vector<LabelPoint>& points, const std::vector<LabelMark>& marks,
+                        std::size_t i);
 
 // A picture's labels with the style at its scale.
 struct LabelSheet {
   glm::ivec2 size_px{0};
   double sheet_width_mm = 0.0;
-  double px_per_mm = 1.0;  // of the style's lengths: of the sheet, or larger where letters would be smaller than least_px
+  double px_per_mm = 1.0;  // scale of the style's lengths: that of the sheet, or larger where
+                           // letters would be smaller than min_px
   LabelStyle style;
   std::vector<Label> labels;
-  std::vector<Track> tracks = {};  // drawn below the names; not in their way
+  std::vector<Track> tracks = {};  // drawn below the names, which ignore them
 
   TextStyle type_of(const Label& label) const;
-  const LabelKindStyle& kind_of(const Label& label) const { return style.kinds[static_cast<std::size_t>(label.point.kind)]; }
+  const LabelKindStyle& kind_of(const Label& label) const {
+    return style.kinds[static_cast<std::size_t>(label.point.kind)];
+  }
 };
 
-// What the letters of one kind are set in at that scale.
+// Text style of one kind at that scale.
 TextStyle text_style(const LabelKindStyle& kind, double px_per_mm);
 
-// A sheet without a name, with the style's scale: what a margin needs.
+// A sheet without names, with the style's scale, for a margin.
 LabelSheet empty_label_sheet(LabelStyle style, glm::ivec2 size_px, double sheet_width_mm);
 
-// The row of the picture above which there is sky, for each column; 0 where land goes up to the upper edge. By halving: ground that hangs
-// in the sky is not found.
+// The row of the picture above which there is sky, for each column; 0 where land reaches the upper
+// edge. By bisection: overhanging ground in the sky is not found.
 std::vector<double> find_skyline(const GeoMap& map, glm::ivec2 size_px);
 
-// Sets and places what is seen. sheet_width_mm > 0. `lines`: for each point the line of its shape in the picture that its name follows,
-// where it has one; fewer than points, or an empty one: it is a point.
-LabelSheet make_labels(const std::vector<LabelPoint>& points, const std::vector<LabelMark>& marks, const std::vector<double>& skyline_px,
-                       LabelStyle style, glm::ivec2 size_px, double sheet_width_mm, const std::vector<std::vector<glm::dvec2>>& lines = {});
+// Sets and places the names of visible points. sheet_width_mm > 0. `lines`: for each point the line
+// of its shape in the picture that its name follows, if it has one; fewer than points, or an empty
+// one: it is a point.
+LabelSheet make_labels(const std::vector<LabelPoint>& points, const std::vector<LabelMark>& marks,
+                       const std::vector<double>& skyline_px, LabelStyle style, glm::ivec2 size_px,
+                       double sheet_width_mm,
+                       const std::vector<std::vector<glm::dvec2>>& lines = {});
 
-// The same altitude as on maps: "2749 m", with a space that does not break; empty where nothing is known.
+// The altitude as on maps: "2749 m", with a no-break space; empty if not known.
 std::string altitude_text(const LabelPoint& point, const LabelMark& mark);
 
 }  // namespace belvedere

@@ -21,7 +21,7 @@ std::vector<PlacedLetter> place_letters(const DrawnText& text, const TextMeasure
     }
     return placed;
   }
-  const std::vector<LetterPlace> bent = set_along(widths, text.along);
+  const std::vector<LetterPosition> bent = set_along(widths, text.along);
   if (bent.empty()) return {};
   for (std::size_t i = 0; i < placed.size(); ++i) {
     placed[i].tangent = bent[i].tangent;
@@ -36,7 +36,8 @@ Outline outline_of(const std::vector<PlacedLetter>& letters) {
     for (OutlineStep step : letter.letter.outline) {
       for (int i = 0; i < points_of(step.kind); ++i) {
         glm::dvec2& p = step.points[static_cast<std::size_t>(i)];
-        p = letter.at + p.x * letter.tangent + p.y * glm::dvec2(-letter.tangent.y, letter.tangent.x);
+        p = letter.at + p.x * letter.tangent +
+            p.y * glm::dvec2(-letter.tangent.y, letter.tangent.x);
       }
       outline.push_back(step);
     }

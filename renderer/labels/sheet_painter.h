@@ -9,13 +9,15 @@
 
 namespace belvedere {
 
-// A drawing as pixels. The sheet has a fixed grid of small tiles, each painted on its own, so that any part of it gets the pixels of the
-// whole whatever rows are asked for, memory does not grow with the sheet, and threads change nothing. Edges of shapes are covered in 255
-// steps and mixed in encoded sRGB, as browsers and printers' programs do it: the picture then looks like the SVG. The only file that knows
-// Cairo besides text_measure.cpp.
+// Rasterizes a drawing. The sheet has a fixed grid of small tiles, each painted independently, so
+// that any part of it gets the same pixels whatever rows are requested, memory does not grow with
+// the sheet, and threads change nothing. Edges of shapes are antialiased in 255 steps and blended
+// in encoded sRGB, as in browsers and printers' programs, so that the picture looks like the SVG.
+// The only file besides text_measure.cpp that uses Cairo.
 class SheetPainter {
  public:
-  // Takes letters' outlines from the system's fonts: Error(input) where there are none and the drawing has text.
+  // Takes letters' outlines from the system's fonts: Error(input) where there are none and the
+  // drawing has text.
   explicit SheetPainter(const Drawing& drawing);
   ~SheetPainter();
   SheetPainter(const SheetPainter&) = delete;

@@ -25,8 +25,10 @@ Font font_of(const TextStyle& style) {
   Font font(pango_font_description_new(), &pango_font_description_free);
   pango_font_description_set_family(font.get(), style.family.c_str());
   pango_font_description_set_absolute_size(font.get(), style.size_px * PANGO_SCALE);
-  pango_font_description_set_weight(font.get(), style.bold ? PANGO_WEIGHT_BOLD : PANGO_WEIGHT_NORMAL);
-  pango_font_description_set_style(font.get(), style.italic ? PANGO_STYLE_ITALIC : PANGO_STYLE_NORMAL);
+  pango_font_description_set_weight(font.get(),
+                                    style.bold ? PANGO_WEIGHT_BOLD : PANGO_WEIGHT_NORMAL);
+  pango_font_description_set_style(font.get(),
+                                   style.italic ? PANGO_STYLE_ITALIC : PANGO_STYLE_NORMAL);
   return font;
 }
 
@@ -49,7 +51,9 @@ struct TextMeasure::State {
 };
 
 TextMeasure::TextMeasure() : state_(std::make_unique<State>()) {
-  if (!any_fonts()) throw Error(ErrorKind::input, "the system's fonts", "there are none", "a package of fonts, fonts-ebgaramond for one");
+  if (!any_fonts())
+    throw Error(ErrorKind::input, "the system's fonts", "none is installed",
+                "a package of fonts, such as fonts-ebgaramond");
   state_->fonts.reset(pango_cairo_font_map_new());
   state_->context.reset(pango_font_map_create_context(state_->fonts.get()));
   cairo_font_options_t* options = cairo_font_options_create();
@@ -58,7 +62,7 @@ TextMeasure::TextMeasure() : state_(std::make_unique<State>()) {
   pango_cairo_context_set_font_options(state_->context.get(), options);
   cairo_font_options_destroy(options);
   pango_context_set_round_glyph_positions(state_->context.get(), FALSE);
-  // Which letters a font has must not hang on the language of the user's terminal.
+  // The set of letters of a font must not depend on the language of the user's terminal.
   pango_context_set_language(state_->context.get(), pango_language_from_string("en"));
 }
 
@@ -73,7 +77,8 @@ Owned<PangoLayout> lay_out(PangoContext* context, const std::string& text, const
   pango_layout_set_single_paragraph_mode(layout.get(), TRUE);
   if (style.spacing > 0.0) {
     PangoAttrList* attributes = pango_attr_list_new();
-    pango_attr_list_insert(attributes, pango_attr_letter_spacing_new(static_cast<int>(style.spacing * style.size_px * PANGO_SCALE)));
+    pango_attr_list_insert(attributes, pango_attr_letter_spacing_new(static_cast<int>(
+                                           style.spacing * style.size_px * PANGO_SCALE)));
     pango_layout_set_attributes(layout.get(), attributes);
     pango_attr_list_unref(attributes);
   }
@@ -81,7 +86,8 @@ Owned<PangoLayout> lay_out(PangoContext* context, const std::string& text, const
   return layout;
 }
 
-// The outline of what stands in a run from glyph `from` on, `count` of them, from the first one's left end on the baseline.
+// The outline of `count` glyphs of a run from glyph `from` on, relative to the first one's left end
+// on the baseline.
 Outline outline_of(cairo_t* cairo, PangoGlyphItem* run, int from, int count) {
   PangoGlyphString some = *run->glyphs;
   some.glyphs += from;
@@ -111,10 +117,11 @@ Outline outline_of(cairo_t* cairo, PangoGlyphItem* run, int from, int count) {
     }
   }
   cairo_path_destroy(path);
-  // Moves that nothing follows paint dots where an outline is stroked.
+  // Moves without a following segment would paint dots in stroked outlines.
   Outline kept;
   for (std::size_t i = 0; i < outline.size(); ++i)
-    if (outline[i].kind != OutlineStep::move || (i + 1 < outline.size() && outline[i + 1].kind != OutlineStep::move))
+    if (outline[i].kind != OutlineStep::move ||
+        (i + 1 < outline.size() && outline[i + 1].kind != OutlineStep::move))
       kept.push_back(outline[i]);
   return kept;
 }
@@ -129,19 +136,22 @@ TextRoom TextMeasure::measure(const std::string& text, const TextStyle& style) c
   return {pixels(box.width), up, pixels(box.height) - up};
 }
 
-std::vector<TextLetter> TextMeasure::letters(const std::string& text, const TextStyle& style) const {
+std::vector<TextLetter> TextMeasure::letters(const std::string& text,
+                                             const TextStyle& style) const {
   const Owned<PangoLayout> layout = lay_out(state_->context.get(), text, style);
-  // Paths are collected on a surface of one pixel, onto which nothing is painted.
+  // Paths are collected on a surface of one pixel that nothing is painted on.
   cairo_surface_t* surface = cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1);
   cairo_t* cairo = cairo_create(surface);
   cairo_set_tolerance(cairo, 0.01);
   std::vector<TextLetter> letters;
   const PangoLayoutLine* line = pango_layout_get_line_readonly(layout.get(), 0);
-  // Runs stand from left to right as they are seen, glyphs in them too; glyphs of one cluster belong to the same letters of the text.
+  // Runs are in visual order from left to right, and so are the glyphs in them; glyphs of one
+  // cluster belong to the same letters of the text.
   for (const GSList* at = line->runs; at != nullptr; at = at->next) {
     auto* run = static_cast<PangoGlyphItem*>(at->data);
     const PangoGlyphString& glyphs = *run->glyphs;
-    // Where the letters of a cluster begin in the run's text; they end where those of the next one begin, on whichever side it stands.
+    // Start of the letters of a cluster in the run's text; they end where those of the next cluster
+    // begin, on either side.
     std::vector<int> begins(glyphs.log_clusters, glyphs.log_clusters + glyphs.num_glyphs);
     begins.push_back(run->item->length);
     std::sort(begins.begin(), begins.end());
@@ -153,7 +163,8 @@ std::vector<TextLetter> TextMeasure::letters(const std::string& text, const Text
       letter.outline = outline_of(cairo, run, i, end - i);
       const int from = glyphs.log_clusters[i];
       const int to = *std::upper_bound(begins.begin(), begins.end(), from);
-      letter.text = text.substr(static_cast<std::size_t>(run->item->offset + from), static_cast<std::size_t>(to - from));
+      letter.text = text.substr(static_cast<std::size_t>(run->item->offset + from),
+                                static_cast<std::size_t>(to - from));
       letters.push_back(std::move(letter));
       i = end;
     }

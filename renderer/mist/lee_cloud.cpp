@@ -15,12 +15,13 @@ namespace belvedere {
 namespace {
 
 constexpr int puff_count = 64;
-constexpr double flatness = 0.7;       // height of a puff over its width
-constexpr double puff_reach = 1.6;     // of its radius: beyond it nothing is left, whatever its edge does
-constexpr double broad_edges = 0.030;  // deviations of the noises of edges, shares of the cloud's length
+constexpr double flatness = 0.7;    // height of a puff relative to its width
+constexpr double puff_reach = 1.6;  // in radii: a puff has no effect beyond this, whatever its edge
+constexpr double broad_edges =
+    0.030;  // deviations of the edge noises, in shares of the cloud's length
 constexpr double narrow_edges = 0.010;
 
-// Random numbers of one puff in the order they are drawn.
+// Random numbers of one puff in the order of the draws.
 class Draws {
  public:
   Draws(std::uint64_t seed, int puff) : seed_(stream_seed(seed, Stream::lee_clouds)), puff_(puff) {}
@@ -33,12 +34,13 @@ class Draws {
   std::uint64_t draw_ = 0;
 };
 
-// Where a puff lies: along the wind from the summit, across it, above it, and how large it is, in shares of the cloud's length.
+// Position of a puff: along the wind from the summit, across it, above it, and its size, in shares
+// of the cloud's length.
 struct PuffPlan {
   double along, across, above, radius, opacity;
 };
 
-// The cloud begins at the summit's lee side, swells and is torn into shreds at its end.
+// The cloud begins at the summit's lee side, widens and is torn into shreds at its end.
 PuffPlan plan_puff(std::uint64_t seed, int k) {
   Draws draws(seed, k);
   const double jitter = draws.uniform();
@@ -48,14 +50,16 @@ PuffPlan plan_puff(std::uint64_t seed, int k) {
   const double across = 0.8 * swell * draws.between(-1.0, 1.0);
   const double lift = draws.between(-0.55, 0.75);
   const double thin = draws.between(0.7, 1.0);
-  return {-0.03 + s, across, 0.01 + 0.075 * s + 0.75 * swell * lift, radius, thin * (1.0 - 0.8 * s * s)};
+  return {-0.03 + s, across, 0.01 + 0.075 * s + 0.75 * swell * lift, radius,
+          thin * (1.0 - 0.8 * s * s)};
 }
 
 }  // namespace
 
-std::optional<LeeCloud> make_lee_cloud(const MistParameters& parameters, double ground_m, const Deformation& deformation,
-                                       const Camera& camera, std::uint64_t seed) {
-  const glm::dvec2 summit = parameters.place.value_or(glm::dvec2(0.0));
+std::optional<LeeCloud> make_lee_cloud(const MistParameters& parameters, double ground_m,
+                                       const Deformation& deformation, const Camera& camera,
+                                       std::uint64_t seed) {
+  const glm::dvec2 summit = parameters.position.value_or(glm::dvec2(0.0));
   const exact::Turn from = exact::turn(to_radians(parameters.wind_from_deg));
   const glm::dvec2 wind{-from.sine, -from.cosine};
   const glm::dvec2 aside{-wind.y, wind.x};
@@ -74,12 +78,15 @@ std::optional<LeeCloud> make_lee_cloud(const MistParameters& parameters, double 
   cloud.to_px = *there;
   for (int k = 0; k < puff_count; ++k) {
     const PuffPlan plan = plan_puff(seed, k);
-    const glm::dvec2 place = summit + parameters.size_m * (plan.along * wind + plan.across * aside);
-    const glm::dvec3 centre = deformation.point({place, ground_m}) + glm::dvec3(0.0, 0.0, plan.above * parameters.size_m);
+    const glm::dvec2 position =
+        summit + parameters.size_m * (plan.along * wind + plan.across * aside);
+    const glm::dvec3 centre = deformation.point({position, ground_m}) +
+                              glm::dvec3(0.0, 0.0, plan.above * parameters.size_m);
     const std::optional<glm::dvec2> at = camera.project(centre);
     if (!at) continue;
-    cloud.puffs.push_back({centre, plan.radius * parameters.size_m, static_cast<float>(plan.opacity)});
-    // A puff nearer than the summit is larger in the picture: twice as large at most.
+    cloud.puffs.push_back(
+        {centre, plan.radius * parameters.size_m, static_cast<float>(plan.opacity)});
+    // A puff nearer than the summit is larger in the picture: at most twice as large.
     const glm::dvec2 reach(2.0 * puff_reach * plan.radius * cloud.length_px);
     cloud.from_px = glm::min(cloud.from_px, *at - reach);
     cloud.to_px = glm::max(cloud.to_px, *at + reach);
@@ -105,12 +112,16 @@ glm::vec2 LeeEdges::at(glm::dvec2 pixel) {
   return 0.17F * broad + 0.09F * narrow;
 }
 
-LeeSight see_lee_cloud(const LeeCloud& cloud, LeeEdges& edges, const Ray& ray, glm::dvec2 pixel, double depth_m, glm::dvec3 towards_sun) {
+LeeSight see_lee_cloud(const LeeCloud& cloud, LeeEdges& edges, const Ray& ray, glm::dvec2 pixel,
+                       double depth_m, glm::dvec3 towards_sun) {
   LeeSight sight;
-  if (pixel.x < cloud.from_px.x || pixel.y < cloud.from_px.y || pixel.x > cloud.to_px.x || pixel.y > cloud.to_px.y) return sight;
+  if (pixel.x < cloud.from_px.x || pixel.y < cloud.from_px.y || pixel.x > cloud.to_px.x ||
+      pixel.y > cloud.to_px.y)
+    return sight;
   const glm::dvec3 right = glm::normalize(glm::cross(ray.direction, glm::dvec3(0.0, 0.0, 1.0)));
   const glm::dvec3 up = glm::cross(right, ray.direction);
-  const glm::vec2 light(static_cast<float>(glm::dot(towards_sun, right)), static_cast<float>(glm::dot(towards_sun, up)));
+  const glm::vec2 light(static_cast<float>(glm::dot(towards_sun, right)),
+                        static_cast<float>(glm::dot(towards_sun, up)));
   const auto facing = static_cast<float>(-glm::dot(towards_sun, ray.direction));
   const glm::vec2 wobble = edges.at(pixel);
   double depth = 0.0;
@@ -119,9 +130,10 @@ LeeSight see_lee_cloud(const LeeCloud& cloud, LeeEdges& edges, const Ray& ray, g
     const glm::dvec3 to = puff.centre - ray.origin;
     const double along = glm::dot(to, ray.direction);
     const glm::dvec3 off = ray.direction * along - to;
-    const glm::vec2 offset = glm::vec2(static_cast<float>(glm::dot(off, right) / puff.radius_m),
-                                       static_cast<float>(glm::dot(off, up) / (flatness * puff.radius_m))) +
-                             wobble;
+    const glm::vec2 offset =
+        glm::vec2(static_cast<float>(glm::dot(off, right) / puff.radius_m),
+                  static_cast<float>(glm::dot(off, up) / (flatness * puff.radius_m))) +
+        wobble;
     const float distance = glm::length(offset);
     if (along <= 0.0 || distance >= 1.25F) continue;
     // Ground cuts into a puff over its own thickness.
@@ -130,7 +142,8 @@ LeeSight see_lee_cloud(const LeeCloud& cloud, LeeEdges& edges, const Ray& ray, g
     const float cover = (1.F - smoothstep(0.40F, 1.25F, distance)) * seen * puff.opacity;
     if (cover <= 0.F) continue;
     const float round = std::sqrt(std::max(0.F, 1.F - 0.64F * distance * distance));
-    const float lit = unit(0.50F + 0.46F * glm::dot(offset, light) + 0.26F * facing * round + 0.16F * offset.y);
+    const float lit =
+        unit(0.50F + 0.46F * glm::dot(offset, light) + 0.26F * facing * round + 0.16F * offset.y);
     sight.light += (lit - sight.light) * (sight.share > 0.F ? cover : 1.F);
     sight.share += cover * (1.F - sight.share);
     depth += static_cast<double>(cover) * along;

@@ -14,29 +14,31 @@
 
 namespace belvedere {
 
-// A cloud that hangs on a summit and is drawn out by the wind: puffs in the deformed world, so that terrain stands before and behind it.
+// A cloud attached to a summit and drawn out by the wind: puffs in the deformed world, so that
+// terrain is in front of and behind it.
 struct LeePuff {
   glm::dvec3 centre;
-  double radius_m;  // across; it is .7 as high
+  double radius_m;  // horizontal; its height is .7 of it
   float opacity;    // 0…1
 };
 struct LeeCloud {
   std::vector<LeePuff> puffs;  // far to near
-  double altitude_m = 0.0;     // of its summit, true
-  glm::dvec2 from_px{0.0};     // box of the picture that holds all of it
+  double altitude_m = 0.0;     // of its summit, undeformed
+  glm::dvec2 from_px{0.0};     // bounding box in the picture
   glm::dvec2 to_px{0.0};
-  double length_px = 1.0;  // how long the cloud would be square to the view
+  double length_px = 1.0;  // length of the cloud if perpendicular to the view
   std::uint64_t seed = 1;
 };
-// Nothing where its summit lies behind the eye. ground_m: the summit's altitude.
-std::optional<LeeCloud> make_lee_cloud(const MistParameters& parameters, double ground_m, const Deformation& deformation,
-                                       const Camera& camera, std::uint64_t seed);
+// Nothing if the summit is behind the eye. ground_m: the summit's altitude.
+std::optional<LeeCloud> make_lee_cloud(const MistParameters& parameters, double ground_m,
+                                       const Deformation& deformation, const Camera& camera,
+                                       std::uint64_t seed);
 
-// How edges of its puffs billow; one for each thread.
+// The ragged edges of its puffs; use one per thread.
 class LeeEdges {
  public:
   explicit LeeEdges(const LeeCloud& cloud);
-  // Shares of a puff's radius, at a place of the picture.
+  // Shares of a puff's radius, at a position of the picture.
   glm::vec2 at(glm::dvec2 pixel);
 
  private:
@@ -44,13 +46,14 @@ class LeeEdges {
   std::array<GroundNoise, 4> noises_;
 };
 
-// What it shows on one line of sight that ends after depth_m (infinite: sky).
+// The cloud along one line of sight that ends after depth_m (infinite: sky).
 struct LeeSight {
-  float share = 0.F;  // of what lies behind that it hides, 0…1
+  float share = 0.F;  // share of the background that it hides, 0…1
   float light = 0.F;  // 0…1
   double depth_m = 0.0;
 };
 // towards_sun: unit.
-LeeSight see_lee_cloud(const LeeCloud& cloud, LeeEdges& edges, const Ray& ray, glm::dvec2 pixel, double depth_m, glm::dvec3 towards_sun);
+LeeSight see_lee_cloud(const LeeCloud& cloud, LeeEdges& edges, const Ray& ray, glm::dvec2 pixel,
+                       double depth_m, glm::dvec3 towards_sun);
 
 }  // namespace belvedere

@@ -17,18 +17,23 @@ double sum_below(const MistProfile& profile, double below_m) {
 
 }  // namespace
 
-MistProfile make_mist_profile(double sight_m, double edge_m) { return {log_50 / sight_m, edge_m}; }
+MistProfile make_mist_profile(double visibility_m, double edge_m) {
+  return {log_50 / visibility_m, edge_m};
+}
 
 double extinction_at(const MistProfile& profile, double below_m) {
   if (below_m <= 0.0) return 0.0;
   return profile.full_per_m * (below_m < profile.edge_m ? below_m / profile.edge_m : 1.0);
 }
 
-double optical_depth(const MistProfile& profile, double length_m, double below_from_m, double below_to_m) {
+double optical_depth(const MistProfile& profile, double length_m, double below_from_m,
+                     double below_to_m) {
   const double change = below_to_m - below_from_m;
-  // Where the way runs level the quotient would be of two small differences.
-  if (std::abs(change) < 1e-3) return length_m * extinction_at(profile, 0.5 * (below_from_m + below_to_m));
-  return length_m * profile.full_per_m * (sum_below(profile, below_to_m) - sum_below(profile, below_from_m)) / change;
+  // For a level path the quotient would be of two small differences.
+  if (std::abs(change) < 1e-3)
+    return length_m * extinction_at(profile, 0.5 * (below_from_m + below_to_m));
+  return length_m * profile.full_per_m *
+         (sum_below(profile, below_to_m) - sum_below(profile, below_from_m)) / change;
 }
 
 }  // namespace belvedere

@@ -21,29 +21,36 @@ namespace belvedere {
 namespace {
 
 constexpr int tile_px = 64;
-constexpr int looks = 24;       // where a line of sight is first asked whether it is low enough for mist
-constexpr double opaque = 6.0;  // optical depth behind which nothing is seen
-constexpr int most_steps = 400;
-constexpr double steps_a_heap = 8.0;  // of a line of sight through the length of a heap
-constexpr double sea_heap_m = 50.0;   // what heaps of a sea are never much higher than; no surface sinks or rises much more at a shore
-constexpr double valley_edge = 0.5;   // of their mist's height: no softer edge
-constexpr double valley_heap = 0.22;  // the same in valleys, of the mist's height
+constexpr int looks =
+    24;  // initial samples along a line of sight to find where it is low enough for mist
+constexpr double opaque = 6.0;  // optical depth behind which nothing is visible
+constexpr int max_steps = 400;
+constexpr double steps_a_heap = 8.0;  // along a line of sight per length of a heap
+constexpr double sea_heap_m = 50.0;  // approximate upper limit of the heaps of a sea; at a shore no
+                                     // surface sinks or rises much more at a shore
+constexpr double valley_edge = 0.5;  // max softness of their edges, relative to the mist's height
+constexpr double valley_heap =
+    0.22;  // limit of the heaps in valleys, relative to the mist's height
 constexpr double shadow_reach_m = 60000.0;
-constexpr double shadow_radius = 0.045;  // of the sun as it throws soft shadows into mist, rad
+constexpr double shadow_radius = 0.045;  // radius of the sun for soft shadows in mist, rad
 constexpr int shadow_rays = 8;
-constexpr double flattening = 45.0;  // metres in a unit of the sheet at which half of the light on heaps is left
-constexpr double nothing = 1e-4;     // a share that cannot be seen
+constexpr double flattening =
+    45.0;  // metres per unit of the sheet at which half of the light on heaps remains
+constexpr double nothing = 1e-4;  // an invisible share
 
 // One layer, for one thread.
 struct Layer {
   Layer(const MistParameters& parameters, const MistAir& air, std::size_t number)
       : kind(parameters.kind),
-        bed(parameters, air.ground, air.rim_fade_m, stream_seed(air.seed, Stream::mist_layers, number)),
+        bed(parameters, air.ground, air.rim_fade_m,
+            stream_seed(air.seed, Stream::mist_layers, number)),
         billows(stream_seed(air.seed, Stream::mist_layers, number), parameters.billows,
                 parameters.kind == MistKind::sea ? sea_heap_m : valley_heap * parameters.height_m),
-        profile(make_mist_profile(parameters.sight_m, parameters.kind == MistKind::valley
-                                                          ? std::min(parameters.edge_m, valley_edge * parameters.height_m)
-                                                          : parameters.edge_m)),
+        profile(
+            make_mist_profile(parameters.visibility_m,
+                              parameters.kind == MistKind::valley
+                                  ? std::min(parameters.edge_m, valley_edge * parameters.height_m)
+                                  : parameters.edge_m)),
         valley_step_m(std::clamp(0.9 * parameters.height_m, 60.0, 250.0)) {}
   MistKind kind;
   MistBed bed;
@@ -56,15 +63,16 @@ struct Layer {
 
 // A line of sight, by the distance from its origin.
 struct SightLine {
-  SightLine(const MistView& view, glm::dvec2 pixel) : deformation(view.deformation), ray(view.camera.ray(pixel)) {
+  SightLine(const MistView& view, glm::dvec2 pixel)
+      : deformation(view.deformation), ray(view.camera.ray(pixel)) {
     const Ray left = view.camera.ray({pixel.x - 0.5, pixel.y});
     const Ray right = view.camera.ray({pixel.x + 0.5, pixel.y});
     apart = (right.origin - left.origin) * view.pixels_per_unit;
     spread = (right.direction - left.direction) * view.pixels_per_unit;
   }
   glm::dvec3 drawn(double t) const { return ray.origin + ray.direction * t; }
-  // The true place there; where handles leave none, the drawn one.
-  glm::dvec3 place(double t) const {
+  // The undeformed position there; where it cannot be found, the drawn one.
+  glm::dvec3 position(double t) const {
     const glm::dvec3 at = drawn(t);
     return undeform(deformation, at).value_or(at);
   }
@@ -76,30 +84,31 @@ struct SightLine {
   glm::dvec3 apart, spread;
 };
 
-// The first place on the line, to a metre, that is lower than `highest_m`; nothing where there is none before `end_m`.
+// The first position on the line, to a metre, that is below `highest_m`; nothing if there is none
+// before `end_m`.
 std::optional<double> find_entry(const SightLine& line, double end_m, double highest_m) {
   double above = 0.0;
   for (int k = 0; k <= looks; ++k) {
     double below = end_m * k / looks;
-    if (line.place(below).z >= highest_m) {
+    if (line.position(below).z >= highest_m) {
       above = below;
       continue;
     }
     if (k == 0) return 0.0;
     while (below - above > 1.0) {
-      const double middle = 0.5 * (above + below);
-      (line.place(middle).z >= highest_m ? above : below) = middle;
+      const double centre = 0.5 * (above + below);
+      (line.position(centre).z >= highest_m ? above : below) = centre;
     }
     return above;
   }
   return std::nullopt;
 }
 
-// What a line of sight meets of one layer.
+// The part of one layer along a line of sight.
 struct Met {
   double share = 0.0;
   double depth_m = 0.0;
-  glm::dvec2 place{0.0};
+  glm::dvec2 position{0.0};
   double altitude_m = 0.0;
   double metres_per_unit = 1.0;
 };
@@ -108,11 +117,11 @@ struct Place {
   double below_m;  // the surface, < 0 above
   double cover;
 };
-Place place_of(Layer& layer, const SightLine& line, double t, double metres_per_unit) {
-  const glm::dvec3 at = line.place(t);
+Place position_of(Layer& layer, const SightLine& line, double t, double metres_per_unit) {
+  const glm::dvec3 at = line.position(t);
   const MistBed::Column column = layer.bed.at(glm::dvec2(at));
   const double below = column.top_m - at.z;
-  // Heaps are asked for only where they can tell.
+  // Heaps are evaluated only where they matter.
   if (layer.billows.flat() || below < -layer.billows.reach_m()) return {below, column.cover};
   return {below + layer.billows.height_m(glm::dvec2(at), metres_per_unit), column.cover};
 }
@@ -120,10 +129,10 @@ Place place_of(Layer& layer, const SightLine& line, double t, double metres_per_
 double step_of(const Layer& layer, double below_m, double metres_per_unit, double span_m) {
   const double own = layer.kind == MistKind::valley ? layer.valley_step_m
                      : layer.billows.flat()         ? span_m / looks
-                                                    : MistBillows::length_m(metres_per_unit) / steps_a_heap;
-  // High above it nothing can be missed: a line sinks no faster than it runs.
+                                            : MistBillows::length_m(metres_per_unit) / steps_a_heap;
+  // High above the layer large steps miss nothing: a line sinks no faster than its length.
   const double reach_m = layer.billows.flat() ? 0.0 : layer.billows.reach_m();
-  return std::max({own, span_m / most_steps, 0.6 * (-below_m - reach_m)});
+  return std::max({own, span_m / max_steps, 0.6 * (-below_m - reach_m)});
 }
 
 Met march(Layer& layer, const SightLine& line, double end_m) {
@@ -133,14 +142,15 @@ Met march(Layer& layer, const SightLine& line, double end_m) {
   const double span_m = end_m - *entry;
   double t = *entry;
   double metres = line.metres_per_unit(t);
-  Place at = place_of(layer, line, t, metres);
+  Place at = position_of(layer, line, t, metres);
   double depth = 0.0;
   double mean = 0.0;
   while (t < end_m && depth < opaque) {
     const double next = std::min(end_m, t + step_of(layer, at.below_m, metres, span_m));
     metres = line.metres_per_unit(next);
-    const Place there = place_of(layer, line, next, metres);
-    const double more = 0.5 * (at.cover + there.cover) * optical_depth(layer.profile, next - t, at.below_m, there.below_m);
+    const Place there = position_of(layer, line, next, metres);
+    const double more = 0.5 * (at.cover + there.cover) *
+                        optical_depth(layer.profile, next - t, at.below_m, there.below_m);
     if (more > 0.0) {
       const double weight = exact::exp(-depth) - exact::exp(-depth - more);
       mean += weight * 0.5 * (t + next);
@@ -152,28 +162,30 @@ Met march(Layer& layer, const SightLine& line, double end_m) {
   }
   if (met.share <= nothing) return {};
   met.depth_m = mean / met.share;
-  const glm::dvec3 place = line.place(met.depth_m);
-  met.place = glm::dvec2(place);
-  met.altitude_m = place.z;
+  const glm::dvec3 position = line.position(met.depth_m);
+  met.position = glm::dvec2(position);
+  met.altitude_m = position.z;
   met.metres_per_unit = line.metres_per_unit(met.depth_m);
-  // What is as good as opaque is.
+  // Nearly opaque counts as opaque.
   met.share = std::min(1.0, met.share / (1.0 - exact::exp(-opaque)));
   return met;
 }
 
-// Light on the heaps around a place: the sun on their slopes, crests over hollows, and what nearer heaps keep off.
+// Light on the heaps around a position: the sun on their slopes, crests over hollows, and the shade
+// of nearer heaps.
 double light_on_heaps(Layer& layer, const Met& met, glm::dvec3 sun) {
   constexpr double even = 0.60;  // of a level surface
   if (layer.billows.flat()) return even;
   const double length = MistBillows::length_m(met.metres_per_unit);
   const auto height = [&](double east, double north) {
-    return layer.billows.height_m(met.place + glm::dvec2(east, north), met.metres_per_unit);
+    return layer.billows.height_m(met.position + glm::dvec2(east, north), met.metres_per_unit);
   };
   const double step = length / 16.0;
-  constexpr double relief = 2.4;  // painters model clouds more strongly than they are
+  constexpr double relief = 2.4;  // painters exaggerate the modelling of clouds
   const double east = height(step, 0.0) - height(-step, 0.0);
   const double north = height(0.0, step) - height(0.0, -step);
-  const glm::dvec3 normal = glm::normalize(glm::dvec3(-relief * east / (2.0 * step), -relief * north / (2.0 * step), 1.0));
+  const glm::dvec3 normal = glm::normalize(
+      glm::dvec3(-relief * east / (2.0 * step), -relief * north / (2.0 * step), 1.0));
   const double here = height(0.0, 0.0);
   const double tall = 0.18 * layer.billows.reach_m();
   double light = even + 0.80 * (glm::dot(normal, sun) - sun.z) + 0.16 * here / tall;
@@ -182,33 +194,39 @@ double light_on_heaps(Layer& layer, const Met& met, glm::dvec3 sun) {
     double over = 0.0;
     for (const double share : {0.16, 0.36, 0.7}) {
       const double away = share * length;
-      over = std::max(over, height(away * sun.x / level, away * sun.y / level) - here - 0.5 * away * sun.z / level);
+      over = std::max(over, height(away * sun.x / level, away * sun.y / level) - here -
+                                0.5 * away * sun.z / level);
     }
     light -= 0.30 * smoothstep(0.0, tall, over);
   }
-  // Towards the horizon heaps close up to an even light.
+  // Towards the horizon heaps merge into an even light.
   const double far = met.metres_per_unit / flattening;
   return even + (unit(light) - even) / (1.0 + far * far);
 }
 
-// Part of the sun that a place in the air sees. The rays of one place are a bundle of their own.
-double sun_seen(const MistView& view, const std::vector<glm::dvec2>& disc, glm::dvec3 place) {
+// Share of the sun visible from a position in the air. The rays of one position form their own
+// bundle.
+double sun_seen(const MistView& view, const std::vector<glm::dvec2>& disc, glm::dvec3 position) {
   const glm::dvec3 sun = view.sun_direction;
   if (view.tracer == nullptr || sun.z <= 0.0) return 1.0;
-  const glm::dvec3 aside = glm::normalize(glm::cross(sun, std::abs(sun.z) < 0.9 ? glm::dvec3(0.0, 0.0, 1.0) : glm::dvec3(1.0, 0.0, 0.0)));
+  const glm::dvec3 aside = glm::normalize(glm::cross(
+      sun, std::abs(sun.z) < 0.9 ? glm::dvec3(0.0, 0.0, 1.0) : glm::dvec3(1.0, 0.0, 0.0)));
   const glm::dvec3 upwards = glm::cross(aside, sun);
   std::array<Ray, shadow_rays> rays;
   std::array<std::uint8_t, shadow_rays> blocked{};
   for (std::size_t k = 0; k < rays.size(); ++k)
-    rays[k] = {place, glm::normalize(sun + shadow_radius * (disc[k].x * aside + disc[k].y * upwards))};
+    rays[k] = {position,
+               glm::normalize(sun + shadow_radius * (disc[k].x * aside + disc[k].y * upwards))};
   view.tracer->occluded(rays, shadow_reach_m, blocked);
-  return 1.0 - static_cast<double>(std::count(blocked.begin(), blocked.end(), std::uint8_t{1})) / shadow_rays;
+  return 1.0 - static_cast<double>(std::count(blocked.begin(), blocked.end(), std::uint8_t{1})) /
+                   shadow_rays;
 }
 
-// Everything that one thread looks with.
+// Working data of one thread.
 class Looker {
  public:
-  Looker(const MistAir& air, const MistView& view, const std::vector<glm::dvec2>& disc) : air_(air), view_(view), disc_(disc) {
+  Looker(const MistAir& air, const MistView& view, const std::vector<glm::dvec2>& disc)
+      : air_(air), view_(view), disc_(disc) {
     layers_.reserve(air.layers.size());
     for (std::size_t k = 0; k < air.layers.size(); ++k) layers_.emplace_back(air.layers[k], air, k);
     for (const LeeCloud& cloud : air.clouds) edges_.emplace_back(cloud);
@@ -228,21 +246,25 @@ class Looker {
       if (met.share <= nothing) continue;
       const double lit = sun_seen(view_, disc_, line.drawn(met.depth_m));
       const double light = light_on_heaps(layer, met, sun_) * (0.40 + 0.60 * lit);
-      found_.push_back({static_cast<float>(met.share), static_cast<float>(light), static_cast<float>(met.altitude_m), met.depth_m});
+      found_.push_back({static_cast<float>(met.share), static_cast<float>(light),
+                        static_cast<float>(met.altitude_m), met.depth_m});
     }
     for (std::size_t k = 0; k < air_.clouds.size(); ++k) {
-      const LeeSight sight = see_lee_cloud(air_.clouds[k], edges_[k], line.ray, pixel, ground_m, sun_);
+      const LeeSight sight =
+          see_lee_cloud(air_.clouds[k], edges_[k], line.ray, pixel, ground_m, sun_);
       if (sight.share > static_cast<float>(nothing))
-        found_.push_back({sight.share, sight.light, static_cast<float>(air_.clouds[k].altitude_m), sight.depth_m});
+        found_.push_back({sight.share, sight.light, static_cast<float>(air_.clouds[k].altitude_m),
+                          sight.depth_m});
     }
     return joined();
   }
 
  private:
-  // Far to near, each over what lies behind it.
+  // Far to near, each over what is behind it.
   Seen joined() {
     if (found_.empty()) return {};
-    std::stable_sort(found_.begin(), found_.end(), [](const Seen& a, const Seen& b) { return a.depth_m > b.depth_m; });
+    std::stable_sort(found_.begin(), found_.end(),
+                     [](const Seen& a, const Seen& b) { return a.depth_m > b.depth_m; });
     Seen sum{};
     sum.depth_m = 0.0;
     double weights = 0.0;
@@ -268,19 +290,22 @@ class Looker {
 
 }  // namespace
 
-MistSight see_mist(const MistAir& air, const MistView& view, const Grid<float>& depth_m, glm::ivec2 origin_px) {
+MistSight see_mist(const MistAir& air, const MistView& view, const Grid<float>& depth_m,
+                   glm::ivec2 origin_px) {
   const int width = depth_m.width();
   const int height = depth_m.height();
-  MistSight sight{Grid<float>(width, height, 0.F), Grid<float>(width, height, std::numeric_limits<float>::infinity()),
+  MistSight sight{Grid<float>(width, height, 0.F),
+                  Grid<float>(width, height, std::numeric_limits<float>::infinity()),
                   Grid<float>(width, height, 0.F), Grid<float>(width, height, 0.F)};
   if (air.empty()) return sight;
-  const std::vector<glm::dvec2> disc = disc_places(shadow_rays);
+  const std::vector<glm::dvec2> disc = disc_positions(shadow_rays);
   parallel_tiles(width, height, tile_px, [&](PixelRect tile) {
     Looker looker(air, view, disc);
     for (int y = tile.y0; y < tile.y1; ++y)
       for (int x = tile.x0; x < tile.x1; ++x) {
         const std::size_t i = depth_m.index(x, y);
-        const Looker::Seen seen = looker.look({origin_px.x + x + 0.5, origin_px.y + y + 0.5}, depth_m[i]);
+        const Looker::Seen seen =
+            looker.look({origin_px.x + x + 0.5, origin_px.y + y + 0.5}, depth_m[i]);
         sight.share[i] = seen.share;
         sight.depth_m[i] = static_cast<float>(seen.depth_m);
         sight.light[i] = seen.light;

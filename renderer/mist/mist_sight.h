@@ -20,33 +20,36 @@ struct MistAir {
   std::vector<MistParameters> layers;  // seas and valleys
   std::vector<LeeCloud> clouds;
   MistGround ground;
-  double rim_fade_m = 0.0;  // over this distance layers thin out towards the end of the terrain
-  double farthest_m = 0.0;  // from the eye: where lines of sight end that meet no ground
+  double rim_fade_m = 0.0;  // distance over which layers thin out towards the end of the terrain
+  double farthest_m = 0.0;  // from the eye: end of lines of sight without ground
   std::uint64_t seed = 1;
 
   bool empty() const { return layers.empty() && clouds.empty(); }
 };
 
-// Who looks, and in what light.
+// The view and its light.
 struct MistView {
   const Camera& camera;
   const Deformation& deformation;
-  const Tracer* tracer = nullptr;           // of cast shadows; null: none fall
+  const Tracer* tracer = nullptr;           // for cast shadows; null: none
   glm::dvec3 sun_direction{0.0, 0.0, 1.0};  // unit
   double pixels_per_unit = 1.0;
 };
 
-// What pixels show of it. All grids have the size that was asked for.
+// Mist per pixel. All grids have the requested size.
 struct MistSight {
-  Grid<float> share;       // of what lies behind that is hidden, 0…1
-  Grid<float> depth_m;     // how far what hides it lies on the mean; +inf where there is none
+  Grid<float> share;       // share of the background that it hides, 0…1
+  Grid<float> depth_m;     // mean distance of the hiding mist; +inf where there is none
   Grid<float> light;       // 0 deep shade … 1 lit heaps
   Grid<float> altitude_m;  // true
 };
 
-// Adds up mist along the line of sight through the middle of every pixel, from the eye to the ground that the pixel shows (depth_m, +inf
-// for sky). Lengths along the line are those of the drawn scene; density hangs on the true place and altitude there (undeform), so that a
-// sea of fog meets every slope at its altitude however the ground is bent. Every pixel stands alone.
-MistSight see_mist(const MistAir& air, const MistView& view, const Grid<float>& depth_m, glm::ivec2 origin_px);
+// Integrates mist along the line of sight through the centre of every pixel, from the eye to the
+// ground in the pixel (depth_m, +inf for sky). Lengths along the line are those of the drawn scene;
+// density depends on the undeformed position and altitude there (undeform), so that a sea of fog
+// meets every slope at its altitude however the ground is bent. Pixels are independent of each
+// other.
+MistSight see_mist(const MistAir& air, const MistView& view, const Grid<float>& depth_m,
+                   glm::ivec2 origin_px);
 
 }  // namespace belvedere

@@ -10,7 +10,8 @@
 namespace belvedere {
 namespace {
 
-constexpr float far_air = 0.34F;  // more air where ranges lie one behind the other, crests as well
+constexpr float far_air =
+    0.34F;  // more air where ranges stand one behind the other; crests get it too
 constexpr double usual_haze = AirParameters{}.haze;
 
 }  // namespace
@@ -18,8 +19,9 @@ constexpr double usual_haze = AirParameters{}.haze;
 double haze_share(const AirParameters& p, double depth_m, double altitude_m) {
   const double beyond = std::max(depth_m - p.from_m, 0.0) / p.scale_m;
   const double by_distance = 1.0 - exact::exp(-exact::pow(beyond, 1.35));
-  // Summits stand out of the air, valleys fill with it.
-  const double by_altitude = 0.58 + 0.42 * exact::exp(-std::max(altitude_m - p.floor_m, 0.0) / 900.0);
+  // Air is thinner at summits and denser in valleys.
+  const double by_altitude =
+      0.58 + 0.42 * exact::exp(-std::max(altitude_m - p.floor_m, 0.0) / 900.0);
   return p.haze * by_distance * by_altitude;
 }
 
@@ -27,17 +29,21 @@ float farness(const AirParameters& p, double depth_m) {
   return static_cast<float>(unit((depth_m - p.from_m - 0.30 * p.scale_m) / (0.5 * p.scale_m)));
 }
 
-float air_share(const AirParameters& p, const Palette& palette, double depth_m, double altitude_m, float far, float raised) {
-  const auto veil = static_cast<float>(unit(haze_share(p, depth_m, altitude_m) * palette.haze_share));
+float air_share(const AirParameters& p, const Palette& palette, double depth_m, double altitude_m,
+                float far, float raised) {
+  const auto veil =
+      static_cast<float>(unit(haze_share(p, depth_m, altitude_m) * palette.haze_share));
   const float among_ranges = unit(veil * (1.0F - 0.30F * far * raised) - 0.06F * far * raised);
-  const auto far_share = static_cast<float>(std::min(1.0, p.haze / usual_haze * palette.haze_share));
+  const auto far_share =
+      static_cast<float>(std::min(1.0, p.haze / usual_haze * palette.haze_share));
   return among_ranges + far_air * far_share * std::min(far, 1.0F) * (1.0F - among_ranges);
 }
 
 glm::vec3 air_colour(const AirParameters& p, const Palette& palette, double depth_m) {
   const double near_m = 0.88 * p.from_m;
   const double far_m = p.from_m + 1.06 * p.scale_m;
-  return glm::mix(palette.haze_near, palette.haze_far, static_cast<float>(unit((depth_m - near_m) / (far_m - near_m))));
+  return glm::mix(palette.haze_near, palette.haze_far,
+                  static_cast<float>(unit((depth_m - near_m) / (far_m - near_m))));
 }
 
 float foreground_warmth(const AirParameters& p, double depth_m) {
@@ -45,7 +51,7 @@ float foreground_warmth(const AirParameters& p, double depth_m) {
   return static_cast<float>(unit(1.0 - (depth_m - 0.82 * p.from_m) / (1.03 * p.from_m)));
 }
 
-float green_staleness(const AirParameters& p, double depth_m) {
+float green_desaturation(const AirParameters& p, double depth_m) {
   if (p.from_m <= 0.0) return 0.0F;
   return static_cast<float>(unit((depth_m - 0.75 * p.from_m) / (0.75 * p.from_m)));
 }

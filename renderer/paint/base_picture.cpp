@@ -31,19 +31,23 @@
 namespace belvedere {
 namespace {
 
-constexpr double tone_step = 0.17;                       // to the darker and the lighter picture
-constexpr double range_sigma_units = 14.0;               // width of mist behind an edge
-constexpr double krummholz_sigma_units = 12.0;           // dwarf pine stands about the treeline
-constexpr double tongue_sigma_units = 20.0;              // ice is blue and bare as far from ground without ice as this tells
-const glm::vec3 reflected_warmth{0.24F, 0.07F, -0.08F};  // what light from lit ground adds to the shade of a wall at its foot, factors
-const glm::vec3 full_warmth{0.10F, -0.02F, -0.16F};      // what a region's light of warmth 1 adds to lit colours, factors
-constexpr double brook_sigma_units = 1.8;                // what this blur of the water leaves pale is a brook
-constexpr double ice_step = 0.4;                         // of the step to the darker and lighter picture: strokes on ice are calm
-constexpr float high_m = 260.0F;                         // what stands so far above its surroundings is a crest
+constexpr double tone_step = 0.17;              // offset of the darker and the lighter picture
+constexpr double range_sigma_units = 14.0;      // width of mist behind an edge
+constexpr double krummholz_sigma_units = 12.0;  // width of the belt of dwarf pine at the treeline
+constexpr double tongue_sigma_units =
+    20.0;  // distance to ice-free ground at which ice is fully blue and bare
+const glm::vec3 reflected_warmth{
+    0.24F, 0.07F,
+    -0.08F};  // factors that light from lit ground adds to the shade at the foot of a wall
+const glm::vec3 full_warmth{0.10F, -0.02F,
+                            -0.16F};  // factors that regional light of warmth 1 adds to lit colours
+constexpr double brook_sigma_units = 1.8;  // water that this blur leaves pale is a brook
+constexpr double ice_step = 0.4;           // of the tone step: strokes on ice have less contrast
+constexpr float high_m = 260.0F;  // height above the surroundings from which a position is a crest
 
 using Class = LandCoverClass;
 
-// 1 where a class lies, else 0.
+// 1 where the class is `id`, else 0.
 Grid<float> class_mask(const GuidanceBuffers& g, Class id) {
   Grid<float> mask(g.width(), g.height(), 0.0F);
   parallel_ranges(mask.size(), std::size_t{65536}, [&](std::size_t begin, std::size_t end) {
@@ -52,13 +56,14 @@ Grid<float> class_mask(const GuidanceBuffers& g, Class id) {
   return mask;
 }
 
-// What a pixel cannot see by itself: the picture around it.
+// What a pixel needs from the picture around it.
 struct Surroundings {
   Grid<float> log_depth;
   Grid<float> mean_log_depth;
   Grid<float> wood;     // share of forest around
   ForestCover cover;    // of forest pixels
-  Grid<float> bare;     // share of ground without snow and ice around each wide pixel, on the same surface; empty where there is no ice
+  Grid<float> bare;     // share of ground without snow and ice around each wide pixel, on the same
+                        // surface; empty where there is no ice
   ScreeFans fans;       // of scree pixels
   Grid<float> water;    // share of water around, on the same surface
   Mirrored mirrored;    // of water pixels; empty where there is none
@@ -66,10 +71,14 @@ struct Surroundings {
   Grid<glm::vec3> sky;  // of the wanted sky pixels
 };
 
-// 1 where any pixel is water: of most windows none is, and what water asks for need not be made.
-bool has_water(const GuidanceBuffers& g) { return std::find(g.land_cover.begin(), g.land_cover.end(), Class::water) != g.land_cover.end(); }
+// Whether any pixel is water: most windows have none and skip what water needs.
+bool has_water(const GuidanceBuffers& g) {
+  return std::find(g.land_cover.begin(), g.land_cover.end(), Class::water) != g.land_cover.end();
+}
 
-bool has_ice(const GuidanceBuffers& g) { return std::find(g.land_cover.begin(), g.land_cover.end(), Class::glacier) != g.land_cover.end(); }
+bool has_ice(const GuidanceBuffers& g) {
+  return std::find(g.land_cover.begin(), g.land_cover.end(), Class::glacier) != g.land_cover.end();
+}
 
 Grid<float> bare_around(const WideView& wide, double wide_ppu, PixelRect window) {
   Grid<float> bare(wide.seen.width(), wide.seen.height(), 0.0F);
@@ -77,63 +86,74 @@ Grid<float> bare_around(const WideView& wide, double wide_ppu, PixelRect window)
     const Class id = wide.seen.land_cover[i];
     bare[i] = id == Class::sky || has_trait(id, ClassTrait::icy) ? 0.0F : 1.0F;
   }
-  const PixelRect asked = moved(wide_rect(window, wide.factor), -wide.origin_px.x, -wide.origin_px.y);
+  const PixelRect asked =
+      moved(wide_rect(window, wide.factor), -wide.origin_px.x, -wide.origin_px.y);
   return blur_on_surface(bare, wide.seen.depth_m, tongue_sigma_units * wide_ppu,
                          intersection({0, 0, bare.width(), bare.height()}, surface_look(asked)));
 }
 
-Surroundings look_around(const GuidanceBuffers& g, const WideView& wide, const Palette& palette, const BaseParameters& p,
-                         const SkyParameters& sky, glm::ivec2 origin_px, PixelRect wanted) {
+Surroundings look_around(const GuidanceBuffers& g, const WideView& wide, const Palette& palette,
+                         const BaseParameters& p, const SkyParameters& sky, glm::ivec2 origin_px,
+                         PixelRect wanted) {
   const double ppu = p.pixels_per_unit;
   const double wide_ppu = ppu / wide.factor;
   const double range_sigma_px = range_sigma_units * wide_ppu;
-  const PixelRect window{origin_px.x, origin_px.y, origin_px.x + g.width(), origin_px.y + g.height()};
+  const PixelRect window{origin_px.x, origin_px.y, origin_px.x + g.width(),
+                         origin_px.y + g.height()};
   const Grid<float> wide_logs = log_depths(wide.seen, blur_reach_px(range_sigma_px));
   Surroundings around;
-  around.log_depth = log_depths(g, 0);  // nobody asks what the sky has here
-  around.mean_log_depth = enlarge(wide, blur_in_picture(wide_logs, range_sigma_px, wide.origin_px), window);
-  around.wood =
-      enlarge(wide, blur_in_picture(class_mask(wide.seen, Class::forest), krummholz_sigma_units * wide_ppu, wide.origin_px), window);
+  around.log_depth = log_depths(g, 0);  // sky values are not read here
+  around.mean_log_depth =
+      enlarge(wide, blur_in_picture(wide_logs, range_sigma_px, wide.origin_px), window);
+  around.wood = enlarge(wide,
+                        blur_in_picture(class_mask(wide.seen, Class::forest),
+                                        krummholz_sigma_units * wide_ppu, wide.origin_px),
+                        window);
   if (has_ice(g)) around.bare = bare_around(wide, wide_ppu, window);
   around.cover = make_forest_cover(g, wide, {ppu, p.seed}, origin_px, wanted);
   around.fans = make_scree_fans(g, wide, {ppu, p.seed}, origin_px, wanted);
   if (has_water(g)) {
-    around.water = blur_on_surface(class_mask(g, Class::water), g.depth_m, brook_sigma_units * ppu, wanted);
+    around.water =
+        blur_on_surface(class_mask(g, Class::water), g.depth_m, brook_sigma_units * ppu, wanted);
     around.mirrored = find_reflections(g, ppu, wanted);
-    around.streaks = make_image_noise(stream_seed(p.seed, Stream::water_streaks), origin_px, g.width(), g.height(), ppu, 26.0, 1.6);
+    around.streaks = make_image_noise(stream_seed(p.seed, Stream::water_streaks), origin_px,
+                                      g.width(), g.height(), ppu, 26.0, 1.6);
   } else {
     around.water = Grid<float>(g.width(), g.height(), 0.0F);
   }
-  around.sky = make_sky(part_of(g.depth_m, wanted), palette, sky, origin_px + glm::ivec2(wanted.x0, wanted.y0));
+  around.sky = make_sky(part_of(g.depth_m, wanted), palette, sky,
+                        origin_px + glm::ivec2(wanted.x0, wanted.y0));
   return around;
 }
 
-// What all three tones of a pixel have in common.
+// What the three tones of a pixel share.
 struct PixelColour {
   glm::vec3 added;   // grasses
   glm::vec3 factor;  // drift of hue, warm foreground, fields
   glm::vec3 air_colour;
   float air = 0.0F;
-  float stale = 0.0F;  // greens: how much of their freshness is gone, 0…1
+  float desaturated = 0.0F;  // loss of freshness of greens, 0…1
   RangeEdge edge;
   TerrainEnd end;
-  glm::vec3 beyond;  // what is seen where the terrain has ended
+  glm::vec3 beyond;  // colour behind the end of the terrain
 
   glm::vec3 finish(glm::vec3 colour, glm::vec3 range_mist) const {
     colour = glm::clamp(colour + added, 0.0F, 1.0F) * factor;
     const float grey = 0.30F * colour.r + 0.59F * colour.g + 0.11F * colour.b;
-    colour = glm::mix(colour, glm::vec3(1.03F, 0.99F, 1.04F) * grey, 0.12F * stale);
+    colour = glm::mix(colour, glm::vec3(1.03F, 0.99F, 1.04F) * grey, 0.12F * desaturated);
     colour = glm::mix(colour, air_colour, air);
     colour = glm::mix(colour, range_mist, edge.mist);
     colour = glm::mix(colour, air_colour, end.air);
     colour = glm::clamp(colour * (1.0F - glm::vec3(0.40F, 0.35F, 0.27F) * edge.dark), 0.0F, 1.0F);
     return glm::mix(colour, beyond, end.dissolved);
   }
-  // Share of the finished colour that is not the ground's own.
-  float veiled() const { return 1.0F - (1.0F - air) * (1.0F - std::min(edge.mist, 1.0F)) * (1.0F - end.air) * (1.0F - end.dissolved); }
+  // Share of the finished colour that does not come from the ground.
+  float veiled() const {
+    return 1.0F - (1.0F - air) * (1.0F - std::min(edge.mist, 1.0F)) * (1.0F - end.air) *
+                      (1.0F - end.dissolved);
+  }
 };
 
-// One pixel of the picture.
 struct BasePixel {
   glm::vec3 colour, darker, lighter;
   float accent = 0.0F;
@@ -141,9 +161,11 @@ struct BasePixel {
   float haze = 0.0F;
 };
 
-BasePixel sky_pixel(glm::vec3 sky) { return {sky, sky * 0.97F, glm::min(sky * 1.03F, glm::vec3(1.0F))}; }
+BasePixel sky_pixel(glm::vec3 sky) {
+  return {sky, sky * 0.97F, glm::min(sky * 1.03F, glm::vec3(1.0F))};
+}
 
-// All that pixels are painted from.
+// Everything that pixels are painted from.
 struct Scenery {
   const GuidanceBuffers& guidance;
   const WideView& wide;
@@ -156,82 +178,102 @@ struct Scenery {
   PixelRect wanted;
 
   // Metres of ground that a unit of the sheet shows.
-  float metres_per_unit(std::size_t i) const { return guidance.footprint_m[i] * static_cast<float>(parameters.pixels_per_unit); }
-  glm::dvec3 place_m(std::size_t i) const { return glm::dvec3(guidance.position_m[i]) + guidance.origin_m; }
+  float metres_per_unit(std::size_t i) const {
+    return guidance.footprint_m[i] * static_cast<float>(parameters.pixels_per_unit);
+  }
+  glm::dvec3 position_m(std::size_t i) const {
+    return glm::dvec3(guidance.position_m[i]) + guidance.origin_m;
+  }
   WaterPixel water_pixel(std::size_t i, int x, int y, const Patches& patches) const {
     const bool known = parameters.waters && guidance.land_cover[i] == Class::water;
-    return {.index = i,
-            .place_m = place_m(i),
-            .metres_per_unit = metres_per_unit(i),
-            .ground = known ? parameters.waters->at(glm::dvec2(place_m(i))) : WaterGround::Place{},
-            .mirrored = around.mirrored,
-            .share = around.water[i],
-            .streak = around.streaks.empty() ? 0.0F : around.streaks[i],
-            .patches = patches,
-            .image = image,
-            .image_index = image != nullptr ? image->share.index(x - wanted.x0, y - wanted.y0) : 0};
+    return {
+        .index = i,
+        .position_m = position_m(i),
+        .metres_per_unit = metres_per_unit(i),
+        .ground = known ? parameters.waters->at(glm::dvec2(position_m(i))) : WaterGround::Place{},
+        .mirrored = around.mirrored,
+        .share = around.water[i],
+        .streak = around.streaks.empty() ? 0.0F : around.streaks[i],
+        .patches = patches,
+        .image = image,
+        .image_index = image != nullptr ? image->share.index(x - wanted.x0, y - wanted.y0) : 0};
   }
-  // How a place stands against its surroundings: -1 valley … 1 crest.
-  float raised(std::size_t i) const { return std::clamp(guidance.relief_l_m[i] / high_m, -1.0F, 1.0F); }
+  // Position relative to the surroundings: -1 valley … 1 crest.
+  float raised(std::size_t i) const {
+    return std::clamp(guidance.relief_l_m[i] / high_m, -1.0F, 1.0F);
+  }
 };
 
-// Factor of what grows: greens of meadows, fields, woods of gullies and ribs. In winter snow lies on it.
-glm::vec3 grown_hue(const Scenery& s, std::size_t i, const Patches& patches, const ForestTurn& woods, float air) {
+// Colour factor of vegetation: greens of meadows, fields, woods of gullies and ribs. In winter it
+// lies under snow.
+glm::vec3 grown_hue(const Scenery& s, std::size_t i, const Patches& patches,
+                    const ForestTurn& woods, float air) {
   const GuidanceBuffers& g = s.guidance;
   const Class id = g.land_cover[i];
   const auto drift = static_cast<float>(s.parameters.air.hue_drift);
   if (id == Class::forest) return woods.factor;
-  const MeadowPlace place = meadow_place(g, i, s.palette.treeline_m, static_cast<float>(s.parameters.sunny_side));
-  const MeadowMix mix = meadow_mix(id, place, patches);
+  const MeadowPosition position =
+      meadow_position(g, i, s.palette.treeline_m, static_cast<float>(s.parameters.sunny_side));
+  const MeadowMix mix = meadow_mix(id, position, patches);
   glm::vec3 hue = meadow_hue(mix, drift * static_cast<float>(s.palette.ground_drift_share));
   const float fields = id == Class::valley_floor ? 1.0F : mix.mown;
   if (fields > 0.0F) {
-    const glm::dvec3 at = s.place_m(i);
+    const glm::dvec3 at = s.position_m(i);
     const float metres_per_unit = s.metres_per_unit(i);
     const Parcel parcel = parcel_at(s.parameters.seed, at.x, at.y, metres_per_unit, g.grain[i]);
-    // Slopes that are mown keep their strips; on the valley floor it is the slopes where meadow takes over.
+    // Mown slopes keep their strips; on the valley floor only the slopes where meadow replaces
+    // fields.
     const float slope_deg = id == Class::valley_floor ? g.slope_deg[i] : 0.25F * g.slope_deg[i];
-    hue *= glm::mix(glm::vec3(1.0F), field_colour(parcel, slope_deg, metres_per_unit, air, drift), fields);
+    hue *= glm::mix(glm::vec3(1.0F), field_colour(parcel, slope_deg, metres_per_unit, air, drift),
+                    fields);
   }
   return hue;
 }
 
-// Factor of the low sun on what stands high and bare: lit walls turn rose, the higher over their surroundings the more; near, for far
-// ranges are the air's.
+// Colour factor of the low sun on high, bare ground: lit walls turn pink, more so the higher they
+// stand above their surroundings. Only near the viewer, because the colour of far ranges comes from
+// the air.
 glm::vec3 evening_glow(const Scenery& s, std::size_t i, float far) {
   const GuidanceBuffers& g = s.guidance;
   if (g.land_cover[i] != Class::rock || s.palette.winter) return glm::vec3(1.0F);
   const float lit = smoothstep(0.42F, 0.85F, g.tone[i]);
   const float high = smoothstep(-60.0F, 240.0F, g.relief_l_m[i]);
   const auto drift = static_cast<float>(s.parameters.air.hue_drift);
-  return 1.0F + glm::vec3(0.034F, -0.038F, -0.065F) * (lit * (0.35F + 0.65F * high) * (1.0F - far) * drift);
+  return 1.0F + glm::vec3(0.034F, -0.038F, -0.065F) *
+                    (lit * (0.35F + 0.65F * high) * (1.0F - far) * drift);
 }
 
-// Factor of warm or cool light on what it meets; shade keeps the palette's colour.
+// Colour factor of warm or cool light on lit ground; shade keeps the palette's colour.
 glm::vec3 light_warmth(const Scenery& s, std::size_t i) {
   if (!s.parameters.light_field) return glm::vec3(1.0F);
-  const float warmth = s.parameters.light_field->at(glm::dvec2(s.place_m(i))).warmth;
+  const float warmth = s.parameters.light_field->at(glm::dvec2(s.position_m(i))).warmth;
   return 1.0F + full_warmth * (warmth * smoothstep(0.30F, 0.80F, s.guidance.tone[i]));
 }
 
-PixelColour pixel_colour(const Scenery& s, std::size_t i, int y, const Patches& patches, const ForestTurn& woods) {
+PixelColour pixel_colour(const Scenery& s, std::size_t i, int y, const Patches& patches,
+                         const ForestTurn& woods) {
   const GuidanceBuffers& g = s.guidance;
   const BaseParameters& p = s.parameters;
   const Class id = g.land_cover[i];
   const double depth = g.depth_m[i];
   const auto drift = static_cast<float>(p.air.hue_drift);
   const auto separation = static_cast<float>(p.air.range_mist);
-  const float warm =
-      foreground_warmth(p.air, depth) * static_cast<float>(p.air.warm_near * s.palette.warm_share) * class_info(id).hue.warmth * g.tone[i];
+  const float warm = foreground_warmth(p.air, depth) *
+                     static_cast<float>(p.air.warm_near * s.palette.warm_share) *
+                     class_info(id).hue.warmth * g.tone[i];
   const float far = farness(p.air, depth) * separation;
   const float raised = s.raised(i);
   PixelColour pixel{};
-  pixel.added = grass_shift(id, patches, g.relief_s_m[i]) * drift * static_cast<float>(s.palette.ground_drift_share);
-  pixel.factor = hue_drift(id, patches, s.palette, drift) * (1.0F + glm::vec3(0.06F, 0.03F, -0.07F) * warm);
-  if (has_trait(id, ClassTrait::stales)) pixel.stale = green_staleness(p.air, depth) * static_cast<float>(p.air.warm_near);
+  pixel.added = grass_shift(id, patches, g.relief_s_m[i]) * drift *
+                static_cast<float>(s.palette.ground_drift_share);
+  pixel.factor =
+      hue_drift(id, patches, s.palette, drift) * (1.0F + glm::vec3(0.06F, 0.03F, -0.07F) * warm);
+  if (has_trait(id, ClassTrait::desaturates))
+    pixel.desaturated = green_desaturation(p.air, depth) * static_cast<float>(p.air.warm_near);
   pixel.air_colour = air_colour(p.air, s.palette, depth);
   pixel.air = air_share(p.air, s.palette, depth, g.altitude_m[i], far, raised);
-  pixel.edge = range_edge(s.around.log_depth[i] - s.around.mean_log_depth[i], far, raised, separation);
+  pixel.edge =
+      range_edge(s.around.log_depth[i] - s.around.mean_log_depth[i], far, raised, separation);
   pixel.beyond = air_beyond(s.palette, (y + s.origin_px.y + 0.5) / s.horizon_px);
   if (p.air.rim_fade_m > 0.0) pixel.end = terrain_end_at(g.rim_m[i], p.air.rim_fade_m, raised);
   if (!s.palette.winter) pixel.factor *= grown_hue(s, i, patches, woods, pixel.air);
@@ -240,22 +282,27 @@ PixelColour pixel_colour(const Scenery& s, std::size_t i, int y, const Patches& 
   return pixel;
 }
 
-// How much lit ground at the foot of a wall throws warm light up into its shade, 0…1: by what lies some units below it.
+// How much warm light the lit ground at the foot of a wall reflects into its shade, 0…1: evaluated
+// some units below the pixel.
 float reflected_share(const Scenery& s, int x, int y) {
   constexpr int looks = 8;
   constexpr double spacing_units = 1.7;
   int open = 0;
   for (int k = 1; k <= looks; ++k) {
-    const int down = static_cast<int>(std::lround(k * spacing_units * s.parameters.pixels_per_unit));
+    const int down =
+        static_cast<int>(std::lround(k * spacing_units * s.parameters.pixels_per_unit));
     const std::size_t w = s.wide.index(s.origin_px.x + x, s.origin_px.y + y + down);
     const Class id = s.wide.seen.land_cover[w];
-    if (id != Class::rock && id != Class::sky && same_surface(s.wide.seen.depth_m[w], s.guidance.depth_m(x, y))) ++open;
+    if (id != Class::rock && id != Class::sky &&
+        same_surface(s.wide.seen.depth_m[w], s.guidance.depth_m(x, y)))
+      ++open;
   }
   return static_cast<float>(open) / looks;
 }
 
 float firn_share(const Scenery& s, int x, int y) {
-  const float bare = value_on_surface(s.wide, s.around.bare, s.origin_px.x + x, s.origin_px.y + y, s.guidance.depth_m(x, y));
+  const float bare = value_on_surface(s.wide, s.around.bare, s.origin_px.x + x, s.origin_px.y + y,
+                                      s.guidance.depth_m(x, y));
   const float tongue = smoothstep(0.02F, 0.24F, bare);
   return s.palette.winter ? 1.0F - 0.35F * tongue : 1.0F - tongue;
 }
@@ -265,48 +312,67 @@ BasePixel ground_pixel(const Scenery& s, GroundNoises& noises, WaterNoises& wate
   const std::size_t i = g.depth_m.index(x, y);
   const Class id = g.land_cover[i];
   const double altitude = g.altitude_m[i];
-  const Patches patches = patches_at(noises, s.place_m(i), s.metres_per_unit(i));
+  const Patches patches = patches_at(noises, s.position_m(i), s.metres_per_unit(i));
   const auto drift = static_cast<float>(s.parameters.air.hue_drift);
-  const ForestTurn woods = id == Class::forest ? forest_turn(g.relief_s_m[i], g.relief_m_m[i], g.tone[i], patches, drift) : ForestTurn{};
+  const ForestTurn woods =
+      id == Class::forest ? forest_turn(g.relief_s_m[i], g.relief_m_m[i], g.tone[i], patches, drift)
+                          : ForestTurn{};
   const PixelColour pixel = pixel_colour(s, i, y, patches, woods);
   const float glade = s.around.cover.glade[i];
   const bool has_gravel = has_trait(id, ClassTrait::gravel_banks) && !s.palette.winter;
   const float gravel = has_gravel ? gravel_share(s.around.water[i], patches) : 0.0F;
   const WaterSources sources{g, s.palette, s.parameters.water, s.parameters.tint.get()};
   const WaterPixel wet = s.water_pixel(i, x, y, patches);
-  const WaterSurface open = id == Class::water ? water_surface(sources, waters, wet) : WaterSurface{};
+  const WaterSurface open =
+      id == Class::water ? water_surface(sources, waters, wet) : WaterSurface{};
   const WaterLook& water = open.look;
   const bool bare = id == Class::rock && !g.rock_facet.empty();
   const glm::vec2 cover = bare ? g.rock_cover[i] : glm::vec2(0.0F);
   const float shade = bare ? 1.0F - smoothstep(0.10F, 0.42F, g.tone[i]) : 0.0F;
   glm::vec3 hue = bare ? rock_hue(*s.parameters.rock, g.rock_facet[i], shade) : glm::vec3(1.0F);
-  if (shade > 0.0F && !s.palette.winter) hue *= 1.0F + shade * reflected_share(s, x, y) * reflected_warmth;
+  if (shade > 0.0F && !s.palette.winter)
+    hue *= 1.0F + shade * reflected_share(s, x, y) * reflected_warmth;
   const TintShift tint = s.parameters.tint && id != Class::water
-                             ? tint_shift(*s.parameters.tint, s.palette, id, altitude, s.place_m(i), g.footprint_m[i])
+                             ? tint_shift(*s.parameters.tint, s.palette, id, altitude,
+                                          s.position_m(i), g.footprint_m[i])
                              : TintShift{};
-  // Where ice lies deep in the snow it grew from it is white with firn; its tongues are blue and bare.
+  // Ice deep inside snow is white with firn; its tongues are blue and bare.
   const float firn = id == Class::glacier ? firn_share(s, x, y) : 0.0F;
-  const ScreeTurn fan = id == Class::scree && !s.palette.winter
-                            ? scree_turn(s.around.fans.place[i], s.around.fans.streak[i], g.relief_s_m[i], drift)
-                            : ScreeTurn{};
+  const ScreeTurn fan =
+      id == Class::scree && !s.palette.winter
+          ? scree_turn(s.around.fans.position[i], s.around.fans.streak[i], g.relief_s_m[i], drift)
+          : ScreeTurn{};
   const float turned = fan.tone + woods.tone;
   const bool multiplied = s.parameters.mean_light > 0.0 && id != Class::water;
   const auto paint = [&](double step) {
-    const double lit = g.tone[i] + static_cast<double>(water.tone_shift) + static_cast<double>(turned) + step;
+    const double lit =
+        g.tone[i] + static_cast<double>(water.tone_shift) + static_cast<double>(turned) + step;
     const double light = multiplied ? static_cast<double>(middle_tone) : lit;
     glm::vec3 ramp = palette_colour(s.palette, id, altitude, light) * hue * fan.factor;
-    if (firn > 0.0F) ramp = glm::mix(ramp, palette_colour(s.palette, Class::snow, altitude, light), firn);
-    if (fan.grown > 0.0F) ramp = glm::mix(ramp, palette_colour(s.palette, Class::alpine_grass, altitude, light - 0.06), fan.grown);
-    // Turf is never as light as the wall it hangs on; snow takes the light of the wall.
+    if (firn > 0.0F)
+      ramp = glm::mix(ramp, palette_colour(s.palette, Class::snow, altitude, light), firn);
+    if (fan.grown > 0.0F)
+      ramp = glm::mix(ramp, palette_colour(s.palette, Class::alpine_grass, altitude, light - 0.06),
+                      fan.grown);
+    // Turf is never as light as the wall around it; snow takes the light of the wall.
     if (cover.x > 0.0F)
-      ramp = glm::mix(ramp, palette_colour(s.palette, Class::alpine_grass, altitude, std::min(light, 0.75) - 0.05), cover.x);
-    if (cover.y > 0.0F) ramp = glm::mix(ramp, palette_colour(s.palette, Class::snow, altitude, light + 0.06), cover.y);
-    if (glade > 0.0F) ramp = glm::mix(ramp, glade_colour(s.palette, altitude, light), 0.85F * glade);
+      ramp = glm::mix(
+          ramp,
+          palette_colour(s.palette, Class::alpine_grass, altitude, std::min(light, 0.75) - 0.05),
+          cover.x);
+    if (cover.y > 0.0F)
+      ramp =
+          glm::mix(ramp, palette_colour(s.palette, Class::snow, altitude, light + 0.06), cover.y);
+    if (glade > 0.0F)
+      ramp = glm::mix(ramp, glade_colour(s.palette, altitude, light), 0.85F * glade);
     if (gravel > 0.0F) ramp = glm::mix(ramp, gravel_colour(light), gravel);
     ramp = open.bed.under(tint.over(ramp), s.palette, altitude, light);
     if (id == Class::settlement)
-      ramp = town_ground_colour(s.palette, ramp, g.built[i], altitude, light, static_cast<float>(s.parameters.air.hue_drift));
-    if (multiplied) ramp = times_light(ramp, light_of_tone(static_cast<float>(lit)) / static_cast<float>(s.parameters.mean_light));
+      ramp = town_ground_colour(s.palette, ramp, g.built[i], altitude, light,
+                                static_cast<float>(s.parameters.air.hue_drift));
+    if (multiplied)
+      ramp = times_light(ramp, light_of_tone(static_cast<float>(lit)) /
+                                   static_cast<float>(s.parameters.mean_light));
     ramp = water.over(ramp);
     ramp = frozen_over(ramp, sources, waters, wet, open, g.tone[i] + ice_step * step);
     return pixel.finish(ramp, s.palette.range_mist);
@@ -316,37 +382,47 @@ BasePixel ground_pixel(const Scenery& s, GroundNoises& noises, WaterNoises& wate
           .darker = paint(-tone_step),
           .lighter = paint(tone_step),
           .accent = accent_at(g, s.around.log_depth, x, y, step_px),
-          .tree_density = id == Class::forest ? s.around.cover.density[i] : bush_density(id, s.around.wood[i], patches),
+          .tree_density = id == Class::forest ? s.around.cover.density[i]
+                                              : bush_density(id, s.around.wood[i], patches),
           .haze = pixel.veiled()};
 }
 
 }  // namespace
 
-BasePicture make_base_picture(const GuidanceBuffers& guidance, const Palette& palette, const BaseParameters& parameters,
-                              glm::ivec2 origin_px, glm::ivec2 picture_size, Progress& progress, PixelRect wanted) {
-  return make_base_picture(guidance, {guidance, 1, origin_px}, palette, parameters, origin_px, picture_size, progress, wanted);
+BasePicture make_base_picture(const GuidanceBuffers& guidance, const Palette& palette,
+                              const BaseParameters& parameters, glm::ivec2 origin_px,
+                              glm::ivec2 picture_size, Progress& progress, PixelRect wanted) {
+  return make_base_picture(guidance, {guidance, 1, origin_px}, palette, parameters, origin_px,
+                           picture_size, progress, wanted);
 }
 
-BasePicture make_base_picture(const GuidanceBuffers& guidance, const WideView& wide, const Palette& palette,
-                              const BaseParameters& parameters, glm::ivec2 origin_px, glm::ivec2 picture_size, Progress& progress,
+BasePicture make_base_picture(const GuidanceBuffers& guidance, const WideView& wide,
+                              const Palette& palette, const BaseParameters& parameters,
+                              glm::ivec2 origin_px, glm::ivec2 picture_size, Progress& progress,
                               PixelRect wanted, const WaterImage* image) {
   using B = GuidanceBuffers;
   require_channels(
       guidance,
-      {&B::depth_m, &B::position_m, &B::altitude_m, &B::land_cover, &B::tone, &B::fall_line, &B::slope_deg, &B::footprint_m,
-       &B::normal_smooth, &B::relief_s_m, &B::relief_m_m, &B::relief_l_m, &B::valley_height_m, &B::rim_m, &B::built, &B::grain},
+      {&B::depth_m, &B::position_m, &B::altitude_m, &B::land_cover, &B::tone, &B::fall_line,
+       &B::slope_deg, &B::footprint_m, &B::normal_smooth, &B::relief_s_m, &B::relief_m_m,
+       &B::relief_l_m, &B::valley_height_m, &B::rim_m, &B::built, &B::grain},
       "base picture");
   if (wanted.empty()) wanted = {0, 0, guidance.width(), guidance.height()};
   const int width = wanted.width();
   const int height = wanted.height();
   progress.begin("base picture", height);
-  const double horizon_px = parameters.horizon_px > 0.0 ? parameters.horizon_px : 0.18 * picture_size.y;
-  const SkyParameters sky{picture_size,           horizon_px,     parameters.air.clouds, parameters.air.sky,
-                          parameters.sun_image_x, palette.winter, parameters.sky_seed};
-  const Surroundings around = look_around(guidance, wide, palette, parameters, sky, origin_px, wanted);
+  const double horizon_px =
+      parameters.horizon_px > 0.0 ? parameters.horizon_px : 0.18 * picture_size.y;
+  const SkyParameters sky{
+      picture_size,           horizon_px,     parameters.air.clouds, parameters.air.sky,
+      parameters.sun_image_x, palette.winter, parameters.sky_seed};
+  const Surroundings around =
+      look_around(guidance, wide, palette, parameters, sky, origin_px, wanted);
   if (image != nullptr && (image->share.width() != width || image->share.height() != height))
-    throw Error(ErrorKind::bug, "base picture", "what water mirrors is of other pixels");
-  const Scenery scenery{guidance, wide, palette, parameters, around, horizon_px, origin_px, image, wanted};
+    throw Error(ErrorKind::bug, "base picture",
+                "the reflected image covers other pixels than the picture");
+  const Scenery scenery{guidance,   wide,      palette, parameters, around,
+                        horizon_px, origin_px, image,   wanted};
 
   BasePicture picture;
   picture.colour = picture.darker = picture.lighter = Grid<glm::vec3>(width, height);
@@ -357,7 +433,9 @@ BasePicture make_base_picture(const GuidanceBuffers& guidance, const WideView& w
     for (int x = 0; x < width; ++x) {
       const std::size_t i = picture.colour.index(x, y);
       const bool is_sky = guidance.is_sky(guidance.depth_m.index(wanted.x0 + x, wanted.y0 + y));
-      const BasePixel pixel = is_sky ? sky_pixel(around.sky[i]) : ground_pixel(scenery, noises, waters, wanted.x0 + x, wanted.y0 + y);
+      const BasePixel pixel =
+          is_sky ? sky_pixel(around.sky[i])
+                 : ground_pixel(scenery, noises, waters, wanted.x0 + x, wanted.y0 + y);
       picture.colour[i] = pixel.colour;
       picture.darker[i] = pixel.darker;
       picture.lighter[i] = pixel.lighter;
@@ -373,18 +451,22 @@ BasePicture make_base_picture(const GuidanceBuffers& guidance, const WideView& w
 int base_margin_px(const BaseParameters& parameters) {
   const double ppu = parameters.pixels_per_unit;
   const int factor = wide_factor(ppu);
-  // The blur, and the sky's look down at the terrain; beyond, what lies between the middles of wide pixels.
+  // Reach of the blur, of the sky's lookup down to the terrain, and of interpolation between the
+  // centres of wide pixels.
   const int ranges = factor * (2 * blur_reach_px(range_sigma_units * ppu / factor) + 2);
   const int woods = factor * (blur_reach_px(krummholz_sigma_units * ppu / factor) + 2);
-  const int ice = factor * (surface_reach_px(tongue_sigma_units * ppu / factor) + surface_look_rows + 3);
+  const int ice =
+      factor * (surface_reach_px(tongue_sigma_units * ppu / factor) + surface_look_rows + 3);
   const int waters = std::max(reflection_margin_px(ppu), surface_reach_px(brook_sigma_units * ppu));
-  return std::max({ranges, woods, ice, waters, forest_cover_margin_px(ppu) + factor, scree_fans_margin_px(ppu) + factor}) +
+  return std::max({ranges, woods, ice, waters, forest_cover_margin_px(ppu) + factor,
+                   scree_fans_margin_px(ppu) + factor}) +
          3 * static_cast<int>(std::ceil(ppu)) + 2;
 }
 
 PixelRect base_window(PixelRect wanted, bool has_water, const BaseParameters& parameters) {
   const double ppu = parameters.pixels_per_unit;
-  PixelRect window = grown(wanted, surface_reach_px(brook_sigma_units * ppu) + 3 * static_cast<int>(std::ceil(ppu)) + 2);
+  PixelRect window = grown(
+      wanted, surface_reach_px(brook_sigma_units * ppu) + 3 * static_cast<int>(std::ceil(ppu)) + 2);
   if (!has_water) return window;
   window.y0 = std::min(window.y0, wanted.y0 - reflection_margin_px(ppu));
   window.y1 = std::max(window.y1, wanted.y1 + reflection_margin_px(ppu));

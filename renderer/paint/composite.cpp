@@ -28,25 +28,31 @@ Grid<glm::vec3> map_channels(const Grid<glm::vec3>& picture, Curve curve) {
 }
 
 glm::dvec3 decode(glm::vec3 v) { return {srgb_decoded(v.x), srgb_decoded(v.y), srgb_decoded(v.z)}; }
-glm::vec3 encode(glm::dvec3 v) { return glm::vec3(srgb_encoded(v.x), srgb_encoded(v.y), srgb_encoded(v.z)); }
+glm::vec3 encode(glm::dvec3 v) {
+  return glm::vec3(srgb_encoded(v.x), srgb_encoded(v.y), srgb_encoded(v.z));
+}
 
-// Whether two pixels show different surfaces: the comparison is false for sky against sky (infinity) and true for sky against ground.
+// Whether two pixels show different surfaces. The comparison is false for sky against sky
+// (infinity) and true for sky against ground.
 bool differ(float depth_a, float depth_b) {
   constexpr float ratio = 1.03f;
   return depth_a > ratio * depth_b || depth_b > ratio * depth_a;
 }
 
-// Each channel of d held softly within ±most.
-glm::vec3 softly(glm::vec3 d, float most) {
-  const glm::vec3 x = d / most;
+// Each channel of d, softly limited to ±max.
+glm::vec3 softly(glm::vec3 d, float max) {
+  const glm::vec3 x = d / max;
   return d / glm::sqrt(1.0F + x * x);
 }
 
-// A texel of another place as paint of this one (transfer_residual): its base is null where nobody knows it.
-glm::vec3 carried_over(glm::vec3 texel, const glm::vec3* its_base, glm::vec3 base, double residual, LandCoverClass shown) {
+// A texel of another position as paint of this one (transfer_residual). Its base is null where it
+// is unknown.
+glm::vec3 carried_over(glm::vec3 texel, const glm::vec3* its_base, glm::vec3 base, double residual,
+                       LandCoverClass shown) {
   if (its_base == nullptr) return texel;
-  if (has_trait(shown, ClassTrait::icy)) return base + softly(texel - *its_base, snow_strokes_most);
-  const auto r = static_cast<float>(shown == LandCoverClass::rock ? std::max(residual, rock_residual) : residual);
+  if (has_trait(shown, ClassTrait::icy)) return base + softly(texel - *its_base, snow_strokes_max);
+  const auto r = static_cast<float>(
+      shown == LandCoverClass::rock ? std::max(residual, rock_residual) : residual);
   return texel + r * (base - *its_base);
 }
 
@@ -57,23 +63,32 @@ glm::vec3 below_air(glm::vec3 paint, glm::vec3 base, const Grid<float>& haze, st
 
 }  // namespace
 
-Image decode_srgb(const Grid<glm::vec3>& encoded) { return map_channels(encoded, srgb_decoded_fast); }
+Image decode_srgb(const Grid<glm::vec3>& encoded) {
+  return map_channels(encoded, srgb_decoded_fast);
+}
 Grid<glm::vec3> encode_srgb(const Image& linear) {
-  return map_channels(linear, [](float value) { return static_cast<float>(srgb_encoded(static_cast<double>(value))); });
+  return map_channels(linear, [](float value) {
+    return static_cast<float>(srgb_encoded(static_cast<double>(value)));
+  });
 }
 
-Grid<glm::vec3> transfer_residual(const MatchField& matches, const std::vector<PaintedExemplar>& exemplars,
-                                  const Grid<glm::vec3>& target_base, const Grid<float>& target_haze, double residual,
+Grid<glm::vec3> transfer_residual(const MatchField& matches,
+                                  const std::vector<PaintedExemplar>& exemplars,
+                                  const Grid<glm::vec3>& target_base,
+                                  const Grid<float>& target_haze, double residual,
                                   const Grid<LandCoverClass>& shown) {
-  if (!matches.same_size(target_base)) throw Error(ErrorKind::bug, "composite", "the match field and the base have different sizes");
+  if (!matches.same_size(target_base))
+    throw Error(ErrorKind::bug, "composite", "the match field and the base have different sizes");
   if (!target_haze.empty() && !target_haze.same_size(target_base))
-    throw Error(ErrorKind::bug, "composite", "air and base have different sizes");
+    throw Error(ErrorKind::bug, "composite", "haze and base have different sizes");
   for (const PaintedExemplar& e : exemplars) {
     if (!e.base.empty() && !e.base.same_size(e.picture)) {
-      throw Error(ErrorKind::input, "exemplar " + e.exemplar.name, "its base has another size than its picture");
+      throw Error(ErrorKind::input, "exemplar " + e.exemplar.name,
+                  "its base and its picture have different sizes");
     }
   }
-  if (!shown.empty() && !shown.same_size(target_base)) throw Error(ErrorKind::bug, "composite", "classes and base have different sizes");
+  if (!shown.empty() && !shown.same_size(target_base))
+    throw Error(ErrorKind::bug, "composite", "classes and base have different sizes");
   Grid<glm::vec3> out(target_base.width(), target_base.height());
   parallel_rows(out.height(), [&](int y) {
     for (int x = 0; x < out.width(); ++x) {
@@ -83,56 +98,66 @@ Grid<glm::vec3> transfer_residual(const MatchField& matches, const std::vector<P
         continue;
       }
       if (m.exemplar >= exemplars.size() || !exemplars[m.exemplar].picture.contains(m.x, m.y)) {
-        throw Error(ErrorKind::input, "match field", "a match outside the exemplars");
+        throw Error(ErrorKind::input, "match field", "a match points outside the exemplars");
       }
       const PaintedExemplar& e = exemplars[m.exemplar];
       const glm::vec3* its_base = e.base.empty() ? nullptr : &e.base(m.x, m.y);
       const LandCoverClass id = shown.empty() ? LandCoverClass::sky : shown(x, y);
-      const glm::vec3 paint = carried_over(e.picture(m.x, m.y), its_base, target_base(x, y), residual, id);
+      const glm::vec3 paint =
+          carried_over(e.picture(m.x, m.y), its_base, target_base(x, y), residual, id);
       out(x, y) = below_air(paint, target_base(x, y), target_haze, out.index(x, y));
     }
   });
   return out;
 }
 
-void lay_model_paint(Grid<glm::vec3>& picture, const ModelPaint& paint, const Grid<glm::vec3>& target_base, const Grid<float>& target_haze,
+void lay_model_paint(Grid<glm::vec3>& picture, const ModelPaint& paint,
+                     const Grid<glm::vec3>& target_base, const Grid<float>& target_haze,
                      double residual, const Grid<LandCoverClass>& shown) {
-  if (!picture.same_size(paint.made) || !picture.same_size(target_base) || !picture.same_size(shown))
-    throw Error(ErrorKind::bug, "composite", "the picture and its model paint have different sizes");
+  if (!picture.same_size(paint.made) || !picture.same_size(target_base) ||
+      !picture.same_size(shown))
+    throw Error(ErrorKind::bug, "composite",
+                "the picture and the model paint have different sizes");
   parallel_rows(picture.height(), [&](int y) {
     for (int x = 0; x < picture.width(); ++x) {
       const std::size_t i = picture.index(x, y);
       if (paint.made[i] == 0) continue;
-      picture[i] =
-          below_air(carried_over(paint.texel[i], &paint.base[i], target_base[i], residual, shown[i]), target_base[i], target_haze, i);
+      picture[i] = below_air(
+          carried_over(paint.texel[i], &paint.base[i], target_base[i], residual, shown[i]),
+          target_base[i], target_haze, i);
     }
   });
 }
 
-glm::vec3 in_even_light(glm::vec3 texel, const glm::vec3* its_base, double residual, LandCoverClass shown) {
+glm::vec3 in_even_light(glm::vec3 texel, const glm::vec3* its_base, double residual,
+                        LandCoverClass shown) {
   return carried_over(texel, its_base, glm::vec3(even_grey), residual, shown);
 }
 
-void lay_even_paint(Grid<glm::vec3>& picture, const KnitPaint& paint, const Grid<glm::vec3>& target_base, const Grid<float>& target_haze,
+void lay_even_paint(Grid<glm::vec3>& picture, const SeamPaint& paint,
+                    const Grid<glm::vec3>& target_base, const Grid<float>& target_haze,
                     double residual, const Grid<LandCoverClass>& shown) {
-  if (!picture.same_size(paint.made) || !picture.same_size(target_base) || !picture.same_size(shown))
-    throw Error(ErrorKind::bug, "composite", "the picture and its knitted paint have different sizes");
+  if (!picture.same_size(paint.made) || !picture.same_size(target_base) ||
+      !picture.same_size(shown))
+    throw Error(ErrorKind::bug, "composite", "the picture and the seam paint have different sizes");
   parallel_rows(picture.height(), [&](int y) {
     for (int x = 0; x < picture.width(); ++x) {
       const std::size_t i = picture.index(x, y);
       if (paint.made[i] == 0) continue;
-      // As carried_over: in even light snow's strokes are held already.
+      // As in carried_over: in even light snow's strokes are already limited.
       const bool whole = has_trait(shown[i], ClassTrait::icy) || shown[i] == LandCoverClass::rock;
       const auto r = static_cast<float>(whole ? std::max(residual, rock_residual) : residual);
-      picture[i] = below_air(paint.even[i] + r * (target_base[i] - even_grey), target_base[i], target_haze, i);
+      picture[i] = below_air(paint.even[i] + r * (target_base[i] - even_grey), target_base[i],
+                             target_haze, i);
     }
   });
 }
 
-Grid<glm::vec3> mix_borders(const Grid<glm::vec3>& copied, const Painting& draft, const Grid<LandCoverClass>& shown,
+Grid<glm::vec3> mix_borders(const Grid<glm::vec3>& copied, const Painting& draft,
+                            const Grid<LandCoverClass>& shown,
                             const Grid<LandCoverClass>& land_cover, const Grid<glm::vec3>& base) {
-  if (!copied.same_size(draft.under) || !copied.same_size(draft.under_share) || !copied.same_size(shown) || !copied.same_size(land_cover) ||
-      !copied.same_size(base))
+  if (!copied.same_size(draft.under) || !copied.same_size(draft.under_share) ||
+      !copied.same_size(shown) || !copied.same_size(land_cover) || !copied.same_size(base))
     throw Error(ErrorKind::bug, "composite", "the picture and its draft have different sizes");
   Grid<glm::vec3> out = copied;
   parallel_rows(out.height(), [&](int y) {
@@ -141,7 +166,8 @@ Grid<glm::vec3> mix_borders(const Grid<glm::vec3>& copied, const Painting& draft
       if (draft.under_share[i] == 0) continue;
       const std::size_t from = draft.under[i];
       const float share = static_cast<float>(draft.under_share[i]) / 255.0F;
-      out[i] = glm::mix(copied[i], shown[from] == land_cover[from] ? copied[from] : base[from], share);
+      out[i] =
+          glm::mix(copied[i], shown[from] == land_cover[from] ? copied[from] : base[from], share);
     }
   });
   return out;

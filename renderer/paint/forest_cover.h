@@ -12,27 +12,30 @@
 
 namespace belvedere {
 
-// How a forest stands, as a painter sees it: not an even cover but groups with gaps, glades that grass fills, lanes down the fall line,
-// tracks that avalanches have swept from the treeline down, fuller gullies, and trees that thin out towards the treeline but stand like a
-// wall where the forest ends on meadow. All sizes on the sheet, because trees keep their size whatever the distance.
+// The structure of a forest as a painter shows it: groups with gaps instead of an even cover,
+// grassy glades, lanes down the fall line, avalanche tracks from the treeline down, denser gullies,
+// and trees that thin out towards the treeline but form a wall where the forest ends at a meadow.
+// All sizes are on the sheet, because painted trees keep their size at any distance.
 struct ForestCoverParameters {
   double pixels_per_unit = 1.0;  // a unit is 0.5 mm of the sheet
   std::uint64_t seed = 1;
 };
 
 struct ForestCover {
-  Grid<float> density;  // 0…1: share of the trees that are planted; 0 outside forest
-  Grid<float> glade;    // 0…1: how far grass shows instead of wood; 0 outside forest
+  Grid<float> density;  // 0…1: share of the trees that are placed; 0 outside forest
+  Grid<float> glade;    // 0…1: share of grass instead of trees; 0 outside forest
 };
 
-// Needs depths, places, classes, fall lines, slopes, footprints, small and middle relief and heights above the valley. Local up to
-// forest_cover_margin_px(): a part with that margin equals the whole bit for bit. It is the wide view that must reach so far; of the
-// buffers a pixel needs itself alone. Pixels outside `wanted` (empty: all) hold 0.
-ForestCover make_forest_cover(const GuidanceBuffers& guidance, const WideView& wide, const ForestCoverParameters& parameters,
-                              glm::ivec2 origin_px, PixelRect wanted = {});
+// Needs depths, positions, classes, fall lines, slopes, footprints, small and middle relief and
+// heights above the valley. Local up to forest_cover_margin_px(): a part with that margin equals
+// the whole bit for bit. Only the wide view must reach so far; from the buffers a pixel reads only
+// itself. Pixels outside `wanted` (empty: all) hold 0.
+ForestCover make_forest_cover(const GuidanceBuffers& guidance, const WideView& wide,
+                              const ForestCoverParameters& parameters, glm::ivec2 origin_px,
+                              PixelRect wanted = {});
 int forest_cover_margin_px(double pixels_per_unit);
 
-// Grass among trees: a little darker than that of the open. Encoded sRGB at a tone.
+// Grass among trees: slightly darker than open grass. Encoded sRGB at a tone.
 glm::vec3 glade_colour(const Palette& palette, double altitude_m, double light);
 
 // Dwarf pines on alpine grass and bushes on shrubland, 0…1; `wood` is the share of forest around.

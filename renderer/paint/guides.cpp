@@ -17,27 +17,31 @@ constexpr float nearest_m = 500.0F;
 constexpr float farthest_m = 500000.0F;
 
 float log_distance(const GuidanceBuffers& g, std::size_t i) {
-  return exact::log(std::max(g.depth_m[i], nearest_m) / nearest_m) / exact::log(farthest_m / nearest_m);
+  return exact::log(std::max(g.depth_m[i], nearest_m) / nearest_m) /
+         exact::log(farthest_m / nearest_m);
 }
 
-// Relief, altitude and air come with the base picture, so guides only choose among strokes, lightly: heavier ones tear the texture to
-// grain. Tone leads, because strokes in shade differ from those in light, then the direction strokes run in.
+// The base picture already contributes relief, altitude and air, so guides only choose among
+// strokes. Their weights are low: higher ones break the texture into grain. Tone comes first,
+// because strokes in shade differ from those in light, then the direction of the strokes.
 const GuideKind kinds[] = {
-    {"altitude", "20 m a step from 0 m", &B::altitude_m, [](const B& g, std::size_t i) { return g.altitude_m[i] / (20.0F * 255.0F); },
-     0.04},
+    {"altitude", "20 m per step from 0 m", &B::altitude_m,
+     [](const B& g, std::size_t i) { return g.altitude_m[i] / (20.0F * 255.0F); }, 0.04},
     {"tone", "light, 0…1", &B::tone, [](const B& g, std::size_t i) { return g.tone[i]; }, 0.15},
     {"distance", "logarithm from 500 m to 500 km", &B::depth_m, log_distance, 0.02},
-    {"shadow", "0 in cast shadow … 1 lit", &B::shadow, [](const B& g, std::size_t i) { return g.shadow[i]; }, 0.02},
-    {"slope", "0…90°", &B::slope_deg, [](const B& g, std::size_t i) { return g.slope_deg[i] / 90.0F; }, 0.02},
-    {"fall_line_x", "of the unit direction, -1 (left) … 1; none is 128", &B::fall_line,
-     [](const B& g, std::size_t i) { return 0.5F + 0.5F * g.fall_line[i].x; }, 0.1},
-    {"fall_line_y", "of the unit direction, -1 (up) … 1; none is 128", &B::fall_line,
+    {"shadow", "0 in cast shadow … 1 lit", &B::shadow,
+     [](const B& g, std::size_t i) { return g.shadow[i]; }, 0.02},
+    {"slope", "0…90°", &B::slope_deg,
+     [](const B& g, std::size_t i) { return g.slope_deg[i] / 90.0F; }, 0.02},
+    {"fall_line_x", "x of the unit direction, -1 (left) … 1; 128 where there is none",
+     &B::fall_line, [](const B& g, std::size_t i) { return 0.5F + 0.5F * g.fall_line[i].x; }, 0.1},
+    {"fall_line_y", "y of the unit direction, -1 (up) … 1; 128 where there is none", &B::fall_line,
      [](const B& g, std::size_t i) { return 0.5F + 0.5F * g.fall_line[i].y; }, 0.05},
     {"flow", "upstream area, logarithm from 100 m² to 100 000 km²", &B::flow,
      [](const B& g, std::size_t i) { return (g.flow[i] - 2.0F) / 9.0F; }, 0.0},
 };
 
-// Calls f(i) for the pixels of a grid, row by row side by side.
+// Calls f(i) for the pixels of a grid, with rows in parallel.
 template <class G, class F>
 void for_each_pixel(const G& grid, F&& f) {
   parallel_rows(grid.height(), [&](int y) {
@@ -46,17 +50,22 @@ void for_each_pixel(const G& grid, F&& f) {
 }
 
 // Value 0…1 in 256 steps.
-std::uint8_t quantize(float share) { return static_cast<std::uint8_t>(std::floor(std::clamp(share, 0.0F, 1.0F) * 255.0F + 0.5F)); }
+std::uint8_t quantize(float share) {
+  return static_cast<std::uint8_t>(std::floor(std::clamp(share, 0.0F, 1.0F) * 255.0F + 0.5F));
+}
 
-// Strokes carry the colour of where they grew some way over their class. So much of it, encoded sRGB of the channel that differs most, is
-// the life of paint and is copied with it. The rest is a border of fields or of light that a stroke reached over: on a base that has its
-// own borders it would be a speck of a colour that nothing has.
+// Strokes carry the colour of their origin some distance over the class. Up to this difference
+// (encoded sRGB, the channel that differs most) it is part of the variety of paint and is copied.
+// The rest is a border of fields or of light that a stroke crossed: on a base with other borders it
+// would be a speck of a foreign colour.
 constexpr float carried_colour = 0.06F;
 
-// What is left of a difference when `most` is taken off its largest component, the others in proportion.
-glm::vec3 beyond(glm::vec3 difference, float most) {
-  const float largest = std::max({std::abs(difference.x), std::abs(difference.y), std::abs(difference.z)});
-  return largest > most ? difference * (1.0F - most / largest) : glm::vec3(0.0F);
+// What remains of a difference when `max` is taken off its largest component; the others scale in
+// proportion.
+glm::vec3 beyond(glm::vec3 difference, float max) {
+  const float largest =
+      std::max({std::abs(difference.x), std::abs(difference.y), std::abs(difference.z)});
+  return largest > max ? difference * (1.0F - max / largest) : glm::vec3(0.0F);
 }
 
 }  // namespace
@@ -75,20 +84,24 @@ std::vector<std::pair<std::string, double>> default_guide_weights() {
   return weights;
 }
 
-PaintedClasses find_painted_classes(const Grid<std::uint32_t>& sources, const GuidanceBuffers& guidance, const Grid<glm::vec3>& base) {
+PaintedClasses find_painted_classes(const Grid<std::uint32_t>& sources,
+                                    const GuidanceBuffers& guidance, const Grid<glm::vec3>& base) {
   PaintedClasses painted{guidance.land_cover, base};
   for_each_pixel(sources, [&](std::size_t i) {
     const std::uint32_t source = sources[i];
     painted.land_cover[i] = guidance.land_cover[source];
     const bool over_border = guidance.land_cover[i] != painted.land_cover[i];
-    painted.base[i] = over_border ? base[source] : base[i] + beyond(base[source] - base[i], carried_colour);
+    painted.base[i] =
+        over_border ? base[source] : base[i] + beyond(base[source] - base[i], carried_colour);
   });
   return painted;
 }
 
-GuideStack make_guide_stack(const GuidanceBuffers& guidance, const Grid<LandCoverClass>& land_cover) {
+GuideStack make_guide_stack(const GuidanceBuffers& guidance,
+                            const Grid<LandCoverClass>& land_cover) {
   require_channels(guidance, {&B::depth_m}, "guides");
-  if (!guidance.depth_m.same_size(land_cover)) throw Error(ErrorKind::bug, "guides", "land cover of another size than the picture");
+  if (!guidance.depth_m.same_size(land_cover))
+    throw Error(ErrorKind::bug, "guides", "land cover and picture have different sizes");
   GuideStack stack;
   stack.depth_m = guidance.depth_m;
   stack.label = Grid<std::uint8_t>(guidance.width(), guidance.height(), unused_label);

@@ -23,110 +23,145 @@ constexpr double shadow_blur_units = 0.8;
 constexpr double sky_blur_units = 1.5;
 constexpr float brightest_tone = 1.02F;
 constexpr float pool_strength = 0.035F;
-// Rock that looks out of forest is weathered and mossy: what is small and white there reads as a stone or an egg, not as a cliff.
+// Rock inside forest is weathered and mossy: a small white shape there would read as a boulder, not
+// as a cliff.
 constexpr double outcrop_sigma_units = 12.0;  // forest within this is "around"
-constexpr float outcrop_calm = 0.50F;         // share of contrast it takes …
+constexpr float outcrop_calm = 0.50F;         // share of contrast that it loses …
 constexpr float outcrop_shade = 0.20F;        // … and how much darker it is
-constexpr float calm_from_m = 16.0F;          // metres of ground in a unit of the sheet from which forms are simplified …
-constexpr float calm_to_m = 42.0F;            // … and at which they are simplest
+constexpr float calm_from_m =
+    16.0F;  // metres of ground in a unit of the sheet from which forms are simplified …
+constexpr float calm_to_m = 42.0F;  // … and at which they are fully simplified
 
-// Snow: it throws light back, so that its shade has forms too, and its shadows have clear edges.
+// Snow reflects light, so that its shade has forms too, and its shadows have clear edges.
 constexpr float snow_wrap = 0.10F;
 constexpr float snow_fill = 0.26F;
-constexpr float snow_detail = 0.68F;  // of its normal, from the ground with all its detail
-constexpr float snow_toe = 0.17F;     // tones below and above which forms draw together instead of ending
+constexpr float snow_detail =
+    0.68F;  // share of its normal that comes from the ground in full detail
+constexpr float snow_toe =
+    0.17F;  // tones below and above which the range is compressed instead of clipped
 constexpr float snow_shoulder = 0.74F;
-constexpr float snow_hollow = 0.055F;  // how much darker hollows between swells are
-constexpr float cornice_units = 5.0F;  // how far below a crest its overhanging edge is drawn
-constexpr float lip_units = 1.3F;      // of which so much is its lit lip, the rest its shade
+constexpr float snow_hollow = 0.055F;  // how much darker the hollows of swells are
+constexpr float cornice_units = 5.0F;  // height of the overhanging edge drawn below a crest
+constexpr float lip_units = 1.3F;      // of that, the lit lip; the rest is its shade
 
-// What lies white: snow and ice, and in winter all open ground.
+// White ground: snow and ice, and in winter all open ground.
 bool is_white(LandCoverClass id, bool winter) {
   using enum LandCoverClass;
   if (has_trait(id, ClassTrait::icy)) return true;
-  return winter && (id == valley_floor || id == pasture || id == alpine_grass || id == scree || id == sand);
+  return winter &&
+         (id == valley_floor || id == pasture || id == alpine_grass || id == scree || id == sand);
 }
 
-// How much of the ribs a slope shows: none on flats, all where it is steep.
+// Share of the ribs that a slope shows: none on flat ground, all where it is steep.
 float steepness(float slope_deg) { return std::clamp((slope_deg - 18.0F) / 20.0F, 0.0F, 1.0F); }
 
-// Rock's contrast drives its shade below the darkest paint, where a wall has no forms left: from `toe` down tones draw together instead.
+// Rock's contrast pushes its shade below the darkest paint, where a wall would lose its forms:
+// below `toe` tones are compressed instead.
 float keep_forms(float tone) {
   constexpr float toe = 0.26F;
-  return tone >= toe ? tone : toe * static_cast<float>(exact::exp(static_cast<double>((tone - toe) / toe)));
+  return tone >= toe
+             ? tone
+             : toe * static_cast<float>(exact::exp(static_cast<double>((tone - toe) / toe)));
 }
 
-// How fine the ground is drawn: 1 near, falling to .35 where a unit of the sheet covers so much ground that the DEM's small forms would
-// crumple a range into specks.
+// Level of detail of the ground: 1 near, falling to .35 where a unit of the sheet covers so much
+// ground that the DEM's small forms would break a range into specks.
 float fineness(const GuidanceBuffers& g, std::size_t i, double pixels_per_unit) {
   const float metres_per_unit = g.footprint_m[i] * static_cast<float>(pixels_per_unit);
-  return 1.0F - 0.65F * std::clamp((metres_per_unit - calm_from_m) / (calm_to_m - calm_from_m), 0.0F, 1.0F);
+  return 1.0F - 0.65F * std::clamp((metres_per_unit - calm_from_m) / (calm_to_m - calm_from_m),
+                                   0.0F, 1.0F);
 }
 
-// Light before contrast: sun, sky, relief and edges of one pixel.
-float raw_light(const GuidanceBuffers& g, std::size_t i, float shadow, float sky_view, float fine, const GroundLight& own,
-                const ToneParameters& p) {
+// Light of one pixel before contrast: sun, sky, relief and edges.
+float raw_light(const GuidanceBuffers& g, std::size_t i, float shadow, float sky_view, float fine,
+                const GroundLight& own, const ToneParameters& p) {
   const ClassTone& light = class_info(g.land_cover[i]).tone;
-  const glm::vec3 detail = has_trait(g.land_cover[i], ClassTrait::own_relief) ? g.normal_detail[i] : g.normal[i];
+  const glm::vec3 detail =
+      has_trait(g.land_cover[i], ClassTrait::own_relief) ? g.normal_detail[i] : g.normal[i];
   const float share = light.detail * fine;
   const glm::vec3 normal = glm::normalize(detail * share + g.normal_smooth[i] * (1.0F - share));
   const auto wrap = static_cast<float>(p.wrap);
   const float towards = glm::dot(normal, glm::vec3(own.sun));
   const float facing = std::clamp((towards + wrap) / (1.0F + wrap), 0.0F, 1.0F);
   const float sun = facing * (1.0F - static_cast<float>(p.light.shadow_depth) * (1.0F - shadow));
-  const float sky = static_cast<float>(exact::pow(static_cast<double>(std::max(sky_view, 0.0F)), 1.3)) * (0.6F + 0.4F * normal.z);
-  const float relief = 0.5F * std::clamp(g.relief_m_m[i] / 70.0F, -1.0F, 1.0F) + 0.5F * std::clamp(g.relief_l_m[i] / 250.0F, -1.0F, 1.0F);
+  const float sky =
+      static_cast<float>(exact::pow(static_cast<double>(std::max(sky_view, 0.0F)), 1.3)) *
+      (0.6F + 0.4F * normal.z);
+  const float relief = 0.5F * std::clamp(g.relief_m_m[i] / 70.0F, -1.0F, 1.0F) +
+                       0.5F * std::clamp(g.relief_l_m[i] / 250.0F, -1.0F, 1.0F);
   const float edges = std::clamp(g.relief_s_m[i] / 10.0F, -1.2F, 1.2F);
-  return static_cast<float>(p.light.sun) * own.strength * sun + static_cast<float>(p.light.sky) * sky +
-         static_cast<float>(p.light.relief) * relief + light.edges * fine * edges;
+  return static_cast<float>(p.light.sun) * own.strength * sun +
+         static_cast<float>(p.light.sky) * sky + static_cast<float>(p.light.relief) * relief +
+         light.edges * fine * edges;
 }
 
 // Tone of snow: never quite at the ends of its ramp while it still has forms.
-// Between light and shade it goes over quickly, so that its flanks read as planes.
+// The transition from light to shade is short, so that its flanks read as planes.
 float keep_snow(float tone) {
   constexpr float from = 0.25F;
   constexpr float to = 0.75F;
   constexpr float crispness = 0.65F;
-  if (tone > from && tone < to) tone += crispness * (from + (to - from) * smoothstep(from, to, tone) - tone);
-  if (tone < snow_toe) return snow_toe * static_cast<float>(exact::exp(static_cast<double>((tone - snow_toe) / snow_toe)));
+  if (tone > from && tone < to)
+    tone += crispness * (from + (to - from) * smoothstep(from, to, tone) - tone);
+  if (tone < snow_toe)
+    return snow_toe *
+           static_cast<float>(exact::exp(static_cast<double>((tone - snow_toe) / snow_toe)));
   constexpr float above = brightest_tone - snow_shoulder;
   if (tone > snow_shoulder)
-    return brightest_tone - above * static_cast<float>(exact::exp(static_cast<double>((snow_shoulder - tone) / above)));
+    return brightest_tone - above * static_cast<float>(exact::exp(
+                                        static_cast<double>((snow_shoulder - tone) / above)));
   return tone;
 }
 
-// Light before contrast on snow as wind has laid it. Steep snow slides: it has runnels (ribs) and no drifts.
-float snow_light(const GuidanceBuffers& g, std::size_t i, float shadow, float sky_view, float fine, const SnowForm& form,
-                 const GroundLight& own, const ToneParameters& p) {
+// Light before contrast on wind-shaped snow. Steep snow slides: it has runnels (ribs) and no
+// drifts.
+float snow_light(const GuidanceBuffers& g, std::size_t i, float shadow, float sky_view, float fine,
+                 const SnowForm& form, const GroundLight& own, const ToneParameters& p) {
   const float share = snow_detail * fine;
-  const glm::vec3 ground = glm::normalize(g.normal_detail[i] * share + g.normal[i] * (1.0F - share));
-  const float laid = (1.0F - 0.75F * smoothstep(24.0F, 44.0F, g.slope_deg[i])) * (0.35F + 0.65F * fine);
+  const glm::vec3 ground =
+      glm::normalize(g.normal_detail[i] * share + g.normal[i] * (1.0F - share));
+  const float laid =
+      (1.0F - 0.75F * smoothstep(24.0F, 44.0F, g.slope_deg[i])) * (0.35F + 0.65F * fine);
   const glm::vec2 rise = glm::vec2(ground) / -std::max(ground.z, 0.15F) + laid * form.slope;
   const glm::vec3 normal = glm::normalize(glm::vec3(-rise, 1.0F));
   const glm::vec3 sun_direction(own.sun);
-  const float facing = std::clamp((glm::dot(normal, sun_direction) + snow_wrap) / (1.0F + snow_wrap), 0.0F, 1.0F);
-  const float sun = facing * (1.0F - static_cast<float>(p.light.shadow_depth) * (1.0F - smoothstep(0.15F, 0.85F, shadow)));
-  const float sky = static_cast<float>(exact::pow(static_cast<double>(std::max(sky_view, 0.0F)), 1.3)) * (0.6F + 0.4F * normal.z);
+  const float facing =
+      std::clamp((glm::dot(normal, sun_direction) + snow_wrap) / (1.0F + snow_wrap), 0.0F, 1.0F);
+  const float sun = facing * (1.0F - static_cast<float>(p.light.shadow_depth) *
+                                         (1.0F - smoothstep(0.15F, 0.85F, shadow)));
+  const float sky =
+      static_cast<float>(exact::pow(static_cast<double>(std::max(sky_view, 0.0F)), 1.3)) *
+      (0.6F + 0.4F * normal.z);
   const glm::vec3 opposite = glm::normalize(glm::vec3(-sun_direction.x, -sun_direction.y, 0.35F));
   const float fill = snow_fill * (0.5F * glm::dot(normal, opposite) + 0.2F);
-  const float relief = 0.5F * std::clamp(g.relief_m_m[i] / 70.0F, -1.0F, 1.0F) + 0.5F * std::clamp(g.relief_l_m[i] / 250.0F, -1.0F, 1.0F);
+  const float relief = 0.5F * std::clamp(g.relief_m_m[i] / 70.0F, -1.0F, 1.0F) +
+                       0.5F * std::clamp(g.relief_l_m[i] / 250.0F, -1.0F, 1.0F);
   const float edges = std::clamp(g.relief_s_m[i] / 10.0F, -1.2F, 1.2F);
-  return static_cast<float>(p.light.sun) * own.strength * sun + static_cast<float>(p.light.sky) * sky + fill +
-         static_cast<float>(p.light.relief) * relief + class_info(g.land_cover[i]).tone.edges * fine * edges +
+  return static_cast<float>(p.light.sun) * own.strength * sun +
+         static_cast<float>(p.light.sky) * sky + fill +
+         static_cast<float>(p.light.relief) * relief +
+         class_info(g.land_cover[i]).tone.edges * fine * edges +
          snow_hollow * laid * std::clamp(form.height, -1.6F, 1.0F);
 }
 
-// The crest rule looks so far up for a silhouette, and takes its tone from so far below, px.
-int crest_px(double pixels_per_unit) { return std::max(1, static_cast<int>(std::lround(2.0 * pixels_per_unit))); }
+// Pixels that the crest rule looks up for a silhouette and down for its tone.
+int crest_px(double pixels_per_unit) {
+  return std::max(1, static_cast<int>(std::lround(2.0 * pixels_per_unit)));
+}
 int below_crest_px(double pixels_per_unit) {
-  return std::max(crest_px(pixels_per_unit) + 1, static_cast<int>(std::lround(3.0 * pixels_per_unit)));
+  return std::max(crest_px(pixels_per_unit) + 1,
+                  static_cast<int>(std::lround(3.0 * pixels_per_unit)));
 }
 
-int cornice_px(double pixels_per_unit) { return static_cast<int>(std::ceil(static_cast<double>(cornice_units) * pixels_per_unit)); }
+int cornice_px(double pixels_per_unit) {
+  return static_cast<int>(std::ceil(static_cast<double>(cornice_units) * pixels_per_unit));
+}
 
-// The crest rule: the topmost pixels of a silhouette look away from the eye and would draw a dark line along every ridge, so they
-// take the tone from below where that is lighter. Of the wanted pixels alone.
-Grid<float> lift_crests(const Grid<float>& tone, const GuidanceBuffers& g, double pixels_per_unit, PixelRect wanted) {
+// The crest rule: the topmost pixels of a silhouette face away from the viewer and would draw a
+// dark line along every ridge, so they take the tone from below where that is lighter. Only for the
+// wanted pixels.
+Grid<float> lift_crests(const Grid<float>& tone, const GuidanceBuffers& g, double pixels_per_unit,
+                        PixelRect wanted) {
   const int reach = crest_px(pixels_per_unit);
   Grid<float> lifted(wanted.width(), wanted.height());
   parallel_rows(wanted.height(), [&](int row) {
@@ -136,18 +171,21 @@ Grid<float> lift_crests(const Grid<float>& tone, const GuidanceBuffers& g, doubl
       float& out = lifted(x - wanted.x0, row);
       out = tone(x, y);
       const float depth = g.depth_m(x, y);
-      if (below >= tone.height() || std::isinf(depth) || !same_surface(depth, g.depth_m(x, below))) continue;
+      if (below >= tone.height() || std::isinf(depth) || !same_surface(depth, g.depth_m(x, below)))
+        continue;
       bool crest = false;
-      for (int k = 1; k <= reach && y - k >= 0 && !crest; ++k) crest = g.depth_m(x, y - k) > depth * (1.0F + surface_tolerance);
+      for (int k = 1; k <= reach && y - k >= 0 && !crest; ++k)
+        crest = g.depth_m(x, y - k) > depth * (1.0F + surface_tolerance);
       if (crest) out = std::max(tone(x, y), tone(x, below));
     }
   });
   return lifted;
 }
 
-// Cornices: along a crest of snow that stands before what is farther, a lit lip hangs over a narrow shade, here and there. `broken` is
-// noise of deviation 1 at the wanted pixels.
-void draw_cornices(Grid<float>& tone, const GuidanceBuffers& g, const Grid<float>& broken, const ToneParameters& p, PixelRect wanted) {
+// Cornices: along a crest of snow in front of farther ground, an intermittent lit lip above a
+// narrow shade. `broken` is noise of deviation 1 at the wanted pixels.
+void draw_cornices(Grid<float>& tone, const GuidanceBuffers& g, const Grid<float>& broken,
+                   const ToneParameters& p, PixelRect wanted) {
   const auto scale = static_cast<float>(p.pixels_per_unit);
   const int reach = cornice_px(p.pixels_per_unit);
   parallel_rows(wanted.height(), [&](int row) {
@@ -158,25 +196,30 @@ void draw_cornices(Grid<float>& tone, const GuidanceBuffers& g, const Grid<float
       if (hangs <= 0.0F) continue;
       const float depth = g.depth_m(x, y);
       int up = 1;
-      while (up <= reach && y - up >= 0 && !(g.depth_m(x, y - up) > depth * (1.0F + surface_tolerance))) ++up;
+      while (up <= reach && y - up >= 0 &&
+             !(g.depth_m(x, y - up) > depth * (1.0F + surface_tolerance)))
+        ++up;
       if (up > reach || y - up < 0) continue;
       const float below = (static_cast<float>(up) - 0.5F) / scale;
       float& out = tone(x - wanted.x0, row);
       const float lip = 1.0F - smoothstep(lip_units - 0.5F, lip_units + 0.3F, below);
       const float shade = (1.0F - lip) * (1.0F - smoothstep(lip_units, cornice_units, below));
-      out = std::clamp(out + hangs * (0.55F * lip * std::max(0.0F, 0.98F - out) - 0.26F * shade * out), 0.0F, brightest_tone);
+      out = std::clamp(
+          out + hangs * (0.55F * lip * std::max(0.0F, 0.98F - out) - 0.26F * shade * out), 0.0F,
+          brightest_tone);
     }
   });
 }
 
-// The light of each pixel `made`; empty where all have the picture's.
+// The light of each pixel of `made`; empty where all have the picture's.
 Grid<GroundLight> local_lights(const GuidanceBuffers& g, const ToneParameters& p, PixelRect made) {
   if (!p.light_field) return {};
   Grid<GroundLight> lights(g.width(), g.height());
   parallel_rows(made.height(), [&](int row) {
     for (int x = made.x0; x < made.x1; ++x) {
       const std::size_t i = lights.index(x, made.y0 + row);
-      if (!g.is_sky(i)) lights[i] = ground_light(p, glm::dvec2(g.position_m[i]) + glm::dvec2(g.origin_m));
+      if (!g.is_sky(i))
+        lights[i] = ground_light(p, glm::dvec2(g.position_m[i]) + glm::dvec2(g.origin_m));
     }
   });
   return lights;
@@ -188,12 +231,16 @@ Grid<float> sides_of(const Grid<GroundLight>& lights) {
   return sides;
 }
 
-// How much forest lies around each wide pixel that a rectangle of the sheet looks at, 0…1; other pixels hold 0.
+// Share of forest around each wide pixel that a rectangle of the sheet reads, 0…1; other pixels
+// hold 0.
 Grid<float> woods_around(const WideView& wide, double pixels_per_unit, PixelRect sheet_rect) {
   Grid<float> woods(wide.seen.width(), wide.seen.height(), 0.0F);
-  for (std::size_t i = 0; i < woods.size(); ++i) woods[i] = wide.seen.land_cover[i] == LandCoverClass::forest ? 1.0F : 0.0F;
-  const PixelRect asked = moved(wide_rect(sheet_rect, wide.factor), -wide.origin_px.x, -wide.origin_px.y);
-  return blur_on_surface(woods, wide.seen.depth_m, outcrop_sigma_units * pixels_per_unit / wide.factor,
+  for (std::size_t i = 0; i < woods.size(); ++i)
+    woods[i] = wide.seen.land_cover[i] == LandCoverClass::forest ? 1.0F : 0.0F;
+  const PixelRect asked =
+      moved(wide_rect(sheet_rect, wide.factor), -wide.origin_px.x, -wide.origin_px.y);
+  return blur_on_surface(woods, wide.seen.depth_m,
+                         outcrop_sigma_units * pixels_per_unit / wide.factor,
                          intersection({0, 0, woods.width(), woods.height()}, surface_look(asked)));
 }
 
@@ -202,56 +249,67 @@ Grid<float> woods_around(const WideView& wide, double pixels_per_unit, PixelRect
 glm::vec3 times_light(const glm::vec3& colour, float light) {
   glm::vec3 out;
   for (int c = 0; c < 3; ++c)
-    out[c] = static_cast<float>(srgb_encoded(srgb_decoded(static_cast<double>(colour[c])) * static_cast<double>(light)));
+    out[c] = static_cast<float>(
+        srgb_encoded(srgb_decoded(static_cast<double>(colour[c])) * static_cast<double>(light)));
   return out;
 }
 
-GroundLight ground_light(const ToneParameters& p, glm::dvec2 place_m) {
-  if (p.light_field) return p.light_field->at(place_m);
+GroundLight ground_light(const ToneParameters& p, glm::dvec2 position_m) {
+  if (p.light_field) return p.light_field->at(position_m);
   return {.sun = p.sun_direction, .side = p.sun_image_x < 0.0 ? -1.0F : 1.0F};
 }
 
-Grid<float> make_tone(const GuidanceBuffers& guidance, const ToneParameters& parameters, glm::ivec2 origin_px, Progress& progress,
-                      PixelRect wanted) {
+Grid<float> make_tone(const GuidanceBuffers& guidance, const ToneParameters& parameters,
+                      glm::ivec2 origin_px, Progress& progress, PixelRect wanted) {
   return make_tone(guidance, {guidance, 1, origin_px}, parameters, origin_px, progress, wanted);
 }
 
-Grid<float> make_tone(const GuidanceBuffers& guidance, const WideView& wide, const ToneParameters& parameters, glm::ivec2 origin_px,
-                      Progress& progress, PixelRect wanted) {
+Grid<float> make_tone(const GuidanceBuffers& guidance, const WideView& wide,
+                      const ToneParameters& parameters, glm::ivec2 origin_px, Progress& progress,
+                      PixelRect wanted) {
   using B = GuidanceBuffers;
-  require_channels(
-      guidance,
-      {&B::depth_m, &B::position_m, &B::normal, &B::normal_detail, &B::normal_smooth, &B::altitude_m, &B::land_cover, &B::shadow,
-       &B::sky_view, &B::slope_deg, &B::fall_line, &B::footprint_m, &B::relief_s_m, &B::relief_m_m, &B::relief_l_m},
-      "tone");
+  require_channels(guidance,
+                   {&B::depth_m, &B::position_m, &B::normal, &B::normal_detail, &B::normal_smooth,
+                    &B::altitude_m, &B::land_cover, &B::shadow, &B::sky_view, &B::slope_deg,
+                    &B::fall_line, &B::footprint_m, &B::relief_s_m, &B::relief_m_m, &B::relief_l_m},
+                   "tone");
   const int width = guidance.width();
   const int height = guidance.height();
   const double ppu = parameters.pixels_per_unit;
   const PixelRect whole{0, 0, width, height};
   if (wanted.empty()) wanted = whole;
-  // The crest rule asks for the tone of pixels below.
-  const PixelRect made = intersection(whole, {wanted.x0, wanted.y0, wanted.x1, wanted.y1 + below_crest_px(ppu)});
+  // The crest rule reads the tone of pixels below.
+  const PixelRect made =
+      intersection(whole, {wanted.x0, wanted.y0, wanted.x1, wanted.y1 + below_crest_px(ppu)});
   progress.begin("light", made.height());
   const bool has_relief = has_channel(guidance, &B::rock_tone);
 
-  const Grid<float> shadow = blur_on_surface(guidance.shadow, guidance.depth_m, shadow_blur_units * ppu, made);
-  const Grid<float> sky_view = blur_on_surface(guidance.sky_view, guidance.depth_m, sky_blur_units * ppu, made);
+  const Grid<float> shadow =
+      blur_on_surface(guidance.shadow, guidance.depth_m, shadow_blur_units * ppu, made);
+  const Grid<float> sky_view =
+      blur_on_surface(guidance.sky_view, guidance.depth_m, sky_blur_units * ppu, made);
   Grid<std::uint8_t> ribbed(width, height, 0);
   parallel_ranges(made.height(), 16, [&](int begin, int end) {
     for (int y = made.y0 + begin; y < made.y0 + end; ++y)
       for (int x = made.x0; x < made.x1; ++x) {
         const std::size_t i = ribbed.index(x, y);
-        ribbed[i] = class_info(guidance.land_cover[i]).tone.ribs > 0.0F && steepness(guidance.slope_deg[i]) > 0.0F ? 1 : 0;
+        ribbed[i] = class_info(guidance.land_cover[i]).tone.ribs > 0.0F &&
+                            steepness(guidance.slope_deg[i]) > 0.0F
+                        ? 1
+                        : 0;
       }
   });
   const Grid<GroundLight> local = local_lights(guidance, parameters, made);
-  const Grid<float> ribs = make_ribs(guidance, wide, ribbed, {ppu, parameters.sun_image_x, parameters.seed, sides_of(local)}, origin_px);
+  const Grid<float> ribs =
+      make_ribs(guidance, wide, ribbed,
+                {ppu, parameters.sun_image_x, parameters.seed, sides_of(local)}, origin_px);
   const GroundLight everywhere{.sun = parameters.sun_direction};
   const Grid<float> woods = woods_around(wide, ppu, moved(made, origin_px.x, origin_px.y));
-  const Grid<float> pool = make_image_noise(stream_seed(parameters.seed, Stream::light_pools), origin_px + glm::ivec2(made.x0, made.y0),
-                                            made.width(), made.height(), ppu, 140.0, 60.0);
+  const Grid<float> pool = make_image_noise(stream_seed(parameters.seed, Stream::light_pools),
+                                            origin_px + glm::ivec2(made.x0, made.y0), made.width(),
+                                            made.height(), ppu, 140.0, 60.0);
 
-  // Drifts lie athwart light that rakes them: the wind blows 35° aside of where the light goes.
+  // Drifts lie across raking light: the wind blows 35° off the direction of the light.
   const glm::dvec2 level(parameters.sun_direction);
   const double length = glm::length(level);
   const glm::dvec2 away = length > 1e-6 ? -level / length : glm::dvec2(1.0, 0.0);
@@ -267,7 +325,7 @@ Grid<float> make_tone(const GuidanceBuffers& guidance, const WideView& wide, con
       if (guidance.is_sky(i)) continue;
       const LandCoverClass id = guidance.land_cover[i];
       const ClassTone& light = class_info(id).tone;
-      // Rock whose relief was made has its light from there.
+      // Rock with computed relief gets its light from there.
       const bool relief = has_relief && id == LandCoverClass::rock;
       const bool white = is_white(id, parameters.winter);
       float value = 0.0F;
@@ -278,35 +336,43 @@ Grid<float> make_tone(const GuidanceBuffers& guidance, const WideView& wide, con
         const GroundLight& own = local.empty() ? everywhere : local[i];
         float raw = 0.0F;
         if (white) {
-          const glm::dvec3 place = glm::dvec3(guidance.position_m[i]) + guidance.origin_m;
-          const double metres_per_unit = std::max(0.01, static_cast<double>(guidance.footprint_m[i]) * ppu);
-          const SnowForm form = laid.at({place.x, place.y}, metres_per_unit, ppu);
+          const glm::dvec3 position = glm::dvec3(guidance.position_m[i]) + guidance.origin_m;
+          const double metres_per_unit =
+              std::max(0.01, static_cast<double>(guidance.footprint_m[i]) * ppu);
+          const SnowForm form = laid.at({position.x, position.y}, metres_per_unit, ppu);
           raw = snow_light(guidance, i, shadow[i], sky_view[i], fine, form, own, parameters);
         } else {
           raw = raw_light(guidance, i, shadow[i], sky_view[i], fine, own, parameters);
         }
-        if (ribbed[i] != 0) raw += static_cast<float>(parameters.ribs) * light.ribs * fine * ribs[i] * steepness(guidance.slope_deg[i]);
-        value = std::clamp((raw - raw_black) / raw_range, id == LandCoverClass::rock || white ? -0.3F : 0.0F, white ? 1.3F : 1.05F);
+        if (ribbed[i] != 0)
+          raw += static_cast<float>(parameters.ribs) * light.ribs * fine * ribs[i] *
+                 steepness(guidance.slope_deg[i]);
+        value =
+            std::clamp((raw - raw_black) / raw_range,
+                       id == LandCoverClass::rock || white ? -0.3F : 0.0F, white ? 1.3F : 1.05F);
       }
       value += light.lift;
       value += pool_strength * pool(x - made.x0, row);
       float contrast = light.contrast * static_cast<float>(parameters.light.contrast);
       if (id == LandCoverClass::rock) {
-        const float wood = value_on_surface(wide, woods, origin_px.x + x, origin_px.y + y, guidance.depth_m[i]);
+        const float wood =
+            value_on_surface(wide, woods, origin_px.x + x, origin_px.y + y, guidance.depth_m[i]);
         const float outcrop = std::clamp((wood - 0.15F) / 0.4F, 0.0F, 1.0F);
         contrast *= 1.0F - outcrop_calm * outcrop;
         value -= outcrop_shade * outcrop;
       }
       const float contrasted = middle_tone + (value - middle_tone) * contrast;
-      const float kept = id == LandCoverClass::rock ? keep_forms(contrasted) : white ? keep_snow(contrasted) : contrasted;
+      const float kept = id == LandCoverClass::rock ? keep_forms(contrasted)
+                         : white                    ? keep_snow(contrasted)
+                                                    : contrasted;
       tone[i] = std::clamp(kept, 0.0F, brightest_tone);
     }
     progress.advance(1.0);
   });
   Grid<float> lifted = lift_crests(tone, guidance, ppu, wanted);
-  const Grid<float> broken =
-      make_image_noise(stream_seed(parameters.seed, Stream::snow_cornices), origin_px + glm::ivec2(wanted.x0, wanted.y0), wanted.width(),
-                       wanted.height(), ppu, 16.0, 16.0);
+  const Grid<float> broken = make_image_noise(stream_seed(parameters.seed, Stream::snow_cornices),
+                                              origin_px + glm::ivec2(wanted.x0, wanted.y0),
+                                              wanted.width(), wanted.height(), ppu, 16.0, 16.0);
   draw_cornices(lifted, guidance, broken, parameters, wanted);
   return lifted;
 }
@@ -314,13 +380,16 @@ Grid<float> make_tone(const GuidanceBuffers& guidance, const WideView& wide, con
 int tone_near_margin_px(const ToneParameters& parameters) {
   const double ppu = parameters.pixels_per_unit;
   static_assert(sky_blur_units > shadow_blur_units);
-  return std::max({rib_near_margin_px(ppu), surface_reach_px(sky_blur_units * ppu), cornice_px(ppu)}) + below_crest_px(ppu) + 1;
+  return std::max(
+             {rib_near_margin_px(ppu), surface_reach_px(sky_blur_units * ppu), cornice_px(ppu)}) +
+         below_crest_px(ppu) + 1;
 }
 
 int tone_margin_px(const ToneParameters& parameters) {
   const double ppu = parameters.pixels_per_unit;
   const int factor = wide_factor(ppu);
-  const int blur = factor * (surface_reach_px(outcrop_sigma_units * ppu / factor) + surface_look_rows + 3);
+  const int blur =
+      factor * (surface_reach_px(outcrop_sigma_units * ppu / factor) + surface_look_rows + 3);
   const int looked_up = std::max(rib_margin_px(ppu), blur) + below_crest_px(ppu) + 1;
   return std::max(looked_up, tone_near_margin_px(parameters));
 }

@@ -13,13 +13,14 @@
 
 namespace belvedere {
 
-// The tones whose colours a ramp holds; between them colour is interpolated linearly in encoded sRGB.
+// The tones whose colours a ramp holds; between them colour is interpolated linearly in encoded
+// sRGB.
 inline constexpr std::array<double, 4> ramp_tones = {0.0, 0.34, 0.66, 1.0};
 
 // Colours of a class at ramp_tones, encoded sRGB 0…1.
 using ToneRamp = std::array<glm::vec3, 4>;
 
-// A class's ramps by altitude: each holds at its altitude, between them it blends linearly, beyond them it stays.
+// Ramps of a class by altitude: linear between the given altitudes, constant beyond them.
 struct ClassPalette {
   struct Stop {
     double altitude_m;
@@ -28,22 +29,26 @@ struct ClassPalette {
   std::vector<Stop> stops;  // by rising altitude, at least one (but none for sky)
 };
 
-// What grows, beside the ramps: one class holds trees of several colours.
+// Colours of vegetation in addition to the ramps: one class holds trees of several colours.
 struct GrowthColours {
-  std::vector<glm::vec3> leaves;  // of leafy trees in full light, encoded sRGB: groups of trees take one each; in winter their bare twigs
-  double leaf_share = 0.0;        // how far a leafy tree takes them, 0…1
-  glm::vec3 larch{0.0F};          // of larches in full light, which stand open below the treeline; in winter their bare twigs
-  double larch_share = 0.0;       // how far a larch takes it, 0…1; 0: no larches grow
+  std::vector<glm::vec3> leaves;  // of leafy trees in full light, encoded sRGB: groups of trees
+                                  // take one each; in winter their bare twigs
+  double leaf_share = 0.0;        // how far leafy trees take these colours, 0…1
+  glm::vec3 larch{0.0F};     // of larches in full light, which stand open below the treeline; in
+                             // winter their bare twigs
+  double larch_share = 0.0;  // how far larches take this colour, 0…1; 0: no larches
 };
 
-// Palettes are made for the northern Alps, whose forest ends here.
+// Palettes are designed for the northern Alps, whose forest ends here.
 inline constexpr double palette_treeline_m = 1820.0;
 
 struct Palette {
   std::string name;
   bool winter = false;
-  double treeline_m = palette_treeline_m;  // where forest ends in the land that its altitudes are for
-  // In winter lakes from this altitude up are ice, m; no key of a palette: the scene's climate says it.
+  double treeline_m =
+      palette_treeline_m;  // treeline of the region that the palette's altitudes are for
+  // In winter lakes from this altitude up are frozen, m. Not a palette key: the scene's climate
+  // sets it.
   double lakes_freeze_from_m = std::numeric_limits<double>::infinity();
   std::array<ClassPalette, land_cover_class_count> classes;  // [sky] unused
   std::vector<std::pair<double, glm::vec3>> sky;             // 0 top … 1 horizon, encoded sRGB
@@ -53,7 +58,7 @@ struct Palette {
   glm::vec3 haze_far{0.73F, 0.80F, 0.89F};    // far away
   glm::vec3 range_mist{0.79F, 0.84F, 0.90F};  // between ranges
   GrowthColours growth;
-  // Shares of what AirParameters ask for, 0…2: snow takes less drift of hue than grass, winter air is clearer.
+  // Factors on AirParameters, 0…2: snow takes less drift of hue than grass, winter air is clearer.
   double haze_share = 1.0;
   double warm_share = 1.0;
   double ground_drift_share = 1.0;
@@ -61,9 +66,10 @@ struct Palette {
   double rock_drift_share = 1.0;
 };
 
-// Built-in name ("summer", "winter"; data/palettes/*.toml) or a .toml file; Error(usage) with file:line:column.
+// Built-in name ("summer", "winter"; data/palettes/*.toml) or a .toml file; Error(usage) with
+// file:line:column.
 Palette read_palette(const std::string& name_or_path);
-// The same from a text; `name` stands for the file in messages.
+// The same from a text; `name` is used in messages.
 Palette parse_palette(std::string_view text, const std::string& name);
 // Encoded sRGB of a class at an altitude and tone (tone clamped to 0…1). Not for sky.
 glm::vec3 palette_colour(const Palette& palette, LandCoverClass id, double altitude_m, double tone);

@@ -11,9 +11,11 @@
 namespace belvedere {
 namespace {
 
-constexpr std::size_t memory_size = 1024;  // lattice values a GroundNoise remembers; a power of two
+constexpr std::size_t memory_size =
+    1024;  // lattice values that a GroundNoise caches; a power of two
 
-// The four weights of a uniform cubic B-spline, divided by the square root of the sum of their squares.
+// The four weights of a uniform cubic B-spline, divided by the square root of the sum of their
+// squares.
 struct LatticeWeights {
   std::int64_t first;
   std::array<double, 4> weight;
@@ -31,24 +33,27 @@ LatticeWeights lattice_weights(double position) {
 }
 
 // Weights for `count` pixel centres from the absolute pixel `origin` on.
-std::vector<LatticeWeights> pixel_weights(int origin, int count, double pixels_per_unit, double sigma_units) {
+std::vector<LatticeWeights> pixel_weights(int origin, int count, double pixels_per_unit,
+                                          double sigma_units) {
   std::vector<LatticeWeights> weights;
   weights.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
-    const double place_units = (static_cast<double>(origin) + i + 0.5) / pixels_per_unit;
-    weights.push_back(lattice_weights(place_units / (sigma_units * spacing_per_sigma)));
+    const double position_units = (static_cast<double>(origin) + i + 0.5) / pixels_per_unit;
+    weights.push_back(lattice_weights(position_units / (sigma_units * spacing_per_sigma)));
   }
   return weights;
 }
 
 }  // namespace
 
-Grid<float> make_image_noise(std::uint64_t seed, glm::ivec2 origin_px, int width, int height, double pixels_per_unit, double sigma_x_units,
-                             double sigma_y_units) {
+Grid<float> make_image_noise(std::uint64_t seed, glm::ivec2 origin_px, int width, int height,
+                             double pixels_per_unit, double sigma_x_units, double sigma_y_units) {
   Grid<float> noise(width, height);
   if (noise.empty()) return noise;
-  const std::vector<LatticeWeights> columns = pixel_weights(origin_px.x, width, pixels_per_unit, sigma_x_units);
-  const std::vector<LatticeWeights> rows = pixel_weights(origin_px.y, height, pixels_per_unit, sigma_y_units);
+  const std::vector<LatticeWeights> columns =
+      pixel_weights(origin_px.x, width, pixels_per_unit, sigma_x_units);
+  const std::vector<LatticeWeights> rows =
+      pixel_weights(origin_px.y, height, pixels_per_unit, sigma_y_units);
   const std::int64_t first_x = columns.front().first;
   const std::int64_t first_y = rows.front().first;
   const auto lattice_columns = static_cast<int>(columns.back().first - first_x + 4);
@@ -56,25 +61,29 @@ Grid<float> make_image_noise(std::uint64_t seed, glm::ivec2 origin_px, int width
   Grid<float> filtered(width, lattice_rows);
   parallel_rows(lattice_rows, [&](int j) {
     std::vector<double> line(static_cast<std::size_t>(lattice_columns));
-    for (int i = 0; i < lattice_columns; ++i) line[static_cast<std::size_t>(i)] = random_normal(seed, first_x + i, first_y + j);
+    for (int i = 0; i < lattice_columns; ++i)
+      line[static_cast<std::size_t>(i)] = random_normal(seed, first_x + i, first_y + j);
     float* out = filtered.row(j);
     for (int x = 0; x < width; ++x) {
       const LatticeWeights& w = columns[static_cast<std::size_t>(x)];
       const double* value = line.data() + (w.first - first_x);
-      out[x] = static_cast<float>(w.weight[0] * value[0] + w.weight[1] * value[1] + w.weight[2] * value[2] + w.weight[3] * value[3]);
+      out[x] = static_cast<float>(w.weight[0] * value[0] + w.weight[1] * value[1] +
+                                  w.weight[2] * value[2] + w.weight[3] * value[3]);
     }
   });
   parallel_rows(height, [&](int y) {
     const LatticeWeights& w = rows[static_cast<std::size_t>(y)];
     const int j = static_cast<int>(w.first - first_y);
-    const std::array<float, 4> weight = {static_cast<float>(w.weight[0]), static_cast<float>(w.weight[1]), static_cast<float>(w.weight[2]),
-                                         static_cast<float>(w.weight[3])};
+    const std::array<float, 4> weight = {
+        static_cast<float>(w.weight[0]), static_cast<float>(w.weight[1]),
+        static_cast<float>(w.weight[2]), static_cast<float>(w.weight[3])};
     const float* a = filtered.row(j);
     const float* b = filtered.row(j + 1);
     const float* c = filtered.row(j + 2);
     const float* d = filtered.row(j + 3);
     float* out = noise.row(y);
-    for (int x = 0; x < width; ++x) out[x] = weight[0] * a[x] + weight[1] * b[x] + weight[2] * c[x] + weight[3] * d[x];
+    for (int x = 0; x < width; ++x)
+      out[x] = weight[0] * a[x] + weight[1] * b[x] + weight[2] * c[x] + weight[3] * d[x];
   });
   return noise;
 }
@@ -87,7 +96,9 @@ GroundNoise::GroundNoise(std::uint64_t seed, double sigma_m)
       memory_(memory_size, Entry{nowhere, nowhere, 0.0}) {}
 
 double GroundNoise::lattice(std::int64_t x, std::int64_t y) {
-  const auto slot = static_cast<std::size_t>(static_cast<std::uint64_t>(x) + 37U * static_cast<std::uint64_t>(y)) & (memory_size - 1);
+  const auto slot = static_cast<std::size_t>(static_cast<std::uint64_t>(x) +
+                                             37U * static_cast<std::uint64_t>(y)) &
+                    (memory_size - 1);
   Entry& entry = memory_[slot];
   if (entry.x != x || entry.y != y) entry = {x, y, random_normal(seed_, x, y)};
   return entry.value;

@@ -11,20 +11,22 @@ namespace belvedere {
 
 // As in base/noise.cpp: the deviation of a B-spline is its spacing / sqrt(3).
 constexpr double spacing_per_sigma = 1.7320508075688772;
-// A lattice coordinate outside of every picture, for cache entries that are still empty.
+// A lattice coordinate outside every picture, for empty cache entries.
 constexpr std::int64_t nowhere = INT64_MIN;
 
-// The noise of base/noise.h evaluated for whole pictures: same values up to float rounding, many times faster.
-// Both are pure functions of seed and absolute place, so they do not depend on how a picture is cut into parts.
+// The noise of base/noise.h evaluated for whole pictures: same values up to float rounding, many
+// times faster. Both are pure functions of seed and absolute position, so they do not depend on how
+// a picture is split into parts.
 
-// Noise at every pixel of a part of the picture whose top-left pixel is `origin_px`. Widths in units of 0.5 mm of the sheet; a unit
-// has `pixels_per_unit` pixels, so the noise stays in place on the sheet at every resolution. The lattice is filtered along x, then
-// along y, which costs two sums of four a pixel.
-Grid<float> make_image_noise(std::uint64_t seed, glm::ivec2 origin_px, int width, int height, double pixels_per_unit, double sigma_x_units,
-                             double sigma_y_units);
+// Noise at every pixel of a part of the picture whose top-left pixel is `origin_px`. Widths in
+// units of 0.5 mm of the sheet; a unit has `pixels_per_unit` pixels, so the noise is fixed to the
+// sheet at every resolution. The lattice is filtered along x, then along y, which costs two sums of
+// four per pixel.
+Grid<float> make_image_noise(std::uint64_t seed, glm::ivec2 origin_px, int width, int height,
+                             double pixels_per_unit, double sigma_x_units, double sigma_y_units);
 
-// Noise on the ground, in metres, for places that lie close to the place before, as along a row of pixels: it remembers lattice
-// values. Not to be shared between threads.
+// Noise on the ground, in metres. It caches lattice values, for positions close to the previous
+// one, as along a row of pixels. Not to be shared between threads.
 class GroundNoise {
  public:
   GroundNoise(std::uint64_t seed, double sigma_m);
@@ -42,7 +44,7 @@ class GroundNoise {
   double inverse_spacing_;
   std::int64_t cell_x_;
   std::int64_t cell_y_;
-  std::array<double, 16> cell_{};  // the lattice values around the last place
+  std::array<double, 16> cell_{};  // the lattice values around the last position
   std::vector<Entry> memory_;
 };
 

@@ -4,23 +4,26 @@
 
 namespace belvedere {
 
-// Where one range stands before another: mist lightens the far side of the edge, the near side darkens, and accents of light are set on
-// it.
+// Edges where one range stands in front of another: mist lightens the far side, the near side
+// darkens, and accents of light are set on the edge.
 
-// Logarithm of the depth (m, at least 1). The sky counts as little farther than the terrain up to `reach_px` below it, so that the skyline
-// gets no halo.
+// Logarithm of the depth (m, at least 1). The sky counts as slightly farther than the terrain up to
+// `reach_px` below it, so that the skyline gets no halo.
 Grid<float> log_depths(const GuidanceBuffers& guidance, int reach_px);
 
-// What the edge does to a pixel whose log depth exceeds the mean around it by `behind`. `far` and `raised` as in air_share: mist lies in
-// valleys, crests stay clear. `strength` is AirParameters::range_mist, 0…3.
+// Effect of the edge on a pixel whose log depth exceeds the mean around it by `behind`. `far` and
+// `raised` as in air_share: mist lies in valleys, crests stay clear. `strength` is
+// AirParameters::range_mist, 0…3.
 struct RangeEdge {
   float mist = 0.0F;  // share of the colour between ranges
   float dark = 0.0F;  // 0…1, of the near side
 };
 RangeEdge range_edge(float behind, float far, float raised, float strength);
 
-// Light on the nearer side of a depth edge, ridges and hollows: -1 hollow … +1 edge. Looks `step_px` to each side, up to three times. The
-// skyline stays free of accents: a light rim against the sky looks cut out.
-float accent_at(const GuidanceBuffers& guidance, const Grid<float>& log_depth, int x, int y, int step_px);
+// Light on the nearer side of a depth edge, ridges and hollows: -1 hollow … +1 edge. Reads
+// `step_px` to each side, up to three times. The skyline gets no accents: a light rim against the
+// sky looks cut out.
+float accent_at(const GuidanceBuffers& guidance, const Grid<float>& log_depth, int x, int y,
+                int step_px);
 
 }  // namespace belvedere

@@ -11,7 +11,8 @@
 namespace belvedere {
 namespace {
 
-constexpr float hue_strength = 0.75F;  // of the hues below: at full strength a wall is a patchwork
+constexpr float hue_strength =
+    0.75F;  // factor on the hues below: at full strength a wall is a patchwork
 
 const RockKind all_kinds[] = {
     {.name = "limestone",
@@ -51,7 +52,7 @@ const RockKind all_kinds[] = {
                {{0.95F, 0.90F, 0.83F}, 0.94F},
                {{0.96F, 0.975F, 0.93F}, 1.0F}}}},
     {.name = "sandstone",
-     .meaning = "walls and benches in beds that run through, red and ochre",
+     .meaning = "walls and benches in continuous beds, red and ochre",
      .size = 1.1F,
      .slender = 0.75F,
      .feather = 0.18F,
@@ -69,7 +70,7 @@ const RockKind all_kinds[] = {
                {{0.94F, 0.83F, 0.74F}, 0.92F},
                {{1.05F, 1.03F, 0.97F}, 1.0F}}}},
     {.name = "volcanic",
-     .meaning = "ribs that run down from the summit, much debris between, dark and brown",
+     .meaning = "ribs down from the summit with much debris between them, dark and brown",
      .size = 0.85F,
      .slender = 0.36F,
      .feather = 0.25F,
@@ -88,7 +89,9 @@ const RockKind all_kinds[] = {
                {{0.94F, 0.89F, 0.92F}, 1.0F}}}},
 };
 
-float share_of(std::uint32_t half) { return static_cast<float>(mix_bits(half + 0x51ed27U) & 0xffffU) / 65536.0F; }
+float share_of(std::uint32_t half) {
+  return static_cast<float>(mix_bits(half + 0x51ed27U) & 0xffffU) / 65536.0F;
+}
 
 }  // namespace
 

@@ -20,29 +20,32 @@
 #include "renderer/scene/scene_rules.h"
 #include "renderer/stages/lit_picture.h"
 #include "renderer/trace/camera_reduced.h"
-#include "texture/synthesis/class_supply.h"
+#include "texture/synthesis/class_texels.h"
 
 namespace belvedere {
 namespace {
 
 constexpr const char* plan_name = "plan";
 
-void note_scarcity(const std::vector<Exemplar>& exemplars, const GuideStack& guides, const SynthesisParameters& parameters,
-                   Progress& progress) {
-  const std::string scarcity = describe_scarcity(class_supply(exemplars, guides.label, parameters.fallback), [](std::uint8_t label) {
-    return std::string(class_name(static_cast<LandCoverClass>(label)));
-  });
+void note_scarcity(const std::vector<Exemplar>& exemplars, const GuideStack& guides,
+                   const SynthesisParameters& parameters, Progress& progress) {
+  const std::string scarcity = describe_scarcity(
+      class_texels(exemplars, guides.label, parameters.fallback), [](std::uint8_t label) {
+        return std::string(class_name(static_cast<LandCoverClass>(label)));
+      });
   if (!scarcity.empty()) progress.note(scarcity);
 }
 
-// Which classes are painted from models, two bytes each, in light and in shade, behind the plan's own where a scene names models.
+// Which classes are painted from models, two bytes each, in light and in shade, appended to the
+// plan if a scene names models.
 void add_models(std::string& packed, const GroundModels& models) {
   for (const GroundModels::OfClass* of_class : {&models.lit, &models.shaded})
     for (const std::uint8_t model : *of_class) packed += static_cast<char>(model);
 }
 void take_models(std::string& packed, GroundModels& models, std::size_t count) {
   const std::size_t bytes = models.lit.size() + models.shaded.size();
-  if (packed.size() < bytes) throw Error(ErrorKind::input, "plan", "it is cut off", "the plan as it was written");
+  if (packed.size() < bytes)
+    throw Error(ErrorKind::input, "plan", "it is truncated", "the plan as it was written");
   std::size_t at = packed.size() - bytes;
   for (GroundModels::OfClass* of_class : {&models.lit, &models.shaded})
     for (std::uint8_t& of : *of_class) {
@@ -53,8 +56,9 @@ void take_models(std::string& packed, GroundModels& models, std::size_t count) {
   packed.resize(packed.size() - bytes);
 }
 
-// What windows of the models that are used are made with.
-void make_records(GroundModels& models, std::vector<SceneTextureModel> read, std::uint64_t seed, Progress& progress) {
+// Sampling windows of the models that are used.
+void make_records(GroundModels& models, std::vector<SceneTextureModel> read, std::uint64_t seed,
+                  Progress& progress) {
   if (!models.any()) return;
   progress.begin("preparing texture models", static_cast<double>(read.size()));
   for (std::size_t i = 0; i < read.size(); ++i) {
@@ -67,13 +71,14 @@ void make_records(GroundModels& models, std::vector<SceneTextureModel> read, std
   }
 }
 
-// What seams are learnt from, where the scene has them knitted.
-void add_knit_sources(CopyPlan& plan, const Scene& scene) {
-  if (!scene.synthesis.knit) return;
-  plan.knit = find_knit_sources(plan.exemplars, plan.residual, stream_seed(scene.seed, Stream::statistical_noise, 2000));
+// Input of the seam models, if the scene synthesizes seams.
+void add_seam_sources(CopyPlan& plan, const Scene& scene) {
+  if (!scene.synthesis.synthesize_seams) return;
+  plan.seams = find_seam_sources(plan.exemplars, plan.residual,
+                                 stream_seed(scene.seed, Stream::statistical_noise, 2000));
 }
 
-// What synthesis compares is in its plan; pictures are still copied from.
+// The plan holds what synthesis compares; the pictures are still needed for copying.
 void forget_compared(std::vector<PaintedExemplar>& exemplars) {
   for (PaintedExemplar& painted : exemplars) {
     painted.exemplar.picture = {};
@@ -86,11 +91,12 @@ void forget_compared(std::vector<PaintedExemplar>& exemplars) {
 SynthesisParameters to_synthesis_parameters(const Scene& scene) {
   SynthesisParameters parameters = scene.synthesis.search;
   parameters.seed = scene.seed;
-  // What a scene says of one guide leaves the defaults of the others.
+  // Weights for single guides leave the defaults of the others.
   parameters.weights = SceneSynthesis{}.weights;
   for (const auto& given : scene.synthesis.weights) {
     const auto known =
-        std::find_if(parameters.weights.begin(), parameters.weights.end(), [&](const auto& weight) { return weight.first == given.first; });
+        std::find_if(parameters.weights.begin(), parameters.weights.end(),
+                     [&](const auto& weight) { return weight.first == given.first; });
     if (known != parameters.weights.end())
       known->second = given.second;
     else
@@ -98,39 +104,44 @@ SynthesisParameters to_synthesis_parameters(const Scene& scene) {
   }
   for (const auto& [from, to] : with_stand_ins(scene.synthesis.fallback))
     parameters.fallback[static_cast<std::uint8_t>(from)] = static_cast<std::uint8_t>(to);
-  for (const auto& [pair, value] : scene.synthesis.unlikeness)
+  for (const auto& [pair, value] : scene.synthesis.class_dissimilarity)
     if (const auto classes = find_class_pair(pair))
-      parameters.unlikeness[{static_cast<std::uint8_t>(classes->first), static_cast<std::uint8_t>(classes->second)}] = value;
+      parameters.class_dissimilarity[{static_cast<std::uint8_t>(classes->first),
+                                      static_cast<std::uint8_t>(classes->second)}] = value;
   return parameters;
 }
 
-// Strokes are sized for the paper. Where they have very many pixels, each view of the largest sheet of examples is but a few strokes wide,
-// and large parts of a print are copied from the same ones.
+// Strokes are sized for the paper. Where they have very many pixels, each view of the largest
+// example sheet is only a few strokes wide, and large parts of a print are copied from the same
+// ones.
 std::string fine_print_note(const Scene& scene) {
   constexpr double finest_dpi = 600.0;
   const double dpi = scene.output.width / scene.output.sheet_width_mm * 25.4;
   const bool on_paintings =
-      std::any_of(scene.exemplars.begin(), scene.exemplars.end(), [](const SceneExemplar& exemplar) { return !exemplar.picture.empty(); });
+      std::any_of(scene.exemplars.begin(), scene.exemplars.end(),
+                  [](const SceneExemplar& exemplar) { return !exemplar.picture.empty(); });
   if (dpi <= finest_dpi || on_paintings) return {};
   return fmt::format(
-      "{:.0f} dots per inch are more than people see, and what is copied becomes poor: 300 to 450, with a larger "
-      "output.sheet_width_mm or a smaller output.width, look better",
+      "{:.0f} dpi are more than people see, and copied texture becomes poor: 300 to 450 dpi, with "
+      "a larger output.sheet_width_mm or a smaller output.width, look better",
       dpi);
 }
 
-CopyPlan make_copy_plan(const LoadedScene& loaded, const World& world, ScenePaint& paint, const GroundStages& ground,
-                        TileStore::Place& place, const WorkFolder& work, const Run& run, bool ground_tells) {
+CopyPlan make_copy_plan(const LoadedScene& loaded, const World& world, ScenePaint& paint,
+                        const GroundStages& ground, TileStore::Place& position,
+                        const WorkFolder& work, const Run& run, bool ground_tells) {
   CopyPlan plan;
   if (const std::string note = fine_print_note(world.scene); !note.empty()) run.progress.note(note);
   plan.residual = world.scene.synthesis.residual;
-  plan.exemplars = make_exemplars(loaded, world.view, paint.palette, std::move(paint.paintings), run.progress, run.cache);
+  plan.exemplars = make_exemplars(loaded, world.view, paint.palette, std::move(paint.paintings),
+                                  run.progress, run.cache);
   std::vector<Exemplar> copied_from;
   copied_from.reserve(plan.exemplars.size());
   for (const PaintedExemplar& painted : plan.exemplars) copied_from.push_back(painted.exemplar);
   const SynthesisParameters parameters = to_synthesis_parameters(world.scene);
   const glm::ivec2 sheet = world.camera->size();
   std::vector<SceneTextureModel> models = read_texture_models(loaded);
-  add_knit_sources(plan, world.scene);
+  add_seam_sources(plan, world.scene);
   const auto unpack = [&](std::string packed) {
     if (!models.empty()) take_models(packed, plan.models, models.size());
     if (!plan.synthesis) plan.synthesis = unpack_plan({packed.begin(), packed.end()}, copied_from);
@@ -139,11 +150,13 @@ CopyPlan make_copy_plan(const LoadedScene& loaded, const World& world, ScenePain
     unpack(work.read_bytes(plan_name));
     forget_compared(plan.exemplars);
     make_records(plan.models, std::move(models), world.scene.seed, run.progress);
-    if (plan.knit) add_model_sources(*plan.knit, plan.models, plan.residual);
+    if (plan.seams) add_model_sources(*plan.seams, plan.models, plan.residual);
     return plan;
   }
-  const StandingBytes standing{.ground = ground_bytes(world), .besides = copying_bytes(plan.exemplars)};
-  const SynthesisSheet division = divide_sheet(sheet.x, sheet.y, std::llround(world.scene.synthesis.plan_mpx * 1e6));
+  const StandingBytes standing{.ground = ground_bytes(world),
+                               .besides = copying_bytes(plan.exemplars)};
+  const SynthesisSheet division =
+      divide_sheet(sheet.x, sheet.y, std::llround(world.scene.synthesis.plan_mpx * 1e6));
   const auto choose = [&](Progress& progress) {
     const auto reduced_guides = [&] {
       RepeatedStages quiet(progress, false);
@@ -151,16 +164,20 @@ CopyPlan make_copy_plan(const LoadedScene& loaded, const World& world, ScenePain
       const int factor = 1 << division.level;
       const std::unique_ptr<const Camera> camera = make_reduced_camera(*world.camera, factor);
       const SheetView view = reduced_view(world, *camera, factor);
-      StageGraph graph(place, quiet);
+      StageGraph graph(position, quiet);
       const int tile_px = choose_block_px(world.scene, view.pixels_per_unit, standing);
-      const GroundStages small = add_ground_stages(graph, make_ground_inputs(world, view, paint.palette, told), tile_px);
+      const GroundStages small =
+          add_ground_stages(graph, make_ground_inputs(world, view, paint.palette, told), tile_px);
       return small.guides->read(small.guides->sheet());
     };
     if (division.level > 0 || !ground_tells) progress.begin("drafting the sheet", 0.0);
-    GuideStack guides = division.level == 0 ? ground.guides->read(ground.guides->sheet()) : reduced_guides();
-    for (const ModelledClass& chosen : choose_modelled(models, copied_from, guides.label, parameters)) {
+    GuideStack guides =
+        division.level == 0 ? ground.guides->read(ground.guides->sheet()) : reduced_guides();
+    for (const ModelledClass& chosen :
+         choose_modelled(models, copied_from, guides.label, parameters)) {
       plan.models.lit[static_cast<std::size_t>(chosen.id)] = static_cast<std::uint8_t>(chosen.lit);
-      plan.models.shaded[static_cast<std::size_t>(chosen.id)] = static_cast<std::uint8_t>(chosen.shaded);
+      plan.models.shaded[static_cast<std::size_t>(chosen.id)] =
+          static_cast<std::uint8_t>(chosen.shaded);
       if (!chosen.why.empty()) progress.note(chosen.why);
     }
     hide_modelled(guides, plan.models);
@@ -171,16 +188,21 @@ CopyPlan make_copy_plan(const LoadedScene& loaded, const World& world, ScenePain
     if (!models.empty()) add_models(bytes, plan.models);
     return bytes;
   };
-  // Proofs of one sheet share what was chosen for the whole of it; a small sheet is chosen as fast as it is read.
+  // Proofs of one sheet share the plan of the whole; for a small sheet, planning is as fast as
+  // reading a plan.
   const auto key = [&] {
-    return make_cache_key(CachedProduct::synthesis_plan, CacheKeyText().add("sheet", to_text(identify(loaded, {}))), subject_of(loaded));
+    return make_cache_key(CachedProduct::synthesis_plan,
+                          CacheKeyText().add("sheet", to_text(identify(loaded, {}))),
+                          subject_of(loaded));
   };
-  const std::string packed = division.level == 0 ? choose(run.progress) : cached<std::string>(run.cache, key, run.progress, choose);
+  const std::string packed = division.level == 0
+                                 ? choose(run.progress)
+                                 : cached<std::string>(run.cache, key, run.progress, choose);
   unpack(packed);
   work.keep_bytes(plan_name, packed);
   forget_compared(plan.exemplars);
   make_records(plan.models, std::move(models), world.scene.seed, run.progress);
-  if (plan.knit) add_model_sources(*plan.knit, plan.models, plan.residual);
+  if (plan.seams) add_model_sources(*plan.seams, plan.models, plan.residual);
   return plan;
 }
 

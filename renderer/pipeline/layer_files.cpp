@@ -21,10 +21,12 @@ std::shared_ptr<const SheetPainter> names_of(const LoadedScene& loaded, const Ru
   const LabelJob job = label_job(loaded, run.progress);
   if (job.empty()) return nullptr;
   const BareView bare = make_bare_view(loaded, run.progress, run.cache);
-  return std::make_shared<SheetPainter>(label_drawing(make_label_sheet(loaded, job, bare, run.progress)));
+  return std::make_shared<SheetPainter>(
+      label_drawing(make_label_sheet(loaded, job, bare, run.progress)));
 }
 
-// A drawing without what lies below it. Over black it shows its colour times its opacity, over white what it leaves of it as well.
+// A drawing without what is below it. Drawn over black it shows its colour times its opacity; over
+// white the transmitted white is added.
 Grid<LayerPixel> paint_alone(const SheetPainter& painter, PixelRect rect) {
   Grid<glm::vec3> black(rect.width(), rect.height(), glm::vec3(0.0F));
   Grid<glm::vec3> white(rect.width(), rect.height(), glm::vec3(1.0F));
@@ -35,7 +37,9 @@ Grid<LayerPixel> paint_alone(const SheetPainter& painter, PixelRect rect) {
     const glm::vec3 left = white[i] - black[i];
     const float opacity = 1.0F - (left.x + left.y + left.z) / 3.0F;
     if (opacity < 0.5F / 65535.0F) continue;
-    const auto whole = [](float value) { return static_cast<std::uint16_t>(std::clamp(value, 0.0F, 1.0F) * 65535.0F + 0.5F); };
+    const auto whole = [](float value) {
+      return static_cast<std::uint16_t>(std::clamp(value, 0.0F, 1.0F) * 65535.0F + 0.5F);
+    };
     const glm::vec3 colour = black[i] / opacity;
     out[i] = {whole(colour.x), whole(colour.y), whole(colour.z), whole(opacity)};
   }
@@ -44,8 +48,8 @@ Grid<LayerPixel> paint_alone(const SheetPainter& painter, PixelRect rect) {
 
 }  // namespace
 
-void write_layer_files(const LoadedScene& loaded, const SheetRequest& request, const JoinedPieces& joined, const std::string& out_folder,
-                       const Run& run) {
+void write_layer_files(const LoadedScene& loaded, const SheetRequest& request,
+                       const JoinedPieces& joined, const std::string& out_folder, const Run& run) {
   if (request.layers.empty()) return;
   const Scene& scene = loaded.scene;
   const PixelRect region = joined.region;
@@ -54,27 +58,34 @@ void write_layer_files(const LoadedScene& loaded, const SheetRequest& request, c
     joined.read(std::string(product), region.y0 + y0, region.y0 + y1, {plane_of(rows)});
     return rows;
   };
-  LayeredSheet sheet{region.width(), region.height(), scene.output.width / scene.output.sheet_width_mm * 25.4, {}, {}};
+  LayeredSheet sheet{region.width(),
+                     region.height(),
+                     scene.output.width / scene.output.sheet_width_mm * 25.4,
+                     {},
+                     {}};
   for (const PictureLayer& layer : picture_layers()) {
-    const bool none = (layer.of == LayerOf::features && scene.features.empty()) || (layer.of == LayerOf::mist && scene.air.mist.empty());
+    const bool none = (layer.of == LayerOf::features && scene.features.empty()) ||
+                      (layer.of == LayerOf::mist && scene.air.mist.empty());
     if (none) continue;
-    sheet.layers.push_back({layer.name, layer.title, layer.mask, [&rows_of, &layer](int y0, int y1) {
-                              const Grid<LayerPixel> plane = rows_of(layer_plane_names()[layer.plane], y0, y1);
-                              return make_layer(layer, plane, rows_of(layer_plane_names()[about_plane], y0, y1));
-                            }});
+    sheet.layers.push_back(
+        {layer.name, layer.title, layer.mask, [&rows_of, &layer](int y0, int y1) {
+           const Grid<LayerPixel> plane = rows_of(layer_plane_names()[layer.plane], y0, y1);
+           return make_layer(layer, plane, rows_of(layer_plane_names()[about_plane], y0, y1));
+         }});
   }
   if (const std::shared_ptr<const SheetPainter> painter = names_of(loaded, run)) {
-    sheet.layers.push_back({"names", "Names", true, [painter, region](int y0, int y1) {
-                              return paint_alone(*painter, {region.x0, region.y0 + y0, region.x1, region.y0 + y1});
-                            }});
+    sheet.layers.push_back(
+        {"names", "Names", true, [painter, region](int y0, int y1) {
+           return paint_alone(*painter, {region.x0, region.y0 + y0, region.x1, region.y0 + y1});
+         }});
   }
   sheet.merged = [&](int y0, int y1) {
     Grid<glm::vec3> rows(region.width(), y1 - y0);
     joined.read("panorama", region.y0 + y0, region.y0 + y1, {plane_of(rows)});
     return opaque_pixels(rows);
   };
-  for (const std::string& ending : request.layers) {
-    const LayerFormat& format = layer_format(ending);
+  for (const std::string& extension : request.layers) {
+    const LayerFormat& format = layer_format(extension);
     format.write((std::filesystem::path(out_folder) / format.file).string(), sheet, run.progress);
   }
 }

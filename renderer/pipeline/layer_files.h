@@ -9,10 +9,10 @@
 
 namespace belvedere {
 
-// Writes the files of layers that a request asks for, layer after layer from the pieces, a band of rows at a time. Where the scene names
-// what is seen, its names are a hidden layer on top: the others make the panorama, with it they make panorama_names. A scene without roads
-// and lifts has no layer of them.
-void write_layer_files(const LoadedScene& loaded, const SheetRequest& request, const JoinedPieces& joined, const std::string& out_folder,
-                       const Run& run);
+// Writes the requested files of layers, layer after layer from the pieces, a band of rows at a
+// time. If the scene has labels, they are a hidden layer on top: the others make the panorama, with
+// it they make panorama_names. A scene without roads and lifts has no layer of them.
+void write_layer_files(const LoadedScene& loaded, const SheetRequest& request,
+                       const JoinedPieces& joined, const std::string& out_folder, const Run& run);
 
 }  // namespace belvedere

@@ -26,7 +26,8 @@ glm::vec3 colour_of(const std::string& hex) {
   return glm::vec3((value >> 16) & 255U, (value >> 8) & 255U, value & 255U) / 255.0F;
 }
 
-MarginContent content_of(const LoadedScene& loaded, const BareView& bare, const LabelSheet& sheet, const PictureLegend& legend) {
+MarginContent content_of(const LoadedScene& loaded, const BareView& bare, const LabelSheet& sheet,
+                         const PictureLegend& legend) {
   const Scene& scene = loaded.scene;
   const SceneMargin& asked = *scene.margin;
   MarginContent content;
@@ -40,7 +41,8 @@ MarginContent content_of(const LoadedScene& loaded, const BareView& bare, const 
   const CameraParameters& camera = bare.view.camera;
   if (asked.scale_bars) {
     const std::vector<double> skyline = find_skyline(map, sheet.size_px);
-    content.scales = find_scales(map, glm::dvec2(camera.eye), skyline[skyline.size() / 2], sheet.size_px);
+    content.scales =
+        find_scales(map, glm::dvec2(camera.eye), skyline[skyline.size() / 2], sheet.size_px);
   }
   content.directions = asked.directions;
   content.view_azimuth_deg = camera.azimuth_deg;
@@ -50,7 +52,7 @@ MarginContent content_of(const LoadedScene& loaded, const BareView& bare, const 
   return content;
 }
 
-// The sheet's drawing on paper: names where the picture lies, the margin around.
+// The sheet's drawing on paper: names over the picture, the margin around it.
 Drawing on_paper(const Drawing& names, const Margin& margin) {
   Drawing all = margin.drawing;
   const glm::dvec2 by(margin.left, margin.top);
@@ -68,8 +70,9 @@ std::string second_picture(const Scene& scene, bool whole_sheet) {
   return scene.margin && whole_sheet ? "panorama_margin" : "";
 }
 
-void write_named_picture(const LoadedScene& loaded, PixelRect region, const SheetRows& rows, const PictureLegend& legend,
-                         const OutputColor& color, const FileNotes& notes, const std::string& out_folder, const Run& run) {
+void write_named_picture(const LoadedScene& loaded, PixelRect region, const SheetRows& rows,
+                         const PictureLegend& legend, const OutputColour& colour,
+                         const FileNotes& notes, const std::string& out_folder, const Run& run) {
   const Scene& scene = loaded.scene;
   const bool whole = region == PixelRect{0, 0, scene.output.width, scene.output.height};
   const std::string stem = second_picture(scene, whole);
@@ -81,27 +84,33 @@ void write_named_picture(const LoadedScene& loaded, PixelRect region, const Shee
     sheet = make_label_sheet(loaded, job, bare, run.progress);
     const std::vector<std::string>& formats = scene.output.formats;
     const bool has_png = std::find(formats.begin(), formats.end(), "png") != formats.end();
-    write_label_files(sheet, bare.dem.crs, out_folder, has_png && whole ? "panorama.png" : "", run.progress);
+    write_label_files(sheet, bare.dem.crs, out_folder, has_png && whole ? "panorama.png" : "",
+                      run.progress);
   } else {
-    sheet = empty_label_sheet(load_label_style(job.style), bare.camera->size(), scene.output.sheet_width_mm);
+    sheet = empty_label_sheet(load_label_style(job.style), bare.camera->size(),
+                              scene.output.sheet_width_mm);
   }
   if (stem.empty()) return;
 
   Margin margin;
   if (scene.margin && whole)
-    margin = lay_out_margin(content_of(loaded, bare, sheet, legend), sheet.style.margin, sheet.size_px, sheet.px_per_mm,
-                            scene.margin->frame_mm * sheet.px_per_mm);
-  const Drawing drawing = on_paper(scene.labels.in_picture ? label_drawing(sheet) : Drawing(), margin);
+    margin =
+        lay_out_margin(content_of(loaded, bare, sheet, legend), sheet.style.margin, sheet.size_px,
+                       sheet.px_per_mm, scene.margin->frame_mm * sheet.px_per_mm);
+  const Drawing drawing =
+      on_paper(scene.labels.in_picture ? label_drawing(sheet) : Drawing(), margin);
   const SheetPainter painter(drawing);
   const int width = margin.left + region.width() + margin.right;
   const int height = margin.top + region.height() + margin.bottom;
   if (scene.margin && whole) {
     const double mm = scene.output.sheet_width_mm / scene.output.width;
-    write_text_file((std::filesystem::path(out_folder) / "margin.svg").string(), drawing_svg(margin.drawing, width * mm));
+    write_text_file((std::filesystem::path(out_folder) / "margin.svg").string(),
+                    drawing_svg(margin.drawing, width * mm));
   }
   run.progress.begin("writing " + stem, height);
-  PictureFiles files((std::filesystem::path(out_folder) / stem).string(), scene.output.formats, width, height,
-                     {color.display, color.profile}, scene.output.width / scene.output.sheet_width_mm * 25.4, notes);
+  PictureFiles files((std::filesystem::path(out_folder) / stem).string(), scene.output.formats,
+                     width, height, {colour.display, colour.profile},
+                     scene.output.width / scene.output.sheet_width_mm * 25.4, notes);
   const glm::vec3 paper = colour_of(sheet.style.margin.paper);
   // Bands of paper above and below, between them those of the picture.
   for (int y0 = 0; y0 < height; y0 += rows_per_copy) {
@@ -110,8 +119,10 @@ void write_named_picture(const LoadedScene& loaded, PixelRect region, const Shee
     const int first = std::max(y0, margin.top);
     const int end = std::min(y1, margin.top + region.height());
     if (first < end) {
-      const Grid<glm::vec3> picture = rows(region.y0 + first - margin.top, region.y0 + end - margin.top);
-      for (int y = first; y < end; ++y) std::copy_n(picture.row(y - first), region.width(), band.row(y - y0) + margin.left);
+      const Grid<glm::vec3> picture =
+          rows(region.y0 + first - margin.top, region.y0 + end - margin.top);
+      for (int y = first; y < end; ++y)
+        std::copy_n(picture.row(y - first), region.width(), band.row(y - y0) + margin.left);
     }
     painter.paint(band, {region.x0, region.y0 + y0});
     files.write_rows(decode_srgb(band));

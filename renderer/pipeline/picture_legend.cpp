@@ -17,13 +17,15 @@ namespace belvedere {
 namespace {
 
 constexpr int looked_px = 600;            // width of the small picture
-constexpr double least_share = 0.001;     // of its ground
-constexpr double swatch_tone = 0.72;      // light, not glaring
-constexpr int places_a_side = 240;        // at which altitudes are asked
+constexpr double min_share = 0.001;       // of its ground
+constexpr double swatch_tone = 0.72;      // lit, but not glaring
+constexpr int places_a_side = 240;        // altitudes that are sampled
 constexpr double open_ground_m = 1200.0;  // altitude of the ground under swatches of features
 
 std::string hex(glm::vec3 colour) {
-  const auto byte = [](float value) { return static_cast<int>(std::lround(255.0F * std::clamp(value, 0.0F, 1.0F))); };
+  const auto byte = [](float value) {
+    return static_cast<int>(std::lround(255.0F * std::clamp(value, 0.0F, 1.0F)));
+  };
   return fmt::format("#{:02x}{:02x}{:02x}", byte(colour.r), byte(colour.g), byte(colour.b));
 }
 
@@ -34,7 +36,9 @@ std::string words_of(std::string_view name) {
 }
 
 SwatchForm form_of(FeatureDraw draw) {
-  return draw == FeatureDraw::cable ? SwatchForm::cable : draw == FeatureDraw::building ? SwatchForm::house : SwatchForm::line;
+  return draw == FeatureDraw::cable      ? SwatchForm::cable
+         : draw == FeatureDraw::building ? SwatchForm::house
+                                         : SwatchForm::line;
 }
 
 }  // namespace
@@ -50,36 +54,41 @@ std::vector<LegendEntry> find_legend(const World& world, const Palette& palette)
     ++ground;
   }
   std::array<double, land_cover_class_count> altitude_m{};
-  std::array<double, land_cover_class_count> places{};
+  std::array<double, land_cover_class_count> positions{};
   const Dem& dem = *world.dem;
   for (int j = 0; j < places_a_side; ++j)
     for (int i = 0; i < places_a_side; ++i) {
       const int x = static_cast<int>((i + .5) * dem.width() / places_a_side);
       const int y = static_cast<int>((j + .5) * dem.height() / places_a_side);
-      const glm::dvec2 place = dem.transform.to_crs(x, y);
-      const auto id = static_cast<std::size_t>(world.land_cover->at(place.x, place.y));
+      const glm::dvec2 position = dem.transform.to_crs(x, y);
+      const auto id = static_cast<std::size_t>(world.land_cover->at(position.x, position.y));
       altitude_m[id] += static_cast<double>(dem.altitude_m(x, y));
-      places[id] += 1.0;
+      positions[id] += 1.0;
     }
   std::vector<LegendEntry> legend;
   for (const LandCoverClassInfo& info : land_cover_classes()) {
     const auto id = static_cast<std::size_t>(info.id);
-    if (info.id == LandCoverClass::sky || static_cast<double>(seen[id]) < least_share * static_cast<double>(ground) || seen[id] == 0)
+    if (info.id == LandCoverClass::sky ||
+        static_cast<double>(seen[id]) < min_share * static_cast<double>(ground) || seen[id] == 0)
       continue;
-    const double mean_m = places[id] > 0.0 ? altitude_m[id] / places[id] : 1000.0;
-    legend.push_back({words_of(info.name), hex(palette_colour(palette, info.id, mean_m, swatch_tone))});
+    const double mean_m = positions[id] > 0.0 ? altitude_m[id] / positions[id] : 1000.0;
+    legend.push_back(
+        {words_of(info.name), hex(palette_colour(palette, info.id, mean_m, swatch_tone))});
   }
   return legend;
 }
 
 std::vector<FeatureSwatch> find_feature_legend(const DrawnFeatures& drawn, const Palette& palette) {
   const std::string ground =
-      hex(palette_colour(palette, drawn.winter ? LandCoverClass::snow : LandCoverClass::pasture, open_ground_m, swatch_tone));
+      hex(palette_colour(palette, drawn.winter ? LandCoverClass::snow : LandCoverClass::pasture,
+                         open_ground_m, swatch_tone));
   std::vector<FeatureSwatch> swatches;
   for (std::size_t k = 0; k < drawn.style.kinds.size(); ++k) {
     const FeatureKind& kind = drawn.style.kinds[k];
     const bool shown = std::any_of(drawn.counts.begin(), drawn.counts.end(),
-                                   [&](const std::vector<DrawnCount>& source) { return k < source.size() && source[k].drawn > 0; });
+                                   [&](const std::vector<DrawnCount>& source) {
+                                     return k < source.size() && source[k].drawn > 0;
+                                   });
     if (!shown || becomes_ground(kind)) continue;
     const FeatureColours& colours = drawn.winter ? kind.winter : kind.summer;
     swatches.push_back({.name = words_of(kind.name),
@@ -89,7 +98,7 @@ std::vector<FeatureSwatch> find_feature_legend(const DrawnFeatures& drawn, const
                         .casing = hex(colours.casing),
                         .bed = hex(colours.bed),
                         .width_mm = kind.width_mm,
-                        .least_px = kind.least_px,
+                        .min_px = kind.min_px,
                         .casing_mm = kind.casing_mm,
                         .bed_mm = kind.bed_mm,
                         .opacity = kind.opacity,
@@ -116,8 +125,10 @@ std::vector<LegendEntry> legend_from_text(const std::string& text) {
 std::string swatches_to_text(const std::vector<FeatureSwatch>& swatches) {
   std::string text;
   for (const FeatureSwatch& s : swatches)
-    text += fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {} {}\n", static_cast<int>(s.form), s.ground, s.fill, s.casing, s.bed,
-                        s.width_mm, s.least_px, s.casing_mm, s.bed_mm, s.opacity, s.dash_mm.x, s.dash_mm.y, s.has_pylons ? 1 : 0, s.name);
+    text +=
+        fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {} {}\n", static_cast<int>(s.form),
+                    s.ground, s.fill, s.casing, s.bed, s.width_mm, s.min_px, s.casing_mm, s.bed_mm,
+                    s.opacity, s.dash_mm.x, s.dash_mm.y, s.has_pylons ? 1 : 0, s.name);
   return text;
 }
 
@@ -127,8 +138,8 @@ std::vector<FeatureSwatch> swatches_from_text(const std::string& text) {
   lines.imbue(std::locale::classic());
   FeatureSwatch s;
   int form = 0;
-  while (lines >> form >> s.ground >> s.fill >> s.casing >> s.bed >> s.width_mm >> s.least_px >> s.casing_mm >> s.bed_mm >> s.opacity >>
-             s.dash_mm.x >> s.dash_mm.y >> s.has_pylons &&
+  while (lines >> form >> s.ground >> s.fill >> s.casing >> s.bed >> s.width_mm >> s.min_px >>
+             s.casing_mm >> s.bed_mm >> s.opacity >> s.dash_mm.x >> s.dash_mm.y >> s.has_pylons &&
          std::getline(lines >> std::ws, s.name)) {
     s.form = static_cast<SwatchForm>(form);
     swatches.push_back(s);

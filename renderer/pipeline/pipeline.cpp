@@ -9,83 +9,97 @@
 #include "base/error.h"
 #include "renderer/image/layers/layer_file.h"
 #include "renderer/image/output_file.h"
-#include "renderer/pipeline/output_color.h"
+#include "renderer/pipeline/output_colour.h"
 #include "renderer/pipeline/scene_paint.h"
 #include "renderer/pipeline/sheet_job.h"
 #include "renderer/pipeline/sheet_memory.h"
 
 namespace belvedere {
 
-std::string work_folder_of(const std::string& out_folder) { return (std::filesystem::path(out_folder) / ".belvedere").string(); }
+std::string work_folder_of(const std::string& out_folder) {
+  return (std::filesystem::path(out_folder) / ".belvedere").string();
+}
 
 namespace {
 
 void check_request(const Scene& scene, const SheetRequest& request) {
   if (request.matches && !scene.synthesis.enabled)
-    throw Error(ErrorKind::usage, "--match", "nothing is copied: synthesis.enabled is false", "a scene that copies, or no --match");
-  for (const std::string& ending : request.layers) layer_format(ending);
+    throw Error(ErrorKind::usage, "--match", "nothing is copied: synthesis.enabled is false",
+                "a scene that copies, or no --match");
+  for (const std::string& extension : request.layers) layer_format(extension);
   if (!request.layers.empty() && !scene.output.ocio_config.empty())
-    throw Error(ErrorKind::usage, "--layers", "output.ocio_config changes the colours of the whole", "layers without it: they are sRGB");
+    throw Error(ErrorKind::usage, "--layers",
+                "output.ocio_config changes the colours of the whole picture",
+                "layers without it: they are sRGB");
   if (products_of(request).empty())
-    throw Error(ErrorKind::usage, "--channels", "none, and guidance is all that was asked for", "a channel at least");
+    throw Error(ErrorKind::usage, "--channels", "is none, but only guidance is rendered",
+                "at least one channel");
 }
 
-// Before the work; how much ground and scanned paintings take is not known yet.
+// Before the work; the size of ground and scanned paintings is not known yet.
 void refuse_beyond_memory(const Scene& scene, const SheetRequest& request) {
   StandingBytes standing{.besides = piece_bytes_of(scene, request)};
   if (request.panorama && scene.synthesis.enabled) standing.besides += copying_bytes(scene, {});
-  choose_block_px(scene, scene.pixels_per_unit(), standing, least_block_px_of(request));
+  choose_block_px(scene, scene.pixels_per_unit(), standing, min_block_px_of(request));
 }
 
 }  // namespace
 
-void render(const LoadedScene& loaded, const std::string& out_folder, const Run& run, const SheetRequest& request) {
+void render(const LoadedScene& loaded, const std::string& out_folder, const Run& run,
+            const SheetRequest& request) {
   const RunLimits limits(run);
   check_request(loaded.scene, request);
   refuse_beyond_memory(loaded.scene, request);
   require_inputs(loaded);
-  read_output_color(loaded);
+  read_output_colour(loaded);
   const std::vector<PixelRect> pieces = pieces_of(region_of(loaded.scene, request), request);
   check_output_folder(out_folder);
 
   if (!request.resume && holds_work(work_folder_of(out_folder)))
-    run.progress.note("the pieces of a run that was stopped are thrown away; --resume would have gone on from them");
-  WorkFolder work(work_folder_of(out_folder), identify(loaded, request), request.resume ? WorkMode::resume : WorkMode::begin);
+    run.progress.note(
+        "the pieces of an interrupted run are discarded; --resume would have continued from them");
+  WorkFolder work(work_folder_of(out_folder), identify(loaded, request),
+                  request.resume ? WorkMode::resume : WorkMode::begin);
   make_pieces(loaded, request, pieces, work, run);
   write_sheet_files(loaded, request, work, out_folder, run);
   work.clear();
 }
 
-void render_guidance(const LoadedScene& loaded, const std::string& out_folder, const Run& run, const SheetRequest& request) {
+void render_guidance(const LoadedScene& loaded, const std::string& out_folder, const Run& run,
+                     const SheetRequest& request) {
   SheetRequest guidance = request;
   guidance.panorama = guidance.matches = false;
   guidance.layers.clear();
   render(loaded, out_folder, run, guidance);
 }
 
-void plan_sheet(const LoadedScene& loaded, const std::string& folder, const Run& run, const SheetRequest& request) {
+void plan_sheet(const LoadedScene& loaded, const std::string& folder, const Run& run,
+                const SheetRequest& request) {
   const RunLimits limits(run);
   check_request(loaded.scene, request);
   require_inputs(loaded);
-  read_output_color(loaded);
+  read_output_colour(loaded);
   check_output_folder(folder);
   const JobIdentity identity = identify(loaded, request);
   begin_shared_work(work_folder_of(folder), identity);
   make_plan(loaded, request, WorkFolder(work_folder_of(folder), identity, WorkMode::join), run);
 }
 
-void make_part(const LoadedScene& loaded, const std::string& folder, int part, int parts, const Run& run, const SheetRequest& request) {
+void make_part(const LoadedScene& loaded, const std::string& folder, int part, int parts,
+               const Run& run, const SheetRequest& request) {
   const RunLimits limits(run);
   if (part < 1 || part > parts)
-    throw Error(ErrorKind::usage, "part", fmt::format("{}", part), fmt::format("1 to {}, the parts of the plan", parts));
+    throw Error(ErrorKind::usage, "part", fmt::format("{}", part),
+                fmt::format("1 to {}, the parts of the plan", parts));
   const std::vector<PixelRect> pieces = pieces_of(region_of(loaded.scene, request), request);
   const PieceSpan own = pieces_of_part(pieces.size(), part, parts);
   const WorkFolder work(work_folder_of(folder), identify(loaded, request), WorkMode::join);
-  make_pieces(loaded, request, std::span(pieces).subspan(own.first, own.end - own.first), work, run);
+  make_pieces(loaded, request, std::span(pieces).subspan(own.first, own.end - own.first), work,
+              run);
 }
 
-void join_parts(const LoadedScene& loaded, const std::string& folder, int parts, const std::string& out_folder, const Run& run,
-                const SheetRequest& request) {
+void join_parts(const LoadedScene& loaded, const std::string& folder, int parts,
+                const std::string& out_folder, const Run& run, const SheetRequest& request) {
   const RunLimits limits(run);
   check_output_folder(out_folder);
   const WorkFolder work(work_folder_of(folder), identify(loaded, request), WorkMode::join);

@@ -10,7 +10,7 @@
 #include "base/instruction_set.h"
 #include "renderer/exemplar/exemplars.h"
 #include "renderer/paint/guides.h"
-#include "renderer/pipeline/output_color.h"
+#include "renderer/pipeline/output_colour.h"
 #include "renderer/pipeline/scene_paint.h"
 #include "renderer/scene/scene_error.h"
 #include "renderer/stages/lit_picture.h"
@@ -33,11 +33,12 @@ constexpr int check_width_px = 480;
 int small_width(const SceneOutput& output) { return std::min(output.width, check_width_px); }
 
 int small_height(const SceneOutput& output) {
-  constexpr int least = 16;
-  return std::max(least, static_cast<int>(static_cast<double>(output.height) * small_width(output) / output.width));
+  constexpr int min = 16;
+  return std::max(min, static_cast<int>(static_cast<double>(output.height) * small_width(output) /
+                                        output.width));
 }
 
-// The view with few pixels and no more light than guides take.
+// The view with few pixels and only the light that guides need.
 LoadedScene small(const LoadedScene& scene) {
   LoadedScene out = scene;
   out.scene.output.width = small_width(scene.scene.output);
@@ -48,13 +49,16 @@ LoadedScene small(const LoadedScene& scene) {
   return out;
 }
 
-PixelRect whole_picture(const LoadedScene& view) { return {0, 0, view.scene.output.width, view.scene.output.height}; }
+PixelRect whole_picture(const LoadedScene& view) {
+  return {0, 0, view.scene.output.width, view.scene.output.height};
+}
 
-// What a World is made of, as far as one must know to see which classes are in its picture; refused where that would be refused.
+// What is needed of a World to determine the classes in its picture; it is refused for the same
+// reasons.
 struct Sight {
   std::shared_ptr<const Dem> dem;
-  CoarseAltitudes region;  // the data from afar
-  std::string levels;      // that rendering would take of a DEM which is larger than memory
+  CoarseAltitudes region;  // the data at reduced resolution
+  std::string levels;      // for a DEM larger than memory: the cells that rendering would use
   View view;
   std::vector<ClassArea> areas;
   Grid<LandCoverClass> classes;  // of the small picture
@@ -62,12 +66,14 @@ struct Sight {
   std::vector<ProposedLight> proposed;
 };
 
-// How the light falls on the ranges of the small picture.
-void look_at_light(Sight& sight, const LoadedScene& loaded, const TerrainModel& terrain, const Tracer& tracer, const Camera& camera,
-                   bool propose, Progress& progress) {
-  const std::vector<SeenSlope> slopes = see_slopes(terrain, sight.view.deform.exaggeration, tracer, camera, 2);
+// Light on the ranges of the small picture.
+void look_at_light(Sight& sight, const LoadedScene& loaded, const TerrainModel& terrain,
+                   const Tracer& tracer, const Camera& camera, bool propose, Progress& progress) {
+  const std::vector<SeenSlope> slopes =
+      see_slopes(terrain, sight.view.deform.exaggeration, tracer, camera, 2);
   sight.ranges = find_ranges(slopes);
-  light_ranges(sight.ranges, slopes, tracer, sight.view.sun_direction, make_light_field(loaded, *sight.dem, sight.view, progress).get());
+  light_ranges(sight.ranges, slopes, tracer, sight.view.sun_direction,
+               make_light_field(loaded, *sight.dem, sight.view, progress).get());
   for (SeenRange& range : sight.ranges) range.slopes.clear();
   if (propose) sight.proposed = propose_light(loaded, *sight.dem, sight.view, slopes, tracer);
 }
@@ -81,7 +87,7 @@ Sight look(const LoadedScene& loaded, Progress& progress, const Cache& cache, bo
   sight.region = std::move(opened.region);
   if (opened.levels) {
     const RasterFrame& frame = opened.levels->frame();
-    sight.levels = describe(plan_ground(frame, opened.dem, sight.view, opened.most_cells), frame);
+    sight.levels = describe(plan_ground(frame, opened.dem, sight.view, opened.max_cells), frame);
   }
   sight.dem = std::make_shared<const Dem>(std::move(opened.dem));
   opened = {};
@@ -91,13 +97,15 @@ Sight look(const LoadedScene& loaded, Progress& progress, const Cache& cache, bo
   TerrainModel terrain;
   terrain.dem = sight.dem;
   terrain.land_cover = std::make_shared<const LandCover>(std::move(cover.cover));
-  GeneralizedTerrain ground = generalize_for_view(loaded, *sight.dem, terrain.land_cover.get(), sight.view, progress, cache);
+  GeneralizedTerrain ground = generalize_for_view(loaded, *sight.dem, terrain.land_cover.get(),
+                                                  sight.view, progress, cache);
   terrain.generalized_m = std::move(ground.altitude_m);
   terrain.came_from = std::move(ground.came_from);
   terrain.goes_to = std::move(ground.goes_to);
   const Deformation deformation(sight.view.deform, sight.view.viewer_xy);
   check_folds(scene.deform, terrain, deformation, *make_camera(sight.view.camera), progress);
-  const DeformedSurface surface = deform(terrain.generalized_m, sight.dem->transform, glm::dvec3(sight.view.viewer_xy, 0.0), deformation);
+  const DeformedSurface surface = deform(terrain.generalized_m, sight.dem->transform,
+                                         glm::dvec3(sight.view.viewer_xy, 0.0), deformation);
   CameraParameters camera = sight.view.camera;
   camera.width = small_width(scene.output);
   camera.height = small_height(scene.output);
@@ -111,16 +119,18 @@ Sight look(const LoadedScene& loaded, Progress& progress, const Cache& cache, bo
 
 }  // namespace
 
-SceneReport check_scene(const LoadedScene& scene, Progress& progress, const Cache& cache, bool propose) {
+SceneReport check_scene(const LoadedScene& scene, Progress& progress, const Cache& cache,
+                        bool propose) {
   require_inputs(scene);
-  read_output_color(scene);
+  read_output_colour(scene);
   SceneReport report;
   report.inputs = scene_inputs(scene);
   ScenePaint paint = read_scene_paint(scene, progress);
   Sight sight = look(scene, progress, cache, propose);
-  paint.palette = palette_of_place(paint.palette, scene, *sight.dem);
+  paint.palette = palette_for_location(paint.palette, scene, *sight.dem);
   report.view = sight.view;
-  report.judgement = judge_view(sight.region, sight.view, static_cast<double>(scene.scene.generalize.valleys.width_m));
+  report.evaluation = evaluate_view(sight.region, sight.view,
+                                    static_cast<double>(scene.scene.generalize.valleys.width_m));
   report.crs = sight.dem->crs.empty() ? std::string("none") : describe_crs(sight.dem->crs);
   report.cells_wide = sight.dem->width();
   report.cells_high = sight.dem->height();
@@ -134,25 +144,31 @@ SceneReport check_scene(const LoadedScene& scene, Progress& progress, const Cach
   std::array<double, land_cover_class_count> count{};
   for (const LandCoverClass id : sight.classes) count[static_cast<std::size_t>(id)] += 1.0;
   for (const LandCoverClassInfo& info : land_cover_classes())
-    if (const double share = count[static_cast<std::size_t>(info.id)] / static_cast<double>(sight.classes.size()); share > 0.0)
+    if (const double share =
+            count[static_cast<std::size_t>(info.id)] / static_cast<double>(sight.classes.size());
+        share > 0.0)
       report.classes.emplace_back(info.id, share);
   if (!scene.scene.synthesis.enabled) return report;
 
-  const ExemplarClasses exemplars = look_at_classes(scene, sight.view, paint.palette, paint.paintings, progress, cache);
+  const ExemplarClasses exemplars =
+      look_at_classes(scene, sight.view, paint.palette, paint.paintings, progress, cache);
   report.exemplars = exemplars.names;
   std::vector<std::string> missing;
   for (const auto& [id, share] : report.classes) {
     if (id == LandCoverClass::sky || exemplars.offered[static_cast<std::size_t>(id)]) continue;
     const ClassPairs fallback = with_stand_ins(scene.scene.synthesis.fallback);
     const auto way_out =
-        std::find_if(fallback.begin(), fallback.end(), [&, without = id](const auto& pair) { return pair.first == without; });
-    if (way_out == fallback.end() || !exemplars.offered[static_cast<std::size_t>(way_out->second)]) missing.emplace_back(class_name(id));
+        std::find_if(fallback.begin(), fallback.end(),
+                     [&, without = id](const auto& pair) { return pair.first == without; });
+    if (way_out == fallback.end() || !exemplars.offered[static_cast<std::size_t>(way_out->second)])
+      missing.emplace_back(class_name(id));
   }
   if (!missing.empty())
     throw Error(ErrorKind::usage, scene.name,
-                fmt::format("no exemplar shows how to paint {}, which the picture has", fmt::join(missing, ", ")),
-                fmt::format("an exemplar with {}, or [synthesis] fallback = {{ {} = \"…\" }}", missing.size() == 1 ? "it" : "them",
-                            missing.front()));
+                fmt::format("no exemplar shows how to paint {}, which is in the picture",
+                            fmt::join(missing, ", ")),
+                fmt::format("an exemplar with {}, or [synthesis] fallback = {{ {} = \"…\" }}",
+                            missing.size() == 1 ? "it" : "them", missing.front()));
   return report;
 }
 
@@ -162,13 +178,17 @@ SceneExemplars look_at_exemplars(const LoadedScene& scene, Progress& progress, c
   const LoadedScene view = small(scene);
   const Palette named = read_scene_palette(scene, progress);
   const World world = make_world(view, progress, cache);
-  const Palette palette = palette_of_place(named, scene, *world.dem);
-  const LitPicture picture = make_lit_picture(world, palette, whole_picture(view), {.progress = progress});
-  const double small_pixels = static_cast<double>(view.scene.output.width) * view.scene.output.height;
-  // Example sheets are painted for the picture itself: their strokes are as large as its.
-  return {.exemplars = make_exemplars(scene, world.view, palette, read_scans(scene, progress), progress, cache),
+  const Palette palette = palette_for_location(named, scene, *world.dem);
+  const LitPicture picture =
+      make_lit_picture(world, palette, whole_picture(view), {.progress = progress});
+  const double small_pixels =
+      static_cast<double>(view.scene.output.width) * view.scene.output.height;
+  // Example sheets are painted for the picture itself: their strokes have its size.
+  return {.exemplars = make_exemplars(scene, world.view, palette, read_scans(scene, progress),
+                                      progress, cache),
           .view = make_guide_stack(picture.guidance, picture.guidance.land_cover),
-          .pixels_of_picture = static_cast<double>(scene.scene.output.width) * scene.scene.output.height / small_pixels};
+          .pixels_of_picture = static_cast<double>(scene.scene.output.width) *
+                               scene.scene.output.height / small_pixels};
 }
 
 }  // namespace belvedere

@@ -26,56 +26,63 @@ struct Extent {
   glm::dvec2 low{std::numeric_limits<double>::infinity()};
   glm::dvec2 high{-std::numeric_limits<double>::infinity()};
 
-  void add(glm::dvec2 place) {
-    low = glm::min(low, place);
-    high = glm::max(high, place);
+  void add(glm::dvec2 position) {
+    low = glm::min(low, position);
+    high = glm::max(high, position);
   }
 };
 
-std::string metres(const Extent& e) { return fmt::format("E {:.0f} … {:.0f}, N {:.0f} … {:.0f}", e.low.x, e.high.x, e.low.y, e.high.y); }
-
-// The same in degrees, by which people see what is wrong; empty without a CRS.
-std::string degrees(const std::vector<glm::dvec2>& corners, const std::string& crs) {
-  if (crs.empty()) return {};
-  std::vector<glm::dvec2> places = corners;
-  PointTransform(crs, "EPSG:4326").apply(places);
-  Extent e;
-  for (const glm::dvec2 place : places) {
-    if (!std::isfinite(place.x)) return {};
-    e.add(place);
-  }
-  return fmt::format("longitude {:.2f} … {:.2f}, latitude {:.2f} … {:.2f}", e.low.x + 0.0, e.high.x + 0.0, e.low.y + 0.0, e.high.y + 0.0);
+std::string metres(const Extent& e) {
+  return fmt::format("E {:.0f} … {:.0f}, N {:.0f} … {:.0f}", e.low.x, e.high.x, e.low.y, e.high.y);
 }
 
-// The places' extent beside the terrain's, both as the files would say them. `what`: "points", "ways".
-[[noreturn]] void fail_outside(const std::string& where, const char* what, std::size_t count, const std::vector<glm::dvec2>& places,
-                               const Dem& dem) {
+// The same in degrees, which show errors more clearly; empty without a CRS.
+std::string degrees(const std::vector<glm::dvec2>& corners, const std::string& crs) {
+  if (crs.empty()) return {};
+  std::vector<glm::dvec2> positions = corners;
+  PointTransform(crs, "EPSG:4326").apply(positions);
+  Extent e;
+  for (const glm::dvec2 position : positions) {
+    if (!std::isfinite(position.x)) return {};
+    e.add(position);
+  }
+  return fmt::format("longitude {:.2f} … {:.2f}, latitude {:.2f} … {:.2f}", e.low.x + 0.0,
+                     e.high.x + 0.0, e.low.y + 0.0, e.high.y + 0.0);
+}
+
+// Compares the extents of features and terrain, both in the files' units. `what`: "points", "ways".
+[[noreturn]] void fail_outside(const std::string& where, const char* what, std::size_t count,
+                               const std::vector<glm::dvec2>& positions, const Dem& dem) {
   Extent found;
-  for (const glm::dvec2 place : places) found.add(place);
+  for (const glm::dvec2 position : positions) found.add(position);
   const glm::dvec2 a = dem.transform.to_crs(-.5, dem.height() - .5);
   const glm::dvec2 b = dem.transform.to_crs(dem.width() - .5, -.5);
   const Extent terrain{a, b};
-  const std::string found_degrees = degrees(places, dem.crs);
+  const std::string found_degrees = degrees(positions, dem.crs);
   const std::string own_degrees = degrees({a, b, {a.x, b.y}, {b.x, a.y}}, dem.crs);
   throw Error(ErrorKind::usage, where,
-              fmt::format("none of {} {} lies on the terrain: they lie {}{}", count, what, metres(found),
-                          found_degrees.empty() ? "" : " (" + found_degrees + ")"),
-              fmt::format("places within {}{}{}", metres(terrain), dem.crs.empty() ? "" : " (" + describe_crs(dem.crs) + ")",
+              fmt::format("none of {} {} lies on the terrain: they lie {}{}", count, what,
+                          metres(found), found_degrees.empty() ? "" : " (" + found_degrees + ")"),
+              fmt::format("positions within {}{}{}", metres(terrain),
+                          dem.crs.empty() ? "" : " (" + describe_crs(dem.crs) + ")",
                           own_degrees.empty() ? "" : ", which is " + own_degrees));
 }
 
-bool lies_on(const Dem& dem, glm::dvec2 place) {
-  const glm::dvec2 cell = dem.transform.to_cell(place.x, place.y);
-  return cell.x >= -.5 && cell.y >= -.5 && cell.x <= dem.width() - .5 && cell.y <= dem.height() - .5;
+bool lies_on(const Dem& dem, glm::dvec2 position) {
+  const glm::dvec2 cell = dem.transform.to_cell(position.x, position.y);
+  return cell.x >= -.5 && cell.y >= -.5 && cell.x <= dem.width() - .5 &&
+         cell.y <= dem.height() - .5;
 }
 
-void require_on_terrain(const std::string& where, const char* what, std::size_t count, const std::vector<glm::dvec2>& places,
-                        const Dem& dem) {
-  if (!places.empty() && std::none_of(places.begin(), places.end(), [&](glm::dvec2 place) { return lies_on(dem, place); }))
-    fail_outside(where, what, count, places, dem);
+void require_on_terrain(const std::string& where, const char* what, std::size_t count,
+                        const std::vector<glm::dvec2>& positions, const Dem& dem) {
+  if (!positions.empty() &&
+      std::none_of(positions.begin(), positions.end(),
+                   [&](glm::dvec2 position) { return lies_on(dem, position); }))
+    fail_outside(where, what, count, positions, dem);
 }
 
-// What the files of a job hold.
+// Content of the files of a job.
 struct NamesRead {
   std::vector<LabelPoint> points;
   std::vector<LabelShape> shapes;
@@ -88,28 +95,38 @@ void append(std::vector<T>& to, std::vector<T> more) {
 }
 
 void require_points_on_terrain(const std::vector<LabelPoint>& points, const Dem& dem) {
-  std::vector<glm::dvec2> places;
-  for (const LabelPoint& point : points) places.push_back(point.place);
-  if (!points.empty()) require_on_terrain(points.front().where, "points", points.size(), places, dem);
+  std::vector<glm::dvec2> positions;
+  for (const LabelPoint& point : points) positions.push_back(point.position);
+  if (!points.empty())
+    require_on_terrain(points.front().where, "points", points.size(), positions, dem);
 }
 
-NamesRead read_names(const LabelJob& job, const LabelStyle& style, const Dem& dem, Progress& progress) {
+NamesRead read_names(const LabelJob& job, const LabelStyle& style, const Dem& dem,
+                     Progress& progress) {
   NamesRead names;
-  for (const std::string& file : job.points) append(names.points, read_label_points(file, dem.crs, style, progress));
-  for (const std::string& file : job.shapes) append(names.shapes, read_label_shapes(file, dem.crs, style, progress));
+  for (const std::string& file : job.points)
+    append(names.points, read_label_points(file, dem.crs, style, progress));
+  for (const std::string& file : job.shapes)
+    append(names.shapes, read_label_shapes(file, dem.crs, style, progress));
   for (const std::string& file : job.tracks) append(names.ways, read_lines(file, dem.crs));
   require_points_on_terrain(names.points, dem);
-  std::vector<glm::dvec2> places;
+  std::vector<glm::dvec2> positions;
   for (const LabelShape& shape : names.shapes)
-    for (const std::vector<glm::dvec2>& part : shape.parts) places.insert(places.end(), part.begin(), part.end());
-  if (!names.shapes.empty()) require_on_terrain(names.shapes.front().point.where, "lines and areas", names.shapes.size(), places, dem);
-  places.clear();
-  for (const MapLine& way : names.ways) places.insert(places.end(), way.places.begin(), way.places.end());
-  if (!names.ways.empty()) require_on_terrain(names.ways.front().where, "ways", names.ways.size(), places, dem);
+    for (const std::vector<glm::dvec2>& part : shape.parts)
+      positions.insert(positions.end(), part.begin(), part.end());
+  if (!names.shapes.empty())
+    require_on_terrain(names.shapes.front().point.where, "lines and areas", names.shapes.size(),
+                       positions, dem);
+  positions.clear();
+  for (const MapLine& way : names.ways)
+    positions.insert(positions.end(), way.positions.begin(), way.positions.end());
+  if (!names.ways.empty())
+    require_on_terrain(names.ways.front().where, "ways", names.ways.size(), positions, dem);
   return names;
 }
 
-std::vector<std::string> paths_of(const LoadedScene& scene, const std::vector<SceneLabelFile>& files, Progress& progress) {
+std::vector<std::string> paths_of(const LoadedScene& scene,
+                                  const std::vector<SceneLabelFile>& files, Progress& progress) {
   std::vector<std::string> paths;
   for (const SceneLabelFile& file : files) {
     std::string path = find_scene_file(scene, file.file);
@@ -118,19 +135,21 @@ std::vector<std::string> paths_of(const LoadedScene& scene, const std::vector<Sc
     else if (file.optional)
       progress.note(file.file + " is missing: its names are left out");
     else
-      throw Error(ErrorKind::input, file.file, "there is no such file", "a file beside the scene, or in a folder named with --data");
+      throw Error(ErrorKind::input, file.file, "no such file",
+                  "a file beside the scene, or in a folder given with --data");
   }
   return paths;
 }
 
-// The same drawing as text and as pixels, on white: programs for slides and letters take PNG.
-void write_profile(const LabelSheet& sheet, std::size_t track, const std::filesystem::path& folder) {
+// The same drawing as SVG and PNG, on white, because slide and text programs take PNG.
+void write_profile(const LabelSheet& sheet, std::size_t track,
+                   const std::filesystem::path& folder) {
   constexpr double px_per_mm = 300.0 / 25.4;
   const Drawing drawing = profile_drawing(sheet.tracks[track], sheet.style.track.colour, px_per_mm);
   const std::string stem = (folder / fmt::format("profile_{}", track + 1)).string();
   write_text_file(stem + ".svg", drawing_svg(drawing, drawing.size_px.x / px_per_mm));
-  Grid<glm::vec3> pixels(static_cast<int>(std::lround(drawing.size_px.x)), static_cast<int>(std::lround(drawing.size_px.y)),
-                         glm::vec3(1.F));
+  Grid<glm::vec3> pixels(static_cast<int>(std::lround(drawing.size_px.x)),
+                         static_cast<int>(std::lround(drawing.size_px.y)), glm::vec3(1.F));
   SheetPainter(drawing).paint(pixels, {0, 0});
   write_png8(stem + ".png", pixels, {});
 }
@@ -143,7 +162,7 @@ LabelJob label_job(const LoadedScene& scene, Progress& progress) {
           .shapes = paths_of(scene, labels.shapes, progress),
           .tracks = paths_of(scene, labels.tracks, progress),
           .summits = labels.summits,
-          .least_prominence_m = labels.least_prominence_m,
+          .min_prominence_m = labels.min_prominence_m,
           .style = find_named_file(scene, "labels", labels.style)};
 }
 
@@ -153,33 +172,39 @@ void check_names(const LoadedScene& scene, const Dem& dem) {
   if (!job.empty() || scene.scene.margin) const TextMeasure fonts;  // throws where there are none
 }
 
-LabelSheet make_label_sheet(const LoadedScene& scene, const LabelJob& job, const BareView& bare, Progress& progress) {
+LabelSheet make_label_sheet(const LoadedScene& scene, const LabelJob& job, const BareView& bare,
+                            Progress& progress) {
   const LabelStyle style = load_label_style(job.style);
   auto [points, shapes, lines] = read_names(job, style, bare.dem, progress);
   const std::size_t named = points.size();
   if (job.summits > 0) {
     progress.begin("looking for summits", 0.0);
-    const std::vector<Summit> summits = find_summits(known_altitude(bare.dem), {.least_prominence_m = job.least_prominence_m});
-    const std::vector<LabelPoint> unnamed = unnamed_summits(summits, bare.dem.transform, bare.dem.cell_m(), points, style);
+    const std::vector<Summit> summits =
+        find_summits(known_altitude(bare.dem), {.min_prominence_m = job.min_prominence_m});
+    const std::vector<LabelPoint> unnamed =
+        unnamed_summits(summits, bare.dem.transform, bare.dem.cell_m(), points, style);
     points.insert(points.end(), unnamed.begin(), unnamed.end());
   }
   if (points.empty() && lines.empty() && shapes.empty())
-    throw Error(ErrorKind::usage, "labels", "nothing to name", "--points FILE with points, --shapes FILE, --summits N or --tracks FILE");
+    throw Error(ErrorKind::usage, "labels", "nothing to name",
+                "--points FILE with points, --shapes FILE, --summits N or --tracks FILE");
 
-  progress.begin("finding places", 0.0);
+  progress.begin("finding positions", 0.0);
   const GeoMap map = bare.geo_map();
-  const DrawnGround ground{bare.dem.altitude_m, bare.generalized_m, bare.dem.transform, bare.dem.cell_m(), map};
+  const DrawnGround ground{bare.dem.altitude_m, bare.generalized_m, bare.dem.transform,
+                           bare.dem.cell_m(), map};
   std::vector<LabelMark> marks = find_marks(ground, points, style);
-  // Of the DEM's own summits the most prominent that are seen; named ones are all listed.
+  // The most prominent visible summits of the DEM; named ones are all listed.
   std::size_t kept = named;
-  for (std::size_t i = named; i < points.size() && kept < named + static_cast<std::size_t>(job.summits); ++i)
+  for (std::size_t i = named;
+       i < points.size() && kept < named + static_cast<std::size_t>(job.summits); ++i)
     if (marks[i].state == MarkState::seen) {
       points[kept] = points[i];
       marks[kept++] = marks[i];
     }
   points.resize(kept);
   marks.resize(kept);
-  // Shapes follow the points, each with the line that its name may stand on.
+  // Shapes follow the points, each with the line that its name may follow.
   std::vector<std::vector<glm::dvec2>> along(points.size());
   std::vector<ShapeRun> runs = find_shape_runs(ground, shapes);
   for (std::size_t i = 0; i < shapes.size(); ++i) {
@@ -190,21 +215,26 @@ LabelSheet make_label_sheet(const LoadedScene& scene, const LabelJob& job, const
 
   progress.begin("placing names", 0.0);
   const glm::ivec2 size = bare.camera->size();
-  LabelSheet sheet = make_labels(points, marks, find_skyline(map, size), style, size, scene.scene.output.sheet_width_mm, along);
+  LabelSheet sheet = make_labels(points, marks, find_skyline(map, size), style, size,
+                                 scene.scene.output.sheet_width_mm, along);
   sheet.tracks = find_tracks(ground, lines);
   return sheet;
 }
 
-LabelSheet locate_points(const std::vector<std::string>& files, const BareView& bare, Progress& progress) {
+LabelSheet locate_points(const std::vector<std::string>& files, const BareView& bare,
+                         Progress& progress) {
   LabelSheet sheet;
   sheet.size_px = bare.camera->size();
   sheet.style = load_label_style("classic");
   for (LabelKindStyle& kind : sheet.style.kinds) kind.climb_m = 0.0;
   std::vector<LabelPoint> points;
-  for (const std::string& file : files) append(points, read_label_points(file, bare.dem.crs, sheet.style, progress, NamesAre::optional));
+  for (const std::string& file : files)
+    append(points,
+           read_label_points(file, bare.dem.crs, sheet.style, progress, NamesAre::optional));
   require_points_on_terrain(points, bare.dem);
   const GeoMap map = bare.geo_map();
-  const DrawnGround ground{bare.dem.altitude_m, bare.generalized_m, bare.dem.transform, bare.dem.cell_m(), map};
+  const DrawnGround ground{bare.dem.altitude_m, bare.generalized_m, bare.dem.transform,
+                           bare.dem.cell_m(), map};
   const std::vector<LabelMark> marks = find_marks(ground, points, sheet.style);
   for (std::size_t i = 0; i < points.size(); ++i) {
     Label& label = sheet.labels.emplace_back();
@@ -215,16 +245,18 @@ LabelSheet locate_points(const std::vector<std::string>& files, const BareView& 
   return sheet;
 }
 
-void write_label_files(const LabelSheet& sheet, const std::string& crs, const std::string& folder, const std::string& under,
-                       Progress& progress) {
-  const std::filesystem::path place = folder;
-  write_text_file((place / "labels.svg").string(), labels_svg(sheet, under));
-  write_text_file((place / "labels.csv").string(), labels_csv(sheet));
+void write_label_files(const LabelSheet& sheet, const std::string& crs, const std::string& folder,
+                       const std::string& under, Progress& progress) {
+  const std::filesystem::path position = folder;
+  write_text_file((position / "labels.svg").string(), labels_svg(sheet, under));
+  write_text_file((position / "labels.csv").string(), labels_csv(sheet));
   if (crs.empty())
-    progress.note("labels.geojson is left out: the terrain has no coordinate system, and GeoJSON speaks longitude and latitude");
+    progress.note(
+        "labels.geojson is left out: GeoJSON needs longitude and latitude, but the terrain has no "
+        "CRS");
   else
-    write_text_file((place / "labels.geojson").string(), labels_geojson(sheet, crs));
-  for (std::size_t i = 0; i < sheet.tracks.size(); ++i) write_profile(sheet, i, place);
+    write_text_file((position / "labels.geojson").string(), labels_geojson(sheet, crs));
+  for (std::size_t i = 0; i < sheet.tracks.size(); ++i) write_profile(sheet, i, position);
 }
 
 }  // namespace belvedere

@@ -9,26 +9,30 @@ namespace belvedere {
 
 std::vector<std::string> product_names(const Scene& scene) {
   std::vector<std::string> names;
-  for (const std::string& ending : scene.output.formats) names.push_back("panorama." + ending);
+  for (const std::string& extension : scene.output.formats)
+    names.push_back("panorama." + extension);
   names.emplace_back("guidance.exr");
   return names;
 }
 
 LoadedScene at_width(const LoadedScene& scene, int width_px) {
-  constexpr int least_px = 16;  // that a scene may have
+  constexpr int min_px = 16;  // limit of a scene
   LoadedScene out = scene;
   const double scale = static_cast<double>(width_px) / scene.scene.output.width;
   out.scene.output.width = width_px;
-  out.scene.output.height = std::max(least_px, static_cast<int>(std::lround(scene.scene.output.height * scale)));
+  out.scene.output.height =
+      std::max(min_px, static_cast<int>(std::lround(scene.scene.output.height * scale)));
   return out;
 }
 
-std::vector<LockedProduct> render_and_hash(const LoadedScene& scene, const std::string& out_folder, const Run& run) {
+std::vector<LockedProduct> render_and_hash(const LoadedScene& scene, const std::string& out_folder,
+                                           const Run& run) {
   render(scene, out_folder, run);
   std::vector<LockedProduct> products;
   for (const std::string& name : product_names(scene.scene))
     products.push_back({.file = name, .channels = hash_picture(out_folder + "/" + name).channels});
-  std::sort(products.begin(), products.end(), [](const LockedProduct& a, const LockedProduct& b) { return a.file < b.file; });
+  std::sort(products.begin(), products.end(),
+            [](const LockedProduct& a, const LockedProduct& b) { return a.file < b.file; });
   return products;
 }
 

@@ -8,14 +8,15 @@
 
 namespace belvedere {
 
-// Names of the files that rendering makes of a scene.
+// Names of the files that rendering a scene writes.
 std::vector<std::string> product_names(const Scene& scene);
 
 // The scene at another width, px, its height in proportion; strokes keep their size on the sheet.
 LoadedScene at_width(const LoadedScene& scene, int width_px);
 
-// Renders the scene as it stands into a folder and takes the hashes of what was made. Formats of pictures that are written keep values
-// exactly, so all are taken.
-std::vector<LockedProduct> render_and_hash(const LoadedScene& scene, const std::string& out_folder, const Run& run);
+// Renders the unchanged scene into a folder and hashes the products. The picture formats are
+// lossless, so all are hashed.
+std::vector<LockedProduct> render_and_hash(const LoadedScene& scene, const std::string& out_folder,
+                                           const Run& run);
 
 }  // namespace belvedere

@@ -4,10 +4,12 @@ namespace belvedere {
 namespace {
 
 bool takes_colours(const Scene& scene) { return scene.synthesis.colours == "painting"; }
-// Colours may be a painting's even where its strokes are not used.
+// Colours may be taken from a painting even if its strokes are not used.
 bool reads_paintings(const Scene& scene) { return scene.synthesis.enabled || takes_colours(scene); }
 
-Palette named_palette(const LoadedScene& loaded) { return read_palette(find_named_file(loaded, "palettes", loaded.scene.palette)); }
+Palette named_palette(const LoadedScene& loaded) {
+  return read_palette(find_named_file(loaded, "palettes", loaded.scene.palette));
+}
 
 }  // namespace
 
@@ -16,12 +18,14 @@ ScenePaint read_scene_paint(const LoadedScene& loaded, Progress& progress) {
   paint.palette = named_palette(loaded);
   if (reads_paintings(loaded.scene)) paint.paintings = read_scans(loaded, progress);
   if (takes_colours(loaded.scene))
-    paint.palette = take_colours(paint.palette, paint.paintings, with_stand_ins(loaded.scene.synthesis.fallback));
+    paint.palette = take_colours(paint.palette, paint.paintings,
+                                 with_stand_ins(loaded.scene.synthesis.fallback));
   return paint;
 }
 
 Palette read_scene_palette(const LoadedScene& loaded, Progress& progress) {
-  return takes_colours(loaded.scene) ? read_scene_paint(loaded, progress).palette : named_palette(loaded);
+  return takes_colours(loaded.scene) ? read_scene_paint(loaded, progress).palette
+                                     : named_palette(loaded);
 }
 
 void require_inputs(const LoadedScene& loaded) {

@@ -9,17 +9,20 @@
 
 namespace belvedere {
 
-// What a scene is painted with: read, and refused where it is wrong, before the terrain is.
+// Paint of a scene: read, and refused if invalid, before the terrain is.
 struct ScenePaint {
-  std::vector<ScannedPainting> paintings;  // one for each exemplar block; empty where the scene copies neither strokes nor colours
+  std::vector<ScannedPainting> paintings;  // one for each exemplar block; empty where the scene
+                                           // copies neither strokes nor colours
   Palette palette;                         // the scene's, or the paintings' colours in it
 };
 ScenePaint read_scene_paint(const LoadedScene& scene, Progress& progress);
-// The palette alone: for what is never copied. Reads paintings only where the colours are theirs.
+// The palette alone, for parts that are never copied. Reads paintings only if the colours are taken
+// from them.
 Palette read_scene_palette(const LoadedScene& scene, Progress& progress);
 
-// All that a scene's files may be refused for without reading its terrain, in one place, so that a check passes nothing that rendering
-// refuses: missing files, paintings that cannot be read whole, whose colours or strokes the picture would have. Cheap beside reading them.
+// All reasons to refuse a scene's files without reading its terrain, in one place, so that a check
+// passes nothing that rendering refuses: missing files, and paintings that cannot be read whole, if
+// their colours or strokes are used. Cheap compared with reading them.
 void require_inputs(const LoadedScene& scene);
 
 }  // namespace belvedere

@@ -30,16 +30,16 @@ namespace belvedere {
 namespace {
 
 constexpr const char* notes_bytes = "notes";
-constexpr const char* origin_note = "origin";  // what positions count from
+constexpr const char* origin_note = "origin";  // origin of positions
 
-// What the headers of all files say.
+// Headers of all files.
 void keep_notes(const LoadedScene& loaded, const World& world, const WorkFolder& work) {
   FileNotes notes = make_world_notes(loaded, world);
   if (work.has_bytes(notes_bytes)) {
     const JobIdentity known = job_from_text(work.read_bytes(notes_bytes));
     const auto inputs = known.find("belvedere:inputs");
     if ((inputs == known.end() ? std::string() : inputs->second) != notes["belvedere:inputs"])
-      throw Error(ErrorKind::input, work.folder(), "the pieces there were made from other data than lie there now",
+      throw Error(ErrorKind::input, work.folder(), "the existing pieces were made from other data",
                   "a run without --resume");
     return;
   }
@@ -48,8 +48,8 @@ void keep_notes(const LoadedScene& loaded, const World& world, const WorkFolder&
   work.keep_bytes(notes_bytes, to_text(notes));
 }
 
-// The rectangle that pieces from number `next` on lie in.
-PixelRect still_to_make(std::span<const PixelRect> pieces, std::size_t next) {
+// The rectangle of the pieces from number `next` on.
+PixelRect remaining_rect(std::span<const PixelRect> pieces, std::size_t next) {
   PixelRect all;
   for (const PixelRect& piece : pieces.subspan(next)) all = bounding_rect(all, piece);
   return all;
@@ -57,21 +57,25 @@ PixelRect still_to_make(std::span<const PixelRect> pieces, std::size_t next) {
 
 bool is_made(const WorkFolder& work, const SheetRequest& request, PixelRect piece) {
   const std::vector<std::string> products = products_of(request);
-  return std::all_of(products.begin(), products.end(), [&](const std::string& product) { return work.has(product, piece); });
+  return std::all_of(products.begin(), products.end(),
+                     [&](const std::string& product) { return work.has(product, piece); });
 }
 
-// Whether one of the grids that layers are made of is missing, or the picture that they were cut from.
+// Whether one of the grids that layers are made of is missing, or the picture that they were cut
+// from.
 bool lacks_layers(const WorkFolder& work, PixelRect piece) {
-  return !work.has("panorama", piece) || std::any_of(layer_plane_names().begin(), layer_plane_names().end(),
-                                                     [&](std::string_view name) { return !work.has(std::string(name), piece); });
+  return !work.has("panorama", piece) ||
+         std::any_of(layer_plane_names().begin(), layer_plane_names().end(),
+                     [&](std::string_view name) { return !work.has(std::string(name), piece); });
 }
 
-// What every piece is made from. Its members know each other by address.
+// Input of every piece. Its members refer to each other by address.
 struct SheetWork {
-  SheetWork(const LoadedScene& loaded, const SheetRequest& request, const WorkFolder& work, const Run& run, const Run& stage_run);
+  SheetWork(const LoadedScene& loaded, const SheetRequest& request, const WorkFolder& work,
+            const Run& run, const Run& stage_run);
   ScenePaint paint;
   World world;
-  TileStore::Place place;
+  TileStore::Place position;
   SheetView view;
   int block_px;  // what is painted at once
   StageGraph graph;
@@ -79,36 +83,46 @@ struct SheetWork {
 };
 
 ScenePaint paint_for(const LoadedScene& loaded, const SheetRequest& request, Progress& progress) {
-  return request.panorama ? read_scene_paint(loaded, progress) : ScenePaint{{}, read_scene_palette(loaded, progress)};
+  return request.panorama ? read_scene_paint(loaded, progress)
+                          : ScenePaint{{}, read_scene_palette(loaded, progress)};
 }
 
-// Paint is read before the world, so that wrong files are refused early; what its colours hang on is known after it.
-const Palette& bring_to_place(Palette& palette, const LoadedScene& loaded, const World& world) {
-  palette = palette_of_place(palette, loaded, *world.dem);
+// Paint is read before the world, so that wrong files are refused early; the dependencies of its
+// colours are known after it.
+const Palette& adapt_palette_to_location(Palette& palette, const LoadedScene& loaded,
+                                         const World& world) {
+  palette = palette_for_location(palette, loaded, *world.dem);
   return palette;
 }
 
-bool is_copied(const Scene& scene, const SheetRequest& request) { return request.panorama && scene.synthesis.enabled; }
+bool is_copied(const Scene& scene, const SheetRequest& request) {
+  return request.panorama && scene.synthesis.enabled;
+}
 
-int block_px_for(const World& world, const ScenePaint& paint, const SheetView& view, const SheetRequest& request) {
+int block_px_for(const World& world, const ScenePaint& paint, const SheetView& view,
+                 const SheetRequest& request) {
   if (request.block_px > 0) return request.block_px;
   const Scene& scene = world.scene;
   StandingBytes standing{.ground = ground_bytes(world), .besides = piece_bytes_of(scene, request)};
   if (is_copied(scene, request)) standing.besides += copying_bytes(scene, paint.paintings);
-  return choose_block_px(scene, view.pixels_per_unit, standing, least_block_px_of(request));
+  return choose_block_px(scene, view.pixels_per_unit, standing, min_block_px_of(request));
 }
 
 bool has_legend(const Scene& scene) { return scene.margin && scene.margin->legend; }
 
-SheetWork::SheetWork(const LoadedScene& loaded, const SheetRequest& request, const WorkFolder& work, const Run& run, const Run& stage_run)
+SheetWork::SheetWork(const LoadedScene& loaded, const SheetRequest& request, const WorkFolder& work,
+                     const Run& run, const Run& stage_run)
     : paint(paint_for(loaded, request, run.progress)),
       world(make_world(loaded, run.progress, run.cache)),
-      place{work.folder(), kept_tile_bytes()},
+      position{work.folder(), kept_tile_bytes()},
       view(view_of(world)),
       block_px(block_px_for(world, paint, view, request)),
-      graph(place, stage_run.progress),
-      ground(add_ground_stages(graph, make_ground_inputs(world, view, bring_to_place(paint.palette, loaded, world), stage_run),
-                               choose_tile_px(block_px, region_of(world.scene, request)))) {
+      graph(position, stage_run.progress),
+      ground(add_ground_stages(
+          graph,
+          make_ground_inputs(world, view, adapt_palette_to_location(paint.palette, loaded, world),
+                             stage_run),
+          choose_tile_px(block_px, region_of(world.scene, request)))) {
   if (request.panorama) check_names(loaded, *world.dem);
   keep_notes(loaded, world, work);
   if (has_legend(world.scene) && !work.has_bytes(legend_bytes))
@@ -122,25 +136,30 @@ std::vector<MatchedPicture> pictures_of(const CopyPlan& plan) {
   return pictures;
 }
 
-CopyPlan plan_copies(const LoadedScene& loaded, SheetWork& sheet, const WorkFolder& work, const Run& run, bool ground_tells) {
-  return make_copy_plan(loaded, sheet.world, sheet.paint, sheet.ground, sheet.place, work, run, ground_tells);
+CopyPlan plan_copies(const LoadedScene& loaded, SheetWork& sheet, const WorkFolder& work,
+                     const Run& run, bool ground_tells) {
+  return make_copy_plan(loaded, sheet.world, sheet.paint, sheet.ground, sheet.position, work, run,
+                        ground_tells);
 }
 
-// A piece as memory allows it to be painted.
+// Largest part of a piece that memory allows to paint at once.
 Grid<glm::vec3> paint_in_blocks(Stage<SheetPicture>& picture, PixelRect piece, int block_px) {
   if (piece.width() <= block_px && piece.height() <= block_px) return picture.read(piece).colour;
   Grid<glm::vec3> whole(piece.width(), piece.height());
   for (int y = piece.y0; y < piece.y1; y += block_px)
     for (int x = piece.x0; x < piece.x1; x += block_px)
-      copy_part(whole, picture.read({x, y, std::min(x + block_px, piece.x1), std::min(y + block_px, piece.y1)}).colour, x - piece.x0,
-                y - piece.y0);
+      copy_part(
+          whole,
+          picture.read({x, y, std::min(x + block_px, piece.x1), std::min(y + block_px, piece.y1)})
+              .colour,
+          x - piece.x0, y - piece.y0);
   return whole;
 }
 
 }  // namespace
 
-void make_pieces(const LoadedScene& loaded, const SheetRequest& request, std::span<const PixelRect> pieces, const WorkFolder& work,
-                 const Run& run) {
+void make_pieces(const LoadedScene& loaded, const SheetRequest& request,
+                 std::span<const PixelRect> pieces, const WorkFolder& work, const Run& run) {
   std::vector<PixelRect> missing;
   std::copy_if(pieces.begin(), pieces.end(), std::back_inserter(missing),
                [&](const PixelRect& piece) { return !is_made(work, request, piece); });
@@ -153,22 +172,28 @@ void make_pieces(const LoadedScene& loaded, const SheetRequest& request, std::sp
   const bool copied = is_copied(sheet.world.scene, request);
   CopyPlan plan = copied ? plan_copies(loaded, sheet, work, run, few) : CopyPlan{};
   const DrawnFeatures features =
-      request.panorama ? draw_scene_features(loaded, sheet.world, sheet.ground.inputs->strokes.winter, run.progress) : DrawnFeatures{};
+      request.panorama ? draw_scene_features(loaded, sheet.world,
+                                             sheet.ground.inputs->strokes.winter, run.progress)
+                       : DrawnFeatures{};
   if (has_legend(sheet.world.scene) && !features.empty() && !work.has_bytes(feature_legend_bytes))
-    work.keep_bytes(feature_legend_bytes, swatches_to_text(find_feature_legend(features, sheet.paint.palette)));
-  const PictureStages picture = add_picture_stages(sheet.graph, sheet.ground, copied ? &plan : nullptr, features);
+    work.keep_bytes(feature_legend_bytes,
+                    swatches_to_text(find_feature_legend(features, sheet.paint.palette)));
+  const PictureStages picture =
+      add_picture_stages(sheet.graph, sheet.ground, copied ? &plan : nullptr, features);
 
   if (request.matches) work.keep_bytes(matched_bytes, to_note(pictures_of(plan)));
   const std::vector<std::string> products = products_of(request);
-  const auto makes = [&](const char* product) { return std::find(products.begin(), products.end(), product) != products.end(); };
+  const auto makes = [&](const char* product) {
+    return std::find(products.begin(), products.end(), product) != products.end();
+  };
 
   PieceWriter writer(work);
   const double all = static_cast<double>(missing.size());
   if (!few) run.progress.begin(request.panorama ? "painting the sheet" : "tracing the sheet", all);
   for (std::size_t i = 0; i < missing.size(); ++i) {
     const PixelRect piece = missing[i];
-    // Nobody asks again for what only earlier pieces looked at, or ever for what none of these does.
-    const PixelRect still = still_to_make(missing, i);
+    // Tiles that no later piece needs are released.
+    const PixelRect still = remaining_rect(missing, i);
     std::vector<StageGraph::Request> requests;
     if (makes("guidance")) requests.push_back({sheet.ground.guidance, still});
     if (request.panorama) requests.push_back({picture.picture, still});
@@ -181,12 +206,15 @@ void make_pieces(const LoadedScene& loaded, const SheetRequest& request, std::sp
       writer.keep("guidance", piece, packed->planes, packed);
     }
     if (makes("layer_ground") && lacks_layers(work, piece)) {
-      const auto painted = std::make_shared<SheetPicture>(picture.picture->read(piece, with_layers));
+      const auto painted =
+          std::make_shared<SheetPicture>(picture.picture->read(piece, with_layers));
       for (std::size_t k = 0; k < layer_plane_count; ++k)
-        writer.keep(std::string(layer_plane_names()[k]), piece, {plane_of(painted->layers->planes[k])}, painted);
+        writer.keep(std::string(layer_plane_names()[k]), piece,
+                    {plane_of(painted->layers->planes[k])}, painted);
       writer.keep("panorama", piece, {plane_of(painted->colour)}, painted);
     } else if (request.panorama && !work.has("panorama", piece)) {
-      const auto painted = std::make_shared<Grid<glm::vec3>>(paint_in_blocks(*picture.picture, piece, sheet.block_px));
+      const auto painted = std::make_shared<Grid<glm::vec3>>(
+          paint_in_blocks(*picture.picture, piece, sheet.block_px));
       writer.keep("panorama", piece, {plane_of(*painted)}, painted);
     }
     if (request.matches && !work.has("matches", piece)) {
@@ -198,7 +226,8 @@ void make_pieces(const LoadedScene& loaded, const SheetRequest& request, std::sp
   writer.finish();
 }
 
-void make_plan(const LoadedScene& loaded, const SheetRequest& request, const WorkFolder& work, const Run& run) {
+void make_plan(const LoadedScene& loaded, const SheetRequest& request, const WorkFolder& work,
+               const Run& run) {
   SheetWork sheet(loaded, request, work, run, run);
   if (is_copied(sheet.world.scene, request)) plan_copies(loaded, sheet, work, run, true);
 }

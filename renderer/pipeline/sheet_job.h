@@ -10,27 +10,30 @@
 
 namespace belvedere {
 
-// Makes those of the pieces that are not in the work folder yet, and what the files of the whole need besides them (the notes of their
-// headers). Makes the world only where a piece is missing.
-void make_pieces(const LoadedScene& loaded, const SheetRequest& request, std::span<const PixelRect> pieces, const WorkFolder& work,
-                 const Run& run);
-// What all pieces share, for others to make them: notes, and how the ground is copied.
-void make_plan(const LoadedScene& loaded, const SheetRequest& request, const WorkFolder& work, const Run& run);
+// Makes those pieces that are not in the work folder yet, and the notes of the headers. Makes the
+// world only if a piece is missing.
+void make_pieces(const LoadedScene& loaded, const SheetRequest& request,
+                 std::span<const PixelRect> pieces, const WorkFolder& work, const Run& run);
+// Shared values of all pieces, so that others can make them: notes, and how the ground is copied.
+void make_plan(const LoadedScene& loaded, const SheetRequest& request, const WorkFolder& work,
+               const Run& run);
 
-// What the work folder keeps the pictures under that matches copy from.
+// Names in the work folder: the pictures that matches copy from.
 constexpr const char* matched_bytes = "matched";
-// … and the classes that the whole picture shows, for a margin's legend.
+// … and the classes of the whole picture, for a margin's legend.
 constexpr const char* legend_bytes = "legend";
 // … and the kinds of features.
 constexpr const char* feature_legend_bytes = "legend_features";
 
-// Whose parts the pieces are, so that missing ones are told by the parts to run again.
+// The plan's parts, so that missing pieces are reported as the parts to run again.
 struct PlanOfParts {
   std::string folder;
   int parts = 0;  // 0: no plan
 };
-// Joins the pieces of a request to its files in `out_folder`, row by row. Error(input) naming the pieces that are missing.
-void write_sheet_files(const LoadedScene& loaded, const SheetRequest& request, const WorkFolder& work, const std::string& out_folder,
-                       const Run& run, const PlanOfParts& plan = {});
+// Joins the pieces of a request to its files in `out_folder`, row by row. Error(input) naming the
+// pieces that are missing.
+void write_sheet_files(const LoadedScene& loaded, const SheetRequest& request,
+                       const WorkFolder& work, const std::string& out_folder, const Run& run,
+                       const PlanOfParts& plan = {});
 
 }  // namespace belvedere

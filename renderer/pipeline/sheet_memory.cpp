@@ -16,11 +16,11 @@ namespace {
 // Measured: a world of 9 million cells has 1.0 GB, 24 million texels with their plan 2.0 GB.
 constexpr double standing_bytes_per_cell = 115.0;
 constexpr double standing_bytes_per_texel = 85.0;
-constexpr int part_tile_px = 256;  // of small parts of a sheet
-// Of the memory that may be used.
+constexpr int part_tile_px = 256;  // for small parts of a sheet
+// Share of the memory limit.
 constexpr double share_of_tiles = 0.15;
-// Of what copying and tiles leave, where ground that was made to fit the memory leaves less.
-constexpr double least_share_of_windows = 0.2;
+// Share of what copying and tiles leave, if ground that was fitted to the memory leaves less.
+constexpr double min_share_of_windows = 0.2;
 
 double cells_of(const TerrainModel& terrain) {
   auto cells = static_cast<double>(terrain.generalized_m.size());
@@ -30,11 +30,14 @@ double cells_of(const TerrainModel& terrain) {
 
 }  // namespace
 
-double ground_bytes(const World& world) { return standing_bytes_per_cell * cells_of(world.terrain); }
+double ground_bytes(const World& world) {
+  return standing_bytes_per_cell * cells_of(world.terrain);
+}
 
 double copying_bytes(const std::vector<PaintedExemplar>& exemplars) {
   double texels = 0.0;
-  for (const PaintedExemplar& exemplar : exemplars) texels += static_cast<double>(exemplar.picture.size());
+  for (const PaintedExemplar& exemplar : exemplars)
+    texels += static_cast<double>(exemplar.picture.size());
   return standing_bytes_per_texel * texels;
 }
 
@@ -46,36 +49,48 @@ double copying_bytes(const Scene& scene, const std::vector<ScannedPainting>& pai
   };
   for (const SceneExemplar& exemplar : scene.exemplars)
     if (exemplar.model.empty() && exemplar.picture.empty()) add_sheet(exemplar);
-  for (const ScannedPainting& painting : paintings) texels += static_cast<double>(painting.painted.picture.size());
-  // A scene without anything to copy from copies from a sheet that the program paints.
-  const bool may_have_paintings = paintings.empty() && std::any_of(scene.exemplars.begin(), scene.exemplars.end(),
-                                                                   [](const SceneExemplar& exemplar) { return !exemplar.picture.empty(); });
+  for (const ScannedPainting& painting : paintings)
+    texels += static_cast<double>(painting.painted.picture.size());
+  // A scene without exemplars copies from a sheet that the program paints.
+  const bool may_have_paintings =
+      paintings.empty() &&
+      std::any_of(scene.exemplars.begin(), scene.exemplars.end(),
+                  [](const SceneExemplar& exemplar) { return !exemplar.picture.empty(); });
   if (texels == 0.0 && !may_have_paintings) add_sheet({});
   return standing_bytes_per_texel * texels;
 }
 
-std::uint64_t kept_tile_bytes() { return static_cast<std::uint64_t>(share_of_tiles * static_cast<double>(memory_budget_bytes())); }
+std::uint64_t kept_tile_bytes() {
+  return static_cast<std::uint64_t>(share_of_tiles * static_cast<double>(memory_budget_bytes()));
+}
 
-int choose_block_px(const Scene& scene, double pixels_per_unit, const StandingBytes& standing, int least_px) {
-  const double without_ground = (1.0 - share_of_tiles) * static_cast<double>(memory_budget_bytes()) - standing.besides;
-  const double available = std::max(without_ground - standing.ground, least_share_of_windows * without_ground);
+int choose_block_px(const Scene& scene, double pixels_per_unit, const StandingBytes& standing,
+                    int min_px) {
+  const double without_ground =
+      (1.0 - share_of_tiles) * static_cast<double>(memory_budget_bytes()) - standing.besides;
+  const double available =
+      std::max(without_ground - standing.ground, min_share_of_windows * without_ground);
   TileStore::Place nowhere;
   StageGraph graph(nowhere, silent_progress());
-  const GroundStages ground = add_ground_stages(graph, estimate_ground_inputs(scene, pixels_per_unit), largest_block_px);
+  const GroundStages ground =
+      add_ground_stages(graph, estimate_ground_inputs(scene, pixels_per_unit), largest_block_px);
   const PictureStages picture = add_picture_stages(graph, ground, nullptr);
   const auto bytes = [&](int side) { return graph.bytes_to_make(*picture.picture, side); };
   int block = largest_block_px;
-  while (block > least_px && bytes(block) > available) block /= 2;
+  while (block > min_px && bytes(block) > available) block /= 2;
   if (bytes(block) > available)
     throw Error(ErrorKind::limit, "output",
-                fmt::format("a picture of {}×{} pixels needs about {:.0f} MiB", scene.output.width, scene.output.height,
-                            (bytes(block) + standing.ground + standing.besides) / (1.0 - share_of_tiles) / 1048576.0),
-                fmt::format("at most {} MiB: a smaller output.width, or --memory", memory_budget_bytes() >> 20));
+                fmt::format("a picture of {}×{} pixels needs about {:.0f} MiB", scene.output.width,
+                            scene.output.height,
+                            (bytes(block) + standing.ground + standing.besides) /
+                                (1.0 - share_of_tiles) / 1048576.0),
+                fmt::format("at most {} MiB: a smaller output.width, or --memory",
+                            memory_budget_bytes() >> 20));
   return block;
 }
 
 int choose_tile_px(int block_px, PixelRect region) {
-  // Small parts ask for little beyond their margins: coarse tiles would make much that nobody sees.
+  // Small parts need little beyond their margins: coarse tiles would make much that is not visible.
   int tile = block_px;
   while (tile > part_tile_px && tile > std::max(region.width(), region.height()) / 4) tile /= 2;
   return tile;

@@ -10,16 +10,19 @@
 namespace belvedere {
 namespace {
 
-constexpr double most_mm = 5080.0;  // 14400 units of 1/72 inch (ISO 32000-1, annex C)
+constexpr double max_mm = 5080.0;  // 14400 units of 1/72 inch (ISO 32000-1, annex C)
 constexpr double mark_gap_mm = 2.0;
 constexpr double mark_mm = 5.0;
 
-MmBox shrunk(MmBox box, double by) { return {box.left + by, box.bottom + by, box.width - 2.0 * by, box.height - 2.0 * by}; }
+MmBox shrunk(MmBox box, double by) {
+  return {box.left + by, box.bottom + by, box.width - 2.0 * by, box.height - 2.0 * by};
+}
 
 void require_size(glm::dvec2 page_mm) {
-  if (std::max(page_mm.x, page_mm.y) > most_mm)
-    throw Error(ErrorKind::usage, "page", fmt::format("{:.0f} × {:.0f} mm", page_mm.x, page_mm.y),
-                fmt::format("sides of up to {:.0f} mm; --paper tiles larger sheets", most_mm));
+  if (std::max(page_mm.x, page_mm.y) > max_mm)
+    throw Error(
+        ErrorKind::usage, "page", fmt::format("{:.0f} × {:.0f} mm", page_mm.x, page_mm.y),
+        fmt::format("sides of up to {:.0f} mm; --paper splits larger sheets into pages", max_mm));
 }
 
 PrintPage single_page(glm::dvec2 picture_mm, const PageParameters& parameters) {
@@ -31,34 +34,44 @@ PrintPage single_page(glm::dvec2 picture_mm, const PageParameters& parameters) {
   page.shown = page.picture;
   page.trim = shrunk(page.picture, parameters.bleed_mm);
   if (page.trim.width <= 0.0 || page.trim.height <= 0.0)
-    throw Error(ErrorKind::usage, "bleed", fmt::format("{:g} mm", parameters.bleed_mm), "less than half of the sheet");
+    throw Error(ErrorKind::usage, "bleed", fmt::format("{:g} mm", parameters.bleed_mm),
+                "less than half of the sheet");
   return page;
 }
 
 // Tiles along one side.
 int tiles_along(double picture_mm, double area_mm, double overlap_mm) {
   constexpr double nothing_mm = 1e-6;
-  return picture_mm <= area_mm + nothing_mm ? 1
-                                            : static_cast<int>(std::ceil((picture_mm - overlap_mm - nothing_mm) / (area_mm - overlap_mm)));
+  return picture_mm <= area_mm + nothing_mm
+             ? 1
+             : static_cast<int>(
+                   std::ceil((picture_mm - overlap_mm - nothing_mm) / (area_mm - overlap_mm)));
 }
 
 }  // namespace
 
 std::vector<PrintPage> plan_pages(glm::dvec2 picture_mm, const PageParameters& parameters) {
   if (!parameters.paper_mm) return {single_page(picture_mm, parameters)};
-  if (parameters.bleed_mm > 0.0) throw Error(ErrorKind::usage, "bleed", "together with tiles", "one of the two: tiles are glued, not cut");
+  if (parameters.bleed_mm > 0.0)
+    throw Error(ErrorKind::usage, "bleed", "together with tiles",
+                "one of the two: tiles are glued, not cut");
   const glm::dvec2 paper = *parameters.paper_mm;
   require_size(paper);
   const glm::dvec2 area = paper - 2.0 * parameters.margin_mm;
   if (std::min(area.x, area.y) <= parameters.overlap_mm + 1.0)
-    throw Error(ErrorKind::usage, "paper", fmt::format("{:g} × {:g} mm leaves no room", paper.x, paper.y),
-                fmt::format("more than margins of {:g} mm and {:g} mm of overlap", parameters.margin_mm, parameters.overlap_mm));
+    throw Error(ErrorKind::usage, "paper",
+                fmt::format("{:g} × {:g} mm leaves no room", paper.x, paper.y),
+                fmt::format("more than margins of {:g} mm and {:g} mm of overlap",
+                            parameters.margin_mm, parameters.overlap_mm));
   const int across = tiles_along(picture_mm.x, area.x, parameters.overlap_mm);
   const int down = tiles_along(picture_mm.y, area.y, parameters.overlap_mm);
   std::vector<PrintPage> pages;
   for (int row = 0; row < down; ++row)
     for (int column = 0; column < across; ++column) {
-      const double left = column * (area.x - parameters.overlap_mm);  // of the tile in the picture, from its upper left corner
+      const double left =
+          column *
+          (area.x -
+           parameters.overlap_mm);  // of the tile in the picture, from its upper left corner
       const double top = row * (area.y - parameters.overlap_mm);
       const double width = std::min(area.x, picture_mm.x - left);
       const double height = std::min(area.y, picture_mm.y - top);
@@ -66,7 +79,8 @@ std::vector<PrintPage> plan_pages(glm::dvec2 picture_mm, const PageParameters& p
       page.size_mm = paper;
       page.shown = {parameters.margin_mm, paper.y - parameters.margin_mm - height, width, height};
       page.trim = page.shown;
-      page.picture = {page.shown.left - left, page.shown.bottom + height + top - picture_mm.y, picture_mm.x, picture_mm.y};
+      page.picture = {page.shown.left - left, page.shown.bottom + height + top - picture_mm.y,
+                      picture_mm.x, picture_mm.y};
       pages.push_back(page);
     }
   return pages;
@@ -86,7 +100,9 @@ std::vector<MarkLine> crop_marks(const PrintPage& page) {
     lines.push_back({{x, std::max(0.0, bottom - mark_mm)}, {x, bottom}});
     lines.push_back({{x, top}, {x, std::min(page.size_mm.y, top + mark_mm)}});
   }
-  std::erase_if(lines, [](const MarkLine& line) { return line.to_mm.x <= line.from_mm.x && line.to_mm.y <= line.from_mm.y; });
+  std::erase_if(lines, [](const MarkLine& line) {
+    return line.to_mm.x <= line.from_mm.x && line.to_mm.y <= line.from_mm.y;
+  });
   return lines;
 }
 

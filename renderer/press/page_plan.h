@@ -6,7 +6,7 @@
 
 namespace belvedere {
 
-// A rectangle in millimetres from the lower left corner of a page, as PDF counts.
+// A rectangle in millimetres from the lower left corner of a page, as in PDF.
 struct MmBox {
   double left = 0.0;
   double bottom = 0.0;
@@ -15,25 +15,30 @@ struct MmBox {
 };
 
 struct PageParameters {
-  double bleed_mm = 0.0;                    // 0…50, the picture's own edge that is cut away: the trimmed sheet is smaller by twice this
-  bool marks = false;                       // crop marks at the corners of what is cut
-  std::optional<glm::dvec2> paper_mm = {};  // tiles over pages of this size; absent: one page for all
-  double margin_mm = 10.0;                  // around each tile, 0…100: what a printer leaves white, and room for marks
-  double overlap_mm = 10.0;                 // of tiles that are glued, 0…100
+  double bleed_mm = 0.0;  // 0…50, the edge of the picture that is cut away: the trimmed sheet is
+                          // smaller by twice this
+  bool marks = false;     // crop marks at the corners of the trimmed sheet
+  std::optional<glm::dvec2> paper_mm =
+      {};  // tiles over pages of this size; absent: one page for all
+  double margin_mm =
+      10.0;  // around each tile, 0…100: the printer's unprintable border, and room for marks
+  double overlap_mm = 10.0;  // of tiles that are glued, 0…100
 };
 
 struct PrintPage {
   glm::dvec2 size_mm{0.0};  // of the page
-  MmBox picture;            // where the whole picture lies, parts of it beyond the page
-  MmBox shown;              // what of it is printed, with bleed
-  MmBox trim;               // what remains of it when it is cut
+  MmBox picture;            // position of the whole picture, parts of it beyond the page
+  MmBox shown;              // printed part of it, with bleed
+  MmBox trim;               // the part that remains after trimming
 };
 
-// Pages that the picture is printed on: one, or tiles row by row from the upper left, all of the same size. Error(usage) for bleed
-// together with tiles, for tiles without room, and for pages over 5080 mm, the most that PDF has.
+// Pages that the picture is printed on: one, or tiles row by row from the upper left, all of the
+// same size. Error(usage) for bleed together with tiles, for tiles without room, and for pages over
+// 5080 mm, the limit of PDF.
 std::vector<PrintPage> plan_pages(glm::dvec2 picture_mm, const PageParameters& parameters);
 
-// Lines of crop marks: from and to. They begin 2 mm outside of bleed and are 5 mm long, where the page has room.
+// Lines of crop marks: from and to. They begin 2 mm outside the bleed and are 5 mm long, where the
+// page has room.
 struct MarkLine {
   glm::dvec2 from_mm;
   glm::dvec2 to_mm;

@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "base/error.h"
-#include "renderer/image/icc/press_color.h"
+#include "renderer/image/icc/press_colour.h"
 #include "renderer/image/image_io.h"
 
 namespace belvedere {
@@ -11,24 +11,29 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* allowed = "an RGB picture (TIFF, PNG, JPEG XL, JPEG), or the folder of a rendered scene";
+constexpr const char* allowed =
+    "an RGB picture (TIFF, PNG, JPEG XL, JPEG), or the folder of a rendered scene";
 
 bool is_inks(const ImageInfo& info) {
-  return !info.parts.empty() && !info.parts.front().channels.empty() && info.parts.front().channels.front().name == "C";
+  return !info.parts.empty() && !info.parts.front().channels.empty() &&
+         info.parts.front().channels.front().name == "C";
 }
 
 PressPicture picture_of(const std::string& file, const ImageInfo& info) {
-  if (is_inks(info) || is_cmyk_profile(info.icc_profile)) throw Error(ErrorKind::input, file, "is a CMYK picture", allowed);
-  if (info.format == "openexr") throw Error(ErrorKind::input, file, "holds linear light and no colours of a device", allowed);
+  if (is_inks(info) || is_cmyk_profile(info.icc_profile))
+    throw Error(ErrorKind::input, file, "is a CMYK picture", allowed);
+  if (info.format == "openexr")
+    throw Error(ErrorKind::input, file, "contains linear light instead of device colours", allowed);
   PressPicture out{file, info.width, info.height, info.dots_per_inch, info.icc_profile};
-  if (!out.profile.empty() && !is_rgb_profile(out.profile)) out.profile.clear();  // a profile of grey: its numbers are taken as they are
+  if (!out.profile.empty() && !is_rgb_profile(out.profile))
+    out.profile.clear();  // a grey profile: its numbers are used unchanged
   return out;
 }
 
 }  // namespace
 
 PressPicture find_press_picture(const std::string& path) {
-  if (!fs::exists(path)) throw Error(ErrorKind::input, path, "is not there", allowed);
+  if (!fs::exists(path)) throw Error(ErrorKind::input, path, "does not exist", allowed);
   if (!fs::is_directory(path)) return picture_of(path, read_image_info(path));
   for (const char* name : {"panorama.tif", "panorama.jxl", "panorama.png"}) {
     const std::string file = (fs::path(path) / name).string();

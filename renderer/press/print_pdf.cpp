@@ -1,7 +1,8 @@
 #include "renderer/press/print_pdf.h"
 
-// The one file that knows qpdf; its older pointers are not used. Nor is its JSON, whose header clang refuses in C++20 (a vector of a class
-// in that class): its guard keeps it out, and a declaration is all that the other headers ask for.
+// The one file that uses qpdf, without its older pointers. Nor its JSON, whose header clang refuses
+// in C++20 (a vector of a class in that class): defining its guard excludes it, and the other
+// headers only need a declaration.
 #define POINTERHOLDER_TRANSITION 4
 #define JSON_HH
 class JSON;
@@ -26,7 +27,7 @@ class JSON;
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/text/markup.h"
-#include "renderer/image/color.h"
+#include "renderer/image/display_conversion.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/output_file.h"
 #include "renderer/image/provenance.h"
@@ -39,17 +40,19 @@ using Handle = QPDFObjectHandle;
 
 std::string points(double mm) { return fmt::format("{:.4f}", mm * points_per_mm); }
 Handle box_handle(MmBox box) {
-  return Handle::parse(
-      fmt::format("[{} {} {} {}]", points(box.left), points(box.bottom), points(box.left + box.width), points(box.bottom + box.height)));
+  return Handle::parse(fmt::format("[{} {} {} {}]", points(box.left), points(box.bottom),
+                                   points(box.left + box.width), points(box.bottom + box.height)));
 }
 
-// The picture's numbers as PDF takes them: rows of channels, most significant byte first, each the difference to its left neighbour
-// (predictor 2 of TIFF), deflated.
+// The picture's numbers in the form of PDF: rows of channels, most significant byte first, each the
+// difference to its left neighbour (predictor 2 of TIFF), deflated.
 class PictureData final : public Handle::StreamDataProvider {
  public:
-  PictureData(const PressPicture& picture, const PdfParameters& parameters, InkCount& ink, Progress& progress)
+  PictureData(const PressPicture& picture, const PdfParameters& parameters, InkCount& ink,
+              Progress& progress)
       : picture_(picture), bits_(parameters.bits), ink_(ink), progress_(progress) {
-    if (!parameters.press.empty()) conversion_.emplace(parameters.press, parameters.device, picture.profile);
+    if (!parameters.press.empty())
+      conversion_.emplace(parameters.press, parameters.device, picture.profile);
   }
 
   void provideStreamData(QPDFObjGen const&, Pipeline* to) override {
@@ -71,7 +74,8 @@ class PictureData final : public Handle::StreamDataProvider {
  private:
   template <class Pixel>
   void write(const Grid<Pixel>& rows, int channels, Pipeline& to) const {
-    const std::size_t row_bytes = static_cast<std::size_t>(rows.width()) * static_cast<std::size_t>(channels * bits_ / 8);
+    const std::size_t row_bytes =
+        static_cast<std::size_t>(rows.width()) * static_cast<std::size_t>(channels * bits_ / 8);
     std::vector<std::uint8_t> bytes(row_bytes * static_cast<std::size_t>(rows.height()));
     parallel_rows(rows.height(), [&](int y) {
       std::uint8_t* at = bytes.data() + row_bytes * static_cast<std::size_t>(y);
@@ -87,7 +91,8 @@ class PictureData final : public Handle::StreamDataProvider {
   }
   std::uint32_t whole(float value) const {
     const double highest = bits_ == 16 ? 65535.0 : 255.0;
-    return static_cast<std::uint32_t>(std::clamp(static_cast<double>(value), 0.0, 1.0) * highest + 0.5);
+    return static_cast<std::uint32_t>(std::clamp(static_cast<double>(value), 0.0, 1.0) * highest +
+                                      0.5);
   }
 
   const PressPicture& picture_;
@@ -97,15 +102,18 @@ class PictureData final : public Handle::StreamDataProvider {
   std::optional<PressConversion> conversion_;
 };
 
-// Neutral colours of drawings as grey, which a press prints in black ink alone: type of four inks is never quite sharp.
+// Neutral colours of drawings become grey, which a press prints in black ink alone: type in four
+// inks is never quite sharp.
 class NeutralToGrey final : public Handle::TokenFilter {
  public:
   void handleToken(QPDFTokenizer::Token const& token) override {
-    if (token.getType() == QPDFTokenizer::tt_space || token.getType() == QPDFTokenizer::tt_comment) {
+    if (token.getType() == QPDFTokenizer::tt_space ||
+        token.getType() == QPDFTokenizer::tt_comment) {
       held_.push_back(token);
       return;
     }
-    const bool number = token.getType() == QPDFTokenizer::tt_integer || token.getType() == QPDFTokenizer::tt_real;
+    const bool number =
+        token.getType() == QPDFTokenizer::tt_integer || token.getType() == QPDFTokenizer::tt_real;
     if (number) {
       held_.push_back(token);
       values_.push_back(token.getValue());
@@ -145,24 +153,29 @@ std::map<std::string, Handle> entries_of(Handle dictionary) {
   return dictionary.isDictionary() ? dictionary.getDictAsMap() : std::map<std::string, Handle>();
 }
 
-// Colours that drawings give by RGB are sRGB's, in them and all that they are made of; neutral ones become grey.
+// RGB colours in drawings, and in all their parts, are sRGB; neutral ones become grey.
 void settle_colours(Handle form, const Handle& srgb, std::set<QPDFObjGen>& done) {
   if (!form.isStream() || !done.insert(form.getObjGen()).second) return;
   form.addTokenFilter(std::make_shared<NeutralToGrey>());
-  if (Handle group = form.getDict().getKey("/Group"); group.isDictionary() && group.getKey("/CS").isNameAndEquals("/DeviceRGB"))
+  if (Handle group = form.getDict().getKey("/Group");
+      group.isDictionary() && group.getKey("/CS").isNameAndEquals("/DeviceRGB"))
     group.replaceKey("/CS", srgb);
   Handle resources = form.getDict().getKey("/Resources");
   if (!resources.isDictionary()) return;
-  if (!resources.getKey("/ColorSpace").isDictionary()) resources.replaceKey("/ColorSpace", Handle::newDictionary());
+  if (!resources.getKey("/ColorSpace").isDictionary())
+    resources.replaceKey("/ColorSpace", Handle::newDictionary());
   resources.getKey("/ColorSpace").replaceKey("/DefaultRGB", srgb);
-  const auto is_form = [](Handle& one) { return one.isStream() && one.getDict().getKey("/Subtype").isNameAndEquals("/Form"); };
+  const auto is_form = [](Handle& one) {
+    return one.isStream() && one.getDict().getKey("/Subtype").isNameAndEquals("/Form");
+  };
   for (auto& [name, one] : entries_of(resources.getKey("/XObject")))
     if (is_form(one)) settle_colours(one, srgb, done);
   for (auto& [name, state] : entries_of(resources.getKey("/ExtGState")))
-    if (Handle mask = state.getKey("/SMask"); mask.isDictionary()) settle_colours(mask.getKey("/G"), srgb, done);
+    if (Handle mask = state.getKey("/SMask"); mask.isDictionary())
+      settle_colours(mask.getKey("/G"), srgb, done);
 }
 
-// The picture's own time, or the one that builds are told to take.
+// The picture's own time, or SOURCE_DATE_EPOCH.
 std::time_t time_of(const std::string& file) {
   if (const char* epoch = std::getenv("SOURCE_DATE_EPOCH"); epoch != nullptr && *epoch != '\0')
     return static_cast<std::time_t>(std::atoll(epoch));
@@ -170,7 +183,7 @@ std::time_t time_of(const std::string& file) {
   return ::stat(file.c_str(), &found) == 0 ? found.st_mtime : 0;
 }
 
-// XMP as PDF/X-4 asks for it.
+// XMP as required by PDF/X-4.
 std::string metadata(const std::string& title, std::time_t when, bool press) {
   const std::string date = fmt::format("{:%Y-%m-%dT%H:%M:%S+00:00}", fmt::gmtime(when));
   const std::string id = hash_bytes(title + date);
@@ -187,7 +200,8 @@ std::string metadata(const std::string& title, std::time_t when, bool press) {
 </rdf:Description></rdf:RDF></x:xmpmeta>
 <?xpacket end="w"?>
 )",
-      "\xef\xbb\xbf", markup_text(title), date, date, date, id, program_version(), QPDF::QPDFVersion(),
+      "\xef\xbb\xbf", markup_text(title), date, date, date, id, program_version(),
+      QPDF::QPDFVersion(),
       press ? "\n<pdfxid:GTS_PDFXVersion>PDF/X-4</pdfxid:GTS_PDFXVersion>" : "");
 }
 
@@ -198,7 +212,9 @@ void describe(QPDF& pdf, const PdfParameters& parameters, const std::string& fil
   Handle info = Handle::newDictionary();
   info.replaceKey("/Title", Handle::newUnicodeString(title));
   info.replaceKey("/Creator", Handle::newString("Belvedere"));
-  info.replaceKey("/Producer", Handle::newString(fmt::format("Belvedere {}, qpdf {}", program_version(), QPDF::QPDFVersion())));
+  info.replaceKey("/Producer",
+                  Handle::newString(fmt::format("Belvedere {}, qpdf {}", program_version(),
+                                                QPDF::QPDFVersion())));
   info.replaceKey("/CreationDate", Handle::newString(date));
   info.replaceKey("/ModDate", Handle::newString(date));
   info.replaceKey("/Trapped", Handle::newName("/False"));
@@ -218,7 +234,8 @@ void add_output_intent(QPDF& pdf, const std::vector<std::uint8_t>& press) {
   intent.replaceKey("/S", Handle::newName("/GTS_PDFX"));
   intent.replaceKey("/OutputConditionIdentifier", Handle::newString("Custom"));
   intent.replaceKey("/OutputCondition", Handle::newUnicodeString(name));
-  intent.replaceKey("/Info", Handle::newUnicodeString(name.empty() ? "profile without a name" : name));
+  intent.replaceKey("/Info",
+                    Handle::newUnicodeString(name.empty() ? "profile without a name" : name));
   intent.replaceKey("/DestOutputProfile", pdf.makeIndirectObject(profile));
   Handle intents = Handle::newArray();
   intents.appendItem(pdf.makeIndirectObject(intent));
@@ -227,27 +244,35 @@ void add_output_intent(QPDF& pdf, const std::vector<std::uint8_t>& press) {
 
 // A page's drawing: picture, labels over it, marks in all inks.
 std::string page_content(const PrintPage& page, bool labels, bool marks) {
-  std::string out = fmt::format("q {} {} {} {} re W n\n", points(page.shown.left), points(page.shown.bottom), points(page.shown.width),
-                                points(page.shown.height));
-  out += fmt::format("q {} 0 0 {} {} {} cm /Picture Do Q\n", points(page.picture.width), points(page.picture.height),
-                     points(page.picture.left), points(page.picture.bottom));
-  if (labels) out += fmt::format("q 1 0 0 1 {} {} cm /Labels Do Q\n", points(page.picture.left), points(page.picture.bottom));
+  std::string out =
+      fmt::format("q {} {} {} {} re W n\n", points(page.shown.left), points(page.shown.bottom),
+                  points(page.shown.width), points(page.shown.height));
+  out += fmt::format("q {} 0 0 {} {} {} cm /Picture Do Q\n", points(page.picture.width),
+                     points(page.picture.height), points(page.picture.left),
+                     points(page.picture.bottom));
+  if (labels)
+    out += fmt::format("q 1 0 0 1 {} {} cm /Labels Do Q\n", points(page.picture.left),
+                       points(page.picture.bottom));
   out += "Q\n";
   if (!marks) return out;
   out += "q .25 w /All CS 1 SCN\n";
   for (const MarkLine& line : crop_marks(page))
-    out += fmt::format("{} {} m {} {} l S\n", points(line.from_mm.x), points(line.from_mm.y), points(line.to_mm.x), points(line.to_mm.y));
+    out += fmt::format("{} {} m {} {} l S\n", points(line.from_mm.x), points(line.from_mm.y),
+                       points(line.to_mm.x), points(line.to_mm.y));
   return out + "Q\n";
 }
 
 glm::dvec2 picture_size_mm(const PressPicture& picture, const PdfParameters& parameters) {
   if (parameters.width_mm <= 0.0 && picture.dots_per_inch <= 0.0)
-    throw Error(ErrorKind::usage, picture.file, "does not say its resolution", "--width-mm, how wide it is printed");
-  const double mm_a_pixel = parameters.width_mm > 0.0 ? parameters.width_mm / picture.width : 25.4 / picture.dots_per_inch;
+    throw Error(ErrorKind::usage, picture.file, "does not state its resolution",
+                "--width-mm, the width in print");
+  const double mm_a_pixel = parameters.width_mm > 0.0 ? parameters.width_mm / picture.width
+                                                      : 25.4 / picture.dots_per_inch;
   return {picture.width * mm_a_pixel, picture.height * mm_a_pixel};
 }
 
-Handle picture_object(QPDF& pdf, const PressPicture& picture, const PdfParameters& parameters, std::shared_ptr<PictureData> data) {
+Handle picture_object(QPDF& pdf, const PressPicture& picture, const PdfParameters& parameters,
+                      std::shared_ptr<PictureData> data) {
   const bool press = !parameters.press.empty();
   const int channels = press ? 4 : 3;
   Handle object = pdf.newStream();
@@ -257,17 +282,21 @@ Handle picture_object(QPDF& pdf, const PressPicture& picture, const PdfParameter
   about.replaceKey("/Width", Handle::newInteger(picture.width));
   about.replaceKey("/Height", Handle::newInteger(picture.height));
   about.replaceKey("/BitsPerComponent", Handle::newInteger(parameters.bits));
-  about.replaceKey("/ColorSpace",
-                   press ? Handle::newName("/DeviceCMYK") : icc_space(pdf, picture.profile.empty() ? srgb_profile() : picture.profile, 3));
-  const Handle decode = Handle::parse(
-      fmt::format("<< /Predictor 2 /Colors {} /BitsPerComponent {} /Columns {} >>", channels, parameters.bits, picture.width));
+  about.replaceKey(
+      "/ColorSpace",
+      press ? Handle::newName("/DeviceCMYK")
+            : icc_space(pdf, picture.profile.empty() ? srgb_profile() : picture.profile, 3));
+  const Handle decode =
+      Handle::parse(fmt::format("<< /Predictor 2 /Colors {} /BitsPerComponent {} /Columns {} >>",
+                                channels, parameters.bits, picture.width));
   object.replaceStreamData(std::move(data), Handle::newName("/FlateDecode"), decode);
   return object;
 }
 
 }  // namespace
 
-PdfReport write_print_pdf(const std::string& path, const PressPicture& picture, const PdfParameters& parameters, Progress& progress) {
+PdfReport write_print_pdf(const std::string& path, const PressPicture& picture,
+                          const PdfParameters& parameters, Progress& progress) {
   const bool press = !parameters.press.empty();
   PdfReport report;
   report.picture_mm = picture_size_mm(picture, parameters);
@@ -276,7 +305,8 @@ PdfReport write_print_pdf(const std::string& path, const PressPicture& picture, 
   InkCount ink(!press                               ? 400.0
                : parameters.ink_limit_percent > 0.0 ? parameters.ink_limit_percent
                                                     : press_ink_limit_percent(parameters.press));
-  const std::string drawing = parameters.labels.empty() ? std::string() : svg_as_pdf(parameters.labels, report.picture_mm);
+  const std::string drawing =
+      parameters.labels.empty() ? std::string() : svg_as_pdf(parameters.labels, report.picture_mm);
   OutputFile file(path);
   try {
     QPDF pdf;
@@ -284,19 +314,21 @@ PdfReport write_print_pdf(const std::string& path, const PressPicture& picture, 
     QPDF labels_pdf;  // outlives the writing: its streams are copied then
     Handle resources = Handle::parse("<< /XObject << >> >>");
     resources.getKey("/XObject")
-        .replaceKey("/Picture",
-                    picture_object(pdf, picture, parameters, std::make_shared<PictureData>(picture, parameters, ink, progress)));
+        .replaceKey("/Picture", picture_object(pdf, picture, parameters,
+                                               std::make_shared<PictureData>(picture, parameters,
+                                                                             ink, progress)));
     if (!drawing.empty()) {
       labels_pdf.processMemoryFile("labels", drawing.data(), drawing.size());
-      Handle form = pdf.copyForeignObject(QPDFPageDocumentHelper(labels_pdf).getAllPages().at(0).getFormXObjectForPage());
+      Handle form = pdf.copyForeignObject(
+          QPDFPageDocumentHelper(labels_pdf).getAllPages().at(0).getFormXObjectForPage());
       std::set<QPDFObjGen> done;
       settle_colours(form, pdf.makeIndirectObject(icc_space(pdf, srgb_profile(), 3)), done);
       resources.getKey("/XObject").replaceKey("/Labels", form);
     }
     // Registration colour: every plate has the marks.
-    resources.replaceKey(
-        "/ColorSpace",
-        Handle::parse("<< /All [/Separation /All /DeviceCMYK << /FunctionType 2 /Domain [0 1] /C0 [0 0 0 0] /C1 [1 1 1 1] /N 1 >>] >>"));
+    resources.replaceKey("/ColorSpace",
+                         Handle::parse("<< /All [/Separation /All /DeviceCMYK << /FunctionType 2 "
+                                       "/Domain [0 1] /C0 [0 0 0 0] /C1 [1 1 1 1] /N 1 >>] >>"));
     const Handle shared = pdf.makeIndirectObject(resources);
     for (const PrintPage& plan : pages) {
       Handle page = Handle::parse("<< /Type /Page >>");
@@ -304,7 +336,8 @@ PdfReport write_print_pdf(const std::string& path, const PressPicture& picture, 
       page.replaceKey("/BleedBox", box_handle(plan.shown));
       page.replaceKey("/TrimBox", box_handle(plan.trim));
       page.replaceKey("/Resources", shared);
-      page.replaceKey("/Contents", pdf.newStream(page_content(plan, !drawing.empty(), parameters.pages.marks)));
+      page.replaceKey("/Contents",
+                      pdf.newStream(page_content(plan, !drawing.empty(), parameters.pages.marks)));
       pdf.addPage(pdf.makeIndirectObject(page), false);
     }
     describe(pdf, parameters, picture.file);
@@ -316,7 +349,7 @@ PdfReport write_print_pdf(const std::string& path, const PressPicture& picture, 
     writer.write();
   } catch (const Error&) {
     throw;
-  } catch (const std::exception& e) {  // what qpdf throws
+  } catch (const std::exception& e) {  // exceptions of qpdf
     file.fail(e.what());
   }
   file.prepare();

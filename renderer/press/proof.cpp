@@ -52,7 +52,7 @@ class DeltaCount {
   double highest_ = 0.0;
 };
 
-// Encoded sRGB as the writer takes it.
+// Encoded sRGB in the writer's form.
 Image decoded(Grid<glm::vec3> rows) {
   parallel_rows(rows.height(), [&](int y) {
     for (int x = 0; x < rows.width(); ++x)
@@ -73,16 +73,19 @@ Grid<glm::vec3> warned(const Grid<glm::vec3>& shown, const Grid<std::uint8_t>& o
 
 }  // namespace
 
-ProofReport write_proof(const PressPicture& picture, const std::vector<std::uint8_t>& press, const ProofParameters& parameters,
-                        double ink_limit_percent, const std::string& stem, Progress& progress) {
+ProofReport write_proof(const PressPicture& picture, const std::vector<std::uint8_t>& press,
+                        const ProofParameters& parameters, double ink_limit_percent,
+                        const std::string& stem, Progress& progress) {
   const SoftProof proof(press, parameters, picture.profile);
   InkCount ink(ink_limit_percent > 0.0 ? ink_limit_percent : press_ink_limit_percent(press));
   DeltaCount deltas;
   ProofReport report;
   report.press = profile_name(press);
   const FileNotes notes = {{"belvedere:press", report.press}};
-  PictureFiles shown(stem + "_proof", {"png"}, picture.width, picture.height, {}, picture.dots_per_inch, notes);
-  PictureFiles outside(stem + "_outside", {"png"}, picture.width, picture.height, {}, picture.dots_per_inch, notes);
+  PictureFiles shown(stem + "_proof", {"png"}, picture.width, picture.height, {},
+                     picture.dots_per_inch, notes);
+  PictureFiles outside(stem + "_outside", {"png"}, picture.width, picture.height, {},
+                       picture.dots_per_inch, notes);
   progress.begin("proofing", picture.height);
   read_picture_rows(picture.file, [&](int, const Grid<glm::vec3>& rows) {
     const ProofRows made = proof.make(rows);

@@ -7,7 +7,7 @@
 
 namespace belvedere {
 
-// The smallest rectangle that holds all pixels of `in` that pass a test; empty where none does.
+// The smallest rectangle that contains all pixels of `in` that pass a test; empty where none does.
 template <class Test>
 PixelRect extent_of(PixelRect in, Test&& test) {
   if (in.empty()) return {in.x1, in.y1, in.x0, in.y0};
@@ -33,7 +33,8 @@ PixelRect extent_of(PixelRect in, Test&& test) {
   for (int row = 0; row < in.height(); ++row) {
     const Span& span = spans[static_cast<std::size_t>(row)];
     if (span.end <= span.first) continue;
-    extent = {std::min(extent.x0, span.first), std::min(extent.y0, in.y0 + row), std::max(extent.x1, span.end), in.y0 + row + 1};
+    extent = {std::min(extent.x0, span.first), std::min(extent.y0, in.y0 + row),
+              std::max(extent.x1, span.end), in.y0 + row + 1};
   }
   return extent;
 }

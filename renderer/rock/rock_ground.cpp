@@ -19,18 +19,22 @@ constexpr double rock_sigma_units = 5.1;
 constexpr double turf_sigma_units = 13.6;
 constexpr double snow_sigma_units = 12.0;
 
-constexpr float tongue = 0.75F;      // how far spurs and gullies move the border
-constexpr float keeps_rock = 0.42F;  // below it rock gives way …
-constexpr float inside = 0.93F;      // … but not in the middle of a wall
+constexpr float tongue = 0.75F;      // how far spurs and gullies shift the border
+constexpr float keeps_rock = 0.42F;  // share of rock around below which rock is replaced …
+constexpr float inside = 0.93F;      // … but not in the centre of a wall
 constexpr float becomes_rock = 0.62F;
-constexpr float bare_snow_deg = 50.0F;  // at which most crests are bare of snow
+constexpr float bare_snow_deg = 50.0F;  // slope at which most crests are bare of snow
 constexpr float bare_share = 0.56F;
-constexpr float cone_share = 0.20F;  // by which debris reaches up beneath a funnel
+constexpr float cone_share = 0.20F;  // share by which debris reaches up beneath a funnel
 
-bool is_turf(Class id) { return id == Class::alpine_grass || id == Class::pasture || id == Class::forest || id == Class::shrub; }
+bool is_turf(Class id) {
+  return id == Class::alpine_grass || id == Class::pasture || id == Class::forest ||
+         id == Class::shrub;
+}
 bool is_snow(Class id) { return id == Class::snow || id == Class::glacier; }
 bool gives_way(Class id) {
-  return id == Class::scree || id == Class::alpine_grass || id == Class::pasture || id == Class::shrub || id == Class::snow;
+  return id == Class::scree || id == Class::alpine_grass || id == Class::pasture ||
+         id == Class::shrub || id == Class::snow;
 }
 
 template <class Test>
@@ -45,35 +49,40 @@ Grid<float> share_around_of(const WideView& wide, double sigma_px, PixelRect wan
           any[static_cast<std::size_t>(y)] = 1;
         }
   });
-  return std::find(any.begin(), any.end(), std::uint8_t{1}) != any.end() ? blur_on_surface(mask, wide.seen.depth_m, sigma_px, wanted)
-                                                                         : mask;
+  return std::find(any.begin(), any.end(), std::uint8_t{1}) != any.end()
+             ? blur_on_surface(mask, wide.seen.depth_m, sigma_px, wanted)
+             : mask;
 }
 
 }  // namespace
 
 RockAround look_around_rock(const WideView& wide, double pixels_per_unit, PixelRect wanted) {
   const double scale = pixels_per_unit / wide.factor;
-  return {.rock = share_around_of(wide, rock_sigma_units * scale, wanted, [](Class id) { return id == Class::rock; }),
+  return {.rock = share_around_of(wide, rock_sigma_units * scale, wanted,
+                                  [](Class id) { return id == Class::rock; }),
           .turf = share_around_of(wide, turf_sigma_units * scale, wanted, is_turf),
           .snow = share_around_of(wide, snow_sigma_units * scale, wanted, is_snow)};
 }
 
-int rock_around_reach(double pixels_per_unit, int factor) { return surface_reach_px(turf_sigma_units * pixels_per_unit / factor); }
+int rock_around_reach(double pixels_per_unit, int factor) {
+  return surface_reach_px(turf_sigma_units * pixels_per_unit / factor);
+}
 
-LandCoverClass rock_border(const RockPlace& place) {
-  const float r = place.rock;
+LandCoverClass rock_border(const RockPosition& position) {
+  const float r = position.rock;
   const float edge = 1.0F - 0.6F * std::abs(2.0F * r - 1.0F);
-  const float under = smoothstep(0.05F, 0.4F, place.above);  // the foot of a wall
-  const float cone = cone_share * place.cones * under * smoothstep(0.2F, 1.2F, -place.funnel);
-  const float m = r + tongue * std::clamp(1.4F * place.stands, -0.6F, 0.6F) * edge - cone;
-  if (place.mapped == Class::rock) {
+  const float under = smoothstep(0.05F, 0.4F, position.above);  // the foot of a wall
+  const float cone = cone_share * position.cones * under * smoothstep(0.2F, 1.2F, -position.funnel);
+  const float m = r + tongue * std::clamp(1.4F * position.stands, -0.6F, 0.6F) * edge - cone;
+  if (position.mapped == Class::rock) {
     if (m > keeps_rock || (r > inside && cone <= 0.0F)) return Class::rock;
-    if (place.snow > 0.30F && place.snow > place.turf) return Class::snow;
+    if (position.snow > 0.30F && position.snow > position.turf) return Class::snow;
     return under < 0.35F ? Class::rock : Class::scree;
   }
-  if (place.mapped == Class::snow && m + bare_share * smoothstep(steep_snow_deg, bare_snow_deg, place.slope_deg) > becomes_rock)
+  if (position.mapped == Class::snow &&
+      m + bare_share * smoothstep(steep_snow_deg, bare_snow_deg, position.slope_deg) > becomes_rock)
     return Class::rock;
-  return gives_way(place.mapped) && m > becomes_rock ? Class::rock : place.mapped;
+  return gives_way(position.mapped) && m > becomes_rock ? Class::rock : position.mapped;
 }
 
 }  // namespace belvedere

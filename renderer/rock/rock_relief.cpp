@@ -23,44 +23,55 @@
 namespace belvedere {
 namespace {
 
-constexpr double cast_reach_units = 48.0;  // from how far away large spurs cast shadows, at most
-constexpr double apron_units = 24.0;       // beyond it no pixel is near to rock
-constexpr float least_rock = 0.02F;        // share of rock around from which relief is looked for
+constexpr double cast_reach_units = 48.0;  // max distance from which large spurs cast shadows
+constexpr double apron_units = 24.0;       // farther than this no pixel is near rock
+constexpr float min_rock = 0.02F;          // share of rock around from which relief is made
 constexpr double shadow_blur_units = 1.6;
 constexpr double sky_blur_units = 2.0;
-constexpr float above_units = 6.0F;     // how far up and down the fall line rock is looked for
+constexpr float above_units =
+    6.0F;  // distance along the fall line, up and down, that is searched for rock
 constexpr float stroke_feather = 0.6F;  // how far strokes turn down the flanks
 
-// Whether a pixel may show rock for what it is itself.
+// Whether a pixel may show rock by its own class and slope.
 bool may_be_bare(const GuidanceBuffers& g, std::size_t i) {
-  return g.land_cover[i] == LandCoverClass::rock || (g.land_cover[i] == LandCoverClass::snow && g.slope_deg[i] > steep_snow_deg);
+  return g.land_cover[i] == LandCoverClass::rock ||
+         (g.land_cover[i] == LandCoverClass::snow && g.slope_deg[i] > steep_snow_deg);
 }
 
-// The pixels of the window about which there is rock, as a rectangle.
-PixelRect rocky_part(const GuidanceBuffers& guidance, const WideView& wide, PixelRect made, glm::ivec2 origin_px, int apron_px) {
+// The bounding rectangle of the window's pixels with rock around.
+PixelRect rocky_part(const GuidanceBuffers& guidance, const WideView& wide, PixelRect made,
+                     glm::ivec2 origin_px, int apron_px) {
   PixelRect rocky{made.x1, made.y1, made.x0, made.y0};
   const auto include = [&](PixelRect rect) {
     rect = intersection(made, rect);
     if (rect.empty()) return;
-    rocky = {std::min(rocky.x0, rect.x0), std::min(rocky.y0, rect.y0), std::max(rocky.x1, rect.x1), std::max(rocky.y1, rect.y1)};
+    rocky = {std::min(rocky.x0, rect.x0), std::min(rocky.y0, rect.y0), std::max(rocky.x1, rect.x1),
+             std::max(rocky.y1, rect.y1)};
   };
-  // Wide pixels whose surroundings touch what is made.
+  // Wide pixels whose surroundings touch the requested pixels.
   const PixelRect near = intersection(
       {0, 0, wide.seen.width(), wide.seen.height()},
-      moved(wide_rect(moved(grown(made, apron_px), origin_px.x, origin_px.y), wide.factor), -wide.origin_px.x, -wide.origin_px.y));
+      moved(wide_rect(moved(grown(made, apron_px), origin_px.x, origin_px.y), wide.factor),
+            -wide.origin_px.x, -wide.origin_px.y));
   const auto is_near = [&](int x, int y) {
     const glm::ivec2 corner = (wide.origin_px + glm::ivec2(x, y)) * wide.factor - origin_px;
-    const PixelRect apron = grown({corner.x, corner.y, corner.x + wide.factor, corner.y + wide.factor}, apron_px);
+    const PixelRect apron =
+        grown({corner.x, corner.y, corner.x + wide.factor, corner.y + wide.factor}, apron_px);
     return !intersection(made, apron).empty();
   };
-  const PixelRect seen = extent_of(near, [&](int x, int y) { return wide.seen.land_cover(x, y) == LandCoverClass::rock && is_near(x, y); });
+  const PixelRect seen = extent_of(near, [&](int x, int y) {
+    return wide.seen.land_cover(x, y) == LandCoverClass::rock && is_near(x, y);
+  });
   if (!seen.empty()) {
-    const glm::ivec2 low = (wide.origin_px + glm::ivec2(seen.x0, seen.y0)) * wide.factor - origin_px;
-    const glm::ivec2 high = (wide.origin_px + glm::ivec2(seen.x1, seen.y1)) * wide.factor - origin_px;
+    const glm::ivec2 low =
+        (wide.origin_px + glm::ivec2(seen.x0, seen.y0)) * wide.factor - origin_px;
+    const glm::ivec2 high =
+        (wide.origin_px + glm::ivec2(seen.x1, seen.y1)) * wide.factor - origin_px;
     include(grown({low.x, low.y, high.x, high.y}, apron_px));
   }
-  // What no look from afar has met.
-  include(extent_of(made, [&](int x, int y) { return may_be_bare(guidance, guidance.depth_m.index(x, y)); }));
+  // Rock that the wide view has missed.
+  include(extent_of(
+      made, [&](int x, int y) { return may_be_bare(guidance, guidance.depth_m.index(x, y)); }));
   return rocky;
 }
 
@@ -69,21 +80,23 @@ std::uint32_t folded(std::uint32_t id) {
   return static_cast<std::uint32_t>(bits >> 48U);
 }
 
-// The plane a place lies on, of the two larger sizes.
+// The plane at a position, from the two larger sizes.
 std::uint32_t facet_of(const SpurHits& hits) {
   const std::uint32_t large = folded(hits[0].flank_id());
-  const std::uint32_t small = folded(hits[1].flank_id() * 5U + static_cast<std::uint32_t>(hits[1].part));
+  const std::uint32_t small =
+      folded(hits[1].flank_id() * 5U + static_cast<std::uint32_t>(hits[1].part));
   return std::max(1U, large << 16U | small);
 }
 
-// All that tells two places apart for whom edges are drawn.
+// Everything that separates two positions by an edge.
 std::uint32_t edge_key(const SpurHits& hits) {
   std::uint32_t key = 0;
-  for (const SpurHit& hit : hits.sizes) key = key * 0x9e3779b1U + hit.flank_id() * 5U + static_cast<std::uint32_t>(hit.part);
+  for (const SpurHit& hit : hits.sizes)
+    key = key * 0x9e3779b1U + hit.flank_id() * 5U + static_cast<std::uint32_t>(hit.part);
   return key;
 }
 
-// Everything of a window that pixels look up.
+// Everything of a window that pixels read.
 struct RockScene {
   const GuidanceBuffers& guidance;
   const RockView& view;
@@ -95,23 +108,26 @@ struct RockScene {
   Grid<float> shadow, sky_view, calm, bed_place, bed_show, lines, cover, funnel;
 };
 
-glm::vec2 place_of(const RockScene& s, int x, int y, glm::dvec2 within) {
+glm::vec2 position_of(const RockScene& s, int x, int y, glm::dvec2 within) {
   return {static_cast<float>((s.origin_px.x + x + within.x) / s.pixels_per_unit),
           static_cast<float>((s.origin_px.y + y + within.y) / s.pixels_per_unit)};
 }
 
 SpurHits hits_at(const RockScene& s, const RockPixel& pixel, int x, int y, glm::dvec2 within) {
-  return s.view.at(place_of(s, x, y, within), pixel.band, pixel.depth_m);
+  return s.view.at(position_of(s, x, y, within), pixel.band, pixel.depth_m);
 }
 
-// A place of a pixel as it looks in the picture's light.
-RockLook look_of(const RockScene& s, const RockPixel& pixel, int x, int y, glm::dvec2 within, const SpurHits& hits) {
+// A position of a pixel, in the picture's light.
+RockLook look_of(const RockScene& s, const RockPixel& pixel, int x, int y, glm::dvec2 within,
+                 const SpurHits& hits) {
   const RockKind& kind = *s.parameters.kind;
-  const SunWay way = way_to_sun(kind, s.parameters.light, pixel, hits);
+  const SunPath way = way_to_sun(kind, s.parameters.light, pixel, hits);
   float sun = 1.0F;
   if (way.gained > 0.0F && pixel.shadow > 0.05F)
-    sun =
-        sun_past(kind, way, large_height(s.view.field, pixel.band, place_of(s, x, y, within) + way.offset, pixel.depth_m), hits[0].height);
+    sun = sun_past(kind, way,
+                   large_height(s.view.field, pixel.band, position_of(s, x, y, within) + way.offset,
+                                pixel.depth_m),
+                   hits[0].height);
   return light_rock(kind, s.parameters.light, s.parameters.winter, pixel, hits, sun);
 }
 
@@ -124,14 +140,16 @@ RockPixel pixel_at(const RockScene& s, int x, int y, PixelRect made) {
   const int sheet_y = s.origin_px.y + y;
   RockPixel p;
   p.depth_m = g.depth_m[i];
-  p.normal = glm::normalize(0.55F * g.normal_detail[i] + 0.30F * g.normal[i] + 0.15F * g.normal_smooth[i]);
+  p.normal =
+      glm::normalize(0.55F * g.normal_detail[i] + 0.30F * g.normal[i] + 0.15F * g.normal_smooth[i]);
   p.slope_deg = g.slope_deg[i];
   p.shadow = s.shadow(x, y);
   p.sky_view = s.sky_view(x, y);
   p.altitude_m = g.altitude_m[i];
   p.east_m = static_cast<double>(g.position_m[i].x) + g.origin_m.x;
   p.north_m = static_cast<double>(g.position_m[i].y) + g.origin_m.y;
-  if (s.parameters.light.light_field) p.own_light = s.parameters.light.light_field->at({p.east_m, p.north_m});
+  if (s.parameters.light.light_field)
+    p.own_light = s.parameters.light.light_field->at({p.east_m, p.north_m});
   p.metres_per_unit = g.footprint_m[i] * static_cast<float>(s.pixels_per_unit);
   p.rock = value_on_surface(s.wide, s.around.rock, sheet_x, sheet_y, p.depth_m);
   p.turf = value_on_surface(s.wide, s.around.turf, sheet_x, sheet_y, p.depth_m);
@@ -142,59 +160,69 @@ RockPixel pixel_at(const RockScene& s, int x, int y, PixelRect made) {
   p.line_noise = s.lines(u, v);
   p.cover_noise = s.cover(u, v);
   p.scale = static_cast<float>(s.pixels_per_unit);
-  p.band = s.view.bands.at(place_of(s, x, y, {0.5, 0.5}), p.depth_m, p.metres_per_unit * units_per_mm);
+  p.band = s.view.bands.at(position_of(s, x, y, {0.5, 0.5}), p.depth_m,
+                           p.metres_per_unit * units_per_mm);
   return p;
 }
 
 float rock_share(const RockScene& s, glm::vec2 sheet_px, float depth_m) {
-  return value_on_surface(s.wide, s.around.rock, static_cast<int>(std::floor(sheet_px.x)), static_cast<int>(std::floor(sheet_px.y)),
-                          depth_m);
+  return value_on_surface(s.wide, s.around.rock, static_cast<int>(std::floor(sheet_px.x)),
+                          static_cast<int>(std::floor(sheet_px.y)), depth_m);
 }
 
-RockPlace border_place(const RockScene& s, const RockPixel& p, int x, int y, float rock, const SpurHits& hits, float funnel) {
+RockPosition border_place(const RockScene& s, const RockPixel& p, int x, int y, float rock,
+                          const SpurHits& hits, float funnel) {
   const glm::vec2 sheet_px(s.origin_px + glm::ivec2(x, y));
-  const glm::vec2 reach = s.view.fall[index_on_surface(s.wide, s.origin_px.x + x, s.origin_px.y + y, p.depth_m)] * (above_units * p.scale);
-  RockPlace place;
-  place.mapped = s.guidance.land_cover(x, y);
-  place.slope_deg = p.slope_deg;
-  place.rock = rock;
-  place.turf = p.turf;
-  place.snow = p.snow;
-  place.above = rock_share(s, sheet_px - reach, p.depth_m) - rock_share(s, sheet_px + reach, p.depth_m);
-  place.stands = stands_out(hits);
-  place.funnel = funnel;
-  place.cones = s.parameters.kind->cones;
-  return place;
+  const glm::vec2 reach =
+      s.view.fall[index_on_surface(s.wide, s.origin_px.x + x, s.origin_px.y + y, p.depth_m)] *
+      (above_units * p.scale);
+  RockPosition position;
+  position.mapped = s.guidance.land_cover(x, y);
+  position.slope_deg = p.slope_deg;
+  position.rock = rock;
+  position.turf = p.turf;
+  position.snow = p.snow;
+  position.above =
+      rock_share(s, sheet_px - reach, p.depth_m) - rock_share(s, sheet_px + reach, p.depth_m);
+  position.stands = stands_out(hits);
+  position.funnel = funnel;
+  position.cones = s.parameters.kind->cones;
+  return position;
 }
 
-// The way strokes run on a plane: down the wall, and off the crests of its spurs.
+// The direction of strokes on a plane: down the wall, and off the crests of its spurs.
 glm::vec2 plane_fall(const RockScene& s, const SpurHits& hits, glm::vec2 mapped) {
   const SpurHit& large = hits[0];
   if (large.spur == nullptr) return mapped;
   glm::vec2 fall = (hits[1].spur != nullptr ? hits[1].spur->fall : large.spur->fall);
   for (int size = 0; size < 2; ++size) {
     const auto k = static_cast<std::size_t>(size);
-    if (hits[k].spur != nullptr) fall -= stroke_feather * s.parameters.kind->tilt[k] * hits[k].slope;
+    if (hits[k].spur != nullptr)
+      fall -= stroke_feather * s.parameters.kind->tilt[k] * hits[k].slope;
   }
   const float length = glm::length(fall);
   return length > 1e-3F ? fall / length : mapped;
 }
 
-RockScene look_at_rock(const GuidanceBuffers& guidance, const RockView& view, const RockParameters& parameters, glm::ivec2 origin_px,
-                       PixelRect made) {
+RockScene look_at_rock(const GuidanceBuffers& guidance, const RockView& view,
+                       const RockParameters& parameters, glm::ivec2 origin_px, PixelRect made) {
   const double ppu = parameters.light.pixels_per_unit;
   const std::uint64_t seed = parameters.light.seed;
-  RockScene s{guidance, view, view.far(), parameters, origin_px, ppu, {}, {}, {}, {}, {}, {}, {}, {}, {}};
+  RockScene s{guidance, view, view.far(), parameters, origin_px, ppu, {}, {},
+              {},       {},   {},         {},         {},        {},  {}};
   const int reach_px = static_cast<int>(std::ceil((above_units + 2.0) * ppu));
-  const PixelRect asked = wide_rect(grown(moved(made, origin_px.x, origin_px.y), reach_px), s.wide.factor);
+  const PixelRect asked =
+      wide_rect(grown(moved(made, origin_px.x, origin_px.y), reach_px), s.wide.factor);
   s.around = look_around_rock(
       s.wide, ppu,
-      intersection({0, 0, view.thin.width(), view.thin.height()}, surface_look(moved(asked, -s.wide.origin_px.x, -s.wide.origin_px.y))));
+      intersection({0, 0, view.thin.width(), view.thin.height()},
+                   surface_look(moved(asked, -s.wide.origin_px.x, -s.wide.origin_px.y))));
   s.shadow = blur_on_surface(guidance.shadow, guidance.depth_m, shadow_blur_units * ppu, made);
   s.sky_view = blur_on_surface(guidance.sky_view, guidance.depth_m, sky_blur_units * ppu, made);
   const auto noise = [&](Stream stream, double sigma_x, double sigma_y, std::uint64_t part = 0) {
-    return make_image_noise(stream_seed(seed, stream, part), origin_px + glm::ivec2(made.x0, made.y0), made.width(), made.height(), ppu,
-                            sigma_x, sigma_y);
+    return make_image_noise(stream_seed(seed, stream, part),
+                            origin_px + glm::ivec2(made.x0, made.y0), made.width(), made.height(),
+                            ppu, sigma_x, sigma_y);
   };
   s.calm = noise(Stream::rock_calm, 13.0, 13.0);
   s.bed_place = noise(Stream::rock_beds, 9.0, 9.0, 0);
@@ -209,53 +237,64 @@ RockScene look_at_rock(const GuidanceBuffers& guidance, const RockView& view, co
 
 std::initializer_list<GuidanceMember> rock_channels() {
   using B = GuidanceBuffers;
-  static const std::initializer_list<GuidanceMember> channels = {&B::depth_m,       &B::position_m, &B::normal,     &B::normal_detail,
-                                                                 &B::normal_smooth, &B::altitude_m, &B::land_cover, &B::shadow,
-                                                                 &B::sky_view,      &B::slope_deg,  &B::fall_line,  &B::footprint_m};
+  static const std::initializer_list<GuidanceMember> channels = {
+      &B::depth_m,       &B::position_m, &B::normal,     &B::normal_detail,
+      &B::normal_smooth, &B::altitude_m, &B::land_cover, &B::shadow,
+      &B::sky_view,      &B::slope_deg,  &B::fall_line,  &B::footprint_m};
   return channels;
 }
 
-RockRelief make_rock_relief(const GuidanceBuffers& guidance, const WideView& wide, const RockParameters& parameters, glm::ivec2 origin_px,
+RockRelief make_rock_relief(const GuidanceBuffers& guidance, const WideView& wide,
+                            const RockParameters& parameters, glm::ivec2 origin_px,
                             Progress& progress, PixelRect wanted) {
   using B = GuidanceBuffers;
   require_channels(guidance, rock_channels(), "relief of rock");
-  require_channels(wide.seen, {&B::depth_m, &B::land_cover, &B::fall_line, &B::normal, &B::footprint_m}, "relief of rock");
+  require_channels(wide.seen,
+                   {&B::depth_m, &B::land_cover, &B::fall_line, &B::normal, &B::footprint_m},
+                   "relief of rock");
   const PixelRect whole{0, 0, guidance.width(), guidance.height()};
   if (wanted.empty()) wanted = whole;
   const int width = wanted.width();
   const int height = wanted.height();
-  RockRelief relief{Grid<LandCoverClass>(width, height), Grid<glm::vec2>(width, height),
-                    Grid<float>(width, height, 0.0F),    Grid<std::uint32_t>(width, height, 0U),
-                    Grid<float>(width, height, 0.0F),    Grid<glm::vec2>(width, height, glm::vec2(0.0F))};
+  RockRelief relief{
+      Grid<LandCoverClass>(width, height), Grid<glm::vec2>(width, height),
+      Grid<float>(width, height, 0.0F),    Grid<std::uint32_t>(width, height, 0U),
+      Grid<float>(width, height, 0.0F),    Grid<glm::vec2>(width, height, glm::vec2(0.0F))};
   parallel_ranges(height, 64, [&](int begin, int end) {
     for (int y = begin; y != end; ++y) {
-      std::copy_n(guidance.land_cover.row(wanted.y0 + y) + wanted.x0, width, relief.land_cover.row(y));
-      std::copy_n(guidance.fall_line.row(wanted.y0 + y) + wanted.x0, width, relief.fall_line.row(y));
+      std::copy_n(guidance.land_cover.row(wanted.y0 + y) + wanted.x0, width,
+                  relief.land_cover.row(y));
+      std::copy_n(guidance.fall_line.row(wanted.y0 + y) + wanted.x0, width,
+                  relief.fall_line.row(y));
     }
   });
   const double ppu = parameters.light.pixels_per_unit;
-  // A pixel more each way: edges are found by neighbours.
+  // One more pixel on each side: edges are found from neighbours.
   const PixelRect around = intersection(whole, grown(wanted, 1));
-  const PixelRect made = rocky_part(guidance, wide, around, origin_px, static_cast<int>(std::ceil(apron_units * ppu)));
+  const PixelRect made =
+      rocky_part(guidance, wide, around, origin_px, static_cast<int>(std::ceil(apron_units * ppu)));
   if (made.empty()) return relief;
   progress.begin("relief of rock", 2.0 * made.height());
-  // Spurs cast shadows from beyond.
-  const RockView view = view_rock(guidance, wide, parameters, origin_px, grown(made, static_cast<int>(std::ceil(cast_reach_units * ppu))));
+  // Spurs outside the window cast shadows into it.
+  const RockView view = view_rock(guidance, wide, parameters, origin_px,
+                                  grown(made, static_cast<int>(std::ceil(cast_reach_units * ppu))));
   const RockScene scene = look_at_rock(guidance, view, parameters, origin_px, made);
   Grid<std::uint32_t> edges(made.width(), made.height(), 0U);
   Grid<std::uint8_t> bare(made.width(), made.height(), 0);
-  constexpr glm::dvec2 middle_of_pixel{0.5, 0.5};
+  constexpr glm::dvec2 centre_of_pixel{0.5, 0.5};
   parallel_rows(made.height(), [&](int row) {
     const int y = made.y0 + row;
     for (int x = made.x0; x < made.x1; ++x) {
       const std::size_t i = guidance.depth_m.index(x, y);
       if (guidance.is_sky(i)) continue;
-      const float rock = value_on_surface(scene.wide, scene.around.rock, origin_px.x + x, origin_px.y + y, guidance.depth_m[i]);
-      if (rock <= least_rock && !may_be_bare(guidance, i)) continue;
+      const float rock = value_on_surface(scene.wide, scene.around.rock, origin_px.x + x,
+                                          origin_px.y + y, guidance.depth_m[i]);
+      if (rock <= min_rock && !may_be_bare(guidance, i)) continue;
       const RockPixel pixel = pixel_at(scene, x, y, made);
-      const SpurHits hits = hits_at(scene, pixel, x, y, middle_of_pixel);
+      const SpurHits hits = hits_at(scene, pixel, x, y, centre_of_pixel);
       const float funnel = scene.funnel(x - made.x0, row);
-      const LandCoverClass shown = rock_border(border_place(scene, pixel, x, y, rock, hits, funnel));
+      const LandCoverClass shown =
+          rock_border(border_place(scene, pixel, x, y, rock, hits, funnel));
       edges(x - made.x0, row) = edge_key(hits);
       if (x < wanted.x0 || y < wanted.y0 || x >= wanted.x1 || y >= wanted.y1) continue;
       const int u = x - wanted.x0;
@@ -266,29 +305,34 @@ RockRelief make_rock_relief(const GuidanceBuffers& guidance, const WideView& wid
       relief.facet(u, v) = facet_of(hits);
       for (int size = 0; size < 2; ++size)
         if (hits[static_cast<std::size_t>(size)].spur != nullptr)
-          relief.height(u, v) += hits[static_cast<std::size_t>(size)].height * spur_spacing(*parameters.kind, size, pixel.band);
+          relief.height(u, v) += hits[static_cast<std::size_t>(size)].height *
+                                 spur_spacing(*parameters.kind, size, pixel.band);
       relief.fall_line(u, v) = plane_fall(scene, hits, guidance.fall_line[i]);
-      const RockLook look = look_of(scene, pixel, x, y, middle_of_pixel, hits);
+      const RockLook look = look_of(scene, pixel, x, y, centre_of_pixel, hits);
       relief.tone(u, v) = look.tone;
       relief.cover(u, v) = {look.turf, look.snow};
     }
     progress.advance(1.0);
   });
-  // Where planes meet, four looks a pixel: with one, crisp edges are stairs.
+  // Four samples per pixel where planes meet: with one, crisp edges show steps.
   parallel_rows(made.height(), [&](int row) {
     const int y = made.y0 + row;
     for (int x = std::max(made.x0, wanted.x0); x < std::min(made.x1, wanted.x1); ++x) {
       const int u = x - made.x0;
       if (bare(u, row) == 0) continue;
       const std::uint32_t own = edges(u, row);
-      const bool edge = (u > 0 && edges(u - 1, row) != own) || (u + 1 < made.width() && edges(u + 1, row) != own) ||
-                        (row > 0 && edges(u, row - 1) != own) || (row + 1 < made.height() && edges(u, row + 1) != own);
+      const bool edge = (u > 0 && edges(u - 1, row) != own) ||
+                        (u + 1 < made.width() && edges(u + 1, row) != own) ||
+                        (row > 0 && edges(u, row - 1) != own) ||
+                        (row + 1 < made.height() && edges(u, row + 1) != own);
       if (!edge) continue;
       const RockPixel pixel = pixel_at(scene, x, y, made);
       float tone = 0.0F;
       glm::vec2 cover(0.0F);
-      for (const glm::dvec2 within : {glm::dvec2(0.25, 0.25), glm::dvec2(0.75, 0.25), glm::dvec2(0.25, 0.75), glm::dvec2(0.75, 0.75)}) {
-        const RockLook look = look_of(scene, pixel, x, y, within, hits_at(scene, pixel, x, y, within));
+      for (const glm::dvec2 within : {glm::dvec2(0.25, 0.25), glm::dvec2(0.75, 0.25),
+                                      glm::dvec2(0.25, 0.75), glm::dvec2(0.75, 0.75)}) {
+        const RockLook look =
+            look_of(scene, pixel, x, y, within, hits_at(scene, pixel, x, y, within));
         tone += look.tone;
         cover += glm::vec2(look.turf, look.snow);
       }
@@ -307,10 +351,11 @@ int rock_near_margin_px(const RockParameters& parameters) {
 int rock_margin_px(const RockParameters& parameters) {
   const double ppu = parameters.light.pixels_per_unit;
   const int factor = rock_factor(ppu);
-  const int around =
-      static_cast<int>(std::ceil((above_units + 2.0) * ppu)) + factor * (rock_around_reach(ppu, factor) + surface_look_rows + 4);
+  const int around = static_cast<int>(std::ceil((above_units + 2.0) * ppu)) +
+                     factor * (rock_around_reach(ppu, factor) + surface_look_rows + 4);
   const int apron = static_cast<int>(std::ceil(apron_units * ppu)) + factor;
-  const int spurs = rock_view_margin_px(parameters) + static_cast<int>(std::ceil(cast_reach_units * ppu));
+  const int spurs =
+      rock_view_margin_px(parameters) + static_cast<int>(std::ceil(cast_reach_units * ppu));
   return std::max({spurs, around, apron, rock_near_margin_px(parameters)}) + 2;
 }
 

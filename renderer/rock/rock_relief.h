@@ -10,26 +10,32 @@
 
 namespace belvedere {
 
-// What invented relief makes of a picture's rock (spurs.h): everything downstream, from light to copying, sees the same rock.
+// The synthetic relief of a picture's rock (spurs.h): everything downstream, from light to copying,
+// uses the same rock.
 struct RockRelief {
   Grid<LandCoverClass> land_cover;  // with the border of rock as spurs and debris draw it
-  Grid<glm::vec2> fall_line;        // on rock that of each plane, which its strokes follow
-  Grid<float> height;               // of the relief, units of the sheet; 0 where there is none
-  Grid<std::uint32_t> facet;        // number of the plane, 0 where there is no rock; what hangs together has the upper half in common
-  Grid<float> tone;                 // light on the relief, -.3…1.4; of rock alone
-  Grid<glm::vec2> cover;            // shares of turf and of snow on treads, 0…1
+  Grid<glm::vec2> fall_line;        // on rock that of each plane, followed by its strokes
+  Grid<float> height;               // of the relief, units of the sheet; 0 without relief
+  Grid<std::uint32_t> facet;  // number of the plane, 0 where there is no rock; connected planes
+                              // share the upper half
+  Grid<float> tone;           // light on the relief, -.3…1.4; on rock only
+  Grid<glm::vec2> cover;      // shares of turf and of snow on treads, 0…1
 };
 
-// Of a window of the sheet, pixel by pixel. Needs depth, places, normals, altitude, land cover, shadow, sky view, slope, fall line and
-// footprint; of the wide view also normals and footprints. A pixel looks at the window within rock_near_margin_px, at the wide view within
-// rock_margin_px, and is the same in any window. Only pixels `wanted` (empty: all) are made: the result has their size.
+// Of a window of the sheet, pixel by pixel. Needs depth, positions, normals, altitude, land cover,
+// shadow, sky view, slope, fall line and footprint; of the wide view also normals and footprints. A
+// pixel reads the window within rock_near_margin_px, the wide view within rock_margin_px, and is
+// the same in any window. Only the pixels `wanted` (empty: all) are made; the result has their
+// size.
 std::initializer_list<GuidanceMember> rock_channels();
-RockRelief make_rock_relief(const GuidanceBuffers& guidance, const WideView& wide, const RockParameters& parameters, glm::ivec2 origin_px,
+RockRelief make_rock_relief(const GuidanceBuffers& guidance, const WideView& wide,
+                            const RockParameters& parameters, glm::ivec2 origin_px,
                             Progress& progress, PixelRect wanted = {});
 int rock_near_margin_px(const RockParameters& parameters);
 int rock_margin_px(const RockParameters& parameters);
 
-// Puts the relief in place: its channels, and class and fall line where rock has changed them. Both of one size.
+// Moves the relief into the guidance: its channels, and class and fall line where rock has changed
+// them. Both of one size.
 void take_relief(GuidanceBuffers& guidance, RockRelief relief);
 
 }  // namespace belvedere

@@ -11,13 +11,13 @@
 namespace belvedere {
 namespace {
 
-constexpr float band_cell_units = 90.0F;    // of the hidden partition by which sizes change
-constexpr float band_depth_ratio = 1.105F;  // cells reach across no greater step of depth
+constexpr float band_cell_units = 90.0F;    // of the invisible partition by which sizes change
+constexpr float band_depth_ratio = 1.105F;  // max depth ratio within a cell
 constexpr float warp_units = 0.56F;
 constexpr float warp_cell_units = 6.4F;
 constexpr float small_warp = 0.45F;
 
-// Noise about -2…2, linear over the two triangles of a cell, for edges that break instead of curling.
+// Noise about -2…2, linear over the two triangles of a cell, for broken instead of curled edges.
 float broken_noise(std::uint64_t seed, float x, float y) {
   const float floor_x = std::floor(x);
   const float floor_y = std::floor(y);
@@ -25,7 +25,9 @@ float broken_noise(std::uint64_t seed, float x, float y) {
   const auto iy = static_cast<std::int64_t>(floor_y);
   const float fx = x - floor_x;
   const float fy = y - floor_y;
-  const auto at = [&](std::int64_t a, std::int64_t b) { return static_cast<float>(random_bits(seed, a, b) >> 40U) * 0x1.0p-23F - 1.0F; };
+  const auto at = [&](std::int64_t a, std::int64_t b) {
+    return static_cast<float>(random_bits(seed, a, b) >> 40U) * 0x1.0p-23F - 1.0F;
+  };
   const float b = at(ix + 1, iy);
   const float c = at(ix, iy + 1);
   if (fx + fy < 1.0F) {
@@ -38,7 +40,9 @@ float broken_noise(std::uint64_t seed, float x, float y) {
 
 BandPartition part_bands(const SpurGround& ground, PixelRect rect) {
   const auto ppu = static_cast<float>(ground.pixels_per_unit);
-  const auto cell_at = [&](int px) { return static_cast<int>(std::floor(static_cast<float>(px) / ppu / band_cell_units)); };
+  const auto cell_at = [&](int px) {
+    return static_cast<int>(std::floor(static_cast<float>(px) / ppu / band_cell_units));
+  };
   BandPartition bands;
   bands.first = {cell_at(rect.x0) - 1, cell_at(rect.y0) - 1};
   bands.count = glm::ivec2(cell_at(rect.x1) + 2, cell_at(rect.y1) + 2) - bands.first;
@@ -46,15 +50,18 @@ BandPartition part_bands(const SpurGround& ground, PixelRect rect) {
   for (int y = bands.first.y; y < bands.first.y + bands.count.y; ++y)
     for (int x = bands.first.x; x < bands.first.x + bands.count.x; ++x) {
       BandCell cell;
-      cell.place.x = (static_cast<float>(x) + static_cast<float>(random_uniform(key, x, y, 0))) * band_cell_units;
-      cell.place.y = (static_cast<float>(y) + static_cast<float>(random_uniform(key, x, y, 1))) * band_cell_units;
-      const int px = static_cast<int>(std::floor(cell.place.x * ppu));
-      const int py = static_cast<int>(std::floor(cell.place.y * ppu));
+      cell.position.x = (static_cast<float>(x) + static_cast<float>(random_uniform(key, x, y, 0))) *
+                        band_cell_units;
+      cell.position.y = (static_cast<float>(y) + static_cast<float>(random_uniform(key, x, y, 1))) *
+                        band_cell_units;
+      const int px = static_cast<int>(std::floor(cell.position.x * ppu));
+      const int py = static_cast<int>(std::floor(cell.position.y * ppu));
       if (ground.wide.holds(px, py)) {
         const std::size_t i = ground.wide.index(px, py);
         if (!ground.wide.seen.is_sky(i)) {
           cell.depth_m = ground.wide.seen.depth_m[i];
-          cell.band = spur_band(ground.wide.seen.footprint_m[i] / static_cast<float>(ground.wide.factor) * ppu * units_per_mm);
+          cell.band = spur_band(ground.wide.seen.footprint_m[i] /
+                                static_cast<float>(ground.wide.factor) * ppu * units_per_mm);
         }
       }
       bands.cells.push_back(cell);
@@ -64,20 +71,26 @@ BandPartition part_bands(const SpurGround& ground, PixelRect rect) {
 
 }  // namespace
 
-int rock_factor(double pixels_per_unit) { return std::max(1, static_cast<int>(std::floor(pixels_per_unit))); }
+int rock_factor(double pixels_per_unit) {
+  return std::max(1, static_cast<int>(std::floor(pixels_per_unit)));
+}
 
-int thinned_times(double pixels_per_unit, int factor) { return std::max(1, static_cast<int>(std::floor(pixels_per_unit / factor))); }
+int thinned_times(double pixels_per_unit, int factor) {
+  return std::max(1, static_cast<int>(std::floor(pixels_per_unit / factor)));
+}
 
-int BandPartition::at(glm::vec2 place, float depth_m, float metres_per_mm) const {
-  const int cx = static_cast<int>(std::floor(place.x / band_cell_units)) - first.x;
-  const int cy = static_cast<int>(std::floor(place.y / band_cell_units)) - first.y;
+int BandPartition::at(glm::vec2 position, float depth_m, float metres_per_mm) const {
+  const int cx = static_cast<int>(std::floor(position.x / band_cell_units)) - first.x;
+  const int cy = static_cast<int>(std::floor(position.y / band_cell_units)) - first.y;
   float nearest = 1e18F;
   int band = -1;
   for (int y = std::max(cy - 1, 0); y <= std::min(cy + 1, count.y - 1); ++y)
     for (int x = std::max(cx - 1, 0); x <= std::min(cx + 1, count.x - 1); ++x) {
-      const BandCell& cell = cells[static_cast<std::size_t>(y) * static_cast<std::size_t>(count.x) + static_cast<std::size_t>(x)];
-      if (cell.depth_m > depth_m * band_depth_ratio || cell.depth_m * band_depth_ratio < depth_m) continue;
-      const glm::vec2 offset = place - cell.place;
+      const BandCell& cell = cells[static_cast<std::size_t>(y) * static_cast<std::size_t>(count.x) +
+                                   static_cast<std::size_t>(x)];
+      if (cell.depth_m > depth_m * band_depth_ratio || cell.depth_m * band_depth_ratio < depth_m)
+        continue;
+      const glm::vec2 offset = position - cell.position;
       const float distance = glm::dot(offset, offset);
       if (distance >= nearest) continue;
       nearest = distance;
@@ -86,41 +99,48 @@ int BandPartition::at(glm::vec2 place, float depth_m, float metres_per_mm) const
   return band < 0 ? spur_band(metres_per_mm) : band;
 }
 
-glm::vec2 Warp::operator()(glm::vec2 place, float scale) const {
-  const glm::vec2 q = place / warp_cell_units;
+glm::vec2 Warp::operator()(glm::vec2 position, float scale) const {
+  const glm::vec2 q = position / warp_cell_units;
   const glm::vec2 broad(broken_noise(seeds[0], q.x, q.y), broken_noise(seeds[1], q.x, q.y));
-  if (scale < 0.7F) return place + warp_units * broad;
-  const glm::vec2 fine(broken_noise(seeds[2], 2.9F * q.x, 2.3F * q.y), broken_noise(seeds[3], 2.9F * q.x, 2.3F * q.y));
-  return place + warp_units * (broad + small_warp * fine);
+  if (scale < 0.7F) return position + warp_units * broad;
+  const glm::vec2 fine(broken_noise(seeds[2], 2.9F * q.x, 2.3F * q.y),
+                       broken_noise(seeds[3], 2.9F * q.x, 2.3F * q.y));
+  return position + warp_units * (broad + small_warp * fine);
 }
 
 Warp::Warp(std::uint64_t seed) {
   for (std::uint64_t k = 0; k < 4; ++k) seeds[k] = stream_seed(seed, Stream::rock_warp, k);
 }
 
-RockView view_rock(const GuidanceBuffers& guidance, const WideView& wide, const RockParameters& parameters, glm::ivec2 origin_px,
-                   PixelRect made) {
+RockView view_rock(const GuidanceBuffers& guidance, const WideView& wide,
+                   const RockParameters& parameters, glm::ivec2 origin_px, PixelRect made) {
   const double ppu = parameters.light.pixels_per_unit;
   const int times = thinned_times(ppu, wide.factor);
   const PixelRect sheet_rect = moved(made, origin_px.x, origin_px.y);
-  RockView view{thin_out(wide, times),       wide.factor * times,    thinned_origin(wide, times), {}, {}, {},
-                Warp(parameters.light.seed), static_cast<float>(ppu)};
+  RockView view{
+      thin_out(wide, times),       wide.factor * times,    thinned_origin(wide, times), {}, {}, {},
+      Warp(parameters.light.seed), static_cast<float>(ppu)};
   const WideView far = view.far();
-  const PixelRect asked = wide_rect(grown(sheet_rect, static_cast<int>(std::ceil(spur_margin_units(*parameters.kind) * ppu))), far.factor);
-  view.fall = smooth_fall_lines(
-      far, ppu, intersection({0, 0, view.thin.width(), view.thin.height()}, moved(asked, -far.origin_px.x, -far.origin_px.y)));
+  const PixelRect asked = wide_rect(
+      grown(sheet_rect, static_cast<int>(std::ceil(spur_margin_units(*parameters.kind) * ppu))),
+      far.factor);
+  view.fall = smooth_fall_lines(far, ppu,
+                                intersection({0, 0, view.thin.width(), view.thin.height()},
+                                             moved(asked, -far.origin_px.x, -far.origin_px.y)));
   const SpurGround ground{far, view.fall, ppu, parameters.light.seed};
   view.bands = part_bands(ground, sheet_rect);
   std::array<bool, spur_bands> bands{};
   for (const BandCell& cell : view.bands.cells) bands[static_cast<std::size_t>(cell.band)] = true;
   const PixelRect held = intersection(made, {0, 0, guidance.width(), guidance.height()});
-  std::vector<std::array<bool, spur_bands>> row_bands(static_cast<std::size_t>(std::max(held.height(), 0)));
+  std::vector<std::array<bool, spur_bands>> row_bands(
+      static_cast<std::size_t>(std::max(held.height(), 0)));
   parallel_ranges(std::max(held.height(), 0), 32, [&](int begin, int end) {
     for (int row = begin; row != end; ++row)
       for (int x = held.x0; x < held.x1; ++x) {
         const std::size_t i = guidance.depth_m.index(x, held.y0 + row);
         if (guidance.is_sky(i)) continue;
-        const int band = spur_band(guidance.footprint_m[i] * static_cast<float>(ppu) * units_per_mm);
+        const int band =
+            spur_band(guidance.footprint_m[i] * static_cast<float>(ppu) * units_per_mm);
         row_bands[static_cast<std::size_t>(row)][static_cast<std::size_t>(band)] = true;
       }
   });
@@ -134,7 +154,8 @@ int rock_view_margin_px(const RockParameters& parameters) {
   const double ppu = parameters.light.pixels_per_unit;
   const int factor = rock_factor(ppu);
   const int spurs = static_cast<int>(std::ceil(spur_margin_units(*parameters.kind) * ppu));
-  const int bands = static_cast<int>(std::ceil(2.0 * static_cast<double>(band_cell_units) * ppu)) + factor;
+  const int bands =
+      static_cast<int>(std::ceil(2.0 * static_cast<double>(band_cell_units) * ppu)) + factor;
   return std::max(spurs + factor * (smooth_fall_reach(ppu, factor) + 3), bands) + 2;
 }
 

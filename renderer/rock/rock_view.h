@@ -19,34 +19,37 @@ struct RockParameters {
   bool winter = false;
 };
 
-// A cell of the partition: where its point lies and what it sees there.
+// A cell of the partition: the position of its point and the depth there.
 struct BandCell {
-  glm::vec2 place{0.0F};
-  float depth_m = -1.0F;  // none: sky, or off the sheet
+  glm::vec2 position{0.0F};
+  float depth_m = -1.0F;  // < 0: sky, or off the sheet
   int band = 0;
 };
 
-// Which sizes spurs have at a pixel: those of the nearest cell point on about its own distance, so that no seam of sizes crosses a facet.
+// The sizes of spurs at a pixel: those of the nearest cell point at about its own distance, so that
+// no change of sizes crosses a facet.
 struct BandPartition {
   glm::ivec2 first{0};
   glm::ivec2 count{0};
   std::vector<BandCell> cells;
 
-  int at(glm::vec2 place, float depth_m, float metres_per_mm) const;
+  int at(glm::vec2 position, float depth_m, float metres_per_mm) const;
 };
 
-// Places at which spurs are looked up, moved a little, so that edges of planes are broken rather than straight: two waverings, by noise
-// with straight flanks, because smooth noise curls them.
+// Small offsets of the positions at which spurs are looked up, so that edges of planes are broken
+// rather than straight. Two sizes of noise with straight flanks, because smooth noise curls the
+// edges.
 struct Warp {
   std::array<std::uint64_t, 4> seeds{};
   explicit Warp(std::uint64_t seed);
-  // `scale`: pixels in a unit; what is too fine to be seen is left out.
-  glm::vec2 operator()(glm::vec2 place, float scale) const;
+  // `scale`: pixels in a unit; invisibly fine offsets are left out.
+  glm::vec2 operator()(glm::vec2 position, float scale) const;
 };
 
-// The spurs of a window of the sheet, and what they stand on.
+// The spurs of a window of the sheet, and the ground under them.
 struct RockView {
-  GuidanceBuffers thin;  // of the wide view, about a pixel a unit: all that is looked at here is smooth over a unit
+  GuidanceBuffers thin;  // of the wide view, about one pixel per unit: everything read here is
+                         // smooth over a unit
   int factor = 1;        // of its pixels
   glm::ivec2 origin_px{0};
   Grid<glm::vec2> fall;
@@ -56,16 +59,19 @@ struct RockView {
   float pixels_per_unit = 1.0F;
 
   WideView far() const { return {thin, factor, origin_px}; }
-  // The spurs at a place, units of the sheet, in front of a pixel's depth.
-  SpurHits at(glm::vec2 place, int band, float depth_m) const { return find_spurs(field, band, warp(place, pixels_per_unit), depth_m); }
+  // The spurs at a position, units of the sheet, in front of a pixel's depth.
+  SpurHits at(glm::vec2 position, int band, float depth_m) const {
+    return find_spurs(field, band, warp(position, pixels_per_unit), depth_m);
+  }
 };
-// `made`: pixels of the window, and beside it, whose spurs are asked for. Looks at the wide view within rock_view_margin_px of them.
-RockView view_rock(const GuidanceBuffers& guidance, const WideView& wide, const RockParameters& parameters, glm::ivec2 origin_px,
-                   PixelRect made);
+// `made`: pixels inside or outside the window whose spurs are needed. Reads the wide view within
+// rock_view_margin_px of them.
+RockView view_rock(const GuidanceBuffers& guidance, const WideView& wide,
+                   const RockParameters& parameters, glm::ivec2 origin_px, PixelRect made);
 int rock_view_margin_px(const RockParameters& parameters);
-// Pixels of the sheet to a pixel of the view that rock is looked at in: one is left to a unit.
+// Sheet pixels per pixel of the view in which rock is computed: one remains per unit.
 int rock_factor(double pixels_per_unit);
-// Pixels of another wide view to one of it.
+// Pixels of another wide view per pixel of it.
 int thinned_times(double pixels_per_unit, int factor);
 
 }  // namespace belvedere

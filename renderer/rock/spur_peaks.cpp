@@ -4,7 +4,6 @@
 #include <bit>
 #include <cmath>
 
-// This file is compiled once for each vector width by Highway.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "renderer/rock/spur_peaks.cpp"
 #include <hwy/foreach_target.h>
@@ -14,8 +13,8 @@
 #define BELVEDERE_SPUR_PEAKS
 namespace belvedere::peaks {
 enum Field : int {
-  place_x,
-  place_y,
+  position_x,
+  position_y,
   down_x,
   down_y,
   skew_head,
@@ -30,16 +29,16 @@ enum Field : int {
   parent,
   fields
 };
-constexpr int row_lanes = 8;  // cells of a row that are asked at once
+constexpr int row_lanes = 8;  // cells of a row evaluated at once
 static_assert(2 * spur_form::reach_across + 1 <= row_lanes);
 
 struct Question {
-  const float* first;    // place_x of the first cell
+  const float* first;    // position_x of the first cell
   std::ptrdiff_t field;  // numbers to the next field …
   std::ptrdiff_t row;    // … and row
   int across = 0;        // cells
   int down = 0;
-  glm::vec2 place;
+  glm::vec2 position;
   float inverse = 1.0F;  // of the spacing
   float slender = 1.0F;
   float depth_m = 0.0F;
@@ -47,7 +46,7 @@ struct Question {
   std::uint32_t parent = 0;
 };
 
-// The two highest of each column of cells, with the rows they lie in; height -1e9 where there is none.
+// The two highest of each column of cells, with their rows; height -1e9 where there is none.
 struct Columns {
   alignas(64) float best[row_lanes];
   alignas(64) float next[row_lanes];
@@ -65,14 +64,16 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Floats = hn::CappedTag<float, row_lanes>;
 using Words = hn::Rebind<std::int32_t, Floats>;
 
-// highest_spur (spurs.cpp) without its branches, for some columns of cells: every operation has its order.
+// highest_spur (spurs.cpp) without its branches, for some columns of cells: the order of operations
+// is fixed.
 HWY_INLINE void FindColumns(const Question& q, int column, Columns& out) {
   using namespace spur_form;
   const Floats d;
   const Words w;
   const auto zero = hn::Zero(d);
   const auto one = [&](float value) HWY_ATTR { return hn::Set(d, value); };
-  const auto inside = hn::Lt(hn::Add(hn::Iota(d, 0.0F), one(static_cast<float>(column))), one(static_cast<float>(q.across)));
+  const auto inside = hn::Lt(hn::Add(hn::Iota(d, 0.0F), one(static_cast<float>(column))),
+                             one(static_cast<float>(q.across)));
   const auto none = one(-1e9F);
   auto best = none;
   auto next = none;
@@ -81,35 +82,43 @@ HWY_INLINE void FindColumns(const Question& q, int column, Columns& out) {
   for (int y = 0; y < q.down; ++y) {
     const float* cell = q.first + y * q.row + column;
     const auto of = [&](Field field) HWY_ATTR { return hn::LoadU(d, cell + field * q.field); };
-    const auto offset_x = hn::Mul(hn::Sub(one(q.place.x), of(place_x)), one(q.inverse));
-    const auto offset_y = hn::Mul(hn::Sub(one(q.place.y), of(place_y)), one(q.inverse));
+    const auto offset_x = hn::Mul(hn::Sub(one(q.position.x), of(position_x)), one(q.inverse));
+    const auto offset_y = hn::Mul(hn::Sub(one(q.position.y), of(position_y)), one(q.inverse));
     const auto apart = hn::Sqrt(hn::Add(hn::Mul(offset_x, offset_x), hn::Mul(offset_y, offset_y)));
     const auto stray_m = hn::Mul(of(tolerance), hn::Add(one(stray), apart));
-    const auto on_surface = hn::And(inside, hn::Le(hn::Abs(hn::Sub(one(q.depth_m), of(depth))), stray_m));
+    const auto on_surface =
+        hn::And(inside, hn::Le(hn::Abs(hn::Sub(one(q.depth_m), of(depth))), stray_m));
     const auto dx = of(down_x);
     const auto dy = of(down_y);
     const auto v = hn::Mul(hn::Add(hn::Mul(offset_x, dx), hn::Mul(offset_y, dy)), one(q.slender));
     const auto u = hn::Sub(hn::Mul(offset_x, dy), hn::Mul(offset_y, dx));
     const auto wide = hn::Abs(u);
     const auto head = hn::Sub(hn::Mul(of(skew_head), u), hn::Mul(one(head_point), wide));
-    const auto tail = hn::Add(hn::Add(of(length), hn::Mul(of(skew_foot), u)), hn::Mul(one(foot_point), wide));
+    const auto tail =
+        hn::Add(hn::Add(of(length), hn::Mul(of(skew_foot), u)), hn::Mul(one(foot_point), wide));
     const auto on_head = hn::Mul(one(head_rise), hn::Sub(v, head));
     const auto on_back = hn::Mul(one(back_rise), hn::Sub(v, head));
-    const auto on_foot = hn::Sub(hn::Mul(one(back_rise), hn::Sub(tail, head)), hn::Mul(of(foot), hn::Sub(v, tail)));
+    const auto on_foot =
+        hn::Sub(hn::Mul(one(back_rise), hn::Sub(tail, head)), hn::Mul(of(foot), hn::Sub(v, tail)));
     const auto is_back = hn::Or(hn::Lt(v, tail), hn::Lt(tail, head));
-    const auto along = hn::IfThenElse(hn::Lt(v, head), on_head, hn::IfThenElse(is_back, on_back, on_foot));
+    const auto along =
+        hn::IfThenElse(hn::Lt(v, head), on_head, hn::IfThenElse(is_back, on_back, on_foot));
     const auto flank = hn::IfThenElse(hn::Gt(u, zero), of(flank_1), of(flank_0));
     const auto clamped = hn::Min(hn::Max(v, one(opening_from)), one(opening_to));
-    const auto steepness = hn::Div(flank, hn::Add(one(opening), hn::Mul(one(opening_along), clamped)));
+    const auto steepness =
+        hn::Div(flank, hn::Add(one(opening), hn::Mul(one(opening_along), clamped)));
     auto height = hn::Sub(hn::Add(of(top), along), hn::Mul(steepness, wide));
-    const auto same_parent = hn::Eq(hn::BitCast(w, of(parent)), hn::Set(w, std::bit_cast<std::int32_t>(q.parent)));
-    height = hn::Sub(height, hn::IfThenZeroElse(hn::RebindMask(d, same_parent), one(q.lost_beyond)));
+    const auto same_parent =
+        hn::Eq(hn::BitCast(w, of(parent)), hn::Set(w, std::bit_cast<std::int32_t>(q.parent)));
+    height =
+        hn::Sub(height, hn::IfThenZeroElse(hn::RebindMask(d, same_parent), one(q.lost_beyond)));
     height = hn::IfThenElse(on_surface, height, none);
     const auto row = hn::Set(w, y);
     const auto higher = hn::Gt(height, best);
     const auto second = hn::AndNot(higher, hn::Gt(height, next));
     const auto higher_w = hn::RebindMask(w, higher);
-    next_row = hn::IfThenElse(higher_w, best_row, hn::IfThenElse(hn::RebindMask(w, second), row, next_row));
+    next_row = hn::IfThenElse(higher_w, best_row,
+                              hn::IfThenElse(hn::RebindMask(w, second), row, next_row));
     next = hn::IfThenElse(higher, best, hn::IfThenElse(second, height, next));
     best_row = hn::IfThenElse(higher_w, row, best_row);
     best = hn::IfThenElse(higher, height, best);
@@ -121,7 +130,8 @@ HWY_INLINE void FindColumns(const Question& q, int column, Columns& out) {
 }
 
 void FindPeaks(const Question& question, Columns& out) {
-  for (int column = 0; column < question.across; column += static_cast<int>(hn::Lanes(Floats()))) FindColumns(question, column, out);
+  for (int column = 0; column < question.across; column += static_cast<int>(hn::Lanes(Floats())))
+    FindColumns(question, column, out);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -136,20 +146,23 @@ HWY_EXPORT(FindPeaks);
 
 SpurLanes to_lanes(const SpurCells& cells) {
   SpurLanes lanes;
-  // What a row's last cells are asked with hangs over its end: nothing grows there.
+  // The last read of a row extends beyond its end: those cells hold no spur.
   lanes.row = cells.count.x + peaks::row_lanes;
   lanes.field = lanes.row * cells.count.y;
-  lanes.numbers.assign(static_cast<std::size_t>(peaks::fields) * static_cast<std::size_t>(lanes.field), 0.0F);
+  lanes.numbers.assign(
+      static_cast<std::size_t>(peaks::fields) * static_cast<std::size_t>(lanes.field), 0.0F);
   std::fill_n(lanes.numbers.begin() + peaks::tolerance * lanes.field, lanes.field, -1.0F);
   for (int y = 0; y < cells.count.y; ++y)
     for (int x = 0; x < cells.count.x; ++x) {
-      const Spur& spur = cells.spurs[static_cast<std::size_t>(y) * static_cast<std::size_t>(cells.count.x) + static_cast<std::size_t>(x)];
+      const Spur& spur =
+          cells.spurs[static_cast<std::size_t>(y) * static_cast<std::size_t>(cells.count.x) +
+                      static_cast<std::size_t>(x)];
       if (!spur.grown) continue;
       const auto set = [&](peaks::Field field, float value) {
         lanes.numbers[static_cast<std::size_t>(field * lanes.field + y * lanes.row + x)] = value;
       };
-      set(peaks::place_x, spur.place.x);
-      set(peaks::place_y, spur.place.y);
+      set(peaks::position_x, spur.position.x);
+      set(peaks::position_y, spur.position.y);
       set(peaks::down_x, spur.down.x);
       set(peaks::down_y, spur.down.y);
       set(peaks::skew_head, spur.skew_head);
@@ -166,10 +179,11 @@ SpurLanes to_lanes(const SpurCells& cells) {
   return lanes;
 }
 
-SpurPeaks find_peaks(const SpurCells& cells, float slender, glm::vec2 place, float depth_m, std::uint32_t parent) {
+SpurPeaks find_peaks(const SpurCells& cells, float slender, glm::vec2 position, float depth_m,
+                     std::uint32_t parent) {
   using namespace spur_form;
-  const int column = static_cast<int>(std::floor(place.x / cells.spacing)) - cells.first.x;
-  const int row = static_cast<int>(std::floor(place.y / cells.spacing)) - cells.first.y;
+  const int column = static_cast<int>(std::floor(position.x / cells.spacing)) - cells.first.x;
+  const int row = static_cast<int>(std::floor(position.y / cells.spacing)) - cells.first.y;
   const int x0 = std::max(column - reach_across, 0);
   const int x1 = std::min(column + reach_across, cells.count.x - 1);
   const int y0 = std::max(row - reach_up, 0);
@@ -181,7 +195,7 @@ SpurPeaks find_peaks(const SpurCells& cells, float slender, glm::vec2 place, flo
                                  .row = cells.lanes.row,
                                  .across = x1 - x0 + 1,
                                  .down = y1 - y0 + 1,
-                                 .place = place,
+                                 .position = position,
                                  .inverse = 1.0F / cells.spacing,
                                  .slender = slender,
                                  .depth_m = depth_m,
@@ -189,7 +203,7 @@ SpurPeaks find_peaks(const SpurCells& cells, float slender, glm::vec2 place, flo
                                  .parent = parent};
   peaks::Columns columns;
   HWY_DYNAMIC_DISPATCH(peaks::FindPeaks)(question, columns);
-  // Of equal heights the first in the order of rows counts, whatever the order of lanes.
+  // Of equal heights the first in the order of rows wins, independent of the order of lanes.
   float best_height = -1e9F;
   const auto count = [&](float height, int y, int x) {
     if (height <= -1e9F || height < found.next_height) return;

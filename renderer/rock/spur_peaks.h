@@ -12,7 +12,7 @@ namespace belvedere {
 // A spur of rock (spurs.h).
 struct Spur {
   bool grown = false;
-  glm::vec2 place{0.0F};
+  glm::vec2 position{0.0F};
   glm::vec2 down{0.0F, 1.0F};  // unit direction of its crest, downhill
   glm::vec2 fall{0.0F, 1.0F};  // unit fall line of the wall it grew on
   glm::vec3 normal{0.0F};      // of that wall, a mean over the spur
@@ -25,7 +25,7 @@ struct Spur {
   std::uint32_t parent = 0;  // flank of the next larger spur that it stands on
 };
 
-// The same spurs as numbers side by side (to_lanes).
+// The same spurs as structure of arrays (to_lanes).
 struct SpurLanes {
   std::vector<float> numbers;
   std::ptrdiff_t field = 0;  // numbers to the next field …
@@ -34,40 +34,46 @@ struct SpurLanes {
 // Spurs of one band and size over a rectangle of cells.
 struct SpurCells {
   float spacing = 1.0F;
-  float lost_beyond = 0.4F;  // height, in spacings, that a spur loses across the border of what it stands on
+  float lost_beyond =
+      0.4F;  // height, in spacings, that a spur loses across the border of its parent
   glm::ivec2 first{0};
   glm::ivec2 count{0};
   std::vector<Spur> spurs;
   SpurLanes lanes;
 };
-// Form of a spur, in its own spacings: a roof whose head and foot slant and come to a point.
+// Shape of a spur, in its own spacings: a roof with a slanting, pointed head and foot.
 namespace spur_form {
 inline constexpr float head_rise = 0.9F;
 inline constexpr float back_rise = 0.06F;
 inline constexpr float head_point = 0.25F;
 inline constexpr float foot_point = 0.35F;
-// Flanks open downhill: the lower the place, the broader the spur.
+// Flanks widen downhill: the lower the position, the broader the spur.
 inline constexpr float opening = 0.75F;
 inline constexpr float opening_along = 0.45F;
 inline constexpr float opening_from = -0.5F;
 inline constexpr float opening_to = 1.6F;
-// How far a spur's surface may stray in depth: its tolerance times this and the distance from its place.
+// How far a spur's surface may deviate in depth: its tolerance times this and the distance from its
+// origin.
 inline constexpr float stray = 0.6F;
-// Cells around a place whose spurs can be highest there: those above it reach farther down than those below it up.
+// Cells around a position whose spurs can be highest there: those above reach farther down than
+// those below reach up.
 inline constexpr int reach_across = 2;
 inline constexpr int reach_up = 3;
 inline constexpr int reach_down = 2;
 }  // namespace spur_form
 
-// The numbers of spurs that say how high each is somewhere, sorted by number, so that a row of cells is asked at once.
+// The fields that determine a spur's height at a position, sorted by field, so that a row of cells
+// is evaluated at once.
 SpurLanes to_lanes(const SpurCells& cells);
 
-// The two spurs that are highest at a place, of equal ones the first: their numbers in the cells (-1: none), and the height of the second.
+// The two highest spurs at a position (of equal ones the first): their numbers in the cells (-1:
+// none), and the height of the second.
 struct SpurPeaks {
   int best = -1;
   int next = -1;
   float next_height = -1e9F;
 };
-SpurPeaks find_peaks(const SpurCells& cells, float slender, glm::vec2 place, float depth_m, std::uint32_t parent);
+SpurPeaks find_peaks(const SpurCells& cells, float slender, glm::vec2 position, float depth_m,
+                     std::uint32_t parent);
 
 }  // namespace belvedere

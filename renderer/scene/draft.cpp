@@ -6,14 +6,15 @@ namespace belvedere {
 namespace {
 
 int third(int px) {
-  constexpr int least_px = 64;
-  return std::min(px, std::max(least_px, (px + 1) / 3));  // rounded: thirds are never halves
+  constexpr int min_px = 64;
+  return std::min(px,
+                  std::max(min_px, (px + 1) / 3));  // rounded, because thirds never lie on halves
 }
 
 }  // namespace
 
 Scene make_draft(Scene scene) {
-  // The width of the sheet stays, so strokes keep their size on it.
+  // The width of the sheet is unchanged, so strokes keep their size on it.
   scene.output.width = third(scene.output.width);
   scene.output.height = third(scene.output.height);
   scene.sampling.pixel_samples = 1;

@@ -4,8 +4,9 @@
 
 namespace belvedere {
 
-// A first look at a scene: the same sheet at a third of its pixels a side (rounded, at least 64, never more than the scene asks for), with
-// one line of sight through each pixel, a quarter of the directions to the sky, and all paint as strokes: no texture is painted or copied.
+// A quick preview of a scene: the same sheet at a third of its pixels per side (rounded, at least
+// 64, never more than the scene asks for), with one sample per pixel, a quarter of the sky
+// directions, and all paint as strokes: no texture is painted or copied.
 Scene make_draft(Scene scene);
 
 }  // namespace belvedere

@@ -9,10 +9,14 @@
 namespace belvedere {
 namespace {
 
-std::string line(const char* key, const std::string& text) { return fmt::format("{} = {}\n", key, json_quoted(text)); }
+std::string line(const char* key, const std::string& text) {
+  return fmt::format("{} = {}\n", key, json_quoted(text));
+}
 
 std::string source_table(const char* section, const FetchedMap& map, const std::string& folder) {
-  return fmt::format("[[{}]]\n", section) + line("file", folder.empty() ? map.file : (std::filesystem::path(folder) / map.file).string()) +
+  return fmt::format("[[{}]]\n", section) +
+         line("file",
+              folder.empty() ? map.file : (std::filesystem::path(folder) / map.file).string()) +
          line("origin", map.origin) + line("licence", map.licence) + line("get_from", map.get_from);
 }
 

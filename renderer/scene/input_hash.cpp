@@ -17,7 +17,8 @@ InputHash hash_address(const std::string& address) {
   const std::lock_guard lock(mutex);
   if (const auto found = known.find(address); found != known.end()) return found->second;
   ContentHash hash;
-  const std::uint64_t bytes = read_address(address, [&](std::string_view piece) { hash.add(piece); });
+  const std::uint64_t bytes =
+      read_address(address, [&](std::string_view piece) { hash.add(piece); });
   return known[address] = {bytes, hash.digits()};
 }
 

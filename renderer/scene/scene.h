@@ -29,15 +29,17 @@
 
 namespace belvedere {
 
-// A whole picture as plain values with defaults: what a scene file says. scene_file turns TOML into it and checks every range; the
-// table there is the reference of keys. Lengths in metres, angles in degrees.
+// A whole picture as plain values with defaults: the content of a scene file. scene_file turns TOML
+// into it and checks every range; the table there is the reference of keys. Lengths in metres,
+// angles in degrees.
 //
-// What a stage takes from the scene as it stands is a member of the stage's own type, so each default is written once, beside the stage.
-// Where a scene says something in another way (a place by longitude and latitude), the field here takes its default from there.
+// What a stage takes from the scene unchanged is a member of the stage's own type, so each default
+// is written once, beside the stage. Where a scene states something in another form (a position by
+// longitude and latitude), the field here takes its default from there.
 
 struct SceneSource {    // a file and where it comes from
   std::string file;     // relative to the scene file or a --data folder
-  std::string unit;     // "m", "ft", "us-ft" or empty: what the file says
+  std::string unit;     // "m", "ft", "us-ft" or empty: the file's own unit
   RasterSource raster;  // without path and unit
   std::string origin;   // who made the data
   std::string licence;
@@ -47,47 +49,52 @@ struct SceneSource {    // a file and where it comes from
 struct SceneTerrain {
   std::vector<SceneSource> sources;  // empty: synthetic
   std::optional<SyntheticParameters> synthetic;
-  DemParameters dem;         // without sources
-  double most_mcells = 0.0;  // millions of cells that the ground may have; 0: by memory
+  DemParameters dem;        // without sources
+  double max_mcells = 0.0;  // millions of cells that the ground may have; 0: limited by memory
 };
 
-struct SceneTown {  // a town that is known: see terrain/cover/towns.h
+struct SceneTown {  // a known town: see terrain/cover/towns.h
   std::string name;
   std::optional<glm::dvec2> position;         // E, N in the scene's CRS
   std::optional<glm::dvec2> position_lonlat;  // or longitude, latitude
-  double radius_m = 0.0;                      // a scene has to say it
+  double radius_m = 0.0;                      // required in a scene
 };
 
 struct SceneLandCover {
-  std::vector<SceneSource> sources;                      // empty: by rules
-  std::string legend;                                    // "nlcd", "corine", "esa_worldcover", "fbfm40", or a .csv or .toml file
-  std::string rules = "life_zones";                      // where there is no source: built-in name or file
-  std::string layers;                                    // a file of surface layers, instead of rules; empty: none
-  std::string colours = "palette";                       // what the ground's colours come from: "palette", "layers" or "image"
-  std::string colour_image;                              // the picture from above, for "image"
-  double colour_share = 1.0;                             // how far the palette's colours go over to those, 0…1
-  double bumps = 1.0;                                    // how high the bumps of layers are, of what their file says, 0…20
-  bool lake_beds = true;                                 // with colours of layers: lakes are seen through, down to made-up beds
+  std::vector<SceneSource> sources;  // empty: by rules
+  std::string legend;  // "nlcd", "corine", "esa_worldcover", "fbfm40", or a .csv or .toml file
+  std::string rules = "life_zones";  // where there is no source: built-in name or file
+  std::string layers;                // a file of surface layers, instead of rules; empty: none
+  std::string colours =
+      "palette";              // source of the ground's colours: "palette", "layers" or "image"
+  std::string colour_image;   // the image from above, for "image"
+  double colour_share = 1.0;  // weight of those colours against the palette's, 0…1
+  double bumps = 1.0;         // factor on the height of the layers' bumps, 0…20
+  bool lake_beds = true;  // with colours of layers: lakes are transparent, down to synthetic beds
   std::vector<std::pair<std::string, double>> settings;  // parameters of the rules or layers
-  std::vector<SceneTown> towns;                          // what rules know of towns …
-  std::string rock = "limestone";                        // a kind of rock_kinds.h
-  std::string sea = "auto";                              // "auto" or "none"
-  std::optional<double> sea_level_m;                     // where the scene knows it
-  std::string towns_file;                                // … and a table of further ones; empty: none
-  // What a raster does not tell: {glacier, rock} makes glacier of what the raster calls rock and the rules call glacier.
+  std::vector<SceneTown> towns;       // what the rules take as known about towns …
+  std::string rock = "limestone";     // a kind of rock_kinds.h
+  std::string sea = "auto";           // "auto" or "none"
+  std::optional<double> sea_level_m;  // where the scene gives it
+  std::string towns_file;             // … and a table of further ones; empty: none
+  // What a raster does not distinguish: {glacier, rock} turns the raster's rock into glacier where
+  // the rules find a glacier.
   std::vector<std::pair<LandCoverClass, LandCoverClass>> refine;
   std::optional<LandCoverClass> unknown;
   std::optional<LandCoverClass> nodata;
-  std::vector<std::pair<std::string, double>> erode;  // classes that draw back, in steps (land_cover_erosion.h)
-  PatchParameters patches;                            // generalization: small patches go, those that matter stay
+  std::vector<std::pair<std::string, double>>
+      erode;  // classes that retreat, in steps (land_cover_erosion.h)
+  PatchParameters
+      patches;  // generalization: small patches are removed, except of the classes that matter
 };
 
 struct SceneSeason {
-  std::string date;                   // "MM-DD"; empty: high summer, with what snow lasts through it
-  std::string frozen_lakes = "auto";  // with a palette of winter: "auto", by the climate, "always" or "never"
+  std::string date;  // "MM-DD"; empty: high summer, with the snow that lasts through it
+  std::string frozen_lakes =
+      "auto";  // with a winter palette: "auto", by the climate, "always" or "never"
 };
 
-struct SceneClimate {       // see terrain/climate/climate.h; where nothing is said, the climate of the place
+struct SceneClimate {       // see terrain/climate/climate.h; default: the climate of the place
   std::string stations;     // a table of stations or a history of the climate; empty: none
   std::string temperature;  // raster of 12 months; empty: none
   double temperature_factor = ClimateParameters{}.temperature_factor;
@@ -100,23 +107,26 @@ struct SceneClimate {       // see terrain/climate/climate.h; where nothing is s
 };
 
 struct SceneGeneralize {
-  std::string preset;  // fills what the file does not write; empty: none
+  std::string preset;  // used where the file gives no weights; empty: none
   GeneralizeParameters bands;
-  std::optional<double> foreground_to_m;                     // up to this distance all foreground; absent: by the horizon …
-  std::optional<double> background_from_m;                   // … and from here all background, smoothstep between
-  std::string curvature = "bounded";                         // "bounded" or "plan": becomes bands.curvature
-  double print_detail_px = 0.0;                              // 0: every band, wherever it is
-  std::array<double, 2> mask_slope_deg = {0, 0};             // original up to the first, generalized from the second; 0, 0: no mask
-  bool automatic_mask = false;                               // of slope feet
-  std::string mask;                                          // raster; empty: none
-  std::vector<std::pair<std::string, double>> mask_classes;  // how much of the generalization a class takes
+  std::optional<double>
+      foreground_to_m;  // up to this distance only foreground; absent: by the horizon …
+  std::optional<double> background_from_m;  // … and from here only background, smoothstep between
+  std::string curvature = "bounded";        // "bounded" or "plan": becomes bands.curvature
+  double print_detail_px = 0.0;             // 0: every band, at any distance
+  std::array<double, 2> mask_slope_deg = {
+      0, 0};  // original up to the first, generalized from the second; 0, 0: no mask
+  bool automatic_mask = false;  // of slope feet
+  std::string mask;             // raster; empty: none
+  std::vector<std::pair<std::string, double>>
+      mask_classes;  // share of the generalization that a class takes
   bool keep_lakes = true;
-  bool destripe = false;           // takes stripes off the DEM itself, before everything else
+  bool destripe = false;           // removes stripes from the DEM itself, before everything else
   bool line_integral = false;      // line integral convolution, before the bands
   WidenValleysParameters valleys;  // after the bands
 };
 
-struct SceneSummit {  // a summit with an exaggeration of its own
+struct SceneSummit {  // a summit with its own exaggeration
   std::string name;
   std::optional<glm::dvec2> position;         // E, N in the scene's CRS
   std::optional<glm::dvec2> position_lonlat;  // or longitude, latitude
@@ -129,20 +139,23 @@ struct SceneHandle {  // a piece of ground that is moved: see terrain/deform/han
   std::optional<glm::dvec2> position_lonlat;
   std::optional<double> core_m;               // else half of the radius
   std::array<double, 2> move_m = {0.0, 0.0};  // east, north
-  DeformHandle handle{.radius_m = 5000.0};    // without centre, core and move; a scene has to ask for a handle without an end
+  DeformHandle handle{
+      .radius_m =
+          5000.0};  // without centre, core and move; a scene must set the radius of a handle
 };
 
 struct SceneDeform {
-  // Without summits and handles (resolve_deform puts them there, at places of the scene's CRS) and without the values below.
+  // Without summits and handles (resolve_deform adds them, at positions in the scene's CRS) and
+  // without the values below.
   DeformParameters ground;
-  // Absent: by the region, as renderer/world/view_settling.h says.
+  // Absent: derived from the region, see renderer/world/resolve_view.h.
   std::optional<double> exaggeration, exaggeration_base_m;
   std::optional<double> bend_radius_m, bend_crest_m;
   std::vector<SceneSummit> summits;
   std::vector<SceneHandle> handles;
-  bool allow_folds = false;  // ground in the picture that handles fold over itself is a note instead of an error
+  bool allow_folds = false;  // a fold of ground in the picture is a note instead of an error
 
-  // What is written alone: otherwise the ground is neither raised nor bent.
+  // Only these values raise or bend the ground.
   DeformParameters written() const {
     DeformParameters out = ground;
     out.exaggeration = exaggeration.value_or(out.exaggeration);
@@ -161,10 +174,10 @@ struct SceneCamera {
   bool height_above_ground = false;           // else above the datum
   std::optional<glm::dvec2> look_at;          // E, N: a point on the ground
   std::optional<glm::dvec2> look_at_lonlat;
-  std::optional<double> look_at_altitude_m;  // else the ground's, unbent
+  std::optional<double> look_at_altitude_m;  // else the ground's altitude, unbent
   std::optional<double> azimuth_deg;         // without look_at; absent: by the region
   std::optional<double> pitch_deg;
-  std::optional<double> tilt_deg;  // added to the pitch in either case
+  std::optional<double> tilt_deg;  // added to the pitch in both cases
   double field_of_view_deg = CameraParameters{}.field_of_view_deg;
   double view_width_m = CameraParameters{}.view_width_m;
 };
@@ -172,18 +185,19 @@ struct SceneCamera {
 struct SceneSun {
   std::optional<double> azimuth_deg;  // absent: the painter's sun
   std::optional<double> altitude_deg;
-  std::string time;                            // ISO 8601 with zone; then azimuth and altitude are computed for the scene's middle
+  std::string time;  // ISO 8601 with zone; azimuth and altitude are then computed for the centre of
+                     // the scene
   double radius_deg = painted_sun_radius_deg;  // of the disc: softness of cast shadows
 };
 
 struct SceneMist {  // see renderer/mist
   std::string name;
-  std::string kind = "sea";                   // "sea", "valley" or "lee"
-  std::optional<double> to_m;                 // a sea has to say it
-  std::optional<double> sight_m, patches;     // absent: by the kind
-  std::optional<glm::dvec2> position;         // E, N in the scene's CRS
-  std::optional<glm::dvec2> position_lonlat;  // or longitude, latitude
-  MistParameters look;                        // without these
+  std::string kind = "sea";                     // "sea", "valley" or "lee"
+  std::optional<double> to_m;                   // required for a sea
+  std::optional<double> visibility_m, patches;  // absent: by the kind
+  std::optional<glm::dvec2> position;           // E, N in the scene's CRS
+  std::optional<glm::dvec2> position_lonlat;    // or longitude, latitude
+  MistParameters look;                          // without these
 };
 
 struct SceneAir {
@@ -192,15 +206,15 @@ struct SceneAir {
   std::vector<SceneMist> mist;
 };
 
-struct SceneLightRegion {  // a part of the map with a light of its own: see renderer/trace/light_field.h
+struct SceneLightRegion {  // a part of the map with its own light: see renderer/trace/light_field.h
   std::string name;
-  std::optional<glm::dvec2> position;         // a circle: its middle, E, N in the scene's CRS
+  std::optional<glm::dvec2> position;         // a circle: its centre, E, N in the scene's CRS
   std::optional<glm::dvec2> position_lonlat;  // or longitude, latitude
   std::optional<double> radius_m;
   std::vector<glm::dvec2> points, points_lonlat;  // or the corners of an outline
   std::string file, layer, where;                 // or the areas of a vector file
   std::string origin, licence, get_from;
-  bool optional = false;                                      // missing file: left out with a note instead of an error
+  bool optional = false;  // a missing file is a note instead of an error
   std::optional<double> azimuth_deg, altitude_deg, turn_deg;  // of its sun; absent: the scene's
   double strength = LightRegion{}.strength;
   double warmth = LightRegion{}.warmth;
@@ -216,70 +230,79 @@ struct SceneLightCloud {  // the shadow of a cloud
   std::optional<double> blend_m;  // absent: as wide as the radius
 };
 
-// One exemplar: painted by the program (picture empty), or a picture with a class mask and perhaps guides.
+// One exemplar: painted by the program (picture empty), or a picture with a class mask and perhaps
+// guides.
 struct SceneExemplar {
-  std::string picture;            // file; empty: the program paints one
-  std::string model;              // file of a texture model instead
-  std::string prefer = "texels";  // of a model's classes: "texels" while there are enough, or the "model"
-  std::string light = "any";      // ground that a model paints: "lit", "shaded" or "any"
-  std::string guidance;           // guidance.exr of the picture, or:
-  std::string classes;            // grey image of class ids; 255 excludes
-  std::string altitude;           // grey image, scaled by altitude_range_m
+  std::string picture;  // file; empty: the program paints one
+  std::string model;    // file of a texture model instead
+  std::string prefer =
+      "texels";  // for the model's classes: "texels" while there are enough, or the "model"
+  std::string light = "any";  // ground that the model paints: "lit", "shaded" or "any"
+  std::string guidance;       // guidance.exr of the picture, or:
+  std::string classes;        // grey image of class ids; 255 excludes
+  std::string altitude;       // grey image, scaled by altitude_range_m
   std::array<double, 2> altitude_range_m = {0.0, 4000.0};
-  std::string shadow;                  // grey image: black in cast shadow, white in the sun
-  std::string exclude;                 // grey image: what is not black is never copied from
-  std::string excluded = "skip";       // what becomes of it: "skip", or "fill" it with the paint around
+  std::string shadow;             // grey image: black in cast shadow, white in the sun
+  std::string exclude;            // grey image: pixels that are not black are never copied from
+  std::string excluded = "skip";  // what happens to it: "skip", or "fill" it from the paint around
   std::vector<LandCoverClass> serves;  // classes it may be copied for; empty: all
-  std::string found_shadow = "guide";  // without a shadow image: "guide", "exclude" or "ignore" dark, cool places
-  double stroke_px = 6.0;              // what is larger than this is light, what is smaller a stroke
+  std::string found_shadow = "guide";  // without a shadow image: what to do with dark, cool pixels:
+                                       // "guide", "exclude" or "ignore"
+  double stroke_px = 6.0;  // variation larger than this is light, smaller variation is strokes
   std::string origin, licence, get_from;
-  bool optional = false;  // missing file: left out with a note instead of an error
-  int width = 0;          // px of a painted one, 64…16384; 0: from the other at 10 : 7, or both as the print needs
+  bool optional = false;  // a missing file is a note instead of an error
+  int width =
+      0;  // px of a painted one, 64…16384; 0: from the other at 10 : 7, or both from the print size
   int height = 0;
   std::uint64_t seed = 7;
 };
 
 struct SceneSynthesis {
   bool enabled = true;              // off: everything is painted as strokes
-  std::string colours = "palette";  // whose colours the picture has: "palette" or "painting"
-  std::string harmonize = "off";    // colours of several paintings: "off", "common", or like the "first", by class or by its "regions"
-  bool knit = false;                // seams between paintings are made anew by models of the paint on both sides
-  double residual = 0.75;           // how much of the base picture's difference is laid over the texel, 0…1
-  std::vector<std::pair<std::string, double>> weights = default_guide_weights();  // by guide (renderer/paint/guides.h)
+  std::string colours = "palette";  // whose colours the picture takes: "palette" or "painting"
+  std::string harmonize = "off";    // matching colours of several paintings: "off", "common", or to
+                                    // the "first", by class or by "regions"
+  bool synthesize_seams = false;    // between paintings, by models of the paint on both sides
+  double residual = 0.75;  // share of the base picture's difference added to the texel, 0…1
+  std::vector<std::pair<std::string, double>> weights =
+      default_guide_weights();  // by guide (renderer/paint/guides.h)
   std::vector<std::pair<LandCoverClass, LandCoverClass>> fallback;
-  std::vector<std::pair<std::string, double>> unlikeness;  // by two names of classes, "forest/shrub"
-  double plan_mpx = 4.0;       // Mpx, 0.001…64: texels are chosen for the sheet as a whole on a picture of it of at most that size
-  SynthesisParameters search;  // without seed, weights, fallback and unlikeness
+  std::vector<std::pair<std::string, double>>
+      class_dissimilarity;  // by two names of classes, "forest/shrub"
+  double plan_mpx = 4.0;  // Mpx, 0.001…64: texels are chosen for the whole sheet on a picture of it
+                          // of at most that size
+  SynthesisParameters search;  // without seed, weights, fallback and class dissimilarity
 };
 
-// Features of one vector file: what the table of kinds (renderer/features/feature_style.h) does with them.
+// Features of one vector file, drawn by the table of kinds (renderer/features/feature_style.h).
 struct SceneFeatures {
-  std::string source;         // file
-  std::string layer;          // of the file; empty: all that have such features
-  std::string where;          // filter by attributes; empty: all
-  std::string kind;           // a word of the style; with kind_of that of features whose column has none
-  std::string kind_of;        // a column whose words are kinds; empty: none
-  double width_mm = 0.0;      // of the sheet; 0: the style's
-  std::string width_of;       // a column with widths in metres of the ground; empty: none
-  std::string level_of;       // a column with altitudes of lakes, m; empty: none
-  std::string people_of;      // a column with inhabitants of towns; empty: none
-  double snap_m = 150.0;      // rivers are moved to the bottoms of valleys that far off
-  bool keep_guesses = false;  // of rivers and towns, beside those of this file
+  std::string source;  // file
+  std::string layer;   // of the file; empty: all that have such features
+  std::string where;   // filter by attributes; empty: all
+  std::string
+      kind;  // a word of the style; with kind_of, for features whose column has no known kind
+  std::string kind_of;         // a column that contains kinds; empty: none
+  double width_mm = 0.0;       // of the sheet; 0: the style's
+  std::string width_of;        // a column with widths in metres of the ground; empty: none
+  std::string level_of;        // a column with altitudes of lakes, m; empty: none
+  std::string population_of;   // a column with inhabitants of towns; empty: none
+  double snap_m = 150.0;       // rivers are moved to the valley bottom within this distance
+  bool keep_inferred = false;  // keeps inferred rivers and towns beside those of this file
   std::string origin, licence, get_from;
-  bool optional = false;  // missing file: left out with a note instead of an error
+  bool optional = false;  // a missing file is a note instead of an error
 };
 
-struct SceneLabelFile {  // a file of what has a name, or of ways
+struct SceneLabelFile {  // a file of named things, or of ways
   std::string file;
   std::string origin, licence, get_from;
-  bool optional = false;  // missing file: left out with a note instead of an error
+  bool optional = false;  // a missing file is a note instead of an error
 };
 
 struct SceneLabels {  // names on the picture: see renderer/labels
   std::string style = "classic";
-  bool in_picture = false;            // also panorama_names.*, with the names drawn in
-  int summits = 0;                    // of the DEM itself
-  double least_prominence_m = 150.0;  // of these
+  bool in_picture = false;          // also panorama_names.*, with the names drawn in
+  int summits = 0;                  // of the DEM itself
+  double min_prominence_m = 150.0;  // of these summits
   std::vector<SceneLabelFile> points, shapes, tracks;
 
   bool any() const { return summits > 0 || !points.empty() || !shapes.empty() || !tracks.empty(); }
@@ -298,13 +321,15 @@ struct SceneMargin {  // around panorama_names.*: see renderer/labels/margin.h
 struct SceneOutput {
   int width = CameraParameters{}.width;
   int height = CameraParameters{}.height;
-  double sheet_width_mm = 1200.0;                            // strokes are sized in mm of this sheet; dpi follows
-  std::vector<std::string> formats = {"tif", "png", "exr"};  // endings of the picture's files (renderer/image/picture_formats.h)
-  std::string profile;                                       // ICC file to convert the TIFF to, RGB or CMYK; empty: `colours`
-  std::string colours = "srgb";                              // of the TIFF, without a profile: a name of device_color.h
-  std::string intent = "perceptual";                         // how colours come into profile or space: a name of device_color.h
-  bool black_point = true;                                   // with the picture's black as the device's darkest
-  double ink_limit = 0.0;                                    // percent, of CMYK, for the report; 0: the profile's own
+  double sheet_width_mm = 1200.0;  // strokes are sized in mm of this sheet; dpi follows
+  std::vector<std::string> formats = {
+      "tif", "png", "exr"};  // extensions of the picture's files (renderer/image/picture_formats.h)
+  std::string profile;       // ICC file to convert the TIFF to, RGB or CMYK; empty: `colours`
+  std::string colours = "srgb";  // of the TIFF, without a profile: a name of device_colour.h
+  std::string intent =
+      "perceptual";  // how colours are mapped into the profile or space: a name of device_colour.h
+  bool black_point = true;  // maps the picture's black to the device's darkest colour
+  double ink_limit = 0.0;   // percent, of CMYK, for the report; 0: the profile's own limit
   std::string ocio_config;
 };
 
@@ -321,7 +346,8 @@ struct Scene {
   SceneCamera camera;
   SceneSun sun;
   SamplingParameters sampling;
-  TracerParameters tracing;  // its instruction set is pinned where other machines must give the same picture
+  TracerParameters
+      tracing;  // its instruction set is fixed where several machines must give the same picture
   LightParameters light;
   WaterParameters water;
   std::vector<SceneLightRegion> light_regions;

@@ -7,8 +7,8 @@
 
 namespace belvedere {
 
-// What `make` gives. A stage's errors name its own fields; here they get the scene's section before them: "handles.1" of the deformation
-// becomes "deform.handles.1".
+// The result of `make`. A stage's errors name its own fields; here the scene's section is put
+// before them: "handles.1" of the deformation becomes "deform.handles.1".
 template <class Make>
 auto in_section(const std::string& section, Make&& make) {
   try {

@@ -10,6 +10,7 @@
 
 #include "base/config.h"
 #include "base/error.h"
+#include "renderer/scene/former_keys.h"
 #include "renderer/scene/scene_rules.h"
 #include "renderer/scene/scene_schema.h"
 #include "renderer/scene/scene_settings.h"
@@ -18,7 +19,9 @@
 namespace belvedere {
 namespace {
 
-std::string listed(const std::vector<std::string>& names) { return fmt::format("{}", fmt::join(names, ", ")); }
+std::string listed(const std::vector<std::string>& names) {
+  return fmt::format("{}", fmt::join(names, ", "));
+}
 
 std::string suggestion(const std::string& word, const std::vector<std::string>& candidates) {
   const std::string near = nearest_word(word, candidates);
@@ -28,7 +31,8 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
 // One value into its field. `key_name` is the dotted name for messages.
 class ValueReader {
  public:
-  ValueReader(const SceneKey& key, std::string key_name, const ConfigValue& value, const LoadedScene& scene, const SceneOrigin& origin)
+  ValueReader(const SceneKey& key, std::string key_name, const ConfigValue& value,
+              const LoadedScene& scene, const SceneOrigin& origin)
       : key_(key), key_name_(std::move(key_name)), value_(value), scene_(scene), origin_(origin) {}
 
   void operator()(bool* field) const {
@@ -61,19 +65,19 @@ class ValueReader {
     *field = {four[0], four[1], four[2], four[3]};
   }
   void operator()(std::vector<glm::dvec2>* field) const {
-    constexpr std::size_t least = 3;
-    constexpr std::size_t most = 1000;
+    constexpr std::size_t min = 3;
+    constexpr std::size_t max = 1000;
     const auto* array = std::get_if<ConfigArray>(&value_.value);
-    if (array == nullptr || array->size() < least || array->size() > most) wrong(value_);
+    if (array == nullptr || array->size() < min || array->size() > max) wrong(value_);
     field->clear();
     for (const ConfigValue& entry : *array) {
-      const std::vector<double> place = numbers(entry, 2, 2);
-      field->emplace_back(place[0], place[1]);
+      const std::vector<double> position = numbers(entry, 2, 2);
+      field->emplace_back(position[0], position[1]);
     }
   }
   void operator()(std::vector<float>* field) const {
-    constexpr std::size_t most_bands = 12;
-    const std::vector<double> list = numbers(1, most_bands);
+    constexpr std::size_t max_bands = 12;
+    const std::vector<double> list = numbers(1, max_bands);
     field->assign(list.begin(), list.end());
   }
   void operator()(std::optional<LandCoverClass>* field) const { *field = class_of(value_); }
@@ -92,9 +96,10 @@ class ValueReader {
       const std::string* name = std::get_if<std::string>(&entry.value);
       if (name == nullptr) wrong(entry);
       if (std::find(names.begin(), names.end(), *name) == names.end())
-        refuse(entry, fmt::format("{} has \"{}\"{}", key_name_, *name, suggestion(*name, names)), listed(names));
+        refuse(entry, fmt::format("{} has \"{}\"{}", key_name_, *name, suggestion(*name, names)),
+               listed(names));
       if (std::find(field->begin(), field->end(), *name) != field->end())
-        refuse(entry, fmt::format("{} has \"{}\" twice", key_name_, *name), "each once");
+        refuse(entry, fmt::format("{} has \"{}\" twice", key_name_, *name), "each name once");
       field->push_back(*name);
     }
   }
@@ -103,37 +108,44 @@ class ValueReader {
     for (const ConfigEntry& entry : table()) {
       const std::vector<std::string> names = key_choices(key_);
       if (!names.empty() && std::find(names.begin(), names.end(), entry.key) == names.end())
-        throw Error(ErrorKind::usage, origin_.where(entry.key_place),
-                    fmt::format("{} has no \"{}\"{}", key_name_, entry.key, suggestion(entry.key, names)), listed(names));
+        throw Error(ErrorKind::usage, origin_.where(entry.key_position),
+                    fmt::format("{}: unknown name \"{}\"{}", key_name_, entry.key,
+                                suggestion(entry.key, names)),
+                    listed(names));
       field->emplace_back(entry.key, number(entry.value, key_.range));
     }
   }
   void operator()(std::vector<std::pair<LandCoverClass, LandCoverClass>>* field) const {
     field->clear();
     for (const ConfigEntry& entry : table()) {
-      const LandCoverClass from = class_of({.value = entry.key, .place = entry.key_place});
+      const LandCoverClass from = class_of({.value = entry.key, .position = entry.key_position});
       const LandCoverClass to = class_of(entry.value);
-      if (from == to) refuse(entry.value, fmt::format("{} would be copied from itself", entry.key), "another class");
+      if (from == to)
+        refuse(entry.value, fmt::format("{} is mapped to itself", entry.key), "another class");
       field->emplace_back(from, to);
     }
   }
   void operator()(std::string* field) const {
     const std::string* text = std::get_if<std::string>(&value_.value);
     if (text == nullptr) wrong(value_);
-    if (std::any_of(text->begin(), text->end(), [](unsigned char c) { return (c < 0x20 && c != '\n' && c != '\t') || c == 0x7f; }))
-      refuse(value_, key_name_ + " has control characters in it", "text");
-    // Nothing written and nothing between the quotes are the same, where a key may be absent.
+    if (std::any_of(text->begin(), text->end(), [](unsigned char c) {
+          return (c < 0x20 && c != '\n' && c != '\t') || c == 0x7f;
+        }))
+      refuse(value_, key_name_ + " contains control characters", "text");
+    // An absent key and an empty string mean the same, where a key may be absent.
     if (!(text->empty() && field->empty())) check_text(*text);
     *field = *text;
   }
 
  private:
-  [[noreturn]] void refuse(const ConfigValue& at, const std::string& found, const std::string& allowed) const {
-    throw Error(ErrorKind::usage, origin_.where(at.place), found, allowed);
+  [[noreturn]] void refuse(const ConfigValue& at, const std::string& found,
+                           const std::string& allowed) const {
+    throw Error(ErrorKind::usage, origin_.where(at.position), found, allowed);
   }
   [[noreturn]] void wrong(const ConfigValue& at) const {
     const std::string range = describe_range(key_);
-    refuse(at, fmt::format("{} is {}", key_name_, describe(at)), describe_type(key_) + (range.empty() ? "" : ", " + range));
+    refuse(at, fmt::format("{} is {}", key_name_, describe(at)),
+           describe_type(key_) + (range.empty() ? "" : ", " + range));
   }
 
   double number(const ConfigValue& at, const SceneRange& range) const {
@@ -145,7 +157,9 @@ class ValueReader {
     else
       wrong(at);
     // Written so that nan is refused as well.
-    if (!(out >= range.min && out <= range.max) || (range.above_min && out == range.min) || !std::isfinite(out)) wrong(at);
+    if (!(out >= range.min && out <= range.max) || (range.above_min && out == range.min) ||
+        !std::isfinite(out))
+      wrong(at);
     return out;
   }
 
@@ -156,10 +170,12 @@ class ValueReader {
     return *whole;
   }
 
-  std::vector<double> numbers(std::size_t least, std::size_t most) const { return numbers(value_, least, most); }
-  std::vector<double> numbers(const ConfigValue& at, std::size_t least, std::size_t most) const {
+  std::vector<double> numbers(std::size_t min, std::size_t max) const {
+    return numbers(value_, min, max);
+  }
+  std::vector<double> numbers(const ConfigValue& at, std::size_t min, std::size_t max) const {
     const auto* array = std::get_if<ConfigArray>(&at.value);
-    if (array == nullptr || array->size() < least || array->size() > most) wrong(at);
+    if (array == nullptr || array->size() < min || array->size() > max) wrong(at);
     std::vector<double> out;
     for (std::size_t i = 0; i < array->size(); ++i) {
       SceneRange range = key_.range;
@@ -179,7 +195,9 @@ class ValueReader {
     const std::vector<std::string> names = ground_class_names();
     const auto* name = std::get_if<std::string>(&at.value);
     if (name == nullptr || std::find(names.begin(), names.end(), *name) == names.end())
-      refuse(at, fmt::format("{} has {}, which is no class{}", key_name_, describe(at), name == nullptr ? "" : suggestion(*name, names)),
+      refuse(at,
+             fmt::format("{} has {}, which is not a class{}", key_name_, describe(at),
+                         name == nullptr ? "" : suggestion(*name, names)),
              listed(names));
     return *find_class(*name);
   }
@@ -188,44 +206,52 @@ class ValueReader {
     const std::vector<std::string> names = key_choices(key_);
     const bool known = std::find(names.begin(), names.end(), text) != names.end();
     if (key_.text == TextKind::choice && !known)
-      refuse(value_, fmt::format("{} is {}{}", key_name_, describe(value_), suggestion(text, names)), describe_type(key_));
+      refuse(value_,
+             fmt::format("{} is {}{}", key_name_, describe(value_), suggestion(text, names)),
+             describe_type(key_));
     if (key_.text == TextKind::built_in && !known) {
       if (!text.ends_with(".toml") && !text.ends_with(".csv"))
         refuse(value_,
-               fmt::format("{} is {}, which is neither built in nor a .toml or .csv file{}", key_name_, describe(value_),
-                           suggestion(text, names)),
+               fmt::format("{} is {}, which is neither a built-in name nor a .toml or .csv file{}",
+                           key_name_, describe(value_), suggestion(text, names)),
                describe_type(key_));
       check_file(text);
     }
     if (key_.text == TextKind::file) check_file(text);
     if (key_.text == TextKind::date) check_date(text);
     if (key_.text == TextKind::time) {
-      static const std::regex moment(R"(\d{4}-\d\d-\d\dT\d\d:\d\d(:\d\d(\.\d{1,9})?)?(Z|[+-]\d\d:\d\d))");
+      static const std::regex moment(
+          R"(\d{4}-\d\d-\d\dT\d\d:\d\d(:\d\d(\.\d{1,9})?)?(Z|[+-]\d\d:\d\d))");
       if (!std::regex_match(text, moment))
         refuse(value_, fmt::format("{} is {}", key_name_, describe(value_)),
-               "ISO 8601 with a zone, such as \"2024-06-21T17:30:00+02:00\" or \"2024-06-21T15:30:00Z\"");
+               "ISO 8601 with a zone, such as \"2024-06-21T17:30:00+02:00\" or "
+               "\"2024-06-21T15:30:00Z\"");
     }
   }
 
-  // A day that some year has.
+  // A day that exists in some year.
   void check_date(const std::string& text) const {
     static const std::regex day(R"(\d\d-\d\d)");
     constexpr std::array<int, 12> days = {31, 29, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
     const bool formed = std::regex_match(text, day);
     const int month = formed ? std::stoi(text.substr(0, 2)) : 0;
     const int of_month = formed ? std::stoi(text.substr(3)) : 0;
-    if (month < 1 || month > 12 || of_month < 1 || of_month > days[static_cast<std::size_t>(month - 1)])
-      refuse(value_, fmt::format("{} is {}", key_name_, describe(value_)), "month and day, such as \"10-05\" for the fifth of October");
+    if (month < 1 || month > 12 || of_month < 1 ||
+        of_month > days[static_cast<std::size_t>(month - 1)])
+      refuse(value_, fmt::format("{} is {}", key_name_, describe(value_)),
+             "month and day, such as \"10-05\" for the fifth of October");
   }
 
   void check_file(const std::string& file) const {
     if (file.empty()) refuse(value_, key_name_ + " is empty", "a file name");
     if (is_address(file) && !key_.raster)
-      refuse(value_, fmt::format("{} is {}", key_name_, describe(value_)), "a file here: only rasters are read from servers");
+      refuse(value_, fmt::format("{} is {}", key_name_, describe(value_)),
+             "a local file: only rasters are read from servers");
     try {
       find_scene_file(scene_, file);
     } catch (const Error& error) {
-      refuse(value_, fmt::format("{} is {}: {}", key_name_, describe(value_), error.found()), error.allowed());
+      refuse(value_, fmt::format("{} is {}: {}", key_name_, describe(value_), error.found()),
+             error.allowed());
     }
   }
 
@@ -236,7 +262,7 @@ class ValueReader {
   const SceneOrigin& origin_;
 };
 
-// An empty text says nothing, so it excludes nothing either.
+// An empty string excludes nothing either.
 const ConfigEntry* given(const ConfigTable& table, std::string_view key) {
   for (const ConfigEntry& entry : table) {
     const auto* text = std::get_if<std::string>(&entry.value.value);
@@ -250,29 +276,36 @@ class SceneReader {
   SceneReader(LoadedScene& loaded, const SceneOrigin& origin) : loaded_(loaded), origin_(origin) {}
 
   void read(const ConfigValue& root) {
-    // A later format has other keys: say that first.
+    // A later format has other keys, so this is reported first.
     const ConfigTable& table = std::get<ConfigTable>(root.value);
     if (const ConfigEntry* version = given(table, "version"))
-      std::visit(ValueReader(*find_key(*find_section(""), "version"), "version", version->value, loaded_, origin_),
+      std::visit(ValueReader(*find_key(*find_section(""), "version"), "version", version->value,
+                             loaded_, origin_),
                  SceneField(&loaded_.scene.version));
     read_table(*find_section(""), "", root, 0);
   }
 
  private:
-  [[noreturn]] void refuse(ConfigPlace place, const std::string& found, const std::string& allowed) const {
-    throw Error(ErrorKind::usage, origin_.where(place), found, allowed);
+  [[noreturn]] void refuse(ConfigPosition position, const std::string& found,
+                           const std::string& allowed) const {
+    throw Error(ErrorKind::usage, origin_.where(position), found, allowed);
   }
 
   // `name` has the indices of list elements: "exemplar.0".
-  void read_table(const SceneSection& section, const std::string& name, const ConfigValue& value, std::size_t i) {
+  void read_table(const SceneSection& section, const std::string& name, const ConfigValue& value,
+                  std::size_t i) {
     const auto* table = std::get_if<ConfigTable>(&value.value);
-    if (table == nullptr) refuse(value.place, fmt::format("{} is {}", name, describe(value)), fmt::format("a table, [{}]", section.name));
+    if (table == nullptr)
+      refuse(value.position, fmt::format("{} is {}", name, describe(value)),
+             fmt::format("a table, [{}]", section.name));
     const std::vector<const SceneSection*> children = child_sections(section.name);
     for (const ConfigEntry& entry : *table) {
-      const auto child = std::find_if(children.begin(), children.end(),
-                                      [&](const SceneSection* c) { return c->name == join_key(section.name, entry.key); });
+      const auto child = std::find_if(children.begin(), children.end(), [&](const SceneSection* c) {
+        return c->name == join_key(section.name, entry.key);
+      });
       if (const SceneKey* key = find_key(section, entry.key)) {
-        std::visit(ValueReader(*key, join_key(name, entry.key), entry.value, loaded_, origin_), key->field(loaded_.scene, i));
+        std::visit(ValueReader(*key, join_key(name, entry.key), entry.value, loaded_, origin_),
+                   key->field(loaded_.scene, i));
       } else if (child != children.end()) {
         read_section(**child, entry.value);
       } else {
@@ -281,7 +314,7 @@ class SceneReader {
     }
     for (const SceneKey& key : section.keys)
       if (key.required && given(*table, key.name) == nullptr)
-        refuse(value.place, fmt::format("{} is missing", join_key(name, key.name)),
+        refuse(value.position, fmt::format("{} is missing", join_key(name, key.name)),
                fmt::format("{} = {}", key.name, key.name == "version" ? "1" : describe_type(key)));
     check_exclusions(section, name, *table);
   }
@@ -294,29 +327,39 @@ class SceneReader {
     }
     const auto* array = std::get_if<ConfigArray>(&value.value);
     if (array == nullptr)
-      refuse(value.place, fmt::format("{} is {}", name, describe(value)), fmt::format("blocks that begin with [[{}]]", name));
-    constexpr std::size_t most = 1000;
-    if (array->size() > most) refuse(value.place, fmt::format("{} has {} blocks", name, array->size()), fmt::format("at most {}", most));
+      refuse(value.position, fmt::format("{} is {}", name, describe(value)),
+             fmt::format("blocks that begin with [[{}]]", name));
+    constexpr std::size_t max = 1000;
+    if (array->size() > max)
+      refuse(value.position, fmt::format("{} has {} blocks", name, array->size()),
+             fmt::format("at most {}", max));
     section.resize(loaded_.scene, array->size());
-    for (std::size_t i = 0; i < array->size(); ++i) read_table(section, join_key(name, std::to_string(i)), (*array)[i], i);
+    for (std::size_t i = 0; i < array->size(); ++i)
+      read_table(section, join_key(name, std::to_string(i)), (*array)[i], i);
   }
 
-  [[noreturn]] void unknown_key(const SceneSection& section, const std::string& name, const ConfigEntry& entry,
+  [[noreturn]] void unknown_key(const SceneSection& section, const std::string& name,
+                                const ConfigEntry& entry,
                                 const std::vector<const SceneSection*>& children) const {
     std::vector<std::string> known;
     for (const SceneKey& key : section.keys) known.emplace_back(key.name);
-    for (const SceneSection* child : children) known.emplace_back(child->name.substr(section.name.empty() ? 0 : section.name.size() + 1));
+    for (const SceneSection* child : children)
+      known.emplace_back(child->name.substr(section.name.empty() ? 0 : section.name.size() + 1));
     std::string hint = suggestion(entry.key, known);
     if (hint.empty()) {
-      // Right word, wrong table.
+      // The key exists, but in another table.
       for (const SceneSection& other : scene_sections())
-        if (find_key(other, entry.key) != nullptr || (!other.name.empty() && other.name.ends_with("." + entry.key)))
-          hint += (hint.empty() ? "; there is " : ", ") + join_key(other.name, find_key(other, entry.key) != nullptr ? entry.key : "");
+        if (find_key(other, entry.key) != nullptr ||
+            (!other.name.empty() && other.name.ends_with("." + entry.key)))
+          hint += (hint.empty() ? "; there is " : ", ") +
+                  join_key(other.name, find_key(other, entry.key) != nullptr ? entry.key : "");
     }
-    refuse(entry.key_place, fmt::format("unknown key \"{}\"{}", join_key(name, entry.key), hint), listed(known));
+    refuse(entry.key_position, fmt::format("unknown key \"{}\"{}", join_key(name, entry.key), hint),
+           listed(known));
   }
 
-  void check_exclusions(const SceneSection& section, const std::string& name, const ConfigTable& table) const {
+  void check_exclusions(const SceneSection& section, const std::string& name,
+                        const ConfigTable& table) const {
     for (const SceneExclusion& exclusion : scene_exclusions()) {
       if (exclusion.section != section.name) continue;
       for (const std::string_view a : exclusion.these)
@@ -324,7 +367,10 @@ class SceneReader {
           const ConfigEntry* first = given(table, a);
           const ConfigEntry* second = given(table, b);
           if (first != nullptr && second != nullptr)
-            refuse(second->key_place, fmt::format("{} and {} exclude each other", join_key(name, a), join_key(name, b)), "one of the two");
+            refuse(
+                second->key_position,
+                fmt::format("{} and {} exclude each other", join_key(name, a), join_key(name, b)),
+                "one of the two");
         }
     }
   }
@@ -333,14 +379,19 @@ class SceneReader {
   const SceneOrigin& origin_;
 };
 
-LoadedScene load(ConfigValue root, const std::string& name, const std::string& folder, const SceneFileOptions& options) {
+LoadedScene load(ConfigValue root, const std::string& name, const std::string& folder,
+                 const SceneFileOptions& options) {
   LoadedScene loaded;
   loaded.folder = folder.empty() ? "." : folder;
   loaded.name = std::filesystem::path(name).stem().string();
   loaded.allowed_folders = {loaded.folder};
-  loaded.allowed_folders.insert(loaded.allowed_folders.end(), options.data_folders.begin(), options.data_folders.end());
+  loaded.allowed_folders.insert(loaded.allowed_folders.end(), options.data_folders.begin(),
+                                options.data_folders.end());
   const SceneOrigin origin{.file = name, .settings = options.settings};
-  apply_settings(root, origin);
+  loaded.notes = rename_former_keys(root);
+  SceneOrigin present = origin;
+  for (std::string& setting : present.settings) setting = with_present_key(setting, loaded.notes);
+  apply_settings(root, present);
   SceneReader(loaded, origin).read(root);
   apply_scene_rules(loaded.scene, root, origin);
   return loaded;
@@ -348,7 +399,8 @@ LoadedScene load(ConfigValue root, const std::string& name, const std::string& f
 
 }  // namespace
 
-LoadedScene parse_scene(const std::string& text, const std::string& name, const std::string& folder, const SceneFileOptions& options) {
+LoadedScene parse_scene(const std::string& text, const std::string& name, const std::string& folder,
+                        const SceneFileOptions& options) {
   return load(parse_config(text, name), name, folder, options);
 }
 

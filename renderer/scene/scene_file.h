@@ -16,15 +16,19 @@ struct SceneFileOptions {
 struct LoadedScene {
   Scene scene;                               // file names as written
   std::string folder;                        // of the scene file
-  std::string name;                          // file name without ending
-  std::vector<std::string> allowed_folders;  // folder first, then the --data folders, as given; some may not exist
+  std::string name;                          // file name without extension
+  std::vector<std::string> notes;            // keys that were read under a former name
+  std::vector<std::string> allowed_folders;  // the scene's folder first, then the --data folders,
+                                             // in their order; some may not exist
 };
 
-// TOML to Scene, strict: unknown key, wrong type, value out of range, keys that exclude each other, a file outside the allowed folders →
-// Error(usage) with file:line:column (or --set …), what was found, what is allowed and the nearest known key.
+// TOML to Scene, strict. Error(usage) for an unknown key, a wrong type, a value out of range, keys
+// that exclude each other, or a file outside the allowed folders, with file:line:column (or --set
+// …), the value found, what is allowed and the nearest known key.
 LoadedScene read_scene(const std::string& path, const SceneFileOptions& options);
 // The same from text (the embedded demo, tests).
-LoadedScene parse_scene(const std::string& text, const std::string& name, const std::string& folder, const SceneFileOptions& options);
+LoadedScene parse_scene(const std::string& text, const std::string& name, const std::string& folder,
+                        const SceneFileOptions& options);
 
 // A file that a scene names.
 struct SceneInput {
@@ -36,18 +40,22 @@ struct SceneInput {
   std::string get_from;
   bool optional = false;
 };
-// All of them, in the order of the reference. Built-in palettes, legends and rules are no files.
+// All of them, in the order of the reference. Built-in palettes, legends and rules are not files.
 std::vector<SceneInput> scene_inputs(const LoadedScene& scene);
-// Where its data come from, for whoever looks at the picture: "origin (licence)", each once, in the order of the inputs.
+// Credits of the data: "origin (licence)", each once, in the order of the inputs.
 std::vector<std::string> source_credits(const LoadedScene& scene);
 
-// The path of a file a scene names: looked for beside the scene, then in each data folder. Error(usage) where it leaves the allowed
-// folders, also through a link; an empty string where it does not exist.
+// The path of a file that a scene names, searched beside the scene, then in each data folder.
+// Error(usage) where it leaves the allowed folders, also through a link; an empty string where it
+// does not exist.
 std::string find_scene_file(const LoadedScene& scene, const std::string& file);
-// The same for a name that may also be built in (palette, legend, rules): built-in names come back as they are. folder: "palettes",
-// "legends", "layers". Error(input) where the file does not exist.
-std::string find_named_file(const LoadedScene& scene, const std::string& folder, const std::string& name_or_file);
-// All files the scene needs and does not find, with origin and where to get them, in one Error(input). Optional ones may be missing.
+// The same for a name that may also be built in (palette, legend, rules): built-in names are
+// returned unchanged. folder: "palettes", "legends", "layers". Error(input) where the file does not
+// exist.
+std::string find_named_file(const LoadedScene& scene, const std::string& folder,
+                            const std::string& name_or_file);
+// Lists all files that the scene needs and that are missing, with origin and where to get them, in
+// one Error(input). Optional files may be missing.
 void require_scene_files(const LoadedScene& scene);
 
 // The whole scene with all defaults as TOML; reads back to the same scene.

@@ -34,16 +34,18 @@ bool is_raster(const std::string& input_key) {
   return key != nullptr && key->raster;
 }
 
-// What the scene would call a file that belongs to one it names.
+// How the scene would name a file that belongs to one it names.
 std::string name_of_part(const SceneInput& input, const std::string& part) {
   if (part == input.path) return input.file;
   if (is_address(part)) return part;
-  const fs::path from_input = fs::absolute(part).lexically_relative(fs::absolute(input.path).parent_path());
+  const fs::path from_input =
+      fs::absolute(part).lexically_relative(fs::absolute(input.path).parent_path());
   return (fs::path(input.file).parent_path() / from_input).lexically_normal().generic_string();
 }
 
 std::string in_words(const LockedInput& input) {
-  return input.absent ? std::string("no such file") : fmt::format("{} ({} bytes)", input.hash, input.bytes);
+  return input.absent ? std::string("no such file")
+                      : fmt::format("{} ({} bytes)", input.hash, input.bytes);
 }
 
 template <class T>
@@ -59,7 +61,8 @@ constexpr const char* not_locked = "not in the lock";
 
 std::string lock_path(const std::string& scene_path) {
   const fs::path path(scene_path);
-  return path.extension() == ".toml" ? fs::path(path).replace_extension(".lock").string() : scene_path + ".lock";
+  return path.extension() == ".toml" ? fs::path(path).replace_extension(".lock").string()
+                                     : scene_path + ".lock";
 }
 
 std::vector<LockedInput> find_inputs(const LoadedScene& scene) {
@@ -70,11 +73,13 @@ std::vector<LockedInput> find_inputs(const LoadedScene& scene) {
       found[input.file] = {.file = input.file, .absent = true, .bytes = 0, .hash = {}};
       continue;
     }
-    for (const std::string& part : is_raster(input.key) ? raster_parts(input.path) : std::vector<std::string>{input.path}) {
+    for (const std::string& part :
+         is_raster(input.key) ? raster_parts(input.path) : std::vector<std::string>{input.path}) {
       const std::string name = name_of_part(input, part);
       if (found.contains(name)) continue;  // two sources of one file
       InputHash hash = hash_input(part);
-      found[name] = {.file = name, .absent = false, .bytes = hash.bytes, .hash = std::move(hash.hash)};
+      found[name] = {
+          .file = name, .absent = false, .bytes = hash.bytes, .hash = std::move(hash.hash)};
     }
   }
   std::vector<LockedInput> out;
@@ -91,7 +96,8 @@ std::vector<std::string> settings_of(const SceneLock& lock) {
   return settings;
 }
 
-std::vector<LockDifference> compare_inputs(const std::vector<LockedInput>& locked, const std::vector<LockedInput>& found) {
+std::vector<LockDifference> compare_inputs(const std::vector<LockedInput>& locked,
+                                           const std::vector<LockedInput>& found) {
   std::vector<LockDifference> out;
   const auto old = by_name(locked);
   const auto now = by_name(found);
@@ -107,7 +113,8 @@ std::vector<LockDifference> compare_inputs(const std::vector<LockedInput>& locke
   return out;
 }
 
-std::vector<LockDifference> compare_products(const std::vector<LockedProduct>& locked, const std::vector<LockedProduct>& found) {
+std::vector<LockDifference> compare_products(const std::vector<LockedProduct>& locked,
+                                             const std::vector<LockedProduct>& found) {
   std::vector<LockDifference> out;
   const auto old = by_name(locked);
   const auto now = by_name(found);
@@ -130,25 +137,33 @@ std::vector<LockDifference> compare_products(const std::vector<LockedProduct>& l
     for (const auto& [channel, hash] : hashes) out.push_back({name, channel, not_locked, hash});
   }
   for (const auto& [name, product] : now)
-    if (!old.contains(name)) out.push_back({name, "", not_locked, fmt::format("{} channels", product->channels.size())});
+    if (!old.contains(name))
+      out.push_back({name, "", not_locked, fmt::format("{} channels", product->channels.size())});
   return out;
 }
 
 std::string describe(const std::vector<LockDifference>& differences) {
   std::string out;
   for (const LockDifference& one : differences)
-    out += fmt::format("\n  {}{}{}: {}{}, now {}", one.file, one.channel.empty() ? "" : " ", one.channel, one.locked,
-                       one.locked == not_locked ? "" : " in the lock", one.found);
+    out += fmt::format("\n  {}{}{}: {}{}, now {}", one.file, one.channel.empty() ? "" : " ",
+                       one.channel, one.locked, one.locked == not_locked ? "" : " in the lock",
+                       one.found);
   return out;
 }
 
-void require_locked_inputs(const LoadedScene& scene, const SceneLock& lock, const std::string& scene_path) {
+void require_locked_inputs(const LoadedScene& scene, const SceneLock& lock,
+                           const std::string& scene_path) {
   const std::vector<LockDifference> changed = compare_inputs(lock.inputs, find_inputs(scene));
   if (changed.empty()) return;
-  throw Error(ErrorKind::input, scene_path,
-              fmt::format("{} not as {} has {}:{}", changed.size() == 1 ? "an input is" : fmt::format("{} inputs are", changed.size()),
-                          lock_path(scene_path), changed.size() == 1 ? "it" : "them", describe(changed)),
-              fmt::format("the files as they were; or belvedere lock --update {}, where the new ones are meant", scene_path));
+  throw Error(
+      ErrorKind::input, scene_path,
+      fmt::format("{} from {}:{}",
+                  changed.size() == 1 ? "an input differs"
+                                      : fmt::format("{} inputs differ", changed.size()),
+                  lock_path(scene_path), describe(changed)),
+      fmt::format(
+          "the files as locked; if the new ones are intended, run belvedere lock --update {}",
+          scene_path));
 }
 
 }  // namespace belvedere

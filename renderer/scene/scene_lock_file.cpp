@@ -16,12 +16,15 @@ namespace {
 constexpr int lock_format = 1;
 
 constexpr const char* head =
-    "# Inputs, and the pixels made of them, as `belvedere lock` found them. `belvedere verify` makes them again and compares;\n"
-    "# `belvedere lock --update` writes this file anew.\n";
+    "# Inputs and hashes of the pixels made from them, written by `belvedere lock`. `belvedere "
+    "verify` renders again and compares;\n"
+    "# `belvedere lock --update` rewrites this file.\n";
 
 const ConfigValue& need(const ConfigTable& table, std::string_view key, const std::string& name) {
   const ConfigValue* value = find(table, key);
-  if (value == nullptr) throw Error(ErrorKind::input, name, fmt::format("{} is missing", key), "a lock as belvedere lock writes it");
+  if (value == nullptr)
+    throw Error(ErrorKind::input, name, fmt::format("{} is missing", key),
+                "a lock written by belvedere lock");
   return *value;
 }
 
@@ -30,9 +33,11 @@ std::string text_at(const ConfigTable& table, std::string_view key, const std::s
 }
 
 int pixels_at(const ConfigTable& table, std::string_view key, const std::string& name) {
-  constexpr std::int64_t most = 1 << 20;
+  constexpr std::int64_t max = 1 << 20;
   const std::int64_t value = as_integer(need(table, key, name), name);
-  if (value < 1 || value > most) throw Error(ErrorKind::input, name, fmt::format("{} is {}", key, value), fmt::format("1 … {} px", most));
+  if (value < 1 || value > max)
+    throw Error(ErrorKind::input, name, fmt::format("{} is {}", key, value),
+                fmt::format("1 … {} px", max));
   return static_cast<int>(value);
 }
 
@@ -40,7 +45,8 @@ LockedInput parse_input(const ConfigValue& value, const std::string& name) {
   const ConfigTable& table = as_table(value, name);
   allow_only(table, {"file", "absent", "bytes", "hash"}, name);
   LockedInput input{.file = text_at(table, "file", name), .absent = false, .bytes = 0, .hash = {}};
-  if (const ConfigValue* absent = find(table, "absent"); absent != nullptr && as_bool(*absent, name)) {
+  if (const ConfigValue* absent = find(table, "absent");
+      absent != nullptr && as_bool(*absent, name)) {
     input.absent = true;
     return input;
   }
@@ -52,10 +58,14 @@ LockedInput parse_input(const ConfigValue& value, const std::string& name) {
 SceneLock parse_strictly(const std::string& text, const std::string& name) {
   const ConfigValue root = parse_config(text, name);
   const ConfigTable& table = as_table(root, name);
-  // A later format has other keys: say that first.
-  if (const std::int64_t version = as_integer(need(table, "version", name), name); version != lock_format)
-    throw Error(ErrorKind::input, name, fmt::format("is a lock of format {}", version), fmt::format("format {}", lock_format));
-  allow_only(table, {"version", "program", "scene", "width", "height", "settings", "inputs", "products"}, name);
+  // A later format has other keys, so this is reported first.
+  if (const std::int64_t version = as_integer(need(table, "version", name), name);
+      version != lock_format)
+    throw Error(ErrorKind::input, name, fmt::format("is a lock of format {}", version),
+                fmt::format("format {}", lock_format));
+  allow_only(table,
+             {"version", "program", "scene", "width", "height", "settings", "inputs", "products"},
+             name);
   SceneLock lock{.program = text_at(table, "program", name),
                  .scene = text_at(table, "scene", name),
                  .width = pixels_at(table, "width", name),
@@ -63,13 +73,16 @@ SceneLock parse_strictly(const std::string& text, const std::string& name) {
                  .settings = {},
                  .inputs = {},
                  .products = {}};
-  for (const ConfigValue& setting : as_array(need(table, "settings", name), name)) lock.settings.push_back(as_string(setting, name));
+  for (const ConfigValue& setting : as_array(need(table, "settings", name), name))
+    lock.settings.push_back(as_string(setting, name));
   if (const ConfigValue* inputs = find(table, "inputs"))
-    for (const ConfigValue& input : as_array(*inputs, name)) lock.inputs.push_back(parse_input(input, name));
+    for (const ConfigValue& input : as_array(*inputs, name))
+      lock.inputs.push_back(parse_input(input, name));
   for (const ConfigEntry& product : as_table(need(table, "products", name), name)) {
     LockedProduct& out = lock.products.emplace_back();
     out.file = product.key;
-    for (const ConfigEntry& channel : as_table(product.value, name)) out.channels.push_back({channel.key, as_string(channel.value, name)});
+    for (const ConfigEntry& channel : as_table(product.value, name))
+      out.channels.push_back({channel.key, as_string(channel.value, name)});
   }
   return lock;
 }
@@ -78,19 +91,26 @@ SceneLock parse_strictly(const std::string& text, const std::string& name) {
 
 std::string write_lock(const SceneLock& lock) {
   std::string settings;
-  for (const std::string& setting : lock.settings) settings += (settings.empty() ? "" : ", ") + json_quoted(setting);
+  for (const std::string& setting : lock.settings)
+    settings += (settings.empty() ? "" : ", ") + json_quoted(setting);
   std::string out = head;
-  out += fmt::format("version = {}\nprogram = {}\nscene = {}\nwidth = {}\nheight = {}\nsettings = [{}]\n", lock_format,
-                     json_quoted(lock.program), json_quoted(lock.scene), lock.width, lock.height, settings);
+  out += fmt::format(
+      "version = {}\nprogram = {}\nscene = {}\nwidth = {}\nheight = {}\nsettings = [{}]\n",
+      lock_format, json_quoted(lock.program), json_quoted(lock.scene), lock.width, lock.height,
+      settings);
   std::vector<LockedInput> inputs = lock.inputs;
-  std::sort(inputs.begin(), inputs.end(), [](const LockedInput& a, const LockedInput& b) { return a.file < b.file; });
+  std::sort(inputs.begin(), inputs.end(),
+            [](const LockedInput& a, const LockedInput& b) { return a.file < b.file; });
   for (const LockedInput& input : inputs) {
     out += fmt::format("\n[[inputs]]\nfile = {}\n", json_quoted(input.file));
-    out += input.absent ? std::string("absent = true\n") : fmt::format("bytes = {}\nhash = {}\n", input.bytes, json_quoted(input.hash));
+    out += input.absent
+               ? std::string("absent = true\n")
+               : fmt::format("bytes = {}\nhash = {}\n", input.bytes, json_quoted(input.hash));
   }
   if (lock.products.empty()) out += "\n[products]\n";
   std::vector<LockedProduct> products = lock.products;
-  std::sort(products.begin(), products.end(), [](const LockedProduct& a, const LockedProduct& b) { return a.file < b.file; });
+  std::sort(products.begin(), products.end(),
+            [](const LockedProduct& a, const LockedProduct& b) { return a.file < b.file; });
   for (const LockedProduct& product : products) {
     out += fmt::format("\n[products.{}]\n", json_quoted(product.file));
     for (const ChannelHash& channel : product.channels)
@@ -103,16 +123,17 @@ SceneLock parse_lock(const std::string& text, const std::string& name) {
   try {
     return parse_strictly(text, name);
   } catch (const Error& error) {
-    // Nobody writes locks by hand: a fault in one is one of the data.
+    // Locks are not written by hand, so an error in one is an error of the data.
     if (error.kind() != ErrorKind::usage) throw;
-    throw Error(ErrorKind::input, error.where(), error.found(), "a lock as belvedere lock --update writes it");
+    throw Error(ErrorKind::input, error.where(), error.found(),
+                "a lock written by belvedere lock --update");
   }
 }
 
 SceneLock read_lock(const std::string& path) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored))
-    throw Error(ErrorKind::input, path, "there is no such lock file", "one made by belvedere lock SCENE");
+    throw Error(ErrorKind::input, path, "no such lock file", "a lock made by belvedere lock SCENE");
   std::ostringstream text;
   text << std::ifstream(path, std::ios::binary).rdbuf();
   return parse_lock(text.str(), path);

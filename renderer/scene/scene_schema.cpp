@@ -56,7 +56,8 @@ std::vector<const SceneSection*> child_sections(std::string_view parent) {
   std::vector<const SceneSection*> children;
   for (const SceneSection& section : scene_sections()) {
     const std::size_t dot = section.name.rfind('.');
-    const std::string_view above = dot == std::string_view::npos ? std::string_view() : section.name.substr(0, dot);
+    const std::string_view above =
+        dot == std::string_view::npos ? std::string_view() : section.name.substr(0, dot);
     if (!section.name.empty() && above == parent) children.push_back(&section);
   }
   return children;
@@ -69,11 +70,16 @@ std::string join_key(std::string_view section, std::string_view key) {
 std::string describe_range(const SceneKey& key) {
   if (key.lonlat) return "longitude -180 … 180°, latitude -90 … 90°";
   const SceneRange& range = key.range;
-  const std::string unit = key.unit.empty() ? "" : key.unit == "°" ? "°" : " " + std::string(key.unit);
+  const std::string unit = key.unit.empty()  ? ""
+                           : key.unit == "°" ? "°"
+                                             : " " + std::string(key.unit);
   if (range.min == range.max) return number(range.min) + unit;
-  if (range.above_min) return fmt::format("more than {}, at most {}{}", number(range.min), number(range.max), unit);
-  const bool bounded = range.min > -std::numeric_limits<double>::infinity() && range.max < std::numeric_limits<double>::infinity();
-  return bounded ? fmt::format("{} … {}{}", number(range.min), number(range.max), unit) : std::string();
+  if (range.above_min)
+    return fmt::format("more than {}, at most {}{}", number(range.min), number(range.max), unit);
+  const bool bounded = range.min > -std::numeric_limits<double>::infinity() &&
+                       range.max < std::numeric_limits<double>::infinity();
+  return bounded ? fmt::format("{} … {}{}", number(range.min), number(range.max), unit)
+                 : std::string();
 }
 
 std::vector<std::string> key_choices(const SceneKey& key) {
@@ -88,27 +94,39 @@ std::string describe_type(const SceneKey& key) {
     std::string operator()(std::uint64_t*) const { return "a whole number"; }
     std::string operator()(double*) const { return "a number"; }
     std::string operator()(float*) const { return "a number"; }
-    std::string operator()(std::optional<double>*) const { return key.derived.empty() ? "a number" : "a number or \"auto\""; }
+    std::string operator()(std::optional<double>*) const {
+      return key.derived.empty() ? "a number" : "a number or \"auto\"";
+    }
     std::string operator()(std::optional<glm::dvec2>*) const {
       return key.lonlat ? "two numbers, [longitude, latitude]" : "two numbers, [E, N]";
     }
     std::string operator()(std::array<double, 2>*) const { return "two numbers, [lower, upper]"; }
-    std::string operator()(std::optional<std::array<double, 4>>*) const { return "four numbers, [min E, min N, max E, max N]"; }
+    std::string operator()(std::optional<std::array<double, 4>>*) const {
+      return "four numbers, [min E, min N, max E, max N]";
+    }
     std::string operator()(std::vector<glm::dvec2>*) const {
-      return key.lonlat ? "three places or more, [[longitude, latitude], …]" : "three places or more, [[E, N], …]";
+      return key.lonlat ? "three positions or more, [[longitude, latitude], …]"
+                        : "three positions or more, [[E, N], …]";
     }
     std::string operator()(std::vector<float>*) const { return "1 to 12 numbers, [a, b, …]"; }
     std::string operator()(std::optional<LandCoverClass>*) const { return "a class name"; }
     std::string operator()(std::vector<LandCoverClass>*) const { return "a list of class names"; }
-    std::string operator()(std::vector<std::string>*) const { return fmt::format("a list of {}", fmt::join(key_choices(key), ", ")); }
-    std::string operator()(std::vector<std::pair<std::string, double>>*) const {
-      return key.choices.empty() ? "a table of names and numbers" : fmt::format("a table of numbers for {}", fmt::join(key.choices, ", "));
+    std::string operator()(std::vector<std::string>*) const {
+      return fmt::format("a list of {}", fmt::join(key_choices(key), ", "));
     }
-    std::string operator()(std::vector<std::pair<LandCoverClass, LandCoverClass>>*) const { return "a table of class names"; }
+    std::string operator()(std::vector<std::pair<std::string, double>>*) const {
+      return key.choices.empty()
+                 ? "a table of names and numbers"
+                 : fmt::format("a table of numbers for {}", fmt::join(key.choices, ", "));
+    }
+    std::string operator()(std::vector<std::pair<LandCoverClass, LandCoverClass>>*) const {
+      return "a table of class names";
+    }
     std::string operator()(std::string*) const {
       if (key.text == TextKind::choice || key.text == TextKind::built_in) {
         std::string names;
-        for (const std::string& name : key_choices(key)) names += (names.empty() ? "\"" : ", \"") + name + "\"";
+        for (const std::string& name : key_choices(key))
+          names += (names.empty() ? "\"" : ", \"") + name + "\"";
         return names + (key.text == TextKind::built_in ? " or a file" : "");
       }
       if (key.text == TextKind::file) return "a file name";
@@ -117,7 +135,7 @@ std::string describe_type(const SceneKey& key) {
       return "text";
     }
   };
-  Scene scene;  // the accessors only name a place, but it must exist
+  Scene scene;  // the accessors only return an address, but the element must exist
   for (const SceneSection& section : scene_sections())
     if (section.resize != nullptr) section.resize(scene, 1);
   return std::visit(Visitor{key}, key.field(scene, 0));

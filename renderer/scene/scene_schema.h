@@ -15,23 +15,27 @@
 
 namespace belvedere {
 
-// The one table of what a scene file may say. Validation, defaults, the JSON Schema, the written reference and write_scene
-// all read it; a new key is one row in the scene_table_*.cpp of its part and nothing else.
+// The one table of the keys of a scene file. Validation, defaults, the JSON Schema, the written
+// reference and write_scene all read it; a new key is one row in the scene_table_*.cpp of its part
+// and nothing else.
 
-// The value of a key inside a Scene. Its C++ type decides the type in the file; defaults are those of a fresh Scene.
+// The value of a key inside a Scene. Its C++ type decides the type in the file; defaults are those
+// of a fresh Scene.
 using SceneField =
-    std::variant<bool*, int*, std::uint64_t*, double*, float*, std::string*, std::optional<double>*, std::optional<glm::dvec2>*,
-                 std::array<double, 2>*, std::optional<std::array<double, 4>>*, std::vector<glm::dvec2>*, std::vector<float>*,
-                 std::optional<LandCoverClass>*, std::vector<LandCoverClass>*, std::vector<std::string>*,
-                 std::vector<std::pair<std::string, double>>*, std::vector<std::pair<LandCoverClass, LandCoverClass>>*>;
+    std::variant<bool*, int*, std::uint64_t*, double*, float*, std::string*, std::optional<double>*,
+                 std::optional<glm::dvec2>*, std::array<double, 2>*,
+                 std::optional<std::array<double, 4>>*, std::vector<glm::dvec2>*,
+                 std::vector<float>*, std::optional<LandCoverClass>*, std::vector<LandCoverClass>*,
+                 std::vector<std::string>*, std::vector<std::pair<std::string, double>>*,
+                 std::vector<std::pair<LandCoverClass, LandCoverClass>>*>;
 
-// What a text means, so that it can be checked.
+// What a string contains, so that it can be checked.
 enum class TextKind {
   plain,     // any words
   choice,    // one of `choices`
   file,      // a file beside the scene or in a --data folder
   built_in,  // a name from the embedded folder `choices_from`, or a .toml or .csv file
-  crs,       // a coordinate reference system; GDAL judges it when data are read
+  crs,       // a coordinate reference system; GDAL checks it when data are read
   time,      // ISO 8601 with zone
   date,      // month and day, "10-05"
 };
@@ -50,23 +54,24 @@ struct SceneKey {
   std::string_view unit = {};     // "m", "°", "px"; empty: a plain number
   std::string_view meaning = {};  // one line, for cartographers
   TextKind text = TextKind::plain;
-  std::vector<std::string> choices =
-      {};                              // of TextKind::choice, of a list of names, and of the names in a table of numbers (empty there: any)
-  std::string_view choices_from = {};  // embedded folder of TextKind::built_in
+  std::vector<std::string> choices = {};  // of TextKind::choice, of a list of names, and of the
+                                          // names in a table of numbers (empty there: any)
+  std::string_view choices_from = {};     // embedded folder of TextKind::built_in
   bool required = false;
   bool lonlat = false;            // a pair of longitude and latitude
   bool raster = false;            // a file that may also lie on a server
-  std::string_view derived = {};  // of an optional number: what it is where the scene says nothing, or "auto"; empty: no such thing
+  std::string_view derived = {};  // of an optional number: what is used where the key is absent or
+                                  // "auto"; empty: not applicable
 };
 
 enum class SectionKind {
   single,    // [camera]
-  optional,  // [terrain.synthetic]: its presence means something
+  optional,  // [terrain.synthetic]: its presence has a meaning
   list,      // [[exemplar]]
 };
 
 struct SceneSection {
-  std::string_view name;  // dotted; empty for the keys on top of the file
+  std::string_view name;  // dotted; empty for the top-level keys
   SectionKind kind = SectionKind::single;
   std::string_view meaning = {};
   std::vector<SceneKey> keys = {};
@@ -74,14 +79,15 @@ struct SceneSection {
   void (*resize)(Scene& scene, std::size_t count) = nullptr;
 };
 
-// Keys of a section that answer the same question: if one of `these` is given, none of `those` may be.
+// Alternatives within a section: if one of `these` is given, none of `those` may be.
 struct SceneExclusion {
   std::string_view section;
   std::vector<std::string_view> these;
   std::vector<std::string_view> those;
 };
 
-// Builds the table (scene_table.cpp from the parts beside it); everybody else reads scene_sections().
+// Builds the table (scene_table.cpp from the parts beside it); all other code calls
+// scene_sections().
 std::vector<SceneSection> make_scene_sections();
 // Parents before children, in the order of the reference.
 const std::vector<SceneSection>& scene_sections();
@@ -93,9 +99,10 @@ const SceneKey* find_key(const SceneSection& section, std::string_view name);
 std::vector<const SceneSection*> child_sections(std::string_view parent);
 // "camera" and "pitch" to "camera.pitch".
 std::string join_key(std::string_view section, std::string_view key);
-// "-90 … 90°", "more than 0, at most 1000 m", or empty where anything goes.
+// "-90 … 90°", "more than 0, at most 1000 m", or empty where there is no limit.
 std::string describe_range(const SceneKey& key);
-// What the file holds: "a whole number", "two numbers [E, N]", "one of a, b, c", "a class name" …
+// The type of a key in the file: "a whole number", "two numbers [E, N]", "one of a, b, c", "a class
+// name" …
 std::string describe_type(const SceneKey& key);
 // The names a built_in or choice key accepts.
 std::vector<std::string> key_choices(const SceneKey& key);

@@ -17,21 +17,23 @@ std::string trimmed(std::string_view text) {
   return std::string(text.substr(first, text.find_last_not_of(" \t") - first + 1));
 }
 
-void mark(ConfigValue& value, ConfigPlace place) {
-  value.place = place;
+void mark(ConfigValue& value, ConfigPosition position) {
+  value.position = position;
   if (auto* table = std::get_if<ConfigTable>(&value.value)) {
     for (ConfigEntry& entry : *table) {
-      entry.key_place = place;
-      mark(entry.value, place);
+      entry.key_position = position;
+      mark(entry.value, position);
     }
   } else if (auto* array = std::get_if<ConfigArray>(&value.value)) {
-    for (ConfigValue& element : *array) mark(element, place);
+    for (ConfigValue& element : *array) mark(element, position);
   }
 }
 
-// The defaults of a key that holds an array of numbers, so that one element of it can be set; an empty table for all else.
-ConfigValue beginning_of(const std::string& section, const std::string& name, ConfigPlace place) {
-  ConfigValue value{.value = ConfigTable{}, .place = place};
+// The defaults of a key that holds an array of numbers, so that one element of it can be set; an
+// empty table for all other keys.
+ConfigValue beginning_of(const std::string& section, const std::string& name,
+                         ConfigPosition position) {
+  ConfigValue value{.value = ConfigTable{}, .position = position};
   const SceneSection* child = find_section(join_key(section, name));
   if (child != nullptr && child->kind == SectionKind::list) value.value = ConfigArray{};
   const SceneSection* parent = find_section(section);
@@ -45,7 +47,7 @@ ConfigValue beginning_of(const std::string& section, const std::string& name, Co
     for (const auto number : defaults) {
       ConfigValue& element = array.emplace_back();
       element.value = static_cast<double>(number);
-      element.place = place;
+      element.position = position;
     }
     value.value = std::move(array);
   };
@@ -61,26 +63,33 @@ bool holds_text(const std::string& section, const std::string& name) {
   Scene scene;
   if (parent->resize != nullptr) parent->resize(scene, 1);
   const SceneField field = key->field(scene, 0);
-  return std::holds_alternative<std::string*>(field) || std::holds_alternative<std::optional<LandCoverClass>*>(field);
+  return std::holds_alternative<std::string*>(field) ||
+         std::holds_alternative<std::optional<LandCoverClass>*>(field);
 }
 
 // One --set on its way down the tables.
 class Setting {
  public:
-  Setting(const std::string& text, ConfigPlace place) : where_("--set " + text), place_(place) {
+  Setting(const std::string& text, ConfigPosition position)
+      : where_("--set " + text), position_(position) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos || trimmed(std::string_view(text).substr(0, equals)).empty())
-      throw Error(ErrorKind::usage, where_, "there is no key with a \"=\" after it", "key=value, such as --set output.width=1200");
+      throw Error(ErrorKind::usage, where_, "no \"=\"",
+                  "key=value, such as --set output.width=1200");
     std::string_view keys = std::string_view(text).substr(0, equals);
     while (true) {
       const std::size_t dot = keys.find('.');
       path_.push_back(trimmed(keys.substr(0, dot)));
-      if (path_.back().empty()) throw Error(ErrorKind::usage, where_, "a part of the key is empty", "names with dots between them");
+      if (path_.back().empty())
+        throw Error(ErrorKind::usage, where_, "a part of the key is empty",
+                    "names with dots between them");
       if (dot == std::string_view::npos) break;
       keys.remove_prefix(dot + 1);
     }
     constexpr std::size_t deepest = 8;
-    if (path_.size() > deepest) throw Error(ErrorKind::usage, where_, "the key has too many parts", fmt::format("at most {}", deepest));
+    if (path_.size() > deepest)
+      throw Error(ErrorKind::usage, where_, "the key has too many parts",
+                  fmt::format("at most {}", deepest));
     value_ = trimmed(std::string_view(text).substr(equals + 1));
   }
 
@@ -91,15 +100,16 @@ class Setting {
       if (node->is_array()) {
         node = &element(*node, path_[i], ConfigTable{});
       } else {
-        node = &entry(*node, path_[i], [&] { return beginning_of(section, path_[i], place_); });
+        node = &entry(*node, path_[i], [&] { return beginning_of(section, path_[i], position_); });
         section = join_key(section, path_[i]);
       }
     }
     const std::string& last = path_.back();
     const bool quoted = !value_.empty() && (value_.front() == '"' || value_.front() == '\'');
     const bool is_word = holds_text(section, last) || value_ == "auto";
-    ConfigValue value = is_word && !quoted ? ConfigValue{.value = value_, .place = place_} : parse_config_value(value_, where_);
-    mark(value, place_);
+    ConfigValue value = is_word && !quoted ? ConfigValue{.value = value_, .position = position_}
+                                           : parse_config_value(value_, where_);
+    mark(value, position_);
     if (node->is_array()) {
       element(*node, last, false) = std::move(value);
       return;
@@ -107,22 +117,24 @@ class Setting {
     ConfigValue& target = entry(*node, last, [] { return ConfigValue{}; });
     target = std::move(value);
     for (ConfigEntry& e : std::get<ConfigTable>(node->value))
-      if (e.key == last) e.key_place = place_;
+      if (e.key == last) e.key_position = position_;
     drop_rivals(std::get<ConfigTable>(node->value), section, last);
   }
 
  private:
-  ConfigValue& element(ConfigValue& list, const std::string& index_text, decltype(ConfigValue::value) fresh) {
+  ConfigValue& element(ConfigValue& list, const std::string& index_text,
+                       decltype(ConfigValue::value) fresh) {
     auto& array = std::get<ConfigArray>(list.value);
     std::size_t index = 0;
     const char* end = index_text.data() + index_text.size();
     const auto [stop, problem] = std::from_chars(index_text.data(), end, index);
     if (problem != std::errc() || stop != end || index > array.size())
-      throw Error(ErrorKind::usage, where_, fmt::format("\"{}\" is no place in a list of {}", index_text, array.size()),
-                  fmt::format("0 … {}; {} adds one", array.size(), array.size()));
+      throw Error(ErrorKind::usage, where_,
+                  fmt::format("\"{}\" is not an index of a list of {}", index_text, array.size()),
+                  fmt::format("0 … {}; {} appends one", array.size(), array.size()));
     if (index == array.size()) {
       array.emplace_back().value = std::move(fresh);
-      array.back().place = place_;
+      array.back().position = position_;
     }
     return array[index];
   }
@@ -131,50 +143,56 @@ class Setting {
   ConfigValue& entry(ConfigValue& node, const std::string& key, Make&& make) {
     auto* table = std::get_if<ConfigTable>(&node.value);
     if (table == nullptr)
-      throw Error(ErrorKind::usage, where_, fmt::format("there is nothing to set below {}, it is {}", key, describe(node)),
+      throw Error(ErrorKind::usage, where_,
+                  fmt::format("nothing can be set below {}, which is {}", key, describe(node)),
                   "a key of a table");
     for (ConfigEntry& e : *table)
       if (e.key == key) return e.value;
     ConfigEntry& added = table->emplace_back();
     added.key = key;
-    added.key_place = place_;
+    added.key_position = position_;
     added.value = make();
     return added.value;
   }
 
-  // The command line has the last word: what the file answers to the same question goes.
+  // The command line has precedence: alternatives that the file sets are removed.
   static void drop_rivals(ConfigTable& table, std::string_view section, std::string_view key) {
     const auto has = [](const std::vector<std::string_view>& names, std::string_view name) {
       return std::find(names.begin(), names.end(), name) != names.end();
     };
     for (const SceneExclusion& exclusion : scene_exclusions()) {
       if (exclusion.section != section) continue;
-      const auto* rivals = has(exclusion.these, key) ? &exclusion.those : has(exclusion.those, key) ? &exclusion.these : nullptr;
+      const auto* rivals = has(exclusion.these, key)   ? &exclusion.those
+                           : has(exclusion.those, key) ? &exclusion.these
+                                                       : nullptr;
       if (rivals == nullptr) continue;
-      std::erase_if(table, [&](const ConfigEntry& e) { return has(*rivals, e.key) && !is_setting(e.key_place); });
+      std::erase_if(table, [&](const ConfigEntry& e) {
+        return has(*rivals, e.key) && !is_setting(e.key_position);
+      });
     }
   }
 
   std::string where_;
-  ConfigPlace place_;
+  ConfigPosition position_;
   std::vector<std::string> path_;
   std::string value_;
 };
 
 }  // namespace
 
-// Lines of a file count from 1, so the numbers below 0 are free for settings.
-ConfigPlace place_of_setting(std::size_t index) { return {-1 - static_cast<int>(index), 0}; }
+// Lines of a file count from 1, so negative numbers are free for settings.
+ConfigPosition place_of_setting(std::size_t index) { return {-1 - static_cast<int>(index), 0}; }
 
-bool is_setting(ConfigPlace place) { return place.line < 0; }
+bool is_setting(ConfigPosition position) { return position.line < 0; }
 
-std::string SceneOrigin::where(ConfigPlace place) const {
-  if (!is_setting(place)) return config_where(file, place);
-  return "--set " + settings.at(static_cast<std::size_t>(-1 - place.line));
+std::string SceneOrigin::where(ConfigPosition position) const {
+  if (!is_setting(position)) return config_where(file, position);
+  return "--set " + settings.at(static_cast<std::size_t>(-1 - position.line));
 }
 
 void apply_settings(ConfigValue& root, const SceneOrigin& origin) {
-  for (std::size_t i = 0; i < origin.settings.size(); ++i) Setting(origin.settings[i], place_of_setting(i)).apply(root);
+  for (std::size_t i = 0; i < origin.settings.size(); ++i)
+    Setting(origin.settings[i], place_of_setting(i)).apply(root);
 }
 
 }  // namespace belvedere

@@ -6,15 +6,18 @@
 
 namespace belvedere {
 
-// Part of the table of what a scene file may say: what its files share.
+// Part of the table of scene keys: what its files share.
 
-constexpr double largest_m = 1e8;                    // farther than around the Earth
-constexpr double largest_seed = 9007199254740991.0;  // 2⁵³ - 1: what JSON and every editor hold exactly
+constexpr double largest_m = 1e8;  // more than the Earth's circumference
+constexpr double largest_seed =
+    9007199254740991.0;  // 2⁵³ - 1: what JSON and every editor hold exactly
 
-// A row's accessor: AT(camera.pitch_deg) is where the value lies in a Scene `s`; `i` counts list elements.
-#define AT(place) [](Scene& s, [[maybe_unused]] std::size_t i) -> SceneField { return &s.place; }
+// A row's accessor: AT(camera.pitch_deg) is the address of the value in a Scene `s`; `i` counts
+// list elements.
+#define AT(position) \
+  [](Scene& s, [[maybe_unused]] std::size_t i) -> SceneField { return &s.position; }
 
-// The rows of each part of a scene, in a file of the part's name.
+// The rows of each part of a scene, in a file named after the part.
 std::vector<SceneSection> make_terrain_sections();
 std::vector<SceneSection> make_land_cover_sections();
 std::vector<SceneSection> make_climate_sections();
@@ -30,7 +33,7 @@ std::vector<SceneSection> make_features_sections();
 std::vector<SceneSection> make_labels_sections();  // and the margin
 std::vector<SceneSection> make_output_sections();
 
-// Keys of a raster that is named: of heights, or of land cover. Only heights have a unit and bounds.
+// Keys of a raster file: of heights, or of land cover. Only heights have a unit and bounds.
 std::vector<SceneKey> make_source_keys(bool heights);
 
 }  // namespace belvedere

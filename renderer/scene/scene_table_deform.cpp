@@ -6,63 +6,68 @@ std::vector<SceneSection> make_deform_sections() {
   std::vector<SceneSection> sections;
   sections.push_back(
       {.name = "deform",
-       .meaning = "How the ground is raised, bent and moved before it is seen; see deformation.md.",
+       .meaning = "How the ground is raised, bent and moved before rendering; see deformation.md.",
        .keys = {
            {.name = "exaggeration",
             .field = AT(deform.exaggeration),
             .range = {0.1, 10},
-            .meaning = "Vertical exaggeration of all altitudes, or of the foreground's where background_exaggeration is given; 1 is none.",
-            .derived =
-                "as much as makes the region's forms as tall in the picture as painters draw them, 1.2 to 2; parallel projections 1"},
+            .meaning = "Vertical exaggeration of all altitudes, or of the foreground if "
+                       "background_exaggeration is given; 1 is none.",
+            .derived = "so that the region's landforms are as tall in the picture as in painted "
+                       "panoramas, 1.2 to 2; parallel projections 1"},
            {.name = "background_exaggeration",
             .field = AT(deform.ground.background_exaggeration),
             .range = {0.1, 10},
-            .meaning = "Exaggeration far away; without it the same everywhere."},
+            .meaning = "Exaggeration far away. Default: the same everywhere."},
            {.name = "foreground_to_m",
             .field = AT(deform.ground.foreground_to_m),
             .range = {0, largest_m},
             .unit = "m",
-            .meaning = "Up to this distance the foreground's exaggeration holds alone."},
+            .meaning = "Up to this distance only the foreground's exaggeration applies."},
            {.name = "background_from_m",
             .field = AT(deform.ground.background_from_m),
             .range = {0, largest_m},
             .unit = "m",
-            .meaning = "From this distance the background's exaggeration holds alone; between the two they blend."},
+            .meaning = "From this distance only the background's exaggeration applies; between the "
+                       "two they blend."},
            {.name = "exaggeration_base_m",
             .field = AT(deform.exaggeration_base_m),
             .range = {-12000, 9000},
             .unit = "m",
-            .meaning = "Altitude that exaggeration leaves where it is: the valleys', for exaggeration that changes with distance.",
-            .derived = "0 where the exaggeration is given, else what a tenth of the ground in view is lower than"},
+            .meaning = "Altitude that exaggeration does not change: that of the valleys, if "
+                       "exaggeration changes with distance.",
+            .derived = "0 if the exaggeration is given, else the altitude that a tenth of the "
+                       "ground in view lies below"},
            {.name = "earth_curvature",
             .field = AT(deform.ground.earth_curvature),
-            .meaning = "Lets far ground sink as on the round Earth."},
+            .meaning = "Lowers far ground by the curvature of the Earth."},
            {.name = "refraction",
             .field = AT(deform.ground.refraction),
             .range = {0, 0.5},
-            .meaning = "How much the air bends sight back: coefficient k, used with earth_curvature."},
+            .meaning = "Refraction: coefficient k, used with earth_curvature."},
            {.name = "allow_folds",
             .field = AT(deform.allow_folds),
-            .meaning = "Handles may fold ground in the picture over itself; without it that is an error."},
+            .meaning =
+                "Allows handles to fold the ground in the picture; otherwise a fold is an error."},
        }});
   sections.push_back(
       {.name = "deform.bend",
-       .meaning = "Progressive bend: the near ground tilts towards the viewer like a map, the far ground sinks to a horizon. A parabola, "
-                  "or control points.",
+       .meaning = "Progressive bend: the near ground tilts towards the viewer like a map, the far "
+                  "ground sinks to a horizon. Given as a parabola or by control points.",
        .keys = {
            {.name = "radius_m",
             .field = AT(deform.bend_radius_m),
             .range = {0, 1e9},
             .unit = "m",
-            .meaning = "Radius of the bend, 1000 or more; smaller bends more, 0 not at all.",
-            .derived = "where no other key of the bend is given either, the largest view that the data fill goes under at its horizon; "
-                       "parallel projections are not bent"},
+            .meaning = "Radius of the bend, 1000 or more; a smaller radius bends more; 0: no bend.",
+            .derived = "if no other key of the bend is given, so that the largest view that the "
+                       "data cover ends at its horizon; parallel projections are not bent"},
            {.name = "crest_m",
             .field = AT(deform.bend_crest_m),
             .range = {0, largest_m},
             .unit = "m",
             .meaning = "Distance from the viewer at which the bent ground is level.",
-            .derived = "0 where radius_m is given, else .8 of the distance of the horizon"},
+            .derived = "0 if radius_m is given, else 0.8 times the distance of the horizon"},
            {.name = "far_from_m",
             .field = AT(deform.ground.bend.far_from_m),
             .range = {0, largest_m},
@@ -72,41 +77,46 @@ std::vector<SceneSection> make_deform_sections() {
             .field = AT(deform.ground.bend.far_amount_per_m),
             .range = {0, 1},
             .unit = "1/m",
-            .meaning = "How fast: metres sunk per square metre of distance beyond far_from_m."},
+            .meaning = "How much faster: metres per square metre of distance beyond far_from_m."},
        }});
   sections.push_back(
       {.name = "deform.bend.points",
        .kind = SectionKind::list,
-       .meaning = "One block for each control point of a bend, from near to far, two or more, instead of the parabola; a smooth curve runs "
-                  "through them and never swings beyond. All give drop_m, or all inclination_deg.",
+       .meaning = "One block for each control point of a bend, from near to far, two or more, "
+                  "instead of the parabola. A smooth curve passes through them without "
+                  "overshooting. All give drop_m, or all give inclination_deg.",
        .keys =
            {
                {.name = "distance_m",
                 .field = AT(deform.ground.bend.points[i].distance_m),
                 .range = {0, largest_m},
                 .unit = "m",
-                .meaning = "From the viewer; grows from block to block.",
+                .meaning = "Distance from the viewer; increases from block to block.",
                 .required = true},
                {.name = "drop_m",
                 .field = AT(deform.ground.bend.points[i].drop_m),
                 .range = {-1e6, 1e6},
                 .unit = "m",
-                .meaning = "How far the ground sinks there."},
+                .meaning = "How far the ground is lowered there."},
                {.name = "inclination_deg",
                 .field = AT(deform.ground.bend.points[i].inclination_deg),
                 .range = {-80, 80},
                 .unit = "°",
-                .meaning = "How level ground is tilted there: more than 0 towards the viewer, 0 level as at the horizon, less away."},
+                .meaning = "Tilt of level ground there: more than 0 towards the viewer, 0 level as "
+                           "at the horizon, less than 0 away."},
            },
        .count = [](const Scene& s) { return s.deform.ground.bend.points.size(); },
        .resize = [](Scene& s, std::size_t n) { s.deform.ground.bend.points.resize(n); }});
   sections.push_back(
       {.name = "deform.summits",
        .kind = SectionKind::list,
-       .meaning = "One block for each summit that is exaggerated more, or less, than the rest. It rises smoothly from the ground around.",
+       .meaning = "One block for each summit that is exaggerated more, or less, than its "
+                  "surroundings. It rises smoothly from the ground around.",
        .keys =
            {
-               {.name = "name", .field = AT(deform.summits[i].name), .meaning = "For messages."},
+               {.name = "name",
+                .field = AT(deform.summits[i].name),
+                .meaning = "Name for messages."},
                {.name = "position",
                 .field = AT(deform.summits[i].position),
                 .range = {-largest_m, largest_m},
@@ -121,27 +131,31 @@ std::vector<SceneSection> make_deform_sections() {
                 .field = AT(deform.summits[i].summit.radius_m),
                 .range = {10, 1e6},
                 .unit = "m",
-                .meaning = "Where its effect has faded to nothing."},
+                .meaning = "Radius at which its effect has faded to zero."},
                {.name = "factor",
                 .field = AT(deform.summits[i].summit.factor),
                 .range = {0.3, 5},
-                .meaning = "At the summit; comes on top of the exaggeration."},
+                .meaning = "Factor at the summit; multiplies the general exaggeration."},
                {.name = "base_m",
                 .field = AT(deform.summits[i].summit.base_m),
                 .range = {-12000, 9000},
                 .unit = "m",
-                .meaning = "Ground up to this altitude stays as it is, from 200 m above it the factor holds in full."},
+                .meaning = "Ground up to this altitude is unchanged; from 200 m above it the full "
+                           "factor applies."},
            },
        .count = [](const Scene& s) { return s.deform.summits.size(); },
        .resize = [](Scene& s, std::size_t n) { s.deform.summits.resize(n); }});
   sections.push_back(
       {.name = "deform.handles",
        .kind = SectionKind::list,
-       .meaning = "One block for each piece of ground that is moved, turned, scaled or raised, with land cover and all that lies on it. "
-                  "Moving least squares bring the pieces together.",
+       .meaning =
+           "One block for each piece of ground that is moved, turned, scaled or raised, with its "
+           "land cover and everything on it. Moving least squares interpolate between the pieces.",
        .keys =
            {
-               {.name = "name", .field = AT(deform.handles[i].name), .meaning = "For messages."},
+               {.name = "name",
+                .field = AT(deform.handles[i].name),
+                .meaning = "Name for messages."},
                {.name = "position",
                 .field = AT(deform.handles[i].position),
                 .range = {-largest_m, largest_m},
@@ -156,12 +170,14 @@ std::vector<SceneSection> make_deform_sections() {
                 .field = AT(deform.handles[i].handle.radius_m),
                 .range = {0, 1e6},
                 .unit = "m",
-                .meaning = "From here on the ground stays as it is; 0: the whole terrain follows."},
+                .meaning =
+                    "Radius beyond which the ground is unchanged; 0: the whole terrain follows."},
                {.name = "core_m",
                 .field = AT(deform.handles[i].core_m),
                 .range = {0, 1e6},
                 .unit = "m",
-                .meaning = "Up to here the ground moves as one rigid piece; without it half of the radius."},
+                .meaning =
+                    "Radius within which the ground moves rigidly. Default: half of radius_m."},
                {.name = "move_m",
                 .field = AT(deform.handles[i].move_m),
                 .range = {-1e6, 1e6},
@@ -171,8 +187,12 @@ std::vector<SceneSection> make_deform_sections() {
                 .field = AT(deform.handles[i].handle.rotate_deg),
                 .range = {-170, 170},
                 .unit = "°",
-                .meaning = "Turn about the vertical through the centre, clockwise seen from above."},
-               {.name = "scale", .field = AT(deform.handles[i].handle.scale), .range = {0.2, 5}, .meaning = "Size in plan; heights stay."},
+                .meaning =
+                    "Rotation about the vertical through the centre, clockwise seen from above."},
+               {.name = "scale",
+                .field = AT(deform.handles[i].handle.scale),
+                .range = {0.2, 5},
+                .meaning = "Scale in plan; heights are unchanged."},
                {.name = "raise_m",
                 .field = AT(deform.handles[i].handle.raise_m),
                 .range = {-5000, 5000},
@@ -180,7 +200,8 @@ std::vector<SceneSection> make_deform_sections() {
                 .meaning = "Added to the altitudes, before exaggeration."},
                {.name = "pin",
                 .field = AT(deform.handles[i].handle.pin),
-                .meaning = "Holds or moves the centre alone; the ground around it turns with the other handles."},
+                .meaning = "Fixes or moves only the centre; the ground around it turns with the "
+                           "other handles."},
            },
        .count = [](const Scene& s) { return s.deform.handles.size(); },
        .resize = [](Scene& s, std::size_t n) { s.deform.handles.resize(n); }});

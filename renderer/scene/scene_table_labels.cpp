@@ -8,19 +8,28 @@ struct FileFields {
   Field file, origin, licence, get_from, optional;
 };
 
-// The three lists of files say the same of each.
-SceneSection file_section(std::string_view name, std::string_view meaning, std::string_view file, const FileFields& fields) {
+// The three lists of files share these keys.
+SceneSection file_section(std::string_view name, std::string_view meaning, std::string_view file,
+                          const FileFields& fields) {
   return {.name = name,
           .kind = SectionKind::list,
           .meaning = meaning,
           .keys = {
-              {.name = "file", .field = fields.file, .meaning = file, .text = TextKind::file, .required = true},
-              {.name = "origin", .field = fields.origin, .meaning = "Who made the data; kept in the headers, and named in the margin."},
+              {.name = "file",
+               .field = fields.file,
+               .meaning = file,
+               .text = TextKind::file,
+               .required = true},
+              {.name = "origin",
+               .field = fields.origin,
+               .meaning = "Who made the data; written to the headers, and named in the margin."},
               {.name = "licence", .field = fields.licence, .meaning = "Their licence."},
-              {.name = "get_from", .field = fields.get_from, .meaning = "Where to get the file; shown when it is missing."},
+              {.name = "get_from",
+               .field = fields.get_from,
+               .meaning = "Where to get the file; shown when it is missing."},
               {.name = "optional",
                .field = fields.optional,
-               .meaning = "Leave the file out with a note where it is missing, instead of an error."},
+               .meaning = "If the file is missing, leave it out with a note instead of an error."},
           }};
 }
 
@@ -30,69 +39,89 @@ std::vector<SceneSection> make_labels_sections() {
   std::vector<SceneSection> sections;
   sections.push_back(
       {.name = "labels",
-       .meaning = "Names on the picture; see labels.md. Where there are any, `belvedere render` also writes labels.svg, labels.csv and "
-                  "labels.geojson. They change no pixel of the panorama.",
+       .meaning =
+           "Names on the picture; see labels.md. If there are any, `belvedere render` also writes "
+           "labels.svg, labels.csv and labels.geojson. They change no pixel of the panorama.",
        .keys = {
            {.name = "style",
             .field = AT(labels.style),
-            .meaning = "How names are set: a built-in name or a .toml file.",
+            .meaning = "Style of the names: a built-in name or a .toml file.",
             .text = TextKind::built_in,
             .choices_from = "labels"},
            {.name = "in_picture",
             .field = AT(labels.in_picture),
-            .meaning = "Also writes panorama_names, a second picture in the formats of output.formats, with the names drawn in."},
+            .meaning = "Also writes panorama_names, a second picture in the formats of "
+                       "output.formats, with the names drawn in."},
            {.name = "summits",
             .field = AT(labels.summits),
             .range = {0, 10000},
-            .meaning = "So many of the DEM's own most prominent summits that are seen and that no file names, with their altitudes."},
-           {.name = "least_prominence_m",
-            .field = AT(labels.least_prominence_m),
+            .meaning = "Number of the most prominent visible summits of the DEM that are labelled "
+                       "with their altitudes, apart from those that files name."},
+           {.name = "min_prominence_m",
+            .field = AT(labels.min_prominence_m),
             .range = {1, 9000},
             .unit = "m",
-            .meaning = "What counts as a summit of the DEM: so high over the way to higher ground."},
+            .meaning = "Prominence from which a point of the DEM counts as a summit: its height "
+                       "above the highest pass to higher ground."},
        }});
-  sections.push_back(
-      file_section("labels.points", "One block for each file of points with names.",
-                   "A .csv, .gpkg, .geojson, .shp, .fgb, .gpx, .osm or .pbf file with columns name, kind, rank (1 … 9) and ele.",
-                   {AT(labels.points[i].file), AT(labels.points[i].origin), AT(labels.points[i].licence), AT(labels.points[i].get_from),
-                    AT(labels.points[i].optional)}));
+  sections.push_back(file_section(
+      "labels.points", "One block for each file of points with names.",
+      "A .csv, .gpkg, .geojson, .shp, .fgb, .gpx, .osm or .pbf file with columns name, kind, rank "
+      "(1 … 9) and ele.",
+      {AT(labels.points[i].file), AT(labels.points[i].origin), AT(labels.points[i].licence),
+       AT(labels.points[i].get_from), AT(labels.points[i].optional)}));
   sections.back().count = [](const Scene& s) { return s.labels.points.size(); };
   sections.back().resize = [](Scene& s, std::size_t n) { s.labels.points.resize(n); };
   sections.push_back(file_section(
-      "labels.shapes", "One block for each file of lines and areas whose names are bent along them: valleys, lakes, rivers, glaciers.",
+      "labels.shapes",
+      "One block for each file of lines and areas whose names are curved along them: valleys, "
+      "lakes, rivers, glaciers.",
       "A .gpkg, .geojson, .shp or .fgb file with columns name, kind and rank.",
-      {AT(labels.shapes[i].file), AT(labels.shapes[i].origin), AT(labels.shapes[i].licence), AT(labels.shapes[i].get_from),
-       AT(labels.shapes[i].optional)}));
+      {AT(labels.shapes[i].file), AT(labels.shapes[i].origin), AT(labels.shapes[i].licence),
+       AT(labels.shapes[i].get_from), AT(labels.shapes[i].optional)}));
   sections.back().count = [](const Scene& s) { return s.labels.shapes.size(); };
   sections.back().resize = [](Scene& s, std::size_t n) { s.labels.shapes.resize(n); };
-  sections.push_back(file_section("labels.tracks", "One block for each file of ways that are drawn over the picture, hidden parts dashed.",
-                                  "A .gpx, .gpkg, .geojson, .shp or .fgb file.",
-                                  {AT(labels.tracks[i].file), AT(labels.tracks[i].origin), AT(labels.tracks[i].licence),
-                                   AT(labels.tracks[i].get_from), AT(labels.tracks[i].optional)}));
+  sections.push_back(file_section(
+      "labels.tracks",
+      "One block for each file of ways that are drawn over the picture, hidden parts dashed.",
+      "A .gpx, .gpkg, .geojson, .shp or .fgb file.",
+      {AT(labels.tracks[i].file), AT(labels.tracks[i].origin), AT(labels.tracks[i].licence),
+       AT(labels.tracks[i].get_from), AT(labels.tracks[i].optional)}));
   sections.back().count = [](const Scene& s) { return s.labels.tracks.size(); };
   sections.back().resize = [](Scene& s, std::size_t n) { s.labels.tracks.resize(n); };
   sections.push_back(
       {.name = "margin",
        .kind = SectionKind::optional,
-       .meaning = "Paper around a second picture, with title and legend: around panorama_names where `labels.in_picture` asks for it, else "
-                  "panorama_margin, without names. The panorama itself stays the same. Colours and type are the style's of [labels].",
+       .meaning = "Paper around a second picture, with title and legend: around panorama_names if "
+                  "`labels.in_picture` asks for it, else panorama_margin, without names. The "
+                  "panorama itself is unchanged. Colours and type come from the style in [labels].",
        .keys =
            {
-               {.name = "title", .field = AT(margin->title), .meaning = "Its title; without it the scene's."},
-               {.name = "subtitle", .field = AT(margin->subtitle), .meaning = "A line below the title."},
+               {.name = "title",
+                .field = AT(margin->title),
+                .meaning = "Its title. Default: the scene's."},
+               {.name = "subtitle",
+                .field = AT(margin->subtitle),
+                .meaning = "A line below the title."},
                {.name = "frame_mm",
                 .field = AT(margin->frame_mm),
                 .range = {0, 500},
                 .unit = "mm",
-                .meaning = "Paper on every side of the picture; below it the strip with title and legend follows."},
+                .meaning = "Width of the paper on every side of the picture; the strip with title "
+                           "and legend is below."},
                {.name = "legend",
                 .field = AT(margin->legend),
-                .meaning = "The classes of ground and the kinds of features that the picture shows, in its colours."},
+                .meaning = "Legend of the classes of ground and the kinds of features in the "
+                           "picture, in its colours."},
                {.name = "scale_bars",
                 .field = AT(margin->scale_bars),
-                .meaning = "Metres across the picture at two distances of its ground, near and far."},
-               {.name = "directions", .field = AT(margin->directions), .meaning = "Where north is, where one looks, where the sun stands."},
-               {.name = "sources", .field = AT(margin->sources), .meaning = "Origin and licence of the scene's data."},
+                .meaning = "Scale bars: metres across the picture at two distances, near and far."},
+               {.name = "directions",
+                .field = AT(margin->directions),
+                .meaning = "Compass: directions of north, the view and the sun."},
+               {.name = "sources",
+                .field = AT(margin->sources),
+                .meaning = "Origin and licence of the scene's data."},
            },
        .count = [](const Scene& s) { return s.margin ? std::size_t{1} : std::size_t{0}; },
        .resize =

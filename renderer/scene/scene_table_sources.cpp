@@ -3,12 +3,13 @@
 namespace belvedere {
 
 std::vector<SceneKey> make_source_keys(bool heights) {
-  // Land cover and heights name their files alike; only heights have a unit.
+  // Land cover and heights share the keys of files; only heights have a unit.
   const auto source = [heights](auto terrain, auto cover) { return heights ? +terrain : +cover; };
   std::vector<SceneKey> keys = {
       {.name = "file",
        .field = source(AT(terrain.sources[i].file), AT(land_cover.sources[i].file)),
-       .meaning = "Raster in any common format (GeoTIFF, ESRI ASCII, HGT …); with --allow-http also its address, https://….",
+       .meaning = "Raster in any common format (GeoTIFF, ESRI ASCII, HGT …); with --allow-http "
+                  "also its address, https://….",
        .text = TextKind::file,
        .required = true,
        .raster = true},
@@ -18,13 +19,17 @@ std::vector<SceneKey> make_source_keys(bool heights) {
        .meaning = "Band of the file, counted from 1."},
       {.name = "crs",
        .field = source(AT(terrain.sources[i].raster.crs), AT(land_cover.sources[i].raster.crs)),
-       .meaning = "Coordinate reference system, where the file has none or a wrong one: \"EPSG:26911\".",
+       .meaning =
+           "Coordinate reference system, if the file has none or a wrong one: \"EPSG:26911\".",
        .text = TextKind::crs},
       {.name = "nodata",
-       .field = source(AT(terrain.sources[i].raster.nodata), AT(land_cover.sources[i].raster.nodata)),
+       .field =
+           source(AT(terrain.sources[i].raster.nodata), AT(land_cover.sources[i].raster.nodata)),
        .range = {-1e38, 1e38},
-       .meaning = "Value that means no data; without it what the file says."},
-      {.name = "origin", .field = source(AT(terrain.sources[i].origin), AT(land_cover.sources[i].origin)), .meaning = "Who made the data."},
+       .meaning = "Value that means no data. Default: that of the file."},
+      {.name = "origin",
+       .field = source(AT(terrain.sources[i].origin), AT(land_cover.sources[i].origin)),
+       .meaning = "Who made the data."},
       {.name = "licence",
        .field = source(AT(terrain.sources[i].licence), AT(land_cover.sources[i].licence)),
        .meaning = "Under which terms it may be used."},
@@ -33,21 +38,25 @@ std::vector<SceneKey> make_source_keys(bool heights) {
        .meaning = "Where to get it; shown when the file is missing."},
   };
   if (heights) {
-    keys.insert(keys.begin() + 3, {.name = "unit",
-                                   .field = AT(terrain.sources[i].unit),
-                                   .meaning = "Unit of the heights, where the file does not say it; us-ft is the survey foot.",
-                                   .text = TextKind::choice,
-                                   .choices = {"", "m", "ft", "us-ft"}});
-    keys.insert(keys.begin() + 5, {.name = "lowest_m",
-                                   .field = AT(terrain.sources[i].raster.lowest_m),
-                                   .range = {-12000, 9000},
-                                   .unit = "m",
-                                   .meaning = "Lower heights are flaws of the data and count as voids."});
-    keys.insert(keys.begin() + 6, {.name = "highest_m",
-                                   .field = AT(terrain.sources[i].raster.highest_m),
-                                   .range = {-12000, 9000},
-                                   .unit = "m",
-                                   .meaning = "Higher heights are flaws of the data and count as voids."});
+    keys.insert(
+        keys.begin() + 3,
+        {.name = "unit",
+         .field = AT(terrain.sources[i].unit),
+         .meaning = "Unit of the heights, if the file does not give it; us-ft is the survey foot.",
+         .text = TextKind::choice,
+         .choices = {"", "m", "ft", "us-ft"}});
+    keys.insert(keys.begin() + 5,
+                {.name = "lowest_m",
+                 .field = AT(terrain.sources[i].raster.lowest_m),
+                 .range = {-12000, 9000},
+                 .unit = "m",
+                 .meaning = "Lower heights are errors of the data and count as voids."});
+    keys.insert(keys.begin() + 6,
+                {.name = "highest_m",
+                 .field = AT(terrain.sources[i].raster.highest_m),
+                 .range = {-12000, 9000},
+                 .unit = "m",
+                 .meaning = "Higher heights are errors of the data and count as voids."});
   }
   return keys;
 }

@@ -9,13 +9,15 @@
 #include "renderer/scene/scene_schema.h"
 #include "renderer/trace/camera.h"
 
-// What the table of scene_sections() looks like from outside: a scene as TOML, the JSON Schema, the reference.
+// What is derived from the table of scene_sections(): a scene as TOML, the JSON Schema, the
+// reference.
 namespace belvedere {
 namespace {
 
 std::string bare_key(std::string_view key) {
   const bool bare = !key.empty() && std::all_of(key.begin(), key.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-';
   });
   return bare ? std::string(key) : json_quoted(key);
 }
@@ -30,23 +32,36 @@ struct ValueWriter {
   std::string operator()(const bool* field) const { return *field ? "true" : "false"; }
   std::string operator()(const int* field) const { return fmt::format("{}", *field); }
   std::string operator()(const std::uint64_t* field) const { return fmt::format("{}", *field); }
-  std::string operator()(const double* field) const { return fmt::format("{}", *field); }  // shortest that reads back the same
+  std::string operator()(const double* field) const {
+    return fmt::format("{}", *field);
+  }  // shortest that reads back the same
   std::string operator()(const float* field) const { return fmt::format("{}", *field); }
-  std::string operator()(const std::optional<double>* field) const { return *field ? fmt::format("{}", **field) : ""; }
-  std::string operator()(const std::string* field) const { return field->empty() ? "" : json_quoted(*field); }
+  std::string operator()(const std::optional<double>* field) const {
+    return *field ? fmt::format("{}", **field) : "";
+  }
+  std::string operator()(const std::string* field) const {
+    return field->empty() ? "" : json_quoted(*field);
+  }
   std::string operator()(const std::optional<glm::dvec2>* field) const {
     return *field ? bracketed(std::array{(*field)->x, (*field)->y}) : "";
   }
   std::string operator()(const std::array<double, 2>* field) const { return bracketed(*field); }
-  std::string operator()(const std::optional<std::array<double, 4>>* field) const { return *field ? bracketed(**field) : ""; }
-  std::string operator()(const std::vector<glm::dvec2>* field) const {
-    std::vector<std::string> places;
-    for (const glm::dvec2 place : *field) places.push_back(bracketed(std::array{place.x, place.y}));
-    return places.empty() ? "" : bracketed(places);
+  std::string operator()(const std::optional<std::array<double, 4>>* field) const {
+    return *field ? bracketed(**field) : "";
   }
-  // An empty set of weights is none: nothing is written.
-  std::string operator()(const std::vector<float>* field) const { return field->empty() ? "" : bracketed(*field); }
-  std::string operator()(const std::optional<LandCoverClass>* field) const { return *field ? json_quoted(class_name(**field)) : ""; }
+  std::string operator()(const std::vector<glm::dvec2>* field) const {
+    std::vector<std::string> positions;
+    for (const glm::dvec2 position : *field)
+      positions.push_back(bracketed(std::array{position.x, position.y}));
+    return positions.empty() ? "" : bracketed(positions);
+  }
+  // An empty set of weights is not written.
+  std::string operator()(const std::vector<float>* field) const {
+    return field->empty() ? "" : bracketed(*field);
+  }
+  std::string operator()(const std::optional<LandCoverClass>* field) const {
+    return *field ? json_quoted(class_name(**field)) : "";
+  }
   std::string operator()(const std::vector<LandCoverClass>* field) const {
     std::vector<std::string> entries;
     for (const LandCoverClass id : *field) entries.push_back(json_quoted(class_name(id)));
@@ -59,36 +74,47 @@ struct ValueWriter {
   }
   std::string operator()(const std::vector<std::pair<std::string, double>>* field) const {
     std::vector<std::string> entries;
-    for (const auto& [name, number] : *field) entries.push_back(fmt::format("{} = {}", bare_key(name), number));
+    for (const auto& [name, number] : *field)
+      entries.push_back(fmt::format("{} = {}", bare_key(name), number));
     return entries.empty() ? "" : fmt::format("{{ {} }}", fmt::join(entries, ", "));
   }
-  std::string operator()(const std::vector<std::pair<LandCoverClass, LandCoverClass>>* field) const {
+  std::string operator()(
+      const std::vector<std::pair<LandCoverClass, LandCoverClass>>* field) const {
     std::vector<std::string> entries;
-    for (const auto& [from, to] : *field) entries.push_back(fmt::format("{} = {}", class_name(from), json_quoted(class_name(to))));
+    for (const auto& [from, to] : *field)
+      entries.push_back(fmt::format("{} = {}", class_name(from), json_quoted(class_name(to))));
     return entries.empty() ? "" : fmt::format("{{ {} }}", fmt::join(entries, ", "));
   }
 };
 
-std::string value_text(const SceneKey& key, Scene& scene, std::size_t i) { return std::visit(ValueWriter{}, key.field(scene, i)); }
+std::string value_text(const SceneKey& key, Scene& scene, std::size_t i) {
+  return std::visit(ValueWriter{}, key.field(scene, i));
+}
 
-// Defaults would contradict what is set: an azimuth beside a point to look at.
+// Keys whose defaults would contradict what is set, such as an azimuth with a point to look at.
 bool is_excluded(const SceneSection& section, const SceneKey& key, Scene& scene, std::size_t i) {
   for (const SceneExclusion& exclusion : scene_exclusions()) {
-    if (exclusion.section != section.name || std::find(exclusion.those.begin(), exclusion.those.end(), key.name) == exclusion.those.end())
+    if (exclusion.section != section.name ||
+        std::find(exclusion.those.begin(), exclusion.those.end(), key.name) ==
+            exclusion.those.end())
       continue;
     for (const std::string_view rival : exclusion.these)
       if (!value_text(*find_key(section, rival), scene, i).empty()) return true;
   }
   if (section.name != "exemplar") return false;
-  // What an exemplar without a picture cannot have, one that is a model, and one that is none.
-  static constexpr std::array<std::string_view, 8> of_pictures = {"altitude_range_m", "optional", "found_shadow", "excluded",
-                                                                  "stroke_px",        "serves",   "prefer",       "light"};
-  static constexpr std::array<std::string_view, 6> of_no_model = {"altitude_range_m", "found_shadow", "excluded", "width",
-                                                                  "height",           "seed"};
-  const auto names_it = [&](const auto& keys) { return std::find(keys.begin(), keys.end(), key.name) != keys.end(); };
+  // Keys that cannot be set for an exemplar without a picture, for a model, or for neither.
+  static constexpr std::array<std::string_view, 8> of_pictures = {
+      "altitude_range_m", "optional", "found_shadow", "excluded",
+      "stroke_px",        "serves",   "prefer",       "light"};
+  static constexpr std::array<std::string_view, 6> of_no_model = {
+      "altitude_range_m", "found_shadow", "excluded", "width", "height", "seed"};
+  const auto names_it = [&](const auto& keys) {
+    return std::find(keys.begin(), keys.end(), key.name) != keys.end();
+  };
   if (!scene.exemplars[i].model.empty()) return names_it(of_no_model);
   if (key.name == "excluded" && scene.exemplars[i].exclude.empty()) return true;
-  return scene.exemplars[i].picture.empty() ? names_it(of_pictures) : key.name == "prefer" || key.name == "light";
+  return scene.exemplars[i].picture.empty() ? names_it(of_pictures)
+                                            : key.name == "prefer" || key.name == "light";
 }
 
 // A scene in which every section exists, to read defaults from.
@@ -103,20 +129,23 @@ Json typed(std::string_view type) { return Json::object().add("type", Json::text
 
 Json number_schema(std::string_view type, const SceneRange& range) {
   Json out = typed(type);
-  if (std::abs(range.min) < std::numeric_limits<double>::infinity()) out.add("minimum", Json::number(range.min));
-  if (range.above_min) out.add("exclusiveMinimum", Json::boolean(true));  // draft 4: a boolean beside minimum
-  if (std::abs(range.max) < std::numeric_limits<double>::infinity()) out.add("maximum", Json::number(range.max));
+  if (std::abs(range.min) < std::numeric_limits<double>::infinity())
+    out.add("minimum", Json::number(range.min));
+  if (range.above_min)
+    out.add("exclusiveMinimum", Json::boolean(true));  // draft 4: a boolean beside minimum
+  if (std::abs(range.max) < std::numeric_limits<double>::infinity())
+    out.add("maximum", Json::number(range.max));
   return out;
 }
 
 struct SchemaOfField {
   const SceneKey& key;
 
-  Json list(std::size_t least, std::size_t most) const {
+  Json list(std::size_t min, std::size_t max) const {
     return typed("array")
         .add("items", number_schema("number", key.range))
-        .add("minItems", Json::number(static_cast<double>(least)))
-        .add("maxItems", Json::number(static_cast<double>(most)));
+        .add("minItems", Json::number(static_cast<double>(min)))
+        .add("maxItems", Json::number(static_cast<double>(max)));
   }
   Json classes() const { return typed("string").add("enum", Json::texts(ground_class_names())); }
 
@@ -128,16 +157,21 @@ struct SchemaOfField {
   Json operator()(std::optional<double>*) const {
     if (key.derived.empty()) return number_schema("number", key.range);
     return Json::object().add("anyOf",
-                              Json::array({number_schema("number", key.range), typed("string").add("enum", Json::texts({"auto"}))}));
+                              Json::array({number_schema("number", key.range),
+                                           typed("string").add("enum", Json::texts({"auto"}))}));
   }
-  Json operator()(std::optional<glm::dvec2>*) const { return place(); }
+  Json operator()(std::optional<glm::dvec2>*) const { return position(); }
   Json operator()(std::vector<glm::dvec2>*) const {
-    return typed("array").add("items", place()).add("minItems", Json::number(3)).add("maxItems", Json::number(1000));
+    return typed("array")
+        .add("items", position())
+        .add("minItems", Json::number(3))
+        .add("maxItems", Json::number(1000));
   }
-  Json place() const {
+  Json position() const {
     if (!key.lonlat) return list(2, 2);
     return typed("array")
-        .add("items", Json::array({number_schema("number", {-180.0, 180.0}), number_schema("number", {-90.0, 90.0})}))
+        .add("items", Json::array({number_schema("number", {-180.0, 180.0}),
+                                   number_schema("number", {-90.0, 90.0})}))
         .add("minItems", Json::number(2))
         .add("additionalItems", Json::boolean(false));
   }
@@ -145,7 +179,9 @@ struct SchemaOfField {
   Json operator()(std::optional<std::array<double, 4>>*) const { return list(4, 4); }
   Json operator()(std::vector<float>*) const { return list(1, 12); }
   Json operator()(std::optional<LandCoverClass>*) const { return classes(); }
-  Json operator()(std::vector<LandCoverClass>*) const { return typed("array").add("items", classes()); }
+  Json operator()(std::vector<LandCoverClass>*) const {
+    return typed("array").add("items", classes());
+  }
   Json operator()(std::vector<std::string>*) const {
     return typed("array")
         .add("items", typed("string").add("enum", Json::texts(key_choices(key))))
@@ -153,24 +189,35 @@ struct SchemaOfField {
         .add("uniqueItems", Json::boolean(true));
   }
   Json operator()(std::vector<std::pair<std::string, double>>*) const {
-    if (key.choices.empty()) return typed("object").add("additionalProperties", number_schema("number", key.range));
+    if (key.choices.empty())
+      return typed("object").add("additionalProperties", number_schema("number", key.range));
     Json names = Json::object();
     for (const std::string& name : key.choices) names.add(name, number_schema("number", key.range));
-    return typed("object").add("properties", names).add("additionalProperties", Json::boolean(false));
+    return typed("object")
+        .add("properties", names)
+        .add("additionalProperties", Json::boolean(false));
   }
   Json operator()(std::vector<std::pair<LandCoverClass, LandCoverClass>>*) const {
     Json names = Json::object();
     for (const std::string& name : ground_class_names()) names.add(name, classes());
-    return typed("object").add("properties", names).add("additionalProperties", Json::boolean(false));
+    return typed("object")
+        .add("properties", names)
+        .add("additionalProperties", Json::boolean(false));
   }
   Json operator()(std::string*) const {
-    if (key.text == TextKind::choice) return typed("string").add("enum", Json::texts(key_choices(key)));
+    if (key.text == TextKind::choice)
+      return typed("string").add("enum", Json::texts(key_choices(key)));
     if (key.text == TextKind::built_in)
-      return Json::object().add("anyOf", Json::array({typed("string").add("enum", Json::texts(key_choices(key))),
-                                                      typed("string").add("pattern", Json::text(R"(\.(toml|csv)$)"))}));
-    if (key.text == TextKind::date) return typed("string").add("pattern", Json::text(R"(^(0[1-9]|1[0-2])-(0[1-9]|[12]\d|3[01])$)"));
+      return Json::object().add(
+          "anyOf", Json::array({typed("string").add("enum", Json::texts(key_choices(key))),
+                                typed("string").add("pattern", Json::text(R"(\.(toml|csv)$)"))}));
+    if (key.text == TextKind::date)
+      return typed("string").add("pattern",
+                                 Json::text(R"(^(0[1-9]|1[0-2])-(0[1-9]|[12]\d|3[01])$)"));
     if (key.text == TextKind::time)
-      return typed("string").add("pattern", Json::text(R"(^\d{4}-\d\d-\d\dT\d\d:\d\d(:\d\d(\.\d{1,9})?)?(Z|[+-]\d\d:\d\d)$)"));
+      return typed("string").add(
+          "pattern",
+          Json::text(R"(^\d{4}-\d\d-\d\dT\d\d:\d\d(:\d\d(\.\d{1,9})?)?(Z|[+-]\d\d:\d\d)$)"));
     return typed("string");
   }
 };
@@ -182,7 +229,8 @@ bool has_json_default(const SceneField& field) {
 }
 
 std::string full_meaning(const SceneKey& key) {
-  return std::string(key.meaning) + (key.derived.empty() ? "" : fmt::format(" Without it: {}.", key.derived));
+  return std::string(key.meaning) +
+         (key.derived.empty() ? "" : fmt::format(" Default: {}.", key.derived));
 }
 
 Json section_schema(const SceneSection& section, Scene& defaults) {
@@ -194,24 +242,32 @@ Json section_schema(const SceneSection& section, Scene& defaults) {
     const std::string unit = key.unit.empty() ? "" : fmt::format(" Unit: {}.", key.unit);
     schema.add("description", Json::text(full_meaning(key) + unit));
     const std::string value = std::visit(ValueWriter{}, field);
-    if (!value.empty() && !key.required && has_json_default(field)) schema.add("default", Json::raw(value));
+    if (!value.empty() && !key.required && has_json_default(field))
+      schema.add("default", Json::raw(value));
     properties.add(key.name, std::move(schema));
     if (key.required) required.emplace_back(key.name);
   }
   for (const SceneSection* child : child_sections(section.name)) {
     Json schema = section_schema(*child, defaults);
     if (child->kind == SectionKind::list)
-      schema = typed("array").add("description", Json::text(child->meaning)).add("items", std::move(schema));
-    properties.add(child->name.substr(section.name.empty() ? 0 : section.name.size() + 1), std::move(schema));
+      schema = typed("array")
+                   .add("description", Json::text(child->meaning))
+                   .add("items", std::move(schema));
+    properties.add(child->name.substr(section.name.empty() ? 0 : section.name.size() + 1),
+                   std::move(schema));
   }
-  Json out = typed("object").add("description", Json::text(section.meaning)).add("properties", std::move(properties));
+  Json out = typed("object")
+                 .add("description", Json::text(section.meaning))
+                 .add("properties", std::move(properties));
   if (!required.empty()) out.add("required", Json::texts(required));
   std::vector<Json> exclusions;
   for (const SceneExclusion& exclusion : scene_exclusions())
     if (exclusion.section == section.name)
       for (const std::string_view a : exclusion.these)
         for (const std::string_view b : exclusion.those)
-          exclusions.push_back(Json::object().add("not", Json::object().add("required", Json::texts({std::string(a), std::string(b)}))));
+          exclusions.push_back(Json::object().add(
+              "not",
+              Json::object().add("required", Json::texts({std::string(a), std::string(b)}))));
   if (!exclusions.empty()) out.add("allOf", Json::array(std::move(exclusions)));
   return out.add("additionalProperties", Json::boolean(false));
 }
@@ -231,9 +287,12 @@ std::string write_scene(const Scene& scene) {
     const std::size_t count = section.count == nullptr ? 1 : section.count(values);
     for (std::size_t i = 0; i < count; ++i) {
       if (!section.name.empty())
-        out += fmt::format(fmt::runtime(section.kind == SectionKind::list ? "\n[[{}]]\n" : "\n[{}]\n"), section.name);
+        out +=
+            fmt::format(fmt::runtime(section.kind == SectionKind::list ? "\n[[{}]]\n" : "\n[{}]\n"),
+                        section.name);
       for (const SceneKey& key : section.keys) {
-        const std::string text = is_excluded(section, key, values, i) ? "" : value_text(key, values, i);
+        const std::string text =
+            is_excluded(section, key, values, i) ? "" : value_text(key, values, i);
         if (!text.empty()) out += fmt::format("{} = {}\n", key.name, text);
       }
     }
@@ -244,28 +303,49 @@ std::string write_scene(const Scene& scene) {
 std::string scene_json_schema() {
   Scene defaults = full_scene();
   Json schema = section_schema(*find_section(""), defaults);
-  Json out =
-      Json::object().add("$schema", Json::text("http://json-schema.org/draft-04/schema#")).add("title", Json::text("A scene of Belvedere"));
+  Json out = Json::object()
+                 .add("$schema", Json::text("http://json-schema.org/draft-04/schema#"))
+                 .add("title", Json::text("A scene of Belvedere"));
   return out.add("allOf", Json::array({std::move(schema)})).str() + "\n";
 }
 
 std::string scene_reference() {
   Scene defaults = full_scene();
   std::string out =
-      "# Scene files\n\n"
-      "Made by `belvedere schema --markdown`; `docs/scene.schema.json`, by `belvedere schema`, says the same to editors.\n\n"
-      "A scene is a TOML file that says everything about one panorama. `version = 1` is required; every other key has a default. An "
-      "unknown\n"
-      "key, a wrong type or a value out of range is an error that names the place. Units stand in the keys' names; places are in metres "
-      "of\n"
-      "the scene's CRS. Files are looked for beside the scene file, then in the folders named with `--data`, and nowhere else;\n"
-      "rasters also on servers, by their address, where `--allow-http` is given ([ci.md](ci.md#data-on-servers)).\n"
-      "Any key can be set on the command line: `--set output.width=1200`, `--set exemplar.0.seed=3`,\n"
-      "`--set 'generalize.foreground=[1, 1, 0.5]'`; it replaces what the file says of the same question.\n\n"
-      "```toml\nversion = 1\ntitle = \"Karwendel from the north\"\n\n[[terrain.sources]]\nfile = \"innsbruck/innsbruck_utm32_30m.tif\"\n\n"
-      "[camera]\nposition = [692000, 5302000]\nheight_m = 22000\nlook_at = [690000, 5249000]\n```\n";
+      "# Scene files\n"
+      "\n"
+      "Made by `belvedere schema --markdown`; `docs/scene.schema.json`, made by `belvedere "
+      "schema`, is the same reference for editors.\n"
+      "\n"
+      "A scene is a TOML file that describes one panorama. `version = 1` is required; every other "
+      "key has a default. An unknown\n"
+      "key, a wrong type or a value out of range is an error with its line. Units are part of the "
+      "keys' names; positions are in metres of\n"
+      "the scene's CRS. Files are searched beside the scene file, then in the folders given with "
+      "`--data`, and nowhere else;\n"
+      "rasters also on servers, by their address, if `--allow-http` is given "
+      "([ci.md](ci.md#data-on-servers)).\n"
+      "Any key can be set on the command line: `--set output.width=1200`, `--set "
+      "exemplar.0.seed=3`,\n"
+      "`--set 'generalize.foreground=[1, 1, 0.5]'`; it replaces the file's value and its "
+      "alternatives.\n"
+      "\n"
+      "```toml\n"
+      "version = 1\n"
+      "title = \"Karwendel from the north\"\n"
+      "\n"
+      "[[terrain.sources]]\n"
+      "file = \"innsbruck/innsbruck_utm32_30m.tif\"\n"
+      "\n"
+      "[camera]\n"
+      "position = [692000, 5302000]\n"
+      "height_m = 22000\n"
+      "look_at = [690000, 5249000]\n"
+      "```\n";
   for (const SceneSection& section : scene_sections()) {
-    const char* heading = section.name.empty()                ? "\n## On top\n\n"
+    const char* heading = section.name.empty()                ? "\n"
+                                                                "## Top level\n"
+                                                                "\n"
                           : section.kind == SectionKind::list ? "\n## `[[{}]]`\n\n"
                                                               : "\n## `[{}]`\n\n";
     out += fmt::format(fmt::runtime(heading), section.name) + std::string(section.meaning) + "\n\n";
@@ -273,24 +353,48 @@ std::string scene_reference() {
     for (const SceneKey& key : section.keys) {
       const std::string range = describe_range(key);
       const std::string value = key.required ? "**required**" : value_text(key, defaults, 0);
-      out += fmt::format(
-          "| `{}` | {}{} | {} | {} |\n", key.name, table_cell(describe_type(key)), range.empty() ? "" : "; " + range,
-          key.required || value.empty() ? std::string(key.derived.empty() ? value : "`\"auto\"`") : "`" + table_cell(value) + "`",
-          table_cell(full_meaning(key)));
+      out += fmt::format("| `{}` | {}{} | {} | {} |\n", key.name, table_cell(describe_type(key)),
+                         range.empty() ? "" : "; " + range,
+                         key.required || value.empty()
+                             ? std::string(key.derived.empty() ? value : "`\"auto\"`")
+                             : "`" + table_cell(value) + "`",
+                         table_cell(full_meaning(key)));
     }
     for (const SceneExclusion& exclusion : scene_exclusions())
       if (exclusion.section == section.name)
-        out += fmt::format("\n`{}` and `{}` exclude each other.\n", fmt::join(exclusion.these, "`, `"), fmt::join(exclusion.those, "`, `"));
+        out += fmt::format("\n`{}` and `{}` exclude each other.\n",
+                           fmt::join(exclusion.these, "`, `"), fmt::join(exclusion.those, "`, `"));
   }
-  out += "\n## Projections\n\n| name | what it does | field of view |\n|---|---|---|\n";
+  out +=
+      "\n"
+      "## Projections\n"
+      "\n"
+      "| name | description | field of view |\n"
+      "|---|---|---|\n";
   for (const Projection& projection : projections())
     out += fmt::format("| `{}` | {} | {} |\n", projection.name, table_cell(projection.meaning),
-                       projection.widest_deg > 0.0 ? fmt::format("up to {}°", projection.widest_deg) : "none, but `view_width_m`");
-  out += "\n## Formats\n\n| ending | what it is for | what it holds |\n|---|---|---|\n";
+                       projection.widest_deg > 0.0 ? fmt::format("up to {}°", projection.widest_deg)
+                                                   : "none; uses `view_width_m`");
+  out +=
+      "\n"
+      "## Formats\n"
+      "\n"
+      "| extension | use | content |\n"
+      "|---|---|---|\n";
   for (const PictureFormat& format : picture_formats())
-    if (format.open != nullptr) out += fmt::format("| `{}` | {} | {} |\n", format.ending, format.meaning, describe_format(format));
-  out += "\n## Classes\n\nThe number is what class images (`exemplar.classes`) hold.\n\n| number | class |\n|---|---|\n";
-  for (const LandCoverClassInfo& info : land_cover_classes()) out += fmt::format("| {} | `{}` |\n", static_cast<int>(info.id), info.name);
+    if (format.open != nullptr)
+      out += fmt::format("| `{}` | {} | {} |\n", format.extension, format.meaning,
+                         describe_format(format));
+  out +=
+      "\n"
+      "## Classes\n"
+      "\n"
+      "Numbers of the classes in class images (`exemplar.classes`).\n"
+      "\n"
+      "| number | class |\n"
+      "|---|---|\n";
+  for (const LandCoverClassInfo& info : land_cover_classes())
+    out += fmt::format("| {} | `{}` |\n", static_cast<int>(info.id), info.name);
   return out;
 }
 

@@ -8,13 +8,13 @@
 
 namespace belvedere {
 
-// Which channels a guidance file is to hold, by their names in the file ("Z", "landcover.id"); nothing: all of them. A vector goes whole:
-// one of its components names it.
+// The channels of a guidance file, by their names in the file ("Z", "landcover.id"); nothing: all
+// of them. A vector is included whole: one of its components names it.
 using GuidanceChoice = std::optional<std::vector<std::string>>;
 
-// "Z,landcover.id", or "none" for none at all: then there is no file. Error(usage) naming the channels there are.
+// "Z,landcover.id", or "none" for no file. Error(usage) listing the available channels.
 GuidanceChoice read_guidance_choice(const std::string& text);
-// The channels that are not chosen become empty.
+// Empties the channels that are not chosen.
 void keep_chosen(GuidanceBuffers& guidance, const GuidanceChoice& choice);
 
 }  // namespace belvedere

@@ -30,18 +30,21 @@ void for_each_component(Buffers& guidance, F&& f) {
         channel.member);
 }
 
-// Numbers of one component between its values: one for plain numbers.
+// Stride between values of one component: one for plain numbers.
 template <class T>
 constexpr std::size_t stride = std::is_same_v<T, glm::vec2>   ? 2
                                : std::is_same_v<T, glm::vec3> ? 3
                                                               : 1;
 
 template <class T>
-constexpr bool is_number = std::is_same_v<T, float> || std::is_same_v<T, glm::vec2> || std::is_same_v<T, glm::vec3>;
+constexpr bool is_number =
+    std::is_same_v<T, float> || std::is_same_v<T, glm::vec2> || std::is_same_v<T, glm::vec3>;
 
-// The planes of the components that are there, each made and filled by fill(values) of its own, side by side.
+// The planes of the available components, each created and filled by its own fill(values), side by
+// side.
 using FillPlane = std::function<void(std::vector<std::byte>& values)>;
-PackedGuidance make_planes(const std::vector<std::pair<ChannelStorage, FillPlane>>& components, int width, int height) {
+PackedGuidance make_planes(const std::vector<std::pair<ChannelStorage, FillPlane>>& components,
+                           int width, int height) {
   const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   PackedGuidance packed;
   packed.values.resize(components.size());
@@ -52,7 +55,8 @@ PackedGuidance make_planes(const std::vector<std::pair<ChannelStorage, FillPlane
     }
   });
   for (std::size_t p = 0; p < components.size(); ++p)
-    packed.planes.push_back({packed.values[p].data(), bytes_of(components[p].first), width, height});
+    packed.planes.push_back(
+        {packed.values[p].data(), bytes_of(components[p].first), width, height});
   return packed;
 }
 
@@ -76,8 +80,9 @@ PackedGuidance blank_packed(const GuidanceBuffers& like, int width, int height) 
 
 PackedGuidance pack_guidance(const GuidanceBuffers& guidance) {
   std::vector<std::pair<ChannelStorage, FillPlane>> components;
-  glm::ivec2 size(0);  // of whatever channels there are: distances need not be among them
-  for_each_component(guidance, [&](const GuidanceChannel& channel, const auto& grid, [[maybe_unused]] std::size_t k) {
+  glm::ivec2 size(0);  // with any channels: distances need not be among them
+  for_each_component(guidance, [&](const GuidanceChannel& channel, const auto& grid,
+                                   [[maybe_unused]] std::size_t k) {
     size = {grid.width(), grid.height()};
     using T = typename std::decay_t<decltype(grid)>::value_type;
     if constexpr (is_number<T>)
@@ -87,7 +92,8 @@ PackedGuidance pack_guidance(const GuidanceBuffers& guidance) {
         if (channel.type == ChannelStorage::half)
           to_halves(from, stride<T>, grid.size(), reinterpret_cast<std::uint16_t*>(to));
         else
-          for (std::size_t i = 0; i < grid.size(); ++i) std::memcpy(to + 4 * i, from + stride<T> * i, 4);
+          for (std::size_t i = 0; i < grid.size(); ++i)
+            std::memcpy(to + 4 * i, from + stride<T> * i, 4);
       });
     else
       components.emplace_back(channel.type, [&grid](std::vector<std::byte>& values) {
@@ -108,7 +114,8 @@ GuidanceBuffers unpack_guidance(const PackedGuidance& packed, const GuidanceBuff
   for (const GuidanceChannel& channel : guidance_channels())
     std::visit(
         [&](auto member) {
-          if (!(like.*member).empty()) guidance.*member = typename std::decay_t<decltype(guidance.*member)>(width, height);
+          if (!(like.*member).empty())
+            guidance.*member = typename std::decay_t<decltype(guidance.*member)>(width, height);
         },
         channel.member);
   std::size_t p = 0;
@@ -120,7 +127,8 @@ GuidanceBuffers unpack_guidance(const PackedGuidance& packed, const GuidanceBuff
       if (channel.type == ChannelStorage::half)
         from_halves(reinterpret_cast<const std::uint16_t*>(from), grid.size(), to, stride<T>);
       else
-        for (std::size_t i = 0; i < grid.size(); ++i) std::memcpy(to + stride<T> * i, from + 4 * i, 4);
+        for (std::size_t i = 0; i < grid.size(); ++i)
+          std::memcpy(to + stride<T> * i, from + 4 * i, 4);
     } else {
       for (std::size_t i = 0; i < grid.size(); ++i) {
         std::uint32_t id = 0;

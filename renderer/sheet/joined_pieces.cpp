@@ -20,8 +20,8 @@ void JoinedPieces::read(const std::string& product, int y0, int y1, const Planes
   for (const PixelRect& piece : pieces) {
     if (piece.y0 >= y1 || piece.y1 <= y0) continue;
     const int first = std::max(y0, piece.y0);
-    read_piece_rows(work.path(product, piece), work.key(product, piece), first, std::min(y1, piece.y1), region.x0,
-                    from_row(to, first - y0));
+    read_piece_rows(work.path(product, piece), work.key(product, piece), first,
+                    std::min(y1, piece.y1), region.x0, from_row(to, first - y0));
   }
 }
 

@@ -12,10 +12,11 @@ namespace belvedere {
 // The finished pieces of a part of the sheet, read as rows over its whole width.
 struct JoinedPieces {
   const WorkFolder& work;
-  std::vector<PixelRect> pieces;  // all that touch the region, cut to it
+  std::vector<PixelRect> pieces;  // all that the region touches, clipped to it
   PixelRect region;               // px of the sheet
 
-  // Rows [y0, y1) of the sheet of a product, into planes of the region's width and that many rows. Error(input) where a piece is not whole.
+  // Rows [y0, y1) of the sheet of a product, into planes of the region's width and that many rows.
+  // Error(input) where a piece is incomplete.
   void read(const std::string& product, int y0, int y1, const Planes& to) const;
 };
 

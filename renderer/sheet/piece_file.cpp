@@ -25,15 +25,16 @@ constexpr std::size_t hash_chars = 32;
 constexpr std::size_t longest_head = 4096;
 
 std::string head_of(const PieceKey& key) {
-  return fmt::format("belvedere piece 1\njob {}\nproduct {}\nrectangle {} {} {} {}\n", key.job, key.product, key.rect.x0, key.rect.y0,
-                     key.rect.x1, key.rect.y1);
+  return fmt::format("belvedere piece 1\njob {}\nproduct {}\nrectangle {} {} {} {}\n", key.job,
+                     key.product, key.rect.x0, key.rect.y0, key.rect.x1, key.rect.y1);
 }
 
 [[noreturn]] void throw_write_error(const std::string& path, const char* what, int code) {
-  throw Error(ErrorKind::output, path, fmt::format("{}: {}", what, std::generic_category().message(code)));
+  throw Error(ErrorKind::output, path,
+              fmt::format("{}: {}", what, std::generic_category().message(code)));
 }
 
-// A name that no other process and no other thread of this one takes at the same time.
+// A name that no other process and no other thread of this one uses at the same time.
 std::string temporary_name(const std::string& path) {
   static std::atomic<unsigned> count{0};
   return fmt::format("{}.{}-{}.tmp", path, static_cast<long>(::getpid()), count.fetch_add(1));
@@ -67,7 +68,8 @@ void write_piece(const std::string& path, const PieceKey& key, const Planes& pla
   }
   content += "\n\n";
   content.reserve(content.size() + bytes + hash_chars);
-  for (const Plane& plane : planes) content.append(reinterpret_cast<const char*>(plane.values), plane.bytes());
+  for (const Plane& plane : planes)
+    content.append(reinterpret_cast<const char*>(plane.values), plane.bytes());
   content += hash_bytes(content);
 
   const std::string temporary = temporary_name(path);
@@ -78,9 +80,11 @@ void write_piece(const std::string& path, const PieceKey& key, const Planes& pla
     throw_write_error(path, what, code);
   };
   const auto* bytes_of_content = reinterpret_cast<const std::byte*>(content.data());
-  if (const int code = write_bytes_at(file.descriptor, bytes_of_content, content.size(), 0); code != 0) give_up("cannot be written", code);
-  // Some systems tell of a full disk only now.
-  if (::fdatasync(file.descriptor) != 0) give_up("cannot be brought to disk", errno);
+  if (const int code = write_bytes_at(file.descriptor, bytes_of_content, content.size(), 0);
+      code != 0)
+    give_up("cannot be written", code);
+  // Some systems report a full disk only now.
+  if (::fdatasync(file.descriptor) != 0) give_up("cannot be flushed to disk", errno);
   const int closed = ::close(file.descriptor);
   file.descriptor = -1;
   if (closed != 0) give_up("cannot be closed", errno);
@@ -90,7 +94,8 @@ void write_piece(const std::string& path, const PieceKey& key, const Planes& pla
 bool is_whole_piece(const std::string& path, const PieceKey& key) {
   const std::string content = read_file(path);
   const std::string head = head_of(key);
-  if (content.size() < head.size() + hash_chars || content.compare(0, head.size(), head) != 0) return false;
+  if (content.size() < head.size() + hash_chars || content.compare(0, head.size(), head) != 0)
+    return false;
   const std::string_view all(content);
   return hash_bytes(all.substr(0, all.size() - hash_chars)) == all.substr(all.size() - hash_chars);
 }
@@ -102,23 +107,27 @@ PieceLayout read_piece_layout(const std::string& path) {
   head.resize(static_cast<std::size_t>(file.gcount()));
   const std::size_t planes = head.find("\nplanes");
   const std::size_t end = head.find("\n\n", planes);
-  if (planes == std::string::npos || end == std::string::npos) throw Error(ErrorKind::input, path, "is no finished piece");
+  if (planes == std::string::npos || end == std::string::npos)
+    throw Error(ErrorKind::input, path, "is not a finished piece");
   PieceLayout layout;
   std::istringstream numbers(head.substr(planes + 7, end - planes - 7));
   for (std::size_t bytes = 0; numbers >> bytes;) layout.value_bytes.push_back(bytes);
   layout.begin = end + 2;
   std::error_code code;
   const std::uint64_t size = std::filesystem::file_size(path, code);
-  if (code || size < layout.begin + hash_chars) throw Error(ErrorKind::input, path, "is cut off");
+  if (code || size < layout.begin + hash_chars) throw Error(ErrorKind::input, path, "is truncated");
   layout.bytes = size - layout.begin - hash_chars;
   return layout;
 }
 
-void read_piece_rows(const std::string& path, const PieceKey& key, int y0, int y1, int origin_x, const Planes& to) {
+void read_piece_rows(const std::string& path, const PieceKey& key, int y0, int y1, int origin_x,
+                     const Planes& to) {
   const PieceLayout layout = read_piece_layout(path);
   const OpenFile file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  if (file.descriptor < 0) throw Error(ErrorKind::input, path, "this finished piece cannot be opened");
-  if (layout.value_bytes.size() != to.size()) throw Error(ErrorKind::bug, path, "other planes than asked for");
+  if (file.descriptor < 0)
+    throw Error(ErrorKind::input, path, "this finished piece cannot be opened");
+  if (layout.value_bytes.size() != to.size())
+    throw Error(ErrorKind::bug, path, "planes other than requested");
   const auto width = static_cast<std::size_t>(key.rect.width());
   std::uint64_t start = layout.begin;
   std::vector<std::byte> rows;
@@ -129,7 +138,8 @@ void read_piece_rows(const std::string& path, const PieceKey& key, int y0, int y
     if (read_bytes_at(file.descriptor, rows.data(), rows.size(), first) != 0)
       throw Error(ErrorKind::input, path, "this finished piece cannot be read");
     for (int y = 0; y < y1 - y0; ++y)
-      std::memcpy(to[i].values + to[i].row_bytes() * static_cast<std::size_t>(y) + size * static_cast<std::size_t>(key.rect.x0 - origin_x),
+      std::memcpy(to[i].values + to[i].row_bytes() * static_cast<std::size_t>(y) +
+                      size * static_cast<std::size_t>(key.rect.x0 - origin_x),
                   rows.data() + width * size * static_cast<std::size_t>(y), width * size);
     start += width * size * static_cast<std::uint64_t>(key.rect.height());
   }
@@ -138,7 +148,8 @@ void read_piece_rows(const std::string& path, const PieceKey& key, int y0, int y
 std::string read_piece_bytes(const std::string& path) {
   const PieceLayout layout = read_piece_layout(path);
   const std::string content = read_file(path);
-  if (content.size() < layout.begin + layout.bytes) throw Error(ErrorKind::input, path, "is cut off");
+  if (content.size() < layout.begin + layout.bytes)
+    throw Error(ErrorKind::input, path, "is truncated");
   return content.substr(layout.begin, layout.bytes);
 }
 

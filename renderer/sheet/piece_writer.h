@@ -8,19 +8,21 @@
 
 namespace belvedere {
 
-// Brings finished pieces to disk while the next ones are made: a piece is copied, hashed and waited for until the disk has it, which takes
-// as long as a tenth of its making. One piece is on its way at a time; large ones, which would take too much memory beside the next, are
-// waited for.
+// Writes finished pieces to disk while the next ones are made: a piece is copied, hashed and
+// flushed, which takes up to a tenth of its making. One piece is being written at a time; for large
+// ones, which would take too much memory beside the next, the caller waits.
 class PieceWriter {
  public:
   explicit PieceWriter(const WorkFolder& work) : work_(work) {}
-  ~PieceWriter();  // waits; what fails then is lost: finish() first
+  ~PieceWriter();  // waits; errors are then lost: call finish() first
   PieceWriter(const PieceWriter&) = delete;
   PieceWriter& operator=(const PieceWriter&) = delete;
 
-  // `holder` keeps the planes' values alive until they are written. Throws what went wrong with the piece before.
-  void keep(const std::string& product, PixelRect rect, const Planes& planes, std::shared_ptr<const void> holder);
-  // Waits until all is written; throws what went wrong.
+  // `holder` keeps the planes' values alive until they are written. Throws the error of the
+  // previous piece.
+  void keep(const std::string& product, PixelRect rect, const Planes& planes,
+            std::shared_ptr<const void> holder);
+  // Waits until all is written; throws its error.
   void finish();
 
  private:

@@ -30,7 +30,7 @@ std::string read_text(const std::string& path) {
   return text.str();
 }
 
-// The names of what differs.
+// The names of the differing entries.
 std::string differences(const JobIdentity& a, const JobIdentity& b) {
   std::string names;
   const auto add = [&](const std::string& name) { names += (names.empty() ? "" : ", ") + name; };
@@ -44,28 +44,34 @@ std::string differences(const JobIdentity& a, const JobIdentity& b) {
 void require_same(const std::string& folder, const JobIdentity& known, const JobIdentity& asked) {
   if (const std::string names = differences(known, asked); !names.empty())
     throw Error(ErrorKind::usage, folder,
-                "the pieces there are of another picture: " + names + (names.find(',') == std::string::npos ? " differs" : " differ"),
-                "the scene, inputs, program and settings they were begun with, or a run without --resume");
+                "the existing pieces are of another picture: " + names +
+                    (names.find(',') == std::string::npos ? " differs" : " differ"),
+                "the scene, inputs, program and settings that they were begun with, or a run "
+                "without --resume");
 }
 
-// Waits for nobody. The file may have been removed by the run that held it: then a new one is made.
+// Does not wait. The file may have been removed by the run that held it: then a new one is made.
 int take_lock(const std::string& folder, bool alone) {
   const std::string path = (fs::path(folder) / lock_file).string();
   for (;;) {
     const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (file < 0)
-      throw Error(ErrorKind::output, folder, "no file can be created in this folder: " + std::generic_category().message(errno));
+      throw Error(ErrorKind::output, folder,
+                  "cannot create a file in this folder: " + std::generic_category().message(errno));
     if (::flock(file, (alone ? LOCK_EX : LOCK_SH) | LOCK_NB) != 0) {
       const int code = errno;
       ::close(file);
       if (code == EWOULDBLOCK)
-        throw Error(ErrorKind::output, fs::path(folder).parent_path().string(), "another run works in this folder",
-                    "another --out, or when it has ended");
+        throw Error(ErrorKind::output, fs::path(folder).parent_path().string(),
+                    "another run works in this folder",
+                    "another --out, or wait until it has ended");
       return -1;  // a file system without locks
     }
     struct ::stat held {};
     struct ::stat named {};
-    if (::fstat(file, &held) == 0 && ::stat(path.c_str(), &named) == 0 && held.st_ino == named.st_ino) return file;
+    if (::fstat(file, &held) == 0 && ::stat(path.c_str(), &named) == 0 &&
+        held.st_ino == named.st_ino)
+      return file;
     ::close(file);
   }
 }
@@ -73,7 +79,7 @@ int take_lock(const std::string& folder, bool alone) {
 void make_folder(const std::string& folder) {
   std::error_code code;
   fs::create_directories(folder, code);
-  if (code) throw Error(ErrorKind::output, folder, "this folder cannot be made: " + code.message());
+  if (code) throw Error(ErrorKind::output, folder, "cannot create this folder: " + code.message());
 }
 
 void write_identity(const std::string& folder, const JobIdentity& identity) {
@@ -96,7 +102,7 @@ void remove_all_but_lock(const std::string& folder) {
     if (entry.path().filename() != lock_file) fs::remove_all(entry.path(), code);
 }
 
-// Whether something is there that a run that resumes would not have to make again: more than what headers say.
+// Whether there is something that a resumed run would not have to make again: more than headers.
 bool holds_pieces(const std::string& folder) {
   std::error_code code;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, code)) {
@@ -112,7 +118,9 @@ WorkFolder::WorkFolder(std::string folder, const JobIdentity& identity, WorkMode
     : folder_(std::move(folder)), job_(hash_bytes(to_text(identity))) {
   const std::string known = (fs::path(folder_) / identity_file).string();
   if (mode == WorkMode::join) {
-    if (!fs::exists(known)) throw Error(ErrorKind::usage, folder_, "no work is planned in this folder", "a folder made by belvedere plan");
+    if (!fs::exists(known))
+      throw Error(ErrorKind::usage, folder_, "no work is planned in this folder",
+                  "a folder made by belvedere plan");
     require_same(folder_, job_from_text(read_text(known)), identity);
     return;
   }
@@ -133,7 +141,7 @@ WorkFolder::WorkFolder(std::string folder, const JobIdentity& identity, WorkMode
 }
 
 WorkFolder::~WorkFolder() {
-  // A run that came to nothing leaves nothing.
+  // A run without results leaves no folder.
   if (alone_ && !holds_pieces(folder_)) clear();
   if (lock_ >= 0) ::close(lock_);
 }
@@ -157,7 +165,8 @@ void WorkFolder::keep(const std::string& product, PixelRect rect, const Planes& 
 
 void WorkFolder::keep_bytes(const std::string& product, const std::string& bytes) const {
   std::string copy = bytes;
-  write_piece(path(product, {}), key(product, {}), {{reinterpret_cast<std::byte*>(copy.data()), 1, static_cast<int>(copy.size()), 1}});
+  write_piece(path(product, {}), key(product, {}),
+              {{reinterpret_cast<std::byte*>(copy.data()), 1, static_cast<int>(copy.size()), 1}});
 }
 
 void WorkFolder::clear() {
@@ -165,12 +174,13 @@ void WorkFolder::clear() {
   fs::remove_all(folder_, code);
 }
 
-// One line an entry; line feeds of values (a scene has many) are written as such.
+// One line per entry; line feeds in values (a scene has many) are escaped.
 std::string to_text(const JobIdentity& identity) {
   std::string text = "belvedere job 1\n";
   for (const auto& [name, value] : identity) {
     text += name + "\t";
-    for (const char c : value) text += c == '\n' ? std::string("\\n") : c == '\\' ? std::string("\\\\") : std::string(1, c);
+    for (const char c : value)
+      text += c == '\n' ? std::string("\\n") : c == '\\' ? std::string("\\\\") : std::string(1, c);
     text += "\n";
   }
   return text;

@@ -7,20 +7,21 @@
 
 namespace belvedere {
 
-// All that the pixels of a job hang on, in words: version of the program, scene, inputs, size, part. Two jobs with the same entries have
-// the same pieces.
+// Everything that the pixels of a job depend on, as text: version of the program, scene, inputs,
+// size, part. Two jobs with the same entries have the same pieces.
 using JobIdentity = std::map<std::string, std::string>;
 
 // How a folder of pieces is opened.
 enum class WorkMode {
-  begin,   // what another run left is thrown away; nobody else may work here
-  resume,  // what is there and whole is kept; nobody else may work here
-  join,    // many may work here at once, each on pieces of its own; the job must be there
+  begin,   // pieces of another run are discarded; exclusive access
+  resume,  // complete pieces are kept; exclusive access
+  join,    // many may work here at once, each on its own pieces; the job must exist
 };
 
-// The pieces of a job beside its results, so that a run that ended goes on, and several machines can work on one sheet. Throws
-// Error(output) where another run works in the folder, Error(usage) where the pieces are of another job, naming what differs, Error(output)
-// where the folder cannot be written.
+// The pieces of a job beside its results, so that an interrupted run can be resumed, and several
+// machines can work on one sheet. Throws Error(output) where another run works in the folder,
+// Error(usage) where the pieces are of another job, naming the differences, Error(output) where the
+// folder cannot be written.
 class WorkFolder {
  public:
   WorkFolder(std::string folder, const JobIdentity& identity, WorkMode mode);
@@ -31,12 +32,14 @@ class WorkFolder {
   const std::string& folder() const { return folder_; }
   PieceKey key(const std::string& product, PixelRect rect) const { return {job_, product, rect}; }
   std::string path(const std::string& product, PixelRect rect) const;
-  // Whether the piece is there and whole: read and hashed. A damaged one is removed.
+  // Whether the piece is there and complete: read and hashed. A damaged one is removed.
   bool has(const std::string& product, PixelRect rect) const;
   void keep(const std::string& product, PixelRect rect, const Planes& planes) const;
-  // Bytes that are no picture: the plan.
+  // Bytes that are not a picture: the plan.
   bool has_bytes(const std::string& product) const { return has(product, {}); }
-  std::string read_bytes(const std::string& product) const { return read_piece_bytes(path(product, {})); }
+  std::string read_bytes(const std::string& product) const {
+    return read_piece_bytes(path(product, {}));
+  }
   void keep_bytes(const std::string& product, const std::string& bytes) const;
   // Removes the folder: the job is done.
   void clear();
@@ -54,7 +57,8 @@ JobIdentity job_from_text(const std::string& text);
 
 // Whether some run left its job in a folder.
 bool holds_work(const std::string& folder);
-// Puts the identity of a job in a new folder for WorkMode::join; Error(usage) where another job is there.
+// Writes the identity of a job to a new folder for WorkMode::join; Error(usage) where another job
+// is there.
 void begin_shared_work(const std::string& folder, const JobIdentity& identity);
 
 }  // namespace belvedere

@@ -12,21 +12,21 @@
 
 namespace belvedere {
 
-// What an exemplar cannot give is painted last, far to near, over copied ground: mist, sky, trees, houses, ways; without an exemplar
-// everything is.
+// Finishing paint, which an exemplar cannot provide, laid last over copied ground, far to near:
+// mist, sky, trees, houses, roads. Without an exemplar it is everything.
 
-// A window of the sheet and what finishing paint is laid by.
+// A window of the sheet and the inputs of finishing paint.
 struct FinishingGround {
   const GuidanceBuffers& guidance;  // stroke_channels and tone
   const BasePicture& base;
-  const Grid<float>& veil;               // share of mist before each pixel, 0…1; empty: there is none
+  const Grid<float>& veil;               // share of mist in front of each pixel, 0…1; empty: none
   const Grid<std::int16_t>& crest_rows;  // CrestShift::rows; empty where the scene has no features
   PixelRect window;                      // of the sheet
 };
-// What lies below it, of the pixels that are painted.
+// What is below the finishing paint, for the painted pixels.
 struct PaintedGround {
   const Grid<glm::vec3>& copied;  // encoded sRGB; empty: the base picture
-  const MistPaint& mist;          // empty: there is none
+  const MistPaint& mist;          // empty: none
   PixelRect rect;                 // of the sheet, within the window
 };
 struct FinishingHand {
@@ -37,16 +37,16 @@ struct FinishingHand {
   glm::ivec2 sheet_px;
 };
 
-// A finished rectangle, but for its edges of depth; and what its layers are cut from, where these are asked for.
+// A finished rectangle before depth edges are softened; and the sources of its layers if requested.
 struct FinishedPaint {
   Grid<glm::vec3> picture;  // encoded sRGB
-  bool in_parts = false;    // whether the rest is asked for
+  bool in_parts = false;    // whether the rest is requested
   Grid<glm::vec3> bare;     // the canvas before mist and strokes
   MistPaint mist;
   Grid<float> haze;
   std::optional<PaintParts> parts;
 };
-FinishedPaint finish_paint(const PaintedGround& painted, const FinishingGround& ground, const FinishingHand& hand, bool in_parts,
-                           Progress& progress);
+FinishedPaint finish_paint(const PaintedGround& painted, const FinishingGround& ground,
+                           const FinishingHand& hand, bool in_parts, Progress& progress);
 
 }  // namespace belvedere

@@ -2,7 +2,8 @@
 
 namespace belvedere {
 
-GroundInputs make_unlit_inputs(const World& world, const SheetView& view, const Palette& palette, const Run& run) {
+GroundInputs make_unlit_inputs(const World& world, const SheetView& view, const Palette& palette,
+                               const Run& run) {
   return {.world = &world,
           .palette = &palette,
           .run = run,
@@ -18,8 +19,10 @@ GroundInputs make_unlit_inputs(const World& world, const SheetView& view, const 
 }
 
 GroundInputs estimate_ground_inputs(const Scene& scene, double pixels_per_unit) {
-  GroundInputs inputs{.size_px = {scene.output.width, scene.output.height}, .pixels_per_unit = pixels_per_unit};
-  inputs.tone.pixels_per_unit = inputs.base.pixels_per_unit = inputs.strokes.pixels_per_unit = pixels_per_unit;
+  GroundInputs inputs{.size_px = {scene.output.width, scene.output.height},
+                      .pixels_per_unit = pixels_per_unit};
+  inputs.tone.pixels_per_unit = inputs.base.pixels_per_unit = inputs.strokes.pixels_per_unit =
+      pixels_per_unit;
   inputs.rock.light.pixels_per_unit = pixels_per_unit;
   inputs.rock.kind = inputs.base.rock = &find_rock_kind(scene.land_cover.rock);
   return inputs;

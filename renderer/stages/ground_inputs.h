@@ -12,9 +12,9 @@
 
 namespace belvedere {
 
-// What the stages of the ground look at and are made with.
+// Inputs and parameters of the ground stages.
 struct GroundInputs {
-  // Without a world nothing can be made, but margins and memory can be asked for.
+  // Without a world nothing can be made, but margins and memory can be computed.
   const World* world = nullptr;
   const Palette* palette = nullptr;
   Run run = {};
@@ -23,7 +23,8 @@ struct GroundInputs {
   double pixels_per_unit = 1.0;  // pixels in .5 mm of the sheet
   double horizon_px = 0.0;       // SheetView::horizon_px
   SheetView view() const { return {*camera, pixels_per_unit, horizon_px}; }
-  // Whether what reaches far is looked up in pixels of about half a unit (WideView) where the sheet's are finer.
+  // Whether wide effects are computed in pixels of about half a unit (WideView) where the sheet's
+  // are finer.
   bool wide_views = true;
   bool has_mist = false;
   RockParameters rock = {};
@@ -32,9 +33,11 @@ struct GroundInputs {
   StrokeParameters strokes = {};
 };
 // All arguments must outlive the inputs.
-// Without BaseParameters::mean_light, which is measured with them: make_ground_inputs of lit_picture.h.
-GroundInputs make_unlit_inputs(const World& world, const SheetView& view, const Palette& palette, const Run& run);
-// Of a scene whose world is not made yet: for what memory its stages take.
+// Does not set BaseParameters::mean_light, whose measurement needs these inputs: see
+// make_ground_inputs of lit_picture.h.
+GroundInputs make_unlit_inputs(const World& world, const SheetView& view, const Palette& palette,
+                               const Run& run);
+// For a scene whose world is not made yet: to compute the memory of its stages.
 GroundInputs estimate_ground_inputs(const Scene& scene, double pixels_per_unit);
 
 }  // namespace belvedere

@@ -21,13 +21,14 @@ double luminance_of(const glm::vec3& encoded) {
   return 0.2126 * linear(encoded.x) + 0.7152 * linear(encoded.y) + 0.0722 * linear(encoded.z);
 }
 
-// Panels of example sheets are small at any print size: their own pixels are all that they look around at.
+// Panels of example sheets are small at any print size, so they read only their own pixels.
 LitPicture make_at_once(GroundInputs inputs, PixelRect region) {
   inputs.wide_views = false;
   TileStore::Place memory{.folder = {}, .memory_bytes = std::numeric_limits<std::uint64_t>::max()};
   Progress& progress = inputs.run.progress;
   StageGraph graph(memory, progress);
-  const GroundStages ground = add_ground_stages(graph, std::move(inputs), std::max({64, region.x1, region.y1}));
+  const GroundStages ground =
+      add_ground_stages(graph, std::move(inputs), std::max({64, region.x1, region.y1}));
   const StageGraph::Request all[] = {{ground.guidance, region}};
   graph.keep_only(all);
   LitPicture picture;
@@ -38,13 +39,15 @@ LitPicture make_at_once(GroundInputs inputs, PixelRect region) {
 
 }  // namespace
 
-GroundInputs make_ground_inputs(const World& world, const SheetView& view, const Palette& palette, const Run& run) {
+GroundInputs make_ground_inputs(const World& world, const SheetView& view, const Palette& palette,
+                                const Run& run) {
   GroundInputs inputs = make_unlit_inputs(world, view, palette, run);
   if (world.scene.light.model == "product") inputs.base.mean_light = mean_light_of(world, palette);
   return inputs;
 }
 
-LitPicture make_lit_picture(const World& world, const Palette& palette, PixelRect region, const Run& run) {
+LitPicture make_lit_picture(const World& world, const Palette& palette, PixelRect region,
+                            const Run& run) {
   return make_at_once(make_ground_inputs(world, view_of(world), palette, run), region);
 }
 

@@ -11,20 +11,25 @@
 
 namespace belvedere {
 
-// What the stages of a world's sheet are made with, mean light included. All arguments must outlive it.
-GroundInputs make_ground_inputs(const World& world, const SheetView& view, const Palette& palette, const Run& run);
+// Parameters of the stages of a world's sheet, mean light included. All arguments must outlive
+// them.
+GroundInputs make_ground_inputs(const World& world, const SheetView& view, const Palette& palette,
+                                const Run& run);
 
-// A small picture at once: traced channels with light and base picture, complete guidance buffers, and the base picture that strokes are
-// painted on. The stages of a sheet (stages.h), asked for one rectangle and held in memory.
+// A small picture made at once: traced channels with light and base picture, complete guidance
+// buffers, and the base picture that strokes are painted on. Uses the stages of a sheet (stages.h),
+// for one rectangle held in memory.
 struct LitPicture {
   GuidanceBuffers guidance;  // tone and base included
   BasePicture base;
 };
-LitPicture make_lit_picture(const World& world, const Palette& palette, PixelRect region, const Run& run);
+LitPicture make_lit_picture(const World& world, const Palette& palette, PixelRect region,
+                            const Run& run);
 
-// The mean light (light_of_tone) over the ground of the picture that lies in the sun, weighed by the luminance of the ground's own colour,
-// so that colours times light over it are as light there as the ground's own; measured on a small view of the whole picture, the same for
-// every part of a sheet.
+// The mean light (light_of_tone) over the sunlit ground of the picture, weighted by the luminance
+// of the ground's own colour, so that colours times light divided by this are on average as light
+// as the ground's own. Measured on a small view of the whole picture, the same for every part of a
+// sheet.
 double mean_light_of(const World& world, const Palette& palette);
 
 }  // namespace belvedere

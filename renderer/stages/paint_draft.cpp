@@ -6,20 +6,26 @@
 namespace belvedere {
 namespace {
 
-// Column and row of a place on the sheet as one number; sheets are at most 65535 px wide and high.
-std::uint32_t sheet_place(int x, int y) { return static_cast<std::uint32_t>(y) << 16U | static_cast<std::uint32_t>(x); }
+// Column and row of a sheet position as one number; sheets are at most 65535 px wide and high.
+std::uint32_t sheet_place(int x, int y) {
+  return static_cast<std::uint32_t>(y) << 16U | static_cast<std::uint32_t>(x);
+}
 
 }  // namespace
 
-PaintDraft make_paint_draft(const GuidanceBuffers& guidance, const BasePicture& base, const StrokeParameters& strokes,
-                            const SheetWindow& place, Progress& progress) {
-  const Painting painting = paint_strokes(base.colour, guidance, base, draft_layers, strokes, progress, place);
+PaintDraft make_paint_draft(const GuidanceBuffers& guidance, const BasePicture& base,
+                            const StrokeParameters& strokes, const SheetWindow& position,
+                            Progress& progress) {
+  const Painting painting =
+      paint_strokes(base.colour, guidance, base, draft_layers, strokes, progress, position);
   const PaintedClasses classes = find_painted_classes(painting.sources, guidance, base.colour);
-  PaintDraft draft{part_of(classes.land_cover, place.asked), part_of(classes.base, place.asked), part_of(painting.under, place.asked),
-                   part_of(painting.under_share, place.asked)};
+  PaintDraft draft{part_of(classes.land_cover, position.asked),
+                   part_of(classes.base, position.asked), part_of(painting.under, position.asked),
+                   part_of(painting.under_share, position.asked)};
   const auto width = static_cast<std::uint32_t>(guidance.width());
   for (std::uint32_t& from : draft.under)
-    from = sheet_place(place.origin_px.x + static_cast<int>(from % width), place.origin_px.y + static_cast<int>(from / width));
+    from = sheet_place(position.origin_px.x + static_cast<int>(from % width),
+                       position.origin_px.y + static_cast<int>(from / width));
   return draft;
 }
 

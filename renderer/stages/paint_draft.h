@@ -10,23 +10,28 @@
 
 namespace belvedere {
 
-// Where each class's paint would lie if the picture were painted in strokes alone: borders of copied ground get the shape of strokes.
+// The area of each class's paint if the picture were painted in strokes alone: borders of copied
+// ground get the shape of strokes.
 struct PaintDraft {
-  Grid<LandCoverClass> land_cover;  // whose paint shows
-  Grid<glm::vec3> base;             // base colour of the place it grew from, encoded sRGB
-  Grid<std::uint32_t> under;        // of a second class that shares the pixel: column (low 16 bits) and row of the sheet it grew from …
-  Grid<std::uint8_t> under_share;   // … and its share, in 255ths; 0: there is none
+  Grid<LandCoverClass> land_cover;  // class of the visible paint
+  Grid<glm::vec3> base;             // base colour of the stroke's origin, encoded sRGB
+  Grid<std::uint32_t> under;        // of a second class in the same pixel: column (low 16 bits) and
+                                    // row of the origin on the sheet …
+  Grid<std::uint8_t> under_share;   // … and its share, in 255ths; 0: none
 };
 
-// Strokes of the draft: of the ground as it is copied. What stands up, breaks or belongs to the sky is painted over it later.
+// Strokes of the draft: those of copied ground. Standing objects, breaks and sky are painted over
+// it later.
 inline constexpr StrokeLayers draft_layers{.sky = false, .breaks = false, .upright = false};
 
-// The draft of the pixels that `place` asks for; guidance and base picture are those of its window, which reaches stroke_margin_px of the
-// layers around them.
-PaintDraft make_paint_draft(const GuidanceBuffers& guidance, const BasePicture& base, const StrokeParameters& strokes,
-                            const SheetWindow& place, Progress& progress);
+// The draft of the pixels that `position` requests; guidance and base picture cover its window,
+// which extends stroke_margin_px of the layers around them.
+PaintDraft make_paint_draft(const GuidanceBuffers& guidance, const BasePicture& base,
+                            const StrokeParameters& strokes, const SheetWindow& position,
+                            Progress& progress);
 
-// The draft as a painting of a window of the sheet, for mix_borders: paint that comes from outside of the window is left out.
+// The draft as a painting of a window of the sheet, for mix_borders: paint from outside the window
+// is left out.
 Painting to_painting(const PaintDraft& draft, PixelRect window);
 
 }  // namespace belvedere

@@ -9,8 +9,8 @@
 namespace belvedere {
 namespace {
 
-constexpr double most_pixels_per_unit = 1.3;
-constexpr int band_px = 256;  // rows that are traced at once: of most channels nothing is kept
+constexpr double max_pixels_per_unit = 1.3;
+constexpr int band_px = 256;  // rows traced together: most channels are not kept
 
 template <class T>
 void put_rows(Grid<T>& into, int first_row, const Grid<T>& rows) {
@@ -22,13 +22,16 @@ bool has_ice(const LandCover& land_cover) {
                      [](LandCoverClass id) { return has_trait(id, ClassTrait::icy); });
 }
 
-// In the terrain or a window of it, whose finer cells may know smaller glaciers.
+// In the terrain or a window of it, whose finer cells may have smaller glaciers.
 bool has_ice(const TerrainModel& terrain) {
   return has_ice(*terrain.land_cover) || std::any_of(terrain.windows.begin(), terrain.windows.end(),
-                                                     [](const TerrainWindow& window) { return has_ice(*window.ground.land_cover); });
+                                                     [](const TerrainWindow& window) {
+                                                       return has_ice(*window.ground.land_cover);
+                                                     });
 }
 
-// What a plan asks of the sheet as a camera shows it: one ray a pixel, and no light.
+// The channels that a plan needs, for the whole sheet as a camera shows it: one ray per pixel,
+// without light.
 GuidanceBuffers look_at(const World& world, const Camera& camera, const Run& run) {
   const glm::ivec2 size = camera.size();
   GuidanceBuffers seen;
@@ -53,7 +56,7 @@ GuidanceBuffers look_at(const World& world, const Camera& camera, const Run& run
 IcePlan make_ice_plan(const World& world, const Run& run) {
   if (!has_ice(world.terrain)) return {};
   int factor = 1;
-  while (world.scene.pixels_per_unit() / factor > most_pixels_per_unit) factor *= 2;
+  while (world.scene.pixels_per_unit() / factor > max_pixels_per_unit) factor *= 2;
   const std::unique_ptr<const Camera> camera = make_reduced_camera(*world.camera, factor);
   StrokeParameters parameters;
   parameters.pixels_per_unit = world.scene.pixels_per_unit() / factor;

@@ -6,8 +6,9 @@
 
 namespace belvedere {
 
-// How ice runs on the sheet of a world, from one look at the whole of it at about a pixel a unit (0.5 mm) and a ray a pixel. It is the same
-// for every part of the sheet and for every reduced view of it. Without a look where the land cover knows no ice.
+// The flow of ice on the sheet of a world, from one trace of the whole sheet at about one pixel per
+// unit (0.5 mm) and one ray per pixel. The same for every part of the sheet and for every reduced
+// view of it. Not traced if the land cover has no ice.
 IcePlan make_ice_plan(const World& world, const Run& run);
 
 }  // namespace belvedere

@@ -24,8 +24,8 @@ using B = GuidanceBuffers;
 using Channels = std::vector<GuidanceMember>;
 
 constexpr int mist_tile_px = 256;
-constexpr int knit_tile_px = 512;
-// Measured, for each pixel of a window while a stage works on it.
+constexpr int seam_tile_px = 512;
+// Measured, per pixel of a window while a stage works on it.
 constexpr double light_work_bytes = 80.0;
 constexpr double stroke_work_bytes = 67.0;
 
@@ -34,44 +34,53 @@ std::tuple<Inputs...> inputs(Inputs... input) {
   return {std::move(input)...};
 }
 
-WideView as_wide_view(const Window<GuidanceBuffers>& window) { return {window.value, window.scale, window.origin_px()}; }
+WideView as_wide_view(const Window<GuidanceBuffers>& window) {
+  return {window.value, window.scale, window.origin_px()};
+}
 
-// Shores are looked for up and down, farther than anything else.
+// Shores are searched up and down, farther than anything else.
 Reach base_reach(bool has_water, const BaseParameters& parameters) {
   const PixelRect reach = base_window({}, has_water, parameters);
   return {reach.x1, reach.y1};
 }
 
 bool shows_water(const GuidanceBuffers& guidance) {
-  return std::find(guidance.land_cover.begin(), guidance.land_cover.end(), LandCoverClass::water) != guidance.land_cover.end();
+  return std::find(guidance.land_cover.begin(), guidance.land_cover.end(), LandCoverClass::water) !=
+         guidance.land_cover.end();
 }
 
 bool shows_sky(const GuidanceBuffers& guidance) {
-  return std::any_of(guidance.depth_m.begin(), guidance.depth_m.end(), [](float depth) { return std::isinf(depth); });
+  return std::any_of(guidance.depth_m.begin(), guidance.depth_m.end(),
+                     [](float depth) { return std::isinf(depth); });
 }
 
-// What strokes ask of guidance.
+// Guidance channels that strokes read.
 Channels stroke_channels() {
-  return {&B::depth_m,    &B::position_m, &B::land_cover, &B::fall_line,  &B::slope_deg, &B::footprint_m,
-          &B::relief_s_m, &B::built,      &B::grain,      &B::rock_facet, &B::tone};
+  return {&B::depth_m,   &B::position_m,  &B::land_cover, &B::fall_line,
+          &B::slope_deg, &B::footprint_m, &B::relief_s_m, &B::built,
+          &B::grain,     &B::rock_facet,  &B::tone};
 }
 
 Channels guide_channels() {
   Channels channels = {&B::depth_m, &B::tone};
   for (const GuideKind& kind : guide_kinds())
-    if (channel_of(kind.channel).maker == ChannelMaker::trace && kind.channel != GuidanceMember(&B::depth_m))
+    if (channel_of(kind.channel).maker == ChannelMaker::trace &&
+        kind.channel != GuidanceMember(&B::depth_m))
       channels.push_back(kind.channel);
   return channels;
 }
 
-// Traced pixels of a tile: silhouettes and sky view look at their neighbours.
+// Traced pixels of a tile: silhouettes and sky view read their neighbours.
 GuidanceBuffers trace_tile(const GroundInputs& in, PixelRect tile) {
-  const PixelRect window = intersection({0, 0, in.size_px.x, in.size_px.y}, grown(tile, guidance_margin_px()));
+  const PixelRect window =
+      intersection({0, 0, in.size_px.x, in.size_px.y}, grown(tile, guidance_margin_px()));
   GuidanceBuffers wide = trace_view(*in.world, in.view(), window, in.run);
   GuidanceBuffers traced;
   traced.origin_m = wide.origin_m;
   for (const GuidanceMember& channel : channels_of(ChannelMaker::trace))
-    std::visit([&](auto grid) { traced.*grid = part_of(wide.*grid, moved(tile, -window.x0, -window.y0)); }, channel);
+    std::visit(
+        [&](auto grid) { traced.*grid = part_of(wide.*grid, moved(tile, -window.x0, -window.y0)); },
+        channel);
   return traced;
 }
 
@@ -82,30 +91,42 @@ GroundStages add_ground_stages(StageGraph& graph, GroundInputs given, int tile_p
   const double ppu = in->pixels_per_unit;
   const glm::dvec3 origin_m = in->world == nullptr ? glm::dvec3(0.0) : in->world->surface->origin;
   const auto tiles = [&](const char* name, double work_bytes = 0.0) {
-    return StageNode::Declaration{.name = name, .size_px = in->size_px, .tile_px = tile_px, .work_bytes_per_pixel = work_bytes};
+    return StageNode::Declaration{.name = name,
+                                  .size_px = in->size_px,
+                                  .tile_px = tile_px,
+                                  .work_bytes_per_pixel = work_bytes};
   };
-  const auto view = [&](const char* name) { return StageNode::Declaration{.name = name, .size_px = in->size_px}; };
+  const auto view = [&](const char* name) {
+    return StageNode::Declaration{.name = name, .size_px = in->size_px};
+  };
   const auto channels = [&](Channels of) { return channel_format(std::move(of), origin_m); };
   const auto some = [&](Channels of) { return with_channels(std::move(of), origin_m); };
   GroundStages ground{.inputs = in};
-  ground.ice = std::make_shared<const LazyValue<IcePlan>>([in] { return make_ice_plan(*in->world, in->run); });
+  ground.ice = std::make_shared<const LazyValue<IcePlan>>(
+      [in] { return make_ice_plan(*in->world, in->run); });
 
-  // What every pixel sees: rays, several a pixel, with the shadows that fall there and the sky that is seen from there.
-  ground.traced = graph.add_tiles<GuidanceBuffers>(tiles("traced"), channels(channels_of(ChannelMaker::trace)), inputs(),
-                                                   [in](const Tile& tile) { return trace_tile(*in, tile.rect); });
+  // Primary rays, several per pixel, with cast shadows and sky view.
+  ground.traced = graph.add_tiles<GuidanceBuffers>(
+      tiles("traced"), channels(channels_of(ChannelMaker::trace)), inputs(),
+      [in](const Tile& tile) { return trace_tile(*in, tile.rect); });
 
-  // The same in larger pixels, a ray each: what reaches far (ribs, forest lanes, spurs of rock) looks around in these.
+  // The same in larger pixels, one ray each: wide effects (ribs, forest lanes, spurs of rock) read
+  // these.
   const auto from_afar = [&](const char* name, int factor, const Channels& of) {
     if (!in->wide_views || factor == 1) return ground.traced;
-    StageNode::Declaration declared{.name = name, .size_px = (in->size_px + factor - 1) / factor, .scale = factor};
+    StageNode::Declaration declared{
+        .name = name, .size_px = (in->size_px + factor - 1) / factor, .scale = factor};
     declared.tile_px = std::max(64, tile_px / factor);
-    const std::shared_ptr<const Camera> camera = in->camera == nullptr ? nullptr : make_reduced_camera(*in->camera, factor);
-    return graph.add_tiles<GuidanceBuffers>(std::move(declared), channels(of), inputs(), [in, camera](const Tile& tile) {
-      return trace_forms(*in->world, *camera, tile.rect, in->run);
-    });
+    const std::shared_ptr<const Camera> camera =
+        in->camera == nullptr ? nullptr : make_reduced_camera(*in->camera, factor);
+    return graph.add_tiles<GuidanceBuffers>(
+        std::move(declared), channels(of), inputs(), [in, camera](const Tile& tile) {
+          return trace_forms(*in->world, *camera, tile.rect, in->run);
+        });
   };
   const Channels wide_channels = {&B::depth_m, &B::position_m, &B::land_cover, &B::fall_line};
-  const Channels far_channels = {&B::depth_m, &B::land_cover, &B::fall_line, &B::normal, &B::footprint_m};
+  const Channels far_channels = {&B::depth_m, &B::land_cover, &B::fall_line, &B::normal,
+                                 &B::footprint_m};
   ground.wide = from_afar("wide view", wide_factor(ppu), wide_channels);
   ground.far = from_afar("far view", rock_factor(ppu), far_channels);
 
@@ -113,122 +134,153 @@ GroundStages add_ground_stages(StageGraph& graph, GroundInputs given, int tile_p
   ground.crests = graph.add_tiles<CrestShift>(
       tiles("crests", light_work_bytes), grids_of(&CrestShift::rows, &CrestShift::front),
       inputs(reads(ground.far, around(crest_view_margin_px(in->rock)), some(far_channels)),
-             reads(ground.traced, rows_around(crest_margin_px(ppu)), some({&B::depth_m, &B::front, &B::land_cover, &B::footprint_m}))),
+             reads(ground.traced, rows_around(crest_margin_px(ppu)),
+                   some({&B::depth_m, &B::front, &B::land_cover, &B::footprint_m}))),
       [in](const Tile& tile, const auto& far, const auto& near) {
-        return shift_crests(near.value, as_wide_view(far), in->rock, near.origin_px(), near.inside(tile.rect));
+        return shift_crests(near.value, as_wide_view(far), in->rock, near.origin_px(),
+                            near.inside(tile.rect));
       });
-  ground.crested =
-      graph.add_view<GuidanceBuffers>(view("crested"), channels(channels_of(ChannelMaker::trace)),
-                                      inputs(reads(ground.crests), reads_in_pieces(ground.traced, rows_around(crest_reach_px(ppu)))),
-                                      [](const Tile& tile, GuidanceBuffers& out, const auto& crests, const auto& traced) {
-                                        gather_shifted(traced, crests.value, tile.rect, out);
-                                      });
+  ground.crested = graph.add_view<GuidanceBuffers>(
+      view("crested"), channels(channels_of(ChannelMaker::trace)),
+      inputs(reads(ground.crests),
+             reads_in_pieces(ground.traced, rows_around(crest_reach_px(ppu)))),
+      [](const Tile& tile, GuidanceBuffers& out, const auto& crests, const auto& traced) {
+        gather_shifted(traced, crests.value, tile.rect, out);
+      });
 
-  // Relief of rock that no DEM holds, and the borders of rock that follow it.
-  ground.relief = graph.add_tiles<RockRelief>(tiles("rock relief", light_work_bytes),
-                                              grids_of(&RockRelief::land_cover, &RockRelief::fall_line, &RockRelief::height,
-                                                       &RockRelief::facet, &RockRelief::tone, &RockRelief::cover),
-                                              inputs(reads(ground.far, around(rock_margin_px(in->rock)), some(far_channels)),
-                                                     reads(ground.crested, around(rock_near_margin_px(in->rock)), some(rock_channels()))),
-                                              [in](const Tile& tile, const auto& far, const auto& near) {
-                                                return make_rock_relief(near.value, as_wide_view(far), in->rock, near.origin_px(),
-                                                                        in->run.progress, near.inside(tile.rect));
-                                              });
-  const Channels raised_channels = joined(channels_of(ChannelMaker::trace), channels_of(ChannelMaker::relief));
-  ground.raised = graph.add_view<GuidanceBuffers>(view("raised"), channels(raised_channels),
-                                                  inputs(reads_in_pieces(ground.crested), reads_in_pieces(ground.relief)),
-                                                  [](const Tile& tile, GuidanceBuffers& out, const auto& crested, const auto& relief) {
-                                                    crested.read_into(tile.rect, out);
-                                                    lay_relief(relief, tile.rect, out);
-                                                  });
+  // Relief of rock that a DEM does not contain, and the borders of rock that follow it.
+  ground.relief = graph.add_tiles<RockRelief>(
+      tiles("rock relief", light_work_bytes),
+      grids_of(&RockRelief::land_cover, &RockRelief::fall_line, &RockRelief::height,
+               &RockRelief::facet, &RockRelief::tone, &RockRelief::cover),
+      inputs(reads(ground.far, around(rock_margin_px(in->rock)), some(far_channels)),
+             reads(ground.crested, around(rock_near_margin_px(in->rock)), some(rock_channels()))),
+      [in](const Tile& tile, const auto& far, const auto& near) {
+        return make_rock_relief(near.value, as_wide_view(far), in->rock, near.origin_px(),
+                                in->run.progress, near.inside(tile.rect));
+      });
+  const Channels raised_channels =
+      joined(channels_of(ChannelMaker::trace), channels_of(ChannelMaker::relief));
+  ground.raised = graph.add_view<GuidanceBuffers>(
+      view("raised"), channels(raised_channels),
+      inputs(reads_in_pieces(ground.crested), reads_in_pieces(ground.relief)),
+      [](const Tile& tile, GuidanceBuffers& out, const auto& crested, const auto& relief) {
+        crested.read_into(tile.rect, out);
+        lay_relief(relief, tile.rect, out);
+      });
 
-  // Light becomes one number: sun with cast shadows, sky view, relief at several scales.
+  // Light as one number: sun with cast shadows, sky view, relief at several scales.
   ground.tone = graph.add_tiles<Grid<float>>(
       tiles("tone", light_work_bytes), one_grid<Grid<float>>(),
       inputs(reads(ground.wide, around(tone_margin_px(in->tone)), some(wide_channels)),
              reads(ground.raised, around(tone_near_margin_px(in->tone)),
-                   some({&B::depth_m, &B::position_m, &B::normal, &B::normal_detail, &B::normal_smooth, &B::altitude_m, &B::land_cover,
-                         &B::shadow, &B::sky_view, &B::slope_deg, &B::fall_line, &B::footprint_m, &B::relief_s_m, &B::relief_m_m,
-                         &B::relief_l_m, &B::rock_tone}))),
+                   some({&B::depth_m, &B::position_m, &B::normal, &B::normal_detail,
+                         &B::normal_smooth, &B::altitude_m, &B::land_cover, &B::shadow,
+                         &B::sky_view, &B::slope_deg, &B::fall_line, &B::footprint_m,
+                         &B::relief_s_m, &B::relief_m_m, &B::relief_l_m, &B::rock_tone}))),
       [in](const Tile& tile, const auto& wide, const auto& near) {
-        return make_tone(near.value, as_wide_view(wide), in->tone, near.origin_px(), in->run.progress, near.inside(tile.rect));
+        return make_tone(near.value, as_wide_view(wide), in->tone, near.origin_px(),
+                         in->run.progress, near.inside(tile.rect));
       });
   Channels lit_channels = raised_channels;
   lit_channels.push_back(&B::tone);
-  ground.lit = graph.add_view<GuidanceBuffers>(view("lit"), channels(lit_channels),
-                                               inputs(reads_in_pieces(ground.raised), reads_in_pieces(ground.tone)),
-                                               [](const Tile& tile, GuidanceBuffers& out, const auto& raised, const auto& tone) {
-                                                 raised.read_into(tile.rect, out);
-                                                 if (!out.tone.empty()) tone.read_into(tile.rect, out.tone);
-                                               });
+  ground.lit = graph.add_view<GuidanceBuffers>(
+      view("lit"), channels(lit_channels),
+      inputs(reads_in_pieces(ground.raised), reads_in_pieces(ground.tone)),
+      [](const Tile& tile, GuidanceBuffers& out, const auto& raised, const auto& tone) {
+        raised.read_into(tile.rect, out);
+        if (!out.tone.empty()) tone.read_into(tile.rect, out.tone);
+      });
 
-  // Colour comes from ramps by class, altitude and tone; air and water lie over it. Water looks up and down for its shores.
+  // Colour from ramps by class, altitude and tone, with air and water over it. Water searches up
+  // and down for its shores.
   StageNode::Declaration base_tiles = tiles("base picture", light_work_bytes);
-  base_tiles.condition = seen_in<GuidanceBuffers>(ground.raised, {}, some({&B::land_cover}), shows_water);
+  base_tiles.condition =
+      seen_in<GuidanceBuffers>(ground.raised, {}, some({&B::land_cover}), shows_water);
   ground.base = graph.add_tiles<BasePicture>(
       std::move(base_tiles),
-      grids_of(&BasePicture::colour, &BasePicture::darker, &BasePicture::lighter, &BasePicture::accent, &BasePicture::tree_density,
-               &BasePicture::haze),
+      grids_of(&BasePicture::colour, &BasePicture::darker, &BasePicture::lighter,
+               &BasePicture::accent, &BasePicture::tree_density, &BasePicture::haze),
       inputs(reads(ground.wide, around(base_margin_px(in->base)), some(wide_channels)),
              Reads<GuidanceBuffers>{
                  .stage = ground.lit,
                  .reach = base_reach(false, in->base),
-                 .wanted = some({&B::depth_m, &B::position_m, &B::altitude_m, &B::land_cover, &B::fall_line, &B::slope_deg, &B::footprint_m,
-                                 &B::normal_smooth, &B::relief_s_m, &B::relief_m_m, &B::relief_l_m, &B::valley_height_m, &B::rim_m,
-                                 &B::built, &B::grain, &B::rock_facet, &B::rock_cover, &B::tone}),
+                 .wanted = some({&B::depth_m, &B::position_m, &B::altitude_m, &B::land_cover,
+                                 &B::fall_line, &B::slope_deg, &B::footprint_m, &B::normal_smooth,
+                                 &B::relief_s_m, &B::relief_m_m, &B::relief_l_m,
+                                 &B::valley_height_m, &B::rim_m, &B::built, &B::grain,
+                                 &B::rock_facet, &B::rock_cover, &B::tone}),
                  .wide_reach = base_reach(true, in->base)}),
       [in](const Tile& tile, const auto& wide, const auto& near) {
         const PixelRect wanted = near.inside(tile.rect);
-        const std::optional<WaterImage> image = see_mirrored(*in->world, in->view(), *in->palette, near.value, near.origin_px(), wanted);
-        return make_base_picture(near.value, as_wide_view(wide), *in->palette, in->base, near.origin_px(), in->size_px, in->run.progress,
-                                 wanted, image ? &*image : nullptr);
+        const std::optional<WaterImage> image = trace_reflections(
+            *in->world, in->view(), *in->palette, near.value, near.origin_px(), wanted);
+        return make_base_picture(near.value, as_wide_view(wide), *in->palette, in->base,
+                                 near.origin_px(), in->size_px, in->run.progress, wanted,
+                                 image ? &*image : nullptr);
       });
 
-  // Where strokes would lie: borders of copied ground get their shape.
+  // Extent of strokes: gives borders of copied ground their shape.
   const int draft_margin_px = stroke_margin_px(draft_layers, in->strokes);
   ground.draft = graph.add_tiles<PaintDraft>(
-      tiles("draft", stroke_work_bytes), grids_of(&PaintDraft::land_cover, &PaintDraft::base, &PaintDraft::under, &PaintDraft::under_share),
-      inputs(reads(ground.lit, around(draft_margin_px), some(stroke_channels())), reads(ground.base, around(draft_margin_px))),
+      tiles("draft", stroke_work_bytes),
+      grids_of(&PaintDraft::land_cover, &PaintDraft::base, &PaintDraft::under,
+               &PaintDraft::under_share),
+      inputs(reads(ground.lit, around(draft_margin_px), some(stroke_channels())),
+             reads(ground.base, around(draft_margin_px))),
       [in, ice = ground.ice](const Tile& tile, const auto& lit, const auto& base) {
         return make_paint_draft(lit.value, base.value, in->strokes,
-                                {.origin_px = lit.origin_px(), .sheet_px = in->size_px, .asked = lit.inside(tile.rect), .ice = &ice->get()},
+                                {.origin_px = lit.origin_px(),
+                                 .sheet_px = in->size_px,
+                                 .asked = lit.inside(tile.rect),
+                                 .ice = &ice->get()},
                                 in->run.progress);
       });
 
-  // What synthesis is steered by, and what people ask for as files.
+  // The guides of synthesis, and the buffers that users can write to files.
   ground.guides = graph.add_view<GuideStack>(
       view("guides"), untiled<GuideStack>(),
-      inputs(reads(ground.draft, {}, with_grids(&PaintDraft::land_cover)), reads(ground.lit, {}, some(guide_channels()))),
-      [](const Tile&, GuideStack& out, const auto& draft, const auto& lit) { out = make_guide_stack(lit.value, draft.value.land_cover); });
-  ground.guidance =
-      graph.add_view<GuidanceBuffers>(view("guidance"), channels(lit_channels),
-                                      inputs(reads(ground.base, {}, with_grids(&BasePicture::colour)), reads_in_pieces(ground.lit)),
-                                      [](const Tile& tile, GuidanceBuffers& out, const auto& base, const auto& lit) {
-                                        lit.read_into(tile.rect, out);
-                                        out.base = decode_srgb(base.value.colour);
-                                      });
+      inputs(reads(ground.draft, {}, with_grids(&PaintDraft::land_cover)),
+             reads(ground.lit, {}, some(guide_channels()))),
+      [](const Tile&, GuideStack& out, const auto& draft, const auto& lit) {
+        out = make_guide_stack(lit.value, draft.value.land_cover);
+      });
+  ground.guidance = graph.add_view<GuidanceBuffers>(
+      view("guidance"), channels(lit_channels),
+      inputs(reads(ground.base, {}, with_grids(&BasePicture::colour)), reads_in_pieces(ground.lit)),
+      [](const Tile& tile, GuidanceBuffers& out, const auto& base, const auto& lit) {
+        lit.read_into(tile.rect, out);
+        out.base = decode_srgb(base.value.colour);
+      });
   return ground;
 }
 
-PictureStages add_picture_stages(StageGraph& graph, const GroundStages& ground, CopyPlan* plan, const DrawnFeatures& features) {
+PictureStages add_picture_stages(StageGraph& graph, const GroundStages& ground, CopyPlan* plan,
+                                 const DrawnFeatures& features) {
   const std::shared_ptr<const GroundInputs> in = ground.inputs;
   const glm::dvec3 origin_m = in->world == nullptr ? glm::dvec3(0.0) : in->world->surface->origin;
   const auto whole_tiles = [&](const char* name, int tile_px) {
-    return StageNode::Declaration{.name = name, .size_px = in->size_px, .tile_px = tile_px, .whole_tiles = true};
+    return StageNode::Declaration{
+        .name = name, .size_px = in->size_px, .tile_px = tile_px, .whole_tiles = true};
   };
-  const auto view = [&](const char* name) { return StageNode::Declaration{.name = name, .size_px = in->size_px}; };
+  const auto view = [&](const char* name) {
+    return StageNode::Declaration{.name = name, .size_px = in->size_px};
+  };
   const auto some = [&](Channels of) { return with_channels(std::move(of), origin_m); };
   const auto shown = with_grids(&PaintDraft::land_cover);
   PictureStages picture;
 
   if (plan != nullptr) {
-    // Which texel of which exemplar every pixel is copied from. A plan of the whole size has all that is asked.
+    // The texel and exemplar that every pixel is copied from. A plan of the whole size contains
+    // everything needed.
     const SynthesisSheet& division = plan->synthesis->sheet();
     picture.matches = graph.add_tiles<MatchField>(
         whole_tiles("matches", division.tile_px), one_grid<MatchField>(),
-        inputs(reads(division.level == 0 ? nullptr : ground.guides, around(synthesis_margin_px(division.level)))),
+        inputs(reads(division.level == 0 ? nullptr : ground.guides,
+                     around(synthesis_margin_px(division.level)))),
         [in, plan](const Tile& tile, const Window<GuideStack>& seen) {
-          if (!plan->models.any()) return synthesize_tile(*plan->synthesis, seen.value, tile.rect, in->run.progress);
+          if (!plan->models.any())
+            return synthesize_tile(*plan->synthesis, seen.value, tile.rect, in->run.progress);
           GuideStack guides = seen.value;
           hide_modelled(guides, plan->models);
           return synthesize_tile(*plan->synthesis, guides, tile.rect, in->run.progress);
@@ -237,92 +289,123 @@ PictureStages add_picture_stages(StageGraph& graph, const GroundStages& ground, 
     // Classes that are painted from texture models instead.
     if (plan->models.any())
       picture.modelled = graph.add_tiles<ModelPaint>(
-          whole_tiles("texture models", endless_tile_px), grids_of(&ModelPaint::made, &ModelPaint::texel, &ModelPaint::base),
+          whole_tiles("texture models", endless_tile_px),
+          grids_of(&ModelPaint::made, &ModelPaint::texel, &ModelPaint::base),
           inputs(reads(ground.draft, {}, shown),
-                 reads(ground.raised, around(model_margin_px(plan->models)), some({&B::depth_m, &B::land_cover, &B::fall_line})),
+                 reads(ground.raised, around(model_margin_px(plan->models)),
+                       some({&B::depth_m, &B::land_cover, &B::fall_line})),
                  reads(plan->models.by_light() ? ground.tone : nullptr)),
           [plan](const Tile& tile, const auto& draft, const auto& raised, const auto& tone) {
-            return make_model_paint(plan->models, tile.rect, draft.value.land_cover, raised.value, raised.rect, tone.value);
+            return make_model_paint(plan->models, tile.rect, draft.value.land_cover, raised.value,
+                                    raised.rect, tone.value);
           });
 
-    // Seams between paint of several paintings, made anew.
-    if (plan->knit)
-      picture.knitted = graph.add_tiles<KnitPaint>(
-          whole_tiles("knitted seams", knit_tile_px), grids_of(&KnitPaint::made, &KnitPaint::even),
-          inputs(reads(picture.matches, around(knit_margin_px)), reads(picture.modelled, around(knit_margin_px)),
-                 reads(ground.draft, around(knit_margin_px), shown), reads(ground.crested, around(knit_margin_px), some({&B::depth_m}))),
-          [plan, seams = std::make_shared<SeamModels>(&*plan->knit)](const Tile& tile, const auto& matches, const auto& modelled,
-                                                                     const auto& draft, const auto& crested) {
-            const UnknitPaint paint =
-                make_unknit_paint(*plan, matches.value, modelled.value, draft.value.land_cover, crested.value.depth_m);
-            return knit_ground(*seams, paint, tile.rect, matches.rect, plan->knit->seed);
+    // Synthesized seams between the paint of several paintings.
+    if (plan->seams)
+      picture.with_seam = graph.add_tiles<SeamPaint>(
+          whole_tiles("synthesized seams", seam_tile_px),
+          grids_of(&SeamPaint::made, &SeamPaint::even),
+          inputs(reads(picture.matches, around(seam_margin_px)),
+                 reads(picture.modelled, around(seam_margin_px)),
+                 reads(ground.draft, around(seam_margin_px), shown),
+                 reads(ground.crested, around(seam_margin_px), some({&B::depth_m}))),
+          [plan, seams = std::make_shared<SeamModels>(&*plan->seams)](
+              const Tile& tile, const auto& matches, const auto& modelled, const auto& draft,
+              const auto& crested) {
+            const PaintBeforeSeams paint =
+                make_paint_before_seams(*plan, matches.value, modelled.value,
+                                        draft.value.land_cover, crested.value.depth_m);
+            return synthesize_ground_seams(*seams, paint, tile.rect, matches.rect,
+                                           plan->seams->seed);
           });
 
-    // Texels and the difference of the base pictures laid over them.
+    // Texels with the difference of the base pictures applied.
     const Reach source_reach = around(paint_source_reach_px(draft_layers, in->strokes));
     picture.copied = graph.add_view<Grid<glm::vec3>>(
         view("copied ground"), one_grid<Grid<glm::vec3>>(),
-        inputs(reads(picture.matches, source_reach), reads(picture.modelled, source_reach), reads(picture.knitted, source_reach),
-               reads(ground.draft, source_reach), reads(ground.base, source_reach),
+        inputs(reads(picture.matches, source_reach), reads(picture.modelled, source_reach),
+               reads(picture.with_seam, source_reach), reads(ground.draft, source_reach),
+               reads(ground.base, source_reach),
                reads(ground.raised, source_reach, some({&B::land_cover}))),
-        [plan](const Tile& tile, Grid<glm::vec3>& out, const auto& matches, const auto& modelled, const auto& knitted, const auto& draft,
-               const auto& base, const auto& raised) {
-          out = part_of(copy_ground(*plan, {matches.value, modelled.value, knitted.value}, draft.value, base.value, raised.value.land_cover,
-                                    matches.rect),
+        [plan](const Tile& tile, Grid<glm::vec3>& out, const auto& matches, const auto& modelled,
+               const auto& with_seam, const auto& draft, const auto& base, const auto& raised) {
+          out = part_of(copy_ground(*plan, {matches.value, modelled.value, with_seam.value},
+                                    draft.value, base.value, raised.value.land_cover, matches.rect),
                         matches.inside(tile.rect));
         });
   }
 
-  // Mist lies before the ground that a pixel shows.
+  // Mist in front of the ground in a pixel.
   if (in->has_mist) {
     picture.mist_sight = graph.add_tiles<MistSight>(
-        whole_tiles("mist seen", mist_tile_px), grids_of(&MistSight::share, &MistSight::depth_m, &MistSight::light, &MistSight::altitude_m),
-        inputs(reads(ground.crested, {}, some({&B::depth_m}))), [in](const Tile& tile, const auto& crested) {
+        whole_tiles("mist seen", mist_tile_px),
+        grids_of(&MistSight::share, &MistSight::depth_m, &MistSight::light, &MistSight::altitude_m),
+        inputs(reads(ground.crested, {}, some({&B::depth_m}))),
+        [in](const Tile& tile, const auto& crested) {
           const World& world = *in->world;
-          const MistView seen{*in->camera, world.deformation, &world.tracer, world.view.sun_direction, in->pixels_per_unit};
+          const MistView seen{*in->camera, world.deformation, &world.tracer,
+                              world.view.sun_direction, in->pixels_per_unit};
           return see_mist(world.mist, seen, crested.value.depth_m, {tile.rect.x0, tile.rect.y0});
         });
     picture.mist_paint = graph.add_tiles<MistPaint>(
         whole_tiles("mist painted", mist_tile_px), grids_of(&MistPaint::share, &MistPaint::colour),
-        inputs(reads(picture.mist_sight, around(mist_margin_px(in->strokes)))), [in](const Tile& tile, const auto& seen) {
-          const SheetWindow place{.origin_px = seen.origin_px(), .sheet_px = in->size_px, .asked = seen.inside(tile.rect)};
-          return paint_mist(seen.value, in->world->view.air, *in->palette, in->strokes, place, in->run.progress);
+        inputs(reads(picture.mist_sight, around(mist_margin_px(in->strokes)))),
+        [in](const Tile& tile, const auto& seen) {
+          const SheetWindow position{.origin_px = seen.origin_px(),
+                                     .sheet_px = in->size_px,
+                                     .asked = seen.inside(tile.rect)};
+          return paint_mist(seen.value, in->world->view.air, *in->palette, in->strokes, position,
+                            in->run.progress);
         });
   }
 
-  // Finishing strokes, far to near. Those of the sky, by far the longest, begin where sky is seen.
-  const StrokeLayers layers{.sky = true, .ground = plan == nullptr, .accents = true, .breaks = true, .upright = true};
+  // Finishing strokes, far to near. Those of the sky, by far the longest, begin where sky is
+  // visible.
+  const StrokeLayers layers{
+      .sky = true, .ground = plan == nullptr, .accents = true, .breaks = true, .upright = true};
   StrokeLayers below_sky = layers;
   below_sky.sky = false;
-  const Reach reach = around(std::max(stroke_margin_px(below_sky, in->strokes), features.house_reach_px));
-  const Reach sky_reach = around(std::max(stroke_margin_px(layers, in->strokes), features.house_reach_px));
+  const Reach reach =
+      around(std::max(stroke_margin_px(below_sky, in->strokes), features.house_reach_px));
+  const Reach sky_reach =
+      around(std::max(stroke_margin_px(layers, in->strokes), features.house_reach_px));
   StageNode::Declaration strokes = view("strokes");
   strokes.work_bytes_per_pixel = stroke_work_bytes;
   strokes.condition =
-      seen_in<GuidanceBuffers>(ground.crested, around(stroke_margin_px(layers, in->strokes)), some({&B::depth_m}), shows_sky);
+      seen_in<GuidanceBuffers>(ground.crested, around(stroke_margin_px(layers, in->strokes)),
+                               some({&B::depth_m}), shows_sky);
   picture.finished = graph.add_view<FinishedPaint>(
       std::move(strokes), untiled<FinishedPaint>(),
-      inputs(
-          reads(picture.copied), reads(picture.mist_paint),
-          Reads<GuidanceBuffers>{.stage = ground.lit, .reach = reach, .wanted = some(stroke_channels()), .wide_reach = sky_reach},
-          Reads<BasePicture>{.stage = ground.base, .reach = reach, .wide_reach = sky_reach},
-          Reads<MistSight>{.stage = picture.mist_sight, .reach = reach, .wanted = with_grids(&MistSight::share), .wide_reach = sky_reach},
-          Reads<CrestShift>{.stage = features.empty() ? nullptr : ground.crests,
-                            .reach = reach,
-                            .wanted = with_grids(&CrestShift::rows),
-                            .wide_reach = sky_reach}),
-      [in, ice = ground.ice, layers, &features](const Tile& tile, FinishedPaint& out, const auto& copied, const auto& mist, const auto& lit,
-                                                const auto& base, const auto& veil, const auto& crests) {
+      inputs(reads(picture.copied), reads(picture.mist_paint),
+             Reads<GuidanceBuffers>{.stage = ground.lit,
+                                    .reach = reach,
+                                    .wanted = some(stroke_channels()),
+                                    .wide_reach = sky_reach},
+             Reads<BasePicture>{.stage = ground.base, .reach = reach, .wide_reach = sky_reach},
+             Reads<MistSight>{.stage = picture.mist_sight,
+                              .reach = reach,
+                              .wanted = with_grids(&MistSight::share),
+                              .wide_reach = sky_reach},
+             Reads<CrestShift>{.stage = features.empty() ? nullptr : ground.crests,
+                               .reach = reach,
+                               .wanted = with_grids(&CrestShift::rows),
+                               .wide_reach = sky_reach}),
+      [in, ice = ground.ice, layers, &features](
+          const Tile& tile, FinishedPaint& out, const auto& copied, const auto& mist,
+          const auto& lit, const auto& base, const auto& veil, const auto& crests) {
         StrokeLayers seen = layers;
         seen.sky = tile.wide;
-        out = finish_paint({copied.value, mist.value, tile.rect}, {lit.value, base.value, veil.value.share, crests.value.rows, lit.rect},
-                           {in->strokes, seen, features, ice->get(), in->size_px}, out.in_parts, in->run.progress);
+        out = finish_paint({copied.value, mist.value, tile.rect},
+                           {lit.value, base.value, veil.value.share, crests.value.rows, lit.rect},
+                           {in->strokes, seen, features, ice->get(), in->size_px}, out.in_parts,
+                           in->run.progress);
       });
 
-  // Edges of depth are softened, and layers cut.
+  // Depth edges are softened, and layers are split.
   picture.picture = graph.add_view<SheetPicture>(
       view("panorama"), untiled<SheetPicture>(),
-      inputs(reads_in_pieces(picture.finished, around(blend_margin_px)), reads_in_pieces(ground.lit, around(blend_margin_px))),
+      inputs(reads_in_pieces(picture.finished, around(blend_margin_px)),
+             reads_in_pieces(ground.lit, around(blend_margin_px))),
       [some](const Tile& tile, SheetPicture& out, const auto& finished, const auto& lit) {
         const PixelRect window = finished.rect();
         const PixelRect wanted = moved(tile.rect, -window.x0, -window.y0);
@@ -333,11 +416,15 @@ PictureStages add_picture_stages(StageGraph& graph, const GroundStages& ground, 
         lit.read_into(window, edges);
         out.colour = part_of(blend_edges(paint.picture, edges), wanted);
         if (!out.layers) return;
-        GuidanceBuffers about = some({&B::depth_m, &B::land_cover, &B::shadow, &B::tone})(tile.rect.width(), tile.rect.height());
+        GuidanceBuffers about = some({&B::depth_m, &B::land_cover, &B::shadow, &B::tone})(
+            tile.rect.width(), tile.rect.height());
         lit.read_into(tile.rect, about);
         const MistPaint mist =
-            paint.mist.share.empty() ? MistPaint() : MistPaint{part_of(paint.mist.share, wanted), part_of(paint.mist.colour, wanted)};
-        out.layers = cut_layers(part_of(paint.bare, wanted), mist, *paint.parts, wanted, about, part_of(paint.haze, wanted), out.colour);
+            paint.mist.share.empty()
+                ? MistPaint()
+                : MistPaint{part_of(paint.mist.share, wanted), part_of(paint.mist.colour, wanted)};
+        out.layers = cut_layers(part_of(paint.bare, wanted), mist, *paint.parts, wanted, about,
+                                part_of(paint.haze, wanted), out.colour);
       });
   return picture;
 }

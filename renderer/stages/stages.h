@@ -12,8 +12,8 @@
 #include "texture/strokes/ice_plan.h"
 #include "texture/synthesis/guide_stack.h"
 
-// The stages of a sheet, from the first rays to the finished picture. Each is declared once, in stages.cpp: that file is the story of how a
-// panorama is made.
+// The stages of a sheet, from the first rays to the finished picture. Each is declared once, in
+// stages.cpp, which lists them in order.
 namespace belvedere {
 
 struct CrestShift;
@@ -25,35 +25,37 @@ struct MistSight;
 // Everything that needs no exemplar.
 struct GroundStages {
   std::shared_ptr<const GroundInputs> inputs = nullptr;
-  std::shared_ptr<const LazyValue<IcePlan>> ice = nullptr;  // how ice runs on the sheet, made when a stage first asks for it
-  Stage<GuidanceBuffers>* traced = nullptr;                 // what rays find
-  Stage<GuidanceBuffers>* wide = nullptr;  // the same in larger pixels, a ray each, for what reaches far; traced where they are no larger
-  Stage<GuidanceBuffers>* far = nullptr;   // and for rock, which looks farthest
+  std::shared_ptr<const LazyValue<IcePlan>> ice =
+      nullptr;                               // flow of ice on the sheet, made on first use
+  Stage<GuidanceBuffers>* traced = nullptr;  // results of rays
+  Stage<GuidanceBuffers>* wide = nullptr;    // the same in larger pixels, one ray each, for wide
+                                             // effects; equal to traced where pixels are no larger
+  Stage<GuidanceBuffers>* far = nullptr;     // and for rock, with the widest reach
   Stage<CrestShift>* crests = nullptr;
   Stage<RockRelief>* relief = nullptr;
-  Stage<GuidanceBuffers>* crested = nullptr;  // traced channels, crests of rock in place
-  Stage<GuidanceBuffers>* raised = nullptr;   // and its relief
+  Stage<GuidanceBuffers>* crested = nullptr;  // traced channels after the crest shift
+  Stage<GuidanceBuffers>* raised = nullptr;   // and the relief of rock
   Stage<GuidanceBuffers>* lit = nullptr;      // and tone
   Stage<Grid<float>>* tone = nullptr;
   Stage<BasePicture>* base = nullptr;
   Stage<PaintDraft>* draft = nullptr;
-  Stage<GuideStack>* guides = nullptr;         // what synthesis is steered by
-  Stage<GuidanceBuffers>* guidance = nullptr;  // all that guidance.exr holds
+  Stage<GuideStack>* guides = nullptr;         // guides of synthesis
+  Stage<GuidanceBuffers>* guidance = nullptr;  // everything in guidance.exr
 };
-// tile_px: side of the tiles that are made at once, 64…4096; changes no bit.
+// tile_px: side of the tiles that are made at once, 64…4096; does not change the result.
 GroundStages add_ground_stages(StageGraph& graph, GroundInputs inputs, int tile_px);
 
-// A finished picture, and its layers where they are asked for.
+// A finished picture, and its layers if requested.
 struct SheetPicture {
   Grid<glm::vec3> colour;               // encoded sRGB
-  std::optional<PictureLayers> layers;  // asked for: there is one
+  std::optional<PictureLayers> layers;  // present if requested
 };
 struct PictureStages {
   Stage<MatchField>* matches = nullptr;   // null: nothing is copied
   Stage<ModelPaint>* modelled = nullptr;  // null: no class is painted from a texture model
-  Stage<KnitPaint>* knitted = nullptr;    // null: seams stay as they are copied
+  Stage<SeamPaint>* with_seam = nullptr;  // null: seams stay as copied
   Stage<Grid<glm::vec3>>* copied = nullptr;
-  Stage<MistSight>* mist_sight = nullptr;  // null: there is none
+  Stage<MistSight>* mist_sight = nullptr;  // null: no mist
   Stage<MistPaint>* mist_paint = nullptr;
   Stage<FinishedPaint>* finished = nullptr;
   Stage<SheetPicture>* picture = nullptr;
@@ -61,7 +63,7 @@ struct PictureStages {
 // plan: null: everything is painted as strokes. Arguments must outlive the graph.
 PictureStages add_picture_stages(StageGraph& graph, const GroundStages& ground, CopyPlan* plan,
                                  const DrawnFeatures& features = no_features());
-// To be asked of PictureStages::picture.
+// Requested from PictureStages::picture.
 SheetPicture with_layers(int width, int height);
 
 }  // namespace belvedere

@@ -9,19 +9,20 @@
 namespace belvedere {
 namespace {
 
-// A true upright cylinder around the eye, unrolled: azimuth runs evenly over x, the tangent of the elevation angle over y, with
-// square pixels at the horizon. Vertical lines stay vertical. The pitch shifts the picture up or down, it tilts nothing.
+// A true upright cylinder around the eye, unrolled: x is linear in azimuth, y in the tangent of the
+// elevation angle, with square pixels at the horizon. Vertical lines stay vertical. The pitch
+// shifts the picture up or down without tilting it.
 class CylindricalCamera final : public Camera {
  public:
   explicit CylindricalCamera(const CameraParameters& p) : eye_(p.eye), size_(p.width, p.height) {
     azimuth_ = to_radians(p.azimuth_deg);
-    middle_ = 0.5 * glm::dvec2(size_);
+    centre_ = 0.5 * glm::dvec2(size_);
     radius_px_ = p.width / to_radians(p.field_of_view_deg);
-    horizon_y_ = middle_.y + radius_px_ * exact::tan(to_radians(p.pitch_deg));
+    horizon_y_ = centre_.y + radius_px_ * exact::tan(to_radians(p.pitch_deg));
   }
 
   Ray ray(glm::dvec2 pixel) const override {
-    const exact::Turn azimuth = exact::turn(azimuth_ + (pixel.x - middle_.x) / radius_px_);
+    const exact::Turn azimuth = exact::turn(azimuth_ + (pixel.x - centre_.x) / radius_px_);
     const double rise = (horizon_y_ - pixel.y) / radius_px_;
     return {eye_, glm::normalize(glm::dvec3(azimuth.sine, azimuth.cosine, rise))};
   }
@@ -30,9 +31,10 @@ class CylindricalCamera final : public Camera {
     const glm::dvec3 q = point - eye_;
     const double level = exact::hypot(q.x, q.y);
     if (!(level > 0.0)) return std::nullopt;  // on the axis there is no azimuth
-    // The turn from the picture's middle, -pi…pi: nothing lies behind, what is outside the picture is left or right of it.
+    // The angle from the picture's centre, -pi…pi: nothing is behind; what is outside the picture
+    // is left or right of it.
     const double turn = std::remainder(exact::atan2(q.x, q.y) - azimuth_, 2.0 * std::numbers::pi);
-    return glm::dvec2(middle_.x + turn * radius_px_, horizon_y_ - q.z / level * radius_px_);
+    return glm::dvec2(centre_.x + turn * radius_px_, horizon_y_ - q.z / level * radius_px_);
   }
 
   glm::dvec3 eye() const override { return eye_; }
@@ -41,10 +43,10 @@ class CylindricalCamera final : public Camera {
  private:
   glm::dvec3 eye_;
   glm::ivec2 size_;
-  double azimuth_ = 0.0;  // of the picture's middle, rad
-  glm::dvec2 middle_;
+  double azimuth_ = 0.0;  // of the picture's centre, rad
+  glm::dvec2 centre_;
   double radius_px_ = 1.0;
-  double horizon_y_ = 0.0;  // where level rays go, px
+  double horizon_y_ = 0.0;  // row of level rays, px
 };
 
 }  // namespace

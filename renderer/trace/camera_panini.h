@@ -6,8 +6,9 @@
 
 namespace belvedere {
 
-// The projection of the table is that of distance 1. distance: how far behind the axis of the cylinder its picture is looked at from, in
-// radii of the cylinder. 0 is a perspective whose upright lines stay upright, 1 the Pannini projection, stereographic across.
+// The table's projection has distance 1. distance: from the axis of the cylinder back to the centre
+// of projection, in radii of the cylinder. 0 is a perspective whose vertical lines stay vertical, 1
+// the Pannini projection, stereographic horizontally.
 std::unique_ptr<Camera> make_panini_camera(const CameraParameters& parameters, double distance);
 
 }  // namespace belvedere

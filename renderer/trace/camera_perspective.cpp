@@ -8,7 +8,7 @@
 namespace belvedere {
 namespace {
 
-// A plane picture at `focal_px` before the eye; square pixels.
+// A plane picture at `focal_px` in front of the eye; square pixels.
 class PerspectiveCamera final : public Camera {
  public:
   explicit PerspectiveCamera(const CameraParameters& p) : eye_(p.eye), size_(p.width, p.height) {
@@ -16,12 +16,12 @@ class PerspectiveCamera final : public Camera {
     right_ = axes.right;
     forward_ = axes.forward;
     up_ = glm::cross(right_, forward_);
-    middle_ = 0.5 * glm::dvec2(size_);
-    focal_px_ = middle_.x / exact::tan(0.5 * to_radians(p.field_of_view_deg));
+    centre_ = 0.5 * glm::dvec2(size_);
+    focal_px_ = centre_.x / exact::tan(0.5 * to_radians(p.field_of_view_deg));
   }
 
   Ray ray(glm::dvec2 pixel) const override {
-    const glm::dvec2 offset = pixel - middle_;
+    const glm::dvec2 offset = pixel - centre_;
     return {eye_, glm::normalize(forward_ * focal_px_ + right_ * offset.x - up_ * offset.y)};
   }
 
@@ -30,7 +30,7 @@ class PerspectiveCamera final : public Camera {
     const double depth = glm::dot(q, forward_);
     if (!(depth > 0.0)) return std::nullopt;
     const double scale = focal_px_ / depth;
-    return middle_ + glm::dvec2(glm::dot(q, right_), -glm::dot(q, up_)) * scale;
+    return centre_ + glm::dvec2(glm::dot(q, right_), -glm::dot(q, up_)) * scale;
   }
 
   glm::dvec3 eye() const override { return eye_; }
@@ -40,7 +40,7 @@ class PerspectiveCamera final : public Camera {
   glm::dvec3 eye_;
   glm::ivec2 size_;
   glm::dvec3 right_, forward_, up_;  // orthonormal
-  glm::dvec2 middle_;
+  glm::dvec2 centre_;
   double focal_px_ = 1.0;
 };
 

@@ -9,7 +9,7 @@
 namespace belvedere {
 namespace {
 
-// The nearest hit so far among some cells.
+// The nearest hit so far among several cells.
 struct CellHit {
   double distance = std::numeric_limits<double>::infinity();
   double u = 0.0;  // in the cell, 0…1
@@ -20,7 +20,7 @@ struct CellHit {
   double volume = 1.0;  // the facet's normal, twice its area long, along the ray
 };
 
-// The corners of a facet as weights know them: a, b for u, c for v.
+// The corners of a facet in the order of the weights: a, b for u, c for v.
 struct Facet {
   std::array<glm::ivec2, 3> posts;
 };
@@ -30,21 +30,22 @@ Facet facet_of(const TracedPart& part, int x, int y, bool lower) {
   return {{part.met(x + near, y + near), part.met(x + far, y + near), part.met(x + near, y + far)}};
 }
 
-// A ray (origin o relative to the surface's, direction d) against one triangle of a cell, in double. Sides are signs of the volumes
-// that the ray's line spans with each edge; an edge shared by two triangles gives both the same volume with opposite sign, so no
-// ray slips between them. `clamped`: a ray beside it meets it at the nearest of its points instead.
-inline void intersect_facet(const TracedPart& part, int x, int y, bool lower, const glm::dvec3& o, const glm::dvec3& d, CellHit& best,
-                            bool clamped = false) {
+// A ray (origin o relative to the surface's, direction d) against one triangle of a cell, in
+// double. Sides are signs of the volumes that the ray's line spans with each edge; an edge shared
+// by two triangles gives both the same volume with opposite sign, so no ray slips between them.
+// `clamped`: a ray that misses it gets its nearest point instead.
+inline void intersect_facet(const TracedPart& part, int x, int y, bool lower, const glm::dvec3& o,
+                            const glm::dvec3& d, CellHit& best, bool clamped = false) {
   const Facet facet = facet_of(part, x, y, lower);
   const glm::dvec3 a = part.post(facet.posts[0].x, facet.posts[0].y) - o;
   const glm::dvec3 b = part.post(facet.posts[1].x, facet.posts[1].y) - o;
   const glm::dvec3 c = part.post(facet.posts[2].x, facet.posts[2].y) - o;
-  const double ab = glm::dot(glm::cross(a, b), d);  // weighs c, and so on
+  const double ab = glm::dot(glm::cross(a, b), d);  // weight of c, and so on
   const double bc = glm::dot(glm::cross(b, c), d);
   const double ca = glm::dot(glm::cross(c, a), d);
   const double sum = ab + bc + ca;
   const bool beside = std::min(ab, std::min(bc, ca)) < 0.0 && std::max(ab, std::max(bc, ca)) > 0.0;
-  if ((beside && !clamped) || sum == 0.0) return;  // 0: seen edge on
+  if ((beside && !clamped) || sum == 0.0) return;  // 0: seen edge-on
   const double share = 1.0 / sum;
   double wb = ca * share;
   double wc = ab * share;
@@ -60,29 +61,33 @@ inline void intersect_facet(const TracedPart& part, int x, int y, bool lower, co
 glm::dvec3 facet_area(const TracedPart& part, const CellHit& hit) {
   const Facet facet = facet_of(part, hit.x, hit.y, hit.lower);
   const auto edge = [&](std::size_t to) {
-    return part.post(facet.posts[to].x, facet.posts[to].y) - part.post(facet.posts[0].x, facet.posts[0].y);
+    return part.post(facet.posts[to].x, facet.posts[to].y) -
+           part.post(facet.posts[0].x, facet.posts[0].y);
   };
   const glm::dvec3 east = hit.lower ? -edge(1) : edge(1);
   const glm::dvec3 south = hit.lower ? -edge(2) : edge(2);
   return glm::cross(south, east);
 }
 
-// Column and row of a hit: where a post of the cell is not met, places between those that are.
-glm::dvec2 place_of(const TracedPart& part, const CellHit& hit) {
+// Column and row of a hit. Where a post of the cell is skipped, interpolates between those that are
+// not.
+glm::dvec2 position_of(const TracedPart& part, const CellHit& hit) {
   const Facet facet = facet_of(part, hit.x, hit.y, hit.lower);
   const int near = hit.lower ? 1 : 0;
-  if (!part.is_window ||
-      (facet.posts[0] == glm::ivec2(hit.x + near, hit.y + near) && facet.posts[1] == glm::ivec2(hit.x + 1 - near, hit.y + near) &&
-       facet.posts[2] == glm::ivec2(hit.x + near, hit.y + 1 - near)))
+  if (!part.is_window || (facet.posts[0] == glm::ivec2(hit.x + near, hit.y + near) &&
+                          facet.posts[1] == glm::ivec2(hit.x + 1 - near, hit.y + near) &&
+                          facet.posts[2] == glm::ivec2(hit.x + near, hit.y + 1 - near)))
     return {hit.x + hit.u, hit.y + hit.v};
   const double wb = hit.lower ? 1.0 - hit.u : hit.u;
   const double wc = hit.lower ? 1.0 - hit.v : hit.v;
-  return (1.0 - wb - wc) * glm::dvec2(facet.posts[0]) + wb * glm::dvec2(facet.posts[1]) + wc * glm::dvec2(facet.posts[2]);
+  return (1.0 - wb - wc) * glm::dvec2(facet.posts[0]) + wb * glm::dvec2(facet.posts[1]) +
+         wc * glm::dvec2(facet.posts[2]);
 }
 
 }  // namespace
 
-bool resolve_facet(const TracedPart& part, const GridTile& tile, glm::vec2 in_tile, const Ray& ray, Hit& hit) {
+bool resolve_facet(const TracedPart& part, const GridTile& tile, glm::vec2 in_tile, const Ray& ray,
+                   Hit& hit) {
   const float fx = in_tile.x * static_cast<float>(tile.cells_x);
   const float fy = in_tile.y * static_cast<float>(tile.cells_y);
   const int x = tile.x0 + std::clamp(static_cast<int>(fx), 0, tile.cells_x - 1);
@@ -92,12 +97,15 @@ bool resolve_facet(const TracedPart& part, const GridTile& tile, glm::vec2 in_ti
   const float in_y = fy - static_cast<float>(y - tile.y0);
   const bool lower = in_x + in_y > 1.F;
   intersect_facet(part, x, y, lower, ray.origin, ray.direction, best);
-  // Embree's float places err by the rounding of volumes of about distance × side of a cell, against the facet's own. So near an
-  // edge, and where the facet is missed, its neighbours are asked too, and the nearest hit is the answer, from whichever side
-  // Embree came. 16 roundings are more than its sums have.
+  // Embree's float positions are off by the rounding of volumes of about distance × side of a cell,
+  // relative to the facet's own. So near an edge, and where the facet is missed, its neighbours are
+  // tested too, and the nearest hit is taken, whichever facet Embree reported. 16 roundings exceed
+  // those in its sums.
   constexpr double rounding = 16.0 * 0x1.0p-24;
   const double volume = std::abs(best.volume);
-  const double rim = std::min(0.5 * volume, rounding * best.distance * part.side);  // times the volume, which spares a division a ray
+  const double rim =
+      std::min(0.5 * volume, rounding * best.distance *
+                                 part.side);  // times the volume, which saves a division per ray
   const auto within_rim = [&](double share) { return share * volume < rim; };
   const bool missed = !(best.distance < std::numeric_limits<double>::infinity());
   const double to_edge = std::min(std::min(best.u, best.v), 1.0 - std::max(best.u, best.v));
@@ -114,17 +122,18 @@ bool resolve_facet(const TracedPart& part, const GridTile& tile, glm::vec2 in_ti
       }
     }
     if (!(best.distance < std::numeric_limits<double>::infinity())) {
-      // Beyond the edge lies another part. Going on along the ray could lose both, as their distances differ by rounding alone.
+      // Beyond the edge is another part. Continuing along the ray could miss both, as their
+      // distances differ by rounding alone.
       if (!part.at_joint(x, y)) return false;
       intersect_facet(part, x, y, lower, ray.origin, ray.direction, best, true);
       if (!(best.distance < std::numeric_limits<double>::infinity())) return false;
     }
   }
-  const glm::dvec2 place = place_of(part, best);
+  const glm::dvec2 position = position_of(part, best);
   hit.found = true;
   hit.distance_m = best.distance;
-  hit.column = place.x;
-  hit.row = place.y;
+  hit.column = position.x;
+  hit.row = position.y;
   hit.facet_area = facet_area(part, best);
   return true;
 }

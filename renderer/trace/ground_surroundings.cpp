@@ -11,8 +11,8 @@
 namespace belvedere {
 namespace {
 
-// 1 where the known terrain ends: the border's own posts and the filled voids that reach the border. A void in the middle of known
-// terrain is a flaw that filling has mended, no end of the world.
+// 1 where the known terrain ends: the border's own posts and the filled voids that reach the
+// border. A filled void inside known terrain is not an edge.
 Grid<std::uint8_t> outside(const Dem& dem) {
   const int width = dem.width();
   const int height = dem.height();
@@ -29,15 +29,17 @@ Grid<std::uint8_t> outside(const Dem& dem) {
   while (!open.empty()) {
     const glm::ivec2 at = open.back();
     open.pop_back();
-    for (const glm::ivec2 step : {glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1), glm::ivec2(0, -1)}) {
+    for (const glm::ivec2 step :
+         {glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1), glm::ivec2(0, -1)}) {
       const glm::ivec2 next = at + step;
-      if (dem.filled.contains(next.x, next.y) && dem.filled(next.x, next.y) != 0) mark(next.x, next.y);
+      if (dem.filled.contains(next.x, next.y) && dem.filled(next.x, next.y) != 0)
+        mark(next.x, next.y);
     }
   }
   return out;
 }
 
-// Distance of every post to the nearest that lies outside.
+// Distance of every post to the nearest one outside.
 Grid<float> rim_distance(const Dem& dem) {
   const int width = dem.width();
   const int height = dem.height();
@@ -48,25 +50,28 @@ Grid<float> rim_distance(const Dem& dem) {
       const int at = nearest(x, y);
       const int across = at % width - x;
       const int down = at / width - y;
-      distance(x, y) = static_cast<float>(exact::hypot(across * dem.transform.cell_x, down * dem.transform.cell_y));
+      distance(x, y) = static_cast<float>(
+          exact::hypot(across * dem.transform.cell_x, down * dem.transform.cell_y));
     }
   });
   return distance;
 }
 
-// A logarithm, because areas run from a cell to a province and a picture can tell a rill from a brook, not 500 km² from 501. Where rivers
-// enter at the rim they begin there.
+// A logarithm, because areas range from a cell to a province, and a picture can distinguish a rill
+// from a brook, not 500 km² from 501. Rivers that enter at the edge begin there.
 Grid<float> log_upstream_area(Grid<float> area) {
   constexpr double m2_per_km2 = 1e6;
   parallel_rows(area.height(), [&](int y) {
-    for (int x = 0; x < area.width(); ++x) area(x, y) = static_cast<float>(exact::log10(m2_per_km2 * static_cast<double>(area(x, y))));
+    for (int x = 0; x < area.width(); ++x)
+      area(x, y) = static_cast<float>(exact::log10(m2_per_km2 * static_cast<double>(area(x, y))));
   });
   return area;
 }
 
 }  // namespace
 
-GroundSurroundings find_surroundings(const Dem& dem, const LandCover& land_cover, Catchments* catchments) {
+GroundSurroundings find_surroundings(const Dem& dem, const LandCover& land_cover,
+                                     Catchments* catchments) {
   GroundSurroundings found;
   found.valley_height_m = height_above_valley(dem.altitude_m, dem.cell_m(), 900.0);
   found.rim_m = rim_distance(dem);

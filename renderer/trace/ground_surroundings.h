@@ -8,8 +8,9 @@
 
 namespace belvedere {
 
-// What a place's wide surroundings say of it, and takes longest to find of a terrain model: fields as there (terrain_model.h). It hangs on
-// elevation and land cover alone, not on the view, so it can be kept from one picture to the next.
+// Values from the wide surroundings of each position, which take longest to compute for a terrain
+// model; fields as there (terrain_model.h). They depend only on elevation and land cover, not on
+// the view, so they can be reused between pictures.
 struct GroundSurroundings {
   Grid<float> valley_height_m;
   Grid<float> rim_m;
@@ -18,6 +19,7 @@ struct GroundSurroundings {
 };
 
 // `catchments`: as for make_terrain_model.
-GroundSurroundings find_surroundings(const Dem& dem, const LandCover& land_cover, Catchments* catchments = nullptr);
+GroundSurroundings find_surroundings(const Dem& dem, const LandCover& land_cover,
+                                     Catchments* catchments = nullptr);
 
 }  // namespace belvedere

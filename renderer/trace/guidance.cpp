@@ -19,16 +19,19 @@
 namespace belvedere {
 namespace {
 
-constexpr double depth_tolerance = 0.03;  // depths within 3 % belong together
+constexpr double depth_tolerance = 0.03;  // depths within 3 % are one surface
 
 void check_range(const char* key, double value, double lowest, double highest) {
   if (value >= lowest && value <= highest) return;
-  throw Error(ErrorKind::usage, key, fmt::format("{}", value), fmt::format("{} to {}", lowest, highest));
+  throw Error(ErrorKind::usage, key, fmt::format("{}", value),
+              fmt::format("{} to {}", lowest, highest));
 }
 
 void check_parameters(const GuidanceParameters& p) {
-  if (p.sampling.pixel_samples != 1 && p.sampling.pixel_samples != 4 && p.sampling.pixel_samples != 9 && p.sampling.pixel_samples != 16) {
-    throw Error(ErrorKind::usage, "pixel_samples", fmt::format("{}", p.sampling.pixel_samples), "1, 4, 9 or 16");
+  if (p.sampling.pixel_samples != 1 && p.sampling.pixel_samples != 4 &&
+      p.sampling.pixel_samples != 9 && p.sampling.pixel_samples != 16) {
+    throw Error(ErrorKind::usage, "pixel_samples", fmt::format("{}", p.sampling.pixel_samples),
+                "1, 4, 9 or 16");
   }
   check_range("shadow_rays", p.sampling.shadow_rays, 1, 64);
   check_range("sky_directions", p.sampling.sky_directions, 0, 256);
@@ -39,35 +42,36 @@ void check_parameters(const GuidanceParameters& p) {
   check_range("tile size", p.tile_size, trace_block_px, 4096);
 }
 
-// All that a block of pixels is traced with.
+// Everything needed to trace a block of pixels.
 struct Tracing {
   const TerrainModel& terrain;
   const DeformedSurface& surface;
   const Tracer& tracer;
   const Camera& camera;
   const GuidanceParameters& parameters;
-  std::vector<glm::dvec2> pixel_places;
+  std::vector<glm::dvec2> pixel_positions;
   std::vector<glm::dvec2> sun_places;
   std::vector<SkyDirection> sky_directions;
 };
 
-// What one primary ray of a pixel saw.
+// The result of one primary ray of a pixel.
 struct Seen {
   Hit hit;
   LandCoverClass land_cover = LandCoverClass::sky;
 };
 
-// The sample that gives the pixel its values: of the class that most samples saw (ties to the lower id) the one nearest the
-// pixel's middle (ties to the first).
-std::size_t choose_sample(std::span<const Seen> samples, std::span<const glm::dvec2> places) {
+// The sample that gives the pixel its values: of the class hit by most samples (ties: the lower id)
+// the one nearest the pixel's centre (ties: the first).
+std::size_t choose_sample(std::span<const Seen> samples, std::span<const glm::dvec2> positions) {
   std::array<int, land_cover_class_count> votes{};
   for (const Seen& seen : samples) ++votes[static_cast<std::size_t>(seen.land_cover)];
-  const auto winner = static_cast<LandCoverClass>(std::max_element(votes.begin(), votes.end()) - votes.begin());
+  const auto winner =
+      static_cast<LandCoverClass>(std::max_element(votes.begin(), votes.end()) - votes.begin());
   std::size_t best = samples.size();
   double best_distance = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < samples.size(); ++k) {
-    const double distance = glm::length(places[k] - glm::dvec2(0.5));
-    // Places at the same distance differ by rounding only.
+    const double distance = glm::length(positions[k] - glm::dvec2(0.5));
+    // Positions at the same distance differ by rounding only.
     if (samples[k].land_cover == winner && distance < best_distance - 1e-9) {
       best = k;
       best_distance = distance;
@@ -76,15 +80,17 @@ std::size_t choose_sample(std::span<const Seen> samples, std::span<const glm::dv
   return best;
 }
 
-// Ground metres that a pixel is wide at a hit: how far apart the rays through its left and right edge are there.
+// Width of a pixel in ground metres at a hit: the distance there between the rays through its left
+// and right edge.
 float footprint(const Camera& camera, glm::dvec2 pixel, double distance_m) {
   const Ray left = camera.ray({pixel.x, pixel.y + 0.5});
   const Ray right = camera.ray({pixel.x + 1.0, pixel.y + 0.5});
-  return static_cast<float>(glm::length(right.origin + right.direction * distance_m - left.origin - left.direction * distance_m));
+  return static_cast<float>(glm::length(right.origin + right.direction * distance_m - left.origin -
+                                        left.direction * distance_m));
 }
 
-// Ground that a pixel shows, as wide as the square of its area: seen aslant it is longer than wide. At most some five times as long: what
-// is seen so flatly is a line.
+// Size of the ground in a pixel, as the root of its area: at grazing angles it is longer than wide.
+// Limited to about five times the width: flatter ground is seen as a line.
 double ground_width_m(const Hit& hit, const Ray& ray, float footprint_m) {
   constexpr double flattest = 0.04;
   const double facing = std::abs(glm::dot(glm::normalize(ray.direction), hit.facet_normal()));
@@ -93,11 +99,12 @@ double ground_width_m(const Hit& hit, const Ray& ray, float footprint_m) {
 
 GuidanceBuffers make_buffers(int width, int height) {
   GuidanceBuffers buffers;
-  // New memory is first written by all threads.
+  // All threads take part in first writing new memory.
   const std::span<const GuidanceChannel> channels = guidance_channels();
   parallel_ranges(channels.size(), std::size_t{1}, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i != end; ++i)
-      if (channels[i].maker == ChannelMaker::trace) fill_channel(buffers, channels[i], width, height, channels[i].sky);
+      if (channels[i].maker == ChannelMaker::trace)
+        fill_channel(buffers, channels[i], width, height, channels[i].sky);
   });
   return buffers;
 }
@@ -105,43 +112,49 @@ GuidanceBuffers make_buffers(int width, int height) {
 // Traces the primary rays of a block. samples[i] belongs to pixel i.
 using BlockSamples = std::vector<Seen>;  // pixel_samples for each pixel in turn
 void trace_primary(const Tracing& t, glm::ivec2 corner, BlockSamples& samples) {
-  const std::size_t per_pixel = t.pixel_places.size();
+  const std::size_t per_pixel = t.pixel_positions.size();
   samples.assign(trace_block_pixels * per_pixel, Seen{});
   std::array<Ray, trace_block_pixels> rays;
   std::array<Hit, trace_block_pixels> hits;
   for (std::size_t k = 0; k < per_pixel; ++k) {
     for (int i = 0; i < trace_block_pixels; ++i) {
-      rays[static_cast<std::size_t>(i)] = t.camera.ray(glm::dvec2(corner + block_pixel(i)) + t.pixel_places[k]);
+      rays[static_cast<std::size_t>(i)] =
+          t.camera.ray(glm::dvec2(corner + block_pixel(i)) + t.pixel_positions[k]);
     }
     t.tracer.intersect(rays, hits);
     for (std::size_t i = 0; i < trace_block_pixels; ++i) {
       Seen& seen = samples[i * per_pixel + k];
       seen.hit = hits[i];
-      if (hits[i].found) seen.land_cover = class_at(ground_of(t.terrain, hits[i].window), hits[i].column, hits[i].row);
+      if (hits[i].found)
+        seen.land_cover =
+            class_at(ground_of(t.terrain, hits[i].window), hits[i].column, hits[i].row);
     }
   }
 }
 
 // The sun of each pixel of a block; false where all have the picture's.
-bool local_suns(const Tracing& t, const BlockSamples& samples, const std::array<std::size_t, trace_block_pixels>& chosen,
+bool local_suns(const Tracing& t, const BlockSamples& samples,
+                const std::array<std::size_t, trace_block_pixels>& chosen,
                 std::array<glm::dvec3, trace_block_pixels>& suns) {
   suns.fill(t.parameters.sun_direction);
   if (!t.parameters.light_field || !t.parameters.light_field->turns_sun()) return false;
   bool turned = false;
   for (std::size_t i = 0; i < trace_block_pixels; ++i) {
-    const Hit& hit = samples[i * t.pixel_places.size() + chosen[i]].hit;
+    const Hit& hit = samples[i * t.pixel_positions.size() + chosen[i]].hit;
     if (!hit.found) continue;
-    suns[i] = t.parameters.light_field->at(ground_of(t.terrain, hit.window).dem->transform.to_crs(hit.column, hit.row)).sun;
+    suns[i] = t.parameters.light_field
+                  ->at(ground_of(t.terrain, hit.window).dem->transform.to_crs(hit.column, hit.row))
+                  .sun;
     turned = turned || suns[i] != t.parameters.sun_direction;
   }
   return turned;
 }
 
-// Traces one block and writes those of its pixels that lie in the region.
+// Traces one block and writes its pixels inside the region.
 void trace_block(const Tracing& t, glm::ivec2 corner, PixelRect region, GuidanceBuffers& out) {
   thread_local BlockSamples samples;
   trace_primary(t, corner, samples);
-  const std::size_t per_pixel = t.pixel_places.size();
+  const std::size_t per_pixel = t.pixel_positions.size();
   BlockSurface block;
   block.corner = corner;
   std::array<std::size_t, trace_block_pixels> chosen{};
@@ -149,13 +162,16 @@ void trace_block(const Tracing& t, glm::ivec2 corner, PixelRect region, Guidance
   for (int p = 0; p < trace_block_pixels; ++p) {
     const auto i = static_cast<std::size_t>(p);
     const std::span<const Seen> seen = std::span(samples).subspan(i * per_pixel, per_pixel);
-    chosen[i] = choose_sample(seen, t.pixel_places);
+    chosen[i] = choose_sample(seen, t.pixel_positions);
     const Hit& hit = seen[chosen[i]].hit;
     if (!hit.found) continue;
     any_terrain = true;
-    const Ray ray = t.camera.ray(glm::dvec2(corner + block_pixel(p)) + t.pixel_places[chosen[i]]);
+    const Ray ray =
+        t.camera.ray(glm::dvec2(corner + block_pixel(p)) + t.pixel_positions[chosen[i]]);
     const glm::dvec3 normal = hit.facet_normal();
-    block.pixels[i] = {true, hit.distance_m, ray.origin + ray.direction * hit.distance_m + normal * t.parameters.shadow_bias_m, normal};
+    block.pixels[i] = {
+        true, hit.distance_m,
+        ray.origin + ray.direction * hit.distance_m + normal * t.parameters.shadow_bias_m, normal};
   }
   BlockValues sun{};
   BlockValues sky{};
@@ -163,15 +179,18 @@ void trace_block(const Tracing& t, glm::ivec2 corner, PixelRect region, Guidance
     if (t.parameters.sun_direction.z > 0.0) {
       std::array<glm::dvec3, trace_block_pixels> own;
       const bool turned = local_suns(t, samples, chosen, own);
-      sun = trace_sun(t.tracer, block, t.sun_places, turned ? std::span<const glm::dvec3>(own) : std::span(&t.parameters.sun_direction, 1),
-                      t.parameters.sun_radius_rad);
+      sun = trace_sun(
+          t.tracer, block, t.sun_places,
+          turned ? std::span<const glm::dvec3>(own) : std::span(&t.parameters.sun_direction, 1),
+          t.parameters.sun_radius_rad);
     }
     sky = trace_sky(t.tracer, block, t.sky_directions, t.parameters.sampling.sky_reach_m);
   }
 
   for (int p = 0; p < trace_block_pixels; ++p) {
     const glm::ivec2 pixel = corner + block_pixel(p);
-    if (pixel.x < region.x0 || pixel.y < region.y0 || pixel.x >= region.x1 || pixel.y >= region.y1) continue;
+    if (pixel.x < region.x0 || pixel.y < region.y0 || pixel.x >= region.x1 || pixel.y >= region.y1)
+      continue;
     const std::size_t o = out.depth_m.index(pixel.x - region.x0, pixel.y - region.y0);
     const auto i = static_cast<std::size_t>(p);
     const std::span<const Seen> seen = std::span(samples).subspan(i * per_pixel, per_pixel);
@@ -180,7 +199,8 @@ void trace_block(const Tracing& t, glm::ivec2 corner, PixelRect region, Guidance
     int front_samples = 0;
     for (const Seen& s : seen) {
       terrain_samples += s.hit.found ? 1 : 0;
-      const bool together = s.hit.found && std::abs(s.hit.distance_m - winner.hit.distance_m) <= depth_tolerance * winner.hit.distance_m;
+      const bool together = s.hit.found && std::abs(s.hit.distance_m - winner.hit.distance_m) <=
+                                               depth_tolerance * winner.hit.distance_m;
       front_samples += (winner.hit.found ? together : !s.hit.found) ? 1 : 0;
     }
     out.coverage[o] = static_cast<float>(terrain_samples) / static_cast<float>(per_pixel);
@@ -193,54 +213,66 @@ void trace_block(const Tracing& t, glm::ivec2 corner, PixelRect region, Guidance
     out.footprint_m[o] = footprint(t.camera, glm::dvec2(pixel), winner.hit.distance_m);
     // Water is level.
     const bool bumpy = winner.land_cover != LandCoverClass::water;
-    const Ray ray = t.camera.ray(glm::dvec2(pixel) + t.pixel_places[chosen[i]]);
-    sample_ground(ground_of(t.terrain, winner.hit.window), t.surface, t.camera, winner.hit.column, winner.hit.row, out, o,
+    const Ray ray = t.camera.ray(glm::dvec2(pixel) + t.pixel_positions[chosen[i]]);
+    sample_ground(ground_of(t.terrain, winner.hit.window), t.surface, t.camera, winner.hit.column,
+                  winner.hit.row, out, o,
                   bumpy ? ground_width_m(winner.hit, ray, out.footprint_m[o]) : 0.0);
   }
 }
 
 }  // namespace
 
-GuidanceBuffers trace_guidance(const TerrainModel& terrain, const DeformedSurface& surface, const Tracer& tracer, const Camera& camera,
-                               const GuidanceParameters& parameters, PixelRect region, Progress& progress) {
+GuidanceBuffers trace_guidance(const TerrainModel& terrain, const DeformedSurface& surface,
+                               const Tracer& tracer, const Camera& camera,
+                               const GuidanceParameters& parameters, PixelRect region,
+                               Progress& progress) {
   check_parameters(parameters);
   const glm::ivec2 size = camera.size();
-  if (region.x0 < 0 || region.y0 < 0 || region.x1 > size.x || region.y1 > size.y || region.width() < 1 || region.height() < 1) {
-    throw Error(ErrorKind::bug, "guidance", fmt::format("pixels {}…{} × {}…{}", region.x0, region.x1, region.y0, region.y1),
+  if (region.x0 < 0 || region.y0 < 0 || region.x1 > size.x || region.y1 > size.y ||
+      region.width() < 1 || region.height() < 1) {
+    throw Error(ErrorKind::bug, "guidance",
+                fmt::format("pixels {}…{} × {}…{}", region.x0, region.x1, region.y0, region.y1),
                 fmt::format("a part of {} × {}", size.x, size.y));
   }
-  if (!surface.vertices_m.same_size(terrain.dem->altitude_m)) throw Error(ErrorKind::bug, "guidance", "surface and terrain differ in size");
-  if (surface.windows.size() != terrain.windows.size()) throw Error(ErrorKind::bug, "guidance", "surface and terrain differ in windows");
-  // Posts of windows belong to grids of their own: there only the deformation itself can tell where a place went.
+  if (!surface.vertices_m.same_size(terrain.dem->altitude_m))
+    throw Error(ErrorKind::bug, "guidance", "surface and terrain differ in size");
+  if (surface.windows.size() != terrain.windows.size())
+    throw Error(ErrorKind::bug, "guidance", "surface and terrain differ in windows");
+  // Posts of windows belong to their own grids: only the deformation itself can tell where a
+  // position moved.
   for (const TerrainWindow& window : terrain.windows)
-    if (!window.ground.local) throw Error(ErrorKind::bug, "guidance", "a window of the terrain without its deformation");
+    if (!window.ground.local)
+      throw Error(ErrorKind::bug, "guidance", "a window of the terrain has no deformation");
 
   const Tracing tracing{terrain,
                         surface,
                         tracer,
                         camera,
                         parameters,
-                        pixel_sample_places(parameters.sampling.pixel_samples),
-                        disc_places(parameters.sampling.shadow_rays),
+                        pixel_sample_positions(parameters.sampling.pixel_samples),
+                        disc_positions(parameters.sampling.shadow_rays),
                         sky_directions((parameters.sampling.sky_directions + 3) / 4)};
   GuidanceBuffers out = make_buffers(region.width(), region.height());
   out.origin_m = surface.origin;
   progress.begin("trace", static_cast<double>(region.width()) * region.height());
-  // Blocks lie at multiples of their size of the whole picture; tiles are whole blocks.
+  // Blocks are at multiples of their size in the whole picture; tiles are whole blocks.
   const int bx0 = region.x0 / trace_block_px;
   const int by0 = region.y0 / trace_block_px;
   const int across = (region.x1 + trace_block_px - 1) / trace_block_px - bx0;
   const int down = (region.y1 + trace_block_px - 1) / trace_block_px - by0;
-  parallel_tiles(across, down, std::max(parameters.tile_size / trace_block_px, 1), [&](PixelRect blocks) {
-    for (int y = blocks.y0; y < blocks.y1; ++y) {
-      for (int x = blocks.x0; x < blocks.x1; ++x) {
-        trace_block(tracing, glm::ivec2(bx0 + x, by0 + y) * trace_block_px, region, out);
-      }
-    }
-    progress.advance(static_cast<double>(blocks.width()) * blocks.height() * trace_block_pixels * region.width() * region.height() /
-                     (static_cast<double>(across) * down * trace_block_pixels));
-  });
-  if (parameters.sampling.sky_directions > 0) out.sky_view = mean_of_squares(out.sky_view, out.depth_m);
+  parallel_tiles(
+      across, down, std::max(parameters.tile_size / trace_block_px, 1), [&](PixelRect blocks) {
+        for (int y = blocks.y0; y < blocks.y1; ++y) {
+          for (int x = blocks.x0; x < blocks.x1; ++x) {
+            trace_block(tracing, glm::ivec2(bx0 + x, by0 + y) * trace_block_px, region, out);
+          }
+        }
+        progress.advance(static_cast<double>(blocks.width()) * blocks.height() *
+                         trace_block_pixels * region.width() * region.height() /
+                         (static_cast<double>(across) * down * trace_block_pixels));
+      });
+  if (parameters.sampling.sky_directions > 0)
+    out.sky_view = mean_of_squares(out.sky_view, out.depth_m);
   out.silhouette = find_silhouettes(out.depth_m);
   return out;
 }

@@ -12,29 +12,34 @@
 
 namespace belvedere {
 
-// Part of trace_guidance: which rays are traced, and what they say of light. The picture is traced in blocks of 8 × 8 pixels that lie
-// at multiples of 8 of the whole picture, whatever part of it is asked for, so a ray always has the same neighbours in its bundle.
+// Part of trace_guidance: which rays are traced, and the light that follows from them. The picture
+// is traced in blocks of 8 × 8 pixels at multiples of 8 in the whole picture, whatever part is
+// requested, so a ray always has the same neighbours in its bundle.
 constexpr int trace_block_px = 8;
 constexpr int trace_block_pixels = trace_block_px * trace_block_px;
 
-// Pixel i of a block: four bundles of 4 × 4 pixels follow each other.
-constexpr glm::ivec2 block_pixel(int i) { return {(i / 16 % 2) * 4 + i % 4, (i / 32) * 4 + i % 16 / 4}; }
+// Pixel i of a block, as four consecutive bundles of 4 × 4 pixels.
+constexpr glm::ivec2 block_pixel(int i) {
+  return {(i / 16 % 2) * 4 + i % 4, (i / 32) * 4 + i % 16 / 4};
+}
 
-// n = 1, 4, 9 or 16 places in a pixel, 0…1, on a rotated grid: no two share a column or a row of the n × n fine grid.
-std::vector<glm::dvec2> pixel_sample_places(int n);
-// K places in the unit disc, in strata of equal area (Vogel's spiral).
-std::vector<glm::dvec2> disc_places(int count);
+// n = 1, 4, 9 or 16 positions in a pixel, 0…1, on a rotated grid: no two share a column or a row of
+// the n × n fine grid.
+std::vector<glm::dvec2> pixel_sample_positions(int n);
+// K positions in the unit disc, in strata of equal area (Vogel's spiral).
+std::vector<glm::dvec2> disc_positions(int count);
 
-// Directions of the upper hemisphere, cosine weighted, dealt out to the 16 pixels of each 4 × 4 square of the picture: a pixel traces
-// `per_pixel` of them, the square 16 times as many. (Interleaved sampling, Keller & Heidrich 2001: 16 directions for all pixels alike
-// would draw 16 outlines of every ridge on the ground.)
+// Directions of the upper hemisphere, cosine weighted, distributed over the 16 pixels of each 4 × 4
+// square of the picture: a pixel traces `per_pixel` of them, the square 16 times as many.
+// (Interleaved sampling, Keller & Heidrich 2001: with the same 16 directions for all pixels, 16
+// outlines of every ridge would appear on the ground.)
 struct SkyDirection {
   glm::dvec3 direction;
   int lane;  // which pixel of the square: x % 4 + 4 (y % 4)
 };
 std::vector<SkyDirection> sky_directions(int per_pixel);
 
-// The ground that the pixels of a block show.
+// The ground in the pixels of a block.
 struct BlockSurface {
   struct Pixel {
     bool terrain = false;
@@ -47,14 +52,19 @@ struct BlockSurface {
 };
 using BlockValues = std::array<float, trace_block_pixels>;
 
-// Part of the sun's disc that each pixel sees: 1 lit. `places` in the unit disc are turned by an angle of each pixel's own. `suns`: the way
-// to the sun, one for all pixels or one for each.
-BlockValues trace_sun(const Tracer& tracer, const BlockSurface& block, std::span<const glm::dvec2> places, std::span<const glm::dvec3> suns,
+// Share of the sun's disc visible from each pixel: 1 lit. The positions in the unit disc are
+// rotated by a different angle in each pixel. `suns`: the direction to the sun, one for all pixels
+// or one for each.
+BlockValues trace_sun(const Tracer& tracer, const BlockSurface& block,
+                      std::span<const glm::dvec2> positions, std::span<const glm::dvec3> suns,
                       double sun_radius_rad);
-// Part of each pixel's own directions in which nothing stands within reach; to be smoothed by mean_of_squares.
-BlockValues trace_sky(const Tracer& tracer, const BlockSurface& block, std::span<const SkyDirection> directions, double reach_m);
-// Mean over 5 × 5 pixels, the outer ones by half, so that each of the 16 kinds of pixels weighs the same: what was dealt out to them
-// becomes one smooth value. Only pixels of the same surface (depths within 3 %) are taken together.
+// Share of each pixel's own directions that are free within reach; to be smoothed by
+// mean_of_squares.
+BlockValues trace_sky(const Tracer& tracer, const BlockSurface& block,
+                      std::span<const SkyDirection> directions, double reach_m);
+// Mean over 5 × 5 pixels with the outer ones at half weight, so that each of the 16 kinds of pixels
+// has the same weight and the interleaved directions give a smooth value. Only pixels of the same
+// surface (depths within 3 %) are averaged.
 Grid<float> mean_of_squares(const Grid<float>& values, const Grid<float>& depth_m);
 
 }  // namespace belvedere

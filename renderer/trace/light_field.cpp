@@ -18,13 +18,14 @@
 namespace belvedere {
 namespace {
 
-// A cloud's edge: how far its two sizes of lobes move it, and how wide they are, shares of the radius. Noise is held within ±2 deviations.
+// A cloud's edge: shift by its two sizes of lobes and their widths, in shares of the radius. Noise
+// is limited to ±2 deviations.
 constexpr double lobe_move = 0.26;
 constexpr double lobe_sigma = 0.42;
 constexpr double tuft_move = 0.10;
 constexpr double tuft_sigma = 0.14;
-constexpr double most_noise = 2.0;
-// Its shade is not quite even either.
+constexpr double max_noise = 2.0;
+// Its shade is slightly uneven too.
 constexpr double thin_share = 0.12;
 
 double distance_to_segment(glm::dvec2 p, glm::dvec2 a, glm::dvec2 b) {
@@ -34,9 +35,9 @@ double distance_to_segment(glm::dvec2 p, glm::dvec2 a, glm::dvec2 b) {
   return glm::length(p - (a + along * t));
 }
 
-// How far a place lies outside of a region, m; 0 inside.
+// Distance of a position outside a region, m; 0 inside.
 double outside_m(const LightRegion& region, glm::dvec2 p) {
-  if (region.rings.empty()) return std::max(0.0, glm::length(p - region.center) - region.radius_m);
+  if (region.rings.empty()) return std::max(0.0, glm::length(p - region.centre) - region.radius_m);
   if (encloses(region.rings, p)) return 0.0;
   double nearest = std::numeric_limits<double>::infinity();
   for (const std::vector<glm::dvec2>& ring : region.rings)
@@ -48,27 +49,32 @@ double outside_m(const LightRegion& region, glm::dvec2 p) {
 glm::dvec3 sun_above_horizon(glm::dvec3 sun, const std::string& whose) {
   const double length = glm::length(sun);
   if (!(length > 0.5 && length < 2.0 && sun.z > 0.0))
-    throw Error(ErrorKind::usage, whose, fmt::format("a sun in the direction {:.3f}, {:.3f}, {:.3f}", sun.x, sun.y, sun.z),
+    throw Error(ErrorKind::usage, whose,
+                fmt::format("a sun in the direction {:.3f}, {:.3f}, {:.3f}", sun.x, sun.y, sun.z),
                 "a sun above the horizon");
   return sun / length;
 }
 
-float side_of(glm::dvec3 sun, glm::dvec2 right) { return sun.x * right.x + sun.y * right.y < 0.0 ? -1.0F : 1.0F; }
+float side_of(glm::dvec3 sun, glm::dvec2 right) {
+  return sun.x * right.x + sun.y * right.y < 0.0 ? -1.0F : 1.0F;
+}
 
-float mixed(float a, double b, double share) { return static_cast<float>(static_cast<double>(a) + (b - static_cast<double>(a)) * share); }
+float mixed(float a, double b, double share) {
+  return static_cast<float>(static_cast<double>(a) + (b - static_cast<double>(a)) * share);
+}
 
 }  // namespace
 
-LightField::LightField(glm::dvec3 sun_direction, glm::dvec2 right, std::vector<LightRegion> regions, std::vector<CloudShadow> clouds,
-                       std::uint64_t seed)
+LightField::LightField(glm::dvec3 sun_direction, glm::dvec2 right, std::vector<LightRegion> regions,
+                       std::vector<CloudShadow> clouds, std::uint64_t seed)
     : right_(right), regions_(std::move(regions)), clouds_(std::move(clouds)), seed_(seed) {
   sun_above_horizon(sun_direction, "the picture's light");
   picture_.sun = sun_direction;
   picture_.side = side_of(sun_direction, right_);
   for (LightRegion& region : regions_) {
     region.sun_direction = sun_above_horizon(region.sun_direction, "a region of light");
-    glm::dvec2 low = region.center - region.radius_m;
-    glm::dvec2 high = region.center + region.radius_m;
+    glm::dvec2 low = region.centre - region.radius_m;
+    glm::dvec2 high = region.centre + region.radius_m;
     if (!region.rings.empty()) {
       low = glm::dvec2(std::numeric_limits<double>::infinity());
       high = -low;
@@ -79,41 +85,47 @@ LightField::LightField(glm::dvec3 sun_direction, glm::dvec2 right, std::vector<L
     sides_.push_back(side_of(region.sun_direction, right_));
   }
   for (const CloudShadow& cloud : clouds_) {
-    const double reach = cloud.radius_m * (1.0 + most_noise * (lobe_move + tuft_move)) + 0.5 * cloud.blend_m;
-    cloud_boxes_.push_back({cloud.center - reach, cloud.center + reach});
+    const double reach =
+        cloud.radius_m * (1.0 + max_noise * (lobe_move + tuft_move)) + 0.5 * cloud.blend_m;
+    cloud_boxes_.push_back({cloud.centre - reach, cloud.centre + reach});
   }
 }
 
-double LightField::weight(const LightRegion& region, glm::dvec2 place_m) {
-  const double outside = outside_m(region, place_m);
+double LightField::weight(const LightRegion& region, glm::dvec2 position_m) {
+  const double outside = outside_m(region, position_m);
   if (outside <= 0.0) return 1.0;
   return outside >= region.blend_m ? 0.0 : 1.0 - smoothstep(outside / region.blend_m);
 }
 
-double LightField::cloud_share(const CloudShadow& cloud, glm::dvec2 place_m) const {
-  // By its own place, so that it keeps its shape whatever other clouds a scene has.
-  const glm::dvec2 at = place_m - cloud.center;
-  const auto whole = [](double m) { return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::llround(m))); };
-  const std::uint64_t own = mix_bits(mix_bits(seed_ + whole(cloud.center.x)) + whole(cloud.center.y));
+double LightField::cloud_share(const CloudShadow& cloud, glm::dvec2 position_m) const {
+  // By its own position, so that its shape does not depend on other clouds of the scene.
+  const glm::dvec2 at = position_m - cloud.centre;
+  const auto whole = [](double m) {
+    return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::llround(m)));
+  };
+  const std::uint64_t own =
+      mix_bits(mix_bits(seed_ + whole(cloud.centre.x)) + whole(cloud.centre.y));
   const auto noise = [&](std::uint64_t part, double sigma) {
-    return std::clamp(gaussian_noise(stream_seed(own, Stream::cloud_shadows, part), at.x, at.y, sigma * cloud.radius_m), -most_noise,
-                      most_noise);
+    return std::clamp(gaussian_noise(stream_seed(own, Stream::cloud_shadows, part), at.x, at.y,
+                                     sigma * cloud.radius_m),
+                      -max_noise, max_noise);
   };
   const double lobes = noise(0, lobe_sigma);
   const double tufts = noise(1, tuft_sigma);
   const double edge_m = cloud.radius_m * (1.0 + lobe_move * lobes + tuft_move * tufts);
   const double inside_m = edge_m - glm::length(at);
-  const double covered = cloud.blend_m > 0.0 ? smoothstep(0.5 + inside_m / cloud.blend_m) : (inside_m >= 0.0 ? 1.0 : 0.0);
-  return cloud.strength * covered * (1.0 - thin_share * std::abs(lobes) / most_noise);
+  const double covered = cloud.blend_m > 0.0 ? smoothstep(0.5 + inside_m / cloud.blend_m)
+                                             : (inside_m >= 0.0 ? 1.0 : 0.0);
+  return cloud.strength * covered * (1.0 - thin_share * std::abs(lobes) / max_noise);
 }
 
-GroundLight LightField::at(glm::dvec2 place_m) const {
+GroundLight LightField::at(glm::dvec2 position_m) const {
   GroundLight light = picture_;
   bool turned = false;
   for (std::size_t i = 0; i < regions_.size(); ++i) {
-    if (!region_boxes_[i].has(place_m)) continue;
+    if (!region_boxes_[i].has(position_m)) continue;
     const LightRegion& region = regions_[i];
-    const double share = weight(region, place_m);
+    const double share = weight(region, position_m);
     if (share <= 0.0) continue;
     light.sun = light.sun * (1.0 - share) + region.sun_direction * share;
     light.strength = mixed(light.strength, region.strength, share);
@@ -121,10 +133,11 @@ GroundLight LightField::at(glm::dvec2 place_m) const {
     light.side = mixed(light.side, static_cast<double>(sides_[i]), share);
     turned = true;
   }
-  // All suns stand above the horizon, so no sum of theirs is ever nothing.
+  // All suns are above the horizon, so their weighted sum is never zero.
   if (turned) light.sun = glm::normalize(light.sun);
   for (std::size_t i = 0; i < clouds_.size(); ++i)
-    if (cloud_boxes_[i].has(place_m)) light.strength *= static_cast<float>(1.0 - cloud_share(clouds_[i], place_m));
+    if (cloud_boxes_[i].has(position_m))
+      light.strength *= static_cast<float>(1.0 - cloud_share(clouds_[i], position_m));
   return light;
 }
 

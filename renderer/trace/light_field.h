@@ -7,60 +7,65 @@
 
 namespace belvedere {
 
-// A part of the map that has a light of its own: a circle, or what an odd number of rings encloses.
+// A part of the map with its own light: a circle, or the area that an odd number of rings encloses.
 struct LightRegion {
-  glm::dvec2 center{0.0};                           // of the circle, scene CRS
-  double radius_m = 0.0;                            // of the circle, where there are no rings
-  std::vector<std::vector<glm::dvec2>> rings = {};  // scene CRS, each of 3 places and more without the closing one
-  double blend_m = 2000.0;                          // its light fades to nothing over so much ground outside, 0…1e6
-  glm::dvec3 sun_direction{0.0, 0.0, 1.0};          // unit, towards its sun; z > 0
-  double strength = 1.0;                            // of its sunlight, of the picture's, 0…2
-  double warmth = 0.0;                              // of its sunlight, -1 cool … 1 warm
+  glm::dvec2 centre{0.0};  // of the circle, scene CRS
+  double radius_m = 0.0;   // of the circle, where there are no rings
+  std::vector<std::vector<glm::dvec2>> rings =
+      {};                   // scene CRS, each of 3 positions or more without the closing one
+  double blend_m = 2000.0;  // width of the fade outside, 0…1e6
+  glm::dvec3 sun_direction{0.0, 0.0, 1.0};  // unit, towards its sun; z > 0
+  double strength = 1.0;                    // of its sunlight, relative to the picture's, 0…2
+  double warmth = 0.0;                      // of its sunlight, -1 cool … 1 warm
 };
 
-// The shadow that a cloud nobody sees throws on the ground: soft at its edge, of a shape that noise gives it.
+// The shadow of a cloud that is not drawn itself: soft at its edge, with a shape from noise.
 struct CloudShadow {
-  glm::dvec2 center{0.0};    // scene CRS
-  double radius_m = 1000.0;  // of its middle edge, about
-  double strength = 0.7;     // share of the sunlight that it takes, 0…1
+  glm::dvec2 centre{0.0};    // scene CRS
+  double radius_m = 1000.0;  // of the centre of its soft edge, about
+  double strength = 0.7;     // share of the sunlight that it removes, 0…1
   double blend_m = 1000.0;   // width of its soft edge, 0…1e6
 };
 
-// The sunlight at a place of the ground.
+// The sunlight at a ground position.
 struct GroundLight {
   glm::dvec3 sun{0.0, 0.0, 1.0};  // unit, towards it
-  float strength = 1.0F;          // of the picture's sunlight, 0…2
+  float strength = 1.0F;          // relative to the picture's sunlight, 0…2
   float warmth = 0.0F;            // -1 cool … 1 warm
-  float side = 1.0F;              // where it comes from in the picture: -1 left … 1 right
+  float side = 1.0F;              // direction in the picture: -1 from the left … 1 from the right
 };
 
-// Light that differs from place to place, as painters turn it to a range that would stand in shade. Made once for a picture; a value of the
-// place alone, so any pixel of any part may ask. Regions blend in their order, a later one over those before it: directions as unit vectors
-// weighed, summed and brought to unit length, the rest in proportion.
+// Light that varies with position, as painters turn it for a range that would be in shade. Made
+// once per picture; a pure function of the position, so any pixel of any part can use it. Regions
+// blend in their order, a later one over earlier ones: directions as weighted sums of unit vectors,
+// normalized; the rest linearly.
 class LightField {
  public:
-  // `right`: unit, to the right of the picture, on the map. Throws Error(usage) where a sun does not stand above the horizon.
-  LightField(glm::dvec3 sun_direction, glm::dvec2 right, std::vector<LightRegion> regions, std::vector<CloudShadow> clouds,
-             std::uint64_t seed);
+  // `right`: unit, to the right of the picture, on the map. Throws Error(usage) where a sun is not
+  // above the horizon.
+  LightField(glm::dvec3 sun_direction, glm::dvec2 right, std::vector<LightRegion> regions,
+             std::vector<CloudShadow> clouds, std::uint64_t seed);
 
-  GroundLight at(glm::dvec2 place_m) const;
-  // Share of a region's light at a place: 1 inside, falling to 0 over blend_m outside.
-  static double weight(const LightRegion& region, glm::dvec2 place_m);
-  // Whether any place has another sun than the picture.
+  GroundLight at(glm::dvec2 position_m) const;
+  // Weight of a region's light at a position: 1 inside, falling to 0 over blend_m outside.
+  static double weight(const LightRegion& region, glm::dvec2 position_m);
+  // Whether any position has another sun direction than the picture.
   bool turns_sun() const { return !regions_.empty(); }
 
  private:
   struct Box {
     glm::dvec2 low, high;
-    bool has(glm::dvec2 p) const { return p.x >= low.x && p.y >= low.y && p.x <= high.x && p.y <= high.y; }
+    bool has(glm::dvec2 p) const {
+      return p.x >= low.x && p.y >= low.y && p.x <= high.x && p.y <= high.y;
+    }
   };
-  double cloud_share(const CloudShadow& cloud, glm::dvec2 place_m) const;
+  double cloud_share(const CloudShadow& cloud, glm::dvec2 position_m) const;
 
   GroundLight picture_;
   glm::dvec2 right_;
   std::vector<LightRegion> regions_;
   std::vector<CloudShadow> clouds_;
-  std::vector<Box> region_boxes_, cloud_boxes_;  // beyond which they do nothing
+  std::vector<Box> region_boxes_, cloud_boxes_;  // without effect outside them
   std::vector<float> sides_;                     // of the regions
   std::uint64_t seed_;
 };

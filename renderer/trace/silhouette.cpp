@@ -12,18 +12,20 @@ namespace belvedere {
 namespace {
 
 constexpr double strength_per_log = 14.0;
-constexpr double surely_less = 1.0 - 1e-9;  // of ratios: whatever rounding does, the difference of their logarithms is below 0
+constexpr double surely_less =
+    1.0 - 1e-9;  // of ratios: with any rounding, the difference of their logarithms is below 0
 
-// 0 is sky; also outside the picture, where nothing can be foretold.
+// 0 is sky; also outside the picture, where nothing can be predicted.
 double inverse_depth(const Grid<float>& depth_m, int x, int y) {
   if (!depth_m.contains(x, y)) return 0.0;
   const double depth = depth_m(x, y);
   return std::isfinite(depth) && depth > 0.0 ? 1.0 / depth : 0.0;
 }
 
-// Depth ratio from `here` to the pixel after it that a plane through `before` and `here` would have, ≥ 1; 1 without a plane.
+// Depth ratio from `here` to the next pixel, predicted by a plane through `before` and `here`, ≥ 1;
+// 1 without a plane.
 double foretold_from_near(double before, double here) {
-  if (before <= here) return 1.0;  // rising towards us, or nothing there
+  if (before <= here) return 1.0;  // rising towards the viewer, or nothing there
   const double next = 2.0 * here - before;
   // A plane that vanishes before the next pixel explains any depth there.
   return next > 0.0 ? here / next : std::numeric_limits<double>::infinity();
@@ -60,7 +62,8 @@ Grid<float> find_silhouettes(const Grid<float>& depth_m) {
         const double jump = here / there;
         const double near = foretold_from_near(inverse_depth(depth_m, x - dx, y - dy), here);
         const double far = foretold_from_far(there, inverse_depth(depth_m, x + 2 * dx, y + 2 * dy));
-        // Logarithms take most of the time: none are taken where a plane foretells more than there is.
+        // Logarithms take most of the time: they are skipped where a plane predicts more than there
+        // is.
         if (jump < std::max(near, far) * surely_less) continue;
         const double foretold = std::max(exact::log(near), exact::log(far));
         strongest = std::max(strongest, strength_per_log * (exact::log(jump) - foretold));

@@ -16,15 +16,18 @@ namespace {
 void check_ground(const Dem& dem, const Grid<float>& generalized_m, const LandCover* land_cover) {
   if (!dem.altitude_m.same_size(generalized_m)) {
     throw Error(ErrorKind::bug, "terrain model",
-                fmt::format("a generalized grid of {} × {} cells", generalized_m.width(), generalized_m.height()),
+                fmt::format("a generalized grid of {} × {} cells", generalized_m.width(),
+                            generalized_m.height()),
                 fmt::format("the DEM's {} × {}", dem.width(), dem.height()));
   }
   if (land_cover == nullptr || land_cover->classes.cells.empty())
-    throw Error(ErrorKind::bug, "terrain model", "land cover without cells", "classes for the DEM's ground");
+    throw Error(ErrorKind::bug, "terrain model", "land cover without cells",
+                "classes for the DEM's ground");
 }
 
-// relief() where the inner mean is there already.
-Grid<float> relief_to(const Grid<float>& inner_m, const Grid<float>& altitude_m, double outer_cells) {
+// relief() where the inner mean already exists.
+Grid<float> relief_to(const Grid<float>& inner_m, const Grid<float>& altitude_m,
+                      double outer_cells) {
   Grid<float> out = gaussian_blur(altitude_m, outer_cells);
   parallel_rows(out.height(), [&](int y) {
     for (int x = 0; x < out.width(); ++x) out(x, y) = inner_m(x, y) - out(x, y);
@@ -34,15 +37,18 @@ Grid<float> relief_to(const Grid<float>& inner_m, const Grid<float>& altitude_m,
 
 }  // namespace
 
-TerrainModel make_terrain_model(std::shared_ptr<const Dem> dem, Grid<float> generalized_m, std::shared_ptr<const LandCover> land_cover,
-                                double exaggeration, Catchments* catchments) {
+TerrainModel make_terrain_model(std::shared_ptr<const Dem> dem, Grid<float> generalized_m,
+                                std::shared_ptr<const LandCover> land_cover, double exaggeration,
+                                Catchments* catchments) {
   check_ground(*dem, generalized_m, land_cover.get());
   GroundSurroundings surroundings = find_surroundings(*dem, *land_cover, catchments);
-  return make_terrain_model(std::move(dem), std::move(generalized_m), std::move(land_cover), exaggeration, std::move(surroundings));
+  return make_terrain_model(std::move(dem), std::move(generalized_m), std::move(land_cover),
+                            exaggeration, std::move(surroundings));
 }
 
-TerrainModel make_terrain_model(std::shared_ptr<const Dem> dem, Grid<float> generalized_m, std::shared_ptr<const LandCover> land_cover,
-                                double exaggeration, GroundSurroundings surroundings) {
+TerrainModel make_terrain_model(std::shared_ptr<const Dem> dem, Grid<float> generalized_m,
+                                std::shared_ptr<const LandCover> land_cover, double exaggeration,
+                                GroundSurroundings surroundings) {
   check_ground(*dem, generalized_m, land_cover.get());
   TerrainModel model;
   const double cell_m = dem->cell_m();

@@ -9,7 +9,8 @@
 namespace belvedere {
 namespace {
 
-// The cells between posts that are no hole, as up to four rectangles, the last of which holds the last post.
+// The cells between posts outside the hole, as up to four rectangles, the last of which contains
+// the last post.
 std::vector<PixelRect> without_hole(const PixelRect& posts, const PixelRect& hole) {
   if (hole.empty()) return {posts};
   return {{posts.x0, posts.y0, posts.x1, hole.y0 + 1},
@@ -22,7 +23,8 @@ void make_tiles(TracedPart& part, int tile_cells) {
   for (const PixelRect& posts : without_hole(part.traced, part.hole)) {
     for (int y = posts.y0; y + 1 < posts.y1; y += tile_cells)
       for (int x = posts.x0; x + 1 < posts.x1; x += tile_cells)
-        part.tiles.push_back({x, y, std::min(tile_cells, posts.x1 - 1 - x), std::min(tile_cells, posts.y1 - 1 - y)});
+        part.tiles.push_back(
+            {x, y, std::min(tile_cells, posts.x1 - 1 - x), std::min(tile_cells, posts.y1 - 1 - y)});
   }
 }
 
@@ -30,7 +32,8 @@ void make_tiles(TracedPart& part, int tile_cells) {
 
 std::vector<TracedPart> make_traced_parts(const DeformedSurface& surface, int tile_cells) {
   const auto side_of = [](const Grid<glm::vec3>& posts) {
-    const glm::dvec3 across = glm::dvec3(posts(posts.width() - 1, posts.height() - 1)) - glm::dvec3(posts(0, 0));
+    const glm::dvec3 across =
+        glm::dvec3(posts(posts.width() - 1, posts.height() - 1)) - glm::dvec3(posts(0, 0));
     return glm::length(across) / exact::hypot(posts.width() - 1.0, posts.height() - 1.0);
   };
   const Grid<glm::vec3>& own = surface.vertices_m;
@@ -39,10 +42,14 @@ std::vector<TracedPart> make_traced_parts(const DeformedSurface& surface, int ti
   for (const SurfaceWindow& window : surface.windows) {
     const Grid<glm::vec3>& posts = window.surface.vertices_m;
     const PixelRect& part = window.part;
-    const bool fits = part.width() == 2 * window.replaces.width() - 1 && part.height() == 2 * window.replaces.height() - 1 &&
-                      std::min(part.width(), part.height()) >= 5 && part.x1 < posts.width() && part.y1 < posts.height() &&
-                      intersection(grown(window.replaces, 1), parts.back().traced) == grown(window.replaces, 1);
-    if (!fits) throw Error(ErrorKind::bug, "ray tracing", "a window that does not lie in the surface before it");
+    const bool fits =
+        part.width() == 2 * window.replaces.width() - 1 &&
+        part.height() == 2 * window.replaces.height() - 1 &&
+        std::min(part.width(), part.height()) >= 5 && part.x1 < posts.width() &&
+        part.y1 < posts.height() &&
+        intersection(grown(window.replaces, 1), parts.back().traced) == grown(window.replaces, 1);
+    if (!fits)
+      throw Error(ErrorKind::bug, "ray tracing", "a window lies outside the surface before it");
     parts.back().hole = window.replaces;
     parts.push_back({&posts, part, {}, true, side_of(posts), {}});
   }

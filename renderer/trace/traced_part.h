@@ -10,21 +10,22 @@
 
 namespace belvedere {
 
-// Cells that are handed to the tracer's structure at once: their first post and how many there are.
+// Cells passed to the tracer's structure together: their first post and their number.
 struct GridTile {
   int x0, y0, cells_x, cells_y;
 };
 
-// One grid of posts that is traced: the surface's own or that of a window.
+// One traced grid of posts: the surface's own or that of a window.
 struct TracedPart {
   const Grid<glm::vec3>* posts = nullptr;
-  PixelRect traced;  // posts whose cells are traced, but for those of the hole
+  PixelRect traced;  // posts whose cells are traced, except those of the hole
   PixelRect hole;    // posts around cells that a window replaces; may be empty
   bool is_window = false;
-  double side = 0.0;            // of a cell, about
-  std::vector<GridTile> tiles;  // a window's all in one geometry; the surface's last one is a geometry of its own
+  double side = 0.0;  // of a cell, approximately
+  std::vector<GridTile>
+      tiles;  // a window's all in one geometry; the surface's last one in its own geometry
 
-  // The post that stands for (x, y): along a window's edge those that the coarser side lacks are not met.
+  // The post used for (x, y): along a window's edge, posts that the coarser side lacks are skipped.
   glm::ivec2 met(int x, int y) const {
     if (is_window) {
       if (y == traced.y0 || y == traced.y1 - 1) x -= (x - traced.x0) & 1;
@@ -37,16 +38,20 @@ struct TracedPart {
     const bool inside = x >= traced.x0 && y >= traced.y0 && x + 1 < traced.x1 && y + 1 < traced.y1;
     return inside && !in_hole(x, y);
   }
-  bool in_hole(int x, int y) const { return x >= hole.x0 && y >= hole.y0 && x + 1 < hole.x1 && y + 1 < hole.y1; }
+  bool in_hole(int x, int y) const {
+    return x >= hole.x0 && y >= hole.y0 && x + 1 < hole.x1 && y + 1 < hole.y1;
+  }
   // Whether a cell touches another part.
   bool at_joint(int x, int y) const {
-    if (is_window && (x <= traced.x0 || y <= traced.y0 || x + 2 >= traced.x1 || y + 2 >= traced.y1)) return true;
+    if (is_window && (x <= traced.x0 || y <= traced.y0 || x + 2 >= traced.x1 || y + 2 >= traced.y1))
+      return true;
     return !hole.empty() && x >= hole.x0 - 1 && y >= hole.y0 - 1 && x < hole.x1 && y < hole.y1;
   }
 };
 
-// The surface's own grid and its windows, what of each is traced, and its tiles of up to `tile_cells` squared. The posts stay the
-// surface's. Throws Error(bug) for a window that does not lie in the surface before it.
+// The surface's own grid and its windows, the traced part of each, and its tiles of up to
+// `tile_cells` squared. The posts stay the surface's. Throws Error(bug) for a window outside the
+// surface before it.
 std::vector<TracedPart> make_traced_parts(const DeformedSurface& surface, int tile_cells);
 
 }  // namespace belvedere

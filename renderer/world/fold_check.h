@@ -8,9 +8,9 @@
 
 namespace belvedere {
 
-// Where handles fold the ground over itself: Error(usage) naming the handle, the place and a way out if that is in the picture, unless the
-// scene allows it; a note otherwise.
-void check_folds(const SceneDeform& scene, const TerrainModel& terrain, const Deformation& deformation, const Camera& camera,
-                 Progress& progress);
+// Where handles fold the ground: Error(usage) naming the handle, the position and a remedy if that
+// is in the picture, unless the scene allows it; a note otherwise.
+void check_folds(const SceneDeform& scene, const TerrainModel& terrain,
+                 const Deformation& deformation, const Camera& camera, Progress& progress);
 
 }  // namespace belvedere

@@ -29,63 +29,79 @@ void each_field(auto& bytes, FieldsOf<GeneralizedTerrain> auto& ground) {
 
 namespace {
 
-// The camera is asked at every so many cells: what it answers changes little from one to the next.
+// The camera is sampled at every nth cell, because its values change slowly.
 constexpr int step_cells = 16;
 
 // The share u_d of equation 5 of Jenny, Jenny & Hurni 2011.
-Grid<float> share_by_distance(const Dem& dem, glm::dvec2 viewer_xy, const GeneralizeDistances& distances) {
+Grid<float> share_by_distance(const Dem& dem, glm::dvec2 viewer_xy,
+                              const GeneralizeDistances& distances) {
   Grid<float> share(dem.width(), dem.height());
   const double far_m = std::max(distances.background_from_m, distances.foreground_to_m + 1.0);
   parallel_rows(dem.height(), [&](int y) {
     for (int x = 0; x < dem.width(); ++x) {
-      const glm::dvec2 place = dem.transform.to_crs(x, y);
-      const double distance = exact::hypot(place.x - viewer_xy.x, place.y - viewer_xy.y);
-      share(x, y) = static_cast<float>(foreground_share(distance, distances.foreground_to_m, far_m));
+      const glm::dvec2 position = dem.transform.to_crs(x, y);
+      const double distance = exact::hypot(position.x - viewer_xy.x, position.y - viewer_xy.y);
+      share(x, y) =
+          static_cast<float>(foreground_share(distance, distances.foreground_to_m, far_m));
     }
   });
   return share;
 }
 
-Grid<float> mask_for_scene(const LoadedScene& loaded, const Dem& dem, const LandCover* land_cover, Progress& progress, const Cache& cache) {
+Grid<float> mask_for_scene(const LoadedScene& loaded, const Dem& dem, const LandCover* land_cover,
+                           Progress& progress, const Cache& cache) {
   const SceneGeneralize& settings = loaded.scene.generalize;
   const glm::dvec2 cell_m{dem.transform.cell_x, dem.transform.cell_y};
   Grid<float> mask;
-  if (settings.mask_slope_deg[1] > 0.0) mask = slope_mask(dem.altitude_m, cell_m, {settings.mask_slope_deg[0], settings.mask_slope_deg[1]});
+  if (settings.mask_slope_deg[1] > 0.0)
+    mask = slope_mask(dem.altitude_m, cell_m,
+                      {settings.mask_slope_deg[0], settings.mask_slope_deg[1]});
   if (!settings.mask.empty()) {
     RasterSource source;
     source.path = find_scene_file(loaded, settings.mask);
-    mask = combine_masks(std::move(mask), soften_mask(read_mask(source, {dem.transform, dem.width(), dem.height(), dem.crs}, progress)));
+    mask =
+        combine_masks(std::move(mask),
+                      soften_mask(read_mask(
+                          source, {dem.transform, dem.width(), dem.height(), dem.crs}, progress)));
   }
   if (!settings.mask_classes.empty()) {
     GeneralizedShares shares;
     shares.fill(1.F);
-    for (const auto& [name, share] : settings.mask_classes) shares[static_cast<std::size_t>(*find_class(name))] = static_cast<float>(share);
-    const LandCover made = land_cover == nullptr ? make_scene_land_cover(loaded, dem, progress, cache) : LandCover();
-    mask = combine_masks(std::move(mask), soften_mask(class_mask((land_cover == nullptr ? made : *land_cover).classes.cells, shares)));
+    for (const auto& [name, share] : settings.mask_classes)
+      shares[static_cast<std::size_t>(*find_class(name))] = static_cast<float>(share);
+    const LandCover made =
+        land_cover == nullptr ? make_scene_land_cover(loaded, dem, progress, cache) : LandCover();
+    mask = combine_masks(std::move(mask),
+                         soften_mask(class_mask(
+                             (land_cover == nullptr ? made : *land_cover).classes.cells, shares)));
   }
   return mask;
 }
 
-// What of scene and view goes into the generalized ground beside the DEM, whose making is cheap beside that of the ground itself.
+// What goes from scene and view into the generalized ground besides the DEM; cheap compared with
+// the ground itself.
 struct ViewOfGround {
   Grid<float> mask;
-  PixelGround pixel_ground;  // empty where the print's detail is not asked for
+  PixelGround pixel_ground;  // empty where the print's detail is not limited
   glm::dvec2 viewer_xy{0.0};
   GeneralizeDistances distances;
   Grid<std::uint8_t> map_lakes;  // 1 in level lakes of a map, however small; empty without
 };
 
 // Where water keeps its level: on lakes, at sea.
-Grid<unsigned char> level_water(const Dem& dem, const SeaParameters& sea, const Grid<std::uint8_t>& map_lakes) {
+Grid<unsigned char> level_water(const Dem& dem, const SeaParameters& sea,
+                                const Grid<std::uint8_t>& map_lakes) {
   Grid<unsigned char> water = find_lakes(dem.altitude_m, {});
-  for (std::size_t i = 0; i < map_lakes.size(); ++i) water[i] = static_cast<unsigned char>(water[i] | map_lakes[i]);
+  for (std::size_t i = 0; i < map_lakes.size(); ++i)
+    water[i] = static_cast<unsigned char>(water[i] | map_lakes[i]);
   const Sea found = find_sea(dem, sea);
   if (!found.empty())
-    for (std::size_t i = 0; i < water.size(); ++i) water[i] = static_cast<unsigned char>(water[i] | found.mask[i]);
+    for (std::size_t i = 0; i < water.size(); ++i)
+      water[i] = static_cast<unsigned char>(water[i] | found.mask[i]);
   return water;
 }
 
-// Cells of a map's lakes whose neighbours stand as high.
+// Cells of a map's lakes whose neighbours are at the same altitude.
 Grid<std::uint8_t> lakes_of_map(const Dem& dem, const LandCover* land_cover) {
   if (land_cover == nullptr || land_cover->map == nullptr) return {};
   const Grid<float>& z = dem.altitude_m;
@@ -94,7 +110,8 @@ Grid<std::uint8_t> lakes_of_map(const Dem& dem, const LandCover* land_cover) {
     for (int x = 0; x < z.width(); ++x) {
       if (!land_cover->map->is_still(dem.transform.to_crs(x, y))) continue;
       int level = 0;
-      for (const glm::ivec2 step : {glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1), glm::ivec2(0, -1)})
+      for (const glm::ivec2 step :
+           {glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1), glm::ivec2(0, -1)})
         level += z.clamped(x + step.x, y + step.y) == z(x, y) ? 1 : 0;
       lakes(x, y) = level >= 2 ? 1 : 0;
     }
@@ -102,23 +119,28 @@ Grid<std::uint8_t> lakes_of_map(const Dem& dem, const LandCover* land_cover) {
   return lakes;
 }
 
-GeneralizedTerrain make_ground(const SceneGeneralize& settings, const SeaParameters& sea, const Dem& dem, const ViewOfGround& seen,
-                               Progress& progress) {
+GeneralizedTerrain make_ground(const SceneGeneralize& settings, const SeaParameters& sea,
+                               const Dem& dem, const ViewOfGround& seen, Progress& progress) {
   const glm::dvec2 cell_m{dem.transform.cell_x, dem.transform.cell_y};
   GeneralizeParameters bands = settings.bands;
   bands.finest_band = dem.halved;
-  // What takes most memory on its way comes first.
-  Grid<float> plain = settings.line_integral ? generalize_along_slope_lines(dem.altitude_m, dem.cell_m(), {}, progress) : Grid<float>();
+  // First, because it needs the most memory.
+  Grid<float> plain = settings.line_integral
+                          ? generalize_along_slope_lines(dem.altitude_m, dem.cell_m(), {}, progress)
+                          : Grid<float>();
   GeneralizeGrids grids;
   if (settings.automatic_mask) {
-    grids.amplification_mask = slope_foot_mask(dem.altitude_m, cell_m, 1 << std::min<std::size_t>(bands.foreground.size(), 6));
+    grids.amplification_mask = slope_foot_mask(
+        dem.altitude_m, cell_m, 1 << std::min<std::size_t>(bands.foreground.size(), 6));
   }
   if (settings.keep_lakes) grids.keep = level_water(dem, sea, seen.map_lakes);
   grids.mask = seen.mask;
   grids.pixel_ground = seen.pixel_ground;
-  if (settings.print_detail_px > 0.0) bands.print_pixels = static_cast<float>(settings.print_detail_px);
+  if (settings.print_detail_px > 0.0)
+    bands.print_pixels = static_cast<float>(settings.print_detail_px);
   grids.foreground_share = share_by_distance(dem, seen.viewer_xy, seen.distances);
-  Grid<float> out = generalize(settings.line_integral ? plain : dem.altitude_m, cell_m, grids, bands, progress);
+  Grid<float> out =
+      generalize(settings.line_integral ? plain : dem.altitude_m, cell_m, grids, bands, progress);
   plain = {};
   const Grid<unsigned char> lakes = std::move(grids.keep);
   grids = {};
@@ -127,8 +149,10 @@ GeneralizedTerrain make_ground(const SceneGeneralize& settings, const SeaParamet
   return {std::move(wide.altitude_m), std::move(wide.came_from), std::move(wide.goes_to)};
 }
 
-// All that make_ground takes. Every key of [generalize] counts, by what a scene with nothing else in it says: so none can be forgotten.
-CacheKey ground_key(const LoadedScene& loaded, const Dem& dem, const SeaParameters& sea, const ViewOfGround& seen) {
+// All inputs of make_ground. Every key of [generalize] counts, as written by a scene with nothing
+// else in it, so that none can be forgotten.
+CacheKey ground_key(const LoadedScene& loaded, const Dem& dem, const SeaParameters& sea,
+                    const ViewOfGround& seen) {
   Scene settings;
   settings.generalize = loaded.scene.generalize;
   const auto& [mask, pixel_ground, viewer_xy, distances, map_lakes] = seen;
@@ -146,10 +170,11 @@ CacheKey ground_key(const LoadedScene& loaded, const Dem& dem, const SeaParamete
 
 }  // namespace
 
-// The larger singular value of the map from ground to picture, whose derivatives are central differences.
-double pixels_per_m(const Camera& camera, const Deformation& deformation, glm::dvec2 place, double altitude_m, double step_m) {
+// The larger singular value of the map from ground to picture, by central differences.
+double pixels_per_m(const Camera& camera, const Deformation& deformation, glm::dvec2 position,
+                    double altitude_m, double step_m) {
   const auto seen = [&](double east, double north) {
-    return camera.project(deformation.point({place + glm::dvec2(east, north), altitude_m}));
+    return camera.project(deformation.point({position + glm::dvec2(east, north), altitude_m}));
   };
   const auto east = seen(step_m, 0.0);
   const auto west = seen(-step_m, 0.0);
@@ -160,7 +185,8 @@ double pixels_per_m(const Camera& camera, const Deformation& deformation, glm::d
   const glm::dvec2 b = (*north - *south) / (2.0 * step_m);
   const double half_trace = 0.5 * (glm::dot(a, a) + glm::dot(b, b));
   const double determinant = a.x * b.y - a.y * b.x;
-  const double square = half_trace + std::sqrt(std::max(0.0, half_trace * half_trace - determinant * determinant));
+  const double square =
+      half_trace + std::sqrt(std::max(0.0, half_trace * half_trace - determinant * determinant));
   return std::isfinite(square) ? std::sqrt(square) : 0.0;
 }
 
@@ -171,27 +197,30 @@ PixelGround ground_m_per_pixel(const Dem& dem, const View& view) {
   Grid<float> distance_m(coarse.width(), coarse.height());
   parallel_rows(coarse.height(), [&](int y) {
     for (int x = 0; x < coarse.width(); ++x) {
-      const glm::dvec2 place = dem.transform.to_crs(x * step_cells, y * step_cells);
+      const glm::dvec2 position = dem.transform.to_crs(x * step_cells, y * step_cells);
       const double altitude = dem.altitude_m.clamped(x * step_cells, y * step_cells);
-      const double pixels = pixels_per_m(*camera, deformation, place, altitude, dem.cell_m());
+      const double pixels = pixels_per_m(*camera, deformation, position, altitude, dem.cell_m());
       coarse(x, y) = pixels > 0.0 ? static_cast<float>(1.0 / pixels) : 0.F;
-      distance_m(x, y) = static_cast<float>(std::max(1.0, glm::length(deformation.point({place, altitude}) - view.camera.eye)));
+      distance_m(x, y) = static_cast<float>(
+          std::max(1.0, glm::length(deformation.point({position, altitude}) - view.camera.eye)));
     }
   });
-  // A pixel's angle, to go on with behind the eye.
+  // Angle of a pixel, for extrapolation behind the viewer.
   std::vector<float> angles;
   for (std::size_t i = 0; i < coarse.size(); ++i)
     if (coarse[i] > 0.F) angles.push_back(coarse[i] / distance_m[i]);
   if (angles.empty()) return {};
-  const auto middle = angles.begin() + static_cast<std::ptrdiff_t>(angles.size() / 2);
-  std::nth_element(angles.begin(), middle, angles.end());
+  const auto centre = angles.begin() + static_cast<std::ptrdiff_t>(angles.size() / 2);
+  std::nth_element(angles.begin(), centre, angles.end());
   for (std::size_t i = 0; i < coarse.size(); ++i)
-    if (coarse[i] == 0.F) coarse[i] = *middle * distance_m[i];
+    if (coarse[i] == 0.F) coarse[i] = *centre * distance_m[i];
   return {std::move(coarse), step_cells};
 }
 
-GeneralizedTerrain generalize_for_view(const LoadedScene& loaded, const Dem& dem, const LandCover* land_cover, const View& view,
-                                       Progress& progress, const Cache& cache, const SeaParameters* given_sea) {
+GeneralizedTerrain generalize_for_view(const LoadedScene& loaded, const Dem& dem,
+                                       const LandCover* land_cover, const View& view,
+                                       Progress& progress, const Cache& cache,
+                                       const SeaParameters* given_sea) {
   const SeaParameters sea = given_sea != nullptr ? *given_sea : scene_sea(loaded.scene.land_cover);
   const SceneGeneralize& settings = loaded.scene.generalize;
   ViewOfGround seen{.mask = mask_for_scene(loaded, dem, land_cover, progress, cache),

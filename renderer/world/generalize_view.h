@@ -20,17 +20,24 @@ struct GeneralizedTerrain {
   Grid<glm::vec2> goes_to;    // WidenedValleys::goes_to
 };
 
-// A DEM generalized as the scene asks for one view: by the distance from the viewer, by what its print can show, and by masks. `land_cover`
-// is looked at where the scene masks by class; null: it is made then. Its cells are the DEM's. The cache keeps it: of the view it depends
-// on the viewer's place, and on the camera only where the print's detail is asked for. `sea`: of a window of a larger DEM, its own.
-GeneralizedTerrain generalize_for_view(const LoadedScene& loaded, const Dem& dem, const LandCover* land_cover, const View& view,
-                                       Progress& progress, const Cache& cache = no_cache(), const SeaParameters* sea = nullptr);
+// A DEM generalized as the scene requests for one view: by the distance from the viewer, by the
+// print's detail, and by masks. `land_cover` is used if the scene masks by class; null: it is then
+// made. Its cells are the DEM's. The cache keeps it: of the view it depends on the viewer's
+// position, and on the camera only if the print's detail is limited. `sea`: of a window of a larger
+// DEM, its own.
+GeneralizedTerrain generalize_for_view(const LoadedScene& loaded, const Dem& dem,
+                                       const LandCover* land_cover, const View& view,
+                                       Progress& progress, const Cache& cache = no_cache(),
+                                       const SeaParameters* sea = nullptr);
 
-// Pixels that a metre of ground at `place` takes at most, from differences over ±step_m; 0 behind the eye.
-double pixels_per_m(const Camera& camera, const Deformation& deformation, glm::dvec2 place, double altitude_m, double step_m);
+// Maximum pixels per metre of ground at `place`, from differences over ±step_m; 0 behind the
+// viewer.
+double pixels_per_m(const Camera& camera, const Deformation& deformation, glm::dvec2 position,
+                    double altitude_m, double step_m);
 
-// Ground metres that an output pixel shows, at every 16th cell of the DEM, in the direction in which the picture shows most: what is
-// finer cannot be seen however the ground lies. Behind the eye it goes on as the distance does. Empty where no ground is before it.
+// Ground metres per output pixel, at every 16th cell of the DEM, in the direction of highest
+// resolution: finer detail is invisible whatever the slope and direction of the ground. Behind the
+// viewer it is extrapolated by distance. Empty where no ground is in front.
 PixelGround ground_m_per_pixel(const Dem& dem, const View& view);
 
 }  // namespace belvedere

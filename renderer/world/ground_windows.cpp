@@ -20,41 +20,47 @@
 namespace belvedere {
 namespace {
 
-constexpr int collar_cells = 32;  // from a window's edge to where its values are its own
-constexpr int apron_cells = 4;    // posts kept around the part, which derivatives at its edge look at
+constexpr int collar_cells = 32;  // from a window's edge to where its own values apply
+constexpr int apron_cells = 4;  // vertices kept around the part, which derivatives at its edge need
 
-// Where the grids of a ground lie on the cells of their level.
+// Position of the grids of a ground on the cells of their level.
 struct Lattice {
   int level = 0;
   PixelRect kept;
 };
 
-// Rivers of the whole that enter a window of a finer level: where the largest neighbour downstream of a cell outside lies inside.
-std::vector<RiverEntry> find_entries(const TerrainModel& whole, const Dem& window, const PixelRect& cells, int halvings) {
+// Rivers of the whole that enter a window of a finer level: where the largest neighbour downstream
+// of a cell outside lies inside.
+std::vector<RiverEntry> find_entries(const TerrainModel& whole, const Dem& window,
+                                     const PixelRect& cells, int halvings) {
   const Grid<float>& flow = whole.flow;  // logarithm of m²
   const int factor = 1 << halvings;
-  const PixelRect inside = {(cells.x0 + factor - 1) / factor, (cells.y0 + factor - 1) / factor, (cells.x1 - 1) / factor + 1,
-                            (cells.y1 - 1) / factor + 1};
+  const PixelRect inside = {(cells.x0 + factor - 1) / factor, (cells.y0 + factor - 1) / factor,
+                            (cells.x1 - 1) / factor + 1, (cells.y1 - 1) / factor + 1};
   const double own_m2 = whole.dem->transform.cell_x * whole.dem->transform.cell_y;
   std::vector<RiverEntry> entries;
-  const auto is_inside = [&](int x, int y) { return x >= inside.x0 && y >= inside.y0 && x < inside.x1 && y < inside.y1; };
+  const auto is_inside = [&](int x, int y) {
+    return x >= inside.x0 && y >= inside.y0 && x < inside.x1 && y < inside.y1;
+  };
   const auto look = [&](int x, int y) {  // at a cell outside, beside the window
     if (!flow.contains(x, y) || flow(x, y) < exact::log10(4.0 * own_m2)) return;
     glm::ivec2 next(x, y);
     for (int j = -1; j <= 1; ++j)
       for (int i = -1; i <= 1; ++i)
-        if (flow.contains(x + i, y + j) && flow(x + i, y + j) > flow(next.x, next.y)) next = {x + i, y + j};
+        if (flow.contains(x + i, y + j) && flow(x + i, y + j) > flow(next.x, next.y))
+          next = {x + i, y + j};
     if (!is_inside(next.x, next.y)) return;
-    // It runs where the ground is lowest around there.
+    // It runs where the ground around is lowest.
     const glm::ivec2 at = glm::ivec2(next * factor) - glm::ivec2(cells.x0, cells.y0);
-    RiverEntry entry{std::clamp(at.x, 0, window.width() - 1), std::clamp(at.y, 0, window.height() - 1),
-                     1e-6 * exact::pow(10.0, flow(x, y))};
-    const glm::ivec2 middle(entry.x, entry.y);
+    RiverEntry entry{std::clamp(at.x, 0, window.width() - 1),
+                     std::clamp(at.y, 0, window.height() - 1), 1e-6 * exact::pow(10.0, flow(x, y))};
+    const glm::ivec2 centre(entry.x, entry.y);
     for (int v = -factor / 2; v <= factor / 2; ++v)
       for (int u = -factor / 2; u <= factor / 2; ++u) {
-        const glm::ivec2 other = middle + glm::ivec2(u, v);
+        const glm::ivec2 other = centre + glm::ivec2(u, v);
         if (!window.altitude_m.contains(other.x, other.y)) continue;
-        if (window.altitude_m(other.x, other.y) < window.altitude_m(entry.x, entry.y)) entry.x = other.x, entry.y = other.y;
+        if (window.altitude_m(other.x, other.y) < window.altitude_m(entry.x, entry.y))
+          entry.x = other.x, entry.y = other.y;
       }
     entries.push_back(entry);
   };
@@ -63,15 +69,18 @@ std::vector<RiverEntry> find_entries(const TerrainModel& whole, const Dem& windo
   return entries;
 }
 
-// A finer lattice's place in a grid of twice its cells, whose posts it meets at even places and lies between at odd ones.
+// Position of a finer lattice in a grid of twice its cells: even positions coincide with its
+// vertices, odd ones lie between them.
 template <class T>
 T between(const Grid<T>& coarse, int x, int y) {
-  // Catmull and Rom's cubic half way: through the posts, and as steep there as central differences are.
+  // Catmull and Rom's cubic half way: interpolates the vertices, with slopes by central
+  // differences.
   constexpr std::array<float, 4> half = {-0.0625F, 0.5625F, 0.5625F, -0.0625F};
   const auto across = [&](int row) {
     if ((x & 1) == 0) return coarse.clamped(x / 2, row);
     T sum{};
-    for (int k = 0; k < 4; ++k) sum += half[static_cast<std::size_t>(k)] * coarse.clamped(x / 2 - 1 + k, row);
+    for (int k = 0; k < 4; ++k)
+      sum += half[static_cast<std::size_t>(k)] * coarse.clamped(x / 2 - 1 + k, row);
     return sum;
   };
   if ((y & 1) == 0) return across(y / 2);
@@ -80,16 +89,19 @@ T between(const Grid<T>& coarse, int x, int y) {
   return sum;
 }
 
-// Lays the grids of a window into those of the ground before it.
+// Blends the grids of a window into those of the coarser ground.
 class Joint {
  public:
   Joint(const Lattice& fine, const PixelRect& part, const Lattice& coarse)
-      : shift_{fine.kept.x0 - 2 * coarse.kept.x0, fine.kept.y0 - 2 * coarse.kept.y0}, share_(fine.kept.width(), fine.kept.height()) {
+      : shift_{fine.kept.x0 - 2 * coarse.kept.x0, fine.kept.y0 - 2 * coarse.kept.y0},
+        share_(fine.kept.width(), fine.kept.height()) {
     for (int y = 0; y < share_.height(); ++y)
       for (int x = 0; x < share_.width(); ++x) {
-        const int from_edge = std::min(std::min(fine.kept.x0 + x - part.x0, part.x1 - 1 - fine.kept.x0 - x),
-                                       std::min(fine.kept.y0 + y - part.y0, part.y1 - 1 - fine.kept.y0 - y));
-        share_(x, y) = static_cast<float>(smoothstep(static_cast<double>(from_edge) / collar_cells));
+        const int from_edge =
+            std::min(std::min(fine.kept.x0 + x - part.x0, part.x1 - 1 - fine.kept.x0 - x),
+                     std::min(fine.kept.y0 + y - part.y0, part.y1 - 1 - fine.kept.y0 - y));
+        share_(x, y) =
+            static_cast<float>(smoothstep(static_cast<double>(from_edge) / collar_cells));
       }
   }
   // `scale`: units of the coarse grid in those of the fine.
@@ -117,7 +129,7 @@ void cut(Grid<T>& grid, const PixelRect& rect) {
   if (!grid.empty()) grid = part_of(grid, rect);
 }
 
-// Cells of a raster that lies on the cells of a DEM; one on cells of its own stays.
+// Cells of a raster on the cells of a DEM; one on its own cells is unchanged.
 template <class T>
 void cut(Raster<T>& raster, const Dem& dem, const PixelRect& rect) {
   if (!raster.cells.same_size(dem.altitude_m)) return;
@@ -140,15 +152,17 @@ PixelRect made_cells(const GroundWindow& window, const RasterFrame& data) {
   return intersection(grown(window.part, ground_halo_cells), {0, 0, frame.width, frame.height});
 }
 
-// What a window asks of the ground before it, of which `made` is there: cells all around the window's halo.
+// What a window needs of the coarser ground, of which `made` is available: cells all around the
+// window's halo.
 PixelRect kept_for(const GroundWindow& window, const RasterFrame& data, const PixelRect& made) {
-  constexpr int beyond = 3;  // cells: streams of ice beside the window, and where these come from
+  constexpr int beyond = 3;  // cells: glaciers beside the window, and their sources
   const PixelRect halo = made_cells(window, data);
-  const PixelRect wanted = grown({halo.x0 / 2, halo.y0 / 2, (halo.x1 + 1) / 2, (halo.y1 + 1) / 2}, beyond);
+  const PixelRect wanted =
+      grown({halo.x0 / 2, halo.y0 / 2, (halo.x1 + 1) / 2, (halo.y1 + 1) / 2}, beyond);
   return moved(intersection(wanted, made), -made.x0, -made.y0);
 }
 
-// A window's place in the nest.
+// A window's position in the nest.
 struct Nested {
   const GroundWindow& planned;
   const GroundWindow* next;  // null: the finest
@@ -156,8 +170,8 @@ struct Nested {
   const Lattice& coarser_at;
 };
 
-TerrainModel make_window(const TerrainModel& whole, const Nested& nested, const WholeTerrain& known, const WindowMaking& making,
-                         std::optional<SeenGround>& seen, Lattice& at) {
+TerrainModel make_window(const TerrainModel& whole, const Nested& nested, const WholeTerrain& known,
+                         const WindowMaking& making, std::optional<SeenGround>& seen, Lattice& at) {
   const auto& [planned, next, coarser, coarser_at] = nested;
   const PixelRect made = made_cells(planned, making.levels.frame());
   Progress& quiet = silent_progress();
@@ -172,21 +186,25 @@ TerrainModel make_window(const TerrainModel& whole, const Nested& nested, const 
   if (next != nullptr) window_ground.kept = kept_for(*next, making.levels.frame(), made);
   window_ground.around = std::move(seen);
   window_ground.seen = &making.seen;
-  auto [cover, seen_here] = make_window_cover(making.loaded, window_ground, known, quiet, making.cache);
+  auto [cover, seen_here] =
+      make_window_cover(making.loaded, window_ground, known, quiet, making.cache);
   seen = std::move(seen_here);
-  GeneralizedTerrain ground = generalize_for_view(making.loaded, *halo, &cover, making.view, quiet, making.cache, &window_ground.sea);
-  TerrainModel model = make_terrain_model(halo, std::move(ground.altitude_m), std::make_shared<const LandCover>(cover), whole.exaggeration,
-                                          window_ground.catchments.get());
+  GeneralizedTerrain ground = generalize_for_view(making.loaded, *halo, &cover, making.view, quiet,
+                                                  making.cache, &window_ground.sea);
+  TerrainModel model = make_terrain_model(halo, std::move(ground.altitude_m),
+                                          std::make_shared<const LandCover>(cover),
+                                          whole.exaggeration, window_ground.catchments.get());
   model.came_from = std::move(ground.came_from);
   model.goes_to = std::move(ground.goes_to);
   model.local = making.deformation;
 
-  // Ground that was moved is looked up where it came from, at most the width of a valley away.
+  // Moved ground is looked up at its origin, at most the width of a valley away.
   const double moved_cells = making.loaded.scene.generalize.valleys.width_m / halo->cell_m();
-  const int apron = std::min(ground_halo_cells, apron_cells + static_cast<int>(std::ceil(moved_cells)));
-  at = {planned.level,
-        intersection(intersection(grown(planned.part, apron), made),
-                     {2 * coarser_at.kept.x0, 2 * coarser_at.kept.y0, 2 * coarser_at.kept.x1 - 1, 2 * coarser_at.kept.y1 - 1})};
+  const int apron =
+      std::min(ground_halo_cells, apron_cells + static_cast<int>(std::ceil(moved_cells)));
+  at = {planned.level, intersection(intersection(grown(planned.part, apron), made),
+                                    {2 * coarser_at.kept.x0, 2 * coarser_at.kept.y0,
+                                     2 * coarser_at.kept.x1 - 1, 2 * coarser_at.kept.y1 - 1})};
   const PixelRect kept = moved(at.kept, -made.x0, -made.y0);
   Dem window;
   window.altitude_m = part_of(halo->altitude_m, kept);
@@ -199,17 +217,20 @@ TerrainModel make_window(const TerrainModel& whole, const Nested& nested, const 
   cut(cover.classes, *halo, kept);
   cut(cover.colours, *halo, kept);
   cut(cover.relief, *halo, kept);
-  for (Grid<float>* grid : {&model.generalized_m, &model.detail_smooth_m, &model.shape_smooth_m, &model.relief_s_m, &model.relief_m_m,
-                            &model.relief_l_m, &model.valley_height_m, &model.rim_m, &model.flow, &model.floor_plan.built})
+  for (Grid<float>* grid :
+       {&model.generalized_m, &model.detail_smooth_m, &model.shape_smooth_m, &model.relief_s_m,
+        &model.relief_m_m, &model.relief_l_m, &model.valley_height_m, &model.rim_m, &model.flow,
+        &model.floor_plan.built})
     cut(*grid, kept);
   cut(model.came_from, kept);
   cut(model.goes_to, kept);
   cut(model.floor_plan.grain, kept);
-  // Where the terrain ends the whole knows alone.
+  // Where the terrain ends only the whole has data.
   const double factor = std::ldexp(1.0, whole.dem->halved - planned.level);
   parallel_rows(model.rim_m.height(), [&](int y) {
     for (int x = 0; x < model.rim_m.width(); ++x)
-      model.rim_m(x, y) = sample_bilinear(whole.rim_m, (at.kept.x0 + x) / factor, (at.kept.y0 + y) / factor);
+      model.rim_m(x, y) =
+          sample_bilinear(whole.rim_m, (at.kept.x0 + x) / factor, (at.kept.y0 + y) / factor);
   });
 
   const Joint join(at, planned.part, coarser_at);
@@ -247,17 +268,20 @@ void add_ground_windows(TerrainModel& terrain, const GroundPlan& plan, const Win
   windows.reserve(plan.windows.size());
   Lattice before{plan.coarsest, {0, 0, terrain.dem->width(), terrain.dem->height()}};
   std::optional<SeenGround> seen =
-      see_whole(making.loaded, known, kept_for(plan.windows.front(), making.levels.frame(), before.kept), making.cache);
+      see_whole(making.loaded, known,
+                kept_for(plan.windows.front(), making.levels.frame(), before.kept), making.cache);
   for (std::size_t i = 0; i < plan.windows.size(); ++i) {
     const GroundWindow& planned = plan.windows[i];
     const GroundWindow* next = i + 1 < plan.windows.size() ? &plan.windows[i + 1] : nullptr;
     Lattice at;
     TerrainWindow window;
-    window.ground =
-        make_window(terrain, {planned, next, windows.empty() ? terrain : windows.back().ground, before}, known, making, seen, at);
+    window.ground = make_window(
+        terrain, {planned, next, windows.empty() ? terrain : windows.back().ground, before}, known,
+        making, seen, at);
     window.part = moved(planned.part, -at.kept.x0, -at.kept.y0);
-    window.replaces = moved({planned.part.x0 / 2, planned.part.y0 / 2, planned.part.x1 / 2 + 1, planned.part.y1 / 2 + 1}, -before.kept.x0,
-                            -before.kept.y0);
+    window.replaces = moved({planned.part.x0 / 2, planned.part.y0 / 2, planned.part.x1 / 2 + 1,
+                             planned.part.y1 / 2 + 1},
+                            -before.kept.x0, -before.kept.y0);
     windows.push_back(std::move(window));
     before = at;
     making.progress.advance(1.0);
@@ -265,12 +289,15 @@ void add_ground_windows(TerrainModel& terrain, const GroundPlan& plan, const Win
   terrain.windows = std::move(windows);
 }
 
-DeformedSurface deform_ground(const TerrainModel& terrain, glm::dvec3 origin, const Deformation& deformation) {
-  DeformedSurface surface = deform(terrain.generalized_m, terrain.dem->transform, origin, deformation);
+DeformedSurface deform_ground(const TerrainModel& terrain, glm::dvec3 origin,
+                              const Deformation& deformation) {
+  DeformedSurface surface =
+      deform(terrain.generalized_m, terrain.dem->transform, origin, deformation);
   surface.windows.reserve(terrain.windows.size());
   for (const TerrainWindow& window : terrain.windows) {
     const TerrainModel& ground = window.ground;
-    SurfaceWindow made{deform(ground.generalized_m, ground.dem->transform, origin, deformation), window.part, window.replaces};
+    SurfaceWindow made{deform(ground.generalized_m, ground.dem->transform, origin, deformation),
+                       window.part, window.replaces};
     join_window(made, surface.windows.empty() ? surface : surface.windows.back().surface);
     surface.windows.push_back(std::move(made));
   }

@@ -13,7 +13,7 @@
 
 namespace belvedere {
 
-// What windows are made with.
+// Input of windows.
 struct WindowMaking {
   const LoadedScene& loaded;
   const View& view;
@@ -25,12 +25,14 @@ struct WindowMaking {
   const SeenFrom& seen;
 };
 
-// Reads, covers and generalizes each window of the plan with a halo, as the whole was, and lays it into the ground before it: along the
-// edge of its part its values are the coarser ones, 32 cells inwards its own. Rivers that enter bring along what the whole knows of them,
-// settlements, climate and the sea are those of the whole. `terrain` is the whole's.
+// Reads, covers and generalizes each window of the plan with a halo, like the whole, and blends it
+// into the coarser ground: along the edge of its part the coarser values apply, 32 cells inwards
+// its own. Entering rivers keep the whole's values; settlements, climate and the sea are those of
+// the whole. `terrain` is the whole's.
 void add_ground_windows(TerrainModel& terrain, const GroundPlan& plan, const WindowMaking& making);
 
 // The terrain's generalized ground and that of its windows, deformed and joined.
-DeformedSurface deform_ground(const TerrainModel& terrain, glm::dvec3 origin, const Deformation& deformation);
+DeformedSurface deform_ground(const TerrainModel& terrain, glm::dvec3 origin,
+                              const Deformation& deformation);
 
 }  // namespace belvedere

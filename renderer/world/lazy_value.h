@@ -7,7 +7,7 @@
 
 namespace belvedere {
 
-// A value that is made when it is first asked for. For any thread.
+// A value that is computed on first use. Thread-safe.
 template <class T>
 class LazyValue {
  public:

@@ -14,7 +14,8 @@
 
 namespace belvedere {
 
-// How the pixels of a picture look at the world: all of them, or fewer that are as many times as large.
+// How the pixels of a picture sample the world: all of them, or fewer that are as many times as
+// large.
 struct SheetView {
   const Camera& camera;
   double pixels_per_unit;  // pixels of this view in 0.5 mm of the sheet
@@ -25,24 +26,31 @@ SheetView view_of(const World& world);
 SheetView reduced_view(const World& world, const Camera& reduced, int factor);
 
 // The traced channels of a rectangle of the view …
-GuidanceBuffers trace_view(const World& world, const SheetView& view, PixelRect region, const Run& run);
-// … and those of them that form alone decides (no light), a ray a pixel.
-GuidanceBuffers trace_forms(const World& world, const Camera& camera, PixelRect region, const Run& run);
+GuidanceBuffers trace_view(const World& world, const SheetView& view, PixelRect region,
+                           const Run& run);
+// … and those of them that form alone determines (no light), one ray per pixel.
+GuidanceBuffers trace_forms(const World& world, const Camera& camera, PixelRect region,
+                            const Run& run);
 
-// What relief of rock, light and base picture are made with.
-RockParameters to_rock_parameters(const World& world, const Palette& palette, const SheetView& view);
-ToneParameters to_tone_parameters(const World& world, const Palette& palette, const SheetView& view);
+// Parameters of rock relief, light and base picture.
+RockParameters to_rock_parameters(const World& world, const Palette& palette,
+                                  const SheetView& view);
+ToneParameters to_tone_parameters(const World& world, const Palette& palette,
+                                  const SheetView& view);
 // Without BaseParameters::mean_light, which is measured on a picture (stages/lit_picture.h).
-BaseParameters to_base_parameters(const World& world, const Palette& palette, const SheetView& view);
+BaseParameters to_base_parameters(const World& world, const Palette& palette,
+                                  const SheetView& view);
 
-// What the water of the pixels `wanted` mirrors, by rays; nothing where none of them is water or the scene does not ask for it. The buffers
-// begin at `origin_px` and reach water_image_margin_px farther up and down, or to where the sheet ends; needs depth_m, land_cover,
-// footprint_m and altitude_m.
-std::optional<WaterImage> see_mirrored(const World& world, const SheetView& view, const Palette& palette, const GuidanceBuffers& guidance,
-                                       glm::ivec2 origin_px, PixelRect wanted);
+// Traced reflections of the water pixels `wanted`; nothing where none of them is water or the scene
+// does not ask for it. The buffers begin at `origin_px` and extend water_image_margin_px farther up
+// and down, or to the sheet's edge; needs depth_m, land_cover, footprint_m and altitude_m.
+std::optional<WaterImage> trace_reflections(const World& world, const SheetView& view,
+                                            const Palette& palette, const GuidanceBuffers& guidance,
+                                            glm::ivec2 origin_px, PixelRect wanted);
 
-// The hand in which the strokes of a world are painted.
+// Brushwork parameters of the strokes of a world.
 StrokeParameters to_stroke_parameters(const World& world, const Palette& palette);
-StrokeParameters to_stroke_parameters(const World& world, const Palette& palette, const SheetView& view);
+StrokeParameters to_stroke_parameters(const World& world, const Palette& palette,
+                                      const SheetView& view);
 
 }  // namespace belvedere

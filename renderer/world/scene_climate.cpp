@@ -7,11 +7,14 @@ namespace belvedere {
 
 bool names_climate(const Scene& scene) { return scene.climate != SceneClimate{}; }
 
-bool knows_place(const Scene& scene, const Dem& dem) { return !dem.crs.empty() || scene.climate.latitude_deg.has_value(); }
+bool knows_place(const Scene& scene, const Dem& dem) {
+  return !dem.crs.empty() || scene.climate.latitude_deg.has_value();
+}
 
 void require_place(const Scene& scene, const Dem& dem) {
   if (!knows_place(scene, dem))
-    throw Error(ErrorKind::usage, "climate.latitude_deg", "a terrain without coordinate system does not say how far north it lies",
+    throw Error(ErrorKind::usage, "climate.latitude_deg",
+                "a terrain without coordinate system has no known latitude",
                 "its latitude, -90 … 90");
 }
 
@@ -33,7 +36,8 @@ Climate make_scene_climate(const LoadedScene& loaded, const Dem& dem, Progress& 
   parameters.wind_from_deg = settings.wind_from_deg;
   parameters.latitude_deg = settings.latitude_deg;
   return make_climate(
-      dem, parameters, [](glm::dvec2 lonlat_deg) { return default_climate(lonlat_deg.x, lonlat_deg.y); }, progress);
+      dem, parameters,
+      [](glm::dvec2 lonlat_deg) { return default_climate(lonlat_deg.x, lonlat_deg.y); }, progress);
 }
 
 }  // namespace belvedere

@@ -7,16 +7,17 @@
 
 namespace belvedere {
 
-// Whether a scene says anything of its climate.
+// Whether a scene sets anything of its climate.
 bool names_climate(const Scene& scene);
 
-// Whether it is known where on Earth a scene's terrain lies: by its coordinate system, or by climate.latitude_deg.
+// Whether the position of a scene's terrain on the Earth is known: by its coordinate system, or by
+// climate.latitude_deg.
 bool knows_place(const Scene& scene, const Dem& dem);
 // Error(usage) naming climate.latitude_deg where it is not.
 void require_place(const Scene& scene, const Dem& dem);
 
-// The climate of a scene's terrain, from [climate] and what is known of the place. What it was made from and how sure that is goes to
-// `progress` as notes. Throws what make_climate throws.
+// The climate of a scene's terrain, from [climate] and built-in values for the place. Its source
+// and certainty go to `progress` as notes. Throws what make_climate throws.
 Climate make_scene_climate(const LoadedScene& loaded, const Dem& dem, Progress& progress);
 
 }  // namespace belvedere

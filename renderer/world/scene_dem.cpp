@@ -20,7 +20,8 @@ namespace belvedere {
 
 void each_field(auto& bytes, FieldsOf<Dem> auto& dem) {
   auto& [altitude_m, filled, transform, crs, entries, halved] = dem;
-  bytes(altitude_m, filled, transform, crs);  // made-up terrain is whole and as it was made
+  bytes(altitude_m, filled, transform,
+        crs);  // synthetic terrain has no voids and is used unchanged
 }
 
 namespace {
@@ -42,13 +43,14 @@ CacheKey synthetic_key(const LoadedScene& loaded) {
   return make_cache_key(CachedProduct::synthetic_terrain, key, subject_of(loaded));
 }
 
-// Bytes that a cell takes from reading to rays: TerrainModel 69, surface 12, structure of the tracer 23, and some of what rules and
-// generalization make on their way.
+// Bytes per cell from reading to rays: TerrainModel 69, surface 12, structure of the tracer 23, and
+// temporary data of rules and generalization.
 constexpr double ground_bytes_per_cell = 160.0;
 
-// Cells that the terrain of a scene may have. Automatic limits are powers of the root of two, so that machines that are nearly alike agree.
-double most_ground_cells(const SceneTerrain& terrain, double cells) {
-  if (terrain.most_mcells > 0.0) return 1e6 * terrain.most_mcells;
+// Maximum number of cells of a scene's terrain. Automatic limits are powers of the root of two, so
+// that machines with nearly the same memory agree.
+double max_ground_cells(const SceneTerrain& terrain, double cells) {
+  if (terrain.max_mcells > 0.0) return 1e6 * terrain.max_mcells;
   const double fit = static_cast<double>(memory_budget_bytes()) / ground_bytes_per_cell;
   constexpr double share_of_whole = 0.8;
   if (cells <= share_of_whole * fit) return cells;
@@ -59,47 +61,55 @@ double most_ground_cells(const SceneTerrain& terrain, double cells) {
 SceneDem read_scene_dem(const LoadedScene& loaded, Progress& progress, const Cache& cache) {
   const SceneTerrain& terrain = loaded.scene.terrain;
   if (terrain.synthetic)
-    return {cached<Dem>(
-                cache, [&] { return synthetic_key(loaded); }, progress,
-                [&](Progress& watcher) { return make_synthetic_terrain(*terrain.synthetic, watcher); }),
-            nullptr,
-            0.0,
-            {}};
+    return {
+        cached<Dem>(
+            cache, [&] { return synthetic_key(loaded); }, progress,
+            [&](Progress& watcher) { return make_synthetic_terrain(*terrain.synthetic, watcher); }),
+        nullptr,
+        0.0,
+        {}};
   DemParameters parameters = terrain.dem;
   parameters.sources = to_raster_sources(loaded, terrain.sources);
-  const RasterFrame frame = choose_frame(parameters.sources, parameters.crs, parameters.cell_m, parameters.extent);
+  const RasterFrame frame =
+      choose_frame(parameters.sources, parameters.crs, parameters.cell_m, parameters.extent);
   const double cells = static_cast<double>(frame.width) * frame.height;
-  const double most = most_ground_cells(terrain, cells);
-  const int coarsest = coarsest_level(frame, most);
+  const double max = max_ground_cells(terrain, cells);
+  const int coarsest = coarsest_level(frame, max);
   if (coarsest == 0) return {read_dem(parameters, progress), nullptr, 0.0, {}};
-  // As coarse as a landscape may be it still has to fit.
+  // Even at the coarsest useful resolution it still has to fit.
   const RasterFrame whole_frame = level_frame(frame, coarsest);
-  check_memory(fmt::format("terrain of {} × {} cells, even in cells of {:g} m", frame.width, frame.height, whole_frame.transform.cell_x),
-               reading_bytes(frame) + ground_bytes_per_cell * whole_frame.width * whole_frame.height);
-  // A third of what the finished ground will take, and gone before it is finished.
-  auto levels = std::make_shared<DemLevels>(parameters, frame, coarsest, most * ground_bytes_per_cell / 3.0 / sizeof(float), progress);
+  check_memory(
+      fmt::format("terrain of {} × {} cells, even in cells of {:g} m", frame.width, frame.height,
+                  whole_frame.transform.cell_x),
+      reading_bytes(frame) + ground_bytes_per_cell * whole_frame.width * whole_frame.height);
+  // A third of the finished ground's memory, released before it is finished.
+  auto levels = std::make_shared<DemLevels>(
+      parameters, frame, coarsest, max * ground_bytes_per_cell / 3.0 / sizeof(float), progress);
   Dem whole = levels->whole();
-  return {std::move(whole), std::move(levels), most, {}};
+  return {std::move(whole), std::move(levels), max, {}};
 }
 
 // Stripes are in the cells of the data.
 void take_stripes_off(Dem& dem, const LoadedScene& loaded, Progress& progress) {
-  if (loaded.scene.generalize.destripe && dem.halved == 0) dem.altitude_m = destripe(dem.altitude_m, {}, progress);
+  if (loaded.scene.generalize.destripe && dem.halved == 0)
+    dem.altitude_m = destripe(dem.altitude_m, {}, progress);
 }
 
-// The sea in blocks, as the whole terrain has it in its cells: what a view follows from is the same for both.
+// The sea in blocks, as in the cells of the whole terrain, so that derived values of a view are the
+// same for both.
 void level_blocks(Raster<float>& blocks, const SeaParameters& settings, int cells_a_block) {
   const auto known = [](float z) { return !std::isnan(z); };
   if (std::none_of(blocks.cells.begin(), blocks.cells.end(), known)) return;
   Dem dem = make_dem(blocks);
   SeaParameters parameters = settings;
   constexpr int fewest = 16;
-  parameters.least_cells = std::max(fewest, parameters.least_cells / (cells_a_block * cells_a_block));
+  parameters.min_cells = std::max(fewest, parameters.min_cells / (cells_a_block * cells_a_block));
   const Sea sea = find_sea(dem, parameters);
   if (sea.empty()) return;
   level_sea(dem, sea);
   for (std::size_t i = 0; i < blocks.cells.size(); ++i)
-    blocks.cells[i] = dem.filled[i] != 0 ? std::numeric_limits<float>::quiet_NaN() : dem.altitude_m[i];
+    blocks.cells[i] =
+        dem.filled[i] != 0 ? std::numeric_limits<float>::quiet_NaN() : dem.altitude_m[i];
 }
 
 CoarseAltitudes region_of_data(const SceneDem& opened, const SeaParameters& sea) {
@@ -108,13 +118,15 @@ CoarseAltitudes region_of_data(const SceneDem& opened, const SeaParameters& sea)
     const GeoTransform& cells = opened.levels->frame().transform;
     out = {opened.levels->blocks(), 0.5 * (cells.cell_x + cells.cell_y)};
   }
-  level_blocks(out.blocks, sea, static_cast<int>(std::lround(out.blocks.transform.cell_x / out.source_cell_m)));
+  level_blocks(out.blocks, sea,
+               static_cast<int>(std::lround(out.blocks.transform.cell_x / out.source_cell_m)));
   return out;
 }
 
 }  // namespace
 
-std::vector<RasterSource> to_raster_sources(const LoadedScene& scene, const std::vector<SceneSource>& sources) {
+std::vector<RasterSource> to_raster_sources(const LoadedScene& scene,
+                                            const std::vector<SceneSource>& sources) {
   std::vector<RasterSource> rasters;
   rasters.reserve(sources.size());
   for (const SceneSource& source : sources) rasters.push_back(to_raster_source(scene, source));
@@ -123,23 +135,25 @@ std::vector<RasterSource> to_raster_sources(const LoadedScene& scene, const std:
 
 SceneDem open_scene_dem(const LoadedScene& loaded, Progress& progress, const Cache& cache) {
   SceneDem opened = read_scene_dem(loaded, progress, cache);
-  // Before stripes are taken off and the sea is levelled, which both hang on the cells.
+  // Before stripes are removed and the sea is levelled, which both depend on the cells.
   opened.region = region_of_data(opened, scene_sea(loaded.scene.land_cover));
   Sea sea = prepare_scene_dem(opened.dem, loaded, progress);
   level_scene_lakes(opened.dem, loaded, progress, cache);
   if (!sea.empty())
-    progress.note(fmt::format("sea: {:.1f} % of the terrain, at {:.1f} m{}", 100.0 * sea.share, sea.level_m,
-                              sea.noise_m >= 0.3 ? fmt::format(", levelled from ± {:.1f} m", sea.noise_m) : ""));
+    progress.note(fmt::format(
+        "sea: {:.1f} % of the terrain, at {:.1f} m{}", 100.0 * sea.share, sea.level_m,
+        sea.noise_m >= 0.3 ? fmt::format(", levelled from ± {:.1f} m", sea.noise_m) : ""));
   if (opened.levels) opened.sea = std::move(sea);
   return opened;
 }
 
 GroundAltitude ground_altitude_of(const SceneDem& scene) {
   if (!scene.levels) return {};
-  return [&scene](glm::dvec2 place) {
+  return [&scene](glm::dvec2 position) {
     const RasterFrame& frame = scene.levels->frame();
     const glm::dvec2 at =
-        glm::clamp(frame.transform.to_cell(place.x, place.y), glm::dvec2(0.0), glm::dvec2(frame.width - 1.0, frame.height - 1.0));
+        glm::clamp(frame.transform.to_cell(position.x, position.y), glm::dvec2(0.0),
+                   glm::dvec2(frame.width - 1.0, frame.height - 1.0));
     const int x = std::min(static_cast<int>(at.x), frame.width - 2);
     const int y = std::min(static_cast<int>(at.y), frame.height - 2);
     const Dem cells = scene.levels->window(0, {x, y, x + 2, y + 2}, scene.dem);
@@ -151,11 +165,13 @@ Dem make_scene_dem(const LoadedScene& loaded, Progress& progress, const Cache& c
   return make_scene_dem_and_region(loaded, progress, cache).dem;
 }
 
-SceneDem make_scene_dem_and_region(const LoadedScene& loaded, Progress& progress, const Cache& cache) {
+SceneDem make_scene_dem_and_region(const LoadedScene& loaded, Progress& progress,
+                                   const Cache& cache) {
   SceneDem opened = open_scene_dem(loaded, progress, cache);
   if (opened.levels)
-    progress.note(fmt::format("elevation {} × {} cells is more than memory holds: looked at in cells of {:.0f} m here",
-                              opened.levels->frame().width, opened.levels->frame().height, opened.dem.cell_m()));
+    progress.note(fmt::format(
+        "elevation {} × {} cells is more than memory holds: sampled in cells of {:.0f} m here",
+        opened.levels->frame().width, opened.levels->frame().height, opened.dem.cell_m()));
   opened.levels.reset();
   return opened;
 }
@@ -167,9 +183,12 @@ Sea prepare_scene_dem(Dem& dem, const LoadedScene& loaded, Progress& progress) {
   return sea;
 }
 
-SeaParameters scene_sea(const SceneLandCover& settings) { return {.look = settings.sea != "none", .level_m = settings.sea_level_m}; }
+SeaParameters scene_sea(const SceneLandCover& settings) {
+  return {.look = settings.sea != "none", .level_m = settings.sea_level_m};
+}
 
-SeaParameters prepare_window_dem(Dem& window, const LoadedScene& loaded, const Dem& whole, const Sea& whole_sea, const Cache& cache) {
+SeaParameters prepare_window_dem(Dem& window, const LoadedScene& loaded, const Dem& whole,
+                                 const Sea& whole_sea, const Cache& cache) {
   take_stripes_off(window, loaded, silent_progress());
   SeaParameters sea = scene_sea(loaded.scene.land_cover);
   sea.known = std::make_shared<const Sea>(continue_sea(window, whole, whole_sea, sea));
@@ -179,8 +198,11 @@ SeaParameters prepare_window_dem(Dem& window, const LoadedScene& loaded, const D
 }
 
 void add_sea(CacheKeyText& key, const SeaParameters& sea) {
-  const auto& [look, level_m, least_cells, found] = sea;
-  key.add("sea", look).add("known", level_m.has_value()).add("level_m", level_m.value_or(0.0)).add("least_cells", least_cells);
+  const auto& [look, level_m, min_cells, found] = sea;
+  key.add("sea", look)
+      .add("known", level_m.has_value())
+      .add("level_m", level_m.value_or(0.0))
+      .add("min_cells", min_cells);
   if (found) key.add("sea mask", found->mask).add("sea level_m", found->level_m);
 }
 
@@ -189,7 +211,10 @@ void add_dem(CacheKeyText& key, const Dem& dem) {
   const auto& [origin_x, origin_y, cell_x, cell_y] = transform;
   key.add("halved", halved).add("altitude_m", altitude_m).add("filled", filled).add("crs", crs);
   for (const auto& [x, y, km2] : entries) key.add("entry_x", x).add("entry_y", y).add("km2", km2);
-  key.add("origin_x", origin_x).add("origin_y", origin_y).add("cell_x", cell_x).add("cell_y", cell_y);
+  key.add("origin_x", origin_x)
+      .add("origin_y", origin_y)
+      .add("cell_x", cell_x)
+      .add("cell_y", cell_y);
 }
 
 }  // namespace belvedere

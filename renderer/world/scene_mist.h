@@ -9,8 +9,9 @@
 
 namespace belvedere {
 
-// The mist that a scene asks for over its terrain; empty where it asks for none. Throws Error(usage) for places that cannot be.
-MistAir make_scene_mist(const Scene& scene, const View& view, const TerrainModel& terrain, const Deformation& deformation,
-                        const Camera& camera);
+// The mist of a scene over its terrain; empty where it has none. Throws Error(usage) for invalid
+// positions.
+MistAir make_scene_mist(const Scene& scene, const View& view, const TerrainModel& terrain,
+                        const Deformation& deformation, const Camera& camera);
 
 }  // namespace belvedere

@@ -16,20 +16,25 @@ namespace belvedere {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double lakes_freeze_c = -3.0;  // mean of the coldest month below which lakes are ice
+constexpr double lakes_freeze_c = -3.0;  // mean of the coldest month below which lakes freeze
 constexpr double first_turns_c = 11.5;
 constexpr double all_turned_c = 6.5;
 constexpr double turning_fall_k = 6.0;
 constexpr int autumn_days = 230;  // after the warmest one: until then nothing grows again
 
-bool has_alpine_altitudes(const std::string& palette) { return palette == "summer" || palette == "autumn" || palette == "winter"; }
+bool has_alpine_altitudes(const std::string& palette) {
+  return palette == "summer" || palette == "autumn" || palette == "winter";
+}
 
-// Whether rules paint the scene, with the treeline of its climate.
+// Whether rules classify the scene, with the treeline of its climate.
 bool takes_treeline(const LoadedScene& loaded) {
   const SceneLandCover& cover = loaded.scene.land_cover;
-  if (!cover.sources.empty() || !uses_variable(read_class_rules(find_named_file(loaded, "layers", cover.rules)), "treeline")) return false;
-  return std::none_of(cover.settings.begin(), cover.settings.end(),
-                      [](const auto& setting) { return setting.first == "treeline_m" && setting.second > 0.0; });
+  if (!cover.sources.empty() ||
+      !uses_variable(read_class_rules(find_named_file(loaded, "layers", cover.rules)), "treeline"))
+    return false;
+  return std::none_of(cover.settings.begin(), cover.settings.end(), [](const auto& setting) {
+    return setting.first == "treeline_m" && setting.second > 0.0;
+  });
 }
 
 }  // namespace
@@ -54,7 +59,8 @@ double autumn_share(const std::array<double, 365>& days_c, int day) {
 
 double lakes_freeze_from_m(const PlaceClimate& climate) {
   const Months at_0 = monthly_c(climate, 0.0);
-  const auto coldest = static_cast<std::size_t>(std::min_element(at_0.begin(), at_0.end()) - at_0.begin());
+  const auto coldest =
+      static_cast<std::size_t>(std::min_element(at_0.begin(), at_0.end()) - at_0.begin());
   const double lapse_k_per_m = climate.lapse_k_per_km[coldest] / 1000.0;
   if (at_0[coldest] <= lakes_freeze_c) return -infinity;
   return lapse_k_per_m > 0.0 ? (at_0[coldest] - lakes_freeze_c) / lapse_k_per_m : infinity;
@@ -62,7 +68,8 @@ double lakes_freeze_from_m(const PlaceClimate& climate) {
 
 namespace {
 
-double scene_lakes_freeze_from_m(const Palette& palette, const LoadedScene& loaded, const Dem& dem) {
+double scene_lakes_freeze_from_m(const Palette& palette, const LoadedScene& loaded,
+                                 const Dem& dem) {
   const std::string& asked = loaded.scene.season.frozen_lakes;
   if (!palette.winter || asked == "never") return infinity;
   if (asked == "always") return -infinity;
@@ -73,7 +80,7 @@ double scene_lakes_freeze_from_m(const Palette& palette, const LoadedScene& load
 
 }  // namespace
 
-Palette palette_of_place(const Palette& named, const LoadedScene& loaded, const Dem& dem) {
+Palette palette_for_location(const Palette& named, const LoadedScene& loaded, const Dem& dem) {
   const Scene& scene = loaded.scene;
   Palette palette = named;
   palette.lakes_freeze_from_m = scene_lakes_freeze_from_m(named, loaded, dem);
@@ -83,15 +90,18 @@ Palette palette_of_place(const Palette& named, const LoadedScene& loaded, const 
   if ((!moves && !turns) || !knows_place(scene, dem)) return palette;
 
   const Climate climate = make_scene_climate(loaded, dem, silent_progress());
-  const PlaceClimate middle = climate.at(0.5 * (dem.width() - 1), 0.5 * (dem.height() - 1));
-  const double higher_m = moves ? treeline_m(middle) - palette_treeline_m : 0.0;
+  const PlaceClimate centre = climate.at(0.5 * (dem.width() - 1), 0.5 * (dem.height() - 1));
+  const double higher_m = moves ? treeline_m(centre) - palette_treeline_m : 0.0;
   const Palette moved = palette_at_other_altitudes(palette, higher_m);
   if (!turns) return moved;
 
   const auto [lowest, highest] = std::minmax_element(dem.altitude_m.begin(), dem.altitude_m.end());
   const Palette autumn = palette_at_other_altitudes(read_palette("autumn"), higher_m);
-  const auto share = [&](double altitude_m) { return autumn_share(daily_c(monthly_c(middle, altitude_m)), *day); };
-  return mix_palettes(moved, autumn, share, static_cast<double>(*lowest), static_cast<double>(*highest));
+  const auto share = [&](double altitude_m) {
+    return autumn_share(daily_c(monthly_c(centre, altitude_m)), *day);
+  };
+  return mix_palettes(moved, autumn, share, static_cast<double>(*lowest),
+                      static_cast<double>(*highest));
 }
 
 }  // namespace belvedere

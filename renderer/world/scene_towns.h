@@ -9,9 +9,11 @@
 
 namespace belvedere {
 
-// The towns that a scene knows, by [[land_cover.towns]] and then by its towns_file, in the DEM's CRS. A note names those outside the
-// terrain. They stay, because a town may reach over the border and keeps others away, but for those too far off to matter: 20 km and five
-// radii. Throws Error(usage) for places without CRS, else what read_towns throws.
-std::vector<KnownTown> make_scene_towns(const LoadedScene& loaded, const Dem& dem, Progress& progress);
+// The known towns of a scene, from [[land_cover.towns]] and then from its towns_file, in the DEM's
+// CRS. A note names those outside the terrain. They are kept, because a town may extend over the
+// border and keeps others away, but for those too far off to matter: 20 km and five radii. Throws
+// Error(usage) for positions without CRS, else what read_towns throws.
+std::vector<KnownTown> make_scene_towns(const LoadedScene& loaded, const Dem& dem,
+                                        Progress& progress);
 
 }  // namespace belvedere

@@ -19,20 +19,23 @@ namespace {
 
 constexpr int sight_line_count = 400;
 
-// The part of an upright line of sight that the picture shows, or nothing.
+// The visible part of a vertical line, or nothing.
 std::optional<SightLine> shown(const Camera& camera, double azimuth_deg) {
   const double azimuth = to_radians(azimuth_deg);
   const auto inside = [&](double altitude_deg) {
     const double altitude = to_radians(altitude_deg);
     constexpr double far_m = 1000.0;  // any distance: only the direction counts
-    const auto at = camera.project(camera.eye() + far_m * glm::dvec3(exact::sin(azimuth) * exact::cos(altitude),
-                                                                     exact::cos(azimuth) * exact::cos(altitude), exact::sin(altitude)));
-    return at && at->x >= 0.0 && at->y >= 0.0 && at->x <= camera.size().x && at->y <= camera.size().y;
+    const auto at =
+        camera.project(camera.eye() + far_m * glm::dvec3(exact::sin(azimuth) * exact::cos(altitude),
+                                                         exact::cos(azimuth) * exact::cos(altitude),
+                                                         exact::sin(altitude)));
+    return at && at->x >= 0.0 && at->y >= 0.0 && at->x <= camera.size().x &&
+           at->y <= camera.size().y;
   };
   const auto edge = [&](double in, double out) {
     for (int halving = 0; halving < 40; ++halving) {
-      const double middle = 0.5 * (in + out);
-      (inside(middle) ? in : out) = middle;
+      const double centre = 0.5 * (in + out);
+      (inside(centre) ? in : out) = centre;
     }
     return exact::tan(to_radians(in));
   };
@@ -47,7 +50,8 @@ std::optional<SightLine> shown(const Camera& camera, double azimuth_deg) {
     highest = altitude;
   }
   if (!lowest) return std::nullopt;
-  return SightLine{azimuth_deg, edge(*lowest, *lowest - step_deg), edge(*highest, *highest + step_deg)};
+  return SightLine{azimuth_deg, edge(*lowest, *lowest - step_deg),
+                   edge(*highest, *highest + step_deg)};
 }
 
 }  // namespace
@@ -55,34 +59,41 @@ std::optional<SightLine> shown(const Camera& camera, double azimuth_deg) {
 BareView make_bare_view(const LoadedScene& loaded, Progress& progress, const Cache& cache) {
   BareView bare;
   SceneDem opened = open_scene_dem(loaded, progress, cache);
-  bare.view = make_view(loaded.scene, opened.dem, progress, ground_altitude_of(opened), &opened.region);
+  bare.view =
+      make_view(loaded.scene, opened.dem, progress, ground_altitude_of(opened), &opened.region);
   bare.dem = std::move(opened.dem);
   bare.camera = make_camera(bare.view.camera);
-  GeneralizedTerrain generalized = generalize_for_view(loaded, bare.dem, nullptr, bare.view, progress, cache);
+  GeneralizedTerrain generalized =
+      generalize_for_view(loaded, bare.dem, nullptr, bare.view, progress, cache);
   bare.generalized_m = std::move(generalized.altitude_m);
   bare.goes_to = std::move(generalized.goes_to);
-  bend_anew(bare, bare.view.deform.bend);
+  bend_again(bare, bare.view.deform.bend);
   return bare;
 }
 
-void bend_anew(BareView& bare, const BendCurve& bend) {
+void bend_again(BareView& bare, const BendCurve& bend) {
   bare.view.deform.bend = bend;
   bare.deformation = Deformation(bare.view.deform, bare.view.viewer_xy);
   bare.tracer.reset();
-  bare.surface = std::make_unique<DeformedSurface>(
-      deform(bare.generalized_m, bare.dem.transform, glm::dvec3(bare.view.viewer_xy, 0.0), bare.deformation));
+  bare.surface = std::make_unique<DeformedSurface>(deform(bare.generalized_m, bare.dem.transform,
+                                                          glm::dvec3(bare.view.viewer_xy, 0.0),
+                                                          bare.deformation));
   bare.tracer = std::make_unique<Tracer>(*bare.surface);
 }
 
 std::vector<SightLine> sight_lines(const CameraParameters& parameters, int count) {
-  if (const Projection* projection = find_projection(parameters.projection); projection != nullptr && projection->widest_deg == 0.0) {
+  if (const Projection* projection = find_projection(parameters.projection);
+      projection != nullptr && projection->widest_deg == 0.0) {
     std::string central;
     for (const Projection& other : projections())
-      if (other.widest_deg > 0.0) central += fmt::format("{}\"{}\"", central.empty() ? "" : " or ", other.name);
-    throw Error(ErrorKind::usage, "camera.projection", fmt::format("\"{}\", whose lines of sight are parallel", projection->name), central);
+      if (other.widest_deg > 0.0)
+        central += fmt::format("{}\"{}\"", central.empty() ? "" : " or ", other.name);
+    throw Error(ErrorKind::usage, "camera.projection",
+                fmt::format("\"{}\", whose lines of sight are parallel", projection->name),
+                central);
   }
   const std::unique_ptr<Camera> camera = make_camera(parameters);
-  // First how wide the picture looks, then evenly over that.
+  // First the width of the view, then evenly over that.
   constexpr int quarters = 720;  // half a turn in quarters of a degree, to either side
   int first = quarters;
   int last = -quarters;
@@ -96,7 +107,9 @@ std::vector<SightLine> sight_lines(const CameraParameters& parameters, int count
   const double width = 0.25 * (last - first);
   for (int i = 0; i < count; ++i)
     if (const auto line = shown(*camera, from + width * (i + 0.5) / count)) lines.push_back(*line);
-  if (lines.empty()) throw Error(ErrorKind::usage, "camera", "a picture that shows no direction", "a wider view");
+  if (lines.empty())
+    throw Error(ErrorKind::usage, "camera", "a picture without any direction of view",
+                "a wider view");
   return lines;
 }
 

@@ -14,27 +14,32 @@
 
 namespace belvedere {
 
-// A scene's ground and view without colour, light and land cover: enough to ask where things are, and ready in seconds.
+// A scene's ground and view without colour, light and land cover: enough to locate things, and
+// ready in seconds.
 struct BareView {
   View view;
   Dem dem;
   Grid<float> generalized_m;
   Grid<glm::vec2> goes_to;  // as GeneralizedTerrain has it
   Deformation deformation;
-  std::unique_ptr<DeformedSurface> surface;  // stays where it is: the tracer reads it
+  std::unique_ptr<DeformedSurface> surface;  // keeps its address: the tracer reads it
   std::unique_ptr<Camera> camera;
   std::unique_ptr<Tracer> tracer;
 
-  GeoMap geo_map() const { return {dem.altitude_m, goes_to, dem.transform, deformation, *surface, *camera, *tracer}; }
+  GeoMap geo_map() const {
+    return {dem.altitude_m, goes_to, dem.transform, deformation, *surface, *camera, *tracer};
+  }
 };
-BareView make_bare_view(const LoadedScene& loaded, Progress& progress, const Cache& cache = no_cache());
+BareView make_bare_view(const LoadedScene& loaded, Progress& progress,
+                        const Cache& cache = no_cache());
 // The same ground under another bend.
-void bend_anew(BareView& bare, const BendCurve& bend);
+void bend_again(BareView& bare, const BendCurve& bend);
 
-// The directions in which a camera looks over the land, evenly spaced, and how far down and up it shows in each. Throws Error(usage) for
-// parallel projections, whose lines of sight do not meet in an eye.
+// The directions in which a camera looks over the land, evenly spaced, and how far down and up it
+// shows in each. Throws Error(usage) for parallel projections, whose lines of sight do not meet in
+// a point.
 std::vector<SightLine> sight_lines(const CameraParameters& camera, int count);
-// The DEM without what was filled: voids are no valley floor.
+// The DEM without filled cells: voids are not valley floor.
 Grid<float> known_altitude(const Dem& dem);
 ValleySight make_valley_sight(const BareView& bare);
 

@@ -16,29 +16,32 @@
 
 namespace belvedere {
 
-// A scene's camera and sun, resolved on its terrain, and what follows from the distance of its horizon.
+// A scene's camera and sun, resolved on its terrain, and values derived from the distance of its
+// horizon.
 struct View {
   CameraParameters camera;        // eye in the deformed world
-  glm::dvec2 viewer_xy{0.0};      // what distances, bend and generalization count from, scene CRS
+  glm::dvec2 viewer_xy{0.0};      // origin of distances, bend and generalization, scene CRS
   DeformParameters deform;        // with summits and handles, scene CRS
   SunPosition sun;                // azimuth from the grid's north
   glm::dvec3 sun_direction{0.0};  // unit, towards the sun
-  double sun_image_x = 1.0;       // where the light comes from in the picture: -1 left … +1 right
+  double sun_image_x = 1.0;       // direction of the light in the picture: -1 left … +1 right
   AirParameters air;
   GeneralizeDistances generalize;
-  std::vector<DerivedValue> derived;  // of all these; empty where the scene says all
+  std::vector<DerivedValue> derived;  // of all these; empty where the scene sets all
 };
 
-// What a scene asks of the ground, with the places of summits and handles in the DEM's CRS. Throws Error(usage) for places that cannot be.
+// The deformation of a scene, with the positions of summits and handles in the DEM's CRS. Throws
+// Error(usage) for invalid positions.
 DeformParameters resolve_deform(const SceneDeform& deform, const Dem& dem);
 
-// Resolves longitude and latitude, heights above ground, look-at points and the time of day. Throws Error(usage) where the eye would stand
-// below the ground, naming the height, or outside the terrain where its height is counted from the ground; a sun below the
-// horizon is noted, and then only the sky gives light.
-// `ground_m` knows altitudes better than the DEM does, where that is a coarse one of a larger whole; empty: the DEM's.
-using GroundAltitude = std::function<double(glm::dvec2 place)>;
-// `region`: the data from afar, that what the scene does not say follows from; null: the DEM's.
-View make_view(const Scene& scene, const Dem& dem, Progress& progress, const GroundAltitude& ground_m = {},
-               const CoarseAltitudes* region = nullptr);
+// Resolves longitude and latitude, heights above ground, look-at points and the time of day. Throws
+// Error(usage) where the viewer would be below the ground, naming the height, or outside the
+// terrain if the height is measured from the ground; a sun below the horizon is noted, and then
+// only the sky gives light. `ground_m` has more precise altitudes than the DEM, if that is a coarse
+// one of a larger whole; empty: the DEM's.
+using GroundAltitude = std::function<double(glm::dvec2 position)>;
+// `region`: the reduced data, from which open values are derived; null: the DEM's.
+View make_view(const Scene& scene, const Dem& dem, Progress& progress,
+               const GroundAltitude& ground_m = {}, const CoarseAltitudes* region = nullptr);
 
 }  // namespace belvedere

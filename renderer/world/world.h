@@ -18,33 +18,38 @@
 
 namespace belvedere {
 
-// What a scene is made into before its first pixel, each value from those above it. Owned in one place because pixels of any part of the
-// picture need all of it; nothing changes after it is made (make_world).
+// A scene prepared for its first pixel, each value made from those above it. Kept together because
+// any part of the picture needs all of it; constant after it is made (make_world).
 struct World {
   const Scene scene;
-  const std::shared_ptr<const Dem> dem;  // of a DEM that is larger than memory the whole in coarse cells: terrain has finer windows
-  const View view;                       // camera and sun on this DEM
+  const std::shared_ptr<const Dem>
+      dem;  // of a DEM larger than memory the whole in coarse cells: terrain has finer windows
+  const View view;  // camera and sun on this DEM
   const std::unique_ptr<const Camera> camera;
-  const std::shared_ptr<const LightField> light_field;  // null: one light everywhere
+  const std::shared_ptr<const LightField> light_field;  // null: uniform light
   const std::shared_ptr<const LandCover> land_cover;
   const Deformation deformation;
-  const TerrainModel terrain;  // generalized for this view, and all that a pixel may ask of the ground
-  // What is traced: generalized, exaggerated, bent; its origin is the eye's place at altitude 0.
+  const TerrainModel
+      terrain;  // generalized for this view, and all that a pixel may need of the ground
+  // The traced ground: generalized, exaggerated, bent; its origin is the viewer's position at
+  // altitude 0.
   const std::unique_ptr<const DeformedSurface> surface;
   const Tracer tracer;
   const double horizon_px;  // row of the skyline's median
   const MistAir mist;
 };
 
-// Terrain that exists already, for several views of one synthetic terrain; what is null is made.
+// Existing terrain, for several views of one synthetic terrain; what is null is made.
 struct KnownTerrain {
   std::shared_ptr<const Dem> dem = nullptr;
   std::shared_ptr<const LandCover> land_cover = nullptr;
-  std::unique_ptr<Catchments> catchments = nullptr;  // where water runs on the DEM
+  std::unique_ptr<Catchments> catchments = nullptr;  // drainage of the DEM
 };
 
-// Reads, generalizes and bends the terrain, sets up camera and sun, builds the acceleration structure. Throws Error for whatever is wrong
-// with scene or data as soon as it can be known: the machine's instruction set first, the camera's place before land cover is made.
-World make_world(const LoadedScene& loaded, Progress& progress, const Cache& cache = no_cache(), KnownTerrain known = {});
+// Reads, generalizes and bends the terrain, sets up camera and sun, builds the acceleration
+// structure. Throws Error for any problem of scene or data as early as possible: the machine's
+// instruction set first, the camera's position before land cover is made.
+World make_world(const LoadedScene& loaded, Progress& progress, const Cache& cache = no_cache(),
+                 KnownTerrain known = {});
 
 }  // namespace belvedere

@@ -18,10 +18,12 @@ FileNotes make_world_notes(const LoadedScene& loaded, const World& world) {
   FileNotes notes = to_notes(provenance);
   const CameraParameters& camera = world.view.camera;
   notes["belvedere:camera"] =
-      fmt::format("{} eye {:.3f} {:.3f} {:.3f} azimuth {:.6f} pitch {:.6f} field {:.4f}", camera.projection, camera.eye.x, camera.eye.y,
-                  camera.eye.z, camera.azimuth_deg, camera.pitch_deg, camera.field_of_view_deg);
+      fmt::format("{} eye {:.3f} {:.3f} {:.3f} azimuth {:.6f} pitch {:.6f} field {:.4f}",
+                  camera.projection, camera.eye.x, camera.eye.y, camera.eye.z, camera.azimuth_deg,
+                  camera.pitch_deg, camera.field_of_view_deg);
   notes["belvedere:crs"] = world.dem->crs.empty() ? "none" : describe_crs(world.dem->crs);
-  notes["belvedere:sun"] = fmt::format("azimuth {:.4f} altitude {:.4f}", world.view.sun.azimuth_deg, world.view.sun.altitude_deg);
+  notes["belvedere:sun"] = fmt::format("azimuth {:.4f} altitude {:.4f}", world.view.sun.azimuth_deg,
+                                       world.view.sun.altitude_deg);
   return notes;
 }
 

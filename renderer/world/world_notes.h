@@ -5,7 +5,8 @@
 
 namespace belvedere {
 
-// What the header of every file of a picture says: provenance (scene, versions, hashes of the inputs), camera, coordinate system, sun.
+// The header of every file of a picture: provenance (scene, versions, hashes of the inputs),
+// camera, coordinate system, sun.
 FileNotes make_world_notes(const LoadedScene& loaded, const World& world);
 
 }  // namespace belvedere

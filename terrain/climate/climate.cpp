@@ -22,8 +22,8 @@ namespace {
 constexpr std::size_t months = 12;
 constexpr double node_spacing_m = 50000.0;
 constexpr double coarse_m = 1000.0;
-constexpr double least_map_for_wind_m = 40000.0;
-constexpr double least_lapse = -5.0;
+constexpr double min_map_for_wind_m = 40000.0;
+constexpr double min_lapse = -5.0;
 constexpr double largest_lapse = 12.0;
 
 void add(PlaceClimate& sum, const PlaceClimate& other, double weight) {
@@ -31,12 +31,13 @@ void add(PlaceClimate& sum, const PlaceClimate& other, double weight) {
     sum.sea_level_c[m] += weight * other.sea_level_c[m];
     sum.lapse_k_per_km[m] += weight * other.lapse_k_per_km[m];
   }
-  for (std::size_t km = 0; km < sum.rain_mm_at_km.size(); ++km) sum.rain_mm_at_km[km] += weight * other.rain_mm_at_km[km];
+  for (std::size_t km = 0; km < sum.rain_mm_at_km.size(); ++km)
+    sum.rain_mm_at_km[km] += weight * other.rain_mm_at_km[km];
   sum.summer_share += weight * other.summer_share;
   sum.gathers += weight * other.gathers;
 }
 
-// Two neighbours of a place on a line of `count` values, and the share of the second.
+// The two neighbours of a position on a line of `count` values, and the weight of the second.
 struct Neighbours {
   int first, second;
   double share;
@@ -51,25 +52,31 @@ double sample(const Grid<float>& grid, double column, double row) {
   const Neighbours x = neighbours_at(column, grid.width());
   const Neighbours y = neighbours_at(row, grid.height());
   const auto line = [&](int at) {
-    return static_cast<double>(grid(x.first, at)) * (1.0 - x.share) + static_cast<double>(grid(x.second, at)) * x.share;
+    return static_cast<double>(grid(x.first, at)) * (1.0 - x.share) +
+           static_cast<double>(grid(x.second, at)) * x.share;
   };
   return line(y.first) * (1.0 - y.share) + line(y.second) * y.share;
 }
 
-// While a climate is made: the map, the parts it is made of.
+// State while a climate is made: the map and the parts of the climate.
 class Maker {
  public:
-  Maker(const Dem& dem, const ClimateParameters& parameters, Progress& progress) : dem_(dem), p_(parameters), progress_(progress) {
+  Maker(const Dem& dem, const ClimateParameters& parameters, Progress& progress)
+      : dem_(dem), p_(parameters), progress_(progress) {
     const auto require = [](bool good, const char* where, double found, const char* allowed) {
       if (!good) throw Error(ErrorKind::usage, where, fmt::format("{}", found), allowed);
     };
-    require(p_.temperature_factor >= 0.001 && p_.temperature_factor <= 1000.0, "temperature_factor", p_.temperature_factor, "0.001 … 1000");
+    require(p_.temperature_factor >= 0.001 && p_.temperature_factor <= 1000.0, "temperature_factor",
+            p_.temperature_factor, "0.001 … 1000");
     if (p_.lapse_k_per_km)
-      require(*p_.lapse_k_per_km >= least_lapse && *p_.lapse_k_per_km <= largest_lapse, "lapse_k_per_km", *p_.lapse_k_per_km,
-              "-5 … 12 K/km");
-    climate_.place = make_map_place(dem.transform, dem.crs, dem.width(), dem.height(), p_.latitude_deg);
-    const MapPlace& place = climate_.place;
-    climate_.coarse_cells = std::max(1, static_cast<int>(std::lround(coarse_m / std::max(place.cell_m.x, place.cell_m.y))));
+      require(*p_.lapse_k_per_km >= min_lapse && *p_.lapse_k_per_km <= largest_lapse,
+              "lapse_k_per_km", *p_.lapse_k_per_km, "-5 … 12 K/km");
+    climate_.position =
+        make_map_position(dem.transform, dem.crs, dem.width(), dem.height(), p_.latitude_deg);
+    const MapPosition& position = climate_.position;
+    climate_.coarse_cells = std::max(
+        1,
+        static_cast<int>(std::lround(coarse_m / std::max(position.cell_m.x, position.cell_m.y))));
     ground_m_ = block_means(dem.altitude_m, climate_.coarse_cells);
     const auto cells = static_cast<double>(climate_.coarse_cells);
     coarse_ = dem.transform;
@@ -78,13 +85,17 @@ class Maker {
   }
 
   void set_default(const DefaultClimate& fallback) {
-    const MapPlace& place = climate_.place;
-    const auto count = [](int cells, double cell_m) { return 2 + static_cast<int>(cells * cell_m / node_spacing_m); };
-    climate_.nodes = Grid<PlaceClimate>(count(place.width, place.cell_m.x), count(place.height, place.cell_m.y));
+    const MapPosition& position = climate_.position;
+    const auto count = [](int cells, double cell_m) {
+      return 2 + static_cast<int>(cells * cell_m / node_spacing_m);
+    };
+    climate_.nodes = Grid<PlaceClimate>(count(position.width, position.cell_m.x),
+                                        count(position.height, position.cell_m.y));
     for (int y = 0; y < climate_.nodes.height(); ++y)
       for (int x = 0; x < climate_.nodes.width(); ++x) {
         const glm::dvec2 cell = cell_of_node(x, y);
-        climate_.nodes(x, y) = fallback({place.longitude_deg.at(cell.x, cell.y), place.latitude_deg.at(cell.x, cell.y)});
+        climate_.nodes(x, y) = fallback(
+            {position.longitude_deg.at(cell.x, cell.y), position.latitude_deg.at(cell.x, cell.y)});
       }
   }
 
@@ -95,7 +106,7 @@ class Maker {
     else if (p_.temperature)
       from_temperature_raster();
     else
-      tell("temperature: by latitude, longitude and altitude alone");
+      tell("temperature: from latitude, longitude and altitude only");
     if (p_.lapse_k_per_km) set_lapse();
   }
 
@@ -106,13 +117,15 @@ class Maker {
     else if (p_.rain)
       rain_from_raster();
     else
-      tell("rain: by latitude, longitude and altitude alone");
-    const MapPlace& place = climate_.place;
-    const double middle_deg = place.latitude_deg.at(0.5 * place.width, 0.5 * place.height);
-    climate_.wind_from_deg = p_.wind_from_deg.value_or(usual_wind_from_deg(middle_deg));
-    const double side_m = std::max(place.width * place.cell_m.x, place.height * place.cell_m.y);
-    // A raster knows the lee itself.
-    const bool told = p_.wind_from_deg.has_value() || by_stations || (side_m >= least_map_for_wind_m && !p_.rain);
+      tell("rain: from latitude, longitude and altitude only");
+    const MapPosition& position = climate_.position;
+    const double centre_deg = position.latitude_deg.at(0.5 * position.width, 0.5 * position.height);
+    climate_.wind_from_deg = p_.wind_from_deg.value_or(usual_wind_from_deg(centre_deg));
+    const double side_m =
+        std::max(position.width * position.cell_m.x, position.height * position.cell_m.y);
+    // A raster already contains the lee.
+    const bool told =
+        p_.wind_from_deg.has_value() || by_stations || (side_m >= min_map_for_wind_m && !p_.rain);
     if (told && p_.upslope.strength > 0.0) share_out_by_wind();
   }
 
@@ -125,8 +138,9 @@ class Maker {
   }
 
   glm::dvec2 cell_of_node(int x, int y) const {
-    return {static_cast<double>(x) / (climate_.nodes.width() - 1) * (climate_.place.width - 1),
-            static_cast<double>(y) / (climate_.nodes.height() - 1) * (climate_.place.height - 1)};
+    return {
+        static_cast<double>(x) / (climate_.nodes.width() - 1) * (climate_.position.width - 1),
+        static_cast<double>(y) / (climate_.nodes.height() - 1) * (climate_.position.height - 1)};
   }
 
   const StationTable& stations() {
@@ -148,13 +162,15 @@ class Maker {
     }
     const LapseRate year = fit_lapse_rate(altitude_m, year_c);
     tell(fmt::format(
-        "temperature: {}: falls {:.2f} K/km over the year, 95 % of resampled stations say {:.2f} … {:.2f}; foretells a station that "
-        "is left out to {:.2f} K",
+        "temperature: {}: falls {:.2f} K/km over the year (95 % of resampled stations: {:.2f} … "
+        "{:.2f}); error at a left-out station {:.2f} K",
         named(), year.k_per_km, year.low_k_per_km, year.high_k_per_km, year.left_out_k));
     if (!stations().has_months()) {
       for (PlaceClimate& node : climate_.nodes) {
-        // The default's course of the year about the stations' mean.
-        const auto mean = [](const std::array<double, months>& of) { return std::accumulate(of.begin(), of.end(), 0.0) / 12.0; };
+        // The default's annual cycle around the stations' mean.
+        const auto mean = [](const std::array<double, months>& of) {
+          return std::accumulate(of.begin(), of.end(), 0.0) / 12.0;
+        };
         const double warmer = year.sea_level_c - mean(node.sea_level_c);
         const double steeper = year.k_per_km - mean(node.lapse_k_per_km);
         for (std::size_t m = 0; m < months; ++m) {
@@ -164,33 +180,37 @@ class Maker {
       }
       return;
     }
-    double least = std::numeric_limits<double>::max();
-    double most = std::numeric_limits<double>::lowest();
+    double min = std::numeric_limits<double>::max();
+    double max = std::numeric_limits<double>::lowest();
     for (std::size_t m = 0; m < months; ++m) {
       std::vector<double> month_c;
-      for (const Station& station : stations().stations) month_c.push_back(station.temperature_c[m]);
+      for (const Station& station : stations().stations)
+        month_c.push_back(station.temperature_c[m]);
       const LapseRate rate = fit_lapse_rate(altitude_m, month_c, 0);
       for (PlaceClimate& node : climate_.nodes) {
         node.sea_level_c[m] = rate.sea_level_c;
         node.lapse_k_per_km[m] = rate.k_per_km;
       }
-      least = std::min(least, rate.k_per_km);
-      most = std::max(most, rate.k_per_km);
+      min = std::min(min, rate.k_per_km);
+      max = std::max(max, rate.k_per_km);
     }
-    tell(fmt::format("temperature: by month it falls {:.1f} … {:.1f} K/km", least, most));
+    tell(fmt::format("temperature: falls {:.1f} … {:.1f} K/km, by month", min, max));
   }
 
-  // A band on the grid of about a kilometre; cells that it does not reach are NaN.
+  // A band on the grid of about a kilometre; NaN in cells that it does not cover.
   Grid<float> read_band(RasterSource source, int band) const {
     source.band = band;
     source.unit_to_m = 1.0;
-    return warp_rasters({source}, {coarse_, ground_m_.width(), ground_m_.height(), dem_.crs}, silent_progress()).cells;
+    return warp_rasters({source}, {coarse_, ground_m_.width(), ground_m_.height(), dem_.crs},
+                        silent_progress())
+        .cells;
   }
 
   void from_temperature_raster() {
     const RasterInfo info = read_raster_info(*p_.temperature);
     if (info.bands < static_cast<int>(months))
-      throw Error(ErrorKind::usage, p_.temperature->path, fmt::format("has {} bands", info.bands), "12, the means of January … December");
+      throw Error(ErrorKind::usage, p_.temperature->path, fmt::format("has {} bands", info.bands),
+                  "12 bands, the means of January … December");
     double kelvin = 0.0;
     for (std::size_t m = 0; m < months; ++m) {
       Grid<float> grid = read_band(*p_.temperature, static_cast<int>(m) + 1);
@@ -201,40 +221,48 @@ class Maker {
           known_c.push_back(static_cast<double>(grid[i]) * p_.temperature_factor);
           altitude_m.push_back(static_cast<double>(ground_m_[i]));
         }
-      if (known_c.empty()) throw Error(ErrorKind::input, p_.temperature->path, "does not reach the terrain", "a raster that covers it");
+      if (known_c.empty())
+        throw Error(ErrorKind::input, p_.temperature->path, "does not cover the terrain",
+                    "a raster that covers it");
       if (m == 0 && middle_value(known_c) > 150.0) kelvin = 273.15;
-      // Its own fall with altitude, where the map has any to tell it by; the default's else.
+      // The raster's own lapse rate, if the map has enough relief; else the default's.
       const auto [low, high] = std::minmax_element(altitude_m.begin(), altitude_m.end());
-      constexpr double least_relief_m = 300.0;
-      if (*high - *low >= least_relief_m) {
-        const double rate = std::clamp(fit_lapse_rate(altitude_m, known_c, 0).k_per_km, least_lapse, largest_lapse);
+      constexpr double min_relief_m = 300.0;
+      if (*high - *low >= min_relief_m) {
+        const double rate =
+            std::clamp(fit_lapse_rate(altitude_m, known_c, 0).k_per_km, min_lapse, largest_lapse);
         for (PlaceClimate& node : climate_.nodes) node.lapse_k_per_km[m] = rate;
       }
-      // What it says at the mean altitude of its cells, over what the nodes say.
+      // The raster at the mean altitude of its cells, minus the nodes' value there.
       const auto cells = static_cast<double>(climate_.coarse_cells);
       for (int y = 0; y < grid.height(); ++y)
         for (int x = 0; x < grid.width(); ++x) {
           const PlaceClimate column = climate_.at((x + 0.5) * cells - 0.5, (y + 0.5) * cells - 0.5);
           const double here = static_cast<double>(grid(x, y)) * p_.temperature_factor - kelvin;
-          grid(x, y) = std::isnan(grid(x, y)) ? std::numeric_limits<float>::quiet_NaN()
-                                              : static_cast<float>(here - monthly_c(column, static_cast<double>(ground_m_(x, y)))[m]);
+          grid(x, y) = std::isnan(grid(x, y))
+                           ? std::numeric_limits<float>::quiet_NaN()
+                           : static_cast<float>(
+                                 here - monthly_c(column, static_cast<double>(ground_m_(x, y)))[m]);
         }
-      pending_warmer_[m] = make_dem({std::move(grid), coarse_, dem_.crs}).altitude_m;  // cells it does not reach: smooth continuation
+      pending_warmer_[m] =
+          make_dem({std::move(grid), coarse_, dem_.crs})
+              .altitude_m;  // smooth continuation into cells that it does not cover
     }
     climate_.warmer_k = std::move(pending_warmer_);
     tell(fmt::format("temperature: {}{}", p_.temperature->path, kelvin > 0.0 ? ", in kelvin" : ""));
   }
 
   void set_lapse() {
-    // Turned about the ground's mean altitude, where the other source is right.
+    // Rotated around the ground's mean altitude, where the other source is right.
     double mean_m = 0.0;
-    for (const float z : ground_m_) mean_m += static_cast<double>(z) / static_cast<double>(ground_m_.size());
+    for (const float z : ground_m_)
+      mean_m += static_cast<double>(z) / static_cast<double>(ground_m_.size());
     for (PlaceClimate& node : climate_.nodes)
       for (std::size_t m = 0; m < months; ++m) {
         node.sea_level_c[m] += (*p_.lapse_k_per_km - node.lapse_k_per_km[m]) * mean_m / 1000.0;
         node.lapse_k_per_km[m] = *p_.lapse_k_per_km;
       }
-    tell(fmt::format("temperature: falls {:.2f} K/km, as the scene says", *p_.lapse_k_per_km));
+    tell(fmt::format("temperature: falls {:.2f} K/km, set by the scene", *p_.lapse_k_per_km));
   }
 
   void rain_from_stations() {
@@ -242,39 +270,43 @@ class Maker {
     for (int y = 0; y < climate_.nodes.height(); ++y)
       for (int x = 0; x < climate_.nodes.width(); ++x) {
         const glm::dvec2 cell = cell_of_node(x, y);
-        const glm::dvec2 place = dem_.transform.to_crs(cell.x, cell.y);
+        const glm::dvec2 position = dem_.transform.to_crs(cell.x, cell.y);
         PlaceClimate& node = climate_.nodes(x, y);
-        node.gathers = 1.0;  // what glaciers told made up for the default's rain
+        node.gathers = 1.0;  // the glaciers' correction applies only to the default's rain
         for (std::size_t km = 0; km < node.rain_mm_at_km.size(); ++km)
-          node.rain_mm_at_km[km] = plane.at(place, 1000.0 * static_cast<double>(km));
+          node.rain_mm_at_km[km] = plane.at(position, 1000.0 * static_cast<double>(km));
       }
-    tell(fmt::format(
-        "rain: {}: {:.0f} mm at {:.0f} m, {:+.0f} mm a km higher, 95 % of resampled stations say {:+.0f} … {:+.0f}; foretells a "
-        "station that is left out to {:.0f} mm",
-        named(), plane.at_middle_mm, plane.middle_m, plane.mm_per_km_up, plane.low_mm_per_km_up, plane.high_mm_per_km_up,
-        plane.left_out_mm));
+    tell(
+        fmt::format("rain: {}: {:.0f} mm at {:.0f} m, {:+.0f} mm per km of altitude (95 % of "
+                    "resampled stations: {:+.0f} … {:+.0f}); error at a left-out station {:.0f} mm",
+                    named(), plane.at_centre_mm, plane.centre_m, plane.mm_per_km_up,
+                    plane.low_mm_per_km_up, plane.high_mm_per_km_up, plane.left_out_mm));
   }
 
   void rain_from_raster() {
     const RasterInfo info = read_raster_info(*p_.rain);
     if (info.bands != 1 && info.bands < static_cast<int>(months))
       throw Error(ErrorKind::usage, p_.rain->path, fmt::format("has {} bands", info.bands),
-                  "12, the sums of January … December, or one of the year");
+                  "12 bands, the sums of January … December, or one with the sum of the year");
     Grid<float> year(ground_m_.width(), ground_m_.height(), 0.0F);
     for (int band = 1; band <= (info.bands == 1 ? 1 : static_cast<int>(months)); ++band) {
       const Grid<float> part = read_band(*p_.rain, band);
       for (std::size_t i = 0; i < year.size(); ++i) year[i] += part[i];
     }
     if (std::all_of(year.begin(), year.end(), [](float mm) { return std::isnan(mm); }))
-      throw Error(ErrorKind::input, p_.rain->path, "does not reach the terrain", "a raster that covers it");
-    for (PlaceClimate& node : climate_.nodes) node.gathers = 1.0;  // what glaciers told made up for the default's rain
-    // The column's fall and rise with altitude stays, its amount is the raster's.
+      throw Error(ErrorKind::input, p_.rain->path, "does not cover the terrain",
+                  "a raster that covers it");
+    for (PlaceClimate& node : climate_.nodes)
+      node.gathers = 1.0;  // the glaciers' correction applies only to the default's rain
+    // The column keeps its change with altitude; the raster sets the amount.
     const auto cells = static_cast<double>(climate_.coarse_cells);
     for (int y = 0; y < year.height(); ++y)
       for (int x = 0; x < year.width(); ++x) {
         const double column =
-            belvedere::rain_mm(climate_.at((x + 0.5) * cells - 0.5, (y + 0.5) * cells - 0.5), static_cast<double>(ground_m_(x, y)));
-        year(x, y) = static_cast<float>(std::max(0.0, static_cast<double>(year(x, y))) / std::max(1.0, column));
+            belvedere::rain_mm(climate_.at((x + 0.5) * cells - 0.5, (y + 0.5) * cells - 0.5),
+                               static_cast<double>(ground_m_(x, y)));
+        year(x, y) = static_cast<float>(std::max(0.0, static_cast<double>(year(x, y))) /
+                                        std::max(1.0, column));
       }
     climate_.rain_share = make_dem({std::move(year), coarse_, dem_.crs}).altitude_m;
     for (float& share : climate_.rain_share) share = std::max(0.0F, share);
@@ -283,14 +315,19 @@ class Maker {
 
   void share_out_by_wind() {
     UpslopeParameters upslope = p_.upslope;
-    const MapPlace& place = climate_.place;
-    const double turned = climate_.wind_from_deg - place.grid_north_deg.at(0.5 * place.width, 0.5 * place.height);
+    const MapPosition& position = climate_.position;
+    const double turned = climate_.wind_from_deg -
+                          position.grid_north_deg.at(0.5 * position.width, 0.5 * position.height);
     upslope.wind_from_deg = turned - 360.0 * std::floor(turned / 360.0);
-    const Grid<float> more = upslope_rain(ground_m_, place.cell_m * static_cast<double>(climate_.coarse_cells), upslope);
-    if (climate_.rain_share.empty()) climate_.rain_share = Grid<float>(more.width(), more.height(), 1.0F);
-    for (std::size_t i = 0; i < more.size(); ++i) climate_.rain_share[i] *= std::max(least_rain_share, 1.0F + more[i]);
-    tell(fmt::format("rain: more to windward and less in the lee of a wind from {:.0f}°{}", climate_.wind_from_deg,
-                     p_.wind_from_deg ? "" : ", as is usual at this latitude"));
+    const Grid<float> more = upslope_rain(
+        ground_m_, position.cell_m * static_cast<double>(climate_.coarse_cells), upslope);
+    if (climate_.rain_share.empty())
+      climate_.rain_share = Grid<float>(more.width(), more.height(), 1.0F);
+    for (std::size_t i = 0; i < more.size(); ++i)
+      climate_.rain_share[i] *= std::max(min_rain_share, 1.0F + more[i]);
+    tell(fmt::format("rain: increased to windward and reduced in the lee of a wind from {:.0f}°{}",
+                     climate_.wind_from_deg,
+                     p_.wind_from_deg ? "" : ", the usual direction at this latitude"));
   }
 
   const Dem& dem_;
@@ -298,7 +335,7 @@ class Maker {
   Progress& progress_;
   Climate climate_;
   Grid<float> ground_m_;  // mean altitude on the grid of about a kilometre
-  GeoTransform coarse_;   // … which is this
+  GeoTransform coarse_;   // of that grid
   std::array<Grid<float>, months> pending_warmer_;
   std::optional<StationTable> stations_;
 };
@@ -306,9 +343,17 @@ class Maker {
 }  // namespace
 
 PlaceClimate Climate::at(double column, double row) const {
-  const Neighbours x = neighbours_at(place.width > 1 ? column / (place.width - 1) * (nodes.width() - 1) : 0.0, nodes.width());
-  const Neighbours y = neighbours_at(place.height > 1 ? row / (place.height - 1) * (nodes.height() - 1) : 0.0, nodes.height());
-  PlaceClimate here{.sea_level_c = {}, .lapse_k_per_km = {}, .rain_mm_at_km = {}, .summer_share = 0.0, .gathers = 0.0};
+  const Neighbours x =
+      neighbours_at(position.width > 1 ? column / (position.width - 1) * (nodes.width() - 1) : 0.0,
+                    nodes.width());
+  const Neighbours y =
+      neighbours_at(position.height > 1 ? row / (position.height - 1) * (nodes.height() - 1) : 0.0,
+                    nodes.height());
+  PlaceClimate here{.sea_level_c = {},
+                    .lapse_k_per_km = {},
+                    .rain_mm_at_km = {},
+                    .summer_share = 0.0,
+                    .gathers = 0.0};
   add(here, nodes(x.first, y.first), (1.0 - x.share) * (1.0 - y.share));
   add(here, nodes(x.second, y.first), x.share * (1.0 - y.share));
   add(here, nodes(x.first, y.second), (1.0 - x.share) * y.share);
@@ -331,7 +376,8 @@ double usual_wind_from_deg(double latitude_deg) {
   return away >= trades_to_deg && away < westerlies_to_deg ? 270.0 : 90.0;
 }
 
-Climate make_climate(const Dem& dem, const ClimateParameters& parameters, const DefaultClimate& fallback, Progress& progress) {
+Climate make_climate(const Dem& dem, const ClimateParameters& parameters,
+                     const DefaultClimate& fallback, Progress& progress) {
   Maker maker(dem, parameters, progress);
   maker.set_default(fallback);
   maker.set_temperature();

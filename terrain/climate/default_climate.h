@@ -8,38 +8,44 @@
 
 namespace belvedere {
 
-// The climate of a place of which nothing else is known: what stations say of it, and glaciers of what stays.
+// The climate of a position without local data: the climate from stations, corrected by measured
+// glaciers.
 
 // A glacier whose equilibrium line was measured.
 struct MeasuredGlacier {
   std::string name;
   double latitude_deg = 0.0;
   double longitude_deg = 0.0;
-  double equilibrium_m = 0.0;  // altitude where in a year of balance as much falls as melts
+  double equilibrium_m = 0.0;  // altitude at which accumulation equals ablation
 };
-// Those that are built in. Error(usage) names the line of a glacier that is not understood, for a text of the same form.
+// The built-in glaciers. Error(usage) gives the line of a malformed glacier, for a text of the same
+// form.
 std::vector<MeasuredGlacier> read_measured_glaciers();
-std::vector<MeasuredGlacier> measured_glaciers_from_toml(const std::string& text, const std::string& name);
+std::vector<MeasuredGlacier> measured_glaciers_from_toml(const std::string& text,
+                                                         const std::string& name);
 
-// How far a glacier speaks for others.
-struct GlacierKinship {
-  double reach_km = 300.0;     // > 0: where it counts a quarter
-  double usual_weight = 0.75;  // > 0: of what is usual all over the Earth, beside 1 of a glacier at the place itself
+// How far the correction of a glacier applies.
+struct GlacierSimilarity {
+  double reach_km = 300.0;  // > 0: distance at which its weight is a quarter
+  double usual_weight =
+      0.75;  // > 0: weight of the worldwide average, against 1 of a glacier at its own position
 };
-// By how much more (or less) than usual hollows gather, at measured glaciers and between them.
+// Factor on the accumulation in hollows, at measured glaciers and interpolated between them.
 struct SnowGathering {
-  GlacierKinship kinship;
-  std::vector<std::array<double, 3>> places;  // of glaciers, km from the Earth's centre
-  std::vector<double> log_gathers;            // of each, ln of PlaceClimate::gathers
+  GlacierSimilarity similarity;
+  std::vector<std::array<double, 3>> positions;  // of glaciers, km from the Earth's centre
+  std::vector<double> log_gathers;               // of each, ln of PlaceClimate::gathers
 };
-// At a glacier what is gathered is what must fall at its equilibrium line (snow_to_last_mm) over what does. That makes up for rain that
-// stations tell badly: valleys are drier than the glaciers above them, summits as wet.
-SnowGathering make_snow_gathering(const ClimateField& field, const std::vector<MeasuredGlacier>& glaciers,
-                                  const GlacierKinship& kinship = {});
-// At a place, > 0; 1 far from all glaciers.
+// At a glacier the factor is the accumulation needed at its equilibrium line (snow_to_last_mm)
+// divided by the modelled one. It corrects for rain that stations represent badly: valleys are
+// drier than the glaciers above them, summits as wet.
+SnowGathering make_snow_gathering(const ClimateField& field,
+                                  const std::vector<MeasuredGlacier>& glaciers,
+                                  const GlacierSimilarity& similarity = {});
+// At a position, > 0; 1 far from all glaciers.
 double gathers_at(const SnowGathering& gathering, double longitude_deg, double latitude_deg);
 
-// From the stations and glaciers that are built in.
+// From the built-in stations and glaciers.
 PlaceClimate default_climate(double longitude_deg, double latitude_deg);
 
 }  // namespace belvedere

@@ -13,7 +13,7 @@ namespace {
 
 using DayWeights = std::array<std::array<double, 12>, 365>;
 
-// What each month counts on each day.
+// The weight of each month on each day.
 DayWeights make_day_weights() {
   constexpr double pi = std::numbers::pi;
   DayWeights weights{};
@@ -22,7 +22,8 @@ DayWeights make_day_weights() {
       const double months_off = (day + 0.5) * 12.0 / 365.0 - (month + 0.5);
       double sum = 1.0 / 12.0;
       for (int wave = 1; wave <= 6; ++wave) {
-        // The mean over a month leaves sin(x) / x of a wave, x half a month in radians. The sixth wave has no second phase.
+        // The mean over a month reduces a wave to sin(x) / x of it, x half a month in radians. The
+        // sixth wave has no second phase.
         const double x = pi * wave / 12.0;
         const double share = wave == 6 ? 1.0 / 12.0 : 2.0 / 12.0;
         sum += share * x / exact::sin(x) * exact::cos(2.0 * x * months_off);
@@ -33,7 +34,7 @@ DayWeights make_day_weights() {
 }
 
 GrowingSeason season_of(const std::array<double, 365>& days, double warmer_k, double limit_c) {
-  // Straight from day to day, so that the season changes smoothly with its temperatures.
+  // Linear between days, so that the season changes smoothly with its temperatures.
   double length = 0.0;
   double heat = 0.0;
   for (std::size_t d = 0; d < 365; ++d) {
@@ -66,16 +67,20 @@ std::array<double, 365> daily_c(const Months& months) {
   return days;
 }
 
-GrowingSeason growing_season(const Months& months, double limit_c) { return season_of(daily_c(months), 0.0, limit_c); }
+GrowingSeason growing_season(const Months& months, double limit_c) {
+  return season_of(daily_c(months), 0.0, limit_c);
+}
 
 double treeline_excess_k(const Months& months, const TreelineParameters& parameters) {
   const std::array<double, 365> days = daily_c(months);
   double grows = 60.0;
   double does_not = -60.0;
   while (grows - does_not > 1e-6) {
-    const double middle = 0.5 * (grows + does_not);
-    const GrowingSeason season = season_of(days, middle, parameters.limit_c);
-    (season.days >= parameters.least_days && season.mean_c >= parameters.least_mean_c ? grows : does_not) = middle;
+    const double centre = 0.5 * (grows + does_not);
+    const GrowingSeason season = season_of(days, centre, parameters.limit_c);
+    (season.days >= parameters.min_days && season.mean_c >= parameters.min_mean_c ? grows
+                                                                                  : does_not) =
+        centre;
   }
   return grows;
 }
@@ -91,12 +96,14 @@ double highest_m(const std::function<bool(double)>& holds) {
   }
   if (no <= lowest_line_m) return lowest_line_m;
   while (no - yes > 1e-3) {
-    const double middle = 0.5 * (no + yes);
-    (holds(middle) ? yes : no) = middle;
+    const double centre = 0.5 * (no + yes);
+    (holds(centre) ? yes : no) = centre;
   }
   return yes;
 }
 
-double year_mean(const Months& months) { return std::accumulate(months.begin(), months.end(), 0.0) / 12.0; }
+double year_mean(const Months& months) {
+  return std::accumulate(months.begin(), months.end(), 0.0) / 12.0;
+}
 
 }  // namespace belvedere

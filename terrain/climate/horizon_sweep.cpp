@@ -9,7 +9,7 @@
 namespace belvedere {
 
 SweepPlan plan_sweep(int width, int height, glm::dvec2 cell_m, const exact::Turn& towards) {
-  // Cells a metre, rows southwards.
+  // Cells per metre, rows southwards.
   const double right = towards.sine / cell_m.x;
   const double down = -towards.cosine / cell_m.y;
   SweepPlan plan;
@@ -20,38 +20,41 @@ SweepPlan plan_sweep(int width, int height, glm::dvec2 cell_m, const exact::Turn
   const double shear = (plan.along_rows ? down : right) / major;
   plan.from_end = major > 0.0;
   plan.step_m = 1.0 / std::abs(major);
-  int least = 0;
-  int most = 0;
+  int min = 0;
+  int max = 0;
   for (int i = 0; i < plan.length; ++i) {
     const double at = shear * i;
     const double whole = std::floor(at);
     const double t = plan.step_m * (plan.from_end ? plan.length - 1 - i : i);
     plan.whole.push_back(static_cast<int>(whole));
     plan.part.push_back(static_cast<float>(at - whole));
-    // A part that float rounds to a whole cell would take the lines beside the right ones.
+    // Rounding in float to a whole cell would select the wrong lines.
     if (plan.part.back() >= 1.0F) {
       plan.part.back() = 0.0F;
       ++plan.whole.back();
     }
     plan.drop_m.push_back(static_cast<float>(t * t / (2.0 * sight_radius_m)));
     plan.lean.push_back(static_cast<float>(t / sight_radius_m));
-    // From the point back to the cell: a cell at line + up lies 1 - part behind the line's point, part before the next line's.
+    // From the point back to the cell: a cell at line + up lies 1 - part behind the line's point
+    // and part before the next line's.
     const bool between = plan.part.back() > 0.0F;
     const int up = plan.whole.back() + (between ? 1 : 0);
     plan.up.push_back(up);
     plan.back.push_back(between ? plan.part.back() : 1.0F);
-    least = std::min(least, up);
-    most = std::max(most, up);
+    min = std::min(min, up);
+    max = std::max(max, up);
   }
-  plan.first_line = -most;
-  plan.last_line = plan.across - least;
+  plan.first_line = -max;
+  plan.last_line = plan.across - min;
   return plan;
 }
 
 namespace {
 
-// Heights over one plane along the lines, [line][point]; NaN beyond the grid. Half a cell outside counts as its border.
-void sample_lines(const Grid<float>& altitude_m, const SweepPlan& plan, int first, int count, std::vector<float>& heights) {
+// Heights above one plane along the lines, [line][point]; NaN beyond the grid. Up to half a cell
+// outside uses the border.
+void sample_lines(const Grid<float>& altitude_m, const SweepPlan& plan, int first, int count,
+                  std::vector<float>& heights) {
   const auto length = static_cast<std::size_t>(plan.length);
   const auto width = static_cast<std::size_t>(altitude_m.width());
   const int last = plan.across - 1;
@@ -91,16 +94,17 @@ void sample_lines(const Grid<float>& altitude_m, const SweepPlan& plan, int firs
   }
 }
 
-// A point of the hull and the rise from it to the point of the hull before it, a step.
+// A point of the hull and the rise from it to the previous point of the hull, per step.
 struct HullPoint {
-  float place;
+  float position;
   float height_m;
   float rise_m;
 };
 
 }  // namespace
 
-void sweep_lines(const Grid<float>& altitude_m, const SweepPlan& plan, int first, int count, std::vector<float>& tangents) {
+void sweep_lines(const Grid<float>& altitude_m, const SweepPlan& plan, int first, int count,
+                 std::vector<float>& tangents) {
   const auto length = static_cast<std::size_t>(plan.length);
   tangents.resize(length * static_cast<std::size_t>(count));
   sample_lines(altitude_m, plan, first, count, tangents);
@@ -108,29 +112,33 @@ void sweep_lines(const Grid<float>& altitude_m, const SweepPlan& plan, int first
   const auto per_step = static_cast<float>(1.0 / plan.step_m);
   for (int line = 0; line < count; ++line) {
     float* values = tangents.data() + static_cast<std::size_t>(line) * length;
-    HullPoint* top = hull.data();  // one past the last point; hull[0] is never looked behind
+    HullPoint* top = hull.data();  // one past the last point; nothing is read before hull[0]
     for (std::size_t k = 0; k < length; ++k) {
       const std::size_t p = plan.from_end ? length - 1 - k : k;
       const float height = values[p];
       if (std::isnan(height)) continue;
-      const auto place = static_cast<float>(k);
-      // From the second point on: the last is hidden for good where the one before it is seen over it.
-      while (top - hull.data() >= 2 && top[-1].height_m - height <= top[-1].rise_m * (place - top[-1].place)) --top;
+      const auto position = static_cast<float>(k);
+      // From the second point on: the last point is hidden for good if the one before it is visible
+      // over it.
+      while (top - hull.data() >= 2 &&
+             top[-1].height_m - height <= top[-1].rise_m * (position - top[-1].position))
+        --top;
       float rise = 0.0F;
       if (top == hull.data()) {
         values[p] = no_horizon;
       } else {
-        rise = (top[-1].height_m - height) / (place - top[-1].place);
+        rise = (top[-1].height_m - height) / (position - top[-1].position);
         values[p] = rise * per_step - plan.lean[p];
       }
-      *top++ = {place, height, rise};
+      *top++ = {position, height, rise};
     }
   }
 }
 
 Grid<float> horizon_tangents(const Grid<float>& altitude_m, glm::dvec2 cell_m, double azimuth_deg) {
   Grid<float> tangents(altitude_m.width(), altitude_m.height());
-  const SweepPlan plan = plan_sweep(altitude_m.width(), altitude_m.height(), cell_m, exact::turn(to_radians(azimuth_deg)));
+  const SweepPlan plan = plan_sweep(altitude_m.width(), altitude_m.height(), cell_m,
+                                    exact::turn(to_radians(azimuth_deg)));
   sweep_horizon(altitude_m, plan, [&](int x, int y, float tangent) { tangents(x, y) = tangent; });
   return tangents;
 }

@@ -13,15 +13,17 @@
 namespace belvedere {
 namespace {
 
-constexpr double least_rise_m = 50.0;
-constexpr std::uint64_t lapse_seed = 0x6c61707365ULL;  // no stream of pictures: only a range in a report hangs on it
+constexpr double min_rise_m = 50.0;
+constexpr std::uint64_t lapse_seed =
+    0x6c61707365ULL;  // not a stream of pictures: only a range in a report depends on it
 
 struct Sample {
   double altitude_m;
   double temperature_c;
 };
 
-// The slope between two samples; it counts by the altitude between them, since the noise of both is shared out over that (Jaeckel 1972).
+// The slope between two samples; its weight is the altitude difference, because the noise of both
+// is divided by it (Jaeckel 1972).
 struct PairSlope {
   double per_m;
   double weight;
@@ -32,9 +34,10 @@ struct Line {
   double per_m = 0.0;
 };
 
-// Where half of the weight lies to either side.
+// The weighted median.
 double weighted_median_of(std::vector<PairSlope>& slopes) {
-  std::sort(slopes.begin(), slopes.end(), [](const PairSlope& a, const PairSlope& b) { return a.per_m < b.per_m; });
+  std::sort(slopes.begin(), slopes.end(),
+            [](const PairSlope& a, const PairSlope& b) { return a.per_m < b.per_m; });
   double all = 0.0;
   for (const PairSlope& slope : slopes) all += slope.weight;
   double below = 0.0;
@@ -45,19 +48,21 @@ double weighted_median_of(std::vector<PairSlope>& slopes) {
   return slopes.back().per_m;
 }
 
-// Pairs grow with the square of stations: beyond so many each station is held against those at certain distances in the list only.
-constexpr std::size_t most_pairs = 50000;
+// The number of pairs grows with the square of the stations: above this limit each station is
+// compared only with those at certain distances in the list.
+constexpr std::size_t max_pairs = 50000;
 
 std::optional<Line> theil_sen(const std::vector<Sample>& samples) {
   const std::size_t n = samples.size();
   std::vector<PairSlope> slopes;
-  const std::size_t stride = 1 + n * (n - 1) / 2 / most_pairs;
+  const std::size_t stride = 1 + n * (n - 1) / 2 / max_pairs;
   for (std::size_t apart = 1; apart < n; apart += stride)
     for (std::size_t i = 0; i + apart < n; ++i) {
       const Sample& a = samples[i];
       const Sample& b = samples[i + apart];
-      if (std::abs(b.altitude_m - a.altitude_m) > least_rise_m)
-        slopes.push_back({(b.temperature_c - a.temperature_c) / (b.altitude_m - a.altitude_m), std::abs(b.altitude_m - a.altitude_m)});
+      if (std::abs(b.altitude_m - a.altitude_m) > min_rise_m)
+        slopes.push_back({(b.temperature_c - a.temperature_c) / (b.altitude_m - a.altitude_m),
+                          std::abs(b.altitude_m - a.altitude_m)});
     }
   if (slopes.empty()) return {};
   Line line;
@@ -70,26 +75,39 @@ std::optional<Line> theil_sen(const std::vector<Sample>& samples) {
 
 }  // namespace
 
-LapseRate fit_lapse_rate(const std::vector<double>& altitude_m, const std::vector<double>& temperature_c, int bootstrap_samples) {
+LapseRate fit_lapse_rate(const std::vector<double>& altitude_m,
+                         const std::vector<double>& temperature_c, int bootstrap_samples) {
   std::vector<Sample> samples;
   for (std::size_t i = 0; i < std::min(altitude_m.size(), temperature_c.size()); ++i)
-    if (!std::isnan(altitude_m[i]) && !std::isnan(temperature_c[i])) samples.push_back({altitude_m[i], temperature_c[i]});
+    if (!std::isnan(altitude_m[i]) && !std::isnan(temperature_c[i]))
+      samples.push_back({altitude_m[i], temperature_c[i]});
   const std::optional<Line> line = samples.size() < 3 ? std::nullopt : theil_sen(samples);
   if (!line)
-    throw Error(ErrorKind::input, "stations", fmt::format("{} stations with a temperature, or all at one altitude", samples.size()),
-                "at least 3 stations, some of them 50 m higher than others");
-  LapseRate rate{.sea_level_c = line->at_zero, .k_per_km = -1000.0 * line->per_m, .stations = static_cast<int>(samples.size())};
+    throw Error(
+        ErrorKind::input, "stations",
+        fmt::format("{} stations with a temperature, or all at the same altitude", samples.size()),
+        "at least 3 stations with altitude differences of 50 m or more");
+  LapseRate rate{.sea_level_c = line->at_zero,
+                 .k_per_km = -1000.0 * line->per_m,
+                 .stations = static_cast<int>(samples.size())};
 
   const auto count = static_cast<std::uint32_t>(samples.size());
   std::vector<double> rates;
   std::vector<Sample> drawn(samples.size());
   for (int sample = 0; sample < bootstrap_samples; ++sample) {
-    for (std::uint32_t i = 0; i < count; ++i) drawn[i] = samples[random_index(count, lapse_seed, sample, i)];
+    for (std::uint32_t i = 0; i < count; ++i)
+      drawn[i] = samples[random_index(count, lapse_seed, sample, i)];
     if (const std::optional<Line> again = theil_sen(drawn)) rates.push_back(-1000.0 * again->per_m);
   }
   std::sort(rates.begin(), rates.end());
-  rate.low_k_per_km = rates.empty() ? rate.k_per_km : rates[static_cast<std::size_t>(0.025 * static_cast<double>(rates.size() - 1))];
-  rate.high_k_per_km = rates.empty() ? rate.k_per_km : rates[static_cast<std::size_t>(0.975 * static_cast<double>(rates.size() - 1))];
+  rate.low_k_per_km =
+      rates.empty()
+          ? rate.k_per_km
+          : rates[static_cast<std::size_t>(0.025 * static_cast<double>(rates.size() - 1))];
+  rate.high_k_per_km =
+      rates.empty()
+          ? rate.k_per_km
+          : rates[static_cast<std::size_t>(0.975 * static_cast<double>(rates.size() - 1))];
 
   // Of many stations a hundred are left out in turn.
   const std::size_t step = 1 + samples.size() / 100;
@@ -100,7 +118,8 @@ LapseRate fit_lapse_rate(const std::vector<double>& altitude_m, const std::vecto
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
     const std::optional<Line> without = theil_sen(others);
     if (!without) continue;
-    const double error = samples[i].temperature_c - (without->at_zero + without->per_m * samples[i].altitude_m);
+    const double error =
+        samples[i].temperature_c - (without->at_zero + without->per_m * samples[i].altitude_m);
     sum += error * error;
     ++left_out;
   }

@@ -4,8 +4,9 @@
 
 namespace belvedere {
 
-// Where forest ends on level ground that gets rain enough, m; `warmer_k` moves all months. -2000 where trees grow nowhere, 9000 where they
-// grow up to there.
-double treeline_m(const PlaceClimate& climate, double warmer_k = 0.0, const TreelineParameters& parameters = {});
+// Altitude of the treeline on level ground with enough rain, m; `warmer_k` shifts all months. -2000
+// if trees grow nowhere, 9000 if they grow up to there.
+double treeline_m(const PlaceClimate& climate, double warmer_k = 0.0,
+                  const TreelineParameters& parameters = {});
 
 }  // namespace belvedere

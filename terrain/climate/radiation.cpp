@@ -30,11 +30,11 @@ Four load(const float* at) {
 }
 
 struct Gradient {
-  float right = 0.0F;  // rise a metre, by the map
+  float right = 0.0F;  // rise per metre, on the map
   float top = 0.0F;
 };
 
-// Central differences; at borders and voids what neighbours there are.
+// Central differences; one-sided at borders and voids.
 class Gradients {
  public:
   Gradients(const Grid<float>& altitude_m, glm::dvec2 cell_m)
@@ -45,11 +45,13 @@ class Gradients {
         per_two_right_(static_cast<float>(0.5 / cell_m.x)),
         per_two_top_(static_cast<float>(0.5 / cell_m.y)) {}
 
-  // Of a cell that is no void.
+  // Of a cell that is not void.
   [[gnu::always_inline]] Gradient at(int x, int y) const {
-    if (static_cast<unsigned>(x - 1) < inner_width_ && static_cast<unsigned>(y - 1) < inner_height_) {
+    if (static_cast<unsigned>(x - 1) < inner_width_ &&
+        static_cast<unsigned>(y - 1) < inner_height_) {
       const float* here = altitude_m_.data() + altitude_m_.index(x, y);
-      const Gradient inside{(here[1] - here[-1]) * per_two_right_, (here[-row_] - here[row_]) * per_two_top_};
+      const Gradient inside{(here[1] - here[-1]) * per_two_right_,
+                            (here[-row_] - here[row_]) * per_two_top_};
       if (!std::isnan(inside.right + inside.top)) return inside;
     }
     return at_border(x, y);
@@ -62,11 +64,14 @@ class Gradients {
       const float value = altitude_m_.clamped(column, row);
       return std::isnan(value) ? here : value;
     };
-    // Twice the difference over one cell where the other neighbour is missing.
-    const auto missing = [&](int column, int row) { return !altitude_m_.contains(column, row) || std::isnan(altitude_m_(column, row)); };
+    // Twice the difference over one cell if the other neighbour is missing.
+    const auto missing = [&](int column, int row) {
+      return !altitude_m_.contains(column, row) || std::isnan(altitude_m_(column, row));
+    };
     const float across = missing(x - 1, y) || missing(x + 1, y) ? 2.0F : 1.0F;
     const float along = missing(x, y - 1) || missing(x, y + 1) ? 2.0F : 1.0F;
-    return {(known(x + 1, y) - known(x - 1, y)) * per_two_right_ * across, (known(x, y - 1) - known(x, y + 1)) * per_two_top_ * along};
+    return {(known(x + 1, y) - known(x - 1, y)) * per_two_right_ * across,
+            (known(x, y - 1) - known(x, y + 1)) * per_two_top_ * along};
   }
 
   const Grid<float>& altitude_m_;
@@ -76,23 +81,29 @@ class Gradients {
   float per_two_top_;
 };
 
-// A value that changes evenly over the map, in float, as the inner loop takes it.
+// A value that is linear over the map, in float for the inner loop.
 struct Slope {
   float first, per_column, per_row;
-  float at(int x, int y) const { return first + static_cast<float>(x) * per_column + static_cast<float>(y) * per_row; }
+  float at(int x, int y) const {
+    return first + static_cast<float>(x) * per_column + static_cast<float>(y) * per_row;
+  }
 };
 Slope slope_of(const MapPlane& plane, double subtract, double factor) {
-  return {static_cast<float>((plane.at_first - subtract) * factor), static_cast<float>(plane.per_column * factor),
+  return {static_cast<float>((plane.at_first - subtract) * factor),
+          static_cast<float>(plane.per_column * factor),
           static_cast<float>(plane.per_row * factor)};
 }
 
 std::pair<double, double> range_of_corners(const MapPlane& plane, int width, int height) {
-  const std::array<double, 4> corner = {plane.at(0, 0), plane.at(width - 1, 0), plane.at(0, height - 1), plane.at(width - 1, height - 1)};
-  return {*std::min_element(corner.begin(), corner.end()), *std::max_element(corner.begin(), corner.end())};
+  const std::array<double, 4> corner = {plane.at(0, 0), plane.at(width - 1, 0),
+                                        plane.at(0, height - 1), plane.at(width - 1, height - 1)};
+  return {*std::min_element(corner.begin(), corner.end()),
+          *std::max_element(corner.begin(), corner.end())};
 }
 
 std::pair<float, float> range_of_altitudes(const Grid<float>& altitude_m) {
-  std::pair<float, float> range{std::numeric_limits<float>::max(), std::numeric_limits<float>::lowest()};
+  std::pair<float, float> range{std::numeric_limits<float>::max(),
+                                std::numeric_limits<float>::lowest()};
   for (const float z : altitude_m)
     if (!std::isnan(z)) range = {std::min(range.first, z), std::max(range.second, z)};
   return range.first > range.second ? std::pair{0.0F, 1.0F} : range;
@@ -100,28 +111,32 @@ std::pair<float, float> range_of_altitudes(const Grid<float>& altitude_m) {
 
 }  // namespace
 
-Radiation potential_radiation(const Grid<float>& altitude_m, const MapPlace& place, const RadiationParameters& parameters,
-                              Progress& progress) {
+Radiation potential_radiation(const Grid<float>& altitude_m, const MapPosition& position,
+                              const RadiationParameters& parameters, Progress& progress) {
   const int width = altitude_m.width();
   const int height = altitude_m.height();
   const int sectors = parameters.azimuths;
-  if (sectors < 8 || sectors > 360) throw Error(ErrorKind::usage, "azimuths", fmt::format("{}", sectors), "8 … 360");
-  if (place.width != width || place.height != height)
+  if (sectors < 8 || sectors > 360)
+    throw Error(ErrorKind::usage, "azimuths", fmt::format("{}", sectors), "8 … 360");
+  if (position.width != width || position.height != height)
     throw Error(ErrorKind::bug, "radiation",
-                fmt::format("a place of {} × {} cells for a grid of {} × {}", place.width, place.height, width, height));
+                fmt::format("a map of {} × {} cells for a grid of {} × {}", position.width,
+                            position.height, width, height));
   check_memory("radiation", 2.0 * sizeof(float) * static_cast<double>(altitude_m.size()));
   const auto range = range_of_altitudes(altitude_m);
   const float lowest = range.first;
   const float highest = range.second;
-  const auto [south, north] = range_of_corners(place.latitude_deg, width, height);
-  const double grid_north_deg = place.grid_north_deg.at(0.5 * (width - 1), 0.5 * (height - 1));
-  const SunTable table(std::max(-90.0, south), std::min(90.0, north), static_cast<double>(lowest), static_cast<double>(highest),
-                       grid_north_deg, sectors, parameters.sun);
-  // Azimuths of the map are short of true ones by this in its middle; elsewhere by a little more or less, which turns the sun, not its
-  // light.
-  const Slope rest_rad = slope_of(place.grid_north_deg, grid_north_deg, std::numbers::pi / 180.0);
-  const Slope latitude = slope_of(place.latitude_deg, table.south_deg(), 1.0 / table.latitude_step_deg());
-  const Gradients gradients(altitude_m, place.cell_m);
+  const auto [south, north] = range_of_corners(position.latitude_deg, width, height);
+  const double grid_north_deg = position.grid_north_deg.at(0.5 * (width - 1), 0.5 * (height - 1));
+  const SunTable table(std::max(-90.0, south), std::min(90.0, north), static_cast<double>(lowest),
+                       static_cast<double>(highest), grid_north_deg, sectors, parameters.sun);
+  // Difference between true azimuths and azimuths of the map at its centre. It varies slightly over
+  // the map; that affects the direction of the sun, not the light.
+  const Slope rest_rad =
+      slope_of(position.grid_north_deg, grid_north_deg, std::numbers::pi / 180.0);
+  const Slope latitude =
+      slope_of(position.latitude_deg, table.south_deg(), 1.0 / table.latitude_step_deg());
+  const Gradients gradients(altitude_m, position.cell_m);
   const auto per_altitude = static_cast<float>(1.0 / table.altitude_step_m());
   constexpr std::size_t altitude_stride = 4;
   constexpr std::size_t step_stride = SunTable::altitudes * altitude_stride;
@@ -132,41 +147,51 @@ Radiation potential_radiation(const Grid<float>& altitude_m, const MapPlace& pla
   const int latitudes = table.latitudes();
   progress.begin("radiation", sectors);
   for (int sector = 0; sector < sectors; ++sector) {
-    const exact::Turn towards = exact::turn(2.0 * std::numbers::pi * sector / sectors - to_radians(grid_north_deg));
+    const exact::Turn towards =
+        exact::turn(2.0 * std::numbers::pi * sector / sectors - to_radians(grid_north_deg));
     const auto towards_right = static_cast<float>(towards.sine);
     const auto towards_top = static_cast<float>(towards.cosine);
     const bool lit = table.lit(sector);
     const float* const sums = table.sums(sector);
-    sweep_horizon(altitude_m, plan_sweep(width, height, place.cell_m, towards), [&](int x, int y, float horizon) {
-      const std::size_t i = altitude_m.index(x, y);
-      const float z = altitude_m[i];
-      if (std::isnan(z)) return;
-      const Gradient g = gradients.at(x, y);
-      // The slope itself is a horizon too: below it the sun is behind the ground.
-      const float from = std::max(std::max(horizon, g.right * towards_right + g.top * towards_top), 0.0F);
-      radiation.sky_view[i] += 1.0F / (1.0F + from * from);
-      if (!lit || from > SunTable::most_tangent) return;
-      const float up = (z - lowest) * per_altitude;
-      const int bin = std::min(static_cast<int>(up), SunTable::altitudes - 2);
-      const float up_part = std::min(up, top_altitude) - static_cast<float>(bin);
-      const float* at = sums + SunTable::step_of(from) * step_stride + static_cast<std::size_t>(bin) * altitude_stride;
-      const auto look_up = [&](const float* low) { return load(low) + (load(low + altitude_stride) - load(low)) * up_part; };
-      Four sum;
-      if (latitudes == 1) {
-        sum = look_up(at);
-      } else {
-        const float north_part = std::clamp(latitude.at(x, y), 0.0F, static_cast<float>(latitudes - 1));
-        const int l = std::min(static_cast<int>(north_part), latitudes - 2);
-        at += static_cast<std::size_t>(l) * latitude_stride;
-        const Four south_sum = look_up(at);
-        sum = south_sum + (look_up(at + latitude_stride) - south_sum) * (north_part - static_cast<float>(l));
-      }
-      const float rest = rest_rad.at(x, y);
-      radiation.direct_mj_m2[i] += sum[0] - (g.right + g.top * rest) * sum[1] - (g.top - g.right * rest) * sum[2];
-    });
+    sweep_horizon(altitude_m, plan_sweep(width, height, position.cell_m, towards),
+                  [&](int x, int y, float horizon) {
+                    const std::size_t i = altitude_m.index(x, y);
+                    const float z = altitude_m[i];
+                    if (std::isnan(z)) return;
+                    const Gradient g = gradients.at(x, y);
+                    // The slope itself is a horizon too: below it the sun is behind the ground.
+                    const float from = std::max(
+                        std::max(horizon, g.right * towards_right + g.top * towards_top), 0.0F);
+                    radiation.sky_view[i] += 1.0F / (1.0F + from * from);
+                    if (!lit || from > SunTable::max_tangent) return;
+                    const float up = (z - lowest) * per_altitude;
+                    const int bin = std::min(static_cast<int>(up), SunTable::altitudes - 2);
+                    const float up_part = std::min(up, top_altitude) - static_cast<float>(bin);
+                    const float* at = sums + SunTable::step_of(from) * step_stride +
+                                      static_cast<std::size_t>(bin) * altitude_stride;
+                    const auto look_up = [&](const float* low) {
+                      return load(low) + (load(low + altitude_stride) - load(low)) * up_part;
+                    };
+                    Four sum;
+                    if (latitudes == 1) {
+                      sum = look_up(at);
+                    } else {
+                      const float north_part =
+                          std::clamp(latitude.at(x, y), 0.0F, static_cast<float>(latitudes - 1));
+                      const int l = std::min(static_cast<int>(north_part), latitudes - 2);
+                      at += static_cast<std::size_t>(l) * latitude_stride;
+                      const Four south_sum = look_up(at);
+                      sum = south_sum + (look_up(at + latitude_stride) - south_sum) *
+                                            (north_part - static_cast<float>(l));
+                    }
+                    const float rest = rest_rad.at(x, y);
+                    radiation.direct_mj_m2[i] += sum[0] - (g.right + g.top * rest) * sum[1] -
+                                                 (g.top - g.right * rest) * sum[2];
+                  });
     progress.advance(1.0);
   }
-  // So far on level ground under inclined: a unit normal is (-right, -top, 1) / √(1 + right² + top²).
+  // Convert from level to inclined ground: a unit normal is (-right, -top, 1) / √(1 + right² +
+  // top²).
   const auto share = 1.0F / static_cast<float>(sectors);
   parallel_rows(height, [&](int y) {
     for (int x = 0; x < width; ++x) {

@@ -19,11 +19,12 @@
 namespace belvedere {
 namespace {
 
-constexpr std::size_t most_terms = 4;               // 1, altitude, x, y
-constexpr std::uint64_t rain_seed = 0x7261696eULL;  // no stream of pictures: only a range in a report hangs on it
-using Terms = std::array<double, most_terms>;
+constexpr std::size_t max_terms = 4;  // 1, altitude, x, y
+constexpr std::uint64_t rain_seed =
+    0x7261696eULL;  // not a stream of pictures: only a range in a report depends on it
+using Terms = std::array<double, max_terms>;
 
-// One station as the regression sees it: terms in km about the middle.
+// One station in the regression: terms in km from the centre.
 struct Row {
   Terms term;
   double rain_mm;
@@ -35,13 +36,16 @@ double foretell(const Terms& factor, const Row& row, std::size_t terms) {
   return sum;
 }
 
-// Weighted least squares by Gauss with the largest pivot; nothing where the stations lie on one line or level.
-std::optional<Terms> solve_weighted(const std::vector<Row>& rows, const std::vector<double>& weight, std::size_t terms) {
-  std::array<std::array<double, most_terms + 1>, most_terms> a{};
+// Weighted least squares by Gaussian elimination with pivoting; nothing if the stations are
+// collinear or all at one altitude.
+std::optional<Terms> solve_weighted(const std::vector<Row>& rows, const std::vector<double>& weight,
+                                    std::size_t terms) {
+  std::array<std::array<double, max_terms + 1>, max_terms> a{};
   for (std::size_t i = 0; i < rows.size(); ++i)
     for (std::size_t r = 0; r < terms; ++r) {
-      for (std::size_t c = 0; c < terms; ++c) a[r][c] += weight[i] * rows[i].term[r] * rows[i].term[c];
-      a[r][most_terms] += weight[i] * rows[i].term[r] * rows[i].rain_mm;
+      for (std::size_t c = 0; c < terms; ++c)
+        a[r][c] += weight[i] * rows[i].term[r] * rows[i].term[c];
+      a[r][max_terms] += weight[i] * rows[i].term[r] * rows[i].rain_mm;
     }
   Terms scale{};
   for (std::size_t r = 0; r < terms; ++r) scale[r] = a[r][r];
@@ -55,23 +59,26 @@ std::optional<Terms> solve_weighted(const std::vector<Row>& rows, const std::vec
       if (r == p) continue;
       const double share = a[r][p] / a[p][p];
       for (std::size_t c = p; c < terms; ++c) a[r][c] -= share * a[p][c];
-      a[r][most_terms] -= share * a[p][most_terms];
+      a[r][max_terms] -= share * a[p][max_terms];
     }
   }
   Terms factor{};
-  for (std::size_t r = 0; r < terms; ++r) factor[r] = a[r][most_terms] / a[r][r];
+  for (std::size_t r = 0; r < terms; ++r) factor[r] = a[r][max_terms] / a[r][r];
   return factor;
 }
 
-// Huber's regression by weights that are found anew 20 times.
+// Huber's regression by 20 iterations of reweighting.
 std::optional<Terms> solve_robust(const std::vector<Row>& rows, std::size_t terms) {
   std::vector<double> weight(rows.size(), 1.0);
   std::optional<Terms> factor = solve_weighted(rows, weight, terms);
   for (int round = 0; round < 20 && factor; ++round) {
     std::vector<double> off;
-    for (const Row& row : rows) off.push_back(std::abs(row.rain_mm - foretell(*factor, row, terms)));
-    const double deviation = std::max(1e-6, 1.4826 * median(off));  // of a normal distribution with that median
-    for (std::size_t i = 0; i < rows.size(); ++i) weight[i] = std::min(1.0, 1.345 * deviation / std::max(off[i], 1e-12));
+    for (const Row& row : rows)
+      off.push_back(std::abs(row.rain_mm - foretell(*factor, row, terms)));
+    const double deviation =
+        std::max(1e-6, 1.4826 * median(off));  // of a normal distribution with that median
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      weight[i] = std::min(1.0, 1.345 * deviation / std::max(off[i], 1e-12));
     factor = solve_weighted(rows, weight, terms);
   }
   return factor;
@@ -79,37 +86,42 @@ std::optional<Terms> solve_robust(const std::vector<Row>& rows, std::size_t term
 
 }  // namespace
 
-double RainPlane::at(glm::dvec2 place, double altitude_m) const {
-  const glm::dvec2 away_km = (place - middle) / 1000.0;
-  return std::max(0.0, at_middle_mm + mm_per_km_up * (altitude_m - middle_m) / 1000.0 + mm_per_km.x * away_km.x + mm_per_km.y * away_km.y);
+double RainPlane::at(glm::dvec2 position, double altitude_m) const {
+  const glm::dvec2 away_km = (position - centre) / 1000.0;
+  return std::max(0.0, at_centre_mm + mm_per_km_up * (altitude_m - centre_m) / 1000.0 +
+                           mm_per_km.x * away_km.x + mm_per_km.y * away_km.y);
 }
 
 RainPlane fit_rain(const std::vector<Station>& all, int bootstrap_samples) {
   std::vector<Station> stations;
   for (const Station& station : all)
     if (!std::isnan(station.rain_mm)) stations.push_back(station);
-  if (stations.empty()) throw Error(ErrorKind::input, "stations", "no station knows its rain", "a column rain_mm with numbers");
+  if (stations.empty())
+    throw Error(ErrorKind::input, "stations", "no station has rain data",
+                "a column rain_mm with numbers");
   RainPlane plane;
   plane.stations = static_cast<int>(stations.size());
   const auto count = static_cast<double>(stations.size());
   for (const Station& station : stations) {
-    plane.middle += station.place / count;
-    plane.middle_m += station.altitude_m / count;
+    plane.centre += station.position / count;
+    plane.centre_m += station.altitude_m / count;
   }
   std::vector<Row> rows;
   std::vector<double> rain;
   for (const Station& station : stations) {
-    const glm::dvec2 away_km = (station.place - plane.middle) / 1000.0;
-    rows.push_back({{1.0, (station.altitude_m - plane.middle_m) / 1000.0, away_km.x, away_km.y}, station.rain_mm});
+    const glm::dvec2 away_km = (station.position - plane.centre) / 1000.0;
+    rows.push_back({{1.0, (station.altitude_m - plane.centre_m) / 1000.0, away_km.x, away_km.y},
+                    station.rain_mm});
     rain.push_back(station.rain_mm);
   }
-  plane.at_middle_mm = median(rain);
+  plane.at_centre_mm = median(rain);
   std::size_t terms = rows.size() < 4 ? 1 : rows.size() < fewest_stations ? 2 : 4;
   std::optional<Terms> factor;
-  // Stations on one line, or all at one altitude, tell less.
-  for (; terms > 1 && !factor; terms = factor ? terms : terms / 2) factor = solve_robust(rows, terms);
+  // Stations on one line, or all at one altitude, determine fewer terms.
+  for (; terms > 1 && !factor; terms = factor ? terms : terms / 2)
+    factor = solve_robust(rows, terms);
   if (!factor) return plane;
-  plane.at_middle_mm = (*factor)[0];
+  plane.at_centre_mm = (*factor)[0];
   plane.mm_per_km_up = (*factor)[1];
   if (terms == 4) plane.mm_per_km = {(*factor)[2], (*factor)[3]};
 
@@ -117,11 +129,15 @@ RainPlane fit_rain(const std::vector<Station>& all, int bootstrap_samples) {
   std::vector<Row> drawn(rows.size());
   for (int sample = 0; sample < bootstrap_samples; ++sample) {
     for (std::size_t i = 0; i < rows.size(); ++i)
-      drawn[i] = rows[random_index(static_cast<std::uint32_t>(rows.size()), rain_seed, sample, static_cast<std::int64_t>(i))];
-    if (const std::optional<Terms> again = solve_robust(drawn, terms)) gradients.push_back((*again)[1]);
+      drawn[i] = rows[random_index(static_cast<std::uint32_t>(rows.size()), rain_seed, sample,
+                                   static_cast<std::int64_t>(i))];
+    if (const std::optional<Terms> again = solve_robust(drawn, terms))
+      gradients.push_back((*again)[1]);
   }
-  plane.low_mm_per_km_up = gradients.empty() ? plane.mm_per_km_up : value_at_share(gradients, 0.025);
-  plane.high_mm_per_km_up = gradients.empty() ? plane.mm_per_km_up : value_at_share(gradients, 0.975);
+  plane.low_mm_per_km_up =
+      gradients.empty() ? plane.mm_per_km_up : value_at_share(gradients, 0.025);
+  plane.high_mm_per_km_up =
+      gradients.empty() ? plane.mm_per_km_up : value_at_share(gradients, 0.975);
   double sum = 0.0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     std::vector<Row> others = rows;
@@ -134,7 +150,8 @@ RainPlane fit_rain(const std::vector<Station>& all, int bootstrap_samples) {
   return plane;
 }
 
-Grid<float> upslope_rain(const Grid<float>& altitude_m, glm::dvec2 cell_m, const UpslopeParameters& p) {
+Grid<float> upslope_rain(const Grid<float>& altitude_m, glm::dvec2 cell_m,
+                         const UpslopeParameters& p) {
   const auto require = [](bool good, const char* where, double found, const char* allowed) {
     if (!good) throw Error(ErrorKind::usage, where, fmt::format("{}", found), allowed);
   };
@@ -144,18 +161,21 @@ Grid<float> upslope_rain(const Grid<float>& altitude_m, glm::dvec2 cell_m, const
   const int width = altitude_m.width();
   const int height = altitude_m.height();
   Grid<float> share(width, height);
-  const SweepPlan plan = plan_sweep(width, height, cell_m, exact::turn(to_radians(p.wind_from_deg)));
+  const SweepPlan plan =
+      plan_sweep(width, height, cell_m, exact::turn(to_radians(p.wind_from_deg)));
   const auto length = static_cast<std::size_t>(plan.length);
-  // A step along the wind in lengths of the tail, and what is left of a tail after it.
+  // A step along the wind in lengths of the tail, and the remainder of a tail after it.
   const double way = plan.step_m / (p.wind_m_s * p.delay_s);
   const double left = exact::exp(-way);
   const double rise_of_step = p.strength * p.wind_m_s / plan.step_m;
   const auto height_at = [&](std::size_t point, int across) {
     const int cell = std::clamp(across, 0, plan.across - 1);
-    return static_cast<double>(plan.along_rows ? altitude_m(static_cast<int>(point), cell) : altitude_m(cell, static_cast<int>(point)));
+    return static_cast<double>(plan.along_rows ? altitude_m(static_cast<int>(point), cell)
+                                               : altitude_m(cell, static_cast<int>(point)));
   };
-  // Along a line, beginning where the wind comes from: the rise of the air w, its first tail a and its second b. For w even over a step
-  // both are known exactly: a → w + (a - w) e, b → w + (b - w + (a - w) way) e, where e is what is left. NaN beyond the grid.
+  // Along a line from its upwind end: uplift w, its first tail a and its second tail b. If w is
+  // constant over a step, both are exact: a → w + (a - w) e, b → w + (b - w + (a - w) way) e, where
+  // e is the remainder. NaN beyond the grid.
   const auto run_line = [&](int line, std::vector<float>& out) {
     double a = 0.0;
     double b = 0.0;
@@ -171,7 +191,8 @@ Grid<float> upslope_rain(const Grid<float>& altitude_m, glm::dvec2 cell_m, const
       const double high = height_at(point, across + 1);
       double here = low + (high - low) * static_cast<double>(plan.part[point]);
       if (std::isnan(here)) here = before;
-      const double rise = std::isnan(here) || std::isnan(before) ? 0.0 : rise_of_step * (here - before);
+      const double rise =
+          std::isnan(here) || std::isnan(before) ? 0.0 : rise_of_step * (here - before);
       b = rise + (b - rise + (a - rise) * way) * left;
       a = rise + (a - rise) * left;
       before = here;
@@ -189,8 +210,11 @@ Grid<float> upslope_rain(const Grid<float>& altitude_m, glm::dvec2 cell_m, const
         const int cell = plan.first_line + line + plan.up[point];
         if (cell < 0 || cell >= plan.across) continue;
         const float mixed = lower[point] + (upper[point] - lower[point]) * plan.back[point];
-        const float value = !std::isnan(mixed) ? mixed : !std::isnan(upper[point]) ? upper[point] : lower[point];
-        (plan.along_rows ? share(static_cast<int>(point), cell) : share(cell, static_cast<int>(point))) = value;
+        const float value = !std::isnan(mixed)          ? mixed
+                            : !std::isnan(upper[point]) ? upper[point]
+                                                        : lower[point];
+        (plan.along_rows ? share(static_cast<int>(point), cell)
+                         : share(cell, static_cast<int>(point))) = value;
       }
     }
   });

@@ -12,7 +12,7 @@ namespace {
 
 using Between = ClimateColumns::Between;
 
-// Where between which posts a coordinate lies; `count` posts.
+// The two posts around a coordinate and the weight between them; `count` posts.
 Between between(double at, int count) {
   const double held = std::clamp(at, 0.0, static_cast<double>(count - 1));
   const int low = std::min(static_cast<int>(held), std::max(0, count - 2));
@@ -21,8 +21,10 @@ Between between(double at, int count) {
 
 float mix(float a, float b, float share) { return a + (b - a) * share; }
 
-// A row of a grid of posts at a place between two of its rows.
-float at_post(const Grid<float>& grid, const Between& row, int x) { return mix(grid(x, row.low), grid(x, row.high), row.share); }
+// A row of a grid of posts interpolated between two of its rows.
+float at_post(const Grid<float>& grid, const Between& row, int x) {
+  return mix(grid(x, row.low), grid(x, row.high), row.share);
+}
 
 bool is_line(ClimateVariable variable) { return variable <= ClimateVariable::season_snow; }
 
@@ -47,21 +49,24 @@ std::span<const Grid<float>> levels_of(const RuleClimate& climate, ClimateVariab
   return {&climate.treeline_m, 1};
 }
 
-// Columns are planned once for all grids of the same posts.
+// Columns are planned once for all grids with the same posts.
 void check_posts(const RuleClimate& climate) {
   const auto check = [](const Grid<float>& grid, const Grid<float>& first) {
-    if (grid.empty() || !grid.same_size(first)) throw Error(ErrorKind::bug, "climate of class rules", "its grids do not share their posts");
+    if (grid.empty() || !grid.same_size(first))
+      throw Error(ErrorKind::bug, "climate of class rules", "its grids have different posts");
   };
-  for (const Grid<float>* line : {&climate.treeline_m, &climate.ice_line_m, &climate.snow_line_m, &climate.season_snow_m})
+  for (const Grid<float>* line :
+       {&climate.treeline_m, &climate.ice_line_m, &climate.snow_line_m, &climate.season_snow_m})
     check(*line, climate.treeline_m);
   for (const auto* table : {&climate.moisture, &climate.temperature_c, &climate.rain_mm})
-    for (const Grid<float>& level : *table) check(level, climate.moisture.empty() ? level : climate.moisture.front());
+    for (const Grid<float>& level : *table)
+      check(level, climate.moisture.empty() ? level : climate.moisture.front());
 }
 
 }  // namespace
 
 RuleClimate alpine_climate() {
-  // The Karwendel as it is painted in summer; rain by far enough for forest.
+  // The Karwendel as painted in summer, with ample rain for forest.
   const auto one = [](float value) { return Grid<float>(1, 1, value); };
   RuleClimate climate;
   climate.line_posts = climate.table_posts = {0.0, 0.0, 1.0, 1.0};
@@ -76,7 +81,8 @@ RuleClimate alpine_climate() {
   return climate;
 }
 
-ClimateColumns plan_climate_columns(const RuleClimate& climate, const GeoTransform& transform, int width) {
+ClimateColumns plan_climate_columns(const RuleClimate& climate, const GeoTransform& transform,
+                                    int width) {
   check_posts(climate);
   const auto plan = [&](const GeoTransform& posts_at, int posts) {
     const glm::dvec2 first = transform.to_crs(0.0, 0.0);
@@ -87,41 +93,51 @@ ClimateColumns plan_climate_columns(const RuleClimate& climate, const GeoTransfo
     for (int x = 0; x < width; ++x) columns.push_back(between(start + step * x, posts));
     return columns;
   };
-  return {plan(climate.line_posts, climate.treeline_m.width()),
-          plan(climate.table_posts, climate.moisture.empty() ? 1 : climate.moisture.front().width())};
+  return {
+      plan(climate.line_posts, climate.treeline_m.width()),
+      plan(climate.table_posts, climate.moisture.empty() ? 1 : climate.moisture.front().width())};
 }
 
-void fill_climate_row(const RuleClimate& climate, const ClimateColumns& columns, ClimateVariable variable, const GeoTransform& transform,
-                      int y, const float* altitude_m, float* out) {
+void fill_climate_row(const RuleClimate& climate, const ClimateColumns& columns,
+                      ClimateVariable variable, const GeoTransform& transform, int y,
+                      const float* altitude_m, float* out) {
   const std::span<const Grid<float>> levels = levels_of(climate, variable);
   const Grid<float>& first = levels.front();
   const GeoTransform& posts_at = is_line(variable) ? climate.line_posts : climate.table_posts;
-  const std::vector<Between>& places = is_line(variable) ? columns.lines : columns.tables;
-  const Between row = between(posts_at.to_cell(transform.to_crs(0.0, y).x, transform.to_crs(0.0, y).y).y, first.height());
+  const std::vector<Between>& positions = is_line(variable) ? columns.lines : columns.tables;
+  const Between row = between(
+      posts_at.to_cell(transform.to_crs(0.0, y).x, transform.to_crs(0.0, y).y).y, first.height());
 
-  // The row of each altitude between its two rows of posts: then a cell takes two posts of two altitudes.
+  // The row of each altitude, interpolated between its two rows of posts; a cell then needs two
+  // posts at two altitudes.
   const auto posts = static_cast<std::size_t>(first.width());
   std::vector<float> values(levels.size() * posts);
   for (std::size_t k = 0; k < levels.size(); ++k)
-    for (int x = 0; x < first.width(); ++x) values[k * posts + static_cast<std::size_t>(x)] = at_post(levels[k], row, x);
+    for (int x = 0; x < first.width(); ++x)
+      values[k * posts + static_cast<std::size_t>(x)] = at_post(levels[k], row, x);
 
   const auto along = [&](std::size_t k, const Between& column) {
     const float* of_level = values.data() + k * posts;
     return mix(of_level[column.low], of_level[column.high], column.share);
   };
   if (is_line(variable)) {
-    for (std::size_t x = 0; x < places.size(); ++x) out[x] = along(0, places[x]);
+    for (std::size_t x = 0; x < positions.size(); ++x) out[x] = along(0, positions[x]);
     return;
   }
-  for (std::size_t x = 0; x < places.size(); ++x) {
-    const Between up = between((static_cast<double>(altitude_m[x]) - climate.lowest_m) / climate.step_m, static_cast<int>(levels.size()));
-    out[x] = mix(along(static_cast<std::size_t>(up.low), places[x]), along(static_cast<std::size_t>(up.high), places[x]), up.share);
+  for (std::size_t x = 0; x < positions.size(); ++x) {
+    const Between up =
+        between((static_cast<double>(altitude_m[x]) - climate.lowest_m) / climate.step_m,
+                static_cast<int>(levels.size()));
+    out[x] = mix(along(static_cast<std::size_t>(up.low), positions[x]),
+                 along(static_cast<std::size_t>(up.high), positions[x]), up.share);
   }
 }
 
-void fill_climate_row(const RuleClimate& climate, ClimateVariable variable, const GeoTransform& transform, int y, int width,
-                      const float* altitude_m, float* out) {
-  fill_climate_row(climate, plan_climate_columns(climate, transform, width), variable, transform, y, altitude_m, out);
+void fill_climate_row(const RuleClimate& climate, ClimateVariable variable,
+                      const GeoTransform& transform, int y, int width, const float* altitude_m,
+                      float* out) {
+  fill_climate_row(climate, plan_climate_columns(climate, transform, width), variable, transform, y,
+                   altitude_m, out);
 }
 
 }  // namespace belvedere

@@ -7,32 +7,44 @@
 
 namespace belvedere {
 
-// What class rules know of the climate of a map. Lines change slowly from place to place, so they stand on posts some kilometres apart, and
-// what hangs on altitude as well is a table of it at posts of its own; both are linear in between and constant beyond.
+// The climate of a map for class rules. Lines change slowly with position, so they are stored on
+// posts some kilometres apart. Values that also depend on altitude are tables of it at posts of
+// their own. Both are linear in between and constant beyond.
 struct RuleClimate {
-  GeoTransform line_posts;                 // of the grids below, all of one size, in the DEM's CRS
-  Grid<float> treeline_m;                  // altitude where forest ends on level ground
-  Grid<float> ice_line_m;                  // altitude where as much snow falls as melts, in hollows that gather it
+  GeoTransform line_posts;  // of the grids below, all of one size, in the DEM's CRS
+  Grid<float> treeline_m;   // altitude of the treeline on level ground
+  Grid<float>
+      ice_line_m;  // altitude at which accumulation equals melt in hollows that collect snow
   Grid<float> snow_line_m;                 // the same on open ground, higher
-  Grid<float> season_snow_m;               // altitude above which snow lies on the season's date; no_season_snow_m without a date
-  GeoTransform table_posts;                // of the tables below, the same
+  Grid<float> season_snow_m;               // altitude above which snow lies on the season's date;
+                                           // no_season_snow_m without a date
+  GeoTransform table_posts;                // of the tables below, which share it
   double lowest_m = 0.0;                   // altitude of the first grid of each table …
-  double step_m = 200.0;                   // … and between them
-  std::vector<Grid<float>> moisture;       // 0…1, share of the water that plants could use which they get
+  double step_m = 200.0;                   // … and step between them
+  std::vector<Grid<float>> moisture;       // 0…1, available water divided by the demand of plants
   std::vector<Grid<float>> temperature_c;  // mean of the year
   std::vector<Grid<float>> rain_mm;        // of the year
-  // Direct sun of the year over that of level open ground in the same place, at each cell of the DEM; empty: from exposure and slope.
+  // Annual direct sun divided by that of level open ground at the same position, for each cell of
+  // the DEM; empty: estimated from exposure and slope.
   Grid<float> sun;
 };
 inline constexpr float no_season_snow_m = 1e5F;
 
-// What such tables are asked for.
-enum class ClimateVariable : int { treeline, ice_line, snow_line, season_snow, moisture, temperature, rain };
+// The variables of such tables.
+enum class ClimateVariable : int {
+  treeline,
+  ice_line,
+  snow_line,
+  season_snow,
+  moisture,
+  temperature,
+  rain
+};
 
-// The northern edge of the Alps, everywhere the same: for a terrain that is nowhere, and for tests.
+// The northern edge of the Alps, uniform: for a terrain without a position, and for tests.
 RuleClimate alpine_climate();
 
-// Where the columns of a DEM lie among the posts: the same in every row.
+// Positions of a DEM's columns among the posts: the same in every row.
 struct ClimateColumns {
   struct Between {
     int low;
@@ -42,13 +54,17 @@ struct ClimateColumns {
   std::vector<Between> lines;
   std::vector<Between> tables;
 };
-// Error(bug) where grids of the same posts differ in size.
-ClimateColumns plan_climate_columns(const RuleClimate& climate, const GeoTransform& transform, int width);
+// Error(bug) if grids of the same posts differ in size.
+ClimateColumns plan_climate_columns(const RuleClimate& climate, const GeoTransform& transform,
+                                    int width);
 
-// One row of a variable at the cells (0…width-1, y) of a DEM with that transform; `altitude_m` are their altitudes.
-void fill_climate_row(const RuleClimate& climate, const ClimateColumns& columns, ClimateVariable variable, const GeoTransform& transform,
-                      int y, const float* altitude_m, float* out);
-void fill_climate_row(const RuleClimate& climate, ClimateVariable variable, const GeoTransform& transform, int y, int width,
+// One row of a variable at the cells (0…width-1, y) of a DEM with that transform, whose altitudes
+// are `altitude_m`.
+void fill_climate_row(const RuleClimate& climate, const ClimateColumns& columns,
+                      ClimateVariable variable, const GeoTransform& transform, int y,
                       const float* altitude_m, float* out);
+void fill_climate_row(const RuleClimate& climate, ClimateVariable variable,
+                      const GeoTransform& transform, int y, int width, const float* altitude_m,
+                      float* out);
 
 }  // namespace belvedere

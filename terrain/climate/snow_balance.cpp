@@ -10,15 +10,16 @@
 namespace belvedere {
 namespace {
 
-// Of three months in a row.
+// Mean of three consecutive months.
 double warmest_three(const Months& months) {
   double warmest = -1e9;
-  for (std::size_t m = 0; m < 12; ++m) warmest = std::max(warmest, (months[m] + months[(m + 1) % 12] + months[(m + 2) % 12]) / 3.0);
+  for (std::size_t m = 0; m < 12; ++m)
+    warmest = std::max(warmest, (months[m] + months[(m + 1) % 12] + months[(m + 2) % 12]) / 3.0);
   return warmest;
 }
 
-// The mean of what is above 0 °C where days stray by up to `weather_k` from `mean_c`, each as likely: a parabola between nothing and the
-// mean itself.
+// The mean of the part above 0 °C if days deviate by up to `weather_k` from `mean_c`, uniformly: a
+// parabola between nothing and the mean itself.
 double thawing_k(double mean_c, double weather_k) {
   if (mean_c >= weather_k) return mean_c;
   return mean_c <= -weather_k ? 0.0 : square(mean_c + weather_k) / (4.0 * weather_k);
@@ -50,20 +51,24 @@ double snow_to_last_mm(const Months& months) {
   return 645.0 + by_temperature * (by_temperature > 0.0 ? 1.0 + 3.0 * endless_summer : 1.0);
 }
 
-double snow_balance_mm(const PlaceClimate& climate, double altitude_m, const SnowParameters& parameters) {
+double snow_balance_mm(const PlaceClimate& climate, double altitude_m,
+                       const SnowParameters& parameters) {
   double snow = 0.0;
-  for (const double month : monthly_snow_mm(climate, altitude_m, parameters.warmer_k)) snow += month;
-  return parameters.gathering * climate.gathers * snow - snow_to_last_mm(warmed(monthly_c(climate, altitude_m), parameters.warmer_k));
+  for (const double month : monthly_snow_mm(climate, altitude_m, parameters.warmer_k))
+    snow += month;
+  return parameters.gathering * climate.gathers * snow -
+         snow_to_last_mm(warmed(monthly_c(climate, altitude_m), parameters.warmer_k));
 }
 
 double snow_line_m(const PlaceClimate& climate, const SnowParameters& parameters) {
   return highest_m([&](double m) { return snow_balance_mm(climate, m, parameters) < 0.0; });
 }
 
-double snow_cover_mm(const PlaceClimate& climate, double altitude_m, int day, const SnowParameters& snow, const MeltParameters& melt) {
+double snow_cover_mm(const PlaceClimate& climate, double altitude_m, int day,
+                     const SnowParameters& snow, const MeltParameters& melt) {
   const std::array<double, 365> t = daily_c(warmed(monthly_c(climate, altitude_m), snow.warmer_k));
   const std::array<double, 365> rain = daily_c(monthly_rain_mm(climate, altitude_m));
-  // The year of snow begins when the warmest days are over.
+  // The snow year begins after the warmest days.
   std::size_t warmest = 0;
   for (std::size_t d = 1; d < 365; ++d)
     if (t[d] > t[warmest]) warmest = d;
@@ -78,8 +83,10 @@ double snow_cover_mm(const PlaceClimate& climate, double altitude_m, int day, co
   return lies;
 }
 
-double snow_line_of_day_m(const PlaceClimate& climate, int day, const SnowParameters& snow, const MeltParameters& melt) {
-  return highest_m([&](double m) { return snow_cover_mm(climate, m, day, snow, melt) < covered_mm; });
+double snow_line_of_day_m(const PlaceClimate& climate, int day, const SnowParameters& snow,
+                          const MeltParameters& melt) {
+  return highest_m(
+      [&](double m) { return snow_cover_mm(climate, m, day, snow, melt) < covered_mm; });
 }
 
 }  // namespace belvedere

@@ -23,16 +23,19 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-// NaN where the field is empty.
-double number_in(const PointTable& table, const PointTable::Point& point, int column, double low, double high, const char* unit) {
+// NaN if the field is empty.
+double number_in(const PointTable& table, const PointTable::Point& point, int column, double low,
+                 double high, const char* unit) {
   if (column < 0) return unknown;
   const std::string& text = point.values[static_cast<std::size_t>(column)];
   if (text.empty()) return unknown;
   double value = 0.0;
   const auto [stop, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (problem != std::errc() || stop != text.data() + text.size() || !(value >= low && value <= high))
-    throw Error(ErrorKind::usage, point.where, fmt::format("{} is \"{}\"", table.columns[static_cast<std::size_t>(column)], text),
-                fmt::format("a number of {}, {} … {}; empty where it is not known", unit, low, high));
+  if (problem != std::errc() || stop != text.data() + text.size() ||
+      !(value >= low && value <= high))
+    throw Error(ErrorKind::usage, point.where,
+                fmt::format("{} is \"{}\"", table.columns[static_cast<std::size_t>(column)], text),
+                fmt::format("a number of {}, {} … {}, or empty if unknown", unit, low, high));
   return value;
 }
 
@@ -45,11 +48,14 @@ int find_one_of(const PointTable& table, const std::vector<const char*>& names) 
 StationTable from_points(const std::string& path, const std::string& crs) {
   const PointTable table = read_points(path, crs);
   const auto missing = [&](const std::string& what, const std::string& allowed) {
-    throw Error(ErrorKind::usage, path, fmt::format("no column {} among {}", what, fmt::join(table.columns, ", ")), allowed);
+    throw Error(ErrorKind::usage, path,
+                fmt::format("has no column {}; it has {}", what, fmt::join(table.columns, ", ")),
+                allowed);
   };
   const int name = table.find("name");
   const int altitude = find_one_of(table, {"altitude_m", "altitude", "elevation", "height"});
-  if (altitude < 0) missing("altitude_m", "altitude_m (or altitude, elevation, height): metres above the sea");
+  if (altitude < 0)
+    missing("altitude_m", "altitude_m (or altitude, elevation, height): metres above sea level");
   std::array<int, 12> month{};
   std::string lacking;
   int found = 0;
@@ -62,56 +68,66 @@ StationTable from_points(const std::string& path, const std::string& crs) {
   }
   const int year = table.find("t_year");
   const int rain = find_one_of(table, {"rain_mm", "rain", "precipitation"});
-  if (found > 0 && found < 12) missing(lacking, "t_1 … t_12, all of them, or t_year alone");
+  if (found > 0 && found < 12) missing(lacking, "all of t_1 … t_12, or t_year alone");
   if (found == 0 && year < 0 && rain < 0)
-    missing("t_1 … t_12, t_year or rain_mm", "at least one of temperatures by month, mean of the year, rain of the year");
+    missing("t_1 … t_12, t_year or rain_mm",
+            "monthly temperatures, the annual mean or the annual rain");
   StationTable out{.file = path, .period = {}, .stations = {}};
   for (const PointTable::Point& point : table.points) {
     Station station;
     station.name = name < 0 ? point.where : point.values[static_cast<std::size_t>(name)];
-    station.place = point.place;
+    station.position = point.position;
     station.altitude_m = number_in(table, point, altitude, -500.0, 9000.0, "metres");
     if (std::isnan(station.altitude_m))
-      throw Error(ErrorKind::usage, point.where, fmt::format("no {}", table.columns[static_cast<std::size_t>(altitude)]),
+      throw Error(ErrorKind::usage, point.where,
+                  fmt::format("no {}", table.columns[static_cast<std::size_t>(altitude)]),
                   "the station's altitude");
-    for (std::size_t m = 0; m < 12; ++m) station.temperature_c[m] = number_in(table, point, month[m], -90.0, 60.0, "°C");
+    for (std::size_t m = 0; m < 12; ++m)
+      station.temperature_c[m] = number_in(table, point, month[m], -90.0, 60.0, "°C");
     station.temperature_year_c = number_in(table, point, year, -90.0, 60.0, "°C");
-    if (std::isnan(station.temperature_year_c)) station.temperature_year_c = year_mean(station.temperature_c);
+    if (std::isnan(station.temperature_year_c))
+      station.temperature_year_c = year_mean(station.temperature_c);
     station.rain_mm = number_in(table, point, rain, 0.0, 20000.0, "mm");
     out.stations.push_back(station);
   }
   return out;
 }
 
-// Months since year 0 of each time, from "days since 1801-10-01" and the like.
+// Months since year 0 of each time, from units such as "days since 1801-10-01".
 std::vector<int> months_of(const NumberArray& time, const std::string& path) {
   int year = 0;
   int month = 0;
   int day = 0;
   char what[16] = {};
   if (std::sscanf(time.unit.c_str(), "%15s since %d-%d-%d", what, &year, &month, &day) != 4)
-    throw Error(ErrorKind::input, path, fmt::format("time is in \"{}\"", time.unit),
+    throw Error(ErrorKind::input, path, fmt::format("the unit of time is \"{}\"", time.unit),
                 "days, hours or months since a date: \"days since 1801-10-01\"");
   const std::string unit = what;
   const bool days = unit == "days" || unit == "day";
   const bool hours = unit == "hours" || unit == "hour";
   if (!days && !hours && unit != "months" && unit != "month")
-    throw Error(ErrorKind::input, path, fmt::format("time is in {}", unit), "days, hours or months since a date");
-  const std::chrono::year_month_day first{std::chrono::year(year), std::chrono::month(static_cast<unsigned>(month)),
+    throw Error(ErrorKind::input, path, fmt::format("the unit of time is {}", unit),
+                "days, hours or months since a date");
+  const std::chrono::year_month_day first{std::chrono::year(year),
+                                          std::chrono::month(static_cast<unsigned>(month)),
                                           std::chrono::day(static_cast<unsigned>(day))};
-  if (!first.ok()) throw Error(ErrorKind::input, path, fmt::format("time is in \"{}\"", time.unit), "a date of the calendar");
+  if (!first.ok())
+    throw Error(ErrorKind::input, path, fmt::format("the unit of time is \"{}\"", time.unit),
+                "a valid date");
   std::vector<int> months;
   for (const double value : time.values) {
-    constexpr double most_days = 1e6;
-    if (!(std::abs(value) <= most_days * (hours ? 24.0 : 1.0)))
-      throw Error(ErrorKind::input, path, fmt::format("a time of {} {}", value, unit));
+    constexpr double max_days = 1e6;
+    if (!(std::abs(value) <= max_days * (hours ? 24.0 : 1.0)))
+      throw Error(ErrorKind::input, path, fmt::format("time out of range: {} {}", value, unit));
     if (!days && !hours) {
       months.push_back(year * 12 + month - 1 + static_cast<int>(std::floor(value)));
       continue;
     }
-    const auto passed = std::chrono::days(static_cast<int>(std::floor(hours ? value / 24.0 : value)));
+    const auto passed =
+        std::chrono::days(static_cast<int>(std::floor(hours ? value / 24.0 : value)));
     const std::chrono::year_month_day date{std::chrono::sys_days(first) + passed};
-    months.push_back(static_cast<int>(date.year()) * 12 + static_cast<int>(static_cast<unsigned>(date.month())) - 1);
+    months.push_back(static_cast<int>(date.year()) * 12 +
+                     static_cast<int>(static_cast<unsigned>(date.month())) - 1);
   }
   return months;
 }
@@ -126,20 +142,30 @@ struct HistoryArrays {
 };
 
 HistoryArrays read_history(const std::string& path) {
-  std::vector<std::optional<NumberArray>> arrays = read_number_arrays(path, {"lon", "lat", "hgt", "time", "temp", "prcp"});
+  std::vector<std::optional<NumberArray>> arrays =
+      read_number_arrays(path, {"lon", "lat", "hgt", "time", "temp", "prcp"});
   constexpr std::array names = {"lon", "lat", "hgt", "time"};
   for (std::size_t i = 0; i < names.size(); ++i)
     if (!arrays[i])
       throw Error(ErrorKind::usage, path, fmt::format("has no array {}", names[i]),
                   "lon, lat, hgt (lat, lon), time, temp and prcp (time, lat, lon)");
-  if (!arrays[4] && !arrays[5]) throw Error(ErrorKind::usage, path, "has neither an array temp nor an array prcp", "at least one of them");
-  HistoryArrays out{.lon = *arrays[0], .lat = *arrays[1], .hgt = *arrays[2], .time = *arrays[3], .temp = arrays[4], .prcp = arrays[5]};
+  if (!arrays[4] && !arrays[5])
+    throw Error(ErrorKind::usage, path, "has neither array temp nor array prcp",
+                "at least one of them");
+  HistoryArrays out{.lon = *arrays[0],
+                    .lat = *arrays[1],
+                    .hgt = *arrays[2],
+                    .time = *arrays[3],
+                    .temp = arrays[4],
+                    .prcp = arrays[5]};
   const std::size_t columns = out.lon.values.size();
   const std::size_t rows = out.lat.values.size();
   const auto require = [&](const NumberArray& array, const std::vector<std::size_t>& sizes) {
     if (array.sizes != sizes)
-      throw Error(ErrorKind::usage, path, fmt::format("{} is an array of {}", array.name, fmt::join(array.sizes, " × ")),
-                  fmt::format("{} as lon, lat and time say", fmt::join(sizes, " × ")));
+      throw Error(
+          ErrorKind::usage, path,
+          fmt::format("array {} has the size {}", array.name, fmt::join(array.sizes, " × ")),
+          fmt::format("{}, the sizes of lon, lat and time", fmt::join(sizes, " × ")));
   };
   require(out.hgt, {rows, columns});
   for (const auto& series : {out.temp, out.prcp})
@@ -150,14 +176,16 @@ HistoryArrays read_history(const std::string& path) {
 StationTable from_history(const std::string& path, const std::string& crs) {
   const HistoryArrays arrays = read_history(path);
   const std::vector<int> months = months_of(arrays.time, path);
-  if (months.empty()) throw Error(ErrorKind::input, path, "has no month");
+  if (months.empty()) throw Error(ErrorKind::input, path, "has no months");
   const int last = *std::max_element(months.begin(), months.end());
-  const int first = std::max(*std::min_element(months.begin(), months.end()), last - history_months + 1);
+  const int first =
+      std::max(*std::min_element(months.begin(), months.end()), last - history_months + 1);
   const std::size_t cells = arrays.hgt.values.size();
   const std::size_t columns = arrays.lon.values.size();
-  // Means of what the months have; Kelvin is told by its unit.
+  // Means over the available months; the unit says whether they are in Kelvin.
   const bool kelvin = arrays.temp && (arrays.temp->unit == "K" || arrays.temp->unit == "kelvin");
-  const auto mean_of_month = [&](const std::optional<NumberArray>& series, std::size_t cell, int month) {
+  const auto mean_of_month = [&](const std::optional<NumberArray>& series, std::size_t cell,
+                                 int month) {
     double sum = 0.0;
     int count = 0;
     for (std::size_t t = 0; series && t < months.size(); ++t) {
@@ -168,29 +196,36 @@ StationTable from_history(const std::string& path, const std::string& crs) {
     }
     return count > 0 ? sum / count : unknown;
   };
-  StationTable out{.file = path, .period = fmt::format("{} … {}", month_text(first), month_text(last)), .stations = {}};
-  std::vector<glm::dvec2> places;
+  StationTable out{.file = path,
+                   .period = fmt::format("{} … {}", month_text(first), month_text(last)),
+                   .stations = {}};
+  std::vector<glm::dvec2> positions;
   for (std::size_t cell = 0; cell < cells; ++cell) {
     if (std::isnan(arrays.hgt.values[cell])) continue;
     Station station;
-    station.name = fmt::format("{} {}", arrays.lon.values[cell % columns], arrays.lat.values[cell / columns]);
+    station.name =
+        fmt::format("{} {}", arrays.lon.values[cell % columns], arrays.lat.values[cell / columns]);
     station.altitude_m = arrays.hgt.values[cell];
     station.rain_mm = 0.0;
     for (std::size_t m = 0; m < 12; ++m) {
-      station.temperature_c[m] = mean_of_month(arrays.temp, cell, static_cast<int>(m)) - (kelvin ? 273.15 : 0.0);
+      station.temperature_c[m] =
+          mean_of_month(arrays.temp, cell, static_cast<int>(m)) - (kelvin ? 273.15 : 0.0);
       station.rain_mm += mean_of_month(arrays.prcp, cell, static_cast<int>(m));
     }
     station.temperature_year_c = year_mean(station.temperature_c);
-    places.emplace_back(arrays.lon.values[cell % columns], arrays.lat.values[cell / columns]);
+    positions.emplace_back(arrays.lon.values[cell % columns], arrays.lat.values[cell / columns]);
     out.stations.push_back(station);
   }
   if (crs.empty())
-    throw Error(ErrorKind::usage, path, "longitude and latitude for a terrain without CRS", "a table with columns east and north");
-  PointTransform(normalize_crs("EPSG:4326"), crs).apply(places);
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    if (!std::isfinite(places[i].x))
-      throw Error(ErrorKind::input, path, fmt::format("the place {} lies outside of {}", out.stations[i].name, describe_crs(crs)));
-    out.stations[i].place = places[i];
+    throw Error(ErrorKind::usage, path, "has longitude and latitude, but the terrain has no CRS",
+                "a table with columns east and north");
+  PointTransform(normalize_crs("EPSG:4326"), crs).apply(positions);
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    if (!std::isfinite(positions[i].x))
+      throw Error(ErrorKind::input, path,
+                  fmt::format("the cell {} is outside the valid area of {}", out.stations[i].name,
+                              describe_crs(crs)));
+    out.stations[i].position = positions[i];
   }
   return out;
 }
@@ -203,7 +238,8 @@ bool any_of_stations(const StationTable& table, bool (*known)(const Station&)) {
 
 bool StationTable::has_months() const {
   return any_of_stations(*this, [](const Station& s) {
-    return std::none_of(s.temperature_c.begin(), s.temperature_c.end(), [](double t) { return std::isnan(t); });
+    return std::none_of(s.temperature_c.begin(), s.temperature_c.end(),
+                        [](double t) { return std::isnan(t); });
   });
 }
 bool StationTable::has_temperature() const {
@@ -214,11 +250,16 @@ bool StationTable::has_rain() const {
 }
 
 StationTable read_stations(const std::string& path, const std::string& crs, Progress& progress) {
-  StationTable table = lower_ending(path) == ".nc" ? from_history(path, crs) : from_points(path, crs);
-  if (table.stations.empty()) throw Error(ErrorKind::input, path, "has no station", fmt::format("at least {} stations", fewest_stations));
+  StationTable table =
+      lower_extension(path) == ".nc" ? from_history(path, crs) : from_points(path, crs);
+  if (table.stations.empty())
+    throw Error(ErrorKind::input, path, "has no stations",
+                fmt::format("at least {} stations", fewest_stations));
   if (table.stations.size() < static_cast<std::size_t>(fewest_stations))
-    progress.note(fmt::format("{}: {} stations do not tell how temperature falls with altitude; {} or more do, at different altitudes",
-                              path, table.stations.size(), fewest_stations));
+    progress.note(
+        fmt::format("{}: {} stations are too few for a reliable lapse rate; use at least {} at "
+                    "different altitudes",
+                    path, table.stations.size(), fewest_stations));
   return table;
 }
 

@@ -5,10 +5,11 @@
 
 namespace belvedere {
 
-double plant_water_share(const PlaceClimate& climate, double altitude_m, const WaterBalanceParameters& parameters) {
+double plant_water_share(const PlaceClimate& climate, double altitude_m,
+                         const WaterBalanceParameters& parameters) {
   const Months mean_c = monthly_c(climate, altitude_m);
   const Months falls_mm = monthly_rain_mm(climate, altitude_m);
-  constexpr int years = 4;  // until a year ends as it began: the soil forgets within one or two
+  constexpr int years = 4;  // until the state repeats yearly: the soil forgets within one or two
   double soil_mm = parameters.soil_mm;
   double snow_mm = 0.0;
   double wanted_mm = 0.0;
@@ -16,7 +17,7 @@ double plant_water_share(const PlaceClimate& climate, double altitude_m, const W
   for (int year = 0; year < years; ++year) {
     wanted_mm = 0.0;
     used_mm = 0.0;
-    // Snow of a year that never thaws would pile up.
+    // Snow of a year without thaw would accumulate for ever.
     snow_mm = std::min(snow_mm, 2000.0);
     for (std::size_t m = 0; m < mean_c.size(); ++m) {
       const double could_mm = std::clamp(mean_c[m], 0.0, 30.0) * parameters.mm_per_kelvin / 12.0;

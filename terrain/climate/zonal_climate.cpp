@@ -10,34 +10,40 @@
 #include "base/error.h"
 #include "base/math_exact.h"
 #include "base/text/embedded.h"
-#include "terrain/climate/map_place.h"
+#include "terrain/climate/map_position.h"
 
-// Universal kriging (Cressie 1993): a value is a trend of latitude and altitude, and a sum over stations of how akin the place is to each.
-// Kinship falls with distance as 1 / (1 + d² / 2L²) (rational quadratic), which is made of sums and quotients alone, is smooth at the
-// poles and across the date line, because d is the chord through the Earth, and stays positive definite where altitude is a fourth axis.
+// Universal kriging (Cressie 1993): a value is a trend of latitude and altitude plus a sum over
+// stations of their covariance with the position. Covariance falls with distance as 1 / (1 + d² /
+// 2L²) (rational quadratic). It uses only sums and quotients, is smooth at the poles and across the
+// date line, because d is the chord through the Earth, and stays positive definite with altitude as
+// a fourth axis.
 namespace belvedere {
 namespace {
 
 constexpr int trend_terms = 6;
-constexpr double rain_floor_mm = 30.0;  // deserts with 1 and with 10 mm are alike
+constexpr double rain_floor_mm = 30.0;  // makes deserts with 1 and with 10 mm similar
 
 using Site = std::array<double, 4>;
 
 Site to_site(double longitude_deg, double latitude_deg, double altitude_km) {
   const exact::Turn longitude = exact::turn(to_radians(longitude_deg));
   const exact::Turn latitude = exact::turn(to_radians(latitude_deg));
-  return {earth_radius_km * latitude.cosine * longitude.cosine, earth_radius_km * latitude.cosine * longitude.sine,
-          earth_radius_km * latitude.sine, altitude_km};
+  return {earth_radius_km * latitude.cosine * longitude.cosine,
+          earth_radius_km * latitude.cosine * longitude.sine, earth_radius_km * latitude.sine,
+          altitude_km};
 }
 
-double kinship_of(const ClimateKinship& k, const Site& a, const Site& b) {
+double similarity_of(const ClimateSimilarity& k, const Site& a, const Site& b) {
   const double dx = a[0] - b[0];
   const double dy = a[1] - b[1];
   const double dz = a[2] - b[2];
   const double up = k.km_per_km_up * (a[3] - b[3]);
   const double way = dx * dx + dy * dy + dz * dz;
-  const auto falling = [](double d2, double reach) { return 1.0 / (1.0 + d2 / (2.0 * reach * reach)); };
-  return k.wide * k.wide * falling(way, k.wide_km) + k.near * k.near * falling(way + up * up, k.near_km) +
+  const auto falling = [](double d2, double reach) {
+    return 1.0 / (1.0 + d2 / (2.0 * reach * reach));
+  };
+  return k.wide * k.wide * falling(way, k.wide_km) +
+         k.near * k.near * falling(way + up * up, k.near_km) +
          k.lapse_per_km * k.lapse_per_km * a[3] * b[3] * falling(way, k.lapse_km);
 }
 
@@ -47,14 +53,16 @@ std::array<double, trend_terms> trend_of(const Site& site) {
   return {1.0, s, s * s, s * s * s, s * s * s * s, site[3]};
 }
 
-// Lower triangle of a symmetric, positive definite n × n matrix, in place: its Cholesky factor.
+// Cholesky factorization of a symmetric, positive definite n × n matrix, in place (lower triangle).
 void factorize(std::vector<double>& a, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
       double sum = a[i * n + j];
       for (std::size_t k = 0; k < j; ++k) sum -= a[i * n + k] * a[j * n + k];
       if (i == j) {
-        if (!(sum > 0.0)) throw Error(ErrorKind::usage, "climate stations", "stations that lie in one place", "places of their own");
+        if (!(sum > 0.0))
+          throw Error(ErrorKind::usage, "climate stations", "several stations at the same position",
+                      "one station per position");
         a[i * n + i] = std::sqrt(sum);
       } else {
         a[i * n + j] = sum / a[j * n + j];
@@ -63,8 +71,9 @@ void factorize(std::vector<double>& a, std::size_t n) {
   }
 }
 
-// Solves factor · factorᵀ · x = b for `columns` right sides, row by row in b.
-void solve(const std::vector<double>& factor, std::size_t n, std::vector<double>& b, std::size_t columns) {
+// Solves factor · factorᵀ · x = b for `columns` right-hand sides, row by row in b.
+void solve(const std::vector<double>& factor, std::size_t n, std::vector<double>& b,
+           std::size_t columns) {
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t c = 0; c < columns; ++c) {
       double sum = b[i * columns + c];
@@ -79,22 +88,25 @@ void solve(const std::vector<double>& factor, std::size_t n, std::vector<double>
     }
 }
 
-// Trend by generalized least squares, then weights of what it leaves.
-KinshipField fit(const ClimateKinship& kinship, std::vector<Site> sites, const std::vector<double>& values, int kinds) {
+// Trend by generalized least squares, then weights of its residuals.
+SimilarityField fit(const ClimateSimilarity& similarity, std::vector<Site> sites,
+                    const std::vector<double>& values, int kinds) {
   const std::size_t n = sites.size();
   const auto count = static_cast<std::size_t>(kinds);
   const std::size_t columns = trend_terms + count;
   std::vector<double> covariance(n * n);
   for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = 0; j <= i; ++j) covariance[i * n + j] = kinship_of(kinship, sites[i], sites[j]);
-    covariance[i * n + i] += kinship.own * kinship.own;
+    for (std::size_t j = 0; j <= i; ++j)
+      covariance[i * n + j] = similarity_of(similarity, sites[i], sites[j]);
+    covariance[i * n + i] += similarity.own * similarity.own;
   }
   factorize(covariance, n);
   std::vector<double> right(n * columns);
   for (std::size_t i = 0; i < n; ++i) {
     const auto trend = trend_of(sites[i]);
     std::copy(trend.begin(), trend.end(), right.begin() + static_cast<std::ptrdiff_t>(i * columns));
-    for (std::size_t c = 0; c < count; ++c) right[i * columns + trend_terms + c] = values[i * count + c];
+    for (std::size_t c = 0; c < count; ++c)
+      right[i * columns + trend_terms + c] = values[i * count + c];
   }
   solve(covariance, n, right, columns);
 
@@ -103,8 +115,10 @@ KinshipField fit(const ClimateKinship& kinship, std::vector<Site> sites, const s
   for (std::size_t i = 0; i < n; ++i) {
     const auto f = trend_of(sites[i]);
     for (std::size_t r = 0; r < trend_terms; ++r) {
-      for (std::size_t c = 0; c < trend_terms; ++c) normal[r * trend_terms + c] += f[r] * right[i * columns + c];
-      for (std::size_t c = 0; c < count; ++c) trend[r * count + c] += f[r] * right[i * columns + trend_terms + c];
+      for (std::size_t c = 0; c < trend_terms; ++c)
+        normal[r * trend_terms + c] += f[r] * right[i * columns + c];
+      for (std::size_t c = 0; c < count; ++c)
+        trend[r * count + c] += f[r] * right[i * columns + trend_terms + c];
     }
   }
   factorize(normal, trend_terms);
@@ -113,27 +127,29 @@ KinshipField fit(const ClimateKinship& kinship, std::vector<Site> sites, const s
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t c = 0; c < count; ++c) {
       double left = right[i * columns + trend_terms + c];
-      for (std::size_t r = 0; r < trend_terms; ++r) left -= right[i * columns + r] * trend[r * count + c];
+      for (std::size_t r = 0; r < trend_terms; ++r)
+        left -= right[i * columns + r] * trend[r * count + c];
       weights[i * count + c] = left;
     }
-  return {kinship, std::move(sites), kinds, std::move(trend), std::move(weights)};
+  return {similarity, std::move(sites), kinds, std::move(trend), std::move(weights)};
 }
 
-// The values at a place; `kinds` of them are filled.
-std::array<double, 4> value_at(const KinshipField& field, const Site& place) {
+// The values at a position; `kinds` of them are filled.
+std::array<double, 4> value_at(const SimilarityField& field, const Site& position) {
   const auto count = static_cast<std::size_t>(field.kinds);
-  const auto f = trend_of(place);
+  const auto f = trend_of(position);
   std::array<double, 4> values{};
   for (std::size_t c = 0; c < count; ++c)
     for (std::size_t r = 0; r < trend_terms; ++r) values[c] += f[r] * field.trend[r * count + c];
   for (std::size_t i = 0; i < field.stations.size(); ++i) {
-    const double k = kinship_of(field.kinship, place, field.stations[i]);
+    const double k = similarity_of(field.similarity, position, field.stations[i]);
     for (std::size_t c = 0; c < count; ++c) values[c] += k * field.weights[i * count + c];
   }
   return values;
 }
 
-// January, April, July, October to twelve months: mean, one wave a year of any phase, and two waves a year with a ridge in January.
+// January, April, July, October to twelve months: mean, one wave per year of any phase, and two
+// waves per year with a maximum in January.
 Months to_months(const std::array<double, 4>& season) {
   constexpr double half_root_3 = 0.86602540378443865;
   constexpr std::array<double, 12> cosine = {1.0,  half_root_3,  0.5,  0.0, -0.5, -half_root_3,
@@ -144,39 +160,47 @@ Months to_months(const std::array<double, 4>& season) {
   const double spring = 0.5 * (april - october);
   const double twice = 0.25 * (january + july - april - october);
   Months months{};
-  for (std::size_t m = 0; m < 12; ++m) months[m] = mean + winter * cosine[m] + spring * cosine[(m + 9) % 12] + twice * cosine[2 * m % 12];
+  for (std::size_t m = 0; m < 12; ++m)
+    months[m] =
+        mean + winter * cosine[m] + spring * cosine[(m + 9) % 12] + twice * cosine[2 * m % 12];
   return months;
 }
 
-double number_in(const ConfigArray& row, std::size_t column, double low, double high, const std::string& name) {
+double number_in(const ConfigArray& row, std::size_t column, double low, double high,
+                 const std::string& name) {
   const double value = as_number(row[column], name);
   if (!(value >= low && value <= high))
-    throw Error(ErrorKind::usage, config_where(name, row[column].place), describe(row[column]), fmt::format("{} to {}", low, high));
+    throw Error(ErrorKind::usage, config_where(name, row[column].position), describe(row[column]),
+                fmt::format("{} to {}", low, high));
   return value;
 }
 
 }  // namespace
 
-std::vector<ClimateStation> climate_stations_from_toml(const std::string& text, const std::string& name) {
+std::vector<ClimateStation> climate_stations_from_toml(const std::string& text,
+                                                       const std::string& name) {
   const ConfigValue document = parse_config(text, name);
   const ConfigTable& root = as_table(document, name);
   allow_only(root, {"version", "stations"}, name);
   const ConfigValue* version = find(root, "version");
   const ConfigValue* rows = find(root, "stations");
   if (version == nullptr || rows == nullptr || as_integer(*version, name) != 1)
-    throw Error(ErrorKind::usage, name, "no table of stations", "version = 1 and stations");
+    throw Error(ErrorKind::usage, name, "not a table of stations", "version = 1 and stations");
   std::vector<ClimateStation> stations;
   for (const ConfigValue& value : as_array(*rows, name)) {
     const ConfigArray& row = as_array(value, name);
     if (row.size() != 10)
-      throw Error(ErrorKind::usage, config_where(name, value.place), fmt::format("a station of {} values", row.size()),
-                  "name, latitude, longitude, altitude, four temperatures, rain, its share in summer");
+      throw Error(ErrorKind::usage, config_where(name, value.position),
+                  fmt::format("a station with {} values", row.size()),
+                  "10 values: name, latitude, longitude, altitude, four temperatures, rain, its "
+                  "summer share");
     ClimateStation station;
     station.name = as_string(row[0], name);
     station.latitude_deg = number_in(row, 1, -90.0, 90.0, name);
     station.longitude_deg = number_in(row, 2, -180.0, 180.0, name);
     station.altitude_m = number_in(row, 3, -450.0, 8850.0, name);
-    for (std::size_t k = 0; k < 4; ++k) station.season_c[k] = number_in(row, 4 + k, -80.0, 50.0, name);
+    for (std::size_t k = 0; k < 4; ++k)
+      station.season_c[k] = number_in(row, 4 + k, -80.0, 50.0, name);
     station.rain_mm = number_in(row, 8, -1.0, 15000.0, name);
     station.summer_share = number_in(row, 9, 0.0, 1.0, name);
     stations.push_back(std::move(station));
@@ -189,7 +213,8 @@ std::vector<ClimateStation> read_climate_stations() {
   return climate_stations_from_toml(std::string(embedded_file(name)), name);
 }
 
-ClimateField make_climate_field(const std::vector<ClimateStation>& stations, const ClimateFieldParameters& parameters) {
+ClimateField make_climate_field(const std::vector<ClimateStation>& stations,
+                                const ClimateFieldParameters& parameters) {
   std::vector<Site> sites;
   std::vector<Site> rain_sites;
   std::vector<double> temperatures;
@@ -203,23 +228,27 @@ ClimateField make_climate_field(const std::vector<ClimateStation>& stations, con
     rains.push_back(s.summer_share);
   }
   if (rain_sites.size() < 20)
-    throw Error(ErrorKind::usage, "climate stations", fmt::format("{} stations that know their rain", rain_sites.size()), "at least 20");
-  return {fit(parameters.temperature, std::move(sites), temperatures, 4), fit(parameters.rain, std::move(rain_sites), rains, 2)};
+    throw Error(ErrorKind::usage, "climate stations",
+                fmt::format("{} stations with rain data", rain_sites.size()), "at least 20");
+  return {fit(parameters.temperature, std::move(sites), temperatures, 4),
+          fit(parameters.rain, std::move(rain_sites), rains, 2)};
 }
 
 PlaceClimate place_climate(const ClimateField& field, double longitude_deg, double latitude_deg) {
   const Site ground = to_site(longitude_deg, latitude_deg, 0.0);
-  const auto at = [&](const KinshipField& kind, double altitude_km) {
-    Site place = ground;
-    place[3] = altitude_km;
-    return value_at(kind, place);
+  const auto at = [&](const SimilarityField& kind, double altitude_km) {
+    Site position = ground;
+    position[3] = altitude_km;
+    return value_at(kind, position);
   };
-  // Lines through two altitudes about which forest ends and snow begins to stay.
-  // Trees grow where treeline_excess_k() is 0 or less, which is asked for without finding how much it is: a year at a look, not 27.
+  // Lines through two altitudes near the treeline and the limit of perennial snow. Trees grow where
+  // treeline_excess_k() is at most 0; only the sign is computed here, which takes one evaluation of
+  // the year instead of 27.
   const TreelineParameters trees;
   const auto trees_grow = [&](double m) {
-    const GrowingSeason season = growing_season(to_months(at(field.temperature, 1e-3 * m)), trees.limit_c);
-    return season.days >= trees.least_days && season.mean_c >= trees.least_mean_c;
+    const GrowingSeason season =
+        growing_season(to_months(at(field.temperature, 1e-3 * m)), trees.limit_c);
+    return season.days >= trees.min_days && season.mean_c >= trees.min_mean_c;
   };
   const double treeline_km = 1e-3 * std::clamp(highest_m(trees_grow), 0.0, 4500.0);
   const double low = treeline_km - 0.2;
@@ -232,29 +261,35 @@ PlaceClimate place_climate(const ClimateField& field, double longitude_deg, doub
     climate.sea_level_c[m] = low_c[m] + climate.lapse_k_per_km[m] * low;
   }
   for (std::size_t k = 0; k < climate.rain_mm_at_km.size(); ++k)
-    climate.rain_mm_at_km[k] = std::max(0.0, exact::exp(at(field.rain, static_cast<double>(k))[0]) - rain_floor_mm);
+    climate.rain_mm_at_km[k] =
+        std::max(0.0, exact::exp(at(field.rain, static_cast<double>(k))[0]) - rain_floor_mm);
   climate.summer_share = std::clamp(at(field.rain, treeline_km + 0.5)[1], 0.05, 0.95);
   return climate;
 }
 
 Months monthly_c(const PlaceClimate& climate, double altitude_m) {
   Months months{};
-  for (std::size_t m = 0; m < 12; ++m) months[m] = climate.sea_level_c[m] - climate.lapse_k_per_km[m] * (1e-3 * altitude_m);
+  for (std::size_t m = 0; m < 12; ++m)
+    months[m] = climate.sea_level_c[m] - climate.lapse_k_per_km[m] * (1e-3 * altitude_m);
   return months;
 }
 
 double rain_mm(const PlaceClimate& climate, double altitude_m) {
-  const double km = std::clamp(1e-3 * altitude_m, 0.0, static_cast<double>(climate.rain_mm_at_km.size() - 1));
-  const std::size_t below = std::min(static_cast<std::size_t>(km), climate.rain_mm_at_km.size() - 2);
+  const double km =
+      std::clamp(1e-3 * altitude_m, 0.0, static_cast<double>(climate.rain_mm_at_km.size() - 1));
+  const std::size_t below =
+      std::min(static_cast<std::size_t>(km), climate.rain_mm_at_km.size() - 2);
   const double part = km - static_cast<double>(below);
   return (1.0 - part) * climate.rain_mm_at_km[below] + part * climate.rain_mm_at_km[below + 1];
 }
 
 Months monthly_rain_mm(const PlaceClimate& climate, double altitude_m) {
-  // A wave about the turn of June whose April to September has the share: twelve months' cosines, and 12 over the sum of those six.
-  constexpr std::array<double, 12> wave = {-0.96592582628906829, -0.70710678118654752, -0.25881904510252076, 0.25881904510252076,
-                                           0.70710678118654752,  0.96592582628906829,  0.96592582628906829,  0.70710678118654752,
-                                           0.25881904510252076,  -0.25881904510252076, -0.70710678118654752, -0.96592582628906829};
+  // A wave with its turn in June whose share from April to September is the given one: cosines of
+  // the twelve months, and 12 over the sum of those six.
+  constexpr std::array<double, 12> wave = {
+      -0.96592582628906829, -0.70710678118654752, -0.25881904510252076, 0.25881904510252076,
+      0.70710678118654752,  0.96592582628906829,  0.96592582628906829,  0.70710678118654752,
+      0.25881904510252076,  -0.25881904510252076, -0.70710678118654752, -0.96592582628906829};
   constexpr double share_to_wave = 12.0 / 3.8637033051562732;
   const double swing = std::clamp((climate.summer_share - 0.5) * share_to_wave, -1.0, 1.0);
   const double month = rain_mm(climate, altitude_m) / 12.0;

@@ -13,7 +13,7 @@
 #include "terrain/cover/rule_expression.h"
 #include "terrain/cover/rule_ice.h"
 #include "terrain/cover/rule_program.h"
-#include "terrain/shape/guessed_courses.h"
+#include "terrain/shape/inferred_rivers.h"
 
 namespace belvedere {
 namespace {
@@ -31,7 +31,7 @@ struct Run {
   ClimateColumns columns = plan_climate_columns(climate, dem.transform, dem.width());
 };
 
-// What expressions see; `classes` are those so far, or null where none is asked for.
+// The values that expressions see; `classes` are the classes so far, or null if not needed.
 RuleGrids grids_of(const Run& run, std::vector<bool> needed, const Grid<LandCoverClass>* classes) {
   std::vector<const Grid<float>*> grids;
   for (const Grid<float>& input : run.inputs) grids.push_back(&input);
@@ -40,18 +40,26 @@ RuleGrids grids_of(const Run& run, std::vector<bool> needed, const Grid<LandCove
     const int variable = static_cast<int>(slot);
     if (variable < first_climate) {
       for (int x = 0; x < width; ++x) {
-        const glm::dvec2 place = run.dem.transform.to_crs(x, y);
-        out[x] = static_cast<float>(variable == easting ? place.x : place.y);
+        const glm::dvec2 position = run.dem.transform.to_crs(x, y);
+        out[x] = static_cast<float>(variable == easting ? position.x : position.y);
       }
     } else if (variable < first_class) {
-      fill_climate_row(run.climate, run.columns, static_cast<ClimateVariable>(variable - first_climate), run.dem.transform, y,
+      fill_climate_row(run.climate, run.columns,
+                       static_cast<ClimateVariable>(variable - first_climate), run.dem.transform, y,
                        run.dem.altitude_m.row(y), out);
     } else {
       const LandCoverClass* line = classes->row(y);
-      for (int x = 0; x < width; ++x) out[x] = line[x] == static_cast<LandCoverClass>(variable - first_class) ? 1.F : 0.F;
+      for (int x = 0; x < width; ++x)
+        out[x] = line[x] == static_cast<LandCoverClass>(variable - first_class) ? 1.F : 0.F;
     }
   };
-  return {run.program, std::move(needed), run.dem.transform, {0, 0, run.dem.width(), run.dem.height()}, run.seed, std::move(grids), fill};
+  return {run.program,
+          std::move(needed),
+          run.dem.transform,
+          {0, 0, run.dem.width(), run.dem.height()},
+          run.seed,
+          std::move(grids),
+          fill};
 }
 
 // Applies the layers from…to to all cells.
@@ -90,8 +98,9 @@ void apply_layers(const Run& run, std::size_t from, std::size_t to, Grid<LandCov
   });
 }
 
-// Where rivers run: cells whose catchment is large enough and where the rules have rivers. Rows without such cells cost nothing.
-Grid<std::uint8_t> find_river_beds(const Run& run, const Grid<float>& catchment_km2, double least_km2,
+// River cells: the catchment is large enough and the rules allow rivers. Rows without such cells
+// are skipped.
+Grid<std::uint8_t> find_river_beds(const Run& run, const Grid<float>& catchment_km2, double min_km2,
                                    const Grid<LandCoverClass>& classes) {
   const RuleGrids grids = grids_of(run, run.program.needs.back(), &classes);
   Grid<std::uint8_t> beds(classes.width(), classes.height(), 0);
@@ -100,7 +109,7 @@ Grid<std::uint8_t> find_river_beds(const Run& run, const Grid<float>& catchment_
     std::array<float, rule_block> hit{};
     for (int y = y0; y != y1; ++y) {
       const float* water = catchment_km2.row(y);
-      const auto is_river = [&](float km2) { return static_cast<double>(km2) >= least_km2; };
+      const auto is_river = [&](float km2) { return static_cast<double>(km2) >= min_km2; };
       if (std::none_of(water, water + beds.width(), is_river)) continue;
       rows.start(y);
       for (int begin = 0; begin < beds.width(); begin += rule_block) {
@@ -108,27 +117,31 @@ Grid<std::uint8_t> find_river_beds(const Run& run, const Grid<float>& catchment_
         if (std::none_of(water + begin, water + begin + count, is_river)) continue;
         rows.go_to(begin);
         rows.evaluate(*run.program.conditions.back(), hit.data());
-        for (int x = 0; x < count; ++x) beds(begin + x, y) = hit[static_cast<std::size_t>(x)] > 0.F ? 1 : 0;
+        for (int x = 0; x < count; ++x)
+          beds(begin + x, y) = hit[static_cast<std::size_t>(x)] > 0.F ? 1 : 0;
       }
     }
   });
   return beds;
 }
 
-// Guessed rivers as lines.
-std::vector<CoverCourse> guess_rivers(const Run& run, const Grid<float>& catchment_km2, const Grid<LandCoverClass>& classes) {
-  GuessedCourseParameters parameters;
+// Inferred rivers as lines.
+std::vector<CoverRiver> infer_rivers(const Run& run, const Grid<float>& catchment_km2,
+                                     const Grid<LandCoverClass>& classes) {
+  InferredRiverParameters parameters;
   parameters.seed = run.seed;
-  const Grid<std::uint8_t> beds = find_river_beds(run, catchment_km2, parameters.least_km2, classes);
-  std::vector<Course> courses = guess_courses(
+  const Grid<std::uint8_t> beds = find_river_beds(run, catchment_km2, parameters.min_km2, classes);
+  std::vector<RiverCentreline> centrelines = infer_rivers_of_ground(
       catchment_km2, run.dem.altitude_m, run.dem.transform,
       [&](int x, int y) {
         if (classes(x, y) == LandCoverClass::water) return RiverBed::open;
         return beds(x, y) != 0 ? RiverBed::runs : RiverBed::dry;
       },
       parameters);
-  std::vector<CoverCourse> rivers;
-  for (Course& course : courses) rivers.push_back({.places = std::move(course.places), .half_width_m = std::move(course.half_width_m)});
+  std::vector<CoverRiver> rivers;
+  for (RiverCentreline& centreline : centrelines)
+    rivers.push_back({.positions = std::move(centreline.positions),
+                      .half_width_m = std::move(centreline.half_width_m)});
   return rivers;
 }
 
@@ -149,40 +162,51 @@ Grid<float> evaluate_term(const Run& run, std::size_t term) {
   return out;
 }
 
-Parameters all_parameters(const ClassRules& rules, const ClassRuleParameters& given, const Dem& dem) {
-  Parameters parameters = with_settings(rules.parameters, given.settings, fmt::format("the class rules \"{}\"", rules.name));
+Parameters all_parameters(const ClassRules& rules, const ClassRuleParameters& given,
+                          const Dem& dem) {
+  Parameters parameters = with_settings(rules.parameters, given.settings,
+                                        fmt::format("the class rules \"{}\"", rules.name));
   resolve_altitudes(parameters, given.climate, dem);
   return parameters;
 }
 
-// Makes the run's inputs: what rules see of the ground, and in a window what they saw around it. Returns the ice.
-RuleIce make_inputs(Run& run, const Parameters& parameters, const ClassRuleParameters& given, Catchments& waters, Progress& progress) {
+// Makes the run's inputs: the ground variables, and in a window those of the surrounding ground.
+// Returns the ice.
+RuleIce make_inputs(Run& run, const Parameters& parameters, const ClassRuleParameters& given,
+                    Catchments& waters, Progress& progress) {
   const auto& [rules, program, dem, seed, climate, inputs, columns] = run;
-  // Ice needs the balance of snow and melting, and that needs variables of its own.
+  // Ice depends on the balance of snow and melt, which needs variables of its own.
   std::vector<bool> needed = program.all_needs();
-  const auto balance = std::find_if(rules.terms.begin(), rules.terms.end(), [](const auto& t) { return t.first == ice_balance_term; });
+  const auto balance = std::find_if(rules.terms.begin(), rules.terms.end(),
+                                    [](const auto& t) { return t.first == ice_balance_term; });
   const bool no_rivers = needed[river] && !given.rivers;
   if (no_rivers) needed[river] = false;
   const bool has_ice = needed[ice] && balance != rules.terms.end();
   if (has_ice) {
-    const std::vector<bool>& needs = program.term_needs[static_cast<std::size_t>(balance - rules.terms.begin())];
+    const std::vector<bool>& needs =
+        program.term_needs[static_cast<std::size_t>(balance - rules.terms.begin())];
     for (std::size_t i = 0; i < needed.size(); ++i) needed[i] = needed[i] || needs[i];
   }
-  const Settlers settlers{given.towns, given.seed, given.sites ? &*given.sites : nullptr};
+  const SettlementInputs settlement_inputs{given.towns, given.seed,
+                                           given.sites ? &*given.sites : nullptr};
   const RuleGround* around = given.around != nullptr ? &given.around->ground : nullptr;
-  run.inputs = make_terrain_inputs(dem, needed, parameters, settlers, given.sea, climate, &waters, nullptr, around, given.whole);
+  run.inputs = make_terrain_inputs(dem, needed, parameters, settlement_inputs, given.sea, climate,
+                                   &waters, nullptr, around, given.whole);
   if (no_rivers) run.inputs[river] = Grid<float>(dem.width(), dem.height(), 0.F);
   progress.advance(1.0);
   RuleIce made;
   if (has_ice) {
-    const std::vector<IceEntry> entries = around != nullptr ? find_ice_entries(*around, dem) : std::vector<IceEntry>();
-    made = flowing_ice(evaluate_term(run, static_cast<std::size_t>(balance - rules.terms.begin())), dem, entries);
+    const std::vector<IceEntry> entries =
+        around != nullptr ? find_ice_entries(*around, dem) : std::vector<IceEntry>();
+    made = flowing_ice(evaluate_term(run, static_cast<std::size_t>(balance - rules.terms.begin())),
+                       dem, entries);
     run.inputs[ice] = std::move(made.covered);
   } else if (needed[ice]) {
     run.inputs[ice] = Grid<float>(dem.width(), dem.height(), 0.F);
   }
   if (around != nullptr) {
-    const Grid<float> share = own_share(*given.around, dem.transform, dem.width(), dem.height(), seed);
+    const Grid<float> share =
+        own_share(*given.around, dem.transform, dem.width(), dem.height(), seed);
     for (std::size_t v = 0; v < run.inputs.size(); ++v)
       join_input(run.inputs[v], around->inputs[v], share, dem.transform, around->transform);
   }
@@ -196,17 +220,20 @@ RuleGround seen_by(Run&& run, RuleIce&& ice) {
 
 }  // namespace
 
-RuleGround see_rule_ground(const ClassRules& rules, const ClassRuleParameters& given, const Dem& dem) {
+RuleGround see_rule_ground(const ClassRules& rules, const ClassRuleParameters& given,
+                           const Dem& dem) {
   const Parameters parameters = all_parameters(rules, given, dem);
   const RuleProgram program = compile_rules(rules, parameters, rules.name, {});
   Run run{rules, program, dem, given.seed, given.climate, {}};
   Catchments own(dem);
-  RuleIce ice = make_inputs(run, parameters, given, given.catchments != nullptr ? *given.catchments : own, silent_progress());
+  RuleIce ice =
+      make_inputs(run, parameters, given, given.catchments != nullptr ? *given.catchments : own,
+                  silent_progress());
   return seen_by(std::move(run), std::move(ice));
 }
 
-LandCover apply_class_rules(const ClassRules& rules, const ClassRuleParameters& given, const Dem& dem, Progress& progress,
-                            RuleGround* seen) {
+LandCover apply_class_rules(const ClassRules& rules, const ClassRuleParameters& given,
+                            const Dem& dem, Progress& progress, RuleGround* seen) {
   const Parameters parameters = all_parameters(rules, given, dem);
   const RuleProgram program = compile_rules(rules, parameters, rules.name, {});
   progress.begin("class rules", 4.0);
@@ -215,7 +242,7 @@ LandCover apply_class_rules(const ClassRules& rules, const ClassRuleParameters& 
   Catchments& waters = given.catchments != nullptr ? *given.catchments : own;
   RuleIce made_ice = make_inputs(run, parameters, given, waters, progress);
 
-  // Layers that ask for rock uphill wait until the rock is there.
+  // Layers that need rock uphill are applied after the rock.
   Grid<LandCoverClass> classes(dem.width(), dem.height(), LandCoverClass::sky);
   std::size_t first = 0;
   while (first < rules.layers.size() && !program.needs[first][below_rock]) ++first;
@@ -228,23 +255,28 @@ LandCover apply_class_rules(const ClassRules& rules, const ClassRuleParameters& 
   remove_specks(classes, static_cast<int>(parameter_or(parameters, "speck_cells", 5.0)));
   progress.advance(1.0);
   LandCover cover{{std::move(classes), dem.transform, dem.crs}};
-  if (given.rivers && program.conditions.back()) cover.guessed_rivers = guess_rivers(run, waters.km2(), cover.classes.cells);
+  if (given.rivers && program.conditions.back())
+    cover.inferred_rivers = infer_rivers(run, waters.km2(), cover.classes.cells);
   if (seen != nullptr) *seen = seen_by(std::move(run), std::move(made_ice));
   return cover;
 }
 
-std::vector<TownSite> find_rule_towns(const ClassRules& rules, const ClassRuleParameters& given, const Dem& dem) {
+std::vector<TownSite> find_rule_towns(const ClassRules& rules, const ClassRuleParameters& given,
+                                      const Dem& dem) {
   const Parameters parameters = all_parameters(rules, given, dem);
   const RuleProgram program = compile_rules(rules, parameters, rules.name, {});
   std::vector<TownSite> found;
   if (!program.needs_of(0, rules.layers.size())[town]) return found;
   std::vector<bool> needed(first_class, false);
-  for (const int variable : {town, slope, valley_floor}) needed[static_cast<std::size_t>(variable)] = true;
-  make_terrain_inputs(dem, needed, parameters, {given.towns, given.seed}, given.sea, given.climate, given.catchments, &found);
+  for (const int variable : {town, slope, valley_floor})
+    needed[static_cast<std::size_t>(variable)] = true;
+  make_terrain_inputs(dem, needed, parameters, {given.towns, given.seed}, given.sea, given.climate,
+                      given.catchments, &found);
   return found;
 }
 
-ClassRuleParameters parameters_for_parts(const ClassRules& rules, const ClassRuleParameters& given, const Dem& whole) {
+ClassRuleParameters parameters_for_parts(const ClassRules& rules, const ClassRuleParameters& given,
+                                         const Dem& whole) {
   ClassRuleParameters parts = given;
   parts.settings = all_parameters(rules, given, whole);
   if (!parts.sites) parts.sites = find_rule_towns(rules, parts, whole);

@@ -30,66 +30,77 @@ void each_cell(Grid<T>& grid, F&& f) {
   });
 }
 
-// Rise towards the east and towards the south, metres a metre.
+// Rise towards the east and towards the south, metres per metre.
 glm::vec2 rise(const Grid<float>& z, int x, int y, double cell_x, double cell_y) {
   const double gx = static_cast<double>(z.clamped(x + 1, y) - z.clamped(x - 1, y)) / (2.0 * cell_x);
   const double gy = static_cast<double>(z.clamped(x, y + 1) - z.clamped(x, y - 1)) / (2.0 * cell_y);
   return {static_cast<float>(gx), static_cast<float>(gy)};
 }
 
-TownParameters to_town_parameters(const Parameters& parameters, const std::vector<KnownTown>& known, std::uint64_t seed) {
+TownParameters to_town_parameters(const Parameters& parameters, const std::vector<KnownTown>& known,
+                                  std::uint64_t seed) {
   TownParameters towns;
   towns.amount = parameter_or(parameters, "settlement", 0.0);
-  towns.guesses = std::clamp(parameter_or(parameters, "guesses", 0.0), 0.0, 1.0);
+  towns.inferred = std::clamp(parameter_or(parameters, "inferred_villages", 0.0), 0.0, 1.0);
   towns.highest_m = parameter_or(parameters, "town_highest_m", 1300.0);
   towns.seed = seed;
   towns.known = known;
   return towns;
 }
 
-// How surely people live of the land at each cell, by its climate and what the scene says of dryness.
-Grid<float> living_map(const Dem& dem, const Parameters& parameters, const RuleClimate& climate) {
+// Agricultural suitability of each cell, from its climate and the scene's dryness.
+Grid<float> suitability_map(const Dem& dem, const Parameters& parameters,
+                            const RuleClimate& climate) {
   const auto drier = static_cast<float>(0.3 * parameter_or(parameters, "dryness", 0.0));
-  Grid<float> living(dem.width(), dem.height());
+  Grid<float> suitability(dem.width(), dem.height());
   parallel_rows(dem.height(), [&](int y) {
     std::vector<float> moisture(static_cast<std::size_t>(dem.width()));
     std::vector<float> temperature(moisture.size());
     const float* altitude_m = dem.altitude_m.row(y);
-    fill_climate_row(climate, ClimateVariable::moisture, dem.transform, y, dem.width(), altitude_m, moisture.data());
-    fill_climate_row(climate, ClimateVariable::temperature, dem.transform, y, dem.width(), altitude_m, temperature.data());
+    fill_climate_row(climate, ClimateVariable::moisture, dem.transform, y, dem.width(), altitude_m,
+                     moisture.data());
+    fill_climate_row(climate, ClimateVariable::temperature, dem.transform, y, dem.width(),
+                     altitude_m, temperature.data());
     for (int x = 0; x < dem.width(); ++x)
-      living(x, y) = living_of_land(moisture[static_cast<std::size_t>(x)] - drier, temperature[static_cast<std::size_t>(x)]);
+      suitability(x, y) = agricultural_suitability(moisture[static_cast<std::size_t>(x)] - drier,
+                                                   temperature[static_cast<std::size_t>(x)]);
   });
-  return living;
+  return suitability;
 }
 
-// 1 at sea, and how far from it the land is, m.
-void make_sea_inputs(const Dem& dem, const Sea& found, const std::vector<bool>& needed, std::vector<Grid<float>>& inputs) {
+// 1 at sea, and the distance of land from it, m.
+void make_sea_inputs(const Dem& dem, const Sea& found, const std::vector<bool>& needed,
+                     std::vector<Grid<float>>& inputs) {
   if (needed[sea]) {
     inputs[sea] = Grid<float>(dem.width(), dem.height(), 0.F);
-    if (!found.empty()) each_cell(inputs[sea], [&](int x, int y) { return found.mask(x, y) != 0 ? 1.F : 0.F; });
+    if (!found.empty())
+      each_cell(inputs[sea], [&](int x, int y) { return found.mask(x, y) != 0 ? 1.F : 0.F; });
   }
   if (needed[coast])
-    inputs[coast] = found.empty() ? Grid<float>(dem.width(), dem.height(), 1e6F) : distance_to_marked_m(found.mask, dem.cell_m());
+    inputs[coast] = found.empty() ? Grid<float>(dem.width(), dem.height(), 1e6F)
+                                  : distance_to_marked_m(found.mask, dem.cell_m());
 }
 
-// Where the ground around a window has lakes, in the window's cells; empty where nothing is known of it.
+// Lakes of the ground around a window, in the window's cells; empty if unknown.
 Grid<std::uint8_t> known_lakes(const RuleGround* around, const Dem& dem) {
   if (around == nullptr || around->inputs[lake].empty()) return {};
   Grid<std::uint8_t> known(dem.width(), dem.height());
   each_cell(known, [&](int x, int y) {
-    const glm::dvec2 place = dem.transform.to_crs(x, y);
-    const glm::dvec2 at = around->transform.to_cell(place.x, place.y);
-    return static_cast<std::uint8_t>(sample_bilinear(around->inputs[lake], at.x, at.y) > 0.5F ? 1 : 0);
+    const glm::dvec2 position = dem.transform.to_crs(x, y);
+    const glm::dvec2 at = around->transform.to_cell(position.x, position.y);
+    return static_cast<std::uint8_t>(sample_bilinear(around->inputs[lake], at.x, at.y) > 0.5F ? 1
+                                                                                              : 0);
   });
   return known;
 }
 
-// Grids that rules have as layers have them. Slopes and reliefs are made with the others, from blurs that they share.
-void make_layer_inputs(const Dem& dem, const Dem* whole, const std::vector<bool>& needed, std::vector<Grid<float>>& inputs) {
+// Grids that rules share with layers. Slopes and reliefs are made together, from shared blurs.
+void make_layer_inputs(const Dem& dem, const Dem* whole, const std::vector<bool>& needed,
+                       std::vector<Grid<float>>& inputs) {
   std::vector<std::string> names;
   std::vector<std::size_t> slots;
-  for (const int v : {north, south, east, relief_4000, above_valley, log_catchment, flatness, roughness}) {
+  for (const int v :
+       {north, south, east, relief_4000, above_valley, log_catchment, flatness, roughness}) {
     const auto slot = static_cast<std::size_t>(v);
     if (!needed[slot]) continue;
     slots.push_back(slot);
@@ -100,47 +111,59 @@ void make_layer_inputs(const Dem& dem, const Dem* whole, const std::vector<bool>
   for (std::size_t i = 0; i < slots.size(); ++i) inputs[slots[i]] = std::move(made[i]);
 }
 
-// The grids that hang on the shape of the ground alone, not on where its water runs.
-void make_shape_inputs(const Dem& dem, const Sea& found, const std::vector<bool>& needed, const Parameters& parameters,
-                       const RuleClimate& climate, const RuleGround* around, std::vector<Grid<float>>& inputs, Grid<float>& faces_south) {
+// The grids that depend only on the shape of the ground, not on its drainage.
+void make_shape_inputs(const Dem& dem, const Sea& found, const std::vector<bool>& needed,
+                       const Parameters& parameters, const RuleClimate& climate,
+                       const RuleGround* around, std::vector<Grid<float>>& inputs,
+                       Grid<float>& faces_south) {
   const double cell = dem.cell_m();
   const double cell_x = dem.transform.cell_x;
   const double cell_y = dem.transform.cell_y;
   const Grid<float>& z = dem.altitude_m;
-  const auto is_needed = [&](int v) { return static_cast<bool>(needed[static_cast<std::size_t>(v)]); };
+  const auto is_needed = [&](int v) {
+    return static_cast<bool>(needed[static_cast<std::size_t>(v)]);
+  };
   const auto grid = [&](int v) -> Grid<float>& { return inputs[static_cast<std::size_t>(v)]; };
 
   if (is_needed(altitude)) grid(altitude) = z;
   const bool needs_floor = is_needed(valley_floor) || is_needed(town);
-  if (is_needed(valley_height) || needs_floor) grid(valley_height) = height_above_valley(z, cell, 900.0);
+  if (is_needed(valley_height) || needs_floor)
+    grid(valley_height) = height_above_valley(z, cell, 900.0);
   {
     const Grid<float> smooth = gaussian_blur(z, slope_smooth_m / cell);
     const bool needs_sun = is_needed(sun) && climate.sun.empty();
-    if (is_needed(slope) || is_needed(slope_smooth) || needs_floor || needs_sun) grid(slope) = slope_deg(smooth, cell_x, cell_y);
+    if (is_needed(slope) || is_needed(slope_smooth) || needs_floor || needs_sun)
+      grid(slope) = slope_deg(smooth, cell_x, cell_y);
     if (is_needed(slope_smooth)) grid(slope_smooth) = gaussian_blur(grid(slope), 90.0 / cell);
     if (is_needed(town) || needs_sun) {
       faces_south = Grid<float>(z.width(), z.height());
       each_cell(faces_south, [&](int x, int y) {
-        // Ground that rises to the north (against the rows) faces south, be it nearly level: settlers feel the least of it.
+        // Ground that rises to the north (against the rows) faces south, even if it is nearly
+        // level: settlements prefer any exposure to the south.
         const glm::vec2 g = rise(smooth, x, y, cell_x, cell_y);
         return -g.y / (std::sqrt(g.x * g.x + g.y * g.y) + 1e-3F);
       });
     }
     if (is_needed(sun)) {
       grid(sun) = climate.sun;
-      // About what a year's sun is at 47° N: a third more on a steep southern slope than on level ground.
+      // Approximately a year's sun at 47° N: a third more on a steep southern slope than on level
+      // ground.
       if (needs_sun) {
         grid(sun) = Grid<float>(z.width(), z.height());
-        each_cell(grid(sun), [&](int x, int y) { return 1.F + faces_south(x, y) * std::clamp(grid(slope)(x, y) / 25.F, 0.F, 1.F) / 2.6F; });
+        each_cell(grid(sun), [&](int x, int y) {
+          return 1.F + faces_south(x, y) * std::clamp(grid(slope)(x, y) / 25.F, 0.F, 1.F) / 2.6F;
+        });
       }
     }
   }
   if (is_needed(relief_180) || is_needed(relief_750)) {
     const Grid<float> inner = gaussian_blur(z, 30.0 / cell);
-    for (const auto& [variable, outer_m] : {std::pair{relief_180, 180.0}, std::pair{relief_750, 750.0}}) {
+    for (const auto& [variable, outer_m] :
+         {std::pair{relief_180, 180.0}, std::pair{relief_750, 750.0}}) {
       if (!is_needed(variable)) continue;
       grid(variable) = gaussian_blur(z, outer_m / cell);
-      each_cell(grid(variable), [&, v = variable](int x, int y) { return inner(x, y) - grid(v)(x, y); });
+      each_cell(grid(variable),
+                [&, v = variable](int x, int y) { return inner(x, y) - grid(v)(x, y); });
     }
   }
   if (is_needed(relief_1800)) grid(relief_1800) = relief(z, cell, 120.0, 1800.0);
@@ -151,7 +174,9 @@ void make_shape_inputs(const Dem& dem, const Sea& found, const std::vector<bool>
     Grid<float> flat(z.width(), z.height());
     each_cell(flat, [&](int x, int y) {
       if (!found.empty() && found.mask(x, y) != 0) return 0.F;
-      return grid(slope)(x, y) < steepest && grid(valley_height)(x, y) < rise_m && z(x, y) < highest ? 1.F : 0.F;
+      return grid(slope)(x, y) < steepest && grid(valley_height)(x, y) < rise_m && z(x, y) < highest
+                 ? 1.F
+                 : 0.F;
     });
     grid(valley_floor) = gaussian_blur(flat, 60.0 / cell);
   }
@@ -164,7 +189,8 @@ void make_shape_inputs(const Dem& dem, const Sea& found, const std::vector<bool>
     each_cell(grid(lake), [&](int x, int y) { return mask(x, y) != 0 ? 1.F : 0.F; });
     if (is_needed(shore)) {
       Grid<std::uint8_t> land(z.width(), z.height());
-      each_cell(land, [&](int x, int y) { return static_cast<std::uint8_t>(mask(x, y) != 0 ? 0 : 1); });
+      each_cell(land,
+                [&](int x, int y) { return static_cast<std::uint8_t>(mask(x, y) != 0 ? 0 : 1); });
       grid(shore) = distance_to_marked_m(land, cell);
     }
   }
@@ -192,8 +218,9 @@ void resolve_altitudes(Parameters& parameters, const RuleClimate& climate, const
   double line = parameter_or(parameters, "treeline_m", 0.0);
   if (line <= 0.0) {
     std::vector<float> row(static_cast<std::size_t>(dem.width()));
-    const int middle = dem.height() / 2;
-    fill_climate_row(climate, ClimateVariable::treeline, dem.transform, middle, dem.width(), dem.altitude_m.row(middle), row.data());
+    const int centre = dem.height() / 2;
+    fill_climate_row(climate, ClimateVariable::treeline, dem.transform, centre, dem.width(),
+                     dem.altitude_m.row(centre), row.data());
     line = row[static_cast<std::size_t>(dem.width() / 2)];
   }
   for (auto& [name, value] : parameters)
@@ -201,21 +228,24 @@ void resolve_altitudes(Parameters& parameters, const RuleClimate& climate, const
       if (name == below.parameter && value == 0.0) value = line - below.treeline_m;
 }
 
-std::vector<Grid<float>> make_terrain_inputs(const Dem& dem, const std::vector<bool>& needed, const Parameters& parameters,
-                                             const Settlers& settlers, const SeaParameters& sea_parameters, const RuleClimate& climate,
-                                             Catchments* catchments, std::vector<TownSite>* settlements, const RuleGround* around,
-                                             const Dem* whole) {
+std::vector<Grid<float>> make_terrain_inputs(const Dem& dem, const std::vector<bool>& needed,
+                                             const Parameters& parameters,
+                                             const SettlementInputs& settlement_inputs,
+                                             const SeaParameters& sea_parameters,
+                                             const RuleClimate& climate, Catchments* catchments,
+                                             std::vector<TownSite>* settlements,
+                                             const RuleGround* around, const Dem* whole) {
   const Grid<float>& z = dem.altitude_m;
   std::vector<Grid<float>> inputs(first_noise);
   const bool needs_town = needed[town];
-  // Only rules that speak of the sea have one.
+  // Only for rules that refer to the sea.
   const Sea found = needed[sea] || needed[coast] ? find_sea(dem, sea_parameters) : Sea();
   make_sea_inputs(dem, found, needed, inputs);
   make_layer_inputs(dem, whole, needed, inputs);
   Grid<float> faces_south;
   Catchments own(dem);
   Catchments& waters = catchments != nullptr ? *catchments : own;
-  // Water finds its way one cell after the other, on one thread: the rest is made beside it.
+  // Drainage is sequential and runs on one thread; the rest is computed meanwhile.
   parallel_ranges(2, 1, [&](int begin, int end) {
     for (int part = begin; part != end; ++part) {
       if (part == 1)
@@ -226,12 +256,22 @@ std::vector<Grid<float>> make_terrain_inputs(const Dem& dem, const std::vector<b
   });
   if (needed[river]) inputs[river] = river_mask(waters.km2(), dem.cell_m());
   if (needs_town) {
-    const bool guesses = settlers.sites == nullptr && parameter_or(parameters, "settlement", 0.0) > -1.0;
-    const Grid<float> living = guesses ? living_map(dem, parameters, climate) : Grid<float>();
-    const TownGround ground{z, inputs[valley_floor], waters.km2(), inputs[slope], faces_south, dem.transform, guesses ? &living : nullptr};
-    const std::vector<TownSite> sites = settlers.sites != nullptr
-                                            ? *settlers.sites
-                                            : find_town_sites(ground, to_town_parameters(parameters, settlers.known, settlers.seed));
+    const bool inferred =
+        settlement_inputs.sites == nullptr && parameter_or(parameters, "settlement", 0.0) > -1.0;
+    const Grid<float> suitability =
+        inferred ? suitability_map(dem, parameters, climate) : Grid<float>();
+    const TownGround ground{z,
+                            inputs[valley_floor],
+                            waters.km2(),
+                            inputs[slope],
+                            faces_south,
+                            dem.transform,
+                            inferred ? &suitability : nullptr};
+    const std::vector<TownSite> sites =
+        settlement_inputs.sites != nullptr
+            ? *settlement_inputs.sites
+            : find_town_sites(ground, to_town_parameters(parameters, settlement_inputs.known,
+                                                         settlement_inputs.seed));
     inputs[town] = town_field(sites, ground);
     if (settlements != nullptr) *settlements = sites;
   }
@@ -245,9 +285,10 @@ Grid<float> rock_above(const Grid<LandCoverClass>& classes, const Dem& dem, doub
   Grid<float> above(width, height);
   each_cell(above, [&](int x, int y) { return classes(x, y) == LandCoverClass::rock ? 1.F : 0.F; });
   if (steps < 1) return above;
-  const Grid<float> near = window_maximum(above, steps + 1);  // most of a map has no rock near and needs no search
+  const Grid<float> near =
+      window_maximum(above, steps + 1);  // most of a map has no rock near and can be skipped
 
-  // Unit vectors uphill, one cell long; 0 where it is flat and nothing rolls down.
+  // Unit vectors uphill, one cell long; 0 on flat ground.
   const Grid<float> smooth = gaussian_blur(dem.altitude_m, 60.0 / dem.cell_m());
   Grid<glm::vec2> uphill(width, height);
   parallel_rows(height, [&](int y) {
@@ -259,17 +300,18 @@ Grid<float> rock_above(const Grid<LandCoverClass>& classes, const Dem& dem, doub
   });
   each_cell(above, [&](int x, int y) {
     if (near(x, y) == 0.F || classes(x, y) == LandCoverClass::rock) return near(x, y);
-    // Half a cell more, so that cutting off the fraction rounds to the nearest cell.
-    glm::vec2 place(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
+    // Half a cell is added, so that truncation rounds to the nearest cell.
+    glm::vec2 position(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
     glm::vec2 direction = uphill(x, y);
     for (int k = 0; k < steps; ++k) {
       if (direction == glm::vec2(0.F)) return 0.F;
-      place += direction;
-      if (place.x < 0.F || place.y < 0.F) return 0.F;
-      const int ux = static_cast<int>(place.x);
-      const int uy = static_cast<int>(place.y);
+      position += direction;
+      if (position.x < 0.F || position.y < 0.F) return 0.F;
+      const int ux = static_cast<int>(position.x);
+      const int uy = static_cast<int>(position.y);
       if (!classes.contains(ux, uy)) return 0.F;
-      if (classes(ux, uy) == LandCoverClass::rock) return 1.F - static_cast<float>(k) / static_cast<float>(steps);
+      if (classes(ux, uy) == LandCoverClass::rock)
+        return 1.F - static_cast<float>(k) / static_cast<float>(steps);
       direction = uphill(ux, uy);
     }
     return 0.F;
@@ -284,12 +326,15 @@ void remove_specks(Grid<LandCoverClass>& classes, int window) {
   const int majority = (window_size * window_size + 1) / 2;
   const int width = classes.width();
   const int height = classes.height();
-  const auto holds_on = [](LandCoverClass id) { return id == LandCoverClass::water || id == LandCoverClass::settlement; };
+  const auto holds_on = [](LandCoverClass id) {
+    return id == LandCoverClass::water || id == LandCoverClass::settlement;
+  };
   Grid<std::uint8_t> keeps(width, height);
   parallel_ranges(height, 16, [&](int y0, int y1) {
-    // Rows with their ends replicated, and how many of the window are like its middle.
+    // Rows with replicated ends, and the number of cells in the window that equal its centre.
     const int padded = width + 2 * radius;
-    std::vector<std::vector<LandCoverClass>> window_rows(static_cast<std::size_t>(window_size), std::vector<LandCoverClass>(padded));
+    std::vector<std::vector<LandCoverClass>> window_rows(static_cast<std::size_t>(window_size),
+                                                         std::vector<LandCoverClass>(padded));
     std::vector<std::uint16_t> same(static_cast<std::size_t>(width));
     const auto row_of = [&](int y) -> std::vector<LandCoverClass>& {
       return window_rows[static_cast<std::size_t>((y + window_size) % window_size)];
@@ -309,15 +354,20 @@ void remove_specks(Grid<LandCoverClass>& classes, int window) {
       for (int dy = -radius; dy <= radius; ++dy) {
         const LandCoverClass* line = row_of(y + dy).data();
         for (int dx = 0; dx <= 2 * radius; ++dx)
-          for (int x = 0; x < width; ++x) same[static_cast<std::size_t>(x)] += line[x + dx] == own[x] ? 1 : 0;
+          for (int x = 0; x < width; ++x)
+            same[static_cast<std::size_t>(x)] += line[x + dx] == own[x] ? 1 : 0;
       }
       for (int x = 0; x < width; ++x)
-        keeps(x, y) = own[x] != LandCoverClass::sky && (same[static_cast<std::size_t>(x)] >= majority || holds_on(own[x])) ? 1 : 0;
+        keeps(x, y) = own[x] != LandCoverClass::sky &&
+                              (same[static_cast<std::size_t>(x)] >= majority || holds_on(own[x]))
+                          ? 1
+                          : 0;
     }
   });
 
-  // Water and settlement hold on to their cells but do not spread into holes. Nearly always the nearest cell that gives is a few cells
-  // away: places about one in the order of their distance, ties in the order of the grid.
+  // Water and settlement keep their cells but do not spread into holes. The nearest source cell is
+  // almost always a few cells away, so offsets are tried in the order of their distance, ties in
+  // the order of the grid.
   struct Offset {
     int x;
     int y;
@@ -327,22 +377,27 @@ void remove_specks(Grid<LandCoverClass>& classes, int window) {
   for (int y = -near; y <= near; ++y)
     for (int x = -near; x <= near; ++x)
       if (x * x + y * y <= near * near) offsets.push_back({x, y});
-  std::stable_sort(offsets.begin(), offsets.end(), [](Offset a, Offset b) { return a.x * a.x + a.y * a.y < b.x * b.x + b.y * b.y; });
+  std::stable_sort(offsets.begin(), offsets.end(), [](Offset a, Offset b) {
+    return a.x * a.x + a.y * a.y < b.x * b.x + b.y * b.y;
+  });
   const Grid<LandCoverClass> before = classes;
   const auto gives = [&](int x, int y) { return keeps(x, y) != 0 && !holds_on(before(x, y)); };
-  std::vector<std::vector<int>> far(static_cast<std::size_t>(height));  // cells that found none, by rows
+  std::vector<std::vector<int>> far(
+      static_cast<std::size_t>(height));  // cells without a source, by rows
   parallel_rows(height, [&](int y) {
     for (int x = 0; x < width; ++x) {
       if (keeps(x, y) != 0) continue;
-      const auto found = std::find_if(offsets.begin(), offsets.end(),
-                                      [&](Offset o) { return keeps.contains(x + o.x, y + o.y) && gives(x + o.x, y + o.y); });
+      const auto found = std::find_if(offsets.begin(), offsets.end(), [&](Offset o) {
+        return keeps.contains(x + o.x, y + o.y) && gives(x + o.x, y + o.y);
+      });
       if (found != offsets.end())
         classes(x, y) = before(x + found->x, y + found->y);
       else
         far[static_cast<std::size_t>(y)].push_back(x);
     }
   });
-  if (std::all_of(far.begin(), far.end(), [](const std::vector<int>& row) { return row.empty(); })) return;
+  if (std::all_of(far.begin(), far.end(), [](const std::vector<int>& row) { return row.empty(); }))
+    return;
   Grid<std::uint8_t> giving(width, height);
   each_cell(giving, [&](int x, int y) { return static_cast<std::uint8_t>(gives(x, y) ? 1 : 0); });
   const Grid<std::int32_t> nearest = nearest_marked(giving);

@@ -10,14 +10,19 @@
 
 namespace belvedere {
 
-Raster<GroundColour> read_ground_image(const std::string& path, const RasterFrame& frame, bool must_overlap, Progress& progress) {
+Raster<GroundColour> read_ground_image(const std::string& path, const RasterFrame& frame,
+                                       bool must_overlap, Progress& progress) {
   RasterSource source;
   source.path = path;
-  source.unit_to_m = 1.0;  // no altitudes: as they are
+  source.unit_to_m = 1.0;  // colours: no conversion
   const RasterInfo info = read_raster_info(source);
   if (info.bands < 3)
-    throw Error(ErrorKind::input, path, fmt::format("{} band{}", info.bands, info.bands == 1 ? "" : "s"), "red, green and blue");
-  Raster<GroundColour> colours{Grid<GroundColour>(frame.width, frame.height, GroundColour(0, 0, 0, 255)), frame.transform, frame.crs};
+    throw Error(ErrorKind::input, path,
+                fmt::format("has {} band{}", info.bands, info.bands == 1 ? "" : "s"),
+                "3 bands: red, green and blue");
+  Raster<GroundColour> colours{
+      Grid<GroundColour>(frame.width, frame.height, GroundColour(0, 0, 0, 255)), frame.transform,
+      frame.crs};
   for (int band = 0; band < 3; ++band) {
     source.band = band + 1;
     const Grid<float> values = warp_rasters({source}, frame, progress).cells;
@@ -28,12 +33,16 @@ Raster<GroundColour> read_ground_image(const std::string& path, const RasterFram
         continue;
       }
       if (values[i] < 0.F || values[i] > 255.F)
-        throw Error(ErrorKind::input, path, fmt::format("a value of {}", values[i]), "8 bits, 0…255, as a picture is shown");
+        throw Error(ErrorKind::input, path, fmt::format("contains the value {}", values[i]),
+                    "8-bit values, 0…255");
       if (colour.a != 0) colour[band] = static_cast<std::uint8_t>(values[i] + 0.5F);
     }
   }
-  const bool any = std::any_of(colours.cells.begin(), colours.cells.end(), [](const GroundColour& colour) { return colour.a != 0; });
-  if (must_overlap && !any) throw Error(ErrorKind::input, path, "shows nothing of the terrain", "a picture of the terrain's ground");
+  const bool any = std::any_of(colours.cells.begin(), colours.cells.end(),
+                               [](const GroundColour& colour) { return colour.a != 0; });
+  if (must_overlap && !any)
+    throw Error(ErrorKind::input, path, "does not cover the terrain",
+                "an orthophoto of the terrain");
   return colours;
 }
 

@@ -8,9 +8,11 @@
 
 namespace belvedere {
 
-// A picture of the ground from above (red, green and blue, 8 bits, encoded sRGB) on the cells of a frame: means where it is finer, smooth
-// where it is coarser, unknown where it has nothing. Error(input) where it has fewer than three bands or values beyond 255, and where
-// it shows nothing of a frame that it must_overlap.
-Raster<GroundColour> read_ground_image(const std::string& path, const RasterFrame& frame, bool must_overlap, Progress& progress);
+// An orthophoto (red, green and blue, 8 bits, encoded sRGB) on the cells of a frame: averaged where
+// it is finer, smoothly interpolated where it is coarser, unknown where it has no data.
+// Error(input) if it has fewer than three bands or values beyond 255, and if it does not cover any
+// of a frame that it must_overlap.
+Raster<GroundColour> read_ground_image(const std::string& path, const RasterFrame& frame,
+                                       bool must_overlap, Progress& progress);
 
 }  // namespace belvedere

@@ -9,16 +9,17 @@
 
 namespace belvedere {
 
-// How far a step takes the border of a class back, in the mean.
+// Average distance that a step moves the border of a class back.
 inline constexpr double cover_erosion_step_m = 50.0;
 
-// Classes that draw back and by how many steps: snow that has melted, forest that was cut. In this order, each from what the one before
-// left.
+// Classes to erode and by how many steps: melted snow, cut forest. In this order, each from the
+// result of the previous one.
 using CoverErosion = std::vector<std::pair<LandCoverClass, int>>;
 
-// Land cover whose classes have drawn back (base/erosion.h), layer by layer, with ragged borders that hang on the place on the ground and
-// not on cells. The class around takes their place; water, settlements and what is unknown take nothing and open nothing: a shore or a
-// village's edge stays. Cells larger than 100 m lose at least half a cell a step. Metric CRS.
+// Land cover with eroded classes (base/masks/erosion.h), layer by layer, with ragged borders that
+// depend on the position on the ground and not on cells. The surrounding class takes their place.
+// Water, settlements and unknown cells neither spread nor start erosion, so shores and the edges of
+// villages stay. Cells larger than 100 m lose at least half a cell per step. Metric CRS.
 LandCover erode_land_cover(LandCover cover, const CoverErosion& erosion, std::uint64_t seed);
 
 }  // namespace belvedere

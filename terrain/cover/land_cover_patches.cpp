@@ -12,7 +12,7 @@
 namespace belvedere {
 namespace {
 
-constexpr int most_rings = 3;  // by which a kept patch may grow
+constexpr int max_rings = 3;  // by which a kept patch may grow
 
 using Cells = Grid<LandCoverClass>;
 
@@ -22,7 +22,8 @@ struct Patches {
   std::vector<LandCoverClass> classes;
 };
 
-// Patches of one class by sides, those of kept classes by corners too. Numbered in the order of their first cells.
+// Patches of one class, connected by sides, those of kept classes also by corners. Numbered in the
+// order of their first cells.
 Patches find_patches(const Cells& cells, const std::array<bool, land_cover_class_count>& kept) {
   std::vector<std::uint32_t> parent(cells.size());
   std::iota(parent.begin(), parent.end(), 0U);
@@ -61,23 +62,28 @@ Patches find_patches(const Cells& cells, const std::array<bool, land_cover_class
 }
 
 // Ring after ring around each small patch of a kept class.
-void grow(Cells& cells, const Patches& patches, const std::array<bool, land_cover_class_count>& kept, double least_cells) {
+void grow(Cells& cells, const Patches& patches,
+          const std::array<bool, land_cover_class_count>& kept, double min_cells) {
   std::vector<std::vector<std::size_t>> small(patches.sizes.size());
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const std::uint32_t p = patches.of_cell[i];
-    if (kept[static_cast<std::size_t>(patches.classes[p])] && static_cast<double>(patches.sizes[p]) < least_cells) small[p].push_back(i);
+    if (kept[static_cast<std::size_t>(patches.classes[p])] &&
+        static_cast<double>(patches.sizes[p]) < min_cells)
+      small[p].push_back(i);
   }
   const auto width = static_cast<std::size_t>(cells.width());
   for (std::size_t p = 0; p < small.size(); ++p) {
     std::size_t count = small[p].size();
     std::vector<std::size_t> rim = std::move(small[p]);
-    for (int ring = 0; ring < most_rings && !rim.empty(); ++ring) {
+    for (int ring = 0; ring < max_rings && !rim.empty(); ++ring) {
       std::vector<std::size_t> next;
       for (const std::size_t i : rim) {
         const int x = static_cast<int>(i % width);
         const int y = static_cast<int>(i / width);
         for (const auto& [u, v] : {std::pair{x, y - 1}, {x - 1, y}, {x + 1, y}, {x, y + 1}}) {
-          if (static_cast<double>(count) >= least_cells || !cells.contains(u, v) || kept[static_cast<std::size_t>(cells(u, v))]) continue;
+          if (static_cast<double>(count) >= min_cells || !cells.contains(u, v) ||
+              kept[static_cast<std::size_t>(cells(u, v))])
+            continue;
           cells(u, v) = patches.classes[p];
           next.push_back(cells.index(u, v));
           ++count;
@@ -88,8 +94,9 @@ void grow(Cells& cells, const Patches& patches, const std::array<bool, land_cove
   }
 }
 
-void count_areas(const Cells& cells, const Patches& patches, double cell_m2, std::array<ClassArea, land_cover_class_count>& areas,
-                 double ClassArea::*area, int ClassArea::*count) {
+void count_areas(const Cells& cells, const Patches& patches, double cell_m2,
+                 std::array<ClassArea, land_cover_class_count>& areas, double ClassArea::*area,
+                 int ClassArea::*count) {
   for (const LandCoverClass id : cells) areas[static_cast<std::size_t>(id)].*area += cell_m2;
   for (const LandCoverClass id : patches.classes) ++(areas[static_cast<std::size_t>(id)].*count);
 }
@@ -102,7 +109,7 @@ PatchResult remove_small_patches(LandCover cover, const PatchParameters& paramet
   Cells& cells = result.cover.classes.cells;
   const GeoTransform& transform = result.cover.classes.transform;
   const double cell_m2 = transform.cell_x * transform.cell_y;
-  const double least_cells = parameters.smallest_m2 / cell_m2;
+  const double min_cells = parameters.smallest_m2 / cell_m2;
   std::array<bool, land_cover_class_count> kept{};
   for (const LandCoverClass id : parameters.keep) kept[static_cast<std::size_t>(id)] = true;
 
@@ -110,21 +117,23 @@ PatchResult remove_small_patches(LandCover cover, const PatchParameters& paramet
   const Patches before = find_patches(cells, kept);
   count_areas(cells, before, cell_m2, areas, &ClassArea::before_m2, &ClassArea::patches_before);
 
-  // What stays of its own may also spread; kept classes stay but do not spread into what goes.
+  // Cells that keep their own class may also spread; kept classes stay but do not spread into
+  // removed patches.
   Grid<std::uint8_t> spreads(cells.width(), cells.height(), 0);
   Grid<std::uint8_t> goes(cells.width(), cells.height(), 0);
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const std::uint32_t p = before.of_cell[i];
     if (kept[static_cast<std::size_t>(cells[i])]) continue;
-    (static_cast<double>(before.sizes[p]) < least_cells ? goes : spreads)[i] = 1;
+    (static_cast<double>(before.sizes[p]) < min_cells ? goes : spreads)[i] = 1;
   }
   const Grid<std::int32_t> nearest = nearest_marked(spreads);
   const Cells old = cells;
   for (std::size_t i = 0; i < cells.size(); ++i)
     if (goes[i] != 0 && nearest[i] >= 0) cells[i] = old[static_cast<std::size_t>(nearest[i])];
-  grow(cells, before, kept, least_cells);
+  grow(cells, before, kept, min_cells);
 
-  count_areas(cells, find_patches(cells, kept), cell_m2, areas, &ClassArea::after_m2, &ClassArea::patches_after);
+  count_areas(cells, find_patches(cells, kept), cell_m2, areas, &ClassArea::after_m2,
+              &ClassArea::patches_after);
   for (std::size_t id = 0; id < areas.size(); ++id) {
     areas[id].id = static_cast<LandCoverClass>(id);
     if (areas[id].patches_before + areas[id].patches_after > 0) result.areas.push_back(areas[id]);

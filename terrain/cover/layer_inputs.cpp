@@ -28,8 +28,8 @@ constexpr double valley_radius_m = 900.0;
 constexpr double valley_smooth_m = 300.0;
 constexpr double rough_mean_m = 90.0;
 constexpr double rough_smooth_m = 120.0;
-// Water is followed on at most so many cells; beyond them on blocks.
-constexpr std::size_t most_catchment_cells = 36'000'000;
+// Maximum number of cells for drainage; above it blocks of cells are used.
+constexpr std::size_t max_catchment_cells = 36'000'000;
 constexpr int tile_cells = 512;
 
 const Grid<float>* given_grid(const LayerClimate& climate, LayerInputKind kind) {
@@ -54,7 +54,7 @@ const Grid<float>* given_grid(const LayerClimate& climate, LayerInputKind kind) 
 }
 bool is_given(LayerInputKind kind) { return kind >= LayerInputKind::temperature; }
 
-// The largest power of two that is at most `size`, 1 and more.
+// The largest power of two that is at most `size` (at least 1).
 int block_for(double size) {
   int factor = 1;
   while (2.0 * factor <= size) factor *= 2;
@@ -90,7 +90,8 @@ Grid<float> enlarged(const LayerGround::Coarse& coarse, const PixelRect& cells) 
     for (int x = 0; x < cells.width(); ++x) {
       const Taps& taps = columns[static_cast<std::size_t>(x)];
       float sum = 0.F;
-      for (int k = 0; k < 4; ++k) sum += taps.weight[k] * row[std::clamp(taps.first + k, 0, from.width() - 1)];
+      for (int k = 0; k < 4; ++k)
+        sum += taps.weight[k] * row[std::clamp(taps.first + k, 0, from.width() - 1)];
       out[x] = sum;
     }
   }
@@ -103,13 +104,15 @@ Grid<float> enlarged(const LayerGround::Coarse& coarse, const PixelRect& cells) 
     const float* d = across.row(taps.first + 3 - first_row);
     float* target = out.row(y);
     for (int x = 0; x < out.width(); ++x)
-      target[x] = (taps.weight[0] * a[x] + taps.weight[1] * b[x]) + (taps.weight[2] * c[x] + taps.weight[3] * d[x]);
+      target[x] = (taps.weight[0] * a[x] + taps.weight[1] * b[x]) +
+                  (taps.weight[2] * c[x] + taps.weight[3] * d[x]);
   }
   return out;
 }
 
-// The deviation in blocks of the blur that is left when blocks and the spline between them have done their part: a box of f cells has the
-// variance (f² - 1) / 12, the cubic B-spline of blocks f² / 3.
+// Standard deviation, in blocks, of the remaining blur after averaging over blocks and
+// interpolating between them: a box of f cells has the variance (f² - 1) / 12, the cubic B-spline
+// of blocks f² / 3.
 double blur_left(double sigma_cells, int factor) {
   const double f2 = static_cast<double>(factor) * factor;
   return std::sqrt(std::max(0.0, (sigma_cells * sigma_cells - (f2 - 1.0) / 12.0 - f2 / 3.0) / f2));
@@ -121,17 +124,18 @@ LayerGround::Coarse wide_mean(const Dem& dem, double sigma_m) {
   return {factor, gaussian_blur(block_means(dem.altitude_m, factor), blur_left(sigma, factor))};
 }
 
-// The same in a window of a larger terrain, over what lies around it.
+// The same in a window of a larger terrain, including the ground around it.
 LayerGround::Coarse wide_mean_of_part(const Dem& window, const Dem& whole, double sigma_m) {
   const double sigma = sigma_m / window.cell_m();
   const int factor = block_for(sigma / 4.0);
   const GeoTransform& t = window.transform;
-  const Surrounded all = surround(block_means(window.altitude_m, factor), {t.origin_x, t.origin_y, factor * t.cell_x, factor * t.cell_y},
+  const Surrounded all = surround(block_means(window.altitude_m, factor),
+                                  {t.origin_x, t.origin_y, factor * t.cell_x, factor * t.cell_y},
                                   whole, 3.5 * sigma_m);
   const int width = (window.width() + factor - 1) / factor;
   const int height = (window.height() + factor - 1) / factor;
-  return {factor,
-          part_of(gaussian_blur(all.altitude_m, blur_left(sigma, factor)), {all.left, all.top, all.left + width, all.top + height})};
+  return {factor, part_of(gaussian_blur(all.altitude_m, blur_left(sigma, factor)),
+                          {all.left, all.top, all.left + width, all.top + height})};
 }
 
 LayerGround::Coarse lowest_around(const Dem& dem) {
@@ -142,17 +146,24 @@ LayerGround::Coarse lowest_around(const Dem& dem) {
   const double left_m = std::sqrt(std::max(0.0, slope_smooth_m * slope_smooth_m - box_m * box_m));
   const Grid<float> smooth = gaussian_blur(block_means(dem.altitude_m, factor), left_m / block_m);
   const int radius = std::max(1, static_cast<int>(std::lround(valley_radius_m / block_m)));
-  return {factor, gaussian_blur(window_minimum(smooth, radius), blur_left(valley_smooth_m / cell, factor))};
+  return {factor,
+          gaussian_blur(window_minimum(smooth, radius), blur_left(valley_smooth_m / cell, factor))};
 }
 
 LayerGround::Coarse catchments(const Dem& dem) {
   int factor = 1;
-  while (dem.altitude_m.size() / static_cast<std::size_t>(factor) / static_cast<std::size_t>(factor) > most_catchment_cells) factor *= 2;
+  while (dem.altitude_m.size() / static_cast<std::size_t>(factor) /
+             static_cast<std::size_t>(factor) >
+         max_catchment_cells)
+    factor *= 2;
   std::vector<RiverEntry> entries = dem.entries;
   for (RiverEntry& entry : entries) entry.x /= factor, entry.y /= factor;
-  Grid<float> area = flow_accumulation_km2(gaussian_blur(block_means(dem.altitude_m, factor), 1.5), dem.cell_m() * factor, entries);
+  Grid<float> area = flow_accumulation_km2(gaussian_blur(block_means(dem.altitude_m, factor), 1.5),
+                                           dem.cell_m() * factor, entries);
   parallel_rows(area.height(), [&](int y) {
-    for (int x = 0; x < area.width(); ++x) area(x, y) = static_cast<float>(exact::log2(std::max(1e-12, static_cast<double>(area(x, y)))));
+    for (int x = 0; x < area.width(); ++x)
+      area(x, y) =
+          static_cast<float>(exact::log2(std::max(1e-12, static_cast<double>(area(x, y)))));
   });
   return {factor, gaussian_blur(area, 0.8)};
 }
@@ -168,11 +179,12 @@ LayerGround::Coarse departures(const Dem& dem) {
   return {factor, gaussian_blur(blocks, blur_left(sigma, factor))};
 }
 
-// The blurred ground at some cells, with a rim of one cell where there is one: of a window that begins on the lattice to which wide blurs
-// halve the resolution, and large enough, so that the bits are those of the whole.
+// The blurred ground at some cells, with a border of one cell if there is one, computed in a window
+// that starts on the lattice to which wide blurs halve the resolution and is large enough for the
+// bits to equal those of the whole.
 struct BlurredPart {
   Grid<float> z;
-  int x0 = 0, y0 = 0;  // the DEM's cell that z(0, 0) is
+  int x0 = 0, y0 = 0;  // the DEM's cell at z(0, 0)
 };
 BlurredPart blurred_ground(const Dem& dem, const PixelRect& cells, double sigma_m) {
   const double sigma = sigma_m / dem.cell_m();
@@ -188,7 +200,9 @@ Grid<float> moved_part(const BlurredPart& from, const Grid<float>& values, const
   return part_of(values, moved(cells, -from.x0, -from.y0));
 }
 
-float log1p_of(float value) { return static_cast<float>(exact::log(1.0 + static_cast<double>(value))); }
+float log1p_of(float value) {
+  return static_cast<float>(exact::log(1.0 + static_cast<double>(value)));
+}
 
 Grid<float> flatness_of(const Dem& dem, const PixelRect& cells) {
   const PixelRect window = intersection(grown(cells, 2), {0, 0, dem.width(), dem.height()});
@@ -205,12 +219,14 @@ Grid<float> flatness_of(const Dem& dem, const PixelRect& cells) {
   return out;
 }
 
-Grid<float> exposure_of(const BlurredPart& ground, const Dem& dem, const PixelRect& cells, LayerInputKind to) {
+Grid<float> exposure_of(const BlurredPart& ground, const Dem& dem, const PixelRect& cells,
+                        LayerInputKind to) {
   Grid<float> out(cells.width(), cells.height());
   const double cell_x = dem.transform.cell_x;
   const double cell_y = dem.transform.cell_y;
   const auto z = [&](int x, int y) {
-    return static_cast<double>(ground.z(std::clamp(x, 0, dem.width() - 1) - ground.x0, std::clamp(y, 0, dem.height() - 1) - ground.y0));
+    return static_cast<double>(ground.z(std::clamp(x, 0, dem.width() - 1) - ground.x0,
+                                        std::clamp(y, 0, dem.height() - 1) - ground.y0));
   };
   for (int y = 0; y < out.height(); ++y)
     for (int x = 0; x < out.width(); ++x) {
@@ -218,8 +234,10 @@ Grid<float> exposure_of(const BlurredPart& ground, const Dem& dem, const PixelRe
       const int cy = cells.y0 + y;
       const double gx = (z(cx + 1, cy) - z(cx - 1, cy)) / (2.0 * cell_x);
       const double gy = (z(cx, cy + 1) - z(cx, cy - 1)) / (2.0 * cell_y);
-      // Rows run south: ground that rises with them faces north.
-      const double facing = to == LayerInputKind::east ? -gx : to == LayerInputKind::north ? gy : -gy;
+      // Rows run south: ground that rises with the row number faces north.
+      const double facing = to == LayerInputKind::east    ? -gx
+                            : to == LayerInputKind::north ? gy
+                                                          : -gy;
       out(x, y) = static_cast<float>(facing / (std::sqrt(gx * gx + gy * gy) + exposure_fade));
     }
   return out;
@@ -231,20 +249,25 @@ void subtract(Grid<float>& from, const Grid<float>& what) {
 
 }  // namespace
 
-LayerGround make_layer_ground(const Dem& dem, const LayerClimate& climate, const std::vector<std::string>& names, const Dem* whole) {
+LayerGround make_layer_ground(const Dem& dem, const LayerClimate& climate,
+                              const std::vector<std::string>& names, const Dem* whole) {
   LayerGround ground{&dem, climate, names, std::vector<LayerGround::Coarse>(names.size())};
   for (const std::string& name : names) {
     require_layer_input(name, "inputs");
     const LayerInputKind kind = layer_input_kind(name);
     if (!is_given(kind)) continue;
     const Grid<float>* grid = given_grid(climate, kind);
-    if (grid == nullptr) throw Error(ErrorKind::usage, "input " + name, "a climate that does not know it", "a climate with " + name);
-    if (!grid->same_size(dem.altitude_m)) throw Error(ErrorKind::bug, "input " + name, "a grid of another size than the DEM's");
+    if (grid == nullptr)
+      throw Error(ErrorKind::usage, "input " + name, "missing from the climate",
+                  "a climate with " + name);
+    if (!grid->same_size(dem.altitude_m))
+      throw Error(ErrorKind::bug, "input " + name, "its grid differs in size from the DEM");
   }
   for (std::size_t i = 0; i < names.size(); ++i) {
     const GroundVariable& info = *find_ground_variable(names[i]);
     if (info.input == LayerInputKind::relief)
-      ground.coarse[i] = whole != nullptr ? wide_mean_of_part(dem, *whole, info.reach_m) : wide_mean(dem, info.reach_m);
+      ground.coarse[i] = whole != nullptr ? wide_mean_of_part(dem, *whole, info.reach_m)
+                                          : wide_mean(dem, info.reach_m);
     else if (info.input == LayerInputKind::above_valley)
       ground.coarse[i] = lowest_around(dem);
     else if (info.input == LayerInputKind::catchment)
@@ -258,8 +281,8 @@ LayerGround make_layer_ground(const Dem& dem, const LayerClimate& climate, const
 std::vector<Grid<float>> layer_inputs(const LayerGround& ground, const PixelRect& cells) {
   const Dem& dem = *ground.dem;
   std::vector<Grid<float>> out;
-  BlurredPart smooth;                  // by slope_smooth_m, made when first asked for
-  std::map<double, BlurredPart> fine;  // by what relief is taken from
+  BlurredPart smooth;                  // by slope_smooth_m, made on first use
+  std::map<double, BlurredPart> fine;  // for relief, by smoothing
   const auto made = [&](BlurredPart& part, double sigma_m) -> const BlurredPart& {
     if (part.z.empty()) part = blurred_ground(dem, cells, sigma_m);
     return part;
@@ -273,7 +296,8 @@ std::vector<Grid<float>> layer_inputs(const LayerGround& ground, const PixelRect
         break;
       case LayerInputKind::slope: {
         const BlurredPart& from = made(smooth, slope_smooth_m);
-        out.push_back(moved_part(from, slope_deg(from.z, dem.transform.cell_x, dem.transform.cell_y), cells));
+        out.push_back(
+            moved_part(from, slope_deg(from.z, dem.transform.cell_x, dem.transform.cell_y), cells));
         break;
       }
       case LayerInputKind::north:
@@ -317,19 +341,24 @@ std::vector<Grid<float>> layer_inputs(const LayerGround& ground) {
   parallel_tiles(width, height, tile_cells, [&](const PixelRect& tile) {
     const std::vector<Grid<float>> part = layer_inputs(ground, tile);
     for (std::size_t i = 0; i < part.size(); ++i)
-      for (int y = 0; y < tile.height(); ++y) std::copy_n(part[i].row(y), tile.width(), out[i].row(tile.y0 + y) + tile.x0);
+      for (int y = 0; y < tile.height(); ++y)
+        std::copy_n(part[i].row(y), tile.width(), out[i].row(tile.y0 + y) + tile.x0);
   });
   return out;
 }
 
-LayerInput layer_input_range(const std::string& name, const Grid<float>& values, const Grid<std::uint8_t>* use) {
+LayerInput layer_input_range(const std::string& name, const Grid<float>& values,
+                             const Grid<std::uint8_t>* use) {
   std::vector<float> used;
   used.reserve(values.size());
   for (std::size_t i = 0; i < values.size(); ++i)
     if ((use == nullptr || (*use)[i] != 0) && std::isfinite(values[i])) used.push_back(values[i]);
-  if (used.empty()) throw Error(ErrorKind::input, "input " + name, "no ground to take its range from", "at least one cell");
+  if (used.empty())
+    throw Error(ErrorKind::input, "input " + name, "no ground to take its range from",
+                "at least one cell");
   const auto at = [&](double share) {
-    return static_cast<double>(value_at_rank(used, static_cast<std::size_t>(std::lround(share * static_cast<double>(used.size() - 1)))));
+    return static_cast<double>(value_at_rank(
+        used, static_cast<std::size_t>(std::lround(share * static_cast<double>(used.size() - 1)))));
   };
   LayerInput range{name, at(0.001), at(0.999)};
   if (!(range.low < range.high)) {

@@ -14,60 +14,76 @@ namespace belvedere {
 namespace {
 
 // Words of expressions.
-constexpr std::array<std::string_view, 14> words = {"and", "or",  "not", "min", "max",  "clip",       "clamp",
-                                                    "abs", "sin", "cos", "exp", "sqrt", "smoothstep", "hat"};
+constexpr std::array<std::string_view, 14> words = {"and",  "or",    "not",        "min", "max",
+                                                    "clip", "clamp", "abs",        "sin", "cos",
+                                                    "exp",  "sqrt",  "smoothstep", "hat"};
 
 bool is_name(std::string_view text) {
-  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
-  return !text.empty() && letter(text[0]) &&
-         std::all_of(text.begin(), text.end(), [&](char c) { return letter(c) || (c >= '0' && c <= '9'); });
+  const auto letter = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+  };
+  return !text.empty() && letter(text[0]) && std::all_of(text.begin(), text.end(), [&](char c) {
+    return letter(c) || (c >= '0' && c <= '9');
+  });
 }
 
 bool means_something(const std::string& name, const std::vector<std::string>& taken) {
-  return std::find(words.begin(), words.end(), name) != words.end() || find_ground_variable(name) != nullptr ||
-         (name.starts_with("is_") && find_class(name.substr(3))) || std::find(taken.begin(), taken.end(), name) != taken.end();
+  return std::find(words.begin(), words.end(), name) != words.end() ||
+         find_ground_variable(name) != nullptr ||
+         (name.starts_with("is_") && find_class(name.substr(3))) ||
+         std::find(taken.begin(), taken.end(), name) != taken.end();
 }
 
 // The name of a parameter or a term.
-void take_name(const LayersReader& reader, const ConfigEntry& entry, std::vector<std::string>& taken) {
-  if (!is_name(entry.key)) reader.fail(entry.key_place, "the name \"" + entry.key + "\"", "letters, digits and _, no digit first");
+void take_name(const LayersReader& reader, const ConfigEntry& entry,
+               std::vector<std::string>& taken) {
+  if (!is_name(entry.key))
+    reader.fail(entry.key_position, "the name \"" + entry.key + "\"",
+                "letters, digits and _, not starting with a digit");
   if (means_something(entry.key, taken))
-    reader.fail(entry.key_place, "the name \"" + entry.key + "\" already means something", "another name");
+    reader.fail(entry.key_position, "the name \"" + entry.key + "\" is already in use",
+                "another name");
   taken.push_back(entry.key);
 }
 
 }  // namespace
 
-void LayersReader::fail(ConfigPlace place, const std::string& found, const std::string& allowed) const {
-  throw Error(ErrorKind::usage, config_where(where, place), found, allowed);
+void LayersReader::fail(ConfigPosition position, const std::string& found,
+                        const std::string& allowed) const {
+  throw Error(ErrorKind::usage, config_where(where, position), found, allowed);
 }
 
-void LayersReader::fail_unknown(ConfigPlace place, const std::string& what, const std::string& word,
+void LayersReader::fail_unknown(ConfigPosition position, const std::string& what,
+                                const std::string& word,
                                 const std::vector<std::string>& known) const {
   const std::string near = nearest_word(word, known);
-  fail(place, fmt::format("unknown {} \"{}\"{}", what, word, near.empty() ? "" : "; did you mean \"" + near + "\"?"),
+  fail(position,
+       fmt::format("unknown {} \"{}\"{}", what, word,
+                   near.empty() ? "" : "; did you mean \"" + near + "\"?"),
        fmt::format("{}", fmt::join(known, ", ")));
 }
 
 double LayersReader::number(const ConfigValue& value) const {
   const double read = as_number(value, where);
-  if (!std::isfinite(read)) fail(value.place, describe(value), "a finite number");
+  if (!std::isfinite(read)) fail(value.position, describe(value), "a finite number");
   return read;
 }
 
-double LayersReader::number_or(const ConfigTable& table, std::string_view key, double otherwise) const {
+double LayersReader::number_or(const ConfigTable& table, std::string_view key,
+                               double otherwise) const {
   const ConfigValue* value = find(table, key);
   return value == nullptr ? otherwise : number(*value);
 }
 
-std::string LayersReader::text_or(const ConfigTable& table, std::string_view key, const std::string& otherwise) const {
+std::string LayersReader::text_or(const ConfigTable& table, std::string_view key,
+                                  const std::string& otherwise) const {
   const ConfigValue* value = find(table, key);
   return value == nullptr ? otherwise : as_string(*value, where);
 }
 
 std::string LayersReader::expression(const ConfigValue& value) const {
   const std::string& text = as_string(value, where);
-  if (text.empty()) fail(value.place, "an empty expression", "an expression");
+  if (text.empty()) fail(value.position, "empty expression", "an expression");
   return text;
 }
 
@@ -78,23 +94,26 @@ LandCoverClass as_ground_class(const ConfigValue& value, const std::string& wher
   std::vector<std::string> known;
   for (const LandCoverClassInfo& info : land_cover_classes())
     if (info.id != LandCoverClass::sky) known.emplace_back(info.name);
-  LayersReader{where}.fail_unknown(value.place, "class", word, known);
+  LayersReader{where}.fail_unknown(value.position, "class", word, known);
 }
 
-const ConfigValue& LayersReader::required(const ConfigTable& table, std::string_view key, ConfigPlace place, const std::string& of) const {
+const ConfigValue& LayersReader::required(const ConfigTable& table, std::string_view key,
+                                          ConfigPosition position, const std::string& of) const {
   const ConfigValue* value = find(table, key);
-  if (value == nullptr) fail(place, fmt::format("{} without {}", of, key), std::string(key));
+  if (value == nullptr) fail(position, fmt::format("{} without {}", of, key), std::string(key));
   return *value;
 }
 
-LayersDocument read_layers_document(const LayersReader& reader, const ConfigValue& document, const std::vector<std::string>& own_keys) {
+LayersDocument read_layers_document(const LayersReader& reader, const ConfigValue& document,
+                                    const std::vector<std::string>& own_keys) {
   const ConfigTable& root = as_table(document, reader.where);
   std::vector<std::string> keys = {"version", "name", "parameters", "terms", "layers"};
   keys.insert(keys.end(), own_keys.begin(), own_keys.end());
   allow_only(root, keys, reader.where);
   const ConfigValue* version = find(root, "version");
   if (version == nullptr || as_integer(*version, reader.where) != 1)
-    reader.fail(version == nullptr ? ConfigPlace{} : version->place, version == nullptr ? "no version" : describe(*version), "version = 1");
+    reader.fail(version == nullptr ? ConfigPosition{} : version->position,
+                version == nullptr ? "no version" : describe(*version), "version = 1");
 
   LayersDocument read;
   read.name = reader.text_or(root, "name", "");
@@ -108,7 +127,7 @@ LayersDocument read_layers_document(const LayersReader& reader, const ConfigValu
     for (const ConfigEntry& entry : as_table(*terms, reader.where)) {
       take_name(reader, entry, taken);
       read.terms.emplace_back(entry.key, reader.expression(entry.value));
-      read.term_places.push_back(entry.value.place);
+      read.term_places.push_back(entry.value.position);
     }
   return read;
 }

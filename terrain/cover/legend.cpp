@@ -20,31 +20,35 @@ namespace fs = std::filesystem;
 std::string class_names() {
   std::string names;
   for (const LandCoverClassInfo& info : land_cover_classes())
-    if (info.id != LandCoverClass::sky) names += (names.empty() ? "" : ", ") + std::string(info.name);
+    if (info.id != LandCoverClass::sky)
+      names += (names.empty() ? "" : ", ") + std::string(info.name);
   return names;
 }
 
 LandCoverClass parse_class(const std::string& name, const std::string& where) {
   const std::optional<LandCoverClass> found = find_class(name);
   if (found && *found != LandCoverClass::sky) return *found;
-  throw Error(ErrorKind::usage, where, fmt::format("\"{}\" is no class", name), class_names());
+  throw Error(ErrorKind::usage, where, fmt::format("unknown class \"{}\"", name), class_names());
 }
 
 std::optional<std::int32_t> parse_code(std::string_view text) {
   std::int32_t code = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), code);
-  if (text.empty() || error != std::errc{} || end != text.data() + text.size() || code < 0) return std::nullopt;
+  if (text.empty() || error != std::errc{} || end != text.data() + text.size() || code < 0)
+    return std::nullopt;
   return code;
 }
 
 void add_entry(Legend& legend, std::int32_t code, Legend::Entry entry, const std::string& where) {
-  if (legend.entries.contains(code)) throw Error(ErrorKind::usage, where, fmt::format("the code {} stands here a second time", code));
+  if (legend.entries.contains(code))
+    throw Error(ErrorKind::usage, where, fmt::format("duplicate code {}", code));
   legend.entries.emplace(code, std::move(entry));
 }
 
-// * is any run of characters, ? any one; small and capital letters alike.
+// * matches any run of characters, ? any single one; case-insensitive.
 bool matches(std::string_view pattern, std::string_view text) {
-  // Greedy with one step back: the last star takes one character more each time what follows it fails.
+  // Greedy with one level of backtracking: whenever the rest does not match, the last star takes
+  // one more character.
   std::size_t p = 0, t = 0, star = std::string_view::npos, star_text = 0;
   const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
   while (t < text.size()) {
@@ -67,9 +71,12 @@ bool matches(std::string_view pattern, std::string_view text) {
 
 constexpr const char* code_columns = "code, value, grid_value, raster_value, id";
 
-int code_column(const CsvTable& table) { return table.find_any({"code", "value", "grid_value", "raster_value", "id"}); }
+int code_column(const CsvTable& table) {
+  return table.find_any({"code", "value", "grid_value", "raster_value", "id"});
+}
 int label_column(const CsvTable& table) {
-  return table.find_any({"label", "name", "descriptive_name", "description", "class_name", "class_names"});
+  return table.find_any(
+      {"label", "name", "descriptive_name", "description", "class_name", "class_names"});
 }
 
 int required_column(const CsvTable& table, const std::string& column, const std::string& where) {
@@ -77,18 +84,19 @@ int required_column(const CsvTable& table, const std::string& column, const std:
   if (found >= 0) return found;
   const std::string near = nearest_word(column, table.columns);
   throw Error(ErrorKind::usage, where,
-              fmt::format("{} has no column \"{}\"{}", table.name, column, near.empty() ? "" : ": is \"" + near + "\" meant?"),
+              fmt::format("{} has no column \"{}\"{}", table.name, column,
+                          near.empty() ? "" : "; did you mean \"" + near + "\"?"),
               fmt::format("{}", fmt::join(table.columns, ", ")));
 }
 
 std::int32_t code_of(const CsvTable& table, const CsvTable::Row& row, int column) {
   const std::string& text = row.fields[static_cast<std::size_t>(column)];
   if (const std::optional<std::int32_t> code = parse_code(text)) return *code;
-  throw Error(ErrorKind::usage, fmt::format("{}:{}", table.name, row.line), fmt::format("\"{}\" is no code", text),
-              "a whole number from 0 up");
+  throw Error(ErrorKind::usage, fmt::format("{}:{}", table.name, row.line),
+              fmt::format("invalid code \"{}\"", text), "a whole number, 0 or more");
 }
 
-// A CSV file alone: a column of codes and a column of painted classes, perhaps one of labels.
+// A CSV file alone: a column of codes and a column of painted classes, optionally one of labels.
 Legend legend_from_csv(const std::string& path) {
   const CsvTable table = read_csv(path);
   const int codes = code_column(table);
@@ -96,37 +104,49 @@ Legend legend_from_csv(const std::string& path) {
   const int labels = label_column(table);
   if (codes < 0) throw Error(ErrorKind::usage, path + ":1", "no column of codes", code_columns);
   if (classes < 0) {
-    throw Error(
-        ErrorKind::usage, path + ":1", "no column \"class\" that says how each code is painted",
-        fmt::format("a column class ({}), or a legend in TOML that names this file and maps its words (docs/legends.md)", class_names()));
+    throw Error(ErrorKind::usage, path + ":1",
+                "no column \"class\" with the painted class of each code",
+                fmt::format("a column class ({}), or a legend in TOML that names this file and "
+                            "maps its words (docs/legends.md)",
+                            class_names()));
   }
   Legend legend;
   legend.name = fs::path(path).stem().string();
   for (const CsvTable::Row& row : table.rows) {
     const std::string where = fmt::format("{}:{}", path, row.line);
-    const LandCoverClass painted_as = parse_class(row.fields[static_cast<std::size_t>(classes)], where);
-    add_entry(legend, code_of(table, row, codes), {labels < 0 ? "" : row.fields[static_cast<std::size_t>(labels)], painted_as}, where);
+    const LandCoverClass painted_as =
+        parse_class(row.fields[static_cast<std::size_t>(classes)], where);
+    add_entry(legend, code_of(table, row, codes),
+              {labels < 0 ? "" : row.fields[static_cast<std::size_t>(labels)], painted_as}, where);
   }
   return legend;
 }
 
-// The codes table of a TOML legend: 11 = "water", or 11 = { label = "Open water", class = "water", also = [12, 13] }.
+// The codes table of a TOML legend: 11 = "water", or 11 = { label = "Open water", class = "water",
+// also = [12, 13] }.
 void add_codes(Legend& legend, const ConfigValue& codes, const std::string& name) {
   for (const ConfigEntry& entry : as_table(codes, name)) {
-    const std::string where = config_where(name, entry.key_place);
+    const std::string where = config_where(name, entry.key_position);
     const std::optional<std::int32_t> code = parse_code(entry.key);
-    if (!code) throw Error(ErrorKind::usage, where, fmt::format("\"{}\" is no code", entry.key), "a whole number from 0 up");
+    if (!code)
+      throw Error(ErrorKind::usage, where, fmt::format("invalid code \"{}\"", entry.key),
+                  "a whole number, 0 or more");
     if (!entry.value.is_table()) {
-      add_entry(legend, *code, {"", parse_class(as_string(entry.value, name), config_where(name, entry.value.place))}, where);
+      add_entry(
+          legend, *code,
+          {"", parse_class(as_string(entry.value, name), config_where(name, entry.value.position))},
+          where);
       continue;
     }
     const ConfigTable& table = as_table(entry.value, name);
     allow_only(table, {"label", "class", "also"}, name);
     const ConfigValue* painted_as = find(table, "class");
-    if (painted_as == nullptr) throw Error(ErrorKind::usage, where, "the class is missing", "class = … (" + class_names() + ")");
+    if (painted_as == nullptr)
+      throw Error(ErrorKind::usage, where, "class missing", "class = … (" + class_names() + ")");
     const ConfigValue* label = find(table, "label");
-    const Legend::Entry made{label != nullptr ? as_string(*label, name) : "",
-                             parse_class(as_string(*painted_as, name), config_where(name, painted_as->place))};
+    const Legend::Entry made{
+        label != nullptr ? as_string(*label, name) : "",
+        parse_class(as_string(*painted_as, name), config_where(name, painted_as->position))};
     add_entry(legend, *code, made, where);
     const ConfigValue* also = find(table, "also");
     if (also == nullptr) continue;
@@ -134,17 +154,21 @@ void add_codes(Legend& legend, const ConfigValue& codes, const std::string& name
     for (const ConfigValue& other : also->is_array() ? as_array(*also, name) : one) {
       const std::int64_t value = as_integer(other, name);
       if (value < 0 || value > INT32_MAX)
-        throw Error(ErrorKind::usage, config_where(name, other.place), fmt::format("{} is no code", value), "0…2147483647");
-      add_entry(legend, static_cast<std::int32_t>(value), made, config_where(name, other.place));
+        throw Error(ErrorKind::usage, config_where(name, other.position),
+                    fmt::format("invalid code {}", value), "0…2147483647");
+      add_entry(legend, static_cast<std::int32_t>(value), made, config_where(name, other.position));
     }
   }
 }
 
-// A file that a legend names, in the legend's own folder or one of the others. The name may not lead out of them.
-std::string find_beside(const std::string& file, const std::vector<std::string>& folders, const std::string& where) {
+// A file that a legend names, in the legend's own folder or one of the others. The name must not
+// lead out of them.
+std::string find_beside(const std::string& file, const std::vector<std::string>& folders,
+                        const std::string& where) {
   const fs::path path = fs::path(file).lexically_normal();
   if (file.empty() || path.is_absolute() || path.begin()->string() == "..") {
-    throw Error(ErrorKind::usage, where, fmt::format("\"{}\"", file), "a file in the legend's folder or below it");
+    throw Error(ErrorKind::usage, where, fmt::format("\"{}\"", file),
+                "a file in the legend's folder or in a subfolder");
   }
   std::string looked;
   for (const std::string& folder : folders) {
@@ -154,40 +178,50 @@ std::string find_beside(const std::string& file, const std::vector<std::string>&
       looked += (looked.empty() ? "" : ", ") + here.string();
       continue;
     }
-    // A link must not lead out either.
+    // Links must not lead out either.
     const fs::path root = fs::weakly_canonical(folder.empty() ? "." : folder, ignored);
     const fs::path inside = fs::weakly_canonical(here, ignored).lexically_relative(root);
     if (inside.empty() || inside.begin()->string() == "..")
-      throw Error(ErrorKind::usage, where, fmt::format("\"{}\" leads out of {}", file, root.string()));
+      throw Error(ErrorKind::usage, where,
+                  fmt::format("\"{}\" leads out of {}", file, root.string()));
     return here.string();
   }
-  throw Error(ErrorKind::input, where, fmt::format("\"{}\" is not there", file), "one of " + looked);
+  throw Error(ErrorKind::input, where, fmt::format("file not found: \"{}\"", file),
+              "a file in one of " + looked);
 }
 
-// The rows of a CSV file, painted by patterns over its words: the first pattern that fits any of the columns wins.
-void add_csv_rows(Legend& legend, const ConfigTable& root, const std::string& name, const std::vector<std::string>& folders) {
+// The rows of a CSV file, mapped by patterns over its words: the first pattern that matches any of
+// the columns wins.
+void add_csv_rows(Legend& legend, const ConfigTable& root, const std::string& name,
+                  const std::vector<std::string>& folders) {
   const ConfigValue& file = *find(root, "csv");
-  const CsvTable table = read_csv(find_beside(as_string(file, name), folders, config_where(name, file.place)));
-  const auto column = [&](const char* key, int guess) {
+  const CsvTable table =
+      read_csv(find_beside(as_string(file, name), folders, config_where(name, file.position)));
+  const auto column = [&](const char* key, int inferred) {
     const ConfigValue* value = find(root, key);
-    return value == nullptr ? guess : required_column(table, as_string(*value, name), config_where(name, value->place));
+    return value == nullptr ? inferred
+                            : required_column(table, as_string(*value, name),
+                                              config_where(name, value->position));
   };
   const int codes = column("code", code_column(table));
   const int labels = column("label", label_column(table));
   if (codes < 0)
-    throw Error(ErrorKind::usage, name, fmt::format("{} has no column of codes by a usual name ({})", table.name, code_columns),
-                "code = \"its column\"");
+    throw Error(
+        ErrorKind::usage, name,
+        fmt::format("{} has no column of codes with a usual name ({})", table.name, code_columns),
+        "code = \"name of the column\"");
   std::vector<int> searched;
   if (const ConfigValue* match = find(root, "match")) {
     const ConfigArray one = match->is_array() ? ConfigArray{} : ConfigArray{*match};
     for (const ConfigValue& value : match->is_array() ? as_array(*match, name) : one)
-      searched.push_back(required_column(table, as_string(value, name), config_where(name, value.place)));
+      searched.push_back(
+          required_column(table, as_string(value, name), config_where(name, value.position)));
   } else if (labels >= 0) {
     searched.push_back(labels);
   }
   const ConfigValue* map = find(root, "map");
   if (map == nullptr || searched.empty())
-    throw Error(ErrorKind::usage, name, "nothing says how the rows of the CSV file are painted",
+    throw Error(ErrorKind::usage, name, "the rows of the CSV file are not mapped to classes",
                 "match = [\"a column\"] and a table [map] of \"pattern\" = \"class\"");
   struct Pattern {
     std::string text;
@@ -195,23 +229,30 @@ void add_csv_rows(Legend& legend, const ConfigTable& root, const std::string& na
   };
   std::vector<Pattern> patterns;
   for (const ConfigEntry& entry : as_table(*map, name)) {
-    patterns.push_back({entry.key, parse_class(as_string(entry.value, name), config_where(name, entry.value.place))});
+    patterns.push_back({entry.key, parse_class(as_string(entry.value, name),
+                                               config_where(name, entry.value.position))});
   }
   for (const CsvTable::Row& row : table.rows) {
     const std::int32_t code = code_of(table, row, codes);
-    if (legend.entries.contains(code) || legend.nodata.contains(code)) continue;  // what the legend says itself goes before
+    if (legend.entries.contains(code) || legend.nodata.contains(code))
+      continue;  // codes of the legend itself take precedence
     const auto fits = [&](const Pattern& pattern) {
-      return std::any_of(searched.begin(), searched.end(),
-                         [&](int c) { return matches(pattern.text, row.fields[static_cast<std::size_t>(c)]); });
+      return std::any_of(searched.begin(), searched.end(), [&](int c) {
+        return matches(pattern.text, row.fields[static_cast<std::size_t>(c)]);
+      });
     };
     const auto pattern = std::find_if(patterns.begin(), patterns.end(), fits);
-    // No pattern: the code stays out of the legend, and is an error only where the raster has it.
+    // No pattern matches: the code stays out of the legend, and is an error only if the raster has
+    // it.
     if (pattern == patterns.end()) continue;
-    legend.entries.emplace(code, Legend::Entry{labels < 0 ? "" : row.fields[static_cast<std::size_t>(labels)], pattern->painted_as});
+    legend.entries.emplace(
+        code, Legend::Entry{labels < 0 ? "" : row.fields[static_cast<std::size_t>(labels)],
+                            pattern->painted_as});
   }
 }
 
-Legend legend_from_toml(const ConfigValue& value, const std::string& name, const std::vector<std::string>& folders) {
+Legend legend_from_toml(const ConfigValue& value, const std::string& name,
+                        const std::vector<std::string>& folders) {
   const ConfigTable& root = as_table(value, name);
   allow_only(root, {"name", "nodata", "codes", "csv", "code", "label", "match", "map"}, name);
   Legend legend;
@@ -219,33 +260,38 @@ Legend legend_from_toml(const ConfigValue& value, const std::string& name, const
   legend.name = title != nullptr ? as_string(*title, name) : fs::path(name).stem().string();
   if (const ConfigValue* nodata = find(root, "nodata"))
     for (const ConfigValue& code : as_array(*nodata, name))
-      legend.nodata.insert(static_cast<std::int32_t>(std::clamp<std::int64_t>(as_integer(code, name), -1, INT32_MAX)));
+      legend.nodata.insert(static_cast<std::int32_t>(
+          std::clamp<std::int64_t>(as_integer(code, name), -1, INT32_MAX)));
   if (const ConfigValue* codes = find(root, "codes")) add_codes(legend, *codes, name);
   if (find(root, "csv") != nullptr)
     add_csv_rows(legend, root, name, folders);
   else
     for (const char* key : {"code", "label", "match", "map"})
       if (const ConfigValue* stray = find(root, key))
-        throw Error(ErrorKind::usage, config_where(name, stray->place), fmt::format("`{}` means nothing without `csv`", key));
-  if (legend.entries.empty()) throw Error(ErrorKind::usage, name, "the legend has no codes", "a table [codes], or csv with [map]");
+        throw Error(ErrorKind::usage, config_where(name, stray->position),
+                    fmt::format("`{}` without `csv`", key));
+  if (legend.entries.empty())
+    throw Error(ErrorKind::usage, name, "the legend has no codes",
+                "a table [codes], or csv with [map]");
   return legend;
 }
 
 }  // namespace
 
 Legend read_legend(const std::string& name_or_path, const std::vector<std::string>& folders) {
-  const std::string ending = lower_ending(name_or_path);
-  if (ending == ".csv") return legend_from_csv(name_or_path);
-  if (ending == ".toml") {
-    std::vector<std::string> places = {fs::path(name_or_path).parent_path().string()};
-    places.insert(places.end(), folders.begin(), folders.end());
-    return legend_from_toml(read_config(name_or_path), name_or_path, places);
+  const std::string extension = lower_extension(name_or_path);
+  if (extension == ".csv") return legend_from_csv(name_or_path);
+  if (extension == ".toml") {
+    std::vector<std::string> positions = {fs::path(name_or_path).parent_path().string()};
+    positions.insert(positions.end(), folders.begin(), folders.end());
+    return legend_from_toml(read_config(name_or_path), name_or_path, positions);
   }
   const std::vector<std::string> built_in = embedded_names("legends");
   if (std::find(built_in.begin(), built_in.end(), name_or_path) == built_in.end()) {
     const std::string near = nearest_word(name_or_path, built_in);
     throw Error(ErrorKind::usage, "legend",
-                fmt::format("\"{}\" is not known{}", name_or_path, near.empty() ? "" : ": is \"" + near + "\" meant?"),
+                fmt::format("unknown legend \"{}\"{}", name_or_path,
+                            near.empty() ? "" : "; did you mean \"" + near + "\"?"),
                 fmt::format("{}, or a .toml or .csv file", fmt::join(built_in, ", ")));
   }
   const std::string name = "legends/" + name_or_path + ".toml";

@@ -12,30 +12,31 @@
 namespace belvedere {
 namespace {
 
-constexpr double least_box_m = 20.0;
-constexpr double most_boxes = 4e6;
-// Where in its box a box's own place lies: nothing that people or rasters make runs exactly through it.
+constexpr double min_box_m = 20.0;
+constexpr double max_boxes = 4e6;
+// Reference point within a box, at coordinates that no edge of real data passes through exactly.
 constexpr double sample_offset = 0.51234567891;
 
-// How often a way from `own` up or down and then across to `place` crosses an edge, even or odd. Ends count half open, so that a way
-// through a corner of an outline crosses it once.
-bool crosses(const glm::dvec2& from, const glm::dvec2& to, glm::dvec2 own, glm::dvec2 place) {
+// Parity of the number of edges crossed by a path from `own` vertically and then horizontally to
+// `place`. Ends count half open, so that a path through a vertex crosses the outline once.
+bool crosses(const glm::dvec2& from, const glm::dvec2& to, glm::dvec2 own, glm::dvec2 position) {
   bool odd = false;
   if ((from.x <= own.x) != (to.x <= own.x)) {
     const double y = from.y + (own.x - from.x) * ((to.y - from.y) / (to.x - from.x));
-    odd = (y <= own.y) != (y <= place.y);
+    odd = (y <= own.y) != (y <= position.y);
   }
-  if ((from.y <= place.y) != (to.y <= place.y)) {
-    const double x = from.x + (place.y - from.y) * ((to.x - from.x) / (to.y - from.y));
-    odd = odd != ((x <= own.x) != (x <= place.x));
+  if ((from.y <= position.y) != (to.y <= position.y)) {
+    const double x = from.x + (position.y - from.y) * ((to.x - from.x) / (to.y - from.y));
+    odd = odd != ((x <= own.x) != (x <= position.x));
   }
   return odd;
 }
 
-// Whether a place lies within a straight piece of river; one without width covers nothing.
-bool covers(const glm::dvec2& from, const glm::dvec2& to, float half_from, float half_to, glm::dvec2 place) {
+// Whether a position lies within a straight piece of river; a piece without width covers nothing.
+bool covers(const glm::dvec2& from, const glm::dvec2& to, float half_from, float half_to,
+            glm::dvec2 position) {
   const glm::dvec2 along = to - from;
-  const glm::dvec2 off = place - from;
+  const glm::dvec2 off = position - from;
   const double length2 = std::max(glm::dot(along, along), 1e-12);
   const double t = std::clamp(glm::dot(off, along) / length2, 0.0, 1.0);
   const double half = (1.0 - t) * static_cast<double>(half_from) + t * static_cast<double>(half_to);
@@ -46,12 +47,12 @@ bool covers(const glm::dvec2& from, const glm::dvec2& to, float half_from, float
 double side_of_boxes(glm::dvec2 size, std::size_t pieces) {
   const double area = size.x * size.y;
   const double wanted = std::sqrt(area / std::max<double>(1.0, static_cast<double>(pieces)));
-  return std::max({least_box_m, wanted, std::sqrt(area / most_boxes)});
+  return std::max({min_box_m, wanted, std::sqrt(area / max_boxes)});
 }
 
 }  // namespace
 
-// Puts shapes into boxes, one after the other from the lowest up.
+// Inserts shapes into boxes, one after the other from the lowest up.
 struct MapCover::Filler {
   struct Placed {
     std::uint32_t box;
@@ -59,13 +60,22 @@ struct MapCover::Filler {
   };
   MapCover& to;
   std::vector<Placed> placed = {};
-  std::vector<std::vector<double>> crossings = {};  // of one area, by row: where its outline crosses the height of own places
-  std::vector<std::uint32_t> touched_by = {};       // of a box: the last shape with an edge in it, and one
+  std::vector<std::vector<double>> crossings = {};  // of one area, by row: crossings of its outline
+                                                    // with the line through the reference points
+  std::vector<std::uint32_t> touched_by =
+      {};  // of a box: the last shape with an edge in it, and one
 
-  int column(double x) const { return static_cast<int>(std::floor(std::clamp((x - to.low_.x) / to.box_m_, -1.0, to.columns_ + 1.0))); }
-  int row(double y) const { return static_cast<int>(std::floor(std::clamp((y - to.low_.y) / to.box_m_, -1.0, to.rows_ + 1.0))); }
+  int column(double x) const {
+    return static_cast<int>(
+        std::floor(std::clamp((x - to.low_.x) / to.box_m_, -1.0, to.columns_ + 1.0)));
+  }
+  int row(double y) const {
+    return static_cast<int>(
+        std::floor(std::clamp((y - to.low_.y) / to.box_m_, -1.0, to.rows_ + 1.0)));
+  }
   std::uint32_t box(int x, int y) const {
-    return static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(to.columns_) + static_cast<std::uint32_t>(x);
+    return static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(to.columns_) +
+           static_cast<std::uint32_t>(x);
   }
 
   void put(int x, int y, std::uint32_t shape, std::uint32_t edge) {
@@ -74,21 +84,22 @@ struct MapCover::Filler {
     touched_by[at] = shape + 1;
   }
 
-  void add_edge(glm::dvec2 from, glm::dvec2 to_place, std::uint32_t shape) {
-    const glm::dvec2 low = glm::min(from, to_place);
-    const glm::dvec2 high = glm::max(from, to_place);
+  void add_edge(glm::dvec2 from, glm::dvec2 to_position, std::uint32_t shape) {
+    const glm::dvec2 low = glm::min(from, to_position);
+    const glm::dvec2 high = glm::max(from, to_position);
     const int y0 = std::max(0, row(low.y));
     const int y1 = std::min(to.rows_ - 1, row(high.y));
-    std::uint32_t edge = own_place;
+    std::uint32_t edge = own_position;
     for (int y = y0; y <= y1; ++y) {
-      const double own_y = to.place_of(0, y).y;
-      if ((from.y <= own_y) != (to_place.y <= own_y))
-        crossings[static_cast<std::size_t>(y)].push_back(from.x + (own_y - from.y) * ((to_place.x - from.x) / (to_place.y - from.y)));
-      // The part of the edge in this row, a little more for rounding.
+      const double own_y = to.position_of(0, y).y;
+      if ((from.y <= own_y) != (to_position.y <= own_y))
+        crossings[static_cast<std::size_t>(y)].push_back(
+            from.x + (own_y - from.y) * ((to_position.x - from.x) / (to_position.y - from.y)));
+      // The part of the edge in this row, slightly extended for rounding.
       double x0 = low.x;
       double x1 = high.x;
       if (high.y > low.y) {
-        const double slope = (to_place.x - from.x) / (to_place.y - from.y);
+        const double slope = (to_position.x - from.x) / (to_position.y - from.y);
         const double margin = 1e-6 * to.box_m_;
         const double bottom = std::max(low.y, to.low_.y + y * to.box_m_ - margin);
         const double top = std::min(high.y, to.low_.y + (y + 1) * to.box_m_ + margin);
@@ -98,9 +109,9 @@ struct MapCover::Filler {
         x1 = std::min(high.x, std::max(a, b) + margin);
       }
       for (int x = std::max(0, column(x0)); x <= std::min(to.columns_ - 1, column(x1)); ++x) {
-        if (edge == own_place) {
+        if (edge == own_position) {
           edge = static_cast<std::uint32_t>(to.edges_.size());
-          to.edges_.push_back({from, to_place, 0.F, 0.F});
+          to.edges_.push_back({from, to_position, 0.F, 0.F});
         }
         put(x, y, shape, edge);
       }
@@ -119,16 +130,17 @@ struct MapCover::Filler {
         top = top < bottom ? from.y : std::max(top, from.y);
         add_edge(from, ring[(i + 1) % ring.size()], shape);
       }
-    // Between two crossings of a row boxes without an edge lie in the area whole.
+    // Between two crossings in a row, boxes without an edge lie entirely in the area.
     for (int y = std::max(0, row(bottom)); y <= std::min(to.rows_ - 1, row(top)); ++y) {
       std::vector<double>& at = crossings[static_cast<std::size_t>(y)];
       std::sort(at.begin(), at.end());
       for (std::size_t k = 0; k + 1 < at.size(); k += 2)
-        for (int x = std::max(0, column(at[k])); x <= std::min(to.columns_ - 1, column(at[k + 1])); ++x) {
-          const double own_x = to.place_of(x, y).x;
+        for (int x = std::max(0, column(at[k])); x <= std::min(to.columns_ - 1, column(at[k + 1]));
+             ++x) {
+          const double own_x = to.position_of(x, y).x;
           if (own_x < at[k] || own_x >= at[k + 1]) continue;
           if (touched_by[box(x, y)] == shape + 1)
-            placed.push_back({box(x, y), {shape, own_place}});
+            placed.push_back({box(x, y), {shape, own_position}});
           else
             to.full_[box(x, y)] = static_cast<std::int32_t>(shape);
         }
@@ -136,17 +148,19 @@ struct MapCover::Filler {
     }
   }
 
-  void add(const CoverCourse& course) {
+  void add(const CoverRiver& centreline) {
     const auto shape = static_cast<std::uint32_t>(to.shapes_.size());
-    to.shapes_.push_back({course.painted_as, false, true});
-    for (std::size_t i = 0; i + 1 < course.places.size(); ++i) {
-      const Edge edge = {course.places[i], course.places[i + 1], course.half_width_m[i], course.half_width_m[i + 1]};
+    to.shapes_.push_back({centreline.painted_as, false, true});
+    for (std::size_t i = 0; i + 1 < centreline.positions.size(); ++i) {
+      const Edge edge = {centreline.positions[i], centreline.positions[i + 1],
+                         centreline.half_width_m[i], centreline.half_width_m[i + 1]};
       const double reach = std::max(edge.half_from, edge.half_to);
       const glm::dvec2 low = glm::min(edge.from, edge.to) - reach;
       const glm::dvec2 high = glm::max(edge.from, edge.to) + reach;
       bool kept = false;
       for (int y = std::max(0, row(low.y)); y <= std::min(to.rows_ - 1, row(high.y)); ++y)
-        for (int x = std::max(0, column(low.x)); x <= std::min(to.columns_ - 1, column(high.x)); ++x) {
+        for (int x = std::max(0, column(low.x)); x <= std::min(to.columns_ - 1, column(high.x));
+             ++x) {
           if (!kept) to.edges_.push_back(edge);
           kept = true;
           put(x, y, shape, static_cast<std::uint32_t>(to.edges_.size() - 1));
@@ -154,9 +168,11 @@ struct MapCover::Filler {
     }
   }
 
-  // Pieces by box; those under an area that covers the whole box are never asked.
+  // Pieces by box; those under an area that covers the whole box are never visited.
   void finish() {
-    const auto is_seen = [&](const Placed& p) { return to.full_[p.box] < static_cast<std::int32_t>(p.piece.shape); };
+    const auto is_seen = [&](const Placed& p) {
+      return to.full_[p.box] < static_cast<std::int32_t>(p.piece.shape);
+    };
     to.first_.assign(to.full_.size() + 1, 0);
     for (const Placed& p : placed)
       if (is_seen(p)) ++to.first_[p.box + 1];
@@ -168,13 +184,15 @@ struct MapCover::Filler {
   }
 };
 
-MapCover::MapCover(const std::vector<CoverArea>& areas, std::vector<CoverCourse> courses, glm::dvec2 low, glm::dvec2 high)
-    : courses_(std::move(courses)), low_(low), high_(high) {
-  if (!(high.x > low.x && high.y > low.y)) throw Error(ErrorKind::bug, "the cover of a map", "a ground without extent");
+MapCover::MapCover(const std::vector<CoverArea>& areas, std::vector<CoverRiver> centrelines,
+                   glm::dvec2 low, glm::dvec2 high)
+    : centrelines_(std::move(centrelines)), low_(low), high_(high) {
+  if (!(high.x > low.x && high.y > low.y))
+    throw Error(ErrorKind::bug, "the cover of a map", "the ground has no extent");
   struct Ranked {
     double rank;
     const CoverArea* area;
-    const CoverCourse* course;
+    const CoverRiver* centreline;
   };
   std::vector<Ranked> order;
   std::size_t pieces = 1;
@@ -182,13 +200,14 @@ MapCover::MapCover(const std::vector<CoverArea>& areas, std::vector<CoverCourse>
     order.push_back({area.rank, &area, nullptr});
     for (const auto& ring : area.rings) pieces += ring.size();
   }
-  for (const CoverCourse& course : courses_) {
-    if (course.half_width_m.size() != course.places.size())
-      throw Error(ErrorKind::bug, "the cover of a map", "a river without a width at each place");
-    order.push_back({course.rank, nullptr, &course});
-    pieces += course.places.size();
+  for (const CoverRiver& centreline : centrelines_) {
+    if (centreline.half_width_m.size() != centreline.positions.size())
+      throw Error(ErrorKind::bug, "the cover of a map", "a river lacks a width for each position");
+    order.push_back({centreline.rank, nullptr, &centreline});
+    pieces += centreline.positions.size();
   }
-  std::stable_sort(order.begin(), order.end(), [](const Ranked& a, const Ranked& b) { return a.rank < b.rank; });
+  std::stable_sort(order.begin(), order.end(),
+                   [](const Ranked& a, const Ranked& b) { return a.rank < b.rank; });
 
   box_m_ = side_of_boxes(high - low, pieces);
   columns_ = static_cast<int>(std::ceil((high.x - low.x) / box_m_));
@@ -201,59 +220,64 @@ MapCover::MapCover(const std::vector<CoverArea>& areas, std::vector<CoverCourse>
     if (one.area != nullptr)
       filler.add(*one.area);
     else
-      filler.add(*one.course);
+      filler.add(*one.centreline);
   }
   filler.finish();
 }
 
-glm::dvec2 MapCover::place_of(int column, int row) const { return low_ + box_m_ * glm::dvec2(column + sample_offset, row + sample_offset); }
+glm::dvec2 MapCover::position_of(int column, int row) const {
+  return low_ + box_m_ * glm::dvec2(column + sample_offset, row + sample_offset);
+}
 
-std::int32_t MapCover::find(glm::dvec2 place) const {
-  const double x = (place.x - low_.x) / box_m_;
-  const double y = (place.y - low_.y) / box_m_;
-  if (!(x >= 0.0 && y >= 0.0 && place.x < high_.x && place.y < high_.y)) return none;
+std::int32_t MapCover::find(glm::dvec2 position) const {
+  const double x = (position.x - low_.x) / box_m_;
+  const double y = (position.y - low_.y) / box_m_;
+  if (!(x >= 0.0 && y >= 0.0 && position.x < high_.x && position.y < high_.y)) return none;
   const int column = std::min(static_cast<int>(x), columns_ - 1);
   const int row = std::min(static_cast<int>(y), rows_ - 1);
-  const std::size_t box = static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
-  const glm::dvec2 own = place_of(column, row);
+  const std::size_t box = static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+                          static_cast<std::size_t>(column);
+  const glm::dvec2 own = position_of(column, row);
   // From the topmost shape down.
   for (std::uint32_t i = first_[box + 1]; i > first_[box];) {
     const std::uint32_t shape = pieces_[i - 1].shape;
-    const bool is_course = shapes_[shape].is_course;
+    const bool is_river_line = shapes_[shape].is_river_line;
     bool inside = false;
     for (; i > first_[box] && pieces_[i - 1].shape == shape; --i) {
       const std::uint32_t number = pieces_[i - 1].edge;
-      if (number == own_place) {
+      if (number == own_position) {
         inside = !inside;
         continue;
       }
       const Edge& edge = edges_[number];
-      if (is_course)
-        inside = inside || covers(edge.from, edge.to, edge.half_from, edge.half_to, place);
+      if (is_river_line)
+        inside = inside || covers(edge.from, edge.to, edge.half_from, edge.half_to, position);
       else
-        inside = inside != crosses(edge.from, edge.to, own, place);
+        inside = inside != crosses(edge.from, edge.to, own, position);
     }
     if (inside) return static_cast<std::int32_t>(shape);
   }
   return full_[box];
 }
 
-LandCoverClass MapCover::at(glm::dvec2 place) const {
-  const std::int32_t shape = find(place);
+LandCoverClass MapCover::at(glm::dvec2 position) const {
+  const std::int32_t shape = find(position);
   return shape == none ? LandCoverClass::sky : shapes_[static_cast<std::size_t>(shape)].painted_as;
 }
 
-bool MapCover::is_still(glm::dvec2 place) const {
-  const std::int32_t shape = find(place);
+bool MapCover::is_still(glm::dvec2 position) const {
+  const std::int32_t shape = find(position);
   return shape != none && shapes_[static_cast<std::size_t>(shape)].still;
 }
 
 std::size_t MapCover::bytes() const {
-  std::size_t of_courses = 0;
-  for (const CoverCourse& course : courses_)
-    of_courses += course.places.capacity() * sizeof(glm::dvec2) + course.half_width_m.capacity() * sizeof(float);
-  return of_courses + shapes_.capacity() * sizeof(Shape) + edges_.capacity() * sizeof(Edge) + full_.capacity() * sizeof(std::int32_t) +
-         first_.capacity() * sizeof(std::uint32_t) + pieces_.capacity() * sizeof(Piece);
+  std::size_t of_rivers = 0;
+  for (const CoverRiver& centreline : centrelines_)
+    of_rivers += centreline.positions.capacity() * sizeof(glm::dvec2) +
+                 centreline.half_width_m.capacity() * sizeof(float);
+  return of_rivers + shapes_.capacity() * sizeof(Shape) + edges_.capacity() * sizeof(Edge) +
+         full_.capacity() * sizeof(std::int32_t) + first_.capacity() * sizeof(std::uint32_t) +
+         pieces_.capacity() * sizeof(Piece);
 }
 
 }  // namespace belvedere

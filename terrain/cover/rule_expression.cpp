@@ -30,27 +30,33 @@ struct Token {
 
 }  // namespace
 
-// Recursive descent: text to steps in one go. Constants are computed at once, so a parameter costs nothing in the cells.
+// Recursive descent: text to steps in one pass. Constants are folded, so a parameter costs nothing
+// per cell.
 class RuleCompiler {
  public:
   using Operation = RuleExpression::Operation;
   using Operand = RuleExpression::Operand;
 
-  RuleCompiler(RuleExpression& out, const std::string& text, const RuleNames& names, const std::string& where, ConfigPlace place)
-      : out_(out), text_(text), names_(names), where_(where), place_(place) {}
+  RuleCompiler(RuleExpression& out, const std::string& text, const RuleNames& names,
+               const std::string& where, ConfigPosition position)
+      : out_(out), text_(text), names_(names), where_(where), position_(position) {}
 
   void compile() {
     next();
     const Value value = parse_or();
-    if (token_.kind != Token::Kind::end) fail(token_.offset, "unexpected " + quoted(token_), "an operator or the end of the expression");
+    if (token_.kind != Token::Kind::end)
+      fail(token_.offset, "unexpected " + quoted(token_),
+           "an operator or the end of the expression");
     out_.result_ = value.operand;
     spread_constants();
     std::sort(out_.variables_.begin(), out_.variables_.end());
-    out_.variables_.erase(std::unique(out_.variables_.begin(), out_.variables_.end()), out_.variables_.end());
+    out_.variables_.erase(std::unique(out_.variables_.begin(), out_.variables_.end()),
+                          out_.variables_.end());
   }
 
  private:
-  // A block of memory is free again once the step that reads it is written: blocks are handed out like a stack.
+  // A block of memory is free again once the step that reads it is written: blocks are allocated
+  // like a stack.
   struct Value {
     Operand operand;
   };
@@ -58,45 +64,53 @@ class RuleCompiler {
   struct Function {
     std::string_view name;
     Operation operation;
-    int least;
-    int most;
+    int min;
+    int max;
   };
-  static constexpr std::array<Function, 11> functions = {{{"min", Operation::minimum, 2, 16},
-                                                          {"max", Operation::maximum, 2, 16},
-                                                          {"clip", Operation::clip, 1, 3},
-                                                          {"clamp", Operation::clip, 1, 3},
-                                                          {"abs", Operation::absolute, 1, 1},
-                                                          {"sin", Operation::sine, 1, 1},
-                                                          {"cos", Operation::cosine, 1, 1},
-                                                          {"exp", Operation::exponential, 1, 1},
-                                                          {"sqrt", Operation::square_root, 1, 1},
-                                                          {"smoothstep", Operation::smooth_step, 3, 3},
-                                                          {"hat", Operation::hat, 4, 4}}};
+  static constexpr std::array<Function, 11> functions = {
+      {{"min", Operation::minimum, 2, 16},
+       {"max", Operation::maximum, 2, 16},
+       {"clip", Operation::clip, 1, 3},
+       {"clamp", Operation::clip, 1, 3},
+       {"abs", Operation::absolute, 1, 1},
+       {"sin", Operation::sine, 1, 1},
+       {"cos", Operation::cosine, 1, 1},
+       {"exp", Operation::exponential, 1, 1},
+       {"sqrt", Operation::square_root, 1, 1},
+       {"smoothstep", Operation::smooth_step, 3, 3},
+       {"hat", Operation::hat, 4, 4}}};
 
-  [[noreturn]] void fail(std::size_t offset, const std::string& found, const std::string& allowed) const {
-    // One line: the text starts after its quote. Several lines (""" in TOML): after the line of the quotes.
-    ConfigPlace place = place_;
-    if (place.line > 0) {
+  [[noreturn]] void fail(std::size_t offset, const std::string& found,
+                         const std::string& allowed) const {
+    // One line: the text starts after its quote. Several lines (""" in TOML): after the line of the
+    // quotes.
+    ConfigPosition position = position_;
+    if (position.line > 0) {
       if (text_.find('\n') == std::string::npos) {
-        place.column += 1 + static_cast<int>(offset);
+        position.column += 1 + static_cast<int>(offset);
       } else {
         const std::string_view before = std::string_view(text_).substr(0, offset);
         const std::size_t newline = before.rfind('\n');
-        place.line += 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n'));
-        place.column = 1 + static_cast<int>(newline == std::string_view::npos ? offset : offset - newline - 1);
+        position.line += 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n'));
+        position.column =
+            1 + static_cast<int>(newline == std::string_view::npos ? offset : offset - newline - 1);
       }
-      throw Error(ErrorKind::usage, config_where(where_, place), found, allowed);
+      throw Error(ErrorKind::usage, config_where(where_, position), found, allowed);
     }
-    throw Error(ErrorKind::usage, where_, fmt::format("{} at character {} of \"{}\"", found, offset + 1, text_), allowed);
+    throw Error(ErrorKind::usage, where_,
+                fmt::format("{} at character {} of \"{}\"", found, offset + 1, text_), allowed);
   }
 
   static std::string quoted(const Token& token) {
-    return token.kind == Token::Kind::end ? std::string("end of the expression") : fmt::format("\"{}\"", token.text);
+    return token.kind == Token::Kind::end ? std::string("end of the expression")
+                                          : fmt::format("\"{}\"", token.text);
   }
 
   void next() {
     const std::string_view text = text_;
-    while (at_ < text.size() && (text[at_] == ' ' || text[at_] == '\t' || text[at_] == '\n' || text[at_] == '\r')) ++at_;
+    while (at_ < text.size() &&
+           (text[at_] == ' ' || text[at_] == '\t' || text[at_] == '\n' || text[at_] == '\r'))
+      ++at_;
     token_ = {};
     token_.offset = at_;
     if (at_ == text.size()) return;
@@ -104,27 +118,32 @@ class RuleCompiler {
     std::size_t length = 1;
     if (is_digit(c) || (c == '.' && at_ + 1 < text.size() && is_digit(text[at_ + 1]))) {
       token_.kind = Token::Kind::number;
-      // from_chars and not strtod: a comma locale must not change what a rule means.
-      const auto [end, fault] = std::from_chars(text.data() + at_, text.data() + text.size(), token_.number);
-      if (fault != std::errc() || !std::isfinite(token_.number)) fail(at_, "a number that is too large", "");
+      // from_chars instead of strtod: the locale must not change the meaning of a rule.
+      const auto [end, fault] =
+          std::from_chars(text.data() + at_, text.data() + text.size(), token_.number);
+      if (fault != std::errc() || !std::isfinite(token_.number)) fail(at_, "number too large", "");
       length = static_cast<std::size_t>(end - (text.data() + at_));
       if (at_ + length < text.size() && is_name_start(text[at_ + length]))
-        fail(at_ + length, "a letter right after a number", "an operator");
+        fail(at_ + length, "letter directly after a number", "an operator");
     } else if (is_name_start(c)) {
       token_.kind = Token::Kind::name;
-      while (at_ + length < text.size() && (is_name_start(text[at_ + length]) || is_digit(text[at_ + length]))) ++length;
+      while (at_ + length < text.size() &&
+             (is_name_start(text[at_ + length]) || is_digit(text[at_ + length])))
+        ++length;
     } else if (std::string_view("+-*/<>(),").find(c) != std::string_view::npos) {
       token_.kind = Token::Kind::symbol;
       if ((c == '<' || c == '>') && at_ + 1 < text.size() && text[at_ + 1] == '=') length = 2;
     } else {
-      fail(at_, fmt::format("unexpected character \"{}\"", text.substr(at_, 1)), "numbers, names, + - * / < > <= >= and or not ( ) ,");
+      fail(at_, fmt::format("unexpected character \"{}\"", text.substr(at_, 1)),
+           "numbers, names, + - * / < > <= >= and or not ( ) ,");
     }
     token_.text = text.substr(at_, length);
     at_ += length;
   }
 
   bool is(std::string_view text) const {
-    return (token_.kind == Token::Kind::symbol || token_.kind == Token::Kind::name) && token_.text == text;
+    return (token_.kind == Token::Kind::symbol || token_.kind == Token::Kind::name) &&
+           token_.text == text;
   }
   bool accept(std::string_view text) {
     if (!is(text)) return false;
@@ -132,7 +151,8 @@ class RuleCompiler {
     return true;
   }
   void expect(std::string_view text) {
-    if (!accept(text)) fail(token_.offset, "unexpected " + quoted(token_), fmt::format("\"{}\"", text));
+    if (!accept(text))
+      fail(token_.offset, "unexpected " + quoted(token_), fmt::format("\"{}\"", text));
   }
 
   Value constant(double value) {
@@ -148,7 +168,8 @@ class RuleCompiler {
       int& block = block_of[static_cast<std::size_t>(operand.index)];
       if (block < 0) {
         block = static_cast<int>(out_.constants_.size()) / rule_block;
-        out_.constants_.insert(out_.constants_.end(), rule_block, constants_[static_cast<std::size_t>(operand.index)]);
+        out_.constants_.insert(out_.constants_.end(), rule_block,
+                               constants_[static_cast<std::size_t>(operand.index)]);
       }
       operand.index = block;
     };
@@ -173,7 +194,8 @@ class RuleCompiler {
       std::array<const float*, 4> operands{};
       std::array<float, rule_block> result{};
       for (int i = 0; i < k; ++i) {
-        blocks[static_cast<std::size_t>(i)].fill(constants_[static_cast<std::size_t>(step.operands[i].index)]);
+        blocks[static_cast<std::size_t>(i)].fill(
+            constants_[static_cast<std::size_t>(step.operands[i].index)]);
         operands[static_cast<std::size_t>(i)] = blocks[static_cast<std::size_t>(i)].data();
       }
       RuleExpression::run(operation, operands.data(), result.data());
@@ -199,7 +221,8 @@ class RuleCompiler {
       const bool never = is_false(value) || is_false(right);
       value = emit(Operation::both, {value, right});
       if (!never) continue;
-      // What a parameter turns off takes no time; its variables stay named, so that whether a rule is allowed hangs on no parameter.
+      // Branches that a parameter turns off are not computed. Their variables stay listed, so that
+      // the validity of a rule does not depend on parameters.
       out_.steps_.resize(steps);
       top_ = top;
       value = constant(0.0);
@@ -207,7 +230,8 @@ class RuleCompiler {
     return value;
   }
   bool is_false(const Value& value) const {
-    return value.operand.kind == Operand::Kind::constant && !(constants_[static_cast<std::size_t>(value.operand.index)] > 0.F);
+    return value.operand.kind == Operand::Kind::constant &&
+           !(constants_[static_cast<std::size_t>(value.operand.index)] > 0.F);
   }
   Value parse_not() {
     const Depth depth(*this);
@@ -222,10 +246,12 @@ class RuleCompiler {
     if (!less && !less_equal && !greater && !is(">=")) return left;
     next();
     const Value right = parse_sum();
-    if (is("<") || is("<=") || is(">") || is(">=")) fail(token_.offset, "a chain of comparisons", "\"and\" between two comparisons");
+    if (is("<") || is("<=") || is(">") || is(">="))
+      fail(token_.offset, "chained comparison", "\"and\" between two comparisons");
     // a > b is b < a; the blocks of both are freed together, so their order does not matter.
-    return less || less_equal ? emit(less ? Operation::less : Operation::less_equal, {left, right})
-                              : emit(greater ? Operation::less : Operation::less_equal, {right, left});
+    return less || less_equal
+               ? emit(less ? Operation::less : Operation::less_equal, {left, right})
+               : emit(greater ? Operation::less : Operation::less_equal, {right, left});
   }
   Value parse_sum() {
     Value value = parse_product();
@@ -262,7 +288,8 @@ class RuleCompiler {
       expect(")");
       return value;
     }
-    if (token.kind != Token::Kind::name || token.text == "and" || token.text == "or" || token.text == "not")
+    if (token.kind != Token::Kind::name || token.text == "and" || token.text == "or" ||
+        token.text == "not")
       fail(token.offset, "unexpected " + quoted(token), "a number, a name, a function or \"(\"");
     next();
     if (is("(")) return parse_call(token);
@@ -275,13 +302,15 @@ class RuleCompiler {
     for (const auto& [name, value] : names_.constants)
       if (name == token.text) return constant(value);
     std::vector<std::string> known;
-    std::copy_if(names_.variables.begin(), names_.variables.end(), std::back_inserter(known), [](const auto& n) { return !n.empty(); });
+    std::copy_if(names_.variables.begin(), names_.variables.end(), std::back_inserter(known),
+                 [](const auto& n) { return !n.empty(); });
     for (const auto& [name, value] : names_.constants) known.push_back(name);
     fail_unknown(token, "name", known);
   }
 
   Value parse_call(const Token& name) {
-    const auto function = std::find_if(functions.begin(), functions.end(), [&](const Function& f) { return f.name == name.text; });
+    const auto function = std::find_if(functions.begin(), functions.end(),
+                                       [&](const Function& f) { return f.name == name.text; });
     if (function == functions.end()) {
       std::vector<std::string> known;
       known.reserve(functions.size());
@@ -292,20 +321,24 @@ class RuleCompiler {
     std::vector<Value> values;
     do {
       values.push_back(parse_or());
-      // min and max of many are taken two at a time, which keeps memory and steps small.
-      if (function->most == 16 && values.size() == 2 && is(","))
+      // min and max of many are reduced two at a time, which keeps memory and steps small.
+      if (function->max == 16 && values.size() == 2 && is(","))
         values = {emit(function->operation, {values[0], values[1]})};
-      else if (function->most == 16 && values.size() == 2)
+      else if (function->max == 16 && values.size() == 2)
         break;
     } while (accept(","));
     if (!is(")")) fail(token_.offset, "unexpected " + quoted(token_), "\",\" or \")\"");
     const int count = static_cast<int>(values.size());
-    const bool fits = count >= function->least && count <= function->most && !(function->operation == Operation::clip && count == 2);
-    if (!fits) fail(name.offset, fmt::format("{} with {} value{}", name.text, count, count == 1 ? "" : "s"), call_form(function->name));
+    const bool fits = count >= function->min && count <= function->max &&
+                      !(function->operation == Operation::clip && count == 2);
+    if (!fits)
+      fail(name.offset, fmt::format("{} with {} value{}", name.text, count, count == 1 ? "" : "s"),
+           call_form(function->name));
     next();
     switch (count) {
       case 1:
-        if (function->operation == Operation::clip) return emit(Operation::clip, {values[0], constant(0.0), constant(1.0)});
+        if (function->operation == Operation::clip)
+          return emit(Operation::clip, {values[0], constant(0.0), constant(1.0)});
         return emit(function->operation, {values[0]});
       case 2:
         return emit(function->operation, {values[0], values[1]});
@@ -324,9 +357,12 @@ class RuleCompiler {
     return fmt::format("{}(x)", name);
   }
 
-  [[noreturn]] void fail_unknown(const Token& token, std::string_view what, const std::vector<std::string>& known) const {
+  [[noreturn]] void fail_unknown(const Token& token, std::string_view what,
+                                 const std::vector<std::string>& known) const {
     const std::string near = nearest_word(token.text, known);
-    fail(token.offset, fmt::format("unknown {} \"{}\"{}", what, token.text, near.empty() ? "" : "; did you mean \"" + near + "\"?"),
+    fail(token.offset,
+         fmt::format("unknown {} \"{}\"{}", what, token.text,
+                     near.empty() ? "" : "; did you mean \"" + near + "\"?"),
          fmt::format("{}", fmt::join(known, ", ")));
   }
 
@@ -335,7 +371,8 @@ class RuleCompiler {
    public:
     explicit Depth(RuleCompiler& compiler) : compiler_(compiler) {
       if (++compiler_.depth_ > deepest_nesting)
-        compiler_.fail(compiler_.token_.offset, "an expression nested too deeply", fmt::format("at most {} levels", deepest_nesting / 2));
+        compiler_.fail(compiler_.token_.offset, "expression nested too deeply",
+                       fmt::format("at most {} levels", deepest_nesting / 2));
     }
     ~Depth() { --compiler_.depth_; }
     Depth(const Depth&) = delete;
@@ -349,7 +386,7 @@ class RuleCompiler {
   const std::string& text_;
   const RuleNames& names_;
   const std::string& where_;
-  ConfigPlace place_;
+  ConfigPosition position_;
   std::vector<float> constants_;
   Token token_;
   std::size_t at_ = 0;
@@ -357,8 +394,9 @@ class RuleCompiler {
   int top_ = 0;
 };
 
-RuleExpression::RuleExpression(const std::string& text, const RuleNames& names, const std::string& where, ConfigPlace place) {
-  RuleCompiler(*this, text, names, where, place).compile();
+RuleExpression::RuleExpression(const std::string& text, const RuleNames& names,
+                               const std::string& where, ConfigPosition position) {
+  RuleCompiler(*this, text, names, where, position).compile();
 }
 
 }  // namespace belvedere

@@ -21,9 +21,10 @@ using namespace class_rules;
 
 namespace {
 
-// Counted from the raster's first column, so that their rounding hangs on no rectangle.
+// Counted from the raster's first column, so that rounding does not depend on the rectangle.
 NoiseColumns plan_noise(const GeoTransform& transform, const PixelRect& cells, double sigma_m) {
-  NoiseColumns plan = plan_noise_columns(transform.to_crs(0.0, 0.0).x, transform.cell_x, cells.x1, sigma_m);
+  NoiseColumns plan =
+      plan_noise_columns(transform.to_crs(0.0, 0.0).x, transform.cell_x, cells.x1, sigma_m);
   plan.columns.erase(plan.columns.begin(), plan.columns.begin() + cells.x0);
   const int skipped = plan.columns.front().first;
   for (NoiseColumns::Column& column : plan.columns) column.first -= skipped;
@@ -34,7 +35,8 @@ NoiseColumns plan_noise(const GeoTransform& transform, const PixelRect& cells, d
 
 std::size_t first_noise_slot() {
   const std::vector<GroundVariable>& table = ground_variables();
-  const auto first = std::find_if(table.begin(), table.end(), [](const GroundVariable& row) { return row.noise_m > 0.0; });
+  const auto first = std::find_if(table.begin(), table.end(),
+                                  [](const GroundVariable& row) { return row.noise_m > 0.0; });
   return static_cast<std::size_t>(first - table.begin());
 }
 
@@ -47,9 +49,11 @@ std::vector<bool> RuleProgram::needs_of(std::size_t from, std::size_t to) const 
   return all;
 }
 
-RuleProgram compile_expressions(const std::vector<std::string>& variables, const NamedNumbers& parameters,
-                                const std::vector<std::pair<std::string, std::string>>& terms, const std::vector<RuleCondition>& conditions,
-                                const std::string& where, const RulePlaces& places) {
+RuleProgram compile_expressions(const std::vector<std::string>& variables,
+                                const NamedNumbers& parameters,
+                                const std::vector<std::pair<std::string, std::string>>& terms,
+                                const std::vector<RuleCondition>& conditions,
+                                const std::string& where, const RulePlaces& positions) {
   const std::size_t slots = variables.size() + terms.size();
   RuleProgram program;
   RuleNames names{variables, parameters};
@@ -64,11 +68,14 @@ RuleProgram compile_expressions(const std::vector<std::string>& variables, const
     }
     return needs;
   };
-  const auto compile_one = [&](const std::string& text, const std::string& what, const std::vector<ConfigPlace>& from, std::size_t i) {
-    return from.empty() ? RuleExpression(text, names, where + ", " + what, {}) : RuleExpression(text, names, where, from[i]);
+  const auto compile_one = [&](const std::string& text, const std::string& what,
+                               const std::vector<ConfigPosition>& from, std::size_t i) {
+    return from.empty() ? RuleExpression(text, names, where + ", " + what, {})
+                        : RuleExpression(text, names, where, from[i]);
   };
   for (std::size_t i = 0; i < terms.size(); ++i) {
-    program.terms.push_back(compile_one(terms[i].second, "term " + terms[i].first, places.terms, i));
+    program.terms.push_back(
+        compile_one(terms[i].second, "term " + terms[i].first, positions.terms, i));
     program.term_needs.push_back(needs_of(program.terms.back()));
     names.variables.push_back(terms[i].first);
   }
@@ -76,37 +83,47 @@ RuleProgram compile_expressions(const std::vector<std::string>& variables, const
     program.conditions.emplace_back();
     program.needs.emplace_back(slots, false);
     if (conditions[i].text.empty()) continue;
-    program.conditions.back() = compile_one(conditions[i].text, conditions[i].what, places.conditions, i);
+    program.conditions.back() =
+        compile_one(conditions[i].text, conditions[i].what, positions.conditions, i);
     program.needs.back() = needs_of(*program.conditions.back());
   }
   return program;
 }
 
-RuleProgram compile_rules(const ClassRules& rules, const NamedNumbers& parameters, const std::string& where, const RulePlaces& places) {
+RuleProgram compile_rules(const ClassRules& rules, const NamedNumbers& parameters,
+                          const std::string& where, const RulePlaces& positions) {
   const std::vector<std::string>& variables = variable_names();
   std::vector<RuleCondition> conditions;
   for (const ClassRules::Layer& layer : rules.layers)
-    conditions.push_back({layer.when, fmt::format("layer {} ({})", conditions.size() + 1, class_name(layer.painted_as))});
+    conditions.push_back({layer.when, fmt::format("layer {} ({})", conditions.size() + 1,
+                                                  class_name(layer.painted_as))});
   conditions.push_back({rules.rivers, "rivers"});
-  RuleProgram program = compile_expressions(variables, parameters, rules.terms, conditions, where, places);
-  // Classes so far exist in layers only; and what makes the ice cannot know where the ice is.
+  RuleProgram program =
+      compile_expressions(variables, parameters, rules.terms, conditions, where, positions);
+  // Classes so far exist only in layers, and the ice balance cannot use the ice.
   for (std::size_t i = 0; i < rules.terms.size(); ++i) {
     const std::string& name = rules.terms[i].first;
     const auto forbid = [&](int from, int to, const std::string& reason) {
       for (auto v = static_cast<std::size_t>(from); v < static_cast<std::size_t>(to); ++v)
         if (program.term_needs[i][v])
-          throw Error(ErrorKind::usage, places.terms.empty() ? where + ", term " + name : config_where(where, places.terms[i]),
+          throw Error(ErrorKind::usage,
+                      positions.terms.empty() ? where + ", term " + name
+                                              : config_where(where, positions.terms[i]),
                       fmt::format("\"{}\" in {}", variables[v], reason), "");
     };
-    forbid(first_class, static_cast<int>(variables.size()), "a term; only layers know the class so far");
-    if (name == ice_balance_term) forbid(ice, below_rock + 1, "ice_balance, which is computed before it");
+    forbid(first_class, static_cast<int>(variables.size()),
+           "a term; the class so far is available only in layers");
+    if (name == ice_balance_term)
+      forbid(ice, below_rock + 1, "ice_balance, which is computed before it");
   }
   return program;
 }
 
-NamedNumbers with_settings(NamedNumbers parameters, const NamedNumbers& settings, const std::string& whose) {
+NamedNumbers with_settings(NamedNumbers parameters, const NamedNumbers& settings,
+                           const std::string& whose) {
   for (const auto& [name, value] : settings) {
-    const auto parameter = std::find_if(parameters.begin(), parameters.end(), [&, &key = name](const auto& p) { return p.first == key; });
+    const auto parameter = std::find_if(parameters.begin(), parameters.end(),
+                                        [&, &key = name](const auto& p) { return p.first == key; });
     if (parameter != parameters.end()) {
       parameter->second = value;
       continue;
@@ -115,8 +132,10 @@ NamedNumbers with_settings(NamedNumbers parameters, const NamedNumbers& settings
     for (const auto& p : parameters) known.push_back(p.first);
     const std::string near = nearest_word(name, known);
     throw Error(ErrorKind::usage, "setting " + name,
-                fmt::format("unknown parameter of {}{}", whose, near.empty() ? "" : "; did you mean \"" + near + "\"?"),
-                known.empty() ? "none: the file has no parameters" : fmt::format("{}", fmt::join(known, ", ")));
+                fmt::format("unknown parameter of {}{}", whose,
+                            near.empty() ? "" : "; did you mean \"" + near + "\"?"),
+                known.empty() ? "none: the file has no parameters"
+                              : fmt::format("{}", fmt::join(known, ", ")));
   }
   return parameters;
 }
@@ -125,37 +144,39 @@ ClassRules read_class_rules(const std::string& name_or_path) {
   const std::vector<std::string> built_in = embedded_names("layers");
   const bool is_file = name_or_path.ends_with(".toml");
   if (!is_file && std::find(built_in.begin(), built_in.end(), name_or_path) == built_in.end())
-    throw Error(ErrorKind::usage, name_or_path, "no class rules of that name",
+    throw Error(ErrorKind::usage, name_or_path, "unknown class rules",
                 fmt::format("{}, or a .toml file", fmt::join(built_in, ", ")));
   const std::string where = is_file ? name_or_path : "layers/" + name_or_path + ".toml";
-  const ConfigValue document = is_file ? read_config(name_or_path) : parse_config(embedded_file(where), where);
+  const ConfigValue document =
+      is_file ? read_config(name_or_path) : parse_config(embedded_file(where), where);
 
   ClassRules rules;
-  RulePlaces places;
+  RulePlaces positions;
   const LayersReader reader{where};
   const LayersDocument common = read_layers_document(reader, document, {"rivers"});
   rules.name = common.name.empty() ? name_or_path : common.name;
   rules.parameters = common.parameters;
   rules.terms = common.terms;
-  places.terms = common.term_places;
+  positions.terms = common.term_places;
   if (const ConfigValue* parameters = find(as_table(document, where), "parameters"))
     for (const ConfigEntry& entry : as_table(*parameters, where))
       if (names_old_town(entry.key))
-        reader.fail(entry.key_place, "towns are no parameters of rules any more: " + entry.key,
+        reader.fail(entry.key_position, "towns are not parameters of rules: " + entry.key,
                     "towns of the scene, with name, position and radius");
   for (const ConfigValue& value : layers_of(reader, document)) {
     const ConfigTable& layer = as_table(value, where);
     allow_only(layer, {"name", "class", "when"}, where);
-    const LandCoverClass painted_as = as_ground_class(reader.required(layer, "class", value.place, "a layer"), where);
-    const ConfigValue& when = reader.required(layer, "when", value.place, "a layer");
+    const LandCoverClass painted_as =
+        as_ground_class(reader.required(layer, "class", value.position, "a layer"), where);
+    const ConfigValue& when = reader.required(layer, "when", value.position, "a layer");
     rules.layers.push_back({painted_as, reader.expression(when)});
-    places.conditions.push_back(when.place);
+    positions.conditions.push_back(when.position);
   }
   if (const ConfigValue* rivers = find(as_table(document, where), "rivers")) {
     rules.rivers = reader.expression(*rivers);
-    places.conditions.push_back(rivers->place);
+    positions.conditions.push_back(rivers->position);
   }
-  compile_rules(rules, rules.parameters, where, places);
+  compile_rules(rules, rules.parameters, where, positions);
   return rules;
 }
 
@@ -172,8 +193,9 @@ bool names_old_town(const std::string& parameter) {
   return std::regex_match(parameter, old_town);
 }
 
-RuleGrids::RuleGrids(const RuleProgram& of, std::vector<bool> slots, const GeoTransform& at, const PixelRect& rectangle,
-                     std::uint64_t number, std::vector<const Grid<float>*> known, Fill filled)
+RuleGrids::RuleGrids(const RuleProgram& of, std::vector<bool> slots, const GeoTransform& at,
+                     const PixelRect& rectangle, std::uint64_t number,
+                     std::vector<const Grid<float>*> known, Fill filled)
     : program(of),
       needed(std::move(slots)),
       transform(at),
@@ -187,7 +209,8 @@ RuleGrids::RuleGrids(const RuleProgram& of, std::vector<bool> slots, const GeoTr
     noise.push_back(needed[v] ? plan_noise(transform, cells, table[v].noise_m) : NoiseColumns{});
 }
 
-RuleRows::RuleRows(const RuleGrids& grids) : of_(grids), rows_(grids.needed.size()), pointers_(grids.needed.size(), nullptr) {}
+RuleRows::RuleRows(const RuleGrids& grids)
+    : of_(grids), rows_(grids.needed.size()), pointers_(grids.needed.size(), nullptr) {}
 
 void RuleRows::start(int y) {
   static const std::size_t first_noise = first_noise_slot();
@@ -200,11 +223,12 @@ void RuleRows::start(int y) {
     std::vector<float>& out = rows_[v];
     out.resize(static_cast<std::size_t>(padded), 0.F);
     if (of_.grids[v] != nullptr) {
-      // Grids are read where they are, but for the last block, which must be whole.
+      // Grids are read in place, except the last block, which must be complete.
       const int last = padded - rule_block;
       std::copy_n(of_.grids[v]->row(y) + last, width - last, out.begin() + last);
     } else if (v - first_noise < of_.noise.size()) {
-      gaussian_noise_row(of_.noise[v - first_noise], stream_seed(of_.seed, Stream::class_noise, v - first_noise),
+      gaussian_noise_row(of_.noise[v - first_noise],
+                         stream_seed(of_.seed, Stream::class_noise, v - first_noise),
                          of_.transform.to_crs(of_.cells.x0, of_.cells.y0 + y).y, out.data());
     } else if (v < variables) {
       of_.fill(v, y, out.data());

@@ -8,13 +8,16 @@
 
 namespace belvedere {
 
-// Radius of a circle as large as a town of that many people: √(population · 170 m² / π). 170 m² of built-up ground a head is the mean of
-// the eight towns that scenes/karwendel.toml has by radius, from 100 (Mittenwald) to 220 (Hall in Tirol).
+// Radius of a circle with the area of a town of that population: √(population · 170 m² / π). 170 m²
+// of built-up ground per person is the mean of the eight towns that scenes/karwendel.toml has by
+// radius, from 100 (Mittenwald) to 220 (Hall in Tirol).
 double town_radius_m(double population);
 
-// Towns from a table of points (terrain/io/points.h) with columns name, and radius_m or population; a radius has the last word. `crs`: the
-// scene's. Rows that say neither, or 0, are left out, and a note says how many. Throws Error(usage) where neither column is there, and
-// for sizes that are no number or beyond largest_town_radius_m; else what read_points throws.
-std::vector<KnownTown> read_towns(const std::string& path, const std::string& crs, Progress& progress);
+// Towns from a table of points (terrain/io/points.h) with columns name, and radius_m or population;
+// radius_m takes precedence. `crs`: the scene's. Rows with neither, or 0, are left out, with a note
+// of their number. Throws Error(usage) if both columns are missing, and for sizes that are not
+// numbers or beyond largest_town_radius_m; else as read_points does.
+std::vector<KnownTown> read_towns(const std::string& path, const std::string& crs,
+                                  Progress& progress);
 
 }  // namespace belvedere

@@ -10,33 +10,36 @@
 
 namespace belvedere {
 
-// Where people may have settled: on the floors of valleys, where a side valley opens, beside the river and clear of it, low down and with
-// room around; on wide plains along rivers and edges; hamlets on sunny terraces near a floor. These are guesses, so they are fewer and
-// smaller than what a map would show, and there are none where the land feeds nobody.
+// Inferred settlements: on valley floors, at the mouths of side valleys, beside rivers but not in
+// them, low and with space around; on wide plains along rivers and edges; hamlets on sunny terraces
+// near a floor. They are estimates, therefore fewer and smaller than on a map, and there are none
+// where the land is unsuitable for agriculture.
 struct TownSite {
-  glm::dvec2 place{0.0};   // scene CRS, m
-  double radius_m = 0.0;   // half the width across the street
-  double stretch = 1.0;    // length along the street over the width, 1…3
-  double along_rad = 0.0;  // the street's direction, counterclockwise from east
-  bool on_floor = true;    // else a hamlet on a slope
+  glm::dvec2 position{0.0};  // scene CRS, m
+  double radius_m = 0.0;     // half the width across the street
+  double stretch = 1.0;      // length along the street over the width, 1…3
+  double along_rad = 0.0;    // the street's direction, counterclockwise from east
+  bool on_floor = true;      // else a hamlet on a slope
 };
 
 struct KnownTown {
-  glm::dvec2 place{0.0};  // scene CRS, m
-  double radius_m = 0.0;  // of a circle as large as the built-up area, up to largest_town_radius_m; 0: none
+  glm::dvec2 position{0.0};  // scene CRS, m
+  double radius_m =
+      0.0;  // of a circle with the area of the town, up to largest_town_radius_m; 0: none
   std::string name = {};  // for messages
 };
 inline constexpr double largest_town_radius_m = 50000.0;  // larger than any city
 
 struct TownParameters {
-  double amount = 0.0;        // -1 none but those known, 0 some, 1 as dense as it gets
-  double guesses = 0.0;       // 0…1: places that nobody named are few and small, or as many and as large as in the Alps, plains and all
-  double highest_m = 1300.0;  // nobody lives higher
+  double amount = 0.0;    // -1 only known ones, 0 some, 1 maximum density
+  double inferred = 0.0;  // 0…1: inferred settlements are few and small … as many and as large as
+                          // in the Alps, also on plains
+  double highest_m = 1300.0;  // altitude limit of settlements
   std::uint64_t seed = 1;
   std::vector<KnownTown> known;
 };
 
-// What sites are judged by; all of one size.
+// Grids from which sites are evaluated; all of one size.
 struct TownGround {
   const Grid<float>& altitude_m;
   const Grid<float>& floor;          // 0…1, membership of valley floors
@@ -44,19 +47,19 @@ struct TownGround {
   const Grid<float>& slope_deg;
   const Grid<float>& south;  // exposure, 1 faces south
   const GeoTransform& transform;
-  const Grid<float>* living = nullptr;  // 0…1, how surely people can live of the land; null: everywhere
+  const Grid<float>* suitability = nullptr;  // agricultural suitability, 0…1; null: 1 everywhere
 };
 
-// How surely people live of the land, 0…1, by the share of the water that plants could use which they get, 0…1, and the mean temperature of
-// the year, °C: not in steppe and desert, and not where hardly anything ripens.
-float living_of_land(float moisture, float temperature_c);
+// Agricultural suitability, 0…1, from the ratio of available water to the demand of plants, 0…1,
+// and the annual mean temperature, °C: 0 in steppe and desert, and where hardly anything ripens.
+float agricultural_suitability(float moisture, float temperature_c);
 
-// The sites, known ones first, then the best place first; a known town keeps others at a distance. They depend on the whole map: a part of
-// it may settle elsewhere.
+// The sites, known ones first, then by quality; a known town keeps others at a distance. They
+// depend on the whole map: a part of it may have other sites.
 std::vector<TownSite> find_town_sites(const TownGround& ground, const TownParameters& parameters);
 
-// How deep each cell lies in a town: 1 in its middle, 0 at its edge, down to -4 four radii outside. Towns that are linked by an open way
-// reach out along it.
+// Depth of each cell in a town: 1 at its centre, 0 at its edge, down to -4 four radii outside.
+// Linked towns extend along the road between them.
 Grid<float> town_field(const std::vector<TownSite>& sites, const TownGround& ground);
 
 }  // namespace belvedere

@@ -12,8 +12,9 @@
 namespace belvedere {
 namespace {
 
-// Tangents at the knots of a piecewise cubic that is monotone wherever the values are: weighted harmonic means of the slopes on both sides
-// (Fritsch & Butland 1984), zero at extrema; at the ends the three-point formula, limited likewise.
+// Tangents at the knots of a piecewise cubic that is monotone wherever the values are: weighted
+// harmonic means of the slopes on both sides (Fritsch & Butland 1984), zero at extrema; at the ends
+// the three-point formula, limited likewise.
 std::vector<double> monotone_tangents(const std::vector<double>& x, const std::vector<double>& y) {
   const std::size_t n = x.size();
   std::vector<double> run(n - 1);
@@ -40,7 +41,8 @@ std::vector<double> monotone_tangents(const std::vector<double>& x, const std::v
   return tangent;
 }
 
-// Coefficients of t², t³ of the cubic that leaves y0 with tangent m0 and comes to y1 with m1 after `run`.
+// Coefficients of t², t³ of the cubic that starts at y0 with tangent m0 and reaches y1 with m1
+// after `run`.
 struct Cubic {
   double square, cube;
 };
@@ -54,16 +56,22 @@ void check_points(const BendCurve& curve) {
     throw Error(ErrorKind::usage, fmt::format("points.{}", i), found, allowed);
   };
   if (curve.radius_m > 0.0 || curve.far_amount_per_m > 0.0)
-    refuse(0, "control points beside radius_m or far_amount_per_m", "control points, or the parabola");
-  if (curve.points.size() == 1) refuse(0, "a single control point", "two or more");
+    refuse(0, "control points together with radius_m or far_amount_per_m",
+           "either control points or the parabola");
+  if (curve.points.size() == 1) refuse(0, "a single control point", "at least two");
   const bool drops = curve.points.front().drop_m.has_value();
   for (std::size_t i = 0; i < curve.points.size(); ++i) {
     const BendPoint& point = curve.points[i];
     if (point.drop_m.has_value() == point.inclination_deg.has_value())
-      refuse(i, point.drop_m ? "drop_m and inclination_deg" : "neither drop_m nor inclination_deg", "one of the two");
-    if (point.drop_m.has_value() != drops) refuse(i, "drops and inclinations in one curve", "the same kind for all points");
+      refuse(
+          i,
+          point.drop_m ? "both drop_m and inclination_deg" : "neither drop_m nor inclination_deg",
+          "exactly one of the two");
+    if (point.drop_m.has_value() != drops)
+      refuse(i, "drops and inclinations in one curve", "the same kind for all points");
     if (i > 0 && !(point.distance_m - curve.points[i - 1].distance_m >= 1.0))
-      refuse(i, fmt::format("{} m after {} m", point.distance_m, curve.points[i - 1].distance_m), "distances that grow, by 1 m and more");
+      refuse(i, fmt::format("{} m after {} m", point.distance_m, curve.points[i - 1].distance_m),
+             "distances in ascending order, at least 1 m apart");
   }
 }
 
@@ -93,7 +101,7 @@ void BendProfile::join_drops(const std::vector<BendPoint>& points) {
 
 void BendProfile::join_inclinations(const std::vector<BendPoint>& points) {
   std::vector<double> x;
-  std::vector<double> y;  // of drop', which is positive where the ground turns away
+  std::vector<double> y;  // of drop', which is positive where the ground slopes away
   for (const BendPoint& point : points) {
     x.push_back(point.distance_m);
     y.push_back(-exact::tan(to_radians(*point.inclination_deg)));
@@ -112,27 +120,27 @@ void BendProfile::join_inclinations(const std::vector<BendPoint>& points) {
   for (Piece& piece : pieces_) piece.drop[0] -= highest;
 }
 
-// The least drop between the first and the last point: at one of them, or where a piece is level. Slopes are monotone in each piece, so
-// halving finds that place.
+// The minimum drop between the first and the last point: at one of them, or where a piece is level.
+// Slopes are monotone in each piece, so bisection finds it.
 double BendProfile::highest_drop() const {
-  double least = std::min(pieces_.front().drop[0], pieces_.back().drop[0]);
+  double min = std::min(pieces_.front().drop[0], pieces_.back().drop[0]);
   for (std::size_t k = 1; k + 1 < pieces_.size(); ++k) {
     double low = pieces_[k].from;
     double high = pieces_[k + 1].from;
-    least = std::min(least, pieces_[k].drop[0]);
+    min = std::min(min, pieces_[k].drop[0]);
     if (slope(low) * -pieces_[k + 1].drop[1] >= 0.0) continue;
     const bool rising = slope(low) > 0.0;
     for (int halving = 0; halving < 60; ++halving) {
-      const double middle = 0.5 * (low + high);
-      ((slope(middle) > 0.0) == rising ? low : high) = middle;
+      const double centre = 0.5 * (low + high);
+      ((slope(centre) > 0.0) == rising ? low : high) = centre;
     }
-    least = std::min(least, drop_m(low));
+    min = std::min(min, drop_m(low));
   }
-  return least;
+  return min;
 }
 
 const BendProfile::Piece& BendProfile::piece(double distance_m) const {
-  // Pieces 0 and 1 begin at the same point: 0 reaches back from it.
+  // Pieces 0 and 1 start at the same point: 0 extends back from it.
   std::size_t k = 0;
   while (k + 1 < pieces_.size() && distance_m >= pieces_[k + 1].from) ++k;
   return pieces_[k];
@@ -164,7 +172,8 @@ double BendProfile::slope(double distance_m) const {
   }
   double fall = 0.0;
   if (curve_.radius_m > 0.0) fall += (distance_m - curve_.crest_m) / curve_.radius_m;
-  if (distance_m > curve_.far_from_m) fall += 2.0 * curve_.far_amount_per_m * (distance_m - curve_.far_from_m);
+  if (distance_m > curve_.far_from_m)
+    fall += 2.0 * curve_.far_amount_per_m * (distance_m - curve_.far_from_m);
   return -fall;
 }
 

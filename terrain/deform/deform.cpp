@@ -13,9 +13,11 @@ namespace belvedere {
 namespace {
 
 constexpr double earth_radius_m = 6371.0e3;
-constexpr double summit_ramp_m = 200.0;  // height above its base over which a summit's factor comes in
+constexpr double summit_ramp_m =
+    200.0;  // height above its base over which a summit's factor is blended in
 
-// 0 up to 0, h itself from the ramp's end on, smooth between: the cubic that leaves with tangent 0 and arrives with 1.
+// 0 up to 0, h itself from the ramp's end on, smooth between: the cubic that starts with tangent 0
+// and ends with 1.
 double soft_height(double h) {
   if (h <= 0.0) return 0.0;
   if (h >= summit_ramp_m) return h;
@@ -26,7 +28,10 @@ double soft_height(double h) {
 }  // namespace
 
 Deformation::Deformation(const DeformParameters& parameters, glm::dvec2 viewer_xy)
-    : parameters_(parameters), viewer_xy_(viewer_xy), bend_(parameters.bend), handles_(parameters.handles) {}
+    : parameters_(parameters),
+      viewer_xy_(viewer_xy),
+      bend_(parameters.bend),
+      handles_(parameters.handles) {}
 
 double Deformation::distance_m(glm::dvec3 point) const {
   const double east = point.x - viewer_xy_.x;
@@ -37,7 +42,7 @@ double Deformation::distance_m(glm::dvec3 point) const {
 double Deformation::drop_m(double distance_m) const {
   double drop = bend_.drop_m(distance_m);
   if (parameters_.earth_curvature) {
-    // A ray bent down by refraction sees an earth whose radius is larger by 1 / (1 - k).
+    // A ray bent down by refraction corresponds to an earth whose radius is larger by 1 / (1 - k).
     drop += distance_m * distance_m * (1.0 - parameters_.refraction) / (2.0 * earth_radius_m);
   }
   return drop;
@@ -45,17 +50,19 @@ double Deformation::drop_m(double distance_m) const {
 
 double Deformation::exaggeration(double distance_m) const {
   const double near = parameters_.exaggeration;
-  if (!parameters_.background_exaggeration || distance_m <= parameters_.foreground_to_m) return near;
+  if (!parameters_.background_exaggeration || distance_m <= parameters_.foreground_to_m)
+    return near;
   const double far = *parameters_.background_exaggeration;
   if (distance_m >= parameters_.background_from_m) return far;
-  return near + (far - near) * smoothstep(parameters_.foreground_to_m, parameters_.background_from_m, distance_m);
+  return near + (far - near) * smoothstep(parameters_.foreground_to_m,
+                                          parameters_.background_from_m, distance_m);
 }
 
 double Deformation::raised_by_summits_m(glm::dvec3 point) const {
   double raised = 0.0;
   for (const SummitExaggeration& summit : parameters_.summits) {
-    const double east = point.x - summit.center.x;
-    const double north = point.y - summit.center.y;
+    const double east = point.x - summit.centre.x;
+    const double north = point.y - summit.centre.y;
     const double distance2 = east * east + north * north;
     if (distance2 >= summit.radius_m * summit.radius_m) continue;
     const double t = std::sqrt(distance2) / summit.radius_m;
@@ -68,12 +75,13 @@ double Deformation::raised_by_summits_m(glm::dvec3 point) const {
 glm::dvec3 Deformation::rearranged(glm::dvec3 point) const {
   const double raised = parameters_.summits.empty() ? 0.0 : raised_by_summits_m(point);
   if (handles_.is_identity()) return {point.x, point.y, point.z + raised};
-  const glm::dvec2 place(point);
+  const glm::dvec2 position(point);
   const glm::dvec2 low = handles_.lowest();
   const glm::dvec2 high = handles_.highest();
-  if (place.x < low.x || place.y < low.y || place.x > high.x || place.y > high.y) return {place, point.z + raised};
-  const HandleField::Moved moved = handles_.move(place);
-  return {moved.place, point.z + raised + moved.raise_m};
+  if (position.x < low.x || position.y < low.y || position.x > high.x || position.y > high.y)
+    return {position, point.z + raised};
+  const HandleField::Moved moved = handles_.move(position);
+  return {moved.position, point.z + raised + moved.raise_m};
 }
 
 glm::dvec3 Deformation::unbent(glm::dvec3 point) const {
@@ -92,11 +100,13 @@ glm::dvec3 Deformation::point(glm::dvec3 point) const {
 glm::dmat3 Deformation::shape_jacobian(glm::dvec3 point) const {
   const double e = exaggeration(distance_m(rearranged(point)));
   glm::dmat3 jacobian;
-  constexpr double step_m = 1.0;  // what is asked for is smooth over hundreds of metres, and double keeps nanometres
+  constexpr double step_m =
+      1.0;  // the functions are smooth over hundreds of metres, and double keeps nanometres
   for (int axis = 0; axis < 3; ++axis) {
     glm::dvec3 step(0.0);
     step[axis] = step_m;
-    const glm::dvec3 change = (rearranged(point + step) - rearranged(point - step)) / (2.0 * step_m);
+    const glm::dvec3 change =
+        (rearranged(point + step) - rearranged(point - step)) / (2.0 * step_m);
     jacobian[axis] = {change.x, change.y, e * change.z};
   }
   return jacobian;
@@ -104,20 +114,22 @@ glm::dmat3 Deformation::shape_jacobian(glm::dvec3 point) const {
 
 std::optional<glm::dvec2> Deformation::source_of(glm::dvec2 moved) const {
   if (handles_.is_identity()) return moved;
-  // From where the place is now, and from where each handle would have brought it: a moved core lies far from where it came from.
+  // Start from the current position and from the inverse of each handle: a moved core is far from
+  // its origin.
   std::vector<glm::dvec2> starts = {moved};
   for (const DeformHandle& handle : handles_.handles()) {
     starts.push_back(moved - handle.move_m);
-    starts.push_back(handle.center);
+    starts.push_back(handle.centre);
   }
   constexpr double step_m = 0.5;
   constexpr double close_m = 1e-3;
   for (glm::dvec2 at : starts) {
     for (int round = 0; round < 40; ++round) {
-      const glm::dvec2 error = handles_.move(at).place - moved;
+      const glm::dvec2 error = handles_.move(at).position - moved;
       if (glm::length(error) < close_m) return at;
       const auto change = [&](glm::dvec2 step) {
-        return (handles_.move(at + step).place - handles_.move(at - step).place) / (2.0 * step_m);
+        return (handles_.move(at + step).position - handles_.move(at - step).position) /
+               (2.0 * step_m);
       };
       const glm::dmat2 slope(change({step_m, 0.0}), change({0.0, step_m}));
       const double det = glm::determinant(slope);
@@ -129,16 +141,21 @@ std::optional<glm::dvec2> Deformation::source_of(glm::dvec2 moved) const {
 }
 
 bool Deformation::is_local() const {
-  return parameters_.background_exaggeration.has_value() || !parameters_.summits.empty() || !handles_.is_identity();
+  return parameters_.background_exaggeration.has_value() || !parameters_.summits.empty() ||
+         !handles_.is_identity();
 }
 
-double bend_drop_m(const DeformParameters& parameters, double distance_m) { return Deformation(parameters, {0.0, 0.0}).drop_m(distance_m); }
+double bend_drop_m(const DeformParameters& parameters, double distance_m) {
+  return Deformation(parameters, {0.0, 0.0}).drop_m(distance_m);
+}
 
-glm::dvec3 deform_point(glm::dvec3 point, glm::dvec2 viewer_xy, const DeformParameters& parameters) {
+glm::dvec3 deform_point(glm::dvec3 point, glm::dvec2 viewer_xy,
+                        const DeformParameters& parameters) {
   return Deformation(parameters, viewer_xy).point(point);
 }
 
-DeformedSurface deform(const Grid<float>& altitude_m, const GeoTransform& transform, glm::dvec3 origin, const Deformation& deformation) {
+DeformedSurface deform(const Grid<float>& altitude_m, const GeoTransform& transform,
+                       glm::dvec3 origin, const Deformation& deformation) {
   DeformedSurface surface{Grid<glm::vec3>(altitude_m.width(), altitude_m.height()), origin, {}};
   parallel_rows(altitude_m.height(), [&](int y) {
     for (int x = 0; x < altitude_m.width(); ++x) {
@@ -149,7 +166,8 @@ DeformedSurface deform(const Grid<float>& altitude_m, const GeoTransform& transf
   return surface;
 }
 
-DeformedSurface deform(const Grid<float>& altitude_m, const GeoTransform& transform, glm::dvec2 viewer_xy, glm::dvec3 origin,
+DeformedSurface deform(const Grid<float>& altitude_m, const GeoTransform& transform,
+                       glm::dvec2 viewer_xy, glm::dvec3 origin,
                        const DeformParameters& parameters) {
   return deform(altitude_m, transform, origin, Deformation(parameters, viewer_xy));
 }
@@ -157,7 +175,8 @@ DeformedSurface deform(const Grid<float>& altitude_m, const GeoTransform& transf
 void join_window(SurfaceWindow& window, const DeformedSurface& coarser) {
   const PixelRect& part = window.part;
   const auto join = [&](int x, int y) {
-    window.surface.vertices_m(part.x0 + x, part.y0 + y) = coarser.vertices_m(window.replaces.x0 + x / 2, window.replaces.y0 + y / 2);
+    window.surface.vertices_m(part.x0 + x, part.y0 + y) =
+        coarser.vertices_m(window.replaces.x0 + x / 2, window.replaces.y0 + y / 2);
   };
   for (int x = 0; x < part.width(); ++x) join(x, 0), join(x, part.height() - 1);
   for (int y = 0; y < part.height(); ++y) join(0, y), join(part.width() - 1, y);

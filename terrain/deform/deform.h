@@ -14,55 +14,64 @@
 
 namespace belvedere {
 
-// A summit that is exaggerated more, or less, than the ground around it.
+// A summit with more or less exaggeration than the ground around it.
 struct SummitExaggeration {
-  glm::dvec2 center{0.0};    // undeformed place, CRS
+  glm::dvec2 centre{0.0};    // undeformed position, CRS
   double radius_m = 5000.0;  // where its effect ends, > 0
-  double factor = 1.3;       // 0.3…5, at the centre; falls to 1 at the radius by the quintic smoothstep, so without a step or a kink
-  double base_m = 0.0;       // altitude that keeps its height; from 200 m above it the factor holds in full, below nothing changes
+  double factor = 1.3;  // 0.3…5, at the centre; falls to 1 at the radius by the quintic smoothstep,
+                        // without a step or kink
+  double base_m = 0.0;  // altitude that keeps its height; from 200 m above it the full factor
+                        // applies, below it none
 };
 
-// What happens to a point (x, y, altitude z), in this order; d is the horizontal distance from the viewer to its place after step 1:
+// What happens to a point (x, y, altitude z), in this order; d is the horizontal distance from the
+// viewer to its position after step 1:
 //   1. handles move it in plan and raise it;
 //   2. summits: z += (factor - 1) share(distance) · (z - base);
 //   3. exaggeration: z = base + e(d) (z - base);
 //   4. bend and earth curvature: z -= drop(d).
 struct DeformParameters {
-  double exaggeration = 1.0;  // 0.1…10, of all altitudes; where a background is given, up to foreground_to_m
+  double exaggeration =
+      1.0;  // 0.1…10, of all altitudes; if a background is given, up to foreground_to_m
   BendCurve bend;
-  bool earth_curvature = false;                   // with refraction: z -= d² (1 - k) / (2 · 6371 km), not exaggerated
-  double refraction = 0.13;                       // k, 0…0.5
-  std::optional<double> background_exaggeration;  // 0.1…10, from background_from_m on; between the two smoothstep
+  bool earth_curvature =
+      false;                 // with refraction: z -= d² (1 - k) / (2 · 6371 km), not exaggerated
+  double refraction = 0.13;  // k, 0…0.5
+  std::optional<double>
+      background_exaggeration;  // 0.1…10, from background_from_m on; between the two smoothstep
   double foreground_to_m = 32000.0;
   double background_from_m = 90000.0;
-  double exaggeration_base_m = 0.0;  // altitude that no exaggeration moves, -12000…9000
+  double exaggeration_base_m = 0.0;  // altitude that the exaggeration does not move, -12000…9000
   std::vector<SummitExaggeration> summits;
   std::vector<DeformHandle> handles;
 };
 
-// A deformation made ready for one viewer. Immutable; every call is safe from any thread. A vertex, an eye's ground, a label and a search
-// all ask the same functions, so they agree to the bit.
+// A deformation prepared for one viewer. Immutable and thread-safe. Vertices, the ground below the
+// eye, labels and searches all use the same functions, so they agree to the bit.
 class Deformation {
  public:
   Deformation() : Deformation({}, {0.0, 0.0}) {}
-  // viewer_xy: the eye in the DEM's CRS. Throws Error(usage) for a bend or handles that are none, as BendProfile and HandleField do.
+  // viewer_xy: the eye in the DEM's CRS. Throws Error(usage) for an invalid bend or handles, as
+  // BendProfile and HandleField do.
   Deformation(const DeformParameters& parameters, glm::dvec2 viewer_xy);
 
-  // x, y, altitude in; place in the deformed world out.
+  // From x, y, altitude to the position in the deformed world.
   glm::dvec3 point(glm::dvec3 point) const;
-  // Steps 1 to 3 alone: before the ground is bent.
+  // Steps 1 to 3 only: before bending.
   glm::dvec3 unbent(glm::dvec3 point) const;
-  // Steps 1 and 2 alone: the landscape rearranged, in its own metres.
+  // Steps 1 and 2 only: the deformed landscape in its own metres.
   glm::dvec3 rearranged(glm::dvec3 point) const;
-  // Drop of the ground at horizontal distance d ≥ 0, m (positive is down): bend and earth curvature.
+  // Drop of the ground at horizontal distance d ≥ 0, m (positive is down): bend and earth
+  // curvature.
   double drop_m(double distance_m) const;
   double exaggeration(double distance_m) const;
-  // Derivatives (columns: by x, y, z) of the ground's shape as light sees it: rearranged and exaggerated, but tilted neither by the bend
-  // nor by an exaggeration that changes with distance.
+  // Derivatives (columns: by x, y, z) of the ground's shape for lighting: moved and exaggerated,
+  // but tilted neither by the bend nor by an exaggeration that changes with distance.
   glm::dmat3 shape_jacobian(glm::dvec3 point) const;
-  // The undeformed place that handles bring to `moved`, where there is one; Newton's method, within a millimetre.
+  // The undeformed position that handles move to `moved`, if there is one; Newton's method, within
+  // a millimetre.
   std::optional<glm::dvec2> source_of(glm::dvec2 moved) const;
-  // Whether more than one exaggeration for all of the ground and a bend is asked for.
+  // Whether there is more than one exaggeration for all of the ground and a bend.
   bool is_local() const;
   const HandleField& handles() const { return handles_; }
   const DeformParameters& parameters() const { return parameters_; }
@@ -82,30 +91,36 @@ class Deformation {
 double bend_drop_m(const DeformParameters& parameters, double distance_m);
 glm::dvec3 deform_point(glm::dvec3 point, glm::dvec2 viewer_xy, const DeformParameters& parameters);
 
-// Vertices that moved in three dimensions; vertex (x, y) belongs to cell centre (x, y) of the DEM and so keeps its undeformed
-// place. Positions are relative to `origin`, subtracted in double before they become float.
+// Vertices displaced in three dimensions; vertex (x, y) belongs to cell centre (x, y) of the DEM,
+// which gives its undeformed position. Positions are relative to `origin`, subtracted in double
+// before conversion to float.
 struct SurfaceWindow;
 struct DeformedSurface {
   Grid<glm::vec3> vertices_m;
   glm::dvec3 origin;
-  std::vector<SurfaceWindow> windows;  // of finer cells; each lies inside the one before, the first inside this surface
+  std::vector<SurfaceWindow>
+      windows;  // of finer cells; each lies inside the one before, the first inside this surface
 };
 
-// A finer piece of a surface, in the place of cells of the one before it: post (x, y) of its part lies on post (x / 2, y / 2) there, where
-// both are even. Posts along the part's edge that the coarser side does not have are not met: a facet there goes on to the next one that
-// both have, so both sides share their edges to the bit and no ray slips between them.
+// A refined part of a surface that replaces cells of the coarser one: post (x, y) of its part lies
+// on post (x / 2, y / 2) there, if both are even. Along the part's edge, posts that the coarser
+// side lacks are skipped: a facet there extends to the next post that both have, so both sides
+// share their edges to the bit and no ray slips between them.
 struct SurfaceWindow {
-  DeformedSurface surface;  // without windows; posts around the part are for derivatives alone
-  PixelRect part;           // of its posts that is traced: an odd number of them either way, 5 or more
-  PixelRect replaces;       // posts of the surface before it that are the part's corners; the cells between them are not traced
+  DeformedSurface surface;  // without windows; posts around the part are only for derivatives
+  PixelRect part;           // of its posts that are traced: odd counts, at least 5
+  PixelRect replaces;  // posts of the coarser surface at the part's corners; the cells between them
+                       // are not traced
 };
 
-// Makes the posts along the part's edge those of the surface that it is laid into.
+// Sets the posts along the part's edge to those of the surface it replaces.
 void join_window(SurfaceWindow& window, const DeformedSurface& coarser);
 
-// Deformation::point of every vertex (which differs from it by the rounding to float alone). origin: usually the eye's place at altitude 0.
-DeformedSurface deform(const Grid<float>& altitude_m, const GeoTransform& transform, glm::dvec3 origin, const Deformation& deformation);
-DeformedSurface deform(const Grid<float>& altitude_m, const GeoTransform& transform, glm::dvec2 viewer_xy, glm::dvec3 origin,
-                       const DeformParameters& parameters);
+// Deformation::point of every vertex, rounded to float. origin: usually the eye's position at
+// altitude 0.
+DeformedSurface deform(const Grid<float>& altitude_m, const GeoTransform& transform,
+                       glm::dvec3 origin, const Deformation& deformation);
+DeformedSurface deform(const Grid<float>& altitude_m, const GeoTransform& transform,
+                       glm::dvec2 viewer_xy, glm::dvec3 origin, const DeformParameters& parameters);
 
 }  // namespace belvedere

@@ -12,24 +12,28 @@ namespace {
 
 double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
 
-// How far a place lies outside a handle's radius, or inside it: 0.
-double distance_from(const DeformHandle& handle, glm::dvec2 place) {
-  const double distance = glm::length(place - handle.center);
+// Distance of a position from a handle's disc; 0 inside.
+double distance_from(const DeformHandle& handle, glm::dvec2 position) {
+  const double distance = glm::length(position - handle.centre);
   return handle.radius_m > 0.0 ? distance / handle.radius_m : distance * 1e-9;
 }
 
 }  // namespace
 
-std::vector<Fold> find_folds(const Grid<float>& altitude_m, const GeoTransform& transform, const Deformation& deformation) {
-  if (deformation.handles().is_identity() || altitude_m.width() < 2 || altitude_m.height() < 2) return {};
+std::vector<Fold> find_folds(const Grid<float>& altitude_m, const GeoTransform& transform,
+                             const Deformation& deformation) {
+  if (deformation.handles().is_identity() || altitude_m.width() < 2 || altitude_m.height() < 2)
+    return {};
   const auto moved = [&](int x, int y) {
-    const glm::dvec3 place = deformation.rearranged({transform.to_crs(x, y), altitude_m(x, y)});
-    return glm::dvec2(place);
+    const glm::dvec3 position = deformation.rearranged({transform.to_crs(x, y), altitude_m(x, y)});
+    return glm::dvec2(position);
   };
-  // Cells that some handle reaches, and one more on each side.
+  // Cells within the radius of some handle, and one more on each side.
   const glm::dvec2 low = deformation.handles().lowest();
   const glm::dvec2 high = deformation.handles().highest();
-  const auto cell_of = [](double at, int count) { return static_cast<int>(std::clamp(at, 0.0, static_cast<double>(count - 1))); };
+  const auto cell_of = [](double at, int count) {
+    return static_cast<int>(std::clamp(at, 0.0, static_cast<double>(count - 1)));
+  };
   const glm::dvec2 first = transform.to_cell(low.x, high.y);
   const glm::dvec2 last = transform.to_cell(high.x, low.y);
   const int x0 = cell_of(first.x - 1.0, altitude_m.width());
@@ -47,9 +51,11 @@ std::vector<Fold> find_folds(const Grid<float>& altitude_m, const GeoTransform& 
       const glm::dvec2 ne = moved(x + 1, y);
       const glm::dvec2 se = moved(x + 1, y + 1);
       const auto add = [&](bool south_east, double at, glm::dvec2 sum) {
-        rows[static_cast<std::size_t>(row)].push_back({x, y, south_east, transform.to_crs(x + at, y + at), sum / 3.0});
+        rows[static_cast<std::size_t>(row)].push_back(
+            {x, y, south_east, transform.to_crs(x + at, y + at), sum / 3.0});
       };
-      // North is up in plan: (nw, sw, ne) and (se, ne, sw) run counter-clockwise as long as nothing is turned over.
+      // North is up in plan: (nw, sw, ne) and (se, ne, sw) run counter-clockwise as long as nothing
+      // is folded.
       if (!(cross(sw - nw, ne - nw) > 0.0)) add(false, 1.0 / 3.0, nw + sw + ne);
       if (!(cross(ne - se, sw - se) > 0.0)) add(true, 2.0 / 3.0, se + ne + sw);
       nw = ne;
@@ -61,24 +67,28 @@ std::vector<Fold> find_folds(const Grid<float>& altitude_m, const GeoTransform& 
   return folds;
 }
 
-std::vector<FoldSummary> summarize_folds(const std::vector<Fold>& folds, const std::vector<DeformHandle>& handles) {
+std::vector<FoldSummary> summarize_folds(const std::vector<Fold>& folds,
+                                         const std::vector<DeformHandle>& handles) {
   std::vector<std::vector<const Fold*>> of_handle(handles.size());
   for (const Fold& fold : folds) {
     std::size_t nearest = 0;
     for (std::size_t i = 1; i < handles.size(); ++i)
-      if (distance_from(handles[i], fold.place) < distance_from(handles[nearest], fold.place)) nearest = i;
+      if (distance_from(handles[i], fold.position) < distance_from(handles[nearest], fold.position))
+        nearest = i;
     if (!handles.empty()) of_handle[nearest].push_back(&fold);
   }
   std::vector<FoldSummary> summaries;
   for (std::size_t i = 0; i < handles.size(); ++i) {
     if (of_handle[i].empty()) continue;
     glm::dvec2 mean(0.0);
-    for (const Fold* fold : of_handle[i]) mean += fold->place / static_cast<double>(of_handle[i].size());
-    // The mean of a ring of folds lies where there is none.
-    const Fold* middle = *std::min_element(of_handle[i].begin(), of_handle[i].end(), [&](const Fold* a, const Fold* b) {
-      return glm::length(a->place - mean) < glm::length(b->place - mean);
-    });
-    summaries.push_back({i, of_handle[i].size(), middle->place});
+    for (const Fold* fold : of_handle[i])
+      mean += fold->position / static_cast<double>(of_handle[i].size());
+    // The mean of a ring of folds has no fold itself.
+    const Fold* centre = *std::min_element(
+        of_handle[i].begin(), of_handle[i].end(), [&](const Fold* a, const Fold* b) {
+          return glm::length(a->position - mean) < glm::length(b->position - mean);
+        });
+    summaries.push_back({i, of_handle[i].size(), centre->position});
   }
   return summaries;
 }

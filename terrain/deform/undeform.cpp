@@ -6,16 +6,21 @@ namespace belvedere {
 
 std::optional<glm::dvec3> undeform(const Deformation& deformation, glm::dvec3 deformed) {
   const DeformParameters& p = deformation.parameters();
-  // Exaggeration and bend hang on the place where handles have brought a point, which is where it is seen.
+  // Exaggeration and bend depend on the position after the handles.
   const glm::dvec2 from = glm::dvec2(deformed) - deformation.viewer_xy();
   const double distance_m = std::sqrt(from.x * from.x + from.y * from.y);
-  const double moved_z =
-      p.exaggeration_base_m + (deformed.z + deformation.drop_m(distance_m) - p.exaggeration_base_m) / deformation.exaggeration(distance_m);
-  if (p.summits.empty() && deformation.handles().is_identity()) return glm::dvec3(deformed.x, deformed.y, moved_z);
-  const std::optional<glm::dvec2> place = deformation.source_of(glm::dvec2(deformed));
-  if (!place) return std::nullopt;
-  // What handles and summits add hangs on the altitude alone now, and grows with it: secants.
-  const auto error = [&](double z) { return deformation.rearranged({place->x, place->y, z}).z - moved_z; };
+  const double moved_z = p.exaggeration_base_m +
+                         (deformed.z + deformation.drop_m(distance_m) - p.exaggeration_base_m) /
+                             deformation.exaggeration(distance_m);
+  if (p.summits.empty() && deformation.handles().is_identity())
+    return glm::dvec3(deformed.x, deformed.y, moved_z);
+  const std::optional<glm::dvec2> position = deformation.source_of(glm::dvec2(deformed));
+  if (!position) return std::nullopt;
+  // The height added by handles and summits now depends only on the altitude and grows with it:
+  // secant method.
+  const auto error = [&](double z) {
+    return deformation.rearranged({position->x, position->y, z}).z - moved_z;
+  };
   double z = moved_z;
   double off = error(z);
   double next = z - off;
@@ -29,7 +34,7 @@ std::optional<glm::dvec3> undeform(const Deformation& deformation, glm::dvec3 de
     off = next_off;
     next = z - step;
   }
-  return glm::dvec3(*place, z);
+  return glm::dvec3(*position, z);
 }
 
 }  // namespace belvedere

@@ -7,8 +7,9 @@
 
 namespace belvedere {
 
-// The point (x, y, altitude) that a deformation brings to `deformed`, where there is one: within a millimetre where the ground is raised
-// by handles and summits, else exact up to rounding. Along a line of sight it says what the true air around the line is.
+// Inverse of the deformation: the point (x, y, altitude) that it moves to `deformed`, if there is
+// one; within a millimetre where handles and summits raise the ground, else exact up to rounding.
+// Used to find the real air along a line of sight.
 std::optional<glm::dvec3> undeform(const Deformation& deformation, glm::dvec3 deformed);
 
 }  // namespace belvedere

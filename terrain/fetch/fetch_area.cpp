@@ -30,22 +30,28 @@ constexpr const char* cover_file = "land_cover.tif";
 constexpr const char* record_file = "fetched.toml";
 
 void check(const FetchParameters& parameters) {
-  const auto hold = [](const char* what, double value, double least, double most, const char* unit) {
-    if (!(value >= least && value <= most))
-      throw Error(ErrorKind::usage, what, fmt::format("{}", value), fmt::format("{} … {} {}", least, most, unit));
+  const auto hold = [](const char* what, double value, double min, double max, const char* unit) {
+    if (!(value >= min && value <= max))
+      throw Error(ErrorKind::usage, what, fmt::format("{}", value),
+                  fmt::format("{} … {} {}", min, max, unit));
   };
   const glm::dvec2 at = parameters.at_lonlat;
   if (std::abs(at.y) > 90.0 && std::abs(at.x) <= 90.0)
-    throw Error(ErrorKind::usage, "place", fmt::format("{},{}: a latitude of {}°", at.x, at.y, at.y), "longitude first, then latitude");
+    throw Error(ErrorKind::usage, "position",
+                fmt::format("{},{}: {} is not a latitude", at.x, at.y, at.y),
+                "longitude first, then latitude");
   hold("longitude", at.x, -180.0, 180.0, "°");
   hold("latitude", at.y, -90.0, 90.0, "°");
   hold("size", parameters.size_km.x, 1.0, 400.0, "km");
   hold("size", parameters.size_km.y, 1.0, 400.0, "km");
-  if (parameters.cell_m != 0.0) hold("cells of the elevation", parameters.cell_m, 1.0, 10000.0, "m");
-  if (parameters.cover_cell_m != 0.0) hold("cells of the land cover", parameters.cover_cell_m, 1.0, 10000.0, "m");
+  if (parameters.cell_m != 0.0)
+    hold("cell size of the elevation", parameters.cell_m, 1.0, 10000.0, "m");
+  if (parameters.cover_cell_m != 0.0)
+    hold("cell size of the land cover", parameters.cover_cell_m, 1.0, 10000.0, "m");
   if (!parameters.mirror.empty()) {
     if (!is_address(parameters.mirror))
-      throw Error(ErrorKind::usage, parameters.mirror, "is no address", "http://SERVER/FOLDER or https://…");
+      throw Error(ErrorKind::usage, parameters.mirror, "not a URL",
+                  "http://SERVER/FOLDER or https://…");
     check_address(parameters.mirror);
   }
 }
@@ -53,18 +59,23 @@ void check(const FetchParameters& parameters) {
 MapSource source_of_kind(const std::string& name, MapSourceKind kind) {
   MapSource source = read_map_source(name);
   if (source.kind != kind)
-    throw Error(ErrorKind::usage, name, kind == MapSourceKind::elevation ? "holds land cover" : "holds heights",
-                kind == MapSourceKind::elevation ? "a source of kind = \"elevation\"" : "a source of kind = \"land_cover\"");
+    throw Error(ErrorKind::usage, name,
+                kind == MapSourceKind::elevation ? "contains land cover" : "contains elevation",
+                kind == MapSourceKind::elevation ? "a source of kind = \"elevation\""
+                                                 : "a source of kind = \"land_cover\"");
   return source;
 }
 
-// A folder for what is made on the way, beside the results because they may be large; gone with the object.
+// A temporary folder next to the results, because its files may be large; removed with the object.
 class WorkPlace {
  public:
-  explicit WorkPlace(const std::string& folder) : path_(fs::path(folder) / fmt::format(".fetch-{}", ::getpid())) {
+  explicit WorkPlace(const std::string& folder)
+      : path_(fs::path(folder) / fmt::format(".fetch-{}", ::getpid())) {
     std::error_code problem;
     fs::create_directories(path_, problem);
-    if (problem) throw Error(ErrorKind::output, folder, "the folder cannot be made or written: " + problem.message());
+    if (problem)
+      throw Error(ErrorKind::output, folder,
+                  "cannot create or write the folder: " + problem.message());
   }
   ~WorkPlace() {
     std::error_code ignored;
@@ -79,18 +90,19 @@ class WorkPlace {
 };
 
 template <class T>
-std::vector<RasterSource> write_parts(const TileMosaic<T>& mosaic, const WorkPlace& place, const std::string& name) {
+std::vector<RasterSource> write_parts(const TileMosaic<T>& mosaic, const WorkPlace& position,
+                                      const std::string& name) {
   std::vector<RasterSource> sources;
   for (const Raster<T>& part : mosaic.parts) {
     RasterSource source;
-    source.path = place.file(fmt::format("{}{}.tif", name, sources.size()));
+    source.path = position.file(fmt::format("{}{}.tif", name, sources.size()));
     write_raster(source.path, part);
     sources.push_back(source);
   }
   return sources;
 }
 
-// Degrees around a frame and some cells more, at which its own look.
+// Degrees around a frame, and the cells needed around its edge for resampling.
 DegreeBox degrees_to_read(const RasterFrame& frame, const std::string& crs) {
   constexpr int more = 4;
   RasterFrame wider = frame;
@@ -101,27 +113,29 @@ DegreeBox degrees_to_read(const RasterFrame& frame, const std::string& crs) {
   return degrees_around(wider, crs);
 }
 
-// Heights of the frame. Where the source's cells change their width with latitude each part is resampled alone, with rows of its neighbour,
-// and gives the cells that lie in it.
-Raster<float> warp_parts(const TileMosaic<float>& mosaic, const RasterFrame& frame, const MapSource& source, const WorkPlace& place,
-                         Progress& progress) {
-  const std::vector<RasterSource> files = write_parts(mosaic, place, "elevation");
+// Heights of the frame. If the source's cell width changes with latitude, each part is resampled
+// separately, with rows of its neighbour, and fills the cells inside it.
+Raster<float> warp_parts(const TileMosaic<float>& mosaic, const RasterFrame& frame,
+                         const MapSource& source, const WorkPlace& position, Progress& progress) {
+  const std::vector<RasterSource> files = write_parts(mosaic, position, "elevation");
   Raster<float> out = warp_rasters({files[0]}, frame, progress);
   const PointTransform to_degrees(frame.crs, source.crs);
-  std::vector<glm::dvec2> places(static_cast<std::size_t>(frame.width));
+  std::vector<glm::dvec2> positions(static_cast<std::size_t>(frame.width));
   for (std::size_t part = 1; part < files.size(); ++part) {
     const Raster<float> further = warp_rasters({files[part]}, frame, progress);
     for (int y = 0; y < frame.height; ++y) {
-      for (int x = 0; x < frame.width; ++x) places[static_cast<std::size_t>(x)] = frame.transform.to_crs(x, y);
-      to_degrees.apply(places);
       for (int x = 0; x < frame.width; ++x)
-        if (places[static_cast<std::size_t>(x)].y < mosaic.south[part - 1]) out.cells(x, y) = further.cells(x, y);
+        positions[static_cast<std::size_t>(x)] = frame.transform.to_crs(x, y);
+      to_degrees.apply(positions);
+      for (int x = 0; x < frame.width; ++x)
+        if (positions[static_cast<std::size_t>(x)].y < mosaic.south[part - 1])
+          out.cells(x, y) = further.cells(x, y);
     }
   }
   return out;
 }
 
-// The day of the oldest of what was looked at, in UTC.
+// The day of the oldest response, in UTC.
 std::string day_of(const std::vector<FetchedTile>& tiles) {
   std::int64_t oldest = tiles.front().about.asked_unix_s;
   for (const FetchedTile& tile : tiles) oldest = std::min(oldest, tile.about.asked_unix_s);
@@ -129,24 +143,28 @@ std::string day_of(const std::vector<FetchedTile>& tiles) {
 }
 
 std::string list_tiles(const std::vector<FetchedTile>& tiles) {
-  constexpr std::size_t most_named = 12;
+  constexpr std::size_t max_named = 12;
   std::vector<std::string> names;
   for (const FetchedTile& tile : tiles)
     if (!tile.about.missing) names.push_back(tile.name);
-  const std::size_t more = names.size() > most_named ? names.size() - most_named : 0;
+  const std::size_t more = names.size() > max_named ? names.size() - max_named : 0;
   names.resize(names.size() - more);
-  return fmt::format("{}{}", fmt::join(names, ", "), more > 0 ? fmt::format(" and {} more", more) : "");
+  return fmt::format("{}{}", fmt::join(names, ", "),
+                     more > 0 ? fmt::format(" and {} more", more) : "");
 }
 
-FetchedMap describe_map(const MapSource& source, const RasterFrame& frame, std::vector<FetchedTile> tiles, const std::string& file,
+FetchedMap describe_map(const MapSource& source, const RasterFrame& frame,
+                        std::vector<FetchedTile> tiles, const std::string& file,
                         const std::string& folder, const FetchParameters& parameters) {
   FetchedMap map;
   map.file = file;
-  map.origin = fmt::format("{}{}, tiles {}; fetched {}", source.name, source.date.empty() ? "" : " (" + source.date + ")",
-                           list_tiles(tiles), day_of(tiles));
+  map.origin = fmt::format("{}{}, tiles {}; fetched {}", source.name,
+                           source.date.empty() ? "" : " (" + source.date + ")", list_tiles(tiles),
+                           day_of(tiles));
   map.licence = fmt::format("{}. {}", source.credit, source.licence);
-  map.get_from = fmt::format("belvedere fetch --at {},{} --size {}x{}{}", parameters.at_lonlat.x, parameters.at_lonlat.y,
-                             parameters.size_km.x, parameters.size_km.y, source.get_from.empty() ? "" : "; " + source.get_from);
+  map.get_from = fmt::format("belvedere fetch --at {},{} --size {}x{}{}", parameters.at_lonlat.x,
+                             parameters.at_lonlat.y, parameters.size_km.x, parameters.size_km.y,
+                             source.get_from.empty() ? "" : "; " + source.get_from);
   map.source = source;
   map.frame = frame;
   map.tiles = std::move(tiles);
@@ -154,9 +172,10 @@ FetchedMap describe_map(const MapSource& source, const RasterFrame& frame, std::
   return map;
 }
 
-// Cells that no tile covers are the sea where the ground is as low as that, or where no ground is known.
-void fill_sea(Grid<std::int32_t>& codes, const RasterFrame& frame, const MapSource& source, const std::vector<FetchedTile>& tiles,
-              const Raster<float>& ground, Progress& progress) {
+// Cells without a tile become sea if the ground there is at sea level or unknown.
+void fill_sea(Grid<std::int32_t>& codes, const RasterFrame& frame, const MapSource& source,
+              const std::vector<FetchedTile>& tiles, const Raster<float>& ground,
+              Progress& progress) {
   std::vector<MapTile> missing;
   for (const FetchedTile& tile : tiles)
     if (tile.about.missing) missing.push_back(tile.tile);
@@ -165,21 +184,24 @@ void fill_sea(Grid<std::int32_t>& codes, const RasterFrame& frame, const MapSour
   const PointTransform to_degrees(frame.crs, source.crs);
   const double around = std::round(360.0 / source.tile_deg.x);
   std::size_t dry = 0;
-  std::vector<glm::dvec2> places;
+  std::vector<glm::dvec2> positions;
   for (int y = 0; y < codes.height(); ++y) {
-    places.clear();
-    for (int x = 0; x < codes.width(); ++x) places.push_back(frame.transform.to_crs(x, y));
-    to_degrees.apply(places);
+    positions.clear();
+    for (int x = 0; x < codes.width(); ++x) positions.push_back(frame.transform.to_crs(x, y));
+    to_degrees.apply(positions);
     for (int x = 0; x < codes.width(); ++x) {
       if (codes(x, y) > 0) continue;
-      const glm::dvec2 p = places[static_cast<std::size_t>(x)];
+      const glm::dvec2 p = positions[static_cast<std::size_t>(x)];
       const int row = static_cast<int>(std::floor((source.origin_deg.y - p.y) / source.tile_deg.y));
       const double column = std::floor((p.x - source.origin_deg.x) / source.tile_deg.x);
-      const auto is_here = [&](MapTile tile) { return tile.row == row && std::remainder(tile.column - column, around) == 0.0; };
+      const auto is_here = [&](MapTile tile) {
+        return tile.row == row && std::remainder(tile.column - column, around) == 0.0;
+      };
       if (std::none_of(missing.begin(), missing.end(), is_here)) continue;
       const glm::dvec2 at = frame.transform.to_crs(x, y);
       const glm::dvec2 cell = ground.transform.to_cell(at.x, at.y);
-      const float altitude = ground.cells.clamped(static_cast<int>(std::lround(cell.x)), static_cast<int>(std::lround(cell.y)));
+      const float altitude = ground.cells.clamped(static_cast<int>(std::lround(cell.x)),
+                                                  static_cast<int>(std::lround(cell.y)));
       if (std::isfinite(altitude) && std::abs(altitude) > level_m)
         ++dry;
       else
@@ -187,32 +209,43 @@ void fill_sea(Grid<std::int32_t>& codes, const RasterFrame& frame, const MapSour
     }
   }
   if (dry > 0)
-    progress.note(fmt::format("{}: {} cells of ground above the sea lie in tiles that the service does not have; nothing is known of them",
-                              source.name, dry));
+    progress.note(
+        fmt::format("{}: {} cells above sea level are in tiles that the service does not have; "
+                    "their class is unknown",
+                    source.name, dry));
 }
 
-FetchedMap fetch_cover(const FetchParameters& parameters, const std::string& folder, const Raster<float>& ground, const WorkPlace& place,
-                       const RemoteErrand& errand) {
+FetchedMap fetch_cover(const FetchParameters& parameters, const std::string& folder,
+                       const Raster<float>& ground, const WorkPlace& position,
+                       const FetchContext& context) {
   const MapSource source = source_of_kind(parameters.land_cover, MapSourceKind::land_cover);
   double cell_m = parameters.cover_cell_m > 0.0 ? parameters.cover_cell_m : source.cell_m;
-  constexpr double most_cells = 64e6;
+  constexpr double max_cells = 64e6;
   const double area_m2 = 1e6 * parameters.size_km.x * parameters.size_km.y;
-  if (parameters.cover_cell_m == 0.0) cell_m *= std::max(1.0, std::ceil(std::sqrt(area_m2 / most_cells) / cell_m));
+  if (parameters.cover_cell_m == 0.0)
+    cell_m *= std::max(1.0, std::ceil(std::sqrt(area_m2 / max_cells) / cell_m));
   const RasterFrame frame = fetch_frame(parameters, cell_m);
-  const int step = std::max(1, static_cast<int>(std::lround(std::floor(cell_m / source.cell_m + 1e-6))));
-  const TileMosaic<std::uint8_t> mosaic = read_cover_tiles(source, degrees_around(frame, source.crs), step, parameters.mirror, errand);
-  Raster<std::int32_t> codes{Grid<std::int32_t>(frame.width, frame.height, -1), frame.transform, frame.crs};
-  if (!mosaic.parts.empty()) codes = warp_codes(write_parts(mosaic, place, "cover"), frame, errand.progress);
-  fill_sea(codes.cells, frame, source, mosaic.tiles, ground, errand.progress);
+  const int step =
+      std::max(1, static_cast<int>(std::lround(std::floor(cell_m / source.cell_m + 1e-6))));
+  const TileMosaic<std::uint8_t> mosaic =
+      read_cover_tiles(source, degrees_around(frame, source.crs), step, parameters.mirror, context);
+  Raster<std::int32_t> codes{Grid<std::int32_t>(frame.width, frame.height, -1), frame.transform,
+                             frame.crs};
+  if (!mosaic.parts.empty())
+    codes = warp_codes(write_parts(mosaic, position, "cover"), frame, context.progress);
+  fill_sea(codes.cells, frame, source, mosaic.tiles, ground, context.progress);
   ByteRasterRows file((fs::path(folder) / cover_file).string(),
-                      {.frame = frame, .bands = {{fmt::format("{} (legend {})", source.name, source.legend)}}, .zero_is_void = true});
+                      {.frame = frame,
+                       .bands = {{fmt::format("{} (legend {})", source.name, source.legend)}},
+                       .zero_is_void = true});
   constexpr int strip = 256;
   for (int y = 0; y < frame.height; y += strip) {
     Grid<std::uint8_t> rows(frame.width, std::min(strip, frame.height - y));
     for (int v = 0; v < rows.height(); ++v)
-      for (int x = 0; x < frame.width; ++x) rows(x, v) = static_cast<std::uint8_t>(std::max(codes.cells(x, y + v), 0));
+      for (int x = 0; x < frame.width; ++x)
+        rows(x, v) = static_cast<std::uint8_t>(std::max(codes.cells(x, y + v), 0));
     file.write(y, {rows});
-    errand.progress.advance(0.0);
+    context.progress.advance(0.0);
   }
   file.commit();
   return describe_map(source, frame, mosaic.tiles, cover_file, folder, parameters);
@@ -224,72 +257,85 @@ RasterFrame fetch_frame(const FetchParameters& parameters, double cell_m) {
   check(parameters);
   RasterFrame frame;
   frame.crs = utm_crs(parameters.at_lonlat);
-  const glm::dvec2 middle = transform_point("EPSG:4326", frame.crs, parameters.at_lonlat);
+  const glm::dvec2 centre = transform_point("EPSG:4326", frame.crs, parameters.at_lonlat);
   const glm::dvec2 half = 500.0 * parameters.size_km;
   // A millionth of a cell is rounding.
   const auto down = [&](double m) { return std::floor(m / cell_m + 1e-6); };
   const auto up = [&](double m) { return std::ceil(m / cell_m - 1e-6); };
-  const double left = down(middle.x - half.x);
-  const double top = up(middle.y + half.y);
+  const double left = down(centre.x - half.x);
+  const double top = up(centre.y + half.y);
   frame.transform = {left * cell_m, top * cell_m, cell_m, cell_m};
-  frame.width = static_cast<int>(up(middle.x + half.x) - left);
-  frame.height = static_cast<int>(top - down(middle.y - half.y));
-  // Around a pole longitudes say nothing of places.
+  frame.width = static_cast<int>(up(centre.x + half.x) - left);
+  frame.height = static_cast<int>(top - down(centre.y - half.y));
+  // Near a pole longitudes are meaningless.
   for (const double pole : {90.0, -90.0}) {
     if (std::abs(parameters.at_lonlat.y - pole) > 10.0) continue;
-    const glm::dvec2 away = glm::dvec2(transform_point("EPSG:4326", frame.crs, {0.0, pole})) - middle;
+    const glm::dvec2 away =
+        glm::dvec2(transform_point("EPSG:4326", frame.crs, {0.0, pole})) - centre;
     if (std::abs(away.x) <= half.x + 10000.0 && std::abs(away.y) <= half.y + 10000.0)
-      throw Error(ErrorKind::usage, "place", "the area holds a pole, or nearly so", "an area 10 km away from it or more");
+      throw Error(ErrorKind::usage, "position", "the area contains a pole or is close to one",
+                  "an area at least 10 km from the pole");
   }
   return frame;
 }
 
 DegreeBox degrees_around(const RasterFrame& frame, const std::string& crs) {
   constexpr int steps = 48;
-  std::vector<glm::dvec2> places;
+  std::vector<glm::dvec2> positions;
   for (int j = 0; j <= steps; ++j)
     for (int i = 0; i <= steps; ++i)
-      places.push_back(
-          frame.transform.to_crs(static_cast<double>(frame.width) * i / steps - 0.5, static_cast<double>(frame.height) * j / steps - 0.5));
-  PointTransform(frame.crs, crs).apply(places);
-  const double middle = places[places.size() / 2].x;
+      positions.push_back(
+          frame.transform.to_crs(static_cast<double>(frame.width) * i / steps - 0.5,
+                                 static_cast<double>(frame.height) * j / steps - 0.5));
+  PointTransform(frame.crs, crs).apply(positions);
+  const double centre = positions[positions.size() / 2].x;
   DegreeBox box{1e9, 1e9, -1e9, -1e9};
-  for (const glm::dvec2& place : places) {
-    const double longitude = middle + std::remainder(place.x - middle, 360.0);
+  for (const glm::dvec2& position : positions) {
+    const double longitude = centre + std::remainder(position.x - centre, 360.0);
     box.west = std::min(box.west, longitude);
     box.east = std::max(box.east, longitude);
-    box.south = std::min(box.south, place.y);
-    box.north = std::max(box.north, place.y);
+    box.south = std::min(box.south, position.y);
+    box.north = std::max(box.north, position.y);
   }
-  // Between places that were looked at, sides may bend outwards by the square of a step.
+  // Between sampled points, sides may bend outwards by the square of a step.
   const double bulge = 0.02 * std::max(box.east - box.west, box.north - box.south) / steps;
-  return {box.west - bulge, std::max(-90.0, box.south - bulge), box.east + bulge, std::min(90.0, box.north + bulge)};
+  return {box.west - bulge, std::max(-90.0, box.south - bulge), box.east + bulge,
+          std::min(90.0, box.north + bulge)};
 }
 
-FetchedArea fetch_area(const FetchParameters& parameters, const std::string& folder, const Cache& cache, Progress& progress,
-                       const RecordHead& head) {
+FetchedArea fetch_area(const FetchParameters& parameters, const std::string& folder,
+                       const Cache& cache, Progress& progress, const RecordHead& head) {
   check(parameters);
   const MapSource source = source_of_kind(parameters.elevation, MapSourceKind::elevation);
-  if (!parameters.land_cover.empty()) source_of_kind(parameters.land_cover, MapSourceKind::land_cover);  // before the work
-  const WorkPlace place(folder);
-  const std::int64_t clock = std::chrono::duration_cast<std::chrono::seconds>(std::chrono::system_clock::now().time_since_epoch()).count();
-  HttpClient client(parameters.manners, progress);
-  const RemoteErrand errand{client, cache, progress, parameters.now_unix_s != 0 ? parameters.now_unix_s : clock, parameters.refresh};
+  if (!parameters.land_cover.empty())
+    source_of_kind(parameters.land_cover, MapSourceKind::land_cover);  // fails early
+  const WorkPlace position(folder);
+  const std::int64_t clock = std::chrono::duration_cast<std::chrono::seconds>(
+                                 std::chrono::system_clock::now().time_since_epoch())
+                                 .count();
+  HttpClient client(parameters.http_options, progress);
+  const FetchContext context{client, cache, progress,
+                             parameters.now_unix_s != 0 ? parameters.now_unix_s : clock,
+                             parameters.refresh};
 
   FetchedArea area;
-  const RasterFrame frame = fetch_frame(parameters, parameters.cell_m > 0.0 ? parameters.cell_m : source.cell_m);
-  // As many rows as a cell of the frame looks at to either side.
-  const int shared_rows = 4 + static_cast<int>(std::ceil(3.0 * frame.transform.cell_y / source.cell_m));
-  const TileMosaic<float> mosaic = read_elevation_tiles(source, degrees_to_read(frame, source.crs), parameters.mirror, errand, shared_rows);
-  const Raster<float> ground = warp_parts(mosaic, frame, source, place, progress);
-  // Files that belong together: the old record goes before the first of them is replaced.
+  const RasterFrame frame =
+      fetch_frame(parameters, parameters.cell_m > 0.0 ? parameters.cell_m : source.cell_m);
+  // Number of rows that resampling reads on either side of a cell.
+  const int shared_rows =
+      4 + static_cast<int>(std::ceil(3.0 * frame.transform.cell_y / source.cell_m));
+  const TileMosaic<float> mosaic = read_elevation_tiles(source, degrees_to_read(frame, source.crs),
+                                                        parameters.mirror, context, shared_rows);
+  const Raster<float> ground = warp_parts(mosaic, frame, source, position, progress);
+  // Files that belong together: the old record is removed before the first of them is replaced.
   const std::string record = (fs::path(folder) / record_file).string();
   std::error_code ignored;
   fs::remove(record, ignored);
   progress.begin("writing", 0.0);
   write_raster((fs::path(folder) / elevation_file).string(), ground);
   area.elevation = describe_map(source, frame, mosaic.tiles, elevation_file, folder, parameters);
-  if (!parameters.land_cover.empty()) area.land_cover = fetch_cover(parameters, folder, ground, place, errand);
+  if (!parameters.land_cover.empty())
+    area.land_cover = fetch_cover(parameters, folder, ground, position, context);
   area.record = record;
   area.questions = client.asked();
   area.bytes = client.bytes();

@@ -9,17 +9,18 @@
 
 namespace belvedere {
 
-// The frame that a request makes at a width of cells: middle and size rounded outwards to whole cells of the zone's lattice. Error(usage)
-// for values out of range, and where a pole lies inside.
+// The frame of a request at a cell size: centre and size rounded outwards to whole cells of the
+// zone's lattice. Error(usage) for values out of range, and if a pole lies inside.
 RasterFrame fetch_frame(const FetchParameters& parameters, double cell_m);
-// Degrees that hold a frame.
+// Degrees that contain a frame.
 DegreeBox degrees_around(const RasterFrame& frame, const std::string& crs);
 
-// Fetches the maps of an area and writes them into a folder, which is made where it is missing: elevation.tif (m, voids -9999),
-// land_cover.tif (codes, 0 where nothing is known) and fetched.toml, which says where they come from. Files appear whole or not at all, the
-// record last, with `head` before it. What comes is kept in the cache, so that a call after one that failed goes on where that ended.
-// Servers are asked, because whoever calls this wants it. Error(input) where they fail, Error(output) where the folder cannot be written.
-FetchedArea fetch_area(const FetchParameters& parameters, const std::string& folder, const Cache& cache, Progress& progress,
-                       const RecordHead& head = {});
+// Downloads the maps of an area and writes them into a folder, which is created if it is missing:
+// elevation.tif (m, voids -9999), land_cover.tif (codes, 0 where unknown) and fetched.toml with
+// their provenance. Files are written atomically, the record last, with `head` at its start.
+// Downloads are cached, so a call after a failed one continues. Accesses the network without
+// asking. Error(input) if servers fail, Error(output) if the folder cannot be written.
+FetchedArea fetch_area(const FetchParameters& parameters, const std::string& folder,
+                       const Cache& cache, Progress& progress, const RecordHead& head = {});
 
 }  // namespace belvedere

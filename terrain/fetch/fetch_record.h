@@ -7,11 +7,13 @@
 
 namespace belvedere {
 
-// Text that stands first in a record: what its reader can use at once.
+// Text at the start of a record, for direct use by its reader.
 using RecordHead = std::function<std::string(const FetchedArea&)>;
-// TOML that says of every map and tile where it comes from, after the head.
-std::string fetch_record(const FetchParameters& parameters, const FetchedArea& area, const RecordHead& head = {});
-// Writes it: whole or not at all. Error(output).
-void write_fetch_record(const std::string& path, const FetchParameters& parameters, const FetchedArea& area, const RecordHead& head = {});
+// TOML with the provenance of every map and tile, after the head.
+std::string fetch_record(const FetchParameters& parameters, const FetchedArea& area,
+                         const RecordHead& head = {});
+// Writes it atomically. Error(output).
+void write_fetch_record(const std::string& path, const FetchParameters& parameters,
+                        const FetchedArea& area, const RecordHead& head = {});
 
 }  // namespace belvedere

@@ -22,67 +22,71 @@ std::string describe(const HttpAnswer& answer) {
   switch (answer.outcome) {
     case HttpOutcome::missing:
     case HttpOutcome::refused:
-      return fmt::format("the server answers {}", answer.status);
+      return fmt::format("HTTP status {}", answer.status);
     case HttpOutcome::busy:
-      return fmt::format("the server answers {}, that it cannot now", answer.status);
+      return fmt::format("HTTP status {}: server temporarily unavailable", answer.status);
     case HttpOutcome::no_name:
-      return "nobody knows the name of the server; is this machine offline?" + more;
+      return "cannot resolve host; check that this machine is online" + more;
     case HttpOutcome::no_connection:
-      return "the server does not take calls; is there a network, a proxy, a firewall?" + more;
+      return "connection refused; check network, proxy and firewall" + more;
     case HttpOutcome::silent:
-      return "the server is silent or too slow" + more;
+      return "connection timed out" + more;
     case HttpOutcome::cut:
-      return "the connection was cut" + more;
+      return "connection closed before the end of the file" + more;
     case HttpOutcome::good:
-      return "the server sent other bytes than it was asked for";
+      return "the server sent other bytes than requested";
     default:
-      return "the server cannot be asked" + more;
+      return "request failed" + more;
   }
 }
 
 }  // namespace
 
-HttpClient::HttpClient(const HttpManners& manners, Progress& progress) : manners_(manners), progress_(progress) {
-  const auto hold = [](const char* what, double value, double least, double most) {
-    if (!(value >= least && value <= most))
-      throw Error(ErrorKind::usage, what, fmt::format("{}", value), fmt::format("{} … {}", least, most));
+HttpClient::HttpClient(const HttpOptions& http_options, Progress& progress)
+    : http_options_(http_options), progress_(progress) {
+  const auto hold = [](const char* what, double value, double min, double max) {
+    if (!(value >= min && value <= max))
+      throw Error(ErrorKind::usage, what, fmt::format("{}", value),
+                  fmt::format("{} … {}", min, max));
   };
-  hold("seconds to connect", manners.connect_s, 1, 3600);
-  hold("seconds of silence", manners.silence_s, 1, 3600);
-  hold("seconds for an answer", manners.answer_s, 1, 86400);
-  hold("retries", manners.retries, 0, 20);
-  hold("seconds to wait", manners.wait_s, 0, 60);
-  hold("seconds of pause", manners.pause_s, 0, 60);
+  hold("connection timeout in seconds", http_options.connect_s, 1, 3600);
+  hold("read timeout in seconds", http_options.silence_s, 1, 3600);
+  hold("response timeout in seconds", http_options.answer_s, 1, 86400);
+  hold("retries", http_options.retries, 0, 20);
+  hold("retry delay in seconds", http_options.wait_s, 0, 60);
+  hold("pause between requests in seconds", http_options.pause_s, 0, 60);
 }
 
-// In short steps, so that the user may stop it.
+// In short steps, so that the user can interrupt it.
 void HttpClient::sleep(double seconds) const {
   using Clock = std::chrono::steady_clock;
-  const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+  const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                      std::chrono::duration<double>(seconds));
   for (;;) {
     progress_.advance(0.0);
     const auto now = Clock::now();
     if (now >= end) return;
-    std::this_thread::sleep_for(std::min<Clock::duration>(end - now, std::chrono::milliseconds(100)));
+    std::this_thread::sleep_for(
+        std::min<Clock::duration>(end - now, std::chrono::milliseconds(100)));
   }
 }
 
 HttpAnswer HttpClient::ask(const std::string& address, std::uint64_t first, std::uint64_t count) {
-  if (asked_ > 0) sleep(manners_.pause_s);
+  if (asked_ > 0) sleep(http_options_.pause_s);
   ++asked_;
   std::exception_ptr stopped;
   HttpRequest request{.address = address,
                       .first = first,
                       .count = count,
-                      .connect_s = manners_.connect_s,
-                      .silence_s = manners_.silence_s,
-                      .answer_s = manners_.answer_s,
-                      .agent = manners_.agent};
+                      .connect_s = http_options_.connect_s,
+                      .silence_s = http_options_.silence_s,
+                      .answer_s = http_options_.answer_s,
+                      .agent = http_options_.agent};
   request.go_on = [&] {
     try {
       progress_.advance(0.0);
       return true;
-    } catch (...) {  // nothing may pass through a library that is written in C
+    } catch (...) {  // no exception may pass through a C library
       stopped = std::current_exception();
       return false;
     }
@@ -98,22 +102,25 @@ void HttpClient::wait(const std::string& address, const HttpAnswer& answer, int 
   const HttpOutcome outcome = answer.outcome;
   const bool was_there = reached_ == server_of(address);
   const bool unreachable = outcome == HttpOutcome::no_name || outcome == HttpOutcome::no_connection;
-  const bool hopeless = outcome == HttpOutcome::missing || outcome == HttpOutcome::refused || outcome == HttpOutcome::failed ||
-                        outcome == HttpOutcome::stopped || (unreachable && !was_there);
-  if (hopeless || attempt > manners_.retries) give_up(address, answer);
+  const bool hopeless = outcome == HttpOutcome::missing || outcome == HttpOutcome::refused ||
+                        outcome == HttpOutcome::failed || outcome == HttpOutcome::stopped ||
+                        (unreachable && !was_there);
+  if (hopeless || attempt > http_options_.retries) give_up(address, answer);
   constexpr double longest_s = 120.0;
-  double seconds = manners_.wait_s;
+  double seconds = http_options_.wait_s;
   for (int i = 1; i < attempt && seconds < longest_s; ++i) seconds *= 2.0;
   seconds = std::min(std::max(seconds, answer.retry_after_s), longest_s);
-  progress_.note(fmt::format("{}: {}; asked again in {:.0f} s", address, describe(answer), seconds));
+  progress_.note(fmt::format("{}: {}; retrying in {:.0f} s", address, describe(answer), seconds));
   sleep(seconds);
 }
 
 void HttpClient::give_up(const std::string& address, const HttpAnswer& answer) const {
-  const bool unreachable = answer.outcome == HttpOutcome::no_name || answer.outcome == HttpOutcome::no_connection;
+  const bool unreachable =
+      answer.outcome == HttpOutcome::no_name || answer.outcome == HttpOutcome::no_connection;
   throw Error(ErrorKind::input, unreachable ? server_of(address) : address, describe(answer),
-              unreachable ? "a network, or a copy of the service: --mirror URL. What is in the cache needs neither"
-                          : "once more, later: what came is kept and not asked for again");
+              unreachable ? "a network connection, or a mirror of the service (--mirror URL); "
+                            "cached data need neither"
+                          : "try again later; data received so far are cached");
 }
 
 }  // namespace belvedere

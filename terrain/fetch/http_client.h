@@ -8,40 +8,44 @@
 
 namespace belvedere {
 
-// How a service is asked: by one connection at a time, with pauses.
-struct HttpManners {
-  int connect_s = 15;     // s until a server must have taken the call; 1…3600
-  int silence_s = 30;     // s that it may send next to nothing; 1…3600
-  int answer_s = 600;     // s that one answer may take; 1…86400
-  int retries = 5;        // times that what failed is asked again, unless something came of it; 0…20
-  double wait_s = 1.0;    // s before the second try, twice as long before each further one, or as long as the server asks; 0…60
-  double pause_s = 0.05;  // s between questions; 0…60
-  std::string agent = "Belvedere (panorama maps)";  // who asks, as services want to know it: name and version
+// Client options: one connection at a time, with pauses.
+struct HttpOptions {
+  int connect_s = 15;  // connection timeout, s; 1…3600
+  int silence_s = 30;  // timeout without data, s; 1…3600
+  int answer_s = 600;  // timeout for a whole response, s; 1…86400
+  int retries = 5;     // retries of a request that made no progress; 0…20
+  double wait_s =
+      1.0;  // s before the second try, doubled before each further one, or as the server asks; 0…60
+  double pause_s = 0.05;                            // s between requests; 0…60
+  std::string agent = "Belvedere (panorama maps)";  // user agent: name and version
 };
 
-// Asks servers politely, and says in a user's words what went wrong.
+// HTTP client that retries politely and explains failures to users.
 class HttpClient {
  public:
-  // Error(usage) where manners are out of range.
-  HttpClient(const HttpManners& manners, Progress& progress);
+  // Error(usage) if options are out of range.
+  HttpClient(const HttpOptions& http_options, Progress& progress);
 
-  // The bytes of a file from `first` on, `count` of them (0: to the end), in one try. Error(interrupted) where the user stops.
+  // The bytes of a file from `first` on, `count` of them (0: to the end), in one try.
+  // Error(interrupted) if the user stops.
   HttpAnswer ask(const std::string& address, std::uint64_t first, std::uint64_t count);
-  // After an answer of which nothing can be used: waits for the next try, the attempt-th (from 1). Error(input) where there is none.
+  // After an unusable response: waits before the next try, number `attempt` (from 1). Error(input)
+  // if there are none left.
   void wait(const std::string& address, const HttpAnswer& answer, int attempt);
-  // Where no answer is worth another try.
+  // For responses that are not worth another try.
   [[noreturn]] void give_up(const std::string& address, const HttpAnswer& answer) const;
 
-  // Questions asked, and bytes that came.
+  // Requests sent, and bytes received.
   std::uint64_t asked() const { return asked_; }
   std::uint64_t bytes() const { return bytes_; }
 
  private:
   void sleep(double seconds) const;
 
-  HttpManners manners_;
+  HttpOptions http_options_;
   Progress& progress_;
-  std::string reached_;  // the server that answered last: what it does not take later was cut, not absent
+  std::string reached_;  // the server of the last response: a later refusal by it is a lost
+                         // connection, not an absent server
   std::uint64_t asked_ = 0;
   std::uint64_t bytes_ = 0;
 };

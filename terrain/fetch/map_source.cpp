@@ -18,18 +18,21 @@
 namespace belvedere {
 namespace {
 
-// Reads the keys of one table and says what is wrong with them.
+// Reads the keys of one table and reports what is wrong with them.
 class Keys {
  public:
-  Keys(const ConfigTable& table, const std::string& name, std::string prefix) : table_(table), name_(name), prefix_(std::move(prefix)) {}
+  Keys(const ConfigTable& table, const std::string& name, std::string prefix)
+      : table_(table), name_(name), prefix_(std::move(prefix)) {}
 
-  [[noreturn]] void refuse(const ConfigValue& value, const std::string& found, const std::string& allowed) const {
-    throw Error(ErrorKind::usage, config_where(name_, value.place), found, allowed);
+  [[noreturn]] void refuse(const ConfigValue& value, const std::string& found,
+                           const std::string& allowed) const {
+    throw Error(ErrorKind::usage, config_where(name_, value.position), found, allowed);
   }
   const ConfigValue* maybe(const char* key) const { return find(table_, key); }
   const ConfigValue& required(const char* key, const char* allowed) const {
     const ConfigValue* value = maybe(key);
-    if (value == nullptr) throw Error(ErrorKind::usage, name_, fmt::format("the key {}{} is missing", prefix_, key), allowed);
+    if (value == nullptr)
+      throw Error(ErrorKind::usage, name_, fmt::format("missing key {}{}", prefix_, key), allowed);
     return *value;
   }
   std::string text(const char* key, const char* meaning) const {
@@ -42,25 +45,28 @@ class Keys {
     const ConfigValue* value = maybe(key);
     return value == nullptr ? otherwise : as_string(*value, name_);
   }
-  // The number of one of the words.
+  // The index of a word in a list.
   int choice(const char* key, const std::vector<std::string>& words) const {
     const std::string allowed = fmt::format("\"{}\"", fmt::join(words, "\", \""));
     const ConfigValue& value = required(key, allowed.c_str());
     const auto found = std::find(words.begin(), words.end(), as_string(value, name_));
-    if (found == words.end()) refuse(value, fmt::format("{}{} is {}", prefix_, key, describe(value)), allowed);
+    if (found == words.end())
+      refuse(value, fmt::format("{}{} is {}", prefix_, key, describe(value)), allowed);
     return static_cast<int>(found - words.begin());
   }
-  double number(const ConfigValue& value, const char* key, double least, double most) const {
+  double number(const ConfigValue& value, const char* key, double min, double max) const {
     const double number = as_number(value, name_);
-    if (!(number >= least && number <= most))
-      refuse(value, fmt::format("{}{} holds {}", prefix_, key, number), fmt::format("{} … {}", least, most));
+    if (!(number >= min && number <= max))
+      refuse(value, fmt::format("{}{} is {}", prefix_, key, number),
+             fmt::format("{} … {}", min, max));
     return number;
   }
-  std::array<double, 2> pair(const char* key, double least, double most) const {
+  std::array<double, 2> pair(const char* key, double min, double max) const {
     const ConfigValue& value = required(key, "two numbers");
     const ConfigArray& both = as_array(value, name_);
-    if (both.size() != 2) refuse(value, fmt::format("{}{} holds {} numbers", prefix_, key, both.size()), "two");
-    return {number(both[0], key, least, most), number(both[1], key, least, most)};
+    if (both.size() != 2)
+      refuse(value, fmt::format("{}{} has {} numbers", prefix_, key, both.size()), "two numbers");
+    return {number(both[0], key, min, max), number(both[1], key, min, max)};
   }
   const std::string& name() const { return name_; }
 
@@ -70,7 +76,9 @@ class Keys {
   std::string prefix_;
 };
 
-bool divides(double part, double whole) { return std::abs(whole / part - std::round(whole / part)) < 1e-9; }
+bool divides(double part, double whole) {
+  return std::abs(whole / part - std::round(whole / part)) < 1e-9;
+}
 
 // A field of an address: {lat}, or {lat:3} for three digits.
 struct Field {
@@ -79,7 +87,7 @@ struct Field {
   std::size_t begin = 0, end = 0;
 };
 
-// The next field from a place on; nothing where there is none. A brace that ends nowhere has an empty name.
+// The next field from a position on; nothing if there is none. An unclosed brace has an empty name.
 std::optional<Field> next_field(const std::string& url, std::size_t from) {
   const std::size_t begin = url.find('{', from);
   if (begin == std::string::npos) return std::nullopt;
@@ -96,29 +104,41 @@ std::optional<Field> next_field(const std::string& url, std::size_t from) {
 }
 
 void check_url(const Keys& keys, const ConfigValue& value, const std::string& url) {
-  const char* const allowed = "https://SERVER/…{lat}…{lon}….tif, or with {row} and {column}; {lat:3} has three digits";
-  if (!is_address(url)) keys.refuse(value, "url is no address", allowed);
+  const char* const allowed =
+      "https://SERVER/…{lat}…{lon}….tif, or with {row} and {column}; {lat:3} for three digits";
+  if (!is_address(url)) keys.refuse(value, "url is not a valid URL", allowed);
   std::vector<std::string> names;
-  for (std::optional<Field> field = next_field(url, 0); field; field = next_field(url, field->end)) {
+  for (std::optional<Field> field = next_field(url, 0); field;
+       field = next_field(url, field->end)) {
     const std::vector<std::string> known = {"lat", "lon", "row", "column"};
     if (std::find(known.begin(), known.end(), field->name) == known.end())
-      keys.refuse(value, fmt::format("url has the field {}", url.substr(field->begin, field->end - field->begin)), allowed);
+      keys.refuse(value,
+                  fmt::format("url contains the unknown field {}",
+                              url.substr(field->begin, field->end - field->begin)),
+                  allowed);
     names.push_back(field->name);
   }
-  const auto has = [&](const char* name) { return std::find(names.begin(), names.end(), name) != names.end(); };
-  if (!(has("lat") && has("lon")) && !(has("row") && has("column"))) keys.refuse(value, "url is the same for all tiles", allowed);
+  const auto has = [&](const char* name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  if (!(has("lat") && has("lon")) && !(has("row") && has("column")))
+    keys.refuse(value, "url is the same for all tiles", allowed);
   const std::size_t server = url.find("//") + 2;
-  if (url.find('{') < url.find('/', server)) keys.refuse(value, "url has a field in the name of the server", allowed);
+  if (url.find('{') < url.find('/', server))
+    keys.refuse(value, "url has a field in the host name", allowed);
   check_address(url);
 }
 
 void read_grid(MapSource& source, const ConfigValue& value, const std::string& name) {
   const ConfigTable& table = as_table(value, name);
-  allow_only(table, {"crs", "tile_deg", "origin_deg", "latitudes", "rows", "columns", "cells"}, name);
+  allow_only(table, {"crs", "tile_deg", "origin_deg", "latitudes", "rows", "columns", "cells"},
+             name);
   const Keys keys(table, name, "grid.");
-  source.crs = keys.text("crs", "a geographic coordinate system: \"EPSG:4326\"");
+  source.crs = keys.text("crs", "a geographic coordinate system such as \"EPSG:4326\"");
   try {
-    if (!crs_traits(source.crs).geographic) keys.refuse(*keys.maybe("crs"), "grid.crs is not in degrees", "\"EPSG:4326\" and the like");
+    if (!crs_traits(source.crs).geographic)
+      keys.refuse(*keys.maybe("crs"), "grid.crs is not in degrees",
+                  "a geographic coordinate system such as \"EPSG:4326\"");
   } catch (const Error& error) {
     keys.refuse(*keys.maybe("crs"), "grid.crs: " + error.found(), error.allowed());
   }
@@ -131,23 +151,31 @@ void read_grid(MapSource& source, const ConfigValue& value, const std::string& n
     const std::array<double, 2> origin = keys.pair("origin_deg", -180.0, 180.0);
     source.origin_deg = {origin[0], origin[1]};
     if (origin[1] > 90.0 || !divides(tile[1], 90.0 - origin[1]))
-      keys.refuse(*keys.maybe("origin_deg"), fmt::format("a first row from {}° N", origin[1]), "90, or whole tiles south of it");
+      keys.refuse(*keys.maybe("origin_deg"), fmt::format("a first row from {}° N", origin[1]),
+                  "90, or a whole number of tiles south of it");
   }
   if (keys.maybe("latitudes") != nullptr) source.latitudes = keys.pair("latitudes", -90.0, 90.0);
   if (!(source.latitudes[0] < source.latitudes[1]))
-    keys.refuse(*keys.maybe("latitudes"), "no latitudes between them", "the southernmost, then the northernmost");
-  constexpr double most_cells = 100000.0;
-  const ConfigValue& rows = keys.required("rows", "how many cells a tile has from north to south");
+    keys.refuse(*keys.maybe("latitudes"), "the first latitude is not south of the second",
+                "the southernmost, then the northernmost");
+  constexpr double max_cells = 100000.0;
+  const ConfigValue& rows =
+      keys.required("rows", "the number of cells of a tile from north to south");
   source.rows = static_cast<int>(as_integer(rows, name));
-  keys.number(rows, "rows", 1.0, most_cells);
-  const ConfigValue& columns = keys.required("columns", "[[0, 3600], [50, 2400]]: from which latitude on, how many from west to east");
+  keys.number(rows, "rows", 1.0, max_cells);
+  const ConfigValue& columns = keys.required(
+      "columns",
+      "[latitude, number of cells from west to east] rows, such as [[0, 3600], [50, 2400]]");
   for (const ConfigValue& step : as_array(columns, name)) {
     const ConfigArray& both = as_array(step, name);
-    if (both.size() != 2) keys.refuse(step, fmt::format("grid.columns holds {} numbers", both.size()), "[latitude, cells]");
+    if (both.size() != 2)
+      keys.refuse(step, fmt::format("grid.columns has a row of {} numbers", both.size()),
+                  "[latitude, cells]");
     const double from = keys.number(both[0], "columns", 0.0, 90.0);
-    keys.number(both[1], "columns", 1.0, most_cells);
+    keys.number(both[1], "columns", 1.0, max_cells);
     if (source.columns.empty() ? from != 0.0 : from <= source.columns.back().from_latitude)
-      keys.refuse(both[0], fmt::format("grid.columns has {}° here", from), "0 first, then rising");
+      keys.refuse(both[0], fmt::format("grid.columns has the latitude {}°", from),
+                  "latitudes in ascending order from 0");
     source.columns.push_back({from, static_cast<int>(as_integer(both[1], name))});
   }
   if (source.columns.empty()) keys.refuse(columns, "grid.columns is empty", "[[0, 3600]]");
@@ -156,13 +184,16 @@ void read_grid(MapSource& source, const ConfigValue& value, const std::string& n
 
 MapSource source_of(const ConfigValue& root, const std::string& name) {
   const ConfigTable& table = as_table(root, name);
-  allow_only(table, {"name", "kind", "url", "date", "legend", "cell_m", "missing", "sea_value", "get_from", "credit", "licence", "grid"},
+  allow_only(table,
+             {"name", "kind", "url", "date", "legend", "cell_m", "missing", "sea_value", "get_from",
+              "credit", "licence", "grid"},
              name);
   const Keys keys(table, name, "");
   MapSource source;
   source.id = std::filesystem::path(name).stem().string();
-  source.name = keys.text("name", "what people call it");
-  source.kind = keys.choice("kind", {"elevation", "land_cover"}) == 0 ? MapSourceKind::elevation : MapSourceKind::land_cover;
+  source.name = keys.text("name", "the name of the source");
+  source.kind = keys.choice("kind", {"elevation", "land_cover"}) == 0 ? MapSourceKind::elevation
+                                                                      : MapSourceKind::land_cover;
   source.url = keys.text("url", "https://SERVER/…{lat}…{lon}….tif");
   check_url(keys, *keys.maybe("url"), source.url);
   source.date = keys.text_or("date", "");
@@ -171,35 +202,39 @@ MapSource source_of(const ConfigValue& root, const std::string& name) {
   const bool cover = source.kind == MapSourceKind::land_cover;
   if (source.missing == MissingTile::sea) {
     const ConfigValue& value = keys.required("sea_value", cover ? "the code of water" : "0");
-    source.sea_value = cover ? keys.number(value, "sea_value", 0.0, 65535.0) : keys.number(value, "sea_value", -12000.0, 9000.0);
+    source.sea_value = cover ? keys.number(value, "sea_value", 0.0, 65535.0)
+                             : keys.number(value, "sea_value", -12000.0, 9000.0);
   } else if (const ConfigValue* stray = keys.maybe("sea_value")) {
-    keys.refuse(*stray, "sea_value means nothing here", "missing = \"sea\"");
+    keys.refuse(*stray, "sea_value without missing = \"sea\"", "missing = \"sea\"");
   }
   if (cover)
     source.legend = keys.text("legend", "a built-in legend or a file, as for a scene's land cover");
   else if (const ConfigValue* stray = keys.maybe("legend"))
-    keys.refuse(*stray, "heights have no legend", "kind = \"land_cover\"");
+    keys.refuse(*stray, "legend for an elevation source", "kind = \"land_cover\"");
   source.get_from = keys.text_or("get_from", "");
-  source.credit = keys.text("credit", "whom pictures must name");
-  source.licence = keys.text("licence", "under which terms the data may be used");
-  read_grid(source, keys.required("grid", "a table [grid] that says where tiles lie"), name);
+  source.credit = keys.text("credit", "the attribution that pictures must show");
+  source.licence = keys.text("licence", "the terms of use of the data");
+  read_grid(source, keys.required("grid", "a table [grid] with the positions of tiles"), name);
   return source;
 }
 
 }  // namespace
 
-MapSource parse_map_source(const std::string& text, const std::string& name) { return source_of(parse_config(text, name), name); }
+MapSource parse_map_source(const std::string& text, const std::string& name) {
+  return source_of(parse_config(text, name), name);
+}
 
 std::vector<std::string> built_in_map_sources() { return embedded_names("sources"); }
 
 MapSource read_map_source(const std::string& name_or_path) {
-  const std::string ending = std::filesystem::path(name_or_path).extension().string();
-  if (ending == ".toml") return source_of(read_config(name_or_path), name_or_path);
+  const std::string extension = std::filesystem::path(name_or_path).extension().string();
+  if (extension == ".toml") return source_of(read_config(name_or_path), name_or_path);
   const std::vector<std::string> known = built_in_map_sources();
   if (std::find(known.begin(), known.end(), name_or_path) == known.end()) {
     const std::string near = nearest_word(name_or_path, known);
     throw Error(ErrorKind::usage, "source",
-                fmt::format("\"{}\" is not known{}", name_or_path, near.empty() ? "" : ": is \"" + near + "\" meant?"),
+                fmt::format("unknown source \"{}\"{}", name_or_path,
+                            near.empty() ? "" : "; did you mean \"" + near + "\"?"),
                 fmt::format("{}, or a .toml file", fmt::join(known, ", ")));
   }
   const std::string name = "sources/" + name_or_path + ".toml";
@@ -208,7 +243,8 @@ MapSource read_map_source(const std::string& name_or_path) {
 
 glm::dvec2 tile_corner(const MapSource& source, MapTile tile) {
   const double west = source.origin_deg.x + tile.column * source.tile_deg.x;
-  return {west - 360.0 * std::floor((west + 180.0) / 360.0), source.origin_deg.y - (tile.row + 1) * source.tile_deg.y};
+  return {west - 360.0 * std::floor((west + 180.0) / 360.0),
+          source.origin_deg.y - (tile.row + 1) * source.tile_deg.y};
 }
 
 bool in_latitudes(const MapSource& source, MapTile tile) {
@@ -219,7 +255,7 @@ bool in_latitudes(const MapSource& source, MapTile tile) {
 int tile_columns(const MapSource& source, int row) {
   const double south = tile_corner(source, {0, row}).y;
   const double north = south + source.tile_deg.y;
-  // A tile that lies across the equator touches it.
+  // A tile across the equator touches it.
   const double nearest = south >= 0.0 ? south : north <= 0.0 ? -north : 0.0;
   int count = source.columns.front().count;
   for (const MapSource::Columns& step : source.columns)
@@ -229,7 +265,7 @@ int tile_columns(const MapSource& source, int row) {
 
 namespace {
 
-// "N46", "W005"; of parts of degrees the whole ones, as services name them.
+// "N46", "W005"; of fractional degrees the whole part, as in the names of services.
 std::string degrees_name(double degrees, const char* letters, int digits) {
   const int whole = static_cast<int>(std::lround(std::floor(degrees + 1e-9)));
   return fmt::format("{}{:0{}}", whole < 0 ? letters[1] : letters[0], std::abs(whole), digits);
@@ -253,14 +289,16 @@ std::string tile_address(const MapSource& source, MapTile tile, const std::strin
   };
   std::string address;
   std::size_t done = 0;
-  for (std::optional<Field> field = next_field(source.url, 0); field; field = next_field(source.url, done)) {
+  for (std::optional<Field> field = next_field(source.url, 0); field;
+       field = next_field(source.url, done)) {
     address += source.url.substr(done, field->begin - done) + value_of(*field);
     done = field->end;
   }
   address += source.url.substr(done);
   if (mirror.empty()) return address;
   const std::size_t path = address.find('/', address.find("//") + 2);
-  return mirror.substr(0, mirror.find_last_not_of('/') + 1) + (path == std::string::npos ? "" : address.substr(path));
+  return mirror.substr(0, mirror.find_last_not_of('/') + 1) +
+         (path == std::string::npos ? "" : address.substr(path));
 }
 
 }  // namespace belvedere

@@ -7,20 +7,21 @@
 
 namespace belvedere {
 
-// A service that gives maps of the earth in tiles, as a file of data/sources or a user's own describes it (docs/fetch.md).
+// A service of map tiles in a geographic lattice, described by a file of data/sources or a user's
+// own (docs/fetch.md).
 
 enum class MapSourceKind { elevation, land_cover };
-// What a tile means that the service does not have.
+// Meaning of a tile that the service does not have.
 enum class MissingTile { sea, nothing, error };
 
 struct MapSource {
-  std::string id;    // "copernicus_glo30": its built-in name, or its file's without the ending
-  std::string name;  // for people
+  std::string id;    // "copernicus_glo30": its built-in name, or its file's without the extension
+  std::string name;  // for messages
   MapSourceKind kind = MapSourceKind::elevation;
   std::string url;       // of a tile; with {lat} and {lon}, or {row} and {column}
-  std::string date;      // when the data were taken, and their release
-  std::string legend;    // of land cover: what a scene's land_cover.legend is to say
-  double cell_m = 30.0;  // of the map that is made, m; 0.1…10000
+  std::string date;      // date of the data, and their release
+  std::string legend;    // of land cover: value for a scene's land_cover.legend
+  double cell_m = 30.0;  // of the map produced, m; 0.1…10000
   MissingTile missing = MissingTile::error;
   double sea_value = 0.0;  // of cells in the sea: m, or a code
   std::string get_from, credit, licence;
@@ -29,23 +30,26 @@ struct MapSource {
   std::string crs = "EPSG:4326";
   glm::dvec2 tile_deg{1.0, 1.0};                    // longitude, latitude; both divide the circle
   glm::dvec2 origin_deg{-180.0, 90.0};              // the north-west corner of a tile
-  std::array<double, 2> latitudes = {-90.0, 90.0};  // beyond them there are none
+  std::array<double, 2> latitudes = {-90.0, 90.0};  // there are no tiles beyond them
   int rows = 0;                                     // cells of a tile from north to south
   struct Columns {
     double from_latitude;  // |°|, of the side of a tile that is nearer to the equator
     int count;             // cells from west to east
   };
   std::vector<Columns> columns;
-  bool on_lines = false;  // centres of a tile's first cells lie on its north and west sides; else half a cell within
+  bool on_lines = false;  // centres of a tile's first cells lie on its north and west sides; else
+                          // half a cell within
 };
 
-// A built-in name or a .toml file. Error(usage) with the place and what is allowed there; Error(input) where there is no such file.
+// A built-in name or a .toml file. Error(usage) with the position and what is allowed there;
+// Error(input) if the file is missing.
 MapSource read_map_source(const std::string& name_or_path);
 // The same from text.
 MapSource parse_map_source(const std::string& text, const std::string& name);
 std::vector<std::string> built_in_map_sources();
 
-// A tile by its number on the lattice: columns to the east of the origin, rows to the south. Columns go round the earth.
+// A tile by its number on the lattice: columns to the east of the origin, rows to the south.
+// Columns wrap around the earth.
 struct MapTile {
   int column = 0, row = 0;
   bool operator==(const MapTile&) const = default;
@@ -60,7 +64,8 @@ bool in_latitudes(const MapSource& source, MapTile tile);
 int tile_columns(const MapSource& source, int row);
 // "N46E011"
 std::string tile_name(const MapSource& source, MapTile tile);
-// Where the tile lies. mirror: takes the place of the server in the address, "http://localhost:8000/maps"; empty: the source's own.
+// Position of the tile. mirror: replaces the server in the address, "http://localhost:8000/maps";
+// empty: the source's own.
 std::string tile_address(const MapSource& source, MapTile tile, const std::string& mirror);
 
 }  // namespace belvedere

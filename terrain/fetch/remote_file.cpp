@@ -13,23 +13,30 @@ namespace belvedere {
 namespace {
 
 constexpr const char* product = "fetched file";
-constexpr std::uint64_t most_pieces_at_once = 8;
-constexpr std::size_t most_held = 64;  // pieces in memory, where the cache has them as well
+constexpr std::uint64_t max_pieces_at_once = 8;
+constexpr std::size_t max_held = 64;  // pieces in memory that are also in the cache
 
 std::string file_of(const std::string& address) { return address.substr(address.rfind('/') + 1); }
 
-std::span<const std::byte> as_bytes(std::string_view text) { return std::as_bytes(std::span(text.data(), text.size())); }
+std::span<const std::byte> as_bytes(std::string_view text) {
+  return std::as_bytes(std::span(text.data(), text.size()));
+}
 
 }  // namespace
 
-CacheKey RemoteFile::about_key() const { return {product, file_of(address_), "about 1\n" + address_}; }
+CacheKey RemoteFile::about_key() const {
+  return {product, file_of(address_), "about 1\n" + address_};
+}
 
 CacheKey RemoteFile::piece_key(std::uint64_t index) const {
   return {product, file_of(address_),
-          fmt::format("piece 1\n{}\n{}\n{}\n{} of {}", address_, about_->bytes, about_->tag, index, piece_bytes)};
+          fmt::format("piece 1\n{}\n{}\n{}\n{} of {}", address_, about_->bytes, about_->tag, index,
+                      piece_bytes)};
 }
 
-std::uint64_t RemoteFile::piece_size(std::uint64_t index) const { return std::min(piece_bytes, about_->bytes - index * piece_bytes); }
+std::uint64_t RemoteFile::piece_size(std::uint64_t index) const {
+  return std::min(piece_bytes, about_->bytes - index * piece_bytes);
+}
 
 void RemoteFile::forget() {
   pieces_.clear();
@@ -38,18 +45,21 @@ void RemoteFile::forget() {
   distrust_ = true;
 }
 
-// Those go from memory that lie farthest from where is read. Whole files stay: to ask for them again costs all of them.
+// Pieces farthest from the current position are dropped first. Whole files are kept, because
+// another request would transfer all of them.
 void RemoteFile::make_room(std::uint64_t for_index) {
-  if (!errand_.cache.is_on() || only_whole_ || pieces_.size() < most_held) return;
+  if (!context_.cache.is_on() || only_whole_ || pieces_.size() < max_held) return;
   const std::uint64_t low = pieces_.begin()->first;
   const std::uint64_t high = pieces_.rbegin()->first;
-  const auto from = [&](std::uint64_t index) { return index < for_index ? for_index - index : index - for_index; };
+  const auto from = [&](std::uint64_t index) {
+    return index < for_index ? for_index - index : index - for_index;
+  };
   pieces_.erase(from(low) >= from(high) ? low : high);
 }
 
 void RemoteFile::keep(std::uint64_t index, std::string_view bytes) {
   const std::span<const std::byte> payload = as_bytes(bytes);
-  errand_.cache.store(piece_key(index), payload, errand_.progress);
+  context_.cache.store(piece_key(index), payload, context_.progress);
   make_room(index);
   pieces_[index] = Bytes(payload.begin(), payload.end());
   fetched_.insert(index);
@@ -58,45 +68,48 @@ void RemoteFile::keep(std::uint64_t index, std::string_view bytes) {
 const Bytes* RemoteFile::held(std::uint64_t index) {
   if (const auto found = pieces_.find(index); found != pieces_.end()) return &found->second;
   if (distrust_ && !fetched_.contains(index)) return nullptr;
-  std::optional<Bytes> kept = errand_.cache.find(piece_key(index), errand_.progress);
+  std::optional<Bytes> kept = context_.cache.find(piece_key(index), context_.progress);
   if (!kept || kept->size() != piece_size(index)) return nullptr;
   make_room(index);
   return &(pieces_[index] = std::move(*kept));
 }
 
-// Whole pieces of an answer; what is left over at its end is asked for again.
+// Whole pieces of a response; an incomplete one at its end is requested again.
 void RemoteFile::take(const HttpAnswer& answer) {
   const std::uint64_t first = answer.is_part ? answer.first : 0;
   const std::string_view bytes = answer.bytes;
   if (!answer.is_part && about_->bytes > piece_bytes) only_whole_ = true;
-  for (std::uint64_t index = (first + piece_bytes - 1) / piece_bytes; index * piece_bytes < about_->bytes; ++index) {
+  for (std::uint64_t index = (first + piece_bytes - 1) / piece_bytes;
+       index * piece_bytes < about_->bytes; ++index) {
     const std::uint64_t from = index * piece_bytes - first;
     if (from + piece_size(index) > bytes.size()) return;
     keep(index, bytes.substr(from, piece_size(index)));
   }
 }
 
-// The first piece, with which the server says what the file is.
+// The first piece, whose response contains the properties of the file.
 void RemoteFile::ask_about() {
   for (int attempt = 1;; ++attempt) {
-    const HttpAnswer answer = errand_.client.ask(address_, 0, piece_bytes);
+    const HttpAnswer answer = context_.client.ask(address_, 0, piece_bytes);
     RemoteDescription found;
-    found.asked_unix_s = errand_.now_unix_s;
+    found.asked_unix_s = context_.now_unix_s;
     if (answer.outcome == HttpOutcome::missing) {
       found.missing = true;
     } else if (answer.outcome == HttpOutcome::good && !answer.bytes.empty() && answer.first == 0 &&
-               (answer.is_part ? answer.total.has_value() && answer.bytes.size() == std::min(piece_bytes, *answer.total)
-                               : answer.total.value_or(answer.bytes.size()) == answer.bytes.size())) {
+               (answer.is_part
+                    ? answer.total.has_value() &&
+                          answer.bytes.size() == std::min(piece_bytes, *answer.total)
+                    : answer.total.value_or(answer.bytes.size()) == answer.bytes.size())) {
       found.bytes = answer.is_part ? *answer.total : answer.bytes.size();
       found.tag = answer.tag;
     } else {
-      errand_.client.wait(address_, answer, attempt);
+      context_.client.wait(address_, answer, attempt);
       continue;
     }
     about_ = found;
     ByteWriter writer;
     writer(found);
-    errand_.cache.store(about_key(), writer.parts(), errand_.progress);
+    context_.cache.store(about_key(), writer.parts(), context_.progress);
     if (!found.missing) take(answer);
     return;
   }
@@ -105,13 +118,14 @@ void RemoteFile::ask_about() {
 const RemoteDescription& RemoteFile::describe() {
   if (about_) return *about_;
   std::optional<RemoteDescription> kept;
-  if (const std::optional<Bytes> bytes = errand_.cache.find(about_key(), errand_.progress)) {
+  if (const std::optional<Bytes> bytes = context_.cache.find(about_key(), context_.progress)) {
     RemoteDescription value;
     ByteReader reader(*bytes);
     reader(value);
     if (reader.is_done()) kept = value;
   }
-  const bool fresh = kept && errand_.now_unix_s - kept->asked_unix_s < trusted_s && !errand_.refresh && !distrust_;
+  const bool fresh = kept && context_.now_unix_s - kept->asked_unix_s < trusted_s &&
+                     !context_.refresh && !distrust_;
   if (fresh) {
     about_ = kept;
     return *about_;
@@ -123,7 +137,8 @@ const RemoteDescription& RemoteFile::describe() {
       lost_ = error.kind() == ErrorKind::input;
       throw;
     }
-    errand_.progress.note(fmt::format("{}: {}; what was known of it earlier is used", error.where(), error.found()));
+    context_.progress.note(
+        fmt::format("{}: {}; using cached properties", error.where(), error.found()));
     about_ = kept;
   }
   return *about_;
@@ -134,19 +149,24 @@ void RemoteFile::fetch(std::uint64_t first_piece, std::uint64_t count) {
   const std::uint64_t end = std::min(first + count * piece_bytes, about_->bytes);
   std::uint64_t next = first;
   for (int attempt = 1; next < end; ++attempt) {
-    const HttpAnswer answer = errand_.client.ask(address_, next, end - next);
-    const bool usable = answer.outcome == HttpOutcome::good || answer.outcome == HttpOutcome::cut || answer.outcome == HttpOutcome::silent;
-    const bool placed = usable && !answer.bytes.empty() && (!answer.is_part || answer.first == next);
-    if (placed && answer.total && (*answer.total != about_->bytes || (!answer.tag.empty() && answer.tag != about_->tag)))
-      throw Error(ErrorKind::input, address_, "was changed on the server while it was read", "once more");
+    const HttpAnswer answer = context_.client.ask(address_, next, end - next);
+    const bool usable = answer.outcome == HttpOutcome::good || answer.outcome == HttpOutcome::cut ||
+                        answer.outcome == HttpOutcome::silent;
+    const bool placed =
+        usable && !answer.bytes.empty() && (!answer.is_part || answer.first == next);
+    if (placed && answer.total &&
+        (*answer.total != about_->bytes || (!answer.tag.empty() && answer.tag != about_->tag)))
+      throw Error(ErrorKind::input, address_, "the file changed on the server during the download",
+                  "try again");
     if (placed) take(answer);
     std::uint64_t whole = next;
-    while (whole < end && held(whole / piece_bytes) != nullptr) whole = std::min(end, (whole / piece_bytes + 1) * piece_bytes);
+    while (whole < end && held(whole / piece_bytes) != nullptr)
+      whole = std::min(end, (whole / piece_bytes + 1) * piece_bytes);
     if (whole >= end) return;
-    if (whole > next) attempt = 0;  // something came of it
+    if (whole > next) attempt = 0;  // some progress
     next = whole;
     try {
-      errand_.client.wait(address_, answer, std::max(attempt, 1));
+      context_.client.wait(address_, answer, std::max(attempt, 1));
     } catch (const Error&) {
       lost_ = true;
       throw;
@@ -157,16 +177,19 @@ void RemoteFile::fetch(std::uint64_t first_piece, std::uint64_t count) {
 void RemoteFile::read(std::uint64_t offset, std::size_t count, char* to) {
   describe();
   const std::uint64_t end = offset + count;
-  if (about_->missing || end > about_->bytes) throw Error(ErrorKind::bug, address_, "bytes are read that it does not have");
+  if (about_->missing || end > about_->bytes)
+    throw Error(ErrorKind::bug, address_, "read beyond the end of the file");
   for (std::uint64_t index = offset / piece_bytes; index * piece_bytes < end; ++index) {
     const Bytes* piece = held(index);
     if (piece == nullptr) {
-      // All that follow and are wanted and not there come in one answer.
+      // All following pieces that are needed and missing come in one response.
       std::uint64_t run = 1;
-      while (run < most_pieces_at_once && (index + run) * piece_bytes < end && held(index + run) == nullptr) ++run;
+      while (run < max_pieces_at_once && (index + run) * piece_bytes < end &&
+             held(index + run) == nullptr)
+        ++run;
       fetch(index, run);
       piece = held(index);
-      if (piece == nullptr) throw Error(ErrorKind::bug, address_, "a piece that was fetched is not there");
+      if (piece == nullptr) throw Error(ErrorKind::bug, address_, "a downloaded piece is missing");
     }
     const std::uint64_t begin = index * piece_bytes;
     const std::uint64_t from = std::max(offset, begin);

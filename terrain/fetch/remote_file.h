@@ -15,21 +15,21 @@
 
 namespace belvedere {
 
-// What all files of one errand have in common.
-struct RemoteErrand {
+// Shared state of all files of one download.
+struct FetchContext {
   HttpClient& client;
   const Cache& cache;
   Progress& progress;
-  std::int64_t now_unix_s = 0;  // seconds since 1970, by which what is known grows old
-  bool refresh = false;         // asks anew what each file is
+  std::int64_t now_unix_s = 0;  // seconds since 1970, for the age of cached properties
+  bool refresh = false;         // requests file properties again
 };
 
-// What a server says of a file.
+// Properties of a file as sent by its server.
 struct RemoteDescription {
   bool missing = false;
   std::uint64_t bytes = 0;
-  std::string tag;                // which edition of it; empty: the server does not say
-  std::int64_t asked_unix_s = 0;  // when it was asked
+  std::string tag;                // its version (ETag); empty: not sent
+  std::int64_t asked_unix_s = 0;  // when it was requested
 };
 
 void each_field(auto& bytes, FieldsOf<RemoteDescription> auto& description) {
@@ -37,23 +37,25 @@ void each_field(auto& bytes, FieldsOf<RemoteDescription> auto& description) {
   bytes(missing, size, tag, asked);
 }
 
-// A file on a server, read in parts. They come in pieces of 1 MiB, each of which is kept in the cache by what the file is (address, size,
-// tag) and not asked for again; what the server says of the file is kept as well and holds for a month. Servers that give no parts are
-// asked for the whole file once. Where the server cannot be reached, what is kept is used, however old. Throws Error(input).
+// A file on a server, read in parts. They are pieces of 1 MiB, each cached by the file's identity
+// (address, size, tag) and not requested again. The file's properties are cached as well and valid
+// for a month. Servers without range requests send the whole file once. If the server cannot be
+// reached, cached data are used, however old. Throws Error(input).
 class RemoteFile {
  public:
   static constexpr std::uint64_t piece_bytes = std::uint64_t{1} << 20U;
   static constexpr std::int64_t trusted_s = 30LL * 86400;
 
-  RemoteFile(std::string address, const RemoteErrand& errand) : address_(std::move(address)), errand_(errand) {}
+  RemoteFile(std::string address, const FetchContext& context)
+      : address_(std::move(address)), context_(context) {}
 
   const std::string& address() const { return address_; }
   const RemoteDescription& describe();
-  // The file is there and the bytes lie in it.
+  // Whether the file exists and the bytes lie in it.
   void read(std::uint64_t offset, std::size_t count, char* to);
-  // Nothing that was read is trusted any more, nor what of it is kept: all is asked for again.
+  // Discards everything read and its cache entries: all is requested again.
   void forget();
-  // Whether the last failure was the server's, and not that of what it sent.
+  // Whether the last failure was the server's, not of the data it sent.
   bool is_lost() const { return lost_; }
 
  private:
@@ -68,12 +70,12 @@ class RemoteFile {
   void make_room(std::uint64_t for_index);
 
   std::string address_;
-  RemoteErrand errand_;
+  FetchContext context_;
   std::optional<RemoteDescription> about_;
   std::map<std::uint64_t, Bytes> pieces_;
-  std::set<std::uint64_t> fetched_;  // in this run: of those the cache is trusted even after forget()
+  std::set<std::uint64_t> fetched_;  // in this run: their cache entries stay valid after forget()
   bool distrust_ = false;
-  bool only_whole_ = false;  // the server gives no parts
+  bool only_whole_ = false;  // the server does not support range requests
   bool lost_ = false;
 };
 

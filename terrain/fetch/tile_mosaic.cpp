@@ -19,7 +19,7 @@
 namespace belvedere {
 namespace {
 
-constexpr int most_tiles = 400;
+constexpr int max_tiles = 400;
 
 template <class T>
 constexpr T void_of() {
@@ -29,25 +29,32 @@ constexpr T void_of() {
     return T{0};
 }
 
-// A file must be the tile that its name says: another grid would lay mountains elsewhere.
-void check_grid(const RasterFile& file, const TileLattice& lattice, MapTile tile, const std::string& address) {
+// A file must be the tile of its name: another grid would shift mountains.
+void check_grid(const RasterFile& file, const TileLattice& lattice, MapTile tile,
+                const std::string& address) {
   const MapSource& source = lattice.source;
-  const auto fail = [&](const std::string& found, const std::string& allowed) { throw Error(ErrorKind::input, address, found, allowed); };
+  const auto fail = [&](const std::string& found, const std::string& allowed) {
+    throw Error(ErrorKind::input, address, found, allowed);
+  };
   if (file.width() != lattice.columns || file.height() != source.rows)
     fail(fmt::format("the tile has {} × {} cells", file.width(), file.height()),
-         fmt::format("{} × {}, as the source {} says", lattice.columns, source.rows, source.id));
-  if (!same_crs(file.required_crs(), normalize_crs(source.crs))) fail("the tile is in " + describe_crs(file.crs()), source.crs);
+         fmt::format("{} × {}, as in the source {}", lattice.columns, source.rows, source.id));
+  if (!same_crs(file.required_crs(), normalize_crs(source.crs)))
+    fail("the tile is in " + describe_crs(file.crs()), source.crs);
   const glm::dvec2 corner = tile_corner(source, tile);
   const CellAffine& a = file.affine();
   const double west = corner.x - lattice.shift() * lattice.width_deg();
   const double north = corner.y + source.tile_deg.y + lattice.shift() * lattice.height_deg();
   constexpr double tolerance = 0.01;  // cells
-  const auto near = [](double value, double expected, double unit) { return std::abs(value - expected) <= tolerance * unit; };
-  if (!a.axis_aligned() || !near(a.x0, west, lattice.width_deg()) || !near(a.y0, north, lattice.height_deg()) ||
+  const auto near = [](double value, double expected, double unit) {
+    return std::abs(value - expected) <= tolerance * unit;
+  };
+  if (!a.axis_aligned() || !near(a.x0, west, lattice.width_deg()) ||
+      !near(a.y0, north, lattice.height_deg()) ||
       !near(a.x_column * file.width(), source.tile_deg.x, lattice.width_deg()) ||
       !near(a.y_row * file.height(), -source.tile_deg.y, lattice.height_deg()))
     fail(fmt::format("the tile begins at {:.6f}, {:.6f}", a.x0, a.y0),
-         fmt::format("{:.6f}, {:.6f}, as the source {} says", west, north, source.id));
+         fmt::format("{:.6f}, {:.6f}, as in the source {}", west, north, source.id));
 }
 
 template <class T>
@@ -59,20 +66,23 @@ Grid<T> read_cells(const RasterFile& file, const CellWindow& window) {
     Grid<T> out(codes.width(), codes.height());
     for (std::size_t i = 0; i < codes.size(); ++i) {
       if (codes[i] > std::numeric_limits<T>::max())
-        throw Error(ErrorKind::input, file.source().path, fmt::format("holds the code {}", codes[i]), "codes of land cover up to 255");
+        throw Error(ErrorKind::input, file.source().path,
+                    fmt::format("contains the code {}", codes[i]), "codes up to 255");
       out[i] = static_cast<T>(std::max(codes[i], 0));
     }
     return out;
   }
 }
 
-// Reads the wanted cells of one tile into its part.
+// Reads the needed cells of one tile into its part.
 template <class T>
-std::string read_tile(RemoteFile& remote, const PartPlan& plan, const TileCells& cells, Grid<T>& part, Progress& progress) {
+std::string read_tile(RemoteFile& remote, const PartPlan& plan, const TileCells& cells,
+                      Grid<T>& part, Progress& progress) {
   const TileLattice& lattice = plan.lattice;
   const std::string& address = remote.address();
   StreamFile stream(address.substr(address.rfind('/') + 1),
-                    {remote.describe().bytes, [&](std::uint64_t offset, std::size_t count, char* to) { remote.read(offset, count, to); }});
+                    {remote.describe().bytes, [&](std::uint64_t offset, std::size_t count,
+                                                  char* to) { remote.read(offset, count, to); }});
   ContentHash hash;
   double done = 0.0;
   try {
@@ -84,7 +94,7 @@ std::string read_tile(RemoteFile& remote, const PartPlan& plan, const TileCells&
     const int above = cells.tile.row * lattice.source.rows;
     const int x0 = lattice.source_cell(cells.x0) - left;
     const int x1 = lattice.source_cell(cells.x1 - 1) - left + 1;
-    constexpr int strip = 128;  // of our rows: what is unpacked at once
+    constexpr int strip = 128;  // of output rows: unpacked at once
     for (int y = cells.y0; y < cells.y1; y += strip) {
       const int end = std::min(y + strip, cells.y1);
       const int y0 = lattice.source_cell(y) - above;
@@ -93,7 +103,8 @@ std::string read_tile(RemoteFile& remote, const PartPlan& plan, const TileCells&
       for (int v = y; v < end; ++v) {
         T* row = part.row(v - plan.y0) + (cells.x0 - plan.x0);
         const T* from = read.row((v - y) * lattice.step);
-        for (int u = 0; u < cells.x1 - cells.x0; ++u) row[u] = from[static_cast<std::size_t>(u) * static_cast<std::size_t>(lattice.step)];
+        for (int u = 0; u < cells.x1 - cells.x0; ++u)
+          row[u] = from[static_cast<std::size_t>(u) * static_cast<std::size_t>(lattice.step)];
         hash.add(row, static_cast<std::size_t>(cells.x1 - cells.x0) * sizeof(T));
       }
       const double amount = static_cast<double>(end - y) * (cells.x1 - cells.x0);
@@ -103,14 +114,16 @@ std::string read_tile(RemoteFile& remote, const PartPlan& plan, const TileCells&
   } catch (const Error& error) {
     progress.advance(-done);
     stream.rethrow();
-    // The file has a name within the program only.
-    throw Error(error.kind(), error.where() == stream.path() ? address : error.where(), error.found(), error.allowed());
+    // The file's name exists only within the program.
+    throw Error(error.kind(), error.where() == stream.path() ? address : error.where(),
+                error.found(), error.allowed());
   }
   return hash.digits();
 }
 
 template <class T>
-TileMosaic<T> read_tiles(const std::vector<PartPlan>& plans, const std::string& mirror, const RemoteErrand& errand) {
+TileMosaic<T> read_tiles(const std::vector<PartPlan>& plans, const std::string& mirror,
+                         const FetchContext& context) {
   TileMosaic<T> mosaic;
   std::size_t count = 0;
   double work = 0.0;
@@ -121,29 +134,31 @@ TileMosaic<T> read_tiles(const std::vector<PartPlan>& plans, const std::string& 
     }
   if (plans.empty() || count == 0) return mosaic;
   const MapSource& source = plans.front().lattice.source;
-  if (count > most_tiles)
-    throw Error(ErrorKind::limit, source.name, fmt::format("{} tiles would be asked for", count),
-                fmt::format("up to {}: a smaller area", most_tiles));
-  errand.progress.begin("fetching " + source.name, work);
+  if (count > max_tiles)
+    throw Error(ErrorKind::limit, source.name, fmt::format("{} tiles needed", count),
+                fmt::format("at most {}; choose a smaller area", max_tiles));
+  context.progress.begin("fetching " + source.name, work);
   for (const PartPlan& plan : plans) {
-    Raster<T> part{Grid<T>(plan.x1 - plan.x0, plan.y1 - plan.y0, void_of<T>()), plan.lattice.transform(plan.x0, plan.y0), source.crs};
+    Raster<T> part{Grid<T>(plan.x1 - plan.x0, plan.y1 - plan.y0, void_of<T>()),
+                   plan.lattice.transform(plan.x0, plan.y0), source.crs};
     for (const TileCells& cells : tiles_of_part(plan)) {
-      RemoteFile remote(tile_address(source, cells.tile, mirror), errand);
-      FetchedTile tile{cells.tile, tile_name(source, cells.tile), remote.address(), remote.describe(), {}};
+      RemoteFile remote(tile_address(source, cells.tile, mirror), context);
+      FetchedTile tile{
+          cells.tile, tile_name(source, cells.tile), remote.address(), remote.describe(), {}};
       if (tile.about.missing) {
-        errand.progress.advance(static_cast<double>(cells.x1 - cells.x0) * (cells.y1 - cells.y0));
+        context.progress.advance(static_cast<double>(cells.x1 - cells.x0) * (cells.y1 - cells.y0));
       } else {
         try {
-          tile.hash = read_tile(remote, plan, cells, part.cells, errand.progress);
+          tile.hash = read_tile(remote, plan, cells, part.cells, context.progress);
         } catch (const Error& error) {
-          // What came, or what was kept, is damaged: once more from the beginning. Who is interrupted or gets no answer is not helped by
-          // it.
+          // The received or cached data are damaged: try once more from the beginning. That does
+          // not help after an interruption or without a response.
           if (error.kind() != ErrorKind::input || remote.is_lost()) throw;
-          errand.progress.note(fmt::format("{}: {}; asked for again", tile.name, error.found()));
+          context.progress.note(fmt::format("{}: {}; downloading again", tile.name, error.found()));
           remote.forget();
           tile.about = remote.describe();
           if (tile.about.missing) throw;
-          tile.hash = read_tile(remote, plan, cells, part.cells, errand.progress);
+          tile.hash = read_tile(remote, plan, cells, part.cells, context.progress);
         }
       }
       mosaic.tiles.push_back(std::move(tile));
@@ -151,17 +166,19 @@ TileMosaic<T> read_tiles(const std::vector<PartPlan>& plans, const std::string& 
     mosaic.south.push_back(part.transform.origin_y - part.transform.cell_y * part.cells.height());
     mosaic.parts.push_back(std::move(part));
   }
-  const bool none = std::all_of(mosaic.tiles.begin(), mosaic.tiles.end(), [](const FetchedTile& tile) { return tile.about.missing; });
+  const bool none = std::all_of(mosaic.tiles.begin(), mosaic.tiles.end(),
+                                [](const FetchedTile& tile) { return tile.about.missing; });
   if (none)
-    throw Error(ErrorKind::input, mosaic.tiles.front().address,
-                fmt::format("{} has none of the {} tiles of this area", source.name, mosaic.tiles.size()),
-                "an area with land; and the address must be right, that of a mirror as well");
+    throw Error(
+        ErrorKind::input, mosaic.tiles.front().address,
+        fmt::format("{} has none of the {} tiles of this area", source.name, mosaic.tiles.size()),
+        "an area with land, and a correct address of the source or mirror");
   return mosaic;
 }
 
-// ---- tiles that are not there
+// ---- missing tiles
 
-// Which tiles hang together, and what the ground around them says.
+// Groups of adjacent missing tiles, and the altitudes around them.
 class MissingGroups {
  public:
   explicit MissingGroups(const std::vector<FetchedTile>& tiles)
@@ -169,7 +186,7 @@ class MissingGroups {
     std::iota(group_.begin(), group_.end(), std::size_t{0});
     for (std::size_t i = 0; i < tiles.size(); ++i) number_[tiles[i].tile] = i;
   }
-  // A cell of one tile lies beside one of another.
+  // A cell of one tile is adjacent to one of another.
   void add_side(MapTile a, float altitude_a, MapTile b, float altitude_b) {
     const auto first = number_.find(a);
     const auto second = number_.find(b);
@@ -180,12 +197,12 @@ class MissingGroups {
     if (missing_a == missing_b) return;
     const std::size_t one = missing_a ? first->second : second->second;
     const float altitude = missing_a ? altitude_b : altitude_a;
-    constexpr float level_m = 3.0F;  // seas are level and near to 0 in such data
+    constexpr float level_m = 3.0F;  // seas are level and near 0 in such data
     ++sides_[one];
     if (std::abs(altitude) > level_m) ++high_[one];
   }
-  // Names of tiles that cannot be sea: more than a twentieth of the ground beside them is not at its level. Coasts end near a border of
-  // tiles by chance, and then along a short part of it.
+  // Names of tiles that cannot be sea: more than a twentieth of the ground next to them is not at
+  // its level. A coast may end near a border of tiles by chance, but only along a short part of it.
   std::vector<std::string> dry() {
     std::vector<double> sides(tiles_.size()), high(tiles_.size());
     for (std::size_t i = 0; i < tiles_.size(); ++i) {
@@ -194,7 +211,8 @@ class MissingGroups {
     }
     std::vector<std::string> names;
     for (std::size_t i = 0; i < tiles_.size(); ++i)
-      if (tiles_[i].about.missing && high[root(i)] > 0.05 * sides[root(i)]) names.push_back(tiles_[i].name);
+      if (tiles_[i].about.missing && high[root(i)] > 0.05 * sides[root(i)])
+        names.push_back(tiles_[i].name);
     return names;
   }
 
@@ -209,39 +227,46 @@ class MissingGroups {
   std::vector<int> sides_, high_;
 };
 
-// All pairs of cells to both sides of borders of tiles.
-void look_at_borders(const std::vector<PartPlan>& plans, const std::vector<Raster<float>>& parts, MissingGroups& groups) {
+// All pairs of cells on both sides of borders of tiles.
+void look_at_borders(const std::vector<PartPlan>& plans, const std::vector<Raster<float>>& parts,
+                     MissingGroups& groups) {
   for (std::size_t p = 0; p < plans.size(); ++p) {
     const PartPlan& plan = plans[p];
     const Grid<float>& cells = parts[p].cells;
     const auto value = [&](int x, int y) { return cells(x - plan.x0, y - plan.y0); };
     for (int x = plan.x0 + 1; x < plan.x1; ++x) {
       if (tile_at(plan, x, plan.y0).column == tile_at(plan, x - 1, plan.y0).column) continue;
-      for (int y = plan.y0; y < plan.y1; ++y) groups.add_side(tile_at(plan, x - 1, y), value(x - 1, y), tile_at(plan, x, y), value(x, y));
+      for (int y = plan.y0; y < plan.y1; ++y)
+        groups.add_side(tile_at(plan, x - 1, y), value(x - 1, y), tile_at(plan, x, y), value(x, y));
     }
     for (int y = plan.y0 + 1; y < plan.y1; ++y) {
       if (tile_at(plan, plan.x0, y).row == tile_at(plan, plan.x0, y - 1).row) continue;
-      for (int x = plan.x0; x < plan.x1; ++x) groups.add_side(tile_at(plan, x, y - 1), value(x, y - 1), tile_at(plan, x, y), value(x, y));
+      for (int x = plan.x0; x < plan.x1; ++x)
+        groups.add_side(tile_at(plan, x, y - 1), value(x, y - 1), tile_at(plan, x, y), value(x, y));
     }
     if (p == 0) continue;
-    // The last row of the part above, whose cells are of another width.
+    // The last row of the part above, whose cells have another width.
     const PartPlan& above = plans[p - 1];
     for (int x = plan.x0; x < plan.x1; ++x) {
       const double longitude = parts[p].transform.to_crs(x - plan.x0, 0).x;
-      const int there = static_cast<int>(std::floor(above.lattice.column_at(longitude) / above.lattice.step));
+      const int there =
+          static_cast<int>(std::floor(above.lattice.column_at(longitude) / above.lattice.step));
       if (there < above.x0 || there >= above.x1) continue;
-      groups.add_side(tile_at(above, there, above.y1 - 1), parts[p - 1].cells(there - above.x0, above.y1 - 1 - above.y0),
+      groups.add_side(tile_at(above, there, above.y1 - 1),
+                      parts[p - 1].cells(there - above.x0, above.y1 - 1 - above.y0),
                       tile_at(plan, x, plan.y0), value(x, plan.y0));
     }
   }
 }
 
-void fill_tile(const std::vector<PartPlan>& plans, std::vector<Raster<float>>& parts, MapTile tile, float value) {
+void fill_tile(const std::vector<PartPlan>& plans, std::vector<Raster<float>>& parts, MapTile tile,
+               float value) {
   for (std::size_t p = 0; p < plans.size(); ++p)
     for (const TileCells& cells : tiles_of_part(plans[p])) {
       if (cells.tile != tile) continue;
       for (int y = cells.y0; y < cells.y1; ++y)
-        std::fill_n(parts[p].cells.row(y - plans[p].y0) + (cells.x0 - plans[p].x0), cells.x1 - cells.x0, value);
+        std::fill_n(parts[p].cells.row(y - plans[p].y0) + (cells.x0 - plans[p].x0),
+                    cells.x1 - cells.x0, value);
     }
 }
 
@@ -259,18 +284,26 @@ void resample_row(const Raster<float>& from, int row, const Raster<float>& to, f
   }
 }
 
-// Each part gets the rows next to it of its neighbours: without them there would be a seam where cells change their width.
-std::vector<Raster<float>> with_shared_rows(const std::vector<Raster<float>>& parts, int shared_rows) {
+// Each part gets the adjacent rows of its neighbours; otherwise there would be a seam where cells
+// change their width.
+std::vector<Raster<float>> with_shared_rows(const std::vector<Raster<float>>& parts,
+                                            int shared_rows) {
   std::vector<Raster<float>> out;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const Raster<float>& part = parts[p];
     const int above = p == 0 ? 0 : std::min(shared_rows, parts[p - 1].cells.height());
-    const int below = p + 1 == parts.size() ? 0 : std::min(shared_rows, parts[p + 1].cells.height());
-    Raster<float> wider{Grid<float>(part.cells.width(), above + part.cells.height() + below), part.transform, part.crs};
+    const int below =
+        p + 1 == parts.size() ? 0 : std::min(shared_rows, parts[p + 1].cells.height());
+    Raster<float> wider{Grid<float>(part.cells.width(), above + part.cells.height() + below),
+                        part.transform, part.crs};
     wider.transform.origin_y += above * part.transform.cell_y;
-    std::copy(part.cells.begin(), part.cells.end(), wider.cells.begin() + static_cast<std::ptrdiff_t>(wider.cells.index(0, above)));
-    for (int i = 0; i < above; ++i) resample_row(parts[p - 1], parts[p - 1].cells.height() - above + i, wider, wider.cells.row(i));
-    for (int i = 0; i < below; ++i) resample_row(parts[p + 1], i, wider, wider.cells.row(above + part.cells.height() + i));
+    std::copy(part.cells.begin(), part.cells.end(),
+              wider.cells.begin() + static_cast<std::ptrdiff_t>(wider.cells.index(0, above)));
+    for (int i = 0; i < above; ++i)
+      resample_row(parts[p - 1], parts[p - 1].cells.height() - above + i, wider,
+                   wider.cells.row(i));
+    for (int i = 0; i < below; ++i)
+      resample_row(parts[p + 1], i, wider, wider.cells.row(above + part.cells.height() + i));
     out.push_back(std::move(wider));
   }
   return out;
@@ -286,18 +319,20 @@ std::vector<std::string> missing_names(const std::vector<FetchedTile>& tiles) {
 void refuse_missing(const MapSource& source, const std::vector<FetchedTile>& tiles) {
   const std::vector<std::string> names = missing_names(tiles);
   if (source.missing == MissingTile::error && !names.empty())
-    throw Error(ErrorKind::input, source.name, fmt::format("the service has no tiles {}", fmt::join(names, ", ")),
+    throw Error(ErrorKind::input, source.name,
+                fmt::format("the service lacks the tiles {}", fmt::join(names, ", ")),
                 "another area or source");
 }
 
 }  // namespace
 
-TileMosaic<float> read_elevation_tiles(const MapSource& source, const DegreeBox& box, const std::string& mirror, const RemoteErrand& errand,
+TileMosaic<float> read_elevation_tiles(const MapSource& source, const DegreeBox& box,
+                                       const std::string& mirror, const FetchContext& context,
                                        int shared_rows) {
   const std::vector<PartPlan> plans = plan_parts(source, box, 1);
-  TileMosaic<float> mosaic = read_tiles<float>(plans, mirror, errand);
+  TileMosaic<float> mosaic = read_tiles<float>(plans, mirror, context);
   if (mosaic.tiles.empty())
-    throw Error(ErrorKind::input, source.name, "the area lies beyond the service",
+    throw Error(ErrorKind::input, source.name, "the area is outside the coverage of the service",
                 fmt::format("latitudes {} … {}", source.latitudes[0], source.latitudes[1]));
   refuse_missing(source, mosaic.tiles);
   const std::vector<std::string> missing = missing_names(mosaic.tiles);
@@ -305,20 +340,25 @@ TileMosaic<float> read_elevation_tiles(const MapSource& source, const DegreeBox&
     MissingGroups groups(mosaic.tiles);
     look_at_borders(plans, mosaic.parts, groups);
     if (const std::vector<std::string> dry = groups.dry(); !dry.empty())
-      throw Error(ErrorKind::input, source.name,
-                  fmt::format("the service has no tiles {}, and the ground beside them is no sea", fmt::join(dry, ", ")),
-                  "another source, such as copernicus_glo90, or another area");
+      throw Error(
+          ErrorKind::input, source.name,
+          fmt::format("the service lacks the tiles {}, and the ground next to them is not sea",
+                      fmt::join(dry, ", ")),
+          "another source, such as copernicus_glo90, or another area");
     for (const FetchedTile& tile : mosaic.tiles)
-      if (tile.about.missing) fill_tile(plans, mosaic.parts, tile.tile, static_cast<float>(source.sea_value));
-    errand.progress.note(fmt::format("{}: not there, so sea: {}", source.name, fmt::join(missing, ", ")));
+      if (tile.about.missing)
+        fill_tile(plans, mosaic.parts, tile.tile, static_cast<float>(source.sea_value));
+    context.progress.note(
+        fmt::format("{}: missing tiles taken as sea: {}", source.name, fmt::join(missing, ", ")));
   }
   if (mosaic.parts.size() > 1) mosaic.parts = with_shared_rows(mosaic.parts, shared_rows);
   return mosaic;
 }
 
-TileMosaic<std::uint8_t> read_cover_tiles(const MapSource& source, const DegreeBox& box, int step, const std::string& mirror,
-                                          const RemoteErrand& errand) {
-  TileMosaic<std::uint8_t> mosaic = read_tiles<std::uint8_t>(plan_parts(source, box, step), mirror, errand);
+TileMosaic<std::uint8_t> read_cover_tiles(const MapSource& source, const DegreeBox& box, int step,
+                                          const std::string& mirror, const FetchContext& context) {
+  TileMosaic<std::uint8_t> mosaic =
+      read_tiles<std::uint8_t>(plan_parts(source, box, step), mirror, context);
   refuse_missing(source, mosaic.tiles);
   return mosaic;
 }

@@ -6,7 +6,7 @@
 namespace belvedere {
 namespace {
 
-constexpr int margin_cells = 6;  // around the area, for whoever resamples
+constexpr int margin_cells = 6;  // around the area, for resampling
 
 int floor_div(int a, int b) { return static_cast<int>(std::floor(static_cast<double>(a) / b)); }
 
@@ -14,9 +14,13 @@ int floor_div(int a, int b) { return static_cast<int>(std::floor(static_cast<dou
 
 std::vector<PartPlan> plan_parts(const MapSource& source, const DegreeBox& box, int step) {
   const TileLattice any{source, source.columns.front().count, step};  // rows are the same in all
-  const int last_row = static_cast<int>(std::lround((source.origin_deg.y + 90.0) / any.height_deg())) + (source.on_lines ? 1 : 0);
-  const int top = std::max(0, static_cast<int>(std::floor(any.row_at(box.north))) - margin_cells * step);
-  const int bottom = std::min(last_row, static_cast<int>(std::ceil(any.row_at(box.south))) + margin_cells * step);
+  const int last_row =
+      static_cast<int>(std::lround((source.origin_deg.y + 90.0) / any.height_deg())) +
+      (source.on_lines ? 1 : 0);
+  const int top =
+      std::max(0, static_cast<int>(std::floor(any.row_at(box.north))) - margin_cells * step);
+  const int bottom =
+      std::min(last_row, static_cast<int>(std::ceil(any.row_at(box.south))) + margin_cells * step);
   std::vector<PartPlan> parts;
   for (int row = top / source.rows; row * source.rows < bottom; ++row) {
     const TileLattice lattice{source, tile_columns(source, row), step};
@@ -27,8 +31,10 @@ std::vector<PartPlan> plan_parts(const MapSource& source, const DegreeBox& box, 
       parts.back().y1 = y1;
       continue;
     }
-    const int x0 = lattice.first_from(static_cast<int>(std::floor(lattice.column_at(box.west))) - margin_cells * step);
-    const int x1 = lattice.first_from(static_cast<int>(std::ceil(lattice.column_at(box.east))) + margin_cells * step);
+    const int x0 = lattice.first_from(static_cast<int>(std::floor(lattice.column_at(box.west))) -
+                                      margin_cells * step);
+    const int x1 = lattice.first_from(static_cast<int>(std::ceil(lattice.column_at(box.east))) +
+                                      margin_cells * step);
     parts.push_back({lattice, x0, y0, x1, y1});
   }
   return parts;
@@ -38,7 +44,8 @@ std::vector<TileCells> tiles_of_part(const PartPlan& part) {
   const TileLattice& lattice = part.lattice;
   std::vector<TileCells> tiles;
   const int rows = lattice.source.rows;
-  for (int row = floor_div(lattice.source_cell(part.y0), rows); row * rows <= lattice.source_cell(part.y1 - 1); ++row)
+  for (int row = floor_div(lattice.source_cell(part.y0), rows);
+       row * rows <= lattice.source_cell(part.y1 - 1); ++row)
     for (int column = floor_div(lattice.source_cell(part.x0), lattice.columns);
          column * lattice.columns <= lattice.source_cell(part.x1 - 1); ++column) {
       const TileCells cells{{column, row},
@@ -46,13 +53,15 @@ std::vector<TileCells> tiles_of_part(const PartPlan& part) {
                             std::max(part.y0, lattice.first_from(row * rows)),
                             std::min(part.x1, lattice.first_from((column + 1) * lattice.columns)),
                             std::min(part.y1, lattice.first_from((row + 1) * rows))};
-      if (cells.x0 < cells.x1 && cells.y0 < cells.y1 && in_latitudes(lattice.source, cells.tile)) tiles.push_back(cells);
+      if (cells.x0 < cells.x1 && cells.y0 < cells.y1 && in_latitudes(lattice.source, cells.tile))
+        tiles.push_back(cells);
     }
   return tiles;
 }
 
 MapTile tile_at(const PartPlan& plan, int x, int y) {
-  return {floor_div(plan.lattice.source_cell(x), plan.lattice.columns), floor_div(plan.lattice.source_cell(y), plan.lattice.source.rows)};
+  return {floor_div(plan.lattice.source_cell(x), plan.lattice.columns),
+          floor_div(plan.lattice.source_cell(y), plan.lattice.source.rows)};
 }
 
 std::vector<MapTile> tiles_of(const MapSource& source, const DegreeBox& box) {

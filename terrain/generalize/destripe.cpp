@@ -16,33 +16,36 @@
 #include "base/statistics.h"
 #include "terrain/generalize/stripe_fit.h"
 
-// Across a stripe the terrain's fine detail h = z - blur(z) is noise whose sign changes along the line; the stripe's part does not change.
-// So along each line, h = c · g is fitted over a long window, where g is 1 (an offset) or the slope of the smoothed terrain along or
-// across the line (a displacement by -c cells). The direction is the one in which such fits explain the most.
+// Across a stripe the terrain's fine detail h = z - blur(z) is noise whose sign changes along the
+// line, while the stripe's part is constant. So along each line h = c · g is fitted over a long
+// window, where g is 1 (an offset) or the slope of the smoothed terrain along or across the line (a
+// displacement by -c cells). The stripe direction is the one in which such fits explain the most.
 namespace belvedere {
 namespace {
 
-constexpr std::array<Follows, 3> kinds{Follows::offset, Follows::slope_along, Follows::slope_across};
+constexpr std::array<Follows, 3> kinds{Follows::offset, Follows::slope_along,
+                                       Follows::slope_across};
 
 struct Stripes {
   bool columns = false;  // they run nearly along columns
   Follows follows = Follows::offset;
-  double tilt = 0.0;      // rows per column; for columns the other way round
-  double contrast = 0.0;  // explained energy over that in the middle of all directions
+  double tilt = 0.0;      // rows per column; for columns the reverse
+  double contrast = 0.0;  // explained energy divided by the median over all directions
 };
 
 constexpr int smallest_side = 48;
 constexpr double smoothing_cells = 1.6;  // of the terrain whose slope moves altitudes
-// Lines are scanned for their tilt in short pieces first, in which a stripe of 3 cells is seen within ±.03, then in long ones near the
-// best.
+// The tilt is searched with short pieces of lines first, which detect a stripe of 3 cells within
+// ±.03, then with long ones near the best.
 constexpr int scan_length = 96;
 constexpr double scan_step = 0.01;
 constexpr int fine_length = 320;
 constexpr double fine_step = 0.002;
 constexpr std::size_t scanned_cells = std::size_t{1} << 21;
-// A line may stand out from the lines around it by this factor (geometric mean of their amplitudes; a sine's crest has 2, a saw tooth 2.7):
-// a ridge that runs along the lines is a single large exception, and is not cut off.
-constexpr float most_exception = 4.F;
+// A line may exceed its neighbours by this factor (geometric mean of their amplitudes; a sine's
+// crest has 2, a saw tooth 2.7): a ridge along the lines is a single large exception and must not
+// be removed.
+constexpr float max_exception = 4.F;
 
 Grid<float> transposed(const Grid<float>& values) {
   Grid<float> out(values.height(), values.width());
@@ -60,20 +63,21 @@ float median_size(const Grid<float>& values) {
   return middle_value(std::move(sizes));
 }
 
-// The terrain as the fits see it, lines along rows.
+// The terrain prepared for the fits, with lines along rows.
 struct Detail {
-  Grid<float> height_m;   // h: what is narrower across the lines than the longest period
-  Grid<float> smooth_m;   // whose slope moves altitudes
-  Grid<float> certainty;  // 0…1, small where the ground is bent (ridges, gullies) or rough
+  Grid<float> height_m;   // h: detail across the lines, narrower than the longest period
+  Grid<float> smooth_m;   // its slope moves altitudes
+  Grid<float> certainty;  // 0…1, small where the ground is curved (ridges, gullies) or rough
 };
 
 Detail find_detail(const Grid<float>& altitude_m, const DestripeParameters& parameters) {
   Detail detail;
-  // 1 - G is a gentle filter: bands twice the longest period would still pass by a third. Cubed, it passes .8 at the period and .1 at
-  // twice the period: (1 - exp(-2 π² σ² / period²))³.
+  // 1 - G alone is not steep enough: a third of bands twice the longest period would pass. Cubed,
+  // it passes .8 at the period and .1 at twice the period: (1 - exp(-2 π² σ² / period²))³.
   detail.height_m = altitude_m;
   for (int pass = 0; pass < 3; ++pass) {
-    const Grid<float> mean = gaussian_blur(detail.height_m, 0.0, parameters.longest_period_cells / 2.74);
+    const Grid<float> mean =
+        gaussian_blur(detail.height_m, 0.0, parameters.longest_period_cells / 2.74);
     parallel_rows(altitude_m.height(), [&](int y) {
       for (int x = 0; x < altitude_m.width(); ++x) detail.height_m(x, y) -= mean(x, y);
     });
@@ -82,7 +86,8 @@ Detail find_detail(const Grid<float>& altitude_m, const DestripeParameters& para
   const Grid<float> broad = gaussian_blur(altitude_m, 1.6 * smoothing_cells);
   detail.certainty = Grid<float>(altitude_m.width(), altitude_m.height());
   parallel_rows(altitude_m.height(), [&](int y) {
-    for (int x = 0; x < altitude_m.width(); ++x) detail.certainty(x, y) = detail.smooth_m(x, y) - broad(x, y);
+    for (int x = 0; x < altitude_m.width(); ++x)
+      detail.certainty(x, y) = detail.smooth_m(x, y) - broad(x, y);
   });
   const float rough_m = 4.F * std::max(median_size(detail.height_m), 1e-4F);
   const float bent_m = 2.F * std::max(median_size(detail.certainty), 1e-4F);
@@ -96,27 +101,32 @@ Detail find_detail(const Grid<float>& altitude_m, const DestripeParameters& para
   return detail;
 }
 
-// A ridge along the lines is an exception among them and must not pass for a stripe.
+// A ridge along the lines is an exception among them and must not be taken for a stripe.
 double sum_without_exceptions(const std::vector<float>& energies) {
-  const float most = most_exception * most_exception * middle_value(energies);
+  const float max = max_exception * max_exception * middle_value(energies);
   double sum = 0.0;
-  for (const float energy : energies) sum += std::min(energy, most);
+  for (const float energy : energies) sum += std::min(energy, max);
   return sum;
 }
 
-// The energy that fits along lines of each tilt explain. Lines are summed at the nearest cells: interpolation would damp all tilts but 0.
-std::vector<double> explained_energy(const Detail& detail, Follows follows, const std::vector<double>& tilts, int longest) {
+// The energy explained by fits along lines of each tilt. Lines are summed at the nearest cells,
+// because interpolation would damp all tilts except 0.
+std::vector<double> explained_energy(const Detail& detail, Follows follows,
+                                     const std::vector<double>& tilts, int longest) {
   const int width = detail.height_m.width();
   const int height = detail.height_m.height();
   const int length = std::min(longest, width);
   const int pieces = width / length;
-  const int used = std::clamp(static_cast<int>(scanned_cells / (static_cast<std::size_t>(length) * height)), 1, pieces);
-  const int margin = static_cast<int>(std::ceil(std::max(std::abs(tilts.front()), std::abs(tilts.back())) * length / 2)) + 1;
+  const int used = std::clamp(
+      static_cast<int>(scanned_cells / (static_cast<std::size_t>(length) * height)), 1, pieces);
+  const int margin = static_cast<int>(std::ceil(
+                         std::max(std::abs(tilts.front()), std::abs(tilts.back())) * length / 2)) +
+                     1;
   const int lines = height + 2 * margin;
   Grid<double> energy(static_cast<int>(tilts.size()), used);
   parallel_rows(used, [&](int piece) {
     const int x0 = static_cast<int>(static_cast<long>(piece) * pieces / used) * length;
-    // Columns side by side in memory, with empty margins: a shift across lines is then an offset.
+    // Columns are contiguous in memory, with empty margins: a shift across lines is then an offset.
     std::vector<float> product(static_cast<std::size_t>(lines) * length);
     std::vector<float> square(product.size());
     for (int y = 0; y < height; ++y) {
@@ -135,7 +145,8 @@ std::vector<double> explained_energy(const Detail& detail, Follows follows, cons
       std::fill(q.begin(), q.end(), 0.F);
       for (int i = 0; i < length; ++i) {
         const auto shift = static_cast<int>(std::lround(tilts[t] * (i - 0.5 * (length - 1))));
-        const std::size_t at = static_cast<std::size_t>(i) * lines + static_cast<std::size_t>(margin + shift);
+        const std::size_t at =
+            static_cast<std::size_t>(i) * lines + static_cast<std::size_t>(margin + shift);
         for (int y = 0; y < height; ++y) p[y] += product[at + y];
         for (int y = 0; y < height; ++y) q[y] += square[at + y];
       }
@@ -154,15 +165,16 @@ double refine_tilt(const Detail& detail, const Stripes& stripes) {
   std::vector<double> tilts;
   for (int i = -6; i <= 6; ++i) tilts.push_back(stripes.tilt + i * fine_step);
   const std::vector<double> energy = explained_energy(detail, stripes.follows, tilts, fine_length);
-  const auto best = static_cast<std::size_t>(std::max_element(energy.begin(), energy.end()) - energy.begin());
-  // Lines this close to the cells run along them: no interpolation is needed there.
+  const auto best =
+      static_cast<std::size_t>(std::max_element(energy.begin(), energy.end()) - energy.begin());
+  // Lines this close to the axis need no interpolation.
   return std::abs(tilts[best]) < 1.6 * fine_step ? 0.0 : tilts[best];
 }
 
 // The strongest stripes near this axis.
 Stripes find_stripes(const Detail& detail, bool columns, const DestripeParameters& parameters) {
-  const int steps = static_cast<int>(std::lround(parameters.most_tilt / scan_step));
-  // What lies outside the tilts looked for still says how coherent plain terrain is.
+  const int steps = static_cast<int>(std::lround(parameters.max_tilt / scan_step));
+  // Tilts outside the search range still show how coherent terrain without stripes is.
   const int scanned = std::max(steps, 30);
   std::vector<double> tilts;
   for (int i = -scanned; i <= scanned; ++i) tilts.push_back(i * scan_step);
@@ -171,34 +183,38 @@ Stripes find_stripes(const Detail& detail, bool columns, const DestripeParameter
     const std::vector<double> energy = explained_energy(detail, follows, tilts, scan_length);
     std::vector<double> sorted = energy;
     std::sort(sorted.begin(), sorted.end());
-    const double middle = sorted[sorted.size() / 2];
-    if (middle <= 0.0) continue;
+    const double centre = sorted[sorted.size() / 2];
+    if (centre <= 0.0) continue;
     for (int i = scanned - steps; i <= scanned + steps; ++i)
-      if (energy[i] / middle > best.contrast) best = {columns, follows, tilts[i], energy[i] / middle};
+      if (energy[i] / centre > best.contrast)
+        best = {columns, follows, tilts[i], energy[i] / centre};
   }
   return best;
 }
 
-// A lake was made level after the stripes came into the land: nothing is taken off it, up to its shore.
+// Lakes were flattened after the stripes appeared: nothing is subtracted from them, up to the
+// shore.
 Grid<std::uint8_t> find_level(const Grid<float>& altitude_m) {
   const auto amid_equals = [&](int x, int y) {
     const float z = altitude_m.clamped(x, y);
-    return altitude_m.clamped(x - 1, y) == z && altitude_m.clamped(x + 1, y) == z && altitude_m.clamped(x, y - 1) == z &&
-           altitude_m.clamped(x, y + 1) == z;
+    return altitude_m.clamped(x - 1, y) == z && altitude_m.clamped(x + 1, y) == z &&
+           altitude_m.clamped(x, y - 1) == z && altitude_m.clamped(x, y + 1) == z;
   };
   Grid<std::uint8_t> level(altitude_m.width(), altitude_m.height());
   parallel_rows(altitude_m.height(), [&](int y) {
     for (int x = 0; x < altitude_m.width(); ++x) {
       for (int dy = -1; dy <= 1 && level(x, y) == 0; ++dy)
         for (int dx = -1; dx <= 1; ++dx)
-          if (altitude_m.clamped(x + dx, y + dy) == altitude_m(x, y) && amid_equals(x + dx, y + dy)) level(x, y) = 1;
+          if (altitude_m.clamped(x + dx, y + dy) == altitude_m(x, y) && amid_equals(x + dx, y + dy))
+            level(x, y) = 1;
     }
   });
   return level;
 }
 
-// Takes these stripes off `altitude_m`, whose lines run along rows.
-void remove_stripes(Grid<float>& altitude_m, const Detail& detail, const Stripes& stripes, const DestripeParameters& parameters) {
+// Removes these stripes from `altitude_m`; their lines run along rows.
+void remove_stripes(Grid<float>& altitude_m, const Detail& detail, const Stripes& stripes,
+                    const DestripeParameters& parameters) {
   const Grid<std::uint8_t> level = find_level(altitude_m);
   StripeLines lines;
   lines.follows = stripes.follows;
@@ -208,7 +224,8 @@ void remove_stripes(Grid<float>& altitude_m, const Detail& detail, const Stripes
   const Grid<float> stripe = fit_stripes(altitude_m, detail.height_m, detail.smooth_m, lines);
   parallel_rows(altitude_m.height(), [&](int y) {
     for (int x = 0; x < altitude_m.width(); ++x) {
-      if (level(x, y) == 0) altitude_m(x, y) -= stripe(x, y) * followed(detail.smooth_m, stripes.follows, x, y);
+      if (level(x, y) == 0)
+        altitude_m(x, y) -= stripe(x, y) * followed(detail.smooth_m, stripes.follows, x, y);
     }
   });
 }
@@ -216,39 +233,44 @@ void remove_stripes(Grid<float>& altitude_m, const Detail& detail, const Stripes
 std::string describe(const Stripes& stripes) {
   const char* axis = stripes.columns ? "columns" : "rows";
   const char* kind = stripes.follows == Follows::offset        ? "offset"
-                     : stripes.follows == Follows::slope_along ? "moved along"
-                                                               : "moved across";
-  return fmt::format("stripes removed: {} {}, tilt {:+.3f}, {:.1f} times as coherent as the terrain", axis, kind, stripes.tilt,
-                     stripes.contrast);
+                     : stripes.follows == Follows::slope_along ? "displaced along"
+                                                               : "displaced across";
+  return fmt::format(
+      "stripes removed: {} {}, tilt {:+.3f}, {:.1f} times as coherent as the terrain", axis, kind,
+      stripes.tilt, stripes.contrast);
 }
 
 void check(const DestripeParameters& p) {
   const auto fail = [](const char* key, double value, const char* allowed) {
     throw Error(ErrorKind::usage, key, fmt::format("{}", value), allowed);
   };
-  if (!(p.longest_period_cells >= 3.F && p.longest_period_cells <= 64.F)) fail("longest_period_cells", p.longest_period_cells, "3…64");
-  if (!(p.length_cells >= 16.F && p.length_cells <= 2000.F)) fail("length_cells", p.length_cells, "16…2000");
-  if (!(p.most_tilt >= 0.F && p.most_tilt <= 0.5F)) fail("most_tilt", p.most_tilt, "0…0.5");
-  if (!(p.least_contrast >= 1.2F && p.least_contrast <= 100.F)) fail("least_contrast", p.least_contrast, "1.2…100");
-  if (p.most_passes < 0 || p.most_passes > 20) fail("most_passes", p.most_passes, "0…20");
+  if (!(p.longest_period_cells >= 3.F && p.longest_period_cells <= 64.F))
+    fail("longest_period_cells", p.longest_period_cells, "3…64");
+  if (!(p.length_cells >= 16.F && p.length_cells <= 2000.F))
+    fail("length_cells", p.length_cells, "16…2000");
+  if (!(p.max_tilt >= 0.F && p.max_tilt <= 0.5F)) fail("max_tilt", p.max_tilt, "0…0.5");
+  if (!(p.min_contrast >= 1.2F && p.min_contrast <= 100.F))
+    fail("min_contrast", p.min_contrast, "1.2…100");
+  if (p.max_passes < 0 || p.max_passes > 20) fail("max_passes", p.max_passes, "0…20");
 }
 
 }  // namespace
 
-Grid<float> destripe(const Grid<float>& altitude_m, const DestripeParameters& parameters, Progress& progress) {
+Grid<float> destripe(const Grid<float>& altitude_m, const DestripeParameters& parameters,
+                     Progress& progress) {
   check(parameters);
-  progress.begin("remove stripes", parameters.most_passes);
+  progress.begin("remove stripes", parameters.max_passes);
   Grid<float> out = altitude_m;
   if (std::min(altitude_m.width(), altitude_m.height()) < smallest_side) return out;
   int removed = 0;
-  for (; removed < parameters.most_passes; ++removed) {
+  for (; removed < parameters.max_passes; ++removed) {
     Grid<float> turned = transposed(out);
     const Detail in_rows = find_detail(out, parameters);
     const Detail in_columns = find_detail(turned, parameters);
     const Stripes rows = find_stripes(in_rows, false, parameters);
     const Stripes columns = find_stripes(in_columns, true, parameters);
     Stripes worst = rows.contrast >= columns.contrast ? rows : columns;
-    if (worst.contrast < parameters.least_contrast) break;
+    if (worst.contrast < parameters.min_contrast) break;
     worst.tilt = refine_tilt(worst.columns ? in_columns : in_rows, worst);
     if (worst.columns) {
       remove_stripes(turned, in_columns, worst, parameters);

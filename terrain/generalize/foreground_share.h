@@ -2,11 +2,12 @@
 
 namespace belvedere {
 
-// u_d of equation 5 by the distance from the viewer: 1 near, 0 far, between the two falling as straight as a line, so that the terrain is
-// generalized by no more from one cell to the next than a linear share would. A share that reaches 1 at foreground_to_m and 0 at
-// background_from_m and is nowhere steeper can only be that line (mean value theorem), which has a crease at either end. The creases are
-// rounded by parabolas over an eighth of the span on both sides of each end, so that the share begins to fall that much sooner and ends
-// that much later. Any unit; background_from above foreground_to.
+// u_d of equation 5 as a function of the distance from the viewer: 1 near, 0 far. Between the two
+// it falls linearly, so that generalization changes from one cell to the next by no more than with
+// a linear share. A share that is 1 at foreground_to_m, 0 at background_from_m and nowhere steeper
+// can only be that line (mean value theorem), which has a kink at either end. The kinks are rounded
+// by parabolas over an eighth of the span on both sides of each end, so the share starts to fall
+// that much earlier and ends that much later. Any unit; background_from must exceed foreground_to.
 double foreground_share(double distance, double foreground_to, double background_from);
 
 }  // namespace belvedere

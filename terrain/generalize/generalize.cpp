@@ -18,21 +18,24 @@
 namespace belvedere {
 namespace {
 
-// The stage works on the change, D = A' - A: with D_n = 0 and D_i = expand(D_i+1) + (w_i - 1) L_i it needs no band grids, keeps
-// the float's precision for the small numbers, and unit weights change nothing at all. An empty grid is a change of 0.
+// The stage computes the change, D = A' - A. With D_n = 0 and D_i = expand(D_i+1) + (w_i - 1) L_i
+// it needs no band grids, keeps float precision for small numbers, and unit weights change nothing.
+// An empty grid is a change of 0.
 
-// The Gaussian levels of a grid that the caller holds. A level that is done with goes, so that the finest, where all the memory is, stand
-// alone at the end.
+// The Gaussian levels of a grid that the caller holds. Finished levels are freed, so that only the
+// finest, which takes the most memory, remains at the end.
 class Levels {
  public:
   Levels(const Grid<float>& finest, int bands) : Levels(finest, finest, bands) {}
-  // Coarser levels of another grid, of which nothing is kept.
+  // Coarser levels of another grid, which are not kept.
   Levels(const Grid<float>& finest, const Grid<float>& coarsened, int bands) : finest_(finest) {
-    for (int i = 1; i < bands && !coarsened.empty(); ++i) coarser_.push_back(reduce(i == 1 ? coarsened : coarser_.back()));
+    for (int i = 1; i < bands && !coarsened.empty(); ++i)
+      coarser_.push_back(reduce(i == 1 ? coarsened : coarser_.back()));
   }
-  // The coarsest that is left; null where the grid is empty.
+  // The coarsest remaining level; null if the grid is empty.
   const Grid<float>* at(int level) const {
-    if (level > 0) return coarser_.empty() ? nullptr : &coarser_[static_cast<std::size_t>(level) - 1];
+    if (level > 0)
+      return coarser_.empty() ? nullptr : &coarser_[static_cast<std::size_t>(level) - 1];
     return finest_.empty() ? nullptr : &finest_;
   }
   void drop(int level) {
@@ -47,10 +50,11 @@ class Levels {
 void check_number(std::string_view key, const std::vector<float>& weights, std::size_t bands) {
   if (weights.size() == bands || (weights.empty() && key != "background")) return;
   throw Error(ErrorKind::usage, std::string(key), fmt::format("{} weights", weights.size()),
-              fmt::format("as many as foreground has, {}", bands));
+              fmt::format("{} weights, as in foreground", bands));
 }
 
-void check(const Grid<float>& altitude_m, const GeneralizeGrids& grids, const GeneralizeParameters& parameters) {
+void check(const Grid<float>& altitude_m, const GeneralizeGrids& grids,
+           const GeneralizeParameters& parameters) {
   const std::size_t bands = parameters.foreground.size();
   check_number("background", parameters.background, bands);
   check_number("foreground_ridges", parameters.foreground_ridges, bands);
@@ -58,29 +62,40 @@ void check(const Grid<float>& altitude_m, const GeneralizeGrids& grids, const Ge
   check_number("background_ridges", parameters.background_ridges, bands);
   check_number("background_valleys", parameters.background_valleys, bands);
   if (parameters.finest_band < 0 || parameters.finest_band > 16)
-    throw Error(ErrorKind::bug, "generalize", fmt::format("a finest band of {}", parameters.finest_band), "0 to 16");
+    throw Error(ErrorKind::bug, "generalize", fmt::format("finest band {}", parameters.finest_band),
+                "0 to 16");
   const auto fits = [&](const auto& grid) { return grid.empty() || grid.same_size(altitude_m); };
-  if (!fits(grids.foreground_share) || !fits(grids.keep) || !fits(grids.mask) || !fits(grids.amplification_mask)) {
-    throw Error(ErrorKind::bug, "generalize", "a foreground, lake or mask grid whose size is not the DEM's");
+  if (!fits(grids.foreground_share) || !fits(grids.keep) || !fits(grids.mask) ||
+      !fits(grids.amplification_mask)) {
+    throw Error(ErrorKind::bug, "generalize",
+                "a foreground, lake or mask grid differs in size from the DEM");
   }
 }
 
 // Weights of the band at a level, 0 the finest.
 BandWeights weights_of(const GeneralizeParameters& parameters, int level, double cell_m) {
-  // Weights begin with the coarsest band.
-  const std::size_t i = parameters.foreground.size() - 1 - static_cast<std::size_t>(parameters.finest_band + level);
-  const auto at = [i](const std::vector<float>& weights) { return weights.empty() ? 0.F : weights[i]; };
+  // Weights start with the coarsest band.
+  const std::size_t i =
+      parameters.foreground.size() - 1 - static_cast<std::size_t>(parameters.finest_band + level);
+  const auto at = [i](const std::vector<float>& weights) {
+    return weights.empty() ? 0.F : weights[i];
+  };
   BandWeights weights;
-  weights.near = {parameters.foreground[i], at(parameters.foreground_ridges), at(parameters.foreground_valleys)};
-  weights.far = {parameters.background[i], at(parameters.background_ridges), at(parameters.background_valleys)};
+  weights.near = {parameters.foreground[i], at(parameters.foreground_ridges),
+                  at(parameters.foreground_valleys)};
+  weights.far = {parameters.background[i], at(parameters.background_ridges),
+                 at(parameters.background_valleys)};
   constexpr double wavelength_cells = 4.0;
-  weights.printable_m_per_pixel = static_cast<float>(wavelength_cells * std::ldexp(cell_m, level) / parameters.print_pixels);
+  weights.printable_m_per_pixel =
+      static_cast<float>(wavelength_cells * std::ldexp(cell_m, level) / parameters.print_pixels);
   return weights;
 }
 
 BreakLines break_lines_of(const GeneralizeParameters& parameters, int level, glm::dvec2 cell_m) {
   const bool plan = parameters.curvature == CurvatureForm::plan;
-  const double full = parameters.full_curvature > 0.F ? parameters.full_curvature : plan ? 0.8 : 0.15;
+  const double full = parameters.full_curvature > 0.F ? parameters.full_curvature
+                      : plan                          ? 0.8
+                                                      : 0.15;
   const glm::dvec2 cell = cell_m * std::ldexp(1.0, level);
   BreakLines lines;
   lines.scale = {plan, static_cast<float>(1.0 / cell.x), static_cast<float>(1.0 / cell.y),
@@ -90,28 +105,32 @@ BreakLines break_lines_of(const GeneralizeParameters& parameters, int level, glm
   return lines;
 }
 
-// The mask that coarser bands see: 0 in lakes as well.
+// The mask for coarser bands: 0 in lakes as well.
 Grid<float> without_lakes(const Grid<float>& mask, const Grid<unsigned char>& keep) {
   Grid<float> out(keep.width(), keep.height());
   parallel_rows(out.height(), [&](int y) {
-    for (int x = 0; x < out.width(); ++x) out(x, y) = keep(x, y) != 0 ? 0.F : mask.empty() ? 1.F : mask(x, y);
+    for (int x = 0; x < out.width(); ++x)
+      out(x, y) = keep(x, y) != 0 ? 0.F : mask.empty() ? 1.F : mask(x, y);
   });
   return out;
 }
 
 }  // namespace
 
-Grid<float> generalize(const Grid<float>& altitude_m, glm::dvec2 cell_m, const GeneralizeGrids& grids,
-                       const GeneralizeParameters& parameters, Progress& progress) {
+Grid<float> generalize(const Grid<float>& altitude_m, glm::dvec2 cell_m,
+                       const GeneralizeGrids& grids, const GeneralizeParameters& parameters,
+                       Progress& progress) {
   check(altitude_m, grids, parameters);
   const int skipped = parameters.finest_band;
   const int weights = std::max(static_cast<int>(parameters.foreground.size()) - skipped, 0);
-  const int possible = most_bands(altitude_m.width(), altitude_m.height());
+  const int possible = max_bands(altitude_m.width(), altitude_m.height());
   const int bands = std::min(weights, possible);
-  // The lowest of the bands that crests are made of needs a level below it.
+  // The lowest of the crest bands needs a level below it.
   const float crest = skipped < crest_bands ? parameters.crest : 0.F;
-  const int reductions = crest > 0.F ? std::min(std::max(weights, crest_bands - skipped), possible) : bands;
-  const bool has_lakes = std::any_of(grids.keep.begin(), grids.keep.end(), [](unsigned char k) { return k != 0; });
+  const int reductions =
+      crest > 0.F ? std::min(std::max(weights, crest_bands - skipped), possible) : bands;
+  const bool has_lakes =
+      std::any_of(grids.keep.begin(), grids.keep.end(), [](unsigned char k) { return k != 0; });
   progress.begin("generalize", 2.0 * reductions + 1.0);
 
   std::vector<Grid<float>> levels_m;  // [i] is level i + 1: level 0 is the caller's
@@ -119,7 +138,8 @@ Grid<float> generalize(const Grid<float>& altitude_m, glm::dvec2 cell_m, const G
     levels_m.push_back(reduce(i == 0 ? altitude_m : levels_m.back()));
     progress.advance(1.0);
   }
-  Levels mask = has_lakes ? Levels(grids.mask, without_lakes(grids.mask, grids.keep), bands) : Levels(grids.mask, bands);
+  Levels mask = has_lakes ? Levels(grids.mask, without_lakes(grids.mask, grids.keep), bands)
+                          : Levels(grids.mask, bands);
   Levels share(grids.foreground_share, bands);
   Levels amplify(grids.amplification_mask, bands);
 
@@ -135,7 +155,8 @@ Grid<float> generalize(const Grid<float>& altitude_m, glm::dvec2 cell_m, const G
     band.amplify = amplify.at(i);
     band.pixel_ground = grids.pixel_ground.m_per_pixel.empty() ? nullptr : &grids.pixel_ground;
     band.level_cells = 1 << i;
-    change = add_band(band, weights_of(parameters, i, 0.5 * (cell_m.x + cell_m.y)), break_lines_of(parameters, i, cell_m));
+    change = add_band(band, weights_of(parameters, i, 0.5 * (cell_m.x + cell_m.y)),
+                      break_lines_of(parameters, i, cell_m));
     for (Levels* levels : {&share, &mask, &amplify}) levels->drop(i);
     if (crest <= 0.F || i >= crest_bands - skipped) levels_m[static_cast<std::size_t>(i)] = {};
     progress.advance(1.0);
@@ -154,7 +175,8 @@ Grid<float> generalize(const Grid<float>& altitude_m, glm::dvec2 cell_m, const G
   parallel_rows(change.height(), [&](int y) {
     const float* a = altitude_m.row(y);
     float* out = change.row(y);
-    for (int x = 0; x < change.width(); ++x) out[x] = out[x] == 0.F ? a[x] : a[x] + out[x];  // -0 stays -0
+    for (int x = 0; x < change.width(); ++x)
+      out[x] = out[x] == 0.F ? a[x] : a[x] + out[x];  // keeps -0
   });
   progress.advance(1.0);
   return change;

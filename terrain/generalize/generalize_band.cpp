@@ -11,7 +11,8 @@
 namespace belvedere {
 namespace {
 
-// Rows that are alive at the same time, by their number; each has `margin` values of room on both sides.
+// Rows that are alive at the same time, by their number; each has room for `margin` values on both
+// sides.
 class RowRing {
  public:
   RowRing(int rows, int width, int margin)
@@ -20,7 +21,9 @@ class RowRing {
         stride_(width + 2 * margin),
         values_(static_cast<std::size_t>(rows) * static_cast<std::size_t>(stride_)) {}
   float* operator[](int y) {
-    return values_.data() + static_cast<std::size_t>((y + 2 * rows_) % rows_) * static_cast<std::size_t>(stride_) + margin_;
+    return values_.data() +
+           static_cast<std::size_t>((y + 2 * rows_) % rows_) * static_cast<std::size_t>(stride_) +
+           margin_;
   }
 
  private:
@@ -30,7 +33,7 @@ class RowRing {
   std::vector<float> values_;
 };
 
-// One value on each side, as the pyramid extends borders.
+// Linear extension by one value on each side, as in the pyramid.
 void extend_by_one(float* row, int width) {
   row[-1] = width == 1 ? row[0] : 2.F * row[0] - row[1];
   row[width] = width == 1 ? row[0] : 2.F * row[width - 1] - row[width - 2];
@@ -47,15 +50,16 @@ std::vector<float> gaussian_taps(double sigma, int radius) {
   double sum = 0.0;
   for (int k = -radius; k <= radius; ++k) sum += exact::exp(-0.5 * k * k / (sigma * sigma));
   for (int k = -radius; k <= radius; ++k) {
-    taps[static_cast<std::size_t>(k + radius)] = static_cast<float>(exact::exp(-0.5 * k * k / (sigma * sigma)) / sum);
+    taps[static_cast<std::size_t>(k + radius)] =
+        static_cast<float>(exact::exp(-0.5 * k * k / (sigma * sigma)) / sum);
   }
   return taps;
 }
 
-// What a band has to work out, known before its rows.
+// What a band has to compute, determined before its rows.
 struct Plan {
   bool unchanged = false;    // w = 1 everywhere
-  bool local = false;        // some v counts
+  bool local = false;        // some v is used
   bool break_lines = false;  // c is not 1 everywhere
   bool sides = false;        // ridges and valleys differ
   int radius = 0;            // of the blur
@@ -68,21 +72,27 @@ Plan make_plan(const Band& band, const BandWeights& weights, const BreakLines& l
   const auto any = [far](const WeightSet& near_set, const WeightSet& far_set, auto&& test) {
     return test(near_set) || (far && test(far_set));
   };
-  plan.local = any(weights.near, weights.far, [](const WeightSet& w) { return w.ridges != 0.F || w.valleys != 0.F; });
-  plan.sides = any(weights.near, weights.far, [](const WeightSet& w) { return w.ridges != w.valleys; });
+  plan.local = any(weights.near, weights.far,
+                   [](const WeightSet& w) { return w.ridges != 0.F || w.valleys != 0.F; });
+  plan.sides =
+      any(weights.near, weights.far, [](const WeightSet& w) { return w.ridges != w.valleys; });
   plan.break_lines = plan.local && lines.exponent > 0.F;
   plan.unchanged =
-      !plan.local && band.pixel_ground == nullptr && !any(weights.near, weights.far, [](const WeightSet& w) { return w.global != 1.F; });
-  // Beyond three deviations lies a 400th of the kernel.
-  if (plan.break_lines && lines.blur_cells > 0.0) plan.radius = std::max(1, static_cast<int>(std::ceil(3.0 * lines.blur_cells)));
+      !plan.local && band.pixel_ground == nullptr &&
+      !any(weights.near, weights.far, [](const WeightSet& w) { return w.global != 1.F; });
+  // Beyond three standard deviations lies a 400th of the kernel.
+  if (plan.break_lines && lines.blur_cells > 0.0)
+    plan.radius = std::max(1, static_cast<int>(std::ceil(3.0 * lines.blur_cells)));
   plan.taps = gaussian_taps(lines.blur_cells, plan.radius);
   return plan;
 }
 
-// The rows of one strip. Rows come in ascending order; each kind runs as far ahead of the row to be weighed as its neighbours need.
+// The rows of one strip. Rows come in ascending order; each kind runs ahead of the weighted row as
+// far as its neighbourhood requires.
 class BandStrip {
  public:
-  BandStrip(const Band& band, const BandWeights& weights, const BreakLines& lines, const Plan& plan, int first)
+  BandStrip(const Band& band, const BandWeights& weights, const BreakLines& lines, const Plan& plan,
+            int first)
       : band_(band),
         weights_(weights),
         lines_(lines),
@@ -112,7 +122,9 @@ class BandStrip {
     if (plan_.break_lines) rows.break_line = break_line(y);
     if (plan_.local && !plan_.break_lines) rows.break_line = line_.data();  // c = 1
     if (plan_.sides) rows.convex = convex_share(y);
-    const auto row = [y](const Grid<float>* grid) { return grid == nullptr ? nullptr : grid->row(y); };
+    const auto row = [y](const Grid<float>* grid) {
+      return grid == nullptr ? nullptr : grid->row(y);
+    };
     rows.share = row(band_.share);
     if (band_.keep != nullptr) rows.keep = band_.keep->row(y);
     rows.mask = row(band_.mask);
@@ -130,7 +142,7 @@ class BandStrip {
     }
   }
 
-  // Rows -1 and `height` continue the slope of the two beside them; a single row is repeated.
+  // Rows -1 and `height` extrapolate the two adjacent rows; a single row is repeated.
   template <class MakeRow>
   void make_extended_row(RowRing& ring, int y, MakeRow&& make_row) {
     float* row = ring[y];
@@ -161,12 +173,14 @@ class BandStrip {
     float* c = line_.data() + radius;
     for (; next_line_ <= std::min(y + radius, height_ - 1); ++next_line_) {
       need_sum(next_line_ + 1);
-      break_line_row(sum_[next_line_ - 1], sum_[next_line_], sum_[next_line_ + 1], width_, lines_.scale, c);
+      break_line_row(sum_[next_line_ - 1], sum_[next_line_], sum_[next_line_ + 1], width_,
+                     lines_.scale, c);
       repeat_ends(c, width_, radius);
       blur_across_row(c, plan_.taps, width_, across_[next_line_]);
     }
     around_.clear();
-    for (int k = -radius; k <= radius; ++k) around_.push_back(across_[std::clamp(y + k, 0, height_ - 1)]);
+    for (int k = -radius; k <= radius; ++k)
+      around_.push_back(across_[std::clamp(y + k, 0, height_ - 1)]);
     blur_down_row(around_.data(), plan_.taps, width_, c);
     if (lines_.exponent != 1.F) power_row(c, width_, lines_.exponent);
     return c;
@@ -191,21 +205,26 @@ class BandStrip {
     }
     const float* const detail[3] = {detail_[y - 1], detail_[y], detail_[y + 1]};
     const float* const mean[3] = {mean_[y - 1], mean_[y], mean_[y + 1]};
-    convex_share_row(detail, mean, width_, lines_.scale.inverse_x, lines_.scale.inverse_y, sides_.data());
+    convex_share_row(detail, mean, width_, lines_.scale.inverse_x, lines_.scale.inverse_y,
+                     sides_.data());
     return sides_.data();
   }
 
-  // Ground metres a pixel shows, linear between the places where they are known.
+  // Ground metres per pixel, linear between the known positions.
   const float* ground(int y) {
     const Grid<float>& known = band_.pixel_ground->m_per_pixel;
-    const float cells = static_cast<float>(band_.level_cells) / static_cast<float>(band_.pixel_ground->step_cells);
-    const auto before = [](float at, int count) { return std::min(static_cast<int>(at), count - 1); };
+    const float cells =
+        static_cast<float>(band_.level_cells) / static_cast<float>(band_.pixel_ground->step_cells);
+    const auto before = [](float at, int count) {
+      return std::min(static_cast<int>(at), count - 1);
+    };
     const float v = static_cast<float>(y) * cells;
     const int j = before(v, known.height());
     const float down = std::min(v - static_cast<float>(j), 1.F);
     ground_posts_.resize(static_cast<std::size_t>(known.width()) + 1);
     for (int i = 0; i <= known.width(); ++i)
-      ground_posts_[static_cast<std::size_t>(i)] = (1.F - down) * known.clamped(i, j) + down * known.clamped(i, j + 1);
+      ground_posts_[static_cast<std::size_t>(i)] =
+          (1.F - down) * known.clamped(i, j) + down * known.clamped(i, j + 1);
     for (int x = 0; x < width_; ++x) {
       const float u = static_cast<float>(x) * cells;
       const int i = before(u, known.width());
@@ -249,15 +268,17 @@ Grid<float> add_band(const Band& band, const BandWeights& weights, const BreakLi
   const int height = band.level->height();
   Grid<float> change(width, height);
   if (plan.unchanged) {
-    parallel_rows(height, [&](int y) { expand_row(*band.coarser_change, y, width, change.row(y)); });
+    parallel_rows(height,
+                  [&](int y) { expand_row(*band.coarser_change, y, width, change.row(y)); });
     return change;
   }
-  // A strip begins some rows early for its neighbours; it is long against them.
+  // A strip starts some rows early for its neighbours; strips are long compared with that.
   const int strip = 96 + 4 * plan.radius;
   parallel_ranges((height + strip - 1) / strip, 1, [&](int begin, int end) {
     for (int i = begin; i != end; ++i) {
       BandStrip rows(band, weights, break_lines, plan, i * strip);
-      for (int y = i * strip; y < std::min((i + 1) * strip, height); ++y) rows.make(y, change.row(y));
+      for (int y = i * strip; y < std::min((i + 1) * strip, height); ++y)
+        rows.make(y, change.row(y));
     }
   });
   return change;

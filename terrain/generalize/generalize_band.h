@@ -13,8 +13,8 @@ struct BreakLines {
   float exponent = 1.F;  // 0: c is 1 everywhere
 };
 
-// A band of the pyramid: G_i, G_i+1 and the change D_i+1 = G_i+1' - G_i+1 that the bands below have made so far (empty: none), and what
-// varies from place to place at this level; null where it does not.
+// A band of the pyramid: G_i, G_i+1 and the change D_i+1 = G_i+1' - G_i+1 by the bands below
+// (empty: none), and the spatially varying inputs at this level; null if constant.
 struct Band {
   const Grid<float>* level = nullptr;
   const Grid<float>* coarser = nullptr;
@@ -27,11 +27,11 @@ struct Band {
   int level_cells = 1;  // of the DEM in a cell of this level
 };
 
-// D_i = expand(D_i+1) + (w - 1) L_i, row by row in strips: no grid is made but the result. Empty where nothing changes.
-// The partial sum whose curvature is c is expand(G_i+1 + D_i+1).
+// D_i = expand(D_i+1) + (w - 1) L_i, row by row in strips, without other grids. Empty if nothing
+// changes. The partial sum whose curvature is c is expand(G_i+1 + D_i+1).
 Grid<float> add_band(const Band& band, const BandWeights& weights, const BreakLines& break_lines);
 
-// Value for value: expand(change), 0 where there is none.
+// Equal to expand(change), 0 if there is none.
 void expand_change_row(const Grid<float>& change, int y, int width, float* out);
 
 }  // namespace belvedere

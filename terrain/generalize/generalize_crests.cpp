@@ -12,8 +12,8 @@ namespace {
 
 float unit(float v) { return std::clamp(v, 0.F, 1.F); }
 
-// b2 + b3 + .6 b4 and b5 + b6 + … + base, the terms of GeneralizeParameters::crest, both at the finest level given; from level 1 one row of
-// expand brings them to level 0.
+// b2 + b3 + .6 b4 and b5 + b6 + … + base, the terms of GeneralizeParameters::crest, both at the
+// finest level given; from level 1 one row of expand brings them to level 0.
 struct CrestTerms {
   Grid<float> detail_m;
   Grid<float> ground_m;
@@ -26,7 +26,7 @@ CrestTerms find_crests(std::vector<Grid<float>> levels, int first) {  // the fin
   for (int i = top - 1; i >= 0; --i) {
     const Grid<float>& coarser = levels[static_cast<std::size_t>(i) + 1];
     const float weight = i + first == crest_bands - 1 ? 0.6F : 1.F;
-    // The finest is not asked for again: row by row it becomes the detail.
+    // The finest is not needed again and becomes the detail, row by row.
     Grid<float> detail = i == 0 ? std::move(levels[0]) : levels[static_cast<std::size_t>(i)];
     const int width = detail.width();
     Grid<float> ground(width, detail.height());
@@ -46,8 +46,9 @@ CrestTerms find_crests(std::vector<Grid<float>> levels, int first) {  // the fin
 
 }  // namespace
 
-void add_crests(Grid<float>& change, std::vector<Grid<float>> levels, int halved, const Grid<float>* share, const Grid<float>* mask,
-                const Grid<float>* amplify, float strength) {
+void add_crests(Grid<float>& change, std::vector<Grid<float>> levels, int halved,
+                const Grid<float>* share, const Grid<float>* mask, const Grid<float>* amplify,
+                float strength) {
   const CrestTerms crests = find_crests(std::move(levels), std::max(halved, 1));
   const int width = change.width();
   parallel_rows(change.height(), [&](int y) {
@@ -64,7 +65,8 @@ void add_crests(Grid<float>& change, std::vector<Grid<float>> levels, int halved
     for (int x = 0; x < width; ++x) {
       const float high = unit((ground[x] - 1200.F) / 700.F);
       const float near = share == nullptr ? 1.F : unit((*share)(x, y));
-      float added = strength * high * std::clamp(detail[x], 0.F, 60.F) * (1.F - 0.2F * (1.F - near));
+      float added =
+          strength * high * std::clamp(detail[x], 0.F, 60.F) * (1.F - 0.2F * (1.F - near));
       if (mask != nullptr) added *= unit((*mask)(x, y));
       if (amplify != nullptr) added *= unit((*amplify)(x, y));
       out[x] += added;

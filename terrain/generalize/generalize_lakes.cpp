@@ -11,20 +11,22 @@
 namespace belvedere {
 namespace {
 
-// The change that a kept lake would have had is taken off the land around it as well, less and less over so many cells: a
-// valley whose floor sinks must not leave its lake on a table.
+// The change that a kept lake would have had is also subtracted from the land around it, fading
+// over this many cells: otherwise a lowered valley would leave its lake on a plateau.
 constexpr float surroundings_cells = 32.0F;
-// That change is a mean over this deviation, so that no seams run between lakes; in blocks, because it is smooth.
+// That change is averaged with this standard deviation, so that there are no seams between lakes;
+// in blocks, because it is smooth.
 constexpr int block_cells = 4;
 constexpr double mean_cells = 10.0;
-// What is left of the change at the shore itself fades in over so many cells.
+// The remaining change at the shore fades in over this many cells.
 constexpr float shore_cells = 6.0F;
 
-// Beyond the reach of the pull's last blur.
+// Beyond the last blur of the subtracted change.
 constexpr int reach_cells = 48;
 
-// Squares of the distance from each cell to its nearest lake cell, cells²; out_of_reach beyond reach_cells. Strip by strip, because the
-// nearest cells themselves would take twice the memory.
+// Squared distance from each cell to its nearest lake cell, cells²; out_of_reach beyond
+// reach_cells. Computed in strips, because the nearest cells themselves would take twice the
+// memory.
 using Squares = Grid<std::uint16_t>;
 constexpr int out_of_reach = 65535;
 
@@ -54,16 +56,22 @@ Squares shore_squares(const Grid<unsigned char>& keep) {
   return squares;
 }
 
-// Distance from a cell to its nearest lake cell, cells; more than reach_cells where that is too far to know.
-float shore_distance(const Squares& squares, int x, int y) { return std::sqrt(static_cast<float>(squares(x, y))); }
+// Distance from a cell to its nearest lake cell, cells; more than reach_cells if it is unknown.
+float shore_distance(const Squares& squares, int x, int y) {
+  return std::sqrt(static_cast<float>(squares(x, y)));
+}
 
-// What lakes take off the change around them, in blocks of block_cells: the mean change of the lake cells nearby, fading with the
-// distance. The last blur rounds the creases that the distance has halfway between two shores.
-Grid<float> pull_of_lakes(const Grid<float>& change, const Grid<unsigned char>& keep, const Squares& squares) {
-  Grid<float> sum((change.width() + block_cells - 1) / block_cells, (change.height() + block_cells - 1) / block_cells);
+// The change subtracted around lakes, in blocks of block_cells: the mean change of the lake cells
+// nearby, fading with the distance. The last blur rounds the kinks of the distance halfway between
+// two shores.
+Grid<float> pull_of_lakes(const Grid<float>& change, const Grid<unsigned char>& keep,
+                          const Squares& squares) {
+  Grid<float> sum((change.width() + block_cells - 1) / block_cells,
+                  (change.height() + block_cells - 1) / block_cells);
   Grid<float> count(sum.width(), sum.height());
   parallel_rows(sum.height(), [&](int block) {
-    for (int y = block * block_cells; y < std::min((block + 1) * block_cells, change.height()); ++y) {
+    for (int y = block * block_cells; y < std::min((block + 1) * block_cells, change.height());
+         ++y) {
       for (int x = 0; x < change.width(); ++x) {
         if (keep(x, y) == 0) continue;
         sum(x / block_cells, block) += change(x, y);
@@ -75,9 +83,10 @@ Grid<float> pull_of_lakes(const Grid<float>& change, const Grid<unsigned char>& 
   count = gaussian_blur(count, mean_cells / block_cells);
   parallel_rows(pull.height(), [&](int y) {
     for (int x = 0; x < pull.width(); ++x) {
-      const int middle_x = std::min(x * block_cells + block_cells / 2, change.width() - 1);
-      const int middle_y = std::min(y * block_cells + block_cells / 2, change.height() - 1);
-      const float fade = 1.F - smoothstep(shore_distance(squares, middle_x, middle_y) / surroundings_cells);
+      const int centre_x = std::min(x * block_cells + block_cells / 2, change.width() - 1);
+      const int centre_y = std::min(y * block_cells + block_cells / 2, change.height() - 1);
+      const float fade =
+          1.F - smoothstep(shore_distance(squares, centre_x, centre_y) / surroundings_cells);
       pull(x, y) = count(x, y) > 0.F ? fade * pull(x, y) / count(x, y) : 0.F;
     }
   });
@@ -96,7 +105,8 @@ void settle_around_lakes(Grid<float>& change, const Grid<unsigned char>& keep) {
       // Block centres lie at 1.5, 5.5, 9.5… cells.
       const double u = (x - 0.5 * (block_cells - 1)) / block_cells;
       const double v = (y - 0.5 * (block_cells - 1)) / block_cells;
-      change(x, y) = (change(x, y) - sample_bspline(pull, u, v)) * smoothstep(distance / shore_cells);
+      change(x, y) =
+          (change(x, y) - sample_bspline(pull, u, v)) * smoothstep(distance / shore_cells);
     }
   });
 }

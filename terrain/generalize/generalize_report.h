@@ -9,16 +9,21 @@
 
 namespace belvedere {
 
-// What generalization did to a terrain, in numbers: plain measures, which know nothing of how the result was made. Altitudes in metres,
-// every cell finite, before and after of one size. Slices are equal steps of the foreground share (u_d of equation 5), the nearest first:
-// slice k of n holds shares from 1 - k/n down to 1 - (k+1)/n. An empty share is all foreground.
+// Measures of the effect of generalization on a terrain, independent of the method. Altitudes in
+// metres, every cell finite, before and after of one size. Slices are equal steps of the foreground
+// share (u_d of equation 5), the nearest first: slice k of n holds shares from 1 - k/n down to 1 -
+// (k+1)/n. An empty share is all foreground.
 
 // The slice of each cell.
-Grid<std::uint8_t> distance_slices(const Grid<float>& foreground_share, glm::ivec2 size, int slices);
+Grid<std::uint8_t> distance_slices(const Grid<float>& foreground_share, glm::ivec2 size,
+                                   int slices);
 
-// Mean square of each Laplacian band, m², [slice][band], coarsest band first as weights are. Coarse bands are cut into slices by the
-// share's Gaussian pyramid. 0 where a slice has no cells of that band.
-std::vector<std::vector<double>> band_energy(const Grid<float>& altitude_m, const Grid<float>& foreground_share, int bands, int slices);
+// Mean square of each Laplacian band, m², [slice][band], coarsest band first as for weights. Coarse
+// bands are assigned to slices by the share's Gaussian pyramid. 0 if a slice has no cells of that
+// band.
+std::vector<std::vector<double>> band_energy(const Grid<float>& altitude_m,
+                                             const Grid<float>& foreground_share, int bands,
+                                             int slices);
 
 struct AltitudeChange {
   std::size_t cells = 0;
@@ -27,43 +32,49 @@ struct AltitudeChange {
   double largest_m = 0.0;  // the largest amount, ≥ 0
 };
 // [slice].
-std::vector<AltitudeChange> altitude_change(const Grid<float>& before_m, const Grid<float>& after_m, const Grid<std::uint8_t>& slice_of,
-                                            int slices);
+std::vector<AltitudeChange> altitude_change(const Grid<float>& before_m, const Grid<float>& after_m,
+                                            const Grid<std::uint8_t>& slice_of, int slices);
 
-// Curvature across the crest, 1/m: how strongly the ground bends down in the direction in which it bends down most (the least second
-// derivative of the Evans–Young quadric, sign turned). Other than plan curvature it needs no slope along the crest. Negative in bowls.
+// Curvature across the crest, 1/m: how strongly the ground is convex in the direction in which it
+// is most convex (the smallest second derivative of the Evans–Young quadric, sign reversed). In
+// contrast to plan curvature it needs no slope along the crest. Negative in bowls.
 Grid<float> crest_curvature(const Grid<float>& altitude_m, glm::dvec2 cell_m);
-// 1 on ridge lines: cells over which the ground, smoothed by one cell, culminates across the crest (Steger 1998), the sharpest quarter of
-// them. Cells on the rim are 0.
+// 1 on ridge lines: cells in which the ground, smoothed by one cell, has its maximum across the
+// crest (Steger 1998), the sharpest quarter of them. Cells on the border are 0.
 Grid<std::uint8_t> ridge_lines(const Grid<float>& altitude_m, glm::dvec2 cell_m);
 
-// Curvature along the ridge lines of the terrain before, of which a part is kept. A plain blur is the measure: that Gaussian whose bands
-// hold as much energy as the result's do, summed over the bands that lost energy.
+// Curvature along the ridge lines of the original terrain, and the part that is kept. The reference
+// is a plain blur: the Gaussian whose bands have as much energy as the result's, summed over the
+// bands that lost energy.
 struct RidgeSharpness {
   std::size_t cells = 0;      // ridge-line cells of the slice
   double before_per_m = 0.0;  // mean crest curvature
   double after_per_m = 0.0;
   double gaussian_per_m = 0.0;
-  // Standard deviation of that Gaussian, cells. 0: no band lost energy. Where not even the widest tried (widest_gaussian_cells) takes as
-  // much away, it is that one.
+  // Standard deviation of that Gaussian, cells. 0: no band lost energy. At most the widest one
+  // tried (widest_gaussian_cells).
   double gaussian_cells = 0.0;
   double kept() const { return before_per_m > 0.0 ? after_per_m / before_per_m : 0.0; }
-  double kept_by_gaussian() const { return before_per_m > 0.0 ? gaussian_per_m / before_per_m : 0.0; }
+  double kept_by_gaussian() const {
+    return before_per_m > 0.0 ? gaussian_per_m / before_per_m : 0.0;
+  }
 };
 constexpr double widest_gaussian_cells = 16.0;
 // [slice].
-std::vector<RidgeSharpness> ridge_sharpness(const Grid<float>& before_m, const Grid<float>& after_m, glm::dvec2 cell_m,
-                                            const Grid<float>& foreground_share, int bands, int slices);
+std::vector<RidgeSharpness> ridge_sharpness(const Grid<float>& before_m, const Grid<float>& after_m,
+                                            glm::dvec2 cell_m, const Grid<float>& foreground_share,
+                                            int bands, int slices);
 
 // Where slopes meet flat ground: cells that slope_foot_mask() keeps to more than half.
 Grid<std::uint8_t> slope_feet(const Grid<float>& altitude_m, glm::dvec2 cell_m, int bands);
 
-// What amplified bands dig there.
+// Artefacts of amplified bands there.
 struct FootPits {
   double hollows_m3 = 0.0;  // volume of water that hollows would hold (filled to their outlets)
   double deepest_m = 0.0;
-  double lowered_m3 = 0.0;  // volume of ground taken away, with an outlet or not
+  double lowered_m3 = 0.0;  // volume of ground removed, with an outlet or not
 };
-FootPits foot_pits(const Grid<float>& before_m, const Grid<float>& after_m, const Grid<std::uint8_t>& feet, glm::dvec2 cell_m);
+FootPits foot_pits(const Grid<float>& before_m, const Grid<float>& after_m,
+                   const Grid<std::uint8_t>& feet, glm::dvec2 cell_m);
 
 }  // namespace belvedere

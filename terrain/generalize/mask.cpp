@@ -18,7 +18,9 @@ namespace belvedere {
 namespace {
 
 // 0 up to `from`, 1 from `to` on.
-float share_between(double from, double to, double v) { return static_cast<float>(smoothstep(from, to, v)); }
+float share_between(double from, double to, double v) {
+  return static_cast<float>(smoothstep(from, to, v));
+}
 
 template <class F>
 void change_cells(Grid<float>& grid, F&& f) {
@@ -32,8 +34,8 @@ Grid<float> smooth_slope(const Grid<float>& altitude_m, glm::dvec2 cell_m, doubl
   return slope_deg(gaussian_blur(altitude_m, blur_cells), cell_m.x, cell_m.y);
 }
 
-// 1 on flats and around them, fading over some cells: the foot of a slope is concave and steeper than the flat, and belongs to it. Narrow
-// flats, ledges and passes do not count.
+// 1 on flats and around them, fading over some cells: the foot of a slope is concave and steeper
+// than the flat, and belongs to it. Narrow flats, ledges and passes are ignored.
 Grid<float> grown_flat(Grid<float> flat) {
   flat = window_maximum(window_minimum(flat, 1), 6);
   return gaussian_blur(flat, 3.0);
@@ -42,22 +44,28 @@ Grid<float> grown_flat(Grid<float> flat) {
 }  // namespace
 
 Grid<float> slope_mask(const Grid<float>& altitude_m, glm::dvec2 cell_m, const SlopeRange& range) {
-  if (!(range.original_to_deg >= 0.0 && range.original_to_deg < range.generalized_from_deg && range.generalized_from_deg < 90.0)) {
-    throw Error(ErrorKind::usage, "slope mask", fmt::format("from {}° to {}°", range.original_to_deg, range.generalized_from_deg),
+  if (!(range.original_to_deg >= 0.0 && range.original_to_deg < range.generalized_from_deg &&
+        range.generalized_from_deg < 90.0)) {
+    throw Error(ErrorKind::usage, "slope mask",
+                fmt::format("from {}° to {}°", range.original_to_deg, range.generalized_from_deg),
                 "0° ≤ lower < upper < 90°");
   }
   Grid<float> mask = smooth_slope(altitude_m, cell_m, 1.0);
-  change_cells(mask, [&](float slope, int, int) { return share_between(range.original_to_deg, range.generalized_from_deg, slope); });
+  change_cells(mask, [&](float slope, int, int) {
+    return share_between(range.original_to_deg, range.generalized_from_deg, slope);
+  });
   Grid<float> flat = mask;
   change_cells(flat, [](float steep, int, int) { return 1.F - steep; });
   flat = grown_flat(std::move(flat));
-  change_cells(mask, [&](float steep, int x, int y) { return std::clamp(1.F - flat(x, y), 0.F, steep); });
+  change_cells(mask,
+               [&](float steep, int x, int y) { return std::clamp(1.F - flat(x, y), 0.F, steep); });
   return mask;
 }
 
 Grid<float> class_mask(const Grid<LandCoverClass>& classes, const GeneralizedShares& shares) {
   Grid<float> mask(classes.width(), classes.height());
-  change_cells(mask, [&](float, int x, int y) { return shares[static_cast<std::size_t>(classes(x, y))]; });
+  change_cells(
+      mask, [&](float, int x, int y) { return shares[static_cast<std::size_t>(classes(x, y))]; });
   return mask;
 }
 
@@ -66,7 +74,7 @@ Grid<float> slope_foot_mask(const Grid<float>& altitude_m, glm::dvec2 cell_m, in
   Grid<float> slope = smooth_slope(altitude_m, cell_m, 1.5);
   Grid<float> near_steep = slope;
   change_cells(near_steep, [](float s, int, int) { return share_between(12.0, 20.0, s); });
-  // Fades outwards, over as much again.
+  // Fades outwards over the same distance again.
   near_steep = gaussian_blur(window_maximum(near_steep, reach), 0.35 * reach);
   Grid<float> mask = std::move(slope);
   change_cells(mask, [](float s, int, int) { return 1.F - share_between(3.0, 12.0, s); });
@@ -77,7 +85,7 @@ Grid<float> slope_foot_mask(const Grid<float>& altitude_m, glm::dvec2 cell_m, in
 
 Grid<float> read_mask(const RasterSource& source, const RasterFrame& frame, Progress& progress) {
   RasterSource plain = source;
-  plain.unit_to_m = 1.0;  // no lengths
+  plain.unit_to_m = 1.0;  // values, not lengths
   Grid<float> mask = warp_rasters({plain}, frame, progress).cells;
   float lowest = 1.F;
   float highest = 0.F;
@@ -88,10 +96,13 @@ Grid<float> read_mask(const RasterSource& source, const RasterFrame& frame, Prog
     lowest = std::min(lowest, v);
     highest = std::max(highest, v);
   }
-  if (!any) throw Error(ErrorKind::input, source.path, "the mask has no data where the terrain lies", "a mask that covers the terrain");
+  if (!any)
+    throw Error(ErrorKind::input, source.path, "the mask does not cover the terrain",
+                "a mask that covers the terrain");
   if (lowest < 0.F || highest > 255.F) {
-    throw Error(ErrorKind::input, source.path, fmt::format("the mask's values go from {} to {}", lowest, highest),
-                "0 (stays as it is) … 1, or 0 … 255 (generalized)");
+    throw Error(ErrorKind::input, source.path,
+                fmt::format("the mask's values range from {} to {}", lowest, highest),
+                "values from 0 (unchanged) to 1 or 255 (generalized)");
   }
   const float scale = highest > 1.F ? 1.F / 255.F : 1.F;
   change_cells(mask, [&](float v, int, int) { return std::isfinite(v) ? v * scale : 1.F; });
@@ -107,7 +118,7 @@ Grid<float> soften_mask(const Grid<float>& mask) {
 Grid<float> combine_masks(Grid<float> a, const Grid<float>& b) {
   if (a.empty()) return b;
   if (b.empty()) return a;
-  if (!a.same_size(b)) throw Error(ErrorKind::bug, "combine_masks", "masks of different sizes");
+  if (!a.same_size(b)) throw Error(ErrorKind::bug, "combine_masks", "the masks differ in size");
   change_cells(a, [&](float v, int x, int y) { return v * b(x, y); });
   return a;
 }

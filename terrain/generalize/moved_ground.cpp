@@ -6,14 +6,14 @@
 
 namespace belvedere {
 
-glm::dvec2 drawn_cell(const Grid<glm::vec2>& goes_to, glm::dvec2 place) {
-  return goes_to.empty() ? place : place + sample_bilinear(goes_to, place.x, place.y);
+glm::dvec2 drawn_cell(const Grid<glm::vec2>& goes_to, glm::dvec2 position) {
+  return goes_to.empty() ? position : position + sample_bilinear(goes_to, position.x, position.y);
 }
 
 glm::dvec2 origin_cell(const Grid<glm::vec2>& goes_to, glm::dvec2 drawn) {
   if (goes_to.empty()) return drawn;
-  // Ground is drawn out to three times its length at most, four near lakes, and nowhere drawn together to less than a third: steps of so
-  // much of what is missing come nearer each time.
+  // The ground is stretched to at most three times its length, four near lakes, and nowhere
+  // compressed to less than a third. A fixed-point iteration with this step therefore converges.
   constexpr double part_of_step = 0.4;
   constexpr int steps = 60;
   constexpr double exact_cells = 1e-4;

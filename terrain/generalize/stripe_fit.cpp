@@ -11,31 +11,36 @@
 #include "base/parallel.h"
 #include "base/statistics.h"
 
-// Along a line the stripe's error c is fitted to the detail h = c · g + terrain, weighted by how plain the terrain is. How plain is known
-// without the stripes: they leave the detail *along* the line alone, and terrain is about as rough along as across. What c leaves
-// unexplained then weakens cells that stand out (Student's t): crests and gullies, a few cells with most of the energy, hardly count.
-//
-// Stripes may be the same all along a line or change on their way. So c is fitted over the whole line first, then what is left over shorter
-// and shorter pieces; each time only the part that stands above chance is taken (Wiener), in four bands of width, because terrain has
-// little detail in narrow stripes and much in wide ones. Chance is what the same sums give when every other piece of a line changes its
-// sign: that cancels stripes, and leaves the terrain as it is.
+// Along a line the stripe's error c is fitted to the detail h = c · g + terrain, weighted by how
+// smooth the terrain is. Roughness is measured without the stripes: they do not affect the detail
+// *along* the line, and terrain is about as rough along as across. Outliers of the fit get less
+// weight (Student's t): crests and gullies, a few cells with most of the energy, hardly count.
+// A stripe may be constant along a line or vary. So c is fitted over the whole line first, then the
+// residual over shorter and shorter pieces. Each time only the significant part is taken (Wiener
+// filter), in four bands of width, because terrain has little detail in narrow stripes and much in
+// wide ones. The noise level is the result of the same sums with alternating signs of the pieces of
+// a line: that cancels stripes and keeps the terrain.
 namespace belvedere {
 namespace {
 
-constexpr int taps = 8;                     // of the interpolation across lines, Lanczos
-constexpr int bin_cells = 8;                // sums over lines are kept for so many cells together
-constexpr int flip_bins = 2;                // pieces that change their sign; longer than terrain's detail is alike
+constexpr int taps = 8;       // of the interpolation across lines, Lanczos
+constexpr int bin_cells = 8;  // sums over lines are kept for this many cells together
+constexpr int flip_bins =
+    2;  // pieces with alternating sign; longer than the correlation of terrain detail
 constexpr double roughness_cells = 2.5;     // over which roughness is averaged
 constexpr double along_period_cells = 6.0;  // of the detail along lines
-constexpr float least_roughness = 0.002F;   // of the median: the plainest ground counts no more than 500 times
-constexpr float least_certainty = 0.6F;     // of the lines around: a crest along a line is certain of nothing
-constexpr float most_displacement = 0.75F;  // cells; nearest neighbours move by no more than half a cell
-// A line may stand out from the lines around it by this factor (geometric mean of their amplitudes; a sine's crest has 2, a saw tooth 2.7):
-// a ridge that runs along the lines is a single large exception, and is not cut off.
+constexpr float min_roughness =
+    0.002F;  // of the median: limits the weight of the smoothest ground to 500 times
+constexpr float min_certainty =
+    0.6F;  // of the neighbouring lines: limits the certainty of a crest along a line
+constexpr float max_displacement = 0.75F;  // cells; nearest neighbours shift by at most half a cell
+// A line may exceed its neighbours by this factor (geometric mean of their amplitudes; a sine's
+// crest has 2, a saw tooth 2.7): a ridge along the lines is a single large exception and must not
+// be removed.
 constexpr float max_crest_exception = 4.F;
-constexpr std::array<double, 3> band_cells{0.55, 1.0, 1.8};  // Gaussians between the bands of width
+constexpr std::array<double, 3> band_cells{0.55, 1.0, 1.8};  // Gaussians between the width bands
 
-// Values of row y + tilt (x - middle) come to row y; beyond the grid 0.
+// Shears row y + tilt (x - centre) to row y; 0 beyond the grid.
 Grid<float> sheared(const Grid<float>& values, double tilt) {
   if (tilt == 0.0) return values;
   const int width = values.width();
@@ -50,7 +55,8 @@ Grid<float> sheared(const Grid<float>& values, double tilt) {
     std::array<double, taps> w{};
     for (int k = 0; k < taps; ++k) {
       const double d = 3.14159265358979323846 * (k - taps / 2 + 1 - (shift - whole));
-      w[k] = std::abs(d) < 1e-9 ? 1.0 : exact::sin(d) / d * exact::sin(d * 2 / taps) / (d * 2 / taps);
+      w[k] =
+          std::abs(d) < 1e-9 ? 1.0 : exact::sin(d) / d * exact::sin(d * 2 / taps) / (d * 2 / taps);
       sum += w[k];
     }
     for (int k = 0; k < taps; ++k) weights[x][k] = static_cast<float>(w[k] / sum);
@@ -82,7 +88,7 @@ Grid<float> mean_square(Grid<float> detail) {
   return gaussian_blur(detail, roughness_cells);
 }
 
-// How rough the terrain is, m², seen along the lines. 0 where it is level: a lake knows nothing of stripes.
+// Roughness of the terrain along the lines, m². 0 on level ground: a lake has no stripes.
 Grid<float> roughness_along(const Grid<float>& altitude_m) {
   Grid<float> detail = altitude_m;
   for (int pass = 0; pass < 3; ++pass) {
@@ -90,8 +96,8 @@ Grid<float> roughness_along(const Grid<float>& altitude_m) {
     for (std::size_t i = 0; i < detail.size(); ++i) detail[i] -= mean[i];
   }
   Grid<float> rough = mean_square(std::move(detail));
-  const float least = std::max(least_roughness * median(rough), 1e-6F);
-  for (float& v : rough) v = v > 1e-8F ? v + least : 0.F;
+  const float min = std::max(min_roughness * median(rough), 1e-6F);
+  for (float& v : rough) v = v > 1e-8F ? v + min : 0.F;
   return rough;
 }
 
@@ -110,8 +116,8 @@ struct Sums {
   Grid<float> q;
 };
 
-// The mean p / q over a triangle of 2 box - 1 bins: a box, twice. A line that is far less certain than those around it is held against
-// them. Beyond the ends there is nothing.
+// The mean p / q over a triangle of 2 box - 1 bins: a box, twice. Lines that are much less certain
+// than their neighbours are compared with these. Values beyond the ends are 0.
 void sum_along_rows(Grid<float>& values, int box) {
   parallel_rows(values.height(), [&](int y) {
     float* row = values.row(y);
@@ -133,16 +139,18 @@ void sum_along_rows(Grid<float>& values, int box) {
   });
 }
 
-// q over the window, at least a part of that of the lines around.
+// q over the window, at least a share of that of the neighbouring lines.
 Grid<float> certainty(Grid<float> q, int box, double around) {
   sum_along_rows(q, box);
   const Grid<float> usual = gaussian_blur(q, 0.0, around);
-  for (std::size_t i = 0; i < q.size(); ++i) q[i] = std::max(std::max(q[i], least_certainty * usual[i]), 1e-30F);
+  for (std::size_t i = 0; i < q.size(); ++i)
+    q[i] = std::max(std::max(q[i], min_certainty * usual[i]), 1e-30F);
   return q;
 }
 
-// The part of a fit that stands above chance, which another fit shows, in each band of width.
-Grid<float> above_chance(const Grid<float>& fit, const Grid<float>& chance, int box, double around) {
+// The significant part of a fit, by the noise level of another fit, in each band of width.
+Grid<float> above_chance(const Grid<float>& fit, const Grid<float>& chance, int box,
+                         double around) {
   const double along = 0.35 * std::min(box, fit.width());
   const auto energy = [&](Grid<float> band) {
     for (float& v : band) v *= v;
@@ -153,7 +161,8 @@ Grid<float> above_chance(const Grid<float>& fit, const Grid<float>& chance, int 
   Grid<float> rest_of_chance = chance;
   for (std::size_t band = 0; band <= band_cells.size(); ++band) {
     const bool last = band == band_cells.size();
-    Grid<float> wider = last ? Grid<float>(fit.width(), fit.height()) : gaussian_blur(rest, 0.0, band_cells[band]);
+    Grid<float> wider =
+        last ? Grid<float>(fit.width(), fit.height()) : gaussian_blur(rest, 0.0, band_cells[band]);
     Grid<float> wider_chance = last ? wider : gaussian_blur(rest_of_chance, 0.0, band_cells[band]);
     for (std::size_t i = 0; i < rest.size(); ++i) {
       rest[i] -= wider[i];
@@ -161,14 +170,15 @@ Grid<float> above_chance(const Grid<float>& fit, const Grid<float>& chance, int 
     }
     const Grid<float> whole = energy(rest);
     const Grid<float> by_chance = energy(rest_of_chance);
-    for (std::size_t i = 0; i < rest.size(); ++i) out[i] += std::max(1.F - by_chance[i] / std::max(whole[i], 1e-30F), 0.F) * rest[i];
+    for (std::size_t i = 0; i < rest.size(); ++i)
+      out[i] += std::max(1.F - by_chance[i] / std::max(whole[i], 1e-30F), 0.F) * rest[i];
     rest = std::move(wider);
     rest_of_chance = std::move(wider_chance);
   }
   return out;
 }
 
-// What these sums say of stripes that stay the same over `box` bins.
+// The stripes implied by these sums that are constant over `box` bins.
 Grid<float> fit_lines(const Sums& sums, int box, double around) {
   const Grid<float> weight = certainty(sums.q, box, around);
   Grid<float> fit = sums.p;
@@ -186,26 +196,27 @@ Grid<float> fit_lines(const Sums& sums, int box, double around) {
   return above_chance(fit, chance, box, around);
 }
 
-// Leaves out single lines that stand out.
+// Removes single outlying lines.
 void limit(Grid<float>& error, Follows follows, double around) {
   Grid<float> level(error.width(), error.height());
   for (std::size_t i = 0; i < error.size(); ++i) level[i] = exact::log(std::abs(error[i]) + 1e-6F);
   level = gaussian_blur(level, 0.0, around);
   for (std::size_t i = 0; i < error.size(); ++i) {
-    float most = max_crest_exception * exact::exp(level[i]);
-    if (follows != Follows::offset) most = std::min(most, most_displacement);
-    // Far above it is a crest, and is the less believed the farther: what stands out is no part of a stripe.
-    const float over = std::abs(error[i]) / std::max(most, 1e-12F);
+    float max = max_crest_exception * exact::exp(level[i]);
+    if (follows != Follows::offset) max = std::min(max, max_displacement);
+    // A line far above the limit is a crest; its weight falls with the excess.
+    const float over = std::abs(error[i]) / std::max(max, 1e-12F);
     if (over > 1.F) error[i] /= over * over;
   }
 }
 
-// From bins and upright lines back to cells.
+// From bins and sheared lines back to cells.
 Grid<float> spread(const Grid<float>& bins, int width, double tilt) {
   Grid<float> out(width, bins.height());
   parallel_rows(bins.height(), [&](int y) {
     for (int x = 0; x < width; ++x) {
-      const float at = std::clamp((static_cast<float>(x) + 0.5F) / bin_cells - 0.5F, 0.F, static_cast<float>(bins.width() - 1));
+      const float at = std::clamp((static_cast<float>(x) + 0.5F) / bin_cells - 0.5F, 0.F,
+                                  static_cast<float>(bins.width() - 1));
       const int left = std::min(static_cast<int>(at), std::max(bins.width() - 2, 0));
       const float t = at - static_cast<float>(left);
       out(x, y) = (1.F - t) * bins(left, y) + t * bins.clamped(left + 1, y);
@@ -232,12 +243,15 @@ std::vector<Level> plan_levels(int bins, float length_cells) {
 }  // namespace
 
 float followed(const Grid<float>& smooth_m, Follows follows, int x, int y) {
-  if (follows == Follows::slope_along) return 0.5F * (smooth_m.clamped(x + 1, y) - smooth_m.clamped(x - 1, y));
-  if (follows == Follows::slope_across) return 0.5F * (smooth_m.clamped(x, y + 1) - smooth_m.clamped(x, y - 1));
+  if (follows == Follows::slope_along)
+    return 0.5F * (smooth_m.clamped(x + 1, y) - smooth_m.clamped(x - 1, y));
+  if (follows == Follows::slope_across)
+    return 0.5F * (smooth_m.clamped(x, y + 1) - smooth_m.clamped(x, y - 1));
   return 1.F;
 }
 
-Grid<float> fit_stripes(const Grid<float>& altitude_m, const Grid<float>& height_m, const Grid<float>& smooth_m, const StripeLines& lines) {
+Grid<float> fit_stripes(const Grid<float>& altitude_m, const Grid<float>& height_m,
+                        const Grid<float>& smooth_m, const StripeLines& lines) {
   const int width = altitude_m.width();
   const int height = altitude_m.height();
   const double around = 1.5 * lines.longest_period_cells;
@@ -247,9 +261,10 @@ Grid<float> fit_stripes(const Grid<float>& altitude_m, const Grid<float>& height
   bool first = true;
   for (const Level& level : plan_levels(total.width(), lines.length_cells)) {
     for (int fit = 0; fit < level.fits; ++fit) {
-      Grid<float> left(width, height);  // what the stripes found so far do not explain
+      Grid<float> left(width, height);  // residual of the stripes found so far
       parallel_rows(height, [&](int y) {
-        for (int x = 0; x < width; ++x) left(x, y) = height_m(x, y) - error(x, y) * followed(smooth_m, lines.follows, x, y);
+        for (int x = 0; x < width; ++x)
+          left(x, y) = height_m(x, y) - error(x, y) * followed(smooth_m, lines.follows, x, y);
       });
       const Grid<float> rough_across = first ? Grid<float>() : mean_square(left);
       Grid<float> p(width, height);

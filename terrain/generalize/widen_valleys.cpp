@@ -17,47 +17,53 @@
 namespace belvedere {
 namespace {
 
-// A floor's altitude is that of the water's course beside it, smoothed over so many cells: courses run in stairs.
+// A floor's altitude is that of the nearest centreline, smoothed over this many cells, because
+// centrelines descend in steps.
 constexpr double floor_smoothing_cells = 3.0;
-// So far beside the course lies the water with its banks: it does not become as wide as the new floor.
+// Up to this distance from the centreline lie the water and its banks, which are not widened with
+// the floor.
 constexpr float water_cells = 1.5F;
-// What lies farther from the water's course than this part of half the width goes the whole way with its wall.
+// Ground farther from the centreline than this share of half the width moves fully with its wall.
 constexpr float gathered = 0.75F;
 
-// Where a cell takes its altitude from: cells, relative to itself.
+// Source of a cell's altitude: cells, relative to itself.
 struct Shift {
   Grid<float> x;
   Grid<float> y;
 };
 
-// What is known of the valley that a cell belongs to.
+// Properties of the valley that a cell belongs to.
 struct Valleys {
-  Grid<std::int32_t> course;  // the nearest cell of a water's course; -1 where there are none at all
-  Grid<float> floor_m;        // its altitude
-  Grid<float> half_width;     // cells by which the walls of this valley move at its floor
+  Grid<std::int32_t> centreline;  // the nearest cell of a centreline; -1 if there are none
+  Grid<float> floor_m;            // its altitude
+  Grid<float> half_width;         // cells by which the walls of this valley move at its floor
 };
 
-Valleys find_valleys(const Grid<float>& altitude_m, double cell_m, const WidenValleysParameters& parameters) {
+Valleys find_valleys(const Grid<float>& altitude_m, double cell_m,
+                     const WidenValleysParameters& parameters) {
   const Grid<float> catchment = flow_accumulation_km2(altitude_m, cell_m);
   Grid<std::uint8_t> water(altitude_m.width(), altitude_m.height());
-  std::transform(catchment.begin(), catchment.end(), water.begin(),
-                 [&](float area) { return static_cast<std::uint8_t>(area >= parameters.least_catchment_km2 ? 1 : 0); });
+  std::transform(catchment.begin(), catchment.end(), water.begin(), [&](float area) {
+    return static_cast<std::uint8_t>(area >= parameters.min_catchment_km2 ? 1 : 0);
+  });
   Valleys valleys;
-  valleys.course = nearest_marked(water);
+  valleys.centreline = nearest_marked(water);
   valleys.floor_m = Grid<float>(altitude_m.width(), altitude_m.height());
   valleys.half_width = valleys.floor_m;
-  const float least = exact::log(parameters.least_catchment_km2);
-  const float span = exact::log(parameters.full_catchment_km2) - least;
+  const float min = exact::log(parameters.min_catchment_km2);
+  const float span = exact::log(parameters.full_catchment_km2) - min;
   const auto widest = static_cast<float>(0.5 * parameters.width_m / cell_m);
   parallel_rows(altitude_m.height(), [&](int y) {
     for (int x = 0; x < altitude_m.width(); ++x) {
-      const std::int32_t at = valleys.course(x, y);
+      const std::int32_t at = valleys.centreline(x, y);
       if (at < 0) continue;
       valleys.floor_m(x, y) = altitude_m[static_cast<std::size_t>(at)];
-      valleys.half_width(x, y) = widest * smoothstep((exact::log(catchment[static_cast<std::size_t>(at)]) - least) / span);
+      valleys.half_width(x, y) =
+          widest * smoothstep((exact::log(catchment[static_cast<std::size_t>(at)]) - min) / span);
     }
   });
-  // A brook that comes into a valley has not its width yet: the change is spread over the width itself.
+  // A brook that enters a valley is narrower: the change is spread over a distance of the width
+  // itself.
   valleys.half_width = gaussian_blur(valleys.half_width, widest);
   return valleys;
 }
@@ -68,17 +74,21 @@ float distance_to_nearest(const Grid<std::int32_t>& nearest, int x, int y) {
   return std::sqrt(dx * dx + dy * dy);
 }
 
-// How far each wall moves, cells: whole at the floor, nothing at fade_height of the ridges around and above.
-Grid<float> find_moves(const Grid<float>& altitude_m, const Valleys& valleys, double cell_m, const WidenValleysParameters& parameters) {
+// Displacement of each wall, cells: full at the floor, 0 at fade_height of the ridges around and
+// above.
+Grid<float> find_moves(const Grid<float>& altitude_m, const Valleys& valleys, double cell_m,
+                       const WidenValleysParameters& parameters) {
   const int reach = std::max(1, static_cast<int>(std::lround(parameters.reach_m / cell_m)));
   const Grid<float> ridge_m = gaussian_blur(window_maximum(altitude_m, reach), 0.3 * reach);
   const Grid<float> smooth_m = gaussian_blur(altitude_m, 2.0);
   const Grid<float> floor_m = gaussian_blur(valleys.floor_m, 0.1 * reach);
-  // The walls of two valleys move apart from the line halfway between their courses, however low the ground is there: at that line, where
-  // the distance is largest, nothing may move. Over three half-widths the ground then gets at most 1.5 times as steep.
+  // The walls of two valleys move apart from the line halfway between their centrelines, however
+  // low the ground is there: nothing may move at that line, where the distance is largest. Faded
+  // over three half-widths, the ground gets at most 1.5 times as steep.
   Grid<float> distance(altitude_m.width(), altitude_m.height());
   parallel_rows(distance.height(), [&](int y) {
-    for (int x = 0; x < distance.width(); ++x) distance(x, y) = distance_to_nearest(valleys.course, x, y);
+    for (int x = 0; x < distance.width(); ++x)
+      distance(x, y) = distance_to_nearest(valleys.centreline, x, y);
   });
   const int apart = std::max(2, static_cast<int>(std::ceil(1.5 * parameters.width_m / cell_m)));
   const Grid<float> farthest = window_maximum(distance, apart);
@@ -87,8 +97,10 @@ Grid<float> find_moves(const Grid<float>& altitude_m, const Valleys& valleys, do
     for (int x = 0; x < altitude_m.width(); ++x) {
       const float depth_m = std::max(ridge_m(x, y) - floor_m(x, y), 1.F);
       // Near the floor every wall is low, whatever the smoothed floor is.
-      const float height_m = std::max(smooth_m(x, y) - std::max(floor_m(x, y), valleys.floor_m(x, y)), 0.F);
-      // A quarter of the way moves as a whole: heights are those of the cell as it is, before lower ground comes there.
+      const float height_m =
+          std::max(smooth_m(x, y) - std::max(floor_m(x, y), valleys.floor_m(x, y)), 0.F);
+      // A quarter of the displacement applies to the whole wall: heights are those of the original
+      // cell, before lower ground moves there.
       const float part = height_m / (parameters.fade_height * depth_m);
       moves(x, y) = valleys.half_width(x, y) * (1.F - smoothstep((part - 0.25F) / 0.75F)) *
                     smoothstep((farthest(x, y) - distance(x, y)) / static_cast<float>(apart));
@@ -97,7 +109,8 @@ Grid<float> find_moves(const Grid<float>& altitude_m, const Valleys& valleys, do
   return moves;
 }
 
-// Halfway between two courses the direction turns over; a step there would be a cliff, or a kink in a road.
+// Halfway between two centrelines the direction reverses; a step there would be a cliff, or a kink
+// in a road.
 Shift smoothed(Shift shift, const Grid<float>& moves) {
   const float widest = *std::max_element(moves.begin(), moves.end());
   const double sigma = std::clamp(0.35 * widest, 1.0, 12.0);
@@ -105,48 +118,58 @@ Shift smoothed(Shift shift, const Grid<float>& moves) {
 }
 
 Shift find_shifts(const Grid<float>& moves, const Valleys& valleys) {
-  Shift shift{Grid<float>(moves.width(), moves.height()), Grid<float>(moves.width(), moves.height())};
+  Shift shift{Grid<float>(moves.width(), moves.height()),
+              Grid<float>(moves.width(), moves.height())};
   parallel_rows(moves.height(), [&](int y) {
     for (int x = 0; x < moves.width(); ++x) {
-      const float distance = distance_to_nearest(valleys.course, x, y);
+      const float distance = distance_to_nearest(valleys.centreline, x, y);
       if (distance <= 0.F) continue;
-      // No farther than the course: beyond it lies the other wall.
+      // No farther than the centreline: beyond it is the other wall.
       const float share = std::min(moves(x, y), distance) / distance;
-      shift.x(x, y) = share * static_cast<float>(valleys.course(x, y) % moves.width() - x);
-      shift.y(x, y) = share * static_cast<float>(valleys.course(x, y) / moves.width() - y);
+      shift.x(x, y) = share * static_cast<float>(valleys.centreline(x, y) % moves.width() - x);
+      shift.y(x, y) = share * static_cast<float>(valleys.centreline(x, y) / moves.width() - y);
     }
   });
   return smoothed(std::move(shift), moves);
 }
 
-// Where the ground of each cell came from. The same move, but water and banks stay beside the course, and what has no wall any more takes
-// what lies at the bank.
-Grid<glm::vec2> find_origins(const Grid<float>& moves, const Valleys& valleys, const Grid<std::uint8_t>& keep) {
+// Source of the ground of each cell. The same displacement, but water and banks stay next to the
+// centreline, and cells of the new floor take the cover of the bank.
+Grid<glm::vec2> find_origins(const Grid<float>& moves, const Valleys& valleys,
+                             const Grid<std::uint8_t>& keep) {
   Grid<glm::vec2> out(moves.width(), moves.height());
   parallel_rows(moves.height(), [&](int y) {
     for (int x = 0; x < moves.width(); ++x) {
-      const float distance = distance_to_nearest(valleys.course, x, y);
+      const float distance = distance_to_nearest(valleys.centreline, x, y);
       if (distance <= water_cells || (!keep.empty() && keep(x, y) != 0)) continue;
       const float share = std::min(moves(x, y), distance - water_cells) / distance;
-      out(x, y) = share * glm::vec2(valleys.course(x, y) % moves.width() - x, valleys.course(x, y) / moves.width() - y);
+      out(x, y) = share * glm::vec2(valleys.centreline(x, y) % moves.width() - x,
+                                    valleys.centreline(x, y) / moves.width() - y);
     }
   });
   return out;
 }
 
-// Where what lies on each cell of the map is drawn: out along the line from the course, as far as the wall there moved.
-Grid<glm::vec2> find_ways(const Grid<float>& moves, const Valleys& valleys, const Grid<std::uint8_t>& keep) {
+// Where the features of each cell are drawn: moved away from the centreline by the displacement of
+// the wall there.
+Grid<glm::vec2> lateral_offsets(const Grid<float>& moves, const Valleys& valleys,
+                                const Grid<std::uint8_t>& keep) {
   Shift way{Grid<float>(moves.width(), moves.height()), Grid<float>(moves.width(), moves.height())};
   parallel_rows(moves.height(), [&](int y) {
     for (int x = 0; x < moves.width(); ++x) {
-      const float distance = distance_to_nearest(valleys.course, x, y);
+      const float distance = distance_to_nearest(valleys.centreline, x, y);
       if (distance <= 0.F || moves(x, y) <= 0.F || (!keep.empty() && keep(x, y) != 0)) continue;
-      const glm::vec2 out = glm::vec2(x - valleys.course(x, y) % moves.width(), y - valleys.course(x, y) / moves.width()) / distance;
-      const float share = smoothstep(distance / (gathered * std::max(valleys.half_width(x, y), 1.F)));
-      // Walls say at the place they came to how far they moved; from cell to cell that changes by less than a cell.
+      const glm::vec2 out = glm::vec2(x - valleys.centreline(x, y) % moves.width(),
+                                      y - valleys.centreline(x, y) / moves.width()) /
+                            distance;
+      const float share =
+          smoothstep(distance / (gathered * std::max(valleys.half_width(x, y), 1.F)));
+      // Displacements are stored at the target position of a wall; they change by less than a cell
+      // from cell to cell.
       constexpr int steps = 12;
       float far = share * moves(x, y);
-      for (int i = 0; i < steps; ++i) far = share * sample_bilinear(moves, x + far * out.x, y + far * out.y);
+      for (int i = 0; i < steps; ++i)
+        far = share * sample_bilinear(moves, x + far * out.x, y + far * out.y);
       way.x(x, y) = far * out.x;
       way.y(x, y) = far * out.y;
     }
@@ -154,17 +177,20 @@ Grid<glm::vec2> find_ways(const Grid<float>& moves, const Valleys& valleys, cons
   way = smoothed(std::move(way), moves);
   Grid<glm::vec2> ways(moves.width(), moves.height());
   for (std::size_t i = 0; i < ways.size(); ++i) ways[i] = {way.x[i], way.y[i]};
-  if (std::find_if(keep.begin(), keep.end(), [](std::uint8_t is) { return is != 0; }) == keep.end()) return ways;
-  // Lakes stay, and the nearer to one the less moves.
+  if (std::find_if(keep.begin(), keep.end(), [](std::uint8_t is) { return is != 0; }) == keep.end())
+    return ways;
+  // Lakes do not move, and displacements fade towards them.
   const Grid<std::int32_t> lake = nearest_marked(keep);
   parallel_rows(ways.height(), [&](int y) {
     for (int x = 0; x < ways.width(); ++x)
-      ways(x, y) *= smoothstep(distance_to_nearest(lake, x, y) / (2.F * gathered * std::max(valleys.half_width(x, y), 1.F)));
+      ways(x, y) *= smoothstep(distance_to_nearest(lake, x, y) /
+                               (2.F * gathered * std::max(valleys.half_width(x, y), 1.F)));
   });
   return ways;
 }
 
-// Cubic convolution (Catmull–Rom): keeps the detail of walls that moved by parts of a cell. Whole places give their cell exactly.
+// Cubic convolution (Catmull–Rom): keeps the detail of walls that move by fractions of a cell.
+// Whole positions give their cell exactly.
 float sample_cubic(const Grid<float>& values, float x, float y) {
   const float fx = std::floor(x);
   const float fy = std::floor(y);
@@ -181,35 +207,41 @@ float sample_cubic(const Grid<float>& values, float x, float y) {
   float sum = 0.F;
   for (int j = 0; j < 4; ++j) {
     float row = 0.F;
-    for (int i = 0; i < 4; ++i) row += wx[i] * values.clamped(static_cast<int>(fx) + i - 1, static_cast<int>(fy) + j - 1);
+    for (int i = 0; i < 4; ++i)
+      row += wx[i] * values.clamped(static_cast<int>(fx) + i - 1, static_cast<int>(fy) + j - 1);
     sum += wy[j] * row;
   }
   return sum;
 }
 
-void check(const Grid<float>& altitude_m, const Grid<std::uint8_t>& keep, const WidenValleysParameters& p) {
-  const auto check_range = [](const char* key, double value, double least, double most) {
-    if (value >= least && value <= most) return;
-    throw Error(ErrorKind::usage, fmt::format("widen_valleys.{}", key), fmt::format("{}", value), fmt::format("{}…{}", least, most));
+void check(const Grid<float>& altitude_m, const Grid<std::uint8_t>& keep,
+           const WidenValleysParameters& p) {
+  const auto check_range = [](const char* key, double value, double min, double max) {
+    if (value >= min && value <= max) return;
+    throw Error(ErrorKind::usage, fmt::format("widen_valleys.{}", key), fmt::format("{}", value),
+                fmt::format("{}…{}", min, max));
   };
   check_range("width_m", p.width_m, 0, 5000);
-  check_range("least_catchment_km2", p.least_catchment_km2, 0.01, 10000);
-  check_range("full_catchment_km2", p.full_catchment_km2, p.least_catchment_km2 * 1.01, 100000);
+  check_range("min_catchment_km2", p.min_catchment_km2, 0.01, 10000);
+  check_range("full_catchment_km2", p.full_catchment_km2, p.min_catchment_km2 * 1.01, 100000);
   check_range("reach_m", p.reach_m, 100, 20000);
   check_range("fade_height", p.fade_height, 0.1, 1);
-  if (!keep.empty() && !keep.same_size(altitude_m)) throw Error(ErrorKind::bug, "widen valleys", "a lake grid whose size is not the DEM's");
+  if (!keep.empty() && !keep.same_size(altitude_m))
+    throw Error(ErrorKind::bug, "widen valleys", "the lake grid differs in size from the DEM");
 }
 
 }  // namespace
 
-WidenedValleys widen_valleys(const Grid<float>& altitude_m, const Grid<std::uint8_t>& keep, double cell_m,
-                             const WidenValleysParameters& parameters, Progress& progress) {
+WidenedValleys widen_valleys(const Grid<float>& altitude_m, const Grid<std::uint8_t>& keep,
+                             double cell_m, const WidenValleysParameters& parameters,
+                             Progress& progress) {
   check(altitude_m, keep, parameters);
   progress.begin("widen valleys", 4.0);
   if (parameters.width_m <= 0.F || altitude_m.empty()) return {altitude_m, {}, {}};
   const Valleys valleys = find_valleys(altitude_m, cell_m, parameters);
-  if (valleys.course[0] < 0) {
-    progress.note(fmt::format("no valley has a catchment of {} km²: none is widened", parameters.least_catchment_km2));
+  if (valleys.centreline[0] < 0) {
+    progress.note(fmt::format("no valley has a catchment of {} km²; no valley is widened",
+                              parameters.min_catchment_km2));
     return {altitude_m, {}, {}};
   }
   progress.advance(1.0);
@@ -221,9 +253,10 @@ WidenedValleys widen_valleys(const Grid<float>& altitude_m, const Grid<std::uint
   Grid<float> out(altitude_m.width(), altitude_m.height());
   parallel_rows(out.height(), [&](int y) {
     for (int x = 0; x < out.width(); ++x) {
-      out(x, y) = sample_cubic(altitude_m, static_cast<float>(x) + shift.x(x, y), static_cast<float>(y) + shift.y(x, y));
-      // What moved past the course is floor: level across, and falling as the water does.
-      const float distance = distance_to_nearest(valleys.course, x, y);
+      out(x, y) = sample_cubic(altitude_m, static_cast<float>(x) + shift.x(x, y),
+                               static_cast<float>(y) + shift.y(x, y));
+      // Ground that moved past the centreline is floor: level across, descending with the water.
+      const float distance = distance_to_nearest(valleys.centreline, x, y);
       const float floor = smoothstep(2.F * (moves(x, y) - distance) / std::max(moves(x, y), 1.F));
       out(x, y) += floor * (floor_m(x, y) - out(x, y));
     }
@@ -240,7 +273,8 @@ WidenedValleys widen_valleys(const Grid<float>& altitude_m, const Grid<std::uint
     }
   });
   progress.advance(1.0);
-  return {std::move(out), find_origins(moves, valleys, keep), find_ways(moves, valleys, keep)};
+  return {std::move(out), find_origins(moves, valleys, keep),
+          lateral_offsets(moves, valleys, keep)};
 }
 
 }  // namespace belvedere

@@ -13,40 +13,45 @@ int blocks_of(int cells, int factor) { return std::max(2, (cells + factor - 1) /
 
 }  // namespace
 
-BlockMeans::BlockMeans(int width, int height, int most_blocks)
-    : factor_(std::max(1, (std::max(width, height) + most_blocks - 1) / most_blocks)),
+BlockMeans::BlockMeans(int width, int height, int max_blocks)
+    : factor_(std::max(1, (std::max(width, height) + max_blocks - 1) / max_blocks)),
       sums_(blocks_of(width, factor_), blocks_of(height, factor_), 0.0),
       counts_(sums_.width(), sums_.height(), 0) {}
 
 void BlockMeans::push(const Grid<float>& rows) {
-  // A block gets its cells row by row, whoever brings the rows; blocks side by side are independent.
-  parallel_ranges(static_cast<std::size_t>(sums_.width()), std::size_t{16}, [&](std::size_t begin, std::size_t end) {
-    for (int y = 0; y < rows.height(); ++y) {
-      const int block_y = (row_ + y) / factor_;
-      const float* row = rows.row(y);
-      for (int block_x = static_cast<int>(begin); block_x < static_cast<int>(end); ++block_x) {
-        double& sum = sums_(block_x, block_y);
-        std::int32_t& count = counts_(block_x, block_y);
-        for (int x = block_x * factor_; x < std::min((block_x + 1) * factor_, rows.width()); ++x) {
-          if (std::isnan(row[x])) continue;
-          sum += static_cast<double>(row[x]);
-          ++count;
-        }
-      }
-    }
-  });
+  // A block gets its cells row by row, for any split into rows; adjacent blocks are independent.
+  parallel_ranges(static_cast<std::size_t>(sums_.width()), std::size_t{16},
+                  [&](std::size_t begin, std::size_t end) {
+                    for (int y = 0; y < rows.height(); ++y) {
+                      const int block_y = (row_ + y) / factor_;
+                      const float* row = rows.row(y);
+                      for (int block_x = static_cast<int>(begin); block_x < static_cast<int>(end);
+                           ++block_x) {
+                        double& sum = sums_(block_x, block_y);
+                        std::int32_t& count = counts_(block_x, block_y);
+                        for (int x = block_x * factor_;
+                             x < std::min((block_x + 1) * factor_, rows.width()); ++x) {
+                          if (std::isnan(row[x])) continue;
+                          sum += static_cast<double>(row[x]);
+                          ++count;
+                        }
+                      }
+                    }
+                  });
   row_ += rows.height();
 }
 
 Grid<float> BlockMeans::means() const {
   Grid<float> out(sums_.width(), sums_.height());
   for (std::size_t i = 0; i < out.size(); ++i)
-    out[i] = counts_[i] > 0 && 2 * counts_[i] >= factor_ * factor_ ? static_cast<float>(sums_[i] / counts_[i])
-                                                                   : std::numeric_limits<float>::quiet_NaN();
+    out[i] = counts_[i] > 0 && 2 * counts_[i] >= factor_ * factor_
+                 ? static_cast<float>(sums_[i] / counts_[i])
+                 : std::numeric_limits<float>::quiet_NaN();
   return out;
 }
 
-Grid<float> block_means(int width, int height, int factor, FunctionRef<void(int y, float* row)> fill_row) {
+Grid<float> block_means(int width, int height, int factor,
+                        FunctionRef<void(int y, float* row)> fill_row) {
   Grid<float> out((width + factor - 1) / factor, (height + factor - 1) / factor);
   parallel_rows(out.height(), [&](int j) {
     std::vector<float> row(static_cast<std::size_t>(width));
@@ -56,7 +61,9 @@ Grid<float> block_means(int width, int height, int factor, FunctionRef<void(int 
       fill_row(y, row.data());
       for (int i = 0; i < out.width(); ++i) {
         const int x1 = std::min(width, (i + 1) * factor);
-        for (int x = i * factor; x < x1; ++x) sums[static_cast<std::size_t>(i)] += static_cast<double>(row[static_cast<std::size_t>(x)]);
+        for (int x = i * factor; x < x1; ++x)
+          sums[static_cast<std::size_t>(i)] +=
+              static_cast<double>(row[static_cast<std::size_t>(x)]);
       }
     }
     for (int i = 0; i < out.width(); ++i) {
@@ -69,7 +76,8 @@ Grid<float> block_means(int width, int height, int factor, FunctionRef<void(int 
 
 Grid<float> block_means(const Grid<float>& values, int factor) {
   if (factor == 1) return values;
-  return block_means(values.width(), values.height(), factor, [&](int y, float* row) { std::copy_n(values.row(y), values.width(), row); });
+  return block_means(values.width(), values.height(), factor,
+                     [&](int y, float* row) { std::copy_n(values.row(y), values.width(), row); });
 }
 
 }  // namespace belvedere

@@ -8,19 +8,20 @@
 
 namespace belvedere {
 
-// A terrain from afar: means of square blocks of its cells, as many as views are looked for in. They are the same for a terrain that is
-// held whole and for one that is only read in strips, so that what follows from them does not hang on the memory of a machine.
-constexpr int usual_blocks = 420;  // of the longer side
+// A terrain at low resolution: means of square blocks of its cells, as used for finding views. They
+// are equal for a terrain held whole and for one read in strips, so that results do not depend on
+// the memory of a machine.
+constexpr int usual_blocks = 420;  // along the longer side
 
 class BlockMeans {
  public:
-  // Blocks of as many cells as leave at most `most_blocks` of the longer side.
-  BlockMeans(int width, int height, int most_blocks = usual_blocks);
+  // The block size that gives at most `max_blocks` along the longer side.
+  BlockMeans(int width, int height, int max_blocks = usual_blocks);
   // The next rows, whole width; voids are NaN. The same bits however the rows are cut.
   void push(const Grid<float>& rows);
-  // Cells of a side of a block.
+  // Cells along a side of a block.
   int factor() const { return factor_; }
-  // Two at least of a side; NaN where less than half of a block is known.
+  // At least two along a side; NaN if less than half of a block is known.
   Grid<float> means() const;
 
  private:
@@ -30,9 +31,11 @@ class BlockMeans {
   Grid<std::int32_t> counts_;
 };
 
-// Means of blocks of `factor` × `factor` cells; blocks at the right and lower rim are of what there is.
+// Means of blocks of `factor` × `factor` cells; blocks at the right and lower border may be
+// incomplete.
 Grid<float> block_means(const Grid<float>& values, int factor);
-// The same of values that are in no grid: fill_row(y, row) writes a row of `width` of them.
-Grid<float> block_means(int width, int height, int factor, FunctionRef<void(int y, float* row)> fill_row);
+// The same of values that are not in a grid: fill_row(y, row) writes a row of `width` of them.
+Grid<float> block_means(int width, int height, int factor,
+                        FunctionRef<void(int y, float* row)> fill_row);
 
 }  // namespace belvedere

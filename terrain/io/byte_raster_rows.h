@@ -10,12 +10,12 @@
 
 namespace belvedere {
 
-// What the bytes of a raster mean.
+// Meaning of the bytes of a raster.
 struct ByteRasterLayout {
   RasterFrame frame = {};
   struct Band {
     std::string name;
-    double scale = 1.0;  // what a byte is multiplied by to be the value
+    double scale = 1.0;  // value = byte · scale
   };
   std::vector<Band> bands = {};
   bool is_colour = false;  // three bands red, green, blue
@@ -29,8 +29,9 @@ struct ByteRasterLayout {
   std::vector<Code> codes = {};
 };
 
-// A GeoTIFF of bytes (tiled, deflate) that is written rows after rows, so that it need not fit into memory. It appears whole or not at all:
-// under a temporary name first, read back and compared, then renamed; without commit() nothing stays. Throws Error(output).
+// A GeoTIFF of bytes (tiled, deflate) that is written row by row, so that it need not fit into
+// memory. It is written atomically: under a temporary name first, read back and compared, then
+// renamed; without commit() nothing remains. Throws Error(output).
 class ByteRasterRows {
  public:
   ByteRasterRows(const std::string& path, const ByteRasterLayout& layout);
@@ -38,9 +39,11 @@ class ByteRasterRows {
   ByteRasterRows(const ByteRasterRows&) = delete;
   ByteRasterRows& operator=(const ByteRasterRows&) = delete;
 
-  // The rows from y0 on, one grid of the frame's width for each band. From the top down, without gaps; multiples of 256 rows pack best.
+  // The rows from y0 on, one grid of the frame's width for each band. From the top down, without
+  // gaps; multiples of 256 rows compress best.
   void write(int y0, const std::vector<Grid<std::uint8_t>>& bands);
-  // All rows are there: brought to disk and read back. Who writes several files that belong together prepares all before the first commit.
+  // All rows are there: flushed to disk and read back. To write several files that belong together,
+  // prepare all before the first commit.
   void prepare();
   void commit();
 

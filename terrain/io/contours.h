@@ -8,7 +8,7 @@ namespace belvedere {
 
 struct ContourParameters {
   double interval_m = 100.0;  // between lines; > 0
-  double base_m = 0.0;        // a line lies here and at every interval from here
+  double base_m = 0.0;        // altitude of one of the lines
 };
 
 // What was written, for reports: the length falls as terrain is generalized.
@@ -17,8 +17,10 @@ struct ContourSummary {
   double length = 0.0;  // in CRS units (m)
 };
 
-// Contour lines as a GeoPackage (.gpkg), GeoJSON (.geojson, in the raster's CRS) or shapefile (.shp), with the attribute altitude_m. Voids
-// (NaN) have none. Replaces what is there, only when all is written. Throws Error(usage) for an interval, Error(output) naming the file.
-ContourSummary write_contours(const std::string& path, const Raster<float>& raster, const ContourParameters& parameters);
+// Contour lines as a GeoPackage (.gpkg), GeoJSON (.geojson, in the raster's CRS) or shapefile
+// (.shp), with the attribute altitude_m. Voids (NaN) have none. An existing file is replaced only
+// when all is written. Throws Error(usage) for an invalid interval, Error(output) naming the file.
+ContourSummary write_contours(const std::string& path, const Raster<float>& raster,
+                              const ContourParameters& parameters);
 
 }  // namespace belvedere

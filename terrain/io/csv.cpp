@@ -22,7 +22,8 @@ std::string trimmed(std::string_view text) {
 
 bool equal_letters(std::string_view a, std::string_view b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char p, char q) {
-    return std::tolower(static_cast<unsigned char>(p)) == std::tolower(static_cast<unsigned char>(q));
+    return std::tolower(static_cast<unsigned char>(p)) ==
+           std::tolower(static_cast<unsigned char>(q));
   });
 }
 
@@ -30,12 +31,15 @@ char find_separator(std::string_view text) {
   const std::string_view header = text.substr(0, text.find('\n'));
   char best = ',';
   for (const char c : {';', '\t'})
-    if (std::count(header.begin(), header.end(), c) > std::count(header.begin(), header.end(), best)) best = c;
+    if (std::count(header.begin(), header.end(), c) >
+        std::count(header.begin(), header.end(), best))
+      best = c;
   return best;
 }
 
-// One record from `at` on, which is moved behind it; `line` counts the lines it covers.
-std::vector<std::string> read_record(std::string_view text, std::size_t& at, int& line, char separator, const std::string& name) {
+// One record from `at` on, which is advanced behind it; `line` counts its lines.
+std::vector<std::string> read_record(std::string_view text, std::size_t& at, int& line,
+                                     char separator, const std::string& name) {
   std::vector<std::string> fields;
   std::string field;
   bool quoted = false;  // inside of quotes
@@ -69,7 +73,8 @@ std::vector<std::string> read_record(std::string_view text, std::size_t& at, int
       field += c;
     }
   }
-  if (quoted) throw Error(ErrorKind::usage, fmt::format("{}:{}", name, first_line), "a quote is opened and never closed");
+  if (quoted)
+    throw Error(ErrorKind::usage, fmt::format("{}:{}", name, first_line), "unclosed quote");
   finish();
   return fields;
 }
@@ -77,7 +82,8 @@ std::vector<std::string> read_record(std::string_view text, std::size_t& at, int
 }  // namespace
 
 int CsvTable::find(std::string_view column) const {
-  const auto found = std::find_if(columns.begin(), columns.end(), [&](const std::string& c) { return equal_letters(c, column); });
+  const auto found = std::find_if(columns.begin(), columns.end(),
+                                  [&](const std::string& c) { return equal_letters(c, column); });
   return found == columns.end() ? -1 : static_cast<int>(found - columns.begin());
 }
 
@@ -98,14 +104,18 @@ CsvTable parse_csv(std::string_view text, const std::string& name) {
   while (at < text.size()) {
     const int first_line = line;
     std::vector<std::string> fields = read_record(text, at, line, separator, name);
-    if (std::all_of(fields.begin(), fields.end(), [](const std::string& field) { return field.empty(); })) continue;
+    if (std::all_of(fields.begin(), fields.end(),
+                    [](const std::string& field) { return field.empty(); }))
+      continue;
     if (table.columns.empty()) {
       table.columns = std::move(fields);
       continue;
     }
     if (fields.size() > table.columns.size()) {
-      throw Error(ErrorKind::usage, fmt::format("{}:{}", name, first_line), fmt::format("has {} fields", fields.size()),
-                  fmt::format("{}, as the header; a field with separators in it stands in quotes", table.columns.size()));
+      throw Error(ErrorKind::usage, fmt::format("{}:{}", name, first_line),
+                  fmt::format("has {} fields", fields.size()),
+                  fmt::format("{} fields, as in the header; quote fields that contain separators",
+                              table.columns.size()));
     }
     fields.resize(table.columns.size());
     table.rows.push_back({first_line, std::move(fields)});
@@ -114,15 +124,17 @@ CsvTable parse_csv(std::string_view text, const std::string& name) {
 }
 
 CsvTable read_csv(const std::string& path) {
-  constexpr std::uintmax_t most_bytes = 16U << 20;
+  constexpr std::uintmax_t max_bytes = 16U << 20;
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) throw Error(ErrorKind::input, path, "there is no such file");
-  if (std::filesystem::file_size(path, ignored) > most_bytes) throw Error(ErrorKind::limit, path, "is too long", "up to 16 MiB of text");
+  if (!std::filesystem::is_regular_file(path, ignored))
+    throw Error(ErrorKind::input, path, "file not found");
+  if (std::filesystem::file_size(path, ignored) > max_bytes)
+    throw Error(ErrorKind::limit, path, "file too large", "at most 16 MiB");
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw Error(ErrorKind::input, path, "cannot be opened");
+  if (!file) throw Error(ErrorKind::input, path, "cannot open the file");
   std::ostringstream text;
   text << file.rdbuf();
-  if (file.bad()) throw Error(ErrorKind::input, path, "cannot be read");
+  if (file.bad()) throw Error(ErrorKind::input, path, "cannot read the file");
   return parse_csv(text.str(), path);
 }
 

@@ -14,10 +14,11 @@ namespace belvedere {
 namespace {
 
 std::size_t count_voids(const Grid<float>& altitude_m) {
-  return static_cast<std::size_t>(std::count_if(altitude_m.begin(), altitude_m.end(), [](float z) { return !std::isfinite(z); }));
+  return static_cast<std::size_t>(std::count_if(altitude_m.begin(), altitude_m.end(),
+                                                [](float z) { return !std::isfinite(z); }));
 }
 
-// Half the size: the mean of the known cells among 2 × 2, void where there are none.
+// Half the size: the mean of the known cells among 2 × 2, void if there are none.
 Grid<float> halve(const Grid<float>& fine) {
   Grid<float> coarse((fine.width() + 1) / 2, (fine.height() + 1) / 2);
   parallel_rows(coarse.height(), [&](int y) {
@@ -42,12 +43,14 @@ float from_coarse(const Grid<float>& coarse, int x, int y) {
   const int cy = y / 2;
   const int nx = std::clamp(cx + (x % 2 == 0 ? -1 : 1), 0, coarse.width() - 1);
   const int ny = std::clamp(cy + (y % 2 == 0 ? -1 : 1), 0, coarse.height() - 1);
-  return 0.5625F * coarse(cx, cy) + 0.1875F * (coarse(nx, cy) + coarse(cx, ny)) + 0.0625F * coarse(nx, ny);
+  return 0.5625F * coarse(cx, cy) + 0.1875F * (coarse(nx, cy) + coarse(cx, ny)) +
+         0.0625F * coarse(nx, ny);
 }
 
-// Brings the void cells near to Laplace's equation: each becomes the mean of its neighbours, known ones held. The pyramid has
-// settled everything wide, so a few rounds settle what is left at the scale of cells and join the fill to its rim. Each round
-// reads the round before (Jacobi, damped by nothing: the coarse start has no checkerboard), so order does not matter.
+// Relaxes the void cells towards Laplace's equation: each becomes the mean of its neighbours, with
+// known ones fixed. The pyramid has already solved the coarse scales, so a few iterations suffice
+// for the cell scale and for a continuous border. Each iteration reads the previous one (Jacobi,
+// undamped: the coarse start has no checkerboard), so order does not matter.
 void relax(Grid<float>& z, const std::vector<std::size_t>& voids, int rounds) {
   std::vector<float> next(voids.size());
   const auto width = static_cast<std::size_t>(z.width());
@@ -57,7 +60,8 @@ void relax(Grid<float>& z, const std::vector<std::size_t>& voids, int rounds) {
         const auto x = static_cast<int>(voids[i] % width);
         const auto y = static_cast<int>(voids[i] / width);
         // Reflecting borders: at the edge of the raster the fill is level.
-        const float sum = z.clamped(x - 1, y) + z.clamped(x + 1, y) + z.clamped(x, y - 1) + z.clamped(x, y + 1);
+        const float sum =
+            z.clamped(x - 1, y) + z.clamped(x + 1, y) + z.clamped(x, y - 1) + z.clamped(x, y + 1);
         next[i] = 0.2F * (sum + z[voids[i]]);
       }
     });
@@ -65,8 +69,9 @@ void relax(Grid<float>& z, const std::vector<std::size_t>& voids, int rounds) {
   }
 }
 
-// A membrane stretched over the voids from their rims: continuous there, between the rims' lowest and highest altitude within.
-// Coarse to fine, as a multigrid's first pass.
+// A membrane stretched over the voids from their borders: continuous there, and between the lowest
+// and highest altitude of the border inside. Coarse to fine, as the first pass of a multigrid
+// solver.
 void fill_voids(Grid<float>& z) {
   std::vector<std::size_t> voids;
   for (std::size_t i = 0; i < z.size(); ++i)
@@ -75,7 +80,8 @@ void fill_voids(Grid<float>& z) {
   Grid<float> coarse = halve(z);
   fill_voids(coarse);
   const auto width = static_cast<std::size_t>(z.width());
-  for (const std::size_t i : voids) z[i] = from_coarse(coarse, static_cast<int>(i % width), static_cast<int>(i / width));
+  for (const std::size_t i : voids)
+    z[i] = from_coarse(coarse, static_cast<int>(i % width), static_cast<int>(i / width));
   constexpr int rounds = 24;
   relax(z, voids, rounds);
 }
@@ -93,7 +99,7 @@ Dem make_dem(Raster<float> raster) {
     dem.filled[i] = 1;
     ++voids;
   }
-  if (voids == raster.cells.size()) throw Error(ErrorKind::input, "terrain", "all of its cells are void");
+  if (voids == raster.cells.size()) throw Error(ErrorKind::input, "terrain", "has only void cells");
   dem.altitude_m = std::move(raster.cells);
   fill_voids(dem.altitude_m);
   dem.transform = raster.transform;
@@ -105,29 +111,40 @@ Dem read_dem(const DemParameters& parameters, Progress& progress) {
   const double cell_m = parameters.cell_m;
   if (cell_m != 0.0 && !(cell_m >= 0.1 && cell_m <= 10000.0))
     throw Error(ErrorKind::usage, "cell_m", fmt::format("{}", cell_m), "0.1…10000 m, or 0");
-  const double most = parameters.max_void_share;
-  if (!(most >= 0.0 && most <= 1.0)) throw Error(ErrorKind::usage, "max_void_share", fmt::format("{}", most), "0…1");
-  const RasterFrame frame = choose_frame(parameters.sources, parameters.crs, cell_m, parameters.extent);
-  // Altitudes, the mask of filled cells, and a third of them again for the coarser levels of the fill.
-  check_memory(fmt::format("terrain of {} × {} cells", frame.width, frame.height), 8.0 * frame.width * frame.height);
+  const double max = parameters.max_void_share;
+  if (!(max >= 0.0 && max <= 1.0))
+    throw Error(ErrorKind::usage, "max_void_share", fmt::format("{}", max), "0…1");
+  const RasterFrame frame =
+      choose_frame(parameters.sources, parameters.crs, cell_m, parameters.extent);
+  // Altitudes, the mask of filled cells, and a third of both for the coarser levels of the fill.
+  check_memory(fmt::format("terrain of {} × {} cells", frame.width, frame.height),
+               8.0 * frame.width * frame.height);
   Raster<float> raster = warp_rasters(parameters.sources, frame, progress);
   const std::size_t voids = count_voids(raster.cells);
   const double share = static_cast<double>(voids) / static_cast<double>(raster.cells.size());
   const std::string where = parameters.sources.size() == 1
                                 ? parameters.sources[0].path
-                                : fmt::format("{} and {} more", parameters.sources[0].path, parameters.sources.size() - 1);
-  if (share > most || voids == raster.cells.size()) {
-    throw Error(
-        ErrorKind::input, where, fmt::format("{:.1f} % of the terrain is void ({} of {} cells)", 100.0 * share, voids, raster.cells.size()),
-        fmt::format("up to {:.1f} % (`max_void_share`); an `extent` within the data, or another source for the gaps", 100.0 * most));
+                                : fmt::format("{} and {} more", parameters.sources[0].path,
+                                              parameters.sources.size() - 1);
+  if (share > max || voids == raster.cells.size()) {
+    throw Error(ErrorKind::input, where,
+                fmt::format("{:.1f} % of the terrain is void ({} of {} cells)", 100.0 * share,
+                            voids, raster.cells.size()),
+                fmt::format("at most {:.1f} % (`max_void_share`); use an `extent` within the data, "
+                            "or another source for the gaps",
+                            100.0 * max));
   }
-  if (voids > 0) progress.note(fmt::format("{}: {} void cells ({:.2f} %) are filled from their rims", where, voids, 100.0 * share));
+  if (voids > 0)
+    progress.note(fmt::format("{}: {} void cells ({:.2f} %) filled by interpolation", where, voids,
+                              100.0 * share));
   Dem dem = make_dem(std::move(raster));
   const auto [low, high] = std::minmax_element(dem.altitude_m.begin(), dem.altitude_m.end());
   constexpr float highest_m = 9000.0F;
   if (*high > highest_m) {
     progress.note(
-        fmt::format("{}: altitudes from {:.0f} to {:.0f} m, higher than any mountain: is the unit feet? (`unit`)", where, *low, *high));
+        fmt::format("{}: altitudes from {:.0f} to {:.0f} m exceed the highest mountain; check "
+                    "whether the unit is feet (`unit`)",
+                    where, *low, *high));
   }
   for (const RasterSource& source : parameters.sources)
     if (const std::string doubt = doubt_of_source(source); !doubt.empty()) progress.note(doubt);

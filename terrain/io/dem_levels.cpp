@@ -22,14 +22,14 @@ PixelRect whole_of(const RasterFrame& frame, int level) {
   return {0, 0, level_cells(frame.width, level), level_cells(frame.height, level)};
 }
 
-// Rows `from` and below a grid, from one that is longer.
+// Removes the rows before `from`.
 Grid<float> rows_of(const Grid<float>& grid, int from, int to) {
   Grid<float> out(grid.width(), std::max(to - from, 0));
   if (out.height() > 0) std::copy(grid.row(from), grid.row(from) + out.size(), out.begin());
   return out;
 }
 
-// One above the other.
+// One grid below the other.
 Grid<float> joined(const Grid<float>& above, const Grid<float>& below) {
   if (above.empty()) return below;
   if (below.empty()) return above;
@@ -47,7 +47,8 @@ float known_mean(const Grid<float>& rows, int x, int y) {
       if (!rows.contains(x + i, y + j)) continue;
       const float z = rows(x + i, y + j);
       if (std::isnan(z)) continue;
-      const float w = kernel[static_cast<std::size_t>(i + 2)] * kernel[static_cast<std::size_t>(j + 2)];
+      const float w =
+          kernel[static_cast<std::size_t>(i + 2)] * kernel[static_cast<std::size_t>(j + 2)];
       sum += w * z;
       weight += w;
     }
@@ -69,8 +70,8 @@ void extend_row(float* row, int count) {
   }
 }
 
-// A membrane over the void cells, their coarse values settled against the rims.
-void settle(Grid<float>& z, const Grid<std::uint8_t>& filled) {
+// A membrane over the void cells; coarse values are relaxed against the borders.
+void resolve(Grid<float>& z, const Grid<std::uint8_t>& filled) {
   constexpr int rounds = 24;
   std::vector<std::size_t> voids;
   for (std::size_t i = 0; i < filled.size(); ++i)
@@ -81,7 +82,8 @@ void settle(Grid<float>& z, const Grid<std::uint8_t>& filled) {
     for (std::size_t i = 0; i < voids.size(); ++i) {
       const auto x = static_cast<int>(voids[i] % width);
       const auto y = static_cast<int>(voids[i] / width);
-      const float sum = z.clamped(x - 1, y) + z.clamped(x + 1, y) + z.clamped(x, y - 1) + z.clamped(x, y + 1);
+      const float sum =
+          z.clamped(x - 1, y) + z.clamped(x + 1, y) + z.clamped(x, y - 1) + z.clamped(x, y + 1);
       next[i] = 0.2F * (sum + z[voids[i]]);
     }
     for (std::size_t i = 0; i < voids.size(); ++i) z[voids[i]] = next[i];
@@ -95,21 +97,24 @@ int level_cells(int cells, int level) {
   return cells;
 }
 
-int coarsest_level(const RasterFrame& frame, double most_cells) {
-  const auto cells = [&](int level) { return static_cast<double>(level_cells(frame.width, level)) * level_cells(frame.height, level); };
-  if (cells(0) <= most_cells) return 0;
+int coarsest_level(const RasterFrame& frame, double max_cells) {
+  const auto cells = [&](int level) {
+    return static_cast<double>(level_cells(frame.width, level)) * level_cells(frame.height, level);
+  };
+  if (cells(0) <= max_cells) return 0;
   int level = 1;
   constexpr double share_of_whole = 0.25;
-  constexpr int fewest_cells = 256;  // on a side: coarser ones are no landscape
-  while (cells(level) > share_of_whole * most_cells &&
+  constexpr int fewest_cells = 256;  // on a side: minimum of a useful landscape
+  while (cells(level) > share_of_whole * max_cells &&
          std::min(level_cells(frame.width, level), level_cells(frame.height, level)) > fewest_cells)
     ++level;
   return level;
 }
 
 double reading_bytes(const RasterFrame& frame) {
-  constexpr double strips = 3.0;  // as read, with the rows kept for it, and what is made of it
-  return strips * sizeof(float) * std::min(strip_rows, frame.height) * static_cast<double>(frame.width);
+  constexpr double strips = 3.0;  // as read, with the rows kept for it, and the result
+  return strips * sizeof(float) * std::min(strip_rows, frame.height) *
+         static_cast<double>(frame.width);
 }
 
 RasterFrame level_frame(const RasterFrame& frame, int level) {
@@ -118,8 +123,9 @@ RasterFrame level_frame(const RasterFrame& frame, int level) {
   const GeoTransform& t = frame.transform;
   out.width = level_cells(frame.width, level);
   out.height = level_cells(frame.height, level);
-  // The middles of the first cells lie over each other.
-  out.transform = {t.origin_x + 0.5 * t.cell_x * (1.0 - factor), t.origin_y - 0.5 * t.cell_y * (1.0 - factor), t.cell_x * factor,
+  // The centres of the first cells coincide.
+  out.transform = {t.origin_x + 0.5 * t.cell_x * (1.0 - factor),
+                   t.origin_y - 0.5 * t.cell_y * (1.0 - factor), t.cell_x * factor,
                    t.cell_y * factor};
   return out;
 }
@@ -131,11 +137,11 @@ Grid<float> DemRowReducer::push(const Grid<float>& rows) {
   const int to = last ? (height_ + 1) / 2 : std::max(made_, (end - 1) / 2);  // row y needs 2 y + 2
   Grid<float> out((width_ + 1) / 2, to - made_);
   parallel_rows(out.height(), [&](int row) {
-    const int middle = 2 * (made_ + row);
+    const int centre = 2 * (made_ + row);
     std::array<std::vector<float>, 5> spare;
     std::array<const float*, 5> lines{};
     for (int j = -2; j <= 2; ++j) {
-      const int y = middle + j;
+      const int y = centre + j;
       const auto k = static_cast<std::size_t>(j + 2);
       const int edge = std::clamp(y, 0, height_ - 1);
       if (y == edge || height_ == 1) {
@@ -148,19 +154,21 @@ Grid<float> DemRowReducer::push(const Grid<float>& rows) {
       const float* a = known.row(edge - first_);
       const float* b = known.row(inner - first_);
       spare[k].resize(static_cast<std::size_t>(width_));
-      for (int x = 0; x < width_; ++x) spare[k][static_cast<std::size_t>(x)] = a[x] + weight * (a[x] - b[x]);
+      for (int x = 0; x < width_; ++x)
+        spare[k][static_cast<std::size_t>(x)] = a[x] + weight * (a[x] - b[x]);
       lines[k] = spare[k].data();
     }
     const auto& [a, b, c, d, e] = lines;
     std::vector<float> padded(static_cast<std::size_t>(width_) + 4);
     float* column = padded.data() + 2;
-    for (int x = 0; x < width_; ++x) column[x] = 0.4F * c[x] + 0.25F * (b[x] + d[x]) + 0.05F * (a[x] + e[x]);
+    for (int x = 0; x < width_; ++x)
+      column[x] = 0.4F * c[x] + 0.25F * (b[x] + d[x]) + 0.05F * (a[x] + e[x]);
     extend_row(column, width_);
     float* target = out.row(row);
     for (int x = 0; x < out.width(); ++x) {
       const float* v = column + std::ptrdiff_t{2} * x;
       target[x] = 0.4F * v[0] + 0.25F * (v[-1] + v[1]) + 0.05F * (v[-2] + v[2]);
-      if (std::isnan(target[x])) target[x] = known_mean(known, 2 * x, middle - first_);
+      if (std::isnan(target[x])) target[x] = known_mean(known, 2 * x, centre - first_);
     }
   });
   made_ = to;
@@ -170,15 +178,24 @@ Grid<float> DemRowReducer::push(const Grid<float>& rows) {
   return out;
 }
 
-DemLevels::DemLevels(const DemParameters& parameters, const RasterFrame& frame, int coarsest, double kept_cells, Progress& progress)
-    : windows_(parameters.sources, frame), coarsest_(coarsest), first_kept_(coarsest), blocks_(frame.width, frame.height) {
-  if (coarsest < 1 || coarsest > 16) throw Error(ErrorKind::bug, "levels of a DEM", fmt::format("{} of them", coarsest), "1 to 16");
-  const auto cells = [&](int level) { return static_cast<double>(level_frame(frame, level).width) * level_frame(frame, level).height; };
-  for (double held = cells(coarsest); first_kept_ > 1 && held + cells(first_kept_ - 1) <= kept_cells; --first_kept_)
+DemLevels::DemLevels(const DemParameters& parameters, const RasterFrame& frame, int coarsest,
+                     double kept_cells, Progress& progress)
+    : windows_(parameters.sources, frame),
+      coarsest_(coarsest),
+      first_kept_(coarsest),
+      blocks_(frame.width, frame.height) {
+  if (coarsest < 1 || coarsest > 16)
+    throw Error(ErrorKind::bug, "levels of a DEM", fmt::format("{} levels", coarsest), "1 to 16");
+  const auto cells = [&](int level) {
+    return static_cast<double>(level_frame(frame, level).width) * level_frame(frame, level).height;
+  };
+  for (double held = cells(coarsest);
+       first_kept_ > 1 && held + cells(first_kept_ - 1) <= kept_cells; --first_kept_)
     held += cells(first_kept_ - 1);
   std::vector<DemRowReducer> reducers;
   std::vector<int> rows_made(static_cast<std::size_t>(coarsest) + 1, 0);
-  for (int level = 0; level < coarsest; ++level) reducers.emplace_back(level_cells(frame.width, level), level_cells(frame.height, level));
+  for (int level = 0; level < coarsest; ++level)
+    reducers.emplace_back(level_cells(frame.width, level), level_cells(frame.height, level));
   for (int level = first_kept_; level <= coarsest; ++level)
     kept_.emplace_back(level_cells(frame.width, level), level_cells(frame.height, level));
 
@@ -186,24 +203,30 @@ DemLevels::DemLevels(const DemParameters& parameters, const RasterFrame& frame, 
   double voids = 0.0;
   for (int y = 0; y < frame.height; y += strip_rows) {
     Grid<float> rows = windows_.read({0, y, frame.width, std::min(y + strip_rows, frame.height)});
-    voids += static_cast<double>(std::count_if(rows.begin(), rows.end(), [](float z) { return std::isnan(z); }));
+    voids += static_cast<double>(
+        std::count_if(rows.begin(), rows.end(), [](float z) { return std::isnan(z); }));
     const int read = rows.height();
     blocks_.push(rows);
     for (int level = 1; level <= coarsest && !rows.empty(); ++level) {
       rows = reducers[static_cast<std::size_t>(level) - 1].push(rows);
       if (level < first_kept_ || rows.empty()) continue;
       int& made = rows_made[static_cast<std::size_t>(level)];
-      std::copy(rows.begin(), rows.end(), kept_[static_cast<std::size_t>(level - first_kept_)].row(made));
+      std::copy(rows.begin(), rows.end(),
+                kept_[static_cast<std::size_t>(level - first_kept_)].row(made));
       made += rows.height();
     }
     progress.advance(read);
   }
   const double share = voids / (static_cast<double>(frame.width) * frame.height);
   if (share > parameters.max_void_share)
-    throw Error(ErrorKind::input, parameters.sources[0].path, fmt::format("{:.1f} % of the terrain is void", 100.0 * share),
-                fmt::format("up to {:.1f} % (`max_void_share`); an `extent` within the data, or another source for the gaps",
+    throw Error(ErrorKind::input, parameters.sources[0].path,
+                fmt::format("{:.1f} % of the terrain is void", 100.0 * share),
+                fmt::format("at most {:.1f} % (`max_void_share`); use an `extent` within the data, "
+                            "or another source for the gaps",
                             100.0 * parameters.max_void_share));
-  if (voids > 0.0) progress.note(fmt::format("{:.2f} % of the terrain is void and filled from its rims", 100.0 * share));
+  if (voids > 0.0)
+    progress.note(fmt::format("{:.2f} % of the terrain is void and was filled by interpolation",
+                              100.0 * share));
 }
 
 Dem DemLevels::whole() const {
@@ -225,34 +248,42 @@ Grid<float> DemLevels::read_level(int level, const PixelRect& cells) {
   Grid<float> out(cells.width(), cells.height());
   if (level >= first_kept_) {
     const Grid<float>& from = kept_[static_cast<std::size_t>(level - first_kept_)];
-    for (int y = 0; y < out.height(); ++y) std::copy_n(from.row(cells.y0 + y) + cells.x0, out.width(), out.row(y));
+    for (int y = 0; y < out.height(); ++y)
+      std::copy_n(from.row(cells.y0 + y) + cells.x0, out.width(), out.row(y));
     return out;
   }
-  // The cells of level 0 under it, from a cell of the level on, and as many around as all kernels together reach over.
+  // The cells of level 0 under it, from a cell of the level on, and as many around as all kernels
+  // together reach.
   const int factor = 1 << level;
   const PixelRect around = intersection(grown(cells, 4), whole_of(frame(), level));
-  const PixelRect finest = {around.x0 * factor, around.y0 * factor, std::min((around.x1 - 1) * factor + 1, frame().width),
+  const PixelRect finest = {around.x0 * factor, around.y0 * factor,
+                            std::min((around.x1 - 1) * factor + 1, frame().width),
                             std::min((around.y1 - 1) * factor + 1, frame().height)};
-  // Where the raster ends the last cells of a level may lie beyond its own: all that is left belongs to them.
+  // At the end of the raster the last cells of a level may extend beyond it: all remaining cells
+  // belong to them.
   const PixelRect all = whole_of(frame(), level);
   const PixelRect read = {finest.x0, finest.y0, around.x1 == all.x1 ? frame().width : finest.x1,
                           around.y1 == all.y1 ? frame().height : finest.y1};
   std::vector<DemRowReducer> reducers;
-  for (int i = 0; i < level; ++i) reducers.emplace_back(level_cells(read.width(), i), level_cells(read.height(), i));
+  for (int i = 0; i < level; ++i)
+    reducers.emplace_back(level_cells(read.width(), i), level_cells(read.height(), i));
   int made = around.y0;
   for (int y = read.y0; y < read.y1; y += strip_rows) {
     Grid<float> rows = windows_.read({read.x0, y, read.x1, std::min(y + strip_rows, read.y1)});
-    for (int i = 0; i < level && !rows.empty(); ++i) rows = reducers[static_cast<std::size_t>(i)].push(rows);
+    for (int i = 0; i < level && !rows.empty(); ++i)
+      rows = reducers[static_cast<std::size_t>(i)].push(rows);
     for (int row = 0; row < rows.height(); ++row, ++made)
-      if (made >= cells.y0 && made < cells.y1) std::copy_n(rows.row(row) + (cells.x0 - around.x0), out.width(), out.row(made - cells.y0));
+      if (made >= cells.y0 && made < cells.y1)
+        std::copy_n(rows.row(row) + (cells.x0 - around.x0), out.width(), out.row(made - cells.y0));
   }
   return out;
 }
 
 Dem DemLevels::window(int level, const PixelRect& cells, const Dem& whole) {
   const RasterFrame at = level_frame(frame(), level);
-  if (level > coarsest_ || cells.empty() || intersection(cells, {0, 0, at.width, at.height}) != cells)
-    throw Error(ErrorKind::bug, "levels of a DEM", "a window beyond the level");
+  if (level > coarsest_ || cells.empty() ||
+      intersection(cells, {0, 0, at.width, at.height}) != cells)
+    throw Error(ErrorKind::bug, "levels of a DEM", "the window exceeds the level");
   Dem dem;
   dem.altitude_m = read_level(level, cells);
   dem.filled = Grid<std::uint8_t>(cells.width(), cells.height(), 0);
@@ -265,10 +296,11 @@ Dem DemLevels::window(int level, const PixelRect& cells, const Dem& whole) {
     for (int x = 0; x < cells.width(); ++x) {
       if (std::isfinite(dem.altitude_m(x, y))) continue;
       dem.filled(x, y) = 1;
-      dem.altitude_m(x, y) = sample_bspline(whole.altitude_m, (cells.x0 + x) / factor, (cells.y0 + y) / factor);
+      dem.altitude_m(x, y) =
+          sample_bspline(whole.altitude_m, (cells.x0 + x) / factor, (cells.y0 + y) / factor);
     }
   });
-  settle(dem.altitude_m, dem.filled);
+  resolve(dem.altitude_m, dem.filled);
   return dem;
 }
 

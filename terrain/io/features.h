@@ -11,45 +11,50 @@ namespace belvedere {
 
 enum class MapShape : int { point, line, area };
 
-// One thing on the map, with what its file says of it.
+// A feature of a map with its attributes.
 struct MapFeature {
   MapShape shape = MapShape::line;
   std::string where;  // "roads.gpkg, lines 12", for messages
-  // x, y in the CRS that was asked for. A point's one place; a line's one row of 2 and more; an area's outline and then its holes, each of
-  // 3 and more without the closing one.
+  // x, y in the requested CRS. A point has one position; a line one row of at least 2; an area its
+  // outline and then its holes, each of at least 3 without the closing one.
   std::vector<std::vector<glm::dvec2>> parts;
-  std::vector<std::string> values;  // as many as columns asked for, `also` included; empty where nothing is known
+  std::vector<std::string> values;  // one per requested column, including `also`; empty if unknown
 };
 
-// A part of the map, in the CRS that was asked for.
+// A part of the map, in the requested CRS.
 struct MapBox {
   glm::dvec2 low{0.0}, high{0.0};
 };
 
-// Which features of a file are read, and what of them.
+// Selects the features of a file and their attributes.
 struct MapQuery {
-  std::string layer = {};                 // empty: all layers
-  std::string where = {};                 // filter by attributes, as SQL's WHERE; empty: all
-  std::vector<std::string> columns = {};  // small and capital letters alike; a file of which no layer has one is refused
-  std::vector<std::string> also = {};     // columns that no layer need have; their values follow those of `columns`
-  std::optional<MapBox> box = {};         // what lies beside it is counted and let go; empty: everything is kept
+  std::string layer = {};  // empty: all layers
+  std::string where = {};  // attribute filter, as SQL's WHERE; empty: all
+  std::vector<std::string> columns =
+      {};                              // case-insensitive; an error if no layer of the file has one
+  std::vector<std::string> also = {};  // optional columns; their values follow those of `columns`
+  std::optional<MapBox> box =
+      {};  // features outside are counted and dropped; empty: everything is kept
 };
 
 struct MapFeatures {
-  std::vector<MapFeature> features;  // in the order of the file; several parts of one are features of their own
-  std::size_t read = 0;              // features that the file gave
-  std::size_t without_shape = 0;     // of these: without geometry, or with one of too few places
-  std::size_t unplaceable = 0;       // with a place that the CRS asked for does not have
-  std::size_t at_zero = 0;           // all of whose places are 0, 0 in the file's own coordinates: nobody wrote them down
-  std::size_t beside = 0;            // beside the box
-  MapBox extent = {};                // of all that has a place, beside the box as well
+  std::vector<MapFeature>
+      features;  // in the order of the file; parts of a multi-geometry are separate features
+  std::size_t read = 0;           // features in the file
+  std::size_t without_shape = 0;  // of these: without geometry, or with too few positions
+  std::size_t unplaceable = 0;    // with a position that does not exist in the requested CRS
+  std::size_t at_zero = 0;  // with all positions 0, 0 in the file's own coordinates: missing values
+  std::size_t beside = 0;   // outside the box
+  MapBox extent = {};       // of all features with a position, also outside the box
 };
 
-// The points, lines and areas of a vector file in `crs` (WKT or a code): GeoPackage, GeoJSON, shapefile, FlatGeobuf, GPX, OpenStreetMap's
-// XML and PBF, by their endings and no others. Features are read a part of the file at a time, so that a file may be much larger than what
-// of it lies in the box. Areas may cross themselves: what an odd number of their rings encloses belongs to them. Throws Error(usage) for
-// another ending, a layer, column or filter that the file does not understand; Error(input) for a file that is missing, damaged or without
-// a CRS; Error(limit) for more than 2 · 10⁶ features or 3 · 10⁷ places that are kept.
-MapFeatures read_map_features(const std::string& path, const MapQuery& query, const std::string& crs);
+// The points, lines and areas of a vector file in `crs` (WKT or a code): GeoPackage, GeoJSON,
+// shapefile, FlatGeobuf, GPX, OpenStreetMap's XML and PBF, by extension. Features are read in
+// portions, so a file may be much larger than the part in the box. Areas may intersect themselves:
+// they contain what an odd number of their rings encloses. Throws Error(usage) for another
+// extension or an invalid layer, column or filter; Error(input) for a file that is missing, damaged
+// or without a CRS; Error(limit) for more than 2 · 10⁶ features or 3 · 10⁷ positions that are kept.
+MapFeatures read_map_features(const std::string& path, const MapQuery& query,
+                              const std::string& crs);
 
 }  // namespace belvedere

@@ -7,43 +7,44 @@
 
 namespace belvedere {
 
-// One question to a server of files and what came of it: nothing is repeated and nothing thrown, so that whoever asks can decide. Nobody
-// asks but where a person wants files of a service (http_access.h is for files that scenes name).
+// One HTTP request and its result, without retries or exceptions, so that the caller can decide.
+// Only used to download files of a service on request (http_access.h is for files that scenes refer
+// to).
 
 struct HttpRequest {
-  std::string address;                     // http:// or https://
-  std::uint64_t first = 0;                 // the first byte that is wanted
-  std::uint64_t count = 0;                 // how many; 0: to the end
-  int connect_s = 15;                      // s until the server must have taken the call
-  int silence_s = 30;                      // s that it may send next to nothing
-  int answer_s = 600;                      // s until all must be there
-  std::uint64_t most_bytes = 1ULL << 30U;  // of an answer: longer ones are refused; below 2³¹
-  std::string agent = {};                  // who asks: "Belvedere/0.2.0"
-  std::function<bool()> go_on = {};        // asked a few times a second; false gives up
+  std::string address;                    // http:// or https://
+  std::uint64_t first = 0;                // the first byte requested
+  std::uint64_t count = 0;                // number of bytes; 0: to the end
+  int connect_s = 15;                     // connection timeout, s
+  int silence_s = 30;                     // timeout without data, s
+  int answer_s = 600;                     // timeout of the whole response, s
+  std::uint64_t max_bytes = 1ULL << 30U;  // longer responses are rejected; below 2³¹
+  std::string agent = {};                 // user agent: "Belvedere/0.2.0"
+  std::function<bool()> go_on = {};       // called a few times per second; false cancels
 };
 
 enum class HttpOutcome {
-  good,           // all that was asked for, or the whole file (is_part says which)
-  missing,        // the server has no such file: 404, 410
-  busy,           // later perhaps: 429, 500, 502, 503, 504
-  refused,        // another status, by which the server says no
-  no_name,        // nobody knows the server's name: no network, mostly
-  no_connection,  // the server does not take calls
-  silent,         // too slow, or nothing at all
-  cut,            // the connection ended early; bytes has what came
-  stopped,        // go_on said no
+  good,           // all requested bytes, or the whole file (see is_part)
+  missing,        // no such file: 404, 410
+  busy,           // temporary: 429, 500, 502, 503, 504
+  refused,        // any other error status
+  no_name,        // cannot resolve host: usually no network
+  no_connection,  // connection refused
+  silent,         // timeout
+  cut,            // the connection ended early; bytes has what was received
+  stopped,        // go_on returned false
   failed,         // anything else: `reason`
 };
 
 struct HttpAnswer {
   HttpOutcome outcome = HttpOutcome::failed;
-  int status = 0;                      // of HTTP, where it is an error
-  std::string reason;                  // in the words of the library
-  bool is_part = false;                // the bytes from `first` on; else the file from its beginning
-  std::uint64_t first = 0;             // as the server says
-  std::optional<std::uint64_t> total;  // bytes of the whole file, where the server says so
-  std::string tag;                     // its ETag, else its date of change; empty: neither. Another one, another file
-  double retry_after_s = 0.0;          // what a busy server asks to wait; 0: nothing said
+  int status = 0;           // of HTTP, if it is an error
+  std::string reason;       // the library's message
+  bool is_part = false;     // the bytes from `first` on; else the file from its beginning
+  std::uint64_t first = 0;  // as sent by the server
+  std::optional<std::uint64_t> total;  // bytes of the whole file, if sent by the server
+  std::string tag;             // ETag, else Last-Modified; empty: neither. It changes with the file
+  double retry_after_s = 0.0;  // Retry-After of a busy server; 0: none
   std::string bytes;
 };
 

@@ -13,12 +13,16 @@ namespace belvedere {
 std::vector<MapLine> read_lines(const std::string& path, const std::string& crs) {
   MapFeatures file = read_map_features(path, {.also = {"name"}}, crs);
   if (file.unplaceable > 0)
-    throw Error(ErrorKind::input, path, fmt::format("{} of its features have places outside of {}", file.unplaceable, describe_crs(crs)));
+    throw Error(ErrorKind::input, path,
+                fmt::format("{} of its features have positions outside the valid area of {}",
+                            file.unplaceable, describe_crs(crs)));
   std::vector<MapLine> lines;
   for (MapFeature& feature : file.features)
     if (feature.shape == MapShape::line)
-      lines.push_back({.name = feature.values[0], .where = feature.where, .places = std::move(feature.parts.front())});
-  if (lines.empty()) throw Error(ErrorKind::input, path, "no line in it", "tracks, routes or lines");
+      lines.push_back({.name = feature.values[0],
+                       .where = feature.where,
+                       .positions = std::move(feature.parts.front())});
+  if (lines.empty()) throw Error(ErrorKind::input, path, "has no lines", "tracks, routes or lines");
   return lines;
 }
 

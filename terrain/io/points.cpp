@@ -18,12 +18,13 @@ namespace {
 
 constexpr const char* longitude_latitude = "EPSG:4326";
 
-double number_of(const std::string& text, const std::string& where, const std::string& column, double most) {
+double number_of(const std::string& text, const std::string& where, const std::string& column,
+                 double max) {
   double value = 0.0;
   const auto [stop, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (problem != std::errc() || stop != text.data() + text.size() || !(std::abs(value) <= most))
+  if (problem != std::errc() || stop != text.data() + text.size() || !(std::abs(value) <= max))
     throw Error(ErrorKind::usage, where, fmt::format("{} is \"{}\"", column, text),
-                fmt::format("a number, -{} … {}, with a point before decimals", most, most));
+                fmt::format("a number, -{} … {}, with a decimal point", max, max));
   return value;
 }
 
@@ -35,28 +36,32 @@ PointTable read_csv_points(const std::string& path, const std::string& crs) {
   const int north = csv.find_any({"north", "northing"});
   const bool degrees = longitude >= 0 && latitude >= 0;
   if (!degrees && (east < 0 || north < 0))
-    throw Error(ErrorKind::usage, path + ":1", fmt::format("no columns of places among {}", fmt::join(csv.columns, ", ")),
+    throw Error(ErrorKind::usage, path + ":1",
+                fmt::format("no coordinate columns; it has {}", fmt::join(csv.columns, ", ")),
                 "lon and lat, or east and north");
   if (degrees && crs.empty())
-    throw Error(ErrorKind::usage, path, "longitude and latitude for a terrain without CRS", "columns east and north");
+    throw Error(ErrorKind::usage, path, "has longitude and latitude, but the terrain has no CRS",
+                "columns east and north");
   constexpr double farthest_m = 1e8;  // farther than around the Earth
   PointTable table{.file = path, .columns = csv.columns, .points = {}};
-  std::vector<glm::dvec2> places;
+  std::vector<glm::dvec2> positions;
   for (const CsvTable::Row& row : csv.rows) {
     const std::string where = fmt::format("{}:{}", path, row.line);
-    const auto value = [&](int column, double most) {
+    const auto value = [&](int column, double max) {
       const auto at = static_cast<std::size_t>(column);
-      return number_of(row.fields[at], where, csv.columns[at], most);
+      return number_of(row.fields[at], where, csv.columns[at], max);
     };
     const double x = degrees ? value(longitude, 180.0) : value(east, farthest_m);
     const double y = degrees ? value(latitude, 90.0) : value(north, farthest_m);
-    places.emplace_back(x, y);
-    table.points.push_back({.where = where, .place = {}, .values = row.fields});
+    positions.emplace_back(x, y);
+    table.points.push_back({.where = where, .position = {}, .values = row.fields});
   }
-  if (degrees) PointTransform(longitude_latitude, crs).apply(places);
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    if (!std::isfinite(places[i].x)) throw Error(ErrorKind::input, table.points[i].where, "the place lies outside of " + describe_crs(crs));
-    table.points[i].place = places[i];
+  if (degrees) PointTransform(longitude_latitude, crs).apply(positions);
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    if (!std::isfinite(positions[i].x))
+      throw Error(ErrorKind::input, table.points[i].where,
+                  "the position is outside the valid area of " + describe_crs(crs));
+    table.points[i].position = positions[i];
   }
   return table;
 }
@@ -64,13 +69,14 @@ PointTable read_csv_points(const std::string& path, const std::string& crs) {
 }  // namespace
 
 int PointTable::find(std::string_view column) const {
-  const auto found =
-      std::find_if(columns.begin(), columns.end(), [&](const std::string& c) { return lower_case(c) == lower_case(std::string(column)); });
+  const auto found = std::find_if(columns.begin(), columns.end(), [&](const std::string& c) {
+    return lower_case(c) == lower_case(std::string(column));
+  });
   return found == columns.end() ? -1 : static_cast<int>(found - columns.begin());
 }
 
 PointTable read_points(const std::string& path, const std::string& crs) {
-  return lower_ending(path) == ".csv" ? read_csv_points(path, crs) : read_point_layer(path, crs);
+  return lower_extension(path) == ".csv" ? read_csv_points(path, crs) : read_point_layer(path, crs);
 }
 
 }  // namespace belvedere

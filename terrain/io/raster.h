@@ -7,7 +7,7 @@
 
 namespace belvedere {
 
-// Where cells lie in a metric or geographic CRS. North-up only: readers resample what is rotated.
+// Position of cells in a metric or geographic CRS. North-up only: readers resample rotated rasters.
 // (origin_x, origin_y) is the outer corner of the top-left cell; y decreases downwards.
 struct GeoTransform {
   double origin_x = 0.0;
@@ -16,9 +16,13 @@ struct GeoTransform {
   double cell_y = 1.0;  // > 0, height of a cell in CRS units
 
   // CRS coordinates to fractional cells whose centres lie at whole numbers.
-  glm::dvec2 to_cell(double x, double y) const { return {(x - origin_x) / cell_x - 0.5, (origin_y - y) / cell_y - 0.5}; }
+  glm::dvec2 to_cell(double x, double y) const {
+    return {(x - origin_x) / cell_x - 0.5, (origin_y - y) / cell_y - 0.5};
+  }
   // Fractional cells to CRS coordinates.
-  glm::dvec2 to_crs(double column, double row) const { return {origin_x + (column + 0.5) * cell_x, origin_y - (row + 0.5) * cell_y}; }
+  glm::dvec2 to_crs(double column, double row) const {
+    return {origin_x + (column + 0.5) * cell_x, origin_y - (row + 0.5) * cell_y};
+  }
   bool operator==(const GeoTransform&) const = default;
 };
 
@@ -27,7 +31,7 @@ template <class T>
 struct Raster {
   Grid<T> cells;
   GeoTransform transform;
-  std::string crs;  // WKT2, empty where unknown
+  std::string crs;  // WKT2, empty if unknown
 };
 
 }  // namespace belvedere

@@ -12,21 +12,25 @@
 
 namespace belvedere {
 
-// What stands between the foreign library (gdal/raster_file.cpp) and the resampling (warp.cpp). Private to terrain/.
+// Interface between GDAL (gdal/raster_file.cpp) and the resampling (warp.cpp). Private to terrain/.
 
-// Cells of a file in its CRS: a corner-based affine map, which may be rotated, mirrored or south-up.
+// Cells of a file in its CRS: a corner-based affine map, which may be rotated, mirrored or
+// south-up.
 //   x = x0 + x_column · column + x_row · row        y = y0 + y_column · column + y_row · row
 // Whole numbers are the corners of cells here; centres lie at .5.
 struct CellAffine {
   double x0 = 0.0, x_column = 1.0, x_row = 0.0;
   double y0 = 0.0, y_column = 0.0, y_row = -1.0;
 
-  glm::dvec2 to_crs(glm::dvec2 cell) const { return {x0 + x_column * cell.x + x_row * cell.y, y0 + y_column * cell.x + y_row * cell.y}; }
+  glm::dvec2 to_crs(glm::dvec2 cell) const {
+    return {x0 + x_column * cell.x + x_row * cell.y, y0 + y_column * cell.x + y_row * cell.y};
+  }
   double determinant() const { return x_column * y_row - x_row * y_column; }
   glm::dvec2 to_cell(glm::dvec2 point) const {
     const double dx = point.x - x0;
     const double dy = point.y - y0;
-    return {(y_row * dx - x_row * dy) / determinant(), (x_column * dy - y_column * dx) / determinant()};
+    return {(y_row * dx - x_row * dy) / determinant(),
+            (x_column * dy - y_column * dx) / determinant()};
   }
   bool axis_aligned() const { return x_row == 0.0 && y_column == 0.0; }
 };
@@ -36,10 +40,10 @@ struct CellWindow {
   int x0 = 0, y0 = 0, width = 0, height = 0;
 };
 
-// Memory that blocks of all open files may take, by what the program may.
+// Memory limit of the blocks of all open files, by the program's limit.
 std::uint64_t raster_cache_bytes();
 
-// An open raster file, one band of it. For one thread at a time. Throws as raster_io.h says.
+// An open raster file, one band of it. Not thread-safe. Throws as in raster_io.h.
 class RasterFile {
  public:
   explicit RasterFile(const RasterSource& source);
@@ -52,17 +56,18 @@ class RasterFile {
   int height() const;
   int bands() const;
   const CellAffine& affine() const;
-  const std::string& crs() const;  // WKT2, horizontal part only; empty where unknown
-  // The same, or Error(input) that names the key which gives it.
+  const std::string& crs() const;  // WKT2, horizontal part only; empty if unknown
+  // The same, or Error(input) with the key that sets it.
   const std::string& required_crs() const;
   std::optional<double> nodata() const;  // the scene's, else the file's
   std::string driver() const;
 
   // Metres, voids NaN; the window's own size.
   Grid<float> read_values(const CellWindow& window) const;
-  // The window in `width` × `height` cells, each one of those under it; from overviews where the file has some.
+  // The window in `width` × `height` cells, each one of those under it (nearest neighbour); from
+  // overviews if the file has some.
   Grid<float> read_values(const CellWindow& window, int width, int height) const;
-  // Codes from 0 up, -1 where there are none.
+  // Codes from 0 up, -1 for nodata.
   Grid<std::int32_t> read_codes(const CellWindow& window) const;
 
  private:

@@ -13,13 +13,13 @@
 
 namespace belvedere {
 
-// What a file says of itself, without reading its cells.
+// A file's metadata, without reading its cells.
 struct RasterInfo {
   int width = 0;
   int height = 0;
   int bands = 0;
   GeoTransform transform;
-  std::string crs;  // WKT2, empty where unknown
+  std::string crs;  // WKT2, empty if unknown
   bool geographic = false;
   std::optional<double> nodata;
   std::string driver;
@@ -33,32 +33,40 @@ struct RasterFrame {
   std::string crs;
 };
 
-// Every function throws Error(input) naming the file: missing, a driver that is not on the allow-list (GTiff, AAIGrid,
-// SRTMHGT, HFA, ENVI, netCDF, PNG, VRT only where named .vrt, …), damaged, a failed read, no CRS (naming the key that gives
-// it); Error(limit) where it would not fit into memory, before allocating.
+// Every function throws Error(input) naming the file: missing, a driver that is not on the
+// allow-list (GTiff, AAIGrid, SRTMHGT, HFA, ENVI, netCDF, PNG, VRT only with the extension .vrt,
+// …), damaged, a failed read, no CRS (with the key that sets it); Error(limit), before allocating,
+// if it would not fit into memory.
 RasterInfo read_raster_info(const RasterSource& source);
 
-// Cells as floats in metres; nodata as NaN, and so are -9999, -32768 and 32767 where the file declares none, -32768 always.
-// No reprojection; a south-up raster is turned over, a rotated one resampled upright in its own CRS.
+// Cells as floats in metres. NaN for nodata, for -9999, -32768 and 32767 if the file declares none,
+// and always for -32768. No reprojection; a south-up raster is flipped, a rotated one resampled
+// upright in its own CRS.
 Raster<float> read_raster(const RasterSource& source);
 // Integer codes; nodata becomes -1.
 Raster<std::int32_t> read_codes(const RasterSource& source);
 
-// Several sources, reprojected and mosaicked into one frame; earlier sources win, voids let later ones through. Files whose cells lie on
-// one lattice join without a seam. Cubic convolution within the range of the cells it sees, an average where the source is
-// finer; cells that coincide are copied to the bit. Values in metres.
-Raster<float> warp_rasters(const std::vector<RasterSource>& sources, const RasterFrame& frame, Progress& progress);
+// Several sources, reprojected and mosaicked into one frame; earlier sources take precedence, later
+// ones fill their voids. Files whose cells lie on one lattice join without a seam. Cubic
+// convolution limited to the range of the cells it reads, an average if the source is finer;
+// coinciding cells are copied to the bit. Values in metres.
+Raster<float> warp_rasters(const std::vector<RasterSource>& sources, const RasterFrame& frame,
+                           Progress& progress);
 // Nearest neighbour; cells without a source are -1.
-Raster<std::int32_t> warp_codes(const std::vector<RasterSource>& sources, const RasterFrame& frame, Progress& progress);
+Raster<std::int32_t> warp_codes(const std::vector<RasterSource>& sources, const RasterFrame& frame,
+                                Progress& progress);
 
-// The frame that holds all sources at their own resolution: the CRS of the first where it is metric (crs empty), else its
-// UTM zone, or the given CRS; cell_m 0 means the finest source's. extent: min x, min y, max x, max y in that CRS, optional.
-RasterFrame choose_frame(const std::vector<RasterSource>& sources, const std::string& crs, double cell_m,
-                         const std::optional<std::array<double, 4>>& extent);
+// The frame that contains all sources at their own resolution: the CRS of the first if it is metric
+// (crs empty), else its UTM zone, or the given CRS; cell_m 0 means the finest source's. extent: min
+// x, min y, max x, max y in that CRS, optional.
+RasterFrame choose_frame(const std::vector<RasterSource>& sources, const std::string& crs,
+                         double cell_m, const std::optional<std::array<double, 4>>& extent);
 
-// GeoTIFF (tiled, deflate) or ESRI ASCII by the ending; temporary file and rename. Voids are written as `nodata`, or as -9999 where none is
-// given, where it is the altitude of a cell or where the format cannot hold it.
-void write_raster(const std::string& path, const Raster<float>& raster, std::optional<double> nodata = {});
+// GeoTIFF (tiled, deflate) or ESRI ASCII by the extension; temporary file and rename. Voids are
+// written as `nodata`, or as -9999 if none is given, if it is the altitude of a cell or if the
+// format cannot represent it.
+void write_raster(const std::string& path, const Raster<float>& raster,
+                  std::optional<double> nodata = {});
 // GeoTIFF of bytes, 0 for voids.
 void write_raster(const std::string& path, const Raster<std::uint8_t>& raster);
 

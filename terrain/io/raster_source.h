@@ -5,14 +5,16 @@
 
 namespace belvedere {
 
-// One raster file and what a scene says of it.
+// One raster file and its settings in a scene.
 struct RasterSource {
   std::string path;
-  int band = 1;                  // from 1
-  std::string crs;               // overrides or supplies the file's CRS ("EPSG:26911" or WKT); empty: the file's own
-  double unit_to_m = 0.0;        // metres per unit of the values; 0: by the band's unit (feet known), metres if it has none
+  int band = 1;  // from 1
+  std::string
+      crs;  // overrides or supplies the file's CRS ("EPSG:26911" or WKT); empty: the file's own
+  double unit_to_m = 0.0;        // metres per unit of the values; 0: by the band's unit (feet are
+                                 // recognized), metres if it has none
   std::optional<double> nodata;  // overrides the file's
-  // Altitudes beyond these are void: for files with wrong values that look like right ones.
+  // Altitudes beyond these are void: for files with plausible-looking wrong values.
   std::optional<double> lowest_m, highest_m;
 };
 

@@ -16,7 +16,8 @@ std::optional<Raster<float>> read_thinned(const RasterSource& source, int longes
   Raster<float> out;
   out.cells = file.read_values({0, 0, file.width(), file.height()}, width, height);
   out.crs = file.required_crs();
-  out.transform = {a.x0, a.y0, a.x_column * file.width() / width, -a.y_row * file.height() / height};
+  out.transform = {a.x0, a.y0, a.x_column * file.width() / width,
+                   -a.y_row * file.height() / height};
   return out;
 }
 

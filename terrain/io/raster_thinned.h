@@ -7,9 +7,9 @@
 
 namespace belvedere {
 
-// A look at a file that is too large to be read: at most `longest` of its cells a side, evenly spaced, each as it stands in the file (or in
-// its overviews, where it has some: then only those are read). In the file's own CRS; metres, voids NaN. Nothing where its cells lie
-// askew. Throws as raster_io.h says.
+// A preview of a file that is too large to read: at most `longest` of its cells per side, evenly
+// spaced, unchanged from the file (or only from its overviews, if it has some). In the file's own
+// CRS; metres, voids NaN. Nothing if its cells are rotated. Throws as in raster_io.h.
 std::optional<Raster<float>> read_thinned(const RasterSource& source, int longest);
 
 }  // namespace belvedere

@@ -9,8 +9,9 @@
 
 namespace belvedere {
 
-// What warp_rasters makes of a frame, window by window, to the bit wherever a window lies: for frames that are larger than memory. The
-// files stay open; for one thread at a time. Throws as warp_rasters does.
+// The result of warp_rasters for a frame, window by window, equal to the bit for any window: for
+// frames that are larger than memory. The files stay open; not thread-safe. Throws as warp_rasters
+// does.
 class RasterWindows {
  public:
   RasterWindows(const std::vector<RasterSource>& sources, const RasterFrame& frame);
@@ -19,7 +20,7 @@ class RasterWindows {
   RasterWindows& operator=(const RasterWindows&) = delete;
 
   const RasterFrame& frame() const { return frame_; }
-  // Values in metres, voids NaN. The window lies inside the frame.
+  // Values in metres, voids NaN. The window must lie inside the frame.
   Grid<float> read(const PixelRect& window);
 
  private:

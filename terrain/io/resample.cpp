@@ -18,27 +18,31 @@ double cubic(double distance) {
 
 double tent(double distance) { return std::max(0.0, 1.0 - std::abs(distance)); }
 
-// The first and last whole number less than `radius` from `at`.
+// The first and last whole number within `radius` of `at`.
 glm::ivec2 span(double at, double radius) {
-  return {static_cast<int>(std::floor(at - radius)) + 1, static_cast<int>(std::ceil(at + radius)) - 1};
+  return {static_cast<int>(std::floor(at - radius)) + 1,
+          static_cast<int>(std::ceil(at + radius)) - 1};
 }
 
 }  // namespace
 
 Resampler::Resampler(glm::dvec2 source_cells_per_sample)
     : scale_(std::max(1.0, source_cells_per_sample.x), std::max(1.0, source_cells_per_sample.y)) {
-  // A scale that is 1 but for rounding must copy coinciding cells to the bit.
+  // A scale of 1 except for rounding must copy coinciding cells to the bit.
   if (scale_.x < 1.001) scale_.x = 1.0;
   if (scale_.y < 1.001) scale_.y = 1.0;
 }
 
 glm::ivec2 Resampler::reach() const {
-  return {static_cast<int>(std::ceil(2.0 * scale_.x)) + 1, static_cast<int>(std::ceil(2.0 * scale_.y)) + 1};
+  return {static_cast<int>(std::ceil(2.0 * scale_.x)) + 1,
+          static_cast<int>(std::ceil(2.0 * scale_.y)) + 1};
 }
 
 float Resampler::sample(const Grid<float>& cells, glm::dvec2 at) const {
-  // Beyond half a cell outside nothing is known, and far outside a place may not even fit an int.
-  if (!(at.x > -1.0 && at.y > -1.0 && at.x < cells.width() && at.y < cells.height())) return void_value;
+  // More than half a cell outside the grid nothing is known, and positions far outside may not fit
+  // an int.
+  if (!(at.x > -1.0 && at.y > -1.0 && at.x < cells.width() && at.y < cells.height()))
+    return void_value;
   const glm::ivec2 sx = span(at.x, 2.0 * scale_.x);
   const glm::ivec2 sy = span(at.y, 2.0 * scale_.y);
   double total = 0.0;
@@ -47,7 +51,7 @@ float Resampler::sample(const Grid<float>& cells, glm::dvec2 at) const {
   float high = -low;
   for (int y = sy[0]; y <= sy[1]; ++y) {
     const double wy = cubic((y - at.y) / scale_.y);
-    if (wy == 0.0) continue;  // on a row of centres the others count nothing, void or not
+    if (wy == 0.0) continue;  // on a row of centres other rows have no weight, void or not
     for (int x = sx[0]; x <= sx[1]; ++x) {
       const double wx = cubic((x - at.x) / scale_.x);
       if (wx == 0.0) continue;
@@ -82,7 +86,8 @@ float Resampler::sample_tent(const Grid<float>& cells, glm::dvec2 at) const {
 }
 
 std::int32_t sample_nearest(const Grid<std::int32_t>& cells, glm::dvec2 at) {
-  if (!(at.x >= -0.5 && at.y >= -0.5 && at.x < cells.width() - 0.5 && at.y < cells.height() - 0.5)) return -1;
+  if (!(at.x >= -0.5 && at.y >= -0.5 && at.x < cells.width() - 0.5 && at.y < cells.height() - 0.5))
+    return -1;
   return cells(static_cast<int>(std::floor(at.x + 0.5)), static_cast<int>(std::floor(at.y + 0.5)));
 }
 

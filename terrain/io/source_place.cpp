@@ -11,8 +11,11 @@ std::string doubt_of_source(const RasterSource& source) {
   const RasterInfo info = read_raster_info(source);
   const std::string& crs = source.crs.empty() ? info.crs : source.crs;
   if (crs.empty()) return {};
-  const std::string doubt = doubt_of_place(crs, info.transform.to_crs(.5 * (info.width - 1), .5 * (info.height - 1)));
-  return doubt.empty() ? doubt : fmt::format("{}: lies at {}: is that its coordinate system? (`crs`)", source.path, doubt);
+  const std::string doubt =
+      doubt_of_place(crs, info.transform.to_crs(.5 * (info.width - 1), .5 * (info.height - 1)));
+  return doubt.empty() ? doubt
+                       : fmt::format("{}: lies at {}; check its coordinate system (`crs`)",
+                                     source.path, doubt);
 }
 
 }  // namespace belvedere

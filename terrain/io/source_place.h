@@ -6,9 +6,9 @@
 
 namespace belvedere {
 
-// A note on a file whose middle lies far from where the coordinate system is used that it is said to be in (doubt_of_place), as happens
-// where a file's own system is not known and another is given for it. Empty where nothing is to be said. Throws Error(input) as
-// read_raster_info.
+// A note on a file whose centre lies far outside the area of use of its coordinate system
+// (doubt_of_place), as happens if its own system is unknown and a wrong one is given for it. Empty
+// if the position is plausible. Throws Error(input) as read_raster_info.
 std::string doubt_of_source(const RasterSource& source);
 
 }  // namespace belvedere

@@ -8,24 +8,27 @@
 
 namespace belvedere {
 
-// Where the bytes of a file come from that lies in no folder. `read` fills what is asked for, which lies inside, or throws.
+// Source of the bytes of a virtual file. `read` fills the requested range, which lies inside the
+// file, or throws.
 struct ByteSource {
   std::uint64_t bytes = 0;
   std::function<void(std::uint64_t offset, std::size_t count, char* to)> read;
 };
 
-// Such a file under a name by which rasters of it can be opened (raster_io.h, raster_file.h) while it lives: only those parts are read that
-// are needed. Private to terrain/. For one thread.
+// Registers such a file under a name by which its rasters can be opened (raster_io.h,
+// raster_file.h) while it lives; only the needed parts are read. Private to terrain/. Not
+// thread-safe.
 class StreamFile {
  public:
-  // name: what the file is called, with its ending.
+  // name: name of the file, with its extension.
   StreamFile(const std::string& name, ByteSource source);
   ~StreamFile();
   StreamFile(const StreamFile&) = delete;
   StreamFile& operator=(const StreamFile&) = delete;
 
   const std::string& path() const;
-  // What `read` threw first. Raster readers cannot let it through: they say that the file is damaged.
+  // The first exception of `read`. Raster readers cannot pass it on and report a damaged file
+  // instead.
   void rethrow() const;
 
  private:

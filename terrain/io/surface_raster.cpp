@@ -13,8 +13,10 @@ namespace {
 
 constexpr int band_rows = 64;
 
-// Draws a facet into rows y0 … y1 - 1: z is highest where facets meet. Corners in cells and metres.
-void draw(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, int y0, int y1, Grid<float>& out) {
+// Draws a facet into rows y0 … y1 - 1, keeping the highest z where facets overlap. Corners in cells
+// and metres.
+void draw(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, int y0, int y1,
+          Grid<float>& out) {
   const double area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
   if (!(std::abs(area) > 0.0)) return;
   const auto [low_x, high_x] = std::minmax({a.x, b.x, c.x});
@@ -43,7 +45,8 @@ Grid<float> raster_of_moved(const Grid<float>& altitude_m, const GeoTransform& t
                             const std::function<glm::dvec3(glm::dvec3)>& move) {
   const int width = altitude_m.width();
   const int height = altitude_m.height();
-  // How far each post went in plan (in cells, so that a post that stays lies exactly on its cell) and its new height.
+  // Displacement of each post in plan (in cells, so that an unmoved post lies exactly on its cell)
+  // and its new height.
   Grid<glm::vec3> moved(width, height);
   struct Reach {
     float low = 0.F, high = 0.F;
@@ -53,9 +56,10 @@ Grid<float> raster_of_moved(const Grid<float>& altitude_m, const GeoTransform& t
   parallel_rows(height, [&](int y) {
     Reach& row = reach[static_cast<std::size_t>(y)];
     for (int x = 0; x < width; ++x) {
-      const glm::dvec2 place = transform.to_crs(x, y);
-      const glm::dvec3 to = move({place, altitude_m(x, y)});
-      const glm::vec3 step((to.x - place.x) / transform.cell_x, (place.y - to.y) / transform.cell_y, to.z);
+      const glm::dvec2 position = transform.to_crs(x, y);
+      const glm::dvec3 to = move({position, altitude_m(x, y)});
+      const glm::vec3 step((to.x - position.x) / transform.cell_x,
+                           (position.y - to.y) / transform.cell_y, to.z);
       moved(x, y) = step;
       row.low = std::min(row.low, step.y);
       row.high = std::max(row.high, step.y);

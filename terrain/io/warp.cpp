@@ -19,36 +19,41 @@
 namespace belvedere {
 namespace {
 
-// Files whose cells lie on one lattice, read as if they were one: no seam at their borders, whatever the kernel.
+// Files whose cells lie on one lattice, read as one file: no seam at their borders, for any kernel.
 struct Layer {
   struct Part {
     RasterFile file;
     int x0 = 0, y0 = 0;  // of its first cell on the layer's lattice
   };
-  std::vector<Part> parts;             // earlier ones win
+  std::vector<Part> parts;             // earlier ones take precedence
   CellAffine affine;                   // the first part's
-  std::string crs;                     // may be empty where no reprojection is asked for
+  std::string crs;                     // may be empty without reprojection
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // all parts together, half open
 
-  glm::dvec2 middle() const { return affine.to_crs({0.5 * (x0 + x1), 0.5 * (y0 + y1)}); }
+  glm::dvec2 centre() const { return affine.to_crs({0.5 * (x0 + x1), 0.5 * (y0 + y1)}); }
 };
 
-// Where a file's first cell lies on a layer's lattice, if its cells lie on it at all (to a hundredth of a cell).
+// Position of a file's first cell on a layer's lattice, if its cells lie on it at all (to a
+// hundredth of a cell).
 std::optional<glm::ivec2> place_on(const Layer& layer, const RasterFile& file) {
   const CellAffine& a = layer.affine;
   const CellAffine& b = file.affine();
   if (!same_crs(layer.crs, file.crs())) return std::nullopt;
-  const auto near = [](double p, double q, double tolerance) { return std::abs(p - q) <= tolerance; };
+  const auto near = [](double p, double q, double tolerance) {
+    return std::abs(p - q) <= tolerance;
+  };
   const double cell = std::sqrt(std::abs(a.determinant()));
-  // Steps must agree so well that the far end of the file is still in place.
+  // Steps must agree so well that the far end of the file is still on the lattice.
   const double steps = 0.01 * cell / std::max(file.width(), file.height());
-  if (!near(a.x_column, b.x_column, steps) || !near(a.x_row, b.x_row, steps) || !near(a.y_column, b.y_column, steps) ||
-      !near(a.y_row, b.y_row, steps)) {
+  if (!near(a.x_column, b.x_column, steps) || !near(a.x_row, b.x_row, steps) ||
+      !near(a.y_column, b.y_column, steps) || !near(a.y_row, b.y_row, steps)) {
     return std::nullopt;
   }
   const glm::dvec2 at = a.to_cell({b.x0, b.y0});
   const glm::dvec2 whole = glm::round(at);
-  if (!near(at.x, whole.x, 0.01) || !near(at.y, whole.y, 0.01) || std::abs(whole.x) > 1e8 || std::abs(whole.y) > 1e8) return std::nullopt;
+  if (!near(at.x, whole.x, 0.01) || !near(at.y, whole.y, 0.01) || std::abs(whole.x) > 1e8 ||
+      std::abs(whole.y) > 1e8)
+    return std::nullopt;
   return glm::ivec2(whole);
 }
 
@@ -56,23 +61,23 @@ std::vector<Layer> make_layers(const std::vector<RasterSource>& sources) {
   std::vector<Layer> layers;
   for (const RasterSource& source : sources) {
     RasterFile file(source);
-    std::optional<glm::ivec2> place;
-    // Only the last layer may grow: a file in between keeps its rank.
-    if (!layers.empty()) place = place_on(layers.back(), file);
-    if (!place) {
+    std::optional<glm::ivec2> position;
+    // Only the last layer may grow: a file in between keeps its precedence.
+    if (!layers.empty()) position = place_on(layers.back(), file);
+    if (!position) {
       layers.emplace_back();
       layers.back().affine = file.affine();
       layers.back().crs = file.crs();
-      place = glm::ivec2{0, 0};
+      position = glm::ivec2{0, 0};
     }
     Layer& layer = layers.back();
     const bool first = layer.parts.empty();
-    const glm::ivec2 end = *place + glm::ivec2{file.width(), file.height()};
-    layer.x0 = first ? place->x : std::min(layer.x0, place->x);
-    layer.y0 = first ? place->y : std::min(layer.y0, place->y);
+    const glm::ivec2 end = *position + glm::ivec2{file.width(), file.height()};
+    layer.x0 = first ? position->x : std::min(layer.x0, position->x);
+    layer.y0 = first ? position->y : std::min(layer.y0, position->y);
     layer.x1 = first ? end.x : std::max(layer.x1, end.x);
     layer.y1 = first ? end.y : std::max(layer.y1, end.y);
-    layer.parts.push_back({std::move(file), place->x, place->y});
+    layer.parts.push_back({std::move(file), position->x, position->y});
   }
   return layers;
 }
@@ -93,7 +98,7 @@ constexpr T void_of() {
     return T{-1};
 }
 
-// The part of a layer that a window shows; outside of its files, and where they have voids, void.
+// The part of a layer in a window; void outside its files and in their voids.
 template <class T>
 Grid<T> read_window(const Layer& layer, const CellWindow& window) {
   Grid<T> out(window.width, window.height, void_of<T>());
@@ -119,10 +124,12 @@ Grid<T> read_window(const Layer& layer, const CellWindow& window) {
   return out;
 }
 
-// The same where cells of the frame are cells of the layer: no kernel of one cell's width, and of nothing at the others' centres, is asked.
+// The same if cells of the frame are cells of the layer: a kernel of one cell's width has no weight
+// at other centres and is not evaluated.
 template <class T>
 void copy_tile(const Layer& layer, glm::ivec2 offset, const PixelRect& tile, Grid<T>& out) {
-  const PixelRect known = intersection(moved(tile, offset.x, offset.y), {layer.x0, layer.y0, layer.x1, layer.y1});
+  const PixelRect known =
+      intersection(moved(tile, offset.x, offset.y), {layer.x0, layer.y0, layer.x1, layer.y1});
   if (known.empty()) return;
   const Grid<T> cells = read_window<T>(layer, {known.x0, known.y0, known.width(), known.height()});
   for (int y = 0; y < cells.height(); ++y) {
@@ -132,8 +139,9 @@ void copy_tile(const Layer& layer, glm::ivec2 offset, const PixelRect& tile, Gri
   }
 }
 
-// Fills what is still void in one tile of the frame from a layer. Halves the tile where its cells of the layer are too many
-// to hold at once; each cell's value depends on its own place only, so the division changes nothing.
+// Fills the remaining voids of one tile of the frame from a layer. Halves the tile if it needs too
+// many cells of the layer at once; each cell's value depends only on its own position, so the
+// division does not affect the result.
 template <class T>
 void warp_tile(const Layer& layer, const LatticeMap& map, const PixelRect& tile, Grid<T>& out) {
   const Resampler resampler(map.scale());
@@ -154,15 +162,22 @@ void warp_tile(const Layer& layer, const LatticeMap& map, const PixelRect& tile,
   x1 = std::min(std::ceil(x1) + reach.x + 1.0, static_cast<double>(layer.x1));
   y1 = std::min(std::ceil(y1) + reach.y + 1.0, static_cast<double>(layer.y1));
   if (!(x0 < x1) || !(y0 < y1)) return;
-  constexpr double most_cells = 16e6;
-  if ((x1 - x0) * (y1 - y0) > most_cells && (tile.width() > 1 || tile.height() > 1)) {
+  constexpr double max_cells = 16e6;
+  if ((x1 - x0) * (y1 - y0) > max_cells && (tile.width() > 1 || tile.height() > 1)) {
     const bool wide = tile.width() >= tile.height();
     const int half = wide ? (tile.x0 + tile.x1) / 2 : (tile.y0 + tile.y1) / 2;
-    warp_tile(layer, map, wide ? PixelRect{tile.x0, tile.y0, half, tile.y1} : PixelRect{tile.x0, tile.y0, tile.x1, half}, out);
-    warp_tile(layer, map, wide ? PixelRect{half, tile.y0, tile.x1, tile.y1} : PixelRect{tile.x0, half, tile.x1, tile.y1}, out);
+    warp_tile(layer, map,
+              wide ? PixelRect{tile.x0, tile.y0, half, tile.y1}
+                   : PixelRect{tile.x0, tile.y0, tile.x1, half},
+              out);
+    warp_tile(layer, map,
+              wide ? PixelRect{half, tile.y0, tile.x1, tile.y1}
+                   : PixelRect{tile.x0, half, tile.x1, tile.y1},
+              out);
     return;
   }
-  const CellWindow window{static_cast<int>(x0), static_cast<int>(y0), static_cast<int>(x1 - x0), static_cast<int>(y1 - y0)};
+  const CellWindow window{static_cast<int>(x0), static_cast<int>(y0), static_cast<int>(x1 - x0),
+                          static_cast<int>(y1 - y0)};
   const Grid<T> cells = read_window<T>(layer, window);
   parallel_rows(tile.height(), [&](int row) {
     const int y = tile.y0 + row;
@@ -182,22 +197,25 @@ void warp_tile(const Layer& layer, const LatticeMap& map, const PixelRect& tile,
 void check_frame(const RasterFrame& frame, double bytes_per_cell) {
   constexpr int longest = 1 << 20;
   const GeoTransform& t = frame.transform;
-  if (frame.width < 1 || frame.height < 1 || !(t.cell_x > 0.0) || !(t.cell_y > 0.0)) throw Error(ErrorKind::bug, "frame", "has no cells");
+  if (frame.width < 1 || frame.height < 1 || !(t.cell_x > 0.0) || !(t.cell_y > 0.0))
+    throw Error(ErrorKind::bug, "frame", "has no cells");
   const std::string where = fmt::format("terrain of {} × {} cells", frame.width, frame.height);
   if (frame.width > longest || frame.height > longest)
-    throw Error(ErrorKind::limit, where, "is too large", fmt::format("up to {} cells a side", longest));
+    throw Error(ErrorKind::limit, where, "too large",
+                fmt::format("at most {} cells per side", longest));
   check_memory(where, bytes_per_cell * frame.width * frame.height);
 }
 
 constexpr int tile_side = 512;
 
-// Fills what is still void of a window of the frame, which begins where the map does. Tiles one after another, because a file is read by
-// one thread; rows of a tile in parallel.
+// Fills the remaining voids of a window of the frame, in which the map starts. Tiles one after
+// another, because a file is read by one thread; rows of a tile in parallel.
 template <class T>
 void fill_from_layer(const Layer& layer, const LatticeMap& map, Grid<T>& out, Progress& progress) {
   for (int y = 0; y < out.height(); y += tile_side)
     for (int x = 0; x < out.width(); x += tile_side) {
-      const PixelRect tile{x, y, std::min(x + tile_side, out.width()), std::min(y + tile_side, out.height())};
+      const PixelRect tile{x, y, std::min(x + tile_side, out.width()),
+                           std::min(y + tile_side, out.height())};
       map.offset() ? copy_tile(layer, *map.offset(), tile, out) : warp_tile(layer, map, tile, out);
       progress.advance(static_cast<double>(tile.width()) * tile.height());
     }
@@ -208,26 +226,30 @@ Raster<T> warp_layers(std::vector<Layer>& layers, const RasterFrame& frame, Prog
   check_frame(frame, sizeof(T));
   Raster<T> out{Grid<T>(frame.width, frame.height, void_of<T>()), frame.transform, frame.crs};
   for (const Layer& layer : layers) {
-    const LatticeMap map(layer.affine, layer.crs, layer.middle(), frame);
+    const LatticeMap map(layer.affine, layer.crs, layer.centre(), frame);
     fill_from_layer(layer, map, out.cells, progress);
   }
   return out;
 }
 
 template <class T>
-Raster<T> warp(const std::vector<RasterSource>& sources, const RasterFrame& frame, Progress& progress, std::string_view stage) {
+Raster<T> warp(const std::vector<RasterSource>& sources, const RasterFrame& frame,
+               Progress& progress, std::string_view stage) {
   std::vector<Layer> layers = make_layers(sources);
   for (const Layer& layer : layers)
     for (const Layer::Part& part : layer.parts) part.file.required_crs();
-  progress.begin(stage, static_cast<double>(frame.width) * frame.height * static_cast<double>(layers.size()));
+  progress.begin(
+      stage, static_cast<double>(frame.width) * frame.height * static_cast<double>(layers.size()));
   return warp_layers<T>(layers, frame, progress);
 }
 
-// The frame of one file in its own CRS: its cells as they are, or upright cells of the same area over its bounding box.
+// The frame of one file in its own CRS: its own cells, or upright cells of the same area over its
+// bounding box.
 RasterFrame own_frame(const RasterFile& file) {
   const CellAffine& a = file.affine();
   const glm::dvec2 end{file.width(), file.height()};
-  const glm::dvec2 corners[] = {a.to_crs({0.0, 0.0}), a.to_crs({end.x, 0.0}), a.to_crs({0.0, end.y}), a.to_crs(end)};
+  const glm::dvec2 corners[] = {a.to_crs({0.0, 0.0}), a.to_crs({end.x, 0.0}),
+                                a.to_crs({0.0, end.y}), a.to_crs(end)};
   glm::dvec2 low = corners[0], high = corners[0];
   for (const glm::dvec2& corner : corners) {
     low = glm::min(low, corner);
@@ -273,13 +295,17 @@ RasterInfo read_raster_info(const RasterSource& source) {
 
 Raster<float> read_raster(const RasterSource& source) { return read_upright<float>(source); }
 
-Raster<std::int32_t> read_codes(const RasterSource& source) { return read_upright<std::int32_t>(source); }
+Raster<std::int32_t> read_codes(const RasterSource& source) {
+  return read_upright<std::int32_t>(source);
+}
 
-Raster<float> warp_rasters(const std::vector<RasterSource>& sources, const RasterFrame& frame, Progress& progress) {
+Raster<float> warp_rasters(const std::vector<RasterSource>& sources, const RasterFrame& frame,
+                           Progress& progress) {
   return warp<float>(sources, frame, progress, "read terrain");
 }
 
-Raster<std::int32_t> warp_codes(const std::vector<RasterSource>& sources, const RasterFrame& frame, Progress& progress) {
+Raster<std::int32_t> warp_codes(const std::vector<RasterSource>& sources, const RasterFrame& frame,
+                                Progress& progress) {
   return warp<std::int32_t>(sources, frame, progress, "read land cover");
 }
 
@@ -294,7 +320,7 @@ RasterWindows::RasterWindows(const std::vector<RasterSource>& sources, const Ras
   state_->layers = make_layers(sources);
   for (const Layer& layer : state_->layers) {
     for (const Layer::Part& part : layer.parts) part.file.required_crs();
-    state_->maps.emplace_back(layer.affine, layer.crs, layer.middle(), frame);
+    state_->maps.emplace_back(layer.affine, layer.crs, layer.centre(), frame);
   }
 }
 
@@ -302,7 +328,7 @@ RasterWindows::~RasterWindows() = default;
 
 Grid<float> RasterWindows::read(const PixelRect& window) {
   if (window.empty() || intersection(window, {0, 0, frame_.width, frame_.height}) != window)
-    throw Error(ErrorKind::bug, "raster windows", "a window beyond the frame");
+    throw Error(ErrorKind::bug, "raster windows", "the window exceeds the frame");
   check_memory(fmt::format("terrain of {} × {} cells", window.width(), window.height()),
                static_cast<double>(sizeof(float)) * window.width() * window.height());
   Grid<float> out(window.width(), window.height(), void_of<float>());

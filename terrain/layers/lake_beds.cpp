@@ -25,11 +25,13 @@ Grid<float> lake_depth_m(const Dem& dem, const LakeBedParameters& parameters) {
       const double dy = (at / width - y) * dem.transform.cell_y;
       depth(x, y) = static_cast<float>(std::sqrt(dx * dx + dy * dy));
     }
-  // Lake by lake: the farthest place from the shore, then depths from distances.
+  // For each lake: the maximum distance from the shore, then depths from distances.
   each_piece(lakes, 1, [&](const std::vector<std::int32_t>& lake) {
     float farthest = 0.F;
-    for (const std::int32_t i : lake) farthest = std::max(farthest, depth[static_cast<std::size_t>(i)]);
-    const auto deepest = static_cast<float>(std::min(parameters.deepest_m, 0.5 * parameters.shore_slope * static_cast<double>(farthest)));
+    for (const std::int32_t i : lake)
+      farthest = std::max(farthest, depth[static_cast<std::size_t>(i)]);
+    const auto deepest = static_cast<float>(std::min(
+        parameters.deepest_m, 0.5 * parameters.shore_slope * static_cast<double>(farthest)));
     for (const std::int32_t i : lake) {
       float& at = depth[static_cast<std::size_t>(i)];
       const float left = farthest > 0.F ? 1.F - at / farthest : 1.F;

@@ -5,16 +5,17 @@
 
 namespace belvedere {
 
-// A DEM knows a lake's surface alone. Beds made up from its shape: a bowl that falls off from the shore and is deepest where the shore is
-// farthest.
+// A DEM contains only a lake's surface. Synthetic beds from its shape: a bowl that deepens from the
+// shore and is deepest where the shore is farthest.
 struct LakeBedParameters {
   LakeParameters lakes;
-  double shore_slope = 0.16;  // metres a metre, where the water begins; > 0
-  double deepest_m = 150.0;   // no lake is deeper; > 0
+  double shore_slope = 0.16;  // rise over run at the shore; > 0
+  double deepest_m = 150.0;   // maximum depth; > 0
 };
 
-// Depth of the water at each cell, m; 0 on land. A lake whose farthest place from the shore is d away gets D = min(deepest, slope · d / 2)
-// of depth there, and D (1 - (1 - t)²) at t times as far.
+// Depth of the water at each cell, m; 0 on land. A lake whose farthest position from the shore is
+// at distance d has the depth D = min(deepest, slope · d / 2) there, and D (1 - (1 - t)²) at the
+// distance t d.
 Grid<float> lake_depth_m(const Dem& dem, const LakeBedParameters& parameters = {});
 
 }  // namespace belvedere

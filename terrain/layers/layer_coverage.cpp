@@ -16,17 +16,20 @@
 namespace belvedere {
 namespace {
 
-// e^x for x ≤ 0 by sums and products alone, so the same everywhere: 2^n times the series of 2^f, |f| ≤ 1/2. Relative error below 3e-7;
-// 0 below -80.
+// e^x for x ≤ 0 by sums and products only, so the same on every machine: 2^n times the series of
+// 2^f, |f| ≤ 1/2. Relative error below 3e-7; 0 below -80.
 float exp_of(float x) {
   if (!(x > -80.F)) return 0.F;
   const float turned = x * 1.44269504F;
   const float whole = std::floor(turned + 0.5F);
   const float f = turned - whole;
   const float series =
-      1.F +
-      f * (0.693147181F + f * (0.240226507F + f * (0.0555041087F + f * (0.00961812911F + f * (0.00133335581F + f * 0.000154035304F)))));
-  return series * std::bit_cast<float>(static_cast<std::uint32_t>(static_cast<int>(whole) + 127) << 23U);
+      1.F + f * (0.693147181F +
+                 f * (0.240226507F +
+                      f * (0.0555041087F +
+                           f * (0.00961812911F + f * (0.00133335581F + f * 0.000154035304F)))));
+  return series *
+         std::bit_cast<float>(static_cast<std::uint32_t>(static_cast<int>(whole) + 127) << 23U);
 }
 
 // One field of noise for siblings of equal scale and octaves.
@@ -36,10 +39,10 @@ struct NoiseField {
   int octaves;
   LayerNoiseRows rows;
   std::vector<float> line;
-  bool filled = false;  // for the row at hand
+  bool filled = false;  // for the current row
 };
 
-// Places in tables of one input along a row.
+// Table positions of one input along a row.
 struct Places {
   std::vector<std::uint8_t> sample;
   std::vector<float> part;
@@ -48,8 +51,9 @@ struct Places {
 // The evaluation of one rectangle, row by row.
 class Evaluation {
  public:
-  Evaluation(const LayerProgram& program, const std::vector<Grid<float>>& inputs, const GeoTransform& transform, const PixelRect& cells,
-             std::uint64_t seed, Grid<float>* height_m)
+  Evaluation(const LayerProgram& program, const std::vector<Grid<float>>& inputs,
+             const GeoTransform& transform, const PixelRect& cells, std::uint64_t seed,
+             Grid<float>* height_m)
       : program_(program),
         layers_(program.layers),
         inputs_(inputs),
@@ -62,32 +66,40 @@ class Evaluation {
       const SurfaceLayer& layer = layers_.layers[k];
       if (layer.noise.amplitude == 0.0) continue;
       const auto same = std::find_if(fields_.begin(), fields_.end(), [&](const NoiseField& f) {
-        return f.parent == layer.parent && f.scale_m == layer.noise.scale_m && f.octaves == layer.noise.octaves;
+        return f.parent == layer.parent && f.scale_m == layer.noise.scale_m &&
+               f.octaves == layer.noise.octaves;
       });
       field_of_[k] = static_cast<int>(same - fields_.begin());
       if (same != fields_.end()) continue;
-      const std::string& parent = layer.parent < 0 ? layers_.name : layers_.layers[static_cast<std::size_t>(layer.parent)].name;
+      const std::string& parent = layer.parent < 0
+                                      ? layers_.name
+                                      : layers_.layers[static_cast<std::size_t>(layer.parent)].name;
       const std::uint64_t own =
-          stream_seed(seed, Stream::class_noise, seed_of_name(parent) ^ std::bit_cast<std::uint64_t>(layer.noise.scale_m));
-      fields_.push_back({layer.parent, layer.noise.scale_m, layer.noise.octaves, LayerNoiseRows(layer.noise, own, transform, cells),
+          stream_seed(seed, Stream::class_noise,
+                      seed_of_name(parent) ^ std::bit_cast<std::uint64_t>(layer.noise.scale_m));
+      fields_.push_back({layer.parent, layer.noise.scale_m, layer.noise.octaves,
+                         LayerNoiseRows(layer.noise, own, transform, cells),
                          std::vector<float>(width_)});
     }
     if (height_ != nullptr)
       for (const SurfaceLayer& layer : layers_.layers) {
-        bumps_.emplace_back(bump_noise(layer.roughness_scale_m), bump_seed(layer, seed), transform, cells);
+        bumps_.emplace_back(bump_noise(layer.roughness_scale_m), bump_seed(layer, seed), transform,
+                            cells);
       }
     for (std::size_t i = 0; i < layers_.inputs.size(); ++i)
       if (layers_.inputs[i].name == "altitude") altitude_ = static_cast<int>(i);
-    if (std::any_of(layers_.layers.begin(), layers_.layers.end(), [](const auto& l) { return !l.when.empty(); })) {
+    if (std::any_of(layers_.layers.begin(), layers_.layers.end(),
+                    [](const auto& l) { return !l.when.empty(); })) {
       std::vector<const Grid<float>*> read;
-      for (const int i : program.input_of_slot) read.push_back(i < 0 ? nullptr : &inputs[static_cast<std::size_t>(i)]);
+      for (const int i : program.input_of_slot)
+        read.push_back(i < 0 ? nullptr : &inputs[static_cast<std::size_t>(i)]);
       when_ = evaluate_layer_expressions(program.expressions, read, transform, cells, seed);
     }
-    places_.resize(layers_.inputs.size());
+    positions_.resize(layers_.inputs.size());
     used_.assign(layers_.inputs.size(), false);
     for (const std::vector<int>& tables : program.table_of)
       for (std::size_t i = 0; i < tables.size(); ++i) used_[i] = used_[i] || tables[i] >= 0;
-    for (Places& p : places_) {
+    for (Places& p : positions_) {
       p.sample.resize(width_);
       p.part.resize(width_);
     }
@@ -98,34 +110,36 @@ class Evaluation {
   std::vector<Grid<float>> run() {
     for (int y = 0; y < cells_.height(); ++y) {
       for (NoiseField& field : fields_) field.filled = false;
-      for (std::size_t i = 0; i < places_.size(); ++i)
-        if (used_[i]) find_places(i, y);
+      for (std::size_t i = 0; i < positions_.size(); ++i)
+        if (used_[i]) find_positions(i, y);
       if (layers_.model == LayerModel::additive) additive_row(y);
       for (std::size_t k = 0; k < layers_.layers.size(); ++k) {
         if (layers_.model == LayerModel::product) product_row(k, y);
-        if (height_ != nullptr && program_.paints[k] && layers_.layers[k].roughness_m > 0.0) raise_row(k, y);
+        if (height_ != nullptr && program_.paints[k] && layers_.layers[k].roughness_m > 0.0)
+          raise_row(k, y);
       }
     }
     return std::move(coverage_);
   }
 
  private:
-  void find_places(std::size_t input, int y) {
+  void find_positions(std::size_t input, int y) {
     const LayerInput& range = layers_.inputs[input];
     const auto low = static_cast<float>(range.low);
     const auto scale = static_cast<float>(256.0 / (range.high - range.low));
     const float* values = values_of(input, y);
-    Places& places = places_[input];
+    Places& positions = positions_[input];
     for (std::size_t x = 0; x < width_; ++x) {
       const float at = std::clamp((values[x] - low) * scale - 0.5F, 0.F, 255.F);
       const int sample = static_cast<int>(at);
-      places.sample[x] = static_cast<std::uint8_t>(sample);
-      places.part[x] = at - static_cast<float>(sample);
+      positions.sample[x] = static_cast<std::uint8_t>(sample);
+      positions.part[x] = at - static_cast<float>(sample);
     }
   }
 
   const float* values_of(std::size_t input, int y) const {
-    const bool raised = height_ != nullptr && static_cast<int>(input) == altitude_ && layers_.model == LayerModel::product;
+    const bool raised = height_ != nullptr && static_cast<int>(input) == altitude_ &&
+                        layers_.model == LayerModel::product;
     return raised ? height_->row(y) : inputs_[input].row(y);
   }
 
@@ -136,8 +150,9 @@ class Evaluation {
     const float* c = coverage_[k].row(y);
     float* height = height_->row(y);
     for (std::size_t x = 0; x < width_; ++x) height[x] += c[x] * roughness * bump_line_[x];
-    if (altitude_ >= 0 && used_[static_cast<std::size_t>(altitude_)] && layers_.model == LayerModel::product)
-      find_places(static_cast<std::size_t>(altitude_), y);
+    if (altitude_ >= 0 && used_[static_cast<std::size_t>(altitude_)] &&
+        layers_.model == LayerModel::product)
+      find_positions(static_cast<std::size_t>(altitude_), y);
   }
 
   const float* noise_row(std::size_t layer, int y) {
@@ -154,8 +169,8 @@ class Evaluation {
     const LayerFunction& function = layers_.layers[layer].functions[input];
     if (const int t = program_.table_of[layer][input]; t >= 0) {
       const auto& samples = program_.tables[static_cast<std::size_t>(t)].samples;
-      const std::uint8_t* sample = places_[input].sample.data();
-      const float* part = places_[input].part.data();
+      const std::uint8_t* sample = positions_[input].sample.data();
+      const float* part = positions_[input].part.data();
       for (std::size_t x = 0; x < width_; ++x) {
         const std::array<float, 2>& s = samples[sample[x]];
         f(x, s[0] + part[x] * s[1]);
@@ -163,18 +178,22 @@ class Evaluation {
     } else if (std::holds_alternative<LayerHat>(function)) {
       const float* values = values_of(input, y);
       for (std::size_t x = 0; x < width_; ++x)
-        f(x, static_cast<float>(layer_function_value(function, layers_.inputs[input], layers_.model, static_cast<double>(values[x]))));
+        f(x, static_cast<float>(layer_function_value(function, layers_.inputs[input], layers_.model,
+                                                     static_cast<double>(values[x]))));
     }
   }
 
   void product_row(std::size_t k, int y) {
     const SurfaceLayer& layer = layers_.layers[k];
     float* out = coverage_[k].row(y);
-    const float* parent = layer.parent < 0 ? nullptr : coverage_[static_cast<std::size_t>(layer.parent)].row(y);
-    const bool lies_bare = parent != nullptr && std::all_of(parent, parent + width_, [](float c) { return c == 0.F; });
+    const float* parent =
+        layer.parent < 0 ? nullptr : coverage_[static_cast<std::size_t>(layer.parent)].row(y);
+    const bool lies_bare =
+        parent != nullptr && std::all_of(parent, parent + width_, [](float c) { return c == 0.F; });
     if (lies_bare) return;  // grids begin as 0
     std::fill_n(out, width_, 1.F);
-    for (std::size_t i = 0; i < layer.functions.size(); ++i) each_value(k, i, y, [&](std::size_t x, float value) { out[x] *= value; });
+    for (std::size_t i = 0; i < layer.functions.size(); ++i)
+      each_value(k, i, y, [&](std::size_t x, float value) { out[x] *= value; });
     if (!layer.when.empty()) {
       const std::uint8_t* when = when_[k].row(y);
       for (std::size_t x = 0; x < width_; ++x) out[x] = when[x] != 0 ? out[x] : 0.F;
@@ -191,14 +210,16 @@ class Evaluation {
       for (std::size_t x = 0; x < width_; ++x) out[x] *= parent[x];
   }
 
-  // Shares first, in `coverage_`: softmax of siblings times their parent's share. Then coverages, from the bottom up.
+  // Shares first, in `coverage_`: softmax of siblings times their parent's share. Then coverages,
+  // from the bottom up.
   void additive_row(int y) {
     const std::size_t count = layers_.layers.size();
     for (std::size_t k = 0; k < count; ++k) {
       const SurfaceLayer& layer = layers_.layers[k];
       float* score = scores_[k].data();
       std::fill_n(score, width_, static_cast<float>(layer.noise.bias));
-      for (std::size_t i = 0; i < layer.functions.size(); ++i) each_value(k, i, y, [&](std::size_t x, float value) { score[x] += value; });
+      for (std::size_t i = 0; i < layer.functions.size(); ++i)
+        each_value(k, i, y, [&](std::size_t x, float value) { score[x] += value; });
       const auto amplitude = static_cast<float>(layer.noise.amplitude);
       if (const float* noise = noise_row(k, y))
         for (std::size_t x = 0; x < width_; ++x) score[x] += amplitude * noise[x];
@@ -206,7 +227,7 @@ class Evaluation {
       const std::uint8_t* when = when_[k].row(y);
       for (std::size_t x = 0; x < width_; ++x) score[x] = when[x] != 0 ? score[x] : -1e30F;
     }
-    std::vector<float> left(width_, 1.F);  // of the ground: what no painted layer takes
+    std::vector<float> left(width_, 1.F);  // of the ground: what painted layers leave
     std::vector<float> top(width_), sum(width_);
     for (int parent = -1; parent < static_cast<int>(count); ++parent) {
       std::vector<std::size_t> siblings;
@@ -218,18 +239,21 @@ class Evaluation {
       for (const std::size_t k : siblings)
         for (std::size_t x = 0; x < width_; ++x) top[x] = std::max(top[x], scores_[k][x]);
       for (const std::size_t k : siblings)
-        for (std::size_t x = 0; x < width_; ++x) sum[x] += scores_[k][x] = exp_of(scores_[k][x] - top[x]);
-      const float* whole = parent < 0 ? nullptr : coverage_[static_cast<std::size_t>(parent)].row(y);
+        for (std::size_t x = 0; x < width_; ++x)
+          sum[x] += scores_[k][x] = exp_of(scores_[k][x] - top[x]);
+      const float* whole =
+          parent < 0 ? nullptr : coverage_[static_cast<std::size_t>(parent)].row(y);
       for (const std::size_t k : siblings) {
         float* share = coverage_[k].row(y);
         for (std::size_t x = 0; x < width_; ++x)
-          share[x] = sum[x] > 0.F ? scores_[k][x] / sum[x] * (whole != nullptr ? whole[x] : 1.F) : 0.F;
+          share[x] =
+              sum[x] > 0.F ? scores_[k][x] / sum[x] * (whole != nullptr ? whole[x] : 1.F) : 0.F;
       }
     }
     for (std::size_t k = 0; k < count; ++k)
       if (program_.paints[k])
         for (std::size_t x = 0; x < width_; ++x) left[x] -= coverage_[k](static_cast<int>(x), y);
-    // What the sum of rounded shares leaves over is nothing.
+    // The remainder of the rounded shares is dropped.
     for (float& l : left) l = l > 1e-5F ? l : 0.F;
     for (std::size_t k = 0; k < count; ++k) {
       float* c = coverage_[k].row(y);
@@ -250,20 +274,21 @@ class Evaluation {
   PixelRect cells_;
   std::size_t width_;
   Grid<float>* height_;  // null: no bumps
-  int altitude_ = -1;    // which input it is
+  int altitude_ = -1;    // index of this input
   std::vector<LayerNoiseRows> bumps_;
   std::vector<float> bump_line_;
   std::vector<NoiseField> fields_;
   std::vector<int> field_of_;
   std::vector<Grid<std::uint8_t>> when_;
-  std::vector<Places> places_;
+  std::vector<Places> positions_;
   std::vector<bool> used_;
   std::vector<std::vector<float>> scores_;
   std::vector<Grid<float>> coverage_;
 };
 
 glm::vec3 encoded(std::uint32_t rgb) {
-  return {static_cast<float>(rgb >> 16U & 255U), static_cast<float>(rgb >> 8U & 255U), static_cast<float>(rgb & 255U)};
+  return {static_cast<float>(rgb >> 16U & 255U), static_cast<float>(rgb >> 8U & 255U),
+          static_cast<float>(rgb & 255U)};
 }
 
 }  // namespace
@@ -291,33 +316,45 @@ LayerProgram compile_layers(const SurfaceLayers& layers) {
       if (samples == nullptr) continue;
       program.table_of.back()[i] = static_cast<int>(program.tables.size());
       LayerProgram::Table& table = program.tables.emplace_back();
-      const auto value = [&](std::size_t s) { return samples->at_0 + samples->samples[s] / 255.0 * (samples->at_255 - samples->at_0); };
+      const auto value = [&](std::size_t s) {
+        return samples->at_0 + samples->samples[s] / 255.0 * (samples->at_255 - samples->at_0);
+      };
       for (std::size_t s = 0; s < 256; ++s)
-        table.samples[s] = {static_cast<float>(value(s)), s < 255 ? static_cast<float>(value(s + 1) - value(s)) : 0.F};
+        table.samples[s] = {static_cast<float>(value(s)),
+                            s < 255 ? static_cast<float>(value(s + 1) - value(s)) : 0.F};
     }
     program.paints.push_back(true);
-    if (layer.parent >= 0 && layers.model == LayerModel::additive) program.paints[static_cast<std::size_t>(layer.parent)] = false;
+    if (layer.parent >= 0 && layers.model == LayerModel::additive)
+      program.paints[static_cast<std::size_t>(layer.parent)] = false;
   }
   return program;
 }
 
-std::vector<Grid<float>> layer_coverage(const LayerProgram& program, const std::vector<Grid<float>>& inputs, const GeoTransform& transform,
-                                        const PixelRect& cells, std::uint64_t seed) {
-  if (inputs.size() != program.inputs.size()) throw Error(ErrorKind::bug, "layer_coverage", "inputs that are not the program's");
+std::vector<Grid<float>> layer_coverage(const LayerProgram& program,
+                                        const std::vector<Grid<float>>& inputs,
+                                        const GeoTransform& transform, const PixelRect& cells,
+                                        std::uint64_t seed) {
+  if (inputs.size() != program.inputs.size())
+    throw Error(ErrorKind::bug, "layer_coverage", "the inputs differ from the program's");
   return Evaluation(program, inputs, transform, cells, seed, nullptr).run();
 }
 
-std::vector<Grid<float>> layer_coverage_and_height(const LayerProgram& program, const std::vector<Grid<float>>& inputs,
-                                                   const GeoTransform& transform, const PixelRect& cells, std::uint64_t seed,
+std::vector<Grid<float>> layer_coverage_and_height(const LayerProgram& program,
+                                                   const std::vector<Grid<float>>& inputs,
+                                                   const GeoTransform& transform,
+                                                   const PixelRect& cells, std::uint64_t seed,
                                                    Grid<float>& height_m) {
-  if (inputs.size() != program.inputs.size()) throw Error(ErrorKind::bug, "layer_coverage", "inputs that are not the program's");
+  if (inputs.size() != program.inputs.size())
+    throw Error(ErrorKind::bug, "layer_coverage", "the inputs differ from the program's");
   return Evaluation(program, inputs, transform, cells, seed, &height_m).run();
 }
 
-std::vector<Grid<float>> layer_shares(const LayerProgram& program, const std::vector<Grid<float>>& coverage) {
+std::vector<Grid<float>> layer_shares(const LayerProgram& program,
+                                      const std::vector<Grid<float>>& coverage) {
   std::vector<Grid<float>> shares(coverage.size() + 1);
   if (coverage.empty()) return shares;
-  Grid<float> open(coverage[0].width(), coverage[0].height(), 1.F);  // not yet covered by what lies above
+  Grid<float> open(coverage[0].width(), coverage[0].height(),
+                   1.F);  // share not covered by upper layers
   for (std::size_t k = coverage.size(); k-- > 0;) {
     shares[k + 1] = Grid<float>(open.width(), open.height());
     if (!program.paints[k]) continue;
@@ -330,18 +367,23 @@ std::vector<Grid<float>> layer_shares(const LayerProgram& program, const std::ve
   return shares;
 }
 
-Grid<glm::vec3> layer_colour(const LayerProgram& program, const std::vector<Grid<float>>& coverage, LayersShown shown) {
+Grid<glm::vec3> layer_colour(const LayerProgram& program, const std::vector<Grid<float>>& coverage,
+                             LayersShown shown) {
   if (coverage.empty()) return {};
-  Grid<glm::vec3> colour(coverage[0].width(), coverage[0].height(), encoded(program.layers.ground_rgb));
+  Grid<glm::vec3> colour(coverage[0].width(), coverage[0].height(),
+                         encoded(program.layers.ground_rgb));
   for (std::size_t k = 0; k < coverage.size(); ++k) {
-    if (!program.paints[k] || (shown == LayersShown::dry && layer_class(program.layers, k) == LandCoverClass::water)) continue;
+    if (!program.paints[k] ||
+        (shown == LayersShown::dry && layer_class(program.layers, k) == LandCoverClass::water))
+      continue;
     const glm::vec3 own = encoded(program.layers.layers[k].rgb);
     for (std::size_t i = 0; i < colour.size(); ++i) colour[i] += coverage[k][i] * (own - colour[i]);
   }
   return colour;
 }
 
-std::vector<Grid<float>> class_shares(const LayerProgram& program, const std::vector<Grid<float>>& shares) {
+std::vector<Grid<float>> class_shares(const LayerProgram& program,
+                                      const std::vector<Grid<float>>& shares) {
   std::vector<Grid<float>> out(static_cast<std::size_t>(land_cover_class_count));
   if (shares.empty() || shares[0].empty()) return out;
   for (Grid<float>& grid : out) grid = Grid<float>(shares[0].width(), shares[0].height());
@@ -350,11 +392,13 @@ std::vector<Grid<float>> class_shares(const LayerProgram& program, const std::ve
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += share[i];
   };
   add(program.layers.ground_painted_as, shares[0]);
-  for (std::size_t k = 0; k + 1 < shares.size(); ++k) add(layer_class(program.layers, k), shares[k + 1]);
+  for (std::size_t k = 0; k + 1 < shares.size(); ++k)
+    add(layer_class(program.layers, k), shares[k + 1]);
   return out;
 }
 
-std::vector<double> share_outside(const LayerProgram& program, const std::vector<Grid<float>>& inputs) {
+std::vector<double> share_outside(const LayerProgram& program,
+                                  const std::vector<Grid<float>>& inputs) {
   std::vector<double> out;
   for (std::size_t i = 0; i < program.layers.inputs.size(); ++i) {
     const LayerInput& range = program.layers.inputs[i];
@@ -363,7 +407,9 @@ std::vector<double> share_outside(const LayerProgram& program, const std::vector
       const auto v = static_cast<double>(value);
       outside += v < range.low || v > range.high ? 1U : 0U;
     }
-    out.push_back(inputs[i].empty() ? 0.0 : static_cast<double>(outside) / static_cast<double>(inputs[i].size()));
+    out.push_back(inputs[i].empty()
+                      ? 0.0
+                      : static_cast<double>(outside) / static_cast<double>(inputs[i].size()));
   }
   return out;
 }

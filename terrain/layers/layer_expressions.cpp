@@ -9,14 +9,18 @@
 
 namespace belvedere {
 
-RuleProgram compile_layer_expressions(const SurfaceLayers& layers, const std::string& where, const RulePlaces& places) {
+RuleProgram compile_layer_expressions(const SurfaceLayers& layers, const std::string& where,
+                                      const RulePlaces& positions) {
   std::vector<RuleCondition> conditions;
-  for (const SurfaceLayer& layer : layers.layers) conditions.push_back({layer.when, "layer " + layer.name});
-  return compile_expressions(expression_names(KnownTo::layers), layers.parameters, layers.terms, conditions, where, places);
+  for (const SurfaceLayer& layer : layers.layers)
+    conditions.push_back({layer.when, "layer " + layer.name});
+  return compile_expressions(expression_names(KnownTo::layers), layers.parameters, layers.terms,
+                             conditions, where, positions);
 }
 
-std::vector<Grid<std::uint8_t>> evaluate_layer_expressions(const RuleProgram& program, const std::vector<const Grid<float>*>& grids,
-                                                           const GeoTransform& transform, const PixelRect& cells, std::uint64_t seed) {
+std::vector<Grid<std::uint8_t>> evaluate_layer_expressions(
+    const RuleProgram& program, const std::vector<const Grid<float>*>& grids,
+    const GeoTransform& transform, const PixelRect& cells, std::uint64_t seed) {
   std::vector<Grid<std::uint8_t>> out(program.conditions.size());
   for (std::size_t k = 0; k < out.size(); ++k)
     if (program.conditions[k]) out[k] = Grid<std::uint8_t>(cells.width(), cells.height());
@@ -32,7 +36,8 @@ std::vector<Grid<std::uint8_t>> evaluate_layer_expressions(const RuleProgram& pr
         if (!program.conditions[k]) continue;
         rows.evaluate(*program.conditions[k], result.data());
         std::uint8_t* target = out[k].row(y) + begin;
-        for (int x = 0; x < count; ++x) target[x] = result[static_cast<std::size_t>(x)] > 0.F ? 1 : 0;
+        for (int x = 0; x < count; ++x)
+          target[x] = result[static_cast<std::size_t>(x)] > 0.F ? 1 : 0;
       }
     }
   }

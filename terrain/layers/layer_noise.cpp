@@ -14,17 +14,23 @@ namespace belvedere {
 namespace {
 
 constexpr double loudness = 2.0;
-constexpr double spacing_per_sigma = 1.7320508075688772;  // the B-spline's deviation is spacing / sqrt(3)
+constexpr double spacing_per_sigma =
+    1.7320508075688772;  // the B-spline's deviation is spacing / sqrt(3)
 
-// What a sum of independent values of deviation 1 with these weights is multiplied by to have deviation 1 itself.
-double inverse_deviation(const std::array<double, 4>& w) { return 1.0 / std::sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2] + w[3] * w[3]); }
+// Factor that gives a sum of independent values of standard deviation 1 with these weights a
+// standard deviation of 1.
+double inverse_deviation(const std::array<double, 4>& w) {
+  return 1.0 / std::sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2] + w[3] * w[3]);
+}
 
 // Normal, or uniform in -1…1.
 float lattice_value(bool gaussian, std::uint64_t seed, std::int64_t x, std::int64_t y) {
-  return static_cast<float>(gaussian ? random_normal(seed, x, y) : 2.0 * random_uniform(seed, x, y) - 1.0);
+  return static_cast<float>(gaussian ? random_normal(seed, x, y)
+                                     : 2.0 * random_uniform(seed, x, y) - 1.0);
 }
 
-// Calls octave(spacing in metres, weight, seed) for the octaves of a layer's noise that cells of this size show.
+// Calls octave(spacing in metres, weight, seed) for the octaves of a layer's noise that are
+// resolved by cells of this size.
 template <class Octave>
 void each_octave(const LayerNoise& noise, std::uint64_t seed, double cell_m, Octave&& octave) {
   double weights = 0.0;
@@ -35,16 +41,18 @@ void each_octave(const LayerNoise& noise, std::uint64_t seed, double cell_m, Oct
   for (int i = 0; i < noise.octaves; ++i, weight *= 0.5, spacing *= 0.5) {
     const double seen = std::clamp(spacing / cell_m - 1.0, 0.0, 1.0);
     if (!(seen > 0.0)) break;
-    octave(spacing, loudness * seen * weight / weights, stream_seed(seed, Stream::class_noise, 1000 + static_cast<std::uint64_t>(i)));
+    octave(spacing, loudness * seen * weight / weights,
+           stream_seed(seed, Stream::class_noise, 1000 + static_cast<std::uint64_t>(i)));
   }
 }
 
 }  // namespace
 
-NoiseAtPlace layer_noise_at(const LayerNoise& noise, std::uint64_t seed, glm::dvec2 place_m, double cell_m) {
-  NoiseAtPlace out;
+NoiseAtPosition layer_noise_at(const LayerNoise& noise, std::uint64_t seed, glm::dvec2 position_m,
+                               double cell_m) {
+  NoiseAtPosition out;
   each_octave(noise, seed, cell_m, [&](double spacing_m, double weight, std::uint64_t own) {
-    const glm::dvec2 at = place_m / spacing_m;
+    const glm::dvec2 at = position_m / spacing_m;
     const double whole_x = std::floor(at.x);
     const double whole_y = std::floor(at.y);
     const std::array<double, 4> wx = bspline_weights(at.x - whole_x);
@@ -57,7 +65,8 @@ NoiseAtPlace layer_noise_at(const LayerNoise& noise, std::uint64_t seed, glm::dv
       double row = 0.0;
       double row_slope = 0.0;
       for (std::size_t i = 0; i < 4; ++i) {
-        const double value = lattice_value(false, own, x0 + static_cast<std::int64_t>(i), y0 + static_cast<std::int64_t>(j));
+        const double value = lattice_value(false, own, x0 + static_cast<std::int64_t>(i),
+                                           y0 + static_cast<std::int64_t>(j));
         row += wx[i] * value;
         row_slope += dx[i] * value;
       }
@@ -70,15 +79,20 @@ NoiseAtPlace layer_noise_at(const LayerNoise& noise, std::uint64_t seed, glm::dv
   return out;
 }
 
-LayerNoiseRows::LayerNoiseRows(const LayerNoise& noise, std::uint64_t seed, const GeoTransform& transform, const PixelRect& cells)
+LayerNoiseRows::LayerNoiseRows(const LayerNoise& noise, std::uint64_t seed,
+                               const GeoTransform& transform, const PixelRect& cells)
     : transform_(transform), cells_(cells) {
   each_octave(noise, seed, 0.5 * (transform.cell_x + transform.cell_y),
-              [&](double spacing_m, double weight, std::uint64_t own) { add_octave(spacing_m, weight, own); });
+              [&](double spacing_m, double weight, std::uint64_t own) {
+                add_octave(spacing_m, weight, own);
+              });
 }
 
-LayerNoiseRows::LayerNoiseRows(const std::vector<GaussianOctave>& octaves, const GeoTransform& transform, const PixelRect& cells)
+LayerNoiseRows::LayerNoiseRows(const std::vector<GaussianOctave>& octaves,
+                               const GeoTransform& transform, const PixelRect& cells)
     : transform_(transform), cells_(cells), gaussian_(true) {
-  for (const GaussianOctave& octave : octaves) add_octave(octave.sigma_m * spacing_per_sigma, octave.weight, octave.seed);
+  for (const GaussianOctave& octave : octaves)
+    add_octave(octave.sigma_m * spacing_per_sigma, octave.weight, octave.seed);
 }
 
 void LayerNoiseRows::add_octave(double spacing_m, double weight, std::uint64_t seed) {
@@ -91,13 +105,13 @@ void LayerNoiseRows::add_octave(double spacing_m, double weight, std::uint64_t s
   octave.weights.resize(width);
   std::int64_t last = 0;
   for (std::size_t x = 0; x < width; ++x) {
-    // Of the cell's own number, so that it does not matter where the rectangle begins.
-    const double place = transform_.to_crs(cells_.x0 + static_cast<int>(x), 0.0).x / spacing_m;
-    const double whole = std::floor(place);
+    // By the cell's own number, so that the start of the rectangle does not matter.
+    const double position = transform_.to_crs(cells_.x0 + static_cast<int>(x), 0.0).x / spacing_m;
+    const double whole = std::floor(position);
     const auto first = static_cast<std::int64_t>(whole) - 1;
     if (x == 0) octave.first_column = first;
     octave.at[x] = static_cast<std::int32_t>(first - octave.first_column);
-    const std::array<double, 4> w = bspline_weights(place - whole);
+    const std::array<double, 4> w = bspline_weights(position - whole);
     const double louder = gaussian_ ? inverse_deviation(w) : 1.0;
     for (std::size_t k = 0; k < 4; ++k) octave.weights[x][k] = static_cast<float>(w[k] * louder);
     last = first + 3;
@@ -112,22 +126,24 @@ void LayerNoiseRows::fill(int y, float* out) {
   const int width = cells_.width();
   std::fill_n(out, width, 0.F);
   for (Octave& octave : octaves_) {
-    const double place = transform_.to_crs(0.0, y).y / octave.spacing_m;
-    const double whole = std::floor(place);
+    const double position = transform_.to_crs(0.0, y).y / octave.spacing_m;
+    const double whole = std::floor(position);
     const auto first = static_cast<std::int64_t>(whole) - 1;
     const std::size_t columns = octave.line.size();
     if (!octave.filled || octave.first_row != first) {
-      // Rows of the raster go south, rows of the lattice north: what was the first row before is often the second now.
+      // Rows of the raster run south, rows of the lattice north: the previous first row is often
+      // the second now.
       const bool next = octave.filled && first == octave.first_row - 1;
       if (next) std::rotate(octave.lattice, octave.lattice + 3, octave.lattice + 4);
       for (std::size_t k = 0; k < (next ? 1U : 4U); ++k)
         for (std::size_t i = 0; i < columns; ++i)
-          octave.lattice[k][i] = lattice_value(gaussian_, octave.seed, octave.first_column + static_cast<std::int64_t>(i),
+          octave.lattice[k][i] = lattice_value(gaussian_, octave.seed,
+                                               octave.first_column + static_cast<std::int64_t>(i),
                                                first + static_cast<std::int64_t>(k));
       octave.first_row = first;
       octave.filled = true;
     }
-    const std::array<double, 4> w = bspline_weights(place - whole);
+    const std::array<double, 4> w = bspline_weights(position - whole);
     float v[4];
     const double louder = gaussian_ ? inverse_deviation(w) : 1.0;
     for (std::size_t k = 0; k < 4; ++k) v[k] = static_cast<float>(w[k] * louder) * octave.weight;
@@ -136,7 +152,8 @@ void LayerNoiseRows::fill(int y, float* out) {
     const float* c = octave.lattice[2].data();
     const float* d = octave.lattice[3].data();
     float* line = octave.line.data();
-    for (std::size_t i = 0; i < columns; ++i) line[i] = (v[0] * a[i] + v[1] * b[i]) + (v[2] * c[i] + v[3] * d[i]);
+    for (std::size_t i = 0; i < columns; ++i)
+      line[i] = (v[0] * a[i] + v[1] * b[i]) + (v[2] * c[i] + v[3] * d[i]);
     for (int x = 0; x < width; ++x) {
       const float* at = line + octave.at[static_cast<std::size_t>(x)];
       const std::array<float, 4>& u = octave.weights[static_cast<std::size_t>(x)];

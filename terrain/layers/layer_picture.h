@@ -12,24 +12,26 @@
 namespace belvedere {
 
 struct LayerPictureParameters {
-  int finer = 4;               // places a cell of the DEM, across and down, 1…16
+  int finer = 4;               // subdivisions of a DEM cell along each side, 1…16
   std::uint64_t seed = 1;      // of the layers' noise
-  double light_from = 315.0;   // degrees clockwise from north, where the light comes from
+  double light_from = 315.0;   // azimuth of the light, degrees clockwise from north
   double light_height = 45.0;  // degrees above the horizon, 5…90
-  double shade = 0.35;         // brightness of ground that turns away from the light, 0…1; level ground has its colour
-  double relief = 1.0;         // slopes are lit as if so many times as steep, ≥ 0
-  bool beds = true;            // lakes are seen through, down to made-up beds
+  double shade = 0.35;  // brightness of ground that faces away from the light, 0…1; level ground
+                        // has its own colour
+  double relief = 1.0;  // factor on slopes for lighting, ≥ 0
+  bool beds = true;     // lakes are transparent and show synthetic beds
   LakeBedParameters lakes = {};
 };
 
 // Checks the values above. Error(usage).
 void check_layer_picture(const LayerPictureParameters& parameters);
 
-// The light on slopes, its direction found once.
+// Lighting of slopes with a precomputed light direction.
 class SlopeLight {
  public:
   explicit SlopeLight(const LayerPictureParameters& parameters);
-  // Of a slope with this unit normal (x east, y north, z up): Lambert's cosine, 1 on level ground, the shade where it turns away.
+  // Brightness of a slope with this unit normal (x east, y north, z up): Lambert's cosine, 1 on
+  // level ground, the shade where it faces away.
   float brightness(const glm::vec3& normal) const;
 
  private:
@@ -38,10 +40,13 @@ class SlopeLight {
   double relief_;
 };
 
-// The ground with its layers as seen from above, in the light: rows of the finer raster from the top down, sRGB as encoded, 0…255.
-// Altitudes between cells are of the spline through them, what is finer comes from the layers' noise (layer_surface). A strip at a time,
-// any threads the same bits. Brightness multiplies encoded values, as hillshades are laid over maps. Error(usage) without layers.
-void draw_layer_picture(const SurfaceLayers& layers, const Dem& dem, const LayerClimate& climate, const LayerPictureParameters& parameters,
-                        const std::function<void(int y0, const Grid<glm::vec3>& rows)>& take, Progress& progress);
+// The lit ground with its layers from above: rows of the finer raster from the top down, sRGB as
+// encoded, 0…255. Altitudes between cells are interpolated by spline, finer detail comes from the
+// layers' noise (layer_surface). In strips; the same bits for any threads. Brightness multiplies
+// encoded values, as hillshades are laid over maps. Error(usage) without layers.
+void draw_layer_picture(const SurfaceLayers& layers, const Dem& dem, const LayerClimate& climate,
+                        const LayerPictureParameters& parameters,
+                        const std::function<void(int y0, const Grid<glm::vec3>& rows)>& take,
+                        Progress& progress);
 
 }  // namespace belvedere

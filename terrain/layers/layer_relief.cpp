@@ -15,7 +15,7 @@ namespace {
 
 constexpr int bump_octaves = 4;
 
-// A grid between its cells by cubic B-spline: its value and how that changes a cell to the right and down.
+// Cubic B-spline of a grid: its value and its derivatives per cell to the right and down.
 struct GridPlace {
   double value = 0.0;
   glm::dvec2 change{0.0};
@@ -50,7 +50,8 @@ GridPlace smooth_at(const Grid<float>& grid, glm::dvec2 cell) {
 
 std::uint64_t seed_of_name(const std::string& name) {
   std::uint64_t h = 0;
-  for (const char c : name) h = mix_bits(h ^ static_cast<std::uint64_t>(static_cast<unsigned char>(c)));
+  for (const char c : name)
+    h = mix_bits(h ^ static_cast<std::uint64_t>(static_cast<unsigned char>(c)));
   return h;
 }
 
@@ -60,15 +61,18 @@ std::uint64_t bump_seed(const SurfaceLayer& layer, std::uint64_t seed) {
   return stream_seed(seed, Stream::class_noise, ~seed_of_name(layer.name));
 }
 
-glm::dvec2 bump_slope(const GroundRelief& relief, glm::dvec2 place_m, double pixel_m) {
+glm::dvec2 bump_slope(const GroundRelief& relief, glm::dvec2 position_m, double pixel_m) {
   glm::dvec2 slope(0.0);
   for (const GroundRelief::Bumps& bumps : relief.bumps) {
-    // Nothing of them is longer than a pixel.
+    // None of them is longer than a pixel.
     if (!(bumps.length_m > pixel_m) || bumps.share.empty()) continue;
-    const GridPlace share = smooth_at(bumps.share, relief.transform.to_cell(place_m.x, place_m.y));
-    const glm::dvec2 share_slope(share.change.x / relief.transform.cell_x, -share.change.y / relief.transform.cell_y);
+    const GridPlace share =
+        smooth_at(bumps.share, relief.transform.to_cell(position_m.x, position_m.y));
+    const glm::dvec2 share_slope(share.change.x / relief.transform.cell_x,
+                                 -share.change.y / relief.transform.cell_y);
     if (!(share.value > 0.0) && share_slope == glm::dvec2(0.0)) continue;
-    const NoiseAtPlace noise = layer_noise_at(bump_noise(bumps.length_m), bumps.seed, place_m, pixel_m);
+    const NoiseAtPosition noise =
+        layer_noise_at(bump_noise(bumps.length_m), bumps.seed, position_m, pixel_m);
     slope += bumps.height_m * (share.value * noise.slope + noise.value * share_slope);
   }
   return slope;

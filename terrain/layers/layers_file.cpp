@@ -20,31 +20,36 @@
 namespace belvedere {
 namespace {
 
-std::string to_base64(const std::uint8_t* bytes, std::size_t count) { return base64({reinterpret_cast<const char*>(bytes), count}); }
+std::string to_base64(const std::uint8_t* bytes, std::size_t count) {
+  return base64({reinterpret_cast<const char*>(bytes), count});
+}
 
-// 2…256 bytes; nothing for what is no such text.
+// 2…256 bytes; nothing for malformed text.
 std::optional<std::vector<std::uint8_t>> from_base64(std::string_view text) {
   const std::optional<std::string> bytes = text.size() > 344 ? std::nullopt : base64_bytes(text);
   if (!bytes || bytes->size() < 2 || bytes->size() > 256) return std::nullopt;
   return std::vector<std::uint8_t>(bytes->begin(), bytes->end());
 }
 
-// What only surface layers have.
+// Properties that only surface layers have.
 struct Reader : LayersReader {
   std::uint32_t colour(const ConfigValue& value) const {
     const std::string& text = as_string(value, where);
-    if (!colour_of_hex(text)) fail(value.place, describe(value), "a colour as \"#rrggbb\"");
+    if (!colour_of_hex(text)) fail(value.position, describe(value), "a colour as \"#rrggbb\"");
     return static_cast<std::uint32_t>(std::stoul(text.substr(1), nullptr, 16));
   }
 
   LayerInput input(const ConfigValue& value) const {
     const ConfigTable& table = as_table(value, where);
     allow_only(table, {"name", "low", "high"}, where);
-    const ConfigValue& name = required(table, "name", value.place, "an input");
-    require_layer_input(as_string(name, where), config_where(where, name.place));
-    LayerInput read{as_string(name, where), number(required(table, "low", value.place, "an input")),
-                    number(required(table, "high", value.place, "an input"))};
-    if (!(read.low < read.high)) fail(value.place, fmt::format("{} from {} to {}", read.name, read.low, read.high), "low < high");
+    const ConfigValue& name = required(table, "name", value.position, "an input");
+    require_layer_input(as_string(name, where), config_where(where, name.position));
+    LayerInput read{as_string(name, where),
+                    number(required(table, "low", value.position, "an input")),
+                    number(required(table, "high", value.position, "an input"))};
+    if (!(read.low < read.high))
+      fail(value.position, fmt::format("{} from {} to {}", read.name, read.low, read.high),
+           "low < high");
     return read;
   }
 
@@ -55,18 +60,26 @@ struct Reader : LayersReader {
       allow_only(table, {"low", "high", "width", "low_width", "high_width"}, where);
       constexpr double far = std::numeric_limits<double>::infinity();
       const double width = number_or(table, "width", 0.0);
-      const LayerHat hat{number_or(table, "low", -far), number_or(table, "high", far), number_or(table, "low_width", width),
+      const LayerHat hat{number_or(table, "low", -far), number_or(table, "high", far),
+                         number_or(table, "low_width", width),
                          number_or(table, "high_width", width)};
-      if (!(hat.low <= hat.high)) fail(value.place, fmt::format("a function from {} to {}", hat.low, hat.high), "low ≤ high");
-      if (!(hat.low_width >= 0.0) || !(hat.high_width >= 0.0)) fail(value.place, "a width below 0", "0 or more");
+      if (!(hat.low <= hat.high))
+        fail(value.position, fmt::format("function from {} to {}", hat.low, hat.high),
+             "low ≤ high");
+      if (!(hat.low_width >= 0.0) || !(hat.high_width >= 0.0))
+        fail(value.position, "negative width", "0 or more");
       return hat;
     }
     allow_only(table, {"samples", "from", "to"}, where);
     LayerSamples read{number_or(table, "from", 0.0), number_or(table, "to", 1.0), {}, {}};
-    if (model == LayerModel::product && (std::min(read.at_0, read.at_255) < 0.0 || std::max(read.at_0, read.at_255) > 1.0))
-      fail(value.place, fmt::format("samples from {} to {}", read.at_0, read.at_255), "0…1 in a product");
+    if (model == LayerModel::product &&
+        (std::min(read.at_0, read.at_255) < 0.0 || std::max(read.at_0, read.at_255) > 1.0))
+      fail(value.position, fmt::format("samples from {} to {}", read.at_0, read.at_255),
+           "0…1 in a product");
     const auto bytes = from_base64(as_string(*samples, where));
-    if (!bytes) fail(samples->place, "samples that are not bytes in base64", "2 … 256 of them, as 4 … 344 characters");
+    if (!bytes)
+      fail(samples->position, "samples are not bytes in base64",
+           "2 … 256 bytes, as 4 … 344 characters");
     if (bytes->size() == 256) {
       std::copy(bytes->begin(), bytes->end(), read.samples.begin());
     } else {
@@ -83,35 +96,40 @@ struct Reader : LayersReader {
     read.scale_m = number_or(table, "scale_m", read.scale_m);
     if (const ConfigValue* octaves = find(table, "octaves")) {
       const std::int64_t count = as_integer(*octaves, where);
-      if (count < 1 || count > 12) fail(octaves->place, describe(*octaves), "1…12");
+      if (count < 1 || count > 12) fail(octaves->position, describe(*octaves), "1…12");
       read.octaves = static_cast<int>(count);
     }
     read.amplitude = number_or(table, "amplitude", read.amplitude);
     read.bias = number_or(table, "bias", read.bias);
-    if (!(read.scale_m > 0.0)) fail(value.place, fmt::format("noise of {} m", read.scale_m), "more than 0 m");
+    if (!(read.scale_m > 0.0))
+      fail(value.position, fmt::format("noise of {} m", read.scale_m), "more than 0 m");
     return read;
   }
 };
 
-// A layer as it stands in the file, before parents are found.
+// A layer as in the file, before parents are resolved.
 struct ReadLayer {
   SurfaceLayer layer;
   std::string parent;  // empty: the ground
-  ConfigPlace place, parent_place, when_place;
+  ConfigPosition position, parent_place, when_place;
 };
 
 ReadLayer read_layer(const Reader& reader, const ConfigValue& value, const SurfaceLayers& file) {
   const ConfigTable& table = as_table(value, reader.where);
-  allow_only(table, {"name", "parent", "class", "colour", "roughness", "noise", "functions", "when"}, reader.where);
+  allow_only(table,
+             {"name", "parent", "class", "colour", "roughness", "noise", "functions", "when"},
+             reader.where);
   ReadLayer read;
-  read.place = value.place;
-  read.layer.name = as_string(reader.required(table, "name", value.place, "a layer"), reader.where);
-  if (read.layer.name.empty()) reader.fail(value.place, "a layer whose name is empty", "a name");
+  read.position = value.position;
+  read.layer.name =
+      as_string(reader.required(table, "name", value.position, "a layer"), reader.where);
+  if (read.layer.name.empty()) reader.fail(value.position, "layer with an empty name", "a name");
   if (const ConfigValue* parent = find(table, "parent")) {
     read.parent = as_string(*parent, reader.where);
-    read.parent_place = parent->place;
+    read.parent_place = parent->position;
   }
-  if (const ConfigValue* painted = find(table, "class")) read.layer.painted_as = as_ground_class(*painted, reader.where);
+  if (const ConfigValue* painted = find(table, "class"))
+    read.layer.painted_as = as_ground_class(*painted, reader.where);
   if (const ConfigValue* colour = find(table, "colour")) {
     read.layer.rgb = reader.colour(*colour);
   } else if (read.layer.painted_as) {
@@ -123,43 +141,51 @@ ReadLayer read_layer(const Reader& reader, const ConfigValue& value, const Surfa
     read.layer.roughness_m = reader.number_or(of, "height_m", read.layer.roughness_m);
     read.layer.roughness_scale_m = reader.number_or(of, "length_m", read.layer.roughness_scale_m);
     if (!(read.layer.roughness_m >= 0.0) || !(read.layer.roughness_scale_m > 0.0))
-      reader.fail(roughness->place, fmt::format("a roughness of {} m, {} m long", read.layer.roughness_m, read.layer.roughness_scale_m),
-                  "0 m or more, longer than 0 m");
+      reader.fail(roughness->position,
+                  fmt::format("roughness with height {} m and length {} m", read.layer.roughness_m,
+                              read.layer.roughness_scale_m),
+                  "a height of 0 m or more, a length above 0 m");
   }
   if (const ConfigValue* noise = find(table, "noise")) read.layer.noise = reader.noise(*noise);
   read.layer.functions.resize(file.inputs.size());
   if (const ConfigValue* functions = find(table, "functions"))
     for (const ConfigEntry& entry : as_table(*functions, reader.where)) {
-      const auto input = std::find_if(file.inputs.begin(), file.inputs.end(), [&](const LayerInput& i) { return i.name == entry.key; });
+      const auto input = std::find_if(file.inputs.begin(), file.inputs.end(),
+                                      [&](const LayerInput& i) { return i.name == entry.key; });
       if (input == file.inputs.end()) {
         std::vector<std::string> known;
         for (const LayerInput& i : file.inputs) known.push_back(i.name);
-        reader.fail_unknown(entry.key_place, "input of this file", entry.key, known);
+        reader.fail_unknown(entry.key_position, "input of this file", entry.key, known);
       }
-      read.layer.functions[static_cast<std::size_t>(input - file.inputs.begin())] = reader.function(entry.value, file.model);
+      read.layer.functions[static_cast<std::size_t>(input - file.inputs.begin())] =
+          reader.function(entry.value, file.model);
     }
   if (const ConfigValue* when = find(table, "when")) {
     read.layer.when = reader.expression(*when);
-    read.when_place = when->place;
+    read.when_place = when->position;
   }
   return read;
 }
 
-// The layers depth first, siblings in the order of the file, with their parents; and the places of their expressions.
-void order_layers(const Reader& reader, const std::vector<ReadLayer>& read, SurfaceLayers& file, std::vector<ConfigPlace>& when_places) {
+// The layers depth first, siblings in the order of the file, with their parents; and the positions
+// of their expressions.
+void order_layers(const Reader& reader, const std::vector<ReadLayer>& read, SurfaceLayers& file,
+                  std::vector<ConfigPosition>& when_places) {
   std::vector<std::string> names;
   for (const ReadLayer& layer : read) {
     if (std::find(names.begin(), names.end(), layer.layer.name) != names.end())
-      reader.fail(layer.place, "a second layer named \"" + layer.layer.name + "\"", "a name for each layer");
+      reader.fail(layer.position, "second layer named \"" + layer.layer.name + "\"",
+                  "unique names");
     names.push_back(layer.layer.name);
   }
   std::vector<int> parents;
   for (const ReadLayer& layer : read) {
     const auto found = std::find(names.begin(), names.end(), layer.parent);
-    if (!layer.parent.empty() && found == names.end()) reader.fail_unknown(layer.parent_place, "layer", layer.parent, names);
+    if (!layer.parent.empty() && found == names.end())
+      reader.fail_unknown(layer.parent_place, "layer", layer.parent, names);
     parents.push_back(layer.parent.empty() ? -1 : static_cast<int>(found - names.begin()));
   }
-  // Children last in, first out: a stack of layers to come keeps depth first without recursion.
+  // Children last in, first out: a stack of pending layers keeps depth first without recursion.
   std::vector<std::pair<int, int>> open;  // layer of the file, its parent in the result
   const auto push_children = [&](int of, int at) {
     for (int i = static_cast<int>(read.size()) - 1; i >= 0; --i)
@@ -179,7 +205,7 @@ void order_layers(const Reader& reader, const std::vector<ReadLayer>& read, Surf
   }
   for (std::size_t i = 0; i < read.size(); ++i) {
     if (reached[i]) continue;
-    // Go up until a layer comes again: that is in the circle, not only under it.
+    // Follow parents until a layer repeats: that one is in the cycle, not only under it.
     std::vector<bool> seen(read.size(), false);
     std::size_t at = i;
     while (!seen[at]) {
@@ -192,7 +218,8 @@ void order_layers(const Reader& reader, const std::vector<ReadLayer>& read, Surf
       next = static_cast<std::size_t>(parents[next]);
       circle += " → " + read[next].layer.name;
     } while (next != at);
-    reader.fail(read[at].parent_place, "a layer that is its own ancestor: " + circle, "parents that end at the ground");
+    reader.fail(read[at].parent_place, "layer is its own ancestor: " + circle,
+                "parents that lead to the ground");
   }
 }
 
@@ -219,30 +246,37 @@ std::string function_text(const LayerFunction& function) {
     if (hat->low_width == hat->high_width) {
       if (hat->low_width != 0.0) parts.push_back(fmt::format("width = {}", hat->low_width));
     } else {
-      parts.push_back(fmt::format("low_width = {}, high_width = {}", hat->low_width, hat->high_width));
+      parts.push_back(
+          fmt::format("low_width = {}, high_width = {}", hat->low_width, hat->high_width));
     }
     return fmt::format("{{ {} }}", fmt::join(parts, ", "));
   }
   const auto& samples = std::get<LayerSamples>(function);
-  const std::string range =
-      samples.at_0 == 0.0 && samples.at_255 == 1.0 ? "" : fmt::format("from = {}, to = {}, ", samples.at_0, samples.at_255);
+  const std::string range = samples.at_0 == 0.0 && samples.at_255 == 1.0
+                                ? ""
+                                : fmt::format("from = {}, to = {}, ", samples.at_0, samples.at_255);
   return fmt::format("{{ {}samples = \"{}\" }}", range,
-                     samples.knots.empty() ? to_base64(samples.samples.data(), samples.samples.size())
-                                           : to_base64(samples.knots.data(), samples.knots.size()));
+                     samples.knots.empty()
+                         ? to_base64(samples.samples.data(), samples.samples.size())
+                         : to_base64(samples.knots.data(), samples.knots.size()));
 }
 
 std::string layer_text(const SurfaceLayers& file, const SurfaceLayer& layer) {
   std::string out = fmt::format("\n[[layers]]\nname = {}\n", toml_text(layer.name));
-  if (layer.parent >= 0) out += fmt::format("parent = {}\n", toml_text(file.layers[static_cast<std::size_t>(layer.parent)].name));
+  if (layer.parent >= 0)
+    out += fmt::format("parent = {}\n",
+                       toml_text(file.layers[static_cast<std::size_t>(layer.parent)].name));
   if (layer.painted_as) out += fmt::format("class = \"{}\"\n", class_name(*layer.painted_as));
   out += fmt::format("colour = {}\n", coloured(layer.rgb));
   const SurfaceLayer usual;
   if (layer.roughness_m != usual.roughness_m || layer.roughness_scale_m != usual.roughness_scale_m)
-    out += fmt::format("roughness = {{ height_m = {}, length_m = {} }}\n", layer.roughness_m, layer.roughness_scale_m);
+    out += fmt::format("roughness = {{ height_m = {}, length_m = {} }}\n", layer.roughness_m,
+                       layer.roughness_scale_m);
   const LayerNoise& n = layer.noise;
-  if (n.scale_m != usual.noise.scale_m || n.octaves != usual.noise.octaves || n.amplitude != usual.noise.amplitude ||
-      n.bias != usual.noise.bias)
-    out += fmt::format("noise = {{ scale_m = {}, octaves = {}, amplitude = {}, bias = {} }}\n", n.scale_m, n.octaves, n.amplitude, n.bias);
+  if (n.scale_m != usual.noise.scale_m || n.octaves != usual.noise.octaves ||
+      n.amplitude != usual.noise.amplitude || n.bias != usual.noise.bias)
+    out += fmt::format("noise = {{ scale_m = {}, octaves = {}, amplitude = {}, bias = {} }}\n",
+                       n.scale_m, n.octaves, n.amplitude, n.bias);
   if (!layer.when.empty()) out += fmt::format("when = {}\n", toml_text(layer.when));
   bool first = true;
   for (std::size_t i = 0; i < layer.functions.size(); ++i) {
@@ -256,17 +290,19 @@ std::string layer_text(const SurfaceLayers& file, const SurfaceLayer& layer) {
 
 SurfaceLayers read_document(const ConfigValue& document, const std::string& where) {
   const Reader reader{{where}};
-  const LayersDocument common = read_layers_document(reader, document, {"model", "ground", "inputs"});
+  const LayersDocument common =
+      read_layers_document(reader, document, {"model", "ground", "inputs"});
   const ConfigTable& root = as_table(document, where);
   SurfaceLayers file;
   file.name = common.name;
   file.parameters = common.parameters;
   file.terms = common.terms;
-  RulePlaces places;
-  places.terms = common.term_places;
+  RulePlaces positions;
+  positions.terms = common.term_places;
   if (const ConfigValue* model = find(root, "model")) {
     const std::string& word = as_string(*model, where);
-    if (word != "product" && word != "additive") reader.fail_unknown(model->place, "model", word, {"product", "additive"});
+    if (word != "product" && word != "additive")
+      reader.fail_unknown(model->position, "model", word, {"product", "additive"});
     file.model = word == "product" ? LayerModel::product : LayerModel::additive;
   }
   if (const ConfigValue* ground = find(root, "ground")) {
@@ -282,13 +318,16 @@ SurfaceLayers read_document(const ConfigValue& document, const std::string& wher
     for (const ConfigValue& value : as_array(*inputs, where)) {
       LayerInput input = reader.input(value);
       for (const LayerInput& other : file.inputs)
-        if (other.name == input.name) reader.fail(value.place, "the input \"" + input.name + "\" a second time", "each input once");
+        if (other.name == input.name)
+          reader.fail(value.position, "the input \"" + input.name + "\" is repeated",
+                      "each input once");
       file.inputs.push_back(std::move(input));
     }
   std::vector<ReadLayer> read;
-  for (const ConfigValue& value : layers_of(reader, document)) read.push_back(read_layer(reader, value, file));
-  order_layers(reader, read, file, places.conditions);
-  compile_layer_expressions(file, where, places);
+  for (const ConfigValue& value : layers_of(reader, document))
+    read.push_back(read_layer(reader, value, file));
+  order_layers(reader, read, file, positions.conditions);
+  compile_layer_expressions(file, where, positions);
   check_surface_layers(file, where);
   return file;
 }
@@ -299,23 +338,31 @@ SurfaceLayers parse_surface_layers(std::string_view text, const std::string& whe
   return read_document(parse_config(text, where), where);
 }
 
-SurfaceLayers read_surface_layers(const std::string& path) { return read_document(read_config(path), path); }
+SurfaceLayers read_surface_layers(const std::string& path) {
+  return read_document(read_config(path), path);
+}
 
 std::string surface_layers_text(const SurfaceLayers& layers) {
   check_surface_layers(layers, layers.name.empty() ? "layers" : layers.name);
-  std::string out = "# Surface layers: what covers the ground, said by what is known of each place (docs/layers.md).\nversion = 1\n";
+  std::string out =
+      "# Surface layers: what covers the ground, said by what is known of each place "
+      "(docs/layers.md).\nversion = 1\n";
   if (!layers.name.empty()) out += fmt::format("name = {}\n", toml_text(layers.name));
-  out += fmt::format("model = \"{}\"\n", layers.model == LayerModel::product ? "product" : "additive");
-  out += layers.ground_painted_as ? fmt::format("ground = {{ class = \"{}\", colour = {} }}\n", class_name(*layers.ground_painted_as),
-                                                coloured(layers.ground_rgb))
-                                  : fmt::format("ground = {{ colour = {} }}\n", coloured(layers.ground_rgb));
+  out +=
+      fmt::format("model = \"{}\"\n", layers.model == LayerModel::product ? "product" : "additive");
+  out += layers.ground_painted_as
+             ? fmt::format("ground = {{ class = \"{}\", colour = {} }}\n",
+                           class_name(*layers.ground_painted_as), coloured(layers.ground_rgb))
+             : fmt::format("ground = {{ colour = {} }}\n", coloured(layers.ground_rgb));
   if (layers.layers.empty()) out += "layers = []\n";
   for (const LayerInput& input : layers.inputs)
-    out += fmt::format("\n[[inputs]]\nname = \"{}\"\nlow = {}\nhigh = {}\n", input.name, input.low, input.high);
+    out += fmt::format("\n[[inputs]]\nname = \"{}\"\nlow = {}\nhigh = {}\n", input.name, input.low,
+                       input.high);
   if (!layers.parameters.empty()) out += "\n[parameters]\n";
   for (const auto& [name, value] : layers.parameters) out += fmt::format("{} = {}\n", name, value);
   if (!layers.terms.empty()) out += "\n[terms]\n";
-  for (const auto& [name, text] : layers.terms) out += fmt::format("{} = {}\n", name, toml_text(text));
+  for (const auto& [name, text] : layers.terms)
+    out += fmt::format("{} = {}\n", name, toml_text(text));
   for (const SurfaceLayer& layer : layers.layers) out += layer_text(layers, layer);
   return out;
 }

@@ -8,11 +8,12 @@
 
 namespace belvedere {
 
-// Surface layers as TOML (docs/layers.md). Layers may stand in any order: they come out depth first, siblings in the order of the file.
-// Error(usage) with file:line:column for what is wrong: unknown keys, inputs and classes with the nearest known, parents that are none,
-// layers that are their own ancestors, samples that are not 256 bytes, faults in expressions.
+// Surface layers as TOML (docs/layers.md). Layers may be in any order: they are returned depth
+// first, siblings in the order of the file. Error(usage) with file:line:column for unknown keys,
+// inputs and classes with the closest known one, missing parents, layers that are their own
+// ancestors, samples that are not 2…256 bytes, and errors in expressions.
 SurfaceLayers parse_surface_layers(std::string_view text, const std::string& where);
-// A .toml file; Error(input) where it is missing.
+// A .toml file; Error(input) if it is missing.
 SurfaceLayers read_surface_layers(const std::string& path);
 
 // The text of a file that reads back as the same value, to the bit.

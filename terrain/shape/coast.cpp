@@ -16,16 +16,18 @@ namespace {
 
 using Row = std::vector<glm::dvec2>;
 
-// Ends nearer than this are one place.
+// Line ends closer than this coincide.
 constexpr double same_place_m = 0.01;
 
-std::pair<std::int64_t, std::int64_t> key_of(glm::dvec2 place) {
-  return {std::llround(place.x / same_place_m), std::llround(place.y / same_place_m)};
+std::pair<std::int64_t, std::int64_t> key_of(glm::dvec2 position) {
+  return {std::llround(position.x / same_place_m), std::llround(position.y / same_place_m)};
 }
 
-bool is_ring(const Row& line) { return line.size() > 3 && key_of(line.front()) == key_of(line.back()); }
+bool is_ring(const Row& line) {
+  return line.size() > 3 && key_of(line.front()) == key_of(line.back());
+}
 
-// Pieces one behind the other as one line.
+// Joins pieces end to end into one line.
 std::vector<Row> join(const std::vector<Row>& lines) {
   std::multimap<std::pair<std::int64_t, std::int64_t>, std::size_t> begins;
   std::map<std::pair<std::int64_t, std::int64_t>, int> ends;
@@ -49,38 +51,45 @@ std::vector<Row> join(const std::vector<Row>& lines) {
     }
     joined.push_back(std::move(line));
   };
-  // From true beginnings first; what is left then are rings.
+  // From true beginnings first; the remaining pieces form rings.
   for (const bool only_beginnings : {true, false})
     for (std::size_t i = 0; i < lines.size(); ++i)
-      if (!taken[i] && lines[i].size() > 1 && (!only_beginnings || !ends.contains(key_of(lines[i].front())))) follow(i);
+      if (!taken[i] && lines[i].size() > 1 &&
+          (!only_beginnings || !ends.contains(key_of(lines[i].front()))))
+        follow(i);
   return joined;
 }
 
 struct Box {
   glm::dvec2 low, high;
 
-  bool holds(glm::dvec2 p) const { return p.x > low.x && p.y > low.y && p.x < high.x && p.y < high.y; }
+  bool holds(glm::dvec2 p) const {
+    return p.x > low.x && p.y > low.y && p.x < high.x && p.y < high.y;
+  }
   double around() const { return 2.0 * (high.x - low.x + high.y - low.y); }
 
-  // How far a place of the edge lies along it, with the clock from the lower left corner.
+  // Position of a point along the edge, clockwise from the lower left corner.
   double along(glm::dvec2 p) const {
     const glm::dvec2 size = high - low;
     const double left = std::abs(p.x - low.x);
     const double right = std::abs(p.x - high.x);
     const double bottom = std::abs(p.y - low.y);
     const double top = std::abs(p.y - high.y);
-    const double least = std::min({left, right, bottom, top});
-    if (least == left) return p.y - low.y;
-    if (least == top) return size.y + (p.x - low.x);
-    if (least == right) return size.y + size.x + (high.y - p.y);
+    const double min = std::min({left, right, bottom, top});
+    if (min == left) return p.y - low.y;
+    if (min == top) return size.y + (p.x - low.x);
+    if (min == right) return size.y + size.x + (high.y - p.y);
     return 2.0 * size.y + size.x + (high.x - p.x);
   }
   std::vector<std::pair<double, glm::dvec2>> corners() const {
     const glm::dvec2 size = high - low;
-    return {{0.0, low}, {size.y, {low.x, high.y}}, {size.y + size.x, high}, {2.0 * size.y + size.x, {high.x, low.y}}};
+    return {{0.0, low},
+            {size.y, {low.x, high.y}},
+            {size.y + size.x, high},
+            {2.0 * size.y + size.x, {high.x, low.y}}};
   }
 
-  // The part of a way from a to b that lies inside, as shares of it.
+  // The part of the line from a to b inside, as shares of it.
   std::optional<std::pair<double, double>> clip(glm::dvec2 a, glm::dvec2 b) const {
     double from = 0.0;
     double to = 1.0;
@@ -100,11 +109,12 @@ struct Box {
   }
 };
 
-// What of a line lies on the terrain: pieces that begin and end on its edge, or a problem.
+// The part of a line on the terrain: pieces that begin and end on its edge, or a problem.
 std::string cut(const Box& box, Row line, std::vector<Row>& pieces, std::vector<Row>& rings) {
   if (is_ring(line)) {
     line.pop_back();
-    const auto outside = std::find_if(line.begin(), line.end(), [&](glm::dvec2 p) { return !box.holds(p); });
+    const auto outside =
+        std::find_if(line.begin(), line.end(), [&](glm::dvec2 p) { return !box.holds(p); });
     if (outside == line.end()) {
       rings.push_back(std::move(line));
       return {};
@@ -114,16 +124,20 @@ std::string cut(const Box& box, Row line, std::vector<Row>& pieces, std::vector<
   }
   for (const glm::dvec2 end : {line.front(), line.back()})
     if (box.holds(end))
-      return fmt::format("a coast line begins or ends on the terrain, at E {:.0f}, N {:.0f}, and no other goes on from there", end.x,
-                         end.y);
+      return fmt::format(
+          "a coastline begins or ends on the terrain, at E {:.0f}, N {:.0f}, and no other "
+          "continues it",
+          end.x, end.y);
   Row piece;
   for (std::size_t i = 0; i + 1 < line.size(); ++i) {
     const glm::dvec2 a = line[i];
     const glm::dvec2 b = line[i + 1];
     const auto part = box.clip(a, b);
     if (!part) continue;
-    if (part->first > 0.0 || !box.holds(a)) piece = {glm::clamp(glm::mix(a, b, part->first), box.low, box.high)};
-    piece.push_back(part->second < 1.0 ? glm::clamp(glm::mix(a, b, part->second), box.low, box.high) : b);
+    if (part->first > 0.0 || !box.holds(a))
+      piece = {glm::clamp(glm::mix(a, b, part->first), box.low, box.high)};
+    piece.push_back(part->second < 1.0 ? glm::clamp(glm::mix(a, b, part->second), box.low, box.high)
+                                       : b);
     if (part->second < 1.0 || !box.holds(b)) {
       pieces.push_back(std::move(piece));
       piece.clear();
@@ -132,8 +146,8 @@ std::string cut(const Box& box, Row line, std::vector<Row>& pieces, std::vector<
   return {};
 }
 
-// Pieces with the ways along the edge from where one leaves the terrain, with the clock, to where the next comes in: sea lies to the right
-// of both.
+// Joins pieces along the edge, clockwise, from where one leaves the terrain to where the next
+// enters: sea lies to the right of both.
 std::string close(const Box& box, const std::vector<Row>& pieces, std::vector<Row>& rings) {
   struct Event {
     double along;
@@ -145,13 +159,17 @@ std::string close(const Box& box, const std::vector<Row>& pieces, std::vector<Ro
     events.push_back({box.along(pieces[i].front()), true, i});
     events.push_back({box.along(pieces[i].back()), false, i});
   }
-  std::stable_sort(events.begin(), events.end(), [](const Event& a, const Event& b) { return a.along < b.along; });
+  std::stable_sort(events.begin(), events.end(),
+                   [](const Event& a, const Event& b) { return a.along < b.along; });
   std::vector<std::size_t> leaves(pieces.size());
   for (std::size_t e = 0; e < events.size(); ++e) {
     if (events[e].comes_in == events[(e + 1) % events.size()].comes_in) {
       const Row& piece = pieces[events[e].piece];
       const glm::dvec2 at = events[e].comes_in ? piece.front() : piece.back();
-      return fmt::format("two coast lines side by side at the terrain's edge, near E {:.0f}, N {:.0f}, run the same way", at.x, at.y);
+      return fmt::format(
+          "two adjacent coastlines at the terrain's edge, near E {:.0f}, N {:.0f}, run in the same "
+          "direction",
+          at.x, at.y);
     }
     if (!events[e].comes_in) leaves[events[e].piece] = e;
   }
@@ -164,13 +182,16 @@ std::string close(const Box& box, const std::vector<Row>& pieces, std::vector<Ro
       ring.insert(ring.end(), pieces[i].begin(), pieces[i].end());
       const Event& leave = events[leaves[i]];
       const Event& enter = events[(leaves[i] + 1) % events.size()];
-      const double way = enter.along >= leave.along ? enter.along - leave.along : enter.along - leave.along + box.around();
+      const double way = enter.along >= leave.along ? enter.along - leave.along
+                                                    : enter.along - leave.along + box.around();
       std::vector<std::pair<double, glm::dvec2>> passed;
       for (const auto& [along, corner] : box.corners()) {
-        const double on = along >= leave.along ? along - leave.along : along - leave.along + box.around();
+        const double on =
+            along >= leave.along ? along - leave.along : along - leave.along + box.around();
         if (on < way) passed.emplace_back(on, corner);
       }
-      std::sort(passed.begin(), passed.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+      std::sort(passed.begin(), passed.end(),
+                [](const auto& a, const auto& b) { return a.first < b.first; });
       for (const auto& one : passed) ring.push_back(one.second);
       i = enter.piece;
     }
@@ -181,7 +202,8 @@ std::string close(const Box& box, const std::vector<Row>& pieces, std::vector<Ro
 
 }  // namespace
 
-CoastAreas close_coast(const std::vector<std::vector<glm::dvec2>>& lines, glm::dvec2 low, glm::dvec2 high) {
+CoastAreas close_coast(const std::vector<std::vector<glm::dvec2>>& lines, glm::dvec2 low,
+                       glm::dvec2 high) {
   const Box box{low, high};
   CoastAreas areas;
   std::vector<Row> pieces;
@@ -190,7 +212,7 @@ CoastAreas close_coast(const std::vector<std::vector<glm::dvec2>>& lines, glm::d
     if (!areas.problem.empty()) return {.rings = {}, .problem = areas.problem};
   }
   if (pieces.empty()) {
-    // The largest ring says what lies around all.
+    // The orientation of the largest ring decides what surrounds all.
     double largest = 0.0;
     for (const Row& ring : areas.rings)
       if (const double area = signed_area(ring); std::abs(area) > std::abs(largest)) largest = area;

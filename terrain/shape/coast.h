@@ -6,16 +6,19 @@
 
 namespace belvedere {
 
-// The sea that coast lines bound.
+// The sea bounded by coastlines.
 struct CoastAreas {
-  // Outlines and islands: what an odd number of them encloses is sea. Without the closing place.
+  // Outlines and islands: what an odd number of them encloses is sea. Without the closing point.
   std::vector<std::vector<glm::dvec2>> rings;
-  std::string problem;  // why the lines bound nothing, in words; then there are no rings
+  std::string problem;  // why the lines are invalid, as a message; then there are no rings
 };
 
-// Closes coast lines, which have the land to their left, along the edges of the terrain `low` … `high`. Pieces that end where another
-// begins are one line; rings that run against the clock are islands. Where no line crosses the edges the largest ring says what lies around
-// all. A line that begins or ends on the terrain, or two side by side that run the same way, bound nothing.
-CoastAreas close_coast(const std::vector<std::vector<glm::dvec2>>& lines, glm::dvec2 low, glm::dvec2 high);
+// Closes coastlines, which have the land to their left, along the edges of the terrain `low` …
+// `high`. Pieces that end where another begins are one line; counterclockwise rings are islands. If
+// no line crosses the edges, the orientation of the largest ring decides what surrounds all. It is
+// a problem if a line begins or ends on the terrain, or two adjacent ones run in the same
+// direction.
+CoastAreas close_coast(const std::vector<std::vector<glm::dvec2>>& lines, glm::dvec2 low,
+                       glm::dvec2 high);
 
 }  // namespace belvedere

@@ -16,7 +16,7 @@ struct Window {
   double z1, z2, z3, z4, z5, z6, z7, z8, z9;
 };
 
-// Calls f(window) for every cell and stores what it returns.
+// Calls f(window) for every cell and stores the result.
 template <class F>
 Grid<float> map_windows(const Grid<float>& altitude_m, F&& f) {
   const int width = altitude_m.width();
@@ -30,14 +30,15 @@ Grid<float> map_windows(const Grid<float>& altitude_m, F&& f) {
     for (int x = 0; x < width; ++x) {
       const int west = std::max(x - 1, 0);
       const int east = std::min(x + 1, width - 1);
-      target[x] = static_cast<float>(
-          f(Window{north[west], north[x], north[east], here[west], here[x], here[east], south[west], south[x], south[east]}));
+      target[x] =
+          static_cast<float>(f(Window{north[west], north[x], north[east], here[west], here[x],
+                                      here[east], south[west], south[x], south[east]}));
     }
   });
   return out;
 }
 
-// Horn's rise towards the east and towards the north, metres a metre.
+// Horn's rise towards the east and towards the north, metres per metre.
 struct Gradient {
   double east;
   double north;

@@ -9,7 +9,8 @@
 
 namespace belvedere {
 
-Grid<std::uint8_t> hillshade(const Grid<float>& altitude_m, double cell_x_m, double cell_y_m, const HillshadeParameters& parameters) {
+Grid<std::uint8_t> hillshade(const Grid<float>& altitude_m, double cell_x_m, double cell_y_m,
+                             const HillshadeParameters& parameters) {
   const double azimuth = to_radians(parameters.azimuth_deg);
   const double altitude = to_radians(parameters.altitude_deg);
   const double east = exact::sin(azimuth) * exact::cos(altitude);
@@ -20,9 +21,13 @@ Grid<std::uint8_t> hillshade(const Grid<float>& altitude_m, double cell_x_m, dou
   Grid<std::uint8_t> shade(altitude_m.width(), altitude_m.height());
   parallel_rows(shade.height(), [&](int y) {
     for (int x = 0; x < shade.width(); ++x) {
-      const auto z = [&](int dx, int dy) { return static_cast<double>(altitude_m.clamped(x + dx, y + dy)); };
-      const double gx = to_slope_x * (z(1, -1) + 2.0 * z(1, 0) + z(1, 1) - z(-1, -1) - 2.0 * z(-1, 0) - z(-1, 1));
-      const double gy = to_slope_y * (z(-1, -1) + 2.0 * z(0, -1) + z(1, -1) - z(-1, 1) - 2.0 * z(0, 1) - z(1, 1));  // northwards
+      const auto z = [&](int dx, int dy) {
+        return static_cast<double>(altitude_m.clamped(x + dx, y + dy));
+      };
+      const double gx =
+          to_slope_x * (z(1, -1) + 2.0 * z(1, 0) + z(1, 1) - z(-1, -1) - 2.0 * z(-1, 0) - z(-1, 1));
+      const double gy = to_slope_y * (z(-1, -1) + 2.0 * z(0, -1) + z(1, -1) - z(-1, 1) -
+                                      2.0 * z(0, 1) - z(1, 1));  // northwards
       if (!std::isfinite(gx + gy + altitude_m(x, y))) continue;
       const double lit = (up - gx * east - gy * north) / std::sqrt(1.0 + gx * gx + gy * gy);
       shade(x, y) = static_cast<std::uint8_t>(std::lround(1.0 + 254.0 * std::clamp(lit, 0.0, 1.0)));

@@ -6,9 +6,11 @@
 
 namespace belvedere {
 
-// Lakes that the data have no altitudes of: holes of at least `least_cells` whose shore is level (the lower half of the cells around them
-// within 1 m). 1 in such a lake. A hole that reaches over the rim is none, but for windows of a larger DEM, which has `known` lakes: there
-// it is one where most of it is known for one.
-Grid<std::uint8_t> find_hole_lakes(const Dem& dem, int least_cells = 150, const Grid<std::uint8_t>& known = {});
+// Lakes without altitudes in the data: voids of at least `min_cells` cells with a level shore (the
+// lower half of the cells around them within 1 m). 1 in such a lake. A void that touches the border
+// is not a lake, except in a window of a larger DEM with `known` lakes, if most of it is known to
+// be one.
+Grid<std::uint8_t> find_hole_lakes(const Dem& dem, int min_cells = 150,
+                                   const Grid<std::uint8_t>& known = {});
 
 }  // namespace belvedere

@@ -17,12 +17,14 @@ struct Step {
   int y;
 };
 // The eight neighbours; the opposite of neighbour k is 7 - k.
-constexpr std::array<Step, 8> neighbours{{{-1, -1}, {0, -1}, {1, -1}, {-1, 0}, {1, 0}, {-1, 1}, {0, 1}, {1, 1}}};
+constexpr std::array<Step, 8> neighbours{
+    {{-1, -1}, {0, -1}, {1, -1}, {-1, 0}, {1, 0}, {-1, 1}, {0, 1}, {1, 1}}};
 constexpr std::uint8_t drains_out = 8;  // leaves the grid
-constexpr std::uint8_t no_way = 255;    // none found so far
+constexpr std::uint8_t no_way = 255;    // not determined yet
 constexpr std::uint8_t done_waiting = 255;
 
-// Calls f(k, index) for the neighbours of a cell that lie within the grid. Inside, which is nearly everywhere, it asks no further.
+// Calls f(k, index) for the neighbours of a cell within the grid. Interior cells, the common case,
+// need no bounds checks.
 template <class F>
 void each_neighbour(int width, int height, std::size_t cell, F&& f) {
   const auto stride = static_cast<std::size_t>(width);
@@ -33,28 +35,32 @@ void each_neighbour(int width, int height, std::size_t cell, F&& f) {
     const int u = x + neighbours[k].x;
     const int v = y + neighbours[k].y;
     if (!inside && (u < 0 || v < 0 || u >= width || v >= height)) continue;
-    f(k,
-      static_cast<std::size_t>(static_cast<std::ptrdiff_t>(cell) + neighbours[k].y * static_cast<std::ptrdiff_t>(width) + neighbours[k].x));
+    f(k, static_cast<std::size_t>(static_cast<std::ptrdiff_t>(cell) +
+                                  neighbours[k].y * static_cast<std::ptrdiff_t>(width) +
+                                  neighbours[k].x));
   }
 }
 
-// Altitudes with hollows filled up to their outlets on the rim.
+// Altitudes with hollows filled up to their outlets on the border.
 Grid<float> flood_from_rim(const Grid<float>& altitude_m) {
   const int width = altitude_m.width();
   const int height = altitude_m.height();
   std::vector<std::int32_t> rim;
   for (int y = 0; y < height; ++y) {
     const bool whole_row = y == 0 || y == height - 1;
-    for (int x = 0; x < width; x += whole_row ? 1 : std::max(1, width - 1)) rim.push_back(y * width + x);
+    for (int x = 0; x < width; x += whole_row ? 1 : std::max(1, width - 1))
+      rim.push_back(y * width + x);
   }
   Grid<float> level_m = altitude_m;
   fill_to_spill_level(level_m, rim);
   return level_m;
 }
 
-// Where each cell of a flooded terrain drains to: which neighbour, or drains_out. Where it falls, water takes the steepest way, also
-// inwards from the rim; what leaves the rim else leaves the grid. Level ground drains to the outlets from which a flood of one level
-// reaches it first: from outlet after outlet, in the order of their cells, wave after wave. So no way leads upwards, and none is a circle.
+// Flow directions of a flooded terrain: a neighbour's number, or drains_out. Sloping cells drain to
+// the steepest neighbour, also inwards from the border; other border cells leave the grid. Level
+// ground drains to the outlets from which a flood at constant level reaches it first: outlet after
+// outlet, in the order of their cells, breadth first. So no path leads upwards, and there are no
+// cycles.
 Grid<std::uint8_t> find_flow_directions(const Grid<float>& level_m) {
   const int width = level_m.width();
   const int height = level_m.height();
@@ -63,10 +69,12 @@ Grid<std::uint8_t> find_flow_directions(const Grid<float>& level_m) {
     for (int x = 0; x < width; ++x) {
       const std::size_t cell = level_m.index(x, y);
       float steepest = 0.F;
-      std::uint8_t way = x == 0 || y == 0 || x == width - 1 || y == height - 1 ? drains_out : no_way;
+      std::uint8_t way =
+          x == 0 || y == 0 || x == width - 1 || y == height - 1 ? drains_out : no_way;
       each_neighbour(width, height, cell, [&](std::size_t k, std::size_t other) {
         const float fall = level_m[cell] - level_m[other];
-        const float slope = neighbours[k].x != 0 && neighbours[k].y != 0 ? fall * 0.70710678F : fall;
+        const float slope =
+            neighbours[k].x != 0 && neighbours[k].y != 0 ? fall * 0.70710678F : fall;
         if (slope > steepest) {
           steepest = slope;
           way = static_cast<std::uint8_t>(k);
@@ -75,7 +83,7 @@ Grid<std::uint8_t> find_flow_directions(const Grid<float>& level_m) {
       towards[cell] = way;
     }
   });
-  // Level ground is scarce: its cells are found row by row, and only outlets beside them are looked at.
+  // Level ground is rare: its cells are found row by row, and only outlets next to them are used.
   std::vector<std::vector<std::uint32_t>> outlets(static_cast<std::size_t>(height));
   parallel_rows(height, [&](int y) {
     for (int x = 0; x < width; ++x) {
@@ -106,13 +114,15 @@ Grid<std::uint8_t> find_flow_directions(const Grid<float>& level_m) {
 
 using Mask = Grid<std::uint8_t>;
 
-// One step of erosion (a cell stays if its four neighbours are set) or dilation (it comes if one is); outside is like the border.
-// Masks hold 0 and 1.
+// One step of erosion (a cell stays if its four neighbours are set) or dilation (it is set if one
+// is); outside is like the border. Masks contain 0 and 1.
 template <bool erode>
 Mask morph(const Mask& mask) {
   const int width = mask.width();
   Mask out(width, mask.height());
-  const auto both = [](std::uint8_t a, std::uint8_t b) { return static_cast<std::uint8_t>(erode ? a & b : a | b); };
+  const auto both = [](std::uint8_t a, std::uint8_t b) {
+    return static_cast<std::uint8_t>(erode ? a & b : a | b);
+  };
   parallel_rows(mask.height(), [&](int y) {
     const std::uint8_t* here = mask.row(y);
     const std::uint8_t* north = mask.row(std::max(y - 1, 0));
@@ -129,7 +139,7 @@ Mask find_flat_cells(const Grid<float>& altitude_m, float max_range_m) {
   const int width = altitude_m.width();
   Mask flat(width, altitude_m.height());
   parallel_ranges(altitude_m.height(), 16, [&](int y0, int y1) {
-    // Extremes of three cells of a column, a column more at each end.
+    // Minimum and maximum of three cells of a column, with an extra column on both sides.
     std::vector<float> low(static_cast<std::size_t>(width) + 2);
     std::vector<float> high(low.size());
     for (int y = y0; y != y1; ++y) {
@@ -157,12 +167,12 @@ Mask find_flat_cells(const Grid<float>& altitude_m, float max_range_m) {
   return flat;
 }
 
-// Mean height of the ground `bank_distance` cells around a piece above its level, each cell counted within ±2 m; `stamps` holds
-// what was visited under numbers that no other piece has.
+// Mean height of the ground `bank_distance` cells around a piece above its level, each cell clamped
+// to ±2 m; `stamps` marks visited cells with a number unique to the piece.
 constexpr int bank_distance = 7;
 
-float bank_height_m(const Grid<float>& altitude_m, const Mask& mask, const std::vector<Step>& piece, Grid<std::int32_t>& stamps,
-                    std::int32_t number) {
+float bank_height_m(const Grid<float>& altitude_m, const Mask& mask, const std::vector<Step>& piece,
+                    Grid<std::int32_t>& stamps, std::int32_t number) {
   std::vector<Step> shore;
   for (const Step& cell : piece) {
     for (const auto& [dx, dy] : neighbours) {
@@ -199,12 +209,13 @@ float bank_height_m(const Grid<float>& altitude_m, const Mask& mask, const std::
       visit(cell.x + bank_distance, cell.y + i);
     }
   }
-  // A lake that fills the whole grid has no banks to ask.
+  // A lake that fills the whole grid has no banks to check.
   return count == 0 ? 2.F : static_cast<float>(sum / count);
 }
 
 // Clears the pieces that are too small or have no banks.
-void remove_what_is_no_lake(Mask& mask, const Grid<float>& altitude_m, const LakeParameters& parameters) {
+void remove_what_is_no_lake(Mask& mask, const Grid<float>& altitude_m,
+                            const LakeParameters& parameters) {
   const Mask flat = mask;
   Mask seen(mask.width(), mask.height());
   Grid<std::int32_t> stamps(mask.width(), mask.height());
@@ -219,13 +230,18 @@ void remove_what_is_no_lake(Mask& mask, const Grid<float>& altitude_m, const Lak
         const Step here = piece[i];
         for (const auto& [dx, dy] : {Step{-1, 0}, Step{1, 0}, Step{0, -1}, Step{0, 1}}) {
           const Step next{here.x + dx, here.y + dy};
-          if (!flat.contains(next.x, next.y) || flat(next.x, next.y) == 0 || seen(next.x, next.y) != 0) continue;
+          if (!flat.contains(next.x, next.y) || flat(next.x, next.y) == 0 ||
+              seen(next.x, next.y) != 0)
+            continue;
           seen(next.x, next.y) = 1;
           piece.push_back(next);
         }
       }
-      const bool large = piece.size() >= static_cast<std::size_t>(std::max(parameters.min_cells, 0));
-      if (large && (parameters.min_bank_m <= 0.F || bank_height_m(altitude_m, flat, piece, stamps, ++number) >= parameters.min_bank_m)) {
+      const bool large =
+          piece.size() >= static_cast<std::size_t>(std::max(parameters.min_cells, 0));
+      if (large &&
+          (parameters.min_bank_m <= 0.F ||
+           bank_height_m(altitude_m, flat, piece, stamps, ++number) >= parameters.min_bank_m)) {
         continue;
       }
       for (const Step& cell : piece) mask(cell.x, cell.y) = 0;
@@ -235,15 +251,17 @@ void remove_what_is_no_lake(Mask& mask, const Grid<float>& altitude_m, const Lak
 
 }  // namespace
 
-Grid<float> flow_accumulation_km2(const Grid<float>& altitude_m, double cell_m, const std::vector<RiverEntry>& entries) {
+Grid<float> flow_accumulation_km2(const Grid<float>& altitude_m, double cell_m,
+                                  const std::vector<RiverEntry>& entries) {
   const int width = altitude_m.width();
   const int height = altitude_m.height();
   const Grid<std::uint8_t> towards = find_flow_directions(flood_from_rim(altitude_m));
   const auto target_of = [&](std::size_t cell) {
     const Step& step = neighbours[towards[cell]];
-    return static_cast<std::size_t>(static_cast<std::ptrdiff_t>(cell) + step.x + static_cast<std::ptrdiff_t>(step.y) * width);
+    return static_cast<std::size_t>(static_cast<std::ptrdiff_t>(cell) + step.x +
+                                    static_cast<std::ptrdiff_t>(step.y) * width);
   };
-  // How many neighbours drain into each cell.
+  // Number of neighbours that drain into each cell.
   Grid<std::uint8_t> waiting(width, height);
   parallel_rows(height, [&](int y) {
     for (int x = 0; x < width; ++x) {
@@ -254,23 +272,28 @@ Grid<float> flow_accumulation_km2(const Grid<float>& altitude_m, double cell_m, 
       waiting(x, y) = count;
     }
   });
-  // Whole cells are counted, exactly; then turned into km². From every spring down to where another water is still to come: whichever
-  // comes last goes on, and neither sums of whole numbers nor the larger of two ask which it was.
+  // Cells are counted exactly, then converted to km². Each path runs from a spring down to where
+  // another tributary is still missing; the last one to arrive continues. Sums of whole numbers and
+  // maxima do not depend on the order.
   Grid<float> catchment(width, height);
   Grid<std::uint32_t> cells(width, height, 1);
   const double cell_km2 = cell_m * cell_m * 1e-6;
   for (const RiverEntry& entry : entries)
-    if (cells.contains(entry.x, entry.y)) cells(entry.x, entry.y) += static_cast<std::uint32_t>(std::lround(entry.km2 / cell_km2));
+    if (cells.contains(entry.x, entry.y))
+      cells(entry.x, entry.y) += static_cast<std::uint32_t>(std::lround(entry.km2 / cell_km2));
   for (std::size_t spring = 0; spring < cells.size(); ++spring) {
     if (waiting[spring] != 0) continue;
     for (std::size_t cell = spring;;) {
-      // Above 2^24 cells a float cannot tell n from n + 1: what came from upstream is the least it may be.
+      // Above 2^24 cells a float cannot distinguish n from n + 1: the upstream value is the
+      // minimum.
       catchment[cell] = std::max(catchment[cell], static_cast<float>(cells[cell] * cell_km2));
       if (towards[cell] == drains_out) break;
       const std::size_t target = target_of(cell);
       cells[target] += cells[cell];
-      catchment[target] = std::max(catchment[target], std::nextafter(catchment[cell], std::numeric_limits<float>::infinity()));
-      // One that has been gone through waits for none and is no spring.
+      catchment[target] =
+          std::max(catchment[target],
+                   std::nextafter(catchment[cell], std::numeric_limits<float>::infinity()));
+      // A visited cell waits for nothing and is not a spring.
       if (--waiting[target] != 0) break;
       waiting[target] = done_waiting;
       cell = target;
@@ -285,22 +308,26 @@ Grid<std::uint8_t> find_lakes(const Grid<float>& altitude_m, const LakeParameter
   Mask lakes = find_flat_cells(altitude_m, parameters.max_range_m);
   lakes = morph<false>(morph<false>(morph<true>(morph<true>(lakes))));
   remove_what_is_no_lake(lakes, altitude_m, parameters);
-  // The neighbourhood of a flat cell is flat as well: a cell at its rim still stands at the lake's level.
+  // The neighbourhood of a flat cell is flat as well: a cell at its border is still at the lake's
+  // level.
   Mask grown = lakes;
   parallel_rows(lakes.height(), [&](int y) {
     const std::uint8_t* north = lakes.row(std::max(y - 1, 0));
     const std::uint8_t* here = lakes.row(y);
     const std::uint8_t* south = lakes.row(std::min(y + 1, lakes.height() - 1));
-    // Nearly everywhere there is no lake in three columns and rows, and nothing grows.
+    // Usually there is no lake within three columns and rows, and nothing grows.
     std::vector<std::uint8_t> column(static_cast<std::size_t>(lakes.width()) + 2, 0);
     for (int x = 0; x < lakes.width(); ++x)
-      column[static_cast<std::size_t>(x) + 1] = static_cast<std::uint8_t>(north[x] | here[x] | south[x]);
+      column[static_cast<std::size_t>(x) + 1] =
+          static_cast<std::uint8_t>(north[x] | here[x] | south[x]);
     for (int x = 0; x < lakes.width(); ++x) {
       const std::uint8_t* around = column.data() + x;
       if ((around[0] | around[1] | around[2]) == 0) continue;
       for (const auto& [dx, dy] : neighbours) {
         if (lakes.clamped(x + dx, y + dy) == 0) continue;
-        if (std::abs(altitude_m.clamped(x + dx, y + dy) - altitude_m(x, y)) < parameters.max_range_m) grown(x, y) = 1;
+        if (std::abs(altitude_m.clamped(x + dx, y + dy) - altitude_m(x, y)) <
+            parameters.max_range_m)
+          grown(x, y) = 1;
       }
     }
   });

@@ -9,26 +9,27 @@ namespace belvedere {
 namespace {
 
 constexpr double low_quantile = 0.3;
-constexpr double most_off_m = 40.0;
+constexpr double max_off_m = 40.0;
 constexpr double bank_m = 25.0;
-// Lower than this share of its cells a lake's ground is level, but for so many metres, however its outline runs.
+// Below this quantile a lake's ground is level, except for this many metres, whatever its outline.
 constexpr double level_from = 0.05;
 constexpr double level_to = 0.5;
-constexpr double most_fall_m = 15.0;
+constexpr double max_fall_m = 15.0;
 
-// Calls f(x, y) for the cells whose centres an odd number of rings encloses, row by row.
+// Calls f(x, y) for the cells whose centres are enclosed by an odd number of rings, row by row.
 template <class F>
 void each_cell_in(const std::vector<std::vector<glm::dvec2>>& rings, const Dem& dem, F&& f) {
   double low = 0.0;
   double high = -1.0;
   for (const auto& ring : rings)
-    for (const glm::dvec2 place : ring) {
-      const double row = dem.transform.to_cell(place.x, place.y).y;
+    for (const glm::dvec2 position : ring) {
+      const double row = dem.transform.to_cell(position.x, position.y).y;
       low = high < low ? row : std::min(low, row);
       high = high < low ? row : std::max(high, row);
     }
   if (high < low) return;
-  const int y0 = static_cast<int>(std::ceil(std::clamp(low, 0.0, static_cast<double>(dem.height()))));
+  const int y0 =
+      static_cast<int>(std::ceil(std::clamp(low, 0.0, static_cast<double>(dem.height()))));
   const int y1 = static_cast<int>(std::floor(std::clamp(high, -1.0, dem.height() - 1.0)));
   std::vector<double> crossings;
   for (int y = y0; y <= y1; ++y) {
@@ -38,12 +39,15 @@ void each_cell_in(const std::vector<std::vector<glm::dvec2>>& rings, const Dem& 
         const glm::dvec2 a = dem.transform.to_cell(ring[i].x, ring[i].y);
         const glm::dvec2& next = ring[(i + 1) % ring.size()];
         const glm::dvec2 b = dem.transform.to_cell(next.x, next.y);
-        if ((a.y <= y) != (b.y <= y)) crossings.push_back(a.x + (y - a.y) * ((b.x - a.x) / (b.y - a.y)));
+        if ((a.y <= y) != (b.y <= y))
+          crossings.push_back(a.x + (y - a.y) * ((b.x - a.x) / (b.y - a.y)));
       }
     std::sort(crossings.begin(), crossings.end());
     for (std::size_t k = 0; k + 1 < crossings.size(); k += 2) {
-      const int x0 = static_cast<int>(std::ceil(std::clamp(crossings[k], 0.0, static_cast<double>(dem.width()))));
-      const int x1 = static_cast<int>(std::floor(std::clamp(crossings[k + 1], -1.0, dem.width() - 1.0)));
+      const int x0 = static_cast<int>(
+          std::ceil(std::clamp(crossings[k], 0.0, static_cast<double>(dem.width()))));
+      const int x1 =
+          static_cast<int>(std::floor(std::clamp(crossings[k + 1], -1.0, dem.width() - 1.0)));
       for (int x = x0; x <= x1; ++x) f(x, y);
     }
   }
@@ -62,15 +66,16 @@ LakeLevel level_of(const Dem& dem, const KnownLake& lake) {
   std::vector<float>& from = known.empty() ? all : known;
   std::sort(from.begin(), from.end());
   const auto quantile = [&](double share) {
-    return static_cast<double>(from[static_cast<std::size_t>(share * static_cast<double>(from.size() - 1))]);
+    return static_cast<double>(
+        from[static_cast<std::size_t>(share * static_cast<double>(from.size() - 1))]);
   };
-  if (quantile(level_to) - quantile(level_from) > most_fall_m) {
+  if (quantile(level_to) - quantile(level_from) > max_fall_m) {
     found.uneven = true;
     return found;
   }
   found.level_m = quantile(low_quantile);
   if (lake.level_m) {
-    if (std::abs(*lake.level_m - *found.level_m) <= most_off_m)
+    if (std::abs(*lake.level_m - *found.level_m) <= max_off_m)
       found.level_m = lake.level_m;
     else
       found.refused_level_m = lake.level_m;
@@ -91,7 +96,8 @@ std::vector<LakeLevel> find_lake_levels(const Dem& dem, const std::vector<KnownL
   return levels;
 }
 
-void level_known_lakes(Dem& dem, const std::vector<KnownLake>& lakes, const std::vector<LakeLevel>& levels) {
+void level_known_lakes(Dem& dem, const std::vector<KnownLake>& lakes,
+                       const std::vector<LakeLevel>& levels) {
   for (std::size_t i = 0; i < lakes.size(); ++i) {
     if (!levels[i].level_m) continue;
     const double level_m = *levels[i].level_m;

@@ -14,7 +14,8 @@ namespace belvedere {
 
 using Mask = Grid<std::uint8_t>;  // 0: not marked
 
-// Cells (4-connected) that can be reached from those marked through cells that `open` lets in; they are marked as well.
+// Marks the cells (4-connected) that can be reached from marked ones through cells where `open` is
+// true.
 template <class Open>
 void flood(Mask& mask, std::vector<std::int32_t> from, Open&& open) {
   const int width = mask.width();
@@ -23,15 +24,17 @@ void flood(Mask& mask, std::vector<std::int32_t> from, Open&& open) {
     from.pop_back();
     const int x = at % width;
     const int y = at / width;
-    for (const auto& [dx, dy] : {std::pair{1, 0}, std::pair{-1, 0}, std::pair{0, 1}, std::pair{0, -1}}) {
-      if (!mask.contains(x + dx, y + dy) || mask(x + dx, y + dy) != 0 || !open(x + dx, y + dy)) continue;
+    for (const auto& [dx, dy] :
+         {std::pair{1, 0}, std::pair{-1, 0}, std::pair{0, 1}, std::pair{0, -1}}) {
+      if (!mask.contains(x + dx, y + dy) || mask(x + dx, y + dy) != 0 || !open(x + dx, y + dy))
+        continue;
       mask(x + dx, y + dy) = 1;
       from.push_back((y + dy) * width + x + dx);
     }
   }
 }
 
-// How far each cell is from the nearest marked one, m; 1 000 000 where none is.
+// Distance of each cell to the nearest marked one, m; 1 000 000 if there is none.
 inline Grid<float> distance_to_marked_m(const Mask& mask, double cell_m) {
   const Grid<std::int32_t> nearest = nearest_marked(mask);
   Grid<float> distance(mask.width(), mask.height());
@@ -46,9 +49,12 @@ inline Grid<float> distance_to_marked_m(const Mask& mask, double cell_m) {
   return distance;
 }
 
-inline bool at_edge(const Mask& mask, int x, int y) { return x == 0 || y == 0 || x == mask.width() - 1 || y == mask.height() - 1; }
+inline bool at_edge(const Mask& mask, int x, int y) {
+  return x == 0 || y == 0 || x == mask.width() - 1 || y == mask.height() - 1;
+}
 
-// Pieces (4-connected) of the cells marked `wanted`: f gets the cells of each, in the order of the first.
+// Pieces (4-connected) of the cells marked `wanted`: calls f with the cells of each, in the order
+// of the first.
 template <class F>
 void each_piece(const Mask& mask, std::uint8_t wanted, F&& f) {
   Mask seen(mask.width(), mask.height(), 0);
@@ -61,8 +67,11 @@ void each_piece(const Mask& mask, std::uint8_t wanted, F&& f) {
       for (std::size_t k = 0; k < cells.size(); ++k) {
         const int cx = cells[k] % mask.width();
         const int cy = cells[k] / mask.width();
-        for (const auto& [dx, dy] : {std::pair{1, 0}, std::pair{-1, 0}, std::pair{0, 1}, std::pair{0, -1}}) {
-          if (!mask.contains(cx + dx, cy + dy) || mask(cx + dx, cy + dy) != wanted || seen(cx + dx, cy + dy) != 0) continue;
+        for (const auto& [dx, dy] :
+             {std::pair{1, 0}, std::pair{-1, 0}, std::pair{0, 1}, std::pair{0, -1}}) {
+          if (!mask.contains(cx + dx, cy + dy) || mask(cx + dx, cy + dy) != wanted ||
+              seen(cx + dx, cy + dy) != 0)
+            continue;
           seen(cx + dx, cy + dy) = 1;
           cells.push_back((cy + dy) * mask.width() + cx + dx);
         }

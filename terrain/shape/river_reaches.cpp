@@ -1,4 +1,4 @@
-// Cells that rivers run through, linked along the water.
+// Cells of rivers, linked along the drainage.
 
 #include "terrain/shape/river_reaches.h"
 
@@ -14,13 +14,13 @@ constexpr int smoothing_passes = 24;
 
 }  // namespace
 
-std::vector<RiverReach> find_reaches(const Grid<float>& catchment_km2, double least_km2) {
+std::vector<RiverReach> find_reaches(const Grid<float>& catchment_km2, double min_km2) {
   std::vector<RiverReach> reaches;
   Grid<std::int32_t> number(catchment_km2.width(), catchment_km2.height(), -1);
   for (int y = 0; y < catchment_km2.height(); ++y) {
     for (int x = 0; x < catchment_km2.width(); ++x) {
       const float area = catchment_km2(x, y);
-      if (static_cast<double>(area) < least_km2) continue;
+      if (static_cast<double>(area) < min_km2) continue;
       number(x, y) = static_cast<std::int32_t>(reaches.size());
       reaches.push_back({{x, y}, 0.0, area, no_reach, no_reach});
     }
@@ -29,18 +29,20 @@ std::vector<RiverReach> find_reaches(const Grid<float>& catchment_km2, double le
     RiverReach& reach = reaches[i];
     for (int dy = -1; dy <= 1; ++dy) {
       for (int dx = -1; dx <= 1; ++dx) {
-        const int x = static_cast<int>(reach.place.x) + dx;
-        const int y = static_cast<int>(reach.place.y) + dy;
+        const int x = static_cast<int>(reach.position.x) + dx;
+        const int y = static_cast<int>(reach.position.y) + dy;
         if (!number.contains(x, y) || number(x, y) < 0) continue;
         const auto other = static_cast<std::size_t>(number(x, y));
         if (reaches[other].catchment_km2 <= reach.catchment_km2) continue;
-        if (reach.downstream == no_reach || reaches[other].catchment_km2 < reaches[reach.downstream].catchment_km2)
+        if (reach.downstream == no_reach ||
+            reaches[other].catchment_km2 < reaches[reach.downstream].catchment_km2)
           reach.downstream = other;
       }
     }
     if (reach.downstream == no_reach) continue;
     RiverReach& below = reaches[reach.downstream];
-    if (below.upstream == no_reach || reaches[below.upstream].catchment_km2 < reach.catchment_km2) below.upstream = i;
+    if (below.upstream == no_reach || reaches[below.upstream].catchment_km2 < reach.catchment_km2)
+      below.upstream = i;
   }
   return reaches;
 }
@@ -53,8 +55,9 @@ void smooth_reaches(std::vector<RiverReach>& reaches) {
       if (here.upstream == no_reach || here.downstream == no_reach) continue;
       const RiverReach& above = reaches[here.upstream];
       const RiverReach& below = reaches[here.downstream];
-      next[i].place = 0.5 * here.place + 0.25 * (above.place + below.place);
-      next[i].half_width_m = 0.5 * here.half_width_m + 0.25 * (above.half_width_m + below.half_width_m);
+      next[i].position = 0.5 * here.position + 0.25 * (above.position + below.position);
+      next[i].half_width_m =
+          0.5 * here.half_width_m + 0.25 * (above.half_width_m + below.half_width_m);
     }
     reaches.swap(next);
   }

@@ -14,11 +14,12 @@
 namespace belvedere {
 namespace {
 
-constexpr float farthest_level_m = 1.5F;  // of the sea from the datum: tides, and what geoids differ by
+constexpr float farthest_level_m =
+    1.5F;  // of the sea from the datum: tides and differences between geoids
 constexpr int fine = 2;
 
-// Mean over a (2 radius + 1)² window, borders replicated: rows, then columns, each by a running sum in double that starts anew every row
-// (column), so that threads do not matter.
+// Mean over a (2 radius + 1)² window, borders replicated: rows, then columns, each by a running sum
+// in double that restarts in every row (column), so that threads do not affect the result.
 Grid<float> box_mean(const Grid<float>& values, int radius) {
   const int width = values.width();
   const int height = values.height();
@@ -32,7 +33,7 @@ Grid<float> box_mean(const Grid<float>& values, int radius) {
       sum += values.clamped(x + radius + 1, y) - static_cast<double>(values.clamped(x - radius, y));
     }
   });
-  // Columns in strips, whose sums lie beside each other.
+  // Columns in strips, with adjacent sums.
   Grid<float> mean(width, height);
   constexpr int strip = 256;
   parallel_ranges((width + strip - 1) / strip, 1, [&](int begin, int end) {
@@ -41,7 +42,8 @@ Grid<float> box_mean(const Grid<float>& values, int radius) {
       const int count = std::min(strip, width - x0);
       std::array<double, strip> sum{};
       for (int y = -radius; y <= radius; ++y)
-        for (int k = 0; k < count; ++k) sum[static_cast<std::size_t>(k)] += rows(x0 + k, std::clamp(y, 0, height - 1));
+        for (int k = 0; k < count; ++k)
+          sum[static_cast<std::size_t>(k)] += rows(x0 + k, std::clamp(y, 0, height - 1));
       for (int y = 0; y < height; ++y) {
         const float* in = rows.row(std::min(y + radius + 1, height - 1)) + x0;
         const float* out = rows.row(std::max(y - radius, 0)) + x0;
@@ -56,8 +58,9 @@ Grid<float> box_mean(const Grid<float>& values, int radius) {
   return mean;
 }
 
-// The altitude that most known cells have (by their fine means), within farthest_level_m of 0; nothing where fewer than `least` have any.
-std::optional<float> most_common_level(const Grid<float>& fine_mean, const Mask& filled, int least) {
+// The most frequent altitude (by fine means) within farthest_level_m of 0; nothing if fewer than
+// `least` cells have it.
+std::optional<float> max_common_level(const Grid<float>& fine_mean, const Mask& filled, int min) {
   constexpr float bin_m = 0.05F;
   constexpr int bins = 60;  // 2 · farthest_level_m / bin_m
   std::array<std::size_t, bins + 4> count{};
@@ -67,23 +70,23 @@ std::optional<float> most_common_level(const Grid<float>& fine_mean, const Mask&
     ++count[static_cast<std::size_t>((z + farthest_level_m) / bin_m) + 2];
   }
   std::size_t best = 0;
-  std::size_t most = 0;
+  std::size_t max = 0;
   for (std::size_t b = 2; b < bins + 2; ++b) {
     const std::size_t near = count[b - 2] + count[b - 1] + count[b] + count[b + 1] + count[b + 2];
-    if (near > most) {
-      most = near;
+    if (near > max) {
+      max = near;
       best = b;
     }
   }
-  if (most < static_cast<std::size_t>(least)) return std::nullopt;
-  const float middle = (static_cast<float>(best) - 1.5F) * bin_m - farthest_level_m;
-  // The mean of what is about there; rows are summed alone, then one after the other.
+  if (max < static_cast<std::size_t>(min)) return std::nullopt;
+  const float centre = (static_cast<float>(best) - 1.5F) * bin_m - farthest_level_m;
+  // The mean of the altitudes near it; rows are summed separately, then one after the other.
   std::vector<double> sums(static_cast<std::size_t>(fine_mean.height()), 0.0);
   std::vector<double> counts(sums.size(), 0.0);
   parallel_rows(fine_mean.height(), [&](int y) {
     for (int x = 0; x < fine_mean.width(); ++x) {
       const float z = fine_mean(x, y);
-      if (filled(x, y) != 0 || !(std::abs(z - middle) < 2.5F * bin_m)) continue;
+      if (filled(x, y) != 0 || !(std::abs(z - centre) < 2.5F * bin_m)) continue;
       sums[static_cast<std::size_t>(y)] += z;
       counts[static_cast<std::size_t>(y)] += 1.0;
     }
@@ -97,7 +100,7 @@ std::optional<float> most_common_level(const Grid<float>& fine_mean, const Mask&
   return static_cast<float>(sum / all);
 }
 
-// How far the marked cells stray from a level: 95 of 100 by less, to .05 m.
+// Deviation of the marked cells from a level: the 95th percentile, to .05 m.
 float spread_m(const Grid<float>& z, const Mask& mask, const Mask& filled, float level) {
   constexpr float bin_m = 0.05F;
   std::array<std::size_t, 200> count{};
@@ -115,37 +118,44 @@ float spread_m(const Grid<float>& z, const Mask& mask, const Mask& filled, float
   return 0.F;
 }
 
-// How level water looks under noise: means over (2 radius + 1)² cells keep to the level and to those beside them by so much.
+// Level water under noise: means over (2 radius + 1)² cells differ from the level and from adjacent
+// means by at most this.
 struct RoughWater {
   int radius;
   float range_m;
 };
-// Noise of 2 m leaves .065 m rms between means of open water; ground that rises 1 in 3600 (30 m cells) leaves more. Bays are narrower.
+// Noise of 2 m leaves .065 m rms between means of open water; ground that rises 1 in 3600 (30 m
+// cells) leaves more. Bays are narrower.
 constexpr RoughWater open_sea{12, 0.2F};
 constexpr RoughWater bay{4, 0.5F};
 
-// Level water about a level: exactly so, as made by whoever levelled the DEM's water, or rough.
-Mask level_ground(const Grid<float>& z, const Grid<float>& fine_mean, const Mask& filled, float level, const RoughWater& water) {
+// Level water near a level: exact, if the DEM's water was flattened, or rough.
+Mask level_ground(const Grid<float>& z, const Grid<float>& fine_mean, const Mask& filled,
+                  float level, const RoughWater& water) {
   constexpr float exact_m = 0.01F;
   const Grid<float> mean = box_mean(z, water.radius);
   Mask mask(z.width(), z.height(), 0);
   parallel_rows(mask.height(), [&](int y) {
-    const auto is_level = [y](const Grid<float>& grid, int x, int reach, float most) {
+    const auto is_level = [y](const Grid<float>& grid, int x, int reach, float max) {
       const float here = grid(x, y);
-      return std::abs(grid.clamped(x + reach, y) - here) <= most && std::abs(grid.clamped(x - reach, y) - here) <= most &&
-             std::abs(grid.clamped(x, y + reach) - here) <= most && std::abs(grid.clamped(x, y - reach) - here) <= most;
+      return std::abs(grid.clamped(x + reach, y) - here) <= max &&
+             std::abs(grid.clamped(x - reach, y) - here) <= max &&
+             std::abs(grid.clamped(x, y + reach) - here) <= max &&
+             std::abs(grid.clamped(x, y - reach) - here) <= max;
     };
     for (int x = 0; x < mask.width(); ++x) {
       if (filled(x, y) != 0 || std::abs(fine_mean(x, y) - level) > 1.F) continue;
-      const bool exact = std::abs(z(x, y) - level) <= 0.2F && is_level(z, x, fine, exact_m) && is_level(z, x, 1, exact_m);
-      const bool rough = std::abs(mean(x, y) - level) <= water.range_m && is_level(mean, x, 2 * water.radius, water.range_m);
+      const bool exact = std::abs(z(x, y) - level) <= 0.2F && is_level(z, x, fine, exact_m) &&
+                         is_level(z, x, 1, exact_m);
+      const bool rough = std::abs(mean(x, y) - level) <= water.range_m &&
+                         is_level(mean, x, 2 * water.radius, water.range_m);
       mask(x, y) = exact || rough ? 1 : 0;
     }
   });
   return mask;
 }
 
-// The middle one of the marked cells' altitudes: exact where water has been levelled.
+// The median of the marked cells' altitudes: exact if the water was flattened.
 float median_of(const Grid<float>& z, const std::vector<std::int32_t>& cells) {
   std::vector<float> values;
   values.reserve(cells.size());
@@ -153,10 +163,11 @@ float median_of(const Grid<float>& z, const std::vector<std::int32_t>& cells) {
   return middle_value(std::move(values));
 }
 
-// Whether what touches the edge of a DEM is open to the sea: the edge of the data is, that of a window is not.
+// Whether the border of a DEM is open to the sea: the border of the data is, that of a window is
+// not.
 enum class Edge { open, of_window };
 
-// Holes in the data that are sea: by the edge or by level water, and low around.
+// Voids in the data that are sea: at the border or next to level water, with low ground around.
 void mark_holes(Mask& mask, const Dem& dem, float highest_shore_m, Edge edge) {
   const Mask& filled = dem.filled;
   std::vector<std::int32_t> sea;
@@ -168,7 +179,8 @@ void mark_holes(Mask& mask, const Dem& dem, float highest_shore_m, Edge edge) {
       const int x = at % mask.width();
       const int y = at / mask.width();
       open = open || (edge == Edge::open && at_edge(mask, x, y));
-      for (const auto& [dx, dy] : {std::pair{1, 0}, std::pair{-1, 0}, std::pair{0, 1}, std::pair{0, -1}}) {
+      for (const auto& [dx, dy] :
+           {std::pair{1, 0}, std::pair{-1, 0}, std::pair{0, 1}, std::pair{0, -1}}) {
         if (!mask.contains(x + dx, y + dy) || filled(x + dx, y + dy) != 0) continue;
         ++around;
         low += dem.altitude_m(x + dx, y + dy) <= highest_shore_m ? 1 : 0;
@@ -215,29 +227,33 @@ Sea finish(Mask mask, float level, float noise) {
   return sea;
 }
 
-// What is known of a sea of which some cells are found.
+// Properties of a sea from some of its cells.
 struct AboutSea {
   float level_m;
   float noise_m;
-  int least_cells;
+  int min_cells;
   Edge edge;
 };
 
-// From open water over all that belongs to it.
+// Extends open water to everything that belongs to it.
 void spread_sea(Mask& mask, const Dem& dem, const Grid<float>& fine_mean, const AboutSea& about) {
   const Grid<float>& z = dem.altitude_m;
   const float level = about.level_m;
   const float noise = about.noise_m;
   mark_holes(mask, dem, level + 2.F + noise, about.edge);
 
-  // Calm water is told from the land by its altitude; noise only by means, and single cells that stand out of it are rocks.
+  // Calm water is distinguished from land by its altitude; noisy water only by means, and single
+  // outlying cells are rocks.
   const bool calm = noise < 0.3F;
   const float highest = level + (calm ? 0.3F : 1.25F * noise);
   const float highest_mean = level + (calm ? 1e9F : 0.4F * noise);
-  const auto is_low = [&](int x, int y) { return z(x, y) <= highest && fine_mean(x, y) <= highest_mean; };
+  const auto is_low = [&](int x, int y) {
+    return z(x, y) <= highest && fine_mean(x, y) <= highest_mean;
+  };
   flood(mask, marked(mask), is_low);
   if (!calm) {
-    // Noise closes narrow ways into bays and lagoons: level water a short way behind the shore is sea as well. Calm lagoons are lakes.
+    // Noise closes narrow entrances of bays and lagoons: level water a short distance behind the
+    // shore is sea as well. Calm lagoons are lakes.
     constexpr int farthest = 48;  // cells
     const Grid<std::int32_t> nearest = nearest_marked(mask);
     const auto is_near = [&](std::int32_t at) {
@@ -248,17 +264,19 @@ void spread_sea(Mask& mask, const Dem& dem, const Grid<float>& fine_mean, const 
       return dx * dx + dy * dy <= farthest * farthest;
     };
     std::vector<std::int32_t> bays;
-    each_piece(level_ground(z, fine_mean, dem.filled, level, bay), 1, [&](const std::vector<std::int32_t>& cells) {
-      if (cells.size() >= static_cast<std::size_t>(about.least_cells) && std::any_of(cells.begin(), cells.end(), is_near))
-        bays.insert(bays.end(), cells.begin(), cells.end());
-    });
+    each_piece(level_ground(z, fine_mean, dem.filled, level, bay), 1,
+               [&](const std::vector<std::int32_t>& cells) {
+                 if (cells.size() >= static_cast<std::size_t>(about.min_cells) &&
+                     std::any_of(cells.begin(), cells.end(), is_near))
+                   bays.insert(bays.end(), cells.begin(), cells.end());
+               });
     for (const std::int32_t at : bays) mask[static_cast<std::size_t>(at)] = 1;
     flood(mask, bays, is_low);
     close_shores(mask, z, highest);
   }
 }
 
-// All that lies no higher than the level and is connected with the edge.
+// Everything at or below the level that is connected with the border.
 Sea below_level(const Dem& dem, float level) {
   const Grid<float>& z = dem.altitude_m;
   constexpr float over_m = 0.25F;
@@ -278,26 +296,29 @@ Sea find_sea(const Dem& dem, const SeaParameters& parameters) {
   if (parameters.known) return *parameters.known;
   if (!parameters.look || z.empty()) return {};
   if (parameters.level_m) return below_level(dem, static_cast<float>(*parameters.level_m));
-  // Nearly every map lies high above.
-  const bool any_low = std::any_of(z.begin(), z.end(), [](float altitude) { return altitude < farthest_level_m + 2.F; });
+  // Most maps are high above the sea.
+  const bool any_low = std::any_of(
+      z.begin(), z.end(), [](float altitude) { return altitude < farthest_level_m + 2.F; });
   if (!any_low) return {};
 
   Mask mask(z.width(), z.height(), 0);
   float level = 0.F;
   float noise = 0.F;
   const Grid<float> fine_mean = box_mean(z, fine);
-  if (const auto common = most_common_level(fine_mean, dem.filled, parameters.least_cells)) {
+  if (const auto common = max_common_level(fine_mean, dem.filled, parameters.min_cells)) {
     level = *common;
     const Mask ground = level_ground(z, fine_mean, dem.filled, level, open_sea);
     std::vector<std::int32_t> open_water;
     each_piece(ground, 1, [&](const std::vector<std::int32_t>& cells) {
-      if (cells.size() < static_cast<std::size_t>(parameters.least_cells)) return;
+      if (cells.size() < static_cast<std::size_t>(parameters.min_cells)) return;
       const bool opens = std::any_of(cells.begin(), cells.end(), [&](std::int32_t at) {
         const int x = at % z.width();
         const int y = at / z.width();
-        // Means by holes are no longer level: these are looked for two windows off.
-        for (const auto& [dx, dy] : {std::pair{0, 0}, std::pair{2 * open_sea.radius, 0}, std::pair{-2 * open_sea.radius, 0},
-                                     std::pair{0, 2 * open_sea.radius}, std::pair{0, -2 * open_sea.radius}})
+        // Means near voids are no longer level: they are searched two windows away.
+        for (const auto& [dx, dy] :
+             {std::pair{0, 0}, std::pair{2 * open_sea.radius, 0},
+              std::pair{-2 * open_sea.radius, 0}, std::pair{0, 2 * open_sea.radius},
+              std::pair{0, -2 * open_sea.radius}})
           if (dem.filled.clamped(x + dx, y + dy) != 0) return true;
         return at_edge(ground, x, y);
       });
@@ -307,35 +328,41 @@ Sea find_sea(const Dem& dem, const SeaParameters& parameters) {
     if (!open_water.empty()) level = median_of(z, open_water);
     noise = spread_m(z, mask, dem.filled, level);
   }
-  spread_sea(mask, dem, fine_mean, {level, noise, parameters.least_cells, Edge::open});
+  spread_sea(mask, dem, fine_mean, {level, noise, parameters.min_cells, Edge::open});
   return finish(std::move(mask), level, noise);
 }
 
-Sea continue_sea(const Dem& window, const Dem& whole, const Sea& sea, const SeaParameters& parameters) {
+Sea continue_sea(const Dem& window, const Dem& whole, const Sea& sea,
+                 const SeaParameters& parameters) {
   if (sea.empty() || window.altitude_m.empty()) return {};
   const Grid<float>& z = window.altitude_m;
   const auto level = static_cast<float>(sea.level_m);
-  // Where the whole has sea: in the cell of it that the window's lies in.
+  // Where the whole has sea: in the whole's cell that contains the window's.
   Mask known(z.width(), z.height(), 0);
   parallel_rows(z.height(), [&](int y) {
     for (int x = 0; x < z.width(); ++x) {
-      const glm::dvec2 place = window.transform.to_crs(x, y);
-      const glm::dvec2 at = whole.transform.to_cell(place.x, place.y);
-      known(x, y) = sea.mask.clamped(static_cast<int>(std::lround(at.x)), static_cast<int>(std::lround(at.y)));
+      const glm::dvec2 position = window.transform.to_crs(x, y);
+      const glm::dvec2 at = whole.transform.to_cell(position.x, position.y);
+      known(x, y) = sea.mask.clamped(static_cast<int>(std::lround(at.x)),
+                                     static_cast<int>(std::lround(at.y)));
     }
   });
-  if (std::none_of(known.begin(), known.end(), [](std::uint8_t cell) { return cell != 0; })) return {};
+  if (std::none_of(known.begin(), known.end(), [](std::uint8_t cell) { return cell != 0; }))
+    return {};
 
-  // The whole's cells are means of many, and calmer.
+  // The whole's cells are means of many, and less noisy.
   const Grid<float> fine_mean = box_mean(z, fine);
   Mask mask = level_ground(z, fine_mean, window.filled, level, open_sea);
-  for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = static_cast<std::uint8_t>(mask[i] & known[i]);
-  const float noise = std::max(spread_m(z, mask, window.filled, level), static_cast<float>(sea.noise_m));
-  // Shores of the whole's cells are steps: land in its sea is land where it is higher than water strays.
+  for (std::size_t i = 0; i < mask.size(); ++i)
+    mask[i] = static_cast<std::uint8_t>(mask[i] & known[i]);
+  const float noise =
+      std::max(spread_m(z, mask, window.filled, level), static_cast<float>(sea.noise_m));
+  // Shores of the whole's cells are steps: land in its sea is land if it is higher than the noise
+  // of the water.
   const float highest = level + std::max(0.3F, 1.25F * noise);
   for (std::size_t i = 0; i < mask.size(); ++i)
     if (known[i] != 0 && (window.filled[i] != 0 || z[i] <= highest)) mask[i] = 1;
-  spread_sea(mask, window, fine_mean, {level, noise, parameters.least_cells, Edge::of_window});
+  spread_sea(mask, window, fine_mean, {level, noise, parameters.min_cells, Edge::of_window});
   return finish(std::move(mask), level, noise);
 }
 

@@ -12,14 +12,15 @@
 namespace belvedere {
 namespace {
 
-// A flood jumps about the map and waits for memory at every step. What it ends in can be said without it: every cell runs down to the
-// bottom of its basin, and a basin fills up to the highest pass on its lowest way to an outlet, which is one in the minimum spanning tree
-// of basins (Cordonnier, Bovy & Braun 2019). Nearly all of that goes row by row.
+// A flood accesses the map at random and waits for memory at every step. Its result can be computed
+// without it: every cell runs down to the bottom of its basin, and a basin fills up to the highest
+// pass on its lowest path to an outlet, which lies in the minimum spanning tree of basins
+// (Cordonnier, Bovy & Braun 2019). Almost all of that runs row by row.
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-// The lowest of a cell and its neighbours. Of cells as high as each other those with a lower index count as lower, so that a flat has one
-// bottom or leads on.
+// The lowest of a cell and its neighbours. Among equally high cells a lower index counts as lower,
+// so that a flat has one bottom or leads on.
 std::int32_t lowest_around(const Grid<float>& altitude_m, int x, int y) {
   auto to = static_cast<std::int32_t>(altitude_m.index(x, y));
   float z = altitude_m(x, y);
@@ -36,8 +37,9 @@ std::int32_t lowest_around(const Grid<float>& altitude_m, int x, int y) {
   return to;
 }
 
-// Where each cell runs down to: its lowest neighbour; bottoms of basins and outlets stay where they are.
-void find_descents(const Grid<float>& altitude_m, std::span<const std::int32_t> outlets, std::vector<std::int32_t>& descent) {
+// Receiver of each cell: its lowest neighbour; bottoms of basins and outlets are their own.
+void find_descents(const Grid<float>& altitude_m, std::span<const std::int32_t> outlets,
+                   std::vector<std::int32_t>& descent) {
   descent.resize(altitude_m.size());
   const int width = altitude_m.width();
   parallel_rows(altitude_m.height(), [&](int y) {
@@ -48,7 +50,7 @@ void find_descents(const Grid<float>& altitude_m, std::span<const std::int32_t> 
     }
     out[0] = lowest_around(altitude_m, 0, y);
     out[width - 1] = lowest_around(altitude_m, width - 1, y);
-    // The same without questions, several cells at a time.
+    // The same without branches, several cells at a time.
     const float* const above = altitude_m.row(y - 1);
     const float* const here = altitude_m.row(y);
     const float* const below = altitude_m.row(y + 1);
@@ -78,14 +80,14 @@ void find_descents(const Grid<float>& altitude_m, std::span<const std::int32_t> 
   for (const std::int32_t i : outlets) descent[at(i)] = i;
 }
 
-// Basin 0 is all that runs to an outlet, the others end in pits.
+// Basin 0 contains everything that runs to an outlet, the others end in pits.
 struct Basins {
   std::vector<std::int32_t> of_cell;
   int count = 1;
 };
 
 Basins find_basins(std::vector<std::int32_t> descent, std::span<const std::int32_t> outlets) {
-  // In place: cells whose basin is known hold it, its bits turned round, so that it is negative.
+  // In place: cells with a known basin store it with its bits inverted, so that it is negative.
   for (const std::int32_t i : outlets) descent[at(i)] = ~0;
   Basins basins;
   std::vector<std::int32_t> way;
@@ -103,7 +105,7 @@ Basins find_basins(std::vector<std::int32_t> descent, std::span<const std::int32
   return basins;
 }
 
-// Where water runs over from one basin into another.
+// A pass from one basin into another.
 struct Pass {
   float level_m;
   std::int32_t one;
@@ -121,11 +123,12 @@ std::vector<Pass> find_passes(const Grid<float>& altitude_m, const Basins& basin
       for (int x = 0; x < width; ++x) {
         const std::size_t i = altitude_m.index(x, y);
         const std::int32_t basin = basins.of_cell[i];
-        // Of a border's passes that follow each other the lowest is enough.
+        // Of consecutive passes along a border only the lowest is needed.
         const auto look = [&](std::size_t j) {
           const std::int32_t beside = basins.of_cell[j];
           if (basin == beside) return;
-          const Pass pass{std::max(altitude_m[i], altitude_m[j]), std::min(basin, beside), std::max(basin, beside)};
+          const Pass pass{std::max(altitude_m[i], altitude_m[j]), std::min(basin, beside),
+                          std::max(basin, beside)};
           if (passes.empty() || passes.back().one != pass.one || passes.back().other != pass.other)
             passes.push_back(pass);
           else
@@ -141,19 +144,21 @@ std::vector<Pass> find_passes(const Grid<float>& altitude_m, const Basins& basin
     }
   });
   std::vector<Pass> passes;
-  for (const std::vector<Pass>& of_band : of_bands) passes.insert(passes.end(), of_band.begin(), of_band.end());
+  for (const std::vector<Pass>& of_band : of_bands)
+    passes.insert(passes.end(), of_band.begin(), of_band.end());
   return passes;
 }
 
-// The level up to which each basin fills: passes are opened from the lowest on, and what comes to be joined to the outlets by one runs over
-// at its level (Kruskal 1956).
+// The level up to which each basin fills: passes are opened from the lowest on, and basins that
+// become connected to the outlets by one spill at its level (Kruskal 1956).
 std::vector<float> find_spill_levels(std::vector<Pass> passes, int basins) {
-  std::sort(passes.begin(), passes.end(), [](const Pass& a, const Pass& b) { return a.level_m < b.level_m; });
+  std::sort(passes.begin(), passes.end(),
+            [](const Pass& a, const Pass& b) { return a.level_m < b.level_m; });
   const auto count = static_cast<std::size_t>(basins);
   std::vector<float> level_m(count, -std::numeric_limits<float>::infinity());
   std::vector<std::int32_t> parent(count);
   std::iota(parent.begin(), parent.end(), 0);
-  // Rings of the basins joined so far, by the next one.
+  // Rings of the joined basins, by the next one.
   std::vector<std::int32_t> next = parent;
   std::vector<std::int32_t> size(count, 1);
   const auto joined = [&](std::int32_t b) {
@@ -182,14 +187,18 @@ std::vector<float> find_spill_levels(std::vector<Pass> passes, int basins) {
 
 }  // namespace
 
-void fill_to_spill_level(Grid<float>& altitude_m, std::span<const std::int32_t> outlets, std::vector<std::int32_t>& memory) {
+void fill_to_spill_level(Grid<float>& altitude_m, std::span<const std::int32_t> outlets,
+                         std::vector<std::int32_t>& memory) {
   find_descents(altitude_m, outlets, memory);
   Basins basins = find_basins(std::move(memory), outlets);
   if (basins.count > 1) {
-    const std::vector<float> level_m = find_spill_levels(find_passes(altitude_m, basins), basins.count);
-    parallel_ranges(altitude_m.size(), std::size_t{1} << 16, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i != end; ++i) altitude_m[i] = std::max(altitude_m[i], level_m[at(basins.of_cell[i])]);
-    });
+    const std::vector<float> level_m =
+        find_spill_levels(find_passes(altitude_m, basins), basins.count);
+    parallel_ranges(altitude_m.size(), std::size_t{1} << 16,
+                    [&](std::size_t begin, std::size_t end) {
+                      for (std::size_t i = begin; i != end; ++i)
+                        altitude_m[i] = std::max(altitude_m[i], level_m[at(basins.of_cell[i])]);
+                    });
   }
   memory = std::move(basins.of_cell);
 }

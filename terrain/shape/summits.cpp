@@ -8,14 +8,16 @@
 namespace belvedere {
 namespace {
 
-// Altitude above place, so that numbers fall as the flood of the land does: high cells first, of equal ones the first in the grid.
-std::uint64_t rank_of(float altitude_m, std::size_t place) {
+// Altitude above position, ordered so that keys fall as the sea level falls: high cells first, of
+// equal ones the first in the grid.
+std::uint64_t rank_of(float altitude_m, std::size_t position) {
   const auto bits = std::bit_cast<std::uint32_t>(altitude_m);
-  const std::uint32_t rising = (bits & 0x80000000U) != 0 ? ~bits : bits | 0x80000000U;  // as the numbers rise
-  return (static_cast<std::uint64_t>(~rising) << 32) | place;
+  const std::uint32_t rising =
+      (bits & 0x80000000U) != 0 ? ~bits : bits | 0x80000000U;  // in numerical order
+  return (static_cast<std::uint64_t>(~rising) << 32) | position;
 }
 
-// Islands of land that has come out of a falling sea; the root of each is its highest cell.
+// Islands above a falling sea level; the root of each is its highest cell.
 class Islands {
  public:
   explicit Islands(std::size_t cells) : parent_(cells, under_water) {}
@@ -29,7 +31,9 @@ class Islands {
     }
     return cell;
   }
-  void join(std::size_t higher, std::size_t lower) { parent_[lower] = static_cast<std::uint32_t>(higher); }
+  void join(std::size_t higher, std::size_t lower) {
+    parent_[lower] = static_cast<std::uint32_t>(higher);
+  }
 
  private:
   static constexpr std::uint32_t under_water = ~std::uint32_t{0};
@@ -39,14 +43,17 @@ class Islands {
 bool is_inside(const Grid<float>& altitude_m, int x, int y) {
   for (int dy = -1; dy <= 1; ++dy)
     for (int dx = -1; dx <= 1; ++dx)
-      if (!altitude_m.contains(x + dx, y + dy) || std::isnan(altitude_m(x + dx, y + dy))) return false;
+      if (!altitude_m.contains(x + dx, y + dy) || std::isnan(altitude_m(x + dx, y + dy)))
+        return false;
   return true;
 }
 
 }  // namespace
 
-// The sea falls from the highest cell; every summit comes out as an island, and where two islands meet, the lower one has its saddle.
-std::vector<Summit> find_summits(const Grid<float>& altitude_m, const SummitParameters& parameters) {
+// The sea level falls from the highest cell; every summit appears as an island, and where two
+// islands meet, the lower one has its saddle.
+std::vector<Summit> find_summits(const Grid<float>& altitude_m,
+                                 const SummitParameters& parameters) {
   std::vector<std::uint64_t> order;
   order.reserve(altitude_m.size());
   for (std::size_t i = 0; i < altitude_m.size(); ++i)
@@ -59,7 +66,8 @@ std::vector<Summit> find_summits(const Grid<float>& altitude_m, const SummitPara
     const int x = static_cast<int>(top % w);
     const int y = static_cast<int>(top / w);
     const float prominence_m = altitude_m[top] - saddle_m;
-    if (static_cast<double>(prominence_m) >= parameters.least_prominence_m && is_inside(altitude_m, x, y))
+    if (static_cast<double>(prominence_m) >= parameters.min_prominence_m &&
+        is_inside(altitude_m, x, y))
       found.push_back({x, y, altitude_m[top], prominence_m});
   };
   Islands islands(altitude_m.size());
@@ -82,7 +90,7 @@ std::vector<Summit> find_summits(const Grid<float>& altitude_m, const SummitPara
         islands.join(a_is_higher ? a : b, lower);
       }
   }
-  // What is left are the tops of lands that voids part from each other.
+  // The remaining islands are separated by voids.
   for (const std::uint64_t rank : order) {
     const std::size_t cell = rank & 0xFFFFFFFFU;
     if (islands.top(cell) == cell) note(cell, altitude_m[order.back() & 0xFFFFFFFFU]);
@@ -92,7 +100,7 @@ std::vector<Summit> find_summits(const Grid<float>& altitude_m, const SummitPara
     return a.y != b.y ? a.y < b.y : a.x < b.x;
   };
   std::sort(found.begin(), found.end(), first);
-  if (found.size() > parameters.most) found.resize(parameters.most);
+  if (found.size() > parameters.max) found.resize(parameters.max);
   return found;
 }
 

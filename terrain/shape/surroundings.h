@@ -5,15 +5,17 @@
 
 namespace belvedere {
 
-// A window of a larger terrain with what lies around it, for what looks far: shadows, wide means.
+// A window of a larger terrain with the ground around it, for quantities with a long reach:
+// shadows, wide means.
 struct Surrounded {
   Grid<float> altitude_m;
   GeoTransform transform;
   int left = 0, top = 0;  // the window's first cell
 };
 
-// `own`: altitudes of the window's cells, or of blocks of them, at `transform`. Up to `reach_m` around, as far as there is any, lies the
-// whole's ground, read bilinearly.
-Surrounded surround(const Grid<float>& own, const GeoTransform& transform, const Dem& whole, double reach_m);
+// `own`: altitudes of the window's cells, or of blocks of them, at `transform`. Around them, up to
+// `reach_m` if available, lies the whole's ground, interpolated bilinearly.
+Surrounded surround(const Grid<float>& own, const GeoTransform& transform, const Dem& whole,
+                    double reach_m);
 
 }  // namespace belvedere

@@ -9,8 +9,9 @@
 
 namespace belvedere {
 
-Grid<std::uint8_t> find_valley_floor(const Grid<float>& altitude_m, double cell_m, const ValleyFloorParameters& parameters) {
-  // Filters spread NaN: voids count as the lowest ground there is, and are no floor themselves.
+Grid<std::uint8_t> find_valley_floor(const Grid<float>& altitude_m, double cell_m,
+                                     const ValleyFloorParameters& parameters) {
+  // Filters spread NaN: voids are replaced by the lowest ground, and are not floor themselves.
   Grid<float> known = altitude_m;
   float lowest = 0.F;
   for (const float z : altitude_m)
@@ -25,7 +26,8 @@ Grid<std::uint8_t> find_valley_floor(const Grid<float>& altitude_m, double cell_
     for (int x = 0; x < floor.width(); ++x) {
       const bool flat = static_cast<double>(slope(x, y)) <= parameters.steepest_deg;
       const bool low = static_cast<double>(above(x, y)) <= parameters.above_lowest_m;
-      const bool enclosed = static_cast<double>(highest(x, y) - known(x, y)) >= parameters.below_highest_m;
+      const bool enclosed =
+          static_cast<double>(highest(x, y) - known(x, y)) >= parameters.below_highest_m;
       floor(x, y) = flat && low && enclosed && !std::isnan(altitude_m(x, y)) ? 1 : 0;
     }
   });

@@ -6,14 +6,16 @@
 
 namespace belvedere {
 
-// What counts as the floor of a valley: flat, low, and between mountains.
+// Criteria of a valley floor: flat, low, and between mountains.
 struct ValleyFloorParameters {
-  double steepest_deg = 5.5;       // slope after a Gaussian of 60 m
-  double above_lowest_m = 70.0;    // at most so much higher than the lowest ground within 900 m
-  double below_highest_m = 300.0;  // at least so much lower than the highest ground within 3 km: a plain is no valley
+  double steepest_deg = 5.5;     // slope after a Gaussian of 60 m
+  double above_lowest_m = 70.0;  // maximum height above the lowest ground within 900 m
+  double below_highest_m =
+      300.0;  // minimum depth below the highest ground within 3 km: a plain is not a valley
 };
 
-// 1 where the ground is a valley's floor. Void (NaN) cells are none.
-Grid<std::uint8_t> find_valley_floor(const Grid<float>& altitude_m, double cell_m, const ValleyFloorParameters& parameters = {});
+// 1 on valley floors. Void (NaN) cells are 0.
+Grid<std::uint8_t> find_valley_floor(const Grid<float>& altitude_m, double cell_m,
+                                     const ValleyFloorParameters& parameters = {});
 
 }  // namespace belvedere

@@ -16,8 +16,9 @@
 namespace belvedere::synthetic {
 namespace {
 
-// A flood that goes from cell to cell jumps about the map and waits for memory at every step. What it ends in can be said without it: it
-// fills pits to their spill level and takes cells by their filled altitude, so that sorting gives its order.
+// A flood from cell to cell accesses the map at random and waits for memory at every step. Its
+// result can be computed without it: it fills pits to their spill level and takes cells in the
+// order of their filled altitude, so sorting gives its order.
 
 constexpr int neighbour_x[8] = {-1, 0, 1, -1, 1, -1, 0, 1};
 constexpr int neighbour_y[8] = {-1, -1, -1, 0, 0, 1, 1, 1};
@@ -27,14 +28,15 @@ constexpr std::size_t ahead = 16;  // cells
 constexpr std::int32_t is_outlet = -1;
 constexpr std::int32_t is_flat = -2;  // no lower neighbour
 
-// f(k, j) for the neighbours j of a cell, by rising index.
+// Calls f(k, j) for the neighbours j of a cell, by ascending index.
 template <class F>
 void for_neighbours(const Grid<float>& grid, int x, int y, F&& f) {
   const int width = grid.width();
   const auto i = static_cast<std::int32_t>(grid.index(x, y));
   const bool inside = x > 0 && y > 0 && x + 1 < width && y + 1 < grid.height();
   for (int k = 0; k < 8; ++k)
-    if (inside || grid.contains(x + neighbour_x[k], y + neighbour_y[k])) f(k, i + neighbour_y[k] * width + neighbour_x[k]);
+    if (inside || grid.contains(x + neighbour_x[k], y + neighbour_y[k]))
+      f(k, i + neighbour_y[k] * width + neighbour_x[k]);
 }
 
 // Cells by altitude, of equal ones by index: a radix sort by three parts of the key.
@@ -42,35 +44,40 @@ void sort_cells(const Grid<float>& altitude_m, Drainage& drainage) {
   constexpr int digits = 3;
   constexpr int bits = 11;
   constexpr std::size_t values = std::size_t{1} << bits;
-  const auto digit_of = [](std::uint64_t key, int digit) { return static_cast<std::size_t>(key >> (32 + bits * digit)) & (values - 1); };
-  std::array<std::array<std::uint32_t, values>, digits> places{};
+  const auto digit_of = [](std::uint64_t key, int digit) {
+    return static_cast<std::size_t>(key >> (32 + bits * digit)) & (values - 1);
+  };
+  std::array<std::array<std::uint32_t, values>, digits> positions{};
   auto& [receiver, order, keys, sorted] = drainage;
   keys.resize(altitude_m.size());
   for (std::size_t i = 0; i < keys.size(); ++i) {
     keys[i] = rising_key(altitude_m[i], static_cast<std::uint32_t>(i));
-    for (int digit = 0; digit < digits; ++digit) ++places[static_cast<std::size_t>(digit)][digit_of(keys[i], digit)];
+    for (int digit = 0; digit < digits; ++digit)
+      ++positions[static_cast<std::size_t>(digit)][digit_of(keys[i], digit)];
   }
   sorted.resize(keys.size());
   for (int digit = 0; digit < digits; ++digit) {
-    auto& place = places[static_cast<std::size_t>(digit)];
-    std::exclusive_scan(place.begin(), place.end(), place.begin(), 0U);
-    for (const std::uint64_t key : keys) sorted[place[digit_of(key, digit)]++] = key;
+    auto& position = positions[static_cast<std::size_t>(digit)];
+    std::exclusive_scan(position.begin(), position.end(), position.begin(), 0U);
+    for (const std::uint64_t key : keys) sorted[position[digit_of(key, digit)]++] = key;
     keys.swap(sorted);
   }
   order.resize(keys.size());
-  for (std::size_t i = 0; i < keys.size(); ++i) order[i] = static_cast<std::int32_t>(keys[i] & 0xffffffffU);
+  for (std::size_t i = 0; i < keys.size(); ++i)
+    order[i] = static_cast<std::int32_t>(keys[i] & 0xffffffffU);
 }
 
-// Receivers by steepest descent on filled ground; is_flat where nothing is lower.
-void find_receivers(const Grid<float>& filled_m, const std::vector<std::int32_t>& outlets, std::uint64_t seed,
-                    std::vector<std::int32_t>& receivers) {
+// Receivers by steepest descent on filled ground; is_flat if nothing is lower.
+void find_receivers(const Grid<float>& filled_m, const std::vector<std::int32_t>& outlets,
+                    std::uint64_t seed, std::vector<std::int32_t>& receivers) {
   receivers.resize(filled_m.size());
   const int width = filled_m.width();
   parallel_ranges(filled_m.height(), 8, [&](int begin, int end) {
-    std::vector<float> diagonal(static_cast<std::size_t>(width));  // how much of a diagonal drop counts
+    std::vector<float> diagonal(static_cast<std::size_t>(width));  // weight of a diagonal drop
     for (int y = begin; y != end; ++y) {
       const auto first = static_cast<std::int32_t>(filled_m.index(0, y));
-      for (int x = 0; x < width; ++x) diagonal[at(x)] = 1.F / (2.F - static_cast<float>(random_uniform(seed, x, y)));
+      for (int x = 0; x < width; ++x)
+        diagonal[at(x)] = 1.F / (2.F - static_cast<float>(random_uniform(seed, x, y)));
       const auto steepest_way = [&](int x) {
         const float here = filled_m(x, y);
         std::int32_t receiver = is_flat;
@@ -88,7 +95,7 @@ void find_receivers(const Grid<float>& filled_m, const std::vector<std::int32_t>
       }
       steepest_way(0);
       if (width > 1) steepest_way(width - 1);
-      // The same without questions, several cells at a time.
+      // The same without branches, several cells at a time.
       const float* const above = filled_m.row(y - 1);
       const float* const here = filled_m.row(y);
       const float* const below = filled_m.row(y + 1);
@@ -116,10 +123,11 @@ void find_receivers(const Grid<float>& filled_m, const std::vector<std::int32_t>
   for (const std::int32_t i : outlets) receivers[at(i)] = is_outlet;
 }
 
-// Cells first … last of the order are as high as each other. The water reaches them from lower cells and outlets, and from there goes on
-// over the flat: always to the lowest index beside it. Each flat cell takes for its receiver the one from which it was reached.
-void order_flat(std::vector<std::int32_t>& order, std::size_t first, std::size_t last, const Grid<float>& filled_m,
-                std::vector<std::int32_t>& receivers) {
+// Cells first … last of the order are equally high. The water reaches them from lower cells and
+// outlets, and continues over the flat: always to the lowest adjacent index. The receiver of each
+// flat cell is the one from which it was reached.
+void order_flat(std::vector<std::int32_t>& order, std::size_t first, std::size_t last,
+                const Grid<float>& filled_m, std::vector<std::int32_t>& receivers) {
   std::vector<std::int32_t> front;
   for (std::size_t k = first; k < last; ++k)
     if (receivers[at(order[k])] != is_flat) front.push_back(order[k]);
@@ -141,10 +149,11 @@ void order_flat(std::vector<std::int32_t>& order, std::size_t first, std::size_t
 
 }  // namespace
 
-Drainage find_drainage(Grid<float>& altitude_m, const std::vector<std::int32_t>& outlets, std::uint64_t seed, Drainage memory) {
+Drainage find_drainage(Grid<float>& altitude_m, const std::vector<std::int32_t>& outlets,
+                       std::uint64_t seed, Drainage memory) {
   Drainage drainage = std::move(memory);
   fill_to_spill_level(altitude_m, outlets, drainage.receiver);
-  // These two do not depend on each other.
+  // These two are independent.
   parallel_ranges(2, 1, [&](int begin, int end) {
     for (int part = begin; part != end; ++part) {
       if (part == 0)
@@ -157,7 +166,8 @@ Drainage find_drainage(Grid<float>& altitude_m, const std::vector<std::int32_t>&
   for (std::size_t first = 0; first < order.size();) {
     bool flat = false;
     std::size_t last = first;
-    for (const float level = altitude_m[at(order[first])]; last < order.size() && altitude_m[at(order[last])] == level; ++last)
+    for (const float level = altitude_m[at(order[first])];
+         last < order.size() && altitude_m[at(order[last])] == level; ++last)
       flat = flat || drainage.receiver[at(order[last])] == is_flat;
     if (flat) order_flat(order, first, last, altitude_m, drainage.receiver);
     first = last;
@@ -166,13 +176,13 @@ Drainage find_drainage(Grid<float>& altitude_m, const std::vector<std::int32_t>&
 }
 
 Grid<float> catchments_km2(const Drainage& drainage, const Grid<float>& inflow_km2, double cell_m) {
-  // The caller's grid gives the shape; without inflow every cell just has its own area.
+  // The caller's grid gives the shape; without inflow every cell starts with its own area.
   Grid<float> catchment = inflow_km2;
   const auto own = static_cast<float>(cell_m * cell_m * 1e-6);
   for (float& c : catchment) c += own;
   const std::vector<std::int32_t>& order = drainage.order;
   for (std::size_t k = order.size(); k-- > 0;) {
-    // The order jumps about the map, but it is known: what comes next is on its way from memory.
+    // The order accesses the map at random, but is known: the next cells are prefetched.
     if (k >= ahead) {
       __builtin_prefetch(&drainage.receiver[at(order[k - ahead])]);
       __builtin_prefetch(&catchment[at(order[k - ahead])]);

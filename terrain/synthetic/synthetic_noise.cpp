@@ -14,12 +14,13 @@ struct Direction {
   float y;
 };
 
-// Sixteen unit vectors; none lies along the lattice, so its axes do not show.
+// Sixteen unit vectors; none is parallel to the lattice, so its axes do not show.
 const std::array<Direction, 16>& directions() {
   static const std::array<Direction, 16> table = [] {
     std::array<Direction, 16> t{};
     for (std::size_t i = 0; i < t.size(); ++i) {
-      const double angle = (static_cast<double>(i) + 0.5) * 0.39269908169872414;  // a sixteenth of a turn
+      const double angle =
+          (static_cast<double>(i) + 0.5) * 0.39269908169872414;  // a sixteenth of a turn
       t[i] = {static_cast<float>(exact::cos(angle)), static_cast<float>(exact::sin(angle))};
     }
     return t;
@@ -27,10 +28,11 @@ const std::array<Direction, 16>& directions() {
   return table;
 }
 
-// One multiplication chain for both coordinates: noise is asked for some ten million times.
-inline float corner(const std::array<Direction, 16>& ways, std::uint64_t seed, std::int64_t i, std::int64_t j, float dx, float dy) {
-  const std::uint64_t h =
-      mix_bits(seed ^ (static_cast<std::uint64_t>(i) * 0xd6e8feb86659fd93ULL) ^ (static_cast<std::uint64_t>(j) * 0xa0761d6478bd642fULL));
+// One multiplication chain for both coordinates: noise is evaluated some ten million times.
+inline float corner(const std::array<Direction, 16>& ways, std::uint64_t seed, std::int64_t i,
+                    std::int64_t j, float dx, float dy) {
+  const std::uint64_t h = mix_bits(seed ^ (static_cast<std::uint64_t>(i) * 0xd6e8feb86659fd93ULL) ^
+                                   (static_cast<std::uint64_t>(j) * 0xa0761d6478bd642fULL));
   const Direction d = ways[h >> 60];
   return d.x * dx + d.y * dy;
 }
@@ -65,7 +67,7 @@ float fractal_noise(std::uint64_t seed, double x, double y, int octaves, float g
     sum += strength * gradient_noise(seed + static_cast<std::uint64_t>(o), x, y);
     total += strength;
     strength *= gain;
-    // A turn of 37° between octaves keeps their lattices from lining up.
+    // A rotation of 37° between octaves keeps their lattices from aligning.
     const double turned = 2.0 * (0.7986355 * x - 0.6018150 * y);
     y = 2.0 * (0.6018150 * x + 0.7986355 * y);
     x = turned;

@@ -6,8 +6,9 @@
 
 namespace belvedere::synthetic {
 
-// What noise is drawn for, as a number added to the plan's seed, which is hashed from the scene's; octaves take the numbers that follow.
-// The numbers stay: terrains and views of the example sheet and of the demo were chosen for what they make.
+// Purposes of noise, as a number added to the plan's seed, which is hashed from the scene's;
+// octaves take the following numbers. The numbers must not change: terrains and views of the
+// example sheet and of the demo were chosen for their results.
 enum class TerrainNoise : std::uint64_t {
   valley_bends = 11,
   valley_wavering = 12,
@@ -30,9 +31,11 @@ enum class TerrainNoise : std::uint64_t {
   aprons = 104,
   river_bends = 200,
 };
-constexpr std::uint64_t noise_seed(std::uint64_t plan_seed, TerrainNoise noise) { return plan_seed + static_cast<std::uint64_t>(noise); }
+constexpr std::uint64_t noise_seed(std::uint64_t plan_seed, TerrainNoise noise) {
+  return plan_seed + static_cast<std::uint64_t>(noise);
+}
 
-// Draw numbers of what is drawn once for a place: a valley, an outlet, a dam.
+// Draw numbers of values drawn once per position: a valley, an outlet, a dam.
 enum class TerrainDraw : std::uint64_t {
   valley_direction = 1,
   valley_place = 2,
@@ -42,24 +45,27 @@ enum class TerrainDraw : std::uint64_t {
   dam_size = 32,
   dam_share = 33
 };
-constexpr double draw_uniform(std::uint64_t plan_seed, std::int64_t x, std::int64_t y, TerrainDraw draw) {
+constexpr double draw_uniform(std::uint64_t plan_seed, std::int64_t x, std::int64_t y,
+                              TerrainDraw draw) {
   return random_uniform(plan_seed, x, y, static_cast<std::uint64_t>(draw));
 }
-constexpr std::uint64_t draw_bits(std::uint64_t plan_seed, std::int64_t x, std::int64_t y, TerrainDraw draw) {
+constexpr std::uint64_t draw_bits(std::uint64_t plan_seed, std::int64_t x, std::int64_t y,
+                                  TerrainDraw draw) {
   return random_bits(plan_seed, x, y, static_cast<std::uint64_t>(draw));
 }
 
-// The plan of a landscape: where mountains rise and where the main valleys run. Places in metres from the padded map's
-// north-west corner, x east, y south; `unit_m` shrinks it for maps smaller than a mountain range.
+// The plan of a landscape: uplift and main valleys. Positions in metres from the padded map's
+// north-west corner, x east, y south; `unit_m` scales it down for maps smaller than a mountain
+// range.
 class Plan {
  public:
   Plan(double height_m, double unit_m, std::uint64_t seed);
 
   int valleys() const { return valleys_; }
   bool flows_east(int valley) const;
-  // The middle line of a main valley, y at x.
+  // The centreline of a main valley, y at x.
   double valley_y(int valley, double x) const;
-  // How fast the ground rises, 0…about 1.5.
+  // Uplift rate, 0…about 1.5.
   float uplift(double x, double y) const;
   // Softness of the rock, about 0.4…2.
   float softness(double x, double y) const;

@@ -21,7 +21,7 @@ TEST(Error, LeavesOutWhatIsNotKnown) {
   EXPECT_STREQ(Error(ErrorKind::limit, "", "out of memory").what(), "out of memory");
 }
 
-// Scripts go by these numbers: they stay as they are.
+// Scripts depend on these numbers: they must not change.
 TEST(Error, KindsAreExitStatuses) {
   const auto status = [](ErrorKind kind) { return Error(kind, "here", "this").exit_status(); };
   EXPECT_EQ(status(ErrorKind::usage), 2);

@@ -25,13 +25,14 @@ Grid<float> noise_grid(int width, int height, std::uint64_t seed) {
   return grid;
 }
 
-// The definition of gaussian_blur, in double, without any short cut.
+// The definition of gaussian_blur, in double, without optimizations.
 Grid<float> reference_blur(const Grid<float>& values, double sigma_x, double sigma_y) {
   const auto kernel = [](double sigma) {
     std::vector<double> weights;
     const int radius = static_cast<int>(std::ceil(4.0 * sigma));
     double sum = 0.0;
-    for (int i = -radius; i <= radius; ++i) weights.push_back(std::exp(-0.5 * i * i / (sigma * sigma)));
+    for (int i = -radius; i <= radius; ++i)
+      weights.push_back(std::exp(-0.5 * i * i / (sigma * sigma)));
     for (const double w : weights) sum += w;
     for (double& w : weights) w /= sum;
     return weights;
@@ -44,13 +45,15 @@ Grid<float> reference_blur(const Grid<float>& values, double sigma_x, double sig
   Grid<float> out(values.width(), values.height());
   for (int y = 0; y < values.height(); ++y) {
     for (int x = 0; x < values.width(); ++x) {
-      for (int k = -rx; k <= rx; ++k) rows(x, y) += kx[static_cast<std::size_t>(k + rx)] * values.clamped(x + k, y);
+      for (int k = -rx; k <= rx; ++k)
+        rows(x, y) += kx[static_cast<std::size_t>(k + rx)] * values.clamped(x + k, y);
     }
   }
   for (int y = 0; y < values.height(); ++y) {
     for (int x = 0; x < values.width(); ++x) {
       double sum = 0.0;
-      for (int k = -ry; k <= ry; ++k) sum += ky[static_cast<std::size_t>(k + ry)] * rows.clamped(x, y + k);
+      for (int k = -ry; k <= ry; ++k)
+        sum += ky[static_cast<std::size_t>(k + ry)] * rows.clamped(x, y + k);
       out(x, y) = static_cast<float>(sum);
     }
   }
@@ -63,17 +66,19 @@ TEST_P(BlurAgainstDefinition, OnWhiteNoiseAndStep) {
   const double sigma = GetParam();
   for (const auto& [width, height] : {std::pair{97, 120}, std::pair{64, 33}, std::pair{3, 151}}) {
     Grid<float> values = noise_grid(width, height, 3);
-    // A step as high as the noise, the worst edge there is.
+    // A step as high as the noise, the worst possible edge.
     for (int y = 0; y < height; ++y) {
       for (int x = width / 2; x < width; ++x) values(x, y) += 1.0F;
     }
-    const double error = largest_difference(gaussian_blur(values, sigma, 0.7 * sigma), reference_blur(values, sigma, 0.7 * sigma));
+    const double error = largest_difference(gaussian_blur(values, sigma, 0.7 * sigma),
+                                            reference_blur(values, sigma, 0.7 * sigma));
     // Both axes may halve the resolution; the header promises 3e-4 of the range, which is 2 here.
     EXPECT_LT(error, sigma <= 8.0 ? 2e-6 : 2.0 * 3e-4) << width << " x " << height;
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Sigmas, BlurAgainstDefinition, testing::Values(0.4, 1.0, 2.5, 7.9, 8.1, 11.3, 16.1, 20.0, 37.0, 60.0));
+INSTANTIATE_TEST_SUITE_P(Sigmas, BlurAgainstDefinition,
+                         testing::Values(0.4, 1.0, 2.5, 7.9, 8.1, 11.3, 16.1, 20.0, 37.0, 60.0));
 
 TEST(GaussianBlur, KeepsAConstantAndTheMeanOfAnImpulse) {
   const Grid<float> constant(70, 50, 4321.5F);
@@ -99,7 +104,9 @@ TEST(GaussianBlur, AxesAreIndependentAndZeroSigmaCopies) {
   const Grid<float> values = noise_grid(40, 30, 5);
   EXPECT_EQ(gaussian_blur(values, 0.0), values);
   EXPECT_EQ(gaussian_blur(values, -1.0, 0.0), values);
-  EXPECT_LT(largest_difference(gaussian_blur(gaussian_blur(values, 3.0, 0.0), 0.0, 12.0), gaussian_blur(values, 3.0, 12.0)), 1e-7);
+  EXPECT_LT(largest_difference(gaussian_blur(gaussian_blur(values, 3.0, 0.0), 0.0, 12.0),
+                               gaussian_blur(values, 3.0, 12.0)),
+            1e-7);
   EXPECT_TRUE(gaussian_blur(Grid<float>{}, 2.0).empty());
   EXPECT_EQ(gaussian_blur(Grid<float>(1, 1, 7.0F), 20.0)(0, 0), 7.0F);
 }
@@ -110,7 +117,8 @@ TEST(Filters, SameBitsForAnyThreadCount) {
   for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = values[i] > 0.99F;
   const auto run = [&](int threads) {
     const ThreadLimit limit(threads);
-    return std::tuple{gaussian_blur(values, 5.0, 21.0), window_minimum(values, 13), nearest_marked(mask)};
+    return std::tuple{gaussian_blur(values, 5.0, 21.0), window_minimum(values, 13),
+                      nearest_marked(mask)};
   };
   EXPECT_EQ(run(1), run(2));
 }
@@ -146,7 +154,8 @@ TEST(NearestMarked, EqualsBruteForceTiesIncluded) {
       for (std::uint64_t seed = 0; seed < 8; ++seed) {
         Grid<std::uint8_t> mask(width, height);
         for (int y = 0; y < height; ++y) {
-          for (int x = 0; x < width; ++x) mask(x, y) = random_uniform(seed, x, y, 7) < share ? 255 : 0;
+          for (int x = 0; x < width; ++x)
+            mask(x, y) = random_uniform(seed, x, y, 7) < share ? 255 : 0;
         }
         const Grid<std::int32_t> nearest = nearest_marked(mask);
         for (int y = 0; y < height; ++y) {
@@ -162,7 +171,8 @@ TEST(NearestMarked, EqualsBruteForceTiesIncluded) {
                 best_distance = dx * dx + dy * dy;
               }
             }
-            ASSERT_EQ(nearest(x, y), best) << x << ' ' << y << " seed " << seed << " share " << share;
+            ASSERT_EQ(nearest(x, y), best)
+                << x << ' ' << y << " seed " << seed << " share " << share;
           }
         }
       }
@@ -202,8 +212,9 @@ TEST(Sampling, BsplineReproducesLinesAndSmoothsParabolas) {
     }
   }
   EXPECT_NEAR(sample_bspline(line, 7.3, 11.8), 5.0 - 1.5 * 7.3 + 0.5 * 11.8, 1e-5);
-  // A cubic B-spline has the variance 1/3, so x² becomes x² + 1/3 at every place.
-  for (const double x : {5.0, 5.25, 5.5, 5.9}) EXPECT_NEAR(sample_bspline(parabola, x, 9.4), x * x + 1.0 / 3.0, 1e-4) << x;
+  // A cubic B-spline has the variance 1/3, so x² becomes x² + 1/3 everywhere.
+  for (const double x : {5.0, 5.25, 5.5, 5.9})
+    EXPECT_NEAR(sample_bspline(parabola, x, 9.4), x * x + 1.0 / 3.0, 1e-4) << x;
   EXPECT_FLOAT_EQ(sample_bspline(line, -50.0, -50.0), line(0, 0));
 }
 

@@ -5,7 +5,7 @@
 namespace belvedere {
 namespace {
 
-// Each value says where it lies; so high that several threads share the rows.
+// Each value encodes its position; high enough that several threads share the rows.
 Grid<int> numbered(int width, int height) {
   Grid<int> grid(width, height);
   for (int i = 0; i < width * height; ++i) grid[static_cast<std::size_t>(i)] = i;
@@ -18,7 +18,8 @@ TEST(GridPart, APartHasTheValuesOfItsRectangle) {
   ASSERT_EQ(part.width(), 4);
   ASSERT_EQ(part.height(), 165);
   for (int y = 0; y < part.height(); ++y)
-    for (int x = 0; x < part.width(); ++x) ASSERT_EQ(part(x, y), (y + 30) * 7 + x + 2) << x << ", " << y;
+    for (int x = 0; x < part.width(); ++x)
+      ASSERT_EQ(part(x, y), (y + 30) * 7 + x + 2) << x << ", " << y;
 }
 
 TEST(GridPart, CopyingAPartBackChangesItsRectangleAlone) {

@@ -28,7 +28,9 @@ TEST_F(InstructionSet, WidestIsWhatTheKernelSays) {
   for (std::string line; flags.empty() && std::getline(file, line);)
     if (line.starts_with("flags")) flags = line + ' ';
   if (flags.empty()) GTEST_SKIP() << "/proc/cpuinfo names no flags";
-  const auto has = [&](const char* flag) { return flags.find(' ' + std::string(flag) + ' ') != std::string::npos; };
+  const auto has = [&](const char* flag) {
+    return flags.find(' ' + std::string(flag) + ' ') != std::string::npos;
+  };
   std::string widest = "sse2";
   if (has("sse4_2")) widest = "sse4.2";
   if (has("avx")) widest = "avx";
@@ -49,17 +51,19 @@ TEST_F(InstructionSet, NarrowerOnesAreThereAndWiderOnesAreMissed) {
         EXPECT_EQ(choose_instruction_set(names[i]), names[i]);
       } else {
         EXPECT_THAT(message_of(ErrorKind::limit, [&] { choose_instruction_set(names[i]); }),
-                    AllOf(HasSubstr(instruction_set_title(names[i])), HasSubstr('"' + names[widest] + '"')));
+                    AllOf(HasSubstr(instruction_set_title(names[i])),
+                          HasSubstr('"' + names[widest] + '"')));
       }
     }
   }
-  // The environment gives nothing that the machine has not.
+  // The environment variable cannot enable what the machine lacks.
   setenv("BELVEDERE_INSTRUCTION_SET", "avx512", 1);
   EXPECT_EQ(machine_instruction_set(), machine);
 }
 
 TEST_F(InstructionSet, UnknownNamesAreUsageErrors) {
-  EXPECT_THAT(message_of(ErrorKind::usage, [] { choose_instruction_set("mmx"); }), AllOf(HasSubstr("\"mmx\""), HasSubstr("avx2")));
+  EXPECT_THAT(message_of(ErrorKind::usage, [] { choose_instruction_set("mmx"); }),
+              AllOf(HasSubstr("\"mmx\""), HasSubstr("avx2")));
   setenv("BELVEDERE_INSTRUCTION_SET", "neon", 1);
   EXPECT_THAT(message_of(ErrorKind::usage, [] { machine_instruction_set(); }),
               AllOf(HasSubstr("BELVEDERE_INSTRUCTION_SET"), HasSubstr("neon")));

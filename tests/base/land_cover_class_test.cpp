@@ -58,8 +58,10 @@ TEST(LandCoverClass, TraitsAreReadOneByOne) {
 
 TEST(LandCoverClass, WhatASceneSaysGoesBeforeStandIns) {
   for (const LandCoverClassInfo& info : land_cover_classes()) {
-    EXPECT_EQ(class_info(info.stand_in).stand_in, info.stand_in) << info.name << ": a stand-in has none of its own";
-    EXPECT_TRUE(info.id == sky || info.stand_in != sky) << info.name << ": sky is painted, not copied";
+    EXPECT_EQ(class_info(info.stand_in).stand_in, info.stand_in)
+        << info.name << ": a stand-in has none of its own";
+    EXPECT_TRUE(info.id == sky || info.stand_in != sky)
+        << info.name << ": sky is painted, not copied";
     const LandCoverClass other = info.id == water ? rock : water;
     const ClassPairs said = with_stand_ins({{info.id, other}});
     EXPECT_EQ(said.front(), std::pair(info.id, other));
@@ -73,12 +75,13 @@ TEST(LandCoverClass, SandIsCopiedFromScreeWhereNothingIsSaid) {
   EXPECT_EQ(with_stand_ins({{sand, rock}}), (ClassPairs{{sand, rock}}));
 }
 
-// docs/legends.md has a row a class, in these words.
+// docs/legends.md has a row for each class with this text.
 TEST(LandCoverClass, TheLegendsPageNamesEveryClass) {
   const std::string page = test::read_bytes(test::source_folder() + "/docs/legends.md");
   for (const LandCoverClassInfo& info : land_cover_classes()) {
     if (info.id == sky) continue;
-    EXPECT_THAT(page, HasSubstr("| `" + std::string(info.name) + "` | " + std::string(info.meaning) + " |\n"));
+    EXPECT_THAT(page, HasSubstr("| `" + std::string(info.name) + "` | " +
+                                std::string(info.meaning) + " |\n"));
   }
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// Places over a range, the same ones each time.
+// Positions over a range, the same ones each time.
 template <class F>
 void over(double low, double high, F&& f) {
   for (int k = 0; k < 20000; ++k) f(low + (high - low) * random_uniform(1, k, 0));
@@ -24,7 +24,9 @@ void over(double low, double high, F&& f) {
 long double true_cos(double x) { return std::cos(static_cast<long double>(x)); }
 long double true_sin(double x) { return std::sin(static_cast<long double>(x)); }
 
-double off(double value, long double truth) { return static_cast<double>(std::abs(static_cast<long double>(value) - truth)); }
+double off(double value, long double truth) {
+  return static_cast<double>(std::abs(static_cast<long double>(value) - truth));
+}
 
 TEST(MathExact, TurnsKeepTheirErrorBound) {
   over(-10.0, 10.0, [](double x) {
@@ -53,7 +55,10 @@ TEST(MathExact, AnglesInAllQuarters) {
   over(-pi, pi, [](double angle) {
     const double x = 3.7 * std::cos(angle);
     const double y = 3.7 * std::sin(angle);
-    EXPECT_LT(off(exact::atan2(y, x), std::atan2(static_cast<long double>(y), static_cast<long double>(x))), 6e-16) << angle;
+    EXPECT_LT(off(exact::atan2(y, x),
+                  std::atan2(static_cast<long double>(y), static_cast<long double>(x))),
+              6e-16)
+        << angle;
   });
   EXPECT_EQ(exact::atan2(0.0, 0.0), 0.0);
   EXPECT_EQ(exact::atan2(0.0, 2.0), 0.0);
@@ -65,9 +70,12 @@ TEST(MathExact, AnglesInAllQuarters) {
 TEST(MathExact, AnglesOfSlopesSinesAndCosines) {
   over(-1.5, 1.5, [](double angle) {
     const long double truth = std::tan(static_cast<long double>(angle));
-    EXPECT_LT(off(exact::tan(angle), truth), 1e-15 * std::abs(static_cast<double>(truth)) + 1e-300) << angle;
+    EXPECT_LT(off(exact::tan(angle), truth), 1e-15 * std::abs(static_cast<double>(truth)) + 1e-300)
+        << angle;
   });
-  over(-50.0, 50.0, [](double slope) { EXPECT_LT(off(exact::atan(slope), std::atan(static_cast<long double>(slope))), 6e-16) << slope; });
+  over(-50.0, 50.0, [](double slope) {
+    EXPECT_LT(off(exact::atan(slope), std::atan(static_cast<long double>(slope))), 6e-16) << slope;
+  });
   over(-1.0, 1.0, [](double x) {
     EXPECT_LT(off(exact::asin(x), std::asin(static_cast<long double>(x))), 1e-15) << x;
     EXPECT_LT(off(exact::acos(x), std::acos(static_cast<long double>(x))), 1e-15) << x;
@@ -94,26 +102,33 @@ TEST(MathExact, LogarithmsKeepTheirErrorBound) {
   over(-300.0, 300.0, [](double decades) {
     const double x = std::pow(10.0, decades);
     const long double truth = std::log2(static_cast<long double>(x));
-    EXPECT_LT(off(exact::log2(x), truth), 4e-16 * std::abs(static_cast<double>(truth)) + 1e-16) << x;
+    EXPECT_LT(off(exact::log2(x), truth), 4e-16 * std::abs(static_cast<double>(truth)) + 1e-16)
+        << x;
     const long double natural = std::log(static_cast<long double>(x));
-    EXPECT_LT(off(exact::log(x), natural), 4e-16 * std::abs(static_cast<double>(natural)) + 1e-16) << x;
+    EXPECT_LT(off(exact::log(x), natural), 4e-16 * std::abs(static_cast<double>(natural)) + 1e-16)
+        << x;
     const long double decimal = std::log10(static_cast<long double>(x));
-    EXPECT_LT(off(exact::log10(x), decimal), 6e-16 * std::abs(static_cast<double>(decimal)) + 1e-16) << x;
+    EXPECT_LT(off(exact::log10(x), decimal), 6e-16 * std::abs(static_cast<double>(decimal)) + 1e-16)
+        << x;
   });
-  for (int k = -1074; k <= 1023; ++k) EXPECT_EQ(exact::log2(std::ldexp(1.0, k)), k);  // subnormal ones as well
+  for (int k = -1074; k <= 1023; ++k)
+    EXPECT_EQ(exact::log2(std::ldexp(1.0, k)), k);  // subnormal ones as well
   EXPECT_LT(off(exact::log2(0x1.8p-1070), std::log2(0x1.8p-1070L)), 4e-13);
 }
 
 TEST(MathExact, PowersKeepTheirErrorBound) {
   over(-690.0, 690.0, [](double x) {
     const long double truth = std::exp(static_cast<long double>(x));
-    EXPECT_LT(off(exact::exp(x), truth), 4e-16 * (1.0 + std::abs(x)) * static_cast<double>(truth)) << x;
+    EXPECT_LT(off(exact::exp(x), truth), 4e-16 * (1.0 + std::abs(x)) * static_cast<double>(truth))
+        << x;
   });
   over(-6.0, 6.0, [](double decades) {
     const double base = std::pow(10.0, decades);
     for (const double exponent : {0.3, 1.0 / 2.4, 1.3, 2.4}) {
-      const long double truth = std::pow(static_cast<long double>(base), static_cast<long double>(exponent));
-      const double bound = 1e-15 * (1.0 + std::abs(exponent * std::log2(base))) * static_cast<double>(truth);
+      const long double truth =
+          std::pow(static_cast<long double>(base), static_cast<long double>(exponent));
+      const double bound =
+          1e-15 * (1.0 + std::abs(exponent * std::log2(base))) * static_cast<double>(truth);
       EXPECT_LT(off(exact::pow(base, exponent), truth), bound) << base << " ^ " << exponent;
     }
   });
@@ -129,7 +144,7 @@ TEST(MathExact, PowersKeepTheirErrorBound) {
   EXPECT_EQ(exact::exp(-exact::pow(infinity, 1.35)), 0.0);
 }
 
-// The bits themselves, taken once: a machine or compiler that gives others fails here.
+// The bits themselves, recorded once: a machine or compiler with other bits fails here.
 TEST(MathExact, TheSameBitsEverywhere) {
   std::uint64_t all = 0;
   const auto take = [&](double value) {

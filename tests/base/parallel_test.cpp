@@ -60,7 +60,9 @@ TEST(ParallelTiles, CoverTheGridOnceWithoutOverlap) {
 
 TEST(DeterministicSum, SameBitsForAnyThreadCount) {
   // Numbers whose float sum depends on its order.
-  const auto term = [](std::size_t i) { return std::sin(static_cast<double>(i)) * std::pow(10.0, static_cast<double>(i % 17)); };
+  const auto term = [](std::size_t i) {
+    return std::sin(static_cast<double>(i)) * std::pow(10.0, static_cast<double>(i % 17));
+  };
   const auto run = [&](int threads) {
     const ThreadLimit limit(threads);
     return deterministic_sum(100003, term);
@@ -77,7 +79,8 @@ TEST(DeterministicSum, IsTheSum) {
   }
 }
 
-// A task that throws cancels its own loop, never a loop inside another task: whoever called that one believes that it was done.
+// A task that throws cancels its own loop, never a loop inside another task, whose caller expects
+// it to be complete.
 TEST(ParallelRanges, AnExceptionDoesNotCutShortTheLoopsOfOtherTasks) {
   using namespace std::chrono_literals;
   std::atomic<bool> thrown{false};
@@ -85,7 +88,8 @@ TEST(ParallelRanges, AnExceptionDoesNotCutShortTheLoopsOfOtherTasks) {
   std::atomic<int> finished{0};
   const auto task = [&](int begin, int) {
     if (begin == 0) {
-      for (int i = 0; i < 200 && started == 0; ++i) std::this_thread::sleep_for(1ms);  // for another thread, where there is one
+      for (int i = 0; i < 200 && started == 0; ++i)
+        std::this_thread::sleep_for(1ms);  // for another thread, where there is one
       thrown = true;
       throw std::runtime_error("stopped");
     }

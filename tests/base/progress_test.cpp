@@ -16,12 +16,14 @@ using testing::ElementsAre;
 
 struct All : Progress {
   std::vector<std::string> heard;
-  void begin(std::string_view stage, double total) override { heard.push_back(std::string(stage) + " " + std::to_string(total)); }
+  void begin(std::string_view stage, double total) override {
+    heard.push_back(std::string(stage) + " " + std::to_string(total));
+  }
   void advance(double amount) override { heard.push_back(std::to_string(amount)); }
   void note(std::string_view text) override { heard.emplace_back(text); }
 };
 
-// A stage as the library has them.
+// A stage as in the library.
 void work(Progress& progress) {
   progress.begin("tracing", 2.0);
   progress.advance(1.0);
@@ -32,7 +34,8 @@ void work(Progress& progress) {
 TEST(Progress, WhoListensHearsEverythingInItsOrder) {
   All all;
   work(all);
-  EXPECT_THAT(all.heard, ElementsAre("tracing 2.000000", "1.000000", "a void is filled", "1.000000"));
+  EXPECT_THAT(all.heard,
+              ElementsAre("tracing 2.000000", "1.000000", "a void is filled", "1.000000"));
 }
 
 TEST(Progress, WhoListensToNotesNeedNotListenToMore) {
@@ -44,7 +47,7 @@ TEST(Progress, WhoListensToNotesNeedNotListenToMore) {
   EXPECT_THAT(notes.heard, ElementsAre("a void is filled"));
 }
 
-// It is shared by all that have nobody to tell, so it must not remember anything: not even who asked for it.
+// It is shared by all callers without a report, so it must have no state.
 TEST(Progress, TheSilentOneIsOneForAll) {
   EXPECT_EQ(&silent_progress(), &silent_progress());
   EXPECT_NO_THROW(work(silent_progress()));
@@ -55,7 +58,8 @@ TEST(RepeatedStages, OfManyPiecesAreOneStageThatTheCallerBeganAndRemarkOnce) {
   RepeatedStages pieces(all, false);
   work(pieces);
   work(pieces);
-  EXPECT_THAT(all.heard, ElementsAre("0.000000", "a void is filled", "0.000000", "0.000000", "0.000000"));
+  EXPECT_THAT(all.heard,
+              ElementsAre("0.000000", "a void is filled", "0.000000", "0.000000", "0.000000"));
 }
 
 TEST(RepeatedStages, OfFewPiecesAreToldOfOneByOneAndRemarkOnce) {
@@ -63,11 +67,12 @@ TEST(RepeatedStages, OfFewPiecesAreToldOfOneByOneAndRemarkOnce) {
   RepeatedStages pieces(all, true);
   work(pieces);
   work(pieces);
-  EXPECT_THAT(all.heard, ElementsAre("tracing 2.000000", "1.000000", "a void is filled", "1.000000",  //
-                                     "tracing 2.000000", "1.000000", "1.000000"));
+  EXPECT_THAT(all.heard,
+              ElementsAre("tracing 2.000000", "1.000000", "a void is filled", "1.000000",  //
+                          "tracing 2.000000", "1.000000", "1.000000"));
 }
 
-// Whoever is told of progress stops a job by throwing when he is: that must work in silence as well.
+// A progress callback stops a job by throwing; that must also work with silent_progress().
 TEST(RepeatedStages, LetAWishToStopThrough) {
   struct Stops : Progress {
     void advance(double) override { throw std::runtime_error("stopped"); }

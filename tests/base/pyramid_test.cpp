@@ -24,8 +24,10 @@ Grid<float> rough_terrain(int width, int height) {
   Grid<float> grid(width, height);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      const double broad = 1800.0 * std::sin(x / 60.0) * std::cos(y / 45.0) + 400.0 * std::sin(x / 5.0 + y / 7.0);
-      grid(x, y) = static_cast<float>(2500.0 + broad + 300.0 * (2.0 * random_uniform(4, x, y) - 1.0));
+      const double broad =
+          1800.0 * std::sin(x / 60.0) * std::cos(y / 45.0) + 400.0 * std::sin(x / 5.0 + y / 7.0);
+      grid(x, y) =
+          static_cast<float>(2500.0 + broad + 300.0 * (2.0 * random_uniform(4, x, y) - 1.0));
     }
   }
   return grid;
@@ -40,20 +42,26 @@ Grid<float> weighted_sum(LaplacianPyramid pyramid, const std::vector<float>& wei
 
 TEST(Pyramid, SizesHalveRoundingUp) {
   const std::vector<Grid<float>> levels = make_gaussian_pyramid(Grid<float>(37, 61, 1.F), 6);
-  const std::vector<std::pair<int, int>> sizes = {{37, 61}, {19, 31}, {10, 16}, {5, 8}, {3, 4}, {2, 2}};
+  const std::vector<std::pair<int, int>> sizes = {{37, 61}, {19, 31}, {10, 16},
+                                                  {5, 8},   {3, 4},   {2, 2}};
   ASSERT_EQ(levels.size(), sizes.size());
-  for (std::size_t i = 0; i < sizes.size(); ++i) EXPECT_EQ(std::pair(levels[i].width(), levels[i].height()), sizes[i]);
-  EXPECT_EQ(most_bands(37, 61), 5);
+  for (std::size_t i = 0; i < sizes.size(); ++i)
+    EXPECT_EQ(std::pair(levels[i].width(), levels[i].height()), sizes[i]);
+  EXPECT_EQ(max_bands(37, 61), 5);
   EXPECT_EQ(make_laplacian_pyramid(levels[0], 20).bands.size(), 5U);
-  EXPECT_EQ(most_bands(2, 100), 0);
+  EXPECT_EQ(max_bands(2, 100), 0);
   EXPECT_THROW(expand(Grid<float>(5, 5), 11, 10), Error);
 }
 
 TEST(Pyramid, ReconstructsTheInput) {
-  for (const auto& [width, height] : {std::pair{512, 512}, std::pair{513, 379}, std::pair{37, 61}, std::pair{2, 9}, std::pair{1, 1}}) {
+  for (const auto& [width, height] : {std::pair{512, 512}, std::pair{513, 379}, std::pair{37, 61},
+                                      std::pair{2, 9}, std::pair{1, 1}}) {
     const Grid<float> values = rough_terrain(width, height);
     for (const int bands : {1, 5, 30}) {
-      EXPECT_LE(largest_difference(test::reconstruct(make_laplacian_pyramid(values, bands)), values), 1e-3) << width << " x " << height;
+      EXPECT_LE(
+          largest_difference(test::reconstruct(make_laplacian_pyramid(values, bands)), values),
+          1e-3)
+          << width << " x " << height;
     }
   }
 }
@@ -62,31 +70,40 @@ TEST(Pyramid, ConstantHasNoBands) {
   const Grid<float> values(91, 40, 3333.25F);
   const LaplacianPyramid pyramid = make_laplacian_pyramid(values, 5);
   for (const Grid<float>& band : pyramid.bands) {
-    for (const float v : band) ASSERT_LE(std::abs(v), 3333.25 * 2.5e-7);  // float weights sum to 1 within two roundings
+    for (const float v : band)
+      ASSERT_LE(std::abs(v), 3333.25 * 2.5e-7);  // float weights sum to 1 within two roundings
   }
-  EXPECT_LE(largest_difference(pyramid.base, Grid<float>(pyramid.base.width(), pyramid.base.height(), 3333.25F)), 1e-3 * 2);
+  EXPECT_LE(largest_difference(pyramid.base,
+                               Grid<float>(pyramid.base.width(), pyramid.base.height(), 3333.25F)),
+            1e-3 * 2);
 }
 
 TEST(Pyramid, RampStaysARampWhateverTheWeights) {
-  for (const auto& [width, height] : {std::pair{64, 64}, std::pair{65, 50}, std::pair{7, 3}, std::pair{130, 2}}) {
+  for (const auto& [width, height] :
+       {std::pair{64, 64}, std::pair{65, 50}, std::pair{7, 3}, std::pair{130, 2}}) {
     Grid<float> ramp(width, height);
     for (int y = 0; y < height; ++y) {
-      for (int x = 0; x < width; ++x) ramp(x, y) = 100.F + 12.5F * static_cast<float>(x) - 7.25F * static_cast<float>(y);
+      for (int x = 0; x < width; ++x)
+        ramp(x, y) = 100.F + 12.5F * static_cast<float>(x) - 7.25F * static_cast<float>(y);
     }
-    const Grid<float> out = weighted_sum(make_laplacian_pyramid(ramp, 5), {0.F, 3.F, 0.5F, 5.F, 2.F});
+    const Grid<float> out =
+        weighted_sum(make_laplacian_pyramid(ramp, 5), {0.F, 3.F, 0.5F, 5.F, 2.F});
     EXPECT_LE(largest_difference(out, ramp), 5e-3) << width << " x " << height;
   }
 }
 
 TEST(Pyramid, ReduceKeepsARampOnGridsOfTwoCells) {
-  for (const auto& [width, height] : {std::pair{2, 2}, std::pair{9, 2}, std::pair{2, 9}, std::pair{3, 3}}) {
+  for (const auto& [width, height] :
+       {std::pair{2, 2}, std::pair{9, 2}, std::pair{2, 9}, std::pair{3, 3}}) {
     Grid<float> ramp(width, height);
     for (int y = 0; y < height; ++y) {
-      for (int x = 0; x < width; ++x) ramp(x, y) = 10.F + 3.F * static_cast<float>(x) - 5.F * static_cast<float>(y);
+      for (int x = 0; x < width; ++x)
+        ramp(x, y) = 10.F + 3.F * static_cast<float>(x) - 5.F * static_cast<float>(y);
     }
     const Grid<float> half = reduce(ramp);
     for (int y = 0; y < half.height(); ++y) {
-      for (int x = 0; x < half.width(); ++x) EXPECT_NEAR(half(x, y), ramp(2 * x, 2 * y), 1e-4) << width << " x " << height;
+      for (int x = 0; x < half.width(); ++x)
+        EXPECT_NEAR(half(x, y), ramp(2 * x, 2 * y), 1e-4) << width << " x " << height;
     }
   }
 }
@@ -104,13 +121,16 @@ TEST(Pyramid, IsLinear) {
   const Grid<float> fb = weighted_sum(make_laplacian_pyramid(b, 4), weights);
   Grid<float> expected(75, 90);
   for (std::size_t i = 0; i < a.size(); ++i) expected[i] = 0.5F * fa[i] - 2.F * fb[i];
-  EXPECT_LE(largest_difference(weighted_sum(make_laplacian_pyramid(mix, 4), weights), expected), 5e-3);
+  EXPECT_LE(largest_difference(weighted_sum(make_laplacian_pyramid(mix, 4), weights), expected),
+            5e-3);
 }
 
-// The 5-tap kernel's answer to a wave of angular frequency w, radians a cell: the transform of [.05 .25 .4 .25 .05].
+// Response of the 5-tap kernel to a wave of angular frequency w, radians per cell: the transform of
+// [.05 .25 .4 .25 .05].
 double kernel_gain(double w) { return 0.4 + 0.5 * std::cos(w) + 0.1 * std::cos(2.0 * w); }
 
-// How much of cos(w x) band `level` of a wave along x has, measured far from the borders over whole periods.
+// Share of cos(w x) in band `level` of a wave along x, measured far from the borders over whole
+// periods.
 double band_gain(int level, int periods, int cells) {
   const double w = 2.0 * std::numbers::pi * periods / cells;
   Grid<float> wave(4 * cells, 40);
@@ -122,27 +142,31 @@ double band_gain(int level, int periods, int cells) {
   const int step = 1 << level;
   double sum = 0.0;
   int count = 0;
-  for (int x = cells; x < 2 * cells; x += step, ++count) sum += band(x / step, band.height() / 2) * std::cos(w * x);
+  for (int x = cells; x < 2 * cells; x += step, ++count)
+    sum += band(x / step, band.height() / 2) * std::cos(w * x);
   return 2.0 * sum / count;
 }
 
 TEST(Pyramid, GainOfAWaveInTheFinestBand) {
   const int cells = 128;
-  for (const int periods : {1, 4, 10, 17, 25, 31, 40, 50, 60}) {  // not 32: there the wave and its image coincide
+  for (const int periods :
+       {1, 4, 10, 17, 25, 31, 40, 50, 60}) {  // not 32: there the wave and its image coincide
     const double h = kernel_gain(2.0 * std::numbers::pi * periods / cells);
     EXPECT_NEAR(band_gain(0, periods, cells), 1.0 - h * h, 1e-5) << periods;
   }
 }
 
 TEST(Pyramid, GainOfAWaveInCoarserBands) {
-  // A wave that level 1 or 2 can hold: each reduction takes H at its own frequency, then the band's own 1 - H².
+  // A wave that level 1 or 2 can represent: each reduction multiplies by H at its own frequency,
+  // then the band by 1 - H².
   const int cells = 128;
   for (const int periods : {1, 3, 7, 11}) {
     const double w = 2.0 * std::numbers::pi * periods / cells;
     const double h2 = kernel_gain(2.0 * w);
     const double h4 = kernel_gain(4.0 * w);
     EXPECT_NEAR(band_gain(1, periods, cells), kernel_gain(w) * (1.0 - h2 * h2), 1e-5) << periods;
-    EXPECT_NEAR(band_gain(2, periods, cells), kernel_gain(w) * h2 * (1.0 - h4 * h4), 1e-5) << periods;
+    EXPECT_NEAR(band_gain(2, periods, cells), kernel_gain(w) * h2 * (1.0 - h4 * h4), 1e-5)
+        << periods;
   }
 }
 
@@ -157,14 +181,16 @@ TEST(Pyramid, ReduceEqualsTheDefinition) {
       if (i >= n) return 2.0 * f(n - 1) - f(2 * (n - 1) - i);
       return f(i);
     };
-    return along(y, values.height(),
-                 [&](int v) { return along(x, values.width(), [&](int u) { return static_cast<double>(values(u, v)); }); });
+    return along(y, values.height(), [&](int v) {
+      return along(x, values.width(), [&](int u) { return static_cast<double>(values(u, v)); });
+    });
   };
   for (int y = 0; y < half.height(); ++y) {
     for (int x = 0; x < half.width(); ++x) {
       double sum = 0.0;
       for (int j = -2; j <= 2; ++j) {
-        for (int i = -2; i <= 2; ++i) sum += kernel[i + 2] * kernel[j + 2] * at(2 * x + i, 2 * y + j);
+        for (int i = -2; i <= 2; ++i)
+          sum += kernel[i + 2] * kernel[j + 2] * at(2 * x + i, 2 * y + j);
       }
       ASSERT_NEAR(half(x, y), sum, 2e-3) << x << ' ' << y;
     }

@@ -11,16 +11,17 @@ namespace {
 
 constexpr auto streams = static_cast<std::uint16_t>(Stream::count);
 
-// Seeds of all streams and some of their parts, of pictures 0…1000 as they follow each other.
+// Seeds of all streams and some of their parts, of pictures 0…1000.
 std::vector<std::uint64_t> all_seeds(std::uint64_t pictures) {
   std::vector<std::uint64_t> seeds;
   for (std::uint64_t picture = 0; picture <= pictures; ++picture)
     for (std::uint16_t stream = 0; stream < streams; ++stream)
-      for (std::uint64_t part = 0; part < 3; ++part) seeds.push_back(stream_seed(picture, static_cast<Stream>(stream), part));
+      for (std::uint64_t part = 0; part < 3; ++part)
+        seeds.push_back(stream_seed(picture, static_cast<Stream>(stream), part));
   return seeds;
 }
 
-// Adding numbers of streams to seeds would fail: stream 7 of seed 3 would be stream 6 of seed 4.
+// Adding stream numbers to seeds would fail: stream 7 of seed 3 would equal stream 6 of seed 4.
 TEST(RandomStreams, NoTwoAreTheSameForAnySeedOrPart) {
   std::vector<std::uint64_t> seeds = all_seeds(1000);
   const std::size_t count = seeds.size();
@@ -30,12 +31,13 @@ TEST(RandomStreams, NoTwoAreTheSameForAnySeedOrPart) {
   EXPECT_EQ(seeds.size(), count);
 }
 
-// What is drawn from streams of neighbouring seeds has nothing to do with each other: correlation of n draws is below 4 / √n.
+// Streams of neighbouring seeds are uncorrelated: correlation of n draws is below 4 / √n.
 TEST(RandomStreams, NeighboursDoNotGoTogether) {
   constexpr int draws = 4096;
   const auto correlation = [](std::uint64_t a, std::uint64_t b) {
     double sum = 0.0;
-    for (int k = 0; k < draws; ++k) sum += (random_uniform(a, k, 0) - 0.5) * (random_uniform(b, k, 0) - 0.5);
+    for (int k = 0; k < draws; ++k)
+      sum += (random_uniform(a, k, 0) - 0.5) * (random_uniform(b, k, 0) - 0.5);
     return 12.0 * sum / draws;
   };
   const std::uint64_t here = stream_seed(7, Stream::wash);

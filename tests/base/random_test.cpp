@@ -10,7 +10,7 @@ namespace belvedere {
 namespace {
 
 TEST(Random, IsAFixedFunctionOfItsKey) {
-  // Pinned: a change of these numbers changes every picture ever made.
+  // Pinned: a change of these numbers changes every picture.
   EXPECT_EQ(random_bits(1, 2, 3, 4), random_bits(1, 2, 3, 4));
   static_assert(random_bits(1, 2, 3, 4) == 0xbc72b7ce8be59402ULL);
   static_assert(random_bits(0, -5, 0) == 0xff425e4cb46769adULL);
@@ -49,7 +49,8 @@ TEST(Random, UniformFillsTheUnitIntervalEvenly) {
 }
 
 TEST(Random, NeighboursAreIndependent) {
-  // Correlation with the next cell, the next row, the next seed and the next draw: 0 within four deviations.
+  // Correlation with the next cell, the next row, the next seed and the next draw: 0 within four
+  // standard deviations.
   const int side = 300;
   std::array<double, 4> products{};
   for (int y = 0; y < side; ++y) {

@@ -8,7 +8,8 @@
 
 namespace belvedere::test {
 
-// Equation 1 of Jenny, Jenny & Hurni (2011): the base and all bands summed up; identical to the input up to float rounding.
+// Equation 1 of Jenny, Jenny & Hurni (2011): the sum of the base and all bands; identical to the
+// input up to float rounding.
 inline Grid<float> reconstruct(const LaplacianPyramid& pyramid) {
   Grid<float> sum = pyramid.base;
   for (auto band = pyramid.bands.rbegin(); band != pyramid.bands.rend(); ++band) {

@@ -1,5 +1,5 @@
 # Installs what is built into a scratch folder, builds this folder's program against that, runs it, and looks at what it wrote.
-# cmake -D BUILD=… -D SOURCE=… -D COMPILER=… -D BUILD_TYPE=… -D FLAGS=… -P check.cmake. Nothing of the project is built anew.
+# cmake -D BUILD=… -D SOURCE=… -D COMPILER=… -D BUILD_TYPE=… -D FLAGS=… -P check.cmake. Nothing of the project is built again.
 set(scratch ${BUILD}/consumer)
 file(REMOVE_RECURSE ${scratch})
 file(MAKE_DIRECTORY ${scratch}/out)

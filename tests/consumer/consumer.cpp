@@ -1,4 +1,5 @@
-// From an elevation model to guidance buffers by the library alone: consumer FOLDER writes hill.asc and guidance.exr there.
+// From an elevation model to guidance buffers by the library alone: consumer FOLDER writes hill.asc
+// and guidance.exr there.
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -24,10 +25,13 @@ constexpr double cell_m = 30.0;
 // A hill with furrows on a plain of 500 m.
 void write_hill(const std::string& path) {
   std::ofstream out(path);
-  out << "ncols " << side << "\nnrows " << side << "\nxllcorner 600000\nyllcorner 5200000\ncellsize " << cell_m << "\n";
+  out << "ncols " << side << "\nnrows " << side
+      << "\nxllcorner 600000\nyllcorner 5200000\ncellsize " << cell_m << "\n";
   for (int y = 0; y < side; ++y) {
     for (int x = 0; x < side; ++x)
-      out << 500.0 + std::fmax(0.0, 800.0 - 18.0 * std::hypot(x - 60, y - 60)) + 8.0 * std::sin(0.9 * x) << (x + 1 < side ? ' ' : '\n');
+      out << 500.0 + std::fmax(0.0, 800.0 - 18.0 * std::hypot(x - 60, y - 60)) +
+                 8.0 * std::sin(0.9 * x)
+          << (x + 1 < side ? ' ' : '\n');
   }
 }
 
@@ -37,11 +41,13 @@ void trace_hill(const std::string& folder) {
   RasterSource source;
   source.path = folder + "/hill.asc";
   source.crs = "EPSG:32632";
-  const auto dem = std::make_shared<const Dem>(read_dem({.sources = {source}, .crs = {}, .cell_m = 0.0, .extent = {}}, progress));
+  const auto dem = std::make_shared<const Dem>(
+      read_dem({.sources = {source}, .crs = {}, .cell_m = 0.0, .extent = {}}, progress));
 
   GeneralizeParameters bands;
   bands.foreground = bands.background = {1.F, 1.F, 0.5F, 0.F};
-  Grid<float> generalized_m = generalize(dem->altitude_m, {dem->transform.cell_x, dem->transform.cell_y}, {}, bands, progress);
+  Grid<float> generalized_m = generalize(
+      dem->altitude_m, {dem->transform.cell_x, dem->transform.cell_y}, {}, bands, progress);
 
   const glm::dvec2 viewer(601800.0, 5196000.0);  // south of it
   const DeformedSurface surface = deform(generalized_m, dem->transform, viewer, {viewer, 0.0}, {});
@@ -52,11 +58,14 @@ void trace_hill(const std::string& folder) {
   view.eye = {viewer, 2500.0};
   LandCover meadow;
   meadow.classes.transform = dem->transform;
-  meadow.classes.cells = Grid<LandCoverClass>(dem->width(), dem->height(), LandCoverClass::alpine_grass);
-  const TerrainModel terrain = make_terrain_model(dem, std::move(generalized_m), std::make_shared<const LandCover>(std::move(meadow)), 1.0);
-  const GuidanceBuffers guidance =
-      trace_guidance(terrain, surface, tracer, *make_camera(view), {}, {0, 0, view.width, view.height}, progress);
-  if (guidance.is_sky(guidance.depth_m.index(48, 32))) throw Error(ErrorKind::bug, "consumer", "no hill in the middle of the picture");
+  meadow.classes.cells =
+      Grid<LandCoverClass>(dem->width(), dem->height(), LandCoverClass::alpine_grass);
+  const TerrainModel terrain = make_terrain_model(
+      dem, std::move(generalized_m), std::make_shared<const LandCover>(std::move(meadow)), 1.0);
+  const GuidanceBuffers guidance = trace_guidance(terrain, surface, tracer, *make_camera(view), {},
+                                                  {0, 0, view.width, view.height}, progress);
+  if (guidance.is_sky(guidance.depth_m.index(48, 32)))
+    throw Error(ErrorKind::bug, "consumer", "no hill in the middle of the picture");
   write_guidance(folder + "/guidance.exr", guidance, {{"made_by", "consumer"}});
 }
 

@@ -1,6 +1,4 @@
-// Figures of pictures, for whoever works on how things are painted. They are no part of the program; prints JSON.
-//   measure_pictures paintings PICTURE[=SCALE] …      what gives a picture away as computed (tests/renderer/exemplar/painting_figures.h)
-//   measure_pictures textures MODEL CROP PICTURE …    how near textures, made by whatever program, come to a crop; first its own halves
+// Figures of pictures, for developers of painting methods. Not part of the program; prints JSON.
 #include <array>
 #include <cstdio>
 #include <exception>
@@ -40,7 +38,8 @@ Json paintings(const Words& words) {
   for (const std::string& word : words) {
     const std::size_t at = word.rfind('=');
     const Grid<glm::vec3> picture =
-        shrink_picture(read_picture(word.substr(0, at)), at == std::string::npos ? 1.0 : std::stod(word.substr(at + 1)));
+        shrink_picture(read_picture(word.substr(0, at)),
+                       at == std::string::npos ? 1.0 : std::stod(word.substr(at + 1)));
     const PaintingFigures figures = measure_painting(picture);
     Json one = Json::object()
                    .add("picture", Json::text(word))
@@ -53,11 +52,14 @@ Json paintings(const Words& words) {
 }
 
 Json textures(const Words& words) {
-  if (words.size() < 3) throw Error(ErrorKind::usage, "measure_pictures textures", "too few words", "a model, its crop, pictures");
+  if (words.size() < 3)
+    throw Error(ErrorKind::usage, "measure_pictures textures", "too few words",
+                "a model, its crop, pictures");
   const CliqueModel model = read_model(words[0]);
   const tools::TextureCrop crop = tools::read_crop(words[1], "");
   Json all = Json::array(
-      {tools::with_figures(Json::object().add("picture", Json::text("halves of the crop")), halves_figures(crop.picture, model, {}))});
+      {tools::with_figures(Json::object().add("picture", Json::text("halves of the crop")),
+                           halves_figures(crop.picture, model, {}))});
   for (std::size_t i = 2; i < words.size(); ++i) {
     const Grid<Rgb8> picture = tools::read_crop(words[i], "").picture;
     const LayoutFigures layout = layout_figures(crop.picture, picture);
@@ -77,10 +79,12 @@ int main(int count, char** words) {
   try {
     const std::string what = count > 2 ? words[1] : "";
     if (what != "paintings" && what != "textures")
-      throw belvedere::Error(belvedere::ErrorKind::usage, "measure_pictures", "what shall it measure?",
+      throw belvedere::Error(belvedere::ErrorKind::usage, "measure_pictures", "missing arguments",
                              "paintings or textures, and pictures");
     const belvedere::Words rest(words + 2, words + count);
-    std::puts((what == "paintings" ? belvedere::paintings(rest) : belvedere::textures(rest)).str().c_str());
+    std::puts((what == "paintings" ? belvedere::paintings(rest) : belvedere::textures(rest))
+                  .str()
+                  .c_str());
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());

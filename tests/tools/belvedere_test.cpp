@@ -1,4 +1,5 @@
-// The program as users meet it: exit statuses, messages, what it writes. Each test runs the built program.
+// The program as users meet it: exit statuses, messages, what it writes. Each test runs the built
+// program.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -32,10 +33,12 @@ using ::testing::StartsWith;
 TEST_F(Program, HelpAndVersionAreAnswers) {
   const Outcome help = run({"--help"});
   EXPECT_EQ(help.status, 0);
-  EXPECT_THAT(help.out, AllOf(HasSubstr("render"), HasSubstr("synthesize"), HasSubstr("Exit status"), HasSubstr("scenes/karwendel.toml")));
+  EXPECT_THAT(help.out, AllOf(HasSubstr("render"), HasSubstr("synthesize"),
+                              HasSubstr("Exit status"), HasSubstr("scenes/karwendel.toml")));
   EXPECT_THAT(help.err, IsEmpty());
   EXPECT_THAT(run({"--version"}).out, AllOf(HasSubstr("belvedere 0."), HasSubstr("Embree")));
-  for (const char* command : {"render", "guidance", "synthesize", "check", "deform", "info", "diff", "schema"}) {
+  for (const char* command :
+       {"render", "guidance", "synthesize", "check", "deform", "info", "diff", "schema"}) {
     const Outcome one = run({command, "--help"});
     EXPECT_EQ(one.status, 0) << command;
     EXPECT_THAT(one.out, HasSubstr("  belvedere " + std::string(command))) << "no example";
@@ -44,16 +47,17 @@ TEST_F(Program, HelpAndVersionAreAnswers) {
 }
 
 TEST_F(Program, WrongCommandLinesAreUsageErrors) {
-  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{{},
-                                                                                         {"nonsense"},
-                                                                                         {"render", "--nonsense"},
-                                                                                         {"info"},
-                                                                                         {"diff", "a"},
-                                                                                         {"render", "a", "b"},
-                                                                                         {"render", "x.toml", "--threads", "many"},
-                                                                                         {"render", "x.toml", "--tile", "0"},
-                                                                                         {"synthesize"},
-                                                                                         {"diff", "a", "b", "--max-mean", "-1"}}) {
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{},
+                                             {"nonsense"},
+                                             {"render", "--nonsense"},
+                                             {"info"},
+                                             {"diff", "a"},
+                                             {"render", "a", "b"},
+                                             {"render", "x.toml", "--threads", "many"},
+                                             {"render", "x.toml", "--tile", "0"},
+                                             {"synthesize"},
+                                             {"diff", "a", "b", "--max-mean", "-1"}}) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.status, 2) << fmt::format("{}", fmt::join(arguments, " "));
     EXPECT_THAT(outcome.err, StartsWith("belvedere: "));
@@ -63,10 +67,15 @@ TEST_F(Program, WrongCommandLinesAreUsageErrors) {
 
 TEST_F(Program, CommandsThatAreMissingOrMisspeltAreAskedFor) {
   const auto said = [&](const std::vector<std::string>& arguments) { return run(arguments).err; };
-  EXPECT_THAT(said({}), HasSubstr("what shall belvedere do?\n  allowed: new, render, guidance"));
-  EXPECT_THAT(said({"rendr", "x.toml"}), HasSubstr("belvedere has no command \"rendr\"; did you mean \"render\"?"));
-  EXPECT_THAT(said({"exemplar"}), HasSubstr("what shall belvedere exemplar do?\n  allowed: check, paint, segment."));
-  EXPECT_THAT(said({"exemplar", "pain"}), HasSubstr("belvedere exemplar has no command \"pain\"; did you mean \"paint\"?"));
+  EXPECT_THAT(said({}),
+              HasSubstr("missing subcommand of belvedere\n  allowed: new, render, guidance"));
+  EXPECT_THAT(said({"rendr", "x.toml"}),
+              HasSubstr("belvedere has no command \"rendr\"; did you mean \"render\"?"));
+  EXPECT_THAT(
+      said({"exemplar"}),
+      HasSubstr("missing subcommand of belvedere exemplar\n  allowed: check, paint, segment;"));
+  EXPECT_THAT(said({"exemplar", "pain"}),
+              HasSubstr("belvedere exemplar has no command \"pain\"; did you mean \"paint\"?"));
   EXPECT_THAT(said({"exemplar", "xyz"}), Not(HasSubstr("did you mean")));
   // Where there is a command, what is wrong with its options is said.
   EXPECT_THAT(said({"exemplar", "paint"}), HasSubstr("--out is required"));
@@ -79,11 +88,13 @@ TEST_F(Program, SceneMistakesNameFileLineAndColumn) {
   for (const char* command : {"check", "render", "guidance"}) {
     const Outcome outcome = run({command, scene});
     EXPECT_EQ(outcome.status, 2);
-    EXPECT_THAT(outcome.err, AllOf(HasSubstr(scene + ":3:1: "), HasSubstr("did you mean \"pitch_deg\"")));
+    EXPECT_THAT(outcome.err,
+                AllOf(HasSubstr(scene + ":3:1: "), HasSubstr("did you mean \"pitch_deg\"")));
   }
   const Outcome set = run({"check", write_scene_file(), "--set", "output.width=1000000000"});
   EXPECT_EQ(set.status, 2);
-  EXPECT_THAT(set.err, AllOf(HasSubstr("--set output.width=1000000000"), HasSubstr("16 … 65535 px")));
+  EXPECT_THAT(set.err,
+              AllOf(HasSubstr("--set output.width=1000000000"), HasSubstr("16 … 65535 px")));
 }
 
 TEST_F(Program, DeepAndHugeScenesAreRefusedAtOnce) {
@@ -105,10 +116,12 @@ TEST_F(Program, DeepAndHugeScenesAreRefusedAtOnce) {
 }
 
 TEST_F(Program, FilesOutsideTheAllowedFoldersAreRefused) {
-  const std::string scene = write("out.toml", "version = 1\n[[terrain.sources]]\nfile = \"../../etc/passwd\"\n");
+  const std::string scene =
+      write("out.toml", "version = 1\n[[terrain.sources]]\nfile = \"../../etc/passwd\"\n");
   EXPECT_EQ(run({"check", scene}).status, 2);
   fs::create_symlink("/etc/passwd", path("dem.tif"));
-  const Outcome outcome = run({"check", write("link.toml", "version = 1\n[[terrain.sources]]\nfile = \"dem.tif\"\n")});
+  const Outcome outcome =
+      run({"check", write("link.toml", "version = 1\n[[terrain.sources]]\nfile = \"dem.tif\"\n")});
   EXPECT_EQ(outcome.status, 2);
   EXPECT_THAT(outcome.err, AllOf(HasSubstr("link.toml:3:8"), HasSubstr("outside")));
 }
@@ -120,8 +133,10 @@ TEST_F(Program, SignalsStopItAndASecondOneEndsIt) {
   const auto start_tracing = [&] {
     fs::remove(path("stderr"));
     const pid_t child = start({"guidance", scene, "--out", path("result"), "--threads", "1"});
-    // The terrain is done when the first lines stand in the log.
-    for (int i = 0; i < 1000 && read_bytes(path("stderr")).find("building the ray tracer") == std::string::npos; ++i)
+    // The terrain is done when the first lines are in the log.
+    for (int i = 0; i < 1000 &&
+                    read_bytes(path("stderr")).find("building the ray tracer") == std::string::npos;
+         ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     return child;
   };
@@ -141,21 +156,23 @@ TEST_F(Program, SignalsStopItAndASecondOneEndsIt) {
 }
 
 TEST_F(Program, ClosedStreamsDoNoHarm) {
-  // A reader that went away is no failure; a full disk is one.
+  // A reader that closes the pipe is not an error; a full disk is one.
   std::array<int, 2> ends{};
   ASSERT_EQ(pipe(ends.data()), 0);
   close(ends[0]);
   EXPECT_EQ(run_prepared({"schema"}, [&] { dup2(ends[1], STDOUT_FILENO); }).status, 0);
   close(ends[1]);
-  const Outcome full = run_prepared({"schema"}, [] { dup2(open("/dev/full", O_WRONLY), STDOUT_FILENO); });
+  const Outcome full =
+      run_prepared({"schema"}, [] { dup2(open("/dev/full", O_WRONLY), STDOUT_FILENO); });
   EXPECT_EQ(full.status, 4);
   EXPECT_THAT(full.err, HasSubstr("standard output"));
   // With no stdout at all, the first file that is opened must not become it.
-  const Outcome none = run_prepared({"guidance", write_scene_file(), "--out", path("result"), "--json"}, [] {
-    close(STDIN_FILENO);
-    close(STDOUT_FILENO);
-    close(STDERR_FILENO);
-  });
+  const Outcome none =
+      run_prepared({"guidance", write_scene_file(), "--out", path("result"), "--json"}, [] {
+        close(STDIN_FILENO);
+        close(STDOUT_FILENO);
+        close(STDERR_FILENO);
+      });
   EXPECT_EQ(none.status, 0);
   EXPECT_EQ(read_image_info(path("result/guidance.exr")).width, 96);
 }
@@ -163,20 +180,30 @@ TEST_F(Program, ClosedStreamsDoNoHarm) {
 TEST_F(Program, LocaleChangesNothing) {
   const std::string scene = write_scene_file();
   // From the start of the process, where libraries may read them, and in all that is made.
-  const std::vector<std::string> german = {"LC_ALL=de_DE.UTF-8", "LC_NUMERIC=de_DE.UTF-8", "BELVEDERE_CACHE="};
-  ASSERT_EQ(finish(execute({"guidance", scene, "--out", path("de"), "--set", "camera.pitch_deg=-20.5", "--quiet"}, german)).status, 0);
-  ASSERT_EQ(run({"guidance", scene, "--out", path("c"), "--set", "camera.pitch_deg=-20.5", "--quiet"}).status, 0);
+  const std::vector<std::string> german = {"LC_ALL=de_DE.UTF-8", "LC_NUMERIC=de_DE.UTF-8",
+                                           "BELVEDERE_CACHE="};
+  ASSERT_EQ(finish(execute({"guidance", scene, "--out", path("de"), "--set",
+                            "camera.pitch_deg=-20.5", "--quiet"},
+                           german))
+                .status,
+            0);
+  ASSERT_EQ(
+      run({"guidance", scene, "--out", path("c"), "--set", "camera.pitch_deg=-20.5", "--quiet"})
+          .status,
+      0);
   EXPECT_EQ(read_bytes(path("de/guidance.exr")), read_bytes(path("c/guidance.exr")));
 }
 
 TEST_F(Program, TooLittleMemoryIsALimit) {
-  const Outcome wide = run({"render", write_scene_file(), "--out", path("result"), "--memory", "1"});
+  const Outcome wide =
+      run({"render", write_scene_file(), "--out", path("result"), "--memory", "1"});
   EXPECT_EQ(wide.status, 5);
   EXPECT_THAT(wide.err, HasSubstr("MiB"));
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "sanitizers need more address space than the rest of this test allows";
 #endif
-  // An allocation that fails: a grey TIFF of 400 MB that takes no disk, 4.5 GiB once it is a picture.
+  // An allocation that fails: a grey TIFF of 400 MB that takes no disk, 4.5 GiB once it is a
+  // picture.
   const std::string large = write_labels(
       "large.tif", 20000, 20000, [](int, int) { return 0; }, false);
   const Outcome starved = run_prepared({"diff", large, large}, [] {

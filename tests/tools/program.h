@@ -40,13 +40,17 @@ class Program : public ::testing::Test {
  protected:
   std::string path(const std::string& name) const { return folder_ / name; }
 
-  // Starts the program with stdout and stderr in files, `environment` ("NAME=value") added, and the cache that tests share.
-  pid_t start(const std::vector<std::string>& arguments, const std::vector<std::string>& environment = {}) const {
+  // Starts the program with stdout and stderr in files, `environment` ("NAME=value") added, and the
+  // cache that tests share.
+  pid_t start(const std::vector<std::string>& arguments,
+              const std::vector<std::string>& environment = {}) const {
     if (!test::has_program_server()) return execute(arguments, environment);
-    return test::start_in_server(arguments, with_cache(environment), path("stdout"), path("stderr"));
+    return test::start_in_server(arguments, with_cache(environment), path("stdout"),
+                                 path("stderr"));
   }
   // As a process of its own, as users do; `prepare` runs in the child before it.
-  pid_t execute(const std::vector<std::string>& arguments, const std::vector<std::string>& environment = {},
+  pid_t execute(const std::vector<std::string>& arguments,
+                const std::vector<std::string>& environment = {},
                 const std::function<void()>& prepare = {}) const {
     const std::string program = test::build_folder() + "/belvedere";
     const std::string out = path("stdout");
@@ -68,27 +72,36 @@ class Program : public ::testing::Test {
   Outcome finish(pid_t child) const {
     int status = 0;
     if (waitpid(child, &status, 0) < 0) status = test::wait_in_server(child);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status), read_bytes(path("stdout")), read_bytes(path("stderr"))};
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status),
+            read_bytes(path("stdout")), read_bytes(path("stderr"))};
   }
-  Outcome run(const std::vector<std::string>& arguments, const std::vector<std::string>& environment = {}) const {
+  Outcome run(const std::vector<std::string>& arguments,
+              const std::vector<std::string>& environment = {}) const {
     return finish(start(arguments, environment));
   }
-  Outcome run_prepared(const std::vector<std::string>& arguments, const std::function<void()>& prepare) const {
+  Outcome run_prepared(const std::vector<std::string>& arguments,
+                       const std::function<void()>& prepare) const {
     return finish(execute(arguments, {}, prepare));
   }
-  std::string write(const std::string& name, const std::string& text) const { return folder_.write(name, text); }
-  std::string write_picture(const std::string& name, int width, int height, const std::function<glm::vec3(int, int)>& colour) const {
+  std::string write(const std::string& name, const std::string& text) const {
+    return folder_.write(name, text);
+  }
+  std::string write_picture(const std::string& name, int width, int height,
+                            const std::function<glm::vec3(int, int)>& colour) const {
     Grid<glm::vec3> picture(width, height);
     for (int y = 0; y < height; ++y)
       for (int x = 0; x < width; ++x) picture(x, y) = colour(x, y);
     write_png8(path(name), picture, {});
     return path(name);
   }
-  // A grey image, which the program itself never writes: a TIFF by hand, 8 bit, one strip. Without `fill` all of it is a hole of the file.
-  std::string write_labels(const std::string& name, int width, int height, const std::function<int(int, int)>& label,
-                           bool fill = true) const {
+  // A grey image, which the program itself never writes: a TIFF by hand, 8 bit, one strip. Without
+  // `fill` all of it is a hole of the file.
+  std::string write_labels(const std::string& name, int width, int height,
+                           const std::function<int(int, int)>& label, bool fill = true) const {
     std::string bytes("II*\0\x08\0\0\0", 8);
-    const auto u16 = [&](unsigned v) { bytes += {static_cast<char>(v & 0xff), static_cast<char>(v >> 8)}; };
+    const auto u16 = [&](unsigned v) {
+      bytes += {static_cast<char>(v & 0xff), static_cast<char>(v >> 8)};
+    };
     const auto entry = [&](unsigned tag, unsigned type, unsigned long value) {
       u16(tag);
       u16(type);
@@ -111,17 +124,21 @@ class Program : public ::testing::Test {
     for (int y = 0; fill && y < height; ++y)
       for (int x = 0; x < width; ++x) bytes += static_cast<char>(label(x, y));
     const std::string file = write(name, bytes);
-    std::filesystem::resize_file(file, 8 + 2 + entries * 12 + 4 + static_cast<std::uintmax_t>(width) * static_cast<std::uintmax_t>(height));
+    std::filesystem::resize_file(
+        file, 8 + 2 + entries * 12 + 4 +
+                  static_cast<std::uintmax_t>(width) * static_cast<std::uintmax_t>(height));
     return file;
   }
   // A scene of small synthetic mountains.
   std::string write_scene_file(const std::string& more = "") const {
     return write("scene.toml", "version = 1\n" + more + "\n" + test::small_mountains +
-                                   "[synthesis]\nenabled = false\n[output]\nwidth = 96\nheight = 64\nsheet_width_mm = 96\n");
+                                   "[synthesis]\nenabled = false\n[output]\nwidth = 96\nheight = "
+                                   "64\nsheet_width_mm = 96\n");
   }
   // Small terrain, a picture that takes minutes with one thread.
   std::string write_large_scene() const {
-    return write("large.toml", "version = 1\n" + test::small_mountains + "[output]\nwidth = 16000\nheight = 8000\n");
+    return write("large.toml", "version = 1\n" + test::small_mountains +
+                                   "[output]\nwidth = 16000\nheight = 8000\n");
   }
   // For tests of what the cache might hide: nothing is kept.
   static std::vector<std::string> without_cache() { return {"BELVEDERE_CACHE="}; }

@@ -33,12 +33,14 @@ std::string message_of(const std::vector<std::string>& fields) {
 
 std::vector<std::string> fields_of(const std::string& bytes) {
   std::vector<std::string> fields;
-  for (std::size_t at = 0; at < bytes.size(); at += fields.back().size() + 1) fields.emplace_back(bytes.c_str() + at);
+  for (std::size_t at = 0; at < bytes.size(); at += fields.back().size() + 1)
+    fields.emplace_back(bytes.c_str() + at);
   return fields;
 }
 
-// fields: run, stdout, stderr, number of variables, variables, arguments. Does not return; a thread of a library that was there at the
-// fork is not here, so what the library does at exit could wait for it: _exit.
+// fields: run, stdout, stderr, number of variables, variables, arguments. Does not return; a thread
+// of a library that was there at the fork is not here, so what the library does at exit could wait
+// for it: _exit.
 [[noreturn]] void run_in_child(const std::vector<std::string>& fields) {
   const auto arguments = fields.begin() + 4 + std::stol(fields[3]);
   std::vector<std::string> variables(fields.begin() + 4, arguments);
@@ -60,7 +62,8 @@ std::vector<std::string> fields_of(const std::string& bytes) {
   while (true) {
     const ssize_t size = recv(socket, buffer.data(), buffer.size(), 0);
     if (size <= 0) _exit(0);  // the tests are done
-    const std::vector<std::string> fields = fields_of(buffer.substr(0, static_cast<std::size_t>(size)));
+    const std::vector<std::string> fields =
+        fields_of(buffer.substr(0, static_cast<std::size_t>(size)));
     int answer = 0;
     if (fields[0] == "run") {
       answer = fork();
@@ -79,16 +82,20 @@ std::vector<std::string> fields_of(const std::string& bytes) {
 int ask_server(const std::vector<std::string>& fields) {
   const std::string bytes = message_of(fields);
   int answer = 0;
-  if (send(server, bytes.data(), bytes.size(), MSG_NOSIGNAL) != static_cast<ssize_t>(bytes.size()) ||
+  if (send(server, bytes.data(), bytes.size(), MSG_NOSIGNAL) !=
+          static_cast<ssize_t>(bytes.size()) ||
       recv(server, &answer, sizeof answer, 0) != sizeof answer)
-    throw std::runtime_error("the server that runs the program has ended, or a command line is too long for it");
+    throw std::runtime_error(
+        "the server that runs the program has ended, or a command line is too long for it");
   return answer;
 }
 
 }  // namespace
 
-void prepare_environment(std::vector<std::string>& variables, const std::string& out, const std::string& err) {
-  std::signal(SIGINT, SIG_DFL);  // shells let what runs in the background ignore it, and tests interrupt the program
+void prepare_environment(std::vector<std::string>& variables, const std::string& out,
+                         const std::string& err) {
+  std::signal(SIGINT, SIG_DFL);  // shells let what runs in the background ignore it, and tests
+                                 // interrupt the program
   for (std::string& variable : variables) putenv(variable.data());
   dup2(open(out.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600), STDOUT_FILENO);
   dup2(open(err.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600), STDERR_FILENO);
@@ -103,7 +110,7 @@ void start_program_server() {
   const pid_t child = fork();
   if (child < 0) return;
   if (child == 0) {
-    prctl(PR_SET_PDEATHSIG, SIGKILL);  // with the tests it ends, and with it what it runs
+    prctl(PR_SET_PDEATHSIG, SIGKILL);  // the tests end, and with them their child processes
     std::signal(SIGINT, SIG_IGN);      // from the terminal: the tests end
     close(ends[0]);
     serve(ends[1]);
@@ -122,7 +129,8 @@ void stop_program_server() {
 
 bool has_program_server() { return server >= 0; }
 
-int start_in_server(const std::vector<std::string>& arguments, const std::vector<std::string>& environment, const std::string& out,
+int start_in_server(const std::vector<std::string>& arguments,
+                    const std::vector<std::string>& environment, const std::string& out,
                     const std::string& err) {
   std::vector<std::string> fields = {"run", out, err, std::to_string(environment.size())};
   fields.insert(fields.end(), environment.begin(), environment.end());

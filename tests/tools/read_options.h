@@ -8,7 +8,8 @@
 
 namespace belvedere::test {
 
-// What the options that `add` gives a command hold after a line, whose words stand between blanks. Throws Error(usage).
+// What the options that `add` gives a command hold after a line, whose words stand between blanks.
+// Throws Error(usage).
 template <class Options, class Add>
 Options read_options(const Add& add, const std::string& line) {
   tools::CommandLine command("test", "");

@@ -19,10 +19,12 @@ std::vector<double> colour_profile(const Grid<Rgb8>& picture) {
   std::vector<double> shares(strips * cells, 0.0);
   std::array<double, strips> pixels{};
   for (int y = 0; y < picture.height(); ++y) {
-    const auto strip = static_cast<std::size_t>(y) * strips / static_cast<std::size_t>(picture.height());
+    const auto strip =
+        static_cast<std::size_t>(y) * strips / static_cast<std::size_t>(picture.height());
     for (int x = 0; x < picture.width(); ++x) {
       const Rgb8& c = picture(x, y);
-      const std::size_t cell = (static_cast<std::size_t>(c[0]) >> 5) * 64 + (static_cast<std::size_t>(c[1]) >> 5) * 8 + (c[2] >> 5);
+      const std::size_t cell = (static_cast<std::size_t>(c[0]) >> 5) * 64 +
+                               (static_cast<std::size_t>(c[1]) >> 5) * 8 + (c[2] >> 5);
       shares[strip * cells + cell] += 1.0;
     }
     pixels[strip] += picture.width();
@@ -37,7 +39,8 @@ LayoutFigures layout_figures(const Grid<Rgb8>& crop, const Grid<Rgb8>& made) {
   LayoutFigures figures;
   const std::vector<double> wanted = colour_profile(crop);
   const std::vector<double> found = colour_profile(made);
-  for (std::size_t i = 0; i < wanted.size(); ++i) figures.profile += std::abs(wanted[i] - found[i]) / strips;
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+    figures.profile += std::abs(wanted[i] - found[i]) / strips;
 
   const BandSpace bands = find_bands(crop, {});
   const BandPicture one = to_bands(crop, bands, {});
@@ -45,10 +48,14 @@ LayoutFigures layout_figures(const Grid<Rgb8>& crop, const Grid<Rgb8>& made) {
   int types = 0;
   for (const int far : {16, 32, 64, 128}) {
     for (const bool along : {true, false}) {
-      if (far >= std::min(along ? crop.width() : crop.height(), along ? made.width() : made.height())) continue;
+      if (far >=
+          std::min(along ? crop.width() : crop.height(), along ? made.width() : made.height()))
+        continue;
       for (int band = 0; band < 3; ++band) {
         const CliqueType type{0, along ? far : 0, along ? 0 : far, band, band};
-        figures.far_pairs += HistogramGroups(count_differences(one, bands, type)).distance(count_differences(other, bands, type)).l1;
+        figures.far_pairs += HistogramGroups(count_differences(one, bands, type))
+                                 .distance(count_differences(other, bands, type))
+                                 .l1;
         ++types;
       }
     }

@@ -10,26 +10,29 @@
 
 namespace belvedere {
 
-// A texture of textures (Zalesny et al. 2005): a map of labels, a texture for each label, and one for what lies along their borders.
+// A texture of textures (Zalesny et al. 2005): a map of labels, a texture for each label, and one
+// for what lies along their borders.
 struct CompositeLabel {
-  std::string name;  // what stands for it in label pictures: "#0000ff", or a number
+  std::string name;  // its key in label pictures: "#0000ff", or a number
   CliqueModel model;
 };
 
 struct CompositeModel {
   LabelMapModel map;
   std::vector<CompositeLabel> labels;
-  std::optional<CliqueModel> transition;  // none where the crop's borders are too short to learn from
+  std::optional<CliqueModel> transition;  // none if the crop's borders are too short to learn from
 
-  // What is told of the crop, and changes nothing that is made.
+  // Information about the crop, without effect on what is made.
   std::string crop_hash;
 };
 
-// A model as a text: TOML with the texture models in tables of their own. It reads back to the same bits.
+// A model as a text: TOML with the texture models in tables of their own. It reads back to the same
+// bits.
 std::string composite_text(const CompositeModel& model);
 
-// Error(usage) with file and line for what is no composite: keys missing or unknown, another version, tables that are cut off, no shares,
-// or of another number of labels. `read_composite` also Error(input) where the file is missing.
+// Error(usage) with file and line for an invalid composite: keys missing or unknown, another
+// version, tables that are cut off, are not shares, or have another number of labels.
+// `read_composite` also Error(input) if the file is missing.
 CompositeModel parse_composite(const std::string& text, const std::string& name);
 CompositeModel read_composite(const std::string& path);
 

@@ -18,32 +18,37 @@ PixelRect box_of(const Grid<std::uint8_t>& states) {
   PixelRect box{states.width(), states.height(), 0, 0};
   for (int y = 0; y < states.height(); ++y)
     for (int x = 0; x < states.width(); ++x)
-      if (states(x, y) != 0) box = {std::min(box.x0, x), std::min(box.y0, y), std::max(box.x1, x + 1), std::max(box.y1, y + 1)};
+      if (states(x, y) != 0)
+        box = {std::min(box.x0, x), std::min(box.y0, y), std::max(box.x1, x + 1),
+               std::max(box.y1, y + 1)};
   return box;
 }
 
-// What is asked of the pixels of a label that are far enough off its borders.
-void check_label(const std::string& name, const Grid<Rgb8>& picture, const Grid<std::uint8_t>& states) {
+// Requirements on the pixels of a label that are far enough from its borders.
+void check_label(const std::string& name, const Grid<Rgb8>& picture,
+                 const Grid<std::uint8_t>& states) {
   const std::string where = "the label " + name;
   const PixelRect box = box_of(states);
   const auto count = std::count(states.begin(), states.end(), pixel_free);
-  constexpr std::ptrdiff_t least = std::ptrdiff_t{min_crop_px} * min_crop_px;
-  if (count < least || box.width() < min_crop_px || box.height() < min_crop_px)
+  constexpr std::ptrdiff_t min = std::ptrdiff_t{min_crop_px} * min_crop_px;
+  if (count < min || box.width() < min_crop_px || box.height() < min_crop_px)
     throw Error(
         ErrorKind::input, where,
-        fmt::format("{} pixels, {} × {}, lie {} or more off its borders", count, std::max(0, box.width()), std::max(0, box.height()),
-                    label_inset_px),
-        fmt::format("{} pixels or more, {} × {}: join it to a label that looks alike, or leave it out", least, min_crop_px, min_crop_px));
+        fmt::format("{} pixels, {} × {}, are {} or more from its borders", count,
+                    std::max(0, box.width()), std::max(0, box.height()), label_inset_px),
+        fmt::format("at least {} pixels, {} × {}: merge it with a similar label, or leave it out",
+                    min, min_crop_px, min_crop_px));
   std::size_t first = 0;
   while (states[first] == 0) ++first;
   for (std::size_t i = first; i < states.size(); ++i)
     if (states[i] != 0 && picture[i] != picture[first]) return;
-  throw Error(ErrorKind::input, where, "one colour all over", "a texture");
+  throw Error(ErrorKind::input, where, "it has a single colour", "a texture");
 }
 
-CliqueModel learn_part(const LabelledCrop& crop, const Grid<std::uint8_t>& states, bool choose, const CompositeParameters& parameters,
-                       Progress& progress) {
-  const PixelRect box = intersection(grown(box_of(states), min_crop_px / 2), {0, 0, states.width(), states.height()});
+CliqueModel learn_part(const LabelledCrop& crop, const Grid<std::uint8_t>& states, bool choose,
+                       const CompositeParameters& parameters, Progress& progress) {
+  const PixelRect box =
+      intersection(grown(box_of(states), min_crop_px / 2), {0, 0, states.width(), states.height()});
   const Grid<Rgb8> picture = part_of(crop.picture, box);
   const Grid<std::uint8_t> counted = part_of(states, box);
   CliqueModel model = learn_texture(picture, counted, parameters.learn, progress).model;
@@ -63,16 +68,18 @@ CliqueModel learn_part(const LabelledCrop& crop, const Grid<std::uint8_t>& state
 Grid<std::uint8_t> states_where(const LabelledCrop& crop, const auto& is) {
   Grid<std::uint8_t> states(crop.labels.width(), crop.labels.height());
   for (std::size_t i = 0; i < states.size(); ++i) {
-    const bool counts = crop.labels[i] != no_label && (crop.states.empty() || (crop.states[i] & pixel_counts) != 0);
+    const bool counts =
+        crop.labels[i] != no_label && (crop.states.empty() || (crop.states[i] & pixel_counts) != 0);
     states[i] = counts && is(i) ? pixel_free : std::uint8_t{0};
   }
   return states;
 }
 
-// Where nothing is known, the map takes the label of the nearest pixel.
+// Where the label is unknown, the map takes that of the nearest pixel.
 Grid<std::uint8_t> completed(const Grid<std::uint8_t>& labels) {
   Grid<std::uint8_t> known(labels.width(), labels.height());
-  std::transform(labels.begin(), labels.end(), known.begin(), [](std::uint8_t l) { return static_cast<std::uint8_t>(l != no_label); });
+  std::transform(labels.begin(), labels.end(), known.begin(),
+                 [](std::uint8_t l) { return static_cast<std::uint8_t>(l != no_label); });
   const Grid<std::int32_t> nearest = nearest_marked(known);
   Grid<std::uint8_t> out = labels;
   for (std::size_t i = 0; i < out.size(); ++i)
@@ -89,35 +96,44 @@ std::string hash_of(const LabelledCrop& crop) {
 
 }  // namespace
 
-CompositeModel learn_composite(const LabelledCrop& crop, const CompositeParameters& parameters, Progress& progress) {
+CompositeModel learn_composite(const LabelledCrop& crop, const CompositeParameters& parameters,
+                               Progress& progress) {
   if (!crop.labels.same_size(crop.picture))
-    throw Error(ErrorKind::input, "the labels", fmt::format("{} × {} pixels", crop.labels.width(), crop.labels.height()),
-                fmt::format("the size of the crop: {} × {}", crop.picture.width(), crop.picture.height()));
+    throw Error(
+        ErrorKind::input, "the labels",
+        fmt::format("{} × {} pixels", crop.labels.width(), crop.labels.height()),
+        fmt::format("the size of the crop: {} × {}", crop.picture.width(), crop.picture.height()));
   const auto count = static_cast<int>(crop.names.size());
-  if (count < 2 || count > most_labels)
-    throw Error(ErrorKind::input, "the labels", fmt::format("{} label{}", count, count == 1 ? "" : "s"),
-                fmt::format("2 to {}", most_labels));
+  if (count < 2 || count > max_labels)
+    throw Error(ErrorKind::input, "the labels",
+                fmt::format("{} label{}", count, count == 1 ? "" : "s"),
+                fmt::format("2 to {}", max_labels));
 
   const Grid<std::uint8_t> off_limits = near_borders(crop.labels, label_inset_px);
   std::vector<Grid<std::uint8_t>> masks;
   for (int label = 0; label < count; ++label) {
-    masks.push_back(states_where(crop, [&](std::size_t i) { return crop.labels[i] == label && off_limits[i] == 0; }));
+    masks.push_back(states_where(
+        crop, [&](std::size_t i) { return crop.labels[i] == label && off_limits[i] == 0; }));
     check_label(crop.names[static_cast<std::size_t>(label)], crop.picture, masks.back());
   }
   CompositeModel out;
   out.crop_hash = hash_of(crop);
   out.map = learn_label_map(completed(crop.labels), count);
   for (std::size_t label = 0; label < masks.size(); ++label)
-    out.labels.push_back({crop.names[label], learn_part(crop, masks[label], parameters.choose, parameters, progress)});
+    out.labels.push_back({crop.names[label],
+                          learn_part(crop, masks[label], parameters.choose, parameters, progress)});
 
   const Grid<std::uint8_t> near = near_borders(crop.labels, transition_px);
   const Grid<std::uint8_t> zone = states_where(crop, [&](std::size_t i) { return near[i] != 0; });
-  const bool enough = std::count(zone.begin(), zone.end(), pixel_free) >= std::ptrdiff_t{min_crop_px} * min_crop_px;
+  const bool enough =
+      std::count(zone.begin(), zone.end(), pixel_free) >= std::ptrdiff_t{min_crop_px} * min_crop_px;
   const CompositeParameters white{.learn = parameters.learn};
   if (enough)
     out.transition = learn_part(crop, zone, false, white, progress);
   else
-    progress.note("warning: the labels' borders are too short to learn how they are painted; textures will meet without a transition");
+    progress.note(
+        "warning: the labels' borders are too short to learn a transition; textures will "
+        "meet without a transition");
   return out;
 }
 

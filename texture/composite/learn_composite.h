@@ -10,7 +10,7 @@
 
 namespace belvedere {
 
-// Labels of a crop, 0 … names.size() - 1 in the order of names; no_label: not known, belongs to nothing.
+// Labels of a crop, 0 … names.size() - 1 in the order of names; no_label: unknown, belongs to none.
 struct LabelledCrop {
   const Grid<Rgb8>& picture;
   const Grid<std::uint8_t>& states;  // empty: all pixels count
@@ -18,18 +18,23 @@ struct LabelledCrop {
   std::vector<std::string> names;
 };
 
-inline constexpr int label_inset_px = 3;  // a label's texture is learnt so far off its borders
-inline constexpr int transition_px = 6;   // and that of borders so far to either side of them
+inline constexpr int label_inset_px =
+    3;  // distance from its borders at which a label's texture is learnt
+inline constexpr int transition_px =
+    6;  // half width of the strip from which the texture of borders is learnt
 
 struct CompositeParameters {
   LearnParameters learn{};
-  bool choose = true;  // how each label's texture begins (choose_seed.h); else all as `begin` says
+  bool choose = true;  // choose the initial noise of each label's texture (choose_seed.h);
+                       // otherwise `begin` is used for all
   TextureSeed begin = TextureSeed::white;
   float begin_px = 0.F;  // half length of streaks, radius of discs
 };
 
-// A model of each label under its mask, of borders, and of the map. Error(input) for labels of another size than the crop, one label or
-// more than 16, and labels that leave too little to learn from (min_crop_px), each with its name.
-CompositeModel learn_composite(const LabelledCrop& crop, const CompositeParameters& parameters, Progress& progress = silent_progress());
+// Models of each label under its mask, of borders, and of the map. Error(input) for labels of
+// another size than the crop, for one label or more than 16, and for labels with too few pixels to
+// learn from (min_crop_px), with their names.
+CompositeModel learn_composite(const LabelledCrop& crop, const CompositeParameters& parameters,
+                               Progress& progress = silent_progress());
 
 }  // namespace belvedere

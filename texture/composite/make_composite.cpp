@@ -12,7 +12,7 @@
 namespace belvedere {
 namespace {
 
-// Colours that a label has, in cells of 8 × 8 × 8 levels.
+// Colours of a label, in cells of 8 × 8 × 8 levels.
 class ColourSet {
  public:
   ColourSet() : known_(cells * cells * cells, 0U) {}
@@ -22,14 +22,15 @@ class ColourSet {
     for (std::size_t c = 0; c < 3; ++c) cell.sum[c] += colour[c];
     ++cell.count;
   }
-  // After the last: which cells count, with those beside them.
+  // To be called last: selects the cells that count, and their neighbours.
   void finish() {
-    constexpr std::uint32_t least = 2;  // pixels of a colour that is no accident
+    constexpr std::uint32_t min = 2;  // pixels of a colour that is not an outlier
     for (std::size_t i = 0; i < sums_.size(); ++i) {
       const Cell& cell = sums_[i];
-      if (cell.count < least) continue;
+      if (cell.count < min) continue;
       Rgb8 mean{};
-      for (std::size_t c = 0; c < 3; ++c) mean[c] = static_cast<std::uint8_t>((cell.sum[c] + cell.count / 2) / cell.count);
+      for (std::size_t c = 0; c < 3; ++c)
+        mean[c] = static_cast<std::uint8_t>((cell.sum[c] + cell.count / 2) / cell.count);
       means_.push_back(mean);
       for_neighbours(i, [&](std::size_t n) { known_[n] = 1; });
     }
@@ -47,7 +48,8 @@ class ColourSet {
 
   static std::size_t cell_of(const Rgb8& c) {
     return (static_cast<std::size_t>(c[0]) >> 3) +
-           cells * ((static_cast<std::size_t>(c[1]) >> 3) + cells * (static_cast<std::size_t>(c[2]) >> 3));
+           cells * ((static_cast<std::size_t>(c[1]) >> 3) +
+                    cells * (static_cast<std::size_t>(c[2]) >> 3));
   }
   Cell& cells_at(const Rgb8& colour) { return sums_[cell_of(colour)]; }
   template <class F>
@@ -58,7 +60,8 @@ class ColourSet {
     const int z = static_cast<int>(cell / (cells * cells));
     for (int w = std::max(0, z - 1); w <= std::min(side - 1, z + 1); ++w)
       for (int v = std::max(0, y - 1); v <= std::min(side - 1, y + 1); ++v)
-        for (int u = std::max(0, x - 1); u <= std::min(side - 1, x + 1); ++u) f(static_cast<std::size_t>(u + side * (v + side * w)));
+        for (int u = std::max(0, x - 1); u <= std::min(side - 1, x + 1); ++u)
+          f(static_cast<std::size_t>(u + side * (v + side * w)));
   }
 
   std::vector<Cell> sums_ = std::vector<Cell>(cells * cells * cells);
@@ -74,7 +77,8 @@ int distance_squared(const Rgb8& a, const Rgb8& b) {
 
 }  // namespace
 
-void snap_colours(Grid<Rgb8>& picture, const Grid<std::uint8_t>& labels, const Grid<std::uint8_t>& zone, int reach) {
+void snap_colours(Grid<Rgb8>& picture, const Grid<std::uint8_t>& labels,
+                  const Grid<std::uint8_t>& zone, int reach) {
   const int count = 1 + *std::max_element(labels.begin(), labels.end());
   std::vector<ColourSet> sets(static_cast<std::size_t>(count));
   for (std::size_t i = 0; i < picture.size(); ++i)
@@ -85,10 +89,11 @@ void snap_colours(Grid<Rgb8>& picture, const Grid<std::uint8_t>& labels, const G
       if (zone(x, y) == 0) continue;
       std::uint32_t here = 0;
       for (int v = std::max(0, y - reach); v <= std::min(labels.height() - 1, y + reach); ++v)
-        for (int u = std::max(0, x - reach); u <= std::min(labels.width() - 1, x + reach); ++u) here |= 1U << labels(u, v);
+        for (int u = std::max(0, x - reach); u <= std::min(labels.width() - 1, x + reach); ++u)
+          here |= 1U << labels(u, v);
       Rgb8& colour = picture(x, y);
       const Rgb8* nearest = nullptr;
-      int least = 0;
+      int min = 0;
       bool known = false;
       for (int label = 0; label < count && !known; ++label) {
         if ((here >> label & 1U) == 0) continue;
@@ -96,9 +101,9 @@ void snap_colours(Grid<Rgb8>& picture, const Grid<std::uint8_t>& labels, const G
         known = set.has(colour);
         if (known) break;
         for (const Rgb8& c : set.colours())
-          if (const int d = distance_squared(c, colour); nearest == nullptr || d < least) {
+          if (const int d = distance_squared(c, colour); nearest == nullptr || d < min) {
             nearest = &c;
-            least = d;
+            min = d;
           }
       }
       if (!known && nearest != nullptr) colour = *nearest;
@@ -106,19 +111,21 @@ void snap_colours(Grid<Rgb8>& picture, const Grid<std::uint8_t>& labels, const G
   });
 }
 
-Grid<Rgb8> make_composite(const CompositeModel& model, const Grid<std::uint8_t>& labels, const TextureParameters& parameters,
-                          Progress& progress) {
+Grid<Rgb8> make_composite(const CompositeModel& model, const Grid<std::uint8_t>& labels,
+                          const TextureParameters& parameters, Progress& progress) {
   check_texture_size(labels.width(), labels.height());
   Grid<Rgb8> out(labels.width(), labels.height());
   std::vector<std::uint8_t> there(256, 0U);
   for (const std::uint8_t label : labels) there[label] = 1;
   for (std::size_t label = model.labels.size(); label < there.size(); ++label)
-    if (there[label] != 0) throw Error(ErrorKind::bug, "make_composite", "a label that the model has not");
+    if (there[label] != 0)
+      throw Error(ErrorKind::bug, "make_composite", "a label that is not in the model");
   for (std::size_t label = 0; label < model.labels.size(); ++label) {
     if (there[label] == 0) continue;
     Grid<std::uint8_t> mask(labels.width(), labels.height());
     for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = labels[i] == label ? 1 : 0;
-    const Grid<Rgb8> made = make_texture_under(model.labels[label].model, mask, parameters, progress);
+    const Grid<Rgb8> made =
+        make_texture_under(model.labels[label].model, mask, parameters, progress);
     for (std::size_t i = 0; i < mask.size(); ++i)
       if (mask[i] != 0) out[i] = made[i];
   }

@@ -10,15 +10,17 @@ namespace belvedere {
 
 struct LabelMapParameters {
   std::uint64_t seed = 1;
-  bool layout = true;   // what lies on top and below; without, labels lie anywhere
-  bool rings = true;    // how borders run; without, they come out smooth and eight-cornered
-  double effort = 1.0;  // of the sweeps at each scale, 0.1…10
+  bool layout = true;   // vertical distribution; without it, labels lie anywhere
+  bool rings = true;    // shape of borders; without it, they are smooth and octagonal
+  double effort = 1.0;  // factor on the sweeps at each scale, 0.1…10
 };
 
-// A map of labels of any size that has the statistics of the model: a Gibbs field sampled from coarse to fine, on lattices of every 16th,
-// 8th … pixel, where an offset of so many pixels is one step, so that the finer lattices begin with what the coarser have found.
-// Error(limit) over most_texture_pixels (make_texture.h). Progress: pixels of all lattices.
-Grid<std::uint8_t> make_label_map(const LabelMapModel& model, int width, int height, const LabelMapParameters& parameters,
+// A map of labels of any size with the statistics of the model: a Gibbs field sampled from coarse
+// to fine, on lattices of every 16th, 8th … pixel, where an offset of so many pixels is one step;
+// each finer lattice begins with the result of the coarser one. Error(limit) over
+// max_texture_pixels (make_texture.h). Progress: pixels of all lattices.
+Grid<std::uint8_t> make_label_map(const LabelMapModel& model, int width, int height,
+                                  const LabelMapParameters& parameters,
                                   Progress& progress = silent_progress());
 
 }  // namespace belvedere

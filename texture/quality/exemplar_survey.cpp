@@ -15,7 +15,7 @@ namespace belvedere {
 namespace {
 
 constexpr int square = 32;                   // of the checkerboard, texels
-constexpr int least_gap = 16;                // steps of a guide
+constexpr int min_gap = 16;                  // steps of a guide
 constexpr std::size_t fewest_texels = 1000;  // of a half
 
 // The texels of one half; the rest is excluded.
@@ -42,7 +42,8 @@ std::array<quality::Histogram, 3> colours_of(const Exemplar& exemplar, std::uint
 
 HalvesDistance compare_halves(const Exemplar& a, const Exemplar& b, std::uint8_t label) {
   const auto texels = [label](const Exemplar& half) {
-    return static_cast<std::size_t>(std::count(half.guides.label.begin(), half.guides.label.end(), label));
+    return static_cast<std::size_t>(
+        std::count(half.guides.label.begin(), half.guides.label.end(), label));
   };
   HalvesDistance distance;
   if (texels(a) < fewest_texels || texels(b) < fewest_texels) return distance;
@@ -51,23 +52,26 @@ HalvesDistance compare_halves(const Exemplar& a, const Exemplar& b, std::uint8_t
   distance.clique = quality::clique_distances(a.picture, a.guides.label, {b}, even, label).distance;
   const auto of_a = colours_of(a, label);
   const auto of_b = colours_of(b, label);
-  for (std::size_t c = 0; c < 3; ++c) distance.colour += quality::wasserstein(of_a[c], of_b[c]) / 3.0;
+  for (std::size_t c = 0; c < 3; ++c)
+    distance.colour += quality::wasserstein(of_a[c], of_b[c]) / 3.0;
   return distance;
 }
 
-GuideSupply cover(const Guide& guide, const Grid<std::uint8_t>& labels, std::uint8_t label) {
+GuideTexels cover(const Guide& guide, const Grid<std::uint8_t>& labels, std::uint8_t label) {
   std::array<std::size_t, 256> counts{};
   for (std::size_t i = 0; i < labels.size(); ++i)
     if (labels[i] == label) ++counts[guide.values[i]];
-  GuideSupply out;
+  GuideTexels out;
   out.name = guide.name;
-  out.low = static_cast<std::uint8_t>(std::lround(quality::quantile(counts.data(), counts.size(), 0.05)));
-  out.high = static_cast<std::uint8_t>(std::lround(quality::quantile(counts.data(), counts.size(), 0.95)));
-  int last = -1;  // value that has texels
+  out.low =
+      static_cast<std::uint8_t>(std::lround(quality::quantile(counts.data(), counts.size(), 0.05)));
+  out.high =
+      static_cast<std::uint8_t>(std::lround(quality::quantile(counts.data(), counts.size(), 0.95)));
+  int last = -1;  // last value with texels
   for (int v = 0; v < 256; ++v) {
     if (counts[static_cast<std::size_t>(v)] == 0) continue;
     if (last < 0) out.lowest = static_cast<std::uint8_t>(v);
-    if (last >= 0 && v - last - 1 >= least_gap) out.gaps.push_back({last + 1, v - 1});
+    if (last >= 0 && v - last - 1 >= min_gap) out.gaps.push_back({last + 1, v - 1});
     out.highest = static_cast<std::uint8_t>(v);
     last = v;
   }
@@ -82,11 +86,13 @@ ExemplarSurvey survey_exemplar(const Exemplar& exemplar) {
   check_exemplar(exemplar);
   const Grid<std::uint8_t>& labels = exemplar.guides.label;
   const Grid<std::uint8_t> borders = border_distance_squared(labels);
-  const int middle = exemplar.picture.width() / 2;
-  const Exemplar left = half_of(exemplar, [&](int x, int) { return x < middle; });
-  const Exemplar right = half_of(exemplar, [&](int x, int) { return x >= middle; });
-  const Exemplar white = half_of(exemplar, [](int x, int y) { return (x / square + y / square) % 2 == 0; });
-  const Exemplar black = half_of(exemplar, [](int x, int y) { return (x / square + y / square) % 2 != 0; });
+  const int centre = exemplar.picture.width() / 2;
+  const Exemplar left = half_of(exemplar, [&](int x, int) { return x < centre; });
+  const Exemplar right = half_of(exemplar, [&](int x, int) { return x >= centre; });
+  const Exemplar white =
+      half_of(exemplar, [](int x, int y) { return (x / square + y / square) % 2 == 0; });
+  const Exemplar black =
+      half_of(exemplar, [](int x, int y) { return (x / square + y / square) % 2 != 0; });
 
   ExemplarSurvey survey;
   survey.texels = labels.size();
@@ -105,20 +111,24 @@ ExemplarSurvey survey_exemplar(const Exemplar& exemplar) {
     of.texels = texels[l];
     of.inside = inside[l];
     of.sharpness = or_zero(mean_gradient(exemplar.picture, labels, borders, label));
-    of.stroke_run_px = or_zero(stroke_run(exemplar.picture, labels, borders, label, stroke_tolerance(exemplar.picture, labels, label)));
+    of.stroke_run_px = or_zero(stroke_run(exemplar.picture, labels, borders, label,
+                                          stroke_tolerance(exemplar.picture, labels, label)));
     of.left_right = compare_halves(left, right, label);
     of.checkerboard = compare_halves(white, black, label);
-    for (const Guide& guide : exemplar.guides.guides) of.guides.push_back(cover(guide, labels, label));
+    for (const Guide& guide : exemplar.guides.guides)
+      of.guides.push_back(cover(guide, labels, label));
     survey.classes.push_back(std::move(of));
   }
   return survey;
 }
 
-double covered_share(const std::vector<Exemplar>& exemplars, const GuideStack& target, std::uint8_t label, const std::string& guide,
-                     int reach) {
+double covered_share(const std::vector<Exemplar>& exemplars, const GuideStack& target,
+                     std::uint8_t label, const std::string& guide, int reach) {
   const auto values_of = [&](const GuideStack& stack) -> const Grid<std::uint8_t>& {
     const Grid<std::uint8_t>* values = stack.find(guide);
-    if (values == nullptr) throw Error(ErrorKind::usage, "guides", fmt::format("guide \"{}\" is missing on one side", guide));
+    if (values == nullptr)
+      throw Error(ErrorKind::usage, "guides",
+                  fmt::format("guide \"{}\" is missing on one side", guide));
     return *values;
   };
   std::array<bool, 256> served{};
@@ -126,7 +136,8 @@ double covered_share(const std::vector<Exemplar>& exemplars, const GuideStack& t
     const Grid<std::uint8_t>& values = values_of(exemplar.guides);
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (exemplar.guides.label[i] != label) continue;
-      for (int v = std::max(0, values[i] - reach); v <= std::min(255, values[i] + reach); ++v) served[static_cast<std::size_t>(v)] = true;
+      for (int v = std::max(0, values[i] - reach); v <= std::min(255, values[i] + reach); ++v)
+        served[static_cast<std::size_t>(v)] = true;
     }
   }
   const Grid<std::uint8_t>& requested = values_of(target);

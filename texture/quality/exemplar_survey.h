@@ -9,16 +9,16 @@
 
 namespace belvedere {
 
-// What a painting can serve, told before anything is copied from it.
+// What a painting is suitable for, measured before anything is copied from it.
 
-// Where a guide's values of a class lie.
-struct GuideSupply {
+// Distribution of a guide's values in a class.
+struct GuideTexels {
   std::string name;
   std::uint8_t lowest = 0;
   std::uint8_t highest = 0;
-  std::uint8_t low = 0;  // 5th and 95th percentile: between them texels are not rare
+  std::uint8_t low = 0;  // 5th and 95th percentile: texels are frequent between them
   std::uint8_t high = 0;
-  // Stretches of 16 or more steps between lowest and highest that no texel has, both ends included in the stretch.
+  // Gaps of 16 or more steps between lowest and highest without any texel, both ends included.
   struct Gap {
     int from = 0;
     int to = 0;
@@ -26,8 +26,9 @@ struct GuideSupply {
   std::vector<Gap> gaps;
 };
 
-// How unlike two halves of a class are. Comparable with clique_distance and colour_distance of quality.h: no synthesis can be expected
-// to come nearer to the painting than the painting's own halves are.
+// Dissimilarity of two halves of a class. Comparable with clique_distance and colour_distance of
+// quality.h: no synthesis can be expected to be more similar to the painting than its own halves
+// are to each other.
 struct HalvesDistance {
   bool known = false;   // false: one half has too few texels
   double clique = 0.0;  // 0…2
@@ -37,12 +38,12 @@ struct HalvesDistance {
 struct ClassSurvey {
   std::uint8_t label = 0;
   std::size_t texels = 0;
-  std::size_t inside = 0;       // of them more than 8 pixels from the nearest border of classes
-  double sharpness = 0.0;       // mean gradient of grey inside, levels a pixel; 0: no inside
+  std::size_t inside = 0;       // those more than 8 pixels from the nearest border of classes
+  double sharpness = 0.0;       // mean gradient of grey inside, levels per pixel; 0: no inside
   double stroke_run_px = 0.0;   // mean length of strokes inside (quality.h); 0: no inside
-  HalvesDistance left_right;    // one hand all over?
-  HalvesDistance checkerboard;  // of squares of 32 texels: what chance alone makes
-  std::vector<GuideSupply> guides;
+  HalvesDistance left_right;    // is the style uniform?
+  HalvesDistance checkerboard;  // of squares of 32 texels: the level of chance
+  std::vector<GuideTexels> guides;
 };
 
 struct ExemplarSurvey {
@@ -54,9 +55,10 @@ struct ExemplarSurvey {
 // Throws as check_exemplar.
 ExemplarSurvey survey_exemplar(const Exemplar& exemplar);
 
-// Share of the target's pixels of a class for which some texel of it has that guide within `reach` steps; 1 where the target has no
-// such pixel. Error(usage) where the target or an exemplar lacks the guide.
-double covered_share(const std::vector<Exemplar>& exemplars, const GuideStack& target, std::uint8_t label, const std::string& guide,
-                     int reach);
+// Share of the target's pixels of a class for which some texel of it has that guide within `reach`
+// steps; 1 if the target has no such pixel. Error(usage) if the target or an exemplar lacks the
+// guide.
+double covered_share(const std::vector<Exemplar>& exemplars, const GuideStack& target,
+                     std::uint8_t label, const std::string& guide, int reach);
 
 }  // namespace belvedere

@@ -19,7 +19,7 @@ namespace {
 
 using quality::Histogram;
 
-// Mean of f over exemplars, weighted by the class's texels there; NaN values drop out.
+// Mean of f over exemplars, weighted by the class's texels there; NaN values are skipped.
 template <class F>
 double over_exemplars(const std::vector<Exemplar>& exemplars, std::uint8_t label, F&& f) {
   double sum = 0.0;
@@ -40,13 +40,15 @@ double ratio(double output, double exemplar) {
   return std::isnan(output) || std::isnan(exemplar) || exemplar <= 0.0 ? 0.0 : output / exemplar;
 }
 
-void measure_copying(const MatchField& matches, const std::vector<Exemplar>& exemplars, const GuideStack& target,
-                     const QualityParameters& parameters, SynthesisQuality& quality) {
+void measure_copying(const MatchField& matches, const std::vector<Exemplar>& exemplars,
+                     const GuideStack& target, const QualityParameters& parameters,
+                     SynthesisQuality& quality) {
   const Grid<std::uint8_t>* requested = target.find(parameters.guide);
   std::array<std::size_t, 256> errors{};
   std::vector<Grid<std::uint32_t>> uses;
   uses.reserve(exemplars.size());
-  for (const Exemplar& exemplar : exemplars) uses.emplace_back(exemplar.picture.width(), exemplar.picture.height(), 0U);
+  for (const Exemplar& exemplar : exemplars)
+    uses.emplace_back(exemplar.picture.width(), exemplar.picture.height(), 0U);
   std::size_t matched = 0;
   std::size_t agreeing = 0;
   for (std::size_t i = 0; i < matches.size(); ++i) {
@@ -59,11 +61,13 @@ void measure_copying(const MatchField& matches, const std::vector<Exemplar>& exe
     ++matched;
     if (source.label(m.x, m.y) == target.label[i]) ++agreeing;
     if (source.label(m.x, m.y) == unused_label) ++quality.excluded_used;
-    quality.most_used = std::max(quality.most_used, static_cast<int>(++uses[m.exemplar](m.x, m.y)));
+    quality.max_used = std::max(quality.max_used, static_cast<int>(++uses[m.exemplar](m.x, m.y)));
     const Grid<std::uint8_t>* offered = source.find(parameters.guide);
-    if (requested != nullptr && offered != nullptr) ++errors[static_cast<std::size_t>(std::abs((*requested)[i] - (*offered)(m.x, m.y)))];
+    if (requested != nullptr && offered != nullptr)
+      ++errors[static_cast<std::size_t>(std::abs((*requested)[i] - (*offered)(m.x, m.y)))];
   }
-  if (matched > 0) quality.label_agreement = static_cast<double>(agreeing) / static_cast<double>(matched);
+  if (matched > 0)
+    quality.label_agreement = static_cast<double>(agreeing) / static_cast<double>(matched);
   std::size_t used = 0;
   std::size_t texels = 0;
   for (const Grid<std::uint32_t>& counts : uses) {
@@ -81,10 +85,12 @@ void measure_copying(const MatchField& matches, const std::vector<Exemplar>& exe
 }
 
 bool one_offset(const Match& a, const Match& b, int dx, int dy) {
-  return a.exemplar != Match::none && a.exemplar == b.exemplar && b.x - a.x == dx && b.y - a.y == dy;
+  return a.exemplar != Match::none && a.exemplar == b.exemplar && b.x - a.x == dx &&
+         b.y - a.y == dy;
 }
 
-void measure_pieces(const MatchField& matches, const GuideStack& target, float depth_ratio, SynthesisQuality& quality) {
+void measure_pieces(const MatchField& matches, const GuideStack& target, float depth_ratio,
+                    SynthesisQuality& quality) {
   const std::vector<std::size_t> sizes = piece_sizes(matches);
   quality.largest_piece = sizes.empty() ? 0 : sizes.front();
   std::size_t pairs = 0, joined = 0, jumps = 0, across = 0;
@@ -107,28 +113,37 @@ void measure_pieces(const MatchField& matches, const GuideStack& target, float d
     }
   }
   if (pairs > 0) quality.coherence = static_cast<double>(joined) / static_cast<double>(pairs);
-  if (jumps > 0) quality.across_silhouettes = static_cast<double>(across) / static_cast<double>(jumps);
+  if (jumps > 0)
+    quality.across_silhouettes = static_cast<double>(across) / static_cast<double>(jumps);
 }
 
 constexpr std::size_t guide_steps = 16;
 constexpr std::size_t border_steps = 5;  // within 2, 4, 8, 15 pixels, and beyond
 
-std::size_t border_step(std::uint8_t squared) { return squared <= 4 ? 0 : squared <= 16 ? 1 : squared <= 64 ? 2 : squared < 225 ? 3 : 4; }
+std::size_t border_step(std::uint8_t squared) {
+  return squared <= 4 ? 0 : squared <= 16 ? 1 : squared <= 64 ? 2 : squared < 225 ? 3 : 4;
+}
 
-// What is measured of all pictures before classes are gone through.
+// Computed once for all pictures, before the loop over classes.
 struct Borders {
   Grid<std::uint8_t> target;
   std::vector<Grid<std::uint8_t>> exemplars;
 };
 
-// Weights of the texels of a class by which guide and distance from borders are spread as in the target.
-void weigh_texels(const std::vector<Exemplar>& exemplars, const GuideStack& target, const Borders& borders, const std::string& guide,
-                  std::uint8_t label, std::vector<Grid<float>>& weights) {
-  const auto cell = [](const Grid<std::uint8_t>* values, const Grid<std::uint8_t>& distances, std::size_t i) {
-    return (values == nullptr ? 0U : static_cast<std::size_t>((*values)[i]) * guide_steps / 256) * border_steps + border_step(distances[i]);
+// Weights of the texels of a class that give them the target's distribution of the guide and of the
+// distance from borders.
+void weigh_texels(const std::vector<Exemplar>& exemplars, const GuideStack& target,
+                  const Borders& borders, const std::string& guide, std::uint8_t label,
+                  std::vector<Grid<float>>& weights) {
+  const auto cell = [](const Grid<std::uint8_t>* values, const Grid<std::uint8_t>& distances,
+                       std::size_t i) {
+    return (values == nullptr ? 0U : static_cast<std::size_t>((*values)[i]) * guide_steps / 256) *
+               border_steps +
+           border_step(distances[i]);
   };
   bool shared = target.find(guide) != nullptr;
-  for (const Exemplar& exemplar : exemplars) shared = shared && exemplar.guides.find(guide) != nullptr;
+  for (const Exemplar& exemplar : exemplars)
+    shared = shared && exemplar.guides.find(guide) != nullptr;
   std::array<double, guide_steps * border_steps> requested{};
   std::array<double, guide_steps * border_steps> offered{};
   const Grid<std::uint8_t>* values = shared ? target.find(guide) : nullptr;
@@ -157,7 +172,8 @@ struct ClassColours {
   std::array<Histogram, 3> reweighted{};
 };
 
-ClassColours colours_of_class(const Grid<Rgb8>& output, const Grid<std::uint8_t>& labels, const std::vector<Exemplar>& exemplars,
+ClassColours colours_of_class(const Grid<Rgb8>& output, const Grid<std::uint8_t>& labels,
+                              const std::vector<Exemplar>& exemplars,
                               const std::vector<Grid<float>>& weights, std::uint8_t label) {
   ClassColours colours;
   for (std::size_t i = 0; i < output.size(); ++i) {
@@ -178,11 +194,14 @@ ClassColours colours_of_class(const Grid<Rgb8>& output, const Grid<std::uint8_t>
 }
 
 double colour_distance(const std::array<Histogram, 3>& a, const std::array<Histogram, 3>& b) {
-  return (quality::wasserstein(a[0], b[0]) + quality::wasserstein(a[1], b[1]) + quality::wasserstein(a[2], b[2])) / 3.0;
+  return (quality::wasserstein(a[0], b[0]) + quality::wasserstein(a[1], b[1]) +
+          quality::wasserstein(a[2], b[2])) /
+         3.0;
 }
 
-void measure_whole_picture(const Grid<Rgb8>& output, const std::vector<Exemplar>& exemplars, const Borders& borders,
-                           const QualityParameters& parameters, SynthesisQuality& quality) {
+void measure_whole_picture(const Grid<Rgb8>& output, const std::vector<Exemplar>& exemplars,
+                           const Borders& borders, const QualityParameters& parameters,
+                           SynthesisQuality& quality) {
   const SpeckShares specks = speck_shares(output, borders.target);
   SpeckShares usual;
   double self = 0.0;
@@ -192,29 +211,38 @@ void measure_whole_picture(const Grid<Rgb8>& output, const std::vector<Exemplar>
     const SpeckShares here = speck_shares(exemplars[e].picture, borders.exemplars[e]);
     usual.inside += weight * here.inside;
     usual.border += weight * here.border;
-    if (parameters.repeat_samples > 0) self += weight * self_distance(exemplars[e].picture, parameters.repeat_samples);
+    if (parameters.repeat_samples > 0)
+      self += weight * self_distance(exemplars[e].picture, parameters.repeat_samples);
     area += weight;
   }
   quality.specks_inside = specks.inside / std::max(usual.inside / area, 1e-6);
   quality.specks_border = specks.border / std::max(usual.border / area, 1e-6);
-  if (parameters.repeat_samples > 0) quality.self_repeat = ratio(self_distance(output, parameters.repeat_samples), self / area);
+  if (parameters.repeat_samples > 0)
+    quality.self_repeat = ratio(self_distance(output, parameters.repeat_samples), self / area);
 }
 
-ClassQuality measure_class(const Grid<Rgb8>& output, const std::vector<Exemplar>& exemplars, const GuideStack& target,
-                           const Borders& borders, const std::vector<Grid<float>>& weights, std::uint8_t label) {
+ClassQuality measure_class(const Grid<Rgb8>& output, const std::vector<Exemplar>& exemplars,
+                           const GuideStack& target, const Borders& borders,
+                           const std::vector<Grid<float>>& weights, std::uint8_t label) {
   ClassQuality of;
   of.label = label;
-  of.sharpness = ratio(mean_gradient(output, target.label, borders.target, label), over_exemplars(exemplars, label, [&](std::size_t e) {
-                         return mean_gradient(exemplars[e].picture, exemplars[e].guides.label, borders.exemplars[e], label);
+  of.sharpness = ratio(mean_gradient(output, target.label, borders.target, label),
+                       over_exemplars(exemplars, label, [&](std::size_t e) {
+                         return mean_gradient(exemplars[e].picture, exemplars[e].guides.label,
+                                              borders.exemplars[e], label);
                        }));
-  const int tolerance = static_cast<int>(std::lround(over_exemplars(exemplars, label, [&](std::size_t e) {
-    return static_cast<double>(stroke_tolerance(exemplars[e].picture, exemplars[e].guides.label, label));
-  })));
-  of.stroke_run =
-      ratio(stroke_run(output, target.label, borders.target, label, tolerance), over_exemplars(exemplars, label, [&](std::size_t e) {
-              return stroke_run(exemplars[e].picture, exemplars[e].guides.label, borders.exemplars[e], label, tolerance);
-            }));
-  const quality::CliqueDistances cliques = quality::clique_distances(output, target.label, exemplars, weights, label);
+  const int tolerance =
+      static_cast<int>(std::lround(over_exemplars(exemplars, label, [&](std::size_t e) {
+        return static_cast<double>(
+            stroke_tolerance(exemplars[e].picture, exemplars[e].guides.label, label));
+      })));
+  of.stroke_run = ratio(stroke_run(output, target.label, borders.target, label, tolerance),
+                        over_exemplars(exemplars, label, [&](std::size_t e) {
+                          return stroke_run(exemplars[e].picture, exemplars[e].guides.label,
+                                            borders.exemplars[e], label, tolerance);
+                        }));
+  const quality::CliqueDistances cliques =
+      quality::clique_distances(output, target.label, exemplars, weights, label);
   of.clique_distance = cliques.distance;
   of.clique_floor = cliques.floor;
   of.clique_beyond_floor = cliques.beyond_floor;
@@ -255,13 +283,15 @@ std::vector<std::size_t> piece_sizes(const MatchField& matches) {
   return sizes;
 }
 
-SynthesisQuality measure_quality(const MatchField& matches, const std::vector<Exemplar>& exemplars, const GuideStack& target,
-                                 const QualityParameters& parameters) {
-  if (exemplars.empty()) throw Error(ErrorKind::usage, "quality of a synthesis", "no exemplar", "at least one");
+SynthesisQuality measure_quality(const MatchField& matches, const std::vector<Exemplar>& exemplars,
+                                 const GuideStack& target, const QualityParameters& parameters) {
+  if (exemplars.empty())
+    throw Error(ErrorKind::usage, "quality of a synthesis", "there is no exemplar", "at least one");
   for (const Exemplar& exemplar : exemplars) check_exemplar(exemplar);
   check_guide_stack(target, "target");
   if (!matches.same_size(target.label)) {
-    throw Error(ErrorKind::usage, "quality of a synthesis", fmt::format("matches of {} × {} pixels", matches.width(), matches.height()),
+    throw Error(ErrorKind::usage, "quality of a synthesis",
+                fmt::format("matches of {} × {} pixels", matches.width(), matches.height()),
                 fmt::format("{} × {}, the size of the target", target.width(), target.height()));
   }
   std::vector<const Grid<Rgb8>*> layers;
@@ -276,12 +306,14 @@ SynthesisQuality measure_quality(const MatchField& matches, const std::vector<Ex
   quality.seams = seam_visibility(matches, exemplars, target.depth_m, parameters.depth_ratio);
 
   Borders borders{border_distance_squared(target.label), {}};
-  for (const Exemplar& exemplar : exemplars) borders.exemplars.push_back(border_distance_squared(exemplar.guides.label));
+  for (const Exemplar& exemplar : exemplars)
+    borders.exemplars.push_back(border_distance_squared(exemplar.guides.label));
   measure_whole_picture(output, exemplars, borders, parameters, quality);
 
   std::vector<Grid<float>> weights;
   weights.reserve(exemplars.size());
-  for (const Exemplar& exemplar : exemplars) weights.emplace_back(exemplar.picture.width(), exemplar.picture.height(), 0.0F);
+  for (const Exemplar& exemplar : exemplars)
+    weights.emplace_back(exemplar.picture.width(), exemplar.picture.height(), 0.0F);
   std::array<std::size_t, 256> pixels{};
   std::array<std::size_t, 256> texels{};
   for (const std::uint8_t label : target.label) ++pixels[label];

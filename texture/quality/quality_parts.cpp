@@ -46,20 +46,24 @@ double wasserstein(const Histogram& a, const Histogram& b) {
 
 namespace {
 
-constexpr std::array<std::array<int, 2>, 20> clique_steps{{{1, 0},  {0, 1},  {1, 1},  {1, -1}, {2, 0},   {0, 2},  {4, 0},
-                                                           {0, 4},  {4, 4},  {4, -4}, {8, 0},  {0, 8},   {8, 8},  {8, -8},
-                                                           {16, 0}, {0, 16}, {12, 6}, {6, 12}, {12, -6}, {6, -12}}};
+constexpr std::array<std::array<int, 2>, 20> clique_steps{
+    {{1, 0}, {0, 1}, {1, 1}, {1, -1}, {2, 0},  {0, 2},  {4, 0},  {0, 4},  {4, 4},   {4, -4},
+     {8, 0}, {0, 8}, {8, 8}, {8, -8}, {16, 0}, {0, 16}, {12, 6}, {6, 12}, {12, -6}, {6, -12}}};
 using Differences = std::array<double, 64>;
 
-// Adds the differences (first minus second pixel, first the left one) of a picture to a histogram; returns how many.
-std::size_t add_differences(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& labels, std::uint8_t label, int dx, int dy,
-                            const Grid<float>* weights, Differences& counts) {
+// Adds the differences (first minus second pixel, first the left one) of a picture to a histogram;
+// returns their number.
+std::size_t add_differences(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& labels,
+                            std::uint8_t label, int dx, int dy, const Grid<float>* weights,
+                            Differences& counts) {
   std::size_t pairs = 0;
   for (int y = std::max(0, -dy); y < picture.height() - std::max(0, dy); ++y) {
     for (int x = 0; x + dx < picture.width(); ++x) {
       if (labels(x, y) != label || labels(x + dx, y + dy) != label) continue;
-      const int difference = sum_of(picture(x, y)) - sum_of(picture(x + dx, y + dy));  // three times that of grey
-      counts[static_cast<std::size_t>((difference + 768) / 24)] += weights == nullptr ? 1.0 : static_cast<double>((*weights)(x, y));
+      const int difference = sum_of(picture(x, y)) -
+                             sum_of(picture(x + dx, y + dy));  // three times the difference of grey
+      counts[static_cast<std::size_t>((difference + 768) / 24)] +=
+          weights == nullptr ? 1.0 : static_cast<double>((*weights)(x, y));
       ++pairs;
     }
   }
@@ -76,7 +80,8 @@ double difference(const Differences& a, const Differences& b) {
 
 }  // namespace
 
-CliqueDistances clique_distances(const Grid<Rgb8>& output, const Grid<std::uint8_t>& labels, const std::vector<Exemplar>& exemplars,
+CliqueDistances clique_distances(const Grid<Rgb8>& output, const Grid<std::uint8_t>& labels,
+                                 const std::vector<Exemplar>& exemplars,
                                  const std::vector<Grid<float>>& weights, std::uint8_t label) {
   constexpr std::size_t fewest_pairs = 500;
   CliqueDistances sums;
@@ -88,8 +93,10 @@ CliqueDistances clique_distances(const Grid<Rgb8>& output, const Grid<std::uint8
     std::size_t offered = 0;
     const std::size_t made = add_differences(output, labels, label, dx, dy, nullptr, of_output);
     for (std::size_t e = 0; e < exemplars.size(); ++e) {
-      offered += add_differences(exemplars[e].picture, exemplars[e].guides.label, label, dx, dy, nullptr, plain);
-      add_differences(exemplars[e].picture, exemplars[e].guides.label, label, dx, dy, &weights[e], reweighted);
+      offered += add_differences(exemplars[e].picture, exemplars[e].guides.label, label, dx, dy,
+                                 nullptr, plain);
+      add_differences(exemplars[e].picture, exemplars[e].guides.label, label, dx, dy, &weights[e],
+                      reweighted);
     }
     if (made < fewest_pairs || offered < fewest_pairs) continue;
     sums.distance += difference(of_output, plain);
@@ -97,7 +104,8 @@ CliqueDistances clique_distances(const Grid<Rgb8>& output, const Grid<std::uint8
     sums.beyond_floor += difference(of_output, reweighted);
     ++compared;
   }
-  if (compared > 0) sums = {sums.distance / compared, sums.floor / compared, sums.beyond_floor / compared};
+  if (compared > 0)
+    sums = {sums.distance / compared, sums.floor / compared, sums.beyond_floor / compared};
   return sums;
 }
 

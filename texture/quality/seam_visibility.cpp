@@ -9,7 +9,8 @@
 namespace belvedere {
 namespace {
 
-// Steps between 4-neighbours: how many, and the sum of |R − R'| + |G − G'| + |B − B'|, exact in integers.
+// Steps between 4-neighbours: their number, and the sum of |R − R'| + |G − G'| + |B − B'|, exact in
+// integers.
 struct Steps {
   std::uint64_t sum = 0;
   std::uint64_t count = 0;
@@ -20,12 +21,15 @@ struct Steps {
   double mean() const { return static_cast<double>(sum) / static_cast<double>(count); }
 };
 
-int step_between(const Rgb8& a, const Rgb8& b) { return std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]); }
+int step_between(const Rgb8& a, const Rgb8& b) {
+  return std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]);
+}
 
-// Texels of a class by the values of a channel, for all three.
+// Texels of a class by value, for the three channels.
 using ChannelHistograms = std::array<std::array<std::uint64_t, 256>, 3>;
 
-// Mean step between texels picked independently: E|A − B| = Σ over v of P(A ≤ v) P(B > v) + P(B ≤ v) P(A > v), summed over channels.
+// Mean step between texels picked independently: E|A − B| = Σ over v of P(A ≤ v) P(B > v) + P(B ≤
+// v) P(A > v), summed over channels.
 double chance_step(const ChannelHistograms& a, const ChannelHistograms& b) {
   double step = 0.0;
   for (std::size_t c = 0; c < 3; ++c) {
@@ -45,13 +49,17 @@ double chance_step(const ChannelHistograms& a, const ChannelHistograms& b) {
   return step;
 }
 
-// What a painting's own neighbours are apart, by pair of classes (the lesser label first), and at borders of any two classes.
+// Steps between a painting's own neighbours, by pair of classes (the lower label first), and at
+// borders of any two classes.
 struct OwnSteps {
   std::vector<Steps> by_pair = std::vector<Steps>(std::size_t{256} * 256);
   Steps borders;
-  double borders_by_chance = 0.0;  // what borders.sum would be if the texels there were any of their classes
+  double borders_by_chance =
+      0.0;  // the expected borders.sum if the texels there were random ones of their classes
   std::map<std::uint8_t, ChannelHistograms> colours;
-  const Steps& of(std::uint8_t a, std::uint8_t b) const { return by_pair[std::size_t{std::min(a, b)} * 256 + std::max(a, b)]; }
+  const Steps& of(std::uint8_t a, std::uint8_t b) const {
+    return by_pair[std::size_t{std::min(a, b)} * 256 + std::max(a, b)];
+  }
 };
 
 OwnSteps own_steps(const Exemplar& exemplar) {
@@ -84,21 +92,25 @@ OwnSteps own_steps(const Exemplar& exemplar) {
   return own;
 }
 
-// The mean of both paintings' means, of one where the other has no such pair; negative where neither has.
+// The mean of both paintings' means, or that of one if the other has no such pair; negative if
+// neither has.
 double mean_of_both(const Steps& a, const Steps& b) {
   if (a.count == 0 && b.count == 0) return -1.0;
   if (a.count == 0) return b.mean();
   return b.count == 0 ? a.mean() : (a.mean() + b.mean()) / 2.0;
 }
 
-// What two classes that no painting has side by side would be apart at a border: texels by chance, times the share of that by which the
-// paintings' other borders step; negative where there are none.
-double step_of_strangers(const OwnSteps& a, std::uint8_t label, const OwnSteps& b, std::uint8_t other) {
+// The expected step at a border of two classes that no painting has side by side: that of random
+// texels, times the ratio of actual to random steps at the paintings' other borders; negative if
+// there are none.
+double step_of_strangers(const OwnSteps& a, std::uint8_t label, const OwnSteps& b,
+                         std::uint8_t other) {
   const double by_chance = a.borders_by_chance + b.borders_by_chance;
   const auto of_a = a.colours.find(label);
   const auto of_b = b.colours.find(other);
   if (by_chance <= 0.0 || of_a == a.colours.end() || of_b == b.colours.end()) return -1.0;
-  return chance_step(of_a->second, of_b->second) * static_cast<double>(a.borders.sum + b.borders.sum) / by_chance;
+  return chance_step(of_a->second, of_b->second) *
+         static_cast<double>(a.borders.sum + b.borders.sum) / by_chance;
 }
 
 // Sums over the seams of one kind.
@@ -119,8 +131,8 @@ struct SeamSums {
 
 }  // namespace
 
-SeamsOfKinds seam_visibility(const MatchField& matches, const std::vector<Exemplar>& exemplars, const Grid<float>& depth_m,
-                             float depth_ratio) {
+SeamsOfKinds seam_visibility(const MatchField& matches, const std::vector<Exemplar>& exemplars,
+                             const Grid<float>& depth_m, float depth_ratio) {
   std::vector<OwnSteps> own;
   own.reserve(exemplars.size());
   for (const Exemplar& exemplar : exemplars) own.push_back(own_steps(exemplar));
@@ -132,7 +144,8 @@ SeamsOfKinds seam_visibility(const MatchField& matches, const std::vector<Exempl
     const Match& a = matches(x, y);
     const Match& b = matches(x + dx, y + dy);
     if (a.exemplar == Match::none || b.exemplar == Match::none) return;
-    if (a.exemplar == b.exemplar && b.x - a.x == dx && b.y - a.y == dy) return;  // copied together: no seam
+    if (a.exemplar == b.exemplar && b.x - a.x == dx && b.y - a.y == dy)
+      return;  // copied together: not a seam
     if (!depth_m.empty()) {
       const float near = std::min(depth_m(x, y), depth_m(x + dx, y + dy));
       const float far = std::max(depth_m(x, y), depth_m(x + dx, y + dy));
@@ -147,7 +160,8 @@ SeamsOfKinds seam_visibility(const MatchField& matches, const std::vector<Exempl
     sums.all.add(step);
     double usual = mean_of_both(own[a.exemplar].of(label, other), own[b.exemplar].of(label, other));
     if (usual < 0.0 && label != other) {
-      const auto [known, is_new] = strangers.try_emplace({a.exemplar, label, b.exemplar, other}, 0.0);
+      const auto [known, is_new] =
+          strangers.try_emplace({a.exemplar, label, b.exemplar, other}, 0.0);
       if (is_new) known->second = step_of_strangers(own[a.exemplar], label, own[b.exemplar], other);
       usual = known->second;
     }

@@ -9,15 +9,17 @@ namespace {
 
 constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
-// Between two groups: their weights summed, and how many pairs that are.
+// Between two groups: sum of the weights, and number of pairs.
 struct Groups {
   std::vector<double> sum;  // count × count
   std::vector<std::size_t> members;
   std::size_t count;
-  double mean(std::size_t a, std::size_t b) const { return sum[a * count + b] / static_cast<double>(members[a] * members[b]); }
+  double mean(std::size_t a, std::size_t b) const {
+    return sum[a * count + b] / static_cast<double>(members[a] * members[b]);
+  }
 };
 
-// The later group that has the largest mean weight to this one; none where there is none.
+// The later group with the largest mean weight to this one; none if there is none.
 std::size_t best_partner(const Groups& groups, std::size_t a) {
   std::size_t best = none;
   double highest = -std::numeric_limits<double>::infinity();
@@ -76,7 +78,8 @@ Partition join_by_mean_weight(const PairWeights& weights) {
     groups.members[b] = 0;
     for (std::uint16_t& group : of)
       if (group == b) group = static_cast<std::uint16_t>(a);
-    // Means to others changed only where one of the two is meant; a group whose partner was neither may have found a better one in `a`.
+    // Only means to one of the two have changed; a group whose partner was neither may have found a
+    // better one in `a`.
     for (std::size_t i = 0; i < count; ++i) {
       if (groups.members[i] == 0) continue;
       if (i == a || partner[i] == a || partner[i] == b) {
@@ -93,7 +96,8 @@ Partition join_by_mean_weight(const PairWeights& weights) {
 Partition move_singly(const PairWeights& weights, const Partition& start) {
   const std::size_t count = weights.count();
   Partition of = in_order(start);
-  // Room for one group more than there are things, so that one is always empty: to stand alone is a move too.
+  // One group more than things, so that one is always empty: becoming a group of its own is also a
+  // move.
   const std::size_t groups = count + 1;
   std::vector<double> pull(count * groups, 0.0);  // of every group on every thing
   std::vector<std::size_t> members(groups, 0);
@@ -102,17 +106,17 @@ Partition move_singly(const PairWeights& weights, const Partition& start) {
     for (std::size_t j = 0; j < count; ++j)
       if (i != j) pull[i * groups + of[j]] += weights(i, j);
   }
-  // Gains below this are the rounding of sums.
+  // Smaller gains are rounding errors of sums.
   double scale = 0.0;
   for (std::size_t a = 0; a < count; ++a)
     for (std::size_t b = a + 1; b < count; ++b) scale = std::max(scale, std::abs(weights(a, b)));
-  const double least = 1e-9 * scale;
+  const double min = 1e-9 * scale;
   for (bool moved = true; moved;) {
     moved = false;
     for (std::size_t i = 0; i < count; ++i) {
       const std::size_t own = of[i];
       std::size_t best = own;
-      double highest = pull[i * groups + own] + least;
+      double highest = pull[i * groups + own] + min;
       bool empty_seen = false;
       for (std::size_t g = 0; g < groups; ++g) {
         if (g == own || (members[g] == 0 && empty_seen)) continue;
@@ -138,6 +142,8 @@ Partition move_singly(const PairWeights& weights, const Partition& start) {
   return in_order(of);
 }
 
-Partition partition_cliques(const PairWeights& weights) { return move_singly(weights, join_by_mean_weight(weights)); }
+Partition partition_cliques(const PairWeights& weights) {
+  return move_singly(weights, join_by_mean_weight(weights));
+}
 
 }  // namespace belvedere

@@ -8,7 +8,7 @@
 namespace belvedere {
 namespace {
 
-// What is left to join, by the number of each thing's first piece.
+// Remaining things to merge, by the number of each thing's first piece.
 class Forest {
  public:
   Forest(const PairWeights& distance, const std::vector<double>& pixels, const Partition& groups)
@@ -31,18 +31,19 @@ class Forest {
       }
   }
 
-  // Joins the best two of one group, or of any: false where there are none.
+  // Merges the best two of one group, or of any: false if there are none.
   bool join_best(bool within_groups, JoinTree& tree) {
     std::size_t first = count_;
     std::size_t second = count_;
-    double least = std::numeric_limits<double>::infinity();
+    double min = std::numeric_limits<double>::infinity();
     for (std::size_t a = 0; a < count_; ++a) {
       if (!alive_[a]) continue;
       for (std::size_t b = a + 1; b < count_; ++b) {
         if (!alive_[b] || (within_groups && group_[a] != group_[b])) continue;
-        const double cost = sum_[a * count_ + b] / weight_[a * count_ + b] * std::min(root_[a], root_[b]);
-        if (cost < least) {
-          least = cost;
+        const double cost =
+            sum_[a * count_ + b] / weight_[a * count_ + b] * std::min(root_[a], root_[b]);
+        if (cost < min) {
+          min = cost;
           first = a;
           second = b;
         }
@@ -72,14 +73,16 @@ class Forest {
   const Partition& group_;
   std::vector<std::uint16_t> node_;
   std::vector<bool> alive_;
-  std::vector<double> sum_, weight_;  // of the distances between two things, and of the pairs they are means over
+  std::vector<double> sum_,
+      weight_;  // of the distances between two things, and of the pairs they are means over
   std::vector<double> root_;
   double all_ = 0.0;
 };
 
 }  // namespace
 
-JoinTree join_pieces(const PairWeights& distance, const std::vector<double>& pixels, const Partition& groups) {
+JoinTree join_pieces(const PairWeights& distance, const std::vector<double>& pixels,
+                     const Partition& groups) {
   JoinTree tree{pixels.size(), {}};
   Forest forest(distance, pixels, groups);
   while (forest.join_best(true, tree)) {
@@ -91,10 +94,10 @@ JoinTree join_pieces(const PairWeights& distance, const std::vector<double>& pix
 
 namespace {
 
-// For each piece the node that holds it when `count` are left.
+// For each piece the node that contains it when `count` are left.
 std::vector<std::uint16_t> nodes_of_pieces(const JoinTree& tree, std::size_t count) {
   const std::size_t kept = tree.pieces - std::min(std::max<std::size_t>(count, 1), tree.pieces);
-  // From the last join that counts down: each node hands its own to what it was made of.
+  // From the last counted join downwards: each node passes its group to its two parts.
   std::vector<std::uint16_t> of(tree.pieces + tree.joins.size());
   std::iota(of.begin(), of.end(), std::uint16_t{0});
   for (std::size_t k = kept; k-- > 0;)
@@ -105,7 +108,9 @@ std::vector<std::uint16_t> nodes_of_pieces(const JoinTree& tree, std::size_t cou
 
 }  // namespace
 
-Partition cut_tree(const JoinTree& tree, std::size_t count) { return in_order(nodes_of_pieces(tree, count)); }
+Partition cut_tree(const JoinTree& tree, std::size_t count) {
+  return in_order(nodes_of_pieces(tree, count));
+}
 
 std::vector<std::uint16_t> cut_nodes(const JoinTree& tree, std::size_t count) {
   std::vector<std::uint16_t> nodes;

@@ -34,13 +34,15 @@ struct Centre {
   float y = 0.F;
 };
 
-// Centres in rows, the odd ones shifted by half a step: a honeycomb of `across` × `down`.
+// Centres in rows, odd rows shifted by half a step: a honeycomb of `across` × `down`.
 struct Lattice {
   int across;
   int down;
   double step_x;
   double step_y;
-  glm::dvec2 place(int i, int j) const { return {(i + (j % 2 == 0 ? 0.25 : 0.75)) * step_x - 0.5, (j + 0.5) * step_y - 0.5}; }
+  glm::dvec2 position(int i, int j) const {
+    return {(i + (j % 2 == 0 ? 0.25 : 0.75)) * step_x - 0.5, (j + 0.5) * step_y - 0.5};
+  }
   std::size_t index(int i, int j) const { return static_cast<std::size_t>(j * across + i); }
 };
 
@@ -54,8 +56,10 @@ Lattice make_lattice(int width, int height, int count) {
   return lattice;
 }
 
-// Each pixel to the best of the centres that began near it: no centre goes farther than a step, so two columns and rows around suffice.
-Grid<std::uint16_t> assign(const Grid<glm::vec3>& picture, const Lattice& lattice, const std::vector<Centre>& centres, float compactness) {
+// Each pixel goes to the best of the centres that began near it: a centre moves at most one step,
+// so two columns and rows around suffice.
+Grid<std::uint16_t> assign(const Grid<glm::vec3>& picture, const Lattice& lattice,
+                           const std::vector<Centre>& centres, float compactness) {
   Grid<std::uint16_t> of(picture.width(), picture.height());
   const auto per_x = static_cast<float>(compactness / lattice.step_x);
   const auto per_y = static_cast<float>(compactness / lattice.step_y);
@@ -64,7 +68,7 @@ Grid<std::uint16_t> assign(const Grid<glm::vec3>& picture, const Lattice& lattic
     for (int x = 0; x < picture.width(); ++x) {
       const int column = std::min(static_cast<int>(x / lattice.step_x), lattice.across - 1);
       const glm::vec3& colour = picture(x, y);
-      float least = std::numeric_limits<float>::infinity();
+      float min = std::numeric_limits<float>::infinity();
       for (int j = std::max(row - 1, 0); j <= std::min(row + 1, lattice.down - 1); ++j)
         for (int i = std::max(column - 1, 0); i <= std::min(column + 1, lattice.across - 1); ++i) {
           const Centre& centre = centres[lattice.index(i, j)];
@@ -72,8 +76,8 @@ Grid<std::uint16_t> assign(const Grid<glm::vec3>& picture, const Lattice& lattic
           const float dx = (static_cast<float>(x) - centre.x) * per_x;
           const float dy = (static_cast<float>(y) - centre.y) * per_y;
           const float distance = glm::dot(step, step) + dx * dx + dy * dy;
-          if (distance < least) {
-            least = distance;
+          if (distance < min) {
+            min = distance;
             of(x, y) = static_cast<std::uint16_t>(lattice.index(i, j));
           }
         }
@@ -82,7 +86,8 @@ Grid<std::uint16_t> assign(const Grid<glm::vec3>& picture, const Lattice& lattic
   return of;
 }
 
-void move_centres(const Grid<glm::vec3>& picture, const Grid<std::uint16_t>& of, std::vector<Centre>& centres) {
+void move_centres(const Grid<glm::vec3>& picture, const Grid<std::uint16_t>& of,
+                  std::vector<Centre>& centres) {
   struct Sum {
     glm::dvec3 colour{0.0};
     double x = 0.0, y = 0.0, count = 0.0;
@@ -99,18 +104,22 @@ void move_centres(const Grid<glm::vec3>& picture, const Grid<std::uint16_t>& of,
   for (std::size_t k = 0; k < centres.size(); ++k) {
     const Sum& sum = sums[k];
     if (sum.count > 0.0)
-      centres[k] = {glm::vec3(sum.colour / sum.count), static_cast<float>(sum.x / sum.count), static_cast<float>(sum.y / sum.count)};
+      centres[k] = {glm::vec3(sum.colour / sum.count), static_cast<float>(sum.x / sum.count),
+                    static_cast<float>(sum.y / sum.count)};
   }
 }
 
-Grid<std::uint16_t> even_cells(const Grid<glm::vec3>& picture, const SuperpixelParameters& parameters) {
-  const Lattice lattice = make_lattice(picture.width(), picture.height(), std::max(parameters.cells, parameters.count));
+Grid<std::uint16_t> even_cells(const Grid<glm::vec3>& picture,
+                               const SuperpixelParameters& parameters) {
+  const Lattice lattice =
+      make_lattice(picture.width(), picture.height(), std::max(parameters.cells, parameters.count));
   std::vector<Centre> centres;
   for (int j = 0; j < lattice.down; ++j)
     for (int i = 0; i < lattice.across; ++i) {
-      const glm::dvec2 place = lattice.place(i, j);
-      const glm::vec3& colour = picture.clamped(static_cast<int>(place.x + 0.5), static_cast<int>(place.y + 0.5));
-      centres.push_back({colour, static_cast<float>(place.x), static_cast<float>(place.y)});
+      const glm::dvec2 position = lattice.position(i, j);
+      const glm::vec3& colour =
+          picture.clamped(static_cast<int>(position.x + 0.5), static_cast<int>(position.y + 0.5));
+      centres.push_back({colour, static_cast<float>(position.x), static_cast<float>(position.y)});
     }
   Grid<std::uint16_t> of;
   for (int round = 0; round < std::max(parameters.rounds, 1); ++round) {
@@ -152,10 +161,11 @@ struct Region {
   glm::dvec3 sum{0.0};
   double pixels = 0.0;
   std::map<std::uint32_t, double> border;  // length of that with each neighbour, px
-  std::uint32_t joined = 0;                // how often; what was reckoned before is void
+  std::uint32_t joined = 0;                // number of joins; earlier costs are then invalid
 };
 
-// What joining two regions adds to the sum of squared deviations, for each pixel of the border that goes.
+// Increase of the sum of squared deviations when two regions are merged, per pixel of the removed
+// border.
 double cost_of_joining(const Region& a, const Region& b, double border) {
   const glm::dvec3 step = a.sum / a.pixels - b.sum / b.pixels;
   return a.pixels * b.pixels / (a.pixels + b.pixels) * glm::dot(step, step) / border;
@@ -170,7 +180,8 @@ struct Joint {
   }
 };
 
-std::vector<Region> measure_regions(const Grid<glm::vec3>& picture, const Grid<std::uint32_t>& piece, std::size_t count) {
+std::vector<Region> measure_regions(const Grid<glm::vec3>& picture,
+                                    const Grid<std::uint32_t>& piece, std::size_t count) {
   std::vector<Region> regions(count);
   const auto meet = [&](std::uint32_t a, std::uint32_t b) {
     if (a == b) return;
@@ -188,12 +199,12 @@ std::vector<Region> measure_regions(const Grid<glm::vec3>& picture, const Grid<s
   return regions;
 }
 
-// For each region the one it ends up in.
+// The final region of each region.
 std::vector<std::uint32_t> join_regions(std::vector<Region> regions, std::size_t wanted) {
   std::priority_queue<Joint, std::vector<Joint>, std::greater<>> joints;
   const auto offer = [&](std::uint32_t a, std::uint32_t b, double border) {
-    joints.push({cost_of_joining(regions[a], regions[b], border), std::min(a, b), std::max(a, b), regions[std::min(a, b)].joined,
-                 regions[std::max(a, b)].joined});
+    joints.push({cost_of_joining(regions[a], regions[b], border), std::min(a, b), std::max(a, b),
+                 regions[std::min(a, b)].joined, regions[std::max(a, b)].joined});
   };
   for (std::uint32_t a = 0; a < regions.size(); ++a)
     for (const auto& [b, border] : regions[a].border)
@@ -205,7 +216,9 @@ std::vector<std::uint32_t> join_regions(std::vector<Region> regions, std::size_t
     joints.pop();
     Region& a = regions[joint.a];
     Region& b = regions[joint.b];
-    if (into[joint.a] != joint.a || into[joint.b] != joint.b || a.joined != joint.joined_a || b.joined != joint.joined_b) continue;
+    if (into[joint.a] != joint.a || into[joint.b] != joint.b || a.joined != joint.joined_a ||
+        b.joined != joint.joined_b)
+      continue;
     into[joint.b] = joint.a;
     a.sum += b.sum;
     a.pixels += b.pixels;
@@ -221,19 +234,21 @@ std::vector<std::uint32_t> join_regions(std::vector<Region> regions, std::size_t
     for (const auto& [other, border] : a.border) offer(joint.a, other, border);
     --left;
   }
-  // Regions are joined to lower ones, so what a lower one ends in is known first.
+  // Regions are merged into lower ones, so the final region of a lower one is already known.
   for (std::uint32_t i = 0; i < into.size(); ++i) into[i] = into[into[i]];
   return into;
 }
 
 }  // namespace
 
-Superpixels find_superpixels(const Grid<glm::vec3>& picture, const SuperpixelParameters& parameters) {
+Superpixels find_superpixels(const Grid<glm::vec3>& picture,
+                             const SuperpixelParameters& parameters) {
   const Grid<glm::vec3> seen = blurred(picture, parameters.blur_px);
   std::size_t pieces = 0;
   const Grid<std::uint32_t> piece = connected_pieces(even_cells(seen, parameters), pieces);
   const std::vector<std::uint32_t> into =
-      join_regions(measure_regions(seen, piece, pieces), static_cast<std::size_t>(std::max(parameters.count, 1)));
+      join_regions(measure_regions(seen, piece, pieces),
+                   static_cast<std::size_t>(std::max(parameters.count, 1)));
   constexpr std::uint16_t unmet = std::numeric_limits<std::uint16_t>::max();
   std::vector<std::uint16_t> number(pieces, unmet);
   Superpixels out{Grid<std::uint16_t>(picture.width(), picture.height()), 0};

@@ -9,7 +9,8 @@
 #include "texture/sheet/plan_data.h"
 #include "texture/sheet/synthesis_plan.h"
 
-// A plan as bytes: numbers of 8 bytes, the lowest first; lists begin with their length; a sum over all at the end.
+// A plan as bytes: numbers of 8 bytes, little-endian; lists begin with their length; a checksum of
+// everything at the end.
 namespace belvedere {
 
 namespace {
@@ -24,10 +25,11 @@ class Writer {
     for (int i = 0; i < 8; ++i) bytes_.push_back(static_cast<std::uint8_t>(bits >> (8 * i)));
   }
   template <class T>
-  void list(const std::vector<T>& values) {  // of 1 or 4 bytes, the lowest first
+  void list(const std::vector<T>& values) {  // of 1 or 4 bytes, little-endian
     number(values.size());
     for (const T value : values)
-      for (std::size_t i = 0; i < sizeof(T); ++i) bytes_.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
+      for (std::size_t i = 0; i < sizeof(T); ++i)
+        bytes_.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
   }
   void text(std::string_view value) { list(std::vector<std::uint8_t>(value.begin(), value.end())); }
   std::vector<std::uint8_t>& bytes() { return bytes_; }
@@ -37,12 +39,13 @@ class Writer {
 };
 
 [[noreturn]] void refuse(const std::string& found) {
-  throw Error(ErrorKind::input, "plan of synthesis", found, "a plan of this version, whole");
+  throw Error(ErrorKind::input, "plan of synthesis", found, "a complete plan of this version");
 }
 
 class Reader {
  public:
-  explicit Reader(const std::vector<std::uint8_t>& bytes, std::size_t end) : bytes_(bytes), end_(end) {}
+  explicit Reader(const std::vector<std::uint8_t>& bytes, std::size_t end)
+      : bytes_(bytes), end_(end) {}
   std::uint64_t number() {
     need(8);
     std::uint64_t bits = 0;
@@ -57,10 +60,11 @@ class Reader {
   template <class T>
   std::vector<T> list() {
     const std::uint64_t count = number();
-    if (count > (end_ - at_) / sizeof(T)) refuse("an end too early");
+    if (count > (end_ - at_) / sizeof(T)) refuse("the data end too early");
     std::vector<T> values(count, 0);
     for (T& value : values)
-      for (std::size_t i = 0; i < sizeof(T); ++i) value = static_cast<T>(value | static_cast<T>(bytes_[at_++]) << (8 * i));
+      for (std::size_t i = 0; i < sizeof(T); ++i)
+        value = static_cast<T>(value | static_cast<T>(bytes_[at_++]) << (8 * i));
     return values;
   }
   std::string text() {
@@ -71,7 +75,7 @@ class Reader {
 
  private:
   void need(std::size_t count) const {
-    if (end_ - at_ < count) refuse("an end too early");
+    if (end_ - at_ < count) refuse("the data end too early");
   }
   const std::vector<std::uint8_t>& bytes_;
   std::size_t end_;
@@ -84,13 +88,16 @@ std::uint64_t checksum(const std::vector<std::uint8_t>& bytes, std::size_t count
   return sum;
 }
 
-std::vector<std::uint32_t> to_list(const std::array<std::uint32_t, 256>& values) { return {values.begin(), values.end()}; }
+std::vector<std::uint32_t> to_list(const std::array<std::uint32_t, 256>& values) {
+  return {values.begin(), values.end()};
+}
 
 void read_classes(Reader& in, std::array<std::uint32_t, 256>& out, int count) {
   const std::vector<std::uint32_t> values = in.list<std::uint32_t>();
-  if (values.size() != out.size()) refuse("another number of labels");
+  if (values.size() != out.size()) refuse("the number of labels differs");
   for (std::size_t i = 0; i < out.size(); ++i) {
-    if (values[i] >= static_cast<std::uint32_t>(count) && values[i] != synth::no_class) refuse("an unknown class");
+    if (values[i] >= static_cast<std::uint32_t>(count) && values[i] != synth::no_class)
+      refuse("an unknown class");
     out[i] = values[i];
   }
 }
@@ -102,7 +109,9 @@ std::vector<std::uint8_t> pack_plan(const SynthesisPlan& plan) {
   Writer out;
   out.text(magic);
   out.number(data.digest);
-  for (const int value : {data.sheet.width, data.sheet.height, data.sheet.level, data.sheet.tile_px}) out.number(value);
+  for (const int value :
+       {data.sheet.width, data.sheet.height, data.sheet.level, data.sheet.tile_px})
+    out.number(value);
   const SynthesisParameters& parameters = data.setup.parameters;
   out.number(parameters.seed);
   out.number(parameters.neighbourhood);
@@ -116,7 +125,8 @@ std::vector<std::uint8_t> pack_plan(const SynthesisPlan& plan) {
   }
   const synth::Classes& classes = data.setup.classes;
   out.number(classes.count);
-  for (const auto* table : {&classes.of_exemplar, &classes.of_target, &classes.around}) out.list(to_list(*table));
+  for (const auto* table : {&classes.of_exemplar, &classes.of_target, &classes.around})
+    out.list(to_list(*table));
   out.number(data.setup.around_price.weight_q8());
   out.list(data.setup.around_price.pairs());
   out.list(data.matches);
@@ -126,22 +136,28 @@ std::vector<std::uint8_t> pack_plan(const SynthesisPlan& plan) {
   return std::move(out.bytes());
 }
 
-SynthesisPlan unpack_plan(const std::vector<std::uint8_t>& bytes, const std::vector<Exemplar>& exemplars) {
-  if (bytes.size() < 8) refuse("an end too early");
+SynthesisPlan unpack_plan(const std::vector<std::uint8_t>& bytes,
+                          const std::vector<Exemplar>& exemplars) {
+  if (bytes.size() < 8) refuse("the data end too early");
   Reader in(bytes, bytes.size() - 8);
-  if (in.text() != magic) refuse("another kind of file");
+  if (in.text() != magic) refuse("not a synthesis plan");
   std::uint64_t stored = 0;
-  for (std::size_t i = 0; i < 8; ++i) stored |= static_cast<std::uint64_t>(bytes[bytes.size() - 8 + i]) << (8 * i);
-  if (stored != checksum(bytes, bytes.size() - 8)) refuse("damaged bytes");
+  for (std::size_t i = 0; i < 8; ++i)
+    stored |= static_cast<std::uint64_t>(bytes[bytes.size() - 8 + i]) << (8 * i);
+  if (stored != checksum(bytes, bytes.size() - 8)) refuse("the data are damaged");
   auto data = std::make_unique<SynthesisPlanData>();
   data->digest = in.number();
-  for (int* value : {&data->sheet.width, &data->sheet.height, &data->sheet.level, &data->sheet.tile_px}) *value = in.small_number();
-  if (data->sheet.width < 1 || data->sheet.height < 1 || data->sheet.level > most_levels_in_tiles || data->sheet.tile_px < 1)
-    refuse("no sheet");
+  for (int* value :
+       {&data->sheet.width, &data->sheet.height, &data->sheet.level, &data->sheet.tile_px})
+    *value = in.small_number();
+  if (data->sheet.width < 1 || data->sheet.height < 1 || data->sheet.level > max_levels_in_tiles ||
+      data->sheet.tile_px < 1)
+    refuse("the sheet is missing");
   SynthesisParameters& parameters = data->setup.parameters;
   parameters.seed = in.number();
   parameters.neighbourhood = in.small_number();
-  if (parameters.neighbourhood % 2 == 0 || parameters.patch_radius() < 1 || parameters.patch_radius() > synth::largest_patch_radius)
+  if (parameters.neighbourhood % 2 == 0 || parameters.patch_radius() < 1 ||
+      parameters.patch_radius() > synth::largest_patch_radius)
     refuse("a neighbourhood out of range");
   if (in.number() != 0) parameters.surroundings_of = "all";
   parameters.copy_cap = in.small_number();
@@ -153,26 +169,33 @@ SynthesisPlan unpack_plan(const std::vector<std::uint8_t>& bytes, const std::vec
   }
   synth::Classes& classes = data->setup.classes;
   classes.count = in.small_number();
-  for (auto* table : {&classes.of_exemplar, &classes.of_target, &classes.around}) read_classes(in, *table, classes.count);
+  for (auto* table : {&classes.of_exemplar, &classes.of_target, &classes.around})
+    read_classes(in, *table, classes.count);
   const std::int64_t weight_q8 = static_cast<std::int64_t>(in.number());
   data->setup.around_price = {weight_q8, in.list<std::uint8_t>(), classes.count};
   data->matches = in.list<std::uint32_t>();
   data->demand.counts = in.list<std::uint32_t>();
   data->demand.keys = synth::choose_list_keys(data->setup.roles);
-  for (int level = 0; level < data->sheet.level && classes.count > 0; ++level) data->usual_errors.push_back(in.list<std::uint8_t>());
-  if (!in.at_end()) refuse("more than a plan");
-  const std::size_t pixels = static_cast<std::size_t>(data->sheet.plan_width()) * static_cast<std::size_t>(data->sheet.plan_height());
-  const std::size_t asked = static_cast<std::size_t>(classes.count) * static_cast<std::size_t>(data->demand.keys.buckets()) * 256;
-  if (data->matches.size() != pixels || data->demand.counts.size() != asked) refuse("tables of another size");
+  for (int level = 0; level < data->sheet.level && classes.count > 0; ++level)
+    data->usual_errors.push_back(in.list<std::uint8_t>());
+  if (!in.at_end()) refuse("there are data after the plan");
+  const std::size_t pixels = static_cast<std::size_t>(data->sheet.plan_width()) *
+                             static_cast<std::size_t>(data->sheet.plan_height());
+  const std::size_t asked = static_cast<std::size_t>(classes.count) *
+                            static_cast<std::size_t>(data->demand.keys.buckets()) * 256;
+  if (data->matches.size() != pixels || data->demand.counts.size() != asked)
+    refuse("the tables have another size");
 
   for (const Exemplar& exemplar : exemplars) check_exemplar(exemplar);
   std::vector<synth::Plane> planes{synth::exemplar_plane(exemplars, data->setup)};
   if (digest_of(planes[0]) != data->digest)
-    throw Error(ErrorKind::input, "plan of synthesis", "a plan made with other exemplars",
-                "the exemplars it was made with, in their order");
-  for (int level = 0; level < data->sheet.level; ++level) planes.push_back(synth::halve(planes.back()));
+    throw Error(ErrorKind::input, "plan of synthesis", "the plan was made with other exemplars",
+                "the same exemplars in the same order");
+  for (int level = 0; level < data->sheet.level; ++level)
+    planes.push_back(synth::halve(planes.back()));
   make_sources(*data, std::move(planes));
-  for (std::size_t l = 0; l < data->sources.size(); ++l) data->sources[l]->usual_error = data->usual_errors[l];
+  for (std::size_t l = 0; l < data->sources.size(); ++l)
+    data->sources[l]->usual_error = data->usual_errors[l];
   return SynthesisPlan(std::move(data));
 }
 

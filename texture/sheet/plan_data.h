@@ -15,15 +15,20 @@ struct LevelMatches {
   PixelRect rect;
   std::vector<std::uint32_t> texels;
   std::uint32_t at(int x, int y) const {
-    return texels[static_cast<std::size_t>(y - rect.y0) * static_cast<std::size_t>(rect.width()) + static_cast<std::size_t>(x - rect.x0)];
+    return texels[static_cast<std::size_t>(y - rect.y0) * static_cast<std::size_t>(rect.width()) +
+                  static_cast<std::size_t>(x - rect.x0)];
   }
-  bool contains(int x, int y) const { return x >= rect.x0 && y >= rect.y0 && x < rect.x1 && y < rect.y1; }
+  bool contains(int x, int y) const {
+    return x >= rect.x0 && y >= rect.y0 && x < rect.x1 && y < rect.y1;
+  }
 };
 
-// What was made in one go: a corner, a line between corners or a tile. Its rectangle is empty where it has no breadth.
+// An area that is made in one go: a corner, a line between corners or a tile. Its rectangle is
+// empty where it has no width.
 struct SynthesisArea {
-  PixelRect rect;         // of the sheet
-  bool across_x = false;  // is a line that goes down, or a corner: made with neighbours to the left and right
+  PixelRect rect;  // of the sheet
+  bool across_x =
+      false;  // a vertical line, or a corner: made with neighbours to the left and right
   bool across_y = false;
 };
 struct MadeArea {
@@ -32,7 +37,8 @@ struct MadeArea {
   std::vector<LevelMatches> levels;
 };
 
-// Corners and lines, some of the last that were made: tiles beside each other begin with the same. A line of three levels takes 230 KB.
+// Some of the corners and lines that were made last: neighbouring tiles begin with the same ones. A
+// line of three levels takes 230 KB.
 class MadeBetweenTiles {
  public:
   std::shared_ptr<const MadeArea> find(const PixelRect& rect, std::uint64_t guides) const;
@@ -40,25 +46,28 @@ class MadeBetweenTiles {
   std::size_t count() const { return made_.size(); }
 
  private:
-  std::deque<std::shared_ptr<const MadeArea>> made_;  // the oldest first
+  std::deque<std::shared_ptr<const MadeArea>> made_;  // oldest first
 };
 
-// What a plan holds; for who makes, packs and uses plans alone.
+// The content of a plan; only for code that makes, packs and uses plans.
 struct SynthesisPlanData {
   SynthesisSheet sheet;
   synth::Setup setup;
-  std::vector<std::uint32_t> matches;                   // of the plan's level, row by row: texel of exemplars[level], or its nowhere
-  synth::Demand demand;                                 // of the plan's level
+  std::vector<std::uint32_t>
+      matches;  // of the plan's level, row by row: texel of exemplars[level], or its nowhere
+  synth::TexelDemand demand;                            // of the plan's level
   std::vector<std::vector<std::uint8_t>> usual_errors;  // by finer level
-  std::vector<synth::Plane> exemplars;                  // levels 0 … plan; of the finer ones the pictures, of the plan's the places alone
+  std::vector<synth::Plane>
+      exemplars;  // levels 0 … plan; of finer levels the pictures, of the plan's the positions only
   std::vector<std::shared_ptr<synth::LevelSource>> sources;  // by finer level
   std::uint64_t digest = 0;                                  // of the exemplars
-  MadeBetweenTiles between_tiles;                            // no part of the plan: what it led to
+  MadeBetweenTiles between_tiles;  // not part of the plan: derived from it
 };
 
-// Of all that synthesis reads of the exemplars.
+// Of everything that synthesis reads from the exemplars.
 std::uint64_t digest_of(const synth::Plane& exemplars);
-// The part of the plan that is made from the exemplars and what was counted in the small view. planes: levels 0 … the plan's at least.
+// The part of the plan that is made from the exemplars and the counts of the small view. planes: at
+// least levels 0 … the plan's.
 void make_sources(SynthesisPlanData& data, std::vector<synth::Plane> planes);
 
 }  // namespace belvedere

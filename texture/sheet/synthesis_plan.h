@@ -15,7 +15,8 @@ namespace belvedere {
 
 struct SynthesisPlanData;  // plan_data.h
 
-// What all tiles have in common: matches of the plan's level, and of the exemplars what the finer levels search. It owns its data.
+// Shared by all tiles: matches of the plan's level, and the parts of the exemplars that the finer
+// levels search. It owns its data.
 class SynthesisPlan {
  public:
   explicit SynthesisPlan(std::unique_ptr<SynthesisPlanData> data);
@@ -31,15 +32,18 @@ class SynthesisPlan {
   std::unique_ptr<SynthesisPlanData> data_;
 };
 
-// small_view: the guides of the whole sheet at 1 / 2^level, plan_width() × plan_height(). Parameters and notes are those of synthesize;
-// where the level is 0, so are the matches.
-SynthesisPlan plan_synthesis(const std::vector<Exemplar>& exemplars, const GuideStack& small_view, const SynthesisSheet& sheet,
-                             const SynthesisParameters& parameters, Progress& progress);
+// small_view: the guides of the whole sheet at 1 / 2^level, plan_width() × plan_height().
+// Parameters and notes as for synthesize; matches are final if the level is 0.
+SynthesisPlan plan_synthesis(const std::vector<Exemplar>& exemplars, const GuideStack& small_view,
+                             const SynthesisSheet& sheet, const SynthesisParameters& parameters,
+                             Progress& progress);
 
-// The plan without what can be made again from the exemplars: about 4 bytes a pixel of the small view.
+// The plan without what can be recomputed from the exemplars: about 4 bytes per pixel of the small
+// view.
 std::vector<std::uint8_t> pack_plan(const SynthesisPlan& plan);
-// The same plan in another process. Throws Error(input) where the bytes are no plan or damaged, or the exemplars are not those it was made
-// with.
-SynthesisPlan unpack_plan(const std::vector<std::uint8_t>& bytes, const std::vector<Exemplar>& exemplars);
+// The same plan in another process. Throws Error(input) if the bytes are not a plan or damaged, or
+// the exemplars are not those it was made with.
+SynthesisPlan unpack_plan(const std::vector<std::uint8_t>& bytes,
+                          const std::vector<Exemplar>& exemplars);
 
 }  // namespace belvedere

@@ -25,9 +25,12 @@ PixelRect cut(const PixelRect& a, const PixelRect& b) {
 
 int coarser(int pixels, int level) { return (pixels + (1 << level) - 1) >> level; }
 
-// A rectangle of the sheet at a level, wider by so many of the level's pixels on each side, within the sheet.
-PixelRect at_level(const SynthesisSheet& sheet, const PixelRect& rect, int level, int more_x, int more_y) {
-  return cut({(rect.x0 >> level) - more_x, (rect.y0 >> level) - more_y, coarser(rect.x1, level) + more_x, coarser(rect.y1, level) + more_y},
+// A rectangle of the sheet at a level, extended by so many of the level's pixels on each side,
+// within the sheet.
+PixelRect at_level(const SynthesisSheet& sheet, const PixelRect& rect, int level, int more_x,
+                   int more_y) {
+  return cut({(rect.x0 >> level) - more_x, (rect.y0 >> level) - more_y,
+              coarser(rect.x1, level) + more_x, coarser(rect.y1, level) + more_y},
              {0, 0, coarser(sheet.width, level), coarser(sheet.height, level)});
 }
 
@@ -36,25 +39,28 @@ PixelRect fixed_part(const SynthesisSheet& sheet, const SynthesisArea& area, int
 }
 
 PixelRect made_part(const SynthesisSheet& sheet, const SynthesisArea& area, int level) {
-  return at_level(sheet, area.rect, level, fixed_px + (area.across_x ? around_px : 0), fixed_px + (area.across_y ? around_px : 0));
+  return at_level(sheet, area.rect, level, fixed_px + (area.across_x ? around_px : 0),
+                  fixed_px + (area.across_y ? around_px : 0));
 }
 
-// The guides of a tile's window and their coarser levels. Halving reads a pixel beyond, so those of a level are the sheet's own but for a
-// rim that the margin leaves room for.
+// The guides of a tile's window and their coarser levels. Halving reads one pixel beyond, so those
+// of a level equal the sheet's except for a border within the margin.
 struct Guides {
   PixelRect window;
   std::vector<synth::Plane> planes;
   std::vector<Grid<float>> depths;  // empty: no silhouettes
 };
 
-Guides make_guides(const synth::Setup& setup, const GuideStack& stack, const PixelRect& window, int levels) {
+Guides make_guides(const synth::Setup& setup, const GuideStack& stack, const PixelRect& window,
+                   int levels) {
   Guides guides{window, {}, {}};
   guides.planes.push_back(synth::target_plane(stack, setup));
   if (!stack.depth_m.empty()) guides.depths.push_back(stack.depth_m);
   for (int level = 1; level < levels; ++level) {
     guides.planes.push_back(synth::halve(guides.planes.back()));
     if (!guides.depths.empty())
-      guides.depths.push_back(synth::halve_depth(guides.depths.back(), guides.planes[guides.planes.size() - 2], guides.planes.back()));
+      guides.depths.push_back(synth::halve_depth(
+          guides.depths.back(), guides.planes[guides.planes.size() - 2], guides.planes.back()));
   }
   return guides;
 }
@@ -67,7 +73,8 @@ synth::Plane cut_plane(const synth::Plane& plane, int x0, int y0, int width, int
     const std::size_t to = part.index(0, 0, y);
     const std::size_t count = static_cast<std::size_t>(width);
     std::copy_n(plane.words.data() + from, count, part.words.data() + to);
-    std::copy_n(plane.guides.data() + from * guides, count * guides, part.guides.data() + to * guides);
+    std::copy_n(plane.guides.data() + from * guides, count * guides,
+                part.guides.data() + to * guides);
   }
   synth::pad(part);
   return part;
@@ -79,7 +86,7 @@ Grid<float> cut_grid(const Grid<float>& grid, int x0, int y0, int width, int hei
   return part;
 }
 
-// However work on a level ends, the plan's records count no uses afterwards.
+// Resets the plan's use counts when work on a level ends, for any reason.
 class UsesOfOneWindow {
  public:
   explicit UsesOfOneWindow(synth::LevelState& state) : state_(state) {}
@@ -91,8 +98,9 @@ class UsesOfOneWindow {
   synth::LevelState& state_;
 };
 
-LevelMatches make_level(const SynthesisPlanData& plan, const Guides& guides, const SynthesisArea& area, int level,
-                        const LevelMatches& coarse, const std::vector<const MadeArea*>& fixed, Progress& progress) {
+LevelMatches make_level(const SynthesisPlanData& plan, const Guides& guides,
+                        const SynthesisArea& area, int level, const LevelMatches& coarse,
+                        const std::vector<const MadeArea*>& fixed, Progress& progress) {
   const std::size_t l = static_cast<std::size_t>(level);
   const PixelRect rect = made_part(plan.sheet, area, level);
   const int x0 = rect.x0 - (guides.window.x0 >> level);
@@ -100,11 +108,13 @@ LevelMatches make_level(const SynthesisPlanData& plan, const Guides& guides, con
   synth::Plane target = cut_plane(guides.planes[l], x0, y0, rect.width(), rect.height());
   std::vector<std::uint8_t> links;
   if (!guides.depths.empty())
-    links = synth::make_links(cut_grid(guides.depths[l], x0, y0, rect.width(), rect.height()), target, synth::depth_ratio(level),
-                              plan.setup.parameters.patch_radius());
+    links =
+        synth::make_links(cut_grid(guides.depths[l], x0, y0, rect.width(), rect.height()), target,
+                          synth::depth_ratio(level), plan.setup.parameters.patch_radius());
   synth::LevelSettings settings = plan.setup.settings(level);
-  // Areas draw different numbers.
-  settings.seed = random_bits(random_bits(settings.seed, area.rect.x0, area.rect.y0), area.rect.x1, area.rect.y1);
+  // Different areas draw different numbers.
+  settings.seed = random_bits(random_bits(settings.seed, area.rect.x0, area.rect.y0), area.rect.x1,
+                              area.rect.y1);
   synth::LevelState state(settings, plan.sources[l], target, std::move(links));
 
   const std::uint32_t free = state.exemplars.nowhere();
@@ -112,19 +122,23 @@ LevelMatches make_level(const SynthesisPlanData& plan, const Guides& guides, con
   for (const MadeArea* made : fixed) {
     const PixelRect part = cut(rect, fixed_part(plan.sheet, made->area, level));
     for (int y = part.y0; y < part.y1; ++y)
-      for (int x = part.x0; x < part.x1; ++x) state.fixed[target.index(0, x - rect.x0, y - rect.y0)] = made->levels[l].at(x, y);
+      for (int x = part.x0; x < part.x1; ++x)
+        state.fixed[target.index(0, x - rect.x0, y - rect.y0)] = made->levels[l].at(x, y);
   }
 
-  // The coarser matches below the window, and as far around as children may take theirs from.
+  // The coarser matches below the window, and around it as far as child pixels may inherit from.
   const synth::Plane& coarse_exemplars = plan.exemplars[l + 1];
-  const synth::Plane below = synth::make_plane({{(rect.width() + 1) / 2, (rect.height() + 1) / 2}}, 0, target.margin);
+  const synth::Plane below =
+      synth::make_plane({{(rect.width() + 1) / 2, (rect.height() + 1) / 2}}, 0, target.margin);
   std::vector<std::uint32_t> coarse_match(below.words.size(), coarse_exemplars.nowhere());
   for (int y = -1; y <= below.parts[0].height; ++y) {
     for (int x = -1; x <= below.parts[0].width; ++x) {
       const int coarse_x = rect.x0 / 2 + x;
       const int coarse_y = rect.y0 / 2 + y;
-      const std::int64_t at = static_cast<std::int64_t>(below.parts[0].origin) + static_cast<std::int64_t>(y) * below.stride + x;
-      if (coarse.contains(coarse_x, coarse_y)) coarse_match[static_cast<std::size_t>(at)] = coarse.at(coarse_x, coarse_y);
+      const std::int64_t at = static_cast<std::int64_t>(below.parts[0].origin) +
+                              static_cast<std::int64_t>(y) * below.stride + x;
+      if (coarse.contains(coarse_x, coarse_y))
+        coarse_match[static_cast<std::size_t>(at)] = coarse.at(coarse_x, coarse_y);
     }
   }
 
@@ -132,48 +146,58 @@ LevelMatches make_level(const SynthesisPlanData& plan, const Guides& guides, con
   synth::start_from_coarser(state, coarse_exemplars, below, coarse_match);
   synth::improve(state, progress);
   LevelMatches out{rect, {}};
-  out.texels.reserve(static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height()));
+  out.texels.reserve(static_cast<std::size_t>(rect.width()) *
+                     static_cast<std::size_t>(rect.height()));
   target.for_each([&](std::uint32_t at) { out.texels.push_back(state.match[at]); });
   return out;
 }
 
 // Of all guides that a corner or a line is made with.
-std::uint64_t digest_of(const SynthesisSheet& sheet, const Guides& guides, const SynthesisArea& area) {
+std::uint64_t digest_of(const SynthesisSheet& sheet, const Guides& guides,
+                        const SynthesisArea& area) {
   std::uint64_t digest = random_bits(area.rect.x0, area.rect.y0, area.rect.x1, area.rect.y1);
   for (int level = 0; level < sheet.level; ++level) {
     const std::size_t l = static_cast<std::size_t>(level);
     const synth::Plane& plane = guides.planes[l];
     const std::size_t each = static_cast<std::size_t>(plane.guide_count);
-    const PixelRect rect = moved(made_part(sheet, area, level), -(guides.window.x0 >> level), -(guides.window.y0 >> level));
+    const PixelRect rect = moved(made_part(sheet, area, level), -(guides.window.x0 >> level),
+                                 -(guides.window.y0 >> level));
     for (int y = rect.y0; y < rect.y1; ++y)
       for (int x = rect.x0; x < rect.x1; ++x) {
         const std::size_t at = plane.index(0, x, y);
         digest = mix_bits(digest ^ plane.words[at]);
-        for (std::size_t g = 0; g < each; ++g) digest = digest * 1099511628211ULL + plane.guides[at * each + g];
-        if (!guides.depths.empty()) digest = mix_bits(digest ^ std::bit_cast<std::uint32_t>(guides.depths[l](x, y)));
+        for (std::size_t g = 0; g < each; ++g)
+          digest = digest * 1099511628211ULL + plane.guides[at * each + g];
+        if (!guides.depths.empty())
+          digest = mix_bits(digest ^ std::bit_cast<std::uint32_t>(guides.depths[l](x, y)));
       }
   }
   return digest;
 }
 
-MadeArea make_area(const SynthesisPlanData& plan, const Guides& guides, const LevelMatches& coarsest, const SynthesisArea& area,
+MadeArea make_area(const SynthesisPlanData& plan, const Guides& guides,
+                   const LevelMatches& coarsest, const SynthesisArea& area,
                    const std::vector<const MadeArea*>& fixed, Progress& progress) {
   MadeArea made{area, 0, std::vector<LevelMatches>(static_cast<std::size_t>(plan.sheet.level))};
   for (int level = plan.sheet.level - 1; level >= 0; --level) {
     const std::size_t l = static_cast<std::size_t>(level);
-    made.levels[l] = make_level(plan, guides, area, level, level + 1 == plan.sheet.level ? coarsest : made.levels[l + 1], fixed, progress);
+    made.levels[l] =
+        make_level(plan, guides, area, level,
+                   level + 1 == plan.sheet.level ? coarsest : made.levels[l + 1], fixed, progress);
   }
   return made;
 }
 
-MadeArea make_tile(SynthesisPlanData& plan, const Guides& guides, const LevelMatches& coarsest, const PixelRect& tile, Progress& progress) {
+MadeArea make_tile(SynthesisPlanData& plan, const Guides& guides, const LevelMatches& coarsest,
+                   const PixelRect& tile, Progress& progress) {
   const auto inner_x = [&](int x) { return x > 0 && x < plan.sheet.width; };
   const auto inner_y = [&](int y) { return y > 0 && y < plan.sheet.height; };
-  // What a tile beside this one has made already, or made now.
+  // Made already for a neighbouring tile, or made now.
   const auto made_once = [&](const SynthesisArea& area, const std::vector<const MadeArea*>& fixed) {
     std::uint64_t digest = digest_of(plan.sheet, guides, area);
     for (const MadeArea* end : fixed) digest = mix_bits(digest ^ end->guides);
-    if (std::shared_ptr<const MadeArea> made = plan.between_tiles.find(area.rect, digest)) return made;
+    if (std::shared_ptr<const MadeArea> made = plan.between_tiles.find(area.rect, digest))
+      return made;
     MadeArea made = make_area(plan, guides, coarsest, area, fixed, silent_progress());
     made.guides = digest;
     plan.between_tiles.keep(std::make_shared<const MadeArea>(std::move(made)));
@@ -190,7 +214,9 @@ MadeArea make_tile(SynthesisPlanData& plan, const Guides& guides, const LevelMat
     std::vector<const MadeArea*> ends;
     for (const std::shared_ptr<const MadeArea>& corner : corners) {
       const PixelRect& at = corner->area.rect;
-      if (at.x0 >= area.rect.x0 && at.x0 <= area.rect.x1 && at.y0 >= area.rect.y0 && at.y0 <= area.rect.y1) ends.push_back(corner.get());
+      if (at.x0 >= area.rect.x0 && at.x0 <= area.rect.x1 && at.y0 >= area.rect.y0 &&
+          at.y0 <= area.rect.y1)
+        ends.push_back(corner.get());
     }
     lines.push_back(made_once(area, ends));
   };
@@ -203,7 +229,7 @@ MadeArea make_tile(SynthesisPlanData& plan, const Guides& guides, const LevelMat
   return make_area(plan, guides, coarsest, {tile, false, false}, around, progress);
 }
 
-// Passes of the tile's levels, weighed by their pixels, as parts of 1.
+// Progress of the tile's levels, weighted by their pixels, as fractions of 1.
 class PartsOfOne : public Progress {
  public:
   PartsOfOne(Progress& outer, double total) : outer_(outer), total_(total) {}
@@ -216,25 +242,30 @@ class PartsOfOne : public Progress {
 
 }  // namespace
 
-std::shared_ptr<const MadeArea> MadeBetweenTiles::find(const PixelRect& rect, std::uint64_t guides) const {
-  const auto found =
-      std::find_if(made_.begin(), made_.end(), [&](const auto& made) { return made->area.rect == rect && made->guides == guides; });
+std::shared_ptr<const MadeArea> MadeBetweenTiles::find(const PixelRect& rect,
+                                                       std::uint64_t guides) const {
+  const auto found = std::find_if(made_.begin(), made_.end(), [&](const auto& made) {
+    return made->area.rect == rect && made->guides == guides;
+  });
   return found == made_.end() ? nullptr : *found;
 }
 
 void MadeBetweenTiles::keep(std::shared_ptr<const MadeArea> made) {
-  // Of a sheet made column by column, those of the column before: three to a tile.
-  constexpr std::size_t most = 128;
+  // For a sheet made column by column, those of the previous column: three per tile.
+  constexpr std::size_t max = 128;
   made_.push_back(std::move(made));
-  if (made_.size() > most) made_.pop_front();
+  if (made_.size() > max) made_.pop_front();
 }
 
-MatchField synthesize_tile(SynthesisPlan& plan, const GuideStack& guides, const PixelRect& tile, Progress& progress) {
+MatchField synthesize_tile(SynthesisPlan& plan, const GuideStack& guides, const PixelRect& tile,
+                           Progress& progress) {
   SynthesisPlanData& data = plan.data();
   const SynthesisSheet& sheet = data.sheet;
-  if (tile.x0 < 0 || tile.y0 < 0 || !(sheet.tile(tile.x0 / sheet.tile_px, tile.y0 / sheet.tile_px) == tile) || tile.x0 >= sheet.width ||
-      tile.y0 >= sheet.height) {
-    throw Error(ErrorKind::usage, "tile of synthesis", fmt::format("{},{} … {},{}", tile.x0, tile.y0, tile.x1, tile.y1),
+  if (tile.x0 < 0 || tile.y0 < 0 ||
+      !(sheet.tile(tile.x0 / sheet.tile_px, tile.y0 / sheet.tile_px) == tile) ||
+      tile.x0 >= sheet.width || tile.y0 >= sheet.height) {
+    throw Error(ErrorKind::usage, "tile of synthesis",
+                fmt::format("{},{} … {},{}", tile.x0, tile.y0, tile.x1, tile.y1),
                 "a tile of the sheet's division");
   }
   MatchField field(tile.width(), tile.height());
@@ -243,14 +274,16 @@ MatchField synthesize_tile(SynthesisPlan& plan, const GuideStack& guides, const 
       for (int x = 0; x < tile.width(); ++x) {
         const std::uint32_t texel = matches.at(tile.x0 + x, tile.y0 + y);
         if (texel == exemplars.nowhere()) continue;
-        const synth::Plane::Place place = exemplars.place(texel);
-        field(x, y) = {static_cast<std::uint16_t>(place.part), static_cast<std::uint16_t>(place.x), static_cast<std::uint16_t>(place.y)};
+        const synth::Plane::Place position = exemplars.position(texel);
+        field(x, y) = {static_cast<std::uint16_t>(position.part),
+                       static_cast<std::uint16_t>(position.x),
+                       static_cast<std::uint16_t>(position.y)};
       }
     });
   };
   if (data.setup.classes.count == 0) return field;
   const PixelRect window = synthesis_window(sheet, tile);
-  // Of the plan what lies below the window and one pixel around.
+  // The part of the plan below the window and one pixel around.
   LevelMatches coarsest;
   coarsest.rect = at_level(sheet, window, sheet.level, 1, 1);
   for (int y = coarsest.rect.y0; y < coarsest.rect.y1; ++y) {
@@ -264,7 +297,8 @@ MatchField synthesize_tile(SynthesisPlan& plan, const GuideStack& guides, const 
   }
   check_guide_stack(guides, "window of a tile");
   if (guides.width() != window.width() || guides.height() != window.height()) {
-    throw Error(ErrorKind::usage, "window of a tile", fmt::format("guides of {} × {}", guides.width(), guides.height()),
+    throw Error(ErrorKind::usage, "window of a tile",
+                fmt::format("guides of {} × {}", guides.width(), guides.height()),
                 fmt::format("{} × {}", window.width(), window.height()));
   }
   double passes = 0;
@@ -273,7 +307,8 @@ MatchField synthesize_tile(SynthesisPlan& plan, const GuideStack& guides, const 
     passes += settings.passes + settings.replacing_passes;
   }
   PartsOfOne parts(progress, passes);
-  const MadeArea made = make_tile(data, make_guides(data.setup, guides, window, sheet.level), coarsest, tile, parts);
+  const MadeArea made =
+      make_tile(data, make_guides(data.setup, guides, window, sheet.level), coarsest, tile, parts);
   take(made.levels[0], data.exemplars[0]);
   return field;
 }

@@ -17,9 +17,12 @@ using Matrix = std::array<std::array<double, 3>, 3>;
 
 constexpr std::array<float, 4> halving = {.125F, .375F, .375F, .125F};
 
-bool counts(const Grid<std::uint8_t>& states, std::size_t i) { return states.empty() || (states[i] & pixel_counts) != 0; }
+bool counts(const Grid<std::uint8_t>& states, std::size_t i) {
+  return states.empty() || (states[i] & pixel_counts) != 0;
+}
 
-// Eigenvectors of a symmetric matrix as columns, by Jacobi's rotations; the matrix becomes diagonal.
+// Eigenvectors of a symmetric matrix as columns, by Jacobi's rotations; the matrix becomes
+// diagonal.
 Matrix jacobi(Matrix& m) {
   Matrix vectors = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   for (int sweep = 0; sweep < 30; ++sweep) {
@@ -50,26 +53,31 @@ void find_axes(const Grid<Rgb8>& crop, const Grid<std::uint8_t>& states, BandSpa
     n += 1.0;
     for (std::size_t c = 0; c < 3; ++c) mean[c] += crop[i][c];
   }
-  for (std::size_t c = 0; c < 3; ++c) space.mean[c] = static_cast<float>(mean[c] /= std::max(n, 1.0));
+  for (std::size_t c = 0; c < 3; ++c)
+    space.mean[c] = static_cast<float>(mean[c] /= std::max(n, 1.0));
   for (std::size_t i = 0; i < crop.size(); ++i) {
     if (!counts(states, i)) continue;
     for (std::size_t a = 0; a < 3; ++a)
-      for (std::size_t b = 0; b < 3; ++b) spread[a][b] += (crop[i][a] - mean[a]) * (crop[i][b] - mean[b]) / std::max(n, 1.0);
+      for (std::size_t b = 0; b < 3; ++b)
+        spread[a][b] += (crop[i][a] - mean[a]) * (crop[i][b] - mean[b]) / std::max(n, 1.0);
   }
   const Matrix vectors = jacobi(spread);
   std::array<std::size_t, 3> order = {0, 1, 2};
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return spread[a][a] > spread[b][b]; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return spread[a][a] > spread[b][b]; });
   for (std::size_t band = 0; band < 3; ++band) {
     const std::size_t of = order[band];
     const double sign = vectors[0][of] + vectors[1][of] + vectors[2][of] < 0.0 ? -1.0 : 1.0;
     for (std::size_t c = 0; c < 3; ++c)
-      space.axes[band][c] = static_cast<std::int16_t>(std::lround(sign * vectors[c][of] * static_cast<double>(BandSpace::axis_unit)));
+      space.axes[band][c] = static_cast<std::int16_t>(
+          std::lround(sign * vectors[c][of] * static_cast<double>(BandSpace::axis_unit)));
   }
 }
 
 }  // namespace
 
-BandPicture to_bands(const Grid<Rgb8>& picture, const BandSpace& bands, const Grid<std::uint8_t>& states) {
+BandPicture to_bands(const Grid<Rgb8>& picture, const BandSpace& bands,
+                     const Grid<std::uint8_t>& states) {
   BandPicture out(picture.width(), picture.height());
   if (!states.empty()) out.states = states;
   const std::uint64_t dither = stream_seed(0, Stream::statistical_dither);
@@ -77,8 +85,11 @@ BandPicture to_bands(const Grid<Rgb8>& picture, const BandSpace& bands, const Gr
     for (int x = 0; x < picture.width(); ++x) {
       std::array<float, 3> v{};
       for (std::size_t c = 0; c < 3; ++c)
-        v[c] = static_cast<float>(picture(x, y)[c]) + static_cast<float>(random_uniform(dither, x, y, c)) - 0.5F - bands.mean[c];
-      for (int b = 0; b < 3; ++b) out.band(b)(x, y) = bands.axis(b, 0) * v[0] + bands.axis(b, 1) * v[1] + bands.axis(b, 2) * v[2];
+        v[c] = static_cast<float>(picture(x, y)[c]) +
+               static_cast<float>(random_uniform(dither, x, y, c)) - 0.5F - bands.mean[c];
+      for (int b = 0; b < 3; ++b)
+        out.band(b)(x, y) =
+            bands.axis(b, 0) * v[0] + bands.axis(b, 1) * v[1] + bands.axis(b, 2) * v[2];
     }
   });
   return out;
@@ -109,7 +120,8 @@ Grid<Rgb8> to_picture(const BandPicture& picture, const BandSpace& bands) {
       for (std::size_t c = 0; c < 3; ++c) {
         const int channel = static_cast<int>(c);
         const float value = bands.mean[c] + bands.axis(0, channel) * picture.bands[0](x, y) +
-                            bands.axis(1, channel) * picture.bands[1](x, y) + bands.axis(2, channel) * picture.bands[2](x, y);
+                            bands.axis(1, channel) * picture.bands[1](x, y) +
+                            bands.axis(2, channel) * picture.bands[2](x, y);
         out(x, y)[c] = static_cast<std::uint8_t>(std::clamp(value + 0.5F, 0.F, 255.F));
       }
     }
@@ -128,18 +140,20 @@ void halve(const BandPicture& fine, BandPicture& coarse) {
         for (int i = 0; i < 4; ++i) {
           const int fx = 2 * x + i - 1;
           if (fx < 0 || fx >= fine.width() || (fine.states(fx, fy) & pixel_counts) == 0) continue;
-          const float w = halving[static_cast<std::size_t>(i)] * halving[static_cast<std::size_t>(j)];
+          const float w =
+              halving[static_cast<std::size_t>(i)] * halving[static_cast<std::size_t>(j)];
           weight += w;
           for (std::size_t b = 0; b < 3; ++b) sum[b] += w * fine.bands[b](fx, fy);
         }
       }
-      for (std::size_t b = 0; b < 3; ++b) coarse.bands[b](x, y) = weight > 0.F ? sum[b] / weight : 0.F;
+      for (std::size_t b = 0; b < 3; ++b)
+        coarse.bands[b](x, y) = weight > 0.F ? sum[b] / weight : 0.F;
     }
   });
 }
 
 Grid<std::uint8_t> coarse_states(const Grid<std::uint8_t>& fine) {
-  constexpr float least_weight = .4F;
+  constexpr float min_weight = .4F;
   Grid<std::uint8_t> out((fine.width() + 1) / 2, (fine.height() + 1) / 2);
   for (int y = 0; y < out.height(); ++y) {
     for (int x = 0; x < out.width(); ++x) {
@@ -152,10 +166,11 @@ Grid<std::uint8_t> coarse_states(const Grid<std::uint8_t>& fine) {
           if (!fine.contains(fx, fy)) continue;
           const bool under = (i == 1 || i == 2) && (j == 1 || j == 2);
           if (under) state |= static_cast<std::uint8_t>(fine(fx, fy) & pixel_changes);
-          if ((fine(fx, fy) & pixel_counts) != 0) weight += halving[static_cast<std::size_t>(i)] * halving[static_cast<std::size_t>(j)];
+          if ((fine(fx, fy) & pixel_counts) != 0)
+            weight += halving[static_cast<std::size_t>(i)] * halving[static_cast<std::size_t>(j)];
         }
       }
-      out(x, y) = static_cast<std::uint8_t>(state | (weight >= least_weight ? pixel_counts : 0));
+      out(x, y) = static_cast<std::uint8_t>(state | (weight >= min_weight ? pixel_counts : 0));
     }
   }
   return out;
@@ -175,7 +190,7 @@ BandPyramid make_pyramid(BandPicture finest, int levels) {
 }
 
 float enlarged(const Grid<float>& coarse, int x, int y) {
-  // Pixel centres: fine x lies at (x - .5) / 2 of the coarse one, a quarter beside it.
+  // Pixel centres: fine x is at (x - .5) / 2 of the coarse one, a quarter off its centre.
   const int left = x > 0 ? (x - 1) / 2 : -1;
   const int top = y > 0 ? (y - 1) / 2 : -1;
   const float u = (x & 1) != 0 ? .25F : .75F;
@@ -184,7 +199,8 @@ float enlarged(const Grid<float>& coarse, int x, int y) {
   const int x1 = std::min(left + 1, coarse.width() - 1);
   const int y0 = std::max(top, 0);
   const int y1 = std::min(top + 1, coarse.height() - 1);
-  return (1.F - v) * ((1.F - u) * coarse(x0, y0) + u * coarse(x1, y0)) + v * ((1.F - u) * coarse(x0, y1) + u * coarse(x1, y1));
+  return (1.F - v) * ((1.F - u) * coarse(x0, y0) + u * coarse(x1, y0)) +
+         v * ((1.F - u) * coarse(x0, y1) + u * coarse(x1, y1));
 }
 
 }  // namespace belvedere

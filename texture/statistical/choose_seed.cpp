@@ -18,24 +18,28 @@ constexpr float streak_lengths_px[] = {6.F, 12.F, 24.F};
 constexpr float disc_radius_px = 4.F;
 
 float lightness(const Rgb8& c) {
-  return .299F * static_cast<float>(c[0]) + .587F * static_cast<float>(c[1]) + .114F * static_cast<float>(c[2]);
+  return .299F * static_cast<float>(c[0]) + .587F * static_cast<float>(c[1]) +
+         .114F * static_cast<float>(c[2]);
 }
 
 bool is_streaks(const SeedTrial& trial) { return trial.seed == TextureSeed::streaks; }
 
-double handicapped(const SeedTrial& trial) { return trial.score() / (trial.polish || is_streaks(trial) ? 1.0 : unpolished_margin); }
+double handicapped(const SeedTrial& trial) {
+  return trial.score() / (trial.polish || is_streaks(trial) ? 1.0 : unpolished_margin);
+}
 
-double least_shape(const std::vector<SeedTrial>& trials, bool of_streaks) {
-  double least = std::numeric_limits<double>::infinity();
+double min_shape(const std::vector<SeedTrial>& trials, bool of_streaks) {
+  double min = std::numeric_limits<double>::infinity();
   for (const SeedTrial& trial : trials)
-    if (is_streaks(trial) == of_streaks) least = std::min(least, trial.shape());
-  return least;
+    if (is_streaks(trial) == of_streaks) min = std::min(min, trial.shape());
+  return min;
 }
 
 }  // namespace
 
 StrokeDirection find_stroke_direction(const Grid<Rgb8>& crop, const Grid<std::uint8_t>& states) {
-  // The doubled angle of each gradient, so that opposite ones agree; strokes run across it.
+  // The doubled angle of each gradient, so that opposite ones agree; strokes run perpendicular to
+  // it.
   double cosine = 0.0;
   double sine = 0.0;
   double all = 0.0;
@@ -55,16 +59,18 @@ StrokeDirection find_stroke_direction(const Grid<Rgb8>& crop, const Grid<std::ui
           static_cast<float>(1.0 - std::sqrt(cosine * cosine + sine * sine) / all)};
 }
 
-std::vector<SeedTrial> choose_seed(CliqueModel& model, const Grid<Rgb8>& crop, const Grid<std::uint8_t>& states,
+std::vector<SeedTrial> choose_seed(CliqueModel& model, const Grid<Rgb8>& crop,
+                                   const Grid<std::uint8_t>& states,
                                    const LearnParameters& parameters, Progress& progress) {
   const StrokeDirection strokes = find_stroke_direction(crop, states);
   model.direction_deg = strokes.deg;
   model.direction_spread = strokes.spread;
-  std::vector<SeedTrial> trials = {{TextureSeed::white, 0.F, false}, {TextureSeed::white, 0.F, true}};
+  std::vector<SeedTrial> trials = {{TextureSeed::white, 0.F, false},
+                                   {TextureSeed::white, 0.F, true}};
   // The polish's moves to a neighbour's colour wear streaks away.
   for (const float px : streak_lengths_px) trials.push_back({TextureSeed::streaks, px, false});
   trials.push_back({TextureSeed::discs, disc_radius_px, false});
-  progress.begin("choosing how the texture begins", static_cast<double>(trials.size()));
+  progress.begin("choosing the initial noise", static_cast<double>(trials.size()));
   const auto take = [&](const SeedTrial& trial) {
     model.seed = trial.seed;
     model.seed_px = trial.px;
@@ -72,13 +78,14 @@ std::vector<SeedTrial> choose_seed(CliqueModel& model, const Grid<Rgb8>& crop, c
   };
   for (SeedTrial& trial : trials) {
     take(trial);
-    const TextureFigures figures = texture_figures(crop, states, make_texture(model, trial_px, trial_px, {}), model, parameters);
+    const TextureFigures figures = texture_figures(
+        crop, states, make_texture(model, trial_px, trial_px, {}), model, parameters);
     trial.beyond = figures.beyond;
     trial.drawn = figures.drawn;
     trial.turned = figures.turned;
     progress.advance(1.0);
   }
-  const bool streaks_win = least_shape(trials, true) < streaks_margin * least_shape(trials, false);
+  const bool streaks_win = min_shape(trials, true) < streaks_margin * min_shape(trials, false);
   std::stable_sort(trials.begin(), trials.end(), [&](const SeedTrial& a, const SeedTrial& b) {
     if (is_streaks(a) != is_streaks(b)) return is_streaks(a) == streaks_win;
     return handicapped(a) < handicapped(b);

@@ -11,11 +11,13 @@
 namespace belvedere {
 namespace {
 
-// Rows that one task works on. A pixel's sum is taken in the order of the types whatever the strip, so it changes no bit.
+// Rows per task. A pixel's sum is taken in the order of the types, so the strip height does not
+// change the result.
 constexpr int strip_rows = 64;
 
-// What cliques ask of each pixel, as sums; divided by what a pixel can take part in.
-using Wishes = std::array<Grid<float>, 3>;
+// Requested changes of each pixel, as sums over cliques; divided by the number of cliques a pixel
+// can be part of.
+using Targets = std::array<Grid<float>, 3>;
 
 FlowTable make_table(const BandPicture& picture, const BandSpace& bands, const Clique& clique) {
   FlowTable table(difference_bins + 1, 0.F);
@@ -25,56 +27,64 @@ FlowTable make_table(const BandPicture& picture, const BandSpace& bands, const C
   const CliqueKnots knots = decode_knots(bands, clique);
   double below = 0.0;
   for (int i = 0; i <= difference_bins; ++i) {
-    const float edge = range.low + (range.high - range.low) * static_cast<float>(i) / difference_bins;
-    table[static_cast<std::size_t>(i)] = value_at_share(knots, static_cast<float>(below / static_cast<double>(histogram.total))) - edge;
-    if (i < difference_bins) below += static_cast<double>(histogram.counts[static_cast<std::size_t>(i)]);
+    const float edge =
+        range.low + (range.high - range.low) * static_cast<float>(i) / difference_bins;
+    table[static_cast<std::size_t>(i)] =
+        value_at_share(knots, static_cast<float>(below / static_cast<double>(histogram.total))) -
+        edge;
+    if (i < difference_bins)
+      below += static_cast<double>(histogram.counts[static_cast<std::size_t>(i)]);
   }
   return table;
 }
 
-// Adds what the cliques of one type ask for to the rows y0 <= y < y1, which `wishes` begins with at row `first`: half to the head, half
-// against it to the tail.
-void ask(const BandPicture& picture, const BandSpace& bands, const CliqueType& type, const FlowTable& table, int y0, int y1, Wishes& wishes,
-         int first, std::vector<float>& row) {
+// Adds the changes requested by the cliques of one type to the rows y0 <= y < y1; `requests` begins
+// at row `first`. Half goes to the head, half with opposite sign to the tail.
+void ask(const BandPicture& picture, const BandSpace& bands, const CliqueType& type,
+         const FlowTable& table, int y0, int y1, Targets& requests, int first,
+         std::vector<float>& row) {
   const DifferenceRange range = difference_range(bands, type);
   const float to_bin = static_cast<float>(difference_bins) / (range.high - range.low);
   const bool single = type.single();
   const float part = single ? 1.F : 0.5F;
   constexpr float last = static_cast<float>(difference_bins) - 0.001F;
-  clique_rows(picture.width(), picture.height(), type, y0 - type.dy, y1, [&](int ty, int hy, int tx, int hx, int cliques) {
-    const float* head = picture.band(type.head).row(hy) + hx;
-    const float* tail = picture.band(type.tail).row(ty) + tx;
-    const std::uint8_t* head_state = picture.states.row(hy) + hx;
-    const std::uint8_t* tail_state = picture.states.row(ty) + tx;
-    float* asked = row.data();
-    for (int x = 0; x < cliques; ++x) {
-      const float difference = single ? head[x] : head[x] - tail[x];
-      const float at = std::clamp((difference - range.low) * to_bin, 0.F, last);
-      const int bin = static_cast<int>(at);
-      const float* edges = table.data() + bin;
-      const float move = edges[0] + (at - static_cast<float>(bin)) * (edges[1] - edges[0]);
-      asked[x] = (head_state[x] & tail_state[x] & pixel_counts) != 0 ? part * move : 0.F;
-    }
-    if (hy >= y0 && hy < y1) {
-      float* to = wishes[static_cast<std::size_t>(type.head)].row(hy - first) + hx;
-      for (int x = 0; x < cliques; ++x) to[x] += asked[x];
-    }
-    if (!single && ty >= y0 && ty < y1) {
-      float* to = wishes[static_cast<std::size_t>(type.tail)].row(ty - first) + tx;
-      for (int x = 0; x < cliques; ++x) to[x] -= asked[x];
-    }
-  });
+  clique_rows(
+      picture.width(), picture.height(), type, y0 - type.dy, y1,
+      [&](int ty, int hy, int tx, int hx, int cliques) {
+        const float* head = picture.band(type.head).row(hy) + hx;
+        const float* tail = picture.band(type.tail).row(ty) + tx;
+        const std::uint8_t* head_state = picture.states.row(hy) + hx;
+        const std::uint8_t* tail_state = picture.states.row(ty) + tx;
+        float* asked = row.data();
+        for (int x = 0; x < cliques; ++x) {
+          const float difference = single ? head[x] : head[x] - tail[x];
+          const float at = std::clamp((difference - range.low) * to_bin, 0.F, last);
+          const int bin = static_cast<int>(at);
+          const float* edges = table.data() + bin;
+          const float move = edges[0] + (at - static_cast<float>(bin)) * (edges[1] - edges[0]);
+          asked[x] = (head_state[x] & tail_state[x] & pixel_counts) != 0 ? part * move : 0.F;
+        }
+        if (hy >= y0 && hy < y1) {
+          float* to = requests[static_cast<std::size_t>(type.head)].row(hy - first) + hx;
+          for (int x = 0; x < cliques; ++x) to[x] += asked[x];
+        }
+        if (!single && ty >= y0 && ty < y1) {
+          float* to = requests[static_cast<std::size_t>(type.tail)].row(ty - first) + tx;
+          for (int x = 0; x < cliques; ++x) to[x] -= asked[x];
+        }
+      });
 }
 
-// What all cliques of a level ask for, as the mean over the roles of a pixel, times a rate.
-struct LevelWish {
+// Requests of all cliques of a level, as the mean over the roles of a pixel, times a rate.
+struct LevelTarget {
   const BandPicture& picture;
   const CliqueModel& model;
   int level;
   const FlowTable* tables;
-  std::array<float, 3> factor{};  // 0: nobody asks for the band
+  std::array<float, 3> factor{};  // 0: the band has no requests
 
-  LevelWish(const BandPicture& of, const CliqueModel& by, int at_level, const FlowTable* with, float rate)
+  LevelTarget(const BandPicture& of, const CliqueModel& by, int at_level, const FlowTable* with,
+              float rate)
       : picture(of), model(by), level(at_level), tables(with) {
     for (const Clique& clique : model.cliques) {
       if (clique.type.level != level) continue;
@@ -85,16 +95,20 @@ struct LevelWish {
       if (f != 0.F) f = rate / f;
   }
 
-  // Into the rows y0 <= y < y1 of wishes that are 0 and begin with row `first`.
-  void add_rows(int y0, int y1, Wishes& wishes, int first, std::vector<float>& row) const {
+  // Adds to the rows y0 <= y < y1 of requests that are 0 and begin with row `first`.
+  void add_rows(int y0, int y1, Targets& requests, int first, std::vector<float>& row) const {
     const FlowTable* table = tables;
     for (const Clique& clique : model.cliques)
-      if (clique.type.level == level) ask(picture, model.bands, clique.type, *table++, y0, y1, wishes, first, row);
+      if (clique.type.level == level)
+        ask(picture, model.bands, clique.type, *table++, y0, y1, requests, first, row);
     for (std::size_t b = 0; b < 3; ++b) {
       if (factor[b] == 0.F) continue;
-      // Of what stands nothing is asked: its cliques are not in the tables, which may come from a few pixels alone.
+      // Fixed pixels get no requests: their cliques are not in the tables, which may come from a
+      // few pixels only.
       for (int y = y0; y < y1; ++y)
-        for (int x = 0; x < picture.width(); ++x) wishes[b](x, y - first) *= (picture.states(x, y) & pixel_changes) != 0 ? factor[b] : 0.F;
+        for (int x = 0; x < picture.width(); ++x)
+          requests[b](x, y - first) *=
+              (picture.states(x, y) & pixel_changes) != 0 ? factor[b] : 0.F;
     }
   }
 };
@@ -103,25 +117,29 @@ struct LevelWish {
 template <class F>
 void for_strips(int height, F&& f) {
   parallel_ranges((height + strip_rows - 1) / strip_rows, 1, [&](int begin, int end) {
-    for (int strip = begin; strip != end; ++strip) f(strip * strip_rows, std::min(height, (strip + 1) * strip_rows));
+    for (int strip = begin; strip != end; ++strip)
+      f(strip * strip_rows, std::min(height, (strip + 1) * strip_rows));
   });
 }
 
-Wishes blank_wishes(int width, int height) { return {Grid<float>(width, height), Grid<float>(width, height), Grid<float>(width, height)}; }
+Targets blank_targets(int width, int height) {
+  return {Grid<float>(width, height), Grid<float>(width, height), Grid<float>(width, height)};
+}
 
-Wishes wishes_of(const LevelWish& wish) {
-  Wishes wishes = blank_wishes(wish.picture.width(), wish.picture.height());
-  for_strips(wish.picture.height(), [&](int y0, int y1) {
-    std::vector<float> row(static_cast<std::size_t>(wish.picture.width()));
-    wish.add_rows(y0, y1, wishes, 0, row);
+Targets targets_of(const LevelTarget& request) {
+  Targets requests = blank_targets(request.picture.width(), request.picture.height());
+  for_strips(request.picture.height(), [&](int y0, int y1) {
+    std::vector<float> row(static_cast<std::size_t>(request.picture.width()));
+    request.add_rows(y0, y1, requests, 0, row);
   });
-  return wishes;
+  return requests;
 }
 
 }  // namespace
 
 void renew_coarser(BandPyramid& pyramid, int level) {
-  for (std::size_t l = static_cast<std::size_t>(level); l + 1 < pyramid.size(); ++l) halve(pyramid[l], pyramid[l + 1]);
+  for (std::size_t l = static_cast<std::size_t>(level); l + 1 < pyramid.size(); ++l)
+    halve(pyramid[l], pyramid[l + 1]);
 }
 
 FlowRound find_tables(const BandPyramid& pyramid, const CliqueModel& model, int level) {
@@ -132,25 +150,29 @@ FlowRound find_tables(const BandPyramid& pyramid, const CliqueModel& model, int 
   FlowRound tables(asked.size());
   parallel_ranges(asked.size(), std::size_t{1}, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k != end; ++k)
-      tables[k] = make_table(pyramid[static_cast<std::size_t>(asked[k]->type.level)], model.bands, *asked[k]);
+      tables[k] = make_table(pyramid[static_cast<std::size_t>(asked[k]->type.level)], model.bands,
+                             *asked[k]);
   });
   return tables;
 }
 
-void flow(FlowState& state, const CliqueModel& model, int level, const FlowRound& tables, FlowStep step) {
-  // Wishes of the coarser levels as grids, coarsest first handed down; those of the finest, which would take as much memory as its picture,
-  // strip by strip.
-  std::vector<LevelWish> wishes;  // from `level` up
+void flow(FlowState& state, const CliqueModel& model, int level, const FlowRound& tables,
+          FlowStep step) {
+  // Requests of the coarser levels as grids, propagated from the coarsest down; those of the
+  // finest, which would take as much memory as its picture, strip by strip.
+  std::vector<LevelTarget> requests;  // from `level` up
   std::size_t first = 0;
   for (int l = level; l <= model.levels; ++l) {
-    wishes.emplace_back(state.pyramid[static_cast<std::size_t>(l)], model, l, tables.data() + first, step.rate);
-    first += static_cast<std::size_t>(
-        std::count_if(model.cliques.begin(), model.cliques.end(), [l](const Clique& c) { return c.type.level == l; }));
+    requests.emplace_back(state.pyramid[static_cast<std::size_t>(l)], model, l,
+                          tables.data() + first, step.rate);
+    first +=
+        static_cast<std::size_t>(std::count_if(model.cliques.begin(), model.cliques.end(),
+                                               [l](const Clique& c) { return c.type.level == l; }));
   }
-  Wishes coarse;
-  for (std::size_t l = wishes.size(); l-- > 1;) {
-    Wishes fine = wishes_of(wishes[l]);
-    if (l + 1 < wishes.size())
+  Targets coarse;
+  for (std::size_t l = requests.size(); l-- > 1;) {
+    Targets fine = targets_of(requests[l]);
+    if (l + 1 < requests.size())
       parallel_rows(fine[0].height(), [&](int y) {
         for (std::size_t b = 0; b < 3; ++b)
           for (int x = 0; x < fine[b].width(); ++x) fine[b](x, y) += enlarged(coarse[b], x, y);
@@ -159,26 +181,28 @@ void flow(FlowState& state, const CliqueModel& model, int level, const FlowRound
   }
   BandPicture& picture = state.pyramid[static_cast<std::size_t>(level)];
   const int width = picture.width();
-  if (!state.speed.states.same_size(picture.states)) state.speed = BandPicture(width, picture.height());
+  if (!state.speed.states.same_size(picture.states))
+    state.speed = BandPicture(width, picture.height());
   for_strips(picture.height(), [&](int y0, int y1) {
-    Wishes own = blank_wishes(width, y1 - y0);
+    Targets own = blank_targets(width, y1 - y0);
     std::vector<float> row(static_cast<std::size_t>(width));
-    wishes.front().add_rows(y0, y1, own, y0, row);
+    requests.front().add_rows(y0, y1, own, y0, row);
     for (int y = y0; y < y1; ++y)
       for (std::size_t b = 0; b < 3; ++b)
         for (int x = 0; x < width; ++x) {
           if ((picture.states(x, y) & pixel_changes) == 0) continue;
-          float wish = own[b](x, y - y0);
-          if (wishes.size() > 1) wish += enlarged(coarse[b], x, y);
-          state.speed.bands[b](x, y) = step.momentum * state.speed.bands[b](x, y) + wish;
+          float request = own[b](x, y - y0);
+          if (requests.size() > 1) request += enlarged(coarse[b], x, y);
+          state.speed.bands[b](x, y) = step.momentum * state.speed.bands[b](x, y) + request;
         }
   });
-  // Strips have looked at each other's pixels until here.
+  // Until here strips have read each other's pixels.
   parallel_rows(picture.height(), [&](int y) {
     for (std::size_t b = 0; b < 3; ++b)
       for (int x = 0; x < width; ++x)
         if ((picture.states(x, y) & pixel_changes) != 0)
-          picture.bands[b](x, y) = std::clamp(picture.bands[b](x, y) + state.speed.bands[b](x, y), model.bands.low[b], model.bands.high[b]);
+          picture.bands[b](x, y) = std::clamp(picture.bands[b](x, y) + state.speed.bands[b](x, y),
+                                              model.bands.low[b], model.bands.high[b]);
   });
 }
 

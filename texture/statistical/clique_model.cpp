@@ -9,16 +9,19 @@
 namespace belvedere {
 namespace {
 
-constexpr std::array<float, clique_knots / 2> lower_shares = {0.F, .004F, .012F, .03F, .06F, .10F, .15F, .21F, .275F, .34F, .40F, .465F};
-constexpr int code_steps = 127;  // of either sign
-constexpr double mu = 255.0;     // of the companding: small differences in fine steps, large ones in coarse ones
+constexpr std::array<float, clique_knots / 2> lower_shares = {
+    0.F, .004F, .012F, .03F, .06F, .10F, .15F, .21F, .275F, .34F, .40F, .465F};
+constexpr int code_steps = 127;  // of each sign
+constexpr double mu =
+    255.0;  // of the companding: small differences in fine steps, large ones in coarse ones
 
-// The part of a range that code `step` of mu-law stands for.
+// The part of a range for code `step` of mu-law.
 const std::array<float, code_steps + 1>& code_parts() {
   static const std::array<float, code_steps + 1> parts = [] {
     std::array<float, code_steps + 1> out{};
     for (int step = 0; step <= code_steps; ++step)
-      out[static_cast<std::size_t>(step)] = static_cast<float>((exact::pow(1.0 + mu, static_cast<double>(step) / code_steps) - 1.0) / mu);
+      out[static_cast<std::size_t>(step)] = static_cast<float>(
+          (exact::pow(1.0 + mu, static_cast<double>(step) / code_steps) - 1.0) / mu);
     return out;
   }();
   return parts;
@@ -38,7 +41,8 @@ float decoded(std::int8_t code, float reach) {
 
 float clique_knot_share(int k) {
   constexpr int half = clique_knots / 2;
-  return k < half ? lower_shares[static_cast<std::size_t>(k)] : 1.F - lower_shares[static_cast<std::size_t>(clique_knots - 1 - k)];
+  return k < half ? lower_shares[static_cast<std::size_t>(k)]
+                  : 1.F - lower_shares[static_cast<std::size_t>(clique_knots - 1 - k)];
 }
 
 DifferenceRange difference_range(const BandSpace& bands, const CliqueType& type) {
@@ -48,12 +52,14 @@ DifferenceRange difference_range(const BandSpace& bands, const CliqueType& type)
   return {bands.low[head] - bands.high[tail], bands.high[head] - bands.low[tail]};
 }
 
-std::array<std::int8_t, clique_knots> encode_knots(const BandSpace& bands, const CliqueType& type, const CliqueKnots& knots) {
+std::array<std::int8_t, clique_knots> encode_knots(const BandSpace& bands, const CliqueType& type,
+                                                   const CliqueKnots& knots) {
   const float reach = reach_of(bands, type);
   std::array<std::int8_t, clique_knots> codes{};
   int last = -code_steps;
   for (std::size_t k = 0; k < knots.size(); ++k) {
-    const double part = std::min(1.0, static_cast<double>(std::abs(knots[k])) / static_cast<double>(reach));
+    const double part =
+        std::min(1.0, static_cast<double>(std::abs(knots[k])) / static_cast<double>(reach));
     const double step = code_steps * exact::log(1.0 + mu * part) / exact::log(1.0 + mu);
     const int code = static_cast<int>(std::floor(step + 0.5));
     last = std::max(last, knots[k] < 0.F ? -code : code);

@@ -7,25 +7,31 @@
 
 namespace belvedere {
 
-// A texture as statistics of pairs of pixels (Zalesny, Ferrari, Caenen, Van Gool, "Composite Texture Synthesis", 2005): for each of a few
-// *clique types* how much the pixel at the head differs from the one at the tail. Of the order of a kilobyte, whatever is made from it.
+// A texture as statistics of pairs of pixels (Zalesny, Ferrari, Caenen, Van Gool, "Composite
+// Texture Synthesis", 2005): for each of a few *clique types* the distribution of the difference
+// between the pixels at head and tail. About a kilobyte, whatever is made from it.
 
-// Colours turned to the principal axes of the crop they were learnt from, in levels of 8-bit sRGB. In bands, what differences are taken of
-// is not correlated: in RGB the same method weaves.
+// Colours rotated to the principal axes of the crop they were learnt from, in levels of 8-bit sRGB.
+// Bands are uncorrelated; in RGB the same method produces a woven look.
 struct BandSpace {
-  std::array<float, 3> mean{};                      // sRGB, 0…255
-  std::array<std::array<std::int16_t, 3>, 3> axes;  // axes[band][channel], unit vectors times axis_unit
-  std::array<float, 3> low{};                       // least and largest value of each band in the crop, half a level wider
+  std::array<float, 3> mean{};  // sRGB, 0…255
+  std::array<std::array<std::int16_t, 3>, 3>
+      axes;  // axes[band][channel], unit vectors times axis_unit
+  std::array<float, 3>
+      low{};  // smallest and largest value of each band in the crop, half a level wider
   std::array<float, 3> high{};
 
   static constexpr float axis_unit = 32767.F;
   float axis(int band, int channel) const {
-    return static_cast<float>(axes[static_cast<std::size_t>(band)][static_cast<std::size_t>(channel)]) / axis_unit;
+    return static_cast<float>(
+               axes[static_cast<std::size_t>(band)][static_cast<std::size_t>(channel)]) /
+           axis_unit;
   }
 };
 
-// A pair of pixels at a fixed place to each other: the head lies dx to the right of and dy below the tail. Its statistic is the histogram
-// of value(head band at head) - value(tail band at tail). A type without offset and with one band is that band's own histogram.
+// A pair of pixels with a fixed offset: the head is dx to the right of and dy below the tail. Its
+// statistic is the histogram of value(head band at head) - value(tail band at tail). A type without
+// offset and with one band is that band's own histogram.
 struct CliqueType {
   int level = 0;  // of the pyramid: a pixel there is a mean of 2^level pixels
   int dx = 0;
@@ -39,28 +45,32 @@ struct CliqueType {
 
 inline constexpr int clique_knots = 24;
 
-// A type and the distribution of its differences: the value below which clique_knot_share(k) of them lie, for each knot k, as one byte each
-// (mu-law over the type's range), never falling.
+// A type and the distribution of its differences: the value below which clique_knot_share(k) of
+// them lie, for each knot k, as one byte each (mu-law over the type's range), non-decreasing.
 struct Clique {
   CliqueType type;
   std::array<std::int8_t, clique_knots> codes{};
 };
 
-// What the noise that everything begins with looks like: its shape stays in what becomes of it (clique types have no word for strokes).
+// Kinds of initial noise: its shape remains visible in the result (clique types cannot describe
+// strokes).
 enum class TextureSeed : std::uint8_t { white, streaks, discs };
 
 struct CliqueModel {
   int levels = 3;  // coarsest level of the pyramid, 0…3
   BandSpace bands;
-  std::vector<Clique> cliques;  // coarsest level first, in the order in which they were found
+  std::vector<Clique> cliques;  // coarsest level first, in the order in which they were added
   TextureSeed seed = TextureSeed::white;
-  float seed_px = 0.F;           // half length of streaks, radius of discs, in pixels
-  float direction_deg = 0.F;     // of the crop's strokes, clockwise from level in the picture, 0…180
-  float direction_spread = 0.F;  // 0: all of them run so, 1: they run any way
-  bool sampled = false;          // by the published sampler alone, from noise and at one level: learn_by_sampling.h
-  bool polish = true;            // whether single pixels are sampled at the end: crisp dabs, but flecks where all is smooth
+  float seed_px = 0.F;  // half length of streaks, radius of discs, in pixels
+  float direction_deg =
+      0.F;  // of the crop's strokes, clockwise from horizontal in the picture, 0…180
+  float direction_spread = 0.F;  // 0: all in this direction, 1: no preferred direction
+  bool sampled =
+      false;  // by the published sampler only, from noise and at one level: learn_by_sampling.h
+  bool polish = true;  // whether single pixels are sampled at the end: crisp dabs, but flecks in
+                       // smooth areas
 
-  // What is told of the crop, and changes nothing that is made.
+  // Information about the crop, without effect on what is made.
   std::string crop_hash;  // of its pixels, content_hash.h
   int crop_width = 0;
   int crop_height = 0;
@@ -69,7 +79,7 @@ struct CliqueModel {
 // The probability of knot k: denser in the tails.
 float clique_knot_share(int k);
 
-// The range that differences of a type can have.
+// The range of the differences of a type.
 struct DifferenceRange {
   float low = 0.F;
   float high = 0.F;
@@ -77,15 +87,17 @@ struct DifferenceRange {
 DifferenceRange difference_range(const BandSpace& bands, const CliqueType& type);
 
 using CliqueKnots = std::array<float, clique_knots>;
-// Codes of knots, made to rise, and back.
-std::array<std::int8_t, clique_knots> encode_knots(const BandSpace& bands, const CliqueType& type, const CliqueKnots& knots);
+// Codes of knots, made increasing, and back.
+std::array<std::int8_t, clique_knots> encode_knots(const BandSpace& bands, const CliqueType& type,
+                                                   const CliqueKnots& knots);
 CliqueKnots decode_knots(const BandSpace& bands, const Clique& clique);
 
-// The difference below which a share of all lies, and the share below a difference: both linear between knots.
+// The difference below which a share of all lies, and the share below a difference: both linear
+// between knots.
 float value_at_share(const CliqueKnots& knots, float share);
 float share_below(const CliqueKnots& knots, float value);
 
-// Bytes of the model as a file holds it, without what is told of the crop.
+// Bytes of the model in a file, without the information about the crop.
 std::size_t model_bytes(const CliqueModel& model);
 
 }  // namespace belvedere

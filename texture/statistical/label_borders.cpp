@@ -33,7 +33,8 @@ Grid<std::uint8_t> near_borders(const Grid<std::uint8_t>& labels, int px) {
         const std::uint8_t label = labels.clamped(u, v);
         return label != own && label != no_label;
       };
-      const bool is = own != no_label && (other(x - 1, y) || other(x + 1, y) || other(x, y - 1) || other(x, y + 1));
+      const bool is = own != no_label &&
+                      (other(x - 1, y) || other(x + 1, y) || other(x, y - 1) || other(x, y + 1));
       border(x, y) = is ? 1 : 0;
     }
   return px <= 1 ? border : widened(border, px - 1);

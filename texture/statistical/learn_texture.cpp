@@ -18,8 +18,9 @@ namespace {
 
 constexpr std::uint64_t learning_seed = 5;
 
-// Always in: each band's own histogram, at the finest level the pairs at one pixel and the four neighbours as well; above it the first
-// band's histogram alone, because the others follow from it and from what is added.
+// Always included: each band's own histogram; at the finest level also the pairs at one pixel and
+// the four neighbours; above it only the first band's histogram, because the others follow from it
+// and from the added types.
 bool always_in(const CliqueType& t) {
   if (t.level > 0) return t.single() && t.head == 0;
   const bool near = std::abs(t.dx) + std::abs(t.dy) == 1 && t.head == t.tail;
@@ -30,13 +31,17 @@ void check_crop(const Grid<Rgb8>& crop, const Grid<std::uint8_t>& states) {
   const auto refuse = [](const std::string& found, const std::string& allowed) {
     throw Error(ErrorKind::input, "the crop", found, allowed);
   };
-  if (static_cast<std::int64_t>(crop.size()) > most_texture_pixels)
-    throw Error(ErrorKind::limit, "the crop", fmt::format("{} × {} pixels", crop.width(), crop.height()),
-                fmt::format("{} Mpixels or fewer: a piece that shows one texture", most_texture_pixels >> 20));
+  if (static_cast<std::int64_t>(crop.size()) > max_texture_pixels)
+    throw Error(ErrorKind::limit, "the crop",
+                fmt::format("{} × {} pixels", crop.width(), crop.height()),
+                fmt::format("at most {} Mpixels: a piece that shows a single texture",
+                            max_texture_pixels >> 20));
   if (crop.width() < min_crop_px || crop.height() < min_crop_px)
-    refuse(fmt::format("{} × {} pixels", crop.width(), crop.height()), fmt::format("{} pixels a side or more", min_crop_px));
+    refuse(fmt::format("{} × {} pixels", crop.width(), crop.height()),
+           fmt::format("at least {} pixels on each side", min_crop_px));
   if (!states.empty() && !states.same_size(crop))
-    refuse(fmt::format("a mask of {} × {} pixels for a crop of {} × {}", states.width(), states.height(), crop.width(), crop.height()),
+    refuse(fmt::format("the mask has {} × {} pixels, the crop {} × {}", states.width(),
+                       states.height(), crop.width(), crop.height()),
            "a mask of the crop's size");
   std::size_t counted = 0;
   bool varied = false;
@@ -46,9 +51,11 @@ void check_crop(const Grid<Rgb8>& crop, const Grid<std::uint8_t>& states) {
     if (counted++ == 0) first = crop[i];
     varied |= crop[i] != first;
   }
-  constexpr std::size_t least = std::size_t{min_crop_px} * min_crop_px;
-  if (counted < least) refuse(fmt::format("{} pixels that are opaque and in its mask", counted), fmt::format("{} or more", least));
-  if (!varied) refuse("one colour all over", "a texture");
+  constexpr std::size_t min = std::size_t{min_crop_px} * min_crop_px;
+  if (counted < min)
+    refuse(fmt::format("{} pixels that are opaque and in its mask", counted),
+           fmt::format("at least {}", min));
+  if (!varied) refuse("it has a single colour", "a texture");
 }
 
 std::string hash_of(const Grid<Rgb8>& crop) {
@@ -57,17 +64,19 @@ std::string hash_of(const Grid<Rgb8>& crop) {
   return hash.digits();
 }
 
-// Coarse levels need pixels to count.
-int levels_for(const Grid<Rgb8>& crop, int wished) {
-  constexpr int least_coarse_px = 10;
-  int levels = wished;
-  while (levels > 0 && (std::min(crop.width(), crop.height()) >> levels) < least_coarse_px) --levels;
+// Coarse levels need enough pixels to count.
+int levels_for(const Grid<Rgb8>& crop, int requested) {
+  constexpr int min_coarse_px = 10;
+  int levels = requested;
+  while (levels > 0 && (std::min(crop.width(), crop.height()) >> levels) < min_coarse_px) --levels;
   return levels;
 }
 
 }  // namespace
 
-int reach_at(const LearnParameters& parameters, int level) { return level == 0 ? parameters.reach_px : parameters.coarse_reach; }
+int reach_at(const LearnParameters& parameters, int level) {
+  return level == 0 ? parameters.reach_px : parameters.coarse_reach;
+}
 
 std::vector<CliqueType> candidate_types(int level, int reach) {
   std::vector<CliqueType> types;
@@ -93,28 +102,32 @@ CliqueModel begin_model(const Grid<Rgb8>& crop, const Grid<std::uint8_t>& states
   return model;
 }
 
-LearnedTexture learn_texture(const Grid<Rgb8>& crop, const Grid<std::uint8_t>& states, const LearnParameters& parameters,
-                             Progress& progress) {
+LearnedTexture learn_texture(const Grid<Rgb8>& crop, const Grid<std::uint8_t>& states,
+                             const LearnParameters& parameters, Progress& progress) {
   LearnedTexture out;
   CliqueModel& model = out.model;
   model = begin_model(crop, states, parameters.levels);
   const BandPyramid example = make_pyramid(to_bands(crop, model.bands, states), model.levels);
 
-  // The texture that is made to see what is missing: of the crop's size, or of the size of what counts of it.
+  // The texture made to find what is missing: of the crop's size, or of the area of its counted
+  // pixels.
   int width = crop.width();
   int height = crop.height();
   if (!states.empty()) {
-    const auto counted = std::count_if(states.begin(), states.end(), [](std::uint8_t s) { return (s & pixel_counts) != 0; });
+    const auto counted = std::count_if(states.begin(), states.end(),
+                                       [](std::uint8_t s) { return (s & pixel_counts) != 0; });
     width = height = std::clamp(static_cast<int>(std::sqrt(static_cast<double>(counted))), 64, 256);
   }
   TextureTrial trial(model, width, height, learning_seed);
   progress.begin("learning a texture", parameters.types);
   for (int level = model.levels; level >= 0; --level) {
     std::vector<CliqueCandidate> candidates =
-        make_candidates(example[static_cast<std::size_t>(level)], model.bands, candidate_types(level, reach_at(parameters, level)));
-    // Coarser levels together get at most half of the budget, the finest what is left.
-    const auto budget =
-        static_cast<std::size_t>(level > 0 ? parameters.types * (model.levels - level + 1) / (2 * (model.levels + 1)) : parameters.types);
+        make_candidates(example[static_cast<std::size_t>(level)], model.bands,
+                        candidate_types(level, reach_at(parameters, level)));
+    // Coarser levels together get at most half of the budget, the finest gets the rest.
+    const auto budget = static_cast<std::size_t>(
+        level > 0 ? parameters.types * (model.levels - level + 1) / (2 * (model.levels + 1))
+                  : parameters.types);
     const auto add = [&](CliqueCandidate& c) {
       c.in = true;
       model.cliques.push_back(c.clique);
@@ -125,8 +138,9 @@ LearnedTexture learn_texture(const Grid<Rgb8>& crop, const Grid<std::uint8_t>& s
     trial.begin_level(model, level);
     for (int round = 0;; ++round) {
       trial.run(model, level, round == 0 ? 2 * parameters.rounds : parameters.rounds);
-      LearningRound found = judge_candidates(candidates, trial.picture(level), model.bands);
-      if (found.worst == candidates.size() || found.told.worst_l2 < parameters.enough || model.cliques.size() >= budget) {
+      LearningRound found = evaluate_candidates(candidates, trial.picture(level), model.bands);
+      if (found.worst == candidates.size() || found.told.worst_l2 < parameters.enough ||
+          model.cliques.size() >= budget) {
         found.told.level = level;
         out.levels.push_back(found.told);
         break;

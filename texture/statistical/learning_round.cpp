@@ -4,7 +4,8 @@
 
 namespace belvedere {
 
-std::vector<CliqueCandidate> make_candidates(const BandPicture& example, const BandSpace& bands, const std::vector<CliqueType>& types) {
+std::vector<CliqueCandidate> make_candidates(const BandPicture& example, const BandSpace& bands,
+                                             const std::vector<CliqueType>& types) {
   std::vector<CliqueCandidate> out(types.size());
   parallel_ranges(types.size(), std::size_t{8}, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k != end; ++k) {
@@ -16,11 +17,14 @@ std::vector<CliqueCandidate> make_candidates(const BandPicture& example, const B
   return out;
 }
 
-LearningRound judge_candidates(const std::vector<CliqueCandidate>& candidates, const BandPicture& made, const BandSpace& bands) {
+LearningRound evaluate_candidates(const std::vector<CliqueCandidate>& candidates,
+                                  const BandPicture& made, const BandSpace& bands) {
   std::vector<HistogramGroups::Distance> off(candidates.size());
   parallel_ranges(candidates.size(), std::size_t{8}, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k != end; ++k)
-      if (!candidates[k].in) off[k] = candidates[k].groups.distance(count_differences(made, bands, candidates[k].clique.type));
+      if (!candidates[k].in)
+        off[k] = candidates[k].groups.distance(
+            count_differences(made, bands, candidates[k].clique.type));
   });
   LearningRound round{{}, candidates.size()};
   double sum = 0.0;

@@ -9,8 +9,11 @@
 
 namespace belvedere {
 
-Grid<std::uint8_t> light_half(const Grid<Rgb8>& crop, const Grid<std::uint8_t>& states, LightHalf half, double blur_px) {
-  const auto counts = [&](std::size_t i) { return states.empty() || (states[i] & pixel_counts) != 0; };
+Grid<std::uint8_t> light_half(const Grid<Rgb8>& crop, const Grid<std::uint8_t>& states,
+                              LightHalf half, double blur_px) {
+  const auto counts = [&](std::size_t i) {
+    return states.empty() || (states[i] & pixel_counts) != 0;
+  };
   Grid<float> light(crop.width(), crop.height());
   Grid<float> share(crop.width(), crop.height());
   for (std::size_t i = 0; i < crop.size(); ++i) {
@@ -28,9 +31,9 @@ Grid<std::uint8_t> light_half(const Grid<Rgb8>& crop, const Grid<std::uint8_t>& 
   }
   Grid<std::uint8_t> out(crop.width(), crop.height());
   if (sorted.empty()) return out;
-  const auto middle = middle_value(std::move(sorted));
+  const auto centre = middle_value(std::move(sorted));
   for (std::size_t i = 0; i < crop.size(); ++i)
-    if (counts(i) && (light[i] >= middle) == (half == LightHalf::lit)) out[i] = pixel_free;
+    if (counts(i) && (light[i] >= centre) == (half == LightHalf::lit)) out[i] = pixel_free;
   return out;
 }
 

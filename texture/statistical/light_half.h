@@ -6,12 +6,14 @@
 
 namespace belvedere {
 
-// Light and shade of a crop are relief and no texture (Zalesny et al. 2005 call such crops composite): each half is learnt by itself.
+// Light and shade of a crop come from relief and are not texture (Zalesny et al. 2005 call such
+// crops composite): each half is learnt separately.
 enum class LightHalf { lit, shaded };
 
-// The states of a crop's pixels with those of the other half taken out: what is lighter, or darker, than the median of its lightness
-// blurred over `blur_px` (sigma), which leaves strokes and keeps what the light falls on. `states` (empty: all) counts the crop's pixels;
-// what does not count is looked at by nobody.
-Grid<std::uint8_t> light_half(const Grid<Rgb8>& crop, const Grid<std::uint8_t>& states, LightHalf half, double blur_px = 6.0);
+// The states of a crop's pixels without those of the other half: pixels lighter, or darker, than
+// the median of its lightness blurred over `blur_px` (sigma), which removes strokes and keeps the
+// illumination. `states` (empty: all) selects the crop's pixels; others are ignored.
+Grid<std::uint8_t> light_half(const Grid<Rgb8>& crop, const Grid<std::uint8_t>& states,
+                              LightHalf half, double blur_px = 6.0);
 
 }  // namespace belvedere

@@ -9,29 +9,33 @@
 
 namespace belvedere {
 
-// Where on an endless texture a picture lies: its upper left pixel, of level 0 (then a multiple of 2^levels) unless another is named.
-struct TexturePlace {
+// Position of a picture on an unbounded texture: its upper left pixel, of level 0 (then a multiple
+// of 2^levels) unless another is stated.
+struct TexturePosition {
   int x = 0;
   int y = 0;
 };
 
-// The direction of strokes at a place of the texture (pixels of level 0), as a unit vector; the zero vector: none, so no streak.
+// The direction of strokes at a position of the texture (pixels of level 0), as a unit vector;
+// zero: no streak.
 using DirectionField = std::function<glm::vec2(double x, double y)>;
 
-// The field of a model's own strokes, where nothing else says how they run: its direction, bent by smooth noise as far as they spread.
+// The field of a model's own strokes, used if no other direction is given: its direction, bent by
+// smooth noise according to their spread.
 DirectionField own_directions(const CliqueModel& model, std::uint64_t seed);
 
-// What a texture's noise is made of.
+// Parameters of a texture's noise.
 struct SeedNoise {
   TextureSeed kind = TextureSeed::white;
   float px = 0.F;              // half length of streaks, radius of discs, at level 0
-  DirectionField direction{};  // of streaks; empty: level ones
+  DirectionField direction{};  // of streaks; empty: horizontal
   std::uint64_t seed = 1;
 };
 
-// Noise of one band at one level, 0…1: white and even; or its mean along streaks, widened again to the spread of white noise; or, under
-// discs that lie upon each other like fallen leaves, one value a disc. A function of place, level, band and seed alone, so that windows of
-// one texture agree.
-Grid<float> seed_noise(const SeedNoise& noise, TexturePlace place, int width, int height, int level, int band);
+// Noise of one band at one level, 0…1: white and uniform; or its mean along streaks, stretched
+// again to the deviation of white noise; or one value per disc, for discs that overlap like fallen
+// leaves. A function of position, level, band and seed alone, so that windows of one texture match.
+Grid<float> seed_noise(const SeedNoise& noise, TexturePosition position, int width, int height,
+                       int level, int band);
 
 }  // namespace belvedere

@@ -16,7 +16,8 @@
 namespace belvedere {
 namespace {
 
-// Histogram of each pixel of the first band less the mean of its four neighbours, over the range that the band can have.
+// Histogram of each pixel of the first band minus the mean of its four neighbours, over the range
+// of the band.
 DifferenceHistogram laplacian_histogram(const BandPicture& picture, const BandSpace& bands) {
   const float reach = bands.high[0] - bands.low[0];
   const Grid<float>& v = picture.bands[0];
@@ -33,10 +34,13 @@ DifferenceHistogram laplacian_histogram(const BandPicture& picture, const BandSp
   return out;
 }
 
-// How paint runs, by the structure tensor over a window of the first band. Even places, where nothing is drawn, are not counted.
+// Direction of paint, by the structure tensor over a window of the first band. Flat positions are
+// not counted.
 struct RunHistograms {
-  DifferenceHistogram coherence;  // 0 no way more than another … 1 all one way: ((Jxx - Jyy)² + 4 Jxy²)^½ / (Jxx + Jyy)
-  DifferenceHistogram direction;  // in eighths of half a turn, each place by its coherence
+  DifferenceHistogram coherence;  // 0 isotropic … 1 one direction: ((Jxx - Jyy)² + 4
+                                  // Jxy²)^½ / (Jxx + Jyy)
+  DifferenceHistogram
+      direction;  // in eighths of half a turn, each position weighted by its coherence
 };
 
 RunHistograms run_histograms(const BandPicture& picture) {
@@ -64,21 +68,26 @@ RunHistograms run_histograms(const BandPicture& picture) {
       constexpr float window = (2 * reach + 1) * (2 * reach + 1);
       if (xx + yy < even * window) continue;
       const float coherence = std::sqrt((xx - yy) * (xx - yy) + 4.F * xy * xy) / (xx + yy);
-      const int bin = std::clamp(static_cast<int>(coherence * difference_bins), 0, difference_bins - 1);
+      const int bin =
+          std::clamp(static_cast<int>(coherence * difference_bins), 0, difference_bins - 1);
       ++out.coherence.counts[static_cast<std::size_t>(bin)];
       ++out.coherence.total;
-      // Level strokes are the middle of the first direction, so that paint that is all level does not fall half into the last.
+      // Horizontal strokes are at the centre of the first direction, so that horizontal paint does
+      // not fall half into the last.
       const double turn =
-          exact::atan2(2.0 * static_cast<double>(xy), static_cast<double>(xx - yy)) / (2.0 * std::numbers::pi) + .5 / directions;
+          exact::atan2(2.0 * static_cast<double>(xy), static_cast<double>(xx - yy)) /
+              (2.0 * std::numbers::pi) +
+          .5 / directions;
       const int of = static_cast<int>((turn - std::floor(turn)) * directions) % directions;
-      out.direction.counts[static_cast<std::size_t>(of * bins_a_direction)] += static_cast<std::uint32_t>(bin);
+      out.direction.counts[static_cast<std::size_t>(of * bins_a_direction)] +=
+          static_cast<std::uint32_t>(bin);
       out.direction.total += static_cast<std::uint32_t>(bin);
     }
   }
   return out;
 }
 
-// Mean distance of histograms of levels; one where either counts nothing says nothing.
+// Mean distance of histograms over levels; levels without counts on either side are skipped.
 class LevelsApart {
  public:
   void add(const DifferenceHistogram& of, const DifferenceHistogram& with) {
@@ -93,13 +102,14 @@ class LevelsApart {
   int compared_ = 0;
 };
 
-// Of the squares of a side: a 64-bit sum of their pixels, mixed row by row.
+// Key of a square: a 64-bit sum of its pixels, mixed row by row.
 std::uint64_t square_key(const Grid<Rgb8>& picture, int x, int y, int side) {
   std::uint64_t key = 0;
   for (int j = 0; j < side; ++j)
     for (int i = 0; i < side; ++i) {
       const Rgb8& c = picture(x + i, y + j);
-      key = mix_bits(key ^ (std::uint64_t{c[0]} | std::uint64_t{c[1]} << 8 | std::uint64_t{c[2]} << 16 | 1ULL << 24));
+      key = mix_bits(key ^ (std::uint64_t{c[0]} | std::uint64_t{c[1]} << 8 |
+                            std::uint64_t{c[2]} << 16 | 1ULL << 24));
     }
   return key;
 }
@@ -116,7 +126,8 @@ bool shares_square(const Grid<Rgb8>& crop, const Grid<Rgb8>& made, int side) {
 
 }  // namespace
 
-TextureFigures texture_figures(const Grid<Rgb8>& crop, const Grid<std::uint8_t>& states, const Grid<Rgb8>& made, const CliqueModel& model,
+TextureFigures texture_figures(const Grid<Rgb8>& crop, const Grid<std::uint8_t>& states,
+                               const Grid<Rgb8>& made, const CliqueModel& model,
                                const LearnParameters& parameters) {
   const BandPyramid example = make_pyramid(to_bands(crop, model.bands, states), model.levels);
   const BandPyramid result = make_pyramid(to_bands(made, model.bands, {}), model.levels);
@@ -134,7 +145,8 @@ TextureFigures texture_figures(const Grid<Rgb8>& crop, const Grid<std::uint8_t>&
                      .l1;
     });
     for (std::size_t k = 0; k < types.size(); ++k) {
-      const bool in = std::any_of(model.cliques.begin(), model.cliques.end(), [&](const Clique& c) { return c.type == types[k]; });
+      const bool in = std::any_of(model.cliques.begin(), model.cliques.end(),
+                                  [&](const Clique& c) { return c.type == types[k]; });
       (in ? out.selected : out.held_out) += off[k];
       ++(in ? selected : held);
       out.worst = std::max(out.worst, off[k]);
@@ -146,7 +158,8 @@ TextureFigures texture_figures(const Grid<Rgb8>& crop, const Grid<std::uint8_t>&
   LevelsApart drawn;
   LevelsApart turned;
   for (std::size_t l = 0; l < std::min<std::size_t>(3, example.size()); ++l) {
-    beyond.add(laplacian_histogram(example[l], model.bands), laplacian_histogram(result[l], model.bands));
+    beyond.add(laplacian_histogram(example[l], model.bands),
+               laplacian_histogram(result[l], model.bands));
     const RunHistograms of = run_histograms(example[l]);
     const RunHistograms with = run_histograms(result[l]);
     drawn.add(of.coherence, with.coherence);
@@ -158,7 +171,8 @@ TextureFigures texture_figures(const Grid<Rgb8>& crop, const Grid<std::uint8_t>&
   return out;
 }
 
-TextureFigures halves_figures(const Grid<Rgb8>& crop, const CliqueModel& model, const LearnParameters& parameters) {
+TextureFigures halves_figures(const Grid<Rgb8>& crop, const CliqueModel& model,
+                              const LearnParameters& parameters) {
   const int w = crop.width();
   const int h = crop.height();
   const auto between = [&](PixelRect one, PixelRect other) {
@@ -166,14 +180,15 @@ TextureFigures halves_figures(const Grid<Rgb8>& crop, const CliqueModel& model, 
   };
   const TextureFigures across = between({0, 0, w / 2, h}, {w / 2, 0, w, h});
   const TextureFigures down = between({0, 0, w, h / 2}, {0, h / 2, w, h});
-  return {.5 * (across.selected + down.selected), .5 * (across.held_out + down.held_out), std::max(across.worst, down.worst),
-          .5 * (across.beyond + down.beyond),     .5 * (across.drawn + down.drawn),       .5 * (across.turned + down.turned)};
+  return {.5 * (across.selected + down.selected), .5 * (across.held_out + down.held_out),
+          std::max(across.worst, down.worst),     .5 * (across.beyond + down.beyond),
+          .5 * (across.drawn + down.drawn),       .5 * (across.turned + down.turned)};
 }
 
 int longest_copy_px(const Grid<Rgb8>& crop, const Grid<Rgb8>& made) {
-  constexpr int most = 16;
+  constexpr int max = 16;
   int side = 0;
-  while (side < most && shares_square(crop, made, side + 1)) ++side;
+  while (side < max && shares_square(crop, made, side + 1)) ++side;
   return side;
 }
 

@@ -10,12 +10,13 @@
 
 namespace belvedere {
 
-// What strokes are painted from. All images in encoded sRGB 0…1, because paint mixes there; same size as the guidance.
+// The base of strokes. All images in encoded sRGB 0…1, because paint mixes there; same size as the
+// guidance.
 struct BasePicture {
   Grid<glm::vec3> colour;    // base picture at the pixel's tone
   Grid<glm::vec3> darker;    // … at tone - .17
   Grid<glm::vec3> lighter;   // … at tone + .17
-  Grid<float> accent;        // -1 hollow … +1 edge: where accents go
+  Grid<float> accent;        // -1 hollow … +1 edge: position of accents
   Grid<float> tree_density;  // 0…1: trees in forest, dwarf pines on alpine grass and shrubland
   Grid<float> haze;          // 0…1
 };
@@ -26,20 +27,21 @@ inline constexpr float glade_density = 0.08F;
 struct StrokeParameters {
   double pixels_per_unit = 1.0;  // a unit is 0.5 mm of the sheet: 1 at 2400 px on 1.2 m; 0.1…50
   bool winter = false;
-  double sun_side = 1.0;  // -1 light from the left … +1 from the right of the picture
-  // The same at a place of the map, where light differs from place to place; none: sun_side everywhere.
-  std::function<float(glm::dvec2 place_m)> local_side = nullptr;
+  double sun_side = 1.0;  // -1: light from the left of the picture … +1: from the right
+  // The same at a map position, where light varies with position; null: sun_side everywhere.
+  std::function<float(glm::dvec2 position_m)> local_side = nullptr;
   std::uint64_t seed = 1;
-  std::vector<glm::vec3> leaves;  // colours of leafy trees in full light, of bare twigs in winter, encoded sRGB; none: only the ground's
+  std::vector<glm::vec3> leaves;  // colours of leafy trees in full light, of bare twigs in winter,
+                                  // encoded sRGB; none: only the ground's
   double leaf_share = 0.0;        // how far leafy trees take them, 0…1
   glm::vec3 larch{0.0F};          // the same of larches
-  double larch_share = 0.0;       // 0: none grow
-  double treeline_m = 1820.0;     // altitude where forest ends: belts of trees hang on it
+  double larch_share = 0.0;       // 0: no larches
+  double treeline_m = 1820.0;     // altitude where forest ends: reference for the belts of trees
   double wind = 0.0;              // 0…2: streaks of light on open water
-  double surf_units = 0.0;        // width of the line of surf at the sea's shores, units, 0 (none)…6
-  bool foam = false;              // white water where rivers fall
-  double sea_level_m = 0.0;       // water about so high is the sea
-  double frozen_from_m = 1e9;     // altitude from which lakes are ice
+  double surf_units = 0.0;     // width of the line of surf at the sea's shores, units, 0 (none)…6
+  bool foam = false;           // white water where rivers are steep
+  double sea_level_m = 0.0;    // water near this altitude is the sea
+  double frozen_from_m = 1e9;  // altitude from which lakes are frozen
 };
 
 }  // namespace belvedere

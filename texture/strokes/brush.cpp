@@ -15,15 +15,17 @@ namespace belvedere {
 namespace {
 
 constexpr int tile_px = 128;
-constexpr float beyond_bank = 0.12F;  // share of the paint of dry ground that reaches over known water
+constexpr float beyond_bank =
+    0.12F;  // share of the paint of dry ground that extends over mapped water
 constexpr float beyond_facet = 0.2F;  // share of the paint that crosses the edge of a plane of rock
-constexpr float dry_from = 0.5F;      // share of the stroke from which the brush runs dry
-constexpr float pressed_by = 0.18F;   // share of it over which the brush is set down
+constexpr float dry_from = 0.5F;      // share of the stroke after which the brush runs dry
+constexpr float pressed_by = 0.18F;   // share of the stroke over which the brush is pressed on
 constexpr float load_value = 0.04F;   // ±, encoded sRGB: how much lighter or darker …
-constexpr float load_warmth = 0.03F;  // … and warmer or cooler a load of paint is than the one asked for
+constexpr float load_warmth =
+    0.03F;  // … and warmer or cooler a load of paint is than the requested colour
 constexpr float ridge_light = 0.05F;  // encoded sRGB, of a ridge of paint
 
-// A cheap 32-bit hash: bristles ask for it millions of times.
+// A cheap 32-bit hash: it is called millions of times for bristles.
 std::uint32_t hash32(std::uint32_t x) {
   x ^= x >> 16;
   x *= 0x7feb352dU;
@@ -37,27 +39,37 @@ float hair_noise(float x, std::uint32_t seed) {
   const float base = std::floor(x);
   const auto i = static_cast<std::uint32_t>(static_cast<std::int32_t>(base));
   const float t = smoothstep(x - base);
-  const auto at = [&](std::uint32_t k) { return static_cast<float>(hash32(k * 374761393U + seed) & 0xffffU) / 65535.F; };
+  const auto at = [&](std::uint32_t k) {
+    return static_cast<float>(hash32(k * 374761393U + seed) & 0xffffU) / 65535.F;
+  };
   const float a = at(i);
   return a + (at(i + 1U) - a) * t;
 }
 
-// The hairs of a brush. Fine ones show only where a unit has pixels enough; reduced to the size where they do not, a stroke looks alike,
-// because how many hairs touch stays the same.
+// The hairs of a brush. Fine ones are visible only where a unit has enough pixels; downsampled to a
+// size where they are not, a stroke looks the same, because the number of hairs that touch does not
+// change.
 struct Hairs {
   explicit Hairs(float pixels_per_unit)
-      : fine(0.5F * std::clamp((pixels_per_unit - 1.5F) / 3.F, 0.F, 1.F)), contrast(std::clamp(2.F * pixels_per_unit, 1.F, 9.F)) {}
-  // 0…1, about .5 ± .15: how long the hair is that passes a place, in units across and along the stroke.
+      : fine(0.5F * std::clamp((pixels_per_unit - 1.5F) / 3.F, 0.F, 1.F)),
+        contrast(std::clamp(2.F * pixels_per_unit, 1.F, 9.F)) {}
+  // 0…1, about .5 ± .15: length of the hair that passes a position, in units across and along the
+  // stroke.
   float height(float across, float along, std::uint32_t seed) const {
-    const float coarse = hair_noise(across * 0.6F + 50.F, seed) * 0.6F + hair_noise(across * 1.3F + along * 0.05F + 90.F, seed + 7U) * 0.4F;
-    return fine > 0.F ? coarse + fine * (hair_noise(across * 4.F + along * 0.03F + 70.F, seed + 11U) - 0.5F) : coarse;
+    const float coarse = hair_noise(across * 0.6F + 50.F, seed) * 0.6F +
+                         hair_noise(across * 1.3F + along * 0.05F + 90.F, seed + 7U) * 0.4F;
+    return fine > 0.F
+               ? coarse +
+                     fine * (hair_noise(across * 4.F + along * 0.03F + 70.F, seed + 11U) - 0.5F)
+               : coarse;
   }
   float fine;
   float contrast;
 };
 
-// exp(-x⁴) as (1 - x⁴/8)^8: products only, so that no machine's exp() changes a bit. Flat where tones are alike and steep beyond, so that
-// a stroke ends at a shadow with an edge instead of thinning out into it.
+// exp(-x⁴) as (1 - x⁴/8)^8: products only, so that the result does not depend on the machine's
+// exp(). Flat for similar tones and steep beyond, so that a stroke ends at a shadow with an edge
+// instead of fading into it.
 float gate_bell(float x) {
   const float x2 = x * x;
   const float t = std::max(0.F, 1.F - x2 * x2 * 0.125F);
@@ -66,7 +78,8 @@ float gate_bell(float x) {
   return t4 * t4;
 }
 
-// The pixels of the canvas that a stroke may touch, of those in `clip`; empty (x0 >= x1 or y0 >= y1) where it lies beside them.
+// The pixels of the canvas inside `clip` that a stroke may touch; empty (x0 >= x1 or y0 >= y1) if
+// there are none.
 PixelRect bounds_of(const Stroke& stroke, glm::ivec2 origin, const PixelRect& clip) {
   glm::vec2 low = stroke.points[0];
   glm::vec2 high = low;
@@ -74,25 +87,29 @@ PixelRect bounds_of(const Stroke& stroke, glm::ivec2 origin, const PixelRect& cl
     low = glm::min(low, stroke.points[static_cast<std::size_t>(i)]);
     high = glm::max(high, stroke.points[static_cast<std::size_t>(i)]);
   }
-  const float reach = std::max(stroke.start_width, stroke.end_width) * 0.58F + 1.F;  // wobble widens by up to 7.5 %
+  const float reach =
+      std::max(stroke.start_width, stroke.end_width) * 0.58F + 1.F;  // wobble widens by up to 7.5 %
   return {std::max(clip.x0, static_cast<int>(std::floor(low.x - reach)) - origin.x),
           std::max(clip.y0, static_cast<int>(std::floor(low.y - reach)) - origin.y),
           std::min(clip.x1, static_cast<int>(std::ceil(high.x + reach)) - origin.x),
           std::min(clip.y1, static_cast<int>(std::ceil(high.y + reach)) - origin.y)};
 }
 
-// How far a pixel lies from the stroke: the plain distance, and along and across in pixels. Before the start and beyond the end of the
-// stroke `along` goes on (below 0, above the length) and `beyond` is true.
-struct StrokePlace {
+// A pixel's position relative to the stroke: the plain distance, and along and across in pixels.
+// Before the start and beyond the end of the stroke `along` continues (below 0, above the length)
+// and `beyond` is true.
+struct StrokePosition {
   float distance;
   float along_px;
   float across_px;
   bool beyond;
 };
 
-StrokePlace place_on(const Stroke& stroke, const std::array<float, Stroke::max_points>& length_before, glm::vec2 pixel) {
+StrokePosition place_on(const Stroke& stroke,
+                        const std::array<float, Stroke::max_points>& length_before,
+                        glm::vec2 pixel) {
   float best = 1e30F;
-  StrokePlace place{};
+  StrokePosition position{};
   for (int i = 0; i + 1 < stroke.point_count; ++i) {
     const auto k = static_cast<std::size_t>(i);
     const glm::vec2 segment = stroke.points[k + 1] - stroke.points[k];
@@ -105,22 +122,26 @@ StrokePlace place_on(const Stroke& stroke, const std::array<float, Stroke::max_p
     if (distance >= best) continue;
     best = distance;
     const float length = std::sqrt(squared);
-    place.beyond = (whole < 0.F && i == 0) || (whole > 1.F && i + 2 == stroke.point_count);
-    place.along_px = length_before[k] + (place.beyond ? whole : t) * length;
-    place.across_px = (error.y * segment.x - error.x * segment.y) / length;
+    position.beyond = (whole < 0.F && i == 0) || (whole > 1.F && i + 2 == stroke.point_count);
+    position.along_px = length_before[k] + (position.beyond ? whole : t) * length;
+    position.across_px = (error.y * segment.x - error.x * segment.y) / length;
   }
-  place.distance = std::sqrt(best);
-  return place;
+  position.distance = std::sqrt(best);
+  return position;
 }
 
-void paint_stroke(const Stroke& stroke, std::uint32_t number, const SheetWindow& window, const PixelRect& clip, Painting& painting,
-                  PaintRecord& record, PaintParts* parts, const GuidanceBuffers& guidance, float pixels_per_unit) {
+void paint_stroke(const Stroke& stroke, std::uint32_t number, const SheetWindow& window,
+                  const PixelRect& clip, Painting& painting, PaintRecord& record, PaintParts* parts,
+                  const GuidanceBuffers& guidance, float pixels_per_unit) {
   const glm::ivec2 origin = window.origin_px;
-  const bool stays_ashore = window.waters_known && stroke.gate == StrokeGate::surface && !guidance.land_cover.empty() &&
+  const bool stays_ashore = window.waters_known && stroke.gate == StrokeGate::surface &&
+                            !guidance.land_cover.empty() &&
                             guidance.land_cover[stroke.source] != LandCoverClass::water;
   Grid<glm::vec3>& canvas = painting.picture;
-  float* const seen_ground = stroke.standing && !painting.seen_ground.empty() ? painting.seen_ground.data() : nullptr;
-  float* const seen_hung = stroke.standing && !painting.seen_hung.empty() ? painting.seen_hung.data() : nullptr;
+  float* const seen_ground =
+      stroke.standing && !painting.seen_ground.empty() ? painting.seen_ground.data() : nullptr;
+  float* const seen_overhead =
+      stroke.standing && !painting.seen_overhead.empty() ? painting.seen_overhead.data() : nullptr;
   const PixelRect bounds = bounds_of(stroke, origin, clip);
   std::array<float, Stroke::max_points> length_before{};
   float length = 0.F;
@@ -130,15 +151,18 @@ void paint_stroke(const Stroke& stroke, std::uint32_t number, const SheetWindow&
     length += glm::length(stroke.points[k + 1] - stroke.points[k]);
   }
   const float unit = 1.F / pixels_per_unit;
-  const float widest = std::max(stroke.start_width, stroke.end_width) * 0.54F + 0.5F;  // beyond it no pixel is touched
+  const float widest = std::max(stroke.start_width, stroke.end_width) * 0.54F +
+                       0.5F;  // no pixel farther than this is touched
   const Hairs hairs(pixels_per_unit);
   glm::vec3 colour = stroke.colour;
   float ridge = 0.F;
   if (stroke.tip == StrokeTip::hairs) {
-    // Every load of paint is mixed anew.
+    // Every load of paint is mixed separately.
     const std::uint32_t load = hash32(stroke.seed);
-    const float value = stroke.load * load_value * (static_cast<float>(load & 0xffffU) / 32767.5F - 1.F);
-    const float warmth = stroke.load * load_warmth * (static_cast<float>(load >> 16U) / 32767.5F - 1.F);
+    const float value =
+        stroke.load * load_value * (static_cast<float>(load & 0xffffU) / 32767.5F - 1.F);
+    const float warmth =
+        stroke.load * load_warmth * (static_cast<float>(load >> 16U) / 32767.5F - 1.F);
     colour += glm::vec3(value + warmth, value, value - warmth);
     ridge = stroke.load * ((stroke.seed & 0x100U) != 0U ? ridge_light : -ridge_light);
   }
@@ -148,11 +172,15 @@ void paint_stroke(const Stroke& stroke, std::uint32_t number, const SheetWindow&
       const float depth = guidance.depth_m[i];
       switch (stroke.gate) {
         case StrokeGate::surface:
-          if (depth < stroke.depth_m * (1.F - stroke.depth_tolerance) || depth > stroke.depth_m * (1.F + stroke.depth_tolerance)) continue;
+          if (depth < stroke.depth_m * (1.F - stroke.depth_tolerance) ||
+              depth > stroke.depth_m * (1.F + stroke.depth_tolerance))
+            continue;
           break;
         case StrokeGate::same_class:
           if (guidance.land_cover[i] != guidance.land_cover[stroke.source]) continue;
-          if (depth < stroke.depth_m * (1.F - stroke.depth_tolerance) || depth > stroke.depth_m * (1.F + stroke.depth_tolerance)) continue;
+          if (depth < stroke.depth_m * (1.F - stroke.depth_tolerance) ||
+              depth > stroke.depth_m * (1.F + stroke.depth_tolerance))
+            continue;
           break;
         case StrokeGate::upright:
           if (depth < stroke.depth_m * 0.985F) continue;
@@ -164,37 +192,49 @@ void paint_stroke(const Stroke& stroke, std::uint32_t number, const SheetWindow&
           if (guidance.land_cover[i] != LandCoverClass::water) continue;
           break;
       }
-      const glm::vec2 centre{static_cast<float>(x + origin.x) + 0.5F, static_cast<float>(y + origin.y) + 0.5F};
-      const StrokePlace place = place_on(stroke, length_before, centre);
-      if (place.distance > widest) continue;
-      const float share = std::clamp(place.along_px / (length + 1e-6F), 0.F, 1.F);
-      float half_width = 0.5F * (stroke.start_width + (stroke.end_width - stroke.start_width) * share);
+      const glm::vec2 centre{static_cast<float>(x + origin.x) + 0.5F,
+                             static_cast<float>(y + origin.y) + 0.5F};
+      const StrokePosition position = place_on(stroke, length_before, centre);
+      if (position.distance > widest) continue;
+      const float share = std::clamp(position.along_px / (length + 1e-6F), 0.F, 1.F);
+      float half_width =
+          0.5F * (stroke.start_width + (stroke.end_width - stroke.start_width) * share);
       float alpha = stroke.alpha;
       float tint = 0.F;
-      float outside = place.distance - half_width;  // px; negative inside
+      float outside = position.distance - half_width;  // px; negative inside
       if (stroke.tip == StrokeTip::hairs) {
-        const float across = place.across_px * unit;
-        const float along = place.along_px * unit;
+        const float across = position.across_px * unit;
+        const float along = position.along_px * unit;
         const float hair = hairs.height(across, along, stroke.seed);
-        // Pressed on over its first part, and never quite evenly.
+        // Pressed on over its first part, slightly unevenly.
         const float set_down = std::max(0.F, 1.F - share / pressed_by);
-        half_width *= (1.F - 0.35F * set_down * set_down) * (1.F + 0.15F * (hair_noise(along * 0.3F, stroke.seed + 3U) - 0.5F));
-        const float side = std::clamp((stroke.edge > 0.F ? place.across_px : -place.across_px) / (half_width + 1e-3F), -1.F, 1.F);
-        outside = place.distance - half_width;
-        if (place.beyond) {
-          // A flat brush ends in a shallow curve, each hair at its own place.
+        half_width *= (1.F - 0.35F * set_down * set_down) *
+                      (1.F + 0.15F * (hair_noise(along * 0.3F, stroke.seed + 3U) - 0.5F));
+        const float side = std::clamp(
+            (stroke.edge > 0.F ? position.across_px : -position.across_px) / (half_width + 1e-3F),
+            -1.F, 1.F);
+        outside = position.distance - half_width;
+        if (position.beyond) {
+          // A flat brush ends in a shallow curve, each hair at its own position.
           const float reach = half_width * (0.75F * (1.F - side * side) + 0.9F * (hair - 0.5F));
-          outside = std::max(std::abs(place.across_px) - half_width, std::max(-place.along_px, place.along_px - length) - reach);
+          outside = std::max(std::abs(position.across_px) - half_width,
+                             std::max(-position.along_px, position.along_px - length) - reach);
         }
-        // Paint gathers in a ridge on one side and thins out on the other; towards the end the brush runs dry.
+        // Paint gathers in a ridge on one side and thins out on the other; towards the end the
+        // brush runs dry.
         const float strength = std::abs(stroke.edge);
-        tint = (hair - 0.5F) * stroke.wetness + ridge * strength * std::max(0.F, 1.F - std::abs(side - 0.7F) * 2.5F);
+        tint = (hair - 0.5F) * stroke.wetness +
+               ridge * strength * std::max(0.F, 1.F - std::abs(side - 0.7F) * 2.5F);
         const float late = std::max(0.F, share - dry_from) / (1.F - dry_from);
-        alpha *= (1.F - 0.45F * strength * std::max(0.F, -side)) * (1.F - (0.2F + 0.6F * stroke.bristle) * late * late);
-        // The share of hairs that touch is alpha: where hairs can be seen some lay all their paint and others none.
-        alpha = std::clamp(alpha + stroke.bristle * hairs.contrast * (hair - 0.75F + 0.5F * alpha), 0.F, 0.97F);
-      } else if (stroke.tip == StrokeTip::square && place.beyond) {
-        outside = std::max(std::abs(place.across_px) - half_width, std::max(-place.along_px, place.along_px - length));
+        alpha *= (1.F - 0.45F * strength * std::max(0.F, -side)) *
+                 (1.F - (0.2F + 0.6F * stroke.bristle) * late * late);
+        // Alpha is the share of hairs that touch: where hairs are visible some lay all their paint
+        // and others none.
+        alpha = std::clamp(alpha + stroke.bristle * hairs.contrast * (hair - 0.75F + 0.5F * alpha),
+                           0.F, 0.97F);
+      } else if (stroke.tip == StrokeTip::square && position.beyond) {
+        outside = std::max(std::abs(position.across_px) - half_width,
+                           std::max(-position.along_px, position.along_px - length));
       }
       // Antialiased by distance; a line thinner than a pixel keeps its area instead of its width.
       alpha *= std::clamp(0.5F - outside, 0.F, std::min(1.F, 2.F * half_width));
@@ -207,15 +247,16 @@ void paint_stroke(const Stroke& stroke, std::uint32_t number, const SheetWindow&
       if (alpha < 0.004F) continue;
       canvas[i] += alpha * (colour + tint - canvas[i]);
       if (seen_ground != nullptr) seen_ground[i] *= 1.F - alpha;
-      if (seen_hung != nullptr && stroke.depth_m < window.mapped->hung_m[i]) seen_hung[i] *= 1.F - alpha;
+      if (seen_overhead != nullptr && stroke.depth_m < window.mapped->overhead_m[i])
+        seen_overhead[i] *= 1.F - alpha;
       record.cover(x, y, stroke, number, alpha);
       if (parts != nullptr) parts->cover(x, y, stroke.part, alpha, colour + tint);
     }
   }
 }
 
-// Numbers of strokes in the order in which they are laid; of equal ones the first given is the first. Strokes are long: sorted are
-// their numbers alone.
+// Indices of strokes in painting order; of equal ones the first given is the first. Only indices
+// are sorted, because strokes are large.
 std::vector<std::uint32_t> by_order(const std::vector<Stroke>& strokes) {
   struct Ranked {
     float order;
@@ -223,8 +264,10 @@ std::vector<std::uint32_t> by_order(const std::vector<Stroke>& strokes) {
   };
   std::vector<Ranked> ranked;
   ranked.reserve(strokes.size());
-  for (const Stroke& stroke : strokes) ranked.push_back({stroke.order, static_cast<std::uint32_t>(ranked.size())});
-  std::stable_sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) { return a.order > b.order; });
+  for (const Stroke& stroke : strokes)
+    ranked.push_back({stroke.order, static_cast<std::uint32_t>(ranked.size())});
+  std::stable_sort(ranked.begin(), ranked.end(),
+                   [](const Ranked& a, const Ranked& b) { return a.order > b.order; });
   std::vector<std::uint32_t> numbers;
   numbers.reserve(ranked.size());
   for (const Ranked& one : ranked) numbers.push_back(one.number);
@@ -234,8 +277,13 @@ std::vector<std::uint32_t> by_order(const std::vector<Stroke>& strokes) {
 }  // namespace
 
 Painting begin_painting(Grid<glm::vec3> canvas) {
-  Painting painting{
-      .picture = std::move(canvas), .sources = {}, .under = {}, .under_share = {}, .strokes = {}, .seen_ground = {}, .seen_hung = {}};
+  Painting painting{.picture = std::move(canvas),
+                    .sources = {},
+                    .under = {},
+                    .under_share = {},
+                    .strokes = {},
+                    .seen_ground = {},
+                    .seen_overhead = {}};
   painting.sources = Grid<std::uint32_t>(painting.picture.width(), painting.picture.height());
   std::iota(painting.sources.begin(), painting.sources.end(), 0U);
   painting.under = painting.sources;
@@ -244,33 +292,38 @@ Painting begin_painting(Grid<glm::vec3> canvas) {
   return painting;
 }
 
-void paint_in_order(Painting& painting, const GuidanceBuffers& guidance, std::vector<Stroke> strokes, double pixels_per_unit,
-                    Progress& progress, const SheetWindow& window, PaintParts* parts) {
+void paint_in_order(Painting& painting, const GuidanceBuffers& guidance,
+                    std::vector<Stroke> strokes, double pixels_per_unit, Progress& progress,
+                    const SheetWindow& window, PaintParts* parts) {
   Grid<glm::vec3>& canvas = painting.picture;
   const std::uint32_t first_number = painting.stroke_count + 1;
   painting.stroke_count += static_cast<std::uint32_t>(strokes.size());
   const std::vector<std::uint32_t> ranked = by_order(strokes);
-  const PixelRect asked = window.asked == PixelRect{} ? PixelRect{0, 0, canvas.width(), canvas.height()} : window.asked;
+  const PixelRect asked =
+      window.asked == PixelRect{} ? PixelRect{0, 0, canvas.width(), canvas.height()} : window.asked;
   const int across = (asked.width() + tile_px - 1) / tile_px;
   const int down = (asked.height() + tile_px - 1) / tile_px;
-  std::vector<std::vector<std::uint32_t>> tiles(static_cast<std::size_t>(across) * static_cast<std::size_t>(down));
+  std::vector<std::vector<std::uint32_t>> tiles(static_cast<std::size_t>(across) *
+                                                static_cast<std::size_t>(down));
   for (std::size_t s = 0; s < strokes.size(); ++s) {
     const PixelRect b = bounds_of(strokes[ranked[s]], window.origin_px, asked);
     if (b.x0 >= b.x1 || b.y0 >= b.y1) continue;
     for (int ty = (b.y0 - asked.y0) / tile_px; ty <= (b.y1 - 1 - asked.y0) / tile_px; ++ty)
       for (int tx = (b.x0 - asked.x0) / tile_px; tx <= (b.x1 - 1 - asked.x0) / tile_px; ++tx)
-        tiles[static_cast<std::size_t>(ty) * static_cast<std::size_t>(across) + static_cast<std::size_t>(tx)].push_back(
-            static_cast<std::uint32_t>(s));
+        tiles[static_cast<std::size_t>(ty) * static_cast<std::size_t>(across) +
+              static_cast<std::size_t>(tx)]
+            .push_back(static_cast<std::uint32_t>(s));
   }
   progress.begin("painting strokes", static_cast<double>(tiles.size()));
   parallel_tiles(asked.width(), asked.height(), tile_px, [&](PixelRect part) {
-    const auto t =
-        static_cast<std::size_t>(part.y0 / tile_px) * static_cast<std::size_t>(across) + static_cast<std::size_t>(part.x0 / tile_px);
-    const PixelRect tile{asked.x0 + part.x0, asked.y0 + part.y0, asked.x0 + part.x1, asked.y0 + part.y1};
+    const auto t = static_cast<std::size_t>(part.y0 / tile_px) * static_cast<std::size_t>(across) +
+                   static_cast<std::size_t>(part.x0 / tile_px);
+    const PixelRect tile{asked.x0 + part.x0, asked.y0 + part.y0, asked.x0 + part.x1,
+                         asked.y0 + part.y1};
     PaintRecord record(painting, guidance, tile, window.to_copy_from);
     for (const std::uint32_t s : tiles[t])
-      paint_stroke(strokes[ranked[s]], first_number + s, window, tile, painting, record, parts, guidance,
-                   static_cast<float>(pixels_per_unit));
+      paint_stroke(strokes[ranked[s]], first_number + s, window, tile, painting, record, parts,
+                   guidance, static_cast<float>(pixels_per_unit));
     record.hand_back(painting);
     progress.advance(1.0);
   });

@@ -10,14 +10,16 @@
 
 namespace belvedere {
 
-// A painting that begins with a bare canvas, encoded sRGB.
+// A painting with a bare canvas, encoded sRGB.
 Painting begin_painting(Grid<glm::vec3> canvas);
 
-// Paints the strokes in order (ties: as listed) over the canvas. Each tile of the canvas paints the strokes that touch it in that
-// order, so threads and tiles change no bit. pixels_per_unit: see StrokeParameters. Strokes lie on the sheet; the canvas and the guidance
-// are a window of it, of which no pixel is painted that is not asked for. `parts`, where given, holds the pixels asked for and takes what
-// is laid.
-void paint_in_order(Painting& painting, const GuidanceBuffers& guidance, std::vector<Stroke> strokes, double pixels_per_unit,
-                    Progress& progress, const SheetWindow& window = {}, PaintParts* parts = nullptr);
+// Paints the strokes in order (ties: as listed) over the canvas. Each tile of the canvas paints the
+// strokes that touch it in that order, so the result does not depend on threads and tiles.
+// pixels_per_unit: see StrokeParameters. Strokes lie on the sheet; the canvas and the guidance are
+// a window of it, of which only requested pixels are painted. `parts`, if given, contains the
+// requested pixels and receives the paint.
+void paint_in_order(Painting& painting, const GuidanceBuffers& guidance,
+                    std::vector<Stroke> strokes, double pixels_per_unit, Progress& progress,
+                    const SheetWindow& window = {}, PaintParts* parts = nullptr);
 
 }  // namespace belvedere

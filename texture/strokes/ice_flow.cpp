@@ -14,7 +14,9 @@ namespace {
 constexpr float cell_units = 4.F;
 constexpr double blur_cells = 2.0;
 
-float cell_size_px(float pixels_per_unit) { return std::max(1.F, std::round(cell_units * pixels_per_unit)); }
+float cell_size_px(float pixels_per_unit) {
+  return std::max(1.F, std::round(cell_units * pixels_per_unit));
+}
 
 glm::vec2 unit_or_down(glm::vec2 v) {
   const float length = glm::length(v);
@@ -23,15 +25,16 @@ glm::vec2 unit_or_down(glm::vec2 v) {
 
 }  // namespace
 
-glm::vec2 IceFlow::at(glm::vec2 place_units) const {
+glm::vec2 IceFlow::at(glm::vec2 position_units) const {
   if (direction.empty()) return {0.F, 1.F};
-  const glm::vec2 p = place_units / cell_units - 0.5F;
+  const glm::vec2 p = position_units / cell_units - 0.5F;
   const glm::vec2 base = glm::floor(p);
   const glm::vec2 t = p - base;
   const int x = static_cast<int>(base.x);
   const int y = static_cast<int>(base.y);
   const glm::vec2 top = direction.clamped(x, y) * (1.F - t.x) + direction.clamped(x + 1, y) * t.x;
-  const glm::vec2 bottom = direction.clamped(x, y + 1) * (1.F - t.x) + direction.clamped(x + 1, y + 1) * t.x;
+  const glm::vec2 bottom =
+      direction.clamped(x, y + 1) * (1.F - t.x) + direction.clamped(x + 1, y + 1) * t.x;
   return unit_or_down(top * (1.F - t.y) + bottom * t.y);
 }
 
@@ -41,7 +44,8 @@ IceFlow find_ice_flow(const StrokeScene& scene) {
   IceFlow flow;
   flow.cell_units = static_cast<float>(cell) / scene.scale();
   if (std::none_of(land_cover.begin(), land_cover.end(), is_ice)) return flow;
-  Grid<float> x_sum((land_cover.width() + cell - 1) / cell, (land_cover.height() + cell - 1) / cell, 0.F);
+  Grid<float> x_sum((land_cover.width() + cell - 1) / cell, (land_cover.height() + cell - 1) / cell,
+                    0.F);
   Grid<float> y_sum(x_sum.width(), x_sum.height(), 0.F);
   parallel_rows(x_sum.height(), [&](int cy) {
     for (int y = cy * cell; y < std::min(land_cover.height(), (cy + 1) * cell); ++y)
@@ -59,18 +63,21 @@ IceFlow find_ice_flow(const StrokeScene& scene) {
   return flow;
 }
 
-std::vector<glm::vec2> trace_ice(const StrokeScene& scene, const IceFlow& flow, glm::vec2 place, float step_px, int steps) {
-  std::vector<glm::vec2> way{place};
-  const std::size_t first = scene.pixel(place);
+std::vector<glm::vec2> trace_ice(const StrokeScene& scene, const IceFlow& flow, glm::vec2 position,
+                                 float step_px, int steps) {
+  std::vector<glm::vec2> way{position};
+  const std::size_t first = scene.pixel(position);
   float depth = scene.guidance.depth_m[first];
   for (int k = 0; k < steps; ++k) {
-    const glm::vec2 half = place + flow.at(place / scene.scale()) * (0.5F * step_px);
-    place += flow.at(half / scene.scale()) * step_px;
-    if (!scene.on_canvas(place)) break;
-    const std::size_t here = scene.pixel(place);
-    if (scene.class_at(here) != scene.class_at(first) || std::abs(scene.guidance.depth_m[here] / depth - 1.F) > same_ice_depth) break;
+    const glm::vec2 half = position + flow.at(position / scene.scale()) * (0.5F * step_px);
+    position += flow.at(half / scene.scale()) * step_px;
+    if (!scene.on_canvas(position)) break;
+    const std::size_t here = scene.pixel(position);
+    if (scene.class_at(here) != scene.class_at(first) ||
+        std::abs(scene.guidance.depth_m[here] / depth - 1.F) > same_ice_depth)
+      break;
     depth = scene.guidance.depth_m[here];
-    way.push_back(place);
+    way.push_back(position);
   }
   return way;
 }

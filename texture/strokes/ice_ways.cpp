@@ -7,38 +7,45 @@
 namespace belvedere {
 
 const IcePlan& ice_of(const StrokeScene& scene) {
-  if (scene.window.ice == nullptr) throw Error(ErrorKind::bug, "strokes", "ice is to be painted without a plan of it");
+  if (scene.window.ice == nullptr)
+    throw Error(ErrorKind::bug, "strokes", "ice is to be painted, but the scene has no ice plan");
   return *scene.window.ice;
 }
 
-glm::vec2 ice_direction(const StrokeScene& scene, glm::vec2 place) { return ice_of(scene).flow.at(place / scene.scale()); }
+glm::vec2 ice_direction(const StrokeScene& scene, glm::vec2 position) {
+  return ice_of(scene).flow.at(position / scene.scale());
+}
 
-void lay_flow(Stroke& stroke, const StrokeScene& scene, glm::vec2 place, float length_px, float aside_rad) {
+void lay_flow(Stroke& stroke, const StrokeScene& scene, glm::vec2 position, float length_px,
+              float aside_rad) {
   const glm::vec2 turn = turn_by(aside_rad);
   const auto heading = [&](glm::vec2 at) { return turned(ice_direction(scene, at), turn); };
   const float step = length_px / 3.F;
   stroke.point_count = 4;
-  // From the middle half a step each way, then a whole one with the heading halfway there.
-  const glm::vec2 middle = heading(place);
-  stroke.points[1] = place - middle * (0.5F * step);
-  stroke.points[2] = place + middle * (0.5F * step);
-  stroke.points[0] = stroke.points[1] - heading(stroke.points[1] - middle * (0.5F * step)) * step;
-  stroke.points[3] = stroke.points[2] + heading(stroke.points[2] + middle * (0.5F * step)) * step;
+  // From the centre half a step in each direction, then a whole one with the heading at half the
+  // distance.
+  const glm::vec2 centre = heading(position);
+  stroke.points[1] = position - centre * (0.5F * step);
+  stroke.points[2] = position + centre * (0.5F * step);
+  stroke.points[0] = stroke.points[1] - heading(stroke.points[1] - centre * (0.5F * step)) * step;
+  stroke.points[3] = stroke.points[2] + heading(stroke.points[2] + centre * (0.5F * step)) * step;
 }
 
 StrokeSeed way_seed(const StrokeScene& scene, const IceWay& way, std::size_t part) {
-  // Part 0 of the stream sowed the way itself.
+  // Part 0 of the stream seeded the path itself.
   return {stream_seed(scene.parameters.seed, way.stream, part + 1), way.cell.x, way.cell.y};
 }
 
 std::optional<std::size_t> way_pixel(const StrokeScene& scene, const IceWay& way, std::size_t k) {
-  const glm::vec2 place = way_place(scene, way, k);
+  const glm::vec2 position = way_place(scene, way, k);
   const PixelRect near = scene.seeded();
-  const bool wanted = place.x >= static_cast<float>(near.x0) && place.y >= static_cast<float>(near.y0) &&
-                      place.x < static_cast<float>(near.x1) && place.y < static_cast<float>(near.y1);
+  const bool wanted =
+      position.x >= static_cast<float>(near.x0) && position.y >= static_cast<float>(near.y0) &&
+      position.x < static_cast<float>(near.x1) && position.y < static_cast<float>(near.y1);
   if (!wanted) return std::nullopt;
-  const std::size_t here = scene.pixel(place);
-  const bool other_surface = std::abs(scene.guidance.depth_m[here] / way.depth_m[k] - 1.F) > same_ice_depth;
+  const std::size_t here = scene.pixel(position);
+  const bool other_surface =
+      std::abs(scene.guidance.depth_m[here] / way.depth_m[k] - 1.F) > same_ice_depth;
   if (scene.class_at(here) != way.land_cover || other_surface) return std::nullopt;
   return here;
 }

@@ -11,18 +11,21 @@
 
 namespace belvedere {
 
-// What paint is part of, for who wants it by layers; features: roads, lifts and runs, which are laid over strokes.
+// The part of the picture that paint belongs to, for layers; features: roads, lifts and runs, which
+// are painted over strokes.
 enum class PaintPart : std::uint8_t { sky, ground, ice, trees, houses, accents, features };
 inline constexpr std::size_t paint_part_count = 7;
 
-// How much of each part's paint is seen, and in which colour. Painting is alpha blending, so what a pixel shows is a sum: the canvas times
-// what is left of it, and each stroke's colour times what later strokes leave of its opacity. Added up by parts these sums say which
-// layers, laid one over the other in any fixed order, make the picture again, though strokes of all parts lie far to near among each other.
+// The visible amount of each part's paint, and its colour. Painting is alpha blending, so a pixel
+// is a sum: the canvas times its remaining share, and each stroke's colour times the share of its
+// opacity that later strokes leave. Summed by parts, this gives layers that reproduce the picture
+// when composited in a fixed order, although strokes of all parts are mixed from far to near.
 class PaintParts {
  public:
-  // Pixels of the canvas that are kept.
+  // Pixels of the canvas for which sums are kept.
   explicit PaintParts(PixelRect rect) : rect_(rect) {
-    for (Grid<glm::vec4>& sum : sums_) sum = Grid<glm::vec4>(rect.width(), rect.height(), glm::vec4(0.0F));
+    for (Grid<glm::vec4>& sum : sums_)
+      sum = Grid<glm::vec4>(rect.width(), rect.height(), glm::vec4(0.0F));
   }
   PixelRect rect() const { return rect_; }
   // A stroke lays paint of opacity alpha on pixel x, y of the canvas, in `rect`.
@@ -31,7 +34,7 @@ class PaintParts {
     for (Grid<glm::vec4>& sum : sums_) sum[i] *= 1.0F - alpha;
     sums_[static_cast<std::size_t>(part)][i] += alpha * glm::vec4(colour, 1.0F);
   }
-  // Thins what was painted since `before` to 1 - share, a share 0…1 for each pixel of the canvas.
+  // Reduces the paint since `before` to 1 - share, a share 0…1 for each pixel of the canvas.
   void thin_since(const PaintParts& before, const Grid<float>& share) {
     for (std::size_t k = 0; k < sums_.size(); ++k)
       for (int y = rect_.y0; y < rect_.y1; ++y)
@@ -40,7 +43,7 @@ class PaintParts {
           sum += share(x, y) * (before.sums_[k](x - rect_.x0, y - rect_.y0) - sum);
         }
   }
-  // Colours times weights, and the weights, 0…1; what all weights leave of 1 is the canvas.
+  // Colours times weights, and the weights, 0…1; the canvas has the rest of 1.
   const Grid<glm::vec4>& sum(PaintPart part) const { return sums_[static_cast<std::size_t>(part)]; }
 
  private:

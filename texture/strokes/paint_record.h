@@ -10,14 +10,17 @@
 
 namespace belvedere {
 
-// Whose paint lies on the pixels of one tile: the class whose paint lies thickest, the one that shows most beside it, and the stroke on
-// top. A layer of another class hides what lies below by its opacity, one of the same class adds to it; of three classes on one pixel the
-// thinnest is forgotten, of several strokes of one class all but the thickest.
+// The origin of the paint on the pixels of one tile: the class with the thickest paint, the second
+// most visible class, and the stroke on top. A layer of another class hides the paint below by its
+// opacity, one of the same class adds to it; of three classes on one pixel the thinnest is dropped,
+// of several strokes of one class all but the thickest.
 class PaintRecord {
  public:
-  // Takes up what the painting holds: two classes in their shares, and one thick layer where a stroke lies on top.
-  // to_copy_from: as SheetWindow's. Without it paint of others on water is not recorded: a brook that grass leans over is still one line.
-  PaintRecord(const Painting& painting, const GuidanceBuffers& guidance, PixelRect tile, bool to_copy_from);
+  // Starts from the current state of the painting: two classes with their shares, and one thick
+  // layer where a stroke is on top. to_copy_from: as in SheetWindow. Without it paint of other
+  // classes on water is not recorded: a brook overhung by grass is still one line.
+  PaintRecord(const Painting& painting, const GuidanceBuffers& guidance, PixelRect tile,
+              bool to_copy_from);
 
   // A stroke, number `number`, lays paint of opacity alpha on pixel x, y of the canvas.
   void cover(int x, int y, const Stroke& stroke, std::uint32_t number, float alpha);
@@ -28,7 +31,7 @@ class PaintRecord {
  private:
   // Of one class.
   struct Paint {
-    std::uint32_t source;  // where its thickest stroke grew from
+    std::uint32_t source;  // origin of its thickest stroke
     float share;           // 0…1; 0: none
     float source_share;    // … of that stroke alone
     void thin(float by);
@@ -36,7 +39,7 @@ class PaintRecord {
   };
   struct Layers {
     Paint top;
-    Paint under;           // the other class's
+    Paint under;           // of the other class
     std::uint32_t stroke;  // number of the stroke on top
     float stroke_share;    // 0…1
   };

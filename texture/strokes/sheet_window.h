@@ -12,25 +12,34 @@ namespace belvedere {
 struct IcePlan;
 struct Stroke;
 
-// What a map knows of the ground, for strokes to keep out of its way: roads are clear of trees, houses stand where they are.
+// Mapped ground that strokes must respect: roads are clear of trees, houses stand at their
+// positions.
 struct MappedGround {
-  Grid<std::uint8_t> cleared;   // of the buffers' pixels: 1 where nothing grows that stands up
-  std::vector<Stroke> besides;  // what stands there besides, in depth order with all that grows
-  Grid<float> hung_m;           // how far from the eye something hangs in the air there, infinite where nothing does; empty: nowhere
+  Grid<std::uint8_t> cleared;   // of the buffers' pixels: 1 where nothing may stand
+  std::vector<Stroke> besides;  // strokes of mapped objects, in depth order with all vegetation
+  Grid<float> overhead_m;  // distance from the eye of an overhead object (a rope), infinite where
+                           // there is none; empty: nowhere
 };
 
-// Which part of the sheet the buffers hold that strokes are painted from and on. Places of strokes are places of the sheet, px, so that a
-// window shows what the whole shows; pixels are counted from the window's corner.
+// The part of the sheet that the buffers contain. Positions of strokes are sheet positions, px, so
+// that a window shows the same as the whole; pixels are counted from the window's corner.
 struct SheetWindow {
-  glm::ivec2 origin_px{0};               // where the buffers' first pixel lies on the sheet
-  glm::ivec2 sheet_px{0};                // width and height of the sheet; 0: the buffers hold all of it
-  PixelRect asked{};                     // pixels of the buffers that are wanted, the others may be left unpainted; empty: all
-  const IcePlan* ice = nullptr;          // how ice runs on the whole sheet; null: told by the buffers, which then must hold all of it
-  bool waters_known = false;             // a map gives rivers: they are narrow, and paint of their banks keeps off them
-  bool to_copy_from = false;             // Painting::sources tells of the very strokes, also within a class and on water; else the pixel
-                                         // itself counts for paint of its class, and water for what leans over it: rivers stay whole
-  const Grid<float>* veil = nullptr;     // of the buffers' pixels: share of mist before them, 0…1; null: there is none
-  const MappedGround* mapped = nullptr;  // null: nothing is known, and what stands is not told
+  glm::ivec2 origin_px{0};       // position of the buffers' first pixel on the sheet
+  glm::ivec2 sheet_px{0};        // width and height of the sheet; 0: the buffers contain all of it
+  PixelRect asked{};             // requested pixels of the buffers, others may stay unpainted;
+                                 // empty: all
+  const IcePlan* ice = nullptr;  // ice of the whole sheet; null: derived from the buffers,
+                                 // which must then contain all of it
+  bool waters_known =
+      false;  // a map gives rivers: they are narrow, and the paint of their banks is kept off them
+  bool to_copy_from = false;  // Painting::sources records the actual strokes, also within a class
+                              // and on water; otherwise a pixel counts as the source of paint of
+                              // its own class, and water as that of overhanging paint: rivers stay
+                              // whole
+  const Grid<float>* veil =
+      nullptr;  // of the buffers' pixels: share of mist in front, 0…1; null: none
+  const MappedGround* mapped =
+      nullptr;  // null: nothing is mapped, and standing objects are not recorded
 };
 
 }  // namespace belvedere

@@ -14,23 +14,28 @@ using enum LandCoverClass;
 }  // namespace
 
 std::vector<Stroke> snow_strokes(const StrokeScene& scene, Stream stream) {
-  return sow(scene, 5.6F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
-    const LandCoverClass id = scene.class_at(i);
-    if (!is_ice(id)) return;
-    Stroke stroke = ground_stroke(scene, i, seed);
-    stroke.depth_tolerance = tight_depth;
-    stroke.tone = scene.guidance.tone[i];
-    stroke.order += seed.uniform() * 150.F;
-    const float u = seed.uniform();
-    // Broad and quiet: firn lies smooth, and a glacier is drawn in one go along its flow.
-    const float length = id == glacier ? seed.between(30.F, 64.F) : 15.F + 34.F * u * u;
-    const float aside = (id == glacier ? 0.05F : 0.14F) * seed.normal();
-    lay_flow(stroke, scene, place, length * scene.scale(), aside);
-    take_brush(stroke, scene, id == glacier ? seed.between(4.F, 8.5F) : seed.between(3.6F, 8.F),
-               {.taper = 0.5F, .alpha = 0.55F, .bristle = 0.22F, .wetness = 0.012F, .load = 0.4F});
-    stroke.colour = scene.colour(i, (id == glacier ? 0.7F : 0.85F) * mixed_tone(0.16F, 0.16F, seed), paint_jitter * 0.4F, seed);
-    out.push_back(stroke);
-  });
+  return sow(
+      scene, 5.6F, stream,
+      [&](StrokeSeed& seed, glm::vec2 position, std::size_t i, std::vector<Stroke>& out) {
+        const LandCoverClass id = scene.class_at(i);
+        if (!is_ice(id)) return;
+        Stroke stroke = ground_stroke(scene, i, seed);
+        stroke.depth_tolerance = tight_depth;
+        stroke.tone = scene.guidance.tone[i];
+        stroke.order += seed.uniform() * 150.F;
+        const float u = seed.uniform();
+        // Broad and calm: firn is smooth, and a glacier has long strokes along its flow.
+        const float length = id == glacier ? seed.between(30.F, 64.F) : 15.F + 34.F * u * u;
+        const float aside = (id == glacier ? 0.05F : 0.14F) * seed.normal();
+        lay_flow(stroke, scene, position, length * scene.scale(), aside);
+        take_brush(
+            stroke, scene, id == glacier ? seed.between(4.F, 8.5F) : seed.between(3.6F, 8.F),
+            {.taper = 0.5F, .alpha = 0.55F, .bristle = 0.22F, .wetness = 0.012F, .load = 0.4F});
+        stroke.colour =
+            scene.colour(i, (id == glacier ? 0.7F : 0.85F) * mixed_tone(0.16F, 0.16F, seed),
+                         paint_jitter * 0.4F, seed);
+        out.push_back(stroke);
+      });
 }
 
 }  // namespace belvedere

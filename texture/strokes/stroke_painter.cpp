@@ -16,57 +16,65 @@
 namespace belvedere {
 namespace {
 
-// Edges of strokes are soft over a pixel, and places and steps are rounded to whole ones.
+// Edges of strokes are soft over a pixel, and positions and steps are rounded to whole pixels.
 constexpr int rounding_px = 4;
 
-// The most that any painted kind asks for, 0 where none is painted.
+// The maximum over the painted kinds, 0 if none is painted.
 template <class Reach>
-int most_of(const StrokeLayers& layers, Reach&& reach) {
-  int most = 0;
+int max_of(const StrokeLayers& layers, Reach&& reach) {
+  int max = 0;
   for (const StrokeKind& kind : stroke_kinds())
-    if (is_painted(kind, layers)) most = std::max(most, reach(kind));
-  return most;
+    if (is_painted(kind, layers)) max = std::max(max, reach(kind));
+  return max;
 }
 
-// Pixels that strokes reach, or look, by the table.
+// Pixels that strokes reach, or read, according to the table.
 int to_px(double units, const StrokeParameters& parameters) {
-  return static_cast<int>(std::ceil((units + far_reach_units) * parameters.pixels_per_unit)) + rounding_px;
+  return static_cast<int>(std::ceil((units + far_reach_units) * parameters.pixels_per_unit)) +
+         rounding_px;
 }
 
 bool is_whole(const SheetWindow& window, int width, int height) {
-  return window.origin_px == glm::ivec2(0) && (window.sheet_px == glm::ivec2(0) || window.sheet_px == glm::ivec2(width, height));
+  return window.origin_px == glm::ivec2(0) &&
+         (window.sheet_px == glm::ivec2(0) || window.sheet_px == glm::ivec2(width, height));
 }
 
-// The plan of a sheet that is whole and has none yet, where it will be asked for.
-std::optional<IcePlan> missing_plan(const GuidanceBuffers& guidance, const StrokeLayers& layers, const StrokeParameters& parameters,
-                                    const SheetWindow& window) {
+// A plan for a whole sheet that has none yet, if it will be needed.
+std::optional<IcePlan> missing_plan(const GuidanceBuffers& guidance, const StrokeLayers& layers,
+                                    const StrokeParameters& parameters, const SheetWindow& window) {
   const std::span<const StrokeKind> kinds = stroke_kinds();
-  const bool asked =
-      std::any_of(kinds.begin(), kinds.end(), [&](const StrokeKind& kind) { return kind.on_ice && is_painted(kind, layers); });
+  const bool asked = std::any_of(kinds.begin(), kinds.end(), [&](const StrokeKind& kind) {
+    return kind.on_ice && is_painted(kind, layers);
+  });
   if (!asked || window.ice != nullptr) return std::nullopt;
   if (!is_whole(window, guidance.width(), guidance.height()))
-    throw Error(ErrorKind::bug, "paint_strokes", "a window of the sheet without the plan of its ice");
+    throw Error(ErrorKind::bug, "paint_strokes", "a window of the sheet has no ice plan");
   return plan_ice(guidance, parameters);
 }
 
 void check_window(const SheetWindow& window, int width, int height) {
   const bool whole = window.sheet_px == glm::ivec2(0) && window.origin_px == glm::ivec2(0);
-  const bool inside = window.origin_px.x >= 0 && window.origin_px.y >= 0 && window.origin_px.x + width <= window.sheet_px.x &&
+  const bool inside = window.origin_px.x >= 0 && window.origin_px.y >= 0 &&
+                      window.origin_px.x + width <= window.sheet_px.x &&
                       window.origin_px.y + height <= window.sheet_px.y;
-  if (!whole && !inside) throw Error(ErrorKind::bug, "paint_strokes", "the window does not lie on the sheet");
+  if (!whole && !inside)
+    throw Error(ErrorKind::bug, "paint_strokes", "the window is outside the sheet");
   const PixelRect& asked = window.asked;
-  const bool held = asked == PixelRect{} || (asked.x0 >= 0 && asked.y0 >= 0 && asked.x0 < asked.x1 && asked.y0 < asked.y1 &&
-                                             asked.x1 <= width && asked.y1 <= height);
-  if (!held) throw Error(ErrorKind::bug, "paint_strokes", "pixels are asked for that the window does not hold");
+  const bool held =
+      asked == PixelRect{} || (asked.x0 >= 0 && asked.y0 >= 0 && asked.x0 < asked.x1 &&
+                               asked.y0 < asked.y1 && asked.x1 <= width && asked.y1 <= height);
+  if (!held)
+    throw Error(ErrorKind::bug, "paint_strokes", "the requested pixels are outside the window");
 }
 
-// Leaves out what grows from cleared ground, and marks the rest as what stands.
+// Removes strokes that start on cleared ground, and marks the rest as standing.
 void stand_beside(std::vector<Stroke>& strokes, const Grid<std::uint8_t>& cleared) {
   std::erase_if(strokes, [&](const Stroke& stroke) { return cleared[stroke.source] != 0; });
   for (Stroke& stroke : strokes) stroke.standing = true;
 }
 
-// Paint of what stands in mist is as thin as the mist before its foot leaves it; what that hides is left out.
+// Standing objects in mist are as transparent as the mist in front of their foot makes them; fully
+// hidden ones are removed.
 void veil_strokes(std::vector<Stroke>& strokes, const Grid<float>& veil) {
   constexpr float hidden = 0.97F;
   std::erase_if(strokes, [&](const Stroke& stroke) { return veil[stroke.source] >= hidden; });
@@ -77,42 +85,54 @@ void veil_strokes(std::vector<Stroke>& strokes, const Grid<float>& veil) {
   }
 }
 
-void check_sizes(const Grid<glm::vec3>& canvas, const GuidanceBuffers& guidance, const BasePicture& base) {
+void check_sizes(const Grid<glm::vec3>& canvas, const GuidanceBuffers& guidance,
+                 const BasePicture& base) {
   using B = GuidanceBuffers;
   require_channels(guidance,
-                   {&B::depth_m, &B::position_m, &B::land_cover, &B::tone, &B::fall_line, &B::slope_deg, &B::footprint_m, &B::relief_s_m,
-                    &B::built, &B::grain},
+                   {&B::depth_m, &B::position_m, &B::land_cover, &B::tone, &B::fall_line,
+                    &B::slope_deg, &B::footprint_m, &B::relief_s_m, &B::built, &B::grain},
                    "strokes");
-  const bool same = canvas.same_size(guidance.depth_m) && canvas.same_size(base.colour) && canvas.same_size(base.darker) &&
-                    canvas.same_size(base.lighter) && canvas.same_size(base.accent) && canvas.same_size(base.tree_density) &&
+  const bool same = canvas.same_size(guidance.depth_m) && canvas.same_size(base.colour) &&
+                    canvas.same_size(base.darker) && canvas.same_size(base.lighter) &&
+                    canvas.same_size(base.accent) && canvas.same_size(base.tree_density) &&
                     canvas.same_size(base.haze);
-  if (!same) throw Error(ErrorKind::bug, "paint_strokes", "canvas, guidance and base picture differ in size");
+  if (!same)
+    throw Error(ErrorKind::bug, "paint_strokes",
+                "canvas, guidance and base picture have different sizes");
 }
 
 }  // namespace
 
-Painting paint_strokes(Grid<glm::vec3> canvas, const GuidanceBuffers& guidance, const BasePicture& base, const StrokeLayers& layers,
-                       const StrokeParameters& parameters, Progress& progress, const SheetWindow& given, PaintParts* parts) {
+Painting paint_strokes(Grid<glm::vec3> canvas, const GuidanceBuffers& guidance,
+                       const BasePicture& base, const StrokeLayers& layers,
+                       const StrokeParameters& parameters, Progress& progress,
+                       const SheetWindow& given, PaintParts* parts) {
   check_sizes(canvas, guidance, base);
   check_window(given, guidance.width(), guidance.height());
   const std::optional<IcePlan> own_plan = missing_plan(guidance, layers, parameters, given);
   SheetWindow window = given;
   if (own_plan) window.ice = &*own_plan;
   if (window.mapped != nullptr && !window.mapped->cleared.same_size(guidance.depth_m))
-    throw Error(ErrorKind::bug, "paint_strokes", "what is cleared differs in size from the guidance");
+    throw Error(ErrorKind::bug, "paint_strokes",
+                "the cleared mask and the guidance have different sizes");
   if (window.veil != nullptr && !window.veil->same_size(guidance.depth_m))
-    throw Error(ErrorKind::bug, "paint_strokes", "mist differs in size from the guidance");
-  const bool hung = window.mapped != nullptr && !window.mapped->hung_m.empty();
-  if (hung && !window.mapped->hung_m.same_size(guidance.depth_m))
-    throw Error(ErrorKind::bug, "paint_strokes", "what hangs differs in size from the guidance");
+    throw Error(ErrorKind::bug, "paint_strokes", "mist and guidance have different sizes");
+  const bool overhead = window.mapped != nullptr && !window.mapped->overhead_m.empty();
+  if (overhead && !window.mapped->overhead_m.same_size(guidance.depth_m))
+    throw Error(ErrorKind::bug, "paint_strokes",
+                "overhead distances and guidance have different sizes");
   Painting painting = begin_painting(std::move(canvas));
-  if (window.mapped != nullptr) painting.seen_ground = Grid<float>(guidance.width(), guidance.height(), 1.F);
-  if (hung) painting.seen_hung = painting.seen_ground;
+  if (window.mapped != nullptr)
+    painting.seen_ground = Grid<float>(guidance.width(), guidance.height(), 1.F);
+  if (overhead) painting.seen_overhead = painting.seen_ground;
   const auto paint = [&](std::vector<Stroke> strokes) {
-    // In the far, air evens out what loads of paint differ by.
-    for (Stroke& stroke : strokes) stroke.load *= 1.F - 0.8F * std::clamp(base.haze[stroke.source], 0.F, 1.F);
+    // Far away, air evens out the variation of loads of paint.
+    for (Stroke& stroke : strokes)
+      stroke.load *= 1.F - 0.8F * std::clamp(base.haze[stroke.source], 0.F, 1.F);
     if (window.veil != nullptr) veil_strokes(strokes, *window.veil);
-    if (!strokes.empty()) paint_in_order(painting, guidance, std::move(strokes), parameters.pixels_per_unit, progress, window, parts);
+    if (!strokes.empty())
+      paint_in_order(painting, guidance, std::move(strokes), parameters.pixels_per_unit, progress,
+                     window, parts);
   };
 
   std::vector<Stroke> body;
@@ -120,29 +140,37 @@ Painting paint_strokes(Grid<glm::vec3> canvas, const GuidanceBuffers& guidance, 
     if (!is_painted(kind, layers)) continue;
     const StrokeScene scene{guidance, base, parameters, window, stroke_margin_px(kind, parameters)};
     std::vector<Stroke> strokes = kind.grow(scene, kind.stream);
-    if (window.mapped != nullptr && kind.layer == &StrokeLayers::upright) stand_beside(strokes, window.mapped->cleared);
-    if (kind.layer != &StrokeLayers::sky) strokes = broaden_far(std::move(strokes), base, window.origin_px, parameters.pixels_per_unit);
+    if (window.mapped != nullptr && kind.layer == &StrokeLayers::upright)
+      stand_beside(strokes, window.mapped->cleared);
+    if (kind.layer != &StrokeLayers::sky)
+      strokes = broaden_far(std::move(strokes), base, window.origin_px, parameters.pixels_per_unit);
     for (Stroke& stroke : strokes) stroke.part = part_of(kind);
     if (kind.alone)
       paint(std::move(strokes));
     else
       body.insert(body.end(), strokes.begin(), strokes.end());
   }
-  if (window.mapped != nullptr) body.insert(body.end(), window.mapped->besides.begin(), window.mapped->besides.end());
+  if (window.mapped != nullptr)
+    body.insert(body.end(), window.mapped->besides.begin(), window.mapped->besides.end());
   paint(std::move(body));
   return painting;
 }
 
-int stroke_margin_px(const StrokeKind& kind, const StrokeParameters& parameters) { return to_px(kind.reach.seen_units, parameters); }
-
-int stroke_margin_px(const StrokeLayers& layers, const StrokeParameters& parameters) {
-  return most_of(layers, [&](const StrokeKind& kind) { return stroke_margin_px(kind, parameters); });
+int stroke_margin_px(const StrokeKind& kind, const StrokeParameters& parameters) {
+  return to_px(kind.reach.seen_units, parameters);
 }
 
-int paint_source_reach_px(const StrokeKind& kind, const StrokeParameters& parameters) { return to_px(kind.reach.source_units, parameters); }
+int stroke_margin_px(const StrokeLayers& layers, const StrokeParameters& parameters) {
+  return max_of(layers, [&](const StrokeKind& kind) { return stroke_margin_px(kind, parameters); });
+}
+
+int paint_source_reach_px(const StrokeKind& kind, const StrokeParameters& parameters) {
+  return to_px(kind.reach.source_units, parameters);
+}
 
 int paint_source_reach_px(const StrokeLayers& layers, const StrokeParameters& parameters) {
-  return most_of(layers, [&](const StrokeKind& kind) { return paint_source_reach_px(kind, parameters); });
+  return max_of(layers,
+                [&](const StrokeKind& kind) { return paint_source_reach_px(kind, parameters); });
 }
 
 }  // namespace belvedere

@@ -11,19 +11,23 @@
 
 namespace belvedere {
 
-// Paints strokes over `canvas` (encoded sRGB), far to near, and returns the painting; the kinds are in stroke_table.cpp. Needs the channels
-// depth, land cover, fall line, tone, slope. Throws Error(bug) where sizes disagree, and where a window without a plan of the sheet's ice
-// shall get strokes that follow it.
-// The buffers may hold a window of the sheet: pixels that lie stroke_margin_px or more inside of the window, or whose window ends at the
-// sheet's own border, have picture, sources, under and under_share of the whole, bit for bit (sources and under as indices of the window);
-// `strokes` is counted in each window anew. `parts`: as paint_in_order's.
-Painting paint_strokes(Grid<glm::vec3> canvas, const GuidanceBuffers& guidance, const BasePicture& base, const StrokeLayers& layers,
-                       const StrokeParameters& parameters, Progress& progress, const SheetWindow& window = {}, PaintParts* parts = nullptr);
+// Paints strokes over `canvas` (encoded sRGB), far to near, and returns the painting; the kinds are
+// in stroke_table.cpp. Needs the channels depth, land cover, fall line, tone, slope. Throws
+// Error(bug) if sizes differ, or if a window without a plan of the sheet's ice needs one. The
+// buffers may contain a window of the sheet: pixels at least stroke_margin_px inside the window, or
+// at a side where the window ends at the sheet's own border, have the picture, sources, under and
+// under_share of the whole, bit for bit (sources and under as indices of the window); `strokes` is
+// counted separately in each window. `parts`: as in paint_in_order.
+Painting paint_strokes(Grid<glm::vec3> canvas, const GuidanceBuffers& guidance,
+                       const BasePicture& base, const StrokeLayers& layers,
+                       const StrokeParameters& parameters, Progress& progress,
+                       const SheetWindow& window = {}, PaintParts* parts = nullptr);
 
-// How far around a pixel the strokes of a kind, or of the kinds in `layers`, take what they paint on it from, px.
+// Distance around a pixel within which the strokes on it have their inputs, for one kind or for the
+// kinds in `layers`, px.
 int stroke_margin_px(const StrokeKind& kind, const StrokeParameters& parameters);
 int stroke_margin_px(const StrokeLayers& layers, const StrokeParameters& parameters);
-// How far from its pixel an index of Painting::sources or under may lie, px along x or y.
+// Max distance from its pixel of an index in Painting::sources or under, px along x or y.
 int paint_source_reach_px(const StrokeKind& kind, const StrokeParameters& parameters);
 int paint_source_reach_px(const StrokeLayers& layers, const StrokeParameters& parameters);
 

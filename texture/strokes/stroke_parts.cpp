@@ -54,7 +54,7 @@ void set_line(Stroke& stroke, glm::vec2 from, glm::vec2 to, float start_width, f
   stroke.point_count = 2;
   stroke.start_width = start_width;
   stroke.end_width = end_width;
-  if (stroke.tip == StrokeTip::round) stroke.tip = StrokeTip::hairs;  // what is square stays so
+  if (stroke.tip == StrokeTip::round) stroke.tip = StrokeTip::hairs;  // square tips stay square
   stroke.edge = 0.5F;
   stroke.load = 0.5F;
 }
@@ -77,7 +77,8 @@ void lay_on_top(Stroke& stroke) { stroke.order -= tight_depth * stroke.depth_m; 
 
 float ground_noise(const StrokeScene& scene, std::size_t i, Stream stream, double sigma_m) {
   const glm::dvec2 p = ground_place(scene, i);
-  return static_cast<float>(gaussian_noise(stream_seed(scene.parameters.seed, stream), p.x, p.y, sigma_m));
+  return static_cast<float>(
+      gaussian_noise(stream_seed(scene.parameters.seed, stream), p.x, p.y, sigma_m));
 }
 
 float patch_noise(const StrokeScene& scene, std::size_t i, Stream stream, double sigma_units) {
@@ -85,30 +86,33 @@ float patch_noise(const StrokeScene& scene, std::size_t i, Stream stream, double
   const double below = std::floor(octave);
   const auto share = static_cast<float>(octave - below);
   const glm::dvec2 p = ground_place(scene, i);
-  // Two octaves, mixed so that the deviation stays 1.
+  // A mixture of two octaves with deviation 1.
   const auto of = [&](int power) {
-    const std::uint64_t seed = stream_seed(scene.parameters.seed, stream, static_cast<std::uint64_t>(power + lowest_octave));
+    const std::uint64_t seed = stream_seed(scene.parameters.seed, stream,
+                                           static_cast<std::uint64_t>(power + lowest_octave));
     return static_cast<float>(gaussian_noise(seed, p.x, p.y, std::ldexp(1.0, power)));
   };
   const int power = static_cast<int>(below);
   return std::sqrt(1.F - share) * of(power) + std::sqrt(share) * of(power + 1);
 }
 
-float hand_busy_at(const StrokeScene& scene, glm::vec2 place) {
-  const float broad = sheet_noise(scene, place, Stream::meadow_patches, 46.0);
-  const float narrow = sheet_noise(scene, place, Stream::fleck_patches, 15.0);
+float hand_busy_at(const StrokeScene& scene, glm::vec2 position) {
+  const float broad = sheet_noise(scene, position, Stream::meadow_patches, 46.0);
+  const float narrow = sheet_noise(scene, position, Stream::fleck_patches, 15.0);
   return std::clamp(0.5F + 0.42F * broad + 0.16F * narrow, 0.F, 1.F);
 }
 
 bool is_grassy(const StrokeScene& scene, std::size_t i) {
   const LandCoverClass id = scene.class_at(i);
-  return is_grass(id) || (id == LandCoverClass::forest && scene.base.tree_density[i] < glade_density);
+  return is_grass(id) ||
+         (id == LandCoverClass::forest && scene.base.tree_density[i] < glade_density);
 }
 
-float sheet_noise(const StrokeScene& scene, glm::vec2 place, Stream stream, double sigma_units) {
-  return static_cast<float>(gaussian_noise(stream_seed(scene.parameters.seed, stream),
-                                           static_cast<double>(place.x) / scene.parameters.pixels_per_unit,
-                                           static_cast<double>(place.y) / scene.parameters.pixels_per_unit, sigma_units));
+float sheet_noise(const StrokeScene& scene, glm::vec2 position, Stream stream, double sigma_units) {
+  return static_cast<float>(gaussian_noise(
+      stream_seed(scene.parameters.seed, stream),
+      static_cast<double>(position.x) / scene.parameters.pixels_per_unit,
+      static_cast<double>(position.y) / scene.parameters.pixels_per_unit, sigma_units));
 }
 
 }  // namespace belvedere

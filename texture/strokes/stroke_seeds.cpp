@@ -10,10 +10,13 @@ namespace belvedere {
 
 PixelRect StrokeScene::seeded() const {
   const glm::ivec2 origin = window.origin_px;
-  const PixelRect held{origin.x, origin.y, origin.x + guidance.width(), origin.y + guidance.height()};
+  const PixelRect held{origin.x, origin.y, origin.x + guidance.width(),
+                       origin.y + guidance.height()};
   if (seed_reach_px < 0 || window.asked == PixelRect{}) return held;
-  return {std::max(held.x0, origin.x + window.asked.x0 - seed_reach_px), std::max(held.y0, origin.y + window.asked.y0 - seed_reach_px),
-          std::min(held.x1, origin.x + window.asked.x1 + seed_reach_px), std::min(held.y1, origin.y + window.asked.y1 + seed_reach_px)};
+  return {std::max(held.x0, origin.x + window.asked.x0 - seed_reach_px),
+          std::max(held.y0, origin.y + window.asked.y0 - seed_reach_px),
+          std::min(held.x1, origin.x + window.asked.x1 + seed_reach_px),
+          std::min(held.y1, origin.y + window.asked.y1 + seed_reach_px)};
 }
 
 CellRange StrokeScene::cells_within(int first_px, int end_px, float spacing_px, int count) {
@@ -28,9 +31,10 @@ std::uint64_t StrokeScene::sheet_index(std::size_t i) const {
   return y * static_cast<std::uint64_t>(sheet_px().x) + x;
 }
 
-glm::vec2 StrokeScene::fall_line(glm::vec2 place) const {
+glm::vec2 StrokeScene::fall_line(glm::vec2 position) const {
   const glm::vec2 direction =
-      guidance.fall_line.clamped(static_cast<int>(place.x) - window.origin_px.x, static_cast<int>(place.y) - window.origin_px.y);
+      guidance.fall_line.clamped(static_cast<int>(position.x) - window.origin_px.x,
+                                 static_cast<int>(position.y) - window.origin_px.y);
   const float length = glm::length(direction);
   return length < 1e-3F ? glm::vec2(0.F, 1.F) : direction / length;
 }
@@ -40,7 +44,8 @@ glm::vec3 StrokeScene::colour(std::size_t i, float m, float jitter, StrokeSeed& 
   const glm::vec3 there = m < 0.F ? base.darker[i] : base.lighter[i];
   const float value = seed.normal() * jitter;
   const float warmth = seed.normal() * jitter * 0.6F;
-  return here + (there - here) * std::min(1.5F, std::abs(m)) + glm::vec3(value + warmth, value, value - warmth);
+  return here + (there - here) * std::min(1.5F, std::abs(m)) +
+         glm::vec3(value + warmth, value, value - warmth);
 }
 
 glm::vec2 turn_by(float angle_rad) {
@@ -55,18 +60,18 @@ float mixed_tone(float dark, float light, StrokeSeed& seed) {
   return 0.25F * seed.normal();
 }
 
-void lay_line(Stroke& stroke, const StrokeScene& scene, glm::vec2 place, float length_units, float angle_rad, float wobble_rad, bool follow,
-              StrokeSeed& seed) {
+void lay_line(Stroke& stroke, const StrokeScene& scene, glm::vec2 position, float length_units,
+              float angle_rad, float wobble_rad, bool follow, StrokeSeed& seed) {
   const float length_px = length_units * scene.scale();
   const glm::vec2 turn = turn_by(angle_rad);
-  glm::vec2 heading = follow ? turned(scene.fall_line(place), turn) : turn;
+  glm::vec2 heading = follow ? turned(scene.fall_line(position), turn) : turn;
   float bend = seed.normal() * wobble_rad;
-  glm::vec2 point = place - heading * (length_px * 0.5F);
+  glm::vec2 point = position - heading * (length_px * 0.5F);
   stroke.point_count = Stroke::max_points;
   for (auto& vertex : stroke.points) {
     vertex = point;
     if (follow) {
-      // Ease towards the local fall line, on the side the stroke already runs.
+      // Turns gradually towards the local fall line, in the sense in which the stroke already runs.
       glm::vec2 local = turned(scene.fall_line(point), turn);
       if (glm::dot(local, heading) < 0.F) local = -local;
       heading = 0.6F * heading + 0.4F * local;

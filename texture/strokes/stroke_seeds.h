@@ -15,19 +15,22 @@
 
 namespace belvedere {
 
-// Everything a kind of stroke asks its surroundings, and the random numbers of one seed: draw k of a seed is a pure function of
-// the painter's seed, the kind's stream and the cell of the sheet the seed stands in, so canvas size, window and threads change nothing.
-// Two draws never stand among the arguments of one call or the terms of one sum: C++ leaves open which comes first, and the picture
-// would be the compiler's.
+// The random numbers of one seed: draw k is a pure function of the painter's seed, the kind's
+// stream and the cell of the sheet that contains the seed, so canvas size, window and threads do
+// not change it. Never use two draws as arguments of one call or terms of one sum: C++ leaves their
+// order open, and the picture would depend on the compiler.
 class StrokeSeed {
  public:
-  StrokeSeed(std::uint64_t key, int cell_x, int cell_y) : key_(key), cell_x_(cell_x), cell_y_(cell_y) {}
+  StrokeSeed(std::uint64_t key, int cell_x, int cell_y)
+      : key_(key), cell_x_(cell_x), cell_y_(cell_y) {}
   float uniform() { return static_cast<float>(random_uniform(key_, cell_x_, cell_y_, draw_++)); }
   float normal() { return static_cast<float>(random_normal(key_, cell_x_, cell_y_, draw_++)); }
   // lowest + span · uniform
   float between(float low, float high) { return low + (high - low) * uniform(); }
   glm::ivec2 cell() const { return {cell_x_, cell_y_}; }
-  std::uint32_t bits() { return static_cast<std::uint32_t>(random_bits(key_, cell_x_, cell_y_, draw_++)); }
+  std::uint32_t bits() {
+    return static_cast<std::uint32_t>(random_bits(key_, cell_x_, cell_y_, draw_++));
+  }
 
  private:
   std::uint64_t key_;
@@ -42,81 +45,97 @@ struct CellRange {
   int last = -1;
 };
 
-// The picture strokes are laid on, with what they are steered by. A place is one of the sheet, px; an index is one of the buffers, which
-// hold a window of the sheet.
+// The picture under the strokes, with everything that steers them. A position is in px of the
+// sheet; an index refers to the buffers, which contain a window of the sheet.
 struct StrokeScene {
   const GuidanceBuffers& guidance;
   const BasePicture& base;
   const StrokeParameters& parameters;
   SheetWindow window{};
-  int seed_reach_px = -1;  // no seed farther from the asked pixels needs to grow; -1: all of the buffers
+  int seed_reach_px =
+      -1;  // no seed farther from the requested pixels is needed; -1: all of the buffers
 
   // Width and height of the sheet, px.
   glm::ivec2 sheet_px() const {
-    return window.sheet_px.x > 0 && window.sheet_px.y > 0 ? window.sheet_px : glm::ivec2(guidance.width(), guidance.height());
+    return window.sheet_px.x > 0 && window.sheet_px.y > 0
+               ? window.sheet_px
+               : glm::ivec2(guidance.width(), guidance.height());
   }
-  // Where seeds are wanted, px of the sheet.
+  // Where seeds are needed, px of the sheet.
   PixelRect seeded() const;
-  // Those of the `count` cells of spacing_px along one axis of the sheet that touch first_px … end_px, and one more on each side.
+  // The cells, of `count` cells of spacing_px along one axis of the sheet, that touch first_px …
+  // end_px, and one more on each side.
   static CellRange cells_within(int first_px, int end_px, float spacing_px, int count);
   // Row-major index on the sheet of a pixel of the buffers.
   std::uint64_t sheet_index(std::size_t i) const;
 
-  // Where the light at a pixel comes from: -1 left … 1 right.
+  // Direction of the light at a pixel: -1 left … 1 right.
   float sun_side(std::size_t i) const {
     if (!parameters.local_side) return static_cast<float>(parameters.sun_side);
-    return parameters.local_side(glm::dvec2(guidance.position_m[i]) + glm::dvec2(guidance.origin_m));
+    return parameters.local_side(glm::dvec2(guidance.position_m[i]) +
+                                 glm::dvec2(guidance.origin_m));
   }
   float scale() const { return static_cast<float>(parameters.pixels_per_unit); }
   LandCoverClass class_at(std::size_t i) const { return guidance.land_cover[i]; }
-  // Index of the pixel under a place; the place must be on the canvas. Whole pixels are told before the origin is taken off, so that no
-  // window rounds a place its own way.
-  std::size_t pixel(glm::vec2 place) const {
-    return guidance.depth_m.index(static_cast<int>(place.x) - window.origin_px.x, static_cast<int>(place.y) - window.origin_px.y);
+  // Index of the pixel under a position, which must be on the canvas. Positions are rounded to
+  // whole pixels before the origin is subtracted, so that rounding does not depend on the window.
+  std::size_t pixel(glm::vec2 position) const {
+    return guidance.depth_m.index(static_cast<int>(position.x) - window.origin_px.x,
+                                  static_cast<int>(position.y) - window.origin_px.y);
   }
-  // Whether the buffers hold a place. They end where the sheet ends, or farther from what is asked for than a stroke looks.
-  bool on_canvas(glm::vec2 place) const {
-    return place.x >= static_cast<float>(window.origin_px.x) && place.y >= static_cast<float>(window.origin_px.y) &&
-           place.x < static_cast<float>(window.origin_px.x + guidance.width()) &&
-           place.y < static_cast<float>(window.origin_px.y + guidance.height());
+  // Whether the buffers contain a position. They end where the sheet ends, or farther from the
+  // requested pixels than a stroke reads.
+  bool on_canvas(glm::vec2 position) const {
+    return position.x >= static_cast<float>(window.origin_px.x) &&
+           position.y >= static_cast<float>(window.origin_px.y) &&
+           position.x < static_cast<float>(window.origin_px.x + guidance.width()) &&
+           position.y < static_cast<float>(window.origin_px.y + guidance.height());
   }
   float slope_deg(std::size_t i) const { return guidance.slope_deg[i]; }
-  // Height above the ground within 180 m, m.
+  // Height above the mean of the ground within 180 m, m.
   float relief_m(std::size_t i) const { return guidance.relief_s_m[i]; }
   // Altitude, m.
-  float altitude_m(std::size_t i) const { return guidance.position_m[i].z + static_cast<float>(guidance.origin_m.z); }
-  // Metres of ground that a unit of the sheet shows.
+  float altitude_m(std::size_t i) const {
+    return guidance.position_m[i].z + static_cast<float>(guidance.origin_m.z);
+  }
+  // Metres of ground in a unit of the sheet.
   float metres_per_unit(std::size_t i) const { return guidance.footprint_m[i] * scale(); }
-  // Unit direction of the fall line, straight down where the ground is flat. Places outside take the border's.
-  glm::vec2 fall_line(glm::vec2 place) const;
-  // Paint for a stroke: the base colour moved by m towards the darker (m < 0) or lighter (m > 0) picture, |m| ≤ 1.5, and jittered.
+  // Unit direction of the fall line, straight down where the ground is flat. Positions outside get
+  // the border's value.
+  glm::vec2 fall_line(glm::vec2 position) const;
+  // Paint for a stroke: the base colour shifted by m towards the darker (m < 0) or lighter (m > 0)
+  // picture, |m| ≤ 1.5, and jittered.
   glm::vec3 colour(std::size_t i, float m, float jitter, StrokeSeed& seed) const;
 };
 
-// Cosine and sine of an angle, and a vector turned by them (clockwise in the picture, whose y runs down); the same on every machine.
+// Cosine and sine of an angle, and a vector rotated by them (clockwise in the picture, whose y
+// points down); the same on every machine.
 glm::vec2 turn_by(float angle_rad);
-inline glm::vec2 turned(glm::vec2 v, glm::vec2 turn) { return {v.x * turn.x - v.y * turn.y, v.x * turn.y + v.y * turn.x}; }
+inline glm::vec2 turned(glm::vec2 v, glm::vec2 turn) {
+  return {v.x * turn.x - v.y * turn.y, v.x * turn.y + v.y * turn.x};
+}
 
 // "mix a/b": with probability dark -.5…-1.1, with probability light +.4…+1.0, else about 0.
 float mixed_tone(float dark, float light, StrokeSeed& seed);
 
-// Lays the polyline of a stroke centred at `place`, turned by `angle_rad` from the fall line (follow) or from the horizontal, bending by
-// about `wobble_rad`.
-void lay_line(Stroke& stroke, const StrokeScene& scene, glm::vec2 place, float length_units, float angle_rad, float wobble_rad, bool follow,
-              StrokeSeed& seed);
+// Lays the polyline of a stroke centred at `position`, turned by `angle_rad` from the fall line
+// (follow) or from the horizontal, bending by about `wobble_rad`.
+void lay_line(Stroke& stroke, const StrokeScene& scene, glm::vec2 position, float length_units,
+              float angle_rad, float wobble_rad, bool follow, StrokeSeed& seed);
 
-// One seed in every cell of spacing_units, jittered; make(seed, place, pixel index, strokes) appends what grows there. Cells are counted
-// from the sheet's corner, and only those near what is asked for are visited. Rows of cells run in parallel and are joined in order.
-// What grows are strokes, or in a plan whatever they are to follow.
+// One seed in every cell of spacing_units, jittered; make(seed, position, pixel index, strokes)
+// appends its strokes. Cells are counted from the sheet's corner, and only those near the requested
+// pixels are visited. Rows of cells run in parallel and are joined in order. The results are
+// strokes, or for a plan the paths that strokes will follow.
 template <class Grown = Stroke, class Make>
 std::vector<Grown> sow(const StrokeScene& scene, float spacing_units, Stream stream, Make&& make) {
   const float spacing = spacing_units * scene.scale();
   const glm::ivec2 sheet = scene.sheet_px();
   const PixelRect seeded = scene.seeded();
-  const CellRange columns =
-      StrokeScene::cells_within(seeded.x0, seeded.x1, spacing, static_cast<int>(static_cast<float>(sheet.x) / spacing) + 1);
-  const CellRange lines =
-      StrokeScene::cells_within(seeded.y0, seeded.y1, spacing, static_cast<int>(static_cast<float>(sheet.y) / spacing) + 1);
+  const CellRange columns = StrokeScene::cells_within(
+      seeded.x0, seeded.x1, spacing, static_cast<int>(static_cast<float>(sheet.x) / spacing) + 1);
+  const CellRange lines = StrokeScene::cells_within(
+      seeded.y0, seeded.y1, spacing, static_cast<int>(static_cast<float>(sheet.y) / spacing) + 1);
   const int down = std::max(0, lines.last - lines.first + 1);
   std::vector<std::vector<Grown>> rows(static_cast<std::size_t>(down));
   const std::uint64_t key = stream_seed(scene.parameters.seed, stream);
@@ -126,8 +145,9 @@ std::vector<Grown> sow(const StrokeScene& scene, float spacing_units, Stream str
       StrokeSeed seed(key, i, j);
       const float x = (static_cast<float>(i) + seed.uniform()) * spacing;
       const float y = (static_cast<float>(j) + seed.uniform()) * spacing;
-      const glm::vec2 place{x, y};
-      if (scene.on_canvas(place)) make(seed, place, scene.pixel(place), rows[static_cast<std::size_t>(row)]);
+      const glm::vec2 position{x, y};
+      if (scene.on_canvas(position))
+        make(seed, position, scene.pixel(position), rows[static_cast<std::size_t>(row)]);
     }
   });
   std::size_t total = 0;

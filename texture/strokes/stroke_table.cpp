@@ -10,17 +10,21 @@
 namespace belvedere {
 namespace {
 
-// How far strokes reach: the longest and widest of a kind, as its own file draws them, and how far its seeds look beyond. A brush wobbles
-// by a little more than half its width. How ice runs, and where lines on it begin and end, the plan of the sheet tells: it counts for
-// nothing here.
+// Reach of strokes: the longest and widest of a kind, as drawn in its own file, and the distance
+// that its seeds read. A brush wobbles by slightly more than half its width. The flow of ice and
+// the ends of lines on it come from the sheet's plan and do not count here.
 constexpr double half_width = 0.54;
-constexpr StrokeReach around(double painted, double seen_beyond = 0.0) { return {painted, painted + seen_beyond}; }
+constexpr StrokeReach around(double painted, double seen_beyond = 0.0) {
+  return {painted, painted + seen_beyond};
+}
 constexpr StrokeReach level(double longest, double widest, double seen_beyond = 0.0) {
   return around(0.52 * longest + half_width * widest, seen_beyond);
 }
-// Of lay_line down the slope, at worst: fall lines turn square aside at every point, and the line bends by the most that is drawn, 3.47
-// deviations; from .91 of its length at .05 rad to 1.23 at .3 rad. `aside` is how far its middle is moved from the seed.
-constexpr StrokeReach downhill(double longest, double widest, double wobble_rad, double aside = 0.0) {
+// Worst case of lay_line down the slope: fall lines perpendicular to each other at every point, and
+// the line bends by the maximum draw of 3.47 deviations; from .91 of its length at .05 rad to 1.23
+// at .3 rad. `aside` is the offset of its centre from the seed.
+constexpr StrokeReach downhill(double longest, double widest, double wobble_rad,
+                               double aside = 0.0) {
   return around((0.85 + 1.25 * wobble_rad) * longest + half_width * widest + aside);
 }
 
@@ -37,7 +41,8 @@ constexpr StrokeKind kinds[] = {
      .grow = wash_strokes,
      .reach = downhill(26.0, 6.8, 0.2),
      .alone = true},
-    // Everything over the wash is one list, far to near, so that a near range covers a far one whatever it is made of.
+    // Everything over the wash is one list, far to near, so that a near range covers a far one
+    // whatever its kinds.
     {.name = "forest trees",
      .layer = &StrokeLayers::upright,
      .stream = Stream::forest_trees,
@@ -53,13 +58,21 @@ constexpr StrokeKind kinds[] = {
      .stream = Stream::glade_grass,
      .grow = glade_grass,
      .reach = downhill(9.0, 2.8, 0.2)},
-    {.name = "meadow", .layer = &StrokeLayers::ground, .stream = Stream::meadow, .grow = meadow_strokes, .reach = downhill(12.6, 3.4, 0.2)},
+    {.name = "meadow",
+     .layer = &StrokeLayers::ground,
+     .stream = Stream::meadow,
+     .grow = meadow_strokes,
+     .reach = downhill(12.6, 3.4, 0.2)},
     {.name = "scattered trees",
      .layer = &StrokeLayers::upright,
      .stream = Stream::scattered_trees,
      .grow = scattered_trees,
      .reach = around(10.0, 17.2 + 7.0)},
-    {.name = "low bushes", .layer = &StrokeLayers::upright, .stream = Stream::low_bushes, .grow = low_bushes, .reach = around(4.0)},
+    {.name = "low bushes",
+     .layer = &StrokeLayers::upright,
+     .stream = Stream::low_bushes,
+     .grow = low_bushes,
+     .reach = around(4.0)},
     {.name = "rock trees",
      .layer = &StrokeLayers::upright,
      .stream = Stream::rock_trees,
@@ -100,15 +113,32 @@ constexpr StrokeKind kinds[] = {
      .stream = Stream::rock_drifts,
      .grow = rock_drifts,
      .reach = downhill(13.0, 4.2, 0.25, 4.2)},
-    {.name = "scree", .layer = &StrokeLayers::ground, .stream = Stream::scree, .grow = scree_strokes, .reach = downhill(5.5, 2.2, 0.1)},
-    {.name = "sand", .layer = &StrokeLayers::ground, .stream = Stream::sand, .grow = sand_strokes, .reach = downhill(9.0, 1.6, 0.05, 1.3)},
-    {.name = "snow", .layer = &StrokeLayers::ground, .stream = Stream::snow, .grow = snow_strokes, .reach = around(37.9), .on_ice = true},
+    {.name = "scree",
+     .layer = &StrokeLayers::ground,
+     .stream = Stream::scree,
+     .grow = scree_strokes,
+     .reach = downhill(5.5, 2.2, 0.1)},
+    {.name = "sand",
+     .layer = &StrokeLayers::ground,
+     .stream = Stream::sand,
+     .grow = sand_strokes,
+     .reach = downhill(9.0, 1.6, 0.05, 1.3)},
+    {.name = "snow",
+     .layer = &StrokeLayers::ground,
+     .stream = Stream::snow,
+     .grow = snow_strokes,
+     .reach = around(37.9),
+     .on_ice = true},
     {.name = "broken colour",
      .layer = &StrokeLayers::ground,
      .stream = Stream::broken_colour,
      .grow = broken_colour,
      .reach = downhill(4.6, 1.7, 0.3)},
-    {.name = "water", .layer = &StrokeLayers::ground, .stream = Stream::water, .grow = water_strokes, .reach = level(26.0, 3.2)},
+    {.name = "water",
+     .layer = &StrokeLayers::ground,
+     .stream = Stream::water,
+     .grow = water_strokes,
+     .reach = level(26.0, 3.2)},
     {.name = "wind streaks",
      .layer = &StrokeLayers::breaks,
      .stream = Stream::wind_streaks,
@@ -127,7 +157,8 @@ constexpr StrokeKind kinds[] = {
      .grow = sea_surf,
      .reach = around(2.1 + 0.8 * 6.0, 1.1 * 6.0 + 0.5),
      .wet = true},
-    // It lies where it must, which no copied texel knows: painted over copied ground, and left out of what is copied from.
+    // Their positions are given, which a copied texel cannot reproduce: painted over copied ground,
+    // and left out of exemplars.
     {.name = "glacier flow lines",
      .layer = &StrokeLayers::breaks,
      .stream = Stream::glacier_flow_lines,
@@ -152,9 +183,18 @@ constexpr StrokeKind kinds[] = {
      .grow = glacier_crevasses,
      .reach = around(32.0),
      .on_ice = true},
-    // Some 9 units large, and up to half a spacing from their seeds; whose neighbours tell how much ground there is.
-    {.name = "stones", .layer = &StrokeLayers::upright, .stream = Stream::ground_stones, .grow = ground_stones, .reach = around(9.0, 4.0)},
-    {.name = "tufts", .layer = &StrokeLayers::upright, .stream = Stream::grass_tufts, .grow = grass_tufts, .reach = around(15.0, 4.0)},
+    // Up to about 9 units large, and up to half a spacing from their seeds, whose neighbours give
+    // the density of ground.
+    {.name = "stones",
+     .layer = &StrokeLayers::upright,
+     .stream = Stream::ground_stones,
+     .grow = ground_stones,
+     .reach = around(9.0, 4.0)},
+    {.name = "tufts",
+     .layer = &StrokeLayers::upright,
+     .stream = Stream::grass_tufts,
+     .grow = grass_tufts,
+     .reach = around(15.0, 4.0)},
     {.name = "houses",
      .layer = &StrokeLayers::upright,
      .stream = Stream::houses,
@@ -167,7 +207,12 @@ constexpr StrokeKind kinds[] = {
      .grow = churches,
      .reach = around(11.0, 16.0 + 2.0),
      .built = true},
-    {.name = "farms", .layer = &StrokeLayers::upright, .stream = Stream::farms, .grow = farms, .reach = around(5.0, 4.7), .built = true},
+    {.name = "farms",
+     .layer = &StrokeLayers::upright,
+     .stream = Stream::farms,
+     .grow = farms,
+     .reach = around(5.0, 4.7),
+     .built = true},
     {.name = "accents",
      .layer = &StrokeLayers::accents,
      .stream = Stream::accents,
@@ -180,8 +225,10 @@ constexpr StrokeKind kinds[] = {
 std::span<const StrokeKind> stroke_kinds() { return kinds; }
 
 const StrokeKind& find_stroke_kind(std::string_view name) {
-  const auto* const found = std::find_if(std::begin(kinds), std::end(kinds), [&](const StrokeKind& kind) { return kind.name == name; });
-  if (found == std::end(kinds)) throw Error(ErrorKind::bug, "strokes", fmt::format("there is no kind of stroke called \"{}\"", name));
+  const auto* const found = std::find_if(std::begin(kinds), std::end(kinds),
+                                         [&](const StrokeKind& kind) { return kind.name == name; });
+  if (found == std::end(kinds))
+    throw Error(ErrorKind::bug, "strokes", fmt::format("unknown kind of stroke \"{}\"", name));
   return *found;
 }
 
@@ -190,7 +237,8 @@ bool is_painted(const StrokeKind& kind, const StrokeLayers& layers) { return lay
 PaintPart part_of(const StrokeKind& kind) {
   if (kind.layer == &StrokeLayers::sky) return PaintPart::sky;
   if (kind.layer == &StrokeLayers::accents) return PaintPart::accents;
-  if (kind.layer == &StrokeLayers::upright) return kind.built ? PaintPart::houses : PaintPart::trees;
+  if (kind.layer == &StrokeLayers::upright)
+    return kind.built ? PaintPart::houses : PaintPart::trees;
   if (kind.wet) return PaintPart::ground;
   return kind.layer == &StrokeLayers::breaks || kind.on_ice ? PaintPart::ice : PaintPart::ground;
 }

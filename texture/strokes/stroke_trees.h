@@ -8,7 +8,7 @@
 
 namespace belvedere {
 
-// Where a tree stands and how large it is, px.
+// Position and size of a tree, px.
 struct Tree {
   glm::vec2 foot;
   float width;
@@ -17,22 +17,24 @@ struct Tree {
 
 // How it is painted.
 struct TreeTone {
-  float lighter = 0.F;  // moves the tone of the whole tree, in the steps of StrokeScene::colour
-  float rim = 0.F;      // 0…1: stands free towards the sun, so its light side shines
-  float edge = 0.F;     // 0…1: stands before open ground, so its dark body is drawn hard and it casts a shadow there
-  float calm = 0.F;     // 0…1: melts into the wood, as trees do where the hand rests
+  float lighter = 0.F;  // shifts the tone of the whole tree, in the steps of StrokeScene::colour
+  float rim = 0.F;      // 0…1: unobstructed towards the sun, so its light side shines
+  float edge = 0.F;  // 0…1: in front of open ground, so its dark body has a hard edge and it casts
+                     // a shadow there
+  float calm = 0.F;  // 0…1: blends into the forest, as trees do in calm areas
 };
 
-// One tree appended to `out`: the smudge it casts away from the sun, its dark body, its light side. A spruce is pointed, a leafy tree has
-// a round crown with yellow dots, bare and violet in winter. A larch is a light, thin spruce of the palette's colour, gold in autumn; a
-// stone pine is dark and blunt. Upright in the picture whatever the slope.
-void plant_spruce(const StrokeScene& scene, const Tree& tree, std::size_t i, const TreeTone& tone, StrokeSeed& seed,
-                  std::vector<Stroke>& out);
-void plant_larch(const StrokeScene& scene, const Tree& tree, std::size_t i, const TreeTone& tone, StrokeSeed& seed,
-                 std::vector<Stroke>& out);
-void plant_stone_pine(const StrokeScene& scene, const Tree& tree, std::size_t i, const TreeTone& tone, StrokeSeed& seed,
-                      std::vector<Stroke>& out);
-void plant_leafy(const StrokeScene& scene, const Tree& tree, std::size_t i, const TreeTone& tone, StrokeSeed& seed,
-                 std::vector<Stroke>& out);
+// One tree appended to `out`: the shadow away from the sun, its dark body, its light side. A spruce
+// is pointed, a leafy tree has a round crown with yellow dots, bare and violet in winter. A larch
+// is a light, thin spruce of the palette's colour, gold in autumn; a stone pine is dark and blunt.
+// Upright in the picture whatever the slope.
+void plant_spruce(const StrokeScene& scene, const Tree& tree, std::size_t i, const TreeTone& tone,
+                  StrokeSeed& seed, std::vector<Stroke>& out);
+void plant_larch(const StrokeScene& scene, const Tree& tree, std::size_t i, const TreeTone& tone,
+                 StrokeSeed& seed, std::vector<Stroke>& out);
+void plant_stone_pine(const StrokeScene& scene, const Tree& tree, std::size_t i,
+                      const TreeTone& tone, StrokeSeed& seed, std::vector<Stroke>& out);
+void plant_leafy(const StrokeScene& scene, const Tree& tree, std::size_t i, const TreeTone& tone,
+                 StrokeSeed& seed, std::vector<Stroke>& out);
 
 }  // namespace belvedere

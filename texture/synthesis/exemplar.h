@@ -10,21 +10,23 @@
 
 namespace belvedere {
 
-// 8-bit encoded sRGB: what patches are compared in. The full-depth painting is only touched by replay.
+// 8-bit encoded sRGB, in which patches are compared. Only replay reads the painting at full depth.
 using Rgb8 = std::array<std::uint8_t, 3>;
 // An encoded colour, 0…1, to the nearest of 256 steps.
 Rgb8 to_rgb8(glm::vec3 encoded);
 
-// A picture with its guides, ready to copy from.
+// A picture with its guides, ready for copying.
 struct Exemplar {
   static constexpr int largest_side = 32767;  // texels
 
   std::string name;
   Grid<Rgb8> picture;
-  GuideStack guides;  // label 255: never a source (lettering, frames, what a mask excludes); depth is not used
+  GuideStack guides;  // label 255: never a source (lettering, frames, excluded areas); depth
+                      // is not used
 };
 
-// Throws Error(usage) where picture and guides disagree in size or nothing is there, Error(limit) over the largest side.
+// Throws Error(usage) if picture and guides differ in size or are empty, Error(limit) over the
+// largest side.
 void check_exemplar(const Exemplar& exemplar);
 
 }  // namespace belvedere

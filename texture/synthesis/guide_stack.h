@@ -8,21 +8,23 @@
 
 namespace belvedere {
 
-// A label that is no class: such texels are never copied from, such pixels get no texel.
+// A label for no class: such texels are never copied, such pixels get no texel.
 inline constexpr std::uint8_t unused_label = 255;
 
-// One thing that steers synthesis, quantized to 0…255 so that all costs are integers. The same quantization holds for
-// exemplar and target: whoever makes the pair decides it (renderer/paint).
+// A guide of synthesis, quantized to 0…255 so that all costs are integers. Exemplar and target use
+// the same quantization, which is chosen where the pair is made (renderer/paint).
 struct Guide {
   std::string name;  // "altitude", "tone", "distance", "shadow", "slope", "fall_line_x" …
   Grid<std::uint8_t> values;
 };
 
-// All guides of one picture. `label` (land-cover class or any id < 255) is a hard filter; 255 marks what must not be used.
+// All guides of one picture. `label` (land-cover class or any id < 255) is a hard filter; 255 marks
+// unusable pixels.
 struct GuideStack {
   Grid<std::uint8_t> label;
   std::vector<Guide> guides;
-  Grid<float> depth_m;  // for silhouettes: neighbours across a jump are no neighbours; +inf is sky; empty where there is none
+  Grid<float> depth_m;  // for silhouettes: pixels across a jump do not count as neighbours; +inf is
+                        // sky; empty: no silhouettes
 
   int width() const { return label.width(); }
   int height() const { return label.height(); }
@@ -35,8 +37,8 @@ struct GuideStack {
   }
 };
 
-// Throws Error(usage) where a grid of the stack differs in size from the labels, or a guide's name is empty or stands twice.
-// `where` names the stack in the message.
+// Throws Error(usage) if a grid of the stack differs in size from the labels, or a guide's name is
+// empty or occurs twice. `where` names the stack in the message.
 void check_guide_stack(const GuideStack& stack, const std::string& where);
 
 }  // namespace belvedere

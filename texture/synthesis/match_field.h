@@ -8,9 +8,11 @@
 
 namespace belvedere {
 
-// Which texel of which exemplar each target pixel is copied from: the state of synthesis and a product of its own.
+// The texel and exemplar from which each target pixel is copied: the state of synthesis and also a
+// product.
 struct Match {
-  static constexpr std::uint16_t none = 0xffff;  // exemplar of a pixel that has no texel (its class exists nowhere)
+  static constexpr std::uint16_t none =
+      0xffff;  // exemplar of a pixel without a texel (its class exists nowhere)
   std::uint16_t exemplar = none;
   std::uint16_t x = 0;
   std::uint16_t y = 0;
@@ -19,13 +21,16 @@ struct Match {
 
 using MatchField = Grid<Match>;
 
-// Copies any layer of the exemplars, at its own bit depth, through a match field. layers[i] belongs to exemplar i.
-// Pixels without a match take `missing`'s value there, or T{} where `missing` is empty. Throws Error(usage) where `missing` is of
-// another size, Error(input) where a match lies outside its layer.
+// Copies any layer of the exemplars, at its own bit depth, through a match field. layers[i] belongs
+// to exemplar i. Pixels without a match take `missing`'s value there, or T{} where `missing` is
+// empty. Throws Error(usage) if `missing` has another size, Error(input) if a match points outside
+// its layer.
 template <class T>
-Grid<T> replay(const MatchField& matches, const std::vector<const Grid<T>*>& layers, const Grid<T>& missing) {
+Grid<T> replay(const MatchField& matches, const std::vector<const Grid<T>*>& layers,
+               const Grid<T>& missing) {
   if (!missing.empty() && !missing.same_size(matches)) {
-    throw Error(ErrorKind::usage, "match field", "values for missing pixels of another size", "the size of the match field");
+    throw Error(ErrorKind::usage, "match field", "the values for missing pixels have another size",
+                "the size of the match field");
   }
   Grid<T> out(matches.width(), matches.height());
   for (std::size_t i = 0; i < matches.size(); ++i) {
@@ -35,7 +40,7 @@ Grid<T> replay(const MatchField& matches, const std::vector<const Grid<T>*>& lay
     } else if (m.exemplar < layers.size() && layers[m.exemplar]->contains(m.x, m.y)) {
       out[i] = (*layers[m.exemplar])(m.x, m.y);
     } else {
-      throw Error(ErrorKind::input, "match field", "a match outside the exemplars");
+      throw Error(ErrorKind::input, "match field", "a match points outside the exemplars");
     }
   }
   return out;

@@ -25,15 +25,16 @@ using Bytes = hn::Repartition<std::uint8_t, Words>;
 using Shorts = hn::Repartition<std::int16_t, Words>;
 using Sums = hn::Repartition<std::int32_t, Words>;
 
-// Words that a patch's row is read as: up to 7 pixels and one of weight 0 or more, or up to 11 in 16.
+// Words read for a patch's row: up to 7 pixels and at least one of weight 0, or up to 11 in 16.
 template <int radius>
 constexpr std::size_t row_words = radius <= 3 ? 8 : 16;
 template <int radius>
 constexpr std::size_t patch_words = (2 * radius + 1) * row_words<radius>;
-constexpr std::int64_t no_price = INT64_MAX / 4;  // above all; room to subtract a price below 0
+constexpr std::int64_t no_price =
+    INT64_MAX / 4;  // above all others; leaves room to subtract a price below 0
 
-// Weights as pairs of shorts beside R and B of a word, and beside G and the class: there a difference of class, cut to 1,
-// times the price of a mismatch adds it into the same sum.
+// Weights as pairs of shorts for R and B of a word, and for G and the class: a difference of class,
+// clamped to 1, times the price of a mismatch is added into the same sum.
 template <int radius>
 struct WeightTable {
   alignas(64) std::uint32_t red_blue[patch_words<radius>] = {};
@@ -44,8 +45,10 @@ struct WeightTable {
     for (int j = 0; j <= 2 * radius; ++j) {
       for (int i = 0; i <= 2 * radius; ++i) {
         const std::uint32_t w =
-            static_cast<std::uint32_t>(shape.weights[j < radius ? radius - j : j - radius][i < radius ? radius - i : i - radius]);
-        const std::size_t at = static_cast<std::size_t>(j) * row_words<radius> + static_cast<std::size_t>(i);
+            static_cast<std::uint32_t>(shape.weights[j < radius ? radius - j : j - radius]
+                                                    [i < radius ? radius - i : i - radius]);
+        const std::size_t at =
+            static_cast<std::size_t>(j) * row_words<radius> + static_cast<std::size_t>(i);
         red_blue[at] = w | w << 16;
         green_class[at] = w | static_cast<std::uint32_t>(shape.mismatch) << 16;
       }
@@ -58,11 +61,13 @@ constexpr WeightTable<radius> weight_table;
 // A sum of weighted squares in price units.
 template <int radius>
 HWY_INLINE std::int64_t to_price(std::int64_t sum) {
-  if constexpr (patch_shapes[radius].scale_q8 != 256) sum = sum * patch_shapes[radius].scale_q8 >> 8;
+  if constexpr (patch_shapes[radius].scale_q8 != 256)
+    sum = sum * patch_shapes[radius].scale_q8 >> 8;
   return sum >> price::distance_shift;
 }
 
-// The target's patch around a pixel, loaded once for all its candidates. mask is 0 where a pixel does not count.
+// The target's patch around a pixel, loaded once for all its candidates. mask is 0 for pixels that
+// do not count.
 template <int radius>
 struct Patch {
   alignas(64) std::uint32_t colour[patch_words<radius>];
@@ -95,7 +100,8 @@ HWY_INLINE void LoadPatch(const KernelView& view, std::uint32_t pixel, Patch<rad
 
 // Adds one row's weighted squared differences of R, G, B and its class mismatches.
 template <int radius, class V>
-HWY_INLINE void AddRow(const Patch<radius>& patch, std::size_t j, const std::uint32_t* texels, V& sum0, V& sum1) {
+HWY_INLINE void AddRow(const Patch<radius>& patch, std::size_t j, const std::uint32_t* texels,
+                       V& sum0, V& sum1) {
   const Words d;
   const Bytes d8;
   const Shorts d16;
@@ -106,10 +112,14 @@ HWY_INLINE void AddRow(const Patch<radius>& patch, std::size_t j, const std::uin
     const std::size_t at = j * row_words<radius> + i;
     const auto a = hn::BitCast(d8, hn::LoadU(d, texels + i));
     const auto b = hn::BitCast(d8, hn::Load(d, patch.colour + at));
-    const auto difference = hn::And(hn::BitCast(d, hn::Or(hn::SaturatedSub(a, b), hn::SaturatedSub(b, a))), hn::Load(d, patch.mask + at));
+    const auto difference =
+        hn::And(hn::BitCast(d, hn::Or(hn::SaturatedSub(a, b), hn::SaturatedSub(b, a))),
+                hn::Load(d, patch.mask + at));
     const auto red_blue = hn::BitCast(d16, hn::And(difference, low_bytes));
     const auto green_class =
-        hn::Min(hn::BitCast(d16, hn::ShiftRight<8>(hn::BitCast(hn::Repartition<std::uint16_t, Words>(), difference))), green_or_one);
+        hn::Min(hn::BitCast(d16, hn::ShiftRight<8>(hn::BitCast(
+                                     hn::Repartition<std::uint16_t, Words>(), difference))),
+                green_or_one);
     const auto w_rb = hn::BitCast(d16, hn::Load(d, weight_table<radius>.red_blue + at));
     const auto w_gc = hn::BitCast(d16, hn::Load(d, weight_table<radius>.green_class + at));
     sum0 = hn::ReorderWidenMulAccumulate(d32, red_blue, hn::Mul(red_blue, w_rb), sum0, sum1);
@@ -117,30 +127,34 @@ HWY_INLINE void AddRow(const Patch<radius>& patch, std::size_t j, const std::uin
   }
 }
 
-// Patch distance plus class mismatches, in price units; anything above `limit` may come back as a part of the sum above it.
+// Patch distance plus class mismatches, in price units; above `limit` only a partial sum may be
+// returned.
 template <int radius>
-HWY_INLINE std::int64_t PatchCost(const Patch<radius>& patch, const std::uint32_t* texel, std::ptrdiff_t stride, std::int64_t limit) {
+HWY_INLINE std::int64_t PatchCost(const Patch<radius>& patch, const std::uint32_t* texel,
+                                  std::ptrdiff_t stride, std::int64_t limit) {
   const Sums d32;
   auto sum0 = hn::Zero(d32);
   auto sum1 = hn::Zero(d32);
-  constexpr std::size_t middle = radius;
+  constexpr std::size_t centre = radius;
   const std::uint32_t* row = texel - radius;
-  // The middle rows carry most of the weight: they settle most candidates.
-  AddRow<radius>(patch, middle, row, sum0, sum1);
-  AddRow<radius>(patch, middle - 1, row - stride, sum0, sum1);
-  AddRow<radius>(patch, middle + 1, row + stride, sum0, sum1);
+  // The centre rows have most of the weight: they decide most candidates.
+  AddRow<radius>(patch, centre, row, sum0, sum1);
+  AddRow<radius>(patch, centre - 1, row - stride, sum0, sum1);
+  AddRow<radius>(patch, centre + 1, row + stride, sum0, sum1);
   if constexpr (radius > 1) {
-    const std::int64_t part = to_price<radius>(hn::GetLane(hn::SumOfLanes(d32, hn::Add(sum0, sum1))));
+    const std::int64_t part =
+        to_price<radius>(hn::GetLane(hn::SumOfLanes(d32, hn::Add(sum0, sum1))));
     if (part > limit) return part;
-    for (std::size_t j = 2; j <= middle; ++j) {
-      AddRow<radius>(patch, middle - j, row - static_cast<std::ptrdiff_t>(j) * stride, sum0, sum1);
-      AddRow<radius>(patch, middle + j, row + static_cast<std::ptrdiff_t>(j) * stride, sum0, sum1);
+    for (std::size_t j = 2; j <= centre; ++j) {
+      AddRow<radius>(patch, centre - j, row - static_cast<std::ptrdiff_t>(j) * stride, sum0, sum1);
+      AddRow<radius>(patch, centre + j, row + static_cast<std::ptrdiff_t>(j) * stride, sum0, sum1);
     }
   }
   return to_price<radius>(hn::GetLane(hn::SumOfLanes(d32, hn::Add(sum0, sum1))));
 }
 
-// The search of one pixel: candidates are offered one by one, the cheapest stays; ties to the lower exemplar index.
+// The search for one pixel: candidates are offered one by one, the cheapest is kept; ties go to the
+// lower exemplar index.
 template <int radius>
 struct Search {
   const KernelView* view = nullptr;
@@ -169,7 +183,8 @@ struct Search {
       for (int g = 2; g < count && slack.others != nullptr; ++g) free[g] = slack.others[g];
     }
     if (state.around_price != nullptr) around = state.target_around[pixel];
-    if (state.links != nullptr && (state.links[pixel] & link::all) != link::all) forbidden = forbidden_texels(state, pixel);
+    if (state.links != nullptr && (state.links[pixel] & link::all) != link::all)
+      forbidden = forbidden_texels(state, pixel);
     own = best = state.match[pixel];
     LoadPatch<radius>(state, pixel, patch);
   }
@@ -185,7 +200,8 @@ struct Search {
     for (std::size_t i = 0; i < vector_guides; i += hn::Lanes(d16)) {
       const auto a = hn::LoadU(d8, requested + i);
       const auto b = hn::LoadU(d8, offered + i);
-      const auto off = hn::SaturatedSub(hn::Or(hn::SaturatedSub(a, b), hn::SaturatedSub(b, a)), hn::LoadU(d8, free + i));
+      const auto off = hn::SaturatedSub(hn::Or(hn::SaturatedSub(a, b), hn::SaturatedSub(b, a)),
+                                        hn::LoadU(d8, free + i));
       const auto wide = hn::PromoteTo(d16, off);
       alignas(16) std::uint16_t squares[vector_guides];
       hn::StoreU(hn::Mul(wide, wide), d16, squares);
@@ -197,9 +213,11 @@ struct Search {
     return static_cast<std::int64_t>(hn::GetLane(hn::SumOfLanes(d32, sum)) >> 4);
   }
 
-  HWY_INLINE std::int64_t AroundCost(Surroundings offered) const { return surroundings_cost(*view, around, offered); }
+  HWY_INLINE std::int64_t AroundCost(Surroundings offered) const {
+    return surroundings_cost(*view, around, offered);
+  }
 
-  // `join` is what copying along with a neighbour's (or keeping the own) piece costs.
+  // `join` is the cost of copying together with a neighbour's piece (or keeping the own one).
   HWY_INLINE void Offer(std::uint32_t texel, std::int64_t join) {
     const std::uint32_t* word = view->exemplars->words.data() + texel;
     if (class_of(*word) != label_class) return;
@@ -210,9 +228,10 @@ struct Search {
     if (forbidden.count > 0 && forbidden.has(texel)) return;
     const TexelRecords::Record record = view->texels->at(texel);
     const std::int64_t others = static_cast<std::int64_t>(record.uses()) - (texel == own ? 1 : 0);
-    if (others >= view->most_uses[label_class] && texel != own) return;
+    if (others >= view->max_uses[label_class] && texel != own) return;
     std::int64_t cost = join + GuideCost(record.guides()) + AroundCost(record.around()) +
-                        (others * (others + 1) / 2 * view->reuse_q4[label_class] >> 4) + view->bin_cost[label_class * 64 + record.bin()];
+                        (others * (others + 1) / 2 * view->reuse_q4[label_class] >> 4) +
+                        view->bin_cost[label_class * 64 + record.bin()];
     if (cost > best_cost) return;
     cost += PatchCost<radius>(patch, word, view->exemplars->stride, best_cost - cost);
     if (cost < best_cost || (cost == best_cost && texel < best)) {
@@ -235,12 +254,14 @@ HWY_INLINE void Fetch(const KernelView& view, std::uint32_t texel) {
 
 template <int radius>
 void ImproveRowOf(const KernelView& view, int x0, int x1, int y, std::uint32_t* next) {
-  static constexpr std::array<std::array<int, 2>, 8> neighbours{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}}};
+  static constexpr std::array<std::array<int, 2>, 8> neighbours{
+      {{-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}}};
   const Plane& target = *view.target;
   const std::int64_t nearly_full = view.copy_cap - view.copy_cap / 4;
   const std::uint32_t row = target.index(0, 0, y);
-  // Picks lie anywhere in the exemplars, and waiting for memory is most of their cost. So all are drawn first, into `next`: list entries
-  // are asked for a batch at a time before they are looked at, and texels a few pixels ahead of their use.
+  // Picks are scattered over the exemplars, and memory latency is most of their cost. So all are
+  // drawn first, into `next`: list entries are prefetched a batch ahead, and texels a few pixels
+  // ahead of their use.
   std::uint32_t* drawn = next;
   const std::uint32_t draws = static_cast<std::uint32_t>(std::max(view.draws, view.fitting_draws));
   for (int first = x0; first < x1; first += 2 * batch) {
@@ -253,21 +274,24 @@ void ImproveRowOf(const KernelView& view, int x0, int x1, int y, std::uint32_t* 
       run = begin_draw(view, pixel, view.key, x, y);
       if (run.count == 0) continue;
       hwy::Prefetch(view.lists->entry(run.entry(0)).words);
-      if (draws > 1) hwy::Prefetch(view.lists->entry(run.entry(std::min(run.count, draws) - 1)).words);
+      if (draws > 1)
+        hwy::Prefetch(view.lists->entry(run.entry(std::min(run.count, draws) - 1)).words);
     }
     for (int x = first, i = 0; x < last; x += 2, ++i, ++drawn) {
       const std::uint32_t pixel = row + static_cast<std::uint32_t>(x);
       const PickRun& run = runs[static_cast<std::size_t>(i)];
-      *drawn = run.count == 0 ? view.exemplars->nowhere() : finish_fitting_draw(view, pixel, run, make_slack(view, pixel));
+      *drawn = run.count == 0 ? view.exemplars->nowhere()
+                              : finish_fitting_draw(view, pixel, run, make_slack(view, pixel));
     }
   }
   for (int x = x0; x < x1; x += 2, ++next) {
     const std::uint32_t pixel = row + static_cast<std::uint32_t>(x);
     if (next + fetch_ahead < drawn) {
       Fetch<radius>(view, next[fetch_ahead]);
-      // What neighbours copy is where this pixel's coherent candidates lie.
+      // The matches of neighbours locate this pixel's coherent candidates.
       const std::uint32_t* ahead = view.match + pixel + 2 * fetch_ahead;
-      for (const std::uint32_t texel : {ahead[0], ahead[1], *(ahead - target.stride), ahead[target.stride]}) {
+      for (const std::uint32_t texel :
+           {ahead[0], ahead[1], *(ahead - target.stride), ahead[target.stride]}) {
         hwy::Prefetch(view.texels->at(texel).words);
         hwy::Prefetch(view.exemplars->words.data() + texel);
       }
@@ -277,23 +301,27 @@ void ImproveRowOf(const KernelView& view, int x0, int x1, int y, std::uint32_t* 
     if (class_of(target.words[pixel]) == no_class || view.is_fixed(pixel)) continue;
     Search<radius> search;
     search.Begin(view, pixel);
-    // Where pieces are not moved as a whole, a piece over the cap is broken up from inside, by cells that alternate with the passes.
+    // Where pieces are not moved as a whole, a piece over the cap is broken up from inside, by
+    // cells that alternate between passes.
     std::int64_t keep = 0;
-    if (!view.replaces_pieces && view.piece_size[pixel] > view.copy_cap && cell_around(x, y, view.key).odd == (view.pass & 1)) {
+    if (!view.replaces_pieces && view.piece_size[pixel] > view.copy_cap &&
+        cell_around(x, y, view.key).odd == (view.pass & 1)) {
       keep = price::join;
     }
     search.Offer(view.match[pixel], keep);
     for (const auto& [dx, dy] : neighbours) {
       if (view.links != nullptr && !linked(view.links, target.stride, pixel, dx, dy)) continue;
-      const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(pixel) + dx + static_cast<std::ptrdiff_t>(dy) * target.stride;
-      const std::ptrdiff_t texel =
-          static_cast<std::ptrdiff_t>(view.match[at]) - dx - static_cast<std::ptrdiff_t>(dy) * view.exemplars->stride;
+      const std::ptrdiff_t at =
+          static_cast<std::ptrdiff_t>(pixel) + dx + static_cast<std::ptrdiff_t>(dy) * target.stride;
+      const std::ptrdiff_t texel = static_cast<std::ptrdiff_t>(view.match[at]) - dx -
+                                   static_cast<std::ptrdiff_t>(dy) * view.exemplars->stride;
       const std::int64_t size = view.piece_size[at];
       const bool joins = size >= (view.replaces_pieces ? nearly_full : view.copy_cap);
       search.Offer(static_cast<std::uint32_t>(texel), joins ? price::join : 0);
     }
     search.Offer(pick, 0);
-    if (search.best_cost == no_price) search.best = allowed_texel(view, pixel, search.forbidden, view.key, x, y);
+    if (search.best_cost == no_price)
+      search.best = allowed_texel(view, pixel, search.forbidden, view.key, x, y);
     *next = search.best;
   }
 }
@@ -302,7 +330,8 @@ template <int radius>
 std::int64_t OnePatchCostOf(const KernelView& view, std::uint32_t pixel, std::uint32_t texel) {
   Patch<radius> patch;
   LoadPatch<radius>(view, pixel, patch);
-  return PatchCost<radius>(patch, view.exemplars->words.data() + texel, view.exemplars->stride, no_price);
+  return PatchCost<radius>(patch, view.exemplars->words.data() + texel, view.exemplars->stride,
+                           no_price);
 }
 
 std::int64_t OneGuidesCost(const KernelView& view, std::uint32_t pixel, std::uint32_t texel) {
@@ -312,31 +341,36 @@ std::int64_t OneGuidesCost(const KernelView& view, std::uint32_t pixel, std::uin
 }
 
 template <int radius>
-int BestMoveOf(const KernelView& view, const std::vector<PieceSample>& samples, const std::vector<std::uint32_t>& candidates) {
+int BestMoveOf(const KernelView& view, const std::vector<PieceSample>& samples,
+               const std::vector<std::uint32_t>& candidates) {
   std::vector<Search<radius>> searches(samples.size());
   for (std::size_t s = 0; s < samples.size(); ++s) searches[s].Begin(view, samples[s].pixel);
   const Plane& exemplars = *view.exemplars;
   int best = -1;
   std::int64_t best_cost = no_price;
   for (std::size_t c = 0; c < candidates.size(); ++c) {
-    const Plane::Place place = exemplars.place(candidates[c]);
-    const Plane::Part& part = exemplars.parts[static_cast<std::size_t>(place.part)];
+    const Plane::Place position = exemplars.position(candidates[c]);
+    const Plane::Part& part = exemplars.parts[static_cast<std::size_t>(position.part)];
     std::int64_t cost = 0;
     for (std::size_t s = 0; s < samples.size() && cost < best_cost; ++s) {
-      const int x = place.x + samples[s].dx;
-      const int y = place.y + samples[s].dy;
+      const int x = position.x + samples[s].dx;
+      const int y = position.y + samples[s].dy;
       const Search<radius>& search = searches[s];
-      const std::uint32_t texel =
-          x < 0 || y < 0 || x >= part.width || y >= part.height ? exemplars.nowhere() : exemplars.index(place.part, x, y);
+      const std::uint32_t texel = x < 0 || y < 0 || x >= part.width || y >= part.height
+                                      ? exemplars.nowhere()
+                                      : exemplars.index(position.part, x, y);
       if (class_of(exemplars.words[texel]) != search.label_class) {
         cost += price::misfit;
         continue;
       }
       const TexelRecords::Record record = view.texels->at(texel);
       const std::int64_t others = record.uses();
-      cost += guide_cost(view, search.requested, record.guides(), search.slack) + search.AroundCost(record.around()) +
-              (others * (others + 1) / 2 * view.reuse_q4[search.label_class] >> 4) + view.bin_cost[search.label_class * 64 + record.bin()];
-      cost += PatchCost<radius>(search.patch, exemplars.words.data() + texel, exemplars.stride, no_price);
+      cost += guide_cost(view, search.requested, record.guides(), search.slack) +
+              search.AroundCost(record.around()) +
+              (others * (others + 1) / 2 * view.reuse_q4[search.label_class] >> 4) +
+              view.bin_cost[search.label_class * 64 + record.bin()];
+      cost += PatchCost<radius>(search.patch, exemplars.words.data() + texel, exemplars.stride,
+                                no_price);
     }
     if (cost < best_cost) {
       best_cost = cost;
@@ -364,13 +398,19 @@ auto WithRadius(const KernelView& view, F&& f) {
 }
 
 void ImproveRow(const KernelView& view, int x0, int x1, int y, std::uint32_t* next) {
-  WithRadius(view, [&](auto radius) { ImproveRowOf<decltype(radius)::value>(view, x0, x1, y, next); });
+  WithRadius(view,
+             [&](auto radius) { ImproveRowOf<decltype(radius)::value>(view, x0, x1, y, next); });
 }
 std::int64_t OnePatchCost(const KernelView& view, std::uint32_t pixel, std::uint32_t texel) {
-  return WithRadius(view, [&](auto radius) { return OnePatchCostOf<decltype(radius)::value>(view, pixel, texel); });
+  return WithRadius(view, [&](auto radius) {
+    return OnePatchCostOf<decltype(radius)::value>(view, pixel, texel);
+  });
 }
-int BestMove(const KernelView& view, const std::vector<PieceSample>& samples, const std::vector<std::uint32_t>& candidates) {
-  return WithRadius(view, [&](auto radius) { return BestMoveOf<decltype(radius)::value>(view, samples, candidates); });
+int BestMove(const KernelView& view, const std::vector<PieceSample>& samples,
+             const std::vector<std::uint32_t>& candidates) {
+  return WithRadius(view, [&](auto radius) {
+    return BestMoveOf<decltype(radius)::value>(view, samples, candidates);
+  });
 }
 
 }  // namespace HWY_NAMESPACE
@@ -397,13 +437,15 @@ std::int64_t guides_cost(const KernelView& view, std::uint32_t pixel, std::uint3
   return HWY_DYNAMIC_DISPATCH(OneGuidesCost)(view, pixel, texel);
 }
 
-int best_move(const KernelView& view, const std::vector<PieceSample>& samples, const std::vector<std::uint32_t>& candidates) {
+int best_move(const KernelView& view, const std::vector<PieceSample>& samples,
+              const std::vector<std::uint32_t>& candidates) {
   return HWY_DYNAMIC_DISPATCH(BestMove)(view, samples, candidates);
 }
 
 std::vector<std::string> vector_targets() {
   std::vector<std::string> names;
-  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) names.emplace_back(hwy::TargetName(target));
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets())
+    names.emplace_back(hwy::TargetName(target));
   return names;
 }
 
@@ -413,7 +455,8 @@ void use_vector_target(const std::string& name) {
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
     if (name == hwy::TargetName(target)) chosen = target;
   }
-  if (!name.empty() && chosen == 0) throw Error(ErrorKind::limit, "vector instructions", name, "one that this processor has");
+  if (!name.empty() && chosen == 0)
+    throw Error(ErrorKind::limit, "vector instructions", name, "one that this processor has");
   hwy::SetSupportedTargetsForTest(chosen);
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }

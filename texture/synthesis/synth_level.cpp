@@ -17,13 +17,15 @@ void start_from_picks(LevelState& state) {
   parallel_rows(part.height, [&](int y) {
     for (int x = 0; x < part.width; ++x) {
       const std::uint32_t at = state.target.index(0, x, y);
-      if (class_of(state.target.words[at]) != no_class) state.match[at] = draw_texel(view, at, key, x, y, make_slack(view, at));
+      if (class_of(state.target.words[at]) != no_class)
+        state.match[at] = draw_texel(view, at, key, x, y, make_slack(view, at));
     }
   });
   count_matches(state);
 }
 
-void start_from_coarser(LevelState& state, const Plane& coarse_exemplars, const Plane& coarse_target,
+void start_from_coarser(LevelState& state, const Plane& coarse_exemplars,
+                        const Plane& coarse_target,
                         const std::vector<std::uint32_t>& coarse_match) {
   static constexpr std::array<std::array<int, 2>, 9> parents{
       {{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}}};
@@ -41,15 +43,18 @@ void start_from_coarser(LevelState& state, const Plane& coarse_exemplars, const 
       }
       bool found = false;
       for (std::size_t p = 0; p < parents.size() && !found; ++p) {
-        // Padding around the coarser target has no match, so parents beyond its border drop out by themselves.
-        const std::uint32_t parent = coarse_match[coarse_target.index(0, x / 2 + parents[p][0], y / 2 + parents[p][1])];
+        // Padding around the coarser target has no match, so parents beyond its border are skipped
+        // automatically.
+        const std::uint32_t parent =
+            coarse_match[coarse_target.index(0, x / 2 + parents[p][0], y / 2 + parents[p][1])];
         if (parent == coarse_exemplars.nowhere()) continue;
-        const Plane::Place place = coarse_exemplars.place(parent);
-        const int source_x = 2 * (place.x - parents[p][0]) + (x & 1);
-        const int source_y = 2 * (place.y - parents[p][1]) + (y & 1);
-        const Plane::Part& source = state.exemplars.parts[static_cast<std::size_t>(place.part)];
-        if (source_x < 0 || source_y < 0 || source_x >= source.width || source_y >= source.height) continue;
-        const std::uint32_t texel = state.exemplars.index(place.part, source_x, source_y);
+        const Plane::Place position = coarse_exemplars.position(parent);
+        const int source_x = 2 * (position.x - parents[p][0]) + (x & 1);
+        const int source_y = 2 * (position.y - parents[p][1]) + (y & 1);
+        const Plane::Part& source = state.exemplars.parts[static_cast<std::size_t>(position.part)];
+        if (source_x < 0 || source_y < 0 || source_x >= source.width || source_y >= source.height)
+          continue;
+        const std::uint32_t texel = state.exemplars.index(position.part, source_x, source_y);
         if (class_of(state.exemplars.words[texel]) != label_class) continue;
         state.match[at] = texel;
         found = true;
@@ -70,7 +75,8 @@ void forget_uses_of(LevelState& state) {
   parallel_rows(part.height, [&](int y) {
     const std::uint32_t row = state.target.index(0, 0, y);
     for (std::uint32_t at = row; at < row + static_cast<std::uint32_t>(part.width); ++at)
-      std::atomic_ref<std::uint32_t>(state.texels.uses(state.match[at])).store(0, std::memory_order_relaxed);
+      std::atomic_ref<std::uint32_t>(state.texels.uses(state.match[at]))
+          .store(0, std::memory_order_relaxed);
   });
 }
 
@@ -78,26 +84,29 @@ void count_matches(LevelState& state) {
   const Plane::Part& part = state.target.parts[0];
   const KernelView view = state.view(0);
   const std::uint64_t key = key_for(state.settings, Purpose::expectation);
-  state.bins_actual = sum_bins(part.height, state.bins_actual.size(), [&](int y, BinCounts& counts) {
-    for (int x = 0; x < part.width; ++x) {
-      const std::uint32_t at = state.target.index(0, x, y);
-      std::uint32_t& word = state.target.words[at];
-      const std::uint32_t label_class = class_of(word);
-      if (label_class == no_class) continue;
-      const std::uint32_t texel = state.match[at];
-      add_use(state, texel, 1);
-      ++counts[bin_of(state, label_class, texel)];
-      word = (state.exemplars.words[texel] & 0xffffffU) | label_class << 24;
-    }
-  });
-  state.bins_expected = sum_bins(part.height, state.bins_expected.size(), [&](int y, BinCounts& counts) {
-    for (int x = 0; x < part.width; ++x) {
-      const std::uint32_t at = state.target.index(0, x, y);
-      const std::uint32_t label_class = class_of(state.target.words[at]);
-      if (label_class == no_class) continue;
-      ++counts[bin_of(state, label_class, draw_texel(view, at, key, x, y, make_slack(view, at)))];
-    }
-  });
+  state.bins_actual =
+      sum_bins(part.height, state.bins_actual.size(), [&](int y, BinCounts& counts) {
+        for (int x = 0; x < part.width; ++x) {
+          const std::uint32_t at = state.target.index(0, x, y);
+          std::uint32_t& word = state.target.words[at];
+          const std::uint32_t label_class = class_of(word);
+          if (label_class == no_class) continue;
+          const std::uint32_t texel = state.match[at];
+          add_use(state, texel, 1);
+          ++counts[bin_of(state, label_class, texel)];
+          word = (state.exemplars.words[texel] & 0xffffffU) | label_class << 24;
+        }
+      });
+  state.bins_expected =
+      sum_bins(part.height, state.bins_expected.size(), [&](int y, BinCounts& counts) {
+        for (int x = 0; x < part.width; ++x) {
+          const std::uint32_t at = state.target.index(0, x, y);
+          const std::uint32_t label_class = class_of(state.target.words[at]);
+          if (label_class == no_class) continue;
+          ++counts[bin_of(state, label_class,
+                          draw_texel(view, at, key, x, y, make_slack(view, at)))];
+        }
+      });
 }
 
 void sub_pass(LevelState& state, int pass, int odd_x, int odd_y) {
@@ -112,7 +121,8 @@ void sub_pass(LevelState& state, int pass, int odd_x, int odd_y) {
   };
   if (state.settings.tile > 0) {
     parallel_tiles(part.width, part.height, state.settings.tile, [&](const PixelRect& tile) {
-      for (int i = tile.y0 / 2; i < std::min(rows, (tile.y1 + 1) / 2); ++i) improve_part(tile.x0, tile.x1, i);
+      for (int i = tile.y0 / 2; i < std::min(rows, (tile.y1 + 1) / 2); ++i)
+        improve_part(tile.x0, tile.x1, i);
     });
   } else {
     parallel_ranges(rows, rows_per_task(part.width), [&](int begin, int end) {

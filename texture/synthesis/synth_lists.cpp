@@ -15,11 +15,14 @@ ListKeys choose_list_keys(const std::vector<GuideRole>& guides) {
 
 namespace {
 
-// Counts of one class by bucket and value, as sums over all lower buckets and values: any window in four look-ups.
+// Counts of one class by bucket and value, as cumulative sums over both: any window in four
+// look-ups.
 class WindowCounts {
  public:
   explicit WindowCounts(int buckets) : sums_(static_cast<std::size_t>(buckets + 1) * 257, 0) {}
-  std::int64_t& at(int bucket, int value) { return sums_[static_cast<std::size_t>(bucket) * 257 + static_cast<std::size_t>(value)]; }
+  std::int64_t& at(int bucket, int value) {
+    return sums_[static_cast<std::size_t>(bucket) * 257 + static_cast<std::size_t>(value)];
+  }
   void add(int bucket, int value, std::int64_t count) { at(bucket + 1, value + 1) += count; }
   void sum_up(int buckets) {
     for (int b = 1; b <= buckets; ++b) {
@@ -30,31 +33,39 @@ class WindowCounts {
     }
   }
   // Half open in both.
-  std::int64_t count(int b0, int b1, int v0, int v1) { return at(b1, v1) - at(b0, v1) - at(b1, v0) + at(b0, v0); }
+  std::int64_t count(int b0, int b1, int v0, int v1) {
+    return at(b1, v1) - at(b0, v1) - at(b1, v0) + at(b0, v0);
+  }
 
  private:
   std::vector<std::int64_t> sums_;
 };
 
-// Stretches of the way through the exemplars; a table of 257 numbers by class and bucket each.
+// Sections of the sequence through the exemplars; a table of 257 numbers per class and bucket each.
 constexpr std::size_t stretches = 16;
 
-// All of so many texels once, each .618 of them after the last.
-struct GoldenWay {
-  explicit GoldenWay(std::uint64_t texels) : count(texels), step(texels * 618 / 1000 | 1) {
+// A permutation of texels in steps of .618 of their number.
+struct GoldenRatioSequence {
+  explicit GoldenRatioSequence(std::uint64_t texels)
+      : count(texels), step(texels * 618 / 1000 | 1) {
     while (std::gcd(step, count) != 1) step += 2;
   }
-  // The one at a place of the way, which begins anew at its end.
-  std::uint64_t texel(std::uint64_t place) const { return place % count * (step % count) % count; }
-  std::uint64_t after(std::uint64_t texel) const { return texel + step < count ? texel + step : texel + step - count; }
+  // The texel at a position of the sequence, which is cyclic.
+  std::uint64_t texel(std::uint64_t position) const {
+    return position % count * (step % count) % count;
+  }
+  std::uint64_t after(std::uint64_t texel) const {
+    return texel + step < count ? texel + step : texel + step - count;
+  }
   std::uint64_t count;
   std::uint64_t step;
 };
 
 }  // namespace
 
-Demand count_demand(const Plane& target, int classes, const std::vector<GuideRole>& guides) {
-  Demand demand;
+TexelDemand count_texel_demand(const Plane& target, int classes,
+                               const std::vector<GuideRole>& guides) {
+  TexelDemand demand;
   demand.keys = choose_list_keys(guides);
   const std::size_t buckets = static_cast<std::size_t>(demand.keys.buckets());
   demand.counts.assign(static_cast<std::size_t>(classes) * buckets * 256, 0);
@@ -68,39 +79,46 @@ Demand count_demand(const Plane& target, int classes, const std::vector<GuideRol
   return demand;
 }
 
-PickLists::PickLists(const Plane& exemplars, const Demand& demand, int classes, const std::vector<GuideRole>& guides, int minimum,
+PickLists::PickLists(const Plane& exemplars, const TexelDemand& demand, int classes,
+                     const std::vector<GuideRole>& guides, int minimum,
                      const std::vector<Surroundings>& around)
     : keys_(demand.keys) {
   const int buckets = keys_.buckets();
   const std::size_t cells = static_cast<std::size_t>(classes) * static_cast<std::size_t>(buckets);
 
-  // A counting sort of texels gone through by golden steps, so that those which follow each other in the list lie far apart in the picture.
-  // In fixed stretches of the way: each counts what it meets, and then knows where its texels go after those of the stretches before.
-  const GoldenWay way(exemplars.words.size());
+  // A counting sort of texels visited in golden-ratio steps, so that consecutive list entries are
+  // far apart in the picture. In fixed sections: each counts its texels, and then knows where they
+  // go after those of the earlier sections.
+  const GoldenRatioSequence way(exemplars.words.size());
   const std::size_t each = way.count / stretches + 1;
   const std::size_t kinds = cells * 257;
   const auto kind_of = [&](std::uint32_t c, const std::uint8_t* values) {
     return cell(c, bucket_of(values)) * 257 + static_cast<std::size_t>(value_of(values));
   };
   const std::size_t guide_count = static_cast<std::size_t>(exemplars.guide_count);
-  // Calls f(texel, class, guides) along a stretch. Each step goes to a place that no cache holds: they are asked for some steps ahead.
+  // Calls f(texel, class, guides) along a section. Each step goes to an uncached position, so they
+  // are prefetched some steps ahead.
   const auto go = [&](std::size_t stretch, auto&& f) {
     constexpr std::uint64_t fetch_ahead = 16;
     const std::uint64_t end = std::min(way.count, (stretch + 1) * each);
     std::uint64_t here = way.texel(stretch * each);
     std::uint64_t ahead = way.texel(stretch * each + fetch_ahead);
-    for (std::uint64_t i = stretch * each; i < end; ++i, here = way.after(here), ahead = way.after(ahead)) {
+    for (std::uint64_t i = stretch * each; i < end;
+         ++i, here = way.after(here), ahead = way.after(ahead)) {
       __builtin_prefetch(exemplars.words.data() + ahead);
       __builtin_prefetch(exemplars.guides.data() + ahead * guide_count);
       const std::uint32_t c = class_of(exemplars.words[here]);
-      if (c != no_class) f(static_cast<std::uint32_t>(here), c, exemplars.guides_at(static_cast<std::uint32_t>(here)));
+      if (c != no_class)
+        f(static_cast<std::uint32_t>(here), c,
+          exemplars.guides_at(static_cast<std::uint32_t>(here)));
     }
   };
   std::vector<std::vector<std::uint32_t>> next(stretches);
   parallel_rows(static_cast<int>(stretches), [&](int s) {
     std::vector<std::uint32_t>& met = next[static_cast<std::size_t>(s)];
     met.assign(kinds, 0);
-    go(static_cast<std::size_t>(s), [&](std::uint32_t, std::uint32_t c, const std::uint8_t* values) { ++met[kind_of(c, values)]; });
+    go(static_cast<std::size_t>(s), [&](std::uint32_t, std::uint32_t c,
+                                        const std::uint8_t* values) { ++met[kind_of(c, values)]; });
   });
   std::vector<std::uint32_t> counts(kinds, 0);
   start_.assign(kinds, 0);
@@ -111,22 +129,24 @@ PickLists::PickLists(const Plane& exemplars, const Demand& demand, int classes, 
     counts[i] = total - start_[i];
   }
   entry_words_ = 1 + (Entry::guides_from + guide_count + 3) / 4;
-  assign_in_large_pages(entries_, total * entry_words_ + 2, 0U);  // eight guides may be read from the last one, too
+  assign_in_large_pages(entries_, total * entry_words_ + 2,
+                        0U);  // eight guides may be read from the last one, too
   parallel_rows(static_cast<int>(stretches), [&](int s) {
-    std::vector<std::uint32_t>& place = next[static_cast<std::size_t>(s)];
-    go(static_cast<std::size_t>(s), [&](std::uint32_t here, std::uint32_t c, const std::uint8_t* values) {
-      const std::size_t nth = place[kind_of(c, values)]++;
-      std::uint32_t* entry = entries_.data() + nth * entry_words_;
-      entry[0] = here;
-      std::uint8_t* bytes = reinterpret_cast<std::uint8_t*>(entry + 1);
-      if (!around.empty()) {
-        bytes[0] = around[here].others;
-        bytes[1] = around[here].commonest;
-      }
-      const Greys greys = greys_around(exemplars, here);
-      std::copy(greys.values.begin(), greys.values.end(), bytes + 2);
-      std::copy(values, values + guide_count, bytes + Entry::guides_from);
-    });
+    std::vector<std::uint32_t>& position = next[static_cast<std::size_t>(s)];
+    go(static_cast<std::size_t>(s),
+       [&](std::uint32_t here, std::uint32_t c, const std::uint8_t* values) {
+         const std::size_t nth = position[kind_of(c, values)]++;
+         std::uint32_t* entry = entries_.data() + nth * entry_words_;
+         entry[0] = here;
+         std::uint8_t* bytes = reinterpret_cast<std::uint8_t*>(entry + 1);
+         if (!around.empty()) {
+           bytes[0] = around[here].others;
+           bytes[1] = around[here].commonest;
+         }
+         const Greys greys = greys_around(exemplars, here);
+         std::copy(greys.values.begin(), greys.values.end(), bytes + 2);
+         std::copy(values, values + guide_count, bytes + Entry::guides_from);
+       });
   });
 
   windows_.assign(cells * 256, PickWindow{255, static_cast<std::uint8_t>(buckets - 1)});
@@ -140,24 +160,30 @@ PickLists::PickLists(const Plane& exemplars, const Demand& demand, int classes, 
     for (int b = 0; b < buckets; ++b) {
       for (int v = 0; v < 256; ++v) {
         sources.add(b, v, counts[cell(label_class, b) * 257 + static_cast<std::size_t>(v)]);
-        const std::int64_t asking = demand.pixels_each * demand.counts[cell(label_class, b) * 256 + static_cast<std::size_t>(v)];
+        const std::int64_t asking =
+            demand.pixels_each *
+            demand.counts[cell(label_class, b) * 256 + static_cast<std::size_t>(v)];
         pixels.add(b, v, asking);
         all_pixels += asking;
       }
     }
     sources.sum_up(buckets);
     pixels.sum_up(buckets);
-    // Uses of a texel that a window may ask for, in 256ths: max(4, 1.5 × pixels of the class per texel of it).
+    // Uses of a texel within a window, in 256ths: max(4, 1.5 × pixels of the class per texel of
+    // it).
     const std::int64_t all_sources = std::max<std::int64_t>(1, texel_count(label_class));
-    const std::int64_t uses_q8 = std::clamp<std::int64_t>(384 * all_pixels / all_sources, 1024, 1LL << 31);
+    const std::int64_t uses_q8 =
+        std::clamp<std::int64_t>(384 * all_pixels / all_sources, 1024, 1LL << 31);
     const auto wide_enough = [&](int b0, int b1, int v0, int v1) {
       const std::int64_t texels = sources.count(b0, b1, v0, v1);
       return texels >= minimum && texels * uses_q8 >= pixels.count(b0, b1, v0, v1) * 256;
     };
     for (int b = 0; b < buckets; ++b) {
       for (int v = 0; v < 256; ++v) {
-        if (demand.complete && demand.counts[cell(label_class, b) * 256 + static_cast<std::size_t>(v)] == 0) continue;
-        // The window with the least cost of guides at its rim, over both guides.
+        if (demand.complete &&
+            demand.counts[cell(label_class, b) * 256 + static_cast<std::size_t>(v)] == 0)
+          continue;
+        // The window with the smallest cost of guides at its edge, over both guides.
         std::int64_t best = INT64_MAX;
         for (int s = 0; s < buckets; ++s) {
           const std::int64_t off = static_cast<std::int64_t>(s) * ListKeys::bucket_width;
@@ -165,10 +191,11 @@ PickLists::PickLists(const Plane& exemplars, const Demand& demand, int classes, 
           for (int t = 1; t <= 256; t += std::max(1, t / 16)) {
             const std::int64_t cost = bucket_weight * off * off + value_weight * (t - 1) * (t - 1);
             if (cost >= best) break;
-            if (wide_enough(std::max(0, b - s), std::min(buckets, b + s + 1), std::max(0, v - t), std::min(256, v + t + 1))) {
+            if (wide_enough(std::max(0, b - s), std::min(buckets, b + s + 1), std::max(0, v - t),
+                            std::min(256, v + t + 1))) {
               best = cost;
-              windows_[cell(label_class, b) * 256 + static_cast<std::size_t>(v)] = {static_cast<std::uint8_t>(t - 1),
-                                                                                    static_cast<std::uint8_t>(s)};
+              windows_[cell(label_class, b) * 256 + static_cast<std::size_t>(v)] = {
+                  static_cast<std::uint8_t>(t - 1), static_cast<std::uint8_t>(s)};
               break;
             }
           }
@@ -185,10 +212,12 @@ std::int64_t PickLists::texel_count(std::uint32_t label_class) const {
 }
 
 PickWindow PickLists::window(std::uint32_t label_class, const std::uint8_t* guides) const {
-  return windows_[cell(label_class, bucket_of(guides)) * 256 + static_cast<std::size_t>(value_of(guides))];
+  return windows_[cell(label_class, bucket_of(guides)) * 256 +
+                  static_cast<std::size_t>(value_of(guides))];
 }
 
-PickRun PickLists::pick(std::uint32_t label_class, const std::uint8_t* guides, std::uint32_t random, int widen) const {
+PickRun PickLists::pick(std::uint32_t label_class, const std::uint8_t* guides, std::uint32_t random,
+                        int widen) const {
   const PickWindow own = window(label_class, guides);
   const int reach_buckets = std::min(keys_.buckets(), ((own.buckets + 1) << widen) - 1);
   const int reach_values = std::min(256, (own.slack + 1) << widen);
@@ -199,9 +228,11 @@ PickRun PickLists::pick(std::uint32_t label_class, const std::uint8_t* guides, s
   const std::size_t v0 = static_cast<std::size_t>(std::max(0, value - reach_values));
   const std::size_t v1 = static_cast<std::size_t>(std::min(256, value + reach_values + 1));
   std::uint32_t count = 0;
-  for (int b = b0; b < b1; ++b) count += start_[cell(label_class, b) * 257 + v1] - start_[cell(label_class, b) * 257 + v0];
+  for (int b = b0; b < b1; ++b)
+    count += start_[cell(label_class, b) * 257 + v1] - start_[cell(label_class, b) * 257 + v0];
   if (count == 0) return {};
-  std::uint32_t nth = static_cast<std::uint32_t>((static_cast<std::uint64_t>(random) * count) >> 32);
+  std::uint32_t nth =
+      static_cast<std::uint32_t>((static_cast<std::uint64_t>(random) * count) >> 32);
   for (int b = b0;; ++b) {
     const std::uint32_t first = start_[cell(label_class, b) * 257 + v0];
     const std::uint32_t here = start_[cell(label_class, b) * 257 + v1] - first;

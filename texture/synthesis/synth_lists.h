@@ -10,13 +10,13 @@
 
 namespace belvedere::synth {
 
-// A guide's part in the cost of a candidate. Guides of a plane stand in order of weight, the strongest first.
+// A guide's part in the cost of a candidate. Guides of a plane are in descending order of weight.
 struct GuideRole {
   std::int64_t weight_q4 = 0;  // cost of a squared difference, in sixteenths; > 0
 };
 
-// Which guides order the lists: the strongest (guide 0) sorts the texels of a class; the second (guide 1), where it is strong enough to
-// matter, splits them into 16 buckets before.
+// Which guides order the lists: the strongest (guide 0) sorts the texels of a class; the second
+// (guide 1), where it is strong enough to matter, splits them into 16 buckets before.
 struct ListKeys {
   static constexpr int bucket_width = 16;
   bool sorted = false;
@@ -25,36 +25,47 @@ struct ListKeys {
 };
 ListKeys choose_list_keys(const std::vector<GuideRole>& guides);
 
-// How many pixels ask for which guides: the counts of a class by bucket and value, which say how wide the windows of picks must be.
-struct Demand {
+// Number of pixels that request each guide value: counts of a class by bucket and value, which
+// determine the width of the windows of picks.
+struct TexelDemand {
   ListKeys keys;
   std::vector<std::uint32_t> counts;  // (class × keys.buckets() + bucket) × 256 + value
-  std::int64_t pixels_each = 1;       // pixels of the picture that is made, by pixel counted: over 1 where a smaller view was counted
-  bool complete = true;               // no pixel will ask for what nobody asked for here
+  std::int64_t pixels_each = 1;       // pixels of the final picture per counted pixel: over 1
+                                      // if a smaller view was counted
+  bool complete = true;               // all values that pixels will request are counted here
 };
-Demand count_demand(const Plane& target, int classes, const std::vector<GuideRole>& guides);
+TexelDemand count_texel_demand(const Plane& target, int classes,
+                               const std::vector<GuideRole>& guides);
 
-// How far a pick may lie from the pixel's own guides: wide enough that the window holds enough texels for all pixels that
-// draw from it. So no texel is in demand more than its class as a whole.
+// Max distance of a pick from the pixel's own guides: wide enough for the window to contain enough
+// texels for all pixels that draw from it. So no texel is needed more often than its class as a
+// whole.
 struct PickWindow {
-  std::uint8_t slack = 0;    // of the sorting guide: the window is value ± (slack + 1), and costs nothing within ± slack
-  std::uint8_t buckets = 0;  // neighbouring buckets on either side; costs nothing within buckets × bucket_width
+  std::uint8_t slack = 0;  // of the sorting guide: the window is value ± (slack + 1), and costs
+                           // nothing within ± slack
+  std::uint8_t buckets =
+      0;  // neighbouring buckets on either side; costs nothing within buckets × bucket_width
 };
 
-// Where a pick begins to look: at one entry of a part of the list, whose end joins its beginning.
+// The start of a pick: one entry of a part of the list, which is treated as cyclic.
 struct PickRun {
   std::uint32_t first = 0;  // entry
   std::uint32_t count = 0;  // entries; 0: the class has no texel
   std::uint32_t start = 0;  // 0 … count - 1
 
-  std::uint32_t entry(std::uint32_t i) const { return first + (start + i < count ? start + i : start + i - count); }  // i < count
+  std::uint32_t entry(std::uint32_t i) const {
+    return first + (start + i < count ? start + i : start + i - count);
+  }  // i < count
 };
 
-// All texels of a level by class, bucket and value of the sorting guide: what random candidates are picked from. An entry holds all that
-// chooses between texels, and texels of one value stand in scattered order, so that a pick and those after it cost one wait for memory.
+// All texels of a level by class, bucket and value of the sorting guide, from which random
+// candidates are picked. An entry contains everything needed to choose between texels, and texels
+// of one value are in scattered order, so that a pick and the entries after it cost one memory
+// access.
 class PickLists {
  public:
-  // An entry's words: the texel, then the share and commonest of other classes around it, its greys and its guides, a byte each.
+  // An entry's words: the texel, then the share and commonest of other classes around it, its greys
+  // and its guides, a byte each.
   struct Entry {
     static constexpr std::size_t guides_from = 2 + grey_places;
     const std::uint32_t* words = nullptr;
@@ -65,8 +76,9 @@ class PickLists {
     const std::uint8_t* guides() const { return bytes() + guides_from; }
   };
 
-  // minimum: texels a window must hold. `around`, by exemplar index, may be empty.
-  PickLists(const Plane& exemplars, const Demand& demand, int classes, const std::vector<GuideRole>& guides, int minimum,
+  // minimum: texels a window must contain. `around`, by exemplar index, may be empty.
+  PickLists(const Plane& exemplars, const TexelDemand& demand, int classes,
+            const std::vector<GuideRole>& guides, int minimum,
             const std::vector<Surroundings>& around = {});
 
   bool has_class(std::uint32_t label_class) const { return texel_count(label_class) > 0; }
@@ -79,16 +91,22 @@ class PickLists {
 
   // The window of a pixel with these guides.
   PickWindow window(std::uint32_t label_class, const std::uint8_t* guides) const;
-  // Begins at a texel of the class from that window, uniform in `random`, and stays within its bucket.
-  // `widen`: from one twice as wide for each step.
-  PickRun pick(std::uint32_t label_class, const std::uint8_t* guides, std::uint32_t random, int widen = 0) const;
-  Entry entry(std::uint32_t nth) const { return {entries_.data() + static_cast<std::size_t>(nth) * entry_words_}; }
+  // Begins at a texel of the class from that window, uniform in `random`, and stays within its
+  // bucket. `widen`: from one twice as wide for each step.
+  PickRun pick(std::uint32_t label_class, const std::uint8_t* guides, std::uint32_t random,
+               int widen = 0) const;
+  Entry entry(std::uint32_t nth) const {
+    return {entries_.data() + static_cast<std::size_t>(nth) * entry_words_};
+  }
 
  private:
   int value_of(const std::uint8_t* guides) const { return keys_.sorted ? guides[0] : 0; }
-  int bucket_of(const std::uint8_t* guides) const { return keys_.bucketed ? guides[1] / ListKeys::bucket_width : 0; }
+  int bucket_of(const std::uint8_t* guides) const {
+    return keys_.bucketed ? guides[1] / ListKeys::bucket_width : 0;
+  }
   std::size_t cell(std::uint32_t label_class, int bucket) const {
-    return static_cast<std::size_t>(label_class) * static_cast<std::size_t>(keys_.buckets()) + static_cast<std::size_t>(bucket);
+    return static_cast<std::size_t>(label_class) * static_cast<std::size_t>(keys_.buckets()) +
+           static_cast<std::size_t>(bucket);
   }
 
   ListKeys keys_;

@@ -30,13 +30,16 @@ void Pieces::unite(std::uint32_t a, std::uint32_t b) {
   parent_[b] = static_cast<std::int32_t>(a);
 }
 
-void Pieces::find(const Plane& target, const Plane& exemplars, const std::vector<std::uint32_t>& match, const std::uint32_t* fixed) {
-  constexpr int band = 64;  // rows united by one thread; bands are sewn together afterwards
+void Pieces::find(const Plane& target, const Plane& exemplars,
+                  const std::vector<std::uint32_t>& match, const std::uint32_t* fixed) {
+  constexpr int band = 64;  // rows united by one thread; bands are joined afterwards
   const Plane::Part& part = target.parts[0];
   const std::uint32_t across = static_cast<std::uint32_t>(target.stride);
   const std::uint32_t texels_across = static_cast<std::uint32_t>(exemplars.stride);
   const auto with_left = [&](std::uint32_t at) { return match[at - 1] + 1 == match[at]; };
-  const auto with_upper = [&](std::uint32_t at) { return match[at - across] + texels_across == match[at]; };
+  const auto with_upper = [&](std::uint32_t at) {
+    return match[at - across] + texels_across == match[at];
+  };
   const int bands = (part.height + band - 1) / band;
   parallel_rows(bands, [&](int i) {
     for (int y = i * band; y < std::min(part.height, (i + 1) * band); ++y) {
@@ -49,8 +52,10 @@ void Pieces::find(const Plane& target, const Plane& exemplars, const std::vector
           parent_[at] = static_cast<std::int32_t>(first);
           --parent_[first];
         }
-        // With the left one along and the two above it joined as well, the union is made already.
-        if (y > i * band && with_upper(at) && !(left && with_upper(at - 1) && with_left(at - across))) unite(at - across, at);
+        // If the left pixel and the two above are joined too, the union already exists.
+        if (y > i * band && with_upper(at) &&
+            !(left && with_upper(at - 1) && with_left(at - across)))
+          unite(at - across, at);
       }
     }
   });
@@ -86,14 +91,14 @@ Cell cell_around(int x, int y, std::uint64_t key) {
   const int square_x = x / cell_side;
   const int square_y = y / cell_side;
   Cell nearest;
-  int least = INT32_MAX;
+  int min = INT32_MAX;
   for (int j = square_y - 1; j <= square_y + 1; ++j) {
     for (int i = square_x - 1; i <= square_x + 1; ++i) {
       const std::uint64_t bits = random_bits(key, i, j, 3);
       const int dx = i * cell_side + static_cast<int>((bits & 0xffff) * cell_side >> 16) - x;
       const int dy = j * cell_side + static_cast<int>((bits >> 16 & 0xffff) * cell_side >> 16) - y;
-      if (dx * dx + dy * dy < least) {
-        least = dx * dx + dy * dy;
+      if (dx * dx + dy * dy < min) {
+        min = dx * dx + dy * dy;
         nearest = {i, j, (i + j) & 1};
       }
     }

@@ -11,7 +11,7 @@
 
 namespace belvedere::synth {
 
-Plane::Place Plane::place(std::uint32_t index) const {
+Plane::Place Plane::position(std::uint32_t index) const {
   int part = static_cast<int>(parts.size()) - 1;
   while (part > 0 && index < parts[static_cast<std::size_t>(part)].origin) --part;
   const std::uint32_t inside = index - parts[static_cast<std::size_t>(part)].origin;
@@ -23,20 +23,25 @@ Plane make_plane(const std::vector<std::pair<int, int>>& sizes, int guide_count,
   Plane plane;
   plane.margin = margin;
   plane.guide_count = guide_count;
-  for (const auto& [width, height] : sizes) plane.stride = std::max(plane.stride, width + 2 * margin);
+  for (const auto& [width, height] : sizes)
+    plane.stride = std::max(plane.stride, width + 2 * margin);
   std::uint64_t rows = static_cast<std::uint64_t>(margin);
   for (const auto& [width, height] : sizes) {
-    const std::uint64_t origin = rows * static_cast<std::uint64_t>(plane.stride) + static_cast<std::uint64_t>(margin);
+    const std::uint64_t origin =
+        rows * static_cast<std::uint64_t>(plane.stride) + static_cast<std::uint64_t>(margin);
     rows += static_cast<std::uint64_t>(height + margin);
-    if ((rows + static_cast<std::uint64_t>(margin)) * static_cast<std::uint64_t>(plane.stride) > 0x7fffffffULL) {
-      throw Error(ErrorKind::limit, "synthesis", fmt::format("pictures of {} rows by {} columns together", rows, plane.stride),
+    if ((rows + static_cast<std::uint64_t>(margin)) * static_cast<std::uint64_t>(plane.stride) >
+        0x7fffffffULL) {
+      throw Error(ErrorKind::limit, "synthesis",
+                  fmt::format("pictures of {} rows by {} columns together", rows, plane.stride),
                   "at most 2147 million pixels, and as many texels in all exemplars together");
     }
     plane.parts.push_back({width, height, static_cast<std::uint32_t>(origin)});
   }
   const std::size_t count = static_cast<std::size_t>(rows) * static_cast<std::size_t>(plane.stride);
   plane.words.assign(count, no_class << 24);
-  plane.guides.assign(count * static_cast<std::size_t>(guide_count) + 8, 0);  // vector reads of 8 guides stay inside
+  plane.guides.assign(count * static_cast<std::size_t>(guide_count) + 8,
+                      0);  // vector reads of 8 guides stay inside
   return plane;
 }
 
@@ -44,12 +49,16 @@ void pad(Plane& plane) {
   for (const Plane::Part& part : plane.parts) {
     for (int y = -plane.margin; y < part.height + plane.margin; ++y) {
       const bool inside_row = y >= 0 && y < part.height;
-      const std::int64_t row = static_cast<std::int64_t>(part.origin) + static_cast<std::int64_t>(y) * plane.stride;
+      const std::int64_t row =
+          static_cast<std::int64_t>(part.origin) + static_cast<std::int64_t>(y) * plane.stride;
       const std::int64_t from =
-          static_cast<std::int64_t>(part.origin) + static_cast<std::int64_t>(std::clamp(y, 0, part.height - 1)) * plane.stride;
+          static_cast<std::int64_t>(part.origin) +
+          static_cast<std::int64_t>(std::clamp(y, 0, part.height - 1)) * plane.stride;
       for (int x = -plane.margin; x < part.width + plane.margin; ++x) {
         if (inside_row && x >= 0 && x < part.width) continue;
-        const std::uint32_t colour = plane.words[static_cast<std::size_t>(from + std::clamp(x, 0, part.width - 1))] & 0xffffffU;
+        const std::uint32_t colour =
+            plane.words[static_cast<std::size_t>(from + std::clamp(x, 0, part.width - 1))] &
+            0xffffffU;
         plane.words[static_cast<std::size_t>(row + x)] = colour | no_class << 24;
       }
     }
@@ -58,7 +67,8 @@ void pad(Plane& plane) {
 
 namespace {
 
-// The class that most of the 2 × 2 children have, ties to the lower one; children beyond the border repeat the last.
+// The most frequent class of the 2 × 2 children, ties to the lower one; children beyond the border
+// repeat the last.
 std::uint32_t majority(const std::array<std::uint32_t, 4>& classes) {
   std::uint32_t best = no_class;
   int best_count = 0;
@@ -76,7 +86,8 @@ std::uint32_t majority(const std::array<std::uint32_t, 4>& classes) {
 
 Plane halve(const Plane& fine) {
   std::vector<std::pair<int, int>> sizes;
-  for (const Plane::Part& part : fine.parts) sizes.emplace_back((part.width + 1) / 2, (part.height + 1) / 2);
+  for (const Plane::Part& part : fine.parts)
+    sizes.emplace_back((part.width + 1) / 2, (part.height + 1) / 2);
   Plane coarse = make_plane(sizes, fine.guide_count, fine.margin);
   const std::size_t guides = static_cast<std::size_t>(fine.guide_count);
   for (std::size_t p = 0; p < fine.parts.size(); ++p) {
@@ -91,12 +102,14 @@ Plane halve(const Plane& fine) {
         for (int j = 0; j < 4; ++j) {
           const int fy = std::clamp(2 * y - 1 + j, 0, part.height - 1);
           for (int i = 0; i < 4; ++i) {
-            const std::uint32_t at = fine.index(static_cast<int>(p), std::clamp(2 * x - 1 + i, 0, part.width - 1), fy);
+            const std::uint32_t at =
+                fine.index(static_cast<int>(p), std::clamp(2 * x - 1 + i, 0, part.width - 1), fy);
             const std::uint32_t word = fine.words[at];
             if (class_of(word) == no_class) continue;
             const int weight = tap[static_cast<std::size_t>(i)] * tap[static_cast<std::size_t>(j)];
             total += weight;
-            for (std::size_t c = 0; c < 3; ++c) colour[c] += weight * static_cast<int>(word >> (8 * c) & 255U);
+            for (std::size_t c = 0; c < 3; ++c)
+              colour[c] += weight * static_cast<int>(word >> (8 * c) & 255U);
             const std::uint8_t* values = fine.guides_at(at);
             for (std::size_t g = 0; g < guides; ++g) sums[g] += weight * values[g];
           }
@@ -106,11 +119,13 @@ Plane halve(const Plane& fine) {
         for (int child = 0; child < 4; ++child) {
           const int fx = std::min(2 * x + (child & 1), part.width - 1);
           const int fy = std::min(2 * y + (child >> 1), part.height - 1);
-          classes[static_cast<std::size_t>(child)] = class_of(fine.words[fine.index(static_cast<int>(p), fx, fy)]);
+          classes[static_cast<std::size_t>(child)] =
+              class_of(fine.words[fine.index(static_cast<int>(p), fx, fy)]);
         }
         const std::uint32_t at = coarse.index(static_cast<int>(p), x, y);
         std::uint32_t word = majority(classes) << 24;
-        for (std::size_t c = 0; c < 3; ++c) word |= static_cast<std::uint32_t>((colour[c] + total / 2) / total) << (8 * c);
+        for (std::size_t c = 0; c < 3; ++c)
+          word |= static_cast<std::uint32_t>((colour[c] + total / 2) / total) << (8 * c);
         coarse.words[at] = word;
         for (std::size_t g = 0; g < guides; ++g) {
           coarse.guides[at * guides + g] = static_cast<std::uint8_t>((sums[g] + total / 2) / total);
@@ -141,11 +156,14 @@ Grid<float> halve_depth(const Grid<float>& depth_m, const Plane& fine, const Pla
   return out;
 }
 
-std::vector<std::uint8_t> make_links(const Grid<float>& depth_m, const Plane& plane, float ratio, int radius) {
+std::vector<std::uint8_t> make_links(const Grid<float>& depth_m, const Plane& plane, float ratio,
+                                     int radius) {
   std::vector<std::uint8_t> links(plane.words.size(), 0);
   const int width = depth_m.width();
   const int height = depth_m.height();
-  const auto same_surface = [ratio](float a, float b) { return a == b || std::max(a, b) <= ratio * std::min(a, b); };
+  const auto same_surface = [ratio](float a, float b) {
+    return a == b || std::max(a, b) <= ratio * std::min(a, b);
+  };
   parallel_rows(height, [&](int y) {
     for (int x = 0; x < width; ++x) {
       const float here = depth_m(x, y);
@@ -157,7 +175,8 @@ std::vector<std::uint8_t> make_links(const Grid<float>& depth_m, const Plane& pl
       links[plane.index(0, x, y)] = bits;
     }
   });
-  // A patch is cut where one of its links is missing; the picture's own border is no cut, padding masks it anyway.
+  // A patch is cut if one of its links is missing; the picture's own border is not a cut, because
+  // padding masks it.
   std::vector<std::uint8_t> flagged = links;
   parallel_rows(height, [&](int y) {
     const int y1 = std::min(height - 1, y + radius);
@@ -179,10 +198,13 @@ std::vector<std::uint8_t> make_links(const Grid<float>& depth_m, const Plane& pl
 bool linked(const std::uint8_t* links, int stride, std::uint32_t from, int dx, int dy) {
   const std::uint8_t horizontal = dx > 0 ? link::right : link::left;
   const std::uint8_t vertical = dy > 0 ? link::down : link::up;
-  const auto at = [&](int sx, int sy) { return links[static_cast<std::ptrdiff_t>(from) + sx + static_cast<std::ptrdiff_t>(sy) * stride]; };
+  const auto at = [&](int sx, int sy) {
+    return links[static_cast<std::ptrdiff_t>(from) + sx + static_cast<std::ptrdiff_t>(sy) * stride];
+  };
   if (dy == 0) return (at(0, 0) & horizontal) != 0;
   if (dx == 0) return (at(0, 0) & vertical) != 0;
-  return ((at(0, 0) & horizontal) && (at(dx, 0) & vertical)) || ((at(0, 0) & vertical) && (at(0, dy) & horizontal));
+  return ((at(0, 0) & horizontal) && (at(dx, 0) & vertical)) ||
+         ((at(0, 0) & vertical) && (at(0, dy) & horizontal));
 }
 
 }  // namespace belvedere::synth

@@ -7,21 +7,25 @@
 
 namespace belvedere::synth {
 
-// Inside synthesis a pixel is one word, R | G << 8 | B << 16 | class << 24, so that one vector operation compares colour and
-// class of several pixels. Classes are dense numbers 0, 1, 2 … in the order of their labels; no_class is 255.
+// In synthesis a pixel is one word, R | G << 8 | B << 16 | class << 24, so that one vector
+// operation compares colour and class of several pixels. Classes are dense numbers 0, 1, 2 … in the
+// order of their labels; no_class is 255.
 inline constexpr std::uint32_t no_class = 255;
 inline constexpr int max_classes = 255;
-inline constexpr int padding = 4;               // words around each picture; a patch of radius 3 read 8 words wide stays inside
-inline constexpr int patch_radius = 3;          // patches are 7 × 7 unless something else is asked for …
-inline constexpr int largest_patch_radius = 5;  // … up to 11 × 11, read 16 words wide, which need wide_padding
+inline constexpr int padding =
+    4;  // words around each picture; a patch of radius 3 read 8 words wide stays inside
+inline constexpr int patch_radius = 3;  // patches are 7 × 7 by default …
+inline constexpr int largest_patch_radius =
+    5;  // … up to 11 × 11, read 16 words wide, which need wide_padding
 inline constexpr int wide_padding = 6;
 constexpr int padding_for(int radius) { return radius > patch_radius ? wide_padding : padding; }
 
 constexpr std::uint32_t class_of(std::uint32_t word) { return word >> 24; }
 
-// One or more pictures in one memory, stacked with a common stride and surrounded by padding of no class. A place is one
-// index into `words`; so a match is 4 bytes, a step to a neighbour one addition, whichever picture it is in; and a step out of
-// a picture lands on no class. Index order is (picture, y, x). The exemplars of a level are one plane, the target another.
+// One or more pictures in one block of memory, stacked with a common stride and surrounded by
+// padding without class. A position is one index into `words`; so a match is 4 bytes, a step to a
+// neighbour one addition in any picture, and a step out of a picture reaches a pixel without class.
+// Index order is (picture, y, x). The exemplars of a level are one plane, the target another.
 struct Plane {
   struct Part {
     int width = 0;
@@ -39,51 +43,59 @@ struct Plane {
   std::vector<Part> parts;
   int guide_count = 0;
   std::vector<std::uint32_t> words;
-  std::vector<std::uint8_t> guides;  // guide_count a word
+  std::vector<std::uint8_t> guides;  // guide_count per word
 
   std::uint32_t index(int part, int x, int y) const {
     const Part& p = parts[static_cast<std::size_t>(part)];
-    return p.origin + static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(stride) + static_cast<std::uint32_t>(x);
+    return p.origin + static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(stride) +
+           static_cast<std::uint32_t>(x);
   }
   // The inverse of index for pixels inside a picture.
-  Place place(std::uint32_t index) const;
+  Place position(std::uint32_t index) const;
   const std::uint8_t* guides_at(std::uint32_t index) const {
     return guides.data() + static_cast<std::size_t>(index) * static_cast<std::size_t>(guide_count);
   }
-  // An index in the padding whose eight neighbours are padding too: what an unmatched pixel points at.
+  // An index in the padding whose eight neighbours are padding too: the match of an unmatched
+  // pixel.
   std::uint32_t nowhere() const { return static_cast<std::uint32_t>(2 * stride + 2); }
   // Calls f(index) for every pixel inside the pictures, in index order.
   template <class F>
   void for_each(F&& f) const {
     for (const Part& part : parts) {
       for (int y = 0; y < part.height; ++y) {
-        const std::uint32_t row = part.origin + static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(stride);
+        const std::uint32_t row =
+            part.origin + static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(stride);
         for (int x = 0; x < part.width; ++x) f(row + static_cast<std::uint32_t>(x));
       }
     }
   }
 };
 
-// A plane of empty pictures of these sizes (width, height), all of no class. Throws Error(limit) over 2^31 words.
-Plane make_plane(const std::vector<std::pair<int, int>>& sizes, int guide_count, int margin = padding);
+// A plane of empty pictures of these sizes (width, height), without classes. Throws Error(limit)
+// over 2^31 words.
+Plane make_plane(const std::vector<std::pair<int, int>>& sizes, int guide_count,
+                 int margin = padding);
 // Fills the padding with the nearest pixel's colour and no class.
 void pad(Plane& plane);
-// The next coarser level, sides (n + 1) / 2: colour and guides low-passed by [1 3 3 1]² / 64 over pixels of a class, class by
-// the majority of the 2 × 2 children, ties to the lower one. Padded.
+// The next coarser level, sides (n + 1) / 2: colour and guides low-passed by [1 3 3 1]² / 64 over
+// pixels of a class, class by the majority of the 2 × 2 children, ties to the lower one. Padded.
 Plane halve(const Plane& fine);
 
-// Silhouettes, one byte a word of a plane with a single part: which of the 4 neighbours belong to the same surface.
+// Silhouettes, one byte per word of a plane with a single part: which of the 4 neighbours belong to
+// the same surface.
 namespace link {
 inline constexpr std::uint8_t right = 1, left = 2, down = 4, up = 8, all = 15;
-inline constexpr std::uint8_t cut_patch = 128;  // the patch around holds a missing link
+inline constexpr std::uint8_t cut_patch = 128;  // the patch around contains a missing link
 }  // namespace link
 
-// Depths of the coarser level: of the child that has the coarse pixel's class first (values of one surface never mix).
+// Depths of the coarser level: that of the first child with the coarse pixel's class (values of
+// different surfaces never mix).
 Grid<float> halve_depth(const Grid<float>& depth_m, const Plane& fine, const Plane& coarse);
-// Neighbours whose depths differ by more than `ratio` (1.04: 4 %) are not linked, nor is sky (+inf) with anything but sky.
-// `radius` is that of the patches which missing links cut.
-std::vector<std::uint8_t> make_links(const Grid<float>& depth_m, const Plane& plane, float ratio, int radius = patch_radius);
-// Whether a step by (dx, dy), each -1 … 1, stays on the surface; diagonals go by either corner.
+// Neighbours whose depths differ by more than `ratio` (1.04: 4 %) are not linked, nor is sky (+inf)
+// with anything but sky. `radius` is that of the patches that missing links cut.
+std::vector<std::uint8_t> make_links(const Grid<float>& depth_m, const Plane& plane, float ratio,
+                                     int radius = patch_radius);
+// Whether a step by (dx, dy), each -1 … 1, stays on the surface; diagonals may pass either corner.
 bool linked(const std::uint8_t* links, int stride, std::uint32_t from, int dx, int dy);
 
 }  // namespace belvedere::synth

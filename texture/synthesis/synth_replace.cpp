@@ -25,41 +25,45 @@ struct Member {
   int y = 0;
 };
 
-// Where one group of pixels, all of a piece and a cell, moves to.
-void find_moves(const LevelState& state, const KernelView& view, const Member* members, int count, std::uint64_t key,
-                std::vector<Move>& moves) {
+// The new position of each group of pixels of one piece and cell.
+void find_moves(const LevelState& state, const KernelView& view, const Member* members, int count,
+                std::uint64_t key, std::vector<Move>& moves) {
   constexpr int picks = 24;
-  constexpr int far_enough = 8;  // texels from where the group copies from now
+  constexpr int far_enough = 8;  // texels from where the group copies now
   constexpr int target_samples = 12;
   const Plane& exemplars = state.exemplars;
-  const Member& middle = members[count / 2];
-  const std::uint32_t pixel = state.target.index(0, middle.x, middle.y);
-  const Plane::Place now = exemplars.place(state.match[pixel]);
+  const Member& centre = members[count / 2];
+  const std::uint32_t pixel = state.target.index(0, centre.x, centre.y);
+  const Plane::Place now = exemplars.position(state.match[pixel]);
   const Slack slack = make_slack(view, pixel);
   std::vector<std::uint32_t> candidates;
   for (int i = 0; i < picks; ++i) {
     const std::uint64_t draw = random_bits(key, static_cast<std::int64_t>(pixel), i);
     const std::uint32_t texel = draw_texel(view, pixel, draw, 0, 0, slack);
-    const Plane::Place place = exemplars.place(texel);
-    if (place.part == now.part && std::abs(place.x - now.x) < far_enough && std::abs(place.y - now.y) < far_enough) continue;
+    const Plane::Place position = exemplars.position(texel);
+    if (position.part == now.part && std::abs(position.x - now.x) < far_enough &&
+        std::abs(position.y - now.y) < far_enough)
+      continue;
     candidates.push_back(texel);
   }
   const int step = std::max(1, count / target_samples);
   std::vector<PieceSample> samples;
   for (int i = step / 2; i < count; i += step) {
-    samples.push_back({state.target.index(0, members[i].x, members[i].y), members[i].x - middle.x, members[i].y - middle.y});
+    samples.push_back({state.target.index(0, members[i].x, members[i].y), members[i].x - centre.x,
+                       members[i].y - centre.y});
   }
   const int best = best_move(view, samples, candidates);
   if (best < 0) return;
-  const Plane::Place to = exemplars.place(candidates[static_cast<std::size_t>(best)]);
+  const Plane::Place to = exemplars.position(candidates[static_cast<std::size_t>(best)]);
   const Plane::Part& part = exemplars.parts[static_cast<std::size_t>(to.part)];
   for (int i = 0; i < count; ++i) {
-    const int x = to.x + members[i].x - middle.x;
-    const int y = to.y + members[i].y - middle.y;
+    const int x = to.x + members[i].x - centre.x;
+    const int y = to.y + members[i].y - centre.y;
     if (x < 0 || y < 0 || x >= part.width || y >= part.height) continue;
     const std::uint32_t member = state.target.index(0, members[i].x, members[i].y);
     const std::uint32_t texel = exemplars.index(to.part, x, y);
-    if (class_of(exemplars.words[texel]) == class_of(state.target.words[member])) moves.push_back({member, texel});
+    if (class_of(exemplars.words[texel]) == class_of(state.target.words[member]))
+      moves.push_back({member, texel});
   }
 }
 
@@ -74,14 +78,16 @@ bool replace_pieces(LevelState& state, int pass, int round) {
   update_bin_cost(state);
   const KernelView view = state.view(pass);
 
-  // The pixels of a cell lie in the 3 × 3 squares around the square that holds its point: a row of squares a task.
+  // The pixels of a cell are in the 3 × 3 squares around the square that contains its point: one
+  // row of squares per task.
   const int across = (part.width + cell_side - 1) / cell_side;
   const int down = (part.height + cell_side - 1) / cell_side;
   std::vector<std::vector<Move>> moves(static_cast<std::size_t>(down + 2));
   parallel_rows(down + 2, [&](int i) {
     const int cell_y = i - 1;
     std::vector<std::vector<Member>> cells(static_cast<std::size_t>(across + 2));
-    for (int y = std::max(0, (cell_y - 1) * cell_side); y < std::min(part.height, (cell_y + 2) * cell_side); ++y) {
+    for (int y = std::max(0, (cell_y - 1) * cell_side);
+         y < std::min(part.height, (cell_y + 2) * cell_side); ++y) {
       for (int x = 0; x < part.width; ++x) {
         const std::uint32_t at = state.target.index(0, x, y);
         if (state.pieces.size()[at] <= state.settings.copy_cap || view.is_fixed(at)) continue;
@@ -92,17 +98,21 @@ bool replace_pieces(LevelState& state, int pass, int round) {
       }
     }
     for (std::vector<Member>& members : cells) {
-      std::stable_sort(members.begin(), members.end(), [](const Member& a, const Member& b) { return a.piece < b.piece; });
+      std::stable_sort(members.begin(), members.end(),
+                       [](const Member& a, const Member& b) { return a.piece < b.piece; });
       for (std::size_t from = 0; from < members.size();) {
         std::size_t to = from;
         while (to < members.size() && members[to].piece == members[from].piece) ++to;
-        find_moves(state, view, &members[from], static_cast<int>(to - from), move_key, moves[static_cast<std::size_t>(i)]);
+        find_moves(state, view, &members[from], static_cast<int>(to - from), move_key,
+                   moves[static_cast<std::size_t>(i)]);
         from = to;
       }
     }
   });
-  add_to(state.bins_actual, sum_bins(down + 2, state.bins_actual.size(), [&](int i, BinCounts& bins) {
-           for (const Move& move : moves[static_cast<std::size_t>(i)]) move_pixel(state, move.pixel, move.texel, bins);
+  add_to(state.bins_actual,
+         sum_bins(down + 2, state.bins_actual.size(), [&](int i, BinCounts& bins) {
+           for (const Move& move : moves[static_cast<std::size_t>(i)])
+             move_pixel(state, move.pixel, move.texel, bins);
          }));
   find_pieces(state);
   return true;
@@ -110,8 +120,9 @@ bool replace_pieces(LevelState& state, int pass, int round) {
 
 namespace {
 
-// Gives each pixel that `chosen` names a texel by which it belongs to no neighbour's piece: the cheapest of some picks. With `widen` >= 0
-// from windows as much wider, and only texels that may be used once more; where none is found the pixel stays as it is.
+// Gives each pixel that `chosen` returns a texel by which it belongs to no neighbour's piece: the
+// cheapest of some picks. With `widen` >= 0 from wider windows, and only texels that may be used
+// once more; if none is found the pixel stays unchanged.
 template <class F>
 void isolate(LevelState& state, int number, F&& chosen, int widen = -1) {
   static constexpr std::array<std::array<int, 2>, 4> parities{{{0, 0}, {1, 1}, {1, 0}, {0, 1}}};
@@ -119,7 +130,7 @@ void isolate(LevelState& state, int number, F&& chosen, int widen = -1) {
   const Plane::Part& part = state.target.parts[0];
   const std::size_t across = static_cast<std::size_t>((part.width + 1) / 2);
   const std::uint64_t key = key_for(state.settings, Purpose::alone, number);
-  // Direct neighbours are of other parities, so what a pixel sees of them stays as it is while it moves.
+  // Direct neighbours have other parities, so their state does not change while a pixel moves.
   for (const auto& [odd_x, odd_y] : parities) {
     update_bin_cost(state);
     const KernelView view = state.view(0);
@@ -130,19 +141,24 @@ void isolate(LevelState& state, int number, F&& chosen, int widen = -1) {
       for (int x = ox; x < part.width; x += 2, ++next) {
         const std::uint32_t at = state.target.index(0, x, y);
         *next = state.match[at];
-        if (class_of(state.target.words[at]) == no_class || view.is_fixed(at) || !chosen(view, at, x, y)) continue;
+        if (class_of(state.target.words[at]) == no_class || view.is_fixed(at) ||
+            !chosen(view, at, x, y))
+          continue;
         const Forbidden forbidden = forbidden_texels(view, at, true);
         const Slack slack = make_slack(view, at);
         candidates.clear();
-        const std::uint32_t most = view.most_uses[class_of(state.target.words[at])];
+        const std::uint32_t max = view.max_uses[class_of(state.target.words[at])];
         for (int k = 0; k < picks; ++k) {
-          const PickRun run = begin_draw(view, at, key + static_cast<std::uint64_t>(k), x, y, std::max(0, widen));
+          const PickRun run =
+              begin_draw(view, at, key + static_cast<std::uint64_t>(k), x, y, std::max(0, widen));
           const std::uint32_t texel = finish_draw(view, at, run, slack);
-          if (!forbidden.has(texel) && (widen < 0 || view.texels->at(texel).uses() < most)) candidates.push_back(texel);
+          if (!forbidden.has(texel) && (widen < 0 || view.texels->at(texel).uses() < max))
+            candidates.push_back(texel);
         }
         const int best = best_move(view, {PieceSample{at, 0, 0}}, candidates);
         if (best < 0 && widen >= 0) continue;
-        *next = best >= 0 ? candidates[static_cast<std::size_t>(best)] : allowed_texel(view, at, forbidden, key, x, y);
+        *next = best >= 0 ? candidates[static_cast<std::size_t>(best)]
+                          : allowed_texel(view, at, forbidden, key, x, y);
       }
     });
     commit_next(state, odd_x, odd_y);
@@ -153,23 +169,23 @@ void isolate(LevelState& state, int number, F&& chosen, int widen = -1) {
 
 namespace {
 
-// One round in which of the pixels that share a texel too many each takes another with the probability that leaves as many as allowed.
-// Whether there were any.
+// One round in which the pixels that share an overused texel each take another, with the
+// probability that leaves as many as allowed. Returns whether there were any.
 bool spread_uses(LevelState& state, int round, int widen) {
   const std::uint64_t key = key_for(state.settings, Purpose::alone, 100 + round);
   std::atomic<bool> any = false;
   const auto one_too_many = [&](const KernelView& view, std::uint32_t at, int x, int y) {
     const std::uint32_t uses = view.texels->at(view.match[at]).uses();
-    const std::uint32_t most = view.most_uses[class_of(view.target->words[at])];
-    if (uses <= most) return false;
+    const std::uint32_t max = view.max_uses[class_of(view.target->words[at])];
+    if (uses <= max) return false;
     any.store(true, std::memory_order_relaxed);
-    return random_index(uses, key, x, y) >= most;
+    return random_index(uses, key, x, y) >= max;
   };
   isolate(state, 200 + round, one_too_many, widen);
   return any.load();
 }
 
-// Pixels whose texel lies outside of their own window of the guide that orders the lists.
+// Pixels whose texel is outside their own window of the guide that orders the lists.
 std::vector<std::uint32_t> beyond_window(const LevelState& state) {
   std::vector<std::uint32_t> pixels;
   const KernelView view = state.view(0);
@@ -184,33 +200,37 @@ std::vector<std::uint32_t> beyond_window(const LevelState& state) {
   return pixels;
 }
 
-// No texel used too often, no piece over the cap, none across a silhouette; each may cost a little of the one before.
+// No texel used too often, no piece over the cap, none across a silhouette; each step may slightly
+// violate the one before.
 void limit_pieces(LevelState& state) {
-  constexpr int most_rounds = 12;
+  constexpr int max_rounds = 12;
   const std::int64_t cap = state.settings.copy_cap;
   const int first = state.settings.passes + state.settings.replacing_passes;
-  for (int round = 0; round < most_rounds && spread_uses(state, round, -1); ++round) find_pieces(state);
-  for (int round = 0; round < most_rounds && replace_pieces(state, first, round); ++round) {
+  for (int round = 0; round < max_rounds && spread_uses(state, round, -1); ++round)
+    find_pieces(state);
+  for (int round = 0; round < max_rounds && replace_pieces(state, first, round); ++round) {
   }
   if (!state.links.empty()) {
     isolate(state, 0, [](const KernelView& view, std::uint32_t at, int, int) {
-      return (view.links[at] & link::all) != link::all && forbidden_texels(view, at).has(view.match[at]);
+      return (view.links[at] & link::all) != link::all &&
+             forbidden_texels(view, at).has(view.match[at]);
     });
     find_pieces(state);
   }
   if (static_cast<std::int64_t>(state.pieces.largest()) <= cap) return;
-  // Nothing else helped: lines of single pixels cut what is left into squares under the cap.
+  // The last resort: lines of single pixels divide the rest into squares under the cap.
   const int side = static_cast<int>(std::sqrt(static_cast<double>(cap))) + 1;
   isolate(state, 1, [&](const KernelView& view, std::uint32_t at, int x, int y) {
     return view.piece_size[at] > cap && (x % side == 0 || y % side == 0);
   });
   find_pieces(state);
   if (state.fixed.empty() || static_cast<std::int64_t>(state.pieces.largest()) <= cap) return;
-  // What is fixed cannot be cut; it was under the cap where it was made, so what was added to it is cut off.
+  // Fixed pixels cannot be cut; they were under the cap where they were made, so the pixels added
+  // to them are cut off.
   isolate(state, 2, [&](const KernelView& view, std::uint32_t at, int, int) {
     const std::uint32_t down = static_cast<std::uint32_t>(view.target->stride);
-    return view.piece_size[at] > cap &&
-           (view.is_fixed(at - 1) || view.is_fixed(at + 1) || view.is_fixed(at - down) || view.is_fixed(at + down));
+    return view.piece_size[at] > cap && (view.is_fixed(at - 1) || view.is_fixed(at + 1) ||
+                                         view.is_fixed(at - down) || view.is_fixed(at + down));
   });
   find_pieces(state);
 }
@@ -219,12 +239,15 @@ void limit_pieces(LevelState& state) {
 
 void finish_pieces(LevelState& state) {
   limit_pieces(state);
-  // Moving pieces as a whole may have brought texels over their limit again, and where few have what pixels ask for their windows cannot
-  // hold it at all: windows widen until they do. A pixel that moves here is a piece of its own, so pieces and silhouettes stay as they are.
-  constexpr int most_rounds = 24;
+  // Moving pieces as a whole may have brought texels over their limit again, and where few texels
+  // meet a request, windows cannot satisfy it at all: they are widened until they do. A pixel that
+  // moves here is a piece of its own, so pieces and silhouettes stay unchanged.
+  constexpr int max_rounds = 24;
   constexpr int rounds_each = 2;  // before windows widen
   bool widened = false;
-  for (int round = 0; round < most_rounds && spread_uses(state, 300 + round, round / rounds_each); ++round) widened = round >= rounds_each;
+  for (int round = 0; round < max_rounds && spread_uses(state, 300 + round, round / rounds_each);
+       ++round)
+    widened = round >= rounds_each;
   if (widened) state.widened = beyond_window(state);
   find_pieces(state);
 }

@@ -4,11 +4,11 @@
 
 namespace belvedere::synth {
 
-// Moves pieces over the cap, cell by cell of one colour, as a whole elsewhere. False where there is no such piece. Needs and leaves
-// up-to-date pieces.
+// Moves pieces over the cap as a whole elsewhere, cell by cell of one checkerboard colour. False if
+// there is no such piece. Needs and leaves up-to-date pieces.
 bool replace_pieces(LevelState& state, int pass, int round);
-// What prices leave open, made certain at the end: no texel is used too often, no piece is larger than the cap, none runs on across a
-// silhouette. Needs and leaves up-to-date pieces.
+// Enforces what prices cannot guarantee: no texel is used too often, no piece is larger than the
+// cap, none continues across a silhouette. Needs and leaves up-to-date pieces.
 void finish_pieces(LevelState& state);
 
 }  // namespace belvedere::synth

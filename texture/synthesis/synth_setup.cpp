@@ -17,29 +17,37 @@ namespace belvedere::synth {
 
 namespace {
 
-constexpr std::size_t most_guides = 32;
-constexpr int least_side = 16;           // of the coarsest level, pixels
-constexpr double jump_per_level = 0.04;  // relative depth between neighbours beyond which they are two surfaces
+constexpr std::size_t max_guides = 32;
+constexpr int min_side = 16;  // of the coarsest level, pixels
+constexpr double jump_per_level =
+    0.04;  // relative depth difference between neighbours beyond which they are two surfaces
 
 void check_parameters(const SynthesisParameters& parameters) {
   const auto in_range = [](const char* what, double value, double low, double high) {
     if (!(value >= low && value <= high)) {
-      throw Error(ErrorKind::usage, fmt::format("synthesis {}", what), fmt::format("{}", value), fmt::format("{} … {}", low, high));
+      throw Error(ErrorKind::usage, fmt::format("synthesis {}", what), fmt::format("{}", value),
+                  fmt::format("{} … {}", low, high));
     }
   };
   in_range("levels", parameters.levels, 1, 8);
   in_range("reuse", parameters.reuse, 0, 10);
   in_range("copy_cap", parameters.copy_cap, 16, 100000);
   in_range("surroundings", parameters.surroundings, 0, 100);
-  if (parameters.neighbourhood % 2 == 0 || parameters.neighbourhood < 3 || parameters.neighbourhood > 2 * largest_patch_radius + 1)
-    throw Error(ErrorKind::usage, "synthesis neighbourhood", fmt::format("{}", parameters.neighbourhood), "3, 5, 7, 9 or 11 pixels");
+  if (parameters.neighbourhood % 2 == 0 || parameters.neighbourhood < 3 ||
+      parameters.neighbourhood > 2 * largest_patch_radius + 1)
+    throw Error(ErrorKind::usage, "synthesis neighbourhood",
+                fmt::format("{}", parameters.neighbourhood), "3, 5, 7, 9 or 11 pixels");
   if (parameters.surroundings_of != "commonest" && parameters.surroundings_of != "all")
-    throw Error(ErrorKind::usage, "synthesis surroundings_of", parameters.surroundings_of, "commonest or all");
-  for (const auto& [pair, value] : parameters.unlikeness)
-    in_range(fmt::format("unlikeness of classes {} and {}", pair.first, pair.second).c_str(), value, 0, 1);
+    throw Error(ErrorKind::usage, "synthesis surroundings_of", parameters.surroundings_of,
+                "commonest or all");
+  for (const auto& [pair, value] : parameters.class_dissimilarity)
+    in_range(fmt::format("dissimilarity of classes {} and {}", pair.first, pair.second).c_str(),
+             value, 0, 1);
   if (parameters.tile < 0 || parameters.tile % 2 != 0)
-    throw Error(ErrorKind::usage, "synthesis tile", fmt::format("{}", parameters.tile), "0 or an even number of pixels");
-  for (const auto& [name, weight] : parameters.weights) in_range(fmt::format("weight of \"{}\"", name).c_str(), weight, 0, 100);
+    throw Error(ErrorKind::usage, "synthesis tile", fmt::format("{}", parameters.tile),
+                "0 or an even number of pixels");
+  for (const auto& [name, weight] : parameters.weights)
+    in_range(fmt::format("weight of \"{}\"", name).c_str(), weight, 0, 100);
 }
 
 // A guide that exemplars and target share, with its weight.
@@ -48,7 +56,8 @@ struct PairedGuide {
   GuideRole role;
 };
 
-std::vector<PairedGuide> pair_guides(const std::vector<Exemplar>& exemplars, const GuideStack& target,
+std::vector<PairedGuide> pair_guides(const std::vector<Exemplar>& exemplars,
+                                     const GuideStack& target,
                                      const SynthesisParameters& parameters, Progress& progress) {
   const auto weight_of = [&](const std::string& name) {
     double weight = 1.0;
@@ -66,9 +75,11 @@ std::vector<PairedGuide> pair_guides(const std::vector<Exemplar>& exemplars, con
   for (const Guide& guide : target.guides) {
     PairedGuide pair;
     pair.name = guide.name;
-    pair.role.weight_q4 = std::llround(16.0 * static_cast<double>(price::guide) * weight_of(guide.name));
-    const bool everywhere = std::all_of(exemplars.begin(), exemplars.end(),
-                                        [&](const Exemplar& exemplar) { return exemplar.guides.find(guide.name) != nullptr; });
+    pair.role.weight_q4 =
+        std::llround(16.0 * static_cast<double>(price::guide) * weight_of(guide.name));
+    const bool everywhere = std::all_of(
+        exemplars.begin(), exemplars.end(),
+        [&](const Exemplar& exemplar) { return exemplar.guides.find(guide.name) != nullptr; });
     if (!everywhere) {
       note(guide.name, exemplars.size() == 1 ? "the exemplar" : "an exemplar");
     } else if (pair.role.weight_q4 > 0) {
@@ -82,21 +93,24 @@ std::vector<PairedGuide> pair_guides(const std::vector<Exemplar>& exemplars, con
   }
   for (const auto& [name, weight] : parameters.weights) {
     bool known = target.find(name) != nullptr;
-    for (const Exemplar& exemplar : exemplars) known = known || exemplar.guides.find(name) != nullptr;
+    for (const Exemplar& exemplar : exemplars)
+      known = known || exemplar.guides.find(name) != nullptr;
     if (!known) note(name, "every picture");
   }
-  if (paired.size() > most_guides) {
+  if (paired.size() > max_guides) {
     throw Error(ErrorKind::limit, "synthesis", fmt::format("{} guides", paired.size()),
-                fmt::format("at most {} guides of a weight above 0", most_guides));
+                fmt::format("at most {} guides with a weight above 0", max_guides));
   }
-  // The strongest first: the first two order the lists of picks.
-  std::stable_sort(paired.begin(), paired.end(),
-                   [](const PairedGuide& a, const PairedGuide& b) { return a.role.weight_q4 > b.role.weight_q4; });
+  // In descending order of weight: the first two order the lists of picks.
+  std::stable_sort(paired.begin(), paired.end(), [](const PairedGuide& a, const PairedGuide& b) {
+    return a.role.weight_q4 > b.role.weight_q4;
+  });
   return paired;
 }
 
-Classes number_classes(const std::vector<Exemplar>& exemplars, const GuideStack& target, const SynthesisParameters& parameters,
-                       std::size_t pixels_each, Progress& progress) {
+Classes number_classes(const std::vector<Exemplar>& exemplars, const GuideStack& target,
+                       const SynthesisParameters& parameters, std::size_t pixels_each,
+                       Progress& progress) {
   std::array<bool, 256> offered{};
   std::array<std::size_t, 256> requested{};
   for (const Exemplar& exemplar : exemplars) {
@@ -114,40 +128,48 @@ Classes number_classes(const std::vector<Exemplar>& exemplars, const GuideStack&
     classes.of_target[label] = classes.around[label] = classes.of_exemplar[label];
     if (offered[label]) continue;
     const auto fallback = parameters.fallback.find(static_cast<std::uint8_t>(label));
-    const bool stood_in = fallback != parameters.fallback.end() && classes.of_exemplar[fallback->second] != no_class;
+    const bool stood_in =
+        fallback != parameters.fallback.end() && classes.of_exemplar[fallback->second] != no_class;
     if (stood_in) classes.of_target[label] = classes.of_exemplar[fallback->second];
     if (requested[label] == 0) continue;
     classes.around[label] = classes.of_target[label];
     if (stood_in) {
       progress.note(
-          fmt::format("class {} has no texels in any exemplar: {} pixels copy from class {}", label, requested[label], fallback->second));
+          fmt::format("class {} has no texels in any exemplar: {} pixels copy from class {}", label,
+                      requested[label], fallback->second));
     } else {
-      progress.note(
-          fmt::format("class {} has no texels in any exemplar and no fallback: {} pixels stay without texture", label, requested[label]));
+      progress.note(fmt::format(
+          "class {} has no texels in any exemplar and no fallback: {} pixels stay without texture",
+          label, requested[label]));
     }
   }
   return classes;
 }
 
-SurroundingsPrice surroundings_price(const Classes& classes, const SynthesisParameters& parameters) {
+SurroundingsPrice surroundings_price(const Classes& classes,
+                                     const SynthesisParameters& parameters) {
   const std::size_t count = static_cast<std::size_t>(classes.count);
   std::vector<std::uint8_t> pairs(count * count, 16);
-  for (const auto& [labels, value] : parameters.unlikeness) {
+  for (const auto& [labels, value] : parameters.class_dissimilarity) {
     const std::uint32_t a = classes.around[labels.first];
     const std::uint32_t b = classes.around[labels.second];
     if (a == no_class || b == no_class) continue;
-    pairs[a * count + b] = pairs[b * count + a] = static_cast<std::uint8_t>(std::lround(16.0 * value));
+    pairs[a * count + b] = pairs[b * count + a] =
+        static_cast<std::uint8_t>(std::lround(16.0 * value));
   }
-  return {std::llround(static_cast<double>(price::surroundings_q8) * parameters.surroundings), std::move(pairs), classes.count};
+  return {std::llround(static_cast<double>(price::surroundings_q8) * parameters.surroundings),
+          std::move(pairs), classes.count};
 }
 
 }  // namespace
 
-Setup make_setup(const std::vector<Exemplar>& exemplars, const GuideStack& target, const SynthesisParameters& parameters,
-                 std::size_t pixels_each, Progress& progress) {
+Setup make_setup(const std::vector<Exemplar>& exemplars, const GuideStack& target,
+                 const SynthesisParameters& parameters, std::size_t pixels_each,
+                 Progress& progress) {
   if (exemplars.empty()) throw Error(ErrorKind::usage, "synthesis", "no exemplar", "at least one");
   if (exemplars.size() >= Match::none) {
-    throw Error(ErrorKind::limit, "synthesis", fmt::format("{} exemplars", exemplars.size()), "at most 65534");
+    throw Error(ErrorKind::limit, "synthesis", fmt::format("{} exemplars", exemplars.size()),
+                "at most 65534");
   }
   for (const Exemplar& exemplar : exemplars) check_exemplar(exemplar);
   check_guide_stack(target, "target");
@@ -164,11 +186,12 @@ Setup make_setup(const std::vector<Exemplar>& exemplars, const GuideStack& targe
 }
 
 LevelSettings Setup::settings(int level) const {
-  LevelSettings settings = settings_for_level(level, parameters.seed, parameters.copy_cap, parameters.reuse);
+  LevelSettings settings =
+      settings_for_level(level, parameters.seed, parameters.copy_cap, parameters.reuse);
   settings.tile = parameters.tile;
   settings.patch_radius = parameters.patch_radius();
   settings.all_surroundings = parameters.surroundings_of == "all";
-  // Guides that do not order the lists are served by drawing several texels and keeping the one that fits them best.
+  // Guides that do not order the lists are met by drawing several texels and keeping the best one.
   const ListKeys keys = choose_list_keys(roles);
   settings.draws = roles.size() > (keys.bucketed ? 2U : 1U) ? 4 : 1;
   return settings;
@@ -176,11 +199,14 @@ LevelSettings Setup::settings(int level) const {
 
 namespace {
 
-std::vector<const Grid<std::uint8_t>*> guides_of(const GuideStack& stack, const Setup& setup, const char* where) {
+std::vector<const Grid<std::uint8_t>*> guides_of(const GuideStack& stack, const Setup& setup,
+                                                 const char* where) {
   std::vector<const Grid<std::uint8_t>*> guides;
   for (const std::string& name : setup.guide_names) {
     guides.push_back(stack.find(name));
-    if (guides.back() == nullptr) throw Error(ErrorKind::usage, where, fmt::format("no guide \"{}\"", name), "the guides of the plan");
+    if (guides.back() == nullptr)
+      throw Error(ErrorKind::usage, where, fmt::format("the guide \"{}\" is missing", name),
+                  "the guides of the plan");
   }
   return guides;
 }
@@ -190,18 +216,23 @@ std::vector<const Grid<std::uint8_t>*> guides_of(const GuideStack& stack, const 
 Plane exemplar_plane(const std::vector<Exemplar>& exemplars, const Setup& setup) {
   std::vector<std::pair<int, int>> sizes;
   sizes.reserve(exemplars.size());
-  for (const Exemplar& exemplar : exemplars) sizes.emplace_back(exemplar.picture.width(), exemplar.picture.height());
-  Plane plane = make_plane(sizes, static_cast<int>(setup.roles.size()), padding_for(setup.parameters.patch_radius()));
+  for (const Exemplar& exemplar : exemplars)
+    sizes.emplace_back(exemplar.picture.width(), exemplar.picture.height());
+  Plane plane = make_plane(sizes, static_cast<int>(setup.roles.size()),
+                           padding_for(setup.parameters.patch_radius()));
   for (std::size_t e = 0; e < exemplars.size(); ++e) {
     const Exemplar& exemplar = exemplars[e];
-    const std::vector<const Grid<std::uint8_t>*> guides = guides_of(exemplar.guides, setup, "exemplar");
+    const std::vector<const Grid<std::uint8_t>*> guides =
+        guides_of(exemplar.guides, setup, "exemplar");
     parallel_rows(exemplar.picture.height(), [&](int y) {
       for (int x = 0; x < exemplar.picture.width(); ++x) {
         const std::uint32_t at = plane.index(static_cast<int>(e), x, y);
         const Rgb8 colour = exemplar.picture(x, y);
-        plane.words[at] = colour[0] | static_cast<std::uint32_t>(colour[1]) << 8 | static_cast<std::uint32_t>(colour[2]) << 16 |
+        plane.words[at] = colour[0] | static_cast<std::uint32_t>(colour[1]) << 8 |
+                          static_cast<std::uint32_t>(colour[2]) << 16 |
                           setup.classes.of_exemplar[exemplar.guides.label(x, y)] << 24;
-        for (std::size_t g = 0; g < guides.size(); ++g) plane.guides[at * guides.size() + g] = (*guides[g])(x, y);
+        for (std::size_t g = 0; g < guides.size(); ++g)
+          plane.guides[at * guides.size() + g] = (*guides[g])(x, y);
       }
     });
   }
@@ -211,14 +242,16 @@ Plane exemplar_plane(const std::vector<Exemplar>& exemplars, const Setup& setup)
 }
 
 Plane target_plane(const GuideStack& target, const Setup& setup) {
-  const std::vector<const Grid<std::uint8_t>*> guides = guides_of(target, setup, "target of synthesis");
-  Plane plane =
-      make_plane({{target.width(), target.height()}}, static_cast<int>(guides.size()), padding_for(setup.parameters.patch_radius()));
+  const std::vector<const Grid<std::uint8_t>*> guides =
+      guides_of(target, setup, "target of synthesis");
+  Plane plane = make_plane({{target.width(), target.height()}}, static_cast<int>(guides.size()),
+                           padding_for(setup.parameters.patch_radius()));
   parallel_rows(target.height(), [&](int y) {
     for (int x = 0; x < target.width(); ++x) {
       const std::uint32_t at = plane.index(0, x, y);
       plane.words[at] = setup.classes.of_target[target.label(x, y)] << 24;
-      for (std::size_t g = 0; g < guides.size(); ++g) plane.guides[at * guides.size() + g] = (*guides[g])(x, y);
+      for (std::size_t g = 0; g < guides.size(); ++g)
+        plane.guides[at * guides.size() + g] = (*guides[g])(x, y);
     }
   });
   pad(plane);
@@ -227,9 +260,10 @@ Plane target_plane(const GuideStack& target, const Setup& setup) {
 
 int level_count(const std::vector<Exemplar>& exemplars, int width, int height, int requested) {
   int side = std::min(width, height);
-  for (const Exemplar& exemplar : exemplars) side = std::min({side, exemplar.picture.width(), exemplar.picture.height()});
+  for (const Exemplar& exemplar : exemplars)
+    side = std::min({side, exemplar.picture.width(), exemplar.picture.height()});
   int levels = 1;
-  while (levels < requested && (side >> levels) >= least_side) ++levels;
+  while (levels < requested && (side >> levels) >= min_side) ++levels;
   return levels;
 }
 
@@ -237,47 +271,54 @@ float depth_ratio(int level) { return static_cast<float>(1.0 + jump_per_level * 
 
 namespace {
 
-// No texel may be used too often; where too few have what pixels ask for, some take others.
+// No texel may be used too often; where too few meet the request, some pixels take others.
 void note_widened(const Setup& setup, const LevelState& state, Progress& progress) {
   if (state.widened.empty() || setup.guide_names.empty()) return;
   int farthest = 0;
   for (const std::uint32_t pixel : state.widened)
-    farthest = std::max(farthest, std::abs(state.target.guides_at(pixel)[0] - state.texels.at(state.match[pixel]).guides()[0]));
+    farthest = std::max(farthest, std::abs(state.target.guides_at(pixel)[0] -
+                                           state.texels.at(state.match[pixel]).guides()[0]));
   progress.note(
-      fmt::format("too few texels of what {} asks for: so that none is used too often, {} pixels copy others, up to {} of 255 off",
+      fmt::format("too few texels for the guide {}: to avoid overuse, {} pixels "
+                  "copy others, with errors of up to {} of 255",
                   setup.guide_names[0], state.widened.size(), farthest));
 }
 
 }  // namespace
 
-std::vector<std::uint32_t> synthesize_levels(const Setup& setup, const GuideStack& target, int finest, int levels,
-                                             std::vector<Plane>& sources, std::vector<Plane>& targets, Progress& progress) {
+std::vector<std::uint32_t> synthesize_levels(const Setup& setup, const GuideStack& target,
+                                             int finest, int levels, std::vector<Plane>& sources,
+                                             std::vector<Plane>& targets, Progress& progress) {
   std::vector<Grid<float>> depths;  // of the coarser levels
   for (int level = finest + 1; level < levels; ++level) {
     targets.push_back(halve(targets.back()));
     if (!target.depth_m.empty()) {
       const std::size_t finer = targets.size() - 2;
-      depths.push_back(halve_depth(depths.empty() ? target.depth_m : depths.back(), targets[finer], targets.back()));
+      depths.push_back(halve_depth(depths.empty() ? target.depth_m : depths.back(), targets[finer],
+                                   targets.back()));
     }
   }
-  std::vector<std::uint32_t> matches;  // of the level done last
+  std::vector<std::uint32_t> matches;  // of the last finished level
   for (int level = levels - 1; level >= finest; --level) {
     const std::size_t l = static_cast<std::size_t>(level);
     const std::size_t t = static_cast<std::size_t>(level - finest);
-    // Pixels of a coarse level lie further apart, so their depths may differ by more on one and the same surface.
+    // Pixels of a coarse level are farther apart, so their depths may differ more on one surface.
     std::vector<std::uint8_t> links;
     if (!target.depth_m.empty()) {
-      links = make_links(level == finest ? target.depth_m : depths.back(), targets[t], depth_ratio(level), setup.parameters.patch_radius());
+      links = make_links(level == finest ? target.depth_m : depths.back(), targets[t],
+                         depth_ratio(level), setup.parameters.patch_radius());
       if (level > finest) depths.pop_back();
     }
     const LevelSettings settings = setup.settings(level);
-    LevelState state(settings, setup.roles, setup.classes.count, sources[l], targets[t], std::move(links), setup.around_price);
-    progress.begin(fmt::format("synthesize, level {} of {}", levels - level, levels), settings.passes + settings.replacing_passes);
+    LevelState state(settings, setup.roles, setup.classes.count, sources[l], targets[t],
+                     std::move(links), setup.around_price);
+    progress.begin(fmt::format("synthesize, level {} of {}", levels - level, levels),
+                   settings.passes + settings.replacing_passes);
     if (level == levels - 1) {
       start_from_picks(state);
     } else {
       start_from_coarser(state, sources[l + 1], targets[t + 1], matches);
-      sources.resize(l + 1);  // done with the coarser pictures
+      sources.resize(l + 1);  // the coarser pictures are no longer needed
       targets.resize(t + 1);
     }
     matches = {};

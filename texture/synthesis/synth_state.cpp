@@ -11,13 +11,15 @@
 namespace belvedere::synth {
 namespace {
 
-// The guides' weights for 32-bit prices; empty where these could overflow, and where one or two are priced as fast singly.
+// The guides' weights for 32-bit prices; empty if these could overflow, or if one or two guides are
+// as fast one by one.
 std::vector<std::uint32_t> vector_weights_of(const std::vector<GuideRole>& guides) {
   std::vector<std::uint32_t> weights(vector_guides, 0);
   std::int64_t largest_price = 0;
   for (const GuideRole& guide : guides) largest_price += guide.weight_q4 * 255 * 255;
   if (guides.size() <= 2 || guides.size() > weights.size() || largest_price > INT32_MAX) return {};
-  for (std::size_t g = 0; g < guides.size(); ++g) weights[g] = static_cast<std::uint32_t>(guides[g].weight_q4);
+  for (std::size_t g = 0; g < guides.size(); ++g)
+    weights[g] = static_cast<std::uint32_t>(guides[g].weight_q4);
   return weights;
 }
 
@@ -37,9 +39,11 @@ std::vector<std::uint8_t> usual_errors_of_picks(const LevelState& state) {
       const std::uint32_t label_class = class_of(state.target.words[at]);
       if (label_class == no_class) continue;
       const std::uint8_t* requested = state.target.guides_at(at);
-      const std::uint8_t* offered = state.texels.at(draw_texel(view, at, key, x, y, make_slack(view, at))).guides();
+      const std::uint8_t* offered =
+          state.texels.at(draw_texel(view, at, key, x, y, make_slack(view, at))).guides();
       for (std::size_t g = 0; g < guides; ++g) {
-        ++counts[(label_class * guides + g) * 256 + static_cast<std::size_t>(std::abs(requested[g] - offered[g]))];
+        ++counts[(label_class * guides + g) * 256 +
+                 static_cast<std::size_t>(std::abs(requested[g] - offered[g]))];
       }
     }
   }
@@ -62,40 +66,51 @@ LevelSettings settings_for_level(int level, std::uint64_t seed, int copy_cap, do
   settings.passes = level == 1 ? 5 : 4;
   settings.replacing_passes = level == 0 ? 2 : level == 1 ? 1 : 0;
   const int shift = 2 * level;  // a level has a quarter of the pixels
-  settings.copy_cap = std::max<std::int64_t>(1, (static_cast<std::int64_t>(copy_cap) + (1LL << shift) / 2) >> shift);
+  settings.copy_cap = std::max<std::int64_t>(
+      1, (static_cast<std::int64_t>(copy_cap) + (1LL << shift) / 2) >> shift);
   settings.reuse_price = std::llround(static_cast<double>(price::reuse) * reuse);
-  settings.least_window = std::max(16, 64 >> shift);
+  settings.min_window = std::max(16, 64 >> shift);
   settings.surroundings_radius = std::max(2, 8 >> level);
   return settings;
 }
 
 namespace {
 
-bool tells_shares(const LevelSettings& settings, const SurroundingsPrice& price) { return settings.all_surroundings && !price.is_free(); }
+bool tells_shares(const LevelSettings& settings, const SurroundingsPrice& price) {
+  return settings.all_surroundings && !price.is_free();
+}
 
-std::vector<Surroundings> offered_around(const LevelSettings& settings, const Plane& exemplars, int classes, const SurroundingsPrice& price,
+std::vector<Surroundings> offered_around(const LevelSettings& settings, const Plane& exemplars,
+                                         int classes, const SurroundingsPrice& price,
                                          const ClassShares& shares) {
   if (price.is_free()) return {};
-  return shares.empty() ? make_surroundings(exemplars, settings.surroundings_radius, classes) : shares.numbers();
+  return shares.empty() ? make_surroundings(exemplars, settings.surroundings_radius, classes)
+                        : shares.numbers();
 }
 
 }  // namespace
 
-LevelSource::LevelSource(const LevelSettings& settings, const std::vector<GuideRole>& guide_roles, int class_count,
-                         const Plane& exemplar_plane, const Demand& demand, const SurroundingsPrice& surroundings_price)
+LevelSource::LevelSource(const LevelSettings& settings, const std::vector<GuideRole>& guide_roles,
+                         int class_count, const Plane& exemplar_plane, const TexelDemand& demand,
+                         const SurroundingsPrice& surroundings_price)
     : LevelSource(settings, guide_roles, class_count, exemplar_plane, demand, surroundings_price,
-                  tells_shares(settings, surroundings_price) ? ClassShares(exemplar_plane, settings.surroundings_radius, class_count)
-                                                             : ClassShares()) {}
+                  tells_shares(settings, surroundings_price)
+                      ? ClassShares(exemplar_plane, settings.surroundings_radius, class_count)
+                      : ClassShares()) {}
 
-LevelSource::LevelSource(const LevelSettings& settings, const std::vector<GuideRole>& guide_roles, int class_count,
-                         const Plane& exemplar_plane, const Demand& demand, const SurroundingsPrice& surroundings_price,
-                         ClassShares class_shares)
-    : LevelSource(settings, guide_roles, class_count, exemplar_plane, demand, surroundings_price, class_shares,
-                  offered_around(settings, exemplar_plane, class_count, surroundings_price, class_shares)) {}
+LevelSource::LevelSource(const LevelSettings& settings, const std::vector<GuideRole>& guide_roles,
+                         int class_count, const Plane& exemplar_plane, const TexelDemand& demand,
+                         const SurroundingsPrice& surroundings_price, ClassShares class_shares)
+    : LevelSource(
+          settings, guide_roles, class_count, exemplar_plane, demand, surroundings_price,
+          class_shares,
+          offered_around(settings, exemplar_plane, class_count, surroundings_price, class_shares)) {
+}
 
-LevelSource::LevelSource(const LevelSettings& settings, const std::vector<GuideRole>& guide_roles, int class_count,
-                         const Plane& exemplar_plane, const Demand& demand, const SurroundingsPrice& surroundings_price,
-                         ClassShares class_shares, const std::vector<Surroundings>& around)
+LevelSource::LevelSource(const LevelSettings& settings, const std::vector<GuideRole>& guide_roles,
+                         int class_count, const Plane& exemplar_plane, const TexelDemand& demand,
+                         const SurroundingsPrice& surroundings_price, ClassShares class_shares,
+                         const std::vector<Surroundings>& around)
     : exemplars(exemplar_plane),
       classes(class_count),
       guides(guide_roles),
@@ -103,20 +118,24 @@ LevelSource::LevelSource(const LevelSettings& settings, const std::vector<GuideR
       around_price(surroundings_price),
       shares(std::move(class_shares)),
       texels(exemplars, make_bins(exemplars, class_count), around),
-      lists(exemplars, demand, class_count, guides, settings.least_window, around) {
-  shares.forget_numbers();  // records and lists have them
+      lists(exemplars, demand, class_count, guides, settings.min_window, around) {
+  shares.forget_numbers();  // contained in records and lists
 }
 
-LevelState::LevelState(const LevelSettings& level_settings, const std::vector<GuideRole>& guides, int classes, const Plane& exemplar_plane,
-                       Plane& target_plane, std::vector<std::uint8_t> surface_links, const SurroundingsPrice& around_price)
+LevelState::LevelState(const LevelSettings& level_settings, const std::vector<GuideRole>& guides,
+                       int classes, const Plane& exemplar_plane, Plane& target_plane,
+                       std::vector<std::uint8_t> surface_links,
+                       const SurroundingsPrice& around_price)
     : LevelState(level_settings,
-                 std::make_shared<LevelSource>(level_settings, guides, classes, exemplar_plane, count_demand(target_plane, classes, guides),
+                 std::make_shared<LevelSource>(level_settings, guides, classes, exemplar_plane,
+                                               count_texel_demand(target_plane, classes, guides),
                                                around_price),
                  target_plane, std::move(surface_links)) {
   source->usual_error = usual_errors_of_picks(*this);
 }
 
-LevelState::LevelState(const LevelSettings& level_settings, std::shared_ptr<LevelSource> level_source, Plane& target_plane,
+LevelState::LevelState(const LevelSettings& level_settings,
+                       std::shared_ptr<LevelSource> level_source, Plane& target_plane,
                        std::vector<std::uint8_t> surface_links)
     : settings(level_settings),
       source(std::move(level_source)),
@@ -131,10 +150,11 @@ LevelState::LevelState(const LevelSettings& level_settings, std::shared_ptr<Leve
       bin_cost(bins_expected),
       bin_cost_kept(bins_expected),
       reuse_q4(static_cast<std::size_t>(source->classes), 0),
-      most_uses(static_cast<std::size_t>(source->classes), 0xffffffffU),
+      max_uses(static_cast<std::size_t>(source->classes), 0xffffffffU),
       pieces(target) {
   const Plane::Part& part = target.parts[0];
-  next.resize(static_cast<std::size_t>((part.width + 1) / 2) * static_cast<std::size_t>((part.height + 1) / 2));
+  next.resize(static_cast<std::size_t>((part.width + 1) / 2) *
+              static_cast<std::size_t>((part.height + 1) / 2));
   std::vector<std::int64_t> pixel_counts(static_cast<std::size_t>(source->classes), 0);
   target.for_each([&](std::uint32_t at) {
     const std::uint32_t c = class_of(target.words[at]);
@@ -143,13 +163,14 @@ LevelState::LevelState(const LevelSettings& level_settings, std::shared_ptr<Leve
     if (!lists.has_class(c)) target.words[at] |= no_class << 24;
   });
   for (std::size_t c = 0; c < pixel_counts.size(); ++c) {
-    // Price / max(1/4, pixels per texel of the class): reuse is dear where it can be avoided.
+    // Price / max(1/4, pixels per texel of the class): reuse is expensive where it can be avoided.
     const std::int64_t texels_of_class = lists.texel_count(static_cast<std::uint32_t>(c));
     const std::int64_t pixels = pixel_counts[c];
     const std::int64_t full = settings.reuse_price * 16;
     reuse_q4[c] = 4 * pixels <= texels_of_class ? 4 * full : full * texels_of_class / pixels;
-    // Where reuse is priced at all, no texel may serve more than 6 + 3 × pixels per texel.
-    if (settings.reuse_price > 0 && texels_of_class > 0) most_uses[c] = static_cast<std::uint32_t>(6 + 3 * pixels / texels_of_class);
+    // If reuse is priced at all, no texel may serve more than 6 + 3 × pixels per texel.
+    if (settings.reuse_price > 0 && texels_of_class > 0)
+      max_uses[c] = static_cast<std::uint32_t>(6 + 3 * pixels / texels_of_class);
   }
   if (!source->shares.empty()) {
     target_shares = ClassShares(target, settings.surroundings_radius, source->classes);
@@ -183,7 +204,7 @@ KernelView LevelState::view(int pass) const {
   view.texels = &texels;
   view.bin_cost = bin_cost.data();
   view.reuse_q4 = reuse_q4.data();
-  view.most_uses = most_uses.data();
+  view.max_uses = max_uses.data();
   view.copy_cap = settings.copy_cap;
   view.replaces_pieces = settings.replacing_passes > 0;
   view.draws = settings.draws;

@@ -9,8 +9,9 @@
 
 namespace belvedere::synth {
 
-// What a candidate is priced by before its patch is looked at, side by side in memory: of one texel that nobody has asked for yet these
-// arrive together, and a candidate's neighbours, which come next, with them. Waiting for memory is most of what a candidate costs.
+// The inputs for pricing a candidate before its patch is read, contiguous in memory: for a texel
+// not in cache they arrive together, and so do those of its neighbours, which come next. Memory
+// latency is most of the cost of a candidate.
 class TexelRecords {
  public:
   struct Record {
@@ -19,22 +20,30 @@ class TexelRecords {
     std::uint32_t uses() const { return words[0]; }  // pixels that copy this texel
     std::uint8_t bin() const { return bytes()[4]; }
     Surroundings around() const { return {bytes()[5], bytes()[6]}; }
-    const std::uint8_t* guides() const { return bytes() + guides_from; }  // eight may be read, however few there are
+    const std::uint8_t* guides() const {
+      return bytes() + guides_from;
+    }  // eight may be read, however few there are
   };
 
   TexelRecords() = default;
   // `around` may be empty. All uses are 0.
-  TexelRecords(const Plane& exemplars, const std::vector<std::uint8_t>& bins, const std::vector<Surroundings>& around);
+  TexelRecords(const Plane& exemplars, const std::vector<std::uint8_t>& bins,
+               const std::vector<Surroundings>& around);
 
-  Record at(std::uint32_t texel) const { return {words_.data() + static_cast<std::size_t>(texel) * record_words_}; }
-  std::uint32_t& uses(std::uint32_t texel) { return words_[static_cast<std::size_t>(texel) * record_words_]; }
+  Record at(std::uint32_t texel) const {
+    return {words_.data() + static_cast<std::size_t>(texel) * record_words_};
+  }
+  std::uint32_t& uses(std::uint32_t texel) {
+    return words_[static_cast<std::size_t>(texel) * record_words_];
+  }
   const std::uint32_t* data() const { return words_.data(); }
   std::size_t record_words() const { return record_words_; }
   void forget_uses();
   bool operator==(const TexelRecords&) const = default;
 
  private:
-  static constexpr std::size_t guides_from = 7;  // one guide ends with the record's second word; more take up further pairs of words
+  static constexpr std::size_t guides_from =
+      7;  // one guide ends with the record's second word; more take up further pairs of words
 
   std::size_t record_words_ = 2;
   std::vector<std::uint32_t> words_;

@@ -11,22 +11,25 @@
 
 namespace belvedere {
 
-// Guided texture synthesis (measured in docs/synthesis.md): the match field of the target. Label-filtered coherent
-// candidates and picks by guides, coarse to fine, integer costs, double-buffered parity passes: the same for any threads and tiles.
-//
-// Guides are paired by name; one that any exemplar or the target lacks is unused, and progress.note says so once. The strongest
-// two order the lists that picks come from (synth_lists.h): give the guides that must be met exactly the largest weights.
-// A class without texels takes its fallback, or Match::none; a note says which. Pixels labelled 255 get Match::none.
-// Where the target has depths, patches end at a jump of more than 4 % from one pixel to the next, and no two neighbours across one copy by
-// the same offset. No piece is larger than copy_cap. Where reuse is priced, no texel is used more than 6 + 3 × (pixels per texel of its
-// class) times, as far as a dozen rounds of moving pixels can bring that about.
-//
-// Throws Error(usage) where there is no exemplar, sizes disagree or a parameter is out of range; Error(limit) for more than 2^31
-// pixels or texels together or an exemplar over 32767 texels on a side.
-MatchField synthesize(const std::vector<Exemplar>& exemplars, const GuideStack& target, const SynthesisParameters& parameters,
-                      Progress& progress);
+// Guided texture synthesis (measured in docs/synthesis.md): computes the match field of the target.
+// Coherent candidates and picks by guides, filtered by label, coarse to fine, with integer costs
+// and double-buffered parity passes: the same for any threads and tiles.
+// Guides are paired by name; one that any exemplar or the target lacks is unused, and progress.note
+// reports it once. The two with the largest weights order the lists of picks (synth_lists.h): give
+// the largest weights to the guides that must be met exactly. A class without texels takes its
+// fallback, or Match::none; a note reports it. Pixels labelled 255 get Match::none. If the target
+// has depths, patches end at a jump of more than 4 % from one pixel to the next, and no two
+// neighbours across a jump copy with the same offset. No piece is larger than copy_cap. If reuse is
+// priced, no texel is used more than 6 + 3 × (pixels per texel of its class) times, as far as a
+// dozen rounds of moving pixels can achieve.
+// Throws Error(usage) if there is no exemplar, sizes differ or a parameter is out of range;
+// Error(limit) for more than 2^31 pixels or texels in total or an exemplar over 32767 texels on a
+// side.
+MatchField synthesize(const std::vector<Exemplar>& exemplars, const GuideStack& target,
+                      const SynthesisParameters& parameters, Progress& progress);
 
-// Memory that synthesize needs beyond its arguments, its result included, bytes; an upper bound for checks before the work.
+// Memory that synthesize needs in addition to its arguments, including its result, bytes; an upper
+// bound for checks before the work.
 std::size_t synthesis_bytes(std::size_t texels, std::size_t pixels, int guides, bool with_depth);
 
 }  // namespace belvedere

@@ -11,9 +11,10 @@ namespace belvedere::bench {
 constexpr std::size_t packet_size = 16;
 constexpr int tile_cells = 64;
 
-// Not in the anonymous namespace, because members of a class that a header names are of these types.
+// Not in the anonymous namespace: a class in a header has members of these types.
 struct alignas(64) PacketRays {
-  float org_x[packet_size], org_y[packet_size], org_z[packet_size], dir_x[packet_size], dir_y[packet_size], dir_z[packet_size];
+  float org_x[packet_size], org_y[packet_size], org_z[packet_size], dir_x[packet_size],
+      dir_y[packet_size], dir_z[packet_size];
 };
 struct PacketHits {
   float distance[packet_size], u[packet_size], v[packet_size];
@@ -60,22 +61,26 @@ BareEmbree::BareEmbree(const DeformedSurface& surface) : state_(std::make_unique
   State& s = *state_;
   const Grid<glm::vec3>& posts = surface.vertices_m;
   s.origin = surface.origin;
-  s.posts.resize(posts.size() * 3 + 1);  // Embree reads 4 bytes beyond the last post
+  s.posts.resize(posts.size() * 3 + 1);  // Embree reads 4 bytes beyond the last vertex
   std::copy_n(&posts.data()->x, posts.size() * 3, s.posts.data());
   for (int y = 0; y + 1 < posts.height(); y += tile_cells) {
     for (int x = 0; x + 1 < posts.width(); x += tile_cells) {
-      s.grids.push_back({static_cast<unsigned>(posts.index(x, y)), static_cast<unsigned>(posts.width()),
-                         static_cast<std::uint16_t>(std::min(tile_cells, posts.width() - 1 - x) + 1),
-                         static_cast<std::uint16_t>(std::min(tile_cells, posts.height() - 1 - y) + 1)});
+      s.grids.push_back(
+          {static_cast<unsigned>(posts.index(x, y)), static_cast<unsigned>(posts.width()),
+           static_cast<std::uint16_t>(std::min(tile_cells, posts.width() - 1 - x) + 1),
+           static_cast<std::uint16_t>(std::min(tile_cells, posts.height() - 1 - y) + 1)});
     }
   }
   RTCGeometry geometry = rtcNewGeometry(s.device, RTC_GEOMETRY_TYPE_GRID);
-  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, s.posts.data(), 0, 3 * sizeof(float), posts.size());
-  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_GRID, 0, RTC_FORMAT_GRID, s.grids.data(), 0, sizeof(RTCGrid), s.grids.size());
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, s.posts.data(),
+                             0, 3 * sizeof(float), posts.size());
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_GRID, 0, RTC_FORMAT_GRID, s.grids.data(), 0,
+                             sizeof(RTCGrid), s.grids.size());
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(s.scene, geometry);
   rtcReleaseGeometry(geometry);
-  rtcSetSceneFlags(s.scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_COMPACT | RTC_SCENE_FLAG_ROBUST));
+  rtcSetSceneFlags(s.scene,
+                   static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_COMPACT | RTC_SCENE_FLAG_ROBUST));
   rtcCommitScene(s.scene);
 }
 
@@ -134,14 +139,16 @@ void BareEmbree::occluded(std::size_t first, std::size_t last) {
     RTCRay16 packet;
     fill(packet, state_->rays[i], state_->reach);
     rtcOccluded16(valid, state_->scene, &context, &packet);
-    for (std::size_t k = 0; k < packet_size; ++k) state_->hits[i].distance[k] = packet.tfar[k] < 0.F ? 1.F : -1.F;
+    for (std::size_t k = 0; k < packet_size; ++k)
+      state_->hits[i].distance[k] = packet.tfar[k] < 0.F ? 1.F : -1.F;
   }
 }
 
 std::size_t BareEmbree::count_hits() const {
   std::size_t count = 0;
   for (const PacketHits& packet : state_->hits) {
-    count += static_cast<std::size_t>(std::count_if(packet.distance, packet.distance + packet_size, [](float d) { return d >= 0.F; }));
+    count += static_cast<std::size_t>(std::count_if(packet.distance, packet.distance + packet_size,
+                                                    [](float d) { return d >= 0.F; }));
   }
   return count;
 }

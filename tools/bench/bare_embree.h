@@ -10,20 +10,20 @@
 
 namespace belvedere::bench {
 
-// The least that tracing can cost: the same scene and packets as Tracer's, the rays laid out for Embree beforehand, what it
-// answers stored as it comes.
+// Lower bound of the cost of tracing: the same scene and packets as Tracer's, with the rays
+// prepared for Embree beforehand and its results stored unchanged.
 class BareEmbree {
  public:
   explicit BareEmbree(const DeformedSurface& surface);
   ~BareEmbree();
 
-  // Lays out rays for the calls below; their number is rounded down to whole packets of 16.
+  // Prepares rays for the calls below; their number is rounded down to whole packets of 16.
   void prepare(std::span<const Ray> rays, double reach_m);
   std::size_t packets() const;
-  // Traces packets first…last; callable from several threads for different packets.
+  // Traces packets first…last; may be called from several threads for different packets.
   void intersect(std::size_t first, std::size_t last);
   void occluded(std::size_t first, std::size_t last);
-  // How many of the rays hit something in the last pass.
+  // Number of rays that hit something in the last pass.
   std::size_t count_hits() const;
 
  private:

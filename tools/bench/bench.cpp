@@ -31,11 +31,15 @@ namespace {
 
 const std::vector<Section>& sections() {
   static const std::vector<Section> all = {
-      {"trace", "building the structure and tracing rays, beside a bare Embree loop over the same rays", &bench_trace},
+      {"trace",
+       "building the structure and tracing rays, compared with a bare Embree loop over the same "
+       "rays",
+       &bench_trace},
       {"guidance", "a whole picture's guidance buffers", &bench_guidance},
       {"generalize", "generalization of the terrain", &bench_generalize},
       {"deform", "bending the terrain, and moving pieces of it", &bench_deform},
-      {"climate", "the sun of a year over the terrain, and rain driven up it by wind", &bench_climate},
+      {"climate", "the sun of a year over the terrain, and rain driven up it by wind",
+       &bench_climate},
       {"layers", "surface layers: inputs, coverage, classes", &bench_layers},
       {"rock", "relief of rock, its crests, and the blur that stays on a surface", &bench_rock},
       {"synthesis", "painting by example, with one guide and with seven", &bench_synthesis},
@@ -45,7 +49,9 @@ const std::vector<Section>& sections() {
   return all;
 }
 
-double seconds(const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); }
+double seconds(const timeval& t) {
+  return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+}
 
 rusage used(int who = RUSAGE_SELF) {
   rusage usage{};
@@ -70,7 +76,8 @@ Cost measure(const std::function<void()>& work) {
   work();
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
   const rusage after = used();
-  return {wall.count(), seconds(after.ru_utime) + seconds(after.ru_stime) - seconds(before.ru_utime) - seconds(before.ru_stime)};
+  return {wall.count(), seconds(after.ru_utime) + seconds(after.ru_stime) -
+                            seconds(before.ru_utime) - seconds(before.ru_stime)};
 }
 
 Cost measure_child(const std::function<int()>& work) {
@@ -79,7 +86,8 @@ Cost measure_child(const std::function<int()>& work) {
   if (work() != 0) return {};
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
   const rusage after = used(RUSAGE_CHILDREN);
-  return {wall.count(), seconds(after.ru_utime) + seconds(after.ru_stime) - seconds(before.ru_utime) - seconds(before.ru_stime)};
+  return {wall.count(), seconds(after.ru_utime) + seconds(after.ru_stime) -
+                            seconds(before.ru_utime) - seconds(before.ru_stime)};
 }
 
 std::vector<Cost> measure_fastest(int repeats, const std::vector<std::function<void()>>& works) {
@@ -106,24 +114,34 @@ void reset_peak_memory() { std::ofstream("/proc/self/clear_refs") << "5"; }  // 
 namespace {
 
 int run(int argc, char** argv) {
-  tools::CommandLine line(argc > 0 ? argv[0] : "bench", "Measures the speed of Belvedere's stages on made-up terrain and prints JSON.");
+  tools::CommandLine line(
+      argc > 0 ? argv[0] : "bench",
+      "Measures the speed of Belvedere's stages on synthetic terrain and prints JSON.");
   tools::CommandOptions& command = line.options();
   Options options;
   int threads = 0;
   std::string only;
   std::string sections_text;
-  for (const Section& section : sections()) sections_text += fmt::format("{}  {}\n", section.name, section.meaning);
+  for (const Section& section : sections())
+    sections_text += fmt::format("{}  {}\n", section.name, section.meaning);
   command.footer("Sections:\n" + sections_text);
-  command.add_option("--size", options.sizes, "Cells on a side of the terrain").range(64, 16384).show_default();
-  command.add_option("--repeats", options.repeats, "Runs of each measurement; the fastest counts").range(1, 100).show_default();
-  command.add_option("--threads", threads, "Threads; 0 for all").range(0, 1024);
-  command.add_option("section", only, "The section to run; all by default");
+  command.add_option("--size", options.sizes, "Cells per side of the terrain")
+      .range(64, 16384)
+      .show_default();
+  command.add_option("--repeats", options.repeats, "Runs of each measurement; the fastest counts")
+      .range(1, 100)
+      .show_default();
+  command.add_option("--threads", threads, "Threads; 0: all").range(0, 1024);
+  command.add_option("section", only, "The section to run. Default: all");
   if (const std::string help = line.read({argv + (argc > 0 ? 1 : 0), argv + argc}); !help.empty()) {
     fmt::print("{}", help);
     return 0;
   }
-  const auto requested = [&](const Section& section) { return only.empty() || section.name == only; };
-  if (std::none_of(sections().begin(), sections().end(), requested)) throw Error(ErrorKind::usage, "section", only, sections_text);
+  const auto requested = [&](const Section& section) {
+    return only.empty() || section.name == only;
+  };
+  if (std::none_of(sections().begin(), sections().end(), requested))
+    throw Error(ErrorKind::usage, "section", only, sections_text);
   const ThreadLimit limit(threads);
 
   std::string body;
@@ -134,10 +152,11 @@ int run(int argc, char** argv) {
     const std::vector<Measurement> measured = section.run(options);
     peak = std::max(peak, peak_memory_mb());
     for (const Measurement& m : measured) {
-      lines += fmt::format("{}\n    {{\"name\": {}, \"value\": {:.6g}, \"unit\": {}}}", lines.empty() ? "" : ",", json_text(m.name),
-                           m.value, json_text(m.unit));
+      lines += fmt::format("{}\n    {{\"name\": {}, \"value\": {:.6g}, \"unit\": {}}}",
+                           lines.empty() ? "" : ",", json_text(m.name), m.value, json_text(m.unit));
     }
-    body += fmt::format("{}\n  {}: [{}\n  ]", body.empty() ? "" : ",", json_text(section.name), lines);
+    body +=
+        fmt::format("{}\n  {}: [{}\n  ]", body.empty() ? "" : ",", json_text(section.name), lines);
   }
   body += fmt::format("{}\n  \"peak_memory_mb\": {:.1f}", body.empty() ? "" : ",", peak);
   fmt::print("{{{}\n}}\n", body);

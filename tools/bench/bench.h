@@ -8,7 +8,7 @@
 namespace belvedere::bench {
 
 struct Options {
-  std::vector<int> sizes = {1024, 4096};  // cells on a side of the made-up terrain
+  std::vector<int> sizes = {1024, 4096};  // cells per side of the synthetic terrain
   int repeats = 3;                        // of each measurement; the fastest counts
 };
 
@@ -26,22 +26,23 @@ struct Section {
   std::vector<Measurement> (*run)(const Options&);
 };
 
-// Time that work took: on the clock, and of all processors of this process together.
+// Elapsed time, and processor time of all threads of this process together.
 struct Cost {
   double wall_s = 0.0;
   double cpu_s = 0.0;
 };
 Cost measure(const std::function<void()>& work);
-// The same where the work is done by a program that is started and waited for.
+// The same for work done by a child process that is started and waited for.
 Cost measure_child(const std::function<int()>& work);
-// The least of several runs by processor time: what else the machine does only ever adds. Where several works are compared they
-// take turns, so that a slow minute of the machine slows them all.
+// The minimum of several runs by processor time, because other load on the machine only adds time.
+// Works that are compared alternate, so that a slow minute of the machine slows them all.
 std::vector<Cost> measure_fastest(int repeats, const std::vector<std::function<void()>>& works);
 
-// Most memory this process had resident since the last reset. Where the system cannot reset it, since the start of the program.
+// Peak resident memory of this process since the last reset. Where the system cannot reset it,
+// since the start of the program.
 double peak_memory_mb();
 void reset_peak_memory();
-// What it has resident now; 0 where the system does not say.
+// Present resident memory; 0 where the system does not report it.
 double resident_memory_mb();
 
 }  // namespace belvedere::bench

@@ -18,7 +18,7 @@ std::vector<Measurement> bench_generalize(const Options&);
 
 namespace {
 
-// Two global arrays and the sharpening of crests: what most scenes ask for.
+// Two global arrays and the sharpening of crests: the usual case.
 GeneralizeParameters plain_bands() {
   GeneralizeParameters bands;
   bands.foreground = {1.2F, 1.2F, 1.1F, 1.0F, 1.1F, 0.9F};
@@ -27,7 +27,7 @@ GeneralizeParameters plain_bands() {
   return bands;
 }
 
-// All six arrays, none of them 0 or 1, blur and exponent: nothing can be left out.
+// All six arrays, none of them 0 or 1, blur and exponent: nothing can be skipped.
 GeneralizeParameters full_bands() {
   GeneralizeParameters bands = plain_bands();
   bands.crest = 0.F;
@@ -40,8 +40,8 @@ GeneralizeParameters full_bands() {
   return bands;
 }
 
-// Everything that needs a grid of its own at once: lakes, slope and slope-foot masks, distance, printable detail, crests, six arrays with
-// blur and exponent.
+// Everything that needs its own grid at once: lakes, slope and slope-foot masks, distance,
+// printable detail, crests, six arrays with blur and exponent.
 constexpr const char* everything = R"(version = 1
 [generalize]
 foreground = [1.2, 1.2, 1.1, 1.05, 1.1, 0.9]
@@ -60,9 +60,10 @@ crest = 0.9
 keep_lakes = true
 )";
 
-// Most bytes a cell above the DEM while a scene with all of that is generalized, from making the masks to the result.
+// Peak bytes per cell above the DEM while a scene with all of that is generalized, from making the
+// masks to the result.
 double scene_memory(Dem dem, const std::string& more) {
-  // The lowest ground under lakes.
+  // The lowest ground below lakes.
   const auto [low, high] = std::minmax_element(dem.altitude_m.begin(), dem.altitude_m.end());
   const float level = *low + 0.15F * (*high - *low);
   for (float& altitude : dem.altitude_m) altitude = std::max(altitude, level);
@@ -72,11 +73,13 @@ double scene_memory(Dem dem, const std::string& more) {
   view.viewer_xy = {view.camera.eye.x, view.camera.eye.y};
   const double used_mb = resident_memory_mb();
   reset_peak_memory();
-  const Grid<float> result = generalize_for_view(loaded, dem, nullptr, view, silent_progress()).altitude_m;
+  const Grid<float> result =
+      generalize_for_view(loaded, dem, nullptr, view, silent_progress()).altitude_m;
   return (peak_memory_mb() - used_mb) * 1048576.0 / static_cast<double>(result.size());
 }
 
-// Processor seconds that `gdaldem hillshade` needs for the same DEM, or less than 0 where it is not installed. It reads and writes files.
+// Processor seconds of `gdaldem hillshade` for the same DEM, or negative where it is not installed.
+// It reads and writes files.
 double gdaldem_cpu_s(const Dem& dem) {
   if (std::system("command -v gdaldem > /dev/null 2>&1") != 0) return -1.0;
   const std::filesystem::path folder = std::filesystem::temp_directory_path() / "belvedere_bench";
@@ -85,10 +88,11 @@ double gdaldem_cpu_s(const Dem& dem) {
   write_raster(in, Raster<float>{dem.altitude_m, dem.transform, dem.crs});
   const std::string plain = (folder / "plain.tif").string();
   std::system(("gdal_translate -q '" + in + "' '" + plain + "' > /dev/null 2>&1").c_str());
-  const double cpu =
-      measure_child([&] {
-        return std::system(("gdaldem hillshade -q '" + plain + "' '" + (folder / "out.tif").string() + "' > /dev/null 2>&1").c_str());
-      }).cpu_s;
+  const double cpu = measure_child([&] {
+                       return std::system(("gdaldem hillshade -q '" + plain + "' '" +
+                                           (folder / "out.tif").string() + "' > /dev/null 2>&1")
+                                              .c_str());
+                     }).cpu_s;
   std::filesystem::remove_all(folder);
   return cpu;
 }
@@ -107,10 +111,14 @@ std::vector<Measurement> bench_generalize(const Options& options) {
     grids.foreground_share = Grid<float>(size, size);
     Grid<float> mask(size, size);
     for (int y = 0; y < size; ++y) {
-      std::fill_n(grids.foreground_share.row(y), size, static_cast<float>(y) / static_cast<float>(size));
-      for (int x = 0; x < size; ++x) mask(x, y) = std::min(1.F, static_cast<float>(x % 512) / 200.F);
+      std::fill_n(grids.foreground_share.row(y), size,
+                  static_cast<float>(y) / static_cast<float>(size));
+      for (int x = 0; x < size; ++x)
+        mask(x, y) = std::min(1.F, static_cast<float>(x % 512) / 200.F);
     }
-    const auto run = [&](const GeneralizeParameters& bands) { generalize(dem.altitude_m, {30.0, 30.0}, grids, bands, silent_progress()); };
+    const auto run = [&](const GeneralizeParameters& bands) {
+      generalize(dem.altitude_m, {30.0, 30.0}, grids, bands, silent_progress());
+    };
     const std::vector<Cost> cost = measure_fastest(options.repeats, {[&] { run(plain); }});
     grids.mask = std::move(mask);
     reset_peak_memory();
@@ -132,13 +140,16 @@ std::vector<Measurement> bench_generalize(const Options& options) {
     add("generalize_full", cells / all[0].cpu_s * 1e-6, "Mcells/CPU s");
     add("generalize_full_one_thread", cells / all[1].wall_s * 1e-6, "Mcells/s");
     add("generalize_full_two_threads", cells / all[2].wall_s * 1e-6, "Mcells/s");
-    // The foreground share, the mask, the result and what is made on the way.
-    add("generalize_full_memory", (peak_mb - used_mb) * 1048576.0 / cells, "bytes/cell above the DEM");
+    // The foreground share, the mask, the result and intermediate grids.
+    add("generalize_full_memory", (peak_mb - used_mb) * 1048576.0 / cells,
+        "bytes/cell above the DEM");
     grids = {};
     add("generalize_scene_memory", scene_memory(dem, ""), "bytes/cell above the DEM");
-    add("generalize_scene_memory_line_integral", scene_memory(dem, "line_integral = true\n"), "bytes/cell above the DEM");
+    add("generalize_scene_memory_line_integral", scene_memory(dem, "line_integral = true\n"),
+        "bytes/cell above the DEM");
     const double hillshade_cpu_s = gdaldem_cpu_s(dem);
-    if (hillshade_cpu_s > 0.0) add("gdaldem_hillshade", cells / hillshade_cpu_s * 1e-6, "Mcells/CPU s");
+    if (hillshade_cpu_s > 0.0)
+      add("gdaldem_hillshade", cells / hillshade_cpu_s * 1e-6, "Mcells/CPU s");
   }
   return out;
 }

@@ -12,10 +12,10 @@ Dem make_bench_dem(int size) {
 }
 
 DeformedSurface make_bench_surface(const Dem& dem) {
-  const glm::dvec2 middle = dem.transform.to_crs(0.5 * dem.width(), 0.5 * dem.height());
+  const glm::dvec2 centre = dem.transform.to_crs(0.5 * dem.width(), 0.5 * dem.height());
   DeformParameters parameters;
   parameters.exaggeration = 1.6;
-  return deform(dem.altitude_m, dem.transform, middle, {middle, 0.0}, parameters);
+  return deform(dem.altitude_m, dem.transform, centre, {centre, 0.0}, parameters);
 }
 
 CameraParameters bench_view(const Dem& dem, int width, int height) {

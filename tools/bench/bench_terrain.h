@@ -10,9 +10,9 @@ namespace belvedere::bench {
 
 // Ridged noise of size × size cells of 30 m.
 Dem make_bench_dem(int size);
-// That terrain as it is, exaggerated 1.6 times, posts relative to its middle.
+// That terrain undeformed, exaggerated 1.6 times, vertices relative to its centre.
 DeformedSurface make_bench_surface(const Dem& dem);
-// A view over the whole terrain from beyond its northern rim; its size is a multiple of 4.
+// A view of the whole terrain from beyond its northern rim; its size is a multiple of 4.
 CameraParameters bench_view(const Dem& dem, int width, int height);
 // The rays of a view, each 16 a bundle of 4 × 4 pixels.
 std::vector<Ray> bundle_rays(const Camera& camera);

@@ -33,8 +33,8 @@ struct Race {
   bool nearest;  // intersect, else occluded
 };
 
-void run_race(const Race& race, const Tracer& tracer, BareEmbree& bare, const std::string& size, int repeats,
-              std::vector<Measurement>& out) {
+void run_race(const Race& race, const Tracer& tracer, BareEmbree& bare, const std::string& size,
+              int repeats, std::vector<Measurement>& out) {
   std::vector<Hit> hits(race.nearest ? race.rays.size() : 0);
   std::vector<std::uint8_t> blocked(race.nearest ? 0 : race.rays.size());
   bare.prepare(race.rays, race.reach_m);
@@ -63,25 +63,33 @@ void run_race(const Race& race, const Tracer& tracer, BareEmbree& bare, const st
   std::size_t found = 0;
   for (const Hit& hit : hits) found += hit.found ? 1 : 0;
   for (const std::uint8_t b : blocked) found += b;
-  const auto difference = std::abs(static_cast<double>(found) - static_cast<double>(bare.count_hits()));
+  const auto difference =
+      std::abs(static_cast<double>(found) - static_cast<double>(bare.count_hits()));
   if (difference > 1e-4 * static_cast<double>(race.rays.size())) {
-    throw Error(ErrorKind::bug, "bench trace", fmt::format("{}: {} hits against {}", race.name, found, bare.count_hits()));
+    throw Error(ErrorKind::bug, "bench trace",
+                fmt::format("{}: {} hits against {}", race.name, found, bare.count_hits()));
   }
   const double count = static_cast<double>(race.rays.size());
   out.push_back({fmt::format("{}/{}_rays", size, race.name), count * 1e-6, "Mrays"});
-  out.push_back({fmt::format("{}/{}", size, race.name), count / costs[0].cpu_s * 1e-6, "Mrays/CPU s"});
-  out.push_back({fmt::format("{}/{}_wall", size, race.name), count / costs[0].wall_s * 1e-6, "Mrays/s"});
-  out.push_back({fmt::format("{}/{}_bare_embree", size, race.name), count / costs[1].cpu_s * 1e-6, "Mrays/CPU s"});
-  out.push_back({fmt::format("{}/{}_ratio", size, race.name), costs[1].cpu_s / costs[0].cpu_s, "of bare Embree"});
+  out.push_back(
+      {fmt::format("{}/{}", size, race.name), count / costs[0].cpu_s * 1e-6, "Mrays/CPU s"});
+  out.push_back(
+      {fmt::format("{}/{}_wall", size, race.name), count / costs[0].wall_s * 1e-6, "Mrays/s"});
+  out.push_back({fmt::format("{}/{}_bare_embree", size, race.name), count / costs[1].cpu_s * 1e-6,
+                 "Mrays/CPU s"});
+  out.push_back({fmt::format("{}/{}_ratio", size, race.name), costs[1].cpu_s / costs[0].cpu_s,
+                 "of bare Embree"});
 }
 
 // Secondary rays from the hits, in whole packets of one direction.
-std::vector<Ray> rays_from(const std::vector<Ray>& primary, const std::vector<Hit>& hits, glm::dvec3 direction) {
+std::vector<Ray> rays_from(const std::vector<Ray>& primary, const std::vector<Hit>& hits,
+                           glm::dvec3 direction) {
   std::vector<Ray> rays;
   for (std::size_t i = 0; i < hits.size(); ++i) {
     if (!hits[i].found) continue;
-    rays.push_back(
-        {primary[i].origin + primary[i].direction * hits[i].distance_m + 0.05 * hits[i].facet_normal(), glm::normalize(direction)});
+    rays.push_back({primary[i].origin + primary[i].direction * hits[i].distance_m +
+                        0.05 * hits[i].facet_normal(),
+                    glm::normalize(direction)});
   }
   rays.resize(rays.size() / 16 * 16);
   return rays;
@@ -100,7 +108,8 @@ std::vector<Measurement> bench_trace(const Options& options) {
     const Cost build = measure([&] { tracer = std::make_unique<Tracer>(surface); });
     out.push_back({name + "/build", cells / build.cpu_s * 1e-6, "Mcells/CPU s"});
     out.push_back({name + "/build_wall", build.wall_s, "s"});
-    out.push_back({name + "/structure", static_cast<double>(tracer->memory_bytes()) / cells, "bytes/cell"});
+    out.push_back(
+        {name + "/structure", static_cast<double>(tracer->memory_bytes()) / cells, "bytes/cell"});
     BareEmbree bare(surface);
 
     const auto camera = make_camera(bench_view(dem, 1600, 800));
@@ -108,14 +117,16 @@ std::vector<Measurement> bench_trace(const Options& options) {
     std::vector<Hit> hits(primary.rays.size());
     tracer->intersect(primary.rays, hits);
     run_race(primary, *tracer, bare, name, options.repeats, out);
-    run_race({"shadow", rays_from(primary.rays, hits, {-0.612, 0.612, 0.5}), 1e9, false}, *tracer, bare, name, options.repeats, out);
+    run_race({"shadow", rays_from(primary.rays, hits, {-0.612, 0.612, 0.5}), 1e9, false}, *tracer,
+             bare, name, options.repeats, out);
     // Four directions of the sky, from near the zenith to low.
     std::vector<Ray> sky;
     for (int k = 0; k < 4; ++k) {
       const double u = (k + 0.5) / 4.0;
       const double turn = 2.0 * std::numbers::pi * 0.618 * k;
-      const std::vector<Ray> some =
-          rays_from(primary.rays, hits, {std::cos(turn) * std::sqrt(u), std::sin(turn) * std::sqrt(u), std::sqrt(1.0 - u)});
+      const std::vector<Ray> some = rays_from(
+          primary.rays, hits,
+          {std::cos(turn) * std::sqrt(u), std::sin(turn) * std::sqrt(u), std::sqrt(1.0 - u)});
       sky.insert(sky.end(), some.begin(), some.end());
     }
     run_race({"sky", std::move(sky), 12000.0, false}, *tracer, bare, name, options.repeats, out);

@@ -13,7 +13,7 @@
 namespace belvedere::tools {
 namespace {
 
-// A measure in the unit that people read it in.
+// A measure in a readable unit.
 std::string in_words(TermUnit unit, double value) {
   switch (unit) {
     case TermUnit::share:
@@ -28,72 +28,82 @@ std::string in_words(TermUnit unit, double value) {
   return fmt::format("{:.1f}", value);
 }
 
-Json composition_json(const ViewJudgement& judgement) {
+Json composition_json(const ViewEvaluation& evaluation) {
   Json terms = Json::object();
-  for (const ScoreTerm& term : judgement.terms)
+  for (const ScoreTerm& term : evaluation.terms)
     terms.add(std::string(term.name), Json::object()
                                           .add("value", Json::number(term.value))
                                           .add("good_from", Json::number(term.good.b))
                                           .add("good_to", Json::number(std::min(term.good.c, 1e9)))
                                           .add("advice", Json::text(std::string(term.advice()))));
   return Json::object()
-      .add("judged", Json::boolean(judgement.judged()))
-      .add("merit", Json::number(judgement.merit))
-      .add("subject", Json::text(judgement.subject))
-      .add("near_m", Json::number(judgement.near_m))
-      .add("far_m", Json::number(judgement.far_m))
+      .add("judged", Json::boolean(evaluation.evaluated()))
+      .add("merit", Json::number(evaluation.merit))
+      .add("subject", Json::text(evaluation.subject))
+      .add("near_m", Json::number(evaluation.near_m))
+      .add("far_m", Json::number(evaluation.far_m))
       .add("measures", std::move(terms));
 }
 
-std::string composition_text(const ViewJudgement& judgement) {
-  if (!judgement.judged()) return "composition: not judged, " + judgement.why_not + "\n";
-  std::string out = fmt::format("composition: merit {:.1f} of 10; about {}; from {:.1f} km to a horizon at {:.1f} km\n", judgement.merit,
-                                judgement.subject, judgement.near_m / 1000.0, judgement.far_m / 1000.0);
+std::string composition_text(const ViewEvaluation& evaluation) {
+  if (!evaluation.evaluated()) return "composition: not evaluated, " + evaluation.why_not + "\n";
+  std::string out = fmt::format(
+      "composition: merit {:.1f} of 10; about {}; from {:.1f} km to a horizon at {:.1f} km\n",
+      evaluation.merit, evaluation.subject, evaluation.near_m / 1000.0, evaluation.far_m / 1000.0);
   const auto value = [&](std::string_view name) {
-    for (const ScoreTerm& term : judgement.terms)
+    for (const ScoreTerm& term : evaluation.terms)
       if (term.name == name) return in_words(term.unit, term.value);
     return std::string();
   };
-  out += fmt::format("composition: sky {}, rim {}, valley floor seen {}, ranges apart {}, edge through mountains {}, haze {}\n",
-                     value("sky"), value("rim"), value("floor"), value("ranges"), value("cut"), value("haze"));
-  for (const ScoreTerm& term : judgement.terms)
-    if (!term.advice().empty()) out += fmt::format("  {} ({} {})\n", term.advice(), in_words(term.unit, term.value), term.meaning);
+  out += fmt::format(
+      "composition: sky {}, rim {}, valley floor seen {}, ranges apart {}, edge through mountains "
+      "{}, haze {}\n",
+      value("sky"), value("rim"), value("floor"), value("ranges"), value("cut"), value("haze"));
+  for (const ScoreTerm& term : evaluation.terms)
+    if (!term.advice().empty())
+      out += fmt::format("  {} ({} {})\n", term.advice(), in_words(term.unit, term.value),
+                         term.meaning);
   return out;
 }
 
-// Ranges that the light leaves in shade, and how it falls on the others.
+// Main ranges that are in shade, and the light on the others.
 std::string light_text(const SceneReport& report) {
-  constexpr std::size_t most = 8;
+  constexpr std::size_t max = 8;
   std::string out;
   bool shade = false;
-  for (std::size_t i = 0; i < std::min(report.ranges.size(), most); ++i) {
+  for (std::size_t i = 0; i < std::min(report.ranges.size(), max); ++i) {
     const SeenRange& range = report.ranges[i];
     shade = shade || range.in_shade();
     out += fmt::format(
-        "  around E {:.0f} N {:.0f}, {:.0f} m, {:.0f} km away, {:.0f} % of the slopes seen: {:.0f} % lit, {:.0f} % in cast shadow, "
+        "  around E {:.0f} N {:.0f}, {:.0f} m, {:.0f} km away, {:.0f} % of the slopes seen: {:.0f} "
+        "% lit, {:.0f} % in cast shadow, "
         "{:.0f} % turned away{}\n",
-        range.summit.x, range.summit.y, range.altitude_m, range.distance_m / 1000.0, 100.0 * range.share, 100.0 * range.lit,
-        100.0 * range.cast, 100.0 * range.away, range.in_shade() ? "; stands in shade" : "");
+        range.summit.x, range.summit.y, range.altitude_m, range.distance_m / 1000.0,
+        100.0 * range.share, 100.0 * range.lit, 100.0 * range.cast, 100.0 * range.away,
+        range.in_shade() ? "; in shade" : "");
   }
   if (out.empty()) return out;
-  return "light on the main ranges:\n" + out + (shade ? "  regions that turn the light: belvedere check --propose-light\n" : "");
+  return "light on the main ranges:\n" + out +
+         (shade ? "  light regions to correct it: belvedere check --propose-light\n" : "");
 }
 
 Json ranges_json(const SceneReport& report) {
   Json out = Json::array();
   for (const SeenRange& range : report.ranges)
-    out.add(Json::object()
-                .add("summit", Json::array({Json::number(range.summit.x), Json::number(range.summit.y), Json::number(range.altitude_m)}))
-                .add("distance_m", Json::number(range.distance_m))
-                .add("share", Json::number(range.share))
-                .add("lit", Json::number(range.lit))
-                .add("cast_shadow", Json::number(range.cast))
-                .add("turned_away", Json::number(range.away))
-                .add("in_shade", Json::boolean(range.in_shade())));
+    out.add(
+        Json::object()
+            .add("summit", Json::array({Json::number(range.summit.x), Json::number(range.summit.y),
+                                        Json::number(range.altitude_m)}))
+            .add("distance_m", Json::number(range.distance_m))
+            .add("share", Json::number(range.share))
+            .add("lit", Json::number(range.lit))
+            .add("cast_shadow", Json::number(range.cast))
+            .add("turned_away", Json::number(range.away))
+            .add("in_shade", Json::boolean(range.in_shade())));
   return out;
 }
 
-// What the scene does not say, as one could write it.
+// Values that the scene leaves open, as one could write them.
 Json derived_json(const std::vector<DerivedValue>& derived) {
   Json out = Json::object();
   for (const DerivedValue& value : derived) out.add(value.key, Json::raw(value.value));
@@ -101,8 +111,9 @@ Json derived_json(const std::vector<DerivedValue>& derived) {
 }
 
 std::string derived_text(const std::vector<DerivedValue>& derived) {
-  std::string out = derived.empty() ? "" : "not said in the scene, so it follows from the region:\n";
-  for (const DerivedValue& value : derived) out += fmt::format("  {:<42}# {}\n", value.key + " = " + value.value, value.why);
+  std::string out = derived.empty() ? "" : "not set in the scene, derived from the region:\n";
+  for (const DerivedValue& value : derived)
+    out += fmt::format("  {:<42}# {}\n", value.key + " = " + value.value, value.why);
   return out;
 }
 
@@ -130,10 +141,12 @@ std::string as_json(const LoadedScene& scene, const SceneReport& report) {
              .add("valid", Json::boolean(true))
              .add("inputs", std::move(inputs))
              .add("crs", Json::text(report.crs))
-             .add("cells", Json::array({Json::number(report.cells_wide), Json::number(report.cells_high)}))
+             .add("cells",
+                  Json::array({Json::number(report.cells_wide), Json::number(report.cells_high)}))
              .add("cell_m", Json::number(report.cell_m))
              .add("larger_than_memory", Json::text(report.larger_than_memory))
-             .add("eye", Json::array({Json::number(camera.eye.x), Json::number(camera.eye.y), Json::number(camera.eye.z)}))
+             .add("eye", Json::array({Json::number(camera.eye.x), Json::number(camera.eye.y),
+                                      Json::number(camera.eye.z)}))
              .add("azimuth_deg", Json::number(camera.azimuth_deg))
              .add("pitch_deg", Json::number(camera.pitch_deg))
              .add("sun_azimuth_deg", Json::number(report.view.sun.azimuth_deg))
@@ -142,7 +155,7 @@ std::string as_json(const LoadedScene& scene, const SceneReport& report) {
              .add("classes", std::move(classes))
              .add("land_cover", std::move(areas))
              .add("exemplars", Json::texts(report.exemplars))
-             .add("composition", composition_json(report.judgement))
+             .add("composition", composition_json(report.evaluation))
              .add("ranges", ranges_json(report))
              .str() +
          "\n";
@@ -154,21 +167,31 @@ std::string as_text(const LoadedScene& scene, const SceneReport& report) {
     out += fmt::format("{} {}{}\n", input.path.empty() ? "left out:" : "found:", input.file,
                        input.origin.empty() ? "" : " (" + input.origin + ")");
   const CameraParameters& camera = report.view.camera;
-  out += fmt::format("terrain: {} × {} cells of {:.4g} m, {}\n", report.cells_wide, report.cells_high, report.cell_m, report.crs);
+  out +=
+      fmt::format("terrain: {} × {} cells of {:.4g} m, {}\n", report.cells_wide, report.cells_high,
+                  report.cell_m, report.crs == "none" ? "no CRS" : report.crs);
   if (!report.larger_than_memory.empty())
-    out += fmt::format("terrain: looked at here in those cells alone; in the picture {}\n", report.larger_than_memory);
-  out += fmt::format("camera: E {:.0f} N {:.0f}, {:.0f} m; looks to {:.1f}°, pitch {:.1f}°\n", camera.eye.x, camera.eye.y, camera.eye.z,
-                     camera.azimuth_deg, camera.pitch_deg);
-  out += fmt::format("sun: azimuth {:.1f}°, {:.1f}° high\n", report.view.sun.azimuth_deg, report.view.sun.altitude_deg);
+    out += fmt::format("terrain: checked here at that cell size only; in the picture {}\n",
+                       report.larger_than_memory);
+  out +=
+      fmt::format("camera: E {:.0f} N {:.0f}, {:.0f} m; azimuth {:.1f}°, pitch {:.1f}°\n",
+                  camera.eye.x, camera.eye.y, camera.eye.z, camera.azimuth_deg, camera.pitch_deg);
+  out += fmt::format("sun: azimuth {:.1f}°, {:.1f}° high\n", report.view.sun.azimuth_deg,
+                     report.view.sun.altitude_deg);
   out += derived_text(report.view.derived);
   for (const ClassArea& area : report.land_cover)
-    out += fmt::format("land cover: {} {:.2f} km² in {} patches, {:.2f} km² in {} before small ones were taken out\n", class_name(area.id),
-                       area.after_m2 / 1e6, area.patches_after, area.before_m2 / 1e6, area.patches_before);
+    out += fmt::format(
+        "land cover: {} {:.2f} km² in {} patches, {:.2f} km² in {} before small ones were "
+        "removed\n",
+        class_name(area.id), area.after_m2 / 1e6, area.patches_after, area.before_m2 / 1e6,
+        area.patches_before);
   out += "in the picture:";
-  for (const auto& [id, share] : report.classes) out += fmt::format(" {} {:.1f} %,", class_name(id), 100.0 * share);
+  for (const auto& [id, share] : report.classes)
+    out += fmt::format(" {} {:.1f} %,", class_name(id), 100.0 * share);
   out.back() = '\n';
-  for (const std::string& exemplar : report.exemplars) out += "painted after: " + exemplar + "\n";
-  return out + composition_text(report.judgement) + light_text(report) + scene.name + " is in order\n";
+  for (const std::string& exemplar : report.exemplars) out += "copied from: " + exemplar + "\n";
+  return out + composition_text(report.evaluation) + light_text(report) + scene.name +
+         " is valid\n";
 }
 
 }  // namespace
@@ -178,16 +201,23 @@ Action add_check(CommandOptions& command) {
   add_scene_options(command, *options);
   add_locked_option(command, *options);
   const auto propose = std::make_shared<bool>(false);
-  command.add_flag("--propose-light", *propose,
-                   "Print [[light.regions]] that turn the light to ranges which stand in shade, to be put at the end of the scene");
+  command.add_flag(
+      "--propose-light", *propose,
+      "Print [[light.regions]] that light the ranges in shade, to be appended to the scene");
   command.footer(
-      "Looks at the scene's keys, its files, the terrain, the camera's place, and whether the exemplars\n"
-      "show every class that is in the picture. Nothing is painted. Exit status 0: in order.\n\n"
-      "It also judges the composition by the measures that belvedere new chooses views by, with a word on what is\n"
-      "outside of the good range; a picture may have its reasons, so that is no error. And it says how the light falls on\n"
-      "the main ranges, and which of them stand in shade.\n\n"
+      "Checks the scene's keys, its files, the terrain, the position of the camera, and whether "
+      "the exemplars show\n"
+      "every class that is in the picture. Nothing is painted. Exit status 0: valid.\n"
+      "\n"
+      "It also evaluates the composition by the measures that belvedere new uses to choose views, "
+      "and names those outside\n"
+      "their good range; a picture may have its reasons, so that is not an error. It also reports "
+      "the light on the main\n"
+      "ranges, and which of them are in shade.\n"
+      "\n"
       "  belvedere check scenes/karwendel.toml --data ../data\n"
-      "  belvedere check scenes/karwendel.toml --data ../data --propose-light >> scenes/karwendel.toml");
+      "  belvedere check scenes/karwendel.toml --data ../data --propose-light >> "
+      "scenes/karwendel.toml");
   return [options, propose] {
     const LoadedScene scene = load(*options);
     const RunLimits limits(make_run(*options));

@@ -11,9 +11,10 @@ namespace belvedere::tools {
 
 Action add_completion(CommandOptions& command) {
   const auto shell = std::make_shared<std::string>();
-  command.add_option("SHELL", *shell, "The shell it is for").required().one_of(completed_shells());
+  command.add_option("SHELL", *shell, "The shell").required().one_of(completed_shells());
   command.footer(
-      "An installed program brings all of them along. Of one that is not installed:\n\n"
+      "An installed program includes all of them. Without installation:\n"
+      "\n"
       "  belvedere completion bash > ~/.local/share/bash-completion/completions/belvedere\n"
       "  belvedere completion fish > ~/.config/fish/completions/belvedere.fish\n"
       "  belvedere completion zsh > ~/.zfunc/_belvedere      where ~/.zfunc is part of $fpath");

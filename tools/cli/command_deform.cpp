@@ -30,25 +30,29 @@
 namespace belvedere::tools {
 namespace {
 
-// What is printed: lines for people and members for machines, side by side.
+// What is printed: lines of text and the same as JSON members, side by side.
 struct Report {
   std::string text;
-  std::string table;  // CSV, of files of places
+  std::string table;  // CSV, for files of points
   Json json = Json::object();
 };
 
 std::string percent(double share) { return fmt::format("{:.1f} %", 100.0 * share); }
 
-void report_folds(const Grid<float>& altitude_m, const GeoTransform& transform, const Deformation& deformation, Report& report) {
+void report_folds(const Grid<float>& altitude_m, const GeoTransform& transform,
+                  const Deformation& deformation, Report& report) {
   const std::vector<DeformHandle>& handles = deformation.parameters().handles;
   Json folds = Json::array();
-  for (const FoldSummary& fold : summarize_folds(find_folds(altitude_m, transform, deformation), handles)) {
-    report.text += fmt::format("fold: deform.handles.{} folds the ground over itself around E {:.0f} N {:.0f}, {} facets\n", fold.handle,
-                               fold.middle.x, fold.middle.y, fold.facets);
+  for (const FoldSummary& fold :
+       summarize_folds(find_folds(altitude_m, transform, deformation), handles)) {
+    report.text += fmt::format(
+        "fold: deform.handles.{} folds the ground over itself around E {:.0f} N {:.0f}, {} "
+        "facets\n",
+        fold.handle, fold.centre.x, fold.centre.y, fold.facets);
     folds.add(Json::object()
                   .add("handle", Json::number(static_cast<double>(fold.handle)))
                   .add("facets", Json::number(static_cast<double>(fold.facets)))
-                  .add("place", pair_json(fold.middle)));
+                  .add("place", pair_json(fold.centre)));
   }
   if (report.text.empty() && !handles.empty()) report.text += "no folds\n";
   report.json.add("folds", std::move(folds));
@@ -62,8 +66,9 @@ Json distortion_json(const BendDistortion& d) {
 }
 
 std::string describe(const BendDistortion& d) {
-  return fmt::format("ground tilted by up to {:.1f}°, {:.1f}° in the mean, changing by up to {:.1f}° in 10 km", d.largest_deg, d.mean_deg,
-                     d.bending_deg_per_10km);
+  return fmt::format(
+      "ground tilted by up to {:.1f}°, {:.1f}° on average, changing by up to {:.1f}° in 10 km",
+      d.largest_deg, d.mean_deg, d.bending_deg_per_10km);
 }
 
 void report_valleys(const BareView& bare, const ValleySight& sight, Report& report) {
@@ -71,8 +76,9 @@ void report_valleys(const BareView& bare, const ValleySight& sight, Report& repo
   const double share = sight.visible_share(own);
   const double unbent = sight.visible_share(BendProfile({}));
   const BendDistortion distortion = measure_distortion(own, sight.nearest_m(), sight.farthest_m());
-  report.text += fmt::format("valley floor in the view: {:.1f} km², of which {} is seen ({} without a bend)\n", sight.floor_km2(),
-                             percent(share), percent(unbent));
+  report.text += fmt::format(
+      "valley floor in the view: {:.1f} km², of which {} is visible ({} without a bend)\n",
+      sight.floor_km2(), percent(share), percent(unbent));
   report.text += fmt::format("bend: {}\n", describe(distortion));
   report.json.add("valley_floor_km2", Json::number(sight.floor_km2()))
       .add("visible_share", Json::number(share))
@@ -80,7 +86,8 @@ void report_valleys(const BareView& bare, const ValleySight& sight, Report& repo
       .add("distortion", distortion_json(distortion));
 }
 
-void report_places(const BareView& bare, const DeformOptions& options, Report& report, Progress& progress) {
+void report_places(const BareView& bare, const DeformOptions& options, Report& report,
+                   Progress& progress) {
   const GeoMap map = bare.geo_map();
   Json located = Json::array();
   const LocateQuestions questions = sort_questions(options.locate);
@@ -89,18 +96,22 @@ void report_places(const BareView& bare, const DeformOptions& options, Report& r
     report.table = std::move(table.csv);
     report.json.add("points", std::move(table.json));
   }
-  for (const std::string& text : questions.places) {
-    const glm::dvec2 place = parse_pair(text, "--locate");
-    const auto at = map.to_image(place);
-    Json entry = Json::object().add("place", pair_json(place));
+  for (const std::string& text : questions.positions) {
+    const glm::dvec2 position = parse_pair(text, "--locate");
+    const auto at = map.to_image(position);
+    Json entry = Json::object().add("place", pair_json(position));
     if (!at) {
       report.text +=
-          fmt::format("E {:.1f} N {:.1f}: {}\n", place.x, place.y, map.on_surface(place) ? "behind the eye" : "outside the terrain");
+          fmt::format("E {:.1f} N {:.1f}: {}\n", position.x, position.y,
+                      map.on_surface(position) ? "behind the eye" : "outside the terrain");
       entry.add("visible", Json::boolean(false));
     } else {
-      const char* seen = at->visible ? "seen" : at->in_picture ? "hidden behind ground" : "outside the picture";
-      report.text += fmt::format("E {:.1f} N {:.1f}: pixel {:.2f},{:.2f}, {:.0f} m away, {}\n", place.x, place.y, at->pixel.x, at->pixel.y,
-                                 at->distance_m, seen);
+      const char* seen = at->visible      ? "seen"
+                         : at->in_picture ? "hidden behind ground"
+                                          : "outside the picture";
+      report.text +=
+          fmt::format("E {:.1f} N {:.1f}: pixel {:.2f},{:.2f}, {:.0f} m away, {}\n", position.x,
+                      position.y, at->pixel.x, at->pixel.y, at->distance_m, seen);
       entry.add("pixel", pair_json(at->pixel))
           .add("distance_m", Json::number(at->distance_m))
           .add("in_picture", Json::boolean(at->in_picture))
@@ -111,41 +122,49 @@ void report_places(const BareView& bare, const DeformOptions& options, Report& r
   Json shown = Json::array();
   for (const std::string& text : options.at) {
     const glm::dvec2 pixel = parse_pair(text, "--at");
-    const auto place = map.to_geo(pixel);
+    const auto position = map.to_geo(pixel);
     Json entry = Json::object().add("pixel", pair_json(pixel));
-    if (!place) {
+    if (!position) {
       report.text += fmt::format("pixel {:.2f},{:.2f}: sky\n", pixel.x, pixel.y);
     } else {
-      report.text += fmt::format("pixel {:.2f},{:.2f}: E {:.1f} N {:.1f}, {:.1f} m above the datum, {:.0f} m away\n", pixel.x, pixel.y,
-                                 place->place.x, place->place.y, place->altitude_m, place->distance_m);
-      entry.add("place", pair_json(place->place))
-          .add("altitude_m", Json::number(place->altitude_m))
-          .add("distance_m", Json::number(place->distance_m));
+      report.text += fmt::format(
+          "pixel {:.2f},{:.2f}: E {:.1f} N {:.1f}, {:.1f} m above the datum, {:.0f} m away\n",
+          pixel.x, pixel.y, position->position.x, position->position.y, position->altitude_m,
+          position->distance_m);
+      entry.add("place", pair_json(position->position))
+          .add("altitude_m", Json::number(position->altitude_m))
+          .add("distance_m", Json::number(position->distance_m));
     }
     shown.add(std::move(entry));
   }
-  if (!questions.places.empty()) report.json.add("located", std::move(located));
+  if (!questions.positions.empty()) report.json.add("located", std::move(located));
   if (!options.at.empty()) report.json.add("shown", std::move(shown));
 }
 
 Grid<glm::vec3> sketch(const BareView& bare, const Grid<std::uint8_t>& floor) {
-  return make_relief_sketch(bare.generalized_m, bare.dem.transform, floor, bare.deformation, *bare.tracer, *bare.camera,
-                            bare.view.sun_direction);
+  return make_relief_sketch(bare.generalized_m, bare.dem.transform, floor, bare.deformation,
+                            *bare.tracer, *bare.camera, bare.view.sun_direction);
 }
 
-// Found keys on stdout, the comparison as a picture.
-void search(BareView& bare, const ValleySight& sight, const DeformOptions& options, Report& report, Progress& progress) {
-  const BendFound found = search_bend(
-      sight,
-      {.max_inclination_deg = options.max_distortion_deg, .max_bending_deg_per_10km = options.max_bending_deg, .points = options.points},
-      progress);
-  report.text += fmt::format("\n# Shows {} of the valley floor; {}. Of {} curves tried.\n", percent(found.visible_share),
-                             describe(found.distortion), found.tried);
+// The keys go to stdout, the comparison to a picture.
+void search(BareView& bare, const ValleySight& sight, const DeformOptions& options, Report& report,
+            Progress& progress) {
+  const BendFound found = search_bend(sight,
+                                      {.max_inclination_deg = options.max_distortion_deg,
+                                       .max_bending_deg_per_10km = options.max_bending_deg,
+                                       .points = options.points},
+                                      progress);
+  report.text += fmt::format(
+      "\n"
+      "# Shows {} of the valley floor; {}. {} curves tried.\n",
+      percent(found.visible_share), describe(found.distortion), found.tried);
   Json points = Json::array();
   for (const BendPoint& point : found.curve.points) {
-    report.text += fmt::format("[[deform.bend.points]]\ndistance_m = {}\ninclination_deg = {}\n", point.distance_m, *point.inclination_deg);
-    points.add(
-        Json::object().add("distance_m", Json::number(point.distance_m)).add("inclination_deg", Json::number(*point.inclination_deg)));
+    report.text += fmt::format("[[deform.bend.points]]\ndistance_m = {}\ninclination_deg = {}\n",
+                               point.distance_m, *point.inclination_deg);
+    points.add(Json::object()
+                   .add("distance_m", Json::number(point.distance_m))
+                   .add("inclination_deg", Json::number(*point.inclination_deg)));
   }
   report.json.add("found", Json::object()
                                .add("visible_share", Json::number(found.visible_share))
@@ -156,38 +175,42 @@ void search(BareView& bare, const ValleySight& sight, const DeformOptions& optio
   progress.begin("drawing the comparison", 0.0);
   const Grid<std::uint8_t> floor = find_valley_floor(known_altitude(bare.dem), bare.dem.cell_m());
   const Grid<glm::vec3> before = sketch(bare, floor);
-  bend_anew(bare, found.curve);
+  bend_again(bare, found.curve);
   const Grid<glm::vec3> after = sketch(bare, floor);
   constexpr int gap_px = 6;
   Grid<glm::vec3> both(before.width(), 2 * before.height() + gap_px, glm::vec3(1.F));
   std::copy(before.begin(), before.end(), both.begin());
-  std::copy(after.begin(), after.end(), both.begin() + static_cast<std::ptrdiff_t>(both.index(0, before.height() + gap_px)));
+  std::copy(after.begin(), after.end(),
+            both.begin() + static_cast<std::ptrdiff_t>(both.index(0, before.height() + gap_px)));
   write_png8(options.out, both, {});
 }
 
-// Output of the picture's size would be wasted on a comparison.
+// The comparison does not need the picture's resolution.
 void shrink(LoadedScene& scene) {
   constexpr int width_px = 1000;
   SceneOutput& output = scene.scene.output;
   if (output.width <= width_px) return;
-  output.height = std::max(16, static_cast<int>(std::lround(static_cast<double>(output.height) * width_px / output.width)));
+  output.height = std::max(16, static_cast<int>(std::lround(static_cast<double>(output.height) *
+                                                            width_px / output.width)));
   output.width = width_px;
 }
 
-void examine(const LoadedScene& loaded, const DeformOptions& options, Report& report, Progress& progress, const Cache& cache) {
+void examine(const LoadedScene& loaded, const DeformOptions& options, Report& report,
+             Progress& progress, const Cache& cache) {
   LoadedScene scene = loaded;
-  const bool places = !options.locate.empty() || !options.at.empty();
-  if (options.search_bend && !places) shrink(scene);
+  const bool positions = !options.locate.empty() || !options.at.empty();
+  if (options.search_bend && !positions) shrink(scene);
   BareView bare = make_bare_view(scene, progress, cache);
   report_folds(bare.generalized_m, bare.dem.transform, bare.deformation, report);
-  if (places) report_places(bare, options, report, progress);
-  if (places && !options.search_bend) return;
+  if (positions) report_places(bare, options, report, progress);
+  if (positions && !options.search_bend) return;
   const ValleySight sight = make_valley_sight(bare);
   report_valleys(bare, sight, report);
   if (options.search_bend) search(bare, sight, options, report, progress);
 }
 
-void write_dem(const LoadedScene& loaded, const DeformOptions& options, Report& report, Progress& progress, const Cache& cache) {
+void write_dem(const LoadedScene& loaded, const DeformOptions& options, Report& report,
+               Progress& progress, const Cache& cache) {
   const SceneDem opened = make_scene_dem_and_region(loaded, progress, cache);
   const Dem& dem = opened.dem;
   Grid<float> ground = known_altitude(dem);
@@ -197,17 +220,23 @@ void write_dem(const LoadedScene& loaded, const DeformOptions& options, Report& 
     const View view = make_view(loaded.scene, dem, progress, {}, &opened.region);
     viewer = view.viewer_xy;
     asked = view.deform;
-    const Grid<float> shown = generalize_for_view(loaded, dem, nullptr, view, progress, cache).altitude_m;
+    const Grid<float> shown =
+        generalize_for_view(loaded, dem, nullptr, view, progress, cache).altitude_m;
     for (std::size_t i = 0; i < ground.size(); ++i)
       if (!std::isnan(ground[i])) ground[i] = shown[i];
   }
-  if (!viewer) throw Error(ErrorKind::usage, "camera.position_lonlat", "a viewer in longitude and latitude", "--viewer E,N");
+  if (!viewer)
+    throw Error(ErrorKind::usage, "camera.position_lonlat",
+                "the viewer is given in longitude and latitude", "--viewer E,N");
   const Deformation deformation(asked, *viewer);
   report_folds(ground, dem.transform, deformation, report);
-  // What was no data is none afterwards, wherever it went.
-  const auto voids = std::count_if(ground.begin(), ground.end(), [](float z) { return std::isnan(z); });
+  // Voids stay voids, wherever the deformation moves them.
+  const auto voids =
+      std::count_if(ground.begin(), ground.end(), [](float z) { return std::isnan(z); });
   progress.begin("deforming", 0.0);
-  Raster<float> out{raster_of_moved(ground, dem.transform, [&](glm::dvec3 p) { return deformation.point(p); }), dem.transform, dem.crs};
+  Raster<float> out{
+      raster_of_moved(ground, dem.transform, [&](glm::dvec3 p) { return deformation.point(p); }),
+      dem.transform, dem.crs};
   float lowest = std::numeric_limits<float>::infinity();
   float highest = -lowest;
   std::size_t empty = 0;
@@ -221,9 +250,11 @@ void write_dem(const LoadedScene& loaded, const DeformOptions& options, Report& 
   }
   progress.begin("writing the DEM", 0.0);
   write_raster(options.dem_out, out);
-  report.text += fmt::format("{}: {} × {} cells of {:.4g} m, {}, heights {:.1f} … {:.1f} m, {} cells without data ({} before)\n",
-                             options.dem_out, dem.width(), dem.height(), dem.cell_m(), dem.crs.empty() ? "no CRS" : describe_crs(dem.crs),
-                             lowest, highest, empty, voids);
+  report.text += fmt::format(
+      "{}: {} × {} cells of {:.4g} m, {}, heights {:.1f} … {:.1f} m, {} cells without data ({} "
+      "before)\n",
+      options.dem_out, dem.width(), dem.height(), dem.cell_m(),
+      dem.crs.empty() ? "no CRS" : describe_crs(dem.crs), lowest, highest, empty, voids);
   report.json.add("file", Json::text(options.dem_out))
       .add("lowest_m", Json::number(static_cast<double>(lowest)))
       .add("highest_m", Json::number(static_cast<double>(highest)))
@@ -234,12 +265,15 @@ int run(const DeformOptions& options) {
   const bool asks_view = options.search_bend || !options.locate.empty() || !options.at.empty();
   if (!is_scene(options) && (options.dem_out.empty() || asks_view))
     throw Error(ErrorKind::usage, "command line",
-                options.dem_out.empty() ? "a DEM and nothing to write" : "a question about a picture, and a DEM instead of a scene",
+                options.dem_out.empty()
+                    ? "a DEM is given, but nothing to write"
+                    : "a question about a picture, but the input is a DEM, not a scene",
                 "belvedere deform DEM OUT.tif, or a scene file (.toml)");
   const bool has_table = !sort_questions(options.locate).files.empty();
   if (!options.out.empty() && options.search_bend == has_table)
     throw Error(ErrorKind::usage, "--out",
-                has_table ? "a table and a picture for one file" : "neither --search-bend nor --locate FILE beside it",
+                has_table ? "one output file for both a table and a picture"
+                          : "--out without --search-bend or --locate FILE",
                 "--search-bend --out FILE.png, or --locate FILE --out TABLE.csv");
   if (!options.out.empty()) check_place(options.out);
   const LoadedScene scene = load(options);
@@ -255,11 +289,15 @@ int run(const DeformOptions& options) {
     report.text += options.out + "\n";
     report.table.clear();
   }
-  // A table that is printed is all that is: what else is known is a note.
+  // When a table is printed, stdout holds nothing else; further results are notes.
   if (!report.table.empty() && !options.scene.json)
-    for (std::istringstream lines(std::exchange(report.text, {})); std::getline(lines, report.text);) progress.note(report.text);
+    for (std::istringstream lines(std::exchange(report.text, {}));
+         std::getline(lines, report.text);)
+      progress.note(report.text);
   progress.end();
-  print_out(options.scene.json ? report.json.str() + "\n" : report.table.empty() ? report.text : report.table);
+  print_out(options.scene.json     ? report.json.str() + "\n"
+            : report.table.empty() ? report.text
+                                   : report.table);
   return 0;
 }
 
@@ -269,14 +307,20 @@ Action add_deform(CommandOptions& command) {
   const auto options = std::make_shared<DeformOptions>();
   add_deform_options(command, *options);
   command.footer(
-      "Of a scene it says how much valley floor is seen, how strong the bend is, and where handles fold the ground.\n"
-      "A deformed DEM keeps frame, CRS and voids; where ground lies over ground it has the higher one. A scene's is\n"
-      "generalized as in the picture.\n\n"
+      "For a scene it reports how much valley floor is visible, how strong the bend is, and where "
+      "handles fold the ground.\n"
+      "A deformed DEM keeps extent, CRS and voids; where ground overlaps, it holds the higher one. "
+      "The terrain of a scene is\n"
+      "generalized as in the picture.\n"
+      "\n"
       "  belvedere deform scenes/karwendel.toml --data ../data --search-bend --out bend.png\n"
-      "  belvedere deform scenes/karwendel.toml --data ../data --locate 681500,5237300 --at 1200,700\n"
+      "  belvedere deform scenes/karwendel.toml --data ../data --locate 681500,5237300 --at "
+      "1200,700\n"
       "  belvedere deform scenes/karwendel.toml --data ../data --locate huts.gpkg --out huts.csv\n"
-      "  belvedere deform dem.tif bent.tif --viewer 692000,5302000 --exaggeration 1.6 --bend 30000:20,60000:8,90000:0\n"
-      "  belvedere deform dem.tif turned.tif --handle \"674000,5253500 radius=12000 core=4000 rotate=50\"");
+      "  belvedere deform dem.tif bent.tif --viewer 692000,5302000 --exaggeration 1.6 --bend "
+      "30000:20,60000:8,90000:0\n"
+      "  belvedere deform dem.tif turned.tif --handle \"674000,5253500 radius=12000 core=4000 "
+      "rotate=50\"");
   return [options] { return run(*options); };
 }
 

@@ -17,15 +17,17 @@ struct DiffOptions {
   std::string a;
   std::string b;
   std::optional<double> max_mean;
-  std::optional<double> max_max;
+  std::optional<double> max_difference;
   bool json = false;
 };
 
-// Without any limit the pictures must be equal; with one, the other does not hold.
+// Without a threshold the pictures must be equal; with only one threshold, the other is not
+// checked.
 DifferenceLimits limits_of(const DiffOptions& options) {
-  if (!options.max_mean && !options.max_max) return {};
+  if (!options.max_mean && !options.max_difference) return {};
   constexpr double unlimited = std::numeric_limits<double>::infinity();
-  return {.mean = options.max_mean.value_or(unlimited), .max = options.max_max.value_or(unlimited)};
+  return {.mean = options.max_mean.value_or(unlimited),
+          .max = options.max_difference.value_or(unlimited)};
 }
 
 std::string as_json(const PictureDifference& difference, bool same) {
@@ -52,9 +54,11 @@ std::string as_text(const PictureDifference& difference, bool same) {
   std::string out;
   for (const std::string& mismatch : difference.mismatches) out += mismatch + "\n";
   if (!difference.channels.empty())
-    out += fmt::format("{:<14} {:>11} {:>11} {:>11} {:>14}\n", "channel", "mean", "max", "rms", "pixels differ");
+    out += fmt::format("{:<14} {:>11} {:>11} {:>11} {:>14}\n", "channel", "mean", "max", "rms",
+                       "pixels differ");
   for (const ChannelDifference& c : difference.channels)
-    out += fmt::format("{:<14} {:>11.4g} {:>11.4g} {:>11.4g} {:>13.4f}%\n", c.name, c.mean, c.max, c.rms, 100.0 * c.differing_share);
+    out += fmt::format("{:<14} {:>11.4g} {:>11.4g} {:>11.4g} {:>13.4f}%\n", c.name, c.mean, c.max,
+                       c.rms, 100.0 * c.differing_share);
   return out + (same ? "same\n" : "different\n");
 }
 
@@ -63,18 +67,26 @@ std::string as_text(const PictureDifference& difference, bool same) {
 Action add_diff(CommandOptions& command) {
   const auto options = std::make_shared<DiffOptions>();
   command.add_option("A", options->a, "A picture: OpenEXR, TIFF, PNG or JPEG").required();
-  command.add_option("B", options->b, "Another of the same size").required();
-  command.add_option("--max-mean", options->max_mean, "Largest mean difference of any channel that still counts as the same")
+  command.add_option("B", options->b, "Another picture of the same size").required();
+  command
+      .add_option("--max-mean", options->max_mean,
+                  "Largest mean difference of any channel that still counts as equal")
       .type_name("X")
       .not_negative();
-  command.add_option("--max-max", options->max_max, "Largest difference of any single pixel that still counts as the same")
+  command
+      .add_option("--max-difference", options->max_difference,
+                  "Largest difference of any single pixel that still counts as equal")
       .type_name("X")
       .not_negative();
   command.add_flag("--json", options->json, "As JSON");
   command.footer(
-      "Exit status 0: the same within the thresholds (without any: equal in every pixel); 1: different.\n"
-      "Values are 0…1 in PNG, TIFF and JPEG, and as they stand in OpenEXR. Class numbers are equal or not:\n"
-      "for them --max-mean is the share of pixels that may differ, and --max-max does not hold.\n\n"
+      "Exit status 0: equal within the thresholds (without any: equal in every pixel); 1: "
+      "different.\n"
+      "Values are 0…1 in PNG, TIFF and JPEG, and unscaled in OpenEXR. Class numbers are equal or "
+      "not:\n"
+      "for them --max-mean is the share of pixels that may differ, and --max-difference does not "
+      "apply.\n"
+      "\n"
       "  belvedere diff before/panorama.png after/panorama.png --max-mean 0.002");
   return [options] {
     const PictureDifference difference = compare_pictures(options->a, options->b);

@@ -33,26 +33,29 @@ struct ExemplarCheckOptions {
   std::string report;
 };
 
-// What is looked at, wherever it comes from.
+// The data to check, from a scene or from files.
 struct Subject {
   std::vector<Exemplar> exemplars;
   std::vector<ExemplarFindings::Model> models;
-  GuideStack target;            // no labels: not known
-  double pixels_of_target = 1;  // that each pixel of `target` stands for
-  int altitude_reach = 4;       // steps within which a texel has a pixel's altitude
+  GuideStack target;            // without labels: not known
+  double pixels_of_target = 1;  // that each pixel of `target` represents
+  int altitude_reach = 4;       // levels within which a texel has a pixel's altitude
   std::map<std::uint8_t, std::uint8_t> fallback;
 };
 
 void check_scene_or_files(const ExemplarCheckOptions& options) {
   const bool of_files = !options.pictures.empty();
-  const bool more = !options.labels.empty() || !options.guides.empty() || !options.target.empty() || !options.target_guides.empty();
-  if (!of_files && more) throw Error(ErrorKind::usage, "command line", "there is no --picture", "at least one, or a scene");
-  for (const char* ending : {".png", ".tif", ".tiff", ".jpg", ".jpeg", ".exr"})
-    if (lower_ending(options.scene.scene) == ending)
-      throw Error(ErrorKind::usage, options.scene.scene, "is a picture, and no scene",
+  const bool more = !options.labels.empty() || !options.guides.empty() || !options.target.empty() ||
+                    !options.target_guides.empty();
+  if (!of_files && more)
+    throw Error(ErrorKind::usage, "command line", "--picture is missing",
+                "at least one, or a scene");
+  for (const char* extension : {".png", ".tif", ".tiff", ".jpg", ".jpeg", ".exr"})
+    if (lower_extension(options.scene.scene) == extension)
+      throw Error(ErrorKind::usage, options.scene.scene, "is a picture, not a scene",
                   "a scene file, or --picture " + options.scene.scene + " with --label");
   if (of_files && !options.scene.scene.empty())
-    throw Error(ErrorKind::usage, "command line", "there is a scene, and there are files of a painting besides",
+    throw Error(ErrorKind::usage, "command line", "both a scene and files of a painting are given",
                 "either a scene, or --picture with --label");
 }
 
@@ -68,17 +71,23 @@ Subject from_files(const ExemplarCheckOptions& options) {
   }
   for (const auto& [name, file] : options.target_guides) {
     if (options.target.empty())
-      throw Error(ErrorKind::usage, "command line", fmt::format("there is --target-guide {} and no --target", name), "--target LABELS");
+      throw Error(ErrorKind::usage, "command line",
+                  fmt::format("--target-guide {} is given without --target", name),
+                  "--target LABELS");
     if (std::none_of(files.guides.begin(), files.guides.end(),
-                     [&, target_guide = name](const GuidePair& guide) { return guide.name == target_guide; }))
-      throw Error(ErrorKind::usage, "command line", fmt::format("there is --target-guide {} and no --guide {}", name, name),
+                     [&, target_guide = name](const GuidePair& guide) {
+                       return guide.name == target_guide;
+                     }))
+      throw Error(ErrorKind::usage, "command line",
+                  fmt::format("--target-guide {} is given without --guide {}", name, name),
                   "the same guide of the painting");
   }
   SynthesisInputs inputs = read_synthesis(files);
   Subject subject;
   subject.exemplars = std::move(inputs.exemplars);
   subject.target = std::move(inputs.target);
-  for (const auto& [from, to] : options.fallback) subject.fallback[to_label("--fallback", from)] = to_label("--fallback", to);
+  for (const auto& [from, to] : options.fallback)
+    subject.fallback[to_label("--fallback", from)] = to_label("--fallback", to);
   return subject;
 }
 
@@ -94,46 +103,59 @@ Subject from_scene(const ExemplarCheckOptions& options, Progress& progress) {
     ExemplarFindings::Model& told = subject.models.emplace_back();
     told.name = model.name;
     told.always = model.always;
-    for (const LandCoverClass id : model.serves) told.labels.push_back(static_cast<std::uint8_t>(id));
+    for (const LandCoverClass id : model.serves)
+      told.labels.push_back(static_cast<std::uint8_t>(id));
   }
   for (PaintedExemplar& painted : found.exemplars) {
     Exemplar exemplar = std::move(painted.exemplar);
-    exemplar.picture = to_rgb8(painted.picture);  // the painting itself, not what seams are judged by
+    exemplar.picture = to_rgb8(
+        painted.picture);  // the painting itself, not the picture that seams are measured on
     subject.exemplars.push_back(std::move(exemplar));
   }
   return subject;
 }
 
-// What the target asks of the classes that pixels copy from.
+// The target's need of the classes that pixels copy from.
 void ask(const Subject& subject, GuideStack& asked, ExemplarFindings& findings) {
   findings.target_known = !subject.target.label.empty();
   if (!findings.target_known) return;
   asked.label = serving_labels(subject.exemplars, subject.target.label, subject.fallback);
   bool altitude = asked.find("altitude") != nullptr;
-  for (const Exemplar& exemplar : subject.exemplars) altitude = altitude && exemplar.guides.find("altitude") != nullptr;
-  const auto scaled = [&](std::size_t pixels) { return static_cast<double>(pixels) * subject.pixels_of_target; };
-  for (ClassSupply supply : class_supply(subject.exemplars, subject.target.label, subject.fallback)) {
-    supply.pixels = static_cast<std::size_t>(std::llround(scaled(supply.pixels)));
+  for (const Exemplar& exemplar : subject.exemplars)
+    altitude = altitude && exemplar.guides.find("altitude") != nullptr;
+  const auto scaled = [&](std::size_t pixels) {
+    return static_cast<double>(pixels) * subject.pixels_of_target;
+  };
+  for (ClassTexels available :
+       class_texels(subject.exemplars, subject.target.label, subject.fallback)) {
+    available.pixels = static_cast<std::size_t>(std::llround(scaled(available.pixels)));
     findings.demands.push_back(
-        {supply, altitude ? covered_share(subject.exemplars, asked, supply.label, "altitude", subject.altitude_reach) : -1.0});
+        {available, altitude ? covered_share(subject.exemplars, asked, available.label, "altitude",
+                                             subject.altitude_reach)
+                             : -1.0});
   }
   std::array<std::size_t, 256> without{};
   for (std::size_t i = 0; i < asked.label.size(); ++i)
     if (asked.label[i] == unused_label) ++without[subject.target.label[i]];
   for (std::size_t label = 0; label < unused_label; ++label)
-    if (without[label] > 0) findings.missing.emplace_back(static_cast<std::uint8_t>(label), std::round(scaled(without[label])));
+    if (without[label] > 0)
+      findings.missing.emplace_back(static_cast<std::uint8_t>(label),
+                                    std::round(scaled(without[label])));
 }
 
-// As it would be typed, without folders.
+// As typed on the command line, without folders.
 std::string describe_command(const ExemplarCheckOptions& options) {
   std::string out = "belvedere exemplar check";
   if (!options.scene.scene.empty()) out += " " + file_name(options.scene.scene);
   for (const std::string& setting : options.scene.files.settings) out += " --set " + setting;
   for (std::size_t i = 0; i < options.pictures.size(); ++i)
-    out += fmt::format(" --picture {} --label {}", file_name(options.pictures[i]), file_name(options.labels[i]));
-  for (const auto& [guide, file] : options.guides) out += fmt::format(" --guide {} {}", guide, file_name(file));
+    out += fmt::format(" --picture {} --label {}", file_name(options.pictures[i]),
+                       file_name(options.labels[i]));
+  for (const auto& [guide, file] : options.guides)
+    out += fmt::format(" --guide {} {}", guide, file_name(file));
   if (!options.target.empty()) out += " --target " + file_name(options.target);
-  for (const auto& [guide, file] : options.target_guides) out += fmt::format(" --target-guide {} {}", guide, file_name(file));
+  for (const auto& [guide, file] : options.target_guides)
+    out += fmt::format(" --target-guide {} {}", guide, file_name(file));
   for (const auto& [from, to] : options.fallback) out += fmt::format(" --fallback {} {}", from, to);
   return out;
 }
@@ -151,7 +173,8 @@ int run(const ExemplarCheckOptions& options) {
   ExemplarFindings findings;
   findings.models = subject.models;
   for (const Exemplar& exemplar : subject.exemplars) {
-    findings.paintings.push_back({exemplar.name, exemplar.picture.width(), exemplar.picture.height(), survey_exemplar(exemplar)});
+    findings.paintings.push_back({exemplar.name, exemplar.picture.width(),
+                                  exemplar.picture.height(), survey_exemplar(exemplar)});
     progress.advance(1.0);
   }
   if (of_files) {
@@ -159,15 +182,20 @@ int run(const ExemplarCheckOptions& options) {
     findings.value = [](const std::string&, int value) { return fmt::format("{}", value); };
   } else {
     findings.name = [](std::uint8_t label) {
-      return label < land_cover_class_count ? std::string(class_name(static_cast<LandCoverClass>(label))) : fmt::format("class {}", label);
+      return label < land_cover_class_count
+                 ? std::string(class_name(static_cast<LandCoverClass>(label)))
+                 : fmt::format("class {}", label);
     };
     findings.value = [](const std::string& guide, int value) {
-      return guide == "altitude" ? fmt::format("{} m", 20 * value) : fmt::format("{}", value);  // steps of make_guide_stack
+      return guide == "altitude" ? fmt::format("{} m", 20 * value)
+                                 : fmt::format("{}", value);  // steps of make_guide_stack
     };
   }
   GuideStack asked = subject.target;
   ask(subject, asked, findings);
-  if (!options.report.empty()) write_exemplar_report(options.report, subject.exemplars, asked, findings, describe_command(options));
+  if (!options.report.empty())
+    write_exemplar_report(options.report, subject.exemplars, asked, findings,
+                          describe_command(options));
   progress.end();
   print_out(options.scene.json ? findings_json(findings).str() + "\n" : findings_text(findings));
   return 0;
@@ -178,28 +206,50 @@ int run(const ExemplarCheckOptions& options) {
 Action add_exemplar_check(CommandOptions& command) {
   const auto options = std::make_shared<ExemplarCheckOptions>();
   add_scene_options(command, options->scene);
-  command.add_option("--picture", options->pictures, "Instead of a scene: a painting (PNG, TIFF, JPEG); may be repeated")
+  command
+      .add_option("--picture", options->pictures,
+                  "Instead of a scene: a painting (PNG, TIFF, JPEG); may be repeated")
       .type_name("FILE")
       .repeated();
-  command.add_option("--label", options->labels, "Its label image: grey, one number a class, 255 is never used; one for each --picture")
+  command
+      .add_option(
+          "--label", options->labels,
+          "Its label image: grey, one number per class, 255 is never used; one for each --picture")
       .type_name("FILE")
       .repeated();
-  command.add_option("--guide", options->guides, "A guide of it: name (altitude is judged) and grey image; may be repeated")
+  command
+      .add_option("--guide", options->guides,
+                  "A guide of it: name (altitude is evaluated) and grey image; may be repeated")
       .type_name("NAME FILE")
       .repeated();
-  command.add_option("--target", options->target, "Label image of the picture to be made: is there enough for it?").type_name("FILE");
-  command.add_option("--target-guide", options->target_guides, "A guide of the picture to be made").type_name("NAME FILE").repeated();
-  command.add_option("--fallback", options->fallback, "Copies the second label's texture where the first has none")
+  command
+      .add_option(
+          "--target", options->target,
+          "Label image of the picture to be made: checks whether there is enough texture for it")
+      .type_name("FILE");
+  command.add_option("--target-guide", options->target_guides, "A guide of the picture to be made")
+      .type_name("NAME FILE")
+      .repeated();
+  command
+      .add_option("--fallback", options->fallback,
+                  "Copies the second label's texture where the first has none")
       .type_name("LABEL LABEL")
       .repeated();
-  command.add_option("--report", options->report, "Also a folder with index.html: the paintings, a swatch of each class, coverage charts")
+  command
+      .add_option("--report", options->report,
+                  "Also writes a folder with index.html: the paintings, a swatch of each class, "
+                  "coverage charts")
       .type_name("DIR");
   command.footer(
-      "Of each class: how many texels it has and how many of them lie well inside, how many pixels they serve\n"
-      "before strokes repeat, how sharp its paint is and how long its strokes are, at which altitudes it was\n"
-      "painted, and whether left and right were painted alike (0 … 2; chance is what random halves differ by).\n\n"
+      "For each class: number of texels, and how many of them lie well inside; how many pixels "
+      "they serve before strokes\n"
+      "repeat; sharpness of its paint and length of its strokes; altitudes at which it was "
+      "painted; and whether left and\n"
+      "right were painted alike (0 … 2; chance is the difference of random halves).\n"
+      "\n"
       "  belvedere exemplar check scenes/karwendel.toml --data ../data\n"
-      "  belvedere exemplar check --picture style.png --label style_class.png --guide altitude style_alt.png \\\n"
+      "  belvedere exemplar check --picture style.png --label style_class.png --guide altitude "
+      "style_alt.png \\\n"
       "    --target target_class.png --target-guide altitude target_alt.png");
   return [options] { return run(*options); };
 }

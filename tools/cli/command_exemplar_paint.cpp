@@ -33,11 +33,11 @@ void refuse_example_sheet_options(const ExemplarPaintOptions& options) {
   if (options.dots_per_inch) given = "--dpi";
   if (!options.plan.empty()) given = "--plan";
   if (given != nullptr)
-    throw Error(ErrorKind::usage, given, "it belongs to an example sheet, and a scene is painted here",
+    throw Error(ErrorKind::usage, given, "is an option of example sheets, but a scene is given",
                 "--set output.width=…, output.height and output.sheet_width_mm");
 }
 
-TexelSupply paint_scene(const ExemplarPaintOptions& options, const Run& run) {
+AvailableTexels paint_scene(const ExemplarPaintOptions& options, const Run& run) {
   refuse_example_sheet_options(options);
   SceneOptions scene = options.scene;
   if (options.season) scene.files.settings.push_back("palette=" + *options.season);
@@ -45,10 +45,12 @@ TexelSupply paint_scene(const ExemplarPaintOptions& options, const Run& run) {
   return write_scene_exemplar(load(scene), options.out, run);
 }
 
-TexelSupply paint_example_sheet_of(const ExemplarPaintOptions& options, const Run& run) {
+AvailableTexels paint_example_sheet_of(const ExemplarPaintOptions& options, const Run& run) {
   if (!options.scene.files.settings.empty())
-    throw Error(ErrorKind::usage, "--set", "it changes a scene, and an example sheet has none", "--plan with a sheet.toml of your own");
-  ExampleSheetPlan plan = options.plan.empty() ? built_in_example_sheet_plan() : read_example_sheet_plan(options.plan);
+    throw Error(ErrorKind::usage, "--set", "changes a scene, but an example sheet has none",
+                "--plan with your own sheet.toml");
+  ExampleSheetPlan plan =
+      options.plan.empty() ? built_in_example_sheet_plan() : read_example_sheet_plan(options.plan);
   if (options.season) plan.palette = *options.season;
   if (options.size) plan.width = plan.height = *options.size;
   if (options.dots_per_inch) plan.dots_per_inch = *options.dots_per_inch;
@@ -62,17 +64,19 @@ int run(const ExemplarPaintOptions& options) {
   const Cache cache = make_cache(options.scene);
   const Run run = make_run(options.scene, options.tile_size, progress, cache);
   const RunLimits limits(run);
-  const TexelSupply supply = example_sheet ? paint_example_sheet_of(options, run) : paint_scene(options, run);
+  const AvailableTexels available =
+      example_sheet ? paint_example_sheet_of(options, run) : paint_scene(options, run);
   progress.end();
 
-  const std::vector<SupplyGap> gaps = find_gaps(supply, built_in_demand(), {});
+  const std::vector<TexelShortage> gaps = find_gaps(available, built_in_needed_texels(), {});
   if (options.scene.json) {
-    print_out(supply_json(supply, gaps));
+    print_out(available_json(available, gaps));
   } else if (!options.scene.quiet) {
-    // What one view lacks is no fault of it: only an example sheet is meant to have everything.
-    print_out(supply_text(supply, example_sheet ? gaps : std::vector<SupplyGap>{}, example_sheet));
-    for (const char* name :
-         {"painting.tif", "ground.tif", "painting.png", "guidance.exr", example_sheet ? "sheet.toml" : "scene.toml", "coverage.json"})
+    // A view may lack classes; only an example sheet should have everything.
+    print_out(available_text(available, example_sheet ? gaps : std::vector<TexelShortage>{},
+                             example_sheet));
+    for (const char* name : {"painting.tif", "ground.tif", "painting.png", "guidance.exr",
+                             example_sheet ? "sheet.toml" : "scene.toml", "coverage.json"})
       print_out((std::filesystem::path(options.out) / name).string() + "\n");
   }
   return 0;
@@ -82,30 +86,44 @@ int run(const ExemplarPaintOptions& options) {
 
 Action add_exemplar_paint(CommandOptions& command) {
   const auto options = std::make_shared<ExemplarPaintOptions>();
-  add_scene_options(command, options->scene, "A scene whose view is painted; without one an example sheet of made-up views");
-  command.add_option("--out", options->out, "Folder for the results; made where it is missing").type_name("DIR").required();
+  add_scene_options(command, options->scene,
+                    "A scene whose view is painted. Default: an example sheet of synthetic views");
+  command.add_option("--out", options->out, "Folder for the results; created if missing")
+      .type_name("DIR")
+      .required();
   command
       .add_option("--season", options->season,
-                  "Palette: summer, autumn, winter, desert, evening, morning or a .toml file; of an example sheet summer by default")
+                  "Palette: summer, autumn, winter, desert, evening, morning or a .toml file. "
+                  "Default of an example sheet: summer")
       .type_name("PALETTE");
-  command.add_option("--size", options->size, "Side of the example sheet in pixels; 4096 by default").type_name("PX").range(256, 16384);
+  command.add_option("--size", options->size, "Side of the example sheet in pixels. Default: 4096")
+      .type_name("PX")
+      .range(256, 16384);
   command
       .add_option("--dpi", options->dots_per_inch,
-                  "Resolution the example sheet's strokes are sized for: that of the panorama that shall copy them; 50.8 by default")
+                  "Resolution that the example sheet's strokes are sized for, that of the panorama "
+                  "that will copy them. Default: 50.8")
       .type_name("DPI")
       .range(5.0, 2540.0);
-  command.add_option("--seed", options->seed, "Another number gives other mountains and strokes")
+  command.add_option("--seed", options->seed, "Random seed of mountains and strokes")
       .type_name("N")
       .range(std::uint64_t{0}, ExampleSheetPlan::largest_seed);
-  command.add_option("--plan", options->plan, "A sheet.toml: paints that example sheet instead of the built-in one").type_name("FILE");
-  command.add_option("--tile", options->tile_size, "Side of the tiles that threads work on, in pixels. Changes no pixel")
+  command
+      .add_option("--plan", options->plan,
+                  "A sheet.toml: paints that example sheet instead of the built-in one")
+      .type_name("FILE");
+  command
+      .add_option("--tile", options->tile_size,
+                  "Side of the tiles that threads work on, in pixels. Changes no pixel")
       .type_name("N")
       .show_default()
       .range(8, 4096);
   command.footer(
-      "Writes painting.tif, ground.tif (without trees and houses), painting.png, guidance.exr, sheet.toml or\n"
-      "scene.toml (what made it) and coverage.json (what there is to copy). A scene copies it with\n"
-      "[[exemplar]] picture = \"ground.tif\", guidance = \"guidance.exr\".\n\n"
+      "Writes painting.tif, ground.tif (without trees and houses), painting.png, guidance.exr, "
+      "sheet.toml or\n"
+      "scene.toml (the input) and coverage.json (what there is to copy). A scene copies it with\n"
+      "[[exemplar]] picture = \"ground.tif\", guidance = \"guidance.exr\".\n"
+      "\n"
       "  belvedere exemplar paint --season autumn --out sheet\n"
       "  belvedere exemplar paint scenes/karwendel.toml --data ../data --out karwendel_strokes");
   return [options] { return run(*options); };

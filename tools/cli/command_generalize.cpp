@@ -28,25 +28,30 @@
 namespace belvedere::tools {
 namespace {
 
-// Before the work: what could not be written afterwards.
+// Before the work: errors that would prevent writing the result.
 void check_dem_name(const std::string& path) {
-  const std::string ending = lower_ending(path);
-  if (ending != ".tif" && ending != ".tiff" && ending != ".asc") refuse(path, "is no name of a DEM the program writes", ".tif or .asc");
+  const std::string extension = lower_extension(path);
+  if (extension != ".tif" && extension != ".tiff" && extension != ".asc")
+    refuse(path, "is not the name of a DEM that can be written", ".tif or .asc");
 }
 
-// Between which distances foreground turns into background: by default a quarter and three quarters of the way to the farthest corner.
-glm::dvec2 blend_distances(const GeneralizeOptions& options, const Dem& dem, glm::dvec2 viewer_cell, glm::dvec2 cell_m) {
+// Distances between which foreground turns into background. Default: a quarter and three quarters
+// of the distance to the farthest corner.
+glm::dvec2 blend_distances(const GeneralizeOptions& options, const Dem& dem, glm::dvec2 viewer_cell,
+                           glm::dvec2 cell_m) {
   if (!options.distances.empty()) {
     const glm::dvec2 written(options.distances[0], options.distances[1]);
     if (!(written.x >= 0.0 && written.x < written.y)) {
-      refuse("--distances", fmt::format("from {} to {} m", written.x, written.y), "two distances, the nearer first");
+      refuse("--distances", fmt::format("from {} to {} m", written.x, written.y),
+             "two distances, the nearer first");
     }
     return written;
   }
   double farthest = 1.0;
   for (const double x : {0.0, dem.width() - 1.0}) {
     for (const double y : {0.0, dem.height() - 1.0})
-      farthest = std::max(farthest, std::hypot((x - viewer_cell.x) * cell_m.x, (y - viewer_cell.y) * cell_m.y));
+      farthest = std::max(
+          farthest, std::hypot((x - viewer_cell.x) * cell_m.x, (y - viewer_cell.y) * cell_m.y));
   }
   return {0.25 * farthest, 0.75 * farthest};
 }
@@ -55,7 +60,9 @@ glm::dvec2 blend_distances(const GeneralizeOptions& options, const Dem& dem, glm
 Grid<float> share_by_distance(const GeneralizeOptions& options, const Dem& dem, glm::dvec2 cell_m) {
   if (options.viewer.empty()) return {};
   const glm::dvec2 at = dem.transform.to_cell(options.viewer[0], options.viewer[1]);
-  const auto distance_m = [&](double x, double y) { return std::hypot((x - at.x) * cell_m.x, (y - at.y) * cell_m.y); };
+  const auto distance_m = [&](double x, double y) {
+    return std::hypot((x - at.x) * cell_m.x, (y - at.y) * cell_m.y);
+  };
   const glm::dvec2 blend = blend_distances(options, dem, at, cell_m);
   const double near = blend.x;
   const double far = blend.y;
@@ -76,23 +83,28 @@ Grid<float> drawn_mask(const GeneralizeOptions& options, const Dem& dem, Progres
   if (options.mask.empty()) return {};
   RasterSource source;
   source.path = options.mask;
-  return soften_mask(read_mask(source, {dem.transform, dem.width(), dem.height(), dem.crs}, progress));
+  return soften_mask(
+      read_mask(source, {dem.transform, dem.width(), dem.height(), dem.crs}, progress));
 }
 
-Grid<float> make_mask(const GeneralizeOptions& options, const Dem& dem, glm::dvec2 cell_m, Progress& progress) {
+Grid<float> make_mask(const GeneralizeOptions& options, const Dem& dem, glm::dvec2 cell_m,
+                      Progress& progress) {
   Grid<float> mask;
   if (const auto range = masked_slopes(options)) mask = slope_mask(dem.altitude_m, cell_m, *range);
   return combine_masks(std::move(mask), drawn_mask(options, dem, progress));
 }
 
-// The page with sliders. Without a viewer, one stands in the middle of the southern rim and looks north.
-void write_equalizer(const GeneralizeOptions& options, const Dem& dem, glm::dvec2 cell_m, const GeneralizeParameters& bands,
-                     Progress& progress) {
-  const glm::dvec2 middle = dem.transform.to_crs(0.5 * (dem.width() - 1), dem.height() - 1.0);
-  const glm::dvec2 viewer = options.viewer.empty() ? middle : glm::dvec2(options.viewer[0], options.viewer[1]);
+// The page with sliders. The default viewer is at the centre of the southern rim and looks north.
+void write_equalizer(const GeneralizeOptions& options, const Dem& dem, glm::dvec2 cell_m,
+                     const GeneralizeParameters& bands, Progress& progress) {
+  const glm::dvec2 centre = dem.transform.to_crs(0.5 * (dem.width() - 1), dem.height() - 1.0);
+  const glm::dvec2 viewer =
+      options.viewer.empty() ? centre : glm::dvec2(options.viewer[0], options.viewer[1]);
   const glm::dvec2 viewer_cell = dem.transform.to_cell(viewer.x, viewer.y);
   glm::dvec2 distances_m = blend_distances(options, dem, viewer_cell, cell_m);
-  if (options.distances.empty()) distances_m = {std::floor(distances_m.x), std::ceil(distances_m.y)};  // as people would type them
+  if (options.distances.empty())
+    distances_m = {std::floor(distances_m.x),
+                   std::ceil(distances_m.y)};  // as typed on the command line
   const std::optional<SlopeRange> slopes = masked_slopes(options);
   const SlopeRange range = slopes.value_or(SlopeRange{});
   write_equalizer_page(options.equalizer,
@@ -102,7 +114,8 @@ void write_equalizer(const GeneralizeOptions& options, const Dem& dem, glm::dvec
                         .start = bands,
                         .viewer_cell = viewer_cell,
                         .distances_m = distances_m,
-                        .viewer_options = fmt::format("--viewer {},{} --distances {},{}", viewer.x, viewer.y, distances_m.x, distances_m.y),
+                        .viewer_options = fmt::format("--viewer {},{} --distances {},{}", viewer.x,
+                                                      viewer.y, distances_m.x, distances_m.y),
                         .other_options = describe_operators(options, bands),
                         .lakes = find_lakes(dem.altitude_m, {}),
                         .foot_mask = make_foot_mask(dem, cell_m, bands.foreground.size()),
@@ -120,8 +133,10 @@ void write_equalizer(const GeneralizeOptions& options, const Dem& dem, glm::dvec
 int run(const GeneralizeOptions& options) {
   const bool only_page = options.out.empty() && !options.equalizer.empty();
   const GeneralizeParameters bands = resolve_bands(options);
-  if (options.out.empty() && !only_page) refuse("OUT", "no file for the result", "a .tif or .asc; only --equalizer goes without");
-  if (only_page && !options.report.empty()) refuse("--report", "no result to report on", "a file OUT beside it");
+  if (options.out.empty() && !only_page)
+    refuse("OUT", "no output file", "a .tif or .asc file; only --equalizer works without one");
+  if (only_page && !options.report.empty())
+    refuse("--report", "--report is given without an output file", "a file OUT with it");
   if (!only_page) check_dem_name(options.out);
   check_place(options.out);
   check_place(options.equalizer);
@@ -131,20 +146,27 @@ int run(const GeneralizeOptions& options) {
   progress.begin("reading", 0.0);
   RasterSource source;
   source.path = options.in;
-  const std::optional<double> nodata = read_raster_info(source).nodata;  // voids stay what they are called
+  const std::optional<double> nodata =
+      read_raster_info(source).nodata;  // voids keep their nodata value
   Dem dem = make_dem(read_raster(source));
   const glm::dvec2 cell_m = ground_cell_m(dem.transform, dem.crs, dem.width(), dem.height());
   const bool true_cells = cell_m == glm::dvec2(dem.transform.cell_x, dem.transform.cell_y);
   if (!true_cells) {
-    progress.note(fmt::format("a cell is {:.1f} × {:.1f} m on the ground in the middle of the DEM", cell_m.x, cell_m.y));
-    const bool wants_metres = options.operators.line_integral || options.operators.widen_valleys_m > 0.F ||
-                              !options.operators.hillshade.empty() || !options.operators.contours.empty();
+    progress.note(fmt::format("a cell is {:.1f} × {:.1f} m on the ground at the centre of the DEM",
+                              cell_m.x, cell_m.y));
+    const bool wants_metres =
+        options.operators.line_integral || options.operators.widen_valleys_m > 0.F ||
+        !options.operators.hillshade.empty() || !options.operators.contours.empty();
     if (wants_metres) {
-      refuse(options.in, "its cells are not in metres, which slope lines, valleys, shaded relief and contours need",
-             "a DEM in a metric coordinate system (gdalwarp -t_srs EPSG:326xx); the weights of bands alone work on any");
+      refuse(options.in,
+             "its cells are not in metres, which slope lines, valleys, shaded relief and contours "
+             "need",
+             "a DEM in a metric coordinate system (gdalwarp -t_srs EPSG:326xx); weights of bands "
+             "work in any system");
     }
   }
-  if (dem.crs.empty()) progress.note("the DEM names no coordinate system: its cells are taken for metres");
+  if (dem.crs.empty())
+    progress.note("the DEM has no coordinate system: its cells are taken as metres");
 
   if (!options.equalizer.empty()) write_equalizer(options, dem, cell_m, bands, progress);
   if (only_page) {
@@ -153,10 +175,12 @@ int run(const GeneralizeOptions& options) {
   }
   const double cell = 0.5 * (cell_m.x + cell_m.y);
   const Grid<float> original_m = options.report.empty() ? Grid<float>() : dem.altitude_m;
-  dem.altitude_m = operate_before_bands(std::move(dem.altitude_m), cell, options.operators, progress);
+  dem.altitude_m =
+      operate_before_bands(std::move(dem.altitude_m), cell, options.operators, progress);
   GeneralizeGrids grids;
-  // First, as it takes most memory on its way.
-  if (masks_slope_feet(options)) grids.amplification_mask = make_foot_mask(dem, cell_m, bands.foreground.size());
+  // First, because it needs the most memory.
+  if (masks_slope_feet(options))
+    grids.amplification_mask = make_foot_mask(dem, cell_m, bands.foreground.size());
   if (!options.change_lakes) grids.keep = find_lakes(dem.altitude_m, {});
   grids.mask = make_mask(options, dem, cell_m, progress);
   grids.foreground_share = share_by_distance(options, dem, cell_m);
@@ -180,7 +204,7 @@ int run(const GeneralizeOptions& options) {
   std::size_t cells = 0;
   for (std::size_t i = 0; i < result_m.size(); ++i) {
     if (dem.filled[i] != 0) {
-      result_m[i] = std::numeric_limits<float>::quiet_NaN();  // a void stays one
+      result_m[i] = std::numeric_limits<float>::quiet_NaN();  // a void stays a void
       continue;
     }
     const double change = static_cast<double>(result_m[i]) - dem.altitude_m[i];
@@ -192,7 +216,8 @@ int run(const GeneralizeOptions& options) {
   write_raster(options.out, result, nodata);
   write_products(result, options.operators, progress);
   const double mean = std::sqrt(sum / static_cast<double>(cells));
-  progress.note(fmt::format("altitudes change by {:.1f} m (root mean square), at most {:.1f} m", mean, largest));
+  progress.note(fmt::format("altitudes change by {:.1f} m (root mean square), at most {:.1f} m",
+                            mean, largest));
   progress.end();
   if (options.json) {
     print_out(Json::object()

@@ -9,7 +9,8 @@ namespace belvedere::tools {
 
 Action add_man(CommandOptions& command) {
   command.footer(
-      "An installed program has it already: man belvedere\n\n"
+      "An installed program provides it as: man belvedere\n"
+      "\n"
       "  belvedere man | man -l -");
   return [] {
     print_out(man_page(describe_program(), "belvedere " + program_version()));

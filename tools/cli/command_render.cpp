@@ -31,8 +31,10 @@ struct RenderOptions {
   std::string channels;
 };
 
-using Job = void (*)(const LoadedScene&, const std::string& out_folder, const Run&, const SheetRequest&);
-using Results = std::vector<std::string> (*)(const Scene&, bool whole_sheet);  // names of the pictures that a job makes
+using Job = void (*)(const LoadedScene&, const std::string& out_folder, const Run&,
+                     const SheetRequest&);
+using Results = std::vector<std::string> (*)(
+    const Scene&, bool whole_sheet);  // names of the pictures that a job makes
 
 int run_job(const RenderOptions& options, Job job, Results results) {
   LoadedScene scene = load(options.scene);
@@ -54,17 +56,21 @@ int run_job(const RenderOptions& options, Job job, Results results) {
   progress.end();
 
   const SceneOutput& output = scene.scene.output;
-  const bool whole = region_of(scene.scene, request) == PixelRect{0, 0, output.width, output.height};
+  const bool whole =
+      region_of(scene.scene, request) == PixelRect{0, 0, output.width, output.height};
   std::vector<std::string> names = results(scene.scene, whole);
   if (!request.channels || !request.channels->empty()) names.emplace_back("guidance.exr");
   if (request.matches) names.emplace_back("match.exr");
-  for (const std::string& ending : request.layers) names.push_back(layer_format(ending).file);
+  for (const std::string& extension : request.layers) names.push_back(layer_format(extension).file);
   std::vector<std::string> paths;
-  for (const std::string& name : names) paths.push_back((std::filesystem::path(folder) / name).string());
+  for (const std::string& name : names)
+    paths.push_back((std::filesystem::path(folder) / name).string());
   if (options.scene.json) {
     Json files = Json::array();
     for (const std::string& path : paths)
-      files.add(Json::object().add("path", Json::text(path)).add("bytes", Json::raw(fmt::format("{}", std::filesystem::file_size(path)))));
+      files.add(Json::object()
+                    .add("path", Json::text(path))
+                    .add("bytes", Json::raw(fmt::format("{}", std::filesystem::file_size(path)))));
     print_out(Json::object()
                   .add("scene", Json::text(scene.name))
                   .add("width", Json::number(scene.scene.output.width))
@@ -80,40 +86,49 @@ int run_job(const RenderOptions& options, Job job, Results results) {
 
 enum class Drafts { no, yes };
 
-Action add_job(CommandOptions& command, const char* footer, Drafts drafts, Job job, Results results) {
+Action add_job(CommandOptions& command, const char* footer, Drafts drafts, Job job,
+               Results results) {
   const auto options = std::make_shared<RenderOptions>();
   add_scene_options(command, options->scene);
   add_locked_option(command, options->scene);
-  command.add_option("--out", options->out, "Folder for the results; made where it is missing. Default: one named like the scene")
+  command
+      .add_option("--out", options->out,
+                  "Folder for the results; created if missing. Default: named like the scene")
       .type_name("DIR");
-  command.add_option("--tile", options->tile_size, "Side of the tiles that threads work on, in pixels. Changes no pixel")
+  command
+      .add_option("--tile", options->tile_size,
+                  "Side of the tiles that threads work on, in pixels. Changes no pixel")
       .type_name("N")
       .show_default()
       .range(8, 4096);
   command
       .add_option("--part", options->part,
-                  "Only a rectangle of the sheet, as x,y,width,height in its pixels: a proof of what the whole will be")
+                  "Only a rectangle of the sheet, as x,y,width,height in its pixels, as a proof")
       .type_name("X,Y,W,H")
       .list(',', 4);
   command
       .add_option("--piece", options->piece_px,
-                  "Side of the pieces that are finished one after the other, in pixels; 0, the default, is 1024. Changes no pixel")
+                  "Side of the pieces that are finished one after the other, in pixels; 0, the "
+                  "default, is 1024. Changes no pixel")
       .type_name("N")
       .range(0, 4096);
-  command.add_flag("--resume", options->resume,
-                   "Go on where a run into this folder was stopped; the files are the same as if it had not been");
+  command.add_flag(
+      "--resume", options->resume,
+      "Resumes a run that was stopped in this folder; the files are the same as without the stop");
   command
       .add_option("--channels", options->channels,
-                  "Channels of guidance.exr, such as Z,landcover.id; none: no such file. Without it: all, 40 bytes a pixel")
+                  "Channels of guidance.exr, such as Z,landcover.id; none: no file. Default: all, "
+                  "40 bytes per pixel")
       .type_name("NAME,…|none");
   if (drafts == Drafts::yes)
     command.add_flag("--match", options->match,
-                     "Also match.exr: which texel of which picture each pixel was copied from, for synthesize --replay");
+                     "Also writes match.exr: which texel of which picture each pixel was copied "
+                     "from, for synthesize --replay");
   if (drafts == Drafts::yes) add_layers_option(command, options->layers);
   if (drafts == Drafts::yes)
     command.add_flag("--draft", options->draft,
-                     "A first look, in seconds: a third of the pixels a side, one line of sight a pixel, less of the sky's light, strokes "
-                     "alone without texture");
+                     "A quick preview, in seconds: a third of the pixels per side, one ray per "
+                     "pixel, fewer sky directions, only strokes without copied texture");
   command.footer(footer);
   return [options, job, results] { return run_job(*options, job, results); };
 }
@@ -121,29 +136,37 @@ Action add_job(CommandOptions& command, const char* footer, Drafts drafts, Job j
 }  // namespace
 
 Action add_render(CommandOptions& command) {
-  return add_job(command,
-                 "Writes panorama.tif (16 bit, with profile and resolution), panorama.png, panorama.exr (scene-linear),\n"
-                 "or what output.formats names, and guidance.exr (depth, classes, light … of every pixel).\n\n"
-                 "  belvedere render scenes/karwendel.toml --data ../data --out karwendel\n"
-                 "  belvedere render scenes/karwendel.toml --data ../data --draft --out draft\n"
-                 "  belvedere render scenes/karwendel.toml --data ../data --set output.width=1200 --set output.height=550\n"
-                 "  belvedere render scenes/karwendel.toml --data ../data --channels Z,landcover.id --match\n"
-                 "  belvedere render scenes/karwendel.toml --data ../data --part 800,300,400,400 --out proof",
-                 Drafts::yes, render, [](const Scene& scene, bool whole_sheet) {
-                   std::vector<std::string> names;
-                   for (const std::string& ending : scene.output.formats) names.push_back("panorama." + ending);
-                   if (scene.labels.any()) names.emplace_back("labels.svg");
-                   if (const std::string second = second_picture(scene, whole_sheet); !second.empty())
-                     for (const std::string& ending : scene.output.formats) names.push_back(second + "." + ending);
-                   return names;
-                 });
+  return add_job(
+      command,
+      "Writes panorama.tif (16 bit, with profile and resolution), panorama.png, panorama.exr "
+      "(scene-linear),\n"
+      "or the formats in output.formats, and guidance.exr (depth, classes, light … of every "
+      "pixel).\n"
+      "\n"
+      "  belvedere render scenes/karwendel.toml --data ../data --out karwendel\n"
+      "  belvedere render scenes/karwendel.toml --data ../data --draft --out draft\n"
+      "  belvedere render scenes/karwendel.toml --data ../data --set output.width=1200 --set "
+      "output.height=550\n"
+      "  belvedere render scenes/karwendel.toml --data ../data --channels Z,landcover.id --match\n"
+      "  belvedere render scenes/karwendel.toml --data ../data --part 800,300,400,400 --out proof",
+      Drafts::yes, render, [](const Scene& scene, bool whole_sheet) {
+        std::vector<std::string> names;
+        for (const std::string& extension : scene.output.formats)
+          names.push_back("panorama." + extension);
+        if (scene.labels.any()) names.emplace_back("labels.svg");
+        if (const std::string second = second_picture(scene, whole_sheet); !second.empty())
+          for (const std::string& extension : scene.output.formats)
+            names.push_back(second + "." + extension);
+        return names;
+      });
 }
 
 Action add_guidance(CommandOptions& command) {
-  return add_job(command,
-                 "The channels and their units are described in the header: belvedere info guidance.exr\n\n"
-                 "  belvedere guidance scenes/karwendel.toml --data ../data --out karwendel",
-                 Drafts::no, render_guidance, [](const Scene&, bool) { return std::vector<std::string>(); });
+  return add_job(
+      command,
+      "The channels and their units are described in the header: belvedere info guidance.exr\n\n"
+      "  belvedere guidance scenes/karwendel.toml --data ../data --out karwendel",
+      Drafts::no, render_guidance, [](const Scene&, bool) { return std::vector<std::string>(); });
 }
 
 }  // namespace belvedere::tools

@@ -9,9 +9,10 @@ namespace belvedere::tools {
 
 Action add_schema(CommandOptions& command) {
   const auto markdown = std::make_shared<bool>(false);
-  command.add_flag("--markdown", *markdown, "As a reference in Markdown instead of a JSON Schema (draft 4)");
+  command.add_flag("--markdown", *markdown,
+                   "Prints a reference in Markdown instead of a JSON Schema (draft 4)");
   command.footer(
-      "  belvedere schema > scene.schema.json     editors then complete keys and check values\n"
+      "  belvedere schema > scene.schema.json     for editors that complete keys and check values\n"
       "  belvedere schema --markdown | less");
   return [markdown] {
     print_out(*markdown ? scene_reference() : scene_json_schema());

@@ -11,7 +11,7 @@
 #include "base/text/json.h"
 #include "base/text/letters.h"
 #include "renderer/image/provenance.h"
-#include "texture/synthesis/class_supply.h"
+#include "texture/synthesis/class_texels.h"
 #include "texture/synthesis/synthesize.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/file_names.h"
@@ -36,17 +36,19 @@ struct SynthesizeOptions : RunOptions {
   std::string report;
   std::vector<std::string> sweeps;
   SynthesisParameters parameters;
-  std::vector<std::tuple<int, int, double>> unlikeness;
+  std::vector<std::tuple<int, int, double>> class_dissimilarity;
   int memory_mib = 0;
 };
 
 void check_picture_name(const std::string& path) {
-  const std::string ending = lower_ending(path);
-  if (ending != ".png" && ending != ".tif" && ending != ".tiff")
-    throw Error(ErrorKind::usage, "--out " + path, "is no name of a picture the program writes", ".png (8 bit) or .tif (16 bit)");
+  const std::string extension = lower_extension(path);
+  if (extension != ".png" && extension != ".tif" && extension != ".tiff")
+    throw Error(ErrorKind::usage, "--out " + path,
+                "is not the name of a picture that can be written",
+                ".png (8 bit) or .tif (16 bit)");
 }
 
-// Without folders: the same files give the same header wherever they lie.
+// Without folders: the same files give the same header wherever they are.
 FileNotes make_notes(const SynthesizeOptions& options) {
   std::map<std::string, std::string> inputs;
   const auto add = [&](const std::string& path) { inputs[file_name(path)] = path; };
@@ -64,13 +66,17 @@ FileNotes make_notes(const SynthesizeOptions& options) {
   FileNotes notes = to_notes(make_provenance("", inputs));
   std::string weights;
   std::string around = options.parameters.surroundings_of;
-  for (const auto& [a, b, value] : options.unlikeness) around += fmt::format(" {}/{} {}", a, b, value);
+  for (const auto& [a, b, value] : options.class_dissimilarity)
+    around += fmt::format(" {}/{} {}", a, b, value);
   if (around != SynthesisParameters().surroundings_of) notes["belvedere:surroundings"] = around;
-  for (const GuidePair& guide : options.files.guides) weights += fmt::format(" {} {}", guide.name, guide.weight);
-  notes["belvedere:synthesis"] =
-      fmt::format("seed {} levels {} reuse {} copy_cap {} neighbourhood {} surroundings {} harmonize {} weights{}", options.parameters.seed,
-                  options.parameters.levels, options.parameters.reuse, options.parameters.copy_cap, options.parameters.neighbourhood,
-                  options.parameters.surroundings, options.files.harmonize, weights);
+  for (const GuidePair& guide : options.files.guides)
+    weights += fmt::format(" {} {}", guide.name, guide.weight);
+  notes["belvedere:synthesis"] = fmt::format(
+      "seed {} levels {} reuse {} copy_cap {} neighbourhood {} surroundings {} harmonize {} "
+      "weights{}",
+      options.parameters.seed, options.parameters.levels, options.parameters.reuse,
+      options.parameters.copy_cap, options.parameters.neighbourhood,
+      options.parameters.surroundings, options.files.harmonize, weights);
   return notes;
 }
 
@@ -83,34 +89,45 @@ std::vector<MatchedPicture> matched_pictures(const SynthesisInputs& inputs) {
 
 std::string class_name_of(std::uint8_t label) { return fmt::format("class {}", label); }
 
-// What was asked for as it would be typed, without folders: the same on every machine.
+// The request as it would be typed, without folders: the same on every machine.
 std::string describe_command(const SynthesizeOptions& options) {
   std::string out = "belvedere synthesize";
   for (std::size_t i = 0; i < options.files.pictures.size(); ++i)
-    out += fmt::format(" --picture {} --label {} {}", file_name(options.files.pictures[i]), file_name(options.files.labels[i].first),
+    out += fmt::format(" --picture {} --label {} {}", file_name(options.files.pictures[i]),
+                       file_name(options.files.labels[i].first),
                        file_name(options.files.labels[i].second));
   for (const GuidePair& guide : options.files.guides)
-    out += fmt::format(" --guide {} {} {} {}", guide.name, file_name(guide.source), file_name(guide.target), guide.weight);
-  for (const std::string& mask : options.files.exclusions) out += fmt::format(" --exclude {}", file_name(mask));
-  if (options.files.harmonize != "off") out += fmt::format(" --harmonize {}", options.files.harmonize);
+    out += fmt::format(" --guide {} {} {} {}", guide.name, file_name(guide.source),
+                       file_name(guide.target), guide.weight);
+  for (const std::string& mask : options.files.exclusions)
+    out += fmt::format(" --exclude {}", file_name(mask));
+  if (options.files.harmonize != "off")
+    out += fmt::format(" --harmonize {}", options.files.harmonize);
   for (const auto& [from, to] : options.fallback) out += fmt::format(" --fallback {} {}", from, to);
   const SynthesisParameters& p = options.parameters;
   if (p.surroundings_of != "commonest") out += " --surroundings-of " + p.surroundings_of;
-  for (const auto& [a, b, value] : options.unlikeness) out += fmt::format(" --unlikeness {} {} {}", a, b, value);
-  return out + fmt::format(" --seed {} --levels {} --reuse {} --copy-cap {} --neighbourhood {} --surroundings {} --out {}", p.seed,
-                           p.levels, p.reuse, p.copy_cap, p.neighbourhood, p.surroundings, file_name(options.out));
+  for (const auto& [a, b, value] : options.class_dissimilarity)
+    out += fmt::format(" --class-dissimilarity {} {} {}", a, b, value);
+  return out + fmt::format(
+                   " --seed {} --levels {} --reuse {} --copy-cap {} --neighbourhood {} "
+                   "--surroundings {} --out {}",
+                   p.seed, p.levels, p.reuse, p.copy_cap, p.neighbourhood, p.surroundings,
+                   file_name(options.out));
 }
 
-// Messages and --fallback speak of labels by number.
+// Messages and --fallback refer to labels by number.
 void note_colours(const std::vector<Rgb8>& colours, Progress& progress) {
   std::string list;
   for (std::size_t k = 0; k < colours.size(); ++k)
-    list += fmt::format("{} {} is #{:02x}{:02x}{:02x}", k == 0 ? "" : ",", k, colours[k][0], colours[k][1], colours[k][2]);
+    list += fmt::format("{} {} is #{:02x}{:02x}{:02x}", k == 0 ? "" : ",", k, colours[k][0],
+                        colours[k][1], colours[k][2]);
   if (!list.empty()) progress.note("labels by colour:" + list);
 }
 
-void print_result(const SynthesizeOptions& options, int width, int height, std::size_t empty, Progress& progress) {
-  if (empty > 0) progress.note(fmt::format("{} pixels stay black: nothing may be copied there", empty));
+void print_result(const SynthesizeOptions& options, int width, int height, std::size_t empty,
+                  Progress& progress) {
+  if (empty > 0)
+    progress.note(fmt::format("{} pixels stay black: nothing may be copied there", empty));
   if (!options.json) return;
   print_out(Json::object()
                 .add("out", Json::text(options.out))
@@ -125,7 +142,8 @@ void print_result(const SynthesizeOptions& options, int width, int height, std::
 int run_replay(const SynthesizeOptions& options) {
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
-  const ReplayResult result = replay_layers({options.replay, options.files.pictures, options.out}, progress);
+  const ReplayResult result =
+      replay_layers({options.replay, options.files.pictures, options.out}, progress);
   print_result(options, result.width, result.height, result.without_texel, progress);
   return 0;
 }
@@ -139,18 +157,27 @@ int run_sweep(const SynthesizeOptions& options, const SynthesisInputs& inputs, P
     axes.push_back(parse_sweep(sweep, guides));
     command += " --sweep " + sweep;
   }
-  if (axes.size() > 2) throw Error(ErrorKind::usage, "--sweep", fmt::format("stands {} times", axes.size()), "once or twice");
+  if (axes.size() > 2)
+    throw Error(ErrorKind::usage, "--sweep", fmt::format("is given {} times", axes.size()),
+                "once or twice");
   if (axes.size() == 2 && axes[0].name == axes[1].name)
-    throw Error(ErrorKind::usage, "--sweep", fmt::format("{} twice", axes[0].name), "two different ones");
-  const int count = write_sweep(options.out,
-                                {.title = std::filesystem::path(options.out).lexically_normal().filename().string(),
-                                 .command = command,
-                                 .axes = axes,
-                                 .exemplars = inputs.exemplars,
-                                 .target = inputs.target,
-                                 .parameters = options.parameters},
-                                progress);
-  if (options.json) print_out(Json::object().add("out", Json::text(options.out)).add("syntheses", Json::number(count)).str() + "\n");
+    throw Error(ErrorKind::usage, "--sweep", fmt::format("{} twice", axes[0].name),
+                "two different ones");
+  const int count = write_sweep(
+      options.out,
+      {.title = std::filesystem::path(options.out).lexically_normal().filename().string(),
+       .command = command,
+       .axes = axes,
+       .exemplars = inputs.exemplars,
+       .target = inputs.target,
+       .parameters = options.parameters},
+      progress);
+  if (options.json)
+    print_out(Json::object()
+                  .add("out", Json::text(options.out))
+                  .add("syntheses", Json::number(count))
+                  .str() +
+              "\n");
   return 0;
 }
 
@@ -161,23 +188,29 @@ int run(SynthesizeOptions& options) {
     check_picture_name(options.out);
     check_place(options.out);
   } else {
-    const std::string ending = lower_ending(options.out);
-    if (ending == ".png" || ending == ".tif" || ending == ".tiff" || ending == ".exr" || ending == ".jpg")
-      throw Error(ErrorKind::usage, "--out " + options.out, "is no name of a folder", "with --sweep a folder for all results");
+    const std::string extension = lower_extension(options.out);
+    if (extension == ".png" || extension == ".tif" || extension == ".tiff" || extension == ".exr" ||
+        extension == ".jpg")
+      throw Error(ErrorKind::usage, "--out " + options.out, "is not the name of a folder",
+                  "with --sweep, a folder for all results");
     check_output_folder(options.out);
   }
   check_place(options.match);
   if (!options.report.empty()) check_output_folder(options.report);
-  for (const auto& [name, source, target, weight] : options.guides) options.files.guides.push_back({name, source, target, weight});
+  for (const auto& [name, source, target, weight] : options.guides)
+    options.files.guides.push_back({name, source, target, weight});
   for (const auto& [from, to] : options.fallback) {
     if (from < 0 || from >= unused_label || to < 0 || to >= unused_label || from == to)
-      throw Error(ErrorKind::usage, fmt::format("--fallback {} {}", from, to), "is no pair of labels", "two different ones, 0 … 254");
+      throw Error(ErrorKind::usage, fmt::format("--fallback {} {}", from, to),
+                  "is not a pair of labels", "two different ones, 0 … 254");
     options.parameters.fallback[static_cast<std::uint8_t>(from)] = static_cast<std::uint8_t>(to);
   }
-  for (const auto& [a, b, value] : options.unlikeness) {
+  for (const auto& [a, b, value] : options.class_dissimilarity) {
     if (a < 0 || a >= unused_label || b < 0 || b >= unused_label || a == b)
-      throw Error(ErrorKind::usage, fmt::format("--unlikeness {} {}", a, b), "is no pair of labels", "two different ones, 0 … 254");
-    options.parameters.unlikeness[{static_cast<std::uint8_t>(a), static_cast<std::uint8_t>(b)}] = value;
+      throw Error(ErrorKind::usage, fmt::format("--class-dissimilarity {} {}", a, b),
+                  "is not a pair of labels", "two different ones, 0 … 254");
+    options.parameters
+        .class_dissimilarity[{static_cast<std::uint8_t>(a), static_cast<std::uint8_t>(b)}] = value;
   }
 
   const ThreadLimit threads(options.threads);
@@ -187,22 +220,26 @@ int run(SynthesizeOptions& options) {
   options.parameters.weights = inputs.weights;
   note_colours(inputs.label_colours, progress);
   const FileNotes notes = make_notes(options);
-  const std::string scarcity =
-      describe_scarcity(class_supply(inputs.exemplars, inputs.target.label, options.parameters.fallback), class_name_of);
+  const std::string scarcity = describe_scarcity(
+      class_texels(inputs.exemplars, inputs.target.label, options.parameters.fallback),
+      class_name_of);
   if (!scarcity.empty()) progress.note(scarcity);
   if (!options.sweeps.empty()) return run_sweep(options, inputs, progress);
-  const MatchField matches = synthesize(inputs.exemplars, inputs.target, options.parameters, progress);
+  const MatchField matches =
+      synthesize(inputs.exemplars, inputs.target, options.parameters, progress);
 
   progress.begin("writing", 0.0);
   std::vector<const Grid<glm::vec3>*> layers;
   for (const Grid<glm::vec3>& picture : inputs.pictures) layers.push_back(&picture);
-  const Grid<glm::vec3> picture = replay(matches, layers, Grid<glm::vec3>());  // black where nothing could be copied
+  const Grid<glm::vec3> picture =
+      replay(matches, layers, Grid<glm::vec3>());  // black where nothing could be copied
   const PictureFileOptions file{.icc_profile = inputs.profile, .notes = notes};
-  if (lower_ending(options.out) == ".png")
+  if (lower_extension(options.out) == ".png")
     write_png8(options.out, picture, file);
   else
     write_tiff16(options.out, picture, file);
-  if (!options.match.empty()) write_matches(options.match, matches, matched_pictures(inputs), notes);
+  if (!options.match.empty())
+    write_matches(options.match, matches, matched_pictures(inputs), notes);
   if (!options.report.empty())
     write_synthesis_report(options.report,
                            {.title = file_name(options.out),
@@ -213,8 +250,10 @@ int run(SynthesizeOptions& options) {
                             .matches = matches,
                             .class_name = class_name_of},
                            progress);
-  const auto empty = std::count_if(matches.begin(), matches.end(), [](const Match& m) { return m.exemplar == Match::none; });
-  print_result(options, picture.width(), picture.height(), static_cast<std::size_t>(empty), progress);
+  const auto empty = std::count_if(matches.begin(), matches.end(),
+                                   [](const Match& m) { return m.exemplar == Match::none; });
+  print_result(options, picture.width(), picture.height(), static_cast<std::size_t>(empty),
+               progress);
   return 0;
 }
 
@@ -223,108 +262,142 @@ int run(SynthesizeOptions& options) {
 Action add_synthesize(CommandOptions& command) {
   const auto options = std::make_shared<SynthesizeOptions>();
   SynthesisParameters& parameters = options->parameters;
-  command.add_option("--picture", options->files.pictures, "The painting (PNG, TIFF, JPEG); may be repeated")
+  command
+      .add_option("--picture", options->files.pictures,
+                  "The painting (PNG, TIFF, JPEG); may be repeated")
       .type_name("STYLE")
       .required()
       .repeated();
   const Option label =
       command
-          .add_option(
-              "--label", options->files.labels,
-              "Label images of the painting and of the target: grey, one number a class, 255 is never used, or drawn in flat colours; "
-              "one for each --picture")
+          .add_option("--label", options->files.labels,
+                      "Label images of the painting and of the target: grey, one number per class, "
+                      "255 is never used, or drawn in flat colours; one for each --picture")
           .type_name("STYLE TARGET")
           .takes("two files, of the painting and of the target")
           .repeated();
-  const Option guide =
-      command
-          .add_option("--guide", options->guides,
-                      "A further guide: name, grey image of the painting, of the target, and weight 0…100; may be repeated")
-          .type_name("NAME STYLE TARGET WEIGHT")
-          .takes("a name, two files and a weight")
-          .repeated();
-  command.add_option("--out", options->out, "The result: .png (8 bit) or .tif (16 bit); with --replay also .exr")
+  const Option guide = command
+                           .add_option("--guide", options->guides,
+                                       "A further guide: name, grey image of the painting, of the "
+                                       "target, and weight 0…100; may be repeated")
+                           .type_name("NAME STYLE TARGET WEIGHT")
+                           .takes("a name, two files and a weight")
+                           .repeated();
+  command
+      .add_option("--out", options->out,
+                  "The result: .png (8 bit) or .tif (16 bit); with --replay also .exr")
       .type_name("FILE")
       .required();
   const Option match =
-      command.add_option("--match", options->match, "Also where each pixel was copied from: OpenEXR with channels exemplar, x, y")
+      command
+          .add_option(
+              "--match", options->match,
+              "Also writes where each pixel was copied from: OpenEXR with channels exemplar, x, y")
           .type_name("FILE");
   const Option report =
       command
           .add_option("--report", options->report,
-                      "Also a folder with index.html: how good the result is, where it comes from, what each guide costs, worst places")
+                      "Also writes a folder with index.html: quality of the result, origin of its "
+                      "pixels, cost of each guide, worst places")
           .type_name("DIR");
   command
-      .add_option("--exclude", options->files.exclusions,
-                  "Grey image of the painting's size: what is not black is never copied (lettering, frames, figures); the first belongs to "
-                  "the first --picture …, - is none")
+      .add_option(
+          "--exclude", options->files.exclusions,
+          "Grey image of the painting's size: pixels that are not black are never copied "
+          "(lettering, frames, figures); the first belongs to the first --picture …, - is none")
       .type_name("MASK")
       .repeated();
   command
       .add_option("--harmonize", options->files.harmonize,
-                  "Brings the colours of several paintings together first: label by label to what is common or to the first; or by\n"
-                  "regions of like colour, whatever the labels, to the first")
+                  "Matches the colours of several paintings first: label by label to their common "
+                  "colours or to the first; or by\n"
+                  "regions of similar colour, ignoring labels, to the first")
       .type_name("HOW")
       .show_default()
       .one_of({"off", "common", "first", "regions"});
-  command.add_option("--fallback", options->fallback, "Copies the second label's texture where the first has none")
+  command
+      .add_option("--fallback", options->fallback,
+                  "Copies the second label's texture where the first has none")
       .type_name("LABEL LABEL")
       .repeated();
-  command.add_option("--seed", parameters.seed, "Another number gives another result").type_name("N").show_default();
-  command.add_option("--levels", parameters.levels, "Steps from coarse to fine").type_name("N").show_default().range(1, 8);
-  command.add_option("--reuse", parameters.reuse, "How hard repetition is avoided").type_name("X").show_default().range(0.0, 10.0);
-  command.add_option("--copy-cap", parameters.copy_cap, "Largest piece copied whole, in pixels of area")
+  command.add_option("--seed", parameters.seed, "Random seed of the result")
+      .type_name("N")
+      .show_default();
+  command.add_option("--levels", parameters.levels, "Levels from coarse to fine")
+      .type_name("N")
+      .show_default()
+      .range(1, 8);
+  command.add_option("--reuse", parameters.reuse, "Strength of the penalty on repetition")
+      .type_name("X")
+      .show_default()
+      .range(0.0, 10.0);
+  command
+      .add_option("--copy-cap", parameters.copy_cap,
+                  "Largest piece copied whole, in pixels of area")
       .type_name("N")
       .show_default()
       .range(16, 100000);
-  command.add_option("--neighbourhood", parameters.neighbourhood, "Side of the patches that are compared, in pixels: 3, 5, 7, 9 or 11")
+  command
+      .add_option("--neighbourhood", parameters.neighbourhood,
+                  "Side of the patches that are compared, in pixels: 3, 5, 7, 9 or 11")
       .type_name("N")
       .show_default()
       .one_of({3, 5, 7, 9, 11});
-  command.add_option("--surroundings", parameters.surroundings, "How much the classes around a place count")
+  command
+      .add_option("--surroundings", parameters.surroundings, "Weight of the classes around a pixel")
       .type_name("X")
       .show_default()
       .range(0.0, 100.0);
   command
       .add_option("--surroundings-of", parameters.surroundings_of,
-                  "Which other classes around count: the commonest, or all by their shares")
+                  "Which of the surrounding classes count: the commonest, or all by their shares")
       .type_name("WHICH")
       .show_default()
       .one_of({"commonest", "all"});
   command
-      .add_option("--unlikeness", options->unlikeness,
-                  "How unlike two labels are as surroundings: 0, one is as good as the other, to 1, the default; may be repeated")
+      .add_option("--class-dissimilarity", options->class_dissimilarity,
+                  "Dissimilarity of two labels as surroundings: 0 (interchangeable) to 1, the "
+                  "default; may be repeated")
       .type_name("LABEL LABEL X")
       .repeated();
-  const Option replay =
-      command
-          .add_option("--replay", options->replay,
-                      "Lays other layers of the same paintings, one --picture each, exactly where a --match file says; needs no labels")
-          .type_name("MATCH")
-          .excludes({label, guide, match, report});
+  const Option replay = command
+                            .add_option("--replay", options->replay,
+                                        "Copies other layers of the same paintings, one --picture "
+                                        "each, exactly as a --match file records; needs no labels")
+                            .type_name("MATCH")
+                            .excludes({label, guide, match, report});
   command
-      .add_option("--sweep", options->sweeps,
-                  "Tries several values of seed, levels, reuse, copy-cap, neighbourhood, surroundings or of a guide's weight; --out is a "
-                  "folder then. "
-                  "Twice for two at once")
+      .add_option(
+          "--sweep", options->sweeps,
+          "Tries several values of seed, levels, reuse, copy-cap, neighbourhood, surroundings or "
+          "of a guide's weight; --out is then a folder. Give it twice to vary two at once")
       .type_name("NAME=V,V…")
       .repeated()
       .excludes({match, report, replay});
   add_run_options(command, *options);
-  command.add_option("--memory", options->memory_mib, "Memory that pictures may take; 0, the default, is three quarters of the machine's")
+  command
+      .add_option("--memory", options->memory_mib,
+                  "Memory for pictures; 0, the default, is three quarters of the machine's")
       .type_name("MIB")
       .range(0, 1 << 30);
   command.footer(
       "  belvedere synthesize --picture style.png --label style_class.png target_class.png \\\n"
-      "    --guide altitude style_alt.png target_alt.png 1.0 --out out.png --match match.exr\n\n"
-      "With several paintings, the first --label and the first --guide of a name belong to the first\n"
-      "--picture, the second to the second, and so on; they all name the same target.\n\n"
-      "  belvedere synthesize --replay match.exr --picture style_16bit.tif --out out_16bit.tif\n\n"
-      "lays another layer of the same painting (its 16-bit scan, its guidance.exr) with all its\n"
-      "bits; the layer has the painting's size.\n\n"
+      "    --guide altitude style_alt.png target_alt.png 1.0 --out out.png --match match.exr\n"
+      "\n"
+      "With several paintings, the first --label and the first --guide of a name belong to the "
+      "first\n"
+      "--picture, the second to the second, and so on; they all name the same target.\n"
+      "\n"
+      "  belvedere synthesize --replay match.exr --picture style_16bit.tif --out out_16bit.tif\n"
+      "\n"
+      "copies another layer of the same painting (its 16-bit scan, its guidance.exr) at full\n"
+      "precision; the layer has the painting's size.\n"
+      "\n"
       "  belvedere synthesize --picture style.png --label style_class.png target_class.png \\\n"
-      "    --guide altitude style_alt.png target_alt.png 1.0 --sweep altitude=0.3,1,3 --sweep reuse=0,1 --out sweep\n\n"
-      "puts six results beside each other: sweep/sheet.png, and their figures in sweep/index.html.");
+      "    --guide altitude style_alt.png target_alt.png 1.0 --sweep altitude=0.3,1,3 --sweep "
+      "reuse=0,1 --out sweep\n"
+      "\n"
+      "puts six results side by side: sweep/sheet.png, and their figures in sweep/index.html.");
   return [options] { return run(*options); };
 }
 

@@ -7,27 +7,28 @@ namespace belvedere::tools {
 
 class CommandOptions;
 
-// What a command does once its options are read. Returns the exit status of a command whose answer is one (diff), else 0. Errors are
-// thrown.
+// The action of a command once its options are read. Returns the exit status of a command whose
+// result is one (diff), else 0. Errors are thrown.
 using Action = std::function<int()>;
 
-// A row of the table that everything about commands comes from: help, the question after a misspelt word, the manual page, completion.
+// A row of the table that defines all commands: help, the suggestion for a misspelt word, the
+// manual page and completion use it.
 struct Command {
   const char* group;                       // the word before its name; empty: none
-  const char* name;                        // what people type
+  const char* name;                        // the name that users type
   const char* meaning;                     // one line of help
-  Action (*add)(CommandOptions& command);  // gives it options and footer
+  Action (*add)(CommandOptions& command);  // adds options and footer to it
 };
 const std::vector<Command>& all_commands();
 
-// A word that commands stand behind: `belvedere exemplar check`.
+// A word with commands below it: `belvedere exemplar check`.
 struct CommandGroup {
   const char* name;
   const char* meaning;
 };
 const std::vector<CommandGroup>& command_groups();
 
-// One file and one row in commands.cpp a command.
+// One file and one row in commands.cpp per command.
 Action add_cache_clear(CommandOptions& command);
 Action add_cache_list(CommandOptions& command);
 Action add_check(CommandOptions& command);
@@ -61,7 +62,7 @@ Action add_composite_learn(CommandOptions& command);
 Action add_composite_make(CommandOptions& command);
 Action add_texture_correct(CommandOptions& command);
 Action add_texture_fill(CommandOptions& command);
-Action add_texture_knit(CommandOptions& command);
+Action add_texture_seam(CommandOptions& command);
 Action add_texture_learn(CommandOptions& command);
 Action add_texture_make(CommandOptions& command);
 Action add_verify(CommandOptions& command);

@@ -36,15 +36,19 @@ void add_bend(const std::string& text, std::vector<std::string>& settings) {
   for (const std::string& point : split(text, ',')) {
     const std::vector<std::string> parts = split(point, ':');
     if (parts.size() != 2)
-      throw Error(ErrorKind::usage, "--bend", fmt::format("\"{}\"", point), "DISTANCE:INCLINATION, such as 10000:25,40000:12,80000:0");
-    settings.push_back(fmt::format("deform.bend.points.{}.distance_m={}", i, parse_number(parts[0], "--bend")));
-    settings.push_back(fmt::format("deform.bend.points.{}.inclination_deg={}", i++, parse_number(parts[1], "--bend")));
+      throw Error(ErrorKind::usage, "--bend", fmt::format("\"{}\"", point),
+                  "DISTANCE:INCLINATION, such as 10000:25,40000:12,80000:0");
+    settings.push_back(
+        fmt::format("deform.bend.points.{}.distance_m={}", i, parse_number(parts[0], "--bend")));
+    settings.push_back(fmt::format("deform.bend.points.{}.inclination_deg={}", i++,
+                                   parse_number(parts[1], "--bend")));
   }
 }
 
 // "672000,5250000 radius=6000 core=2000 rotate=50 move=500,0 scale=1.1 raise=100"
 void add_handle(const std::string& text, std::size_t i, std::vector<std::string>& settings) {
-  const char* allowed = "\"E,N radius=M\", and as wanted core=M rotate=DEG move=E,N scale=F raise=M";
+  const char* allowed =
+      "\"E,N radius=M\", optionally with core=M rotate=DEG move=E,N scale=F raise=M";
   const std::vector<std::string> words = split(text, ' ');
   if (words.empty()) throw Error(ErrorKind::usage, "--handle", "nothing", allowed);
   const auto set = [&](const char* key, const std::string& value) {
@@ -80,35 +84,51 @@ void add_handle(const std::string& text, std::size_t i, std::vector<std::string>
 }  // namespace
 
 void add_deform_options(CommandOptions& command, DeformOptions& options) {
-  add_scene_options(command, options.scene, "A scene file, or a DEM (GeoTIFF, ESRI ASCII …); without one the built-in demo");
-  command.add_option("OUT", options.dem_out, "Writes the deformed ground as a DEM: GeoTIFF, or ESRI ASCII where it ends in .asc");
-  const auto one = [&](const char* name, std::string& value, const char* meaning, const char* type) {
+  add_scene_options(command, options.scene,
+                    "A scene file, or a DEM (GeoTIFF, ESRI ASCII …). Default: the built-in demo");
+  command.add_option(
+      "OUT", options.dem_out,
+      "Writes the deformed ground as a DEM: GeoTIFF, or ESRI ASCII for the extension .asc");
+  const auto one = [&](const char* name, std::string& value, const char* meaning,
+                       const char* type) {
     command.add_option(name, value, meaning).type_name(type);
   };
-  const auto many = [&](const char* name, std::vector<std::string>& values, const char* meaning, const char* type) {
+  const auto many = [&](const char* name, std::vector<std::string>& values, const char* meaning,
+                        const char* type) {
     command.add_option(name, values, meaning).type_name(type).repeated();
   };
-  one("--viewer", options.viewer, "Where distances count from, instead of the scene's camera", "E,N");
+  one("--viewer", options.viewer,
+      "Position that distances are measured from, instead of the scene's camera", "E,N");
   one("--exaggeration", options.exaggeration, "Vertical exaggeration", "FACTOR");
-  one("--bend", options.bend, "A bend through distances (m) and inclinations (degrees) of level ground", "M:DEG,M:DEG…");
+  one("--bend", options.bend, "A bend by distances (m) and inclinations (degrees) of level ground",
+      "M:DEG,M:DEG…");
   many("--handle", options.handles,
-       "A piece of ground to move: \"E,N radius=M core=M rotate=DEG move=E,N scale=F raise=M\"; may be repeated", "HANDLE");
+       "A piece of ground to move: \"E,N radius=M core=M rotate=DEG move=E,N scale=F raise=M\"; "
+       "may be repeated",
+       "HANDLE");
   many("--locate", options.locate,
-       "Says where in the picture a place lies, and whether it is seen; of a file (.csv, .gpkg, .geojson, .shp, .fgb, .gpx) for all its "
-       "points, as a "
-       "table; may be repeated",
+       "Locates a point in the picture and whether it is visible; for a file (.csv, .gpkg, "
+       ".geojson, .shp, .fgb, .gpx) all its points, as a table; may be repeated",
        "E,N|FILE");
-  many("--at", options.at, "Says which place a pixel of the picture shows; may be repeated", "X,Y");
-  command.add_flag("--search-bend", options.search_bend, "Searches the bend that shows most valley floor, and prints its keys");
-  command.add_option("--max-distortion", options.max_distortion_deg, "With --search-bend: greatest tilt of level ground, degrees")
+  many("--at", options.at, "Locates a pixel of the picture on the ground; may be repeated", "X,Y");
+  command.add_flag("--search-bend", options.search_bend,
+                   "Searches the bend that shows most valley floor, and prints its keys");
+  command
+      .add_option("--max-distortion", options.max_distortion_deg,
+                  "With --search-bend: maximum tilt of level ground, degrees")
       .type_name("DEG")
       .show_default();
-  command.add_option("--max-bending", options.max_bending_deg, "With --search-bend: greatest change of tilt, degrees in 10 km")
+  command
+      .add_option("--max-bending", options.max_bending_deg,
+                  "With --search-bend: maximum change of tilt, degrees in 10 km")
       .type_name("DEG")
       .show_default();
-  command.add_option("--points", options.points, "With --search-bend: control points, 3 to 8").type_name("N").show_default();
+  command.add_option("--points", options.points, "With --search-bend: control points, 3 to 8")
+      .type_name("N")
+      .show_default();
   one("--out", options.out,
-      "With --search-bend: a small picture of the ground before (above) and after (below). With --locate FILE: the table, instead of "
+      "With --search-bend: a small picture of the ground before (above) and after (below). With "
+      "--locate FILE: the table, instead of "
       "printing "
       "it",
       "FILE");
@@ -116,20 +136,26 @@ void add_deform_options(CommandOptions& command, DeformOptions& options) {
 
 glm::dvec2 parse_pair(const std::string& text, const char* option) {
   const std::vector<std::string> parts = split(text, ',');
-  if (parts.size() != 2) throw Error(ErrorKind::usage, option, fmt::format("\"{}\"", text), "two numbers with a comma between");
+  if (parts.size() != 2)
+    throw Error(ErrorKind::usage, option, fmt::format("\"{}\"", text),
+                "two numbers separated by a comma");
   return {parse_number(parts[0], option), parse_number(parts[1], option)};
 }
 
-bool is_scene(const DeformOptions& options) { return options.scene.scene.empty() || options.scene.scene.ends_with(".toml"); }
+bool is_scene(const DeformOptions& options) {
+  return options.scene.scene.empty() || options.scene.scene.ends_with(".toml");
+}
 
 LoadedScene load(const DeformOptions& options) {
   SceneOptions scene = options.scene;
   std::vector<std::string> asked;
   if (!options.exaggeration.empty())
-    asked.push_back(fmt::format("deform.exaggeration={}", parse_number(options.exaggeration, "--exaggeration")));
+    asked.push_back(fmt::format("deform.exaggeration={}",
+                                parse_number(options.exaggeration, "--exaggeration")));
   if (!options.bend.empty()) {
-    // Instead of the scene's own.
-    asked.insert(asked.end(), {"deform.bend.points=[]", "deform.bend.radius_m=0", "deform.bend.far_amount_per_m=0"});
+    // Replaces the scene's own.
+    asked.insert(asked.end(), {"deform.bend.points=[]", "deform.bend.radius_m=0",
+                               "deform.bend.far_amount_per_m=0"});
     add_bend(options.bend, asked);
   }
   if (!options.handles.empty()) asked.push_back("deform.handles=[]");
@@ -142,14 +168,18 @@ LoadedScene load(const DeformOptions& options) {
   if (is_scene(options)) return load(scene);
 
   const std::filesystem::path dem(scene.scene);
-  const std::string text = fmt::format("version = 1\n[[terrain.sources]]\nfile = {}\n", json_quoted(dem.filename().string()));
+  const std::string text = fmt::format("version = 1\n[[terrain.sources]]\nfile = {}\n",
+                                       json_quoted(dem.filename().string()));
   LoadedScene loaded = parse_scene(text, scene.scene, dem.parent_path().string(), scene.files);
   const DeformParameters ground = loaded.scene.deform.written();
-  const bool by_distance = ground.bend.radius_m > 0.0 || ground.bend.far_amount_per_m > 0.0 || !ground.bend.points.empty() ||
-                           ground.earth_curvature || ground.background_exaggeration;
+  const bool by_distance = ground.bend.radius_m > 0.0 || ground.bend.far_amount_per_m > 0.0 ||
+                           !ground.bend.points.empty() || ground.earth_curvature ||
+                           ground.background_exaggeration;
   if (by_distance && !loaded.scene.camera.position && !loaded.scene.camera.position_lonlat)
-    throw Error(ErrorKind::usage, "command line", "no viewer for a deformation that goes by distance", "--viewer E,N");
-  if (!loaded.scene.camera.position && !loaded.scene.camera.position_lonlat) loaded.scene.camera.position = glm::dvec2(0.0);
+    throw Error(ErrorKind::usage, "command line",
+                "no viewer, which a deformation by distance needs", "--viewer E,N");
+  if (!loaded.scene.camera.position && !loaded.scene.camera.position_lonlat)
+    loaded.scene.camera.position = glm::dvec2(0.0);
   return loaded;
 }
 

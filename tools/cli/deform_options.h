@@ -10,7 +10,7 @@ namespace belvedere::tools {
 
 class CommandOptions;
 
-// What `deform` is asked on the command line.
+// Command-line options of `deform`.
 struct DeformOptions {
   SceneOptions scene;  // its `scene` is a scene file or a DEM
   std::string dem_out;
@@ -30,10 +30,11 @@ void add_deform_options(CommandOptions& command, DeformOptions& options);
 
 // "692000,5302000" to a pair. Throws Error(usage) naming the option.
 glm::dvec2 parse_pair(const std::string& text, const char* option);
-// The scene that is asked for: the file's, or one that holds the DEM alone; --exaggeration, --bend and --handle become settings of it, so
-// that they are checked as a scene's keys are. Throws Error(usage).
+// The requested scene: the file's, or one that holds the DEM alone; --exaggeration, --bend and
+// --handle become settings of it, so that they are checked like a scene's keys. Throws
+// Error(usage).
 LoadedScene load(const DeformOptions& options);
-// Whether the input is a scene file, or the demo, and no DEM.
+// Whether the input is a scene file or the demo, not a DEM.
 bool is_scene(const DeformOptions& options);
 
 }  // namespace belvedere::tools

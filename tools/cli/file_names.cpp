@@ -9,7 +9,9 @@
 
 namespace belvedere::tools {
 
-std::string file_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
+std::string file_name(const std::string& path) {
+  return std::filesystem::path(path).filename().string();
+}
 
 void check_place(const std::string& path) {
   if (path.empty()) return;
@@ -17,11 +19,12 @@ void check_place(const std::string& path) {
   check_output_folder(folder.empty() ? "." : folder);
 }
 
-void check_not_read(const std::string& result, const std::string& option, const std::vector<std::string>& read) {
+void check_not_read(const std::string& result, const std::string& option,
+                    const std::vector<std::string>& read) {
   for (const std::string& path : read) {
-    std::error_code ignored;  // of files that are not there: no two of them are the same
+    std::error_code ignored;  // files that do not exist are never the same
     if (std::filesystem::equivalent(path, result, ignored))
-      throw Error(ErrorKind::usage, option, result + " is what is read", "a file of its own");
+      throw Error(ErrorKind::usage, option, result + " is also an input", "another file name");
   }
 }
 

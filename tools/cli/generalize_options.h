@@ -13,7 +13,8 @@ namespace belvedere::tools {
 
 class CommandOptions;
 
-// What `generalize` is asked on the command line. Weights go from the largest landforms to the smallest; empty: not given.
+// Command-line options of `generalize`. Weights go from the largest landforms to the smallest;
+// empty: not given.
 struct GeneralizeOptions : RunOptions {
   std::string in;
   std::string out;
@@ -35,17 +36,21 @@ struct GeneralizeOptions : RunOptions {
 
 void add_generalize_options(CommandOptions& command, GeneralizeOptions& options);
 
-// The weights asked for. A page with sliders begins with the terrain as it is. Error(usage) where there are none, where sets differ in
-// number, a weight is out of range, or weights differ near and far and nobody looks.
+// The requested weights. A page with sliders begins with the unchanged terrain. Error(usage) where
+// there are none, where sets differ in number, a weight is out of range, or weights depend on
+// distance and there is no viewer.
 GeneralizeParameters resolve_bands(const GeneralizeOptions& options);
-// The slopes that are masked as asked for; nothing: none are.
+// The requested slope mask; nothing: no mask.
 std::optional<SlopeRange> masked_slopes(const GeneralizeOptions& options);
-// Whether nothing is exaggerated at the foot of slopes.
+// Whether exaggeration is suppressed at the foot of slopes.
 bool masks_slope_feet(const GeneralizeOptions& options);
-// What of the run neither weights nor masks say, as it would be typed, each with a blank before it: how break lines are found, and the
-// operators before and after the bands. For the line below and that of the page with sliders.
+// Options of the run other than weights and masks, as typed, each with a space before it: how break
+// lines are found, and the operators before and after the bands. For the command line below and
+// that of the page with sliders.
 std::string describe_operators(const GeneralizeOptions& options, const GeneralizeParameters& bands);
-// The run as it would be typed, all of it that altitudes depend on, without folders: the same on every machine.
-std::string describe_generalize(const GeneralizeOptions& options, const GeneralizeParameters& bands);
+// The run as a command line, with everything that altitudes depend on, without folders: the same on
+// every machine.
+std::string describe_generalize(const GeneralizeOptions& options,
+                                const GeneralizeParameters& bands);
 
 }  // namespace belvedere::tools

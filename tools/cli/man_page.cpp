@@ -14,7 +14,8 @@ unsigned code_point(const std::string& text, std::size_t& i) {
   const auto lead = static_cast<unsigned char>(text[i]);
   const int more = lead >= 0xf0 ? 3 : lead >= 0xe0 ? 2 : 1;
   unsigned code = lead & (0x3fU >> more);
-  for (int k = 0; k < more && i + 1 < text.size(); ++k) code = code << 6U | (static_cast<unsigned char>(text[++i]) & 0x3fU);
+  for (int k = 0; k < more && i + 1 < text.size(); ++k)
+    code = code << 6U | (static_cast<unsigned char>(text[++i]) & 0x3fU);
   return code;
 }
 
@@ -39,13 +40,13 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
-// A line of its own: "." at its beginning would be a request.
+// A separate line: "." at its beginning would be a request.
 std::string line(const std::string& text) {
   const std::string out = escaped(text);
   return (out.starts_with('.') ? "\\&" : "") + out + "\n";
 }
 
-// Text whose lines are broken as they shall be shown.
+// Preformatted text.
 std::string shown(const std::string& text) {
   if (text.empty()) return {};
   std::string out = ".nf\n";
@@ -58,7 +59,8 @@ std::string shown(const std::string& text) {
 std::string usage(const OptionDescription& option) {
   if (option.positional) return "\\fI" + escaped(option.names.front()) + "\\fR";
   std::string out;
-  for (const std::string& name : option.names) out += std::string(out.empty() ? "" : ", ") + "\\fB" + escaped(name) + "\\fR";
+  for (const std::string& name : option.names)
+    out += std::string(out.empty() ? "" : ", ") + "\\fB" + escaped(name) + "\\fR";
   return option.value.empty() ? out : out + " \\fI" + escaped(option.value) + "\\fR";
 }
 
@@ -70,7 +72,7 @@ std::string option_entry(const OptionDescription& option) {
   return ".TP\n" + usage(option) + "\n" + line(text);
 }
 
-// The shortest that can be typed: arguments, and options that must be there.
+// The shortest form: arguments, and required options.
 std::string synopsis(const CommandDescription& command) {
   std::string out = "\\fB" + escaped(command.name) + "\\fR";
   for (const OptionDescription& option : command.options) {
@@ -82,13 +84,16 @@ std::string synopsis(const CommandDescription& command) {
   return out + " [\\fIOPTION\\fR ...]\n";
 }
 
-// A line of help has no point at its end.
-std::string sentence(const std::string& text) { return text + (text.ends_with('?') || text.ends_with('.') ? "" : "."); }
+// A line of help has no full stop at its end.
+std::string sentence(const std::string& text) {
+  return text + (text.ends_with('?') || text.ends_with('.') ? "" : ".");
+}
 
 void add_command(const CommandDescription& command, std::string& out) {
   for (const CommandDescription& one : command.commands) add_command(one, out);
   if (!command.commands.empty()) return;
-  out += ".SS " + escaped(command.name) + "\n" + line(sentence(command.meaning)) + ".PP\n" + synopsis(command);
+  out += ".SS " + escaped(command.name) + "\n" + line(sentence(command.meaning)) + ".PP\n" +
+         synopsis(command);
   for (const bool positional : {true, false})
     for (const OptionDescription& option : command.options)
       if (option.positional == positional) out += option_entry(option);
@@ -96,7 +101,8 @@ void add_command(const CommandDescription& command, std::string& out) {
 }
 
 std::string upper(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
   return text;
 }
 
@@ -104,9 +110,11 @@ std::string upper(std::string text) {
 
 std::string man_page(const CommandDescription& program, const std::string& version) {
   // No date: the same program gives the same page.
-  std::string out = fmt::format(".TH {} 1 \"\" \"{}\" \"User Commands\"\n", upper(program.name), version);
+  std::string out =
+      fmt::format(".TH {} 1 \"\" \"{}\" \"User Commands\"\n", upper(program.name), version);
   out += ".SH NAME\n" + escaped(program.name) + " \\- " + escaped(program.meaning) + "\n";
-  out += ".SH SYNOPSIS\n\\fB" + escaped(program.name) + "\\fR \\fICOMMAND\\fR [\\fIARGUMENT\\fR ...] [\\fIOPTION\\fR ...]\n";
+  out += ".SH SYNOPSIS\n\\fB" + escaped(program.name) +
+         "\\fR \\fICOMMAND\\fR [\\fIARGUMENT\\fR ...] [\\fIOPTION\\fR ...]\n";
   out += ".SH DESCRIPTION\n" + shown(program.description) + ".SH OPTIONS\n";
   for (const OptionDescription& option : program.options) out += option_entry(option);
   out += ".SH COMMANDS\n";

@@ -14,6 +14,7 @@
 #include "renderer/image/provenance.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/terminal.h"
+#include "tools/options/former_options.h"
 #include "tools/options/options.h"
 
 namespace belvedere::tools {
@@ -23,51 +24,56 @@ constexpr const char* program_meaning = "renders panorama maps in the look of a 
 
 constexpr const char* program_description =
     "Belvedere renders panorama maps in the look of a painting, from an elevation model,\n"
-    "a land-cover map and a scene file that says where you stand and where you look.\n\n"
+    "a land-cover map and a scene file with the viewpoint and the direction of view.\n"
+    "\n"
     "  belvedere render                                      a demo; needs no data\n"
-    "  belvedere check scenes/karwendel.toml --data ../data  is everything there?\n"
+    "  belvedere check scenes/karwendel.toml --data ../data  checks a scene and its files\n"
     "  belvedere render scenes/karwendel.toml --data ../data --out karwendel\n"
-    "  belvedere COMMAND --help                              all about one command";
+    "  belvedere COMMAND --help                              help on one command";
 
 constexpr const char* program_footer =
-    "Exit status: 0 done, 1 diff or verify found a difference, 2 command line or scene file, 3 input data, 4 output, 5 over a limit\n"
-    "(memory, size), 75 stopped by you, 70 a fault of the program.";
+    "Exit status: 0 done, 1 diff or verify found a difference, 2 command line or scene file, 3 "
+    "input data, 4 output, 5 over a limit\n"
+    "(memory, size), 75 interrupted, 70 internal error.";
 
 using Groups = std::map<std::string, CommandOptions>;
 
-// Groups come into the help where their first command stands.
+// Groups are listed in the help where their first command is.
 CommandOptions& group_of(const std::string& name, CommandOptions& program, Groups& made) {
   if (name.empty()) return program;
   if (const auto found = made.find(name); found != made.end()) return found->second;
   for (const CommandGroup& group : command_groups())
-    if (name == group.name) return made.emplace(name, program.add_command(group.name, group.meaning)).first->second;
+    if (name == group.name)
+      return made.emplace(name, program.add_command(group.name, group.meaning)).first->second;
   throw Error(ErrorKind::bug, "command table", "there is no group " + name);
 }
 
 struct Program {
-  CommandLine line{"belvedere", program_description, "belvedere " + program_version() + "\n" + library_versions()};
+  CommandLine line{"belvedere", program_description,
+                   "belvedere " + program_version() + "\n" + library_versions()};
   std::vector<std::pair<CommandOptions, Action>> actions;
 
   Program() {
     line.options().footer(program_footer);
     Groups groups;
     for (const Command& row : all_commands()) {
-      CommandOptions command = group_of(row.group, line.options(), groups).add_command(row.name, row.meaning);
+      CommandOptions command =
+          group_of(row.group, line.options(), groups).add_command(row.name, row.meaning);
       const Action action = row.add(command);
       actions.emplace_back(command, action);
     }
   }
 };
 
-// Where the command line ends before a command, or goes on with a word that is none: what is read says "A subcommand is required" to both.
-// Nothing where a command was found.
+// Where the command line ends before a command, or continues with an unknown word: CLI11 answers "A
+// subcommand is required" to both. Nothing where a command was found.
 void require_command(const CommandDescription& program, const std::vector<std::string>& arguments) {
   const CommandDescription* group = &program;
   std::string word;
   for (const std::string& next : arguments) {
     if (next.starts_with('-')) continue;
-    const auto known =
-        std::find_if(group->commands.begin(), group->commands.end(), [&](const auto& command) { return command.word() == next; });
+    const auto known = std::find_if(group->commands.begin(), group->commands.end(),
+                                    [&](const auto& command) { return command.word() == next; });
     if (known == group->commands.end()) {
       word = next;
       break;
@@ -77,18 +83,24 @@ void require_command(const CommandDescription& program, const std::vector<std::s
   }
   std::vector<std::string> names;
   for (const CommandDescription& command : group->commands) names.push_back(command.word());
-  const std::string allowed = fmt::format("{}. {} --help says what each does", fmt::join(names, ", "), group->name);
-  if (word.empty()) throw Error(ErrorKind::usage, "command line", fmt::format("what shall {} do?", group->name), allowed);
+  const std::string allowed = fmt::format("{}; see {} --help", fmt::join(names, ", "), group->name);
+  if (word.empty())
+    throw Error(ErrorKind::usage, "command line",
+                fmt::format("missing subcommand of {}", group->name), allowed);
   const std::string near = nearest_word(word, names);
   throw Error(ErrorKind::usage, "command line",
-              fmt::format("{} has no command \"{}\"{}", group->name, word, near.empty() ? "" : "; did you mean \"" + near + "\"?"),
+              fmt::format("{} has no command \"{}\"{}", group->name, word,
+                          near.empty() ? "" : "; did you mean \"" + near + "\"?"),
               allowed);
 }
 
 }  // namespace
 
-int run_program(const std::vector<std::string>& arguments) {
+int run_program(const std::vector<std::string>& words) {
   Program program;
+  std::vector<std::string> notes;
+  const std::vector<std::string> arguments = with_present_names(words, notes);
+  for (const std::string& note : notes) print_error("note: " + note + "\n");
   std::string text;
   try {
     text = program.line.read(arguments);
@@ -124,16 +136,26 @@ int program_main(int argc, char** argv) {
     return status;
   } catch (const Error& error) {
     const std::string asked =
-        error.kind() == ErrorKind::bug ? "\n  This is a fault of the program, not of your data. Please report it." : "";
+        error.kind() == ErrorKind::bug
+            ? "\n"
+              "  This is a bug of the program, not an error in your data. Please report it."
+            : "";
     return fail(error.what() + asked, error.kind());
   } catch (const std::bad_alloc&) {
-    return fail("there is not enough memory\n  allowed: a smaller output.width and output.height, or a smaller terrain.extent",
-                ErrorKind::limit);
+    return fail(
+        "not enough memory\n"
+        "  allowed: a smaller output.width and output.height, or a smaller terrain.extent",
+        ErrorKind::limit);
   } catch (const std::exception& error) {
-    return fail(std::string("unexpected: ") + error.what() + "\n  This is a fault of the program, not of your data. Please report it.",
+    return fail(std::string("internal error: ") + error.what() +
+                    "\n"
+                    "  This is a bug of the program, not an error in your data. Please report it.",
                 ErrorKind::bug);
   } catch (...) {
-    return fail("unexpected: an error without a description\n  This is a fault of the program. Please report it.", ErrorKind::bug);
+    return fail(
+        "internal error without a description\n"
+        "  This is a bug of the program. Please report it.",
+        ErrorKind::bug);
   }
 }
 

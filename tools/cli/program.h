@@ -7,12 +7,14 @@
 
 namespace belvedere::tools {
 
-// Does what a command line says; `arguments` without the program's name. Returns the exit status: 0, or that of a command whose answer is
-// one. Throws Error(usage) for a command line that cannot be meant, naming the nearest command to a misspelt one.
+// Executes a command line; `arguments` without the program's name. Returns the exit status: 0, or
+// that of a command whose result is one. Throws Error(usage) for an invalid command line, naming
+// the nearest command to a misspelt one.
 int run_program(const std::vector<std::string>& arguments);
 
-// What main() does, so that tests can call it: prepares the process, does what the command line says, and turns every error into a message
-// on stderr and the exit status of its kind. The one place that catches errors.
+// The body of main(), callable from tests: prepares the process, executes the command line, and
+// turns every error into a message on stderr and the exit status of its kind. The one place that
+// catches errors.
 int program_main(int argc, char** argv);
 
 // All commands and their options.

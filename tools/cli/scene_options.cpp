@@ -18,22 +18,32 @@ namespace belvedere::tools {
 
 void add_file_options(CommandOptions& command, SceneOptions& options) {
   command
-      .add_option("--data", options.files.data_folders,
-                  "A folder in which the scene's files may lie, beside the scene's own; may be repeated")
+      .add_option(
+          "--data", options.files.data_folders,
+          "A folder with files of the scene, searched after the scene's own; may be repeated")
       .type_name("DIR")
       .repeated();
-  command.add_flag("--allow-http", options.allow_http, "Rasters may be addresses, https://…; without it no server is asked for anything");
-  command.add_option("--http-silence", options.http_silence_s, "How long a server may send nothing before it counts as lost, in seconds")
+  command.add_flag("--allow-http", options.allow_http,
+                   "Allows addresses (https://…) of rasters; otherwise no server is contacted");
+  command
+      .add_option("--http-silence", options.http_silence_s,
+                  "Timeout in seconds: how long a server may send nothing before the connection "
+                  "counts as lost")
       .type_name("S")
       .show_default()
       .range(1, 3600);
 }
 
 void add_run_options(CommandOptions& command, SceneOptions& options) {
-  command.add_option("--memory", options.memory_mib, "Memory that the program may take; 0, the default, is three quarters of the machine's")
+  command
+      .add_option(
+          "--memory", options.memory_mib,
+          "Memory that the program may use; 0, the default, is three quarters of the machine's")
       .type_name("MIB")
       .range(0, 1 << 30);
-  command.add_flag("--no-cache", options.no_cache, "Makes everything anew and keeps nothing; see belvedere cache list. Changes no pixel");
+  command.add_flag("--no-cache", options.no_cache,
+                   "Does not use the cache: computes everything again and keeps nothing; see "
+                   "belvedere cache list. Changes no pixel");
   add_run_options(command, static_cast<RunOptions&>(options), "pixel");
 }
 
@@ -42,51 +52,71 @@ void add_scene_options(CommandOptions& command, SceneOptions& options, const std
   add_file_options(command, options);
   command
       .add_option("--set", options.files.settings,
-                  "Overrides a key of the scene: --set output.width=1200, --set exemplar.0.seed=3; may be repeated")
+                  "Overrides a key of the scene: --set output.width=1200, --set exemplar.0.seed=3; "
+                  "may be repeated")
       .type_name("KEY=VALUE")
       .repeated();
   add_run_options(command, options);
 }
 
 void add_locked_option(CommandOptions& command, SceneOptions& options) {
-  command.add_flag("--locked", options.locked, "Only with the inputs that the scene's lock file knows, byte for byte; see belvedere lock");
+  command.add_flag(
+      "--locked", options.locked,
+      "Renders only if the inputs match the scene's lock file byte for byte; see belvedere lock");
 }
 
 void add_layers_option(CommandOptions& command, std::vector<std::string>& layers) {
-  std::vector<std::string> endings;
-  for (const LayerFormat& format : layer_formats()) endings.push_back(format.ending);
+  std::vector<std::string> extensions;
+  for (const LayerFormat& format : layer_formats()) extensions.push_back(format.extension);
   command
       .add_option("--layers", layers,
-                  "Also the picture in layers: ground, strokes, trees, houses … as panorama.ora (GIMP, Krita; 16 bits), panorama.psd "
-                  "(Photoshop, Affinity; 16 bits) or panorama_layers.exr (Nuke, Natron, Blender; linear light)")
-      .type_name(fmt::format("{},…", fmt::join(endings, "|")))
+                  "Also writes the picture in layers (ground, strokes, trees, houses …) as "
+                  "panorama.ora (GIMP, Krita; 16 bits), panorama.psd (Photoshop, Affinity; 16 "
+                  "bits) or panorama_layers.exr (Nuke, Natron, Blender; linear light)")
+      .type_name(fmt::format("{},…", fmt::join(extensions, "|")))
       .list(',')
-      .one_of(endings);
+      .one_of(extensions);
 }
 
 void allow_servers(const SceneOptions& options) {
   if (!options.allow_http) return;
   const bool quiet = options.quiet;
   static std::unique_ptr<HttpAccess> access;  // as long as the program runs
-  access = std::make_unique<HttpAccess>(HttpParameters{.silence_s = options.http_silence_s, .tell = [quiet](const std::string& text) {
-                                                         if (!quiet) print_error("note: " + text + "\n");
-                                                       }});
+  access = std::make_unique<HttpAccess>(
+      HttpParameters{.silence_s = options.http_silence_s, .tell = [quiet](const std::string& text) {
+                       if (!quiet) print_error("note: " + text + "\n");
+                     }});
 }
+
+namespace {
+
+void tell_notes(const LoadedScene& scene, const SceneOptions& options) {
+  if (options.quiet) return;
+  for (const std::string& note : scene.notes) print_error("note: " + note + "\n");
+}
+
+}  // namespace
 
 LoadedScene load(const SceneOptions& options) {
   allow_servers(options);
   if (!options.scene.empty()) {
     LoadedScene scene = read_scene(options.scene, options.files);
-    if (options.locked) require_locked_inputs(scene, read_lock(lock_path(options.scene)), options.scene);
+    tell_notes(scene, options);
+    if (options.locked)
+      require_locked_inputs(scene, read_lock(lock_path(options.scene)), options.scene);
     return scene;
   }
-  if (options.locked) throw Error(ErrorKind::usage, "--locked", "the built-in demo has no lock file", "a scene file");
+  if (options.locked)
+    throw Error(ErrorKind::usage, "--locked", "the built-in demo has no lock file", "a scene file");
   const std::string demo(embedded_file("scenes/demo/demo.toml"));
-  return parse_scene(demo, "demo.toml", ".", options.files);
+  LoadedScene scene = parse_scene(demo, "demo.toml", ".", options.files);
+  tell_notes(scene, options);
+  return scene;
 }
 
 Cache make_cache(const SceneOptions& options) {
-  return Cache({.folder = options.no_cache ? std::string() : user_cache_folder(), .limit_bytes = 0});
+  return Cache(
+      {.folder = options.no_cache ? std::string() : user_cache_folder(), .limit_bytes = 0});
 }
 
 Run make_run(const SceneOptions& options, int tile_px, Progress& progress, const Cache& cache) {

@@ -10,7 +10,7 @@ namespace belvedere::tools {
 
 class CommandOptions;
 
-// What every command that takes a scene has in common.
+// Options shared by every command that takes a scene.
 struct SceneOptions : RunOptions {
   std::string scene;  // path; empty: the built-in demo
   SceneFileOptions files;
@@ -23,22 +23,23 @@ struct SceneOptions : RunOptions {
 
 // meaning: of the scene, in the command's help.
 void add_scene_options(CommandOptions& command, SceneOptions& options,
-                       const std::string& meaning = "The scene file; without one the built-in demo");
-// The parts of it that commands with several scenes take as well: --data and --allow-http, and threads, memory, quiet, json.
+                       const std::string& meaning = "The scene file. Default: the built-in demo");
+// Of these, the options of commands with several scenes: --data and --allow-http, and threads,
+// memory, quiet, json.
 void add_file_options(CommandOptions& command, SceneOptions& options);
 void add_run_options(CommandOptions& command, SceneOptions& options);
-// --locked, which load() then holds to.
+// --locked, which load() then enforces.
 void add_locked_option(CommandOptions& command, SceneOptions& options);
-// Formats of layers, as renderer/image/layers/layer_file.h has them.
+// Formats of layers, as in renderer/image/layers/layer_file.h.
 void add_layers_option(CommandOptions& command, std::vector<std::string>& layers);
-// Opens the way to servers for the rest of the program, where the options allow it.
+// Allows access to servers for the rest of the program, if the options do.
 void allow_servers(const SceneOptions& options);
-// Reads the scene, or the demo; its inputs are those of its lock where that is asked for.
+// Reads the scene or the demo; its inputs must match its lock if that is asked for.
 LoadedScene load(const SceneOptions& options);
-// The user's cache; none where the command line says so.
+// The user's cache; none with --no-cache.
 Cache make_cache(const SceneOptions& options);
-// How the job is to be done, as the command line says.
-Run make_run(const SceneOptions& options, int tile_px = Run{}.tile_px, Progress& progress = silent_progress(),
-             const Cache& cache = no_cache());
+// Job settings from the command line.
+Run make_run(const SceneOptions& options, int tile_px = Run{}.tile_px,
+             Progress& progress = silent_progress(), const Cache& cache = no_cache());
 
 }  // namespace belvedere::tools

@@ -7,7 +7,7 @@
 namespace belvedere::tools {
 namespace {
 
-// What the value of an option is completed by.
+// How the value of an option is completed.
 enum class Values { none, choices, folders, files, scenes };
 
 Values values_of(const OptionDescription& option) {
@@ -23,13 +23,15 @@ Values values_of(const OptionDescription& option) {
 std::string names_of(const CommandDescription& command) {
   std::string out;
   for (const OptionDescription& option : command.options)
-    if (!option.positional) out += fmt::format("{}{}", out.empty() ? "" : " ", fmt::join(option.names, " "));
+    if (!option.positional)
+      out += fmt::format("{}{}", out.empty() ? "" : " ", fmt::join(option.names, " "));
   return out;
 }
 
 std::string words_of(const std::vector<CommandDescription>& commands) {
   std::string out;
-  for (const CommandDescription& command : commands) out += (out.empty() ? "" : " ") + command.word();
+  for (const CommandDescription& command : commands)
+    out += (out.empty() ? "" : " ") + command.word();
   return out;
 }
 
@@ -88,7 +90,8 @@ void add_bash_names(const CommandDescription& command, std::string& out) {
 std::string bash_values(const OptionDescription& option) {
   switch (values_of(option)) {
     case Values::choices:
-      return fmt::format("_belvedere_words {}", quoted(fmt::format("{}", fmt::join(option.choices, " "))));
+      return fmt::format("_belvedere_words {}",
+                         quoted(fmt::format("{}", fmt::join(option.choices, " "))));
     case Values::folders:
       return "_belvedere_files -d";
     case Values::files:
@@ -106,21 +109,26 @@ void add_bash_command(const CommandDescription& command, std::string& out) {
   std::string cases;
   for (const OptionDescription& option : command.options)
     if (!option.positional && !option.value.empty())
-      cases += fmt::format("        {}) {}; return ;;\n", fmt::join(option.names, " | "), bash_values(option));
+      cases += fmt::format("        {}) {}; return ;;\n", fmt::join(option.names, " | "),
+                           bash_values(option));
   if (!cases.empty()) out += "      case \"$before\" in\n" + cases + "      esac\n";
   const OptionDescription* argument = first_argument(command);
-  const std::string other = !command.commands.empty() ? "_belvedere_words " + quoted(words_of(command.commands))
-                            : argument != nullptr     ? bash_values(*argument)
-                                                      : std::string("_belvedere_files -f");
-  out += fmt::format("      case \"$word\" in\n        -*) _belvedere_words {} ;;\n        *) {} ;;\n      esac ;;\n",
-                     quoted(names_of(command)), other);
+  const std::string other = !command.commands.empty()
+                                ? "_belvedere_words " + quoted(words_of(command.commands))
+                            : argument != nullptr ? bash_values(*argument)
+                                                  : std::string("_belvedere_files -f");
+  out += fmt::format(
+      "      case \"$word\" in\n        -*) _belvedere_words {} ;;\n        *) {} ;;\n      esac "
+      ";;\n",
+      quoted(names_of(command)), other);
   for (const CommandDescription& one : command.commands) add_bash_command(one, out);
 }
 
 std::string bash_completion(const CommandDescription& program) {
   std::string names;
   add_bash_names(program, names);
-  std::string out = bash_head + fmt::format("      {}) command+=\" ${{COMP_WORDS[i]}}\" ;;\n", names);
+  std::string out =
+      bash_head + fmt::format("      {}) command+=\" ${{COMP_WORDS[i]}}\" ;;\n", names);
   out += "    esac\n  done\n  case \"$command\" in\n";
   add_bash_command(program, out);
   return out + "  esac\n}\ncomplete -F _belvedere belvedere\n";
@@ -128,10 +136,11 @@ std::string bash_completion(const CommandDescription& program) {
 
 // ---- zsh
 
-// Within a specification of _arguments, where these part its fields.
+// Characters that separate the fields of a specification of _arguments.
 std::string zsh_text(const std::string& text) {
   std::string out;
-  for (const char c : text) out += (c == ':' || c == '[' || c == ']' || c == '\\' ? "\\" : "") + std::string(1, c);
+  for (const char c : text)
+    out += (c == ':' || c == '[' || c == ']' || c == '\\' ? "\\" : "") + std::string(1, c);
   return out;
 }
 
@@ -164,12 +173,16 @@ void add_zsh_command(const CommandDescription& command, std::string& out) {
   if (!command.commands.empty()) out += "  local line state\n";
   out += "  _arguments" + std::string(command.commands.empty() ? "" : " -C");
   const OptionDescription* argument = first_argument(command);  // further ones are files as well
-  if (argument != nullptr) out += " \\\n    " + quoted("*:" + zsh_text(argument->names.front()) + ":" + zsh_values(*argument));
+  if (argument != nullptr)
+    out += " \\\n    " +
+           quoted("*:" + zsh_text(argument->names.front()) + ":" + zsh_values(*argument));
   for (const OptionDescription& option : command.options) {
     if (option.positional) continue;
     for (const std::string& name : option.names)
       out += " \\\n    " + quoted("*" + name + "[" + zsh_text(option.meaning) + "]" +
-                                  (option.value.empty() ? "" : ":" + zsh_text(option.value) + ":" + zsh_values(option)));
+                                  (option.value.empty()
+                                       ? ""
+                                       : ":" + zsh_text(option.value) + ":" + zsh_values(option)));
   }
   if (command.commands.empty()) {
     out += "\n}\n\n";
@@ -178,7 +191,8 @@ void add_zsh_command(const CommandDescription& command, std::string& out) {
   std::string words;
   std::string cases;
   for (const CommandDescription& one : command.commands) {
-    words += fmt::format("{}{}\\:{}", words.empty() ? "" : " ", one.word(), "\"" + zsh_text(one.meaning) + "\"");
+    words += fmt::format("{}{}\\:{}", words.empty() ? "" : " ", one.word(),
+                         "\"" + zsh_text(one.meaning) + "\"");
     cases += fmt::format("    {}) {} ;;\n", one.word(), zsh_function(one));
   }
   out += " \\\n    " + quoted("1:command:((" + words + "))") + " \\\n    '*::argument:->rest'\n";
@@ -186,22 +200,27 @@ void add_zsh_command(const CommandDescription& command, std::string& out) {
 }
 
 std::string zsh_completion(const CommandDescription& program) {
-  std::string out = "#compdef belvedere\n# Completion for zsh, made by `belvedere completion zsh`.\n\n";
+  std::string out =
+      "#compdef belvedere\n# Completion for zsh, made by `belvedere completion zsh`.\n\n";
   add_zsh_command(program, out);
   return out + "_belvedere \"$@\"\n";
 }
 
 // ---- fish
 
-void add_fish_command(const CommandDescription& command, const std::string& when, std::string& out) {
+void add_fish_command(const CommandDescription& command, const std::string& when,
+                      std::string& out) {
   const auto line = [&](const std::string& rest, const std::string& meaning) {
-    out += fmt::format("complete -c belvedere{} {} -d {}\n", when.empty() ? "" : " -n " + quoted(when), rest, quoted(meaning));
+    out += fmt::format("complete -c belvedere{} {} -d {}\n",
+                       when.empty() ? "" : " -n " + quoted(when), rest, quoted(meaning));
   };
   for (const OptionDescription& option : command.options) {
-    if (option.positional && option.choices.empty()) continue;  // files, which fish completes by itself
+    if (option.positional && option.choices.empty())
+      continue;  // files, which fish completes by itself
     std::string rest;
     for (const std::string& name : option.positional ? std::vector<std::string>() : option.names)
-      rest += (rest.empty() ? "" : " ") + (name.starts_with("--") ? "-l " + name.substr(2) : "-s " + name.substr(1));
+      rest += (rest.empty() ? "" : " ") +
+              (name.starts_with("--") ? "-l " + name.substr(2) : "-s " + name.substr(1));
     switch (values_of(option)) {
       case Values::choices:
         rest += fmt::format(" -x -a '{}'", fmt::join(option.choices, " "));
@@ -222,13 +241,15 @@ void add_fish_command(const CommandDescription& command, const std::string& when
   const std::string also = when.empty() ? "" : when + "; and ";
   for (const CommandDescription& one : command.commands) {
     const std::string none = also + "not __fish_seen_subcommand_from " + words;
-    out += fmt::format("complete -c belvedere -f -n {} -a {} -d {}\n", quoted(none), one.word(), quoted(one.meaning));
+    out += fmt::format("complete -c belvedere -f -n {} -a {} -d {}\n", quoted(none), one.word(),
+                       quoted(one.meaning));
   }
   for (const CommandDescription& one : command.commands) {
     std::string seen = also + "__fish_seen_subcommand_from " + one.word();
-    // A word that stands behind a group too is meant there: `exemplar check` is not `check`.
+    // Excludes commands of groups: `exemplar check` is not `check`.
     for (const CommandDescription& other : command.commands)
-      if (!other.commands.empty() && other.name != one.name) seen += "; and not __fish_seen_subcommand_from " + other.word();
+      if (!other.commands.empty() && other.name != one.name)
+        seen += "; and not __fish_seen_subcommand_from " + other.word();
     add_fish_command(one, seen, out);
   }
 }
@@ -243,7 +264,8 @@ struct Shell {
   const char* name;
   std::string (*script)(const CommandDescription& program);
 };
-constexpr Shell shells[] = {{"bash", bash_completion}, {"fish", fish_completion}, {"zsh", zsh_completion}};
+constexpr Shell shells[] = {
+    {"bash", bash_completion}, {"fish", fish_completion}, {"zsh", zsh_completion}};
 
 }  // namespace
 
@@ -256,7 +278,8 @@ std::vector<std::string> completed_shells() {
 std::string shell_completion(const CommandDescription& program, const std::string& shell) {
   for (const Shell& known : shells)
     if (shell == known.name) return known.script(program);
-  throw Error(ErrorKind::usage, "shell", "\"" + shell + "\"", fmt::format("{}", fmt::join(completed_shells(), ", ")));
+  throw Error(ErrorKind::usage, "shell", "\"" + shell + "\"",
+              fmt::format("{}", fmt::join(completed_shells(), ", ")));
 }
 
 }  // namespace belvedere::tools

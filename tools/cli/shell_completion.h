@@ -10,8 +10,8 @@ namespace belvedere::tools {
 // "bash", "fish", "zsh".
 std::vector<std::string> completed_shells();
 
-// A script that makes the shell complete commands, options, their values, scene files and folders. It holds all it needs and does not run
-// the program. Error(usage) for a shell that is not known.
+// A script that makes the shell complete commands, options, their values, scene files and folders.
+// It is self-contained and does not run the program. Error(usage) for an unknown shell.
 std::string shell_completion(const CommandDescription& program, const std::string& shell);
 
 }  // namespace belvedere::tools

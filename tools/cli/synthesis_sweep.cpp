@@ -20,19 +20,21 @@
 namespace belvedere::tools {
 namespace {
 
-constexpr int most_cells = 100;
+constexpr int max_cells = 100;
 constexpr int cell_px = 512;  // longest side of a result on the sheet
 
 struct SweptParameter {
   const char* name;
-  double least;
-  double most;
+  double min;
+  double max;
   bool whole;
 };
-constexpr double largest_seed = 9007199254740992.0;  // 2^53: every whole number up to it is a double
-constexpr SweptParameter parameters_swept[] = {{"seed", 0, largest_seed, true}, {"levels", 1, 8, true},
-                                               {"reuse", 0, 10, false},         {"copy-cap", 16, 100000, true},
-                                               {"neighbourhood", 3, 11, true},  {"surroundings", 0, 100, false}};
+constexpr double largest_seed =
+    9007199254740992.0;  // 2^53: every whole number up to it is a double
+constexpr SweptParameter parameters_swept[] = {
+    {"seed", 0, largest_seed, true}, {"levels", 1, 8, true},
+    {"reuse", 0, 10, false},         {"copy-cap", 16, 100000, true},
+    {"neighbourhood", 3, 11, true},  {"surroundings", 0, 100, false}};
 constexpr SweptParameter weight_swept = {"weight", 0, 100, false};
 
 const SweptParameter* find_swept(const std::string& name, const std::vector<std::string>& guides) {
@@ -41,12 +43,14 @@ const SweptParameter* find_swept(const std::string& name, const std::vector<std:
   return std::find(guides.begin(), guides.end(), name) != guides.end() ? &weight_swept : nullptr;
 }
 
-// What the sheet shows of each result: all of it, or where most borders of classes lie.
+// The part of each result on the sheet: all of it, or where most borders of classes lie.
 PixelRect choose_view(const Grid<std::uint8_t>& labels) {
-  if (std::max(labels.width(), labels.height()) <= cell_px) return {0, 0, labels.width(), labels.height()};
+  if (std::max(labels.width(), labels.height()) <= cell_px)
+    return {0, 0, labels.width(), labels.height()};
   const Grid<std::uint8_t> borders = border_distance_squared(labels);
   Grid<float> score(labels.width(), labels.height());
-  std::transform(borders.begin(), borders.end(), score.begin(), [](std::uint8_t d) { return d == 0 ? 1.F : 0.F; });
+  std::transform(borders.begin(), borders.end(), score.begin(),
+                 [](std::uint8_t d) { return d == 0 ? 1.F : 0.F; });
   return best_window(score, {}, cell_px);
 }
 
@@ -60,10 +64,13 @@ struct SweptResult {
 std::string summary(const SynthesisQuality& quality) {
   const auto figures = key_figures(quality);
   const auto value = [&](const std::string& key) {
-    return std::find_if(figures.begin(), figures.end(), [&](const QualityFigure& f) { return f.key == key; })->value;
+    return std::find_if(figures.begin(), figures.end(),
+                        [&](const QualityFigure& f) { return f.key == key; })
+        ->value;
   };
-  return fmt::format("guide {:.1f} sharp {:.2f} clique {:.3f} run {:.2f}", value("guide_error_mean"), value("sharpness"),
-                     value("clique_distance"), value("stroke_run"));
+  return fmt::format("guide {:.1f} sharp {:.2f} clique {:.3f} run {:.2f}",
+                     value("guide_error_mean"), value("sharpness"), value("clique_distance"),
+                     value("stroke_run"));
 }
 
 ReportTable table_of(const std::vector<SweepAxis>& axes, const std::vector<SweptResult>& results) {
@@ -75,7 +82,8 @@ ReportTable table_of(const std::vector<SweepAxis>& axes, const std::vector<Swept
   for (const SweptResult& result : results) {
     std::vector<Json> row = {linked(result.texts.front(), result.file + ".png")};
     if (axes.size() > 1) row.push_back(Json::text(result.texts[1]));
-    for (const QualityFigure& figure : key_figures(result.quality)) row.push_back(judged(figure.value, figure.good()));
+    for (const QualityFigure& figure : key_figures(result.quality))
+      row.push_back(evaluated(figure.value, figure.good()));
     table.add_row(std::move(row));
   }
   return table;
@@ -85,7 +93,9 @@ ReportTable table_of(const std::vector<SweepAxis>& axes, const std::vector<Swept
 Json classes_of(const std::vector<SweptResult>& results) {
   Json all = Json::object();
   for (const SweptResult& result : results)
-    all.add(result.file, class_table(result.quality, {}, [](std::uint8_t label) { return fmt::format("class {}", label); }).rows());
+    all.add(result.file, class_table(result.quality, {}, [](std::uint8_t label) {
+                           return fmt::format("class {}", label);
+                         }).rows());
   return all;
 }
 
@@ -95,7 +105,7 @@ std::vector<std::string> names_along(const SweepAxis& axis) {
   return names;
 }
 
-// The guide that figures speak of: altitude where both sides have it.
+// The guide that the figures refer to: altitude if both sides have it.
 std::string measured_guide(const SweepInput& in) {
   std::string guide;
   for (const Guide& g : in.target.guides)
@@ -108,15 +118,18 @@ std::string measured_guide(const SweepInput& in) {
 SweepAxis parse_sweep(const std::string& text, const std::vector<std::string>& guides) {
   const std::string where = "--sweep " + text;
   const std::size_t equals = text.find('=');
-  if (equals == std::string::npos || equals == 0) refuse(where, "has no name and values", "NAME=VALUE,VALUE,… such as reuse=0,1,4");
+  if (equals == std::string::npos || equals == 0)
+    refuse(where, "has no name and values", "NAME=VALUE,VALUE,… such as reuse=0,1,4");
   SweepAxis axis{.name = text.substr(0, equals), .texts = {}, .values = {}};
   if (axis.name == "copy_cap") axis.name = "copy-cap";
   const SweptParameter* swept = find_swept(axis.name, guides);
   if (swept == nullptr) {
     std::string names;
-    for (const SweptParameter& known : parameters_swept) names += std::string(names.empty() ? "" : ", ") + known.name;
+    for (const SweptParameter& known : parameters_swept)
+      names += std::string(names.empty() ? "" : ", ") + known.name;
     for (const std::string& guide : guides) names += ", " + guide;
-    refuse(where, fmt::format("\"{}\" is nothing that can be swept", axis.name), names + (guides.empty() ? "" : " (weight)"));
+    refuse(where, fmt::format("\"{}\" cannot be swept", axis.name),
+           names + (guides.empty() ? "" : " (weight)"));
   }
   for (std::size_t begin = equals + 1; begin <= text.size();) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
@@ -125,13 +138,16 @@ SweepAxis parse_sweep(const std::string& text, const std::vector<std::string>& g
     const auto [rest, fault] = std::from_chars(word.data(), word.data() + word.size(), value);
     const bool number = fault == std::errc() && rest == word.data() + word.size();
     const bool even = axis.name == "neighbourhood" && std::fmod(value, 2.0) == 0.0;
-    if (!number || even || !(value >= swept->least && value <= swept->most) || (swept->whole && value != std::floor(value)))
+    if (!number || even || !(value >= swept->min && value <= swept->max) ||
+        (swept->whole && value != std::floor(value)))
       refuse(where, fmt::format("a value \"{}\"", word),
-             fmt::format("{}{} … {}",
-                         axis.name == "neighbourhood" ? "odd numbers "
-                         : swept->whole               ? "whole numbers "
-                                                      : "",
-                         swept->least, swept->most == largest_seed ? std::string("2^53") : fmt::format("{}", swept->most)));
+             fmt::format(
+                 "{}{} … {}",
+                 axis.name == "neighbourhood" ? "odd numbers "
+                 : swept->whole               ? "whole numbers "
+                                              : "",
+                 swept->min,
+                 swept->max == largest_seed ? std::string("2^53") : fmt::format("{}", swept->max)));
     if (std::find(axis.values.begin(), axis.values.end(), value) != axis.values.end())
       refuse(where, fmt::format("the value {} twice", word), "each value once");
     axis.texts.push_back(word);
@@ -141,7 +157,8 @@ SweepAxis parse_sweep(const std::string& text, const std::vector<std::string>& g
   return axis;
 }
 
-SynthesisParameters with_value(SynthesisParameters parameters, const std::string& name, double value) {
+SynthesisParameters with_value(SynthesisParameters parameters, const std::string& name,
+                               double value) {
   if (name == "seed")
     parameters.seed = static_cast<std::uint64_t>(value);
   else if (name == "levels")
@@ -162,8 +179,9 @@ SynthesisParameters with_value(SynthesisParameters parameters, const std::string
 int write_sweep(const std::string& folder, const SweepInput& in, Progress& progress) {
   const std::size_t columns = in.axes.at(0).values.size();
   const std::size_t rows = in.axes.size() > 1 ? in.axes[1].values.size() : 1;
-  if (columns * rows > static_cast<std::size_t>(most_cells))
-    refuse("--sweep", fmt::format("{} syntheses", columns * rows), fmt::format("at most {}", most_cells));
+  if (columns * rows > static_cast<std::size_t>(max_cells))
+    refuse("--sweep", fmt::format("{} syntheses", columns * rows),
+           fmt::format("at most {}", max_cells));
   Report page(folder);
   const PixelRect view = choose_view(in.target.label);
   PictureTable sheet{.columns = names_along(in.axes[0]), .rows = {}, .cells = {}, .foot = {}};
@@ -174,8 +192,11 @@ int write_sweep(const std::string& folder, const SweepInput& in, Progress& progr
   std::vector<SweptResult> results;
   for (std::size_t r = 0; r < rows; ++r) {
     for (std::size_t c = 0; c < columns; ++c) {
-      SweptResult result{.texts = {in.axes[0].texts[c]}, .file = fmt::format("{}_{}", c + 1, r + 1), .quality = {}};
-      SynthesisParameters parameters = with_value(in.parameters, in.axes[0].name, in.axes[0].values[c]);
+      SweptResult result{.texts = {in.axes[0].texts[c]},
+                         .file = fmt::format("{}_{}", c + 1, r + 1),
+                         .quality = {}};
+      SynthesisParameters parameters =
+          with_value(in.parameters, in.axes[0].name, in.axes[0].values[c]);
       if (in.axes.size() > 1) {
         result.texts.push_back(in.axes[1].texts[r]);
         parameters = with_value(parameters, in.axes[1].name, in.axes[1].values[r]);
@@ -183,7 +204,8 @@ int write_sweep(const std::string& folder, const SweepInput& in, Progress& progr
       SweepProgress here(progress, results.size() + 1, columns * rows);
       const MatchField matches = synthesize(in.exemplars, in.target, parameters, here);
       here.begin("measuring", 0.0);
-      result.quality = measure_quality(matches, in.exemplars, in.target, {.guide = measured_guide(in)});
+      result.quality =
+          measure_quality(matches, in.exemplars, in.target, {.guide = measured_guide(in)});
       const Grid<glm::vec3> picture = to_picture(replay(matches, layers, Grid<Rgb8>()));
       page.write_picture(result.file, picture);
       sheet.cells[r].push_back({cut(picture, view), summary(result.quality)});
@@ -194,18 +216,22 @@ int write_sweep(const std::string& folder, const SweepInput& in, Progress& progr
   const bool whole = view.width() == in.target.width() && view.height() == in.target.height();
   page.section("sheet", "All results",
                (whole ? std::string()
-                      : fmt::format("The same {} × {} pixels of each, from {}, {}, where most borders of classes lie. ", view.width(),
-                                    view.height(), view.x0, view.y0)) +
-                   "Below each its key figures: how far the guide is off, sharpness, clique distance and length of strokes of the worst "
-                   "class.");
+                      : fmt::format("The same {} × {} pixels of each, from {}, {}, where most "
+                                    "borders of classes lie. ",
+                                    view.width(), view.height(), view.x0, view.y0)) +
+                   "Below each its key figures: deviation of the guide, sharpness, clique distance "
+                   "and stroke length of the worst class.");
   page.picture("sheet", draw_table(sheet), "sheet.png");
-  page.section("figures", "Figures",
-               "Red is outside of what eyes are content with. The first column leads to each result, whole; the others are those of a "
-               "report: how far the guide is off, what is unlike the painting in the worst class, the largest piece, the texel used most, "
-               "and so on.");
+  page.section(
+      "figures", "Figures",
+      "Red is outside the range of good pictures. The first column links to each full result; the "
+      "others are those of a report: deviation of the guide, differences from the painting in the "
+      "worst class, the largest piece, the most used texel, and so on.");
   page.table(table_of(in.axes, results));
-  page.write({.title = "Sweep of " + in.axes[0].name + (in.axes.size() > 1 ? " and " + in.axes[1].name : ""),
-              .lead = fmt::format("{}: {} syntheses of {} × {} pixels.", in.title, results.size(), in.target.width(), in.target.height()),
+  page.write({.title = "Sweep of " + in.axes[0].name +
+                       (in.axes.size() > 1 ? " and " + in.axes[1].name : ""),
+              .lead = fmt::format("{}: {} syntheses of {} × {} pixels.", in.title, results.size(),
+                                  in.target.width(), in.target.height()),
               .command = in.command,
               .data = classes_of(results)});
   return static_cast<int>(results.size());

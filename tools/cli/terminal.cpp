@@ -23,7 +23,7 @@ int output_problem = 0;  // errno of the first failed write to stdout
 
 extern "C" void on_signal(int) {
   stop_asked = 1;
-  // The next one, whichever it is, ends the program at once.
+  // The next signal ends the program at once.
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
 }
@@ -39,7 +39,8 @@ void prepare_process() {
     const int opened = open("/dev/null", O_RDWR);  // the lowest free number, which is this one
     static_cast<void>(opened);
   }
-  // A closed pipe and a limit of file sizes are errors of the write, not the end of the program with a half file left.
+  // Makes a closed pipe and a file size limit errors of the write instead of signals that end the
+  // program and leave half a file.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGINT, on_signal);
@@ -49,7 +50,8 @@ void prepare_process() {
 bool interrupted() { return stop_asked != 0; }
 
 void print_out(std::string_view text) {
-  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() && output_problem == 0) output_problem = errno;
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() && output_problem == 0)
+    output_problem = errno;
 }
 
 void print_result(const RunOptions& options, const Json& json, const std::string& text) {
@@ -61,9 +63,10 @@ void print_result(const RunOptions& options, const Json& json, const std::string
 
 void finish_output() {
   if (std::fflush(stdout) != 0 && output_problem == 0) output_problem = errno;
-  // Whoever reads may stop reading: `belvedere info x.exr | head -1` is no failure.
+  // A reader may close the pipe early: `belvedere info x.exr | head -1` is not an error.
   if (output_problem != 0 && output_problem != EPIPE)
-    throw Error(ErrorKind::output, "standard output", "cannot be written: " + std::generic_category().message(output_problem));
+    throw Error(ErrorKind::output, "standard output",
+                "cannot be written: " + std::generic_category().message(output_problem));
 }
 
 void print_error(std::string_view text) {
@@ -79,7 +82,10 @@ std::string describe_seconds(double seconds) {
 }
 
 TerminalProgress::TerminalProgress(bool quiet)
-    : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1), begun_(Clock::now()), drawn_at_(begun_) {}
+    : quiet_(quiet),
+      terminal_(isatty(STDERR_FILENO) == 1),
+      begun_(Clock::now()),
+      drawn_at_(begun_) {}
 
 TerminalProgress::~TerminalProgress() { end(); }
 
@@ -117,7 +123,7 @@ void TerminalProgress::end() {
   close_stage();
 }
 
-// A finished stage leaves one line with the time it took, on a terminal and in a log alike.
+// A finished stage leaves one line with its duration, on a terminal and in a log alike.
 void TerminalProgress::close_stage() {
   if (stage_.empty()) return;
   if (!quiet_) {
@@ -140,10 +146,11 @@ void TerminalProgress::draw(Clock::time_point now) {
   std::string bar;
   for (int i = 0; i < bar_cells; ++i) bar += i < full ? "█" : "░";
   const double seconds = std::chrono::duration<double>(now - begun_).count();
-  // Too early a guess is worse than none.
+  // No estimate is better than a very early one.
   const bool known = share > 0.02 && seconds > 1.0;
-  print_error(fmt::format("\r\033[K{} {} {:3.0f} %{}", stage_, bar, 100.0 * share,
-                          known ? ", " + describe_seconds(seconds * (1.0 - share) / share) + " left" : ""));
+  print_error(
+      fmt::format("\r\033[K{} {} {:3.0f} %{}", stage_, bar, 100.0 * share,
+                  known ? ", " + describe_seconds(seconds * (1.0 - share) / share) + " left" : ""));
 }
 
 }  // namespace belvedere::tools

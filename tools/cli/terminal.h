@@ -16,23 +16,24 @@ namespace belvedere::tools {
 
 struct RunOptions;
 
-// What the program owes its surroundings before anything else: closed standard streams are replaced by /dev/null, so that no file of
-// ours becomes "the terminal"; a closed pipe is an error code and no signal; SIGINT and SIGTERM ask to stop, a second one ends at once.
+// Prepares the process: closed standard streams are replaced by /dev/null, so that no file of ours
+// becomes "the terminal"; a closed pipe is an error code instead of a signal; SIGINT and SIGTERM
+// request a stop, a second one ends at once.
 void prepare_process();
-// Whether SIGINT or SIGTERM came.
+// Whether SIGINT or SIGTERM was received.
 bool interrupted();
 
-// Text to stdout. What cannot be written is remembered; finish_output() flushes and throws Error(output), or does nothing where the
-// reader simply closed the pipe.
+// Text to stdout. Write errors are remembered; finish_output() flushes and throws Error(output), or
+// does nothing where the reader closed the pipe.
 void print_out(std::string_view text);
-// What came out, as it was asked for: as JSON, as text or, quiet, not at all.
+// The result in the requested form: as JSON, as text or, if quiet, not at all.
 void print_result(const RunOptions& options, const Json& json, const std::string& text);
 void finish_output();
-// Text to stderr; nobody can be told where that fails.
+// Text to stderr; errors of that are ignored.
 void print_error(std::string_view text);
 
-// Stages on stderr: a bar with percent and time left on a terminal, else one line a stage. advance() throws Error(interrupted)
-// after a signal, quiet or not.
+// Stages on stderr: a bar with percent and time left on a terminal, else one line per stage.
+// advance() throws Error(interrupted) after a signal, quiet or not.
 class TerminalProgress : public Progress {
  public:
   explicit TerminalProgress(bool quiet);
@@ -54,7 +55,7 @@ class TerminalProgress : public Progress {
   std::mutex mutex_;
   bool quiet_;
   bool terminal_;
-  bool drawn_ = false;  // a bar stands on the current line
+  bool drawn_ = false;  // a bar is on the current line
   std::string stage_;
   double total_ = 0.0;
   double done_ = 0.0;

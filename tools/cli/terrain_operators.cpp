@@ -13,40 +13,60 @@
 namespace belvedere::tools {
 
 void add_terrain_operators(CommandOptions& command, TerrainOperators& operators) {
-  command.add_flag("--destripe", operators.destripe, "First takes off stripes along rows and columns");
-  command.add_flag("--line-integral", operators.line_integral, "Then makes slopes plain along slope lines, ridges stay sharp (Jenny 2021)");
-  command.add_option("--widen-valleys", operators.widen_valleys_m, "Last makes the floors of large valleys so many metres wider")
+  command.add_flag("--destripe", operators.destripe,
+                   "First removes stripes along rows and columns");
+  command.add_flag("--line-integral", operators.line_integral,
+                   "Then smooths slopes along slope lines and keeps ridges sharp (Jenny 2021)");
+  command
+      .add_option("--widen-valleys", operators.widen_valleys_m,
+                  "Last widens the floors of large valleys by this many metres")
       .type_name("METRES");
-  command.add_option("--hillshade", operators.hillshade, "Also writes the result's shaded relief, .tif").type_name("FILE");
+  command
+      .add_option("--hillshade", operators.hillshade,
+                  "Also writes the result's shaded relief, .tif")
+      .type_name("FILE");
   const Option contours =
-      command.add_option("--contours", operators.contours, "Also writes the result's contour lines, .gpkg, .geojson or .shp")
+      command
+          .add_option("--contours", operators.contours,
+                      "Also writes the result's contour lines, .gpkg, .geojson or .shp")
           .type_name("FILE");
-  command.add_option("--contour-interval", operators.contour_interval_m, "Metres between contour lines")
+  command
+      .add_option("--contour-interval", operators.contour_interval_m,
+                  "Metres between contour lines")
       .type_name("METRES")
       .show_default()
       .needs(contours);
 }
 
-Grid<float> operate_before_bands(Grid<float> altitude_m, double cell_m, const TerrainOperators& operators, Progress& progress) {
+Grid<float> operate_before_bands(Grid<float> altitude_m, double cell_m,
+                                 const TerrainOperators& operators, Progress& progress) {
   if (operators.destripe) altitude_m = destripe(altitude_m, {}, progress);
-  if (operators.line_integral) altitude_m = generalize_along_slope_lines(altitude_m, cell_m, {}, progress);
+  if (operators.line_integral)
+    altitude_m = generalize_along_slope_lines(altitude_m, cell_m, {}, progress);
   return altitude_m;
 }
 
-Grid<float> operate_after_bands(const Grid<float>& altitude_m, const Grid<std::uint8_t>& keep, double cell_m,
-                                const TerrainOperators& operators, Progress& progress) {
+Grid<float> operate_after_bands(const Grid<float>& altitude_m, const Grid<std::uint8_t>& keep,
+                                double cell_m, const TerrainOperators& operators,
+                                Progress& progress) {
   WidenValleysParameters valleys;
   valleys.width_m = operators.widen_valleys_m;
-  return valleys.width_m == 0.F ? altitude_m : widen_valleys(altitude_m, keep, cell_m, valleys, progress).altitude_m;
+  return valleys.width_m == 0.F
+             ? altitude_m
+             : widen_valleys(altitude_m, keep, cell_m, valleys, progress).altitude_m;
 }
 
-void write_products(const Raster<float>& result, const TerrainOperators& operators, Progress& progress) {
+void write_products(const Raster<float>& result, const TerrainOperators& operators,
+                    Progress& progress) {
   if (!operators.hillshade.empty()) {
     const GeoTransform& t = result.transform;
-    write_raster(operators.hillshade, Raster<std::uint8_t>{hillshade(result.cells, t.cell_x, t.cell_y, {}), t, result.crs});
+    write_raster(
+        operators.hillshade,
+        Raster<std::uint8_t>{hillshade(result.cells, t.cell_x, t.cell_y, {}), t, result.crs});
   }
   if (!operators.contours.empty()) {
-    const ContourSummary lines = write_contours(operators.contours, result, {operators.contour_interval_m, 0.0});
+    const ContourSummary lines =
+        write_contours(operators.contours, result, {operators.contour_interval_m, 0.0});
     progress.note(fmt::format("{} contour lines, {:.0f} km", lines.lines, lines.length / 1000.0));
   }
 }

@@ -11,7 +11,8 @@ namespace belvedere::tools {
 
 class CommandOptions;
 
-// What a command does to a DEM before and after the bands are weighted, and what it writes of the result besides the DEM.
+// Operators on a DEM before and after the bands are weighted, and products of the result besides
+// the DEM.
 struct TerrainOperators {
   bool destripe = false;
   bool line_integral = false;
@@ -24,11 +25,14 @@ struct TerrainOperators {
 // --destripe, --line-integral, --widen-valleys, --hillshade, --contours, --contour-interval.
 void add_terrain_operators(CommandOptions& command, TerrainOperators& operators);
 
-// Cells finite, m. `keep`: lakes, which stay; empty: none.
-Grid<float> operate_before_bands(Grid<float> altitude_m, double cell_m, const TerrainOperators& operators, Progress& progress);
-Grid<float> operate_after_bands(const Grid<float>& altitude_m, const Grid<std::uint8_t>& keep, double cell_m,
-                                const TerrainOperators& operators, Progress& progress);
+// Cells finite, m. `keep`: lakes, which do not change; empty: none.
+Grid<float> operate_before_bands(Grid<float> altitude_m, double cell_m,
+                                 const TerrainOperators& operators, Progress& progress);
+Grid<float> operate_after_bands(const Grid<float>& altitude_m, const Grid<std::uint8_t>& keep,
+                                double cell_m, const TerrainOperators& operators,
+                                Progress& progress);
 // Hillshade and contours of the result; voids are NaN, its CRS metric.
-void write_products(const Raster<float>& result, const TerrainOperators& operators, Progress& progress);
+void write_products(const Raster<float>& result, const TerrainOperators& operators,
+                    Progress& progress);
 
 }  // namespace belvedere::tools

@@ -14,11 +14,12 @@ namespace {
 // Where the help's right column begins.
 constexpr int meaning_column = 34;
 
-// CLI11 writes what checks say of a value behind its name: "HOW:{off,common}", "N:INT in [8 - 4096]".
+// CLI11 puts constraints behind the name of the value: "HOW:{off,common}", "N:INT in [8 - 4096]".
 void describe_value(const CLI::Option& option, OptionDescription& out) {
   const std::string text = option.get_type_name();
   std::size_t end = text.size();
-  for (const char* check : {":{", ":INT in [", ":UINT in [", ":FLOAT in [", ":NONNEGATIVE", ":POSITIVE"})
+  for (const char* check :
+       {":{", ":INT in [", ":UINT in [", ":FLOAT in [", ":NONNEGATIVE", ":POSITIVE"})
     end = std::min(end, text.find(check));
   out.value = text.substr(0, end);
   const std::string check = text.substr(end);
@@ -29,7 +30,8 @@ void describe_value(const CLI::Option& option, OptionDescription& out) {
   const std::size_t from = check.find('[');
   const std::size_t between = check.find(" - ", from);
   if (from != std::string::npos && between != std::string::npos)
-    out.range = check.substr(from + 1, between - from - 1) + " … " + check.substr(between + 3, check.rfind(']') - between - 3);
+    out.range = check.substr(from + 1, between - from - 1) + " … " +
+                check.substr(between + 3, check.rfind(']') - between - 3);
 }
 
 OptionDescription describe_option(const CLI::Option& option) {
@@ -52,8 +54,10 @@ CommandDescription describe_command(const CLI::App& command, const std::string& 
                          .footer = command.get_footer(),
                          .options = {},
                          .commands = {}};
-  for (const CLI::Option* option : command.get_options()) out.options.push_back(describe_option(*option));
-  for (const CLI::App* one : command.get_subcommands({})) out.commands.push_back(describe_command(*one, out.name + " "));
+  for (const CLI::Option* option : command.get_options())
+    out.options.push_back(describe_option(*option));
+  for (const CLI::App* one : command.get_subcommands({}))
+    out.commands.push_back(describe_command(*one, out.name + " "));
   return out;
 }
 
@@ -79,18 +83,18 @@ Option& Option::environment(const std::string& variable) {
   return *this;
 }
 
-Option& Option::range(int least, int most) {
-  option_->check(CLI::Range(least, most));
+Option& Option::range(int min, int max) {
+  option_->check(CLI::Range(min, max));
   return *this;
 }
 
-Option& Option::range(std::uint64_t least, std::uint64_t most) {
-  option_->check(CLI::Range(least, most));
+Option& Option::range(std::uint64_t min, std::uint64_t max) {
+  option_->check(CLI::Range(min, max));
   return *this;
 }
 
-Option& Option::range(double least, double most) {
-  option_->check(CLI::Range(least, most));
+Option& Option::range(double min, double max) {
+  option_->check(CLI::Range(min, max));
   return *this;
 }
 
@@ -134,11 +138,12 @@ Option& Option::words(int count) {
   return *this;
 }
 
-// An option of several words takes the next option's name where one of its own is missing, and the message would be about something else.
+// An option of several words takes the next option's name as a value if one of its own is missing,
+// and the message would then be misleading.
 Option& Option::takes(const std::string& meant) {
   option_->check(CLI::Validator(
       [meant](const std::string& word) {
-        return word.starts_with("--") ? fmt::format("takes {}, and {} comes too early", meant, word) : "";
+        return word.starts_with("--") ? fmt::format("needs {}, but {} follows", meant, word) : "";
       },
       ""));
   return *this;
@@ -163,21 +168,38 @@ template Option CommandOptions::add_option(const std::string&, int&, const std::
 template Option CommandOptions::add_option(const std::string&, std::uint64_t&, const std::string&);
 template Option CommandOptions::add_option(const std::string&, float&, const std::string&);
 template Option CommandOptions::add_option(const std::string&, double&, const std::string&);
-template Option CommandOptions::add_option(const std::string&, std::optional<std::string>&, const std::string&);
-template Option CommandOptions::add_option(const std::string&, std::optional<int>&, const std::string&);
-template Option CommandOptions::add_option(const std::string&, std::optional<std::uint64_t>&, const std::string&);
-template Option CommandOptions::add_option(const std::string&, std::optional<double>&, const std::string&);
-template Option CommandOptions::add_option(const std::string&, std::vector<std::string>&, const std::string&);
-template Option CommandOptions::add_option(const std::string&, std::vector<int>&, const std::string&);
-template Option CommandOptions::add_option(const std::string&, std::vector<float>&, const std::string&);
-template Option CommandOptions::add_option(const std::string&, std::vector<double>&, const std::string&);
-template Option CommandOptions::add_option(const std::string&, std::vector<std::vector<double>>&, const std::string&);
-template Option CommandOptions::add_option(const std::string&, std::vector<std::pair<int, int>>&, const std::string&);
-template Option CommandOptions::add_option(const std::string&, std::vector<std::pair<std::string, std::string>>&, const std::string&);
-template Option CommandOptions::add_option(const std::string&, std::vector<std::tuple<std::string, std::string>>&, const std::string&);
-template Option CommandOptions::add_option(const std::string&, std::vector<std::tuple<int, int, double>>&, const std::string&);
-template Option CommandOptions::add_option(const std::string&, std::vector<std::tuple<std::string, std::string, std::string, double>>&,
+template Option CommandOptions::add_option(const std::string&, std::optional<std::string>&,
                                            const std::string&);
+template Option CommandOptions::add_option(const std::string&, std::optional<int>&,
+                                           const std::string&);
+template Option CommandOptions::add_option(const std::string&, std::optional<std::uint64_t>&,
+                                           const std::string&);
+template Option CommandOptions::add_option(const std::string&, std::optional<double>&,
+                                           const std::string&);
+template Option CommandOptions::add_option(const std::string&, std::vector<std::string>&,
+                                           const std::string&);
+template Option CommandOptions::add_option(const std::string&, std::vector<int>&,
+                                           const std::string&);
+template Option CommandOptions::add_option(const std::string&, std::vector<float>&,
+                                           const std::string&);
+template Option CommandOptions::add_option(const std::string&, std::vector<double>&,
+                                           const std::string&);
+template Option CommandOptions::add_option(const std::string&, std::vector<std::vector<double>>&,
+                                           const std::string&);
+template Option CommandOptions::add_option(const std::string&, std::vector<std::pair<int, int>>&,
+                                           const std::string&);
+template Option CommandOptions::add_option(const std::string&,
+                                           std::vector<std::pair<std::string, std::string>>&,
+                                           const std::string&);
+template Option CommandOptions::add_option(const std::string&,
+                                           std::vector<std::tuple<std::string, std::string>>&,
+                                           const std::string&);
+template Option CommandOptions::add_option(const std::string&,
+                                           std::vector<std::tuple<int, int, double>>&,
+                                           const std::string&);
+template Option CommandOptions::add_option(
+    const std::string&, std::vector<std::tuple<std::string, std::string, std::string, double>>&,
+    const std::string&);
 
 Option CommandOptions::add_flag(const std::string& names, bool& value, const std::string& meaning) {
   return Option(app_->add_flag(names, value, meaning));
@@ -187,7 +209,9 @@ void CommandOptions::footer(const std::string& text) { app_->footer(text); }
 
 Option CommandOptions::option(const std::string& name) { return Option(app_->get_option(name)); }
 
-bool CommandOptions::has_option(const std::string& name) const { return app_->get_option_no_throw(name) != nullptr; }
+bool CommandOptions::has_option(const std::string& name) const {
+  return app_->get_option_no_throw(name) != nullptr;
+}
 
 CommandOptions CommandOptions::add_command(const std::string& name, const std::string& meaning) {
   app_->require_subcommand(1);
@@ -196,9 +220,12 @@ CommandOptions CommandOptions::add_command(const std::string& name, const std::s
 
 bool CommandOptions::is_named() const { return app_->parsed(); }
 
-CommandDescription CommandOptions::describe(const std::string& before) const { return describe_command(*app_, before); }
+CommandDescription CommandOptions::describe(const std::string& before) const {
+  return describe_command(*app_, before);
+}
 
-CommandLine::CommandLine(const std::string& name, const std::string& description, const std::string& version)
+CommandLine::CommandLine(const std::string& name, const std::string& description,
+                         const std::string& version)
     : app_(std::make_unique<CLI::App>(description, name)), options_(app_.get()) {
   if (!version.empty()) app_->set_version_flag("--version", version);
   app_->get_formatter()->column_width(meaning_column);
@@ -208,8 +235,9 @@ CommandLine::~CommandLine() = default;
 
 std::string CommandLine::read(const std::vector<std::string>& words) {
   try {
-    app_->parse(std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 takes them from the back
-  } catch (const CLI::Success& asked) {                                   // --help and --version
+    app_->parse(
+        std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 takes them from the back
+  } catch (const CLI::Success& asked) {                           // --help and --version
     std::ostringstream out;
     app_->exit(asked, out, out);
     std::string text = out.str();
@@ -217,8 +245,10 @@ std::string CommandLine::read(const std::vector<std::string>& words) {
     return text;
   } catch (const CLI::ParseError& problem) {
     const std::string name = app_->get_name();
-    const std::string of_commands = app_->get_subcommands({}).empty() ? "" : fmt::format(", or {} COMMAND --help,", name);
-    throw Error(ErrorKind::usage, "command line", problem.what(), fmt::format("{} --help{} says what there is", name, of_commands));
+    const std::string of_commands =
+        app_->get_subcommands({}).empty() ? "" : fmt::format(", or {} COMMAND --help", name);
+    throw Error(ErrorKind::usage, "command line", problem.what(),
+                fmt::format("see {} --help{}", name, of_commands));
   }
   return {};
 }

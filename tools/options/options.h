@@ -12,7 +12,7 @@
 
 #include "tools/options/program_description.h"
 
-// Of CLI11, whose headers are long and known to options.cpp alone.
+// Of CLI11, whose long headers are included in options.cpp only.
 namespace CLI {
 class App;
 class Option;
@@ -23,42 +23,50 @@ namespace belvedere::tools {
 template <typename T, typename... Known>
 concept OneOf = (std::same_as<T, Known> || ...);
 
-// What an option's value may be. An optional one tells whether it was given; a vector may be given several times or takes several words.
+// Types of an option's value. An optional one stays empty if the option is not given; a vector may
+// be given several times or takes several words.
 template <typename T>
 concept OptionValue =
-    OneOf<T, std::string, int, std::uint64_t, float, double, std::optional<std::string>, std::optional<int>, std::optional<std::uint64_t>,
-          std::optional<double>, std::vector<std::string>, std::vector<int>, std::vector<float>, std::vector<double>,
-          std::vector<std::vector<double>>, std::vector<std::pair<int, int>>, std::vector<std::pair<std::string, std::string>>,
-          std::vector<std::tuple<std::string, std::string>>, std::vector<std::tuple<int, int, double>>,
+    OneOf<T, std::string, int, std::uint64_t, float, double, std::optional<std::string>,
+          std::optional<int>, std::optional<std::uint64_t>, std::optional<double>,
+          std::vector<std::string>, std::vector<int>, std::vector<float>, std::vector<double>,
+          std::vector<std::vector<double>>, std::vector<std::pair<int, int>>,
+          std::vector<std::pair<std::string, std::string>>,
+          std::vector<std::tuple<std::string, std::string>>,
+          std::vector<std::tuple<int, int, double>>,
           std::vector<std::tuple<std::string, std::string, std::string, double>>>;
 
-// What a command's option may be told. A handle, to be copied: it names the option for needs() and excludes().
+// Settings of a command's option. A handle, to be copied: it identifies the option for needs() and
+// excludes().
 class Option {
  public:
   explicit Option(CLI::Option* option) : option_(option) {}
 
-  Option& type_name(const std::string& name);  // what stands for its value in the help: "DIR"
-  Option& show_default();                      // the help says the value that it has now
+  Option& type_name(const std::string& name);  // name of its value in the help: "DIR"
+  Option& show_default();                      // the help shows its present value
   Option& required(bool is = true);
-  Option& environment(const std::string& variable);  // where its value comes from when it is not given
+  Option& environment(
+      const std::string& variable);  // where its value comes from when it is not given
 
-  // What else is refused, with the name of the option and what is allowed. The help says ranges, and whether they are of whole numbers.
-  Option& range(int least, int most);
-  Option& range(std::uint64_t least, std::uint64_t most);
-  Option& range(double least, double most);
+  // Further checks, which refuse with the name of the option and what is allowed. The help shows
+  // ranges, and whether they are of whole numbers.
+  Option& range(int min, int max);
+  Option& range(std::uint64_t min, std::uint64_t max);
+  Option& range(double min, double max);
   Option& positive();
   Option& not_negative();
   Option& one_of(const std::vector<std::string>& words);
   Option& one_of(std::initializer_list<int> numbers);
 
-  // How a vector is filled. Without any of these one option takes all words up to the next.
-  Option& repeated();                       // one value, or one pair … of them, each time that it is given
-  Option& list(char between);               // several values in one word
-  Option& list(char between, int count);    // exactly so many
-  Option& words(int count);                 // so many words are one value, where the type does not say it
-  Option& takes(const std::string& meant);  // says what is `meant` where the name of another option stands among its words
+  // How a vector is filled. By default one option takes all words up to the next.
+  Option& repeated();          // one value, or one pair … of them, each time it is given
+  Option& list(char between);  // several values in one word
+  Option& list(char between, int count);  // exactly this number
+  Option& words(int count);  // number of words of one value, where the type does not determine it
+  Option& takes(const std::string& meant);  // error message of what is `meant` where the name of
+                                            // another option is among its words
 
-  // Faults where this is given: without the other, or beside one of the others.
+  // Errors if this is given: without the other, or together with one of the others.
   Option& needs(const Option& other);
   Option& excludes(std::initializer_list<Option> others);
 
@@ -66,29 +74,30 @@ class Option {
   CLI::Option* option_;
 };
 
-// The options of a command, and of a program the commands. A handle: what it adds lives as long as its CommandLine.
+// The options of a command, and the commands of a program. A handle: what it adds lives as long as
+// its CommandLine.
 class CommandOptions {
  public:
   explicit CommandOptions(CLI::App* app) : app_(app) {}
 
-  // Binds a value, which must outlive the command line; its value of now is that of an option that is not given. Names: "--out",
-  // "--quiet,-q"; without dashes it is a word told by its place: "SCENE".
+  // Binds a value, which must outlive the command line; its present value is the default. Names:
+  // "--out", "--quiet,-q"; without dashes it is a positional argument: "SCENE".
   template <OptionValue T>
   Option add_option(const std::string& names, T& value, const std::string& meaning);
   Option add_flag(const std::string& names, bool& value, const std::string& meaning);
-  // What the help says below the options.
+  // Text of the help below the options.
   void footer(const std::string& text);
 
-  // One that was added before, to say more of it.
+  // An option that was added before, to set more of it.
   Option option(const std::string& name);
   bool has_option(const std::string& name) const;
 
-  // A word that goes before options of its own. Exactly one of the commands then has to be named.
+  // A subcommand with its own options. Exactly one of the subcommands then has to be given.
   CommandOptions add_command(const std::string& name, const std::string& meaning);
-  // Whether the line that was read names this command.
+  // Whether the parsed line names this command.
   bool is_named() const;
 
-  // All of it as plain values. before: of its whole name, with a blank at its end.
+  // All of it as plain values. before: prefix of its full name, with a space at its end.
   CommandDescription describe(const std::string& before = {}) const;
 
  private:
@@ -98,13 +107,15 @@ class CommandOptions {
 // The command line of a program.
 class CommandLine {
  public:
-  // version: what --version prints; empty: there is no such option.
-  CommandLine(const std::string& name, const std::string& description, const std::string& version = {});
+  // version: output of --version; empty: no such option.
+  CommandLine(const std::string& name, const std::string& description,
+              const std::string& version = {});
   ~CommandLine();
 
   CommandOptions& options() { return options_; }
-  // Sets the values that options are bound to. words: without the program's name. Returns what --help or --version prints; empty where
-  // neither is asked for. Throws Error(usage) for what cannot be meant.
+  // Sets the values that options are bound to. words: without the program's name. Returns the
+  // output of --help or --version; empty where neither is asked for. Throws Error(usage) for an
+  // invalid line.
   std::string read(const std::vector<std::string>& words);
 
  private:

@@ -6,8 +6,9 @@
 
 namespace belvedere::tools {
 
-// For what a command line says and a command cannot mean.
-[[noreturn]] inline void refuse(const std::string& where, const std::string& found, const std::string& allowed) {
+// Refuses a command line that does not make sense.
+[[noreturn]] inline void refuse(const std::string& where, const std::string& found,
+                                const std::string& allowed) {
   throw Error(ErrorKind::usage, where, found, allowed);
 }
 

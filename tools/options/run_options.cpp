@@ -5,7 +5,9 @@
 namespace belvedere::tools {
 
 void add_run_options(CommandOptions& command, RunOptions& options, const std::string& unchanged) {
-  command.add_option("--threads", options.threads, "Processor threads; 0, the default, takes all. Changes no " + unchanged)
+  command
+      .add_option("--threads", options.threads,
+                  "Processor threads; 0, the default, takes all. Changes no " + unchanged)
       .type_name("N")
       .range(0, 4096);
   command.add_flag("--quiet,-q", options.quiet, "No progress, no notes");

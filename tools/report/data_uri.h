@@ -7,8 +7,8 @@
 
 namespace belvedere::tools {
 
-// For pages that need no file beside them: a picture of encoded RGB, 0…1, as an address that holds it: "data:image/png;base64,…". It passes
-// through a file in the folder named, which is gone afterwards.
+// For self-contained pages: a picture of encoded RGB, 0…1, as a data URI:
+// "data:image/png;base64,…". It is written to a temporary file in the given folder.
 std::string png_address(const Grid<glm::vec3>& picture, const std::string& scratch_folder);
 
 }  // namespace belvedere::tools

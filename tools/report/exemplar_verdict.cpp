@@ -8,22 +8,25 @@
 namespace belvedere::tools {
 namespace {
 
-constexpr std::size_t least_texels = 2500;  // 50 × 50: a few patches of a dozen strokes
-constexpr double uneven_clique = 0.2;       // of halves, and
-constexpr double uneven_ratio = 2.5;        // against what chance makes
+constexpr std::size_t min_texels = 2500;  // 50 × 50: a few patches of a dozen strokes
+constexpr double uneven_clique = 0.2;     // of halves, and
+constexpr double uneven_ratio = 2.5;      // relative to chance
 constexpr double low_coverage = 0.9;
 
 // 12 345 678
 Json halves_json(const HalvesDistance& halves) {
   if (!halves.known) return Json::raw("null");
-  return Json::object().add("clique_distance", Json::number(halves.clique)).add("colour_distance", Json::number(halves.colour));
+  return Json::object()
+      .add("clique_distance", Json::number(halves.clique))
+      .add("colour_distance", Json::number(halves.colour));
 }
 
 Json class_json(const ClassSurvey& of, const ExemplarFindings& findings) {
   Json guides = Json::array();
-  for (const GuideSupply& guide : of.guides) {
+  for (const GuideTexels& guide : of.guides) {
     Json gaps = Json::array();
-    for (const GuideSupply::Gap& gap : guide.gaps) gaps.add(Json::array({Json::number(gap.from), Json::number(gap.to)}));
+    for (const GuideTexels::Gap& gap : guide.gaps)
+      gaps.add(Json::array({Json::number(gap.from), Json::number(gap.to)}));
     guides.add(Json::object()
                    .add("name", Json::text(guide.name))
                    .add("lowest", Json::number(guide.lowest))
@@ -46,20 +49,24 @@ Json class_json(const ClassSurvey& of, const ExemplarFindings& findings) {
       .add("flaws", Json::texts(describe_flaws(of, findings)));
 }
 
-std::string halves_text(const HalvesDistance& halves) { return halves.known ? fmt::format("{:.3f}", halves.clique) : "–"; }
+std::string halves_text(const HalvesDistance& halves) {
+  return halves.known ? fmt::format("{:.3f}", halves.clique) : "–";
+}
 
-// Says of a texture model what it is there for.
+// Describes the use of a texture model.
 std::string model_text(const ExemplarFindings::Model& model, const ExemplarFindings& findings) {
   std::string classes;
-  for (const std::uint8_t label : model.labels) classes += (classes.empty() ? "" : ", ") + findings.name(label);
+  for (const std::uint8_t label : model.labels)
+    classes += (classes.empty() ? "" : ", ") + findings.name(label);
   return fmt::format("{}: a texture model, without texels; paints {}{}\n", model.name, classes,
                      model.always ? "" : " where paintings have no texels of it or too few");
 }
 
-// A column as wide as its widest cell; UTF-8 of one column a character.
+// A column as wide as its widest cell; UTF-8, one column per character.
 std::string table_text(const std::vector<std::vector<std::string>>& rows) {
   const auto length = [](const std::string& text) {
-    return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
+    return static_cast<std::size_t>(
+        std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
   };
   std::vector<std::size_t> widths(rows.front().size(), 0);
   for (const auto& row : rows)
@@ -79,33 +86,46 @@ std::string table_text(const std::vector<std::vector<std::string>>& rows) {
 
 std::vector<std::string> describe_flaws(const ClassSurvey& of, const ExemplarFindings& findings) {
   std::vector<std::string> flaws;
-  if (of.texels < least_texels)
+  if (of.texels < min_texels)
+    flaws.push_back(fmt::format("only {} texels: at least about {} are needed to copy strokes from",
+                                grouped(of.texels), grouped(min_texels)));
+  if (of.inside == 0)
+    flaws.emplace_back(
+        "no texel is farther than 8 texels from another class: its strokes occur only along "
+        "borders");
+  if (of.left_right.known &&
+      of.left_right.clique > std::max(uneven_clique, uneven_ratio * of.checkerboard.clique))
     flaws.push_back(
-        fmt::format("only {} texels: at least some {} are needed to take strokes from", grouped(of.texels), grouped(least_texels)));
-  if (of.inside == 0) flaws.emplace_back("no place farther than 8 texels from another class: its strokes are seen along borders alone");
-  if (of.left_right.known && of.left_right.clique > std::max(uneven_clique, uneven_ratio * of.checkerboard.clique))
-    flaws.push_back(fmt::format("left and right are painted unlike each other ({:.2f}, chance makes {:.2f}): both will lie side by side",
-                                of.left_right.clique, of.checkerboard.clique));
-  for (const GuideSupply& guide : of.guides) {
+        fmt::format("left and right are painted differently ({:.2f}, chance gives {:.2f}): both "
+                    "will lie side by side",
+                    of.left_right.clique, of.checkerboard.clique));
+  for (const GuideTexels& guide : of.guides) {
     if (guide.name != "altitude") continue;
-    for (const GuideSupply::Gap& gap : guide.gaps)
-      flaws.push_back(
-          fmt::format("no texels at altitudes {} to {}", findings.value(guide.name, gap.from), findings.value(guide.name, gap.to)));
+    for (const GuideTexels::Gap& gap : guide.gaps)
+      flaws.push_back(fmt::format("no texels at altitudes {} to {}",
+                                  findings.value(guide.name, gap.from),
+                                  findings.value(guide.name, gap.to)));
   }
   return flaws;
 }
 
-std::string describe_service(const ClassSurvey& of) { return fmt::format("serves up to {} pixels", grouped(of.texels * pixels_per_texel)); }
+std::string describe_service(const ClassSurvey& of) {
+  return fmt::format("serves up to {} pixels", grouped(of.texels * pixels_per_texel));
+}
 
-std::string describe_demand(const ClassDemand& demand) {
-  const ClassSupply& supply = demand.supply;
-  std::string text =
-      supply.enough()
-          ? fmt::format("enough: {} pixels want it, {} can be served", grouped(supply.pixels), grouped(supply.serves()))
-          : fmt::format("too few, strokes will repeat: {} pixels want it, {} can be served; {} texels would be needed, there are {}",
-                        grouped(supply.pixels), grouped(supply.serves()), grouped(supply.texels_needed()), grouped(supply.texels));
+std::string describe_needed_texels(const NeededClassTexels& demand) {
+  const ClassTexels& available = demand.available;
+  std::string text = available.enough()
+                         ? fmt::format("enough: {} pixels need it, {} can be served",
+                                       grouped(available.pixels), grouped(available.serves()))
+                         : fmt::format(
+                               "too few, strokes will repeat: {} pixels need it, {} can be served; "
+                               "{} texels would be needed, there are {}",
+                               grouped(available.pixels), grouped(available.serves()),
+                               grouped(available.texels_needed()), grouped(available.texels));
   if (demand.altitude_covered >= 0.0 && demand.altitude_covered < low_coverage)
-    text += fmt::format("; only {:.0f} % of its pixels find texels of their altitude", 100.0 * demand.altitude_covered);
+    text += fmt::format("; only {:.0f} % of its pixels find texels of their altitude",
+                        100.0 * demand.altitude_covered);
   return text;
 }
 
@@ -113,34 +133,45 @@ std::string findings_text(const ExemplarFindings& findings) {
   std::string out;
   for (const ExemplarFindings::Painting& painting : findings.paintings) {
     const ExemplarSurvey& survey = painting.survey;
-    out += fmt::format("{}: {} × {} texels, {:.1f} % of them never a source\n", painting.name, painting.width, painting.height,
-                       100.0 * static_cast<double>(survey.excluded) / static_cast<double>(survey.texels));
-    const bool altitude = !survey.classes.empty() && std::any_of(survey.classes[0].guides.begin(), survey.classes[0].guides.end(),
-                                                                 [](const GuideSupply& guide) { return guide.name == "altitude"; });
-    std::vector<std::vector<std::string>> rows{
-        {"class", "texels", "inside", "pixels served", "sharpness", "stroke, px", "left | right", "chance"}};
+    out += fmt::format(
+        "{}: {} × {} texels, {:.1f} % of them never copied\n", painting.name, painting.width,
+        painting.height,
+        100.0 * static_cast<double>(survey.excluded) / static_cast<double>(survey.texels));
+    const bool altitude =
+        !survey.classes.empty() &&
+        std::any_of(survey.classes[0].guides.begin(), survey.classes[0].guides.end(),
+                    [](const GuideTexels& guide) { return guide.name == "altitude"; });
+    std::vector<std::vector<std::string>> rows{{"class", "texels", "inside", "pixels served",
+                                                "sharpness", "stroke, px", "left | right",
+                                                "chance"}};
     if (altitude) rows[0].emplace_back("altitudes (5–95 %)");
     for (const ClassSurvey& of : survey.classes) {
-      rows.push_back({findings.name(of.label), grouped(of.texels), grouped(of.inside), grouped(of.texels * pixels_per_texel),
+      rows.push_back({findings.name(of.label), grouped(of.texels), grouped(of.inside),
+                      grouped(of.texels * pixels_per_texel),
                       of.inside > 0 ? fmt::format("{:.1f}", of.sharpness) : "–",
-                      of.inside > 0 ? fmt::format("{:.1f}", of.stroke_run_px) : "–", halves_text(of.left_right),
-                      halves_text(of.checkerboard)});
-      for (const GuideSupply& guide : of.guides)
+                      of.inside > 0 ? fmt::format("{:.1f}", of.stroke_run_px) : "–",
+                      halves_text(of.left_right), halves_text(of.checkerboard)});
+      for (const GuideTexels& guide : of.guides)
         if (guide.name == "altitude")
-          rows.back().push_back(fmt::format("{} … {}", findings.value(guide.name, guide.low), findings.value(guide.name, guide.high)));
+          rows.back().push_back(fmt::format("{} … {}", findings.value(guide.name, guide.low),
+                                            findings.value(guide.name, guide.high)));
     }
     out += table_text(rows);
     for (const ClassSurvey& of : survey.classes)
-      for (const std::string& flaw : describe_flaws(of, findings)) out += fmt::format("  {}: {}\n", findings.name(of.label), flaw);
+      for (const std::string& flaw : describe_flaws(of, findings))
+        out += fmt::format("  {}: {}\n", findings.name(of.label), flaw);
   }
   for (const ExemplarFindings::Model& model : findings.models) out += model_text(model, findings);
   if (!findings.target_known)
-    return out + fmt::format("a texel serves up to {} pixels before strokes are seen to repeat\n", pixels_per_texel);
+    return out + fmt::format("a texel serves up to {} pixels before strokes visibly repeat\n",
+                             pixels_per_texel);
   out += "for this picture\n";
-  for (const ClassDemand& demand : findings.demands)
-    out += fmt::format("  {}: {}\n", findings.name(demand.supply.label), describe_demand(demand));
+  for (const NeededClassTexels& demand : findings.demands)
+    out += fmt::format("  {}: {}\n", findings.name(demand.available.label),
+                       describe_needed_texels(demand));
   for (const auto& [label, pixels] : findings.missing)
-    out += fmt::format("  {}: no texels at all, and {} pixels want it\n", findings.name(label), grouped(pixels));
+    out += fmt::format("  {}: no texels at all, but {} pixels need it\n", findings.name(label),
+                       grouped(pixels));
   return out;
 }
 
@@ -149,36 +180,44 @@ Json findings_json(const ExemplarFindings& findings) {
   for (const ExemplarFindings::Painting& painting : findings.paintings) {
     Json classes = Json::array();
     for (const ClassSurvey& of : painting.survey.classes) classes.add(class_json(of, findings));
-    paintings.add(Json::object()
-                      .add("name", Json::text(painting.name))
-                      .add("width", Json::number(painting.width))
-                      .add("height", Json::number(painting.height))
-                      .add("excluded_texels", Json::number(static_cast<double>(painting.survey.excluded)))
-                      .add("classes", std::move(classes)));
+    paintings.add(
+        Json::object()
+            .add("name", Json::text(painting.name))
+            .add("width", Json::number(painting.width))
+            .add("height", Json::number(painting.height))
+            .add("excluded_texels", Json::number(static_cast<double>(painting.survey.excluded)))
+            .add("classes", std::move(classes)));
   }
-  Json out = Json::object().add("paintings", std::move(paintings)).add("pixels_per_texel", Json::number(pixels_per_texel));
+  Json out = Json::object()
+                 .add("paintings", std::move(paintings))
+                 .add("pixels_per_texel", Json::number(pixels_per_texel));
   if (!findings.models.empty()) {
     Json models = Json::array();
     for (const ExemplarFindings::Model& model : findings.models) {
       Json classes = Json::array();
       for (const std::uint8_t label : model.labels) classes.add(Json::text(findings.name(label)));
-      models.add(
-          Json::object().add("name", Json::text(model.name)).add("paints", std::move(classes)).add("always", Json::boolean(model.always)));
+      models.add(Json::object()
+                     .add("name", Json::text(model.name))
+                     .add("paints", std::move(classes))
+                     .add("always", Json::boolean(model.always)));
     }
     out.add("models", std::move(models));
   }
   if (findings.target_known) {
     Json demands = Json::array();
-    for (const ClassDemand& demand : findings.demands) {
-      const ClassSupply& supply = demand.supply;
-      demands.add(Json::object()
-                      .add("label", Json::number(supply.label))
-                      .add("name", Json::text(findings.name(supply.label)))
-                      .add("pixels", Json::number(static_cast<double>(supply.pixels)))
-                      .add("texels", Json::number(static_cast<double>(supply.texels)))
-                      .add("texels_needed", Json::number(static_cast<double>(supply.texels_needed())))
-                      .add("enough", Json::boolean(supply.enough()))
-                      .add("altitude_covered", demand.altitude_covered < 0.0 ? Json::raw("null") : Json::number(demand.altitude_covered)));
+    for (const NeededClassTexels& demand : findings.demands) {
+      const ClassTexels& available = demand.available;
+      demands.add(
+          Json::object()
+              .add("label", Json::number(available.label))
+              .add("name", Json::text(findings.name(available.label)))
+              .add("pixels", Json::number(static_cast<double>(available.pixels)))
+              .add("texels", Json::number(static_cast<double>(available.texels)))
+              .add("texels_needed", Json::number(static_cast<double>(available.texels_needed())))
+              .add("enough", Json::boolean(available.enough()))
+              .add("altitude_covered", demand.altitude_covered < 0.0
+                                           ? Json::raw("null")
+                                           : Json::number(demand.altitude_covered)));
     }
     Json missing = Json::array();
     for (const auto& [label, pixels] : findings.missing)

@@ -6,17 +6,20 @@
 
 namespace belvedere::tools {
 
-inline constexpr int window_px = 420;  // longest side of a part shown cell by cell, where fine detail can be seen
+inline constexpr int window_px =
+    420;  // longest side of a part shown cell by cell, where fine detail is visible
 
-// The windows that a report's pictures look through.
+// The windows of a report's pictures.
 struct FigureWindows {
   PixelRect ridges;     // most ridge lines
   PixelRect near, far;  // most ridge lines of the near and of the far quarter
 };
-FigureWindows choose_windows(const Grid<float>& altitude_m, glm::dvec2 cell_m, const Grid<float>& share);
+FigureWindows choose_windows(const Grid<float>& altitude_m, glm::dvec2 cell_m,
+                             const Grid<float>& share);
 
-// Figures 1 to 5 of Jenny, Jenny & Hurni 2011 from the terrain before. `share`: what figure 4 takes for near.
-void add_paper_figures(Report& page, const GeneralizeReportInput& in, const Grid<float>& share, const FigureWindows& windows,
-                       Progress& progress);
+// Figures 1 to 5 of Jenny, Jenny & Hurni 2011 from the original terrain. `share`: foreground share
+// of figure 4.
+void add_paper_figures(Report& page, const GeneralizeReportInput& in, const Grid<float>& share,
+                       const FigureWindows& windows, Progress& progress);
 
 }  // namespace belvedere::tools

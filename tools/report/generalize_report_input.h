@@ -8,14 +8,15 @@
 
 namespace belvedere::tools {
 
-// What a report speaks of: a terrain before and after, and how it was made.
+// Input of a report: a terrain before and after generalization, and its parameters.
 struct GeneralizeReportInput {
-  std::string title;                       // as people call the terrain
-  std::string command;                     // that makes the result
-  const Grid<float>& before_m;             // finite
-  const Grid<float>& after_m;              // finite, of that size
-  glm::dvec2 cell_m;                       // on the ground
-  const GeneralizeGrids& grids;            // as the result was made with; an empty share: near is the south, far the north
+  std::string title;            // name of the terrain
+  std::string command;          // command that makes the result
+  const Grid<float>& before_m;  // finite
+  const Grid<float>& after_m;   // finite, of that size
+  glm::dvec2 cell_m;            // on the ground
+  const GeneralizeGrids&
+      grids;  // as the result was made with; an empty share: near is the south, far the north
   const GeneralizeParameters& parameters;  // likewise
 };
 

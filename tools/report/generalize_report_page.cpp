@@ -19,24 +19,26 @@ namespace {
 constexpr int slices = 5;
 constexpr int whole_px = 600;  // longest side of a picture of the whole terrain
 
-// Everything in numbers.
+// All numbers.
 struct Measures {
   int bands = 0;
   std::vector<std::vector<double>> energy_before_m2, energy_after_m2;  // [slice][band]
   std::vector<AltitudeChange> change;                                  // [slice]
   std::vector<RidgeSharpness> ridges;                                  // [slice]
   FootPits original, without_mask, with_mask;
-  bool own_mask = false;  // with_mask is by the mask of the run, else by the automatic one
+  bool own_mask = false;  // with_mask uses the mask of the run, else the automatic one
 };
 
-// 1 at the southern rim, 0 at the northern: as a map lies before its reader.
+// 1 at the southern rim, 0 at the northern: as if a reader held the map.
 Grid<float> south_is_near(int width, int height) {
   Grid<float> share(width, height);
-  for (int y = 0; y < height; ++y) std::fill_n(share.row(y), width, static_cast<float>(y + 1) / static_cast<float>(height));
+  for (int y = 0; y < height; ++y)
+    std::fill_n(share.row(y), width, static_cast<float>(y + 1) / static_cast<float>(height));
   return share;
 }
 
-GeneralizeGrids with_masks(const GeneralizeGrids& grids, Grid<float> mask, Grid<float> amplification_mask) {
+GeneralizeGrids with_masks(const GeneralizeGrids& grids, Grid<float> mask,
+                           Grid<float> amplification_mask) {
   GeneralizeGrids out = grids;
   out.mask = std::move(mask);
   out.amplification_mask = std::move(amplification_mask);
@@ -55,26 +57,36 @@ Measures measure(const GeneralizeReportInput& in, const Grid<float>& share, Prog
   m.original = foot_pits(in.before_m, in.before_m, feet, in.cell_m);
   m.own_mask = !in.grids.mask.empty() || !in.grids.amplification_mask.empty();
   const auto pits = [&](const GeneralizeGrids& grids) {
-    return foot_pits(in.before_m, generalize(in.before_m, in.cell_m, grids, in.parameters, progress), feet, in.cell_m);
+    return foot_pits(in.before_m,
+                     generalize(in.before_m, in.cell_m, grids, in.parameters, progress), feet,
+                     in.cell_m);
   };
   m.without_mask = pits(with_masks(in.grids, {}, {}));
-  m.with_mask = pits(m.own_mask ? in.grids : with_masks(in.grids, {}, slope_foot_mask(in.before_m, in.cell_m, 1 << std::min(m.bands, 8))));
+  m.with_mask = pits(
+      m.own_mask ? in.grids
+                 : with_masks(in.grids, {},
+                              slope_foot_mask(in.before_m, in.cell_m, 1 << std::min(m.bands, 8))));
   return m;
 }
 
 std::string slice_name(int slice) {
-  return slice == 0 ? "nearest" : slice == slices - 1 ? "farthest" : fmt::format("{} of {}", slice + 1, slices);
+  return slice == 0            ? "nearest"
+         : slice == slices - 1 ? "farthest"
+                               : fmt::format("{} of {}", slice + 1, slices);
 }
 
-// Amplitude that is left of a band: the root of the energies' ratio. NaN where there was none.
-double kept_amplitude(double before, double after) { return before > 0.0 ? std::sqrt(after / before) : std::nan(""); }
+// Remaining amplitude of a band: the square root of the ratio of energies. NaN where there was
+// none.
+double kept_amplitude(double before, double after) {
+  return before > 0.0 ? std::sqrt(after / before) : std::nan("");
+}
 
-// A group of bars a slice, a bar a band; below it the same in figures.
+// A group of bars per slice, a bar per band; below it the same in numbers.
 void add_energy(Report& page, const Measures& m, bool view) {
-  page.section(
-      "energy", "Detail kept by landform size and distance",
-      "Each group of bars is a stretch of distance, each bar a band, dark the largest landforms, light the smallest: at the dashed "
-      "line landforms of that size are as high as in the original, below it they are quieter, above it exaggerated.");
+  page.section("energy", "Detail kept by landform size and distance",
+               "Each group of bars is a range of distance, each bar a band, dark the largest "
+               "landforms, light the smallest. At the dashed line landforms of that size are as "
+               "high as in the original, below it they are reduced, above it exaggerated.");
   std::vector<ReportColumn> columns = {{"distance", "distance"}};
   for (int b = 0; b < m.bands; ++b)
     columns.push_back({fmt::format("band_{}", b + 1),
@@ -108,15 +120,20 @@ void add_energy(Report& page, const Measures& m, bool view) {
                        .add("line", Json::number(1.0))
                        .add("max", Json::number(2.0)));
   page.table(table);
-  page.add("small", Json::text(std::string("Below each percentage the root mean square height of the band, before → after. ") +
-                               (view ? "Distance goes by the foreground share of the view, in five equal steps."
-                                     : "No view was given: the south counts as near, the north as far.")));
+  page.add(
+      "small",
+      Json::text(
+          std::string(
+              "Below each percentage the root mean square height of the band, before → after. ") +
+          (view ? "Distance is the foreground share of the view, in five equal steps."
+                : "No view was given: the south counts as near, the north as far.")));
 }
 
 void add_ridges(Report& page, const Measures& m) {
   page.section("ridges", "Ridges kept",
-               "How sharp the ridge lines still are, against a plain Gaussian blur that takes as much energy from the quietened bands: the "
-               "farther the second column is above the third, the better break lines were preserved.");
+               "Sharpness of the ridge lines, compared with a plain Gaussian blur that removes as "
+               "much energy from the reduced bands: the farther the second column is above the "
+               "third, the better break lines were preserved.");
   ReportTable table({{"distance", "distance"},
                      {"ridge_curvature_kept", "this generalization", ".0%"},
                      {"ridge_curvature_kept_by_gaussian", "Gaussian of equal energy", ".0%"},
@@ -125,35 +142,42 @@ void add_ridges(Report& page, const Measures& m) {
                      {"cells", "ridge-line cells"}});
   for (std::size_t s = 0; s < slices; ++s) {
     const RidgeSharpness& r = m.ridges[s];
-    const std::string width = r.cells == 0                                ? "–"
-                              : r.gaussian_cells == 0.0                   ? "no band quieter"
-                              : r.gaussian_cells >= widest_gaussian_cells ? fmt::format("σ over {:.0f} cells", widest_gaussian_cells)
-                                                                          : fmt::format("σ {:.2f} cells", r.gaussian_cells);
+    const std::string width = r.cells == 0              ? "–"
+                              : r.gaussian_cells == 0.0 ? "no band reduced"
+                              : r.gaussian_cells >= widest_gaussian_cells
+                                  ? fmt::format("σ over {:.0f} cells", widest_gaussian_cells)
+                                  : fmt::format("σ {:.2f} cells", r.gaussian_cells);
     const auto of_some = [&](double value) { return known(r.cells == 0 ? std::nan("") : value); };
-    table.row(slice_name(static_cast<int>(s)), of_some(r.kept()), of_some(r.kept_by_gaussian()), r.gaussian_cells, width, r.cells);
+    table.row(slice_name(static_cast<int>(s)), of_some(r.kept()), of_some(r.kept_by_gaussian()),
+              r.gaussian_cells, width, r.cells);
   }
   page.table(table);
 }
 
 void add_pits(Report& page, const Measures& m) {
-  page.section(
-      "pits", "Pits at the foot of slopes",
-      "Where steep slopes meet flat ground, exaggerated middle bands dig moats: hollows that would hold water, or ground taken away; "
-      "a good mask brings both figures back towards the original's.");
+  page.section("pits", "Pits at the foot of slopes",
+               "Where steep slopes meet flat ground, exaggerated medium bands dig moats: hollows "
+               "that would hold water, or removed ground. A good mask brings both figures back "
+               "towards the original's.");
   ReportTable table({{"terrain", "terrain"},
                      {"hollows_million_m3", "hollows, 10⁶ m³", ".3f"},
                      {"deepest_m", "deepest, m", ".1f"},
-                     {"lowered_million_m3", "ground taken away, 10⁶ m³", ".3f"}});
-  const auto pits = [&](const char* name, const FootPits& p) { table.row(name, p.hollows_m3 / 1e6, p.deepest_m, p.lowered_m3 / 1e6); };
+                     {"lowered_million_m3", "ground removed, 10⁶ m³", ".3f"}});
+  const auto pits = [&](const char* name, const FootPits& p) {
+    table.row(name, p.hollows_m3 / 1e6, p.deepest_m, p.lowered_m3 / 1e6);
+  };
   pits("original", m.original);
   pits("these weights, no mask", m.without_mask);
-  pits(m.own_mask ? "these weights, the mask of this run" : "these weights, automatic mask of slope feet", m.with_mask);
+  pits(m.own_mask ? "these weights, the mask of this run"
+                  : "these weights, automatic mask of slope feet",
+       m.with_mask);
   page.table(table);
 }
 
 void add_change(Report& page, const Measures& m) {
   page.section("change", "Altitude change",
-               "How far the result lies from the original: a mean near 0 says that the land as a whole was neither raised nor lowered.");
+               "Difference of the result from the original: a mean near 0 means that the land as a "
+               "whole was neither raised nor lowered.");
   ReportTable table({{"distance", "distance"},
                      {"change_mean_m", "mean, m", "+.2f"},
                      {"change_rms_m", "root mean square, m", ".2f"},
@@ -168,9 +192,11 @@ void add_change(Report& page, const Measures& m) {
 
 }  // namespace
 
-void write_generalize_report(const std::string& folder, const GeneralizeReportInput& input, Progress& progress) {
+void write_generalize_report(const std::string& folder, const GeneralizeReportInput& input,
+                             Progress& progress) {
   const bool view = !input.grids.foreground_share.empty();
-  const Grid<float> share = view ? input.grids.foreground_share : south_is_near(input.before_m.width(), input.before_m.height());
+  const Grid<float> share = view ? input.grids.foreground_share
+                                 : south_is_near(input.before_m.width(), input.before_m.height());
   progress.begin("measuring", 0.0);
   const Measures measures = measure(input, share, progress);
   const FigureWindows windows = choose_windows(input.before_m, input.cell_m, share);
@@ -184,15 +210,22 @@ void write_generalize_report(const std::string& folder, const GeneralizeReportIn
   }
   const double rms_m = std::sqrt(squares / std::max(cells, 1.0));
   const float full_m = static_cast<float>(std::max(3.0 * rms_m, 0.1));
-  const auto relief = [&](const std::string& name, const Grid<float>& altitude_m, const std::string& caption) {
+  const auto relief = [&](const std::string& name, const Grid<float>& altitude_m,
+                          const std::string& caption) {
     page.picture(name, relief_picture(altitude_m, input.cell_m, whole_px), caption);
   };
-  page.section("overview", "The whole terrain",
-               fmt::format("In the last picture red ground was lowered and blue ground raised, fully at {:.1f} m.", full_m));
+  page.section(
+      "overview", "The whole terrain",
+      fmt::format(
+          "In the last picture red ground was lowered and blue ground raised, fully at {:.1f} m.",
+          full_m));
   relief("overview_original", input.before_m, "original");
   relief("overview_result", input.after_m, "generalized");
-  page.picture("overview_change", change_picture(input.before_m, input.after_m, input.cell_m, full_m, whole_px), "change");
-  page.section("closeup", "Cell by cell", "The roughest part near and far, as it was and as it is now: here fine detail can be seen.");
+  page.picture("overview_change",
+               change_picture(input.before_m, input.after_m, input.cell_m, full_m, whole_px),
+               "change");
+  page.section("closeup", "Cell by cell",
+               "The roughest part near and far, before and after, to show fine detail.");
   relief("closeup_near_original", cut(input.before_m, windows.near), "near, original");
   relief("closeup_near_result", cut(input.after_m, windows.near), "near, generalized");
   relief("closeup_far_original", cut(input.before_m, windows.far), "far, original");
@@ -202,13 +235,14 @@ void write_generalize_report(const std::string& folder, const GeneralizeReportIn
   add_pits(page, measures);
   add_change(page, measures);
   page.section("method", "The method on this terrain",
-               "Figures 1 to 5 of Jenny, Jenny & Hurni 2011, made from this terrain whatever the settings above: figures 2 and 5 with the "
-               "paper's weights, 3 and 4, for which it gives none, with ours.");
+               "Figures 1 to 5 of Jenny, Jenny & Hurni 2011, made from this terrain independent of "
+               "the settings above: figures 2 and 5 with the paper's weights, 3 and 4, for which "
+               "it gives none, with ours.");
   add_paper_figures(page, input, share, windows, progress);
 
   page.write({.title = "Generalization of " + input.title,
-              .lead = fmt::format("{} × {} cells of {:.4g} × {:.4g} m.", input.before_m.width(), input.before_m.height(), input.cell_m.x,
-                                  input.cell_m.y),
+              .lead = fmt::format("{} × {} cells of {:.4g} × {:.4g} m.", input.before_m.width(),
+                                  input.before_m.height(), input.cell_m.x, input.cell_m.y),
               .command = input.command,
               .data = Json::object()
                           .add("width", Json::number(input.before_m.width()))

@@ -7,9 +7,11 @@
 
 namespace belvedere::tools {
 
-// index.html, report.json and the PNG pictures that the page shows, in a folder (made where it is missing) that can be moved and read
-// without a network. The figures 1 to 5 of Jenny, Jenny & Hurni 2011 are made again from this terrain. The same input gives the same bytes
-// for any number of threads. Throws Error(output).
-void write_generalize_report(const std::string& folder, const GeneralizeReportInput& input, Progress& progress);
+// index.html, report.json and the PNG pictures that the page shows, in a relocatable folder
+// (created if missing) without network access. The figures 1 to 5 of Jenny, Jenny & Hurni 2011 are
+// made again from this terrain. The same input gives the same bytes for any number of threads.
+// Throws Error(output).
+void write_generalize_report(const std::string& folder, const GeneralizeReportInput& input,
+                             Progress& progress);
 
 }  // namespace belvedere::tools

@@ -15,13 +15,20 @@ TextStyle type_of(int scale) { return {.family = "sans-serif", .size_px = 9.0 * 
 }  // namespace
 
 int text_width(const std::string& text, int scale) {
-  return text.empty() ? 0 : static_cast<int>(std::ceil(TextMeasure().measure(text, type_of(scale)).width_px));
+  return text.empty()
+             ? 0
+             : static_cast<int>(std::ceil(TextMeasure().measure(text, type_of(scale)).width_px));
 }
 
-void draw_text(Grid<glm::vec3>& picture, int x, int y, const std::string& text, glm::vec3 colour, int scale) {
+void draw_text(Grid<glm::vec3>& picture, int x, int y, const std::string& text, glm::vec3 colour,
+               int scale) {
   if (text.empty()) return;
-  const DrawnText line{.text = text, .type = type_of(scale), .at = {x, y + capital_px * scale}, .colour = hex_colour(colour)};
-  SheetPainter({.size_px = {picture.width(), picture.height()}, .shapes = {line}}).paint(picture, {0, 0});
+  const DrawnText line{.text = text,
+                       .type = type_of(scale),
+                       .at = {x, y + capital_px * scale},
+                       .colour = hex_colour(colour)};
+  SheetPainter({.size_px = {picture.width(), picture.height()}, .shapes = {line}})
+      .paint(picture, {0, 0});
 }
 
 }  // namespace belvedere::tools

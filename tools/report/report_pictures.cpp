@@ -11,11 +11,13 @@
 namespace belvedere::tools {
 namespace {
 
-// Hues as far apart as the golden section brings them; excluded is near black.
+// Hues spaced by the golden ratio; excluded is near black.
 glm::vec3 label_colour(std::uint8_t label) {
   if (label == unused_label) return glm::vec3(0.12F);
   const float hue = 6.F * static_cast<float>(std::fmod(0.1 + label * 0.6180339887, 1.0));
-  const auto part = [hue](float shift) { return std::clamp(std::abs(std::fmod(hue + shift, 6.F) - 3.F) - 1.F, 0.F, 1.F); };
+  const auto part = [hue](float shift) {
+    return std::clamp(std::abs(std::fmod(hue + shift, 6.F) - 3.F) - 1.F, 0.F, 1.F);
+  };
   return glm::vec3(0.25F) + 0.6F * glm::vec3(part(0.F), part(4.F), part(2.F));
 }
 
@@ -37,7 +39,8 @@ Reduced reduce_to(const Grid<float>& cells, int longest_px) {
       double sum = 0.0;
       int count = 0;
       for (int v = y * n; v < std::min((y + 1) * n, cells.height()); ++v) {
-        for (int u = x * n; u < std::min((x + 1) * n, cells.width()); ++u, ++count) sum += static_cast<double>(cells(u, v));
+        for (int u = x * n; u < std::min((x + 1) * n, cells.width()); ++u, ++count)
+          sum += static_cast<double>(cells(u, v));
       }
       out.cells(x, y) = static_cast<float>(sum / count);
     }
@@ -47,13 +50,16 @@ Reduced reduce_to(const Grid<float>& cells, int longest_px) {
 
 Grid<glm::vec3> relief_picture(const Grid<float>& altitude_m, glm::dvec2 cell_m, int longest_px) {
   const Reduced small = reduce_to(altitude_m, longest_px);
-  const Grid<std::uint8_t> shade = hillshade(small.cells, small.factor * cell_m.x, small.factor * cell_m.y, {});
+  const Grid<std::uint8_t> shade =
+      hillshade(small.cells, small.factor * cell_m.x, small.factor * cell_m.y, {});
   Grid<glm::vec3> out(shade.width(), shade.height());
-  std::transform(shade.begin(), shade.end(), out.begin(), [](std::uint8_t s) { return glm::vec3(static_cast<float>(s) / 255.F); });
+  std::transform(shade.begin(), shade.end(), out.begin(),
+                 [](std::uint8_t s) { return glm::vec3(static_cast<float>(s) / 255.F); });
   return out;
 }
 
-Grid<glm::vec3> change_picture(const Grid<float>& before_m, const Grid<float>& after_m, glm::dvec2 cell_m, float full_m, int longest_px) {
+Grid<glm::vec3> change_picture(const Grid<float>& before_m, const Grid<float>& after_m,
+                               glm::dvec2 cell_m, float full_m, int longest_px) {
   Grid<glm::vec3> out = relief_picture(after_m, cell_m, longest_px);
   const Grid<float> before = reduce_to(before_m, longest_px).cells;
   const Grid<float> after = reduce_to(after_m, longest_px).cells;
@@ -69,8 +75,9 @@ Grid<glm::vec3> change_picture(const Grid<float>& before_m, const Grid<float>& a
 
 Grid<glm::vec3> signed_picture(const Grid<float>& values, float full) {
   Grid<glm::vec3> out(values.width(), values.height());
-  std::transform(values.begin(), values.end(), out.begin(),
-                 [full](float v) { return glm::vec3(std::clamp(0.5F + 0.5F * v / std::max(full, 1e-6F), 0.F, 1.F)); });
+  std::transform(values.begin(), values.end(), out.begin(), [full](float v) {
+    return glm::vec3(std::clamp(0.5F + 0.5F * v / std::max(full, 1e-6F), 0.F, 1.F));
+  });
   return out;
 }
 
@@ -78,7 +85,8 @@ Grid<glm::vec3> reduced_picture(const Grid<glm::vec3>& picture, int longest_px) 
   Grid<glm::vec3> out;
   for (int c = 0; c < 3; ++c) {
     Grid<float> channel(picture.width(), picture.height());
-    std::transform(picture.begin(), picture.end(), channel.begin(), [c](const glm::vec3& colour) { return colour[c]; });
+    std::transform(picture.begin(), picture.end(), channel.begin(),
+                   [c](const glm::vec3& colour) { return colour[c]; });
     const Grid<float> small = reduce_to(channel, longest_px).cells;
     if (out.empty()) out = Grid<glm::vec3>(small.width(), small.height());
     for (std::size_t i = 0; i < small.size(); ++i) out[i][c] = small[i];
@@ -88,7 +96,8 @@ Grid<glm::vec3> reduced_picture(const Grid<glm::vec3>& picture, int longest_px) 
 
 Grid<glm::vec3> to_picture(const Grid<Rgb8>& colours) {
   Grid<glm::vec3> out(colours.width(), colours.height());
-  std::transform(colours.begin(), colours.end(), out.begin(), [](const Rgb8& c) { return glm::vec3(c[0], c[1], c[2]) / 255.F; });
+  std::transform(colours.begin(), colours.end(), out.begin(),
+                 [](const Rgb8& c) { return glm::vec3(c[0], c[1], c[2]) / 255.F; });
   return out;
 }
 
@@ -109,7 +118,8 @@ Grid<glm::vec3> heat_picture(const Grid<float>& values, float full) {
   Grid<glm::vec3> out(values.width(), values.height());
   std::transform(values.begin(), values.end(), out.begin(), [full](float v) {
     const float t = 3.F * std::clamp(v / std::max(full, 1e-6F), 0.F, 1.F);
-    return glm::vec3(std::clamp(t, 0.F, 1.F), std::clamp(t - 1.F, 0.F, 1.F), std::clamp(t - 2.F, 0.F, 1.F));
+    return glm::vec3(std::clamp(t, 0.F, 1.F), std::clamp(t - 1.F, 0.F, 1.F),
+                     std::clamp(t - 2.F, 0.F, 1.F));
   });
   return out;
 }
@@ -132,18 +142,18 @@ PixelRect best_window(const Grid<float>& score, const Grid<float>& where, int si
   for (int y0 = 0;; y0 = std::min(y0 + step, score.height() - height)) {
     for (int x0 = 0;; x0 = std::min(x0 + step, score.width() - width)) {
       double sum = 0.0;
-      double place = 0.0;
+      double position = 0.0;
       for (int y = y0; y < y0 + height; ++y) {
         for (int x = x0; x < x0 + width; ++x) {
           sum += static_cast<double>(score(x, y));
-          place += where.empty() ? 1.0 : static_cast<double>(where(x, y));
+          position += where.empty() ? 1.0 : static_cast<double>(where(x, y));
         }
       }
-      place = std::min(place / (static_cast<double>(width) * height), 0.5);
-      if (place > best_place || (place == best_place && sum > best_sum)) {
+      position = std::min(position / (static_cast<double>(width) * height), 0.5);
+      if (position > best_place || (position == best_place && sum > best_sum)) {
         best = {x0, y0, x0 + width, y0 + height};
         best_sum = sum;
-        best_place = place;
+        best_place = position;
       }
       if (x0 + width >= score.width()) break;
     }

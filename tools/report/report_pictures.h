@@ -17,10 +17,12 @@ namespace belvedere::tools {
 template <class T>
 Grid<T> cut(const Grid<T>& cells, const PixelRect& window) {
   Grid<T> out(window.width(), window.height());
-  for (int y = 0; y < out.height(); ++y) std::copy_n(cells.row(window.y0 + y) + window.x0, out.width(), out.row(y));
+  for (int y = 0; y < out.height(); ++y)
+    std::copy_n(cells.row(window.y0 + y) + window.x0, out.width(), out.row(y));
   return out;
 }
-// Means of n × n cells (fewer at the right and lower rim), n the smallest that brings both sides to `longest_px`. n is 1 where they are.
+// Means of n × n cells (fewer at the right and lower rim), n the smallest that brings both sides to
+// `longest_px`. n is 1 where they already fit.
 struct Reduced {
   Grid<float> cells;
   int factor = 1;
@@ -29,8 +31,9 @@ Reduced reduce_to(const Grid<float>& cells, int longest_px);
 
 // Shaded relief, no side above longest_px.
 Grid<glm::vec3> relief_picture(const Grid<float>& altitude_m, glm::dvec2 cell_m, int longest_px);
-// Relief with ground that was lowered in red and raised in blue; the full tint at ±full_m.
-Grid<glm::vec3> change_picture(const Grid<float>& before_m, const Grid<float>& after_m, glm::dvec2 cell_m, float full_m, int longest_px);
+// Relief with lowered ground in red and raised ground in blue; the full tint at ±full_m.
+Grid<glm::vec3> change_picture(const Grid<float>& before_m, const Grid<float>& after_m,
+                               glm::dvec2 cell_m, float full_m, int longest_px);
 // Mid grey at 0, black and white at ∓full.
 Grid<glm::vec3> signed_picture(const Grid<float>& values, float full);
 
@@ -38,17 +41,18 @@ Grid<glm::vec3> signed_picture(const Grid<float>& values, float full);
 Grid<glm::vec3> reduced_picture(const Grid<glm::vec3>& picture, int longest_px);
 // 8 bits as 0…1.
 Grid<glm::vec3> to_picture(const Grid<Rgb8>& colours);
-// A colour a label, the same in every picture; unused_label is near black.
+// One colour per label, the same in every picture; unused_label is near black.
 Grid<glm::vec3> label_picture(const Grid<std::uint8_t>& labels);
 // Each pixel as a square of `times` pixels.
 Grid<glm::vec3> enlarged(const Grid<glm::vec3>& picture, int times);
-// Black at 0 by red and yellow to white at `full` and above.
+// From black at 0 through red and yellow to white at `full` and above.
 Grid<glm::vec3> heat_picture(const Grid<float>& values, float full);
-// The value that a share of all lies below, 0…1; of every n-th where there are many.
+// Quantile 0…1; of every n-th value where there are many.
 float percentile(const Grid<float>& values, double share);
 
-// Of square windows of `side` cells (less where the grid is smaller), half a side apart: that with the largest sum of `score`, the first of
-// equals. Windows where the mean of `where` is below .5 do not count while another has more; an empty `where` is 1.
+// Of square windows of `side` cells (less where the grid is smaller), half a side apart: the one
+// with the largest sum of `score`, the first of equals. Windows where the mean of `where` is below
+// .5 are ignored while another has more; an empty `where` is 1.
 PixelRect best_window(const Grid<float>& score, const Grid<float>& where, int side);
 
 }  // namespace belvedere::tools

@@ -12,7 +12,7 @@
 namespace belvedere::tools {
 namespace {
 
-constexpr int seam_places = 3;  // worst places of each kind
+constexpr int seam_places = 3;  // worst windows of each kind
 constexpr int guide_places = 1;
 constexpr int reuse_places = 2;
 constexpr std::size_t guides_with_places = 3;
@@ -28,19 +28,22 @@ double weight_of(const SynthesisParameters& parameters, const std::string& guide
 std::vector<std::string> guides_in_use(const SynthesisReportInput& in) {
   std::vector<std::string> names;
   for (const Guide& guide : in.target.guides) {
-    const bool shared = std::all_of(in.exemplars.begin(), in.exemplars.end(),
-                                    [&](const Exemplar& exemplar) { return exemplar.guides.find(guide.name) != nullptr; });
+    const bool shared = std::all_of(
+        in.exemplars.begin(), in.exemplars.end(),
+        [&](const Exemplar& exemplar) { return exemplar.guides.find(guide.name) != nullptr; });
     if (shared && weight_of(in.parameters, guide.name) > 0.0) names.push_back(guide.name);
   }
   return names;
 }
 
 double mean_of(const Grid<float>& values, std::size_t count) {
-  return deterministic_sum(values.size(), [&](std::size_t i) { return static_cast<double>(values[i]); }) /
+  return deterministic_sum(values.size(),
+                           [&](std::size_t i) { return static_cast<double>(values[i]); }) /
          static_cast<double>(std::max<std::size_t>(1, count));
 }
 
-GuideFindings look_at_guide(const SynthesisReportInput& in, const std::string& name, std::size_t matched) {
+GuideFindings look_at_guide(const SynthesisReportInput& in, const std::string& name,
+                            std::size_t matched) {
   GuideFindings of;
   of.name = name;
   of.weight = weight_of(in.parameters, name);
@@ -63,14 +66,14 @@ PixelRect window_around(int x, int y, int side, int width, int height) {
 }
 
 // Where most of a window was copied from: by the offset that most of its pixels share.
-void find_source(const SynthesisReportInput& in, Place& place) {
+void find_source(const SynthesisReportInput& in, Place& position) {
   struct Offset {
     std::size_t count = 0;
-    std::int64_t x = 0, y = 0;  // sums of texel places
+    std::int64_t x = 0, y = 0;  // sums of texel positions
   };
   std::map<std::array<int, 3>, Offset> offsets;
-  for (int y = place.window.y0; y < place.window.y1; ++y) {
-    for (int x = place.window.x0; x < place.window.x1; ++x) {
+  for (int y = position.window.y0; y < position.window.y1; ++y) {
+    for (int x = position.window.x0; x < position.window.x1; ++x) {
       const Match& m = in.matches(x, y);
       if (m.exemplar == Match::none) continue;
       Offset& offset = offsets[{m.exemplar, m.x - x, m.y - y}];
@@ -80,19 +83,20 @@ void find_source(const SynthesisReportInput& in, Place& place) {
     }
   }
   for (const auto& [key, offset] : offsets) {
-    if (offset.count <= place.piece) continue;
-    place.piece = offset.count;
-    place.exemplar = static_cast<std::size_t>(key[0]);
-    const Grid<Rgb8>& picture = in.exemplars[place.exemplar].picture;
+    if (offset.count <= position.piece) continue;
+    position.piece = offset.count;
+    position.exemplar = static_cast<std::size_t>(key[0]);
+    const Grid<Rgb8>& picture = in.exemplars[position.exemplar].picture;
     const auto count = static_cast<std::int64_t>(offset.count);
-    place.source = window_around(static_cast<int>(offset.x / count), static_cast<int>(offset.y / count), worst_place_side, picture.width(),
-                                 picture.height());
+    position.source =
+        window_around(static_cast<int>(offset.x / count), static_cast<int>(offset.y / count),
+                      worst_place_side, picture.width(), picture.height());
   }
 }
 
-// The windows with the largest sums, one after the other; none twice.
-void add_places(const SynthesisReportInput& in, Grid<float> score, int count, const std::string& why, const std::string& guide,
-                std::vector<Place>& places) {
+// The windows with the largest sums, one after the other, without overlap.
+void add_places(const SynthesisReportInput& in, Grid<float> score, int count,
+                const std::string& why, const std::string& guide, std::vector<Place>& positions) {
   const auto leave_out = [&score](const PixelRect& window) {
     double sum = 0.0;
     for (int y = window.y0; y < window.y1; ++y) {
@@ -103,16 +107,16 @@ void add_places(const SynthesisReportInput& in, Grid<float> score, int count, co
     }
     return sum;
   };
-  for (const Place& place : places) leave_out(place.window);
+  for (const Place& position : positions) leave_out(position.window);
   for (int n = 0; n < count; ++n) {
-    Place place;
-    place.letter = std::string(1, static_cast<char>('A' + places.size()));
-    place.why = why;
-    place.guide = guide;
-    place.window = best_window(score, {}, worst_place_side);
-    if (leave_out(place.window) <= 0.0) return;
-    find_source(in, place);
-    if (place.piece > 0) places.push_back(std::move(place));
+    Place position;
+    position.letter = std::string(1, static_cast<char>('A' + positions.size()));
+    position.why = why;
+    position.guide = guide;
+    position.window = best_window(score, {}, worst_place_side);
+    if (leave_out(position.window) <= 0.0) return;
+    find_source(in, position);
+    if (position.piece > 0) positions.push_back(std::move(position));
   }
 }
 
@@ -132,7 +136,8 @@ Grid<float> guide_cost_map(const SynthesisReportInput& in, const std::string& gu
   const Grid<std::uint8_t> off = guide_error(in.matches, in.exemplars, in.target, guide);
   const double weight = weight_of(in.parameters, guide);
   Grid<float> out(off.width(), off.height());
-  std::transform(off.begin(), off.end(), out.begin(), [weight](std::uint8_t v) { return guide_cost(v, weight); });
+  std::transform(off.begin(), off.end(), out.begin(),
+                 [weight](std::uint8_t v) { return guide_cost(v, weight); });
   return out;
 }
 
@@ -146,24 +151,26 @@ SynthesisFindings look_at_synthesis(const SynthesisReportInput& in, Progress& pr
                                             : guides.empty() ? std::string()
                                                              : guides.front()});
   progress.advance(1.0);
-  found.supply = class_supply(in.exemplars, in.target.label, in.parameters.fallback);
+  found.available = class_texels(in.exemplars, in.target.label, in.parameters.fallback);
   const std::size_t matched = in.matches.size() - found.quality.without_texel;
-  found.seams =
-      seam_cost(in.matches, in.exemplars, serving_labels(in.exemplars, in.target.label, in.parameters.fallback), in.target.depth_m);
+  found.seams = seam_cost(in.matches, in.exemplars,
+                          serving_labels(in.exemplars, in.target.label, in.parameters.fallback),
+                          in.target.depth_m);
   found.seam_mean = mean_of(found.seams, matched);
   for (const std::string& guide : guides) {
     found.guides.push_back(look_at_guide(in, guide, matched));
     progress.advance(1.0);
   }
-  std::stable_sort(found.guides.begin(), found.guides.end(),
-                   [](const GuideFindings& a, const GuideFindings& b) { return a.cost_mean > b.cost_mean; });
+  std::stable_sort(
+      found.guides.begin(), found.guides.end(),
+      [](const GuideFindings& a, const GuideFindings& b) { return a.cost_mean > b.cost_mean; });
   found.uses = texel_uses(in.matches, in.exemplars);
   found.use_counts = use_map(in.matches, found.uses);
-  add_places(in, found.seams, seam_places, "seams", "", found.places);
+  add_places(in, found.seams, seam_places, "seams", "", found.positions);
   for (std::size_t g = 0; g < std::min(guides_with_places, found.guides.size()); ++g)
-    add_places(in, guide_cost_map(in, found.guides[g].name), guide_places, found.guides[g].name + " off", found.guides[g].name,
-               found.places);
-  add_places(in, found.use_counts, reuse_places, "texels used often", "", found.places);
+    add_places(in, guide_cost_map(in, found.guides[g].name), guide_places,
+               found.guides[g].name + " off", found.guides[g].name, found.positions);
+  add_places(in, found.use_counts, reuse_places, "texels used often", "", found.positions);
   progress.advance(1.0);
 
   return found;

@@ -6,14 +6,14 @@
 
 #include "base/pixel_rect.h"
 #include "texture/quality/quality.h"
-#include "texture/synthesis/class_supply.h"
+#include "texture/synthesis/class_texels.h"
 #include "tools/report/synthesis_report_input.h"
 
 namespace belvedere::tools {
 
 inline constexpr int worst_place_side = 64;  // pixels
 
-// What a guide asks and costs, over the pixels that have a texel.
+// Demand and cost of a guide, over the pixels that have a texel.
 struct GuideFindings {
   std::string name;
   double weight = 1.0;
@@ -22,24 +22,24 @@ struct GuideFindings {
   double cost_mean = 0.0;
 };
 
-// A place that is worth a look, with where most of it was copied from.
+// A window worth a look, with where most of it was copied from.
 struct Place {
   std::string letter;
   std::string why;
-  std::string guide;  // it is bad for; empty: none
+  std::string guide;  // what is bad about it; empty: none
   PixelRect window;
   std::size_t exemplar = 0;
   PixelRect source;
   std::size_t piece = 0;  // pixels of the window copied by the source's offset
 };
 
-// What a report tells in numbers, and the maps they are taken from.
+// The numbers of a report, and the maps they are computed from.
 struct SynthesisFindings {
   SynthesisQuality quality;
-  std::vector<ClassSupply> supply;
-  std::vector<GuideFindings> guides;  // the dearest first
+  std::vector<ClassTexels> available;
+  std::vector<GuideFindings> guides;  // the most expensive first
   double seam_mean = 0.0;
-  std::vector<Place> places;
+  std::vector<Place> positions;
   Grid<float> seams;                      // cost by pixel
   std::vector<Grid<std::uint32_t>> uses;  // of texels, by exemplar
   Grid<float> use_counts;                 // by pixel: of its texel
@@ -47,7 +47,7 @@ struct SynthesisFindings {
 
 SynthesisFindings look_at_synthesis(const SynthesisReportInput& input, Progress& progress);
 
-// What that guide costs by pixel, at the weight it had.
+// Cost of that guide by pixel, at its weight.
 Grid<float> guide_cost_map(const SynthesisReportInput& input, const std::string& guide);
 
 }  // namespace belvedere::tools

@@ -9,10 +9,10 @@
 
 namespace belvedere::tools {
 
-// What a report on a synthesis speaks of.
+// Input of a report on a synthesis.
 struct SynthesisReportInput {
-  std::string title;    // as people call the result
-  std::string command;  // that makes it, without folders
+  std::string title;    // name of the result
+  std::string command;  // command that makes it, without folders
   const std::vector<Exemplar>& exemplars;
   const GuideStack& target;
   const SynthesisParameters& parameters;  // as the result was made with

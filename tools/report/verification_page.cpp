@@ -25,16 +25,20 @@ bool is_there(const fs::path& path) {
   return fs::is_regular_file(path, ignored);
 }
 
-// The scene's panorama in encoded colours, from whichever of its files is there; empty where none is.
+// The scene's panorama in encoded colours, from whichever of its files exists; empty where none
+// does.
 Grid<glm::vec3> panorama_of(const Verification& scene, const fs::path& folder) {
   for (const bool linear : {false, true})
     for (const std::string& product : scene.products) {
       const fs::path path = folder / product;
-      if (!product.starts_with("panorama.") || !is_there(path) || format_of_file(path.string()).linear != linear) continue;
+      if (!product.starts_with("panorama.") || !is_there(path) ||
+          format_of_file(path.string()).linear != linear)
+        continue;
       Grid<glm::vec3> picture = read_picture(path.string());
       for (glm::vec3& colour : picture)
         for (int c = 0; linear && c < 3; ++c)
-          colour[c] = static_cast<float>(std::clamp(srgb_encoded(std::clamp(colour[c], 0.F, 1.F)), 0.0, 1.0));
+          colour[c] = static_cast<float>(
+              std::clamp(srgb_encoded(std::clamp(colour[c], 0.F, 1.F)), 0.0, 1.0));
       return picture;
     }
   return {};
@@ -45,7 +49,8 @@ Grid<glm::vec3> difference_picture(const Grid<glm::vec3>& a, const Grid<glm::vec
   constexpr float white = .1F;
   Grid<float> largest(a.width(), a.height());
   for (std::size_t i = 0; i < largest.size(); ++i)
-    largest[i] = std::max({std::abs(a[i].x - b[i].x), std::abs(a[i].y - b[i].y), std::abs(a[i].z - b[i].z)});
+    largest[i] =
+        std::max({std::abs(a[i].x - b[i].x), std::abs(a[i].y - b[i].y), std::abs(a[i].z - b[i].z)});
   return heat_picture(largest, white);
 }
 
@@ -56,18 +61,20 @@ void add_pictures(Report& report, const Verification& scene, const std::string& 
   };
   const Grid<glm::vec3> now = panorama_of(scene, scene.folder);
   if (now.empty()) return;
-  add(now, "as it is rendered now");
-  const Grid<glm::vec3> before = against.empty() ? Grid<glm::vec3>() : panorama_of(scene, fs::path(against) / scene.name);
+  add(now, "as rendered now");
+  const Grid<glm::vec3> before =
+      against.empty() ? Grid<glm::vec3>() : panorama_of(scene, fs::path(against) / scene.name);
   if (before.empty()) return;
-  add(before, "as it was");
+  add(before, "before");
   if (before.width() == now.width() && before.height() == now.height())
-    add(difference_picture(now, before), "difference: black where equal, white from a tenth of the scale up");
+    add(difference_picture(now, before),
+        "difference: black where equal, white from a tenth of the scale up");
 }
 
-// How far products are from those of an earlier run, where that is at hand.
+// Differences from an earlier run, if available.
 void add_measured(Report& report, const Verification& scene, const std::string& against) {
   if (against.empty()) return;
-  ReportTable table({{"product", "against the earlier run"},
+  ReportTable table({{"product", "relative to the earlier run"},
                      {"channel", "channel"},
                      {"mean", "mean difference", ".4g"},
                      {"most", "largest", ".4g"},
@@ -75,10 +82,13 @@ void add_measured(Report& report, const Verification& scene, const std::string& 
   for (const std::string& product : scene.products) {
     const fs::path before = fs::path(against) / scene.name / product;
     if (channels_that_differ(scene, product).empty() || !is_there(before)) continue;
-    const PictureDifference difference = compare_pictures(before.string(), (fs::path(scene.folder) / product).string());
-    for (const std::string& mismatch : difference.mismatches) table.row(product, mismatch, "", "", "");
+    const PictureDifference difference =
+        compare_pictures(before.string(), (fs::path(scene.folder) / product).string());
+    for (const std::string& mismatch : difference.mismatches)
+      table.row(product, mismatch, "", "", "");
     for (const ChannelDifference& one : difference.channels)
-      if (one.differing_share > 0.0) table.row(product, one.name, one.mean, one.max, one.differing_share);
+      if (one.differing_share > 0.0)
+        table.row(product, one.name, one.mean, one.max, one.differing_share);
   }
   if (!table.empty()) report.table(table);
 }
@@ -89,12 +99,16 @@ void add_scene(Report& report, const Verification& scene, const std::string& aga
     report.listing(scene.error);
     return;
   }
-  report.text(fmt::format("{}×{} pixels, {} inputs as in the lock. {}", scene.width, scene.height, scene.inputs,
-                          scene.same() ? "All channels are the same." : ""));
+  report.text(fmt::format("{}×{} pixels, {} inputs as in the lock. {}", scene.width, scene.height,
+                          scene.inputs, scene.same() ? "All channels are the same." : ""));
   for (const std::string& note : scene.notes) report.text(note);
   if (scene.same()) return;
-  ReportTable table({{"product", "product"}, {"channel", "channel"}, {"locked", "in the lock"}, {"found", "now"}});
-  for (const LockDifference& one : scene.differences) table.row(one.file, one.channel, one.locked, one.found);
+  ReportTable table({{"product", "product"},
+                     {"channel", "channel"},
+                     {"locked", "in the lock"},
+                     {"found", "now"}});
+  for (const LockDifference& one : scene.differences)
+    table.row(one.file, one.channel, one.locked, one.found);
   report.table(table);
   add_measured(report, scene, against);
   add_pictures(report, scene, against);
@@ -107,9 +121,11 @@ std::string verification_page(const std::vector<Verification>& all, const Verifi
   for (const bool good : {false, true})
     for (const Verification& scene : all)
       if (scene.same() == good) add_scene(report, scene, page.against);
-  const auto same = std::count_if(all.begin(), all.end(), [](const Verification& one) { return one.same(); });
-  return report.page(
-      {.title = "Scenes and their locks", .lead = fmt::format("{} of {} scenes are the same.", same, all.size()), .command = {}});
+  const auto same =
+      std::count_if(all.begin(), all.end(), [](const Verification& one) { return one.same(); });
+  return report.page({.title = "Scenes and their locks",
+                      .lead = fmt::format("{} of {} scenes are the same.", same, all.size()),
+                      .command = {}});
 }
 
 }  // namespace belvedere::tools

@@ -6,22 +6,25 @@
 
 namespace belvedere::tools {
 
-// What lies under the pixels of a picture, every step-th of them, for pages: the middles of squares of `step_px`.
+// The ground under the pixels of a picture, every step-th of them, for pages: at the centres of
+// squares of `step_px`.
 struct ReadOut {
   int step_px = 1;
-  Grid<float> distance_m;  // infinite where sky is
+  Grid<float> distance_m;  // infinite for sky
   Grid<float> altitude_m;
   Grid<float> class_id;
-  Grid<double> longitude_deg;  // WGS 84, of the map's own place, before bend and handles
+  Grid<double> longitude_deg;  // WGS 84, position on the map, before bend and handles
   Grid<double> latitude_deg;
   bool has_places = false;  // the terrain has a coordinate system
 };
 
-// From a guidance file, at most about `most_cells` of it, whatever its size. Error(input) for a file without distances or classes.
-ReadOut sample_read_out(const std::string& guidance_file, int most_cells);
+// From a guidance file, at most about `max_cells` of it, whatever its size. Error(input) for a file
+// without distances or classes.
+ReadOut sample_read_out(const std::string& guidance_file, int max_cells);
 
-// As a JavaScript object: planes of whole numbers in base64, low byte first. class: 8 bits, 255 for sky; altitude: 16 bits, m + 1000;
-// distance: 16 bits, 10 m; longitude and latitude: 16 bits, of the extent's 65535 steps.
+// As a JavaScript object: planes of whole numbers in base64, low byte first. class: 8 bits, 255 for
+// sky; altitude: 16 bits, m + 1000; distance: 16 bits, 10 m; longitude and latitude: 16 bits, in
+// 1/65535 of the extent.
 std::string read_out_script(const ReadOut& read_out);
 
 }  // namespace belvedere::tools

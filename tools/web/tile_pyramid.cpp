@@ -17,11 +17,15 @@
 namespace belvedere::tools {
 namespace {
 
-// One size of the picture: gathers rows until they make a row of tiles, writes these, and hands the rows on to the next smaller size.
+// One level of the picture: collects rows until they make a row of tiles, writes these, and passes
+// the rows on to the next level.
 class Level {
  public:
   Level(std::string folder, int width, int height, const TileParameters& parameters)
-      : folder_(std::move(folder)), parameters_(parameters), band_(width, std::min(height, parameters.tile_px)), height_(height) {
+      : folder_(std::move(folder)),
+        parameters_(parameters),
+        band_(width, std::min(height, parameters.tile_px)),
+        height_(height) {
     std::filesystem::create_directories(folder_);
     if (std::max(width, height) <= parameters_.tile_px) return;
     reducer_ = std::make_unique<RowReducer>(width, height, 2);
@@ -37,8 +41,10 @@ class Level {
       if (++filled_ == band_.height() || written_ + filled_ == height_) write();
     }
   }
-  // What the next size has of these rows; often none.
-  Grid<glm::vec3> smaller(const Grid<glm::vec3>& encoded) { return encode_srgb(reducer_->reduce(decode_srgb(encoded))); }
+  // Rows of the next level; often none.
+  Grid<glm::vec3> smaller(const Grid<glm::vec3>& encoded) {
+    return encode_srgb(reducer_->reduce(decode_srgb(encoded)));
+  }
 
  private:
   void write() {
@@ -47,7 +53,8 @@ class Level {
     parallel_rows(across, [&](int column) {
       const int x0 = column * parameters_.tile_px;
       const PixelRect tile{x0, 0, std::min(x0 + parameters_.tile_px, band_.width()), filled_};
-      write_jpeg(fmt::format("{}/{}_{}.jpg", folder_, column, row), part_of(band_, tile), parameters_.quality);
+      write_jpeg(fmt::format("{}/{}_{}.jpg", folder_, column, row), part_of(band_, tile),
+                 parameters_.quality);
     });
     written_ += filled_;
     filled_ = 0;
@@ -64,12 +71,13 @@ class Level {
 
 }  // namespace
 
-TilePyramid write_tile_pyramid(const std::string& picture, const std::string& folder, const TileParameters& parameters,
-                               Progress& progress) {
+TilePyramid write_tile_pyramid(const std::string& picture, const std::string& folder,
+                               const TileParameters& parameters, Progress& progress) {
   const ImageInfo info = read_image_info(picture);
   std::vector<std::unique_ptr<Level>> levels;
   for (int width = info.width, height = info.height;;) {
-    levels.push_back(std::make_unique<Level>(fmt::format("{}/{}", folder, levels.size()), width, height, parameters));
+    levels.push_back(std::make_unique<Level>(fmt::format("{}/{}", folder, levels.size()), width,
+                                             height, parameters));
     if (levels.back()->last()) break;
     width = levels.back()->next_width();
     height = levels.back()->next_height();

@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The largest of the folder's pictures that a browser's colours are: a printer's TIFF may have inks.
+// The largest of the folder's pictures in RGB: a printer's TIFF may be CMYK.
 std::string picture_of(const std::string& folder) {
   std::string best;
   int widest = 0;
@@ -39,7 +39,8 @@ std::string picture_of(const std::string& folder) {
     widest = info.width;
   }
   if (best.empty())
-    throw Error(ErrorKind::input, folder, "has no panorama.png or panorama.tif of three colours", "the folder that belvedere render wrote");
+    throw Error(ErrorKind::input, folder, "has no panorama.png or panorama.tif of three colours",
+                "a folder written by belvedere render");
   return best;
 }
 
@@ -50,7 +51,7 @@ std::string text_of(const std::string& path) {
   return text.str();
 }
 
-// What the picture's own notes say of it.
+// Values of the picture's own notes.
 struct About {
   std::string title;
   std::string sources;     // HTML
@@ -63,7 +64,8 @@ About about(const ImageInfo& info, const std::string& folder) {
     const LoadedScene loaded = parse_scene(note->second, "scene of the picture", folder, {});
     if (!loaded.scene.title.empty()) out.title = loaded.scene.title;
     out.sheet_px = {loaded.scene.output.width, loaded.scene.output.height};
-    for (const std::string& credit : source_credits(loaded)) out.sources += markup_text(credit) + "<br>";
+    for (const std::string& credit : source_credits(loaded))
+      out.sources += markup_text(credit) + "<br>";
   }
   const auto software = info.notes.find("Software");
   out.sources += markup_text(software == info.notes.end() ? "Belvedere" : software->second);
@@ -80,11 +82,15 @@ Json picture_entry(const std::string& name, const std::string& tiles, const Tile
       .add("levels", Json::number(pyramid.levels));
 }
 
-// Pixels of the picture for one of another file of the same view, which may be larger.
-double scale_between(int other_width, int width) { return static_cast<double>(width) / static_cast<double>(other_width); }
+// Pixels of the picture per pixel of another file of the same view, which may be larger.
+double scale_between(int other_width, int width) {
+  return static_cast<double>(width) / static_cast<double>(other_width);
+}
 
-// The names of the folder's labels. Their pixels are the whole sheet's: a part of it has none that could be used.
-void add_labels(Json& page, const std::string& folder, const ImageInfo& info, const About& said, Progress& progress) {
+// The names of the folder's labels. Their pixels refer to the whole sheet, so they are not used for
+// a part of it.
+void add_labels(Json& page, const std::string& folder, const ImageInfo& info, const About& said,
+                Progress& progress) {
   const std::string labels = (fs::path(folder) / "labels.geojson").string();
   if (!fs::exists(labels)) return;
   const int sheet = said.sheet_px.x > 0 ? said.sheet_px.x : info.width;
@@ -98,26 +104,29 @@ void add_labels(Json& page, const std::string& folder, const ImageInfo& info, co
 
 }  // namespace
 
-void write_web_page(const std::vector<WebPicture>& pictures, const std::string& folder, const WebParameters& parameters,
-                    Progress& progress) {
+void write_web_page(const std::vector<WebPicture>& pictures, const std::string& folder,
+                    const WebParameters& parameters, Progress& progress) {
   if (pictures.empty()) throw Error(ErrorKind::bug, "write_web_page", "no pictures");
   std::vector<std::string> files;
   for (const WebPicture& picture : pictures) files.push_back(picture_of(picture.folder));
   const ImageInfo first = read_image_info(files[0]);
   for (std::size_t k = 1; k < files.size(); ++k)
-    if (const ImageInfo other = read_image_info(files[k]); other.width != first.width || other.height != first.height)
-      throw Error(ErrorKind::usage, files[k], fmt::format("{} × {} pixels", other.width, other.height),
-                  fmt::format("{} × {} as {}: pictures of one view", first.width, first.height, files[0]));
+    if (const ImageInfo other = read_image_info(files[k]);
+        other.width != first.width || other.height != first.height)
+      throw Error(
+          ErrorKind::usage, files[k], fmt::format("{} × {} pixels", other.width, other.height),
+          fmt::format("{} × {} as {}: pictures of one view", first.width, first.height, files[0]));
   check_output_folder(folder);
 
   Json entries = Json::array();
   for (std::size_t k = 0; k < files.size(); ++k) {
     const std::string tiles = fmt::format("tiles/{}", k);
-    // Of an earlier page there may be more of them.
+    // An earlier page may have left more of them.
     fs::remove_all(fs::path(folder) / tiles);
     fs::create_directories(fs::path(folder) / tiles);
     const TilePyramid pyramid =
-        write_tile_pyramid(files[k], (fs::path(folder) / tiles).string(), {parameters.tile_px, parameters.quality}, progress);
+        write_tile_pyramid(files[k], (fs::path(folder) / tiles).string(),
+                           {parameters.tile_px, parameters.quality}, progress);
     entries.add(picture_entry(pictures[k].name, tiles, pyramid));
   }
 
@@ -125,26 +134,31 @@ void write_web_page(const std::vector<WebPicture>& pictures, const std::string& 
   page.add("pictures", std::move(entries));
   const std::string guidance = (fs::path(pictures[0].folder) / "guidance.exr").string();
   if (fs::exists(guidance)) {
-    progress.begin("reading what lies where", 0.0);
+    progress.begin("reading positions", 0.0);
     const int width = read_image_info(guidance).width;
-    page.add("ground", Json::raw(read_out_script(sample_read_out(guidance, parameters.ground_cells))))
+    page.add("ground",
+             Json::raw(read_out_script(sample_read_out(guidance, parameters.ground_cells))))
         .add("groundScale", Json::number(scale_between(width, first.width)));
   } else {
-    progress.note(fmt::format("{} has no guidance.exr: the page will not tell what is pointed at", pictures[0].folder));
+    progress.note(
+        fmt::format("{} has no guidance.exr: the page will not show positions under the pointer",
+                    pictures[0].folder));
   }
   const About said = about(first, pictures[0].folder);
   add_labels(page, pictures[0].folder, first, said, progress);
-  write_text_file((fs::path(folder) / "panorama.js").string(), "window.panoramaPage = " + script_json(page.str()) + ";\n");
+  write_text_file((fs::path(folder) / "panorama.js").string(),
+                  "window.panoramaPage = " + script_json(page.str()) + ";\n");
 
   write_text_file((fs::path(folder) / "index.html").string(),
-                  filled_page(embedded_file("web/index.html"), {{"title", markup_text(said.title)},
-                                                                {"alt", markup_text("Panorama: " + said.title)},
-                                                                {"first", markup_text(pictures[0].name)},
-                                                                {"sources", said.sources},
-                                                                {"css", std::string(embedded_file("web/page.css"))},
-                                                                {"ground", std::string(embedded_file("web/ground.js"))},
-                                                                {"viewer", std::string(embedded_file("web/viewer.js"))},
-                                                                {"page", std::string(embedded_file("web/page.js"))}}));
+                  filled_page(embedded_file("web/index.html"),
+                              {{"title", markup_text(said.title)},
+                               {"alt", markup_text("Panorama: " + said.title)},
+                               {"first", markup_text(pictures[0].name)},
+                               {"sources", said.sources},
+                               {"css", std::string(embedded_file("web/page.css"))},
+                               {"ground", std::string(embedded_file("web/ground.js"))},
+                               {"viewer", std::string(embedded_file("web/viewer.js"))},
+                               {"page", std::string(embedded_file("web/page.js"))}}));
 }
 
 }  // namespace belvedere::tools

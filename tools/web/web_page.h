@@ -7,7 +7,8 @@
 
 namespace belvedere::tools {
 
-// A rendered picture of the page: the folder that `belvedere render` wrote, and what it is called where there are several (a season).
+// A rendered picture of the page: the folder that `belvedere render` wrote, and its name where
+// there are several (a season).
 struct WebPicture {
   std::string folder;
   std::string name;
@@ -16,13 +17,15 @@ struct WebPicture {
 struct WebParameters {
   int tile_px = 512;
   int quality = 88;           // of JPEG, 1…100
-  int ground_cells = 400000;  // of what pointing tells; 9 bytes each
+  int ground_cells = 400000;  // of positions; 9 bytes each
 };
 
-// Writes FOLDER/index.html, panorama.js and tiles/: a page that works from a file, without a server. The first picture's guidance.exr tells
-// what is pointed at, its labels.geojson has the names, its notes the title and the sources; where guidance or labels are missing, so is
-// what they tell. Further pictures are of the same view and size: Error(usage) else. Error(input) for a folder without a picture.
-void write_web_page(const std::vector<WebPicture>& pictures, const std::string& folder, const WebParameters& parameters,
-                    Progress& progress);
+// Writes FOLDER/index.html, panorama.js and tiles/: a page that works from a file, without a
+// server. The first picture's guidance.exr gives the positions under the pointer, its
+// labels.geojson the names, its notes the title and the sources; what is missing is left out.
+// Further pictures must be of the same view and size, otherwise Error(usage). Error(input) for a
+// folder without a picture.
+void write_web_page(const std::vector<WebPicture>& pictures, const std::string& folder,
+                    const WebParameters& parameters, Progress& progress);
 
 }  // namespace belvedere::tools

@@ -1,6 +1,7 @@
 #include "renderer/image/exr/exr_reader.h"
 
-// Sizes are taken from a header of our own reading: opening a file with the library allocates tables of the size it claims.
+// Sizes are taken from our own reading of the header: opening a file with the library allocates
+// tables of the size it claims.
 #include <Iex.h>
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
@@ -36,7 +37,7 @@ struct PartHeader {
   std::int64_t height = 0;
 };
 
-// Runs f, turning what the library throws into Error(input).
+// Runs f, converting the library's exceptions to Error(input).
 template <class F>
 auto guarded(const std::string& path, F&& f) {
   try {
@@ -54,22 +55,25 @@ std::uint32_t read_word(Imf::IStream& stream) {
   std::array<char, 4> bytes{};
   stream.read(bytes.data(), 4);
   std::uint32_t word = 0;
-  for (int i = 3; i >= 0; --i) word = word << 8 | static_cast<std::uint8_t>(bytes[static_cast<std::size_t>(i)]);
+  for (int i = 3; i >= 0; --i)
+    word = word << 8 | static_cast<std::uint8_t>(bytes[static_cast<std::size_t>(i)]);
   return word;
 }
 
-// The headers of all parts: nothing beyond them is touched.
+// The headers of all parts; nothing beyond them is read.
 std::vector<PartHeader> read_headers(const std::string& path) {
   if (!image_io::first_bytes(path).starts_with("\x76\x2f\x31\x01"))
-    throw Error(ErrorKind::input, path, "is no OpenEXR file", "an OpenEXR file (.exr)");
+    throw Error(ErrorKind::input, path, "is not an OpenEXR file", "an OpenEXR file (.exr)");
   return guarded(path, [&] {
     Imf::StdIFStream stream(path.c_str());
     read_word(stream);
     int version = static_cast<int>(read_word(stream));
-    if (Imf::getVersion(version) != Imf::EXR_VERSION || !Imf::supportsFlags(Imf::getFlags(version))) {
+    if (Imf::getVersion(version) != Imf::EXR_VERSION ||
+        !Imf::supportsFlags(Imf::getFlags(version))) {
       throw Error(ErrorKind::input, path, "is of an unknown version of OpenEXR");
     }
-    if (Imf::isNonImage(version)) throw Error(ErrorKind::input, path, "is a deep OpenEXR file", "a flat one");
+    if (Imf::isNonImage(version))
+      throw Error(ErrorKind::input, path, "is a deep OpenEXR file", "a flat one");
     std::vector<PartHeader> parts;
     while (true) {
       if (Imf::isMultiPart(version)) {
@@ -97,16 +101,20 @@ std::vector<PartHeader> read_headers(const std::string& path) {
 }
 
 ChannelType channel_type(Imf::PixelType type) {
-  return type == Imf::HALF ? ChannelType::half : type == Imf::UINT ? ChannelType::uint32 : ChannelType::float32;
+  return type == Imf::HALF   ? ChannelType::half
+         : type == Imf::UINT ? ChannelType::uint32
+                             : ChannelType::float32;
 }
 
-// Bytes for `values` values a pixel of our own, one row of tiles or lines of the library's, and its table of offsets.
+// Memory of `values` values per pixel of our own, one row of tiles or lines of the library's, and
+// its table of offsets.
 void check_part(const std::string& path, const PartHeader& part, int value_bytes) {
   double bytes = static_cast<double>(part.width) * static_cast<double>(part.height) * value_bytes;
   if (part.header.hasTileDescription()) {
     const Imf::TileDescription tile = part.header.tileDescription();
     double pixel_bytes = 0.0;
-    for (auto c = part.header.channels().begin(); c != part.header.channels().end(); ++c) pixel_bytes += 4.0;
+    for (auto c = part.header.channels().begin(); c != part.header.channels().end(); ++c)
+      pixel_bytes += 4.0;
     const double across = std::max<double>(static_cast<double>(part.width), tile.xSize);
     bytes += across * tile.ySize * pixel_bytes;
     if (tile.xSize < 1 || tile.ySize < 1) throw_damaged(path, "tiles without pixels");
@@ -122,10 +130,12 @@ struct Target {
 };
 
 // Fills the targets from one part, all of it or an error.
-void read_part(const std::string& path, std::size_t index, const PartHeader& part, const std::vector<Target>& targets) {
+void read_part(const std::string& path, std::size_t index, const PartHeader& part,
+               const std::vector<Target>& targets) {
   guarded(path, [&] {
     Imf::MultiPartInputFile file(path.c_str());
-    if (!file.partComplete(static_cast<int>(index))) throw_damaged(path, "tiles or rows are missing");
+    if (!file.partComplete(static_cast<int>(index)))
+      throw_damaged(path, "tiles or rows are missing");
     Imf::InputPart input(file, static_cast<int>(index));
     const Imath::Box2i window = part.header.dataWindow();
     Imf::FrameBuffer frame;
@@ -138,10 +148,12 @@ void read_part(const std::string& path, std::size_t index, const PartHeader& par
   });
 }
 
-const Imf::Channel* find_channel(const std::string& path, const PartHeader& part, const std::string& name) {
+const Imf::Channel* find_channel(const std::string& path, const PartHeader& part,
+                                 const std::string& name) {
   const Imf::Channel* channel = part.header.channels().findChannel(name);
   if (channel != nullptr && (channel->xSampling != 1 || channel->ySampling != 1)) {
-    throw Error(ErrorKind::input, path, "channel " + name + " is subsampled", "channels of full resolution");
+    throw Error(ErrorKind::input, path, "channel " + name + " is subsampled",
+                "channels of full resolution");
   }
   return channel;
 }
@@ -156,18 +168,21 @@ std::string list_channels(const std::vector<PartHeader>& parts) {
   return list;
 }
 
-// Channels by name from whichever part has them first, each part read once; an absent channel gives an empty grid.
+// Channels by name from the first part that has them, each part read once; an absent channel gives
+// an empty grid.
 template <class T>
-std::vector<Grid<T>> read_some(const std::string& path, const std::vector<PartHeader>& parts, const std::vector<std::string>& channels,
-                               bool ids) {
+std::vector<Grid<T>> read_some(const std::string& path, const std::vector<PartHeader>& parts,
+                               const std::vector<std::string>& channels, bool ids) {
   std::vector<Grid<T>> out(channels.size());
   for (std::size_t p = 0; p < parts.size(); ++p) {
     std::vector<std::size_t> present;
     for (std::size_t c = 0; c < channels.size(); ++c) {
-      const Imf::Channel* found = out[c].empty() ? find_channel(path, parts[p], channels[c]) : nullptr;
+      const Imf::Channel* found =
+          out[c].empty() ? find_channel(path, parts[p], channels[c]) : nullptr;
       if (found == nullptr) continue;
       if ((found->type == Imf::UINT) != ids) {
-        throw Error(ErrorKind::input, path, "channel " + channels[c] + (ids ? " holds no ids" : " holds ids"),
+        throw Error(ErrorKind::input, path,
+                    "channel " + channels[c] + (ids ? " contains no ids" : " contains ids"),
                     ids ? "32-bit whole numbers" : "half or float");
       }
       present.push_back(c);
@@ -177,7 +192,8 @@ std::vector<Grid<T>> read_some(const std::string& path, const std::vector<PartHe
     std::vector<Target> targets;
     for (const std::size_t c : present) {
       out[c] = Grid<T>(static_cast<int>(parts[p].width), static_cast<int>(parts[p].height));
-      targets.push_back({channels[c], ids ? Imf::UINT : Imf::FLOAT, reinterpret_cast<char*>(out[c].data()), sizeof(T)});
+      targets.push_back({channels[c], ids ? Imf::UINT : Imf::FLOAT,
+                         reinterpret_cast<char*>(out[c].data()), sizeof(T)});
     }
     read_part(path, p, parts[p], targets);
   }
@@ -188,36 +204,42 @@ template <class T>
 Grid<T> read_one(const std::string& path, const std::string& channel, bool ids) {
   const std::vector<PartHeader> parts = read_headers(path);
   Grid<T> out = std::move(read_some<T>(path, parts, {channel}, ids).front());
-  if (out.empty()) throw Error(ErrorKind::input, path, "has no channel " + channel, list_channels(parts));
+  if (out.empty())
+    throw Error(ErrorKind::input, path, "has no channel " + channel, list_channels(parts));
   return out;
 }
 
-// The middle pixels of squares of step × step of one channel, a band of rows at a time.
-Grid<float> sample_channel(const std::string& path, std::size_t index, const PartHeader& part, const std::string& channel, bool ids,
-                           int step) {
+// The central pixels of squares of step × step of one channel, a band of rows at a time.
+Grid<float> sample_channel(const std::string& path, std::size_t index, const PartHeader& part,
+                           const std::string& channel, bool ids, int step) {
   const int width = static_cast<int>(part.width);
   const int height = static_cast<int>(part.height);
-  const auto middle = [&](int k, int end) { return std::min(k * step + step / 2, end - 1); };
+  const auto centre = [&](int k, int end) { return std::min(k * step + step / 2, end - 1); };
   Grid<float> out((width + step - 1) / step, (height + step - 1) / step);
-  const int band = part.header.hasTileDescription() ? static_cast<int>(part.header.tileDescription().ySize) : 64;
+  const int band =
+      part.header.hasTileDescription() ? static_cast<int>(part.header.tileDescription().ySize) : 64;
   guarded(path, [&] {
     Imf::MultiPartInputFile file(path.c_str());
-    if (!file.partComplete(static_cast<int>(index))) throw_damaged(path, "tiles or rows are missing");
+    if (!file.partComplete(static_cast<int>(index)))
+      throw_damaged(path, "tiles or rows are missing");
     Imf::InputPart input(file, static_cast<int>(index));
     const Imath::Box2i window = part.header.dataWindow();
-    std::vector<std::uint32_t> rows(static_cast<std::size_t>(width) * static_cast<std::size_t>(band));
+    std::vector<std::uint32_t> rows(static_cast<std::size_t>(width) *
+                                    static_cast<std::size_t>(band));
     int next = 0;
     for (int y0 = 0; y0 < height; y0 += band) {
       const int y1 = std::min(height, y0 + band);
-      if (middle(next, height) >= y1) continue;
+      if (centre(next, height) >= y1) continue;
       Imf::FrameBuffer frame;
-      frame.insert(channel, Imf::Slice::Make(ids ? Imf::UINT : Imf::FLOAT, rows.data(), {window.min.x, window.min.y + y0}, width, y1 - y0));
+      frame.insert(channel, Imf::Slice::Make(ids ? Imf::UINT : Imf::FLOAT, rows.data(),
+                                             {window.min.x, window.min.y + y0}, width, y1 - y0));
       input.setFrameBuffer(frame);
       input.readPixels(window.min.y + y0, window.min.y + y1 - 1);
-      for (; next < out.height() && middle(next, height) < y1; ++next)
+      for (; next < out.height() && centre(next, height) < y1; ++next)
         for (int x = 0; x < out.width(); ++x) {
-          const std::size_t i = static_cast<std::size_t>(middle(next, height) - y0) * static_cast<std::size_t>(width) +
-                                static_cast<std::size_t>(middle(x, width));
+          const std::size_t i = static_cast<std::size_t>(centre(next, height) - y0) *
+                                    static_cast<std::size_t>(width) +
+                                static_cast<std::size_t>(centre(x, width));
           out(x, next) = ids ? static_cast<float>(rows[i]) : std::bit_cast<float>(rows[i]);
         }
     }
@@ -253,8 +275,9 @@ Grid<glm::vec3> read_exr_picture(const std::string& path, Grid<float>* alpha) {
   const std::vector<PartHeader> parts = read_headers(path);
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const PartHeader& part = parts[p];
-    const bool colour =
-        find_channel(path, part, "R") != nullptr && find_channel(path, part, "G") != nullptr && find_channel(path, part, "B") != nullptr;
+    const bool colour = find_channel(path, part, "R") != nullptr &&
+                        find_channel(path, part, "G") != nullptr &&
+                        find_channel(path, part, "B") != nullptr;
     if (!colour && find_channel(path, part, "Y") == nullptr) continue;
     check_part(path, part, alpha != nullptr ? 16 : 12);
     Grid<glm::vec3> out(static_cast<int>(part.width), static_cast<int>(part.height));
@@ -262,7 +285,8 @@ Grid<glm::vec3> read_exr_picture(const std::string& path, Grid<float>* alpha) {
     char* first = reinterpret_cast<char*>(out.data());
     if (colour) {
       for (int c = 0; c < 3; ++c)
-        targets.push_back({std::string(1, "RGB"[c]), Imf::FLOAT, first + std::ptrdiff_t{4} * c, sizeof(glm::vec3)});
+        targets.push_back({std::string(1, "RGB"[c]), Imf::FLOAT, first + std::ptrdiff_t{4} * c,
+                           sizeof(glm::vec3)});
     } else {
       targets.push_back({"Y", Imf::FLOAT, first, sizeof(glm::vec3)});
     }
@@ -278,24 +302,32 @@ Grid<glm::vec3> read_exr_picture(const std::string& path, Grid<float>* alpha) {
     }
     return out;
   }
-  throw Error(ErrorKind::input, path, "holds no picture but " + list_channels(parts), "channels R, G, B or Y");
+  throw Error(ErrorKind::input, path, "contains no picture but " + list_channels(parts),
+              "channels R, G, B or Y");
 }
 
-Grid<float> read_channel(const std::string& path, const std::string& channel) { return read_one<float>(path, channel, false); }
+Grid<float> read_channel(const std::string& path, const std::string& channel) {
+  return read_one<float>(path, channel, false);
+}
 
-std::vector<Grid<float>> read_channels(const std::string& path, const std::vector<std::string>& channels) {
+std::vector<Grid<float>> read_channels(const std::string& path,
+                                       const std::vector<std::string>& channels) {
   return read_some<float>(path, read_headers(path), channels, false);
 }
 
-std::vector<Grid<float>> read_sampled_channels(const std::string& path, const std::vector<std::string>& channels, int step) {
+std::vector<Grid<float>> read_sampled_channels(const std::string& path,
+                                               const std::vector<std::string>& channels, int step) {
   const std::vector<PartHeader> parts = read_headers(path);
   std::vector<Grid<float>> out(channels.size());
   for (std::size_t p = 0; p < parts.size(); ++p)
     for (std::size_t c = 0; c < channels.size(); ++c) {
-      const Imf::Channel* found = out[c].empty() ? find_channel(path, parts[p], channels[c]) : nullptr;
+      const Imf::Channel* found =
+          out[c].empty() ? find_channel(path, parts[p], channels[c]) : nullptr;
       if (found == nullptr) continue;
-      check_memory(path, parts[p].width, parts[p].height, 4.0 * static_cast<double>(parts[p].width) * 64.0);
-      out[c] = sample_channel(path, p, parts[p], channels[c], found->type == Imf::UINT, std::max(1, step));
+      check_memory(path, parts[p].width, parts[p].height,
+                   4.0 * static_cast<double>(parts[p].width) * 64.0);
+      out[c] = sample_channel(path, p, parts[p], channels[c], found->type == Imf::UINT,
+                              std::max(1, step));
     }
   return out;
 }

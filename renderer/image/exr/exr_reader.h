@@ -10,17 +10,20 @@
 
 namespace belvedere {
 
-// As read_image_info and read_picture of image_io.h, for OpenEXR.
+// Like read_image_info and read_picture of image_io.h, for OpenEXR.
 ImageInfo read_exr_info(const std::string& path);
 Grid<glm::vec3> read_exr_picture(const std::string& path, Grid<float>* alpha);
-// One channel of any part of an OpenEXR file by name; half and float32 as float. Error(input) if absent, of the other kind or damaged,
-// Error(limit) over memory_budget_bytes() (base/memory_limit.h).
+// One channel of any part of an OpenEXR file by name; half and float32 as float. Error(input) if
+// absent, of the other kind or damaged, Error(limit) over memory_budget_bytes()
+// (base/memory_limit.h).
 Grid<float> read_channel(const std::string& path, const std::string& channel);
 // Several at once, so that a part is unpacked only once; an absent one gives an empty grid.
-std::vector<Grid<float>> read_channels(const std::string& path, const std::vector<std::string>& channels);
+std::vector<Grid<float>> read_channels(const std::string& path,
+                                       const std::vector<std::string>& channels);
 Grid<std::uint32_t> read_id_channel(const std::string& path, const std::string& channel);
-// Every step-th pixel of every step-th row, the middle one of each square, ids as numbers; an absent channel gives an empty grid. Memory
-// holds a row of tiles.
-std::vector<Grid<float>> read_sampled_channels(const std::string& path, const std::vector<std::string>& channels, int step);
+// Every step-th pixel of every step-th row, the central one of each square, ids as numbers; an
+// absent channel gives an empty grid. Memory holds a row of tiles.
+std::vector<Grid<float>> read_sampled_channels(const std::string& path,
+                                               const std::vector<std::string>& channels, int step);
 
 }  // namespace belvedere

@@ -1,7 +1,8 @@
 #include "renderer/image/exr/exr_writer.h"
 
-// Tiles are packed and put into the file here (OpenEXR file layout, openexr.com): the library's zlib takes more than twice the time of
-// libdeflate for the same size, and wants all values of a row of tiles at once.
+// Tiles are packed and written to the file here (OpenEXR file layout, openexr.com): the library's
+// zlib takes more than twice the time of libdeflate for the same size, and needs all values of a
+// row of tiles at once.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -29,12 +30,13 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 
 constexpr int tile_size = ExrWriter::band_rows;
-constexpr int tiles_at_once = 128;    // are packed together, then written: more would be held
-constexpr int compression_level = 1;  // guidance measured: 2.4 times as fast as zlib's level 2, the same size; level 4: 2 % smaller
+constexpr int tiles_at_once = 128;    // are packed together, then written; limits memory
+constexpr int compression_level = 1;  // guidance measured: 2.4 times as fast as zlib's level 2, the
+                                      // same size; level 4: 2 % smaller
 
 int tiles_of(int pixels) { return (pixels + tile_size - 1) / tile_size; }
 
-// A file that remembers the system's code of the first thing that failed.
+// A file that keeps the error code of its first failure.
 class CheckedFile {
  public:
   explicit CheckedFile(const std::string& path) : file_(std::fopen(path.c_str(), "wb")) {
@@ -64,18 +66,23 @@ class CheckedFile {
   int code_ = 0;
 };
 
-std::size_t value_bytes(const ChannelSpec& channel) { return channel.type == ChannelType::half ? 2 : 4; }
+std::size_t value_bytes(const ChannelSpec& channel) {
+  return channel.type == ChannelType::half ? 2 : 4;
+}
 
 // The library's order of the channels in a file: by name.
 std::vector<std::size_t> file_order(const PartSpec& part) {
   std::vector<std::size_t> order(part.channels.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return part.channels[a].name < part.channels[b].name; });
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return part.channels[a].name < part.channels[b].name;
+  });
   return order;
 }
 
-// The values of a tile as they stand in a file: row by row, in a row channel by channel.
-Bytes tile_values(const PartSpec& part, const std::vector<std::size_t>& order, const PixelRect& tile, const ExrWriter::Values& values) {
+// The values of a tile in file order: row by row, in a row channel by channel.
+Bytes tile_values(const PartSpec& part, const std::vector<std::size_t>& order,
+                  const PixelRect& tile, const ExrWriter::Values& values) {
   std::size_t pixel_bytes = 0;
   for (const ChannelSpec& channel : part.channels) pixel_bytes += value_bytes(channel);
   const auto width = static_cast<std::size_t>(tile.width());
@@ -97,8 +104,8 @@ Bytes tile_values(const PartSpec& part, const std::vector<std::size_t>& order, c
   return out;
 }
 
-// ZIP compression of OpenEXR: bytes at even places first, then those at odd ones, each as the difference from the one before it plus 128,
-// packed by zlib; as they are where that is no shorter.
+// ZIP compression of OpenEXR: bytes at even offsets first, then those at odd ones, each as the
+// difference from the previous one plus 128, packed by zlib; unpacked where that is no shorter.
 Bytes pack_tile(const Bytes& values) {
   Bytes parted(values.size());
   const std::size_t half_way = values.size() / 2;  // an even number: values have 2 or 4 bytes
@@ -106,7 +113,8 @@ Bytes pack_tile(const Bytes& values) {
     parted[i] = values[2 * i];
     parted[half_way + i] = values[2 * i + 1];
   }
-  for (std::size_t i = parted.size() - 1; i > 0; --i) parted[i] = static_cast<std::uint8_t>(parted[i] - parted[i - 1] + 128);
+  for (std::size_t i = parted.size() - 1; i > 0; --i)
+    parted[i] = static_cast<std::uint8_t>(parted[i] - parted[i - 1] + 128);
   Bytes packed = Deflater(compression_level).pack(parted.data(), parted.size());
   return packed.size() < values.size() ? packed : values;
 }
@@ -120,17 +128,25 @@ struct ExrWriter::State {
     std::vector<std::uint64_t> offsets;  // of the tiles, row by row
   };
 
-  State(const std::string& path, int w, int h, const std::vector<PartSpec>& parts, const FileNotes& notes)
-      : width(w), height(h), specs(parts), head(exr_head(path, w, h, tile_size, parts, notes)), output(path), file(output.temporary()) {
+  State(const std::string& path, int w, int h, const std::vector<PartSpec>& parts,
+        const FileNotes& notes)
+      : width(w),
+        height(h),
+        specs(parts),
+        head(exr_head(path, w, h, tile_size, parts, notes)),
+        output(path),
+        file(output.temporary()) {
     for (const PartSpec& part : parts)
-      progress.push_back(
-          {0, file_order(part), std::vector<std::uint64_t>(static_cast<std::size_t>(tiles_of(w)) * static_cast<std::size_t>(tiles_of(h)))});
+      progress.push_back({0, file_order(part),
+                          std::vector<std::uint64_t>(static_cast<std::size_t>(tiles_of(w)) *
+                                                     static_cast<std::size_t>(tiles_of(h)))});
     const std::string room = head + tables();
     if (!file.write(room.data(), room.size())) fail({});
     end = room.size();
   }
 
-  // Says why the file cannot be written: the system's reason where there is one, else `reason`.
+  // Throws that the file cannot be written: for the system's reason if there is one, else for
+  // `reason`.
   [[noreturn]] void fail(const std::string& reason) const {
     output.fail(file.code() != 0 ? std::generic_category().message(file.code()) : reason);
   }
@@ -155,7 +171,7 @@ struct ExrWriter::State {
   std::string head;
   OutputFile output;
   CheckedFile file;
-  std::uint64_t end = 0;  // where the next tile goes
+  std::uint64_t end = 0;  // offset of the next tile
   ContentHash written;    // of what follows the tables of offsets
 };
 
@@ -166,13 +182,16 @@ void ExrWriter::State::write_tiles(std::size_t part, int y0, const Values& value
     std::vector<Bytes> packed(static_cast<std::size_t>(std::min(tiles_at_once, across - first)));
     parallel_rows(static_cast<int>(packed.size()), [&](int i) {
       const int x0 = (first + i) * tile_size;
-      const PixelRect tile{x0, y0, std::min(x0 + tile_size, width), std::min(y0 + tile_size, height)};
-      packed[static_cast<std::size_t>(i)] = pack_tile(tile_values(specs[part], progress[part].order, tile, values));
+      const PixelRect tile{x0, y0, std::min(x0 + tile_size, width),
+                           std::min(y0 + tile_size, height)};
+      packed[static_cast<std::size_t>(i)] =
+          pack_tile(tile_values(specs[part], progress[part].order, tile, values));
     });
     for (std::size_t i = 0; i < packed.size(); ++i) {
       const int x = first + static_cast<int>(i);
       const int y = y0 / tile_size;
-      progress[part].offsets[static_cast<std::size_t>(y) * static_cast<std::size_t>(across) + static_cast<std::size_t>(x)] = end;
+      progress[part].offsets[static_cast<std::size_t>(y) * static_cast<std::size_t>(across) +
+                             static_cast<std::size_t>(x)] = end;
       std::string start;
       if (specs.size() > 1) put_number(start, static_cast<std::int32_t>(part));
       for (const int number : {x, y, 0, 0, static_cast<int>(packed[i].size())})
@@ -183,13 +202,15 @@ void ExrWriter::State::write_tiles(std::size_t part, int y0, const Values& value
   }
 }
 
-// Reads the whole file again, as bytes: head and tables as they must be, the tiles by their hash.
+// Reads the whole file again, as bytes: header and tables must be identical, the tiles match by
+// hash.
 void ExrWriter::State::verify() const {
-  const auto complain = [&] { fail("it reads otherwise than it was written"); };
+  const auto complain = [&] { fail("it reads back differently from what was written"); };
   std::ifstream again(output.temporary(), std::ios::binary);
   const std::string expected = head + tables();
   std::string bytes(expected.size(), '\0');
-  if (!again.read(bytes.data(), static_cast<std::streamsize>(bytes.size())) || bytes != expected) complain();
+  if (!again.read(bytes.data(), static_cast<std::streamsize>(bytes.size())) || bytes != expected)
+    complain();
   ContentHash read;
   bytes.resize(std::size_t{1} << 18);
   do {
@@ -199,8 +220,10 @@ void ExrWriter::State::verify() const {
   if (again.bad() || read.digits() != written.digits()) complain();
 }
 
-ExrWriter::ExrWriter(const std::string& path, int width, int height, const std::vector<PartSpec>& parts, const FileNotes& notes) {
-  if (width < 1 || height < 1 || parts.empty()) throw Error(ErrorKind::bug, path, "a file without pixels or parts");
+ExrWriter::ExrWriter(const std::string& path, int width, int height,
+                     const std::vector<PartSpec>& parts, const FileNotes& notes) {
+  if (width < 1 || height < 1 || parts.empty())
+    throw Error(ErrorKind::bug, path, "a file without pixels or parts");
   state_ = std::make_unique<State>(path, width, height, parts, notes);
 }
 
@@ -210,25 +233,33 @@ ExrWriter& ExrWriter::operator=(ExrWriter&&) noexcept = default;
 
 void ExrWriter::write_rows(std::size_t part, int y0, int rows, const Values& values) {
   State& state = *state_;
-  if (part >= state.specs.size()) throw Error(ErrorKind::bug, state.output.path(), "rows of an unknown part");
+  if (part >= state.specs.size())
+    throw Error(ErrorKind::bug, state.output.path(), "rows of an unknown part");
   State::Part& progress = state.progress[part];
   const bool whole = rows % band_rows == 0 || y0 + rows == state.height;
   if (rows < 1 || y0 != progress.next_row || y0 + rows > state.height || !whole) {
     throw Error(ErrorKind::bug, state.output.path(),
-                "rows " + std::to_string(y0) + " to " + std::to_string(y0 + rows) + " where row " + std::to_string(progress.next_row) +
-                    " is next of " + std::to_string(state.height));
+                "rows " + std::to_string(y0) + " to " + std::to_string(y0 + rows) + " where row " +
+                    std::to_string(progress.next_row) + " is next of " +
+                    std::to_string(state.height));
   }
   for (int y = 0; y < rows; y += band_rows) state.write_tiles(part, y0 + y, values);
   progress.next_row = y0 + rows;
 }
 
-void ExrWriter::write_rows(std::size_t part, int y0, int rows, const std::vector<float>& interleaved) {
-  const std::size_t channels = part < state_->specs.size() ? state_->specs[part].channels.size() : 0;
+void ExrWriter::write_rows(std::size_t part, int y0, int rows,
+                           const std::vector<float>& interleaved) {
+  const std::size_t channels =
+      part < state_->specs.size() ? state_->specs[part].channels.size() : 0;
   const auto width = static_cast<std::size_t>(state_->width);
   if (rows > 0 && interleaved.size() < width * channels * static_cast<std::size_t>(rows))
-    throw Error(ErrorKind::bug, state_->output.path(), "too few values for " + std::to_string(rows) + " rows");
+    throw Error(ErrorKind::bug, state_->output.path(),
+                "too few values for " + std::to_string(rows) + " rows");
   write_rows(part, y0, rows, [&](std::size_t channel, int x, int y, int count, float* out) {
-    const float* from = interleaved.data() + (static_cast<std::size_t>(y - y0) * width + static_cast<std::size_t>(x)) * channels + channel;
+    const float* from =
+        interleaved.data() +
+        (static_cast<std::size_t>(y - y0) * width + static_cast<std::size_t>(x)) * channels +
+        channel;
     for (int i = 0; i < count; ++i, from += channels) std::memcpy(out + i, from, sizeof(float));
   });
 }
@@ -238,11 +269,14 @@ void ExrWriter::complete() {
   for (std::size_t p = 0; p < state.specs.size(); ++p) {
     if (state.progress[p].next_row != state.height) {
       throw Error(ErrorKind::bug, state.output.path(),
-                  "part " + state.specs[p].name + " ends at row " + std::to_string(state.progress[p].next_row));
+                  "part " + state.specs[p].name + " ends at row " +
+                      std::to_string(state.progress[p].next_row));
     }
   }
   const std::string tables = state.tables();
-  if (!state.file.seek(state.head.size()) || !state.file.write(tables.data(), tables.size()) || !state.file.close()) state.fail({});
+  if (!state.file.seek(state.head.size()) || !state.file.write(tables.data(), tables.size()) ||
+      !state.file.close())
+    state.fail({});
   state.verify();
   state.output.prepare();
 }
@@ -260,7 +294,10 @@ class ExrRows : public PictureRows {
  public:
   ExrRows(const std::string& path, int width, int height, const FileNotes& notes)
       : PictureRows(path, width, height, ExrWriter::band_rows),
-        writer_(path, width, height, {{"picture", {{"R", ChannelType::half}, {"G", ChannelType::half}, {"B", ChannelType::half}}}}, notes),
+        writer_(path, width, height,
+                {{"picture",
+                  {{"R", ChannelType::half}, {"G", ChannelType::half}, {"B", ChannelType::half}}}},
+                notes),
         band_(width, std::min(height, ExrWriter::band_rows)) {}
 
  private:
@@ -283,13 +320,15 @@ class ExrRows : public PictureRows {
 
 }  // namespace
 
-std::unique_ptr<PictureRows> open_exr(const std::string& path, int width, int height, const FileNotes& notes) {
+std::unique_ptr<PictureRows> open_exr(const std::string& path, int width, int height,
+                                      const FileNotes& notes) {
   return std::make_unique<ExrRows>(path, width, height, notes);
 }
 
 double exr_writer_bytes(int width, int) {
   constexpr double tile_bytes = 3.0 * tile_size * tile_size * 2;
-  return static_cast<double>(sizeof(glm::vec3)) * tile_size * width + 4.0 * tile_bytes * tiles_at_once;  // a band, tiles while packed
+  return static_cast<double>(sizeof(glm::vec3)) * tile_size * width +
+         4.0 * tile_bytes * tiles_at_once;  // a band, tiles while packed
 }
 
 void write_exr(const std::string& path, const Image& linear, const FileNotes& notes) {

@@ -9,7 +9,9 @@ namespace belvedere {
 
 void to_halves(const float* from, std::size_t step, std::size_t count, std::uint16_t* to) {
   for (std::size_t i = 0; i < count; ++i, from += step) {
-    const float v = std::isfinite(*from) ? std::clamp(*from, -static_cast<float>(HALF_MAX), static_cast<float>(HALF_MAX)) : *from;
+    const float v = std::isfinite(*from) ? std::clamp(*from, -static_cast<float>(HALF_MAX),
+                                                      static_cast<float>(HALF_MAX))
+                                         : *from;
     to[i] = half(v).bits();
   }
 }

@@ -15,8 +15,12 @@ namespace {
 
 constexpr float highest = 65535.0F;
 
-glm::vec3 encoded(const LayerPixel& pixel) { return glm::vec3(pixel[0], pixel[1], pixel[2]) / highest; }
-glm::vec3 linear(glm::vec3 colour) { return {srgb_decoded_fast(colour.x), srgb_decoded_fast(colour.y), srgb_decoded_fast(colour.z)}; }
+glm::vec3 encoded(const LayerPixel& pixel) {
+  return glm::vec3(pixel[0], pixel[1], pixel[2]) / highest;
+}
+glm::vec3 linear(glm::vec3 colour) {
+  return {srgb_decoded_fast(colour.x), srgb_decoded_fast(colour.y), srgb_decoded_fast(colour.z)};
+}
 
 glm::vec4 rounded(glm::vec4 value) {
   std::array<std::uint16_t, 4> halves{};
@@ -25,13 +29,14 @@ glm::vec4 rounded(glm::vec4 value) {
   return value;
 }
 
-// What the layers so far make of a band of rows.
+// The composite of the layers so far, for a band of rows.
 struct Below {
-  Grid<glm::vec3> wanted;  // encoded, as painting programs mix
+  Grid<glm::vec3> wanted;  // encoded, as painting programs blend
   Grid<glm::vec3> made;    // linear, as compositors do
 };
 
-// Multiplied colour and opacity of a layer's pixel in linear light; what lies below becomes what it makes.
+// Premultiplied colour and opacity of a layer's pixel in linear light; the composite below is
+// updated.
 glm::vec4 lay(const LayerPixel& above, glm::vec3& wanted, glm::vec3& made) {
   if (above[3] == 0) return glm::vec4(0.0F);
   const float opacity = static_cast<float>(above[3]) / highest;
@@ -49,16 +54,18 @@ glm::vec4 alone(const LayerPixel& pixel) {
 }
 
 PartSpec part_of_layer(const std::string& name, bool opaque) {
-  PartSpec part{name, {{"R", ChannelType::half}, {"G", ChannelType::half}, {"B", ChannelType::half}}};
+  PartSpec part{name,
+                {{"R", ChannelType::half}, {"G", ChannelType::half}, {"B", ChannelType::half}}};
   if (!opaque) part.channels.push_back({"A", ChannelType::half});
   return part;
 }
 
 void write_band(ExrWriter& writer, std::size_t part, int y0, const Grid<glm::vec4>& band) {
-  writer.write_rows(part, y0, band.height(), [&](std::size_t channel, int x, int y, int count, float* out) {
-    const glm::vec4* pixels = &band(x, y - y0);
-    for (int i = 0; i < count; ++i) out[i] = pixels[i][static_cast<int>(channel)];
-  });
+  writer.write_rows(part, y0, band.height(),
+                    [&](std::size_t channel, int x, int y, int count, float* out) {
+                      const glm::vec4* pixels = &band(x, y - y0);
+                      for (int i = 0; i < count; ++i) out[i] = pixels[i][static_cast<int>(channel)];
+                    });
 }
 
 }  // namespace
@@ -77,7 +84,8 @@ void write_layered_exr(const std::string& path, const LayeredSheet& sheet, Progr
     Grid<glm::vec4> band(sheet.width, y1 - y0);
     const auto fill = [&](const Grid<LayerPixel>& rows, auto&& pixel) {
       parallel_rows(band.height(), [&](int y) {
-        for (std::size_t i = band.index(0, y); i < band.index(0, y) + static_cast<std::size_t>(band.width()); ++i)
+        for (std::size_t i = band.index(0, y);
+             i < band.index(0, y) + static_cast<std::size_t>(band.width()); ++i)
           band[i] = pixel(rows[i], i);
       });
     };
@@ -90,7 +98,9 @@ void write_layered_exr(const std::string& path, const LayeredSheet& sheet, Progr
       if (sheet.layers[k].hidden)
         fill(rows, [](const LayerPixel& pixel, std::size_t) { return alone(pixel); });
       else
-        fill(rows, [&](const LayerPixel& pixel, std::size_t i) { return lay(pixel, below.wanted[i], below.made[i]); });
+        fill(rows, [&](const LayerPixel& pixel, std::size_t i) {
+          return lay(pixel, below.wanted[i], below.made[i]);
+        });
       write_band(writer, k + 1, y0, band);
     }
     progress.advance(y1 - y0);

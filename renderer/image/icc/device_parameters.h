@@ -2,12 +2,13 @@
 
 namespace belvedere {
 
-// How colours that a device does not have are brought into those that it has (ICC.1, annex D).
+// How colours outside the gamut of a device are mapped into it (ICC.1, annex D).
 enum class RenderingIntent { perceptual, relative, saturation, absolute };
 
 struct DeviceParameters {
   RenderingIntent intent = RenderingIntent::perceptual;
-  bool black_point = true;  // the picture's black becomes the device's darkest, and all above it moves along (compensation)
+  bool black_point = true;  // maps the picture's black to the device's darkest colour, and shifts
+                            // all above it (compensation)
 };
 
 }  // namespace belvedere

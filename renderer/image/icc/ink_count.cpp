@@ -25,7 +25,8 @@ void InkCount::add(const Grid<Inks>& rows) {
     RowCount& count = counts[static_cast<std::size_t>(y)];
     const Inks* row = rows.row(y);
     for (int x = 0; x < rows.width(); ++x) {
-      const double percent = 100.0 * (static_cast<double>(row[x].x) + row[x].y + row[x].z + row[x].w);
+      const double percent =
+          100.0 * (static_cast<double>(row[x].x) + row[x].y + row[x].z + row[x].w);
       count.above += percent > coverage_.limit_percent + tolerance_percent ? 1 : 0;
       count.sum += static_cast<std::uint64_t>(std::max(0.0, percent) * steps_a_percent);
       count.highest_percent = std::max(count.highest_percent, percent);
@@ -41,7 +42,9 @@ void InkCount::add(const Grid<Inks>& rows) {
 
 InkCoverage InkCount::coverage() const {
   InkCoverage coverage = coverage_;
-  if (coverage.pixels > 0) coverage.mean_percent = static_cast<double>(sum_) / steps_a_percent / static_cast<double>(coverage.pixels);
+  if (coverage.pixels > 0)
+    coverage.mean_percent =
+        static_cast<double>(sum_) / steps_a_percent / static_cast<double>(coverage.pixels);
   return coverage;
 }
 

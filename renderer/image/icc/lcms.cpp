@@ -16,7 +16,9 @@ namespace {
 constexpr std::uintmax_t largest_profile_bytes = std::uintmax_t{64} << 20;
 
 void keep_message(cmsContext context, cmsUInt32Number, const char* text) {
-  if (auto* kept = static_cast<std::string*>(cmsGetContextUserData(context)); kept != nullptr && kept->empty()) *kept = text;
+  if (auto* kept = static_cast<std::string*>(cmsGetContextUserData(context));
+      kept != nullptr && kept->empty())
+    *kept = text;
 }
 
 std::vector<std::uint8_t> save_profile(const Profile& profile) {
@@ -28,7 +30,8 @@ std::vector<std::uint8_t> save_profile(const Profile& profile) {
   return bytes;
 }
 
-void set_text(const Context& context, const Profile& profile, cmsTagSignature tag, const char* text) {
+void set_text(const Context& context, const Profile& profile, cmsTagSignature tag,
+              const char* text) {
   const std::unique_ptr<cmsMLU, void (*)(cmsMLU*)> words(cmsMLUalloc(context, 1), cmsMLUfree);
   cmsMLUsetASCII(words.get(), "en", "US", text);
   cmsWriteTag(profile.get(), tag, words.get());
@@ -37,14 +40,16 @@ void set_text(const Context& context, const Profile& profile, cmsTagSignature ta
 // "RGB", "CMYK", "Lab" as profiles spell it.
 std::string space_name(cmsColorSpaceSignature space) {
   std::string name;
-  for (int shift = 24; shift >= 0; shift -= 8) name += static_cast<char>(static_cast<std::uint32_t>(space) >> shift & 0x7f);
+  for (int shift = 24; shift >= 0; shift -= 8)
+    name += static_cast<char>(static_cast<std::uint32_t>(space) >> shift & 0x7f);
   return name.substr(0, name.find_last_not_of(' ') + 1);
 }
 
-// What a class of profiles that no picture is printed with is called.
+// Names of profile classes that pictures cannot be printed with.
 const char* other_kind(cmsProfileClassSignature kind) {
   if (kind == cmsSigLinkClass) return "a device link, which joins two devices and is none itself";
-  if (kind == cmsSigAbstractClass) return "an abstract profile, which changes colours and is of no device";
+  if (kind == cmsSigAbstractClass)
+    return "an abstract profile, which changes colours and is of no device";
   if (kind == cmsSigNamedColorClass) return "a list of named colours";
   return nullptr;
 }
@@ -57,7 +62,8 @@ Context::Context() : context_(cmsCreateContext(nullptr, &message_)) {
 }
 
 Profile open_profile(const Context& context, const std::vector<std::uint8_t>& bytes) {
-  return Profile(cmsOpenProfileFromMemTHR(context, bytes.data(), static_cast<cmsUInt32Number>(bytes.size())));
+  return Profile(
+      cmsOpenProfileFromMemTHR(context, bytes.data(), static_cast<cmsUInt32Number>(bytes.size())));
 }
 
 std::vector<std::uint8_t> save_dated(const Context& context, Profile profile, const char* name) {
@@ -66,36 +72,46 @@ std::vector<std::uint8_t> save_dated(const Context& context, Profile profile, co
   set_text(context, profile, cmsSigCopyrightTag, "Public domain");
   std::vector<std::uint8_t> bytes = save_profile(profile);
   profile.reset();
-  // lcms2 writes the present time; bytes 24 to 35 of the header hold it as six 16-bit numbers (ICC.1, 7.2.8). Here the date of the
-  // standard of sRGB.
+  // lcms2 writes the present time; bytes 24 to 35 of the header hold it as six 16-bit numbers
+  // (ICC.1, 7.2.8). It is replaced by the date of the sRGB standard.
   constexpr std::uint8_t date[12] = {0x07, 0xcf, 0, 10, 0, 18, 0, 0, 0, 0, 0, 0};  // 1999-10-18
-  if (bytes.size() < 128) throw Error(ErrorKind::bug, "ICC profile", "lcms2 made too short a profile");
+  if (bytes.size() < 128)
+    throw Error(ErrorKind::bug, "ICC profile", "lcms2 made too short a profile");
   std::copy(std::begin(date), std::end(date), bytes.begin() + 24);
   const Profile dated = open_profile(context, bytes);
-  if (dated == nullptr || cmsMD5computeID(dated.get()) == 0) throw Error(ErrorKind::bug, "ICC profile", context.message());
+  if (dated == nullptr || cmsMD5computeID(dated.get()) == 0)
+    throw Error(ErrorKind::bug, "ICC profile", context.message());
   return save_profile(dated);
 }
 
 std::vector<std::uint8_t> read_profile_bytes(const std::string& path) {
   std::error_code code;
   const std::uintmax_t size = std::filesystem::file_size(path, code);
-  if (code) throw Error(ErrorKind::input, path, "this ICC profile cannot be opened: " + code.message());
-  if (size > largest_profile_bytes) throw Error(ErrorKind::input, path, "is no ICC profile: it is too large", "up to 64 MiB");
+  if (code)
+    throw Error(ErrorKind::input, path, "this ICC profile cannot be opened: " + code.message());
+  if (size > largest_profile_bytes)
+    throw Error(ErrorKind::input, path, "is not an ICC profile: it is too large", "up to 64 MiB");
   std::vector<std::uint8_t> bytes(size);
   std::ifstream file(path, std::ios::binary);
   if (!file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size())))
-    throw Error(ErrorKind::input, path, "this ICC profile cannot be read: " + std::generic_category().message(errno));
+    throw Error(ErrorKind::input, path,
+                "this ICC profile cannot be read: " + std::generic_category().message(errno));
   return bytes;
 }
 
-void require_device(const std::string& where, const Context& context, const Profile& profile, cmsColorSpaceSignature space,
-                    const char* allowed) {
-  if (profile == nullptr) throw Error(ErrorKind::input, where, "is no ICC profile: " + context.message(), allowed);
+void require_device(const std::string& where, const Context& context, const Profile& profile,
+                    cmsColorSpaceSignature space, const char* allowed) {
+  if (profile == nullptr)
+    throw Error(ErrorKind::input, where, "is not an ICC profile: " + context.message(), allowed);
   const cmsProfileClassSignature kind = cmsGetDeviceClass(profile.get());
-  if (const char* other = other_kind(kind)) throw Error(ErrorKind::input, where, std::string("is ") + other, allowed);
+  if (const char* other = other_kind(kind))
+    throw Error(ErrorKind::input, where, std::string("is ") + other, allowed);
   const cmsColorSpaceSignature found = cmsGetColorSpace(profile.get());
-  if (found != space) throw Error(ErrorKind::input, where, "is a profile of colours in " + space_name(found), allowed);
-  const bool device = kind == cmsSigDisplayClass || kind == cmsSigOutputClass || kind == cmsSigColorSpaceClass || kind == cmsSigInputClass;
+  if (found != space)
+    throw Error(ErrorKind::input, where, "is a profile of colours in " + space_name(found),
+                allowed);
+  const bool device = kind == cmsSigDisplayClass || kind == cmsSigOutputClass ||
+                      kind == cmsSigColorSpaceClass || kind == cmsSigInputClass;
   if (!device || cmsIsIntentSupported(profile.get(), INTENT_PERCEPTUAL, LCMS_USED_AS_OUTPUT) == 0)
     throw Error(ErrorKind::input, where, "is a profile that nothing can be converted to", allowed);
 }
@@ -105,13 +121,18 @@ static_assert(static_cast<int>(RenderingIntent::relative) == INTENT_RELATIVE_COL
 static_assert(static_cast<int>(RenderingIntent::saturation) == INTENT_SATURATION);
 static_assert(static_cast<int>(RenderingIntent::absolute) == INTENT_ABSOLUTE_COLORIMETRIC);
 
-Transform make_transform(const Context& context, const Profile& from, cmsUInt32Number from_type, const Profile& to, cmsUInt32Number to_type,
+Transform make_transform(const Context& context, const Profile& from, cmsUInt32Number from_type,
+                         const Profile& to, cmsUInt32Number to_type,
                          const DeviceParameters& parameters) {
-  // Without the one-pixel cache a transform may be used by all threads at once; lcms2's shortcuts would round to 16 bits in between.
-  const cmsUInt32Number flags = cmsFLAGS_NOCACHE | cmsFLAGS_NOOPTIMIZE | (parameters.black_point ? cmsFLAGS_BLACKPOINTCOMPENSATION : 0U);
-  Transform transform(
-      cmsCreateTransformTHR(context, from.get(), from_type, to.get(), to_type, static_cast<cmsUInt32Number>(parameters.intent), flags));
-  if (transform == nullptr) throw Error(ErrorKind::input, "ICC profile", "cannot be used: " + context.message());
+  // Without the one-pixel cache a transform may be used by all threads at once; lcms2's shortcuts
+  // would round to 16 bits in between.
+  const cmsUInt32Number flags = cmsFLAGS_NOCACHE | cmsFLAGS_NOOPTIMIZE |
+                                (parameters.black_point ? cmsFLAGS_BLACKPOINTCOMPENSATION : 0U);
+  Transform transform(cmsCreateTransformTHR(context, from.get(), from_type, to.get(), to_type,
+                                            static_cast<cmsUInt32Number>(parameters.intent),
+                                            flags));
+  if (transform == nullptr)
+    throw Error(ErrorKind::input, "ICC profile", "cannot be used: " + context.message());
   return transform;
 }
 

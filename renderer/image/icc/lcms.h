@@ -9,10 +9,10 @@
 
 #include "renderer/image/icc/device_parameters.h"
 
-// lcms2 with owners for what it makes; private to this folder, which alone knows the library.
+// Owners of lcms2 objects; private to this folder, the only one that uses the library.
 namespace belvedere::icc {
 
-// A context of its own keeps messages apart from other threads.
+// Its own context keeps messages apart from other threads.
 class Context {
  public:
   Context();
@@ -36,18 +36,21 @@ struct DeleteTransform {
 };
 using Transform = std::unique_ptr<void, DeleteTransform>;
 
-// Null where the bytes are no profile.
+// Null where the bytes are not a profile.
 Profile open_profile(const Context& context, const std::vector<std::uint8_t>& bytes);
-// A profile that lcms2 made, as the same bytes every time: with a fixed date, a name, and its own checksum.
+// A profile made by lcms2, as the same bytes every time: with a fixed date, a name, and its own
+// checksum.
 std::vector<std::uint8_t> save_dated(const Context& context, Profile profile, const char* name);
 // The bytes of a file; Error(input) where it is missing, cannot be read or is far too large.
 std::vector<std::uint8_t> read_profile_bytes(const std::string& path);
-// Error(input) unless it is an open profile of a device or space with these colours, that pictures can be converted to. `allowed`: in
-// words, what would do.
-void require_device(const std::string& where, const Context& context, const Profile& profile, cmsColorSpaceSignature space,
-                    const char* allowed);
-// A conversion that is the same bits for any threads and any split of a picture. Error(input) where the profiles cannot be joined.
-Transform make_transform(const Context& context, const Profile& from, cmsUInt32Number from_type, const Profile& to, cmsUInt32Number to_type,
+// Error(input) unless it is an open profile of a device or space with these colours, that pictures
+// can be converted to. `allowed`: describes suitable profiles.
+void require_device(const std::string& where, const Context& context, const Profile& profile,
+                    cmsColorSpaceSignature space, const char* allowed);
+// A conversion with the same bits for any number of threads and any split of a picture.
+// Error(input) where the profiles cannot be joined.
+Transform make_transform(const Context& context, const Profile& from, cmsUInt32Number from_type,
+                         const Profile& to, cmsUInt32Number to_type,
                          const DeviceParameters& parameters);
 
 }  // namespace belvedere::icc

@@ -10,19 +10,20 @@
 namespace belvedere {
 
 const std::vector<LayerFormat>& layer_formats() {
-  static const std::vector<LayerFormat> all = {{"ora", "OpenRaster", "panorama.ora", write_ora},
-                                               {"psd", "Photoshop", "panorama.psd", write_psd},
-                                               {"exr", "OpenEXR", "panorama_layers.exr", write_layered_exr}};
+  static const std::vector<LayerFormat> all = {
+      {"ora", "OpenRaster", "panorama.ora", write_ora},
+      {"psd", "Photoshop", "panorama.psd", write_psd},
+      {"exr", "OpenEXR", "panorama_layers.exr", write_layered_exr}};
   return all;
 }
 
-const LayerFormat& layer_format(const std::string& ending) {
+const LayerFormat& layer_format(const std::string& extension) {
   std::string known;
   for (const LayerFormat& format : layer_formats()) {
-    if (format.ending == ending) return format;
-    known += (known.empty() ? "" : ", ") + format.ending;
+    if (format.extension == extension) return format;
+    known += (known.empty() ? "" : ", ") + format.extension;
   }
-  throw Error(ErrorKind::usage, "format of layers", fmt::format("\"{}\"", ending), known);
+  throw Error(ErrorKind::usage, "format of layers", fmt::format("\"{}\"", extension), known);
 }
 
 }  // namespace belvedere

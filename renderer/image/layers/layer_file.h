@@ -7,16 +7,17 @@
 
 namespace belvedere {
 
-// Formats of layers: "ora", OpenRaster, for GIMP and Krita; "psd", for Photoshop and Affinity (its large form, PSB, from 30000 pixels a
-// side or 2 GB on); "exr", OpenEXR in linear light, for Nuke, Natron and Blender.
+// Formats of layers: "ora", OpenRaster, for GIMP and Krita; "psd", for Photoshop and Affinity (its
+// large form, PSB, from 30000 pixels per side or 2 GB on); "exr", OpenEXR in linear light, for
+// Nuke, Natron and Blender.
 struct LayerFormat {
-  std::string ending;
+  std::string extension;
   std::string title;
-  std::string file;  // what the panorama's is called
+  std::string file;  // name of the panorama's file
   WriteLayers write;
 };
 const std::vector<LayerFormat>& layer_formats();
-// Error(usage) for an ending that is none.
-const LayerFormat& layer_format(const std::string& ending);
+// Error(usage) for an unknown extension.
+const LayerFormat& layer_format(const std::string& extension);
 
 }  // namespace belvedere

@@ -1,6 +1,6 @@
 #include "renderer/image/layers/layer_png.h"
 
-// Knows libpng beside png_palette.cpp: OpenImageIO writes no alpha that is not multiplied.
+// Uses libpng besides png_palette.cpp: OpenImageIO cannot write unassociated alpha.
 #include <png.h>
 
 #include <algorithm>
@@ -32,7 +32,8 @@ void ignore_warning(png_structp, png_const_charp) {}
 
 class PngWriter {
  public:
-  PngWriter(const std::string& path, int width, int height, int bits, int channels, double dots_per_inch)
+  PngWriter(const std::string& path, int width, int height, int bits, int channels,
+            double dots_per_inch)
       : path_(path), file_(std::fopen(path.c_str(), "wb")) {
     if (file_ == nullptr) fail("it cannot be created");
     png_ = png_create_write_struct(PNG_LIBPNG_VER_STRING, &message_, on_error, ignore_warning);
@@ -42,9 +43,9 @@ class PngWriter {
       png_init_io(png_, file_.get());
       png_set_compression_level(png_, layer_compression_level);
       png_set_filter(png_, 0, PNG_FILTER_SUB);
-      png_set_IHDR(png_, info_, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), bits,
-                   channels == 4 ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
-                   PNG_FILTER_TYPE_DEFAULT);
+      png_set_IHDR(png_, info_, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height),
+                   bits, channels == 4 ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB,
+                   PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
       png_set_sRGB(png_, info_, PNG_sRGB_INTENT_PERCEPTUAL);
       if (dots_per_inch > 0.0) {
         const auto per_metre = static_cast<png_uint_32>(std::lround(dots_per_inch / 0.0254));
@@ -68,11 +69,14 @@ class PngWriter {
  private:
   template <class F>
   void call(F&& f) {
-    // libpng leaves by a jump: `f` calls nothing else, and holds nothing that would have to be freed.
+    // libpng reports errors by longjmp: `f` calls nothing else, and holds nothing that would have
+    // to be freed.
     if (setjmp(png_jmpbuf(png_)) != 0) fail(message_);  // NOLINT(modernize-avoid-setjmp-longjmp)
     f();
   }
-  [[noreturn]] void fail(const std::string& reason) { throw Error(ErrorKind::output, path_, reason); }
+  [[noreturn]] void fail(const std::string& reason) {
+    throw Error(ErrorKind::output, path_, reason);
+  }
 
   std::string path_;
   std::unique_ptr<std::FILE, CloseFile> file_;
@@ -83,8 +87,8 @@ class PngWriter {
 
 }  // namespace
 
-void write_layer_png(const std::string& path, int width, int height, double dots_per_inch, bool opaque, const LayerRows& rows,
-                     Progress& progress) {
+void write_layer_png(const std::string& path, int width, int height, double dots_per_inch,
+                     bool opaque, const LayerRows& rows, Progress& progress) {
   const int channels = opaque ? 3 : 4;
   PngWriter png(path, width, height, 16, channels, dots_per_inch);
   std::vector<png_byte> bytes(static_cast<std::size_t>(width * channels) * 2);
@@ -105,7 +109,8 @@ void write_layer_png(const std::string& path, int width, int height, double dots
   png.finish();
 }
 
-void write_thumbnail_png(const std::string& path, int width, int height, int longest_px, const LayerRows& rows) {
+void write_thumbnail_png(const std::string& path, int width, int height, int longest_px,
+                         const LayerRows& rows) {
   const int factor = std::max(1, (std::max(width, height) + longest_px - 1) / longest_px);
   const int across = std::max(1, width / factor);
   const int down = std::max(1, height / factor);
@@ -118,8 +123,10 @@ void write_thumbnail_png(const std::string& path, int width, int height, int lon
         std::uint64_t sum = 0;
         std::uint64_t count = 0;
         for (int v = 0; v < band.height(); ++v)
-          for (int u = x * factor; u < std::min(width, (x + 1) * factor); ++u, ++count) sum += band(u, v)[c];
-        bytes[static_cast<std::size_t>(x) * 3 + c] = static_cast<png_byte>(sum / std::max<std::uint64_t>(1, count) / 257);
+          for (int u = x * factor; u < std::min(width, (x + 1) * factor); ++u, ++count)
+            sum += band(u, v)[c];
+        bytes[static_cast<std::size_t>(x) * 3 + c] =
+            static_cast<png_byte>(sum / std::max<std::uint64_t>(1, count) / 257);
       }
     png.write_row(bytes);
   }

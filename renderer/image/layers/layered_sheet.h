@@ -11,14 +11,14 @@
 
 namespace belvedere {
 
-// Encoded sRGB, not multiplied, and opacity, 0…65535 each.
+// Encoded sRGB, not premultiplied, and opacity, 0…65535 each.
 using LayerPixel = std::array<std::uint16_t, 4>;
-// Gives rows [y0, y1) of a layer, as often as it is asked.
+// Provides rows [y0, y1) of a layer, may be called repeatedly.
 using LayerRows = std::function<Grid<LayerPixel>(int y0, int y1)>;
 
 struct LayerSource {
   std::string name;   // of files in an archive: letters, digits, _
-  std::string title;  // for people, UTF-8
+  std::string title;  // shown to users, UTF-8
   bool hidden = false;
   LayerRows rows;
 };
@@ -28,10 +28,12 @@ struct LayeredSheet {
   int height = 0;
   double dots_per_inch = 0.0;  // 0: not stated
   std::vector<LayerSource> layers;
-  LayerRows merged;               // what they make, opaque
-  double large_from_bytes = 2e9;  // from where on a PSD is written in its large form
+  LayerRows merged;               // their composite, opaque
+  double large_from_bytes = 2e9;  // from which a PSD is written in its large form
 };
-// Writes one, layer after layer and row by row. Goes to a temporary name and is renamed when it is whole. Error(output).
-using WriteLayers = void (*)(const std::string& path, const LayeredSheet& sheet, Progress& progress);
+// Writes one, layer after layer and row by row. Writes to a temporary name and renames it when
+// complete. Error(output).
+using WriteLayers = void (*)(const std::string& path, const LayeredSheet& sheet,
+                             Progress& progress);
 
 }  // namespace belvedere

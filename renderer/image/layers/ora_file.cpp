@@ -20,14 +20,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int thumbnail_px = 256;  // as the specification says
+constexpr int thumbnail_px = 256;  // required by the specification
 
-// A ZIP archive of files that are not packed (APPNOTE.TXT 6.3.3): its first entry has no extra field, by which OpenRaster is known, and
-// where an entry or the archive is over 4 GB its numbers stand in the fields of ZIP64. libarchive, minizip and others put fields of times
-// and owners everywhere.
+// A ZIP archive of uncompressed files (APPNOTE.TXT 6.3.3): its first entry has no extra field,
+// which identifies OpenRaster, and where an entry or the archive is over 4 GB its numbers are in
+// the fields of ZIP64. libarchive, minizip and others add fields of times and owners everywhere.
 class Zip {
  public:
-  explicit Zip(const OutputFile& file) : file_(file), out_(file.temporary(), std::ios::binary | std::ios::trunc) {
+  explicit Zip(const OutputFile& file)
+      : file_(file), out_(file.temporary(), std::ios::binary | std::ios::trunc) {
     if (!out_) file.fail("it cannot be created");
   }
   void add_text(const std::string& name, const std::string& text) {
@@ -36,25 +37,28 @@ class Zip {
   }
   void add_file(const std::string& name, const std::string& path) {
     std::uint32_t crc = 0;
-    read_all(path, [&](const std::string& bytes) { crc = crc32_after(crc, bytes.data(), bytes.size()); });
+    read_all(path,
+             [&](const std::string& bytes) { crc = crc32_after(crc, bytes.data(), bytes.size()); });
     begin({name, crc, fs::file_size(path), offset_});
     read_all(path, [&](const std::string& bytes) { put(bytes); });
   }
   void close() {
     const std::uint64_t directory = offset_;
     for (const Entry& entry : entries_)
-      put("PK\1\2" + number(version_made, 2) + common(entry, true) + number(0, 2) + number(0, 2) + number(0, 2) + number(0, 4) +
-          number(std::min(entry.offset, full), 4) + entry.name + zip64(entry, true));
+      put("PK\1\2" + number(version_made, 2) + common(entry, true) + number(0, 2) + number(0, 2) +
+          number(0, 2) + number(0, 4) + number(std::min(entry.offset, full), 4) + entry.name +
+          zip64(entry, true));
     const std::uint64_t bytes = offset_ - directory;
     const std::uint64_t count = entries_.size();
     if (directory >= full) {
       const std::uint64_t end = offset_;
-      put("PK\6\6" + number(44, 8) + number(version_made, 2) + number(version_made, 2) + number(0, 4) + number(0, 4) + number(count, 8) +
-          number(count, 8) + number(bytes, 8) + number(directory, 8));
+      put("PK\6\6" + number(44, 8) + number(version_made, 2) + number(version_made, 2) +
+          number(0, 4) + number(0, 4) + number(count, 8) + number(count, 8) + number(bytes, 8) +
+          number(directory, 8));
       put("PK\6\7" + number(0, 4) + number(end, 8) + number(1, 4));
     }
-    put("PK\5\6" + number(0, 2) + number(0, 2) + number(count, 2) + number(count, 2) + number(bytes, 4) +
-        number(std::min(directory, full), 4) + number(0, 2));
+    put("PK\5\6" + number(0, 2) + number(0, 2) + number(count, 2) + number(count, 2) +
+        number(bytes, 4) + number(std::min(directory, full), 4) + number(0, 2));
     out_.flush();
     if (!out_) file_.fail("it cannot be written");
   }
@@ -81,11 +85,13 @@ class Zip {
     if (with_offset && entry.offset >= full) values += number(entry.offset, 8);
     return values.empty() ? values : number(1, 2) + number(values.size(), 2) + values;
   }
-  // What local header and directory say alike; dated 2000-01-01, so that the same picture is the same bytes.
+  // The fields shared by local header and directory; dated 2000-01-01, so that the same picture
+  // gives the same bytes.
   static std::string common(const Entry& entry, bool in_directory) {
     constexpr std::uint64_t date = 20U << 9U | 1U << 5U | 1U;
-    return number(entry.bytes >= full ? version_made : 20, 2) + number(1U << 11U, 2) + number(0, 2) + number(0, 2) + number(date, 2) +
-           number(entry.crc, 4) + number(std::min(entry.bytes, full), 4) + number(std::min(entry.bytes, full), 4) +
+    return number(entry.bytes >= full ? version_made : 20, 2) + number(1U << 11U, 2) +
+           number(0, 2) + number(0, 2) + number(date, 2) + number(entry.crc, 4) +
+           number(std::min(entry.bytes, full), 4) + number(std::min(entry.bytes, full), 4) +
            number(entry.name.size(), 2) + number(zip64(entry, in_directory).size(), 2);
   }
   void begin(const Entry& entry) {
@@ -111,15 +117,18 @@ class Zip {
   std::vector<Entry> entries_;
 };
 
-// Layers from the top down, as stack.xml wants them.
+// Layers from the top down, as in stack.xml.
 std::string stack_xml(const LayeredSheet& sheet) {
   const auto dots = static_cast<int>(sheet.dots_per_inch + 0.5);
-  std::string out = fmt::format("<?xml version='1.0' encoding='UTF-8'?>\n<image version=\"0.0.5\" w=\"{}\" h=\"{}\"{}>\n<stack>\n",
-                                sheet.width, sheet.height, dots > 0 ? fmt::format(" xres=\"{0}\" yres=\"{0}\"", dots) : "");
+  std::string out = fmt::format(
+      "<?xml version='1.0' encoding='UTF-8'?>\n<image version=\"0.0.5\" w=\"{}\" "
+      "h=\"{}\"{}>\n<stack>\n",
+      sheet.width, sheet.height, dots > 0 ? fmt::format(" xres=\"{0}\" yres=\"{0}\"", dots) : "");
   for (std::size_t k = sheet.layers.size(); k-- > 0;) {
     const LayerSource& layer = sheet.layers[k];
     out += fmt::format(
-        "<layer name=\"{}\" src=\"data/{}.png\" x=\"0\" y=\"0\" opacity=\"1.0\" visibility=\"{}\" composite-op=\"svg:src-over\"/>\n",
+        "<layer name=\"{}\" src=\"data/{}.png\" x=\"0\" y=\"0\" opacity=\"1.0\" visibility=\"{}\" "
+        "composite-op=\"svg:src-over\"/>\n",
         markup_text(layer.title), layer.name, layer.hidden ? "hidden" : "visible");
   }
   return out + "</stack>\n</image>\n";
@@ -129,16 +138,21 @@ std::string stack_xml(const LayeredSheet& sheet) {
 
 void write_ora(const std::string& path, const LayeredSheet& sheet, Progress& progress) {
   OutputFile file(path);
-  OutputFile png(fs::path(path).replace_extension("layer.png").string());  // its temporary file is used, and removed in the end
-  progress.begin("writing layers", static_cast<double>(sheet.height) * static_cast<double>(sheet.layers.size() + 1));
+  OutputFile png(fs::path(path)
+                     .replace_extension("layer.png")
+                     .string());  // its temporary file is used, and removed in the end
+  progress.begin("writing layers",
+                 static_cast<double>(sheet.height) * static_cast<double>(sheet.layers.size() + 1));
   Zip zip(file);
   zip.add_text("mimetype", "image/openraster");
   zip.add_text("stack.xml", stack_xml(sheet));
   for (const LayerSource& layer : sheet.layers) {
-    write_layer_png(png.temporary(), sheet.width, sheet.height, sheet.dots_per_inch, false, layer.rows, progress);
+    write_layer_png(png.temporary(), sheet.width, sheet.height, sheet.dots_per_inch, false,
+                    layer.rows, progress);
     zip.add_file("data/" + layer.name + ".png", png.temporary());
   }
-  write_layer_png(png.temporary(), sheet.width, sheet.height, sheet.dots_per_inch, true, sheet.merged, progress);
+  write_layer_png(png.temporary(), sheet.width, sheet.height, sheet.dots_per_inch, true,
+                  sheet.merged, progress);
   zip.add_file("mergedimage.png", png.temporary());
   write_thumbnail_png(png.temporary(), sheet.width, sheet.height, thumbnail_px, sheet.merged);
   zip.add_file("Thumbnails/thumbnail.png", png.temporary());

@@ -5,23 +5,27 @@
 #include <vector>
 
 #include "base/error.h"
-#include "renderer/image/icc/device_color.h"
+#include "renderer/image/icc/device_colour.h"
 #include "renderer/image/layers/layer_png.h"
 #include "renderer/image/output_file.h"
 
 namespace belvedere {
 namespace {
 
-// Numbers are big-endian; lengths that a large file needs 8 bytes for have 4 in a small one.
+// Numbers are big-endian; lengths that take 8 bytes in a large file take 4 in a small one.
 class PsdWriter {
  public:
   PsdWriter(const OutputFile& file, const LayeredSheet& sheet, bool large)
-      : file_(file), sheet_(sheet), large_(large), out_(file.temporary(), std::ios::binary | std::ios::trunc) {
+      : file_(file),
+        sheet_(sheet),
+        large_(large),
+        out_(file.temporary(), std::ios::binary | std::ios::trunc) {
     if (!out_) file.fail("it cannot be created");
   }
 
   void write(Progress& progress) {
-    progress.begin("writing layers", static_cast<double>(sheet_.height) * static_cast<double>(4 * sheet_.layers.size() + 3));
+    progress.begin("writing layers", static_cast<double>(sheet_.height) *
+                                         static_cast<double>(4 * sheet_.layers.size() + 3));
     text("8BPS");
     number(large_ ? 2 : 1, 2);
     text(std::string(6, '\0'));
@@ -41,7 +45,7 @@ class PsdWriter {
     write_layers(progress);
     close_length(layers, large_ ? 8 : 4, 4);
     close_length(section, large_ ? 8 : 4, 1);
-    // The picture itself, for who reads no layers.
+    // The composite, for programs that read no layers.
     number(1, 2);
     write_rows(sheet_.merged, {0, 1, 2}, progress);
     out_.flush();
@@ -49,11 +53,14 @@ class PsdWriter {
   }
 
  private:
-  void text(const std::string& bytes) { out_.write(bytes.data(), static_cast<std::streamsize>(bytes.size())); }
-  void number(std::uint64_t value, int bytes) {
-    for (int shift = 8 * (bytes - 1); shift >= 0; shift -= 8) out_.put(static_cast<char>(value >> shift & 255U));
+  void text(const std::string& bytes) {
+    out_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   }
-  // A length that is known when what it counts is written.
+  void number(std::uint64_t value, int bytes) {
+    for (int shift = 8 * (bytes - 1); shift >= 0; shift -= 8)
+      out_.put(static_cast<char>(value >> shift & 255U));
+  }
+  // A length that is known once its content is written.
   std::streamoff open_length(int bytes) {
     number(0, bytes);
     return out_.tellp();
@@ -83,7 +90,8 @@ class PsdWriter {
       const auto fixed = static_cast<std::uint32_t>(sheet_.dots_per_inch * 65536.0 + 0.5);
       std::string bytes;
       for (int side = 0; side < 2; ++side) {
-        for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(fixed >> shift & 255U);
+        for (int shift = 24; shift >= 0; shift -= 8)
+          bytes += static_cast<char>(fixed >> shift & 255U);
         bytes += std::string("\0\1\0\1", 4);  // per inch, shown in inches
       }
       resource(1005, bytes);
@@ -95,9 +103,10 @@ class PsdWriter {
 
   void write_layers(Progress& progress) {
     number(sheet_.layers.size(), 2);
-    std::vector<std::streamoff> lengths;  // where those of a layer's first channel stand
+    std::vector<std::streamoff> lengths;  // offset of those of a layer's first channel
     for (const LayerSource& layer : sheet_.layers) {
-      for (const int side : {0, 0, sheet_.height, sheet_.width}) number(static_cast<std::uint64_t>(side), 4);
+      for (const int side : {0, 0, sheet_.height, sheet_.width})
+        number(static_cast<std::uint64_t>(side), 4);
       number(4, 2);
       lengths.push_back(out_.tellp());
       for (const int channel : {-1, 0, 1, 2}) {
@@ -124,17 +133,20 @@ class PsdWriter {
         number(1, 2);  // PackBits
         write_rows(sheet_.layers[k].rows, {channels[c]}, progress);
         const int step = large_ ? 10 : 6;
-        patch(lengths[k] + c * step + 2, static_cast<std::uint64_t>(out_.tellp() - begin), large_ ? 8 : 4);
+        patch(lengths[k] + c * step + 2, static_cast<std::uint64_t>(out_.tellp() - begin),
+              large_ ? 8 : 4);
       }
     }
   }
 
-  // Channels one after the other: how long each packed row is, of all of them, then the rows.
-  void write_rows(const LayerRows& rows, const std::vector<std::size_t>& channels, Progress& progress) {
+  // Channels one after the other: the lengths of all packed rows, then the rows.
+  void write_rows(const LayerRows& rows, const std::vector<std::size_t>& channels,
+                  Progress& progress) {
     const int count_bytes = large_ ? 4 : 2;
     const std::streamoff table = out_.tellp();
     std::vector<std::uint32_t> counts;
-    text(std::string(channels.size() * static_cast<std::size_t>(sheet_.height * count_bytes), '\0'));
+    text(
+        std::string(channels.size() * static_cast<std::size_t>(sheet_.height * count_bytes), '\0'));
     for (const std::size_t channel : channels)
       for (int y0 = 0; y0 < sheet_.height; y0 += layer_band_rows) {
         const Grid<LayerPixel> band = rows(y0, std::min(sheet_.height, y0 + layer_band_rows));
@@ -151,7 +163,7 @@ class PsdWriter {
     out_.seekp(end);
   }
 
-  // PackBits (Macintosh Technical Note 1023): runs of 3 to 128 equal bytes, and others as they are.
+  // PackBits (Macintosh Technical Note 1023): runs of 3 to 128 equal bytes, and others unchanged.
   std::string pack_row(const LayerPixel* row, std::size_t channel) const {
     std::string bytes;
     for (int x = 0; x < sheet_.width; ++x) {
@@ -159,7 +171,7 @@ class PsdWriter {
       bytes += static_cast<char>(row[x][channel] & 255);
     }
     std::string out;
-    std::size_t literal = 0;  // where bytes begin that are not written yet
+    std::size_t literal = 0;  // start of bytes that are not written yet
     const auto flush = [&](std::size_t end) {
       for (; literal < end; literal = std::min(end, literal + 128)) {
         const std::size_t count = std::min<std::size_t>(128, end - literal);
@@ -192,7 +204,8 @@ class PsdWriter {
 
 void write_psd(const std::string& path, const LayeredSheet& sheet, Progress& progress) {
   // PackBits may lengthen a row by a 128th.
-  const double bytes = 1.01 * static_cast<double>(sheet.width) * sheet.height * (8.0 * static_cast<double>(sheet.layers.size()) + 6.0);
+  const double bytes = 1.01 * static_cast<double>(sheet.width) * sheet.height *
+                       (8.0 * static_cast<double>(sheet.layers.size()) + 6.0);
   const bool large = std::max(sheet.width, sheet.height) > 30000 || bytes > sheet.large_from_bytes;
   OutputFile file(path);
   PsdWriter(file, sheet, large).write(progress);

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "renderer/image/icc/press_color.h"
+#include "renderer/image/icc/press_colour.h"
 #include "renderer/image/picture_formats.h"
 #include "renderer/image/rows/row_reducer.h"
 #include "renderer/image/tiff_file.h"
@@ -24,9 +24,9 @@ struct OneFile {
   std::unique_ptr<PictureRows> rows;
 };
 
-std::vector<const PictureFormat*> formats_of(const std::vector<std::string>& endings) {
+std::vector<const PictureFormat*> formats_of(const std::vector<std::string>& extensions) {
   std::vector<const PictureFormat*> formats;
-  for (const std::string& ending : endings) formats.push_back(&written_format(ending));
+  for (const std::string& extension : extensions) formats.push_back(&written_format(extension));
   return formats;
 }
 
@@ -47,10 +47,11 @@ struct PictureFiles::State {
   std::optional<InkCount> ink;
   std::vector<OneFile> files;
 
-  // Files do not see each other: each is packed by a thread of its own, and most of them by more.
+  // Files are independent: each is packed by its own thread, and most of them by more.
   void write_band(const Image& linear) {
-    const bool any_whole =
-        std::any_of(files.begin(), files.end(), [](const OneFile& f) { return !f.format->linear && !f.reducer.has_value(); });
+    const bool any_whole = std::any_of(files.begin(), files.end(), [](const OneFile& f) {
+      return !f.format->linear && !f.reducer.has_value();
+    });
     const Grid<glm::vec3> encoded = any_whole ? display->convert(linear) : Grid<glm::vec3>();
     parallel_rows(static_cast<int>(files.size()), [&](int i) {
       OneFile& file = files[static_cast<std::size_t>(i)];
@@ -60,7 +61,9 @@ struct PictureFiles::State {
         if (small.empty()) return;
         if (!file.format->linear) small = display->convert(std::move(small));
       }
-      const Grid<glm::vec3>& picture = file.reducer ? small : file.format->linear ? linear : encoded;
+      const Grid<glm::vec3>& picture = file.reducer          ? small
+                                       : file.format->linear ? linear
+                                                             : encoded;
       if (file.device && device)
         file.rows->write_rows(device->convert(picture));
       else
@@ -69,28 +72,36 @@ struct PictureFiles::State {
   }
 };
 
-PictureFiles::PictureFiles(const std::string& stem, const std::vector<std::string>& endings, int width, int height,
-                           const PictureColors& colors, double dots_per_inch, const FileNotes& notes)
+PictureFiles::PictureFiles(const std::string& stem, const std::vector<std::string>& extensions,
+                           int width, int height, const PictureColours& colours,
+                           double dots_per_inch, const FileNotes& notes)
     : state_(std::make_unique<State>()) {
-  const std::vector<const PictureFormat*> formats = formats_of(endings);
-  if (std::any_of(formats.begin(), formats.end(), [](const PictureFormat* f) { return !f->linear; }))
-    state_->display.emplace(colors.display);
+  const std::vector<const PictureFormat*> formats = formats_of(extensions);
+  if (std::any_of(formats.begin(), formats.end(),
+                  [](const PictureFormat* f) { return !f->linear; }))
+    state_->display.emplace(colours.display);
   for (const PictureFormat* format : formats) {
-    const bool device = format->device && !colors.device_profile.empty();
-    const bool press = device && is_cmyk_profile(colors.device_profile);
+    const bool device = format->device && !colours.device_profile.empty();
+    const bool press = device && is_cmyk_profile(colours.device_profile);
     if (press) {
-      state_->press.emplace(colors.device_profile, colors.device);
-      state_->ink.emplace(colors.ink_limit_percent > 0.0 ? colors.ink_limit_percent : press_ink_limit_percent(colors.device_profile));
+      state_->press.emplace(colours.device_profile, colours.device);
+      state_->ink.emplace(colours.ink_limit_percent > 0.0
+                              ? colours.ink_limit_percent
+                              : press_ink_limit_percent(colours.device_profile));
     } else if (device && !state_->device) {
-      state_->device.emplace(colors.device_profile, colors.device);
+      state_->device.emplace(colours.device_profile, colours.device);
     }
     const int factor = reduction_factor(*format, width, height);
     PictureFileOptions options;
     options.dots_per_inch = dots_per_inch / factor;
-    options.icc_profile = !format->profile ? std::vector<std::uint8_t>{} : device ? colors.device_profile : srgb_profile();
+    options.icc_profile = !format->profile ? std::vector<std::uint8_t>{}
+                          : device         ? colours.device_profile
+                                           : srgb_profile();
     options.notes = notes;
-    if (factor > 1) options.notes["belvedere:reduced"] = fmt::format("by {}, from {} × {} pixels", factor, width, height);
-    const std::string path = fmt::format("{}.{}", stem, format->ending);
+    if (factor > 1)
+      options.notes["belvedere:reduced"] =
+          fmt::format("by {}, from {} × {} pixels", factor, width, height);
+    const std::string path = fmt::format("{}.{}", stem, format->extension);
     const int file_width = reduced(width, factor);
     const int file_height = reduced(height, factor);
     const auto make_inks = [state = state_.get()](const Grid<glm::vec3>& rows) {
@@ -98,11 +109,12 @@ PictureFiles::PictureFiles(const std::string& stem, const std::vector<std::strin
       state->ink->add(inks);
       return inks;
     };
-    OneFile file{format,
-                 device,
-                 {},
-                 press ? open_tiff_inks(path, file_width, file_height, format->bits, options, make_inks)
-                       : format->open(path, file_width, file_height, options)};
+    OneFile file{
+        format,
+        device,
+        {},
+        press ? open_tiff_inks(path, file_width, file_height, format->bits, options, make_inks)
+              : format->open(path, file_width, file_height, options)};
     if (factor > 1) file.reducer.emplace(width, height, factor);
     state_->files.push_back(std::move(file));
   }
@@ -121,23 +133,30 @@ void PictureFiles::write_rows(const Image& linear) {
 
 void PictureFiles::finish() {
   std::vector<OneFile>& files = state_->files;
-  parallel_rows(static_cast<int>(files.size()), [&](int i) { files[static_cast<std::size_t>(i)].rows->finish(); });
+  parallel_rows(static_cast<int>(files.size()),
+                [&](int i) { files[static_cast<std::size_t>(i)].rows->finish(); });
   for (OneFile& file : files) file.rows->commit();
 }
 
-std::optional<InkCoverage> PictureFiles::ink() const { return state_->ink ? std::optional(state_->ink->coverage()) : std::nullopt; }
-
-std::string ink_note(const std::string& file, const InkCoverage& ink) {
-  return fmt::format("{} asks for up to {:.0f} % of ink, {:.0f} % on average; {:.2g} % of its pixels for more than {:.0f} %", file,
-                     ink.highest_percent, ink.mean_percent, 100.0 * ink.above_share(), ink.limit_percent);
+std::optional<InkCoverage> PictureFiles::ink() const {
+  return state_->ink ? std::optional(state_->ink->coverage()) : std::nullopt;
 }
 
-std::vector<std::string> reduction_notes(const std::string& name, const std::vector<std::string>& endings, int width, int height) {
+std::string ink_note(const std::string& file, const InkCoverage& ink) {
+  return fmt::format(
+      "{} uses up to {:.0f} % of ink, {:.0f} % on average; {:.2g} % of its pixels exceed {:.0f} %",
+      file, ink.highest_percent, ink.mean_percent, 100.0 * ink.above_share(), ink.limit_percent);
+}
+
+std::vector<std::string> reduction_notes(const std::string& name,
+                                         const std::vector<std::string>& extensions, int width,
+                                         int height) {
   std::vector<std::string> notes;
-  for (const PictureFormat* format : formats_of(endings)) {
+  for (const PictureFormat* format : formats_of(extensions)) {
     const int factor = reduction_factor(*format, width, height);
     if (factor > 1)
-      notes.push_back(fmt::format("{}.{} is {} × {} pixels, the picture reduced by {}", name, format->ending, reduced(width, factor),
+      notes.push_back(fmt::format("{}.{} is {} × {} pixels, the picture reduced by {}", name,
+                                  format->extension, reduced(width, factor),
                                   reduced(height, factor), factor));
   }
   return notes;

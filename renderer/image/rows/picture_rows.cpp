@@ -17,7 +17,8 @@ PictureRows::PictureRows(std::string path, int width, int height, int band_rows)
 void PictureRows::write_rows(const Grid<glm::vec3>& rows) {
   if (rows.empty()) return;
   if (finished_ || rows.width() != width_ || rows.height() > height_ - next_row_)
-    throw Error(ErrorKind::bug, path_, fmt::format("{} × {} pixels after row {}", rows.width(), rows.height(), next_row_),
+    throw Error(ErrorKind::bug, path_,
+                fmt::format("{} × {} pixels after row {}", rows.width(), rows.height(), next_row_),
                 fmt::format("{} × {} in all", width_, height_));
   for (int y = 0; y < rows.height();) {
     const int at = next_row_ % band_rows_;
@@ -25,12 +26,14 @@ void PictureRows::write_rows(const Grid<glm::vec3>& rows) {
     take(rows, y, count, at);
     y += count;
     next_row_ += count;
-    if (at + count == band_rows_ || next_row_ == height_) write_band(next_row_ - at - count, at + count);
+    if (at + count == band_rows_ || next_row_ == height_)
+      write_band(next_row_ - at - count, at + count);
   }
 }
 
 void PictureRows::finish() {
-  if (finished_ || next_row_ != height_) throw Error(ErrorKind::bug, path_, fmt::format("ends at row {} of {}", next_row_, height_));
+  if (finished_ || next_row_ != height_)
+    throw Error(ErrorKind::bug, path_, fmt::format("ends at row {} of {}", next_row_, height_));
   complete();
   finished_ = true;
 }

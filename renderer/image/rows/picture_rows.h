@@ -7,20 +7,22 @@
 
 namespace belvedere {
 
-// A picture file that is written from top to bottom, any number of rows at a time; how the rows come changes no byte of it. What the writer
-// holds of them is at most the band that its format packs at once. The rows go to a temporary name (output_file.h): without commit() an
-// older file stays as it is and the temporary one is removed. Throws Error(output), and Error(bug) for rows that do not fit.
+// A picture file that is written from top to bottom, any number of rows at a time; the split into
+// rows changes no byte of it. The writer keeps at most the band that its format packs at once. The
+// rows go to a temporary name (output_file.h): without commit() an older file is unchanged and the
+// temporary one is removed. Throws Error(output), and Error(bug) for rows that do not fit.
 class PictureRows {
  public:
   virtual ~PictureRows() = default;
   PictureRows(const PictureRows&) = delete;
   PictureRows& operator=(const PictureRows&) = delete;
 
-  // Colours as the format takes them: encoded 0…1, or scene-linear.
+  // Colours in the form of the format: encoded 0…1, or scene-linear.
   void write_rows(const Grid<glm::vec3>& rows);
-  // Completes the file, brings it to disk and compares what can be read there with what was written, by a hash.
+  // Completes the file, flushes it to disk and compares what is read back with what was written, by
+  // a hash.
   void finish();
-  // Puts it in the place of the older one; finish() before.
+  // Replaces the older one; call finish() before.
   void commit();
 
   int width() const { return width_; }

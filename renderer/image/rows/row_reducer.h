@@ -7,8 +7,9 @@
 
 namespace belvedere {
 
-// Makes a picture smaller by a whole factor while its rows come: each pixel is the mean of factor × factor, at the right and lower border
-// of those that are there. Sums are taken in double, row by row, so that how the rows come changes no bit.
+// Reduces a picture by a whole factor while its rows arrive: each pixel is the mean of factor ×
+// factor, at the right and lower border of the available ones. Sums are in double, row by row, so
+// that the split into rows changes no bit.
 class RowReducer {
  public:
   // factor ≥ 1
@@ -24,7 +25,7 @@ class RowReducer {
   int height_;
   int factor_;
   int next_row_ = 0;
-  std::vector<glm::dvec3> sums_;  // of the row in work
+  std::vector<glm::dvec3> sums_;  // of the current row
 };
 
 }  // namespace belvedere

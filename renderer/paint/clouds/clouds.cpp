@@ -15,8 +15,8 @@
 namespace belvedere {
 namespace {
 
-// Random numbers in the order they are drawn, a pure function of seed and cell. One draw a statement: C++ leaves open which of two
-// arguments comes first.
+// Random numbers in the order of the draws, a pure function of seed and cell. One draw per
+// statement: C++ leaves the evaluation order of arguments open.
 class Draws {
  public:
   Draws(std::uint64_t seed, std::int64_t cell) : seed_(seed), cell_(cell) {}
@@ -29,17 +29,18 @@ class Draws {
   std::int64_t draw_ = 0;
 };
 
-// The outline of a heap: arches of different height and width beside each other; u is -1…1 over the width, the value 0…1.
+// The outline of a heap: arches of different height and width side by side; u is -1…1 over the
+// width, the value 0…1.
 struct Outline {
   struct Arch {
-    double middle, half_width, height;
+    double centre, half_width, height;
   };
   std::vector<Arch> arches;
 
   double operator()(double u) const {
     double top = 0.0;
     for (const Arch& a : arches) {
-      const double side = (u - a.middle) / a.half_width;
+      const double side = (u - a.centre) / a.half_width;
       top = std::max(top, a.height * std::sqrt(std::max(0.0, 1.0 - side * side)));
     }
     return top;
@@ -48,21 +49,22 @@ struct Outline {
 
 Outline make_outline(Draws& draws) {
   Outline outline;
-  const double main_middle = draws.between(-0.45, 0.45);
+  const double main_centre = draws.between(-0.45, 0.45);
   const double main_half_width = draws.between(0.35, 0.75);
-  outline.arches.push_back({main_middle, main_half_width, 1.0});
+  outline.arches.push_back({main_centre, main_half_width, 1.0});
   const int more = static_cast<int>(draws.between(1.0, 4.0));
   for (int k = 0; k < more; ++k) {
-    const double middle = draws.between(-0.8, 0.8);
+    const double centre = draws.between(-0.8, 0.8);
     const double half_width = draws.between(0.15, 0.5);
-    outline.arches.push_back({middle, half_width, draws.between(0.2, 0.75)});
+    outline.arches.push_back({centre, half_width, draws.between(0.2, 0.75)});
   }
-  outline.arches.push_back({0.0, 1.0, draws.between(0.12, 0.3)});  // what joins them
+  outline.arches.push_back({0.0, 1.0, draws.between(0.12, 0.3)});  // joins the others
   return outline;
 }
 
-// What holds all heads of a cloud, and how fine its edges are.
-void close_cloud(const SkyParameters& p, Cloud& cloud, double base_px, double width_px, double height_px) {
+// Computes the bounding box of a cloud's heads and the fineness of its edges.
+void close_cloud(const SkyParameters& p, Cloud& cloud, double base_px, double width_px,
+                 double height_px) {
   cloud.from = glm::vec2(1e9F);
   cloud.to = glm::vec2(-1e9F);
   for (const CloudHead& head : cloud.heads) {
@@ -74,24 +76,27 @@ void close_cloud(const SkyParameters& p, Cloud& cloud, double base_px, double wi
   cloud.grain = size > 1.0 ? 0 : size > 0.5 ? 1 : size > 0.25 ? 2 : 3;
 }
 
-// One cloud. `heaped`: 0 a bank drawn out by the wind … 1 a cumulus.
-Cloud make_cloud(const SkyParameters& p, Draws& draws, glm::dvec2 middle_px, double width_px, double heaped, double opacity) {
+// One cloud. `heaped`: 0 a wind-drawn bank … 1 a cumulus.
+Cloud make_cloud(const SkyParameters& p, Draws& draws, glm::dvec2 centre_px, double width_px,
+                 double heaped, double opacity) {
   const double height_px = width_px * (0.05 + (0.10 + 0.20 * heaped) * draws.between(0.6, 1.2));
   const Outline outline = make_outline(draws);
   const int count = 14 + static_cast<int>(12.0 * draws.uniform());
-  const double base_px = middle_px.y;
+  const double base_px = centre_px.y;
   Cloud cloud{static_cast<float>(base_px), {}, {}, static_cast<float>(opacity), 0, {}};
   const auto add = [&](double u, double rise, glm::dvec2 radius) {
-    cloud.heads.push_back({glm::vec2(glm::dvec2(middle_px.x + 0.5 * width_px * u, base_px - rise)), glm::vec2(radius)});
+    cloud.heads.push_back({glm::vec2(glm::dvec2(centre_px.x + 0.5 * width_px * u, base_px - rise)),
+                           glm::vec2(radius)});
   };
   for (int k = 0; k < count; ++k) {
     const double u = -1.0 + 2.0 * (k + draws.uniform()) / count;
     const double arch = outline(u);
     const double radius = height_px * (0.10 + 0.30 * arch) * draws.between(0.7, 1.3);
     const double stretch = (3.2 - 1.9 * heaped) * draws.between(0.8, 1.3);
-    add(u, std::max(0.0, arch * height_px - radius) * draws.between(0.2, 1.0), {radius * stretch, radius});
+    add(u, std::max(0.0, arch * height_px - radius) * draws.between(0.2, 1.0),
+        {radius * stretch, radius});
   }
-  // Skirts, drawn out level beyond the heap.
+  // Level skirts beyond the heap.
   const int skirts = 2 + static_cast<int>(3.0 * draws.uniform());
   for (int k = 0; k < skirts; ++k) {
     const double u = draws.between(-1.1, 1.1);
@@ -100,102 +105,120 @@ Cloud make_cloud(const SkyParameters& p, Draws& draws, glm::dvec2 middle_px, dou
     const double rise = height_px * draws.between(0.02, 0.22);
     add(u, rise, {length, thickness});
   }
-  std::stable_sort(cloud.heads.begin(), cloud.heads.end(), [](const CloudHead& a, const CloudHead& b) { return a.centre.y < b.centre.y; });
+  std::stable_sort(cloud.heads.begin(), cloud.heads.end(),
+                   [](const CloudHead& a, const CloudHead& b) { return a.centre.y < b.centre.y; });
   close_cloud(p, cloud, base_px, width_px, height_px);
   return cloud;
 }
 
-// How large a cloud is drawn whose base stands so high above the horizon (in heights of the sky): the lower, the farther. Cloud scales.
+// Size of a cloud by the elevation of its base above the horizon (in heights of the sky): the
+// lower, the farther. In cloud scales.
 double size_at(double elevation) { return 0.22 + 1.9 * elevation; }
 
-// How clear a cloud stands there: far ones are seen through the air of the horizon.
+// Clearness of a cloud: far ones are seen through the air of the horizon.
 double clearness(double elevation) { return 0.55 + 0.45 * std::min(1.0, elevation / 0.2); }
 
-// A bank: clouds of one kind along a level line, large in the middle, farther and smaller to both sides.
-void add_bank(std::vector<Cloud>& clouds, const SkyParameters& p, const SkyLook& look, Draws& draws, double middle_px, double elevation,
-              double drawn_out) {
+// A bank: clouds of one kind along a level line, large in the centre, farther and smaller to both
+// sides.
+void add_bank(std::vector<Cloud>& clouds, const SkyParameters& p, const SkyLook& look, Draws& draws,
+              double centre_px, double elevation, double drawn_out) {
   const double scale_px = cloud_scale_px(p) * look.size;
   const double heaped = look.heaped + draws.between(-0.6, 0.5);
   const double half_px = scale_px * size_at(elevation) * drawn_out * draws.between(0.6, 1.9);
   const int count = 3 + static_cast<int>(5.0 * draws.uniform());
-  const double lead = draws.between(-0.6, 0.6);  // where in the bank its largest cloud stands
+  const double lead = draws.between(-0.6, 0.6);  // position of the largest cloud in the bank
   for (int k = 0; k < count; ++k) {
     const double t = -1.0 + 2.0 * (k + draws.uniform()) / count;
     const double aside = std::min(1.0, std::abs(t - lead));
     const double height = elevation * (1.0 - 0.35 * aside) * draws.between(0.9, 1.1);
-    const double width_px = scale_px * size_at(height) * drawn_out * (1.0 - 0.62 * aside) * draws.between(0.55, 1.25);
+    const double width_px =
+        scale_px * size_at(height) * drawn_out * (1.0 - 0.62 * aside) * draws.between(0.55, 1.25);
     const double kind = std::clamp(heaped + draws.between(-0.25, 0.25) - 0.3 * aside, 0.0, 1.0);
     const double opacity = clearness(height) * (0.62 + 0.38 * kind) * (1.0 - 0.35 * aside);
-    clouds.push_back(make_cloud(p, draws, {middle_px + half_px * t, p.horizon_px * (1.0 - height)}, width_px, kind, opacity));
+    clouds.push_back(make_cloud(p, draws, {centre_px + half_px * t, p.horizon_px * (1.0 - height)},
+                                width_px, kind, opacity));
   }
 }
 
-// A layer of banks at about one height.
+// A layer of banks at similar height.
 struct Band {
-  double lowest, highest;  // of bases above the horizon, heights of the sky
-  double stretch;          // cloud scales; each stretch has a bank or none
+  double lowest, highest;  // of bases above the horizon, in heights of the sky
+  double stretch;          // in cloud scales; each stretch has one bank at most
   double share;            // of stretches with a bank
-  double drawn_out;        // on the length of its clouds
+  double drawn_out;        // factor on the length of its clouds
 };
 using Bands = std::array<Band, 3>;
 // Few banks high up, more and smaller ones towards the horizon.
-constexpr Bands fair_bands = {{{0.05, 0.12, 1.3, 0.62, 1.0}, {0.14, 0.30, 2.6, 0.58, 1.0}, {0.32, 0.62, 4.2, 0.58, 1.0}}};
-// A wall of cloud that stands behind the ranges, and nearly nothing over it.
-constexpr Bands horizon_bands = {{{0.01, 0.07, 0.75, 0.95, 1.5}, {0.05, 0.16, 1.9, 0.75, 1.9}, {0.40, 0.62, 5.5, 0.40, 1.6}}};
-constexpr Bands streak_bands = {{{0.02, 0.08, 1.6, 0.45, 1.3}, {0.12, 0.20, 4.5, 0.30, 1.3}, {0.32, 0.62, 9.0, 0.0, 1.0}}};
+constexpr Bands fair_bands = {
+    {{0.05, 0.12, 1.3, 0.62, 1.0}, {0.14, 0.30, 2.6, 0.58, 1.0}, {0.32, 0.62, 4.2, 0.58, 1.0}}};
+// A wall of cloud behind the ranges, and almost nothing above it.
+constexpr Bands horizon_bands = {
+    {{0.01, 0.07, 0.75, 0.95, 1.5}, {0.05, 0.16, 1.9, 0.75, 1.9}, {0.40, 0.62, 5.5, 0.40, 1.6}}};
+constexpr Bands streak_bands = {
+    {{0.02, 0.08, 1.6, 0.45, 1.3}, {0.12, 0.20, 4.5, 0.30, 1.3}, {0.32, 0.62, 9.0, 0.0, 1.0}}};
 
 // Scraps below the deck of a front, and a wall behind the ranges.
-constexpr Bands front_bands = {{{0.01, 0.06, 0.9, 0.85, 1.6}, {0.06, 0.14, 2.4, 0.50, 1.5}, {0.20, 0.34, 6.0, 0.25, 1.2}}};
+constexpr Bands front_bands = {
+    {{0.01, 0.06, 0.9, 0.85, 1.6}, {0.06, 0.14, 2.4, 0.50, 1.5}, {0.20, 0.34, 6.0, 0.25, 1.2}}};
 
-void add_bands(std::vector<Cloud>& clouds, const SkyParameters& p, const SkyLook& look, const Bands& bands) {
+void add_bands(std::vector<Cloud>& clouds, const SkyParameters& p, const SkyLook& look,
+               const Bands& bands) {
   for (std::size_t b = 0; b < bands.size(); ++b) {
     const Band& band = bands[b];
     const double cell_px = band.stretch * cloud_scale_px(p);
-    // Where stretches begin differs by seed, or every sky would have its gaps in the same places.
+    // Stretches begin at offsets that depend on the seed; otherwise every sky would have its gaps
+    // at the same positions.
     const std::uint64_t seed = stream_seed(p.seed, Stream::cloud_banks, b);
     const double shift = random_uniform(seed, -9, 0);
     const auto last = static_cast<std::int64_t>(p.picture_size.x / cell_px) + 2;
     for (std::int64_t cell = -2; cell <= last; ++cell) {
       Draws draws(seed, cell);
       if (draws.uniform() > band.share * look.amount + 0.4 * (p.clouds - 1.0)) continue;
-      const double middle_px = (static_cast<double>(cell) + shift + draws.between(0.1, 0.9)) * cell_px;
-      const double elevation = std::min(0.70, look.raised * draws.between(band.lowest, band.highest));
-      add_bank(clouds, p, look, draws, middle_px, elevation, band.drawn_out);
+      const double centre_px =
+          (static_cast<double>(cell) + shift + draws.between(0.1, 0.9)) * cell_px;
+      const double elevation =
+          std::min(0.70, look.raised * draws.between(band.lowest, band.highest));
+      add_bank(clouds, p, look, draws, centre_px, elevation, band.drawn_out);
     }
   }
 }
 
-// Lines of places on the sky's plane that come from the vanishing point.
+// Lines of positions on the sky's plane that start at the vanishing point.
 struct Streets {
-  int number;                   // of their stream
-  double spread;                // between them where they are half the sky high, units of clouds
-  double aside;                 // by which each is moved, of spread
-  std::optional<double> share;  // of them that there are; none: all of them
-  glm::dvec3 first;             // elevation of their first place, and its factor: least and most
-  double last;                  // elevation where they end
-  glm::dvec2 step;              // from each place to the next: factor of elevation, least and most
+  int number;                   // number of their random stream
+  double spread;                // spacing at half the height of the sky, in cloud scales
+  double aside;                 // sideways offset of each, in shares of spread
+  std::optional<double> share;  // share of them that are present; none: all
+  glm::dvec3 first;             // first position: min and max elevation, and its factor
+  double last;                  // elevation of the last position
+  glm::dvec2 step;              // from one position to the next: min and max factor of elevation
 };
 
 // place(draws, elevation, base_px, x_px) for each of them.
 template <class Place>
-void along_streets(const SkyParameters& p, const SkyLook& look, const Streets& streets, Place&& place) {
+void along_streets(const SkyParameters& p, const SkyLook& look, const Streets& streets,
+                   Place&& position) {
   const double spread_px = streets.spread * cloud_scale_px(p);
   const double reach_px = look.vanishing_px.y - 0.5 * p.horizon_px;
   const auto count = static_cast<std::int64_t>(p.picture_size.x / spread_px) + 3;
-  const std::uint64_t seed = stream_seed(p.seed, Stream::cloud_banks, static_cast<std::uint64_t>(streets.number));
+  const std::uint64_t seed =
+      stream_seed(p.seed, Stream::cloud_banks, static_cast<std::uint64_t>(streets.number));
   for (std::int64_t street = -count; street <= count; ++street) {
     Draws draws(seed, street);
-    const double slope = (static_cast<double>(street) + draws.between(-streets.aside, streets.aside)) * spread_px / reach_px;
+    const double slope =
+        (static_cast<double>(street) + draws.between(-streets.aside, streets.aside)) * spread_px /
+        reach_px;
     if (streets.share && draws.uniform() > *streets.share) continue;
-    for (double elevation = streets.first.x * draws.between(streets.first.y, streets.first.z); elevation < streets.last;
-         elevation *= draws.between(streets.step.x, streets.step.y)) {
+    for (double elevation = streets.first.x * draws.between(streets.first.y, streets.first.z);
+         elevation < streets.last; elevation *= draws.between(streets.step.x, streets.step.y)) {
       const double base_px = p.horizon_px * (1.0 - elevation);
-      place(draws, elevation, base_px, look.vanishing_px.x + slope * (look.vanishing_px.y - base_px));
+      position(draws, elevation, base_px,
+               look.vanishing_px.x + slope * (look.vanishing_px.y - base_px));
     }
   }
 }
 
-// Small heaps in streets.
+// Small heaps in rows.
 void add_rows(std::vector<Cloud>& clouds, const SkyParameters& p, const SkyLook& look) {
   const double scale_px = cloud_scale_px(p);
   const Streets streets{.number = 7,
@@ -205,24 +228,29 @@ void add_rows(std::vector<Cloud>& clouds, const SkyParameters& p, const SkyLook&
                         .first = {0.045, 0.8, 1.3},
                         .last = 0.66,
                         .step = {1.25, 1.65}};
-  along_streets(p, look, streets, [&](Draws& draws, double elevation, double base_px, double street_px) {
-    const double x_px = street_px + scale_px * elevation * draws.between(-0.25, 0.25);
-    const double width_px = scale_px * look.size * size_at(elevation) * draws.between(0.22, 0.55);
-    const double kind = std::clamp(look.heaped + draws.between(-0.3, 0.4), 0.0, 1.0);
-    const double chance = draws.uniform();
-    const double opacity = clearness(elevation) * (0.66 + 0.34 * kind);
-    if (chance < 0.30 || x_px < -width_px || x_px > p.picture_size.x + width_px) return;
-    clouds.push_back(make_cloud(p, draws, {x_px, base_px}, width_px, kind, opacity));
-  });
+  along_streets(p, look, streets,
+                [&](Draws& draws, double elevation, double base_px, double street_px) {
+                  const double x_px = street_px + scale_px * elevation * draws.between(-0.25, 0.25);
+                  const double width_px =
+                      scale_px * look.size * size_at(elevation) * draws.between(0.22, 0.55);
+                  const double kind = std::clamp(look.heaped + draws.between(-0.3, 0.4), 0.0, 1.0);
+                  const double chance = draws.uniform();
+                  const double opacity = clearness(elevation) * (0.66 + 0.34 * kind);
+                  if (chance < 0.30 || x_px < -width_px || x_px > p.picture_size.x + width_px)
+                    return;
+                  clouds.push_back(make_cloud(p, draws, {x_px, base_px}, width_px, kind, opacity));
+                });
 }
 
-// A cumulus: towers of rounded heads over a level base, the tallest near its middle.
-Cloud make_heap(const SkyParameters& p, Draws& draws, glm::dvec2 middle_px, double width_px, double tall, double opacity) {
+// A cumulus: towers of rounded heads over a level base, the tallest near its centre.
+Cloud make_heap(const SkyParameters& p, Draws& draws, glm::dvec2 centre_px, double width_px,
+                double tall, double opacity) {
   const double height_px = width_px * tall;
-  Cloud cloud{static_cast<float>(middle_px.y), {}, {}, static_cast<float>(opacity), 0, {}};
+  Cloud cloud{static_cast<float>(centre_px.y), {}, {}, static_cast<float>(opacity), 0, {}};
   const auto add = [&](double u, double rise_px, double radius_px, double stretch) {
-    cloud.heads.push_back({glm::vec2(glm::dvec2(middle_px.x + 0.5 * width_px * u, middle_px.y - rise_px)),
-                           glm::vec2(glm::dvec2(radius_px * stretch, radius_px))});
+    cloud.heads.push_back(
+        {glm::vec2(glm::dvec2(centre_px.x + 0.5 * width_px * u, centre_px.y - rise_px)),
+         glm::vec2(glm::dvec2(radius_px * stretch, radius_px))});
   };
   const int towers = 3 + static_cast<int>(3.0 * draws.uniform());
   const double lead = draws.between(-0.35, 0.35);
@@ -234,38 +262,49 @@ Cloud make_heap(const SkyParameters& p, Draws& draws, glm::dvec2 middle_px, doub
       const double s = (k + 0.5) / heads;
       const double radius = height_px * (0.30 - 0.16 * s) * draws.between(0.75, 1.25);
       const double aside = draws.between(-0.22, 0.22) * (1.0 - 0.5 * s);
-      add(u + aside, std::max(0.0, top * s * height_px - 0.2 * radius), radius, draws.between(1.05, 1.45));
+      add(u + aside, std::max(0.0, top * s * height_px - 0.2 * radius), radius,
+          draws.between(1.05, 1.45));
     }
   }
-  // What joins them along the base.
+  // Joins them along the base.
   for (int k = 0; k < 5; ++k) {
     const double u = -0.8 + 0.4 * k + draws.between(-0.1, 0.1);
     const double radius = height_px * draws.between(0.12, 0.20);
     add(u, 0.35 * radius, radius, draws.between(1.8, 2.6));
   }
-  std::stable_sort(cloud.heads.begin(), cloud.heads.end(), [](const CloudHead& a, const CloudHead& b) { return a.centre.y < b.centre.y; });
-  close_cloud(p, cloud, middle_px.y, width_px, height_px);
+  std::stable_sort(cloud.heads.begin(), cloud.heads.end(),
+                   [](const CloudHead& a, const CloudHead& b) { return a.centre.y < b.centre.y; });
+  close_cloud(p, cloud, centre_px.y, width_px, height_px);
   return cloud;
 }
 
-// Heaps of fair weather over all of the sky, in streets, ever smaller and closer towards the horizon.
+// Fair-weather heaps all over the sky, in rows, smaller and closer towards the horizon.
 void add_cumulus(std::vector<Cloud>& clouds, const SkyParameters& p, const SkyLook& look) {
   const double scale_px = cloud_scale_px(p);
-  const Streets streets{
-      .number = 11, .spread = 1.7, .aside = 0.35, .share = std::nullopt, .first = {0.03, 0.8, 1.4}, .last = 0.60, .step = {1.4, 2.0}};
-  along_streets(p, look, streets, [&](Draws& draws, double elevation, double base_px, double street_px) {
-    const double aside = draws.between(-0.6, 0.6);
-    const double x_px = street_px + scale_px * (0.2 + elevation) * aside;
-    const double width_px = scale_px * look.size * size_at(elevation) * draws.between(0.45, 1.05);
-    const double tall = draws.between(0.26, 0.52) * (p.winter ? 0.6 : 1.0);
-    const double chance = draws.uniform();
-    const double wanted = (p.winter ? 0.42 : 0.62) * look.amount + 0.3 * (p.clouds - 1.0);
-    if (chance > wanted || x_px < -width_px || x_px > p.picture_size.x + width_px) return;
-    clouds.push_back(make_heap(p, draws, {x_px, base_px}, width_px, tall, clearness(elevation)));
-  });
+  const Streets streets{.number = 11,
+                        .spread = 1.7,
+                        .aside = 0.35,
+                        .share = std::nullopt,
+                        .first = {0.03, 0.8, 1.4},
+                        .last = 0.60,
+                        .step = {1.4, 2.0}};
+  along_streets(
+      p, look, streets, [&](Draws& draws, double elevation, double base_px, double street_px) {
+        const double aside = draws.between(-0.6, 0.6);
+        const double x_px = street_px + scale_px * (0.2 + elevation) * aside;
+        const double width_px =
+            scale_px * look.size * size_at(elevation) * draws.between(0.45, 1.05);
+        const double tall = draws.between(0.26, 0.52) * (p.winter ? 0.6 : 1.0);
+        const double chance = draws.uniform();
+        const double wanted = (p.winter ? 0.42 : 0.62) * look.amount + 0.3 * (p.clouds - 1.0);
+        if (chance > wanted || x_px < -width_px || x_px > p.picture_size.x + width_px) return;
+        clouds.push_back(
+            make_heap(p, draws, {x_px, base_px}, width_px, tall, clearness(elevation)));
+      });
 }
 
-// Long level bars before a low sun, lit from below, in sheaves: the lower, the thinner and closer.
+// Long level bars in front of a low sun, lit from below, in bundles: the lower, the thinner and
+// closer.
 void add_bars(std::vector<Cloud>& clouds, const SkyParameters& p, const SkyLook& look) {
   const double scale_px = cloud_scale_px(p);
   const std::uint64_t seed = stream_seed(p.seed, Stream::cloud_banks, 13);
@@ -274,16 +313,23 @@ void add_bars(std::vector<Cloud>& clouds, const SkyParameters& p, const SkyLook&
   for (double elevation = 0.025; elevation < 0.66; elevation *= 1.34) {
     for (std::int64_t k = -1; k <= last; ++k) {
       Draws draws(seed, cell++);
-      const double middle = (static_cast<double>(k) + draws.uniform()) * 2.2 * scale_px;
+      const double centre = (static_cast<double>(k) + draws.uniform()) * 2.2 * scale_px;
       const double height = elevation * draws.between(0.85, 1.2);
       const double half_px = scale_px * (0.35 + 1.5 * height) * draws.between(0.7, 1.6);
       const double thick_px = scale_px * (0.012 + 0.10 * height) * draws.between(0.6, 1.3);
-      // Bars come from the vanishing point as all rows do: a little aslant, the more the farther aside.
-      const double tilt = std::clamp((middle - look.vanishing_px.x) / p.picture_size.x, -0.8, 0.8) * -0.10;
+      // Like all rows, bars start at the vanishing point: slightly inclined, more so towards the
+      // sides.
+      const double tilt =
+          std::clamp((centre - look.vanishing_px.x) / p.picture_size.x, -0.8, 0.8) * -0.10;
       const double chance = draws.uniform();
       if (chance > 0.62 * look.amount + 0.4 * (p.clouds - 1.0)) continue;
       const double base_px = p.horizon_px * (1.0 - height);
-      Cloud bar{static_cast<float>(base_px + std::abs(tilt) * half_px), {}, {}, static_cast<float>(0.9 * clearness(height)), 0, {}};
+      Cloud bar{static_cast<float>(base_px + std::abs(tilt) * half_px),
+                {},
+                {},
+                static_cast<float>(0.9 * clearness(height)),
+                0,
+                {}};
       const int heads = 12 + static_cast<int>(10.0 * draws.uniform());
       for (int h = 0; h < heads; ++h) {
         const double u = -1.0 + 2.0 * (h + draws.uniform()) / heads;
@@ -291,10 +337,13 @@ void add_bars(std::vector<Cloud>& clouds, const SkyParameters& p, const SkyLook&
         const double radius = thick_px * (0.30 + 0.70 * swell) * draws.between(0.6, 1.2);
         const double lift = draws.between(0.3, 1.2) * radius;
         const double stretch = draws.between(3.0, 7.0);
-        bar.heads.push_back({glm::vec2(glm::dvec2(middle + half_px * u, base_px + tilt * half_px * u - lift)),
-                             glm::vec2(glm::dvec2(radius * stretch, radius))});
+        bar.heads.push_back(
+            {glm::vec2(glm::dvec2(centre + half_px * u, base_px + tilt * half_px * u - lift)),
+             glm::vec2(glm::dvec2(radius * stretch, radius))});
       }
-      std::stable_sort(bar.heads.begin(), bar.heads.end(), [](const CloudHead& a, const CloudHead& b) { return a.centre.y < b.centre.y; });
+      std::stable_sort(
+          bar.heads.begin(), bar.heads.end(),
+          [](const CloudHead& a, const CloudHead& b) { return a.centre.y < b.centre.y; });
       close_cloud(p, bar, base_px, 2.0 * half_px, 2.0 * thick_px);
       bar.underlit = 1.0F;
       clouds.push_back(bar);
@@ -304,32 +353,38 @@ void add_bars(std::vector<Cloud>& clouds, const SkyParameters& p, const SkyLook&
 
 }  // namespace
 
-// Widths of the picture: where streaks come from, beside its left edge, and how much farther out the farther from the middle it is drawn.
+// In widths of the picture: the origin of streaks, beyond its left edge, and how much farther out
+// it is drawn the farther it is from the centre.
 constexpr glm::dvec2 streaks_beside{-0.10, 1.2};
 
-double cloud_scale_px(const SkyParameters& p) { return std::min(p.horizon_px, 0.09 * p.picture_size.x); }
+double cloud_scale_px(const SkyParameters& p) {
+  return std::min(p.horizon_px, 0.09 * p.picture_size.x);
+}
 
 SkyKind find_sky_kind(std::string_view name) {
-  constexpr std::array<std::pair<std::string_view, SkyKind>, 8> names = {{{"any", SkyKind::any},
-                                                                          {"fair", SkyKind::fair},
-                                                                          {"rows", SkyKind::rows},
-                                                                          {"streaks", SkyKind::streaks},
-                                                                          {"banks", SkyKind::banks},
-                                                                          {"cumulus", SkyKind::cumulus},
-                                                                          {"front", SkyKind::front},
-                                                                          {"evening", SkyKind::evening}}};
+  constexpr std::array<std::pair<std::string_view, SkyKind>, 8> names = {
+      {{"any", SkyKind::any},
+       {"fair", SkyKind::fair},
+       {"rows", SkyKind::rows},
+       {"streaks", SkyKind::streaks},
+       {"banks", SkyKind::banks},
+       {"cumulus", SkyKind::cumulus},
+       {"front", SkyKind::front},
+       {"evening", SkyKind::evening}}};
   for (const auto& [known, kind] : names)
     if (known == name) return kind;
   throw Error(ErrorKind::input, "sky",
-              "there is no kind of sky called \"" + std::string(name) +
-                  "\"; there are any, fair, rows, streaks, banks, cumulus, front and evening");
+              "unknown kind of sky \"" + std::string(name) +
+                  "\"; allowed: any, fair, rows, streaks, banks, cumulus, front and evening");
 }
 
 SkyLook look_of_sky(const SkyParameters& p) {
   Draws draws(stream_seed(p.seed, Stream::sky_kind), 0);
-  constexpr std::array<SkyKind, 4> kinds = {SkyKind::fair, SkyKind::rows, SkyKind::streaks, SkyKind::banks};
+  constexpr std::array<SkyKind, 4> kinds = {SkyKind::fair, SkyKind::rows, SkyKind::streaks,
+                                            SkyKind::banks};
   SkyLook look;
-  const SkyKind drawn = kinds[std::min<std::size_t>(3, static_cast<std::size_t>(4.0 * draws.uniform()))];
+  const SkyKind drawn =
+      kinds[std::min<std::size_t>(3, static_cast<std::size_t>(4.0 * draws.uniform()))];
   look.kind = p.kind == SkyKind::any ? drawn : p.kind;
   look.amount = draws.between(0.65, 1.05);
   look.size = draws.between(0.78, 1.10);
@@ -340,10 +395,12 @@ SkyLook look_of_sky(const SkyParameters& p) {
   look.veils = look.kind == SkyKind::streaks ? draws.between(0.85, 1.15) : draws.between(0.35, 1.0);
   const double across = draws.between(0.12, 0.88);
   const double below = draws.between(1.10, 1.30);
-  // Streaks all lean one way, as wind draws them: what comes from a place within the picture fans out like rays over a low sky.
-  const double beside =
-      across < 0.5 ? streaks_beside.x - streaks_beside.y * (0.5 - across) : 1.0 - streaks_beside.x + streaks_beside.y * (across - 0.5);
-  look.vanishing_px = {(look.kind == SkyKind::streaks ? beside : across) * p.picture_size.x, below * p.horizon_px};
+  // All streaks lean in one direction, that of the wind: with an origin inside the picture they
+  // would fan out like rays over a low sky.
+  const double beside = across < 0.5 ? streaks_beside.x - streaks_beside.y * (0.5 - across)
+                                     : 1.0 - streaks_beside.x + streaks_beside.y * (across - 0.5);
+  look.vanishing_px = {(look.kind == SkyKind::streaks ? beside : across) * p.picture_size.x,
+                       below * p.horizon_px};
   return look;
 }
 
@@ -375,7 +432,8 @@ std::vector<Cloud> make_clouds(const SkyParameters& p) {
       add_bands(clouds, p, look, fair_bands);
       break;
   }
-  std::stable_sort(clouds.begin(), clouds.end(), [](const Cloud& a, const Cloud& b) { return a.base_px > b.base_px; });
+  std::stable_sort(clouds.begin(), clouds.end(),
+                   [](const Cloud& a, const Cloud& b) { return a.base_px > b.base_px; });
   return clouds;
 }
 

@@ -13,17 +13,21 @@
 namespace belvedere {
 namespace {
 
-constexpr double open_tone = 0.6;       // of level ground in the sun: here a ramp has the ground's colour
-constexpr double most_change = 2.5;     // of lightness, up or down: darker or lighter than that is no paint any more
-constexpr int collar_cells = 32;        // from a window's edge to where its colours are its own, as its other values
+constexpr double open_tone =
+    0.6;  // tone of level ground in the sun: here a ramp has the ground's colour
+constexpr double max_change =
+    2.5;  // max factor on lightness, up or down: beyond it the result is no longer a paint colour
+constexpr int collar_cells =
+    32;  // distance from a window's edge to where its own colours apply fully
 constexpr int lightness_samples = 192;  // across and down
 
-// Sums of colours, each as much as it is known.
+// Weighted sums of colours; the weight is how well each is known.
 struct Mean {
   glm::vec4 sum{0.F};  // colour times weight, 0…255; weight
   void add(const GroundColour& colour, float weight) {
     weight *= static_cast<float>(colour.a) / 255.F;
-    sum += weight * glm::vec4(static_cast<float>(colour.r), static_cast<float>(colour.g), static_cast<float>(colour.b), 1.F);
+    sum += weight * glm::vec4(static_cast<float>(colour.r), static_cast<float>(colour.g),
+                              static_cast<float>(colour.b), 1.F);
   }
   glm::vec3 colour() const { return sum.w > 0.F ? glm::vec3(sum) / sum.w : glm::vec3(0.F); }
 };
@@ -35,8 +39,10 @@ Grid<GroundColour> halved(const Grid<GroundColour>& fine) {
       Mean mean;
       for (int k = 0; k < 4; ++k) mean.add(fine.clamped(2 * x + k % 2, 2 * y + k / 2), 0.25F);
       const glm::vec3 colour = mean.colour() + 0.5F;
-      out(x, y) = GroundColour(static_cast<std::uint8_t>(colour.r), static_cast<std::uint8_t>(colour.g),
-                               static_cast<std::uint8_t>(colour.b), static_cast<std::uint8_t>(255.F * mean.sum.w + 0.5F));
+      out(x, y) =
+          GroundColour(static_cast<std::uint8_t>(colour.r), static_cast<std::uint8_t>(colour.g),
+                       static_cast<std::uint8_t>(colour.b),
+                       static_cast<std::uint8_t>(255.F * mean.sum.w + 0.5F));
     }
   });
   return out;
@@ -45,11 +51,12 @@ Grid<GroundColour> halved(const Grid<GroundColour>& fine) {
 GroundTint::Ground make_ground(const TerrainModel& model, const PixelRect& part) {
   GroundTint::Ground ground{&model, part, {}};
   ground.means.push_back(model.land_cover->colours.cells);
-  while (std::max(ground.means.back().width(), ground.means.back().height()) > 1) ground.means.push_back(halved(ground.means.back()));
+  while (std::max(ground.means.back().width(), ground.means.back().height()) > 1)
+    ground.means.push_back(halved(ground.means.back()));
   return ground;
 }
 
-// Between four values of a level; places are cells of the finest.
+// Interpolates between four values of a level; positions are in cells of the finest.
 glm::vec4 sample(const Grid<GroundColour>& means, int level, glm::dvec2 cell) {
   const glm::dvec2 at = (cell + 0.5) / std::ldexp(1.0, level) - 0.5;
   const double x0 = std::floor(at.x);
@@ -66,35 +73,39 @@ glm::vec4 sample(const Grid<GroundColour>& means, int level, glm::dvec2 cell) {
   return {mean.colour() / 255.F, mean.sum.w};
 }
 
-// What lies here came from there, as its class does.
-glm::dvec2 origin_m(const TerrainModel& model, glm::dvec2 place_m) {
-  const glm::dvec2 seen = model.dem->transform.to_cell(place_m.x, place_m.y);
+// The origin of displaced ground, which also gives its class.
+glm::dvec2 origin_m(const TerrainModel& model, glm::dvec2 position_m) {
+  const glm::dvec2 seen = model.dem->transform.to_cell(position_m.x, position_m.y);
   const glm::dvec2 origin = origin_of(model, seen.x, seen.y);
   return model.dem->transform.to_crs(origin.x, origin.y);
 }
 
-glm::vec4 colour_of(const GroundTint::Ground& ground, glm::dvec2 place_m, double footprint_m) {
+glm::vec4 colour_of(const GroundTint::Ground& ground, glm::dvec2 position_m, double footprint_m) {
   const TerrainModel& model = *ground.model;
-  const glm::dvec2 place = origin_m(model, place_m);
+  const glm::dvec2 position = origin_m(model, position_m);
   const GeoTransform& transform = model.land_cover->colours.transform;
-  const glm::dvec2 cell = transform.to_cell(place.x, place.y);
+  const glm::dvec2 cell = transform.to_cell(position.x, position.y);
   const double cells = footprint_m / std::sqrt(transform.cell_x * transform.cell_y);
-  const double depth = std::clamp(exact::log2(std::max(cells, 1.0)), 0.0, static_cast<double>(ground.means.size() - 1));
+  const double depth = std::clamp(exact::log2(std::max(cells, 1.0)), 0.0,
+                                  static_cast<double>(ground.means.size() - 1));
   const int level = std::min(static_cast<int>(depth), static_cast<int>(ground.means.size()) - 2);
   if (level < 0) return sample(ground.means[0], 0, cell);
   const auto k = static_cast<std::size_t>(level);
-  return glm::mix(sample(ground.means[k], level, cell), sample(ground.means[k + 1], level + 1, cell), static_cast<float>(depth - level));
+  return glm::mix(sample(ground.means[k], level, cell),
+                  sample(ground.means[k + 1], level + 1, cell), static_cast<float>(depth - level));
 }
 
-// How far a window's own colours hold at a place: 0 at its edge and outside, 1 inside.
-float window_share(const GroundTint::Ground& ground, glm::dvec2 place_m) {
-  const glm::dvec2 cell = ground.model->dem->transform.to_cell(place_m.x, place_m.y);
+// Weight of a window's own colours at a position: 0 at its edge and outside, 1 inside.
+float window_share(const GroundTint::Ground& ground, glm::dvec2 position_m) {
+  const glm::dvec2 cell = ground.model->dem->transform.to_cell(position_m.x, position_m.y);
   const PixelRect& part = ground.part;
-  const double inside = std::min(std::min(cell.x - part.x0, part.x1 - 1 - cell.x), std::min(cell.y - part.y0, part.y1 - 1 - cell.y));
+  const double inside = std::min(std::min(cell.x - part.x0, part.x1 - 1 - cell.x),
+                                 std::min(cell.y - part.y0, part.y1 - 1 - cell.y));
   return static_cast<float>(smoothstep(inside / collar_cells));
 }
 
-// What makes the mean lightness of the colours that of the palette, over places spread evenly over the whole.
+// Factor that makes the mean lightness of the colours equal to the palette's, over evenly spread
+// positions.
 double mean_lightness(const TerrainModel& terrain, const Palette& palette) {
   const Raster<GroundColour>& colours = terrain.land_cover->colours;
   const int across = std::min(lightness_samples, colours.cells.width());
@@ -106,11 +117,12 @@ double mean_lightness(const TerrainModel& terrain, const Palette& palette) {
       const int x = static_cast<int>((2LL * i + 1) * colours.cells.width() / (2LL * across));
       const int y = static_cast<int>((2LL * j + 1) * colours.cells.height() / (2LL * down));
       const GroundColour& colour = colours.cells(x, y);
-      const glm::dvec2 place = colours.transform.to_crs(x, y);
-      const glm::dvec2 cell = terrain.dem->transform.to_cell(place.x, place.y);
-      const LandCoverClass id = terrain.land_cover->at(place.x, place.y);
+      const glm::dvec2 position = colours.transform.to_crs(x, y);
+      const glm::dvec2 cell = terrain.dem->transform.to_cell(position.x, position.y);
+      const LandCoverClass id = terrain.land_cover->at(position.x, position.y);
       if (colour.a == 0 || id == LandCoverClass::sky || id == LandCoverClass::water) continue;
-      const double altitude = terrain.dem->altitude_m.clamped(static_cast<int>(std::lround(cell.x)), static_cast<int>(std::lround(cell.y)));
+      const double altitude = terrain.dem->altitude_m.clamped(
+          static_cast<int>(std::lround(cell.x)), static_cast<int>(std::lround(cell.y)));
       painted += to_oklab(palette_colour(palette, id, altitude, open_tone)).x;
       own += to_oklab(glm::vec3(colour.r, colour.g, colour.b) / 255.F).x;
     }
@@ -119,52 +131,57 @@ double mean_lightness(const TerrainModel& terrain, const Palette& palette) {
 
 }  // namespace
 
-std::shared_ptr<const GroundTint> make_ground_tint(const TerrainModel& terrain, const Palette& palette, double share) {
+std::shared_ptr<const GroundTint> make_ground_tint(const TerrainModel& terrain,
+                                                   const Palette& palette, double share) {
   if (terrain.land_cover->colours.cells.empty() || !(share > 0.0)) return nullptr;
   GroundTint tint;
   tint.share = share;
   tint.lightness = mean_lightness(terrain, palette);
   tint.grounds.push_back(make_ground(terrain, {}));
   for (const TerrainWindow& window : terrain.windows)
-    if (!window.ground.land_cover->colours.cells.empty()) tint.grounds.push_back(make_ground(window.ground, window.part));
+    if (!window.ground.land_cover->colours.cells.empty())
+      tint.grounds.push_back(make_ground(window.ground, window.part));
   return std::make_shared<const GroundTint>(std::move(tint));
 }
 
-glm::vec4 ground_colour_at(const GroundTint& tint, glm::dvec2 place_m, double footprint_m) {
-  glm::vec4 colour = colour_of(tint.grounds.front(), place_m, footprint_m);
+glm::vec4 ground_colour_at(const GroundTint& tint, glm::dvec2 position_m, double footprint_m) {
+  glm::vec4 colour = colour_of(tint.grounds.front(), position_m, footprint_m);
   for (std::size_t k = 1; k < tint.grounds.size(); ++k) {
-    const float share = window_share(tint.grounds[k], place_m);
-    if (share > 0.F) colour = glm::mix(colour, colour_of(tint.grounds[k], place_m, footprint_m), share);
+    const float share = window_share(tint.grounds[k], position_m);
+    if (share > 0.F)
+      colour = glm::mix(colour, colour_of(tint.grounds[k], position_m, footprint_m), share);
   }
   return colour;
 }
 
-float lake_depth_at(const GroundTint& tint, glm::dvec2 place_m) {
-  // The finest ground that holds the place: where a window begins it has the depths of the ground around it.
+float lake_depth_at(const GroundTint& tint, glm::dvec2 position_m) {
+  // The finest ground that contains the position. Where a window begins it has the depths of the
+  // ground around it.
   std::size_t k = tint.grounds.size() - 1;
-  while (k > 0 && !(window_share(tint.grounds[k], place_m) > 0.F)) --k;
+  while (k > 0 && !(window_share(tint.grounds[k], position_m) > 0.F)) --k;
   const TerrainModel& model = *tint.grounds[k].model;
-  const glm::dvec2 origin = origin_m(model, place_m);
+  const glm::dvec2 origin = origin_m(model, position_m);
   return model.land_cover->relief.depth_at(origin.x, origin.y);
 }
 
 glm::vec3 TintShift::over(glm::vec3 ramp) const {
   if (!(share > 0.F)) return ramp;
   const glm::dvec3 lab = to_oklab(ramp);
-  const glm::dvec2 hue = factor * glm::dvec2(lab.y, lab.z) + chroma * std::min(lab.x / reference_l, 1.0);
+  const glm::dvec2 hue =
+      factor * glm::dvec2(lab.y, lab.z) + chroma * std::min(lab.x / reference_l, 1.0);
   return glm::mix(ramp, glm::clamp(from_oklab({factor * lab.x, hue.x, hue.y}), 0.F, 1.F), share);
 }
 
-TintShift tint_shift(const GroundTint& tint, const Palette& palette, LandCoverClass id, double altitude_m, glm::dvec3 place_m,
-                     double footprint_m) {
-  const glm::vec4 colour = ground_colour_at(tint, glm::dvec2(place_m), footprint_m);
+TintShift tint_shift(const GroundTint& tint, const Palette& palette, LandCoverClass id,
+                     double altitude_m, glm::dvec3 position_m, double footprint_m) {
+  const glm::vec4 colour = ground_colour_at(tint, glm::dvec2(position_m), footprint_m);
   TintShift shift;
   shift.share = colour.w * static_cast<float>(tint.share);
   if (!(shift.share > 0.F)) return shift;
   const glm::dvec3 reference = to_oklab(palette_colour(palette, id, altitude_m, open_tone));
   const glm::dvec3 own = tint.lightness * to_oklab(glm::vec3(colour));
   shift.reference_l = std::max(reference.x, 0.01);
-  shift.factor = std::clamp(own.x / shift.reference_l, 1.0 / most_change, most_change);
+  shift.factor = std::clamp(own.x / shift.reference_l, 1.0 / max_change, max_change);
   shift.chroma = glm::dvec2(own.y, own.z) - shift.factor * glm::dvec2(reference.y, reference.z);
   return shift;
 }

@@ -8,24 +8,27 @@
 namespace belvedere {
 namespace {
 
-constexpr int halvings = 4;  // of the step in which a class ends
+constexpr int halvings = 4;  // bisections of the step in which a class ends
 
-// The sheet's pixel that lies so far from another.
+// The sheet's pixel at an offset from another.
 glm::ivec2 pixel_at(glm::ivec2 from_px, glm::vec2 offset) {
-  return from_px + glm::ivec2(static_cast<int>(std::floor(offset.x + 0.5F)), static_cast<int>(std::floor(offset.y + 0.5F)));
+  return from_px + glm::ivec2(static_cast<int>(std::floor(offset.x + 0.5F)),
+                              static_cast<int>(std::floor(offset.y + 0.5F)));
 }
 
-// Where in its last step, number `k` from `from` to `to`, a walk left its class.
-void find_end(SlopeWalk& walk, const WideView& wide, const SlopeStart& start, LandCoverClass over, int k, glm::vec2 from, glm::vec2 to) {
+// Where a walk left its class within its last step, number `k` from `from` to `to`.
+void find_end(SlopeWalk& walk, const WideView& wide, const SlopeStart& start, LandCoverClass over,
+              int k, glm::vec2 from, glm::vec2 to) {
   const float depth_m = wide.seen.depth_m[walk.end];
   float inside = 0.0F;
   float outside = 1.0F;
   for (int n = 0; n < halvings; ++n) {
-    const float middle = 0.5F * (inside + outside);
-    const glm::ivec2 px = pixel_at(start.sheet_px, from + middle * (to - from));
+    const float centre = 0.5F * (inside + outside);
+    const glm::ivec2 px = pixel_at(start.sheet_px, from + centre * (to - from));
     const std::size_t here = wide.index(px.x, px.y);
-    const bool left = wide.seen.land_cover[here] != over && same_surface(depth_m, wide.seen.depth_m[here]);
-    (left ? outside : inside) = middle;
+    const bool left =
+        wide.seen.land_cover[here] != over && same_surface(depth_m, wide.seen.depth_m[here]);
+    (left ? outside : inside) = centre;
     if (left) walk.end = here;
   }
   walk.left_after = static_cast<float>(k - 1) + outside;
@@ -34,7 +37,8 @@ void find_end(SlopeWalk& walk, const WideView& wide, const SlopeStart& start, La
 
 }  // namespace
 
-SlopeWalk walk_slope(const WideView& wide, const Grid<float>& noise, const SlopeStart& start, LandCoverClass over, const SlopeSteps& way) {
+SlopeWalk walk_slope(const WideView& wide, const Grid<float>& noise, const SlopeStart& start,
+                     LandCoverClass over, const SlopeSteps& way) {
   const GuidanceBuffers& g = wide.seen;
   SlopeWalk result;
   glm::vec2 offset(0.0F);
@@ -63,7 +67,7 @@ SlopeWalk walk_slope(const WideView& wide, const Grid<float>& noise, const Slope
 
 glm::vec3 place_left(const WideView& wide, const SlopeStart& start, const SlopeWalk& walk) {
   const GuidanceBuffers& g = wide.seen;
-  // In wide pixels of the sheet, from the middle of the first.
+  // In wide pixels of the sheet, from the centre of the first.
   const auto factor = static_cast<float>(wide.factor);
   const glm::vec2 at = (glm::vec2(start.sheet_px) + walk.end_px + 0.5F) / factor - 0.5F;
   const glm::vec2 first = glm::floor(at);
@@ -75,7 +79,8 @@ glm::vec3 place_left(const WideView& wide, const SlopeStart& start, const SlopeW
       const glm::ivec2 px = (glm::ivec2(first) + glm::ivec2(u, v)) * wide.factor;
       const std::size_t here = wide.index(px.x, px.y);
       if (!same_surface(g.depth_m[walk.end], g.depth_m[here])) continue;
-      const float weight = (u == 0 ? 1.0F - share.x : share.x) * (v == 0 ? 1.0F - share.y : share.y);
+      const float weight =
+          (u == 0 ? 1.0F - share.x : share.x) * (v == 0 ? 1.0F - share.y : share.y);
       sum += weight * g.position_m[here];
       weights += weight;
     }

@@ -8,26 +8,28 @@
 
 namespace belvedere {
 
-// How snow lies at a place: wind gives it swells and drifts that no DEM of 30 m holds.
+// The shape of snow at a position: wind forms swells and drifts that a 30 m DEM does not contain.
 struct SnowForm {
-  glm::vec2 slope{0.0F};  // what they add to the ground's rise to the east and to the north, m a metre
+  glm::vec2 slope{0.0F};  // added to the slope of the ground to the east and to the north, m per m
   float height = 0.0F;    // of the large swells: about -1.5 in a hollow … 1 on a crest
 };
 
-// Swells and drifts of a picture's snow, about as large on the sheet at every distance, and yet lying on the ground. Each is the lower of
-// two smooth forms, one drawn out across the wind: so flanks are broad planes and crests are sharp. Drifts gather in the hollows of swells,
-// and some places lie calm. A pure function of seed, wind and place; it remembers lattice values, so it is not to be shared between
+// Swells and drifts of a picture's snow, of about the same size on the sheet at every distance, yet
+// fixed to the ground. Each is the lower of two smooth forms, one stretched across the wind; this
+// gives broad flanks and sharp crests. Drifts gather in the hollows of swells, and some areas are
+// calm. A pure function of seed, wind and position. It caches lattice values: do not share between
 // threads.
 class SnowRelief {
  public:
-  // `wind`: the way it blows, unit, to the east and to the north.
+  // `wind`: the direction in which it blows, unit, to the east and to the north.
   SnowRelief(std::uint64_t seed, glm::dvec2 wind);
   ~SnowRelief();
   SnowRelief(const SnowRelief&) = delete;
   SnowRelief& operator=(const SnowRelief&) = delete;
 
-  // `metres_per_unit`: ground that a unit of the sheet (0.5 mm) shows, > 0; `pixels_per_unit`: what would be but a pixel is left out.
-  SnowForm at(glm::dvec2 place_m, double metres_per_unit, double pixels_per_unit);
+  // `metres_per_unit`: ground in a unit of the sheet (0.5 mm), > 0; `pixels_per_unit`: forms of
+  // about a pixel are left out.
+  SnowForm at(glm::dvec2 position_m, double metres_per_unit, double pixels_per_unit);
 
  private:
   class Field;
@@ -37,8 +39,8 @@ class SnowRelief {
     glm::vec2 slope;
     float height;
   };
-  Sample layer_at(int size, int power, glm::dvec2 place_m);
-  Sample size_at(int size, glm::dvec2 place_m, double metres_per_unit);
+  Sample layer_at(int size, int power, glm::dvec2 position_m);
+  Sample size_at(int size, glm::dvec2 position_m, double metres_per_unit);
 
   std::uint64_t seed_;
   glm::dvec2 wind_;

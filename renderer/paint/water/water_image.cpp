@@ -19,32 +19,40 @@ namespace {
 
 constexpr double water_index = 1.333;  // of refraction, at 20 °C
 constexpr double painters_power = 0.4;
-constexpr float land_share = 1.5F;           // how much stronger than the sky's the image of land is …
-constexpr float max_mirrored_share = 0.88F;  // … up to here
-constexpr double wave_slope_rad = 0.06;      // deviation of what waves turn rays by
-constexpr double longest_units = 9.0;        // deviation to which images are drawn out at most …
-constexpr double shortest_units = 0.45;      // … and at least
-constexpr double reach_sigmas = 2.0;         // of the drawing's bell
-constexpr int looks = 12;                    // up and down each
-constexpr double zenith_rise = 0.80;         // sine of the angle from which up the sky has the colour of the picture's top
+constexpr float land_share = 1.5F;  // how much stronger the image of land is than the sky's …
+constexpr float max_mirrored_share = 0.88F;  // … up to this limit
+constexpr double wave_slope_rad = 0.06;      // deviation of the angle by which waves turn rays
+constexpr double longest_units = 9.0;        // max deviation of the stretch of images …
+constexpr double shortest_units = 0.45;      // … and min
+constexpr double reach_sigmas = 2.0;         // extent of the Gaussian kernel
+constexpr int looks = 12;                    // samples up and down, each
+constexpr double zenith_rise =
+    0.80;  // sine of the elevation from which the sky has the colour of the picture's top
 constexpr glm::vec3 sky_in_water{0.80F, 0.88F, 0.93F};
-constexpr glm::vec3 in_water{0.66F, 0.76F, 0.86F};  // images are darker and bluer than what they are of
-constexpr float wrap = 0.22F;                       // as ToneParameters::wrap
-constexpr float seen_sky = 0.85F;                   // part of the sky that open slopes see, to its power of 1.3
+constexpr glm::vec3 in_water{0.66F, 0.76F,
+                             0.86F};  // reflections are darker and bluer than their source
+constexpr float wrap = 0.22F;         // as ToneParameters::wrap
+constexpr float seen_sky = 0.85F;     // share of the sky that open slopes see, to its power of 1.3
 
-// Light on a mirrored place: of the large forms alone, which is what waves leave of it.
+// Light on a reflected position: of the large forms only, because waves hide the rest.
 double tone_of(const MirrorSight& s, std::size_t i, const WaterImageParameters& p) {
   const glm::vec3 normal = s.normal[i];
   const float towards = glm::dot(normal, glm::vec3(p.sun_direction));
   const float facing = std::clamp((towards + wrap) / (1.0F + wrap), 0.0F, 1.0F);
-  const double sun = p.light.sun * static_cast<double>(facing * (1.0F - static_cast<float>(p.light.shadow_depth) * (1.0F - s.shadow[i])));
+  const double sun =
+      p.light.sun * static_cast<double>(facing * (1.0F - static_cast<float>(p.light.shadow_depth) *
+                                                             (1.0F - s.shadow[i])));
   const double sky = p.light.sky * static_cast<double>(seen_sky * (0.6F + 0.4F * normal.z));
   const ClassTone& tone = class_info(s.land_cover[i]).tone;
-  const double value = (sun + sky - static_cast<double>(raw_black)) / static_cast<double>(raw_range) + static_cast<double>(tone.lift);
-  return std::clamp(middle_tone + (value - middle_tone) * static_cast<double>(tone.contrast) * p.light.contrast, 0.0, 1.0);
+  const double value =
+      (sun + sky - static_cast<double>(raw_black)) / static_cast<double>(raw_range) +
+      static_cast<double>(tone.lift);
+  return std::clamp(
+      middle_tone + (value - middle_tone) * static_cast<double>(tone.contrast) * p.light.contrast,
+      0.0, 1.0);
 }
 
-// What one mirrored ray brings home.
+// The result of one mirrored ray.
 struct MirrorRay {
   glm::vec3 colour{0.0F};
   float share = 0.0F;
@@ -52,31 +60,39 @@ struct MirrorRay {
   glm::vec3 sky{0.0F};
 };
 
-MirrorRay image_at(const MirrorSight& s, std::size_t i, float altitude_m, const Palette& palette, const WaterImageParameters& p) {
+MirrorRay image_at(const MirrorSight& s, std::size_t i, float altitude_m, const Palette& palette,
+                   const WaterImageParameters& p) {
   MirrorRay image;
   const double mirrored = painted_mirror(static_cast<double>(s.cosine[i])) * p.strength;
-  image.sky = sky_gradient(palette, 1.0 - unit(static_cast<double>(s.rise[i]) / zenith_rise)) * sky_in_water;
+  image.sky = sky_gradient(palette, 1.0 - unit(static_cast<double>(s.rise[i]) / zenith_rise)) *
+              sky_in_water;
   image.colour = image.sky;
   image.share = static_cast<float>(std::min(mirrored, static_cast<double>(max_mirrored_share)));
   if (std::isinf(s.path_m[i])) return image;
   image.land = 1.0F;
   image.share = std::min(land_share * static_cast<float>(mirrored), max_mirrored_share);
-  image.colour = palette_colour(palette, s.land_cover[i], s.altitude_m[i], tone_of(s, i, p)) * in_water;
-  // Air of the whole way, of which that up to the water will be laid over all of it.
+  image.colour =
+      palette_colour(palette, s.land_cover[i], s.altitude_m[i], tone_of(s, i, p)) * in_water;
+  // Air along the whole path; the part up to the water is applied later to everything.
   const double before_m = s.distance_m[i];
   const double whole_m = before_m + static_cast<double>(s.path_m[i]);
   const float before = air_share(p.air, palette, before_m, altitude_m, 0.0F, 0.0F);
   const float whole = air_share(p.air, palette, whole_m, altitude_m, 0.0F, 0.0F);
-  const float beyond = before < 1.0F ? std::clamp((whole - before) / (1.0F - before), 0.0F, 1.0F) : 0.0F;
+  const float beyond =
+      before < 1.0F ? std::clamp((whole - before) / (1.0F - before), 0.0F, 1.0F) : 0.0F;
   image.colour = glm::mix(image.colour, air_colour(p.air, palette, whole_m), beyond);
   return image;
 }
 
-// Deviation of a drawn-out image, px: waves turn the ray, and what is farther from the water wanders the more.
+// Deviation of a stretched image, px: waves turn the ray, so what is farther from the water shifts
+// more.
 double drawn_px(float distance_m, float path_m, float footprint_m, const WaterImageParameters& p) {
-  const double share = std::isinf(path_m) ? 1.0 : static_cast<double>(path_m / (path_m + distance_m));
-  const double pixels_per_rad = footprint_m > 0.0F ? static_cast<double>(distance_m / footprint_m) : 0.0;
-  return std::clamp(wave_slope_rad * share * pixels_per_rad, shortest_units * p.pixels_per_unit, longest_units * p.pixels_per_unit);
+  const double share =
+      std::isinf(path_m) ? 1.0 : static_cast<double>(path_m / (path_m + distance_m));
+  const double pixels_per_rad =
+      footprint_m > 0.0F ? static_cast<double>(distance_m / footprint_m) : 0.0;
+  return std::clamp(wave_slope_rad * share * pixels_per_rad, shortest_units * p.pixels_per_unit,
+                    longest_units * p.pixels_per_unit);
 }
 
 }  // namespace
@@ -92,38 +108,48 @@ double water_fresnel(double cosine) {
 
 double painted_mirror(double cosine) { return exact::pow(water_fresnel(cosine), painters_power); }
 
-WaterImage paint_water_image(const MirrorSight& sight, PixelRect rect, const GuidanceBuffers& guidance, const Palette& palette,
+WaterImage paint_water_image(const MirrorSight& sight, PixelRect rect,
+                             const GuidanceBuffers& guidance, const Palette& palette,
                              const WaterImageParameters& p, PixelRect wanted) {
-  if (sight.width() != rect.width() || sight.height() != rect.height() || intersection(rect, wanted) != wanted)
-    throw Error(ErrorKind::bug, "images in water", "the mirrored rays are of other pixels");
+  if (sight.width() != rect.width() || sight.height() != rect.height() ||
+      intersection(rect, wanted) != wanted)
+    throw Error(ErrorKind::bug, "images in water",
+                "the mirrored rays cover other pixels than the image");
   const auto is_water = [&](int x, int y) {
-    return guidance.land_cover(rect.x0 + x, rect.y0 + y) == LandCoverClass::water && sight.cosine(x, y) > 0.0F;
+    return guidance.land_cover(rect.x0 + x, rect.y0 + y) == LandCoverClass::water &&
+           sight.cosine(x, y) > 0.0F;
   };
   Grid<MirrorRay> images(rect.width(), rect.height());
   parallel_rows(rect.height(), [&](int y) {
     for (int x = 0; x < rect.width(); ++x)
       if (is_water(x, y))
-        images(x, y) = image_at(sight, sight.cosine.index(x, y), guidance.altitude_m(rect.x0 + x, rect.y0 + y), palette, p);
+        images(x, y) = image_at(sight, sight.cosine.index(x, y),
+                                guidance.altitude_m(rect.x0 + x, rect.y0 + y), palette, p);
   });
-  WaterImage out{Grid<glm::vec3>(wanted.width(), wanted.height(), glm::vec3(0.0F)), Grid<float>(wanted.width(), wanted.height(), 0.0F),
-                 Grid<float>(wanted.width(), wanted.height(), 0.0F), Grid<glm::vec3>(wanted.width(), wanted.height(), glm::vec3(0.0F))};
+  WaterImage out{Grid<glm::vec3>(wanted.width(), wanted.height(), glm::vec3(0.0F)),
+                 Grid<float>(wanted.width(), wanted.height(), 0.0F),
+                 Grid<float>(wanted.width(), wanted.height(), 0.0F),
+                 Grid<glm::vec3>(wanted.width(), wanted.height(), glm::vec3(0.0F))};
   parallel_rows(wanted.height(), [&](int row) {
     const int y = wanted.y0 - rect.y0 + row;
     for (int column = 0; column < wanted.width(); ++column) {
       const int x = wanted.x0 - rect.x0 + column;
       if (!is_water(x, y)) continue;
       const std::size_t i = sight.cosine.index(x, y);
-      const double sigma = drawn_px(sight.distance_m[i], sight.path_m[i], guidance.footprint_m(rect.x0 + x, rect.y0 + y), p);
+      const double sigma = drawn_px(sight.distance_m[i], sight.path_m[i],
+                                    guidance.footprint_m(rect.x0 + x, rect.y0 + y), p);
       MirrorRay sum;
       float weights = 0.0F;
       int before = 0;
       for (int k = -looks; k <= looks; ++k) {
-        // Places by rounding: where a unit has few pixels several looks fall on one, which is asked once.
+        // Rounded positions: where a unit has few pixels several samples fall on one pixel, which
+        // is read once.
         const int step = static_cast<int>(std::lround(reach_sigmas * sigma * k / looks));
         if (k > -looks && step == before) continue;
         before = step;
         const double t = std::min(std::abs(step) / (reach_sigmas * sigma), 1.0);
-        if (!images.contains(x, y + step) || !is_water(x, y + step) || !same_surface(sight.distance_m(x, y + step), sight.distance_m[i]))
+        if (!images.contains(x, y + step) || !is_water(x, y + step) ||
+            !same_surface(sight.distance_m(x, y + step), sight.distance_m[i]))
           continue;
         const auto weight = static_cast<float>(square(1.0 - t * t));
         const float w = std::max(weight, 1e-3F);

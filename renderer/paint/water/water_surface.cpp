@@ -8,12 +8,13 @@ namespace belvedere {
 namespace {
 
 constexpr float deep_tone = 0.20F;   // of lakes in their ramp …
-constexpr float deep_share = 0.85F;  // … and how far the light's tone goes over to it
+constexpr float deep_share = 0.85F;  // … and how far they take this tone
 constexpr float deep_from_m = 7.0F;  // painted depth from which they are deep
 
 }  // namespace
 
-WaterSurface water_surface(const WaterSources& water, WaterNoises& noises, const WaterPixel& pixel) {
+WaterSurface water_surface(const WaterSources& water, WaterNoises& noises,
+                           const WaterPixel& pixel) {
   const GuidanceBuffers& g = water.guidance;
   const Palette& palette = water.palette;
   const std::size_t i = pixel.index;
@@ -22,32 +23,37 @@ WaterSurface water_surface(const WaterSources& water, WaterNoises& noises, const
   out.depth_m = ground.depth_m;
   if (is_frozen(palette, g.altitude_m[i])) out.frozen = ground.lake;
   if (pixel.image != nullptr) {
-    const float ruffled = noises.wind.ruffled(pixel.place_m, pixel.metres_per_unit, static_cast<float>(water.parameters.wind));
-    out.look =
-        water_look(g, palette, pixel.mirrored, i, pixel.share, pixel.streak, pixel.patches, {*pixel.image, pixel.image_index, ruffled});
+    const float ruffled = noises.wind.ruffled(pixel.position_m, pixel.metres_per_unit,
+                                              static_cast<float>(water.parameters.wind));
+    out.look = water_look(g, palette, pixel.mirrored, i, pixel.share, pixel.streak, pixel.patches,
+                          {*pixel.image, pixel.image_index, ruffled});
   } else {
     out.look = water_look(g, palette, pixel.mirrored, i, pixel.share, pixel.streak, pixel.patches);
     if (water.parameters.mirror == "none") out.look.image_share = 0.0F;
   }
-  // The line of paint along near banks stands for the bed that is not known.
-  if (water.tint != nullptr) out.bed = lake_bed(*water.tint, palette, g.altitude_m[i], pixel.place_m, g.footprint_m[i]);
+  // The painted line along near banks replaces the unknown bed.
+  if (water.tint != nullptr)
+    out.bed = lake_bed(*water.tint, palette, g.altitude_m[i], pixel.position_m, g.footprint_m[i]);
   if (out.bed.depth_m > 0.F) {
     out.look.shallow_share = 0.F;
   } else if (water.parameters.beds) {
     out.bed = lake_bed(palette, ground, pixel.metres_per_unit);
     if (out.bed.depth_m > 0.F) out.look.shallow_share *= 1.0F - ground.lake;
-    // Open lakes are dark by their depth, whatever light falls on them.
-    const float deep = ground.lake * smoothstep(0.0F, deep_from_m, palette.winter ? ground.depth_m : out.bed.depth_m);
+    // The darkness of open lakes depends on their depth, not on the light.
+    const float deep = ground.lake * smoothstep(0.0F, deep_from_m,
+                                                palette.winter ? ground.depth_m : out.bed.depth_m);
     out.look.tone_shift -= deep_share * deep * (g.tone[i] - deep_tone);
   }
   return out;
 }
 
-glm::vec3 frozen_over(const glm::vec3& colour, const WaterSources& water, WaterNoises& noises, const WaterPixel& pixel,
-                      const WaterSurface& surface, double light) {
+glm::vec3 frozen_over(const glm::vec3& colour, const WaterSources& water, WaterNoises& noises,
+                      const WaterPixel& pixel, const WaterSurface& surface, double light) {
   if (surface.frozen <= 0.0F) return colour;
   const double altitude = water.guidance.altitude_m[pixel.index];
-  return glm::mix(colour, noises.ice.colour(water.palette, altitude, light, pixel.place_m, surface.depth_m, pixel.metres_per_unit),
+  return glm::mix(colour,
+                  noises.ice.colour(water.palette, altitude, light, pixel.position_m,
+                                    surface.depth_m, pixel.metres_per_unit),
                   surface.frozen);
 }
 

@@ -20,36 +20,37 @@
 
 namespace belvedere {
 
-// Noises that water is painted with; one set a thread.
+// Noises of painted water; use one set per thread.
 struct WaterNoises {
   explicit WaterNoises(std::uint64_t seed) : wind(seed), ice(seed) {}
   WaterWind wind;
   LakeIce ice;
 };
 
-// What is known of all water of a picture.
+// Inputs common to all water of a picture.
 struct WaterSources {
   const GuidanceBuffers& guidance;
   const Palette& palette;
   const WaterParameters& parameters;
-  const GroundTint* tint = nullptr;  // colours of the ground's own; null: none
+  const GroundTint* tint = nullptr;  // the ground's own colours; null: none
 };
 
-// A pixel of it.
+// A pixel of water.
 struct WaterPixel {
   std::size_t index;          // in the buffers
-  glm::dvec3 place_m;         // in the scene's CRS
-  float metres_per_unit;      // of ground that a unit of the sheet shows
-  WaterGround::Place ground;  // what lies below it; of depth 0 where that is not known
+  glm::dvec3 position_m;      // in the scene's CRS
+  float metres_per_unit;      // ground in a unit of the sheet
+  WaterGround::Place ground;  // what lies below it; depth 0 where unknown
   const Mirrored& mirrored;
   float share;   // of water around, on the same surface
   float streak;  // noise, -1 … 1
   const Patches& patches;
-  const WaterImage* image = nullptr;  // what is mirrored; null: it is looked up in the pixel's column, unless nothing shall be mirrored
+  const WaterImage* image = nullptr;  // the reflection; null: it is looked up in the pixel's
+                                      // column, unless nothing shall be mirrored
   std::size_t image_index = 0;
 };
 
-// What a pixel of water is painted with.
+// The paint of a pixel of water.
 struct WaterSurface {
   WaterLook look;
   LakeBed bed;
@@ -58,8 +59,8 @@ struct WaterSurface {
 };
 WaterSurface water_surface(const WaterSources& water, WaterNoises& noises, const WaterPixel& pixel);
 
-// The ice of a frozen lake over a colour, in `light` as palettes take it.
-glm::vec3 frozen_over(const glm::vec3& colour, const WaterSources& water, WaterNoises& noises, const WaterPixel& pixel,
-                      const WaterSurface& surface, double light);
+// Lays the ice of a frozen lake over a colour; `light` as for palettes.
+glm::vec3 frozen_over(const glm::vec3& colour, const WaterSources& water, WaterNoises& noises,
+                      const WaterPixel& pixel, const WaterSurface& surface, double light);
 
 }  // namespace belvedere

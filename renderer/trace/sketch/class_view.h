@@ -8,9 +8,11 @@
 
 namespace belvedere {
 
-// What class each pixel of a picture shows, by one ray through its middle, and nothing else: to know what is in a picture before it is
-// made. Equals GuidanceBuffers::land_cover of one sample a pixel bit for bit. Of `terrain` it reads dem, generalized_m, came_from, goes_to
-// and land_cover; the others may be empty.
-Grid<LandCoverClass> trace_classes(const TerrainModel& terrain, const Tracer& tracer, const Camera& camera);
+// The class of each pixel of a picture, from one ray through its centre: to know what a picture
+// contains before it is made. Equals GuidanceBuffers::land_cover of one sample per pixel bit for
+// bit. Of `terrain` it reads dem, generalized_m, came_from, goes_to and land_cover; the others may
+// be empty.
+Grid<LandCoverClass> trace_classes(const TerrainModel& terrain, const Tracer& tracer,
+                                   const Camera& camera);
 
 }  // namespace belvedere

@@ -25,21 +25,28 @@ constexpr double air_m = 140000.0;  // distance over which the relief pales to t
 
 }  // namespace
 
-Grid<glm::vec3> make_relief_sketch(const Grid<float>& altitude_m, const GeoTransform& transform, const Grid<std::uint8_t>& marked,
-                                   const Deformation& deformation, const Tracer& tracer, const Camera& camera, glm::dvec3 sun_direction) {
-  const std::vector<glm::dvec2> samples = pixel_sample_places(4);
+Grid<glm::vec3> make_relief_sketch(const Grid<float>& altitude_m, const GeoTransform& transform,
+                                   const Grid<std::uint8_t>& marked, const Deformation& deformation,
+                                   const Tracer& tracer, const Camera& camera,
+                                   glm::dvec3 sun_direction) {
+  const std::vector<glm::dvec2> samples = pixel_sample_positions(4);
   const glm::dvec3 sun = glm::normalize(sun_direction);
   const auto colour = [&](const Hit& hit) {
     if (!hit.found) return sky;
     const glm::dvec2 slope = sample_gradient(altitude_m, transform, hit.column, hit.row);
-    const glm::dvec2 place = transform.to_crs(hit.column, hit.row);
-    const glm::dmat3 shape = deformation.shape_jacobian({place, sample_bilinear(altitude_m, hit.column, hit.row)});
-    glm::dvec3 normal = glm::normalize(glm::cross(shape * glm::dvec3(1.0, 0.0, slope.x), shape * glm::dvec3(0.0, 1.0, slope.y)));
+    const glm::dvec2 position = transform.to_crs(hit.column, hit.row);
+    const glm::dmat3 shape =
+        deformation.shape_jacobian({position, sample_bilinear(altitude_m, hit.column, hit.row)});
+    glm::dvec3 normal = glm::normalize(
+        glm::cross(shape * glm::dvec3(1.0, 0.0, slope.x), shape * glm::dvec3(0.0, 1.0, slope.y)));
     if (normal.z < 0.0) normal = -normal;
-    const auto light = static_cast<float>(std::clamp(0.15 + 0.85 * glm::dot(normal, sun), 0.0, 1.0));
+    const auto light =
+        static_cast<float>(std::clamp(0.15 + 0.85 * glm::dot(normal, sun), 0.0, 1.0));
     const bool mark =
-        !marked.empty() && marked.clamped(static_cast<int>(std::lround(hit.column)), static_cast<int>(std::lround(hit.row))) != 0;
-    const glm::vec3 land = mark ? glm::mix(mark_shade, mark_light, light) : glm::mix(land_shade, land_light, light);
+        !marked.empty() && marked.clamped(static_cast<int>(std::lround(hit.column)),
+                                          static_cast<int>(std::lround(hit.row))) != 0;
+    const glm::vec3 land =
+        mark ? glm::mix(mark_shade, mark_light, light) : glm::mix(land_shade, land_light, light);
     const auto air = static_cast<float>(0.8 * (1.0 - exact::exp(-hit.distance_m / air_m)));
     return glm::mix(land, sky, mark ? 0.5F * air : air);
   };

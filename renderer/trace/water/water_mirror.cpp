@@ -15,7 +15,8 @@
 namespace belvedere {
 namespace {
 
-constexpr double normal_step_m = 20.0;  // between the places whose bent neighbours tell how water is tilted
+constexpr double normal_step_m =
+    20.0;  // between the positions whose deformed neighbours give the tilt of the water
 
 struct MirrorTracing {
   const TerrainModel& terrain;
@@ -28,26 +29,31 @@ struct MirrorTracing {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr Ray no_ray{glm::dvec3(nan), glm::dvec3(nan)};
 
-// Undeformed place of a hit, at the altitude that is drawn there.
-glm::dvec3 place_of(const TerrainModel& ground, const Hit& hit) {
+// Undeformed position of a hit, at the altitude drawn there.
+glm::dvec3 position_of(const TerrainModel& ground, const Hit& hit) {
   return {ground.dem->transform.to_crs(hit.column, hit.row),
           static_cast<double>(sample_bilinear(ground.generalized_m, hit.column, hit.row))};
 }
 
 glm::vec3 light_normal(const TerrainModel& ground, const Hit& hit) {
-  const glm::dvec2 slope = sample_gradient(ground.shape_smooth_m, ground.dem->transform, hit.column, hit.row);
-  if (!ground.local) return glm::vec3(glm::normalize(glm::dvec3(-slope * ground.exaggeration, 1.0)));
-  const glm::dmat3 jacobian = ground.local->shape_jacobian(place_of(ground, hit));
-  const glm::dvec3 normal = glm::cross(jacobian * glm::dvec3(1.0, 0.0, slope.x), jacobian * glm::dvec3(0.0, 1.0, slope.y));
+  const glm::dvec2 slope =
+      sample_gradient(ground.shape_smooth_m, ground.dem->transform, hit.column, hit.row);
+  if (!ground.local)
+    return glm::vec3(glm::normalize(glm::dvec3(-slope * ground.exaggeration, 1.0)));
+  const glm::dmat3 jacobian = ground.local->shape_jacobian(position_of(ground, hit));
+  const glm::dvec3 normal = glm::cross(jacobian * glm::dvec3(1.0, 0.0, slope.x),
+                                       jacobian * glm::dvec3(0.0, 1.0, slope.y));
   return glm::vec3(glm::normalize(normal.z < 0.0 ? -normal : normal));
 }
 
-// Every pixel of a block is traced, so that a ray has the same neighbours in its bundle whatever region is asked for.
+// Every pixel of a block is traced, so that a ray has the same neighbours in its bundle whatever
+// region is requested.
 void trace_block(const MirrorTracing& t, glm::ivec2 corner, PixelRect region, MirrorSight& out) {
   std::array<Ray, trace_block_pixels> rays;
   std::array<Hit, trace_block_pixels> waters;
   for (int p = 0; p < trace_block_pixels; ++p)
-    rays[static_cast<std::size_t>(p)] = t.camera.ray(glm::dvec2(corner + block_pixel(p)) + glm::dvec2(0.5));
+    rays[static_cast<std::size_t>(p)] =
+        t.camera.ray(glm::dvec2(corner + block_pixel(p)) + glm::dvec2(0.5));
   t.tracer.intersect(rays, waters);
 
   std::array<double, trace_block_pixels> cosine{};
@@ -59,12 +65,13 @@ void trace_block(const MirrorTracing& t, glm::ivec2 corner, PixelRect region, Mi
     if (!water.found) continue;
     const TerrainModel& ground = ground_of(t.terrain, water.window);
     if (class_at(ground, water.column, water.row) != LandCoverClass::water) continue;
-    const glm::dvec3 normal = water_normal(t.deformation, place_of(ground, water));
+    const glm::dvec3 normal = water_normal(t.deformation, position_of(ground, water));
     const double facing = -glm::dot(rays[p].direction, normal);
     if (!(facing > 0.0)) continue;
     cosine[p] = facing;
-    mirrored[p] = {rays[p].origin + rays[p].direction * water.distance_m + normal * t.parameters.bias_m,
-                   rays[p].direction + 2.0 * facing * normal};
+    mirrored[p] = {
+        rays[p].origin + rays[p].direction * water.distance_m + normal * t.parameters.bias_m,
+        rays[p].direction + 2.0 * facing * normal};
   }
   t.tracer.intersect(mirrored, hits);
 
@@ -82,7 +89,9 @@ void trace_block(const MirrorTracing& t, glm::ivec2 corner, PixelRect region, Mi
   for (int k = 0; k < trace_block_pixels; ++k) {
     const auto p = static_cast<std::size_t>(k);
     const glm::ivec2 pixel = corner + block_pixel(k);
-    if (pixel.x < region.x0 || pixel.y < region.y0 || pixel.x >= region.x1 || pixel.y >= region.y1 || !(cosine[p] > 0.0)) continue;
+    if (pixel.x < region.x0 || pixel.y < region.y0 || pixel.x >= region.x1 ||
+        pixel.y >= region.y1 || !(cosine[p] > 0.0))
+      continue;
     const std::size_t o = out.cosine.index(pixel.x - region.x0, pixel.y - region.y0);
     out.cosine[o] = static_cast<float>(cosine[p]);
     out.distance_m[o] = static_cast<float>(waters[p].distance_m);
@@ -91,7 +100,8 @@ void trace_block(const MirrorTracing& t, glm::ivec2 corner, PixelRect region, Mi
     if (!hit.found) continue;
     const TerrainModel& ground = ground_of(t.terrain, hit.window);
     const LandCoverClass id = class_at(ground, hit.column, hit.row);
-    if (id == LandCoverClass::water) continue;  // the same water, where its cells are not quite level: it mirrors the sky
+    if (id == LandCoverClass::water)
+      continue;  // the same water, where its cells are not quite level: reflects the sky
     out.path_m[o] = static_cast<float>(hit.distance_m);
     out.land_cover[o] = id;
     out.altitude_m[o] = sample_bilinear(ground.dem->altitude_m, hit.column, hit.row);
@@ -102,22 +112,28 @@ void trace_block(const MirrorTracing& t, glm::ivec2 corner, PixelRect region, Mi
 
 }  // namespace
 
-glm::dvec3 water_normal(const Deformation& deformation, glm::dvec3 place) {
-  const auto moved = [&](double east, double north) { return deformation.point(place + glm::dvec3(east, north, 0.0)); };
-  const glm::dvec3 normal =
-      glm::cross(moved(normal_step_m, 0.0) - moved(-normal_step_m, 0.0), moved(0.0, normal_step_m) - moved(0.0, -normal_step_m));
+glm::dvec3 water_normal(const Deformation& deformation, glm::dvec3 position) {
+  const auto moved = [&](double east, double north) {
+    return deformation.point(position + glm::dvec3(east, north, 0.0));
+  };
+  const glm::dvec3 normal = glm::cross(moved(normal_step_m, 0.0) - moved(-normal_step_m, 0.0),
+                                       moved(0.0, normal_step_m) - moved(0.0, -normal_step_m));
   return glm::normalize(normal.z < 0.0 ? -normal : normal);
 }
 
-MirrorSight trace_mirror(const TerrainModel& terrain, const DeformedSurface& surface, const Deformation& deformation, const Tracer& tracer,
-                         const Camera& camera, const MirrorParameters& parameters, const Grid<std::uint8_t>& wanted, PixelRect region) {
+MirrorSight trace_mirror(const TerrainModel& terrain, const DeformedSurface& surface,
+                         const Deformation& deformation, const Tracer& tracer, const Camera& camera,
+                         const MirrorParameters& parameters, const Grid<std::uint8_t>& wanted,
+                         PixelRect region) {
   const int width = region.width();
   const int height = region.height();
-  if (wanted.width() != width || wanted.height() != height) throw Error(ErrorKind::bug, "mirrored rays", "mask and region differ in size");
+  if (wanted.width() != width || wanted.height() != height)
+    throw Error(ErrorKind::bug, "mirrored rays", "mask and region differ in size");
   if (surface.windows.size() != terrain.windows.size())
     throw Error(ErrorKind::bug, "mirrored rays", "surface and terrain differ in windows");
   MirrorSight out;
-  out.cosine = out.distance_m = out.rise = out.altitude_m = out.shadow = Grid<float>(width, height, 0.0F);
+  out.cosine = out.distance_m = out.rise = out.altitude_m = out.shadow =
+      Grid<float>(width, height, 0.0F);
   out.path_m = Grid<float>(width, height, std::numeric_limits<float>::infinity());
   out.land_cover = Grid<LandCoverClass>(width, height, LandCoverClass::sky);
   out.normal = Grid<glm::vec3>(width, height, glm::vec3(0.0F, 0.0F, 1.0F));
@@ -128,18 +144,21 @@ MirrorSight trace_mirror(const TerrainModel& terrain, const DeformedSurface& sur
   const int by0 = region.y0 / trace_block_px;
   const int across = (region.x1 + trace_block_px - 1) / trace_block_px - bx0;
   const int down = (region.y1 + trace_block_px - 1) / trace_block_px - by0;
-  parallel_tiles(across, down, std::max(parameters.tile_size / trace_block_px, 1), [&](PixelRect blocks) {
-    for (int y = blocks.y0; y < blocks.y1; ++y)
-      for (int x = blocks.x0; x < blocks.x1; ++x) {
-        const glm::ivec2 corner = glm::ivec2(bx0 + x, by0 + y) * trace_block_px;
-        const PixelRect held =
-            moved(intersection(region, {corner.x, corner.y, corner.x + trace_block_px, corner.y + trace_block_px}), -region.x0, -region.y0);
-        bool any = false;
-        for (int v = held.y0; v < held.y1 && !any; ++v)
-          for (int u = held.x0; u < held.x1 && !any; ++u) any = wanted(u, v) != 0;
-        if (any) trace_block(tracing, corner, region, out);
-      }
-  });
+  parallel_tiles(
+      across, down, std::max(parameters.tile_size / trace_block_px, 1), [&](PixelRect blocks) {
+        for (int y = blocks.y0; y < blocks.y1; ++y)
+          for (int x = blocks.x0; x < blocks.x1; ++x) {
+            const glm::ivec2 corner = glm::ivec2(bx0 + x, by0 + y) * trace_block_px;
+            const PixelRect held =
+                moved(intersection(region, {corner.x, corner.y, corner.x + trace_block_px,
+                                            corner.y + trace_block_px}),
+                      -region.x0, -region.y0);
+            bool any = false;
+            for (int v = held.y0; v < held.y1 && !any; ++v)
+              for (int u = held.x0; u < held.x1 && !any; ++u) any = wanted(u, v) != 0;
+            if (any) trace_block(tracing, corner, region, out);
+          }
+      });
   return out;
 }
 

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Of the bytes of a band in their order, eight at a time.
+// Hash of the bytes of a band in order, eight at a time.
 std::uint64_t hash_on(std::uint64_t h, const std::uint8_t* bytes, std::size_t count) {
   std::uint64_t word = 0;
   for (std::size_t i = 0; i < count; ++i) {
@@ -42,31 +42,38 @@ struct ByteRasterRows::State {
   bool prepared = false;
   bool committed = false;
 
-  [[noreturn]] void fail(const std::string& reason) const { throw Error(ErrorKind::output, path, reason); }
+  [[noreturn]] void fail(const std::string& reason) const {
+    throw Error(ErrorKind::output, path, reason);
+  }
   void check(bool good, const GdalErrors& errors) const {
-    if (!good || errors.failed()) fail(errors.say("cannot be written"));
+    if (!good || errors.failed()) fail(errors.say("cannot write the file"));
   }
 };
 
-ByteRasterRows::ByteRasterRows(const std::string& path, const ByteRasterLayout& layout) : state_(std::make_unique<State>()) {
+ByteRasterRows::ByteRasterRows(const std::string& path, const ByteRasterLayout& layout)
+    : state_(std::make_unique<State>()) {
   State& s = *state_;
   s.path = path;
   s.width = layout.frame.width;
   s.height = layout.frame.height;
-  const std::string ending = lower_ending(path);
-  if (ending != ".tif" && ending != ".tiff") throw Error(ErrorKind::output, path, "has an unknown ending", ".tif or .tiff");
-  if (layout.bands.empty() || s.width < 1 || s.height < 1) throw Error(ErrorKind::bug, path, "is to hold no cells");
+  const std::string extension = lower_extension(path);
+  if (extension != ".tif" && extension != ".tiff")
+    throw Error(ErrorKind::output, path, "unknown file extension", ".tif or .tiff");
+  if (layout.bands.empty() || s.width < 1 || s.height < 1)
+    throw Error(ErrorKind::bug, path, "no cells to write");
   register_gdal();
   const fs::path target(path);
-  s.temporary = (target.parent_path() / target.stem()).string() + ".tmp" + target.extension().string();
+  s.temporary =
+      (target.parent_path() / target.stem()).string() + ".tmp" + target.extension().string();
   s.hashes.assign(layout.bands.size(), 0);
   CPLStringList options;
-  for (const char* option : {"TILED=YES", "COMPRESS=DEFLATE", "PREDICTOR=2", "BIGTIFF=IF_SAFER", "NUM_THREADS=1", "INTERLEAVE=BAND"})
+  for (const char* option : {"TILED=YES", "COMPRESS=DEFLATE", "PREDICTOR=2", "BIGTIFF=IF_SAFER",
+                             "NUM_THREADS=1", "INTERLEAVE=BAND"})
     options.AddString(option);
   options.AddString(layout.is_colour ? "PHOTOMETRIC=RGB" : "PHOTOMETRIC=MINISBLACK");
   const GdalErrors errors;
-  s.dataset.reset(GDALCreate(GDALGetDriverByName("GTiff"), s.temporary.c_str(), s.width, s.height, static_cast<int>(layout.bands.size()),
-                             GDT_Byte, options.List()));
+  s.dataset.reset(GDALCreate(GDALGetDriverByName("GTiff"), s.temporary.c_str(), s.width, s.height,
+                             static_cast<int>(layout.bands.size()), GDT_Byte, options.List()));
   s.check(s.dataset != nullptr, errors);
   const GeoTransform& t = layout.frame.transform;
   double affine[6] = {t.origin_x, t.cell_x, 0.0, t.origin_y, 0.0, -t.cell_y};
@@ -83,14 +90,16 @@ ByteRasterRows::ByteRasterRows(const std::string& path, const ByteRasterLayout& 
     if (band.scale != 1.0) s.check(GDALSetRasterScale(h, band.scale) == CE_None, errors);
     if (layout.zero_is_void) s.check(GDALSetRasterNoDataValue(h, 0.0) == CE_None, errors);
     if (layout.codes.empty()) continue;
-    const std::unique_ptr<void, void (*)(void*)> table(GDALCreateColorTable(GPI_RGB), [](void* c) { GDALDestroyColorTable(c); });
+    const std::unique_ptr<void, void (*)(void*)> table(GDALCreateColorTable(GPI_RGB),
+                                                       [](void* c) { GDALDestroyColorTable(c); });
     for (const ByteRasterLayout::Code& code : layout.codes) {
-      const GDALColorEntry colour{static_cast<short>(code.rgb >> 16U & 255U), static_cast<short>(code.rgb >> 8U & 255U),
+      const GDALColorEntry colour{static_cast<short>(code.rgb >> 16U & 255U),
+                                  static_cast<short>(code.rgb >> 8U & 255U),
                                   static_cast<short>(code.rgb & 255U), 255};
       GDALSetColorEntry(table.get(), code.code, &colour);
     }
     s.check(GDALSetRasterColorTable(h, table.get()) == CE_None, errors);
-    // Category names would need a file beside; metadata are within.
+    // Category names would need a sidecar file; metadata are stored in the file.
     CPLStringList metadata;
     for (const ByteRasterLayout::Code& code : layout.codes)
       metadata.AddNameValue(fmt::format("class_{}", code.code).c_str(), code.name.c_str());
@@ -107,15 +116,19 @@ ByteRasterRows::~ByteRasterRows() {
 
 void ByteRasterRows::write(int y0, const std::vector<Grid<std::uint8_t>>& bands) {
   State& s = *state_;
-  if (y0 != s.next_row || bands.size() != s.hashes.size()) throw Error(ErrorKind::bug, s.path, "rows out of order");
+  if (y0 != s.next_row || bands.size() != s.hashes.size())
+    throw Error(ErrorKind::bug, s.path, "rows out of order");
   const GdalErrors errors;
   for (std::size_t i = 0; i < bands.size(); ++i) {
     const Grid<std::uint8_t>& cells = bands[i];
-    if (cells.width() != s.width || y0 + cells.height() > s.height) throw Error(ErrorKind::bug, s.path, "rows of another size");
-    for (int y = 0; y < cells.height(); ++y) s.hashes[i] = hash_on(s.hashes[i], cells.row(y), static_cast<std::size_t>(s.width));
-    // The library takes a pointer to non-const for reading and writing alike; it only reads here.
-    s.check(GDALRasterIO(GDALGetRasterBand(s.dataset.get(), static_cast<int>(i) + 1), GF_Write, 0, y0, cells.width(), cells.height(),
-                         const_cast<std::uint8_t*>(cells.data()), cells.width(), cells.height(), GDT_Byte, 0, 0) == CE_None,
+    if (cells.width() != s.width || y0 + cells.height() > s.height)
+      throw Error(ErrorKind::bug, s.path, "rows differ in size");
+    for (int y = 0; y < cells.height(); ++y)
+      s.hashes[i] = hash_on(s.hashes[i], cells.row(y), static_cast<std::size_t>(s.width));
+    // The library takes a non-const pointer for reading and writing; this only reads.
+    s.check(GDALRasterIO(GDALGetRasterBand(s.dataset.get(), static_cast<int>(i) + 1), GF_Write, 0,
+                         y0, cells.width(), cells.height(), const_cast<std::uint8_t*>(cells.data()),
+                         cells.width(), cells.height(), GDT_Byte, 0, 0) == CE_None,
             errors);
   }
   s.next_row = y0 + bands[0].height();
@@ -124,12 +137,12 @@ void ByteRasterRows::write(int y0, const std::vector<Grid<std::uint8_t>>& bands)
 void ByteRasterRows::prepare() {
   State& s = *state_;
   if (s.prepared) return;
-  if (s.next_row != s.height) throw Error(ErrorKind::bug, s.path, "rows are missing");
+  if (s.next_row != s.height) throw Error(ErrorKind::bug, s.path, "missing rows");
   const GdalErrors errors;
   GDALFlushCache(s.dataset.get());
   s.dataset.reset();
   s.check(true, errors);
-  // What was written, read again: a full disk is not always reported.
+  // Reads the written file back: a full disk is not always reported.
   const Dataset back(GDALOpen(s.temporary.c_str(), GA_ReadOnly));
   s.check(back != nullptr, errors);
   std::vector<std::uint8_t> rows;
@@ -138,13 +151,15 @@ void ByteRasterRows::prepare() {
     for (int y0 = 0; y0 < s.height; y0 += 256) {
       const int count = std::min(256, s.height - y0);
       rows.resize(static_cast<std::size_t>(s.width) * static_cast<std::size_t>(count));
-      s.check(GDALRasterIO(GDALGetRasterBand(back.get(), static_cast<int>(i) + 1), GF_Read, 0, y0, s.width, count, rows.data(), s.width,
-                           count, GDT_Byte, 0, 0) == CE_None,
+      s.check(GDALRasterIO(GDALGetRasterBand(back.get(), static_cast<int>(i) + 1), GF_Read, 0, y0,
+                           s.width, count, rows.data(), s.width, count, GDT_Byte, 0, 0) == CE_None,
               errors);
       for (int y = 0; y < count; ++y)
-        h = hash_on(h, rows.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(s.width), static_cast<std::size_t>(s.width));
+        h = hash_on(h,
+                    rows.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(s.width),
+                    static_cast<std::size_t>(s.width));
     }
-    if (h != s.hashes[i]) s.fail("was not written as it should be: is the disk full?");
+    if (h != s.hashes[i]) s.fail("the file was not written correctly; check free disk space");
   }
   s.prepared = true;
 }
@@ -154,7 +169,7 @@ void ByteRasterRows::commit() {
   prepare();
   std::error_code fault;
   fs::rename(s.temporary, s.path, fault);
-  if (fault) s.fail("cannot be replaced: " + fault.message());
+  if (fault) s.fail("cannot replace the file: " + fault.message());
   s.committed = true;
 }
 

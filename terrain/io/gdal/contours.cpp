@@ -22,18 +22,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr float void_m = -32768.F;  // what GDAL leaves out
+constexpr float void_m = -32768.F;  // GDAL skips it
 const char* const altitude_field = "altitude_m";
 
 const char* driver_for(const fs::path& path) {
-  const std::string ending = lower_ending(path.string());
-  if (ending == ".gpkg") return "GPKG";
-  if (ending == ".geojson" || ending == ".json") return "GeoJSON";
-  if (ending == ".shp") return "ESRI Shapefile";
-  throw Error(ErrorKind::output, path.string(), "has an unknown ending", ".gpkg, .geojson or .shp");
+  const std::string extension = lower_extension(path.string());
+  if (extension == ".gpkg") return "GPKG";
+  if (extension == ".geojson" || extension == ".json") return "GeoJSON";
+  if (extension == ".shp") return "ESRI Shapefile";
+  throw Error(ErrorKind::output, path.string(), "unknown file extension",
+              ".gpkg, .geojson or .shp");
 }
 
-// Lines and their length, of a written layer.
+// Number of lines and their length, of a written layer.
 ContourSummary measure(OGRLayerH layer) {
   ContourSummary summary;
   OGR_L_ResetReading(layer);
@@ -45,10 +46,12 @@ ContourSummary measure(OGRLayerH layer) {
   return summary;
 }
 
-ContourSummary write_lines(const std::string& path, const char* driver, const Raster<float>& raster, const ContourParameters& parameters) {
+ContourSummary write_lines(const std::string& path, const char* driver, const Raster<float>& raster,
+                           const ContourParameters& parameters) {
   const GdalErrors errors;
   const auto check = [&](bool good) {
-    if (!good || errors.failed()) throw Error(ErrorKind::output, path, errors.say("cannot be written"));
+    if (!good || errors.failed())
+      throw Error(ErrorKind::output, path, errors.say("cannot write the file"));
   };
   OGRSpatialReference crs;
   if (!raster.crs.empty()) check(crs.SetFromUserInput(raster.crs.c_str()) == OGRERR_NONE);
@@ -56,7 +59,8 @@ ContourSummary write_lines(const std::string& path, const char* driver, const Ra
   Grid<float> cells = raster.cells;
   for (float& z : cells)
     if (!std::isfinite(z)) z = void_m;
-  const Dataset memory(GDALCreate(GDALGetDriverByName("MEM"), "", cells.width(), cells.height(), 0, GDT_Float32, nullptr));
+  const Dataset memory(GDALCreate(GDALGetDriverByName("MEM"), "", cells.width(), cells.height(), 0,
+                                  GDT_Float32, nullptr));
   check(memory != nullptr);
   char pointer[64] = {};
   pointer[CPLPrintPointer(pointer, cells.data(), sizeof pointer - 1)] = 0;
@@ -67,12 +71,16 @@ ContourSummary write_lines(const std::string& path, const char* driver, const Ra
   double affine[6] = {t.origin_x, t.cell_x, 0.0, t.origin_y, 0.0, -t.cell_y};
   check(GDALSetGeoTransform(memory.get(), affine) == CE_None);
 
-  Dataset file(GDALCreate(GDALGetDriverByName(driver), path.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
+  Dataset file(
+      GDALCreate(GDALGetDriverByName(driver), path.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
   check(file != nullptr);
-  OGRLayerH layer = GDALDatasetCreateLayer(file.get(), "contours", raster.crs.empty() ? nullptr : &crs, wkbLineString, nullptr);
+  OGRLayerH layer = GDALDatasetCreateLayer(
+      file.get(), "contours", raster.crs.empty() ? nullptr : &crs, wkbLineString, nullptr);
   check(layer != nullptr);
-  for (const auto& [name, type] : {std::pair{"id", OFTInteger}, std::pair{altitude_field, OFTReal}}) {
-    const std::unique_ptr<void, void (*)(OGRFieldDefnH)> field(OGR_Fld_Create(name, type), &OGR_Fld_Destroy);
+  for (const auto& [name, type] :
+       {std::pair{"id", OFTInteger}, std::pair{altitude_field, OFTReal}}) {
+    const std::unique_ptr<void, void (*)(OGRFieldDefnH)> field(OGR_Fld_Create(name, type),
+                                                               &OGR_Fld_Destroy);
     check(OGR_L_CreateField(layer, field.get(), TRUE) == OGRERR_NONE);
   }
   CPLStringList options;
@@ -81,16 +89,18 @@ ContourSummary write_lines(const std::string& path, const char* driver, const Ra
   options.SetNameValue("NODATA", fmt::format("{}", void_m).c_str());
   options.SetNameValue("ID_FIELD", "0");
   options.SetNameValue("ELEV_FIELD", "1");
-  // One transaction: a database file would else be synced to the disk line by line.
+  // One transaction; otherwise a database file would be synced to disk line by line.
   const bool transaction = GDALDatasetTestCapability(file.get(), ODsCTransactions) != 0;
   if (transaction) check(GDALDatasetStartTransaction(file.get(), FALSE) == OGRERR_NONE);
-  check(GDALContourGenerateEx(GDALGetRasterBand(memory.get(), 1), layer, options.List(), nullptr, nullptr) == CE_None);
+  check(GDALContourGenerateEx(GDALGetRasterBand(memory.get(), 1), layer, options.List(), nullptr,
+                              nullptr) == CE_None);
   if (transaction) check(GDALDatasetCommitTransaction(file.get()) == OGRERR_NONE);
   file.reset();
   check(true);
 
-  // What was written, read again.
-  file.reset(GDALOpenEx(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, nullptr, nullptr, nullptr));
+  // Reads the written file back.
+  file.reset(
+      GDALOpenEx(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, nullptr, nullptr, nullptr));
   check(file != nullptr && GDALDatasetGetLayerCount(file.get()) == 1);
   const ContourSummary summary = measure(GDALDatasetGetLayer(file.get(), 0));
   check(true);
@@ -99,20 +109,24 @@ ContourSummary write_lines(const std::string& path, const char* driver, const Ra
 
 }  // namespace
 
-ContourSummary write_contours(const std::string& path, const Raster<float>& raster, const ContourParameters& parameters) {
+ContourSummary write_contours(const std::string& path, const Raster<float>& raster,
+                              const ContourParameters& parameters) {
   if (!(parameters.interval_m > 0.0) || !std::isfinite(parameters.interval_m)) {
-    throw Error(ErrorKind::usage, "contour interval", fmt::format("{}", parameters.interval_m), "metres, more than 0");
+    throw Error(ErrorKind::usage, "contour interval", fmt::format("{}", parameters.interval_m),
+                "metres, more than 0");
   }
   const fs::path target(path);
   const char* driver = driver_for(target);
-  if (raster.cells.empty()) throw Error(ErrorKind::output, path, "is to hold no cells");
+  if (raster.cells.empty()) throw Error(ErrorKind::output, path, "no cells to write");
   register_gdal();
   // A shapefile is several files: all are made in a folder of their own, then moved.
   const fs::path folder = target.parent_path() / (target.filename().string() + ".tmp");
   try {
     fs::remove_all(folder);
-    if (!fs::create_directory(folder)) throw Error(ErrorKind::output, path, "cannot be created");
-    const ContourSummary summary = write_lines((folder / target.filename()).string(), driver, raster, parameters);
+    if (!fs::create_directory(folder))
+      throw Error(ErrorKind::output, path, "cannot create the folder");
+    const ContourSummary summary =
+        write_lines((folder / target.filename()).string(), driver, raster, parameters);
     std::vector<fs::path> files;
     for (const auto& entry : fs::directory_iterator(folder)) files.push_back(entry.path());
     for (const fs::path& file : files) fs::rename(file, target.parent_path() / file.filename());
@@ -122,7 +136,8 @@ ContourSummary write_contours(const std::string& path, const Raster<float>& rast
     std::error_code ignored;
     fs::remove_all(folder, ignored);
     const auto* error = dynamic_cast<const Error*>(&exception);
-    throw Error(ErrorKind::output, path, error != nullptr ? error->found() : exception.what(), error != nullptr ? error->allowed() : "");
+    throw Error(ErrorKind::output, path, error != nullptr ? error->found() : exception.what(),
+                error != nullptr ? error->allowed() : "");
   }
 }
 

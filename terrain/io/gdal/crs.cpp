@@ -15,20 +15,23 @@
 namespace belvedere {
 namespace {
 
-// Only a text that names a CRS: no file names, no addresses that the library would open.
+// Only text that names a CRS: the library must not open file names or addresses.
 OGRSpatialReference parse(const std::string& text) {
   const GdalErrors errors;
   OGRSpatialReference crs;
   const char* const options[] = {"ALLOW_NETWORK_ACCESS=NO", "ALLOW_FILE_ACCESS=NO", nullptr};
   if (text.empty() || crs.SetFromUserInput(text.c_str(), options) != OGRERR_NONE) {
-    throw Error(ErrorKind::usage, "crs", errors.say(fmt::format("\"{}\" names no coordinate system", text.substr(0, 80))),
+    throw Error(ErrorKind::usage, "crs",
+                errors.say(fmt::format("unknown coordinate system \"{}\"", text.substr(0, 80))),
                 "a code such as \"EPSG:32632\", or WKT");
   }
-  // Heights are dealt with apart from places (raster_file.cpp).
+  // Heights are handled separately (raster_file.cpp).
   if (crs.IsCompound() != 0) crs.StripVertical();
   crs.DemoteTo2D(nullptr);
   if (crs.IsGeographic() == 0 && crs.IsProjected() == 0) {
-    throw Error(ErrorKind::usage, "crs", fmt::format("\"{}\" is neither geographic nor projected", crs.GetName() ? crs.GetName() : text),
+    throw Error(ErrorKind::usage, "crs",
+                fmt::format("\"{}\" is neither geographic nor projected",
+                            crs.GetName() ? crs.GetName() : text),
                 "a coordinate system of the earth's surface, such as \"EPSG:32632\"");
   }
   crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
@@ -42,11 +45,13 @@ std::string to_wkt(const OGRSpatialReference& crs) {
   const OGRErr result = crs.exportToWkt(&text, options);
   std::string wkt = text != nullptr ? text : "";
   CPLFree(text);
-  if (result != OGRERR_NONE) throw Error(ErrorKind::usage, "crs", errors.say("cannot be written as WKT"));
+  if (result != OGRERR_NONE)
+    throw Error(ErrorKind::usage, "crs", errors.say("cannot be expressed as WKT"));
   return wkt;
 }
 
-constexpr glm::dvec2 nowhere{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
+constexpr glm::dvec2 nowhere{std::numeric_limits<double>::quiet_NaN(),
+                             std::numeric_limits<double>::quiet_NaN()};
 
 }  // namespace
 
@@ -58,16 +63,17 @@ std::string describe_crs(const std::string& crs) {
   const auto code_of = [](const OGRSpatialReference& known) {
     const char* authority = known.GetAuthorityName(nullptr);
     const char* code = known.GetAuthorityCode(nullptr);
-    return authority != nullptr && code != nullptr ? fmt::format("{}:{}", authority, code) : std::string();
+    return authority != nullptr && code != nullptr ? fmt::format("{}:{}", authority, code)
+                                                   : std::string();
   };
   if (std::string code = code_of(reference); !code.empty()) return code;
-  // A .prj file has no code, but mostly the words of one that has.
+  // A .prj file has no code, but usually the same name as a CRS that has one.
   const GdalErrors errors;
   const std::unique_ptr<OGRSpatialReference> match(reference.FindBestMatch());
   if (match)
     if (std::string code = code_of(*match); !code.empty()) return code;
   const char* name = reference.GetName();
-  return name != nullptr ? name : "a coordinate system without a name";
+  return name != nullptr ? name : "an unnamed coordinate system";
 }
 
 CrsTraits crs_traits(const std::string& crs) {
@@ -81,7 +87,8 @@ CrsTraits crs_traits(const std::string& crs) {
 bool same_crs(const std::string& a, const std::string& b) {
   if (a == b) return true;
   if (a.empty() || b.empty()) return false;
-  const char* const options[] = {"IGNORE_DATA_AXIS_TO_SRS_AXIS_MAPPING=YES", "CRITERION=EQUIVALENT", nullptr};
+  const char* const options[] = {"IGNORE_DATA_AXIS_TO_SRS_AXIS_MAPPING=YES", "CRITERION=EQUIVALENT",
+                                 nullptr};
   const OGRSpatialReference first = parse(a);
   const OGRSpatialReference second = parse(b);
   const GdalErrors errors;
@@ -100,10 +107,15 @@ std::string doubt_of_place(const std::string& crs, glm::dvec2 point) {
   if (east < west) east += 360.0;
   const glm::dvec2 at = PointTransform(crs, "EPSG:4326").apply(point);
   if (!std::isfinite(at.x) || !std::isfinite(at.y)) return {};
-  const double off_middle = std::remainder(at.x - .5 * (west + east), 360.0);
-  if (std::abs(off_middle) <= .5 * (east - west) + slack_east && at.y >= south - slack_north && at.y <= north + slack_north) return {};
-  return fmt::format("{:.0f}° {} {:.0f}° {}, far from where {} is used ({:.0f}° … {:.0f}° E, {:.0f}° … {:.0f}° N)", std::abs(at.y),
-                     at.y < 0.0 ? "S" : "N", std::abs(at.x), at.x < 0.0 ? "W" : "E", describe_crs(crs), west, east, south, north);
+  const double off_centre = std::remainder(at.x - .5 * (west + east), 360.0);
+  if (std::abs(off_centre) <= .5 * (east - west) + slack_east && at.y >= south - slack_north &&
+      at.y <= north + slack_north)
+    return {};
+  return fmt::format(
+      "{:.0f}° {} {:.0f}° {}, far outside the area of {} ({:.0f}° … {:.0f}° E, {:.0f}° … {:.0f}° "
+      "N)",
+      std::abs(at.y), at.y < 0.0 ? "S" : "N", std::abs(at.x), at.x < 0.0 ? "W" : "E",
+      describe_crs(crs), west, east, south, north);
 }
 
 std::string utm_crs(glm::dvec2 lon_lat) {
@@ -111,18 +123,20 @@ std::string utm_crs(glm::dvec2 lon_lat) {
   if (lon_lat.y > 84.0) return normalize_crs("EPSG:32661");
   if (lon_lat.y < -80.0) return normalize_crs("EPSG:32761");
   const double turns = std::floor((lon_lat.x + 180.0) / 360.0);
-  const int zone = std::clamp(1 + static_cast<int>((lon_lat.x + 180.0 - 360.0 * turns) / 6.0), 1, 60);
+  const int zone =
+      std::clamp(1 + static_cast<int>((lon_lat.x + 180.0 - 360.0 * turns) / 6.0), 1, 60);
   return normalize_crs(fmt::format("EPSG:{}", (lon_lat.y < 0.0 ? 32700 : 32600) + zone));
 }
 
 namespace {
 
-// How long ±reach (CRS units) along x and y is on the ground, m, on the WGS 84 ellipsoid: radii of curvature in the meridian M
-// and in the prime vertical N.
+// Length of ±reach (CRS units) along x and y on the ground, m, on the WGS 84 ellipsoid: radii of
+// curvature in the meridian M and in the prime vertical N.
 glm::dvec2 ground_lengths_m(const std::string& crs, glm::dvec2 point, glm::dvec2 reach) {
   const PointTransform to_degrees(crs, "EPSG:4326");
-  std::vector<glm::dvec2> p = {point, point + glm::dvec2{-reach.x, 0.0}, point + glm::dvec2{reach.x, 0.0},
-                               point + glm::dvec2{0.0, -reach.y}, point + glm::dvec2{0.0, reach.y}};
+  std::vector<glm::dvec2> p = {point, point + glm::dvec2{-reach.x, 0.0},
+                               point + glm::dvec2{reach.x, 0.0}, point + glm::dvec2{0.0, -reach.y},
+                               point + glm::dvec2{0.0, reach.y}};
   to_degrees.apply(p);
   constexpr double a = 6378137.0;
   constexpr double e2 = 6.69437999014e-3;
@@ -145,25 +159,30 @@ double scale_of_crs(const std::string& crs, glm::dvec2 point) {
   return 2.0 * reach / std::sqrt(ground.x * ground.y);
 }
 
-glm::dvec2 ground_cell_m(const GeoTransform& transform, const std::string& crs, int width, int height) {
+glm::dvec2 ground_cell_m(const GeoTransform& transform, const std::string& crs, int width,
+                         int height) {
   const glm::dvec2 cell{transform.cell_x, transform.cell_y};
   if (crs.empty()) return cell;
-  const glm::dvec2 ground = ground_lengths_m(crs, transform.to_crs(0.5 * (width - 1), 0.5 * (height - 1)), 0.5 * cell);
-  if (!std::isfinite(ground.x) || !std::isfinite(ground.y) || !(ground.x > 0.0) || !(ground.y > 0.0)) {
-    throw Error(ErrorKind::input, "crs", fmt::format("the raster lies nowhere on earth by {}", describe_crs(crs)));
+  const glm::dvec2 ground =
+      ground_lengths_m(crs, transform.to_crs(0.5 * (width - 1), 0.5 * (height - 1)), 0.5 * cell);
+  if (!std::isfinite(ground.x) || !std::isfinite(ground.y) || !(ground.x > 0.0) ||
+      !(ground.y > 0.0)) {
+    throw Error(ErrorKind::input, "crs",
+                fmt::format("the raster is outside the valid area of {}", describe_crs(crs)));
   }
   const auto near = [](double a, double b) { return std::abs(a / b - 1.0) < 0.03; };
   return crs_traits(crs).metric && near(ground.x, cell.x) && near(ground.y, cell.y) ? cell : ground;
 }
 
 struct PointTransform::State {
-  std::unique_ptr<OGRCoordinateTransformation> transformation;  // null: points stay
+  std::unique_ptr<OGRCoordinateTransformation> transformation;  // null: identity
   std::string from, to;
 };
 
-PointTransform::PointTransform(const std::string& from_crs, const std::string& to_crs) : state_(std::make_unique<State>()) {
+PointTransform::PointTransform(const std::string& from_crs, const std::string& to_crs)
+    : state_(std::make_unique<State>()) {
   if (same_crs(from_crs, to_crs)) return;
-  // The outcome must not depend on whether a machine can reach the internet for datum grids.
+  // The result must not depend on whether a machine can download datum grids.
   OSRSetPROJEnableNetwork(0);
   const OGRSpatialReference from = parse(from_crs);
   const OGRSpatialReference to = parse(to_crs);
@@ -173,7 +192,8 @@ PointTransform::PointTransform(const std::string& from_crs, const std::string& t
   state_->transformation.reset(OGRCreateCoordinateTransformation(&from, &to));
   if (!state_->transformation) {
     throw Error(ErrorKind::input, "crs",
-                errors.say(fmt::format("no way is known from {} to {}", describe_crs(from_crs), describe_crs(to_crs))));
+                errors.say(fmt::format("no transformation from {} to {}", describe_crs(from_crs),
+                                       describe_crs(to_crs))));
   }
 }
 
@@ -191,8 +211,9 @@ void PointTransform::apply(std::vector<glm::dvec2>& points) const {
   }
   const GdalErrors errors;
   std::vector<int> done(points.size(), 0);
-  // The return value only says whether all succeeded; each point says so itself.
-  state_->transformation->Transform(static_cast<int>(points.size()), x.data(), y.data(), nullptr, done.data());
+  // The return value only tells whether all succeeded; each point has its own flag.
+  state_->transformation->Transform(static_cast<int>(points.size()), x.data(), y.data(), nullptr,
+                                    done.data());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const bool good = done[i] != 0 && std::isfinite(x[i]) && std::isfinite(y[i]);
     points[i] = good ? glm::dvec2{x[i], y[i]} : nowhere;
@@ -205,11 +226,13 @@ glm::dvec2 PointTransform::apply(glm::dvec2 point) const {
   return points[0];
 }
 
-glm::dvec2 transform_point(const std::string& from_crs, const std::string& to_crs, glm::dvec2 point) {
+glm::dvec2 transform_point(const std::string& from_crs, const std::string& to_crs,
+                           glm::dvec2 point) {
   const glm::dvec2 there = PointTransform(from_crs, to_crs).apply(point);
   if (!std::isfinite(there.x)) {
     throw Error(ErrorKind::input, "crs",
-                fmt::format("the point {}, {} of {} has no place in {}", point.x, point.y, describe_crs(from_crs), describe_crs(to_crs)));
+                fmt::format("the point {}, {} of {} is outside the valid area of {}", point.x,
+                            point.y, describe_crs(from_crs), describe_crs(to_crs)));
   }
   return there;
 }

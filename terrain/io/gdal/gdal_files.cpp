@@ -11,16 +11,16 @@
 namespace belvedere {
 namespace {
 
-// Blocks of files that GDAL keeps, by itself a twentieth of the machine whatever the program may take. A row of 256² blocks over 40000
-// columns is 40 MB.
+// GDAL's block cache, which by default is a twentieth of the machine's memory. A row of 256² blocks
+// over 40000 columns is 40 MB.
 std::uint64_t block_cache_bytes() {
   constexpr std::uint64_t fewest = std::uint64_t{16} << 20;
-  constexpr std::uint64_t most = std::uint64_t{1} << 30;
-  return std::clamp(memory_budget_bytes() / 16, fewest, most);
+  constexpr std::uint64_t max = std::uint64_t{1} << 30;
+  return std::clamp(memory_budget_bytes() / 16, fewest, max);
 }
 
 void limit_block_cache() {
-  // Whoever says it to GDAL itself is heard.
+  // A limit set for GDAL itself is respected.
   if (CPLGetConfigOption("GDAL_CACHEMAX", nullptr) != nullptr) return;
   static std::mutex mutex;
   const std::lock_guard lock(mutex);

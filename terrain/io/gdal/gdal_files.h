@@ -8,17 +8,18 @@
 
 namespace belvedere {
 
-// What the files of this folder share, the only one of the project that knows GDAL. Nothing outside of it includes this header.
+// Shared by the files of this folder, the only one of the project that uses GDAL. Nothing outside
+// includes this header.
 
-// The other side of http_access.h: names of addresses as GDAL has them and back (empty: none), its settings for this thread, a warning that
-// may say that a try is repeated, and a failure in a user's words.
+// GDAL's side of http_access.h: conversion of addresses to GDAL's names and back (empty: not an
+// address), its settings for this thread, detection of retry warnings, and failures in plain words.
 std::string address_to_gdal(const std::string& address);
 std::string address_from_gdal(const std::string& path);
 void set_http_of_thread();
 void tell_http_retry(const char* text);
 std::string explain_http(const std::string& problem);
 
-// While it lives, GDAL prints nothing in this thread, and the first failure it reports is kept in its own words.
+// While it lives, GDAL prints nothing in this thread, and the first failure it reports is kept.
 class GdalErrors {
  public:
   GdalErrors() {
@@ -30,8 +31,10 @@ class GdalErrors {
   GdalErrors& operator=(const GdalErrors&) = delete;
 
   bool failed() const { return failed_; }
-  // GDAL's words after what we were doing, such as "cannot be read: TIFFFillStrip: Read error …".
-  std::string say(const std::string& doing) const { return text_.empty() ? doing : doing + ": " + text_; }
+  // GDAL's message after what failed, such as "cannot read the file: TIFFFillStrip: Read error …".
+  std::string say(const std::string& doing) const {
+    return text_.empty() ? doing : doing + ": " + text_;
+  }
 
  private:
   static void CPL_STDCALL collect(CPLErr severity, CPLErrorNum, const char* text) {
@@ -46,8 +49,8 @@ class GdalErrors {
   std::string text_;
 };
 
-// Makes GDAL's formats known, once a process, and holds its cache of blocks to a sixteenth of memory_budget_bytes(), which may have changed
-// since: to be called before a file is opened.
+// Registers GDAL's formats, once per process, and limits its block cache to a sixteenth of
+// memory_budget_bytes(), which may have changed: call it before opening a file.
 void register_gdal();
 
 struct CloseDataset {

@@ -15,7 +15,8 @@
 namespace belvedere {
 namespace {
 
-// What curl says where there is no answer (curl/curl.h, CURLcode): numbers that are part of its interface for good.
+// curl's codes if there is no response (curl/curl.h, CURLcode); these numbers are a stable part of
+// its interface.
 HttpOutcome outcome_of_curl(int code) {
   switch (code) {
     case 5:  // the proxy's name
@@ -27,7 +28,7 @@ HttpOutcome outcome_of_curl(int code) {
       return HttpOutcome::silent;
     case 16:  // HTTP/2 framing
     case 18:  // shorter than announced
-    case 52:  // nothing but the end
+    case 52:  // empty response
     case 55:
     case 56:
     case 92:  // HTTP/2 stream
@@ -62,7 +63,7 @@ std::optional<std::uint64_t> number_in(std::string_view text) {
   return value;
 }
 
-// "bytes 100-199/4000": the first byte and the file's size ("*": not said).
+// "bytes 100-199/4000": the first byte and the file's size ("*": unknown).
 void read_content_range(std::string_view text, HttpAnswer& answer) {
   constexpr std::string_view unit = "bytes ";
   if (!text.starts_with(unit)) return;
@@ -87,28 +88,32 @@ int CPL_STDCALL report(double, const char*, void* request) {
 HttpAnswer ask_server(const HttpRequest& request) {
   register_gdal();
   CPLStringList options;
-  const auto set = [&](const char* key, const std::string& value) { options.SetNameValue(key, value.c_str()); };
-  // Packed on the way, parts would be parts of something else.
+  const auto set = [&](const char* key, const std::string& value) {
+    options.SetNameValue(key, value.c_str());
+  };
+  // Ranges of a compressed transfer would be parts of something else.
   std::string headers = "Accept-Encoding: identity";
   if (request.first > 0 || request.count > 0)
-    headers += request.count > 0 ? fmt::format("\r\nRange: bytes={}-{}", request.first, request.first + request.count - 1)
+    headers += request.count > 0 ? fmt::format("\r\nRange: bytes={}-{}", request.first,
+                                               request.first + request.count - 1)
                                  : fmt::format("\r\nRange: bytes={}-", request.first);
   set("HEADERS", headers);
   set("CONNECTTIMEOUT", fmt::format("{}", request.connect_s));
   set("TIMEOUT", fmt::format("{}", request.answer_s));
   set("LOW_SPEED_TIME", fmt::format("{}", request.silence_s));
   set("LOW_SPEED_LIMIT", "100");  // bytes a second
-  set("MAX_RETRY", "0");          // whoever asks repeats
-  set("MAX_FILE_SIZE", fmt::format("{}", request.most_bytes));
-  set("PERSISTENT", "belvedere");  // one connection for question after question
+  set("MAX_RETRY", "0");          // the caller retries
+  set("MAX_FILE_SIZE", fmt::format("{}", request.max_bytes));
+  set("PERSISTENT", "belvedere");  // keeps the connection between requests
   if (!request.agent.empty()) set("USERAGENT", request.agent);
   const GdalErrors errors;
   const std::unique_ptr<CPLHTTPResult, void (*)(CPLHTTPResult*)> result(
-      CPLHTTPFetchEx(request.address.c_str(), options.List(), &report, const_cast<HttpRequest*>(&request), nullptr, nullptr),
+      CPLHTTPFetchEx(request.address.c_str(), options.List(), &report,
+                     const_cast<HttpRequest*>(&request), nullptr, nullptr),
       &CPLHTTPDestroyResult);
   HttpAnswer answer;
   if (!result) {
-    answer.reason = errors.say("cannot be asked");
+    answer.reason = errors.say("request failed");
     return answer;
   }
   const char* const problem = result->pszErrBuf;
@@ -125,14 +130,18 @@ HttpAnswer ask_server(const HttpRequest& request) {
     answer.retry_after_s = static_cast<double>(number_in(header("Retry-After")).value_or(0));
     return answer;
   }
-  answer.outcome = result->nStatus == 0 && problem == nullptr ? HttpOutcome::good : outcome_of_curl(result->nStatus);
-  if (answer.outcome != HttpOutcome::good && answer.outcome != HttpOutcome::cut && answer.outcome != HttpOutcome::silent) return answer;
+  answer.outcome = result->nStatus == 0 && problem == nullptr ? HttpOutcome::good
+                                                              : outcome_of_curl(result->nStatus);
+  if (answer.outcome != HttpOutcome::good && answer.outcome != HttpOutcome::cut &&
+      answer.outcome != HttpOutcome::silent)
+    return answer;
   read_content_range(header("Content-Range"), answer);
   if (!answer.is_part) answer.total = number_in(header("Content-Length"));
   answer.tag = header("ETag");
   if (answer.tag.empty()) answer.tag = header("Last-Modified");
   if (result->pabyData != nullptr && result->nDataLen > 0)
-    answer.bytes.assign(reinterpret_cast<const char*>(result->pabyData), static_cast<std::size_t>(result->nDataLen));
+    answer.bytes.assign(reinterpret_cast<const char*>(result->pabyData),
+                        static_cast<std::size_t>(result->nDataLen));
   return answer;
 }
 

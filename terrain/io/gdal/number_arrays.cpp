@@ -42,9 +42,10 @@ NumberArray read_array(GDALMDArrayH array, const std::string& path, const std::s
   const GdalErrors errors;
   const NumberType number(GDALExtendedDataTypeCreate(GDT_Float64), &GDALExtendedDataTypeRelease);
   const std::vector<GUInt64> start(out.sizes.size(), 0);
-  if (GDALMDArrayRead(array, start.data(), out.sizes.data(), nullptr, nullptr, number.get(), out.values.data(), out.values.data(),
+  if (GDALMDArrayRead(array, start.data(), out.sizes.data(), nullptr, nullptr, number.get(),
+                      out.values.data(), out.values.data(),
                       out.values.size() * sizeof(double)) == 0)
-    throw Error(ErrorKind::input, path, errors.say(fmt::format("{} cannot be read", name)));
+    throw Error(ErrorKind::input, path, errors.say(fmt::format("cannot read {}", name)));
   int has = 0;
   const double nodata = GDALMDArrayGetNoDataValueAsDouble(array, &has);
   if (has != 0)
@@ -55,22 +56,26 @@ NumberArray read_array(GDALMDArrayH array, const std::string& path, const std::s
   const double scale = GDALMDArrayGetScale(array, &has_scale);
   const double offset = GDALMDArrayGetOffset(array, &has_offset);
   if (has_scale != 0 || has_offset != 0)
-    for (double& value : out.values) value = value * (has_scale != 0 ? scale : 1.0) + (has_offset != 0 ? offset : 0.0);
+    for (double& value : out.values)
+      value = value * (has_scale != 0 ? scale : 1.0) + (has_offset != 0 ? offset : 0.0);
   return out;
 }
 
 }  // namespace
 
-std::vector<std::optional<NumberArray>> read_number_arrays(const std::string& path, const std::vector<std::string>& names) {
+std::vector<std::optional<NumberArray>> read_number_arrays(const std::string& path,
+                                                           const std::vector<std::string>& names) {
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) throw Error(ErrorKind::input, path, "there is no such file");
+  if (!std::filesystem::is_regular_file(path, ignored))
+    throw Error(ErrorKind::input, path, "file not found");
   register_gdal();
   const GdalErrors errors;
-  // Only the driver that is meant: a file that looks harmless must not send GDAL to others.
+  // Only the intended driver: a harmless-looking file must not make GDAL open others.
   const char* const allowed[] = {"netCDF", nullptr};
-  const Dataset file(
-      GDALOpenEx(path.c_str(), GDAL_OF_MULTIDIM_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, allowed, nullptr, nullptr));
-  if (!file) throw Error(ErrorKind::input, path, errors.say("cannot be read as netCDF"));
+  const Dataset file(GDALOpenEx(path.c_str(),
+                                GDAL_OF_MULTIDIM_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
+                                allowed, nullptr, nullptr));
+  if (!file) throw Error(ErrorKind::input, path, errors.say("not a netCDF file"));
   const Group root(GDALDatasetGetRootGroup(file.get()), &GDALGroupRelease);
   if (!root) throw Error(ErrorKind::input, path, errors.say("has no arrays"));
   std::vector<std::optional<NumberArray>> arrays;

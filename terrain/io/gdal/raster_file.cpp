@@ -29,14 +29,17 @@ namespace fs = std::filesystem;
 
 constexpr float nan_value = std::numeric_limits<float>::quiet_NaN();
 
-// Formats that describe one raster and nothing else. A VRT can name any file or address of the machine, so it is only
-// taken where its name says what it is, and then each of its sources is opened under the same rules first.
+// Formats that describe one raster and nothing else. A VRT can refer to any file or address, so it
+// is only accepted with the extension .vrt, and each of its sources is first checked by the same
+// rules.
 constexpr const char* drivers[] = {"GTiff", "AAIGrid", "SRTMHGT", "HFA",  "ENVI", "EHdr", "netCDF",
                                    "PNG",   "USGSDEM", "DTED",    "GSAG", "GSBG", "GS7BG"};
 constexpr const char* driver_names =
-    "GeoTIFF, ESRI ASCII grid, SRTM .hgt, Erdas Imagine, ENVI, EHdr .bil, netCDF, PNG, USGS DEM, DTED, Surfer grid, or VRT named .vrt";
+    "GeoTIFF, ESRI ASCII grid, SRTM .hgt, Erdas Imagine, ENVI, EHdr .bil, netCDF, PNG, USGS DEM, "
+    "DTED, Surfer grid, or VRT named .vrt";
 
-// Settings of this thread that make reads strict: damaged blocks and short raw files are errors, no threads of its own.
+// Settings of this thread that make reads strict: damaged blocks and short raw files are errors; no
+// threads of its own.
 void make_strict() {
   register_gdal();
   CPLSetThreadLocalConfigOption("GTIFF_IGNORE_READ_ERRORS", "NO");
@@ -49,13 +52,15 @@ void make_strict() {
 
 Dataset open_checked(const std::string& path, int nesting);
 
-// Every file that a VRT names, by element: they must exist and open by themselves. A missing one would read as nodata.
+// Every file that a VRT refers to, by element: it must exist and be readable. GDAL would read a
+// missing one as nodata.
 void check_vrt_node(const CPLXMLNode* node, const std::string& path, int nesting) {
   for (; node != nullptr; node = node->psNext) {
     if (node->eType != CXT_Element) continue;
     const std::string_view name = node->pszValue;
     if (name == "PixelFunctionCode" || name == "PixelFunctionLanguage") {
-      throw Error(ErrorKind::input, path, "a VRT that carries program code", "VRTs that only name rasters");
+      throw Error(ErrorKind::input, path, "the VRT contains program code",
+                  "VRTs that only refer to rasters");
     }
     if (name == "SourceFilename" || name == "SourceDataset") {
       const bool relative = std::string_view(CPLGetXMLValue(node, "relativeToVRT", "0")) == "1";
@@ -63,9 +68,14 @@ void check_vrt_node(const CPLXMLNode* node, const std::string& path, int nesting
       try {
         const std::string address = address_from_gdal(file.string());
         const bool beside = relative && address.empty();
-        open_checked(!address.empty() ? address : beside ? (fs::path(path).parent_path() / file).string() : file.string(), nesting + 1);
+        open_checked(!address.empty() ? address
+                     : beside         ? (fs::path(path).parent_path() / file).string()
+                                      : file.string(),
+                     nesting + 1);
       } catch (const Error& error) {
-        throw Error(error.kind(), path, fmt::format("its source \"{}\": {}", error.where(), error.found()), error.allowed());
+        throw Error(error.kind(), path,
+                    fmt::format("its source \"{}\": {}", error.where(), error.found()),
+                    error.allowed());
       }
     }
     check_vrt_node(node->psChild, path, nesting);
@@ -73,43 +83,50 @@ void check_vrt_node(const CPLXMLNode* node, const std::string& path, int nesting
 }
 
 void check_vrt(const std::string& path, int nesting) {
-  constexpr std::uintmax_t most_bytes = 64U << 20;
-  if (nesting > 8) throw Error(ErrorKind::input, path, "VRTs within VRTs, more than 8 deep");
-  if (fs::file_size(path) > most_bytes) throw Error(ErrorKind::limit, path, "a VRT of more than 64 MiB");
+  constexpr std::uintmax_t max_bytes = 64U << 20;
+  if (nesting > 8) throw Error(ErrorKind::input, path, "VRTs are nested more than 8 levels deep");
+  if (fs::file_size(path) > max_bytes)
+    throw Error(ErrorKind::limit, path, "VRT larger than 64 MiB");
   const GdalErrors errors;
-  const std::unique_ptr<CPLXMLNode, decltype(&CPLDestroyXMLNode)> root(CPLParseXMLFile(path.c_str()), &CPLDestroyXMLNode);
-  if (!root) throw Error(ErrorKind::input, path, errors.say("is no valid VRT"));
+  const std::unique_ptr<CPLXMLNode, decltype(&CPLDestroyXMLNode)> root(
+      CPLParseXMLFile(path.c_str()), &CPLDestroyXMLNode);
+  if (!root) throw Error(ErrorKind::input, path, errors.say("not a valid VRT"));
   check_vrt_node(root.get(), path, nesting);
 }
 
-// A raster on a server. No VRT: what it names lies who knows where.
+// A raster on a server. VRTs are not accepted, because they may refer to anything.
 Dataset open_address(const std::string& address) {
   check_address(address);
   if (!http_allowed())
-    throw Error(ErrorKind::input, address, "lies on a server, and servers may not be asked", "--allow-http, or a copy of the file here");
+    throw Error(ErrorKind::input, address, "network access is not enabled",
+                "--allow-http, or a local copy of the file");
   make_strict();
-  // Nothing but the file itself: no listing of the folder it lies in, no files beside it.
+  // Only the file itself: no listing of its folder, no sidecar files.
   const CPLConfigOptionSetter alone("GDAL_DISABLE_READDIR_ON_OPEN", "EMPTY_DIR", false);
   CPLStringList allowed;
   for (const char* driver : drivers) allowed.AddString(driver);
   const GdalErrors errors;
-  Dataset dataset(GDALOpenEx(address_to_gdal(address).c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, allowed.List(),
-                             nullptr, nullptr));
+  Dataset dataset(GDALOpenEx(address_to_gdal(address).c_str(),
+                             GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
+                             allowed.List(), nullptr, nullptr));
   if (!dataset)
-    throw Error(ErrorKind::input, address, explain_http(errors.say("its server does not answer as it should, or it is no raster")),
+    throw Error(ErrorKind::input, address,
+                explain_http(errors.say("the server response is not a readable raster")),
                 driver_names);
   return dataset;
 }
 
-// A GeoTIFF whose bytes come from a StreamFile: nothing lies beside it.
+// A GeoTIFF whose bytes come from a StreamFile; it has no sidecar files.
 Dataset open_stream(const std::string& path) {
   make_strict();
   const CPLConfigOptionSetter alone("GDAL_DISABLE_READDIR_ON_OPEN", "EMPTY_DIR", false);
   CPLStringList allowed;
   allowed.AddString("GTiff");
   const GdalErrors errors;
-  Dataset dataset(GDALOpenEx(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, allowed.List(), nullptr, nullptr));
-  if (!dataset) throw Error(ErrorKind::input, path, errors.say("is no raster that can be read"), "GeoTIFF");
+  Dataset dataset(GDALOpenEx(path.c_str(),
+                             GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
+                             allowed.List(), nullptr, nullptr));
+  if (!dataset) throw Error(ErrorKind::input, path, errors.say("not a readable raster"), "GeoTIFF");
   return dataset;
 }
 
@@ -117,17 +134,20 @@ Dataset open_checked(const std::string& path, int nesting) {
   if (is_address(path)) return open_address(path);
   if (is_stream(path)) return open_stream(path);
   std::error_code ignored;
-  if (!fs::is_regular_file(path, ignored)) throw Error(ErrorKind::input, path, "there is no such file", driver_names);
+  if (!fs::is_regular_file(path, ignored))
+    throw Error(ErrorKind::input, path, "file not found", driver_names);
   make_strict();
-  const bool vrt = lower_ending(path) == ".vrt";
+  const bool vrt = lower_extension(path) == ".vrt";
   if (vrt) check_vrt(path, nesting);
   CPLStringList allowed;
   for (const char* driver : drivers) allowed.AddString(driver);
   if (vrt) allowed.AddString("VRT");
   const GdalErrors errors;
-  Dataset dataset(GDALOpenEx(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, allowed.List(), nullptr, nullptr));
+  Dataset dataset(GDALOpenEx(path.c_str(),
+                             GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
+                             allowed.List(), nullptr, nullptr));
   if (dataset) return dataset;
-  // Identification reads the first bytes only and opens nothing else.
+  // Identification reads only the first bytes and opens nothing else.
   GDALDriverH looks_like = nullptr;
   {
     const GdalErrors quiet;
@@ -135,20 +155,23 @@ Dataset open_checked(const std::string& path, int nesting) {
   }
   const std::string format = looks_like != nullptr ? GDALGetDriverShortName(looks_like) : "";
   if (!format.empty() && allowed.FindString(format.c_str()) < 0) {
-    throw Error(ErrorKind::input, path, fmt::format("is a {} file, which is not allowed under this name", format), driver_names);
+    throw Error(ErrorKind::input, path,
+                fmt::format("{} files with this name are not allowed", format), driver_names);
   }
-  throw Error(ErrorKind::input, path, errors.say("cannot be opened as a raster"), driver_names);
+  throw Error(ErrorKind::input, path, errors.say("not a readable raster"), driver_names);
 }
 
-// Metres per unit by a unit's name; 0 where it is none that is known.
+// Metres per unit by a unit's name; 0 if unknown.
 double metres_per_unit(std::string_view unit) {
   const std::string name = lower_case(std::string(unit));
   const auto is = [&name](std::initializer_list<const char*> words) {
-    return std::any_of(words.begin(), words.end(), [&name](const char* word) { return name == word; });
+    return std::any_of(words.begin(), words.end(),
+                       [&name](const char* word) { return name == word; });
   };
   if (is({"", "m", "metre", "metres", "meter", "meters", "mtr"})) return 1.0;
   if (is({"ft", "foot", "feet", "international foot", "foot_intl"})) return 0.3048;
-  if (is({"us-ft", "ftus", "us survey foot", "us survey feet", "foot_us", "us_survey_foot", "us foot", "survey foot"}))
+  if (is({"us-ft", "ftus", "us survey foot", "us survey feet", "foot_us", "us_survey_foot",
+          "us foot", "survey foot"}))
     return 1200.0 / 3937.0;
   if (is({"cm", "centimetre", "centimeter", "centimetres", "centimeters"})) return 0.01;
   if (is({"dm", "decimetre", "decimeter", "decimetres", "decimeters"})) return 0.1;
@@ -171,30 +194,33 @@ struct RasterFile::State {
   double offset = 0.0;
   double vertical_unit_m = 1.0;  // from the file's vertical CRS
 
-  void find_place();
+  void find_position();
   void find_crs();
   void check_window(const CellWindow& window) const;
   template <class T>
-  // In columns × rows cells, where these are fewer than the window's.
-  Grid<T> read(GDALRasterBandH from, const CellWindow& window, GDALDataType type, int columns, int rows) const;
+  // In columns × rows cells, if these are fewer than the window's.
+  Grid<T> read(GDALRasterBandH from, const CellWindow& window, GDALDataType type, int columns,
+               int rows) const;
   double unit_to_m() const;
   bool is_void(float raw) const;
-  // 0 where the file's own mask hides a cell; empty where it has none beside nodata.
+  // 0 where the file's own mask hides a cell; empty if it has none besides nodata.
   Grid<std::uint8_t> read_mask(const CellWindow& window, int columns, int rows) const;
 };
 
-void RasterFile::State::find_place() {
+void RasterFile::State::find_position() {
   double t[6] = {};
   const GdalErrors errors;
   if (GDALGetGeoTransform(dataset.get(), t) != CE_None) {
     const bool points = GDALGetGCPCount(dataset.get()) > 0;
-    throw Error(ErrorKind::input, source.path, points ? "has control points only" : "does not say where on earth it lies",
-                "a georeferenced raster (rectified; or with a world file beside it)");
+    throw Error(ErrorKind::input, source.path,
+                points ? "has only control points" : "has no georeference",
+                "a georeferenced raster (rectified, or with a world file next to it)");
   }
   affine = {t[0], t[1], t[2], t[3], t[4], t[5]};
   const double area = std::abs(affine.determinant());
   if (!(area > 1e-18) || !std::isfinite(area) || !std::isfinite(t[0]) || !std::isfinite(t[3])) {
-    throw Error(ErrorKind::input, source.path, "has a damaged georeference: cells without an area");
+    throw Error(ErrorKind::input, source.path,
+                "has an invalid georeference: cells without an area");
   }
 }
 
@@ -205,7 +231,7 @@ void RasterFile::State::find_crs() {
   if (own->IsCompound() != 0) vertical_unit_m = own->GetTargetLinearUnits("COMPD_CS|VERT_CS");
   if (!(vertical_unit_m > 0.0)) vertical_unit_m = 1.0;
   if (!crs.empty()) return;
-  // A local system ("Unknown") says no more than none does.
+  // A local system ("Unknown") gives no information.
   if (own->IsGeographic() == 0 && own->IsProjected() == 0) return;
   char* text = nullptr;
   const char* const options[] = {"FORMAT=WKT2_2019", nullptr};
@@ -216,8 +242,9 @@ void RasterFile::State::find_crs() {
   try {
     crs = normalize_crs(wkt);
   } catch (const Error& error) {
-    throw Error(ErrorKind::input, source.path, "has an unusable coordinate system: " + error.found(),
-                "give it with the source's key `crs`");
+    throw Error(ErrorKind::input, source.path,
+                "has an unusable coordinate system: " + error.found(),
+                "set the source's key `crs`");
   }
 }
 
@@ -229,15 +256,17 @@ RasterFile::RasterFile(const RasterSource& source) : state_(std::make_unique<Sta
   s.height = GDALGetRasterYSize(s.dataset.get());
   const int count = GDALGetRasterCount(s.dataset.get());
   if (count == 0) {
-    throw Error(ErrorKind::input, source.path, "holds several rasters, or none, side by side",
-                "a file with one raster: extract the one wanted first");
+    throw Error(ErrorKind::input, source.path, "contains no raster or several rasters",
+                "a file with one raster; extract it first");
   }
   if (source.band < 1 || source.band > count) {
-    throw Error(ErrorKind::input, source.path, fmt::format("has no band {}", source.band), fmt::format("band 1…{}", count));
+    throw Error(ErrorKind::input, source.path, fmt::format("has no band {}", source.band),
+                fmt::format("bands 1…{}", count));
   }
   s.band = GDALGetRasterBand(s.dataset.get(), source.band);
-  if (GDALDataTypeIsComplex(GDALGetRasterDataType(s.band)) != 0) throw Error(ErrorKind::input, source.path, "holds complex numbers");
-  s.find_place();
+  if (GDALDataTypeIsComplex(GDALGetRasterDataType(s.band)) != 0)
+    throw Error(ErrorKind::input, source.path, "contains complex numbers");
+  s.find_position();
   s.find_crs();
   int found = 0;
   const double own_nodata = GDALGetRasterNoDataValue(s.band, &found);
@@ -262,34 +291,38 @@ int RasterFile::bands() const { return GDALGetRasterCount(state_->dataset.get())
 const CellAffine& RasterFile::affine() const { return state_->affine; }
 const std::string& RasterFile::crs() const { return state_->crs; }
 std::optional<double> RasterFile::nodata() const { return state_->nodata; }
-std::string RasterFile::driver() const { return GDALGetDriverShortName(GDALGetDatasetDriver(state_->dataset.get())); }
+std::string RasterFile::driver() const {
+  return GDALGetDriverShortName(GDALGetDatasetDriver(state_->dataset.get()));
+}
 
 const std::string& RasterFile::required_crs() const {
   if (!state_->crs.empty()) return state_->crs;
   throw Error(ErrorKind::input, state_->source.path, "has no coordinate system",
-              "give it with the source's key `crs`, such as crs = \"EPSG:32632\"");
+              "set the source's key `crs`, such as crs = \"EPSG:32632\"");
 }
 
 void RasterFile::State::check_window(const CellWindow& window) const {
-  const bool inside = window.x0 >= 0 && window.y0 >= 0 && window.width > 0 && window.height > 0 && window.x0 <= width - window.width &&
-                      window.y0 <= height - window.height;
-  if (!inside) throw Error(ErrorKind::bug, source.path, "a window outside of the raster");
+  const bool inside = window.x0 >= 0 && window.y0 >= 0 && window.width > 0 && window.height > 0 &&
+                      window.x0 <= width - window.width && window.y0 <= height - window.height;
+  if (!inside) throw Error(ErrorKind::bug, source.path, "the window is outside the raster");
 }
 
 template <class T>
-Grid<T> RasterFile::State::read(GDALRasterBandH from, const CellWindow& window, GDALDataType type, int columns, int rows) const {
+Grid<T> RasterFile::State::read(GDALRasterBandH from, const CellWindow& window, GDALDataType type,
+                                int columns, int rows) const {
   check_window(window);
   check_memory(source.path, static_cast<double>(columns) * rows * sizeof(T));
   Grid<T> cells(columns, rows);
   make_strict();
   const GdalErrors errors;
-  const CPLErr result =
-      GDALRasterIO(from, GF_Read, window.x0, window.y0, window.width, window.height, cells.data(), columns, rows, type, 0, 0);
+  const CPLErr result = GDALRasterIO(from, GF_Read, window.x0, window.y0, window.width,
+                                     window.height, cells.data(), columns, rows, type, 0, 0);
   // Some drivers report a failure and still return success.
   if (result != CE_None || errors.failed()) {
     const bool remote = is_address(source.path);
     throw Error(ErrorKind::input, source.path,
-                explain_http(errors.say(remote ? "cannot be read to its end from its server" : "is damaged or cut short")));
+                explain_http(errors.say(remote ? "cannot read the whole file from its server"
+                                               : "the file is damaged or truncated")));
   }
   return cells;
 }
@@ -297,30 +330,34 @@ Grid<T> RasterFile::State::read(GDALRasterBandH from, const CellWindow& window, 
 double RasterFile::State::unit_to_m() const {
   if (source.unit_to_m != 0.0) {
     if (source.unit_to_m > 0.0 && std::isfinite(source.unit_to_m)) return source.unit_to_m;
-    throw Error(ErrorKind::usage, source.path, fmt::format("{} metres per unit", source.unit_to_m), "more than 0");
+    throw Error(ErrorKind::usage, source.path, fmt::format("{} metres per unit", source.unit_to_m),
+                "more than 0");
   }
   const std::string unit = GDALGetRasterUnitType(band);
   if (unit.empty()) return vertical_unit_m;
   const double metres = metres_per_unit(unit);
   if (metres > 0.0) return metres;
-  throw Error(ErrorKind::input, source.path, fmt::format("its values are in \"{}\"", unit),
-              "a length; give it with the source's key `unit`");
+  throw Error(ErrorKind::input, source.path, fmt::format("the unit of its values is \"{}\"", unit),
+              "a unit of length; set the source's key `unit`");
 }
 
 bool RasterFile::State::is_void(float raw) const {
   if (!std::isfinite(raw) || std::abs(raw) >= 1e30F) return true;
-  // Compared as floats: a declared -3.4028234663852886e38 or -9999.9 has been rounded in the cells as well.
+  // Compared as floats: a declared -3.4028234663852886e38 or -9999.9 was also rounded in the cells.
   if (nodata) return raw == static_cast<float>(*nodata) || raw == -32768.0F;
   return raw == -9999.0F || raw == -32768.0F || raw == 32767.0F;
 }
 
-Grid<std::uint8_t> RasterFile::State::read_mask(const CellWindow& window, int columns, int rows) const {
+Grid<std::uint8_t> RasterFile::State::read_mask(const CellWindow& window, int columns,
+                                                int rows) const {
   const int flags = GDALGetMaskFlags(band);
   if ((flags & (GMF_ALL_VALID | GMF_NODATA)) != 0) return {};
   return read<std::uint8_t>(GDALGetMaskBand(band), window, GDT_Byte, columns, rows);
 }
 
-Grid<float> RasterFile::read_values(const CellWindow& window) const { return read_values(window, window.width, window.height); }
+Grid<float> RasterFile::read_values(const CellWindow& window) const {
+  return read_values(window, window.width, window.height);
+}
 
 Grid<float> RasterFile::read_values(const CellWindow& window, int width, int height) const {
   const State& s = *state_;
@@ -336,7 +373,9 @@ Grid<float> RasterFile::read_values(const CellWindow& window, int width, int hei
       value = nan_value;
     else if (!plain)
       value = static_cast<float>(value * gain + shift);
-    if ((s.source.lowest_m && value < *s.source.lowest_m) || (s.source.highest_m && value > *s.source.highest_m)) value = nan_value;
+    if ((s.source.lowest_m && value < *s.source.lowest_m) ||
+        (s.source.highest_m && value > *s.source.highest_m))
+      value = nan_value;
   }
   return values;
 }
@@ -344,7 +383,8 @@ Grid<float> RasterFile::read_values(const CellWindow& window, int width, int hei
 Grid<std::int32_t> RasterFile::read_codes(const CellWindow& window) const {
   const State& s = *state_;
   const Grid<float> raw = s.read<float>(s.band, window, GDT_Float32, window.width, window.height);
-  Grid<std::int32_t> codes = s.read<std::int32_t>(s.band, window, GDT_Int32, window.width, window.height);
+  Grid<std::int32_t> codes =
+      s.read<std::int32_t>(s.band, window, GDT_Int32, window.width, window.height);
   const Grid<std::uint8_t> mask = s.read_mask(window, window.width, window.height);
   for (std::size_t i = 0; i < codes.size(); ++i)
     if (s.is_void(raw[i]) || (!mask.empty() && mask[i] == 0) || codes[i] < 0) codes[i] = -1;
@@ -361,8 +401,8 @@ void gather_parts(const std::string& path, int nesting, std::set<std::string>& p
   for (int i = 0; i < files.Count(); ++i) {
     const std::string address = address_from_gdal(files[i]);
     const std::string part = address.empty() ? files[i] : address;
-    // What a VRT names are rasters with files of their own; x.vrt.ovr and the like are its own.
-    if (lower_ending(path) == ".vrt" && !part.starts_with(path) && !parts.contains(part))
+    // Sources of a VRT are files of their own; x.vrt.ovr and the like belong to it.
+    if (lower_extension(path) == ".vrt" && !part.starts_with(path) && !parts.contains(part))
       gather_parts(part, nesting + 1, parts);
     else
       parts.insert(part);

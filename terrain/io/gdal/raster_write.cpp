@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What voids are written as: see write_raster. Text has no number for NaN that all readers know.
+// The value of voids: see write_raster. Text has no NaN that all readers accept.
 float choose_void(const Grid<float>& cells, std::optional<double> nodata, bool ascii) {
   constexpr float usual = -9999.0F;
   if (!nodata) return usual;
@@ -34,7 +34,7 @@ float choose_void(const Grid<float>& cells, std::optional<double> nodata, bool a
   return std::find(cells.begin(), cells.end(), given) == cells.end() ? given : usual;
 }
 
-// Cells as a file holds them.
+// Cells as written to a file.
 Grid<float> with_written_voids(const Grid<float>& cells, float written_void) {
   Grid<float> out = cells;
   for (float& value : out)
@@ -43,17 +43,21 @@ Grid<float> with_written_voids(const Grid<float>& cells, float written_void) {
 }
 
 template <class T>
-void write_geotiff(const std::string& path, const Raster<T>& raster, const Grid<T>& cells, double void_value) {
+void write_geotiff(const std::string& path, const Raster<T>& raster, const Grid<T>& cells,
+                   double void_value) {
   constexpr bool bytes = sizeof(T) == 1;
   constexpr GDALDataType type = bytes ? GDT_Byte : GDT_Float32;
   CPLStringList options;
-  for (const char* option : {"TILED=YES", "COMPRESS=DEFLATE", bytes ? "PREDICTOR=2" : "PREDICTOR=3", "BIGTIFF=IF_SAFER", "NUM_THREADS=1"})
+  for (const char* option : {"TILED=YES", "COMPRESS=DEFLATE", bytes ? "PREDICTOR=2" : "PREDICTOR=3",
+                             "BIGTIFF=IF_SAFER", "NUM_THREADS=1"})
     options.AddString(option);
   const GdalErrors errors;
   const auto check = [&](bool good) {
-    if (!good || errors.failed()) throw Error(ErrorKind::output, path, errors.say("cannot be written"));
+    if (!good || errors.failed())
+      throw Error(ErrorKind::output, path, errors.say("cannot write the file"));
   };
-  Dataset dataset(GDALCreate(GDALGetDriverByName("GTiff"), path.c_str(), cells.width(), cells.height(), 1, type, options.List()));
+  Dataset dataset(GDALCreate(GDALGetDriverByName("GTiff"), path.c_str(), cells.width(),
+                             cells.height(), 1, type, options.List()));
   check(dataset != nullptr);
   const GeoTransform& t = raster.transform;
   double affine[6] = {t.origin_x, t.cell_x, 0.0, t.origin_y, 0.0, -t.cell_y};
@@ -65,60 +69,73 @@ void write_geotiff(const std::string& path, const Raster<T>& raster, const Grid<
   }
   GDALRasterBandH band = GDALGetRasterBand(dataset.get(), 1);
   check(GDALSetRasterNoDataValue(band, void_value) == CE_None);
-  // The library takes a pointer to non-const for reading and writing alike; it only reads here.
-  check(GDALRasterIO(band, GF_Write, 0, 0, cells.width(), cells.height(), const_cast<T*>(cells.data()), cells.width(), cells.height(), type,
-                     0, 0) == CE_None);
+  // The library takes a non-const pointer for reading and writing; this only reads.
+  check(GDALRasterIO(band, GF_Write, 0, 0, cells.width(), cells.height(),
+                     const_cast<T*>(cells.data()), cells.width(), cells.height(), type, 0,
+                     0) == CE_None);
   GDALFlushCache(dataset.get());
   dataset.reset();
   check(true);
 }
 
-// By hand, because shortest round-trip numbers keep every bit of a float and no locale interferes.
-void write_ascii(const std::string& path, const Raster<float>& raster, const Grid<float>& cells, float void_value) {
+// Written directly, because shortest round-trip numbers keep every bit of a float and are
+// independent of the locale.
+void write_ascii(const std::string& path, const Raster<float>& raster, const Grid<float>& cells,
+                 float void_value) {
   const GeoTransform& t = raster.transform;
   if (std::abs(t.cell_x - t.cell_y) > 1e-9 * t.cell_x) {
-    throw Error(ErrorKind::output, path, fmt::format("ESRI ASCII cannot hold cells of {} × {}", t.cell_x, t.cell_y),
+    throw Error(ErrorKind::output, path,
+                fmt::format("ESRI ASCII does not support cells of {} × {}", t.cell_x, t.cell_y),
                 "square cells, or .tif");
   }
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "wb"), &std::fclose);
-  if (!file) throw Error(ErrorKind::output, path, "cannot be created");
-  std::string text = fmt::format("ncols {}\nnrows {}\nxllcorner {}\nyllcorner {}\ncellsize {}\nNODATA_value {}\n", cells.width(),
-                                 cells.height(), t.origin_x, t.origin_y - t.cell_y * cells.height(), t.cell_x, void_value);
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "wb"),
+                                                             &std::fclose);
+  if (!file) throw Error(ErrorKind::output, path, "cannot create the file");
+  std::string text =
+      fmt::format("ncols {}\nnrows {}\nxllcorner {}\nyllcorner {}\ncellsize {}\nNODATA_value {}\n",
+                  cells.width(), cells.height(), t.origin_x, t.origin_y - t.cell_y * cells.height(),
+                  t.cell_x, void_value);
   bool good = true;
   for (int y = 0; y < cells.height(); ++y) {
     const float* row = cells.row(y);
-    for (int x = 0; x < cells.width(); ++x) fmt::format_to(std::back_inserter(text), "{}{}", x == 0 ? "" : " ", row[x]);
+    for (int x = 0; x < cells.width(); ++x)
+      fmt::format_to(std::back_inserter(text), "{}{}", x == 0 ? "" : " ", row[x]);
     text += '\n';
     good = good && std::fwrite(text.data(), 1, text.size(), file.get()) == text.size();
     text.clear();
   }
-  if (!good || std::fflush(file.get()) != 0) throw Error(ErrorKind::output, path, "cannot be written: is the disk full?");
+  if (!good || std::fflush(file.get()) != 0)
+    throw Error(ErrorKind::output, path, "cannot write the file; check free disk space");
 }
 
-// The CRS beside an ASCII grid, in the dialect that its readers know.
+// The CRS next to an ASCII grid, in the dialect that its readers use.
 void write_prj(const std::string& path, const std::string& crs) {
   OGRSpatialReference reference;
   char* text = nullptr;
   const char* const options[] = {"FORMAT=WKT1_ESRI", nullptr};
   const GdalErrors errors;
-  const bool good = reference.SetFromUserInput(crs.c_str()) == OGRERR_NONE && reference.exportToWkt(&text, options) == OGRERR_NONE;
+  const bool good = reference.SetFromUserInput(crs.c_str()) == OGRERR_NONE &&
+                    reference.exportToWkt(&text, options) == OGRERR_NONE;
   const std::string wkt = text != nullptr ? text : "";
   CPLFree(text);
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(good ? std::fopen(path.c_str(), "wb") : nullptr, &std::fclose);
-  if (!file || std::fwrite(wkt.data(), 1, wkt.size(), file.get()) != wkt.size() || std::fflush(file.get()) != 0) {
-    throw Error(ErrorKind::output, path, errors.say("cannot be written"));
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(
+      good ? std::fopen(path.c_str(), "wb") : nullptr, &std::fclose);
+  if (!file || std::fwrite(wkt.data(), 1, wkt.size(), file.get()) != wkt.size() ||
+      std::fflush(file.get()) != 0) {
+    throw Error(ErrorKind::output, path, errors.say("cannot write the file"));
   }
 }
 
-// What was written, read again: a full disk is not always reported.
+// Reads the written file back: a full disk is not always reported.
 template <class T>
 void check_written(const std::string& path, const Grid<T>& cells, T void_value) {
   try {
     RasterSource source;
     source.path = path;
-    source.crs = "EPSG:3857";  // any: places are not looked at here
+    source.crs = "EPSG:3857";  // arbitrary: positions are not used
     const RasterFile file(source);
-    if (file.width() != cells.width() || file.height() != cells.height()) throw Error(ErrorKind::output, path, "has another size");
+    if (file.width() != cells.width() || file.height() != cells.height())
+      throw Error(ErrorKind::output, path, "has a different size");
     constexpr int strip = 256;
     for (int y0 = 0; y0 < cells.height(); y0 += strip) {
       const int rows = std::min(strip, cells.height() - y0);
@@ -126,24 +143,26 @@ void check_written(const std::string& path, const Grid<T>& cells, T void_value) 
       for (int y = 0; y < rows; ++y)
         for (int x = 0; x < cells.width(); ++x) {
           const T expected = cells(x, y0 + y);
-          const bool hole = expected == void_value || expected != expected;  // NaN equals nothing
+          const bool hole = expected == void_value || expected != expected;  // NaN
           if (back(x, y) != static_cast<float>(expected) && !(hole && std::isnan(back(x, y))))
-            throw Error(ErrorKind::output, path, "holds other values");
+            throw Error(ErrorKind::output, path, "has different values");
         }
     }
   } catch (const Error& error) {
-    throw Error(ErrorKind::output, path, "was not written as it should be: " + error.found());
+    throw Error(ErrorKind::output, path, "the file was not written correctly: " + error.found());
   }
 }
 
-// The temporary name keeps the ending, by which formats are known, and lies in the same folder, so that a rename suffices.
-std::string temporary_beside(const fs::path& target, const char* ending) {
-  return (target.parent_path() / target.stem()).string() + ".tmp" + ending;
+// The temporary name keeps the extension, which determines the format, and is in the same folder,
+// so that a rename suffices.
+std::string temporary_beside(const fs::path& target, const char* extension) {
+  return (target.parent_path() / target.stem()).string() + ".tmp" + extension;
 }
 
-// write() makes the temporary files; all of them come to their places, or none.
+// write() makes the temporary files; either all of them are renamed, or none.
 template <class Write>
-void write_and_rename(const std::string& path, const std::vector<std::pair<std::string, fs::path>>& files, Write&& write) {
+void write_and_rename(const std::string& path,
+                      const std::vector<std::pair<std::string, fs::path>>& files, Write&& write) {
   try {
     write();
     for (const auto& [part, target] : files) fs::rename(part, target);
@@ -151,17 +170,20 @@ void write_and_rename(const std::string& path, const std::vector<std::pair<std::
     std::error_code ignored;
     for (const auto& [part, target] : files) fs::remove(part, ignored);
     const auto* error = dynamic_cast<const Error*>(&exception);
-    throw Error(ErrorKind::output, path, error != nullptr ? error->found() : exception.what(), error != nullptr ? error->allowed() : "");
+    throw Error(ErrorKind::output, path, error != nullptr ? error->found() : exception.what(),
+                error != nullptr ? error->allowed() : "");
   }
 }
 
 }  // namespace
 
-void write_raster(const std::string& path, const Raster<float>& raster, std::optional<double> nodata) {
-  const std::string ending = lower_ending(path);
-  const bool ascii = ending == ".asc";
-  if (!ascii && ending != ".tif" && ending != ".tiff") throw Error(ErrorKind::output, path, "has an unknown ending", ".tif, .tiff or .asc");
-  if (raster.cells.empty()) throw Error(ErrorKind::output, path, "is to hold no cells");
+void write_raster(const std::string& path, const Raster<float>& raster,
+                  std::optional<double> nodata) {
+  const std::string extension = lower_extension(path);
+  const bool ascii = extension == ".asc";
+  if (!ascii && extension != ".tif" && extension != ".tiff")
+    throw Error(ErrorKind::output, path, "unknown file extension", ".tif, .tiff or .asc");
+  if (raster.cells.empty()) throw Error(ErrorKind::output, path, "no cells to write");
   const float written_void = choose_void(raster.cells, nodata, ascii);
   const Grid<float> cells = with_written_voids(raster.cells, written_void);
   register_gdal();
@@ -169,18 +191,21 @@ void write_raster(const std::string& path, const Raster<float>& raster, std::opt
   const std::string part = temporary_beside(target, target.extension().c_str());
   const std::string part_prj = temporary_beside(target, ".prj");
   std::vector<std::pair<std::string, fs::path>> files{{part, target}};
-  if (ascii && !raster.crs.empty()) files.emplace_back(part_prj, fs::path(target).replace_extension(".prj"));
+  if (ascii && !raster.crs.empty())
+    files.emplace_back(part_prj, fs::path(target).replace_extension(".prj"));
   write_and_rename(path, files, [&] {
-    ascii ? write_ascii(part, raster, cells, written_void) : write_geotiff(part, raster, cells, static_cast<double>(written_void));
+    ascii ? write_ascii(part, raster, cells, written_void)
+          : write_geotiff(part, raster, cells, static_cast<double>(written_void));
     if (files.size() > 1) write_prj(part_prj, raster.crs);
     check_written(part, cells, written_void);
   });
 }
 
 void write_raster(const std::string& path, const Raster<std::uint8_t>& raster) {
-  const std::string ending = lower_ending(path);
-  if (ending != ".tif" && ending != ".tiff") throw Error(ErrorKind::output, path, "has an unknown ending", ".tif or .tiff");
-  if (raster.cells.empty()) throw Error(ErrorKind::output, path, "is to hold no cells");
+  const std::string extension = lower_extension(path);
+  if (extension != ".tif" && extension != ".tiff")
+    throw Error(ErrorKind::output, path, "unknown file extension", ".tif or .tiff");
+  if (raster.cells.empty()) throw Error(ErrorKind::output, path, "no cells to write");
   register_gdal();
   const fs::path target(path);
   const std::string part = temporary_beside(target, target.extension().c_str());

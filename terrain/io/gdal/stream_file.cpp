@@ -22,14 +22,14 @@ struct Stream {
 
 constexpr std::string_view prefix = "/vsibelvedere/";
 
-// What is registered: "12/name.tif" of the path "/vsibelvedere/12/name.tif" is what the library asks for.
+// Registered streams: the library opens "12/name.tif" of the path "/vsibelvedere/12/name.tif".
 std::mutex streams_mutex;
 std::map<std::string, Stream*, std::less<>>& streams() {
   static std::map<std::string, Stream*, std::less<>> all;
   return all;
 }
 
-// Where one reader of a stream stands.
+// Position of one reader of a stream.
 struct Cursor {
   Stream* stream;
   std::uint64_t at = 0;
@@ -54,7 +54,8 @@ int stat_stream(void*, const char* name, VSIStatBufL* out, int) {
 
 void* open_stream(void*, const char* name, const char* access) {
   Stream* stream = find_stream(name);
-  if (stream == nullptr || std::string_view(access).find_first_of("wa+") != std::string_view::npos) return nullptr;
+  if (stream == nullptr || std::string_view(access).find_first_of("wa+") != std::string_view::npos)
+    return nullptr;
   return std::make_unique<Cursor>(Cursor{stream}).release();
 }
 
@@ -62,7 +63,9 @@ vsi_l_offset tell(void* file) { return static_cast<Cursor*>(file)->at; }
 
 int seek(void* file, vsi_l_offset offset, int whence) {
   Cursor& cursor = *static_cast<Cursor*>(file);
-  cursor.at = offset + (whence == SEEK_SET ? 0 : whence == SEEK_CUR ? cursor.at : cursor.stream->source.bytes);
+  cursor.at = offset + (whence == SEEK_SET   ? 0
+                        : whence == SEEK_CUR ? cursor.at
+                                             : cursor.stream->source.bytes);
   cursor.past_end = false;
   return 0;
 }
@@ -77,7 +80,7 @@ std::size_t read(void* file, void* to, std::size_t size, std::size_t count) {
   if (bytes == 0 || stream.failure) return 0;
   try {
     stream.source.read(cursor.at, static_cast<std::size_t>(bytes), static_cast<char*>(to));
-  } catch (...) {  // nothing may pass through a library that is written in C
+  } catch (...) {  // no exception may pass through a C library
     stream.failure = std::current_exception();
     return 0;
   }
@@ -103,7 +106,8 @@ void install() {
     callbacks->read = &read;
     callbacks->eof = &is_at_end;
     callbacks->close = &close;
-    VSIInstallPluginHandler(prefix.data(), callbacks);  // the pointer is kept: it must be of a literal
+    VSIInstallPluginHandler(prefix.data(),
+                            callbacks);  // the pointer is kept: it must be of a literal
     VSIFreeFilesystemPluginCallbacksStruct(callbacks);
   });
 }
@@ -114,9 +118,10 @@ struct StreamFile::State {
   Stream stream;
 };
 
-StreamFile::StreamFile(const std::string& name, ByteSource source) : state_(std::make_unique<State>()) {
+StreamFile::StreamFile(const std::string& name, ByteSource source)
+    : state_(std::make_unique<State>()) {
   install();
-  // A number of its own, because libraries remember what they read under a name.
+  // A unique number, because libraries cache by name.
   static std::atomic<std::uint64_t> number = 0;
   const std::string key = fmt::format("{}/{}", number.fetch_add(1), name);
   state_->stream = {std::string(prefix) + key, std::move(source), nullptr};

@@ -18,30 +18,35 @@ namespace {
 namespace fs = std::filesystem;
 
 struct VectorFormat {
-  std::string_view ending;
+  std::string_view extension;
   const char* driver;
 };
-constexpr std::array formats = {VectorFormat{".gpkg", "GPKG"},      VectorFormat{".geojson", "GeoJSON"},
-                                VectorFormat{".json", "GeoJSON"},   VectorFormat{".shp", "ESRI Shapefile"},
-                                VectorFormat{".fgb", "FlatGeobuf"}, VectorFormat{".gpx", "GPX"},
-                                VectorFormat{".osm", "OSM"},        VectorFormat{".pbf", "OSM"}};
+constexpr std::array formats = {
+    VectorFormat{".gpkg", "GPKG"},      VectorFormat{".geojson", "GeoJSON"},
+    VectorFormat{".json", "GeoJSON"},   VectorFormat{".shp", "ESRI Shapefile"},
+    VectorFormat{".fgb", "FlatGeobuf"}, VectorFormat{".gpx", "GPX"},
+    VectorFormat{".osm", "OSM"},        VectorFormat{".pbf", "OSM"}};
 
 }  // namespace
 
-Dataset open_vector_layers(const std::string& path, const std::vector<std::string_view>& endings, const std::string& found,
-                           const std::string& allowed) {
-  const std::string ending = lower_ending(path);
+Dataset open_vector_layers(const std::string& path, const std::vector<std::string_view>& extensions,
+                           const std::string& found, const std::string& allowed) {
+  const std::string extension = lower_extension(path);
   const char* driver = nullptr;
   for (const VectorFormat& format : formats)
-    if (ending == format.ending && std::find(endings.begin(), endings.end(), format.ending) != endings.end()) driver = format.driver;
+    if (extension == format.extension &&
+        std::find(extensions.begin(), extensions.end(), format.extension) != extensions.end())
+      driver = format.driver;
   if (driver == nullptr) throw Error(ErrorKind::usage, path, found, allowed);
   std::error_code ignored;
-  if (!fs::is_regular_file(path, ignored)) throw Error(ErrorKind::input, path, "there is no such file");
+  if (!fs::is_regular_file(path, ignored)) throw Error(ErrorKind::input, path, "file not found");
   register_gdal();
   const GdalErrors errors;
   const char* const drivers[] = {driver, nullptr};
-  Dataset file(GDALOpenEx(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, drivers, nullptr, nullptr));
-  if (file == nullptr) throw Error(ErrorKind::input, path, errors.say(fmt::format("cannot be read as {}", driver)));
+  Dataset file(GDALOpenEx(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
+                          drivers, nullptr, nullptr));
+  if (file == nullptr)
+    throw Error(ErrorKind::input, path, errors.say(fmt::format("not a readable {} file", driver)));
   return file;
 }
 
@@ -54,7 +59,7 @@ std::string layer_crs(OGRLayerH layer, const std::string& path) {
   const OGRErr result = OSRExportToWktEx(reference, &text, options);
   const std::string wkt = text != nullptr ? text : "";
   CPLFree(text);
-  if (result != OGRERR_NONE) throw Error(ErrorKind::input, path, errors.say("its CRS cannot be read"));
+  if (result != OGRERR_NONE) throw Error(ErrorKind::input, path, errors.say("cannot read its CRS"));
   return wkt;
 }
 

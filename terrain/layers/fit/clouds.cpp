@@ -17,9 +17,11 @@ namespace {
 
 // Sums of a mask over blocks of factor × factor cells.
 Grid<float> reduced(const Grid<std::uint8_t>& mask, int factor) {
-  Grid<float> sums((mask.width() + factor - 1) / factor, (mask.height() + factor - 1) / factor, 0.0F);
+  Grid<float> sums((mask.width() + factor - 1) / factor, (mask.height() + factor - 1) / factor,
+                   0.0F);
   for (int y = 0; y != mask.height(); ++y)
-    for (int x = 0; x != mask.width(); ++x) sums(x / factor, y / factor) += static_cast<float>(mask(x, y));
+    for (int x = 0; x != mask.width(); ++x)
+      sums(x / factor, y / factor) += static_cast<float>(mask(x, y));
   return sums;
 }
 
@@ -29,10 +31,11 @@ struct Match {
   double correlation = -1.0;
 };
 
-// The offset at which `moved` (its cells that are not 0) correlates best with `still`, over the cells that both cover there, among those
-// `allowed`. Fixed rows of offsets; ties to the first.
+// The offset at which `moved` (its non-zero cells) correlates best with `still`, over the cells
+// that both cover there, among those `allowed`. Ties take the first in a fixed order of rows.
 template <class Allowed>
-Match best_offset(const Grid<float>& moved, const Grid<float>& still, int x0, int x1, int y0, int y1, const Allowed& allowed) {
+Match best_offset(const Grid<float>& moved, const Grid<float>& still, int x0, int x1, int y0,
+                  int y1, const Allowed& allowed) {
   struct Cell {
     int x, y;
     double value;
@@ -66,8 +69,10 @@ Match best_offset(const Grid<float>& moved, const Grid<float>& still, int x0, in
         }
         const double mean = sum / count;
         const double variance = squares / count - mean * mean;
-        // Clouds that are nearly all moved out of the picture match by accident.
-        if (variance <= 0.0 || variance_still <= 0.0 || squares < 0.3 * static_cast<double>(cells.size())) continue;
+        // Clouds shifted almost entirely out of the picture match by accident.
+        if (variance <= 0.0 || variance_still <= 0.0 ||
+            squares < 0.3 * static_cast<double>(cells.size()))
+          continue;
         const double correlation = both / count / std::sqrt(variance * variance_still);
         if (correlation > best[row].correlation) best[row] = {dx, dy, correlation};
       }
@@ -88,13 +93,14 @@ Grid<std::uint8_t> dilated(const Grid<std::uint8_t>& mask, int radius) {
   return grown_mask;
 }
 
-// Single cells and threads are no clouds: an opening by the cell and its four neighbours.
+// Single cells and threads are not clouds: an opening by the cell and its four neighbours.
 Grid<std::uint8_t> opened(const Grid<std::uint8_t>& mask) {
   const auto cross = [](const Grid<std::uint8_t>& from, bool all) {
     Grid<std::uint8_t> to(from.width(), from.height());
     for (int y = 0; y != from.height(); ++y)
       for (int x = 0; x != from.width(); ++x) {
-        const int set = from(x, y) + from.clamped(x - 1, y) + from.clamped(x + 1, y) + from.clamped(x, y - 1) + from.clamped(x, y + 1);
+        const int set = from(x, y) + from.clamped(x - 1, y) + from.clamped(x + 1, y) +
+                        from.clamped(x, y - 1) + from.clamped(x, y + 1);
         to(x, y) = (all ? set == 5 : set > 0) ? 1 : 0;
       }
     return to;
@@ -104,10 +110,11 @@ Grid<std::uint8_t> opened(const Grid<std::uint8_t>& mask) {
 
 }  // namespace
 
-Clouds find_clouds(const Grid<glm::vec3>& picture, double cell_m, const CloudParameters& parameters) {
+Clouds find_clouds(const Grid<glm::vec3>& picture, double cell_m,
+                   const CloudParameters& parameters) {
   constexpr int cloud_rim = 3;
   constexpr int shadow_rim = 8;
-  constexpr int coarse_size = 256;  // cells on the longer side of what all offsets are tried on
+  constexpr int coarse_size = 256;  // cells along the longer side of the grid for the full search
   const int width = picture.width();
   const int height = picture.height();
   Grid<std::uint8_t> white(width, height);
@@ -116,7 +123,10 @@ Clouds find_clouds(const Grid<glm::vec3>& picture, double cell_m, const CloudPar
   parallel_rows(height, [&](int y) {
     for (int x = 0; x != width; ++x) {
       const HueSaturation c = hue_saturation_of(picture(x, y));
-      white(x, y) = (c.grey && c.value > parameters.white) || (c.value > parameters.whitest && c.saturation < parameters.pale) ? 1 : 0;
+      white(x, y) = (c.grey && c.value > parameters.white) ||
+                            (c.value > parameters.whitest && c.saturation < parameters.pale)
+                        ? 1
+                        : 0;
       dark(x, y) = c.value < parameters.dark ? 1 : 0;
       dim(x, y) = c.value < parameters.shadow ? 1 : 0;
     }
@@ -124,38 +134,48 @@ Clouds find_clouds(const Grid<glm::vec3>& picture, double cell_m, const CloudPar
   white = opened(white);
   Clouds clouds{false, Grid<std::uint8_t>(width, height, 0), Grid<std::uint8_t>(width, height, 0)};
   const int factor = std::max(1, (std::max(width, height) + coarse_size - 1) / coarse_size);
-  const double least = parameters.least_m / cell_m;
-  const double most = parameters.most_m / cell_m;
+  const double min = parameters.min_m / cell_m;
+  const double max = parameters.max_m / cell_m;
   const auto within = [&](int scale) {
     return [=](int dx, int dy) {
       const double far = exact::hypot(dx, dy) * scale;
-      return far >= least && far <= most;
+      return far >= min && far <= max;
     };
   };
-  const int reach = static_cast<int>(most / factor);
+  const int reach = static_cast<int>(max / factor);
   const Grid<float> white_coarse = reduced(white, factor);
   const Grid<float> dark_coarse = reduced(dark, factor);
-  const Match coarse = best_offset(white_coarse, dark_coarse, -reach, reach, -reach, reach, within(factor));
+  const Match coarse =
+      best_offset(white_coarse, dark_coarse, -reach, reach, -reach, reach, within(factor));
   if (coarse.correlation <= -1.0) return clouds;
-  const Match fine = best_offset(reduced(white, 1), reduced(dark, 1), factor * (coarse.x - 1), factor * (coarse.x + 1),
-                                 factor * (coarse.y - 1), factor * (coarse.y + 1), within(1));
+  const Match fine = best_offset(reduced(white, 1), reduced(dark, 1), factor * (coarse.x - 1),
+                                 factor * (coarse.x + 1), factor * (coarse.y - 1),
+                                 factor * (coarse.y + 1), within(1));
   clouds.match = fine.correlation;
   clouds.shadow_x = fine.x;
   clouds.shadow_y = fine.y;
-  const double towards = to_degrees(exact::atan2(-static_cast<double>(fine.x), static_cast<double>(fine.y)));
+  const double towards =
+      to_degrees(exact::atan2(-static_cast<double>(fine.x), static_cast<double>(fine.y)));
   clouds.sun_azimuth_deg = towards < 0.0 ? towards + 360.0 : towards;
-  // Beside the peak lie the shadows of clouds' own sizes; what matches as well farther off is no shadow.
+  // Secondary peaks near the maximum are due to the size of the clouds; an equal match farther away
+  // means that there is no shadow.
   const int own = coarse_size / 10;
-  const auto elsewhere = [&](int dx, int dy) { return within(factor)(dx, dy) && exact::hypot(dx - coarse.x, dy - coarse.y) > own; };
-  clouds.elsewhere = best_offset(white_coarse, dark_coarse, -reach, reach, -reach, reach, elsewhere).correlation;
-  clouds.found = fine.correlation >= parameters.least_match && clouds.elsewhere <= parameters.distinct * fine.correlation;
+  const auto elsewhere = [&](int dx, int dy) {
+    return within(factor)(dx, dy) && exact::hypot(dx - coarse.x, dy - coarse.y) > own;
+  };
+  clouds.elsewhere =
+      best_offset(white_coarse, dark_coarse, -reach, reach, -reach, reach, elsewhere).correlation;
+  clouds.found = fine.correlation >= parameters.min_match &&
+                 clouds.elsewhere <= parameters.distinct * fine.correlation;
   if (!clouds.found) return clouds;
   Grid<std::uint8_t> moved(width, height, 0);
   for (int y = 0; y != height; ++y)
     for (int x = 0; x != width; ++x)
-      if (white(x, y) != 0 && moved.contains(x + fine.x, y + fine.y)) moved(x + fine.x, y + fine.y) = 1;
+      if (white(x, y) != 0 && moved.contains(x + fine.x, y + fine.y))
+        moved(x + fine.x, y + fine.y) = 1;
   moved = dilated(moved, shadow_rim);
-  for (std::size_t i = 0; i != moved.size(); ++i) clouds.shadow[i] = moved[i] != 0 && dim[i] != 0 ? 1 : 0;
+  for (std::size_t i = 0; i != moved.size(); ++i)
+    clouds.shadow[i] = moved[i] != 0 && dim[i] != 0 ? 1 : 0;
   clouds.cloud = dilated(white, cloud_rim);
   return clouds;
 }

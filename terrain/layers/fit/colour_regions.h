@@ -16,18 +16,21 @@
 
 namespace belvedere {
 
-// A region that somebody drew in the hue–saturation plane: the colours of one class.
+// A user-defined region of the hue–saturation plane: the colours of one class.
 struct ColourRegion {
   FitClass of;
-  std::optional<bool> grey;                                    // only greys, or only what is none
-  std::optional<glm::dvec2> hue_deg;                           // from … up to, clockwise; over 360 where the first is larger
-  glm::dvec2 saturation{0.0, 1.01};                            // from … up to
-  glm::dvec2 value{0.0, 1.01};                                 // from … up to
-  std::vector<glm::dvec2> polygon;                             // hue in degrees, saturation: corners in the plane; empty: none
-  double lowest_m = -std::numeric_limits<double>::infinity();  // no lower than this: clouds are not snow
-  Grid<std::uint8_t> painted;  // 1 where the region is painted in a picture of the plane (plane_pixel); empty: not painted
+  std::optional<bool> grey;           // true: only greys; false: no greys
+  std::optional<glm::dvec2> hue_deg;  // range, clockwise; across 360 if the first is larger
+  glm::dvec2 saturation{0.0, 1.01};   // from … below
+  glm::dvec2 value{0.0, 1.01};        // from … below
+  std::vector<glm::dvec2> polygon;  // hue in degrees, saturation: corners in the plane; empty: none
+  double lowest_m = -std::numeric_limits<double>::infinity();  // minimum altitude, for example to
+                                                               // separate snow from clouds
+  Grid<std::uint8_t> painted;  // 1 where the region is painted in a picture of the plane
+                               // (plane_pixel); empty: not painted
 };
-// Where a colour lies in a picture of the plane, as a report draws it: the middle is grey, red to the right, green upwards to the left.
+// Position of a colour in a picture of the plane, as in reports: grey at the centre, red to the
+// right, green to the upper left.
 struct PlanePixel {
   int x = 0;
   int y = 0;
@@ -35,12 +38,14 @@ struct PlanePixel {
 PlanePixel plane_pixel(const HueSaturation& colour, int width, int height);
 bool holds(const ColourRegion& region, const HueSaturation& colour, double altitude_m);
 
-// A picture of a path that a file of regions names, encoded sRGB 0…1; throws Error(input).
+// Reads a picture that a file of regions refers to, encoded sRGB 0…1; throws Error(input).
 using PictureReader = std::function<Grid<glm::vec3>(const std::string& path)>;
 
-// [[region]] tables (docs/layers_fit.md); the first that holds a colour has it. Error(usage) with file:line:column. Where regions are
-// painted, the picture lies beside the file.
-std::vector<ColourRegion> parse_colour_regions(std::string_view text, const std::string& name, const PictureReader& read_picture = {});
-std::vector<ColourRegion> read_colour_regions(const std::string& path, const PictureReader& read_picture = {});
+// [[region]] tables (docs/layers_fit.md); the first region that contains a colour takes it.
+// Error(usage) with file:line:column. The picture of painted regions is relative to the file.
+std::vector<ColourRegion> parse_colour_regions(std::string_view text, const std::string& name,
+                                               const PictureReader& read_picture = {});
+std::vector<ColourRegion> read_colour_regions(const std::string& path,
+                                              const PictureReader& read_picture = {});
 
 }  // namespace belvedere

@@ -23,18 +23,21 @@ FitCells select_cells(const FitCells& cells, std::span<const std::uint32_t> indi
   return selected;
 }
 
-std::vector<std::uint32_t> draw_labelled(std::span<const std::uint8_t> labels, std::size_t most, std::uint64_t part) {
+std::vector<std::uint32_t> draw_labelled(std::span<const std::uint8_t> labels, std::size_t max,
+                                         std::uint64_t part) {
   std::vector<std::uint32_t> indices;
   for (std::size_t i = 0; i != labels.size(); ++i)
     if (labels[i] != no_class) indices.push_back(static_cast<std::uint32_t>(i));
-  if (indices.size() <= most) return indices;
-  // Selection sampling (Knuth, "The Art of Computer Programming" 2, 3.4.2, algorithm S): exactly `most`, in order, each equally likely.
+  if (indices.size() <= max) return indices;
+  // Selection sampling (Knuth, "The Art of Computer Programming" 2, 3.4.2, algorithm S): exactly
+  // `most`, in order, each equally likely.
   const std::uint64_t seed = stream_seed(0, Stream::layers_fit, part);
   std::vector<std::uint32_t> drawn;
-  drawn.reserve(most);
-  for (std::size_t i = 0; i != indices.size() && drawn.size() != most; ++i) {
+  drawn.reserve(max);
+  for (std::size_t i = 0; i != indices.size() && drawn.size() != max; ++i) {
     const double chance = random_uniform(seed, static_cast<std::int64_t>(i), 0);
-    if (chance * static_cast<double>(indices.size() - i) < static_cast<double>(most - drawn.size())) drawn.push_back(indices[i]);
+    if (chance * static_cast<double>(indices.size() - i) < static_cast<double>(max - drawn.size()))
+      drawn.push_back(indices[i]);
   }
   return drawn;
 }
@@ -62,7 +65,8 @@ ClassShares mix_shares(const ClassShares& a, const ClassShares& b, double weight
   ClassShares mixed = a;
   const auto of_a = static_cast<float>(weight);
   const auto of_b = static_cast<float>(1.0 - weight);
-  for (std::size_t i = 0; i != mixed.values.size(); ++i) mixed.values[i] = of_a * a.values[i] + of_b * b.values[i];
+  for (std::size_t i = 0; i != mixed.values.size(); ++i)
+    mixed.values[i] = of_a * a.values[i] + of_b * b.values[i];
   return mixed;
 }
 
@@ -86,26 +90,30 @@ std::vector<std::uint8_t> most_likely(const ClassShares& shares, std::span<const
 
 std::vector<double> matching_offsets(const ClassShares& shares, std::span<const double> wanted) {
   constexpr int rounds = 60;
-  constexpr double least = 1e-5;  // of the ground: keeps steps finite while a class covers nothing yet
+  constexpr double min = 1e-5;  // of the ground: bounds steps while a class covers nothing
   std::vector<double> offsets(wanted.size());
   for (std::size_t k = 0; k != offsets.size(); ++k) offsets[k] = wanted[k] > 0.0 ? 1.0 : 0.0;
   std::vector<double> best = offsets;
-  double least_off = std::numeric_limits<double>::infinity();
+  double min_off = std::numeric_limits<double>::infinity();
   for (int round = 0; round != rounds; ++round) {
-    const std::vector<std::size_t> count = count_labels(most_likely(shares, offsets), shares.classes);
+    const std::vector<std::size_t> count =
+        count_labels(most_likely(shares, offsets), shares.classes);
     double off = 0.0;
     std::vector<double> covered(offsets.size());
     for (std::size_t k = 0; k != offsets.size(); ++k) {
-      covered[k] = static_cast<double>(count[k]) / static_cast<double>(std::max<std::size_t>(shares.size(), 1));
+      covered[k] = static_cast<double>(count[k]) /
+                   static_cast<double>(std::max<std::size_t>(shares.size(), 1));
       off += std::abs(covered[k] - wanted[k]);
     }
-    if (off < least_off) {
-      least_off = off;
+    if (off < min_off) {
+      min_off = off;
       best = offsets;
     }
-    // How much of the ground answers to an offset differs widely: long steps to find the place, short ones to stay there.
+    // The sensitivity of the covered area to an offset varies widely: long steps to approach, short
+    // ones to converge.
     const double step = round < 15 ? 0.25 : 0.08;
-    for (std::size_t k = 0; k != offsets.size(); ++k) offsets[k] *= exact::pow((wanted[k] + least) / (covered[k] + least), step);
+    for (std::size_t k = 0; k != offsets.size(); ++k)
+      offsets[k] *= exact::pow((wanted[k] + min) / (covered[k] + min), step);
   }
   return best;
 }

@@ -14,26 +14,27 @@ namespace belvedere {
 namespace {
 
 constexpr std::size_t table_samples = 256;
-constexpr std::size_t chunk_cells = 8192;  // fixed, so that sums do not hang on threads
-constexpr double level_weight = 1e-5;      // of squared knots: what the data leave open goes to 0
+constexpr std::size_t chunk_cells = 8192;  // fixed, so that sums do not depend on threads
+constexpr double level_weight = 1e-5;      // of squared knots: undetermined knots go to 0
 
-// How samples read knots: linear between knot `first` and the next.
-struct KnotPlace {
+// Linear interpolation of samples between knot `first` and the next.
+struct KnotPosition {
   std::size_t first = 0;
   double next = 0.0;  // weight of the next one
 };
-std::array<KnotPlace, table_samples> knot_places(std::size_t knots) {
-  std::array<KnotPlace, table_samples> places;
+std::array<KnotPosition, table_samples> knot_positions(std::size_t knots) {
+  std::array<KnotPosition, table_samples> positions;
   for (std::size_t i = 0; i != table_samples; ++i) {
     const double at = layer_sample_place(static_cast<int>(i)) * static_cast<double>(knots - 1);
-    places[i].first = std::min(static_cast<std::size_t>(at), knots - 2);
-    places[i].next = at - static_cast<double>(places[i].first);
+    positions[i].first = std::min(static_cast<std::size_t>(at), knots - 2);
+    positions[i].next = at - static_cast<double>(positions[i].first);
   }
-  return places;
+  return positions;
 }
 
-// Adds the penalty of one function's knots, `stride` apart, and its gradient.
-double add_penalty(const double* knots, double* gradient, std::size_t count, std::size_t stride, double roughness) {
+// Adds the roughness penalty of one function's knots, `stride` apart, and its gradient.
+double add_penalty(const double* knots, double* gradient, std::size_t count, std::size_t stride,
+                   double roughness) {
   double penalty = 0.0;
   for (std::size_t j = 0; j != count; ++j) {
     const double level = knots[j * stride];
@@ -48,7 +49,8 @@ double add_penalty(const double* knots, double* gradient, std::size_t count, std
   return penalty;
 }
 
-// Sum of logarithms of numbers in [1e-12, 1e12] by products of 16 of them: a logarithm costs as much as the rest of a cell.
+// Sum of logarithms of numbers in [1e-12, 1e12] by products of 16 of them: a logarithm costs as
+// much as the rest of a cell.
 class LogSum {
  public:
   void add(double factor) {
@@ -71,7 +73,7 @@ class LogSum {
   int factors_ = 0;
 };
 
-// Sums over fixed chunks of cells, each into numbers of its own, added up in their order.
+// Sums over fixed chunks of cells, added in their order.
 template <class F>
 double chunked_sum(std::size_t cells, std::vector<double>& totals, F&& of_chunk) {
   const std::size_t chunks = (cells + chunk_cells - 1) / chunk_cells;
@@ -89,7 +91,8 @@ double chunked_sum(std::size_t cells, std::vector<double>& totals, F&& of_chunk)
   return value;
 }
 
-std::vector<std::uint8_t> rows_of(const FitCells& cells, const std::vector<std::uint32_t>& indices) {
+std::vector<std::uint8_t> rows_of(const FitCells& cells,
+                                  const std::vector<std::uint32_t>& indices) {
   const std::size_t inputs = cells.inputs.size();
   std::vector<std::uint8_t> rows(indices.size() * inputs);
   for (std::size_t i = 0; i != indices.size(); ++i)
@@ -97,22 +100,24 @@ std::vector<std::uint8_t> rows_of(const FitCells& cells, const std::vector<std::
   return rows;
 }
 
-// One class against those under it. Cells of the class itself need no more than their histograms: their loss is -ln b - Σ ln F.
+// One class against those under it. For cells of the class itself the histograms suffice: their
+// loss is -ln b - Σ ln F.
 class ProductLoss {
  public:
-  ProductLoss(const FitCells& cells, const std::vector<std::uint32_t>& own, const std::vector<std::uint32_t>& under,
-              const KnotParameters& knots)
+  ProductLoss(const FitCells& cells, const std::vector<std::uint32_t>& own,
+              const std::vector<std::uint32_t>& under, const KnotParameters& knots)
       : inputs_(cells.inputs.size()),
         knots_(static_cast<std::size_t>(knots.count)),
         roughness_(knots.roughness),
         own_count_(static_cast<double>(own.size())),
         cells_(static_cast<double>(own.size() + under.size())),
-        places_(knot_places(knots_)),
+        positions_(knot_positions(knots_)),
         own_(inputs_ * table_samples, 0.0),
         rows_(rows_of(cells, under)),
         under_(under.size()) {
     for (const std::uint32_t i : own)
-      for (std::size_t a = 0; a != inputs_; ++a) own_[a * table_samples + cells.inputs[a][i]] += 1.0;
+      for (std::size_t a = 0; a != inputs_; ++a)
+        own_[a * table_samples + cells.inputs[a][i]] += 1.0;
   }
 
   double operator()(std::span<const double> x, std::span<double> gradient) const {
@@ -121,12 +126,14 @@ class ProductLoss {
     double loss = -own_count_ * exact::log(b);
     for (std::size_t a = 0; a != inputs_; ++a)
       for (std::size_t i = 0; i != table_samples; ++i) {
-        const std::size_t at = 1 + a * knots_ + places_[i].first;
-        const double e = x[at] + places_[i].next * (x[at + 1] - x[at]);
+        const std::size_t at = 1 + a * knots_ + positions_[i].first;
+        const double e = x[at] + positions_[i].next * (x[at + 1] - x[at]);
         f[a * table_samples + i] = std::max(sigmoid(e), 1e-12);
-        if (own_[a * table_samples + i] != 0.0) loss -= own_[a * table_samples + i] * exact::log(f[a * table_samples + i]);
+        if (own_[a * table_samples + i] != 0.0)
+          loss -= own_[a * table_samples + i] * exact::log(f[a * table_samples + i]);
       }
-    // d loss / d(-ln C): 1 a cell of the class, -C / (1 - C) a cell under it; the last number is the sum over all.
+    // d loss / d(-ln C): 1 for a cell of the class, -C / (1 - C) for a cell under it; the last
+    // number is the sum over all.
     std::vector<double> slopes(inputs_ * table_samples + 1, 0.0);
     loss += chunked_sum(under_, slopes, [&](std::size_t begin, std::size_t end, double* sums) {
       LogSum logs;
@@ -147,10 +154,11 @@ class ProductLoss {
     double penalty = 0.0;
     for (std::size_t a = 0; a != inputs_; ++a) {
       for (std::size_t i = 0; i != table_samples; ++i) {
-        const double slope = -(1.0 - f[a * table_samples + i]) * (own_[a * table_samples + i] + slopes[a * table_samples + i]) / cells_;
-        const std::size_t at = 1 + a * knots_ + places_[i].first;
-        gradient[at] += (1.0 - places_[i].next) * slope;
-        gradient[at + 1] += places_[i].next * slope;
+        const double slope = -(1.0 - f[a * table_samples + i]) *
+                             (own_[a * table_samples + i] + slopes[a * table_samples + i]) / cells_;
+        const std::size_t at = 1 + a * knots_ + positions_[i].first;
+        gradient[at] += (1.0 - positions_[i].next) * slope;
+        gradient[at + 1] += positions_[i].next * slope;
       }
       penalty += add_penalty(&x[1 + a * knots_], &gradient[1 + a * knots_], knots_, 1, roughness_);
     }
@@ -163,21 +171,22 @@ class ProductLoss {
   double roughness_;
   double own_count_;
   double cells_;
-  std::array<KnotPlace, table_samples> places_;
+  std::array<KnotPosition, table_samples> positions_;
   std::vector<double> own_;         // cells of the class by input and sample
   std::vector<std::uint8_t> rows_;  // samples of the cells under it, a row each
   std::size_t under_;
 };
 
-// All classes together; numbers are [input][knot or sample][class].
+// All classes together; the parameters are [input][knot or sample][class].
 class AdditiveLoss {
  public:
-  AdditiveLoss(const FitCells& cells, const std::vector<std::uint32_t>& use, std::vector<double> prior, const KnotParameters& knots)
+  AdditiveLoss(const FitCells& cells, const std::vector<std::uint32_t>& use,
+               std::vector<double> prior, const KnotParameters& knots)
       : inputs_(cells.inputs.size()),
         knots_(static_cast<std::size_t>(knots.count)),
         classes_(static_cast<std::size_t>(cells.classes)),
         roughness_(knots.roughness),
-        places_(knot_places(knots_)),
+        positions_(knot_positions(knots_)),
         rows_(rows_of(cells, use)),
         labels_(use.size()),
         prior_(std::move(prior)) {
@@ -189,48 +198,51 @@ class AdditiveLoss {
     for (std::size_t a = 0; a != inputs_; ++a)
       for (std::size_t i = 0; i != table_samples; ++i)
         for (std::size_t k = 0; k != classes_; ++k) {
-          const double* at = &x[(a * knots_ + places_[i].first) * classes_ + k];
-          // ± 30 an input keeps products of 20 of them finite; fitted tables stay within ± 10.
-          factors[(a * table_samples + i) * classes_ + k] =
-              exact::exp(std::clamp(at[0] + places_[i].next * (at[classes_] - at[0]), -30.0, 30.0));
+          const double* at = &x[(a * knots_ + positions_[i].first) * classes_ + k];
+          // A range of ± 30 per input keeps products of 20 of them finite; fitted tables stay
+          // within ± 10.
+          factors[(a * table_samples + i) * classes_ + k] = exact::exp(
+              std::clamp(at[0] + positions_[i].next * (at[classes_] - at[0]), -30.0, 30.0));
         }
     const double cells = static_cast<double>(labels_.size());
     std::vector<double> slopes(factors.size(), 0.0);
-    const double loss = chunked_sum(labels_.size(), slopes, [&](std::size_t begin, std::size_t end, double* sums) {
-      LogSum logs;
-      std::vector<double> share(classes_);
-      for (std::size_t c = begin; c != end; ++c) {
-        const std::uint8_t* row = rows_.data() + c * inputs_;
-        for (std::size_t k = 0; k != classes_; ++k) share[k] = prior_[k];
-        for (std::size_t a = 0; a != inputs_; ++a) {
-          const double* of = &factors[(a * table_samples + row[a]) * classes_];
-          for (std::size_t k = 0; k != classes_; ++k) share[k] *= of[k];
-        }
-        double total = 0.0;
-        for (std::size_t k = 0; k != classes_; ++k) total += share[k];
-        const double scale = 1.0 / total;
-        for (std::size_t k = 0; k != classes_; ++k) share[k] *= scale;
-        logs.add(std::max(share[labels_[c]], 1e-12));
-        share[labels_[c]] -= 1.0;
-        for (std::size_t a = 0; a != inputs_; ++a) {
-          double* to = sums + (a * table_samples + row[a]) * classes_;
-          for (std::size_t k = 0; k != classes_; ++k) to[k] += share[k];
-        }
-      }
-      return -logs.take();
-    });
+    const double loss =
+        chunked_sum(labels_.size(), slopes, [&](std::size_t begin, std::size_t end, double* sums) {
+          LogSum logs;
+          std::vector<double> share(classes_);
+          for (std::size_t c = begin; c != end; ++c) {
+            const std::uint8_t* row = rows_.data() + c * inputs_;
+            for (std::size_t k = 0; k != classes_; ++k) share[k] = prior_[k];
+            for (std::size_t a = 0; a != inputs_; ++a) {
+              const double* of = &factors[(a * table_samples + row[a]) * classes_];
+              for (std::size_t k = 0; k != classes_; ++k) share[k] *= of[k];
+            }
+            double total = 0.0;
+            for (std::size_t k = 0; k != classes_; ++k) total += share[k];
+            const double scale = 1.0 / total;
+            for (std::size_t k = 0; k != classes_; ++k) share[k] *= scale;
+            logs.add(std::max(share[labels_[c]], 1e-12));
+            share[labels_[c]] -= 1.0;
+            for (std::size_t a = 0; a != inputs_; ++a) {
+              double* to = sums + (a * table_samples + row[a]) * classes_;
+              for (std::size_t k = 0; k != classes_; ++k) to[k] += share[k];
+            }
+          }
+          return -logs.take();
+        });
     std::fill(gradient.begin(), gradient.end(), 0.0);
     double penalty = 0.0;
     for (std::size_t a = 0; a != inputs_; ++a) {
       for (std::size_t i = 0; i != table_samples; ++i)
         for (std::size_t k = 0; k != classes_; ++k) {
           const double slope = slopes[(a * table_samples + i) * classes_ + k] / cells;
-          double* at = &gradient[(a * knots_ + places_[i].first) * classes_ + k];
-          at[0] += (1.0 - places_[i].next) * slope;
-          at[classes_] += places_[i].next * slope;
+          double* at = &gradient[(a * knots_ + positions_[i].first) * classes_ + k];
+          at[0] += (1.0 - positions_[i].next) * slope;
+          at[classes_] += positions_[i].next * slope;
         }
       for (std::size_t k = 0; k != classes_; ++k)
-        penalty += add_penalty(&x[a * knots_ * classes_ + k], &gradient[a * knots_ * classes_ + k], knots_, classes_, roughness_);
+        penalty += add_penalty(&x[a * knots_ * classes_ + k], &gradient[a * knots_ * classes_ + k],
+                               knots_, classes_, roughness_);
     }
     return loss / cells + penalty;
   }
@@ -240,7 +252,7 @@ class AdditiveLoss {
   std::size_t knots_;
   std::size_t classes_;
   double roughness_;
-  std::array<KnotPlace, table_samples> places_;
+  std::array<KnotPosition, table_samples> positions_;
   std::vector<std::uint8_t> rows_;
   std::vector<std::uint8_t> labels_;
   std::vector<double> prior_;
@@ -248,9 +260,12 @@ class AdditiveLoss {
 
 }  // namespace
 
-double sigmoid(double x) { return x >= 0.0 ? 1.0 / (1.0 + exact::exp(-x)) : exact::exp(x) / (1.0 + exact::exp(x)); }
+double sigmoid(double x) {
+  return x >= 0.0 ? 1.0 / (1.0 + exact::exp(-x)) : exact::exp(x) / (1.0 + exact::exp(x));
+}
 
-ValueAndGradient product_loss(const FitCells& cells, const std::vector<std::uint32_t>& own, const std::vector<std::uint32_t>& under,
+ValueAndGradient product_loss(const FitCells& cells, const std::vector<std::uint32_t>& own,
+                              const std::vector<std::uint32_t>& under,
                               const KnotParameters& knots) {
   return ProductLoss(cells, own, under, knots);
 }
@@ -262,8 +277,8 @@ std::vector<double> class_prior(const FitCells& cells, const std::vector<std::ui
   return prior;
 }
 
-ValueAndGradient additive_loss(const FitCells& cells, const std::vector<std::uint32_t>& use, std::vector<double> prior,
-                               const KnotParameters& knots) {
+ValueAndGradient additive_loss(const FitCells& cells, const std::vector<std::uint32_t>& use,
+                               std::vector<double> prior, const KnotParameters& knots) {
   return AdditiveLoss(cells, use, std::move(prior), knots);
 }
 

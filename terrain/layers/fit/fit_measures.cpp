@@ -19,7 +19,9 @@ double linear(double encoded) {
   const double v = std::clamp(encoded, 0.0, 255.0) / 255.0;
   return v <= 0.04045 ? v / 12.92 : exact::pow((v + 0.055) / 1.055, 2.4);
 }
-double lab_curve(double t) { return t > 216.0 / 24389.0 ? exact::cbrt(t) : (24389.0 / 27.0 * t + 16.0) / 116.0; }
+double lab_curve(double t) {
+  return t > 216.0 / 24389.0 ? exact::cbrt(t) : (24389.0 / 27.0 * t + 16.0) / 116.0;
+}
 
 }  // namespace
 
@@ -27,13 +29,14 @@ double area_under_curve(std::span<const float> scores, std::span<const std::uint
   std::vector<std::pair<float, std::uint8_t>> sorted(scores.size());
   for (std::size_t i = 0; i != sorted.size(); ++i) sorted[i] = {scores[i], is_class[i]};
   std::sort(sorted.begin(), sorted.end());
-  double below = 0.0;  // cells of other classes with a smaller score
+  double below = 0.0;  // number of cells of other classes with a smaller score
   double wins = 0.0;
   double own = 0.0;
   for (std::size_t i = 0; i != sorted.size();) {
     std::size_t end = i;
     double hits = 0.0;
-    while (end != sorted.size() && sorted[end].first == sorted[i].first) hits += sorted[end++].second != 0 ? 1.0 : 0.0;
+    while (end != sorted.size() && sorted[end].first == sorted[i].first)
+      hits += sorted[end++].second != 0 ? 1.0 : 0.0;
     const double others = static_cast<double>(end - i) - hits;
     wins += hits * (below + 0.5 * others);
     below += others;
@@ -43,7 +46,8 @@ double area_under_curve(std::span<const float> scores, std::span<const std::uint
   return own > 0.0 && below > 0.0 ? wins / (own * below) : std::numeric_limits<double>::quiet_NaN();
 }
 
-ClassMeasures measure_classes(const ClassShares& shares, std::span<const std::uint8_t> labels, std::span<const double> offsets) {
+ClassMeasures measure_classes(const ClassShares& shares, std::span<const std::uint8_t> labels,
+                              std::span<const double> offsets) {
   const auto classes = static_cast<std::size_t>(shares.classes);
   const std::vector<std::uint8_t> likely = most_likely(shares, offsets);
   ClassMeasures measures;
@@ -61,12 +65,15 @@ ClassMeasures measure_classes(const ClassShares& shares, std::span<const std::ui
   for (std::size_t k = 0; k != classes; ++k) {
     right += measures.counts[k][k];
     std::size_t either = 0;
-    for (std::size_t j = 0; j != classes; ++j) either += measures.counts[k][j] + measures.counts[j][k];
+    for (std::size_t j = 0; j != classes; ++j)
+      either += measures.counts[k][j] + measures.counts[j][k];
     either -= measures.counts[k][k];
-    measures.iou[k] = static_cast<double>(measures.counts[k][k]) / static_cast<double>(std::max<std::size_t>(either, 1));
+    measures.iou[k] = static_cast<double>(measures.counts[k][k]) /
+                      static_cast<double>(std::max<std::size_t>(either, 1));
     measures.mean_iou += measures.iou[k] / static_cast<double>(classes);
   }
-  measures.accuracy = static_cast<double>(right) / static_cast<double>(std::max<std::size_t>(used.size(), 1));
+  measures.accuracy =
+      static_cast<double>(right) / static_cast<double>(std::max<std::size_t>(used.size(), 1));
   parallel_ranges(classes, std::size_t{1}, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k != end; ++k) {
       std::vector<float> scores(used.size());
@@ -104,8 +111,9 @@ double colour_difference(const LabColour& one, const LabColour& other) {
   return cmsCIE2000DeltaE(&a, &b, 1.0, 1.0, 1.0);
 }
 
-BlockDifference block_difference(const Grid<glm::vec3>& picture, const Grid<glm::vec3>& other, const Grid<std::uint8_t>* use, int block) {
-  constexpr double least_used = 0.3;
+BlockDifference block_difference(const Grid<glm::vec3>& picture, const Grid<glm::vec3>& other,
+                                 const Grid<std::uint8_t>* use, int block) {
+  constexpr double min_used = 0.3;
   std::vector<double> differences;
   for (int y0 = 0; y0 < picture.height(); y0 += block)
     for (int x0 = 0; x0 < picture.width(); x0 += block) {
@@ -121,12 +129,13 @@ BlockDifference block_difference(const Grid<glm::vec3>& picture, const Grid<glm:
           own += picture(x, y);
           others += other(x, y);
         }
-      if (used < 1.0 || used < least_used * cells) continue;
+      if (used < 1.0 || used < min_used * cells) continue;
       differences.push_back(colour_difference(lab_of_srgb(own / used), lab_of_srgb(others / used)));
     }
   BlockDifference result{block, 0.0, 0.0, differences.size()};
   if (differences.empty()) return result;
-  result.mean = std::accumulate(differences.begin(), differences.end(), 0.0) / static_cast<double>(differences.size());
+  result.mean = std::accumulate(differences.begin(), differences.end(), 0.0) /
+                static_cast<double>(differences.size());
   result.p95 = value_at_share(std::move(differences), 0.95);
   return result;
 }
@@ -141,7 +150,9 @@ double gradient_energy(const Grid<glm::vec3>& picture, const Grid<std::uint8_t>*
   double sum = 0.0;
   double pairs = 0.0;
   const auto add = [&](int x, int y, int x2, int y2) {
-    if (x2 == width || y2 == height || (use != nullptr && ((*use)(x, y) == 0 || (*use)(x2, y2) == 0))) return;
+    if (x2 == width || y2 == height ||
+        (use != nullptr && ((*use)(x, y) == 0 || (*use)(x2, y2) == 0)))
+      return;
     const double d = lightness(x2, y2) - lightness(x, y);
     sum += d * d;
     pairs += 1.0;

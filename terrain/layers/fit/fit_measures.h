@@ -11,21 +11,23 @@
 
 namespace belvedere {
 
-// How well shares tell the classes of cells.
+// How well shares predict the classes of cells.
 struct ClassMeasures {
-  std::size_t cells = 0;                         // compared
-  double accuracy = 0.0;                         // share of cells whose most likely class is the true one
-  double mean_iou = 0.0;                         // over classes: cells of both over cells of either, most likely class against true
-  double mean_auc = 0.0;                         // over the classes that occur and are not all
-  std::vector<double> iou;                       // [class]
-  std::vector<double> auc;                       // [class]; NaN where a class does not occur, or nothing else does
-  std::vector<std::vector<std::size_t>> counts;  // [true class][most likely class]
+  std::size_t cells = 0;  // compared
+  double accuracy = 0.0;  // share of cells whose most likely class is the true one
+  double mean_iou =
+      0.0;  // mean over classes of the intersection over union of predicted and true cells
+  double mean_auc = 0.0;    // over the classes that occur but do not cover everything
+  std::vector<double> iou;  // [class]
+  std::vector<double> auc;  // [class]; NaN if a class does not occur or nothing else does
+  std::vector<std::vector<std::size_t>> counts;  // [true class][predicted class]
 };
-// Cells whose label is no_class are left out. Offsets as for most_likely.
-ClassMeasures measure_classes(const ClassShares& shares, std::span<const std::uint8_t> labels, std::span<const double> offsets = {});
+// Cells with label no_class are left out. Offsets as for most_likely.
+ClassMeasures measure_classes(const ClassShares& shares, std::span<const std::uint8_t> labels,
+                              std::span<const double> offsets = {});
 
-// The chance that a cell of the class has a larger score than one of another class, ties counting half (the area under the curve of hits
-// over false alarms; Mann and Whitney 1947). NaN where there are none of either kind.
+// The probability that a cell of the class has a larger score than one of another class, ties
+// counting half (area under the ROC curve; Mann and Whitney 1947). NaN if either kind is missing.
 double area_under_curve(std::span<const float> scores, std::span<const std::uint8_t> is_class);
 
 // Pictures are encoded sRGB of 0…255.
@@ -41,15 +43,16 @@ LabColour lab_of_srgb(const glm::dvec3& rgb);
 double colour_difference(const LabColour& one, const LabColour& other);
 
 struct BlockDifference {
-  int block = 1;           // cells on a side
+  int block = 1;           // cells along a side
   double mean = 0.0;       // ΔE00 of the mean colours of blocks
   double p95 = 0.0;        // exceeded by one block in twenty
   std::size_t blocks = 0;  // with at least .3 of their cells used
 };
 // Over blocks of the used cells (use != 0; null: all).
-BlockDifference block_difference(const Grid<glm::vec3>& picture, const Grid<glm::vec3>& other, const Grid<std::uint8_t>* use, int block);
-// Mean squared difference of neighbouring cells' lightness, both used: of a picture over another's, it says how much of the detail is
-// there.
+BlockDifference block_difference(const Grid<glm::vec3>& picture, const Grid<glm::vec3>& other,
+                                 const Grid<std::uint8_t>* use, int block);
+// Mean squared difference in lightness of neighbouring used cells. The ratio of two pictures
+// measures how much detail is kept.
 double gradient_energy(const Grid<glm::vec3>& picture, const Grid<std::uint8_t>* use);
 
 }  // namespace belvedere

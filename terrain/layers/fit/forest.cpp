@@ -12,7 +12,7 @@
 namespace belvedere {
 namespace {
 
-constexpr std::size_t bins = 64;  // a split stands between bins of 4 samples
+constexpr std::size_t bins = 64;  // splits are between bins of 4 samples
 constexpr int samples_per_bin = 4;
 
 struct Split {
@@ -21,7 +21,7 @@ struct Split {
   std::size_t bin = 0;
 };
 
-// Σ of squared counts over their sum: what Gini's impurity leaves of a node, the larger the purer.
+// Sum of squared counts over their sum: Gini's impurity criterion; larger is purer.
 double purity(const std::vector<std::uint32_t>& counts, double total) {
   double squares = 0.0;
   for (const std::uint32_t c : counts) squares += static_cast<double>(c) * static_cast<double>(c);
@@ -30,16 +30,19 @@ double purity(const std::vector<std::uint32_t>& counts, double total) {
 
 class TreeGrower {
  public:
-  TreeGrower(const FitCells& cells, const std::vector<std::uint8_t>& rows, const ForestParameters& parameters, std::uint64_t seed)
+  TreeGrower(const FitCells& cells, const std::vector<std::uint8_t>& rows,
+             const ForestParameters& parameters, std::uint64_t seed)
       : classes_(static_cast<std::size_t>(cells.classes)),
         inputs_(cells.inputs.size()),
         labels_(cells.labels),
         rows_(rows),
         parameters_(parameters),
         seed_(seed),
-        take_(std::min(inputs_, static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(inputs_)))) + 1)) {}
+        take_(std::min(
+            inputs_,
+            static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(inputs_)))) + 1)) {}
 
-  // `cells` are drawn ones; they are moved about so that each node's lie together.
+  // `cells` are the drawn ones; they are reordered so that each node's are contiguous.
   ForestTree grow(std::vector<std::uint32_t> cells) {
     cells_ = std::move(cells);
     add_node(0, cells_.size());
@@ -54,39 +57,46 @@ class TreeGrower {
       if (o.depth == parameters_.depth) continue;
       const Split split = best_split(o.node, o.begin, o.end);
       if (!(split.gain > 1e-9)) continue;
-      const auto middle = static_cast<std::size_t>(
-          std::stable_partition(cells_.begin() + static_cast<std::ptrdiff_t>(o.begin), cells_.begin() + static_cast<std::ptrdiff_t>(o.end),
-                                [&](std::uint32_t c) { return bin_of(c, split.input) <= split.bin; }) -
+      const auto centre = static_cast<std::size_t>(
+          std::stable_partition(
+              cells_.begin() + static_cast<std::ptrdiff_t>(o.begin),
+              cells_.begin() + static_cast<std::ptrdiff_t>(o.end),
+              [&](std::uint32_t c) { return bin_of(c, split.input) <= split.bin; }) -
           cells_.begin());
       const std::size_t child = tree_.nodes.size();
-      add_node(o.begin, middle);
-      add_node(middle, o.end);
-      tree_.nodes[o.node] = {static_cast<std::int32_t>(child), static_cast<std::uint16_t>(split.input),
-                             static_cast<std::uint8_t>(split.bin * samples_per_bin + samples_per_bin - 1)};
-      open.push_back({child + 1, middle, o.end, o.depth + 1});
-      open.push_back({child, o.begin, middle, o.depth + 1});
+      add_node(o.begin, centre);
+      add_node(centre, o.end);
+      tree_.nodes[o.node] = {
+          static_cast<std::int32_t>(child), static_cast<std::uint16_t>(split.input),
+          static_cast<std::uint8_t>(split.bin * samples_per_bin + samples_per_bin - 1)};
+      open.push_back({child + 1, centre, o.end, o.depth + 1});
+      open.push_back({child, o.begin, centre, o.depth + 1});
     }
     return std::move(tree_);
   }
 
  private:
-  std::size_t bin_of(std::uint32_t cell, std::size_t input) const { return rows_[cell * inputs_ + input] / samples_per_bin; }
+  std::size_t bin_of(std::uint32_t cell, std::size_t input) const {
+    return rows_[cell * inputs_ + input] / samples_per_bin;
+  }
 
   void add_node(std::size_t begin, std::size_t end) {
     tree_.nodes.emplace_back();
     std::vector<std::uint32_t> counts(classes_, 0);
     for (std::size_t i = begin; i != end; ++i) ++counts[labels_[cells_[i]]];
     for (const std::uint32_t c : counts)
-      tree_.shares.push_back(static_cast<float>(c) / static_cast<float>(std::max<std::size_t>(end - begin, 1)));
+      tree_.shares.push_back(static_cast<float>(c) /
+                             static_cast<float>(std::max<std::size_t>(end - begin, 1)));
   }
 
-  // Which inputs a node may ask: the first of a shuffle keyed by the node.
+  // The inputs available to a node: the first of a shuffle keyed by the node.
   std::vector<std::size_t> inputs_to_try(std::size_t node) const {
     std::vector<std::size_t> order(inputs_);
     std::iota(order.begin(), order.end(), std::size_t{0});
     for (std::size_t i = 0; i != take_; ++i) {
       const std::uint32_t j =
-          random_index(static_cast<std::uint32_t>(inputs_ - i), seed_, static_cast<std::int64_t>(node), static_cast<std::int64_t>(i), 1);
+          random_index(static_cast<std::uint32_t>(inputs_ - i), seed_,
+                       static_cast<std::int64_t>(node), static_cast<std::int64_t>(i), 1);
       std::swap(order[i], order[i + j]);
     }
     order.resize(take_);
@@ -103,7 +113,8 @@ class TreeGrower {
     const double before = purity(total, static_cast<double>(count));
     for (const std::size_t a : inputs_to_try(node)) {
       std::vector<std::uint32_t> histogram(bins * classes_, 0);
-      for (std::size_t i = begin; i != end; ++i) ++histogram[bin_of(cells_[i], a) * classes_ + labels_[cells_[i]]];
+      for (std::size_t i = begin; i != end; ++i)
+        ++histogram[bin_of(cells_[i], a) * classes_ + labels_[cells_[i]]];
       std::vector<std::uint32_t> left(classes_, 0);
       std::vector<std::uint32_t> right = total;
       std::size_t on_left = 0;
@@ -115,7 +126,8 @@ class TreeGrower {
           on_left += moved;
         }
         if (on_left < leaf || count - on_left < leaf) continue;
-        const double gain = (purity(left, static_cast<double>(on_left)) + purity(right, static_cast<double>(count - on_left)) - before) /
+        const double gain = (purity(left, static_cast<double>(on_left)) +
+                             purity(right, static_cast<double>(count - on_left)) - before) /
                             static_cast<double>(count);
         if (gain > best.gain) best = {gain, a, b};
       }
@@ -148,14 +160,16 @@ Forest fit_forest(const FitCells& cells, const ForestParameters& parameters) {
       const std::uint64_t seed = stream_seed(parameters.seed, Stream::layers_fit, 1000 + t);
       std::vector<std::uint32_t> drawn(labelled.size() / 2);
       for (std::size_t i = 0; i != drawn.size(); ++i)
-        drawn[i] = labelled[random_index(static_cast<std::uint32_t>(labelled.size()), seed, static_cast<std::int64_t>(i), 0)];
+        drawn[i] = labelled[random_index(static_cast<std::uint32_t>(labelled.size()), seed,
+                                         static_cast<std::int64_t>(i), 0)];
       forest.trees[t] = TreeGrower(cells, rows, parameters, seed).grow(std::move(drawn));
     }
   });
   return forest;
 }
 
-ClassShares predict_shares(const Forest& forest, const std::vector<std::vector<std::uint8_t>>& inputs) {
+ClassShares predict_shares(const Forest& forest,
+                           const std::vector<std::vector<std::uint8_t>>& inputs) {
   const auto classes = static_cast<std::size_t>(forest.classes);
   const std::size_t cells = inputs.empty() ? 0 : inputs[0].size();
   ClassShares shares{forest.classes, std::vector<float>(cells * classes, 0.0F)};
@@ -168,7 +182,8 @@ ClassShares predict_shares(const Forest& forest, const std::vector<std::vector<s
           const ForestNode& n = tree.nodes[node];
           node = static_cast<std::size_t>(n.child) + (inputs[n.input][c] <= n.cut ? 0 : 1);
         }
-        for (std::size_t k = 0; k != classes; ++k) shares.values[c * classes + k] += weight * tree.shares[node * classes + k];
+        for (std::size_t k = 0; k != classes; ++k)
+          shares.values[c * classes + k] += weight * tree.shares[node * classes + k];
       }
   });
   return shares;

@@ -24,7 +24,7 @@ namespace {
 
 double level_cosine(const PictureSun& sun) { return exact::sin(to_radians(sun.elevation_deg)); }
 
-// Colour more than lightness, which shading has still a share in.
+// Weights colour more than lightness, which is still affected by shading.
 ClusterPlace colour_place(const glm::dvec3& rgb) {
   constexpr double lightness_weight = 0.012;
   constexpr double darkest = 8.0;
@@ -33,26 +33,34 @@ ClusterPlace colour_place(const glm::dvec3& rgb) {
   return {lab.a / l, lab.b / l, lightness_weight * lab.l};
 }
 
-FitCells cells_of(const std::vector<std::vector<std::uint8_t>>& inputs, std::vector<std::uint8_t> labels, int classes) {
+FitCells cells_of(const std::vector<std::vector<std::uint8_t>>& inputs,
+                  std::vector<std::uint8_t> labels, int classes) {
   const FitCells all{classes, inputs, std::move(labels)};
   return select_cells(all, draw_labelled(all.labels, all.size()));
 }
 
-ClassFunctions fit_functions(const FitCells& cells, const GroundFitParameters& parameters, std::size_t most) {
+ClassFunctions fit_functions(const FitCells& cells, const GroundFitParameters& parameters,
+                             std::size_t max) {
   if (parameters.functions == FunctionSource::histogram) return histogram_functions(cells);
-  if (parameters.model == LayerModel::product) return fit_product(cells, {.most = most});
-  return fit_additive(cells, {.roughness = 2e-3, .steps = 120, .most = most});
+  if (parameters.model == LayerModel::product) return fit_product(cells, {.max = max});
+  return fit_additive(cells, {.roughness = 2e-3, .steps = 120, .max = max});
 }
 
-// Divides each class by its colours on level ground: leaf labels of the cells learned from, functions of the leaves within their class.
-void fit_children(const KnownGround& ground, const GroundFitParameters& parameters, const std::vector<std::vector<std::uint8_t>>& samples,
-                  const std::vector<std::uint8_t>& labels, GroundFit& fit, std::vector<std::uint8_t>& leaves) {
-  constexpr std::size_t most_for_means = 6'000;
-  constexpr std::size_t most_for_functions = 20'000;
-  constexpr double small = 0.05;  // share of the ground below which a class has half as many children
+// Divides each class by its colours on level ground: leaf labels of the training cells, and
+// functions of the leaves within their class.
+void fit_children(const KnownGround& ground, const GroundFitParameters& parameters,
+                  const std::vector<std::vector<std::uint8_t>>& samples,
+                  const std::vector<std::uint8_t>& labels, GroundFit& fit,
+                  std::vector<std::uint8_t>& leaves) {
+  constexpr std::size_t max_for_means = 6'000;
+  constexpr std::size_t max_for_functions = 20'000;
+  constexpr double small =
+      0.05;  // share of the ground below which a class has half as many children
   const Grid<float> light = sunlight(ground.altitude_m, ground.cell_m, fit.sun);
-  const Grid<glm::vec3> even = lit_evenly(ground.picture->rgb, light, level_cosine(fit.sun), labels, fit.light);
-  const std::vector<std::size_t> counts = count_labels(labels, static_cast<int>(ground.classes.size()));
+  const Grid<glm::vec3> even =
+      lit_evenly(ground.picture->rgb, light, level_cosine(fit.sun), labels, fit.light);
+  const std::vector<std::size_t> counts =
+      count_labels(labels, static_cast<int>(ground.classes.size()));
   std::size_t learned = 0;
   for (const std::size_t c : counts) learned += c;
   leaves.assign(labels.size(), no_class);
@@ -60,11 +68,13 @@ void fit_children(const KnownGround& ground, const GroundFitParameters& paramete
     std::vector<std::uint8_t> own(labels.size(), no_class);
     for (std::size_t i = 0; i != labels.size(); ++i)
       if (labels[i] == k) own[i] = 0;
-    std::vector<ClusterPlace> places;
-    for (const std::uint32_t i : draw_labelled(own, most_for_means, 10 + k)) places.push_back(colour_place(even[i]));
+    std::vector<ClusterPlace> positions;
+    for (const std::uint32_t i : draw_labelled(own, max_for_means, 10 + k))
+      positions.push_back(colour_place(even[i]));
     const bool is_small = static_cast<double>(counts[k]) < small * static_cast<double>(learned);
-    const std::vector<ClusterPlace> means =
-        cluster_means(places, std::max(1, is_small ? (parameters.children + 1) / 2 : parameters.children), {.part = 10 + k});
+    const std::vector<ClusterPlace> means = cluster_means(
+        positions, std::max(1, is_small ? (parameters.children + 1) / 2 : parameters.children),
+        {.part = 10 + k});
     const auto first = static_cast<std::uint8_t>(fit.parent.size());
     const std::size_t count = std::max<std::size_t>(means.size(), 1);
     std::vector<glm::dvec3> sums(count, glm::dvec3(0.0));
@@ -78,12 +88,15 @@ void fit_children(const KnownGround& ground, const GroundFitParameters& paramete
     }
     for (std::size_t j = 0; j != count; ++j) {
       fit.parent.push_back(static_cast<int>(k));
-      fit.colours.push_back(cells[j] > 0 ? sums[j] / static_cast<double>(cells[j]) : glm::dvec3(128.0));
+      fit.colours.push_back(cells[j] > 0 ? sums[j] / static_cast<double>(cells[j])
+                                         : glm::dvec3(128.0));
       fit.cells.push_back(cells[j]);
     }
     fit.children.emplace_back();
     if (count > 1)
-      fit.children.back() = fit_functions(cells_of(samples, std::move(own), static_cast<int>(count)), parameters, most_for_functions);
+      fit.children.back() =
+          fit_functions(cells_of(samples, std::move(own), static_cast<int>(count)), parameters,
+                        max_for_functions);
   }
 }
 
@@ -92,7 +105,8 @@ std::uint32_t packed(const glm::dvec3& rgb) {
   return bytes.x << 16U | bytes.y << 8U | bytes.z;
 }
 
-// A file of what was learned, and whose colour is seen where: the leaf of the bare ground, then that of each layer (-1: it paints nothing).
+// The layers file of the fit, and the leaf whose colour each layer shows: that of the bare ground,
+// then of each layer (-1: it paints nothing).
 struct LeafLayers {
   SurfaceLayers layers;
   std::vector<int> leaf_of;
@@ -106,14 +120,15 @@ LeafLayers leaf_layers(const KnownGround& ground, const GroundFit& fit, const st
   const bool product = layers.model == LayerModel::product;
   for (const int k_int : fit.classes.order) {
     const auto k = static_cast<std::size_t>(k_int);
-    const int first = static_cast<int>(std::find(fit.parent.begin(), fit.parent.end(), k_int) - fit.parent.begin());
-    const std::vector<int>& order = fit.children[k].order;  // empty where the class has one colour
+    const int first = static_cast<int>(std::find(fit.parent.begin(), fit.parent.end(), k_int) -
+                                       fit.parent.begin());
+    const std::vector<int>& order = fit.children[k].order;  // empty if the class has one colour
     SurfaceLayer layer;
     layer.name = ground.classes[k].name;
     layer.painted_as = ground.classes[k].painted_as;
     set_functions(layer, fit.classes, k);
     const int index = static_cast<int>(layers.layers.size());
-    // In a product the first of the children covers its class wholly: the class's own colour.
+    // In a product the first child covers its class entirely: the class's own colour.
     const int own = order.empty() ? first : first + order[0];
     layer.rgb = packed(fit.colours[static_cast<std::size_t>(own)]);
     layers.layers.push_back(layer);
@@ -135,35 +150,40 @@ LeafLayers leaf_layers(const KnownGround& ground, const GroundFit& fit, const st
   return out;
 }
 
-// What is seen of each leaf where the file is laid over the ground.
+// The visible share of each leaf where the file is applied to the ground.
 ClassShares seen_leaves(const KnownGround& ground, const GroundFit& fit) {
   constexpr int rows_at_once = 16;
   const LeafLayers file = leaf_layers(ground, fit, "fit");
   const LayerProgram program = compile_layers(file.layers);
   const int width = ground.altitude_m.width();
   const std::size_t leaves = fit.parent.size();
-  ClassShares shares{static_cast<int>(leaves), std::vector<float>(ground.altitude_m.size() * leaves, 0.0F)};
+  ClassShares shares{static_cast<int>(leaves),
+                     std::vector<float>(ground.altitude_m.size() * leaves, 0.0F)};
   parallel_ranges(ground.altitude_m.height(), rows_at_once, [&](int y0, int y1) {
     const PixelRect cells{0, y0, width, y1};
     std::vector<Grid<float>> inputs;
     for (const Grid<float>& input : ground.inputs) inputs.push_back(part_of(input, cells));
-    const std::vector<Grid<float>> seen = layer_shares(program, layer_coverage(program, inputs, {}, cells, 0));
+    const std::vector<Grid<float>> seen =
+        layer_shares(program, layer_coverage(program, inputs, {}, cells, 0));
     for (std::size_t of = 0; of != seen.size(); ++of) {
       if (file.leaf_of[of] < 0) continue;
-      float* to = &shares.values[ground.altitude_m.index(0, y0) * leaves + static_cast<std::size_t>(file.leaf_of[of])];
+      float* to = &shares.values[ground.altitude_m.index(0, y0) * leaves +
+                                 static_cast<std::size_t>(file.leaf_of[of])];
       for (std::size_t i = 0; i != seen[of].size(); ++i) to[i * leaves] += seen[of][i];
     }
   });
   return shares;
 }
 
-// Scales b of each class so that on the ground learned from it covers what it does there, children and all: a child of coverage C lies over
-// what is under its class as well, so that classes with children would come out too large. From the top down, since what lies over a layer
-// decides what is seen of it. A sum does so by itself: that is where its likelihood is flat.
-void match_painted_areas(const KnownGround& ground, const std::vector<std::uint8_t>& labels, GroundFit& fit) {
-  constexpr std::size_t most = 40'000;
+// Scales b of each class so that it covers its own area on the training ground, including children:
+// a child of coverage C also hides what is under its class, so classes with children would become
+// too large. From the top down, since upper layers decide what is visible of lower ones. For sums
+// this holds automatically at the maximum of the likelihood.
+void match_painted_areas(const KnownGround& ground, const std::vector<std::uint8_t>& labels,
+                         GroundFit& fit) {
+  constexpr std::size_t max = 40'000;
   constexpr int halvings = 16;
-  const std::vector<std::uint32_t> some = draw_labelled(labels, most, 4);
+  const std::vector<std::uint32_t> some = draw_labelled(labels, max, 4);
   const int count = static_cast<int>(some.size());
   std::vector<double> wanted(ground.classes.size(), 0.0);
   for (const std::uint32_t i : some) wanted[labels[i]] += 1.0;
@@ -172,22 +192,26 @@ void match_painted_areas(const KnownGround& ground, const std::vector<std::uint8
     for (std::size_t i = 0; i != some.size(); ++i) inputs[a][i] = ground.inputs[a][some[i]];
   std::fill(fit.classes.bias.begin(), fit.classes.bias.end(), 1.0);
   const LeafLayers file = leaf_layers(ground, fit, "fit");
-  const std::vector<Grid<float>> products = layer_coverage(compile_layers(file.layers), inputs, {}, {0, 0, count, 1}, 0);
+  const std::vector<Grid<float>> products =
+      layer_coverage(compile_layers(file.layers), inputs, {}, {0, 0, count, 1}, 0);
   std::vector<double> rest(some.size(), 1.0);
-  // A class and its children stand together, from `layer` to `end`.
+  // A class and its children are contiguous, from `layer` to `end`.
   for (std::size_t layer = products.size(), end = products.size(); layer-- > 1;) {
     if (file.layers.layers[layer].parent >= 0) continue;
-    const auto k = static_cast<std::size_t>(fit.parent[static_cast<std::size_t>(file.leaf_of[layer + 1])]);
+    const auto k =
+        static_cast<std::size_t>(fit.parent[static_cast<std::size_t>(file.leaf_of[layer + 1])]);
     const auto painted = [&, end](std::size_t i, double bias) {
       double left = 1.0;
-      for (std::size_t l = layer; l != end; ++l) left *= 1.0 - bias * static_cast<double>(products[l][i]);
+      for (std::size_t l = layer; l != end; ++l)
+        left *= 1.0 - bias * static_cast<double>(products[l][i]);
       return 1.0 - left;
     };
     double low = 0.0;
     double high = 1.0;
     for (int step = 0; step != halvings; ++step) {
       const double bias = 0.5 * (low + high);
-      const double seen = deterministic_sum(some.size(), [&](std::size_t i) { return painted(i, bias) * rest[i]; });
+      const double seen =
+          deterministic_sum(some.size(), [&](std::size_t i) { return painted(i, bias) * rest[i]; });
       (seen < wanted[k] ? low : high) = bias;
     }
     fit.classes.bias[k] = 0.5 * (low + high);
@@ -198,18 +222,21 @@ void match_painted_areas(const KnownGround& ground, const std::vector<std::uint8
 
 }  // namespace
 
-std::vector<std::vector<std::uint8_t>> sample_indices(const std::vector<Grid<float>>& inputs, const std::vector<LayerInput>& ranges) {
+std::vector<std::vector<std::uint8_t>> sample_indices(const std::vector<Grid<float>>& inputs,
+                                                      const std::vector<LayerInput>& ranges) {
   std::vector<std::vector<std::uint8_t>> indices(inputs.size());
   for (std::size_t a = 0; a != inputs.size(); ++a) {
     indices[a].resize(inputs[a].size());
     const double scale = 256.0 / (ranges[a].high - ranges[a].low);
     for (std::size_t i = 0; i != inputs[a].size(); ++i)
-      indices[a][i] = static_cast<std::uint8_t>(std::clamp((static_cast<double>(inputs[a][i]) - ranges[a].low) * scale, 0.0, 255.0));
+      indices[a][i] = static_cast<std::uint8_t>(
+          std::clamp((static_cast<double>(inputs[a][i]) - ranges[a].low) * scale, 0.0, 255.0));
   }
   return indices;
 }
 
-GroundFit fit_ground(const KnownGround& ground, const GroundFitParameters& parameters, const Grid<std::uint8_t>* learn) {
+GroundFit fit_ground(const KnownGround& ground, const GroundFitParameters& parameters,
+                     const Grid<std::uint8_t>* learn) {
   constexpr std::size_t fewest = 100;
   const int classes = static_cast<int>(ground.classes.size());
   std::vector<std::uint8_t> labels = ground.labels;
@@ -220,13 +247,14 @@ GroundFit fit_ground(const KnownGround& ground, const GroundFitParameters& param
   }
   GroundFit fit;
   if (ground.picture) {
-    // Cells that the sun does not reach show nothing of what they are.
+    // Cells in shadow do not show their material.
     Grid<float> brightness(use.width(), use.height());
     for (std::size_t i = 0; i != brightness.size(); ++i) {
       const glm::dvec3 rgb = ground.picture->rgb[i];
       brightness[i] = static_cast<float>((rgb.x + rgb.y + rgb.z) / 3.0);
     }
-    fit.sun = find_sun(ground.altitude_m, ground.cell_m, brightness, {}, use, ground.picture->sun_azimuth_deg);
+    fit.sun = find_sun(ground.altitude_m, ground.cell_m, brightness, {}, use,
+                       ground.picture->sun_azimuth_deg);
     const Grid<float> light = sunlight(ground.altitude_m, ground.cell_m, fit.sun);
     fit.light = light_answers(ground.picture->rgb, light, labels, classes, use);
     for (std::size_t i = 0; i != labels.size(); ++i)
@@ -238,10 +266,12 @@ GroundFit fit_ground(const KnownGround& ground, const GroundFitParameters& param
   const std::vector<std::size_t> counts = count_labels(labels, classes);
   std::size_t learned = 0;
   for (const std::size_t c : counts) learned += c;
-  const auto occurring = std::count_if(counts.begin(), counts.end(), [](std::size_t c) { return c > 0; });
+  const auto occurring =
+      std::count_if(counts.begin(), counts.end(), [](std::size_t c) { return c > 0; });
   if (learned < fewest || occurring < 2)
     throw Error(ErrorKind::input, "layers fit",
-                fmt::format("{} cells of {} class{} to learn from", learned, occurring, occurring == 1 ? "" : "es"),
+                fmt::format("{} cells of {} class{} to learn from", learned, occurring,
+                            occurring == 1 ? "" : "es"),
                 fmt::format("at least {} cells of at least two classes", fewest));
   for (std::size_t a = 0; a != ground.inputs.size(); ++a)
     fit.ranges.push_back(layer_input_range(ground.input_names[a], ground.inputs[a], &use));
@@ -259,10 +289,12 @@ GroundFit fit_ground(const KnownGround& ground, const GroundFitParameters& param
       fit.children.emplace_back();
     }
   }
-  if (parameters.functions == FunctionSource::fitted && parameters.model == LayerModel::product) match_painted_areas(ground, labels, fit);
+  if (parameters.functions == FunctionSource::fitted && parameters.model == LayerModel::product)
+    match_painted_areas(ground, labels, fit);
   if (parameters.forest_share > 0.0) {
     fit.forest_share = parameters.forest_share;
-    fit.forest = fit_forest(cells_of(samples, std::move(leaves), static_cast<int>(fit.parent.size())));
+    fit.forest =
+        fit_forest(cells_of(samples, std::move(leaves), static_cast<int>(fit.parent.size())));
   }
   return fit;
 }
@@ -275,16 +307,19 @@ GroundPrediction predict_ground(const KnownGround& ground, const GroundFit& fit)
   ClassShares of_leaves = seen_leaves(ground, fit);
   prediction.classes = {static_cast<int>(classes), std::vector<float>(cells * classes, 0.0F)};
   if (fit.forest_share > 0.0)
-    of_leaves = mix_shares(predict_shares(fit.forest, sample_indices(ground.inputs, fit.ranges)), of_leaves, fit.forest_share);
+    of_leaves = mix_shares(predict_shares(fit.forest, sample_indices(ground.inputs, fit.ranges)),
+                           of_leaves, fit.forest_share);
   for (std::size_t i = 0; i != cells; ++i)
     for (std::size_t j = 0; j != leaves; ++j)
-      prediction.classes.values[i * classes + static_cast<std::size_t>(fit.parent[j])] += of_leaves.values[i * leaves + j];
+      prediction.classes.values[i * classes + static_cast<std::size_t>(fit.parent[j])] +=
+          of_leaves.values[i * leaves + j];
   const int width = ground.altitude_m.width();
   const int height = ground.altitude_m.height();
   prediction.even = Grid<glm::vec3>(width, height);
   prediction.expected = prediction.even;
   const bool lit = ground.picture.has_value();
-  const Grid<float> light = lit ? sunlight(ground.altitude_m, ground.cell_m, fit.sun) : Grid<float>();
+  const Grid<float> light =
+      lit ? sunlight(ground.altitude_m, ground.cell_m, fit.sun) : Grid<float>();
   const double level = level_cosine(fit.sun);
   parallel_rows(height, [&](int y) {
     for (std::size_t i = prediction.even.index(0, y); i != prediction.even.index(0, y + 1); ++i) {
@@ -301,14 +336,17 @@ GroundPrediction predict_ground(const KnownGround& ground, const GroundFit& fit)
         }
       }
       prediction.even[i] = glm::clamp(colour, 0.0, 255.0);
-      for (int c = 0; lit && c != 3; ++c) colour[c] /= levelling(answer[static_cast<std::size_t>(c)], static_cast<double>(light[i]), level);
+      for (int c = 0; lit && c != 3; ++c)
+        colour[c] /=
+            levelling(answer[static_cast<std::size_t>(c)], static_cast<double>(light[i]), level);
       prediction.expected[i] = glm::clamp(colour, 0.0, 255.0);
     }
   });
   return prediction;
 }
 
-SurfaceLayers surface_layers_of(const KnownGround& ground, const GroundFit& fit, const std::string& name) {
+SurfaceLayers surface_layers_of(const KnownGround& ground, const GroundFit& fit,
+                                const std::string& name) {
   return leaf_layers(ground, fit, name).layers;
 }
 

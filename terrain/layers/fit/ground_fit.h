@@ -20,24 +20,25 @@ namespace belvedere {
 struct FitClass {
   std::string name;
   std::optional<LandCoverClass> painted_as;
-  std::uint32_t rgb = 0x808080;  // where no picture gives its colours
+  std::uint32_t rgb = 0x808080;  // used without a picture
 };
 
-// A picture of the ground, cell for cell.
+// An orthophoto, cell for cell.
 struct FitPicture {
   Grid<glm::vec3> rgb;
-  std::optional<double> sun_azimuth_deg;  // as clouds' shadows tell it
+  std::optional<double> sun_azimuth_deg;  // from the shadows of clouds
 };
 
-// Ground whose classes are known: what is learned from. All grids are of one size.
+// Ground with known classes for learning. All grids are of one size.
 struct KnownGround {
   double cell_m = 0.0;
   Grid<float> altitude_m;
   std::vector<std::string> input_names;
   std::vector<Grid<float>> inputs;
   std::vector<FitClass> classes;
-  std::vector<std::uint8_t> labels;   // no_class: not to be learned from
-  std::optional<FitPicture> picture;  // without one, layers have the colours of their classes and no children
+  std::vector<std::uint8_t> labels;  // no_class: not used for learning
+  std::optional<FitPicture>
+      picture;  // without one, layers have the colours of their classes and no children
 };
 
 enum class FunctionSource : std::uint8_t {
@@ -47,28 +48,32 @@ enum class FunctionSource : std::uint8_t {
 struct GroundFitParameters {
   LayerModel model = LayerModel::product;
   FunctionSource functions = FunctionSource::fitted;
-  int children = 4;           // of a class, by colour; half as many where it covers less than a twentieth; 1: none
-  double forest_share = 0.0;  // 0…1: of a forest in the mean with the model's shares; no file can hold that
+  int children = 4;  // colours per class; half as many if it covers less than a twentieth; 1: none
+  double forest_share =
+      0.0;  // 0…1: weight of a forest averaged with the model's shares; not possible in a file
 };
 
-// What was learned: functions of classes, and within each class functions of its colours.
+// The result: functions of classes, and within each class functions of its colours.
 struct GroundFit {
   std::vector<LayerInput> ranges;
   ClassFunctions classes;
-  std::vector<ClassFunctions> children;  // [class]; without functions where it has one colour
-  std::vector<int> parent;               // [leaf]: its class; leaves of a class stand together
-  std::vector<glm::dvec3> colours;       // [leaf], 0…255, as on level ground under the picture's sun
-  std::vector<std::size_t> cells;        // [leaf] that it was learned from
+  std::vector<ClassFunctions> children;  // [class]; without functions if it has one colour
+  std::vector<int> parent;               // [leaf]: its class; leaves of a class are contiguous
+  std::vector<glm::dvec3> colours;  // [leaf], 0…255, as on level ground under the picture's sun
+  std::vector<std::size_t> cells;   // [leaf] training cells
   PictureSun sun;
   LightAnswers light;  // [class]
   double forest_share = 0.0;
   Forest forest;  // of leaves
 };
-// From the cells where `learn` is not 0 (null: everywhere). Error(input) where fewer than 100 cells or fewer than two classes are left.
-GroundFit fit_ground(const KnownGround& ground, const GroundFitParameters& parameters, const Grid<std::uint8_t>* learn = nullptr);
+// Fits to the cells where `learn` is not 0 (null: everywhere). Error(input) if fewer than 100 cells
+// or fewer than two classes remain.
+GroundFit fit_ground(const KnownGround& ground, const GroundFitParameters& parameters,
+                     const Grid<std::uint8_t>* learn = nullptr);
 
-// Places of values in their ranges as samples: what functions of a file are asked with.
-std::vector<std::vector<std::uint8_t>> sample_indices(const std::vector<Grid<float>>& inputs, const std::vector<LayerInput>& ranges);
+// Values quantized to samples within their ranges: the arguments of a file's functions.
+std::vector<std::vector<std::uint8_t>> sample_indices(const std::vector<Grid<float>>& inputs,
+                                                      const std::vector<LayerInput>& ranges);
 
 struct GroundPrediction {
   ClassShares classes;
@@ -77,7 +82,8 @@ struct GroundPrediction {
 };
 GroundPrediction predict_ground(const KnownGround& ground, const GroundFit& fit);
 
-// As a file holds it. A class is a layer, its colours are layers under it (P27, P32).
-SurfaceLayers surface_layers_of(const KnownGround& ground, const GroundFit& fit, const std::string& name);
+// As a layers file. A class is a layer, its colours are layers under it (P27, P32).
+SurfaceLayers surface_layers_of(const KnownGround& ground, const GroundFit& fit,
+                                const std::string& name);
 
 }  // namespace belvedere

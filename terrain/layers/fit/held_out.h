@@ -9,30 +9,32 @@
 
 namespace belvedere {
 
-// Ground that is learned from and ground that judges: 0 … count - 1, the number of the part a cell is judged in.
+// Cross-validation: a division of the ground into parts, each evaluated with a fit to the others. 0
+// … count - 1, the number of the part of a cell.
 struct HoldOut {
   std::string name;
   int parts = 0;
   Grid<std::uint8_t> part;  // of each cell
 };
-// A chessboard of squares, both ways: neighbouring squares look alike, so it flatters.
+// A chessboard of squares: neighbouring squares are similar, so its result is optimistic.
 HoldOut chessboard(int width, int height, int square_cells = 64);
-// West, east: what is learned must carry over to other ground.
+// West, east: tests whether a fit transfers to other ground.
 HoldOut west_and_east(int width, int height);
 HoldOut north_and_south(int width, int height);
 
-// Each part predicted by what was learned on the others.
+// Each part predicted by a fit to the others.
 struct HeldOutResult {
-  GroundPrediction prediction;  // shares and colours of each cell by a fit that has not seen it
+  GroundPrediction prediction;  // shares and colours of each cell by a fit without it
   ClassMeasures measures;
-  ClassMeasures matched;                     // with offsets that give each class the area it has on all of the ground
-  std::vector<BlockDifference> differences;  // with a picture: of blocks of 1, 16, 32, 64 cells
-  double gradient_share = 0.0;               // energy of the expected colours' gradients over the picture's
+  ClassMeasures matched;  // with offsets that give each class its area on the whole ground
+  std::vector<BlockDifference> differences;  // with a picture: blocks of 1, 16, 32, 64 cells
+  double gradient_share = 0.0;  // gradient energy of the expected colours over the picture's
 };
-// Error(input) where a part leaves nothing to learn from.
-HeldOutResult judge_held_out(const KnownGround& ground, const GroundFitParameters& parameters, const HoldOut& hold_out);
+// Error(input) if a part leaves nothing to learn from.
+HeldOutResult evaluate_held_out(const KnownGround& ground, const GroundFitParameters& parameters,
+                                const HoldOut& hold_out);
 
-// As long as no input is asked: a class's share by the altitude's 32 bands. What every model must beat.
+// Baseline without inputs: a class's share in 32 bands of altitude. Every model must be better.
 HeldOutResult judge_bands(const KnownGround& ground, const HoldOut& hold_out);
 
 }  // namespace belvedere

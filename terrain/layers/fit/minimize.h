@@ -7,8 +7,8 @@
 namespace belvedere {
 
 struct MinimizeParameters {
-  int steps = 150;          // at most, ≥ 1
-  double tolerance = 1e-9;  // stops where a step gains less than this share of the value, ≥ 0
+  int steps = 150;          // maximum, ≥ 1
+  double tolerance = 1e-9;  // stops if a step gains less than this share of the value, ≥ 0
 };
 struct MinimizeResult {
   std::vector<double> at;
@@ -18,10 +18,13 @@ struct MinimizeResult {
 };
 
 // Returns the value at x, ≥ 0, and writes the gradient, both of finite numbers; throws nothing.
-using ValueAndGradient = std::function<double(std::span<const double> x, std::span<double> gradient)>;
+using ValueAndGradient =
+    std::function<double(std::span<const double> x, std::span<double> gradient)>;
 
-// A minimum of a smooth function without bounds: limited-memory BFGS (Nocedal 1980) of libLBFGS. One thread, and of mathematics only square
-// roots: the same bits wherever the function gives them.
-MinimizeResult minimize(const std::vector<double>& start, const ValueAndGradient& function, const MinimizeParameters& parameters = {});
+// Unconstrained minimum of a smooth function by limited-memory BFGS (Nocedal 1980) of libLBFGS.
+// Single-threaded, and the only library function is the square root: the same bits wherever the
+// function gives them.
+MinimizeResult minimize(const std::vector<double>& start, const ValueAndGradient& function,
+                        const MinimizeParameters& parameters = {});
 
 }  // namespace belvedere

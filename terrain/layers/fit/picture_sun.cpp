@@ -25,9 +25,11 @@ Grid<glm::vec3> normals_of(const Grid<float>& altitude_m, double cell_m) {
       const int top = std::max(y - 1, 0);
       const int bottom = std::min(y + 1, altitude_m.height() - 1);
       const float east =
-          (altitude_m(right, y) - altitude_m(left, y)) / (static_cast<float>(std::max(right - left, 1)) * static_cast<float>(cell_m));
+          (altitude_m(right, y) - altitude_m(left, y)) /
+          (static_cast<float>(std::max(right - left, 1)) * static_cast<float>(cell_m));
       const float north =
-          (altitude_m(x, top) - altitude_m(x, bottom)) / (static_cast<float>(std::max(bottom - top, 1)) * static_cast<float>(cell_m));
+          (altitude_m(x, top) - altitude_m(x, bottom)) /
+          (static_cast<float>(std::max(bottom - top, 1)) * static_cast<float>(cell_m));
       const float length = std::sqrt(east * east + north * north + 1.0F);
       normals(x, y) = {-east / length, -north / length, 1.0F / length};
     }
@@ -47,7 +49,8 @@ Direction direction_of(double azimuth_deg, double elevation_deg) {
 }
 float incidence(const glm::vec3& normal, const Direction& sun, float horizon) {
   if (horizon > sun.tangent) return 0.0F;
-  return std::max(0.0F, normal.x * sun.to_sun.x + normal.y * sun.to_sun.y + normal.z * sun.to_sun.z);
+  return std::max(0.0F,
+                  normal.x * sun.to_sun.x + normal.y * sun.to_sun.y + normal.z * sun.to_sun.z);
 }
 
 }  // namespace
@@ -58,21 +61,25 @@ Grid<float> sunlight(const Grid<float>& altitude_m, double cell_m, const Picture
   const Grid<float> horizon = horizon_tangents(smooth, {cell_m, cell_m}, sun.azimuth_deg);
   const Direction direction = direction_of(sun.azimuth_deg, sun.elevation_deg);
   Grid<float> light(altitude_m.width(), altitude_m.height());
-  for (std::size_t i = 0; i != light.size(); ++i) light[i] = incidence(normals[i], direction, horizon[i]);
+  for (std::size_t i = 0; i != light.size(); ++i)
+    light[i] = incidence(normals[i], direction, horizon[i]);
   return light;
 }
 
-PictureSun find_sun(const Grid<float>& altitude_m, double cell_m, const Grid<float>& brightness, const std::vector<std::uint8_t>& labels,
-                    const Grid<std::uint8_t>& use, std::optional<double> azimuth_deg) {
-  constexpr std::size_t most = 30'000;  // cells that suns are tried on
+PictureSun find_sun(const Grid<float>& altitude_m, double cell_m, const Grid<float>& brightness,
+                    const std::vector<std::uint8_t>& labels, const Grid<std::uint8_t>& use,
+                    std::optional<double> azimuth_deg) {
+  constexpr std::size_t max = 30'000;  // cells used to evaluate suns
   std::vector<std::uint8_t> used(use.size());
   for (std::size_t i = 0; i != used.size(); ++i) used[i] = use[i] != 0 ? 0 : no_class;
-  const std::vector<std::uint32_t> cells = draw_labelled(used, most, 1);
+  const std::vector<std::uint32_t> cells = draw_labelled(used, max, 1);
   PictureSun best{0.0, 45.0, -1.0};
   if (cells.size() < 3) return best;
   std::array<double, 256> sum{};
   std::array<double, 256> count{};
-  const auto label_of = [&](std::uint32_t i) { return labels.empty() ? std::uint8_t{0} : labels[i]; };
+  const auto label_of = [&](std::uint32_t i) {
+    return labels.empty() ? std::uint8_t{0} : labels[i];
+  };
   for (const std::uint32_t i : cells) {
     sum[label_of(i)] += static_cast<double>(brightness[i]);
     count[label_of(i)] += 1.0;
@@ -80,7 +87,8 @@ PictureSun find_sun(const Grid<float>& altitude_m, double cell_m, const Grid<flo
   std::vector<double> bright(cells.size());
   double squares = 0.0;
   for (std::size_t j = 0; j != cells.size(); ++j) {
-    bright[j] = static_cast<double>(brightness[cells[j]]) - sum[label_of(cells[j])] / count[label_of(cells[j])];
+    bright[j] = static_cast<double>(brightness[cells[j]]) -
+                sum[label_of(cells[j])] / count[label_of(cells[j])];
     squares += bright[j] * bright[j];
   }
   const Grid<float> smooth = gaussian_blur(altitude_m, 1.0);
@@ -104,14 +112,18 @@ PictureSun find_sun(const Grid<float>& altitude_m, double cell_m, const Grid<flo
         both += l * bright[j];
       }
       const double variance = light2 - light * light / static_cast<double>(cells.size());
-      const double correlation = variance > 0.0 && squares > 0.0 ? both / std::sqrt(variance * squares) : 0.0;  // bright's mean is 0
-      if (correlation > best.correlation) best = {azimuth, static_cast<double>(elevation), correlation};
+      const double correlation = variance > 0.0 && squares > 0.0
+                                     ? both / std::sqrt(variance * squares)
+                                     : 0.0;  // the mean of bright is 0
+      if (correlation > best.correlation)
+        best = {azimuth, static_cast<double>(elevation), correlation};
     }
   }
   return best;
 }
 
-LightAnswers light_answers(const Grid<glm::vec3>& picture, const Grid<float>& light, const std::vector<std::uint8_t>& labels, int classes,
+LightAnswers light_answers(const Grid<glm::vec3>& picture, const Grid<float>& light,
+                           const std::vector<std::uint8_t>& labels, int classes,
                            const Grid<std::uint8_t>& use) {
   constexpr float lit = 0.05F;
   constexpr double fewest = 50.0;
@@ -139,8 +151,9 @@ LightAnswers light_answers(const Grid<glm::vec3>& picture, const Grid<float>& li
     for (int c = 0; c != 3; ++c) {
       const double mean = s.y[c] / std::max(s.n, 1.0);
       const double gain = variance > 1e-9 ? (s.xy[c] - s.x * s.y[c] / s.n) / variance : 0.0;
-      // A base near 0 would let the darkest slopes explode.
-      answers[k][static_cast<std::size_t>(c)] = {gain, std::max(mean - gain * s.x / std::max(s.n, 1.0), 0.02 * mean)};
+      // A base near 0 would give extreme factors on the darkest slopes.
+      answers[k][static_cast<std::size_t>(c)] = {
+          gain, std::max(mean - gain * s.x / std::max(s.n, 1.0), 0.02 * mean)};
     }
   }
   return answers;
@@ -151,15 +164,17 @@ double levelling(const LightAnswer& answer, double cos_incidence, double level_c
   return (answer.gain * level_cos + answer.base) / (answer.gain * cos_incidence + answer.base);
 }
 
-Grid<glm::vec3> lit_evenly(const Grid<glm::vec3>& picture, const Grid<float>& light, double level_cos,
-                           const std::vector<std::uint8_t>& labels, const LightAnswers& answers) {
+Grid<glm::vec3> lit_evenly(const Grid<glm::vec3>& picture, const Grid<float>& light,
+                           double level_cos, const std::vector<std::uint8_t>& labels,
+                           const LightAnswers& answers) {
   Grid<glm::vec3> even = picture;
   parallel_rows(light.height(), [&](int y) {
     for (std::size_t i = light.index(0, y); i != light.index(0, y + 1); ++i) {
       const std::array<LightAnswer, 3>& answer = answers[labels[i] == no_class ? 0 : labels[i]];
       const auto l = static_cast<double>(light[i]);
-      even[i] = glm::dvec3(picture[i]) *
-                glm::dvec3(levelling(answer[0], l, level_cos), levelling(answer[1], l, level_cos), levelling(answer[2], l, level_cos));
+      even[i] = glm::dvec3(picture[i]) * glm::dvec3(levelling(answer[0], l, level_cos),
+                                                    levelling(answer[1], l, level_cos),
+                                                    levelling(answer[2], l, level_cos));
     }
   });
   return even;

@@ -30,7 +30,8 @@ Survey example() {
 
 Bytes joined(const ByteWriter& writer) {
   Bytes all;
-  for (const std::span<const std::byte> part : writer.parts()) all.insert(all.end(), part.begin(), part.end());
+  for (const std::span<const std::byte> part : writer.parts())
+    all.insert(all.end(), part.begin(), part.end());
   return all;
 }
 
@@ -63,7 +64,8 @@ TEST(Bytes, GridsAreNotCopied) {
   EXPECT_EQ(static_cast<const void*>(writer.parts().back().data()), survey.heights.data());
 }
 
-// However few bytes are left, and whatever sizes they tell: nothing is read beyond them, and nothing of a wild size allocated.
+// However few bytes are left, and whatever sizes they contain: nothing is read beyond them, and no
+// unreasonable size is allocated.
 TEST(Bytes, ThatEndTooEarlyAreNotDone) {
   const Survey survey = example();
   ByteWriter writer;

@@ -17,19 +17,23 @@ std::string text(const T& value) {
 }
 
 TEST(CacheKeyText, OtherNumbersAreOtherTexts) {
-  const std::set<std::string> texts = {text(0.1), text(std::nextafter(0.1, 1.0)), text(0.0), text(-0.0), text(0.1F), text(1), text(true)};
+  const std::set<std::string> texts = {
+      text(0.1), text(std::nextafter(0.1, 1.0)), text(0.0), text(-0.0), text(0.1F), text(1),
+      text(true)};
   EXPECT_EQ(texts.size(), 7U);
   EXPECT_EQ(text(0.1), "value=0x1.999999999999ap-4\n") << "as C prints %a";
   EXPECT_EQ(text(std::uint64_t{18446744073709551615U}), "value=18446744073709551615\n");
 }
 
-// No value can pretend to be two, or part of its neighbour.
+// No value can look like two values, or like part of its neighbour.
 TEST(CacheKeyText, TextsAndListsKeepTheirEnds) {
   using Texts = std::vector<std::string>;
-  const std::set<std::string> texts = {text(Texts{"a", "b"}), text(Texts{"ab"}), text(Texts{"a\",1\"b"}), text(Texts{"a,", "b"}),
+  const std::set<std::string> texts = {text(Texts{"a", "b"}), text(Texts{"ab"}),
+                                       text(Texts{"a\",1\"b"}), text(Texts{"a,", "b"}),
                                        text(Texts{})};
   EXPECT_EQ(texts.size(), 5U);
-  EXPECT_NE(CacheKeyText().add("a", "x\nb=1\"y\"").str(), CacheKeyText().add("a", "x").add("b", "y").str());
+  EXPECT_NE(CacheKeyText().add("a", "x\nb=1\"y\"").str(),
+            CacheKeyText().add("a", "x").add("b", "y").str());
   using Settings = std::vector<std::pair<std::string, double>>;
   EXPECT_NE(text(Settings{{"a", 1.0}, {"b", 2.0}}), text(Settings{{"b", 2.0}, {"a", 1.0}}));
   EXPECT_NE(text(std::optional<double>()), text(std::optional<double>(0.0)));

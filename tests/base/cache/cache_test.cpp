@@ -27,18 +27,24 @@ using ::testing::SizeIs;
 
 Bytes bytes_of(const std::string& text) {
   Bytes bytes(text.size());
-  std::transform(text.begin(), text.end(), bytes.begin(), [](char c) { return static_cast<std::byte>(c); });
+  std::transform(text.begin(), text.end(), bytes.begin(),
+                 [](char c) { return static_cast<std::byte>(c); });
   return bytes;
 }
 
 class CacheTest : public ::testing::Test {
  protected:
   static CacheKey key(const std::string& text) { return {"land cover", "karwendel", text}; }
-  void store(const std::string& text, const std::string& value) { cache_.store(key(text), bytes_of(value), notes_); }
+  void store(const std::string& text, const std::string& value) {
+    cache_.store(key(text), bytes_of(value), notes_);
+  }
   std::optional<Bytes> find(const std::string& text) { return cache_.find(key(text), notes_); }
-  std::string path_of(const std::string& text) const { return fs::path(folder_.path()) / (hash_bytes("land cover\n" + text) + ".cache"); }
+  std::string path_of(const std::string& text) const {
+    return fs::path(folder_.path()) / (hash_bytes("land cover\n" + text) + ".cache");
+  }
   void make_older(const std::string& text, int hours) const {
-    fs::last_write_time(path_of(text), fs::file_time_type::clock::now() - std::chrono::hours(hours));
+    fs::last_write_time(path_of(text),
+                        fs::file_time_type::clock::now() - std::chrono::hours(hours));
   }
 
   test::Folder folder_;
@@ -54,7 +60,8 @@ TEST_F(CacheTest, GivesBackWhatWasStoredWithTheKey) {
   EXPECT_EQ(find("b"), bytes_of(""));
   EXPECT_FALSE(find("c"));
   EXPECT_FALSE(cache_.find({"sheet", "karwendel", "a"}, notes_)) << "another product";
-  EXPECT_EQ(cache_.find({"land cover", "another name", "a"}, notes_), bytes_of("forest")) << "whose it is does not count";
+  EXPECT_EQ(cache_.find({"land cover", "another name", "a"}, notes_), bytes_of("forest"))
+      << "whose it is does not count";
   const std::vector<Bytes> parts = {bytes_of("two "), bytes_of("parts")};
   const std::vector<std::span<const std::byte>> spans(parts.begin(), parts.end());
   cache_.store(key("a"), spans, notes_);
@@ -83,7 +90,8 @@ TEST_F(CacheTest, DamageIsFoundAndTheEntryRemoved) {
   test::write_bytes(path_of("a"), whole + "x");
   EXPECT_FALSE(find("a"));
   EXPECT_THAT(notes_.all, SizeIs(refused + whole.size() + 1));
-  EXPECT_THAT(notes_.all.front(), AllOf(HasSubstr("damaged"), HasSubstr("land cover of karwendel")));
+  EXPECT_THAT(notes_.all.front(),
+              AllOf(HasSubstr("damaged"), HasSubstr("land cover of karwendel")));
   // An entry of another key under this name.
   store("b", "sheet");
   fs::rename(path_of("b"), path_of("a"));
@@ -110,7 +118,7 @@ TEST_F(CacheTest, OverItsLimitTheLeastUsedGo) {
   EXPECT_FALSE(find("b"));
   EXPECT_TRUE(find("c"));
   EXPECT_TRUE(find("d"));
-  // What could never stay drives nothing out.
+  // An entry too large to be kept must not evict others.
   small.store(key("e"), bytes_of(std::string(4000, 'x')), notes_);
   EXPECT_FALSE(find("e"));
   EXPECT_EQ(folder_.count(), 3U);
@@ -133,7 +141,7 @@ TEST_F(CacheTest, WithoutAFolderNothingIsKept) {
   EXPECT_EQ(folder_.count(), 0U);
 }
 
-// Everybody reads whole entries while others replace, remove and trim them.
+// Readers get whole entries while others replace, remove and trim them.
 TEST_F(CacheTest, ManyAtOnceFindWholeEntriesOrNone) {
   const std::string value(100'000, 'v');
   std::atomic<int> wrong = 0;
@@ -162,7 +170,8 @@ TEST_F(CacheTest, EntriesAreListedAndClearedByAge) {
   make_older("old", 50);
   folder_.write("letter.txt", "mine");
   folder_.write("0123456789abcdef0123456789abcdef-1-0.cache-tmp", "of a program that runs");
-  const std::string left = folder_.write("0123456789abcdef0123456789abcdef-2-0.cache-tmp", "of one that was killed");
+  const std::string left =
+      folder_.write("0123456789abcdef0123456789abcdef-2-0.cache-tmp", "of one that was killed");
   fs::last_write_time(left, fs::file_time_type::clock::now() - std::chrono::hours(25));
   const std::vector<CacheEntry> entries = cache_entries(folder_.path());
   ASSERT_THAT(entries, SizeIs(2));
@@ -186,7 +195,8 @@ TEST_F(CacheTest, EntriesAreListedAndClearedByAge) {
 TEST_F(CacheTest, MayGrowToATenthOfTheDiskAtMost) {
   const fs::space_info space = fs::space(folder_.path());
   EXPECT_LE(default_cache_limit(folder_.path()), std::uint64_t{20} << 30);
-  EXPECT_LE(static_cast<double>(default_cache_limit(folder_.path())), 0.11 * static_cast<double>(space.capacity));
+  EXPECT_LE(static_cast<double>(default_cache_limit(folder_.path())),
+            0.11 * static_cast<double>(space.capacity));
   EXPECT_GT(default_cache_limit(folder_.path()), 0U);
 }
 

@@ -17,10 +17,12 @@ TEST(ContentHash, HashOfTheEmptyFileIsThePublishedOne) {
   EXPECT_EQ(hash_file(folder.write("empty", "")), "99aa06d3014798d86001c324468d497f");
 }
 
-// Longer than a read and no multiple of it: streaming must agree with the one-call form of the library.
+// Longer than a read and no multiple of it: streaming must agree with the one-call form of the
+// library.
 TEST(ContentHash, StreamedHashIsTheHashOfTheBytes) {
   std::string bytes(700'001, '\0');
-  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<char>(i * 2654435761U >> 13U);
+  for (std::size_t i = 0; i < bytes.size(); ++i)
+    bytes[i] = static_cast<char>(i * 2654435761U >> 13U);
   const test::Folder folder;
   const std::string path = folder.write("long", bytes);
   EXPECT_EQ(hash_file(path), hash_bytes(bytes));

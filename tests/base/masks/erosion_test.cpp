@@ -30,9 +30,11 @@ Labels disc(int side, double radius) {
   return out;
 }
 
-double radius_of(const Labels& labels) { return std::sqrt(static_cast<double>(std::count(labels.begin(), labels.end(), 1)) / 3.14159265); }
+double radius_of(const Labels& labels) {
+  return std::sqrt(static_cast<double>(std::count(labels.begin(), labels.end(), 1)) / 3.14159265);
+}
 
-// Two labels and a third in patches, as no closed form has them.
+// Two labels and a third in patches, without a closed form.
 Labels patchy(int width, int height) {
   Labels out(width, height);
   for (int y = 0; y < height; ++y)
@@ -48,7 +50,8 @@ TEST(Erosion, AFlatBorderGoesBackByAStepALevel) {
   for (int y = 0; y < 60; ++y) std::fill(half.row(y) + 20, half.row(y) + 120, std::uint8_t{1});
   const Erosion even = erode(half, 1, opens({0}), {.levels = 3, .step = 8.0, .ragged = 0.0});
   for (int y = 10; y < 50; ++y)
-    for (int x = 0; x < 120; ++x) ASSERT_EQ(even.level(x, y), x < 20 || x >= 44 ? 0 : 1 + (x - 20) / 8) << x << " " << y;
+    for (int x = 0; x < 120; ++x)
+      ASSERT_EQ(even.level(x, y), x < 20 || x >= 44 ? 0 : 1 + (x - 20) / 8) << x << " " << y;
 }
 
 TEST(Erosion, ADiscShrinksByAStepALevel) {
@@ -57,20 +60,26 @@ TEST(Erosion, ADiscShrinksByAStepALevel) {
   EXPECT_NEAR(radius_of(even.labels), 120.0 - 32.0, 1.0);
   double ragged = 0.0;
   for (const std::uint64_t seed : {1, 2, 3, 4})
-    ragged += .25 * radius_of(erode(round, 1, opens({0}), {.levels = 4, .step = 8.0, .seed = seed}).labels);
-  EXPECT_NEAR(ragged, 120.0 - 32.0, 3.5) << "a tenth of the way: slow and fast places of four seeds are not quite even";
+    ragged +=
+        .25 *
+        radius_of(erode(round, 1, opens({0}), {.levels = 4, .step = 8.0, .seed = seed}).labels);
+  EXPECT_NEAR(ragged, 120.0 - 32.0, 3.5)
+      << "a tenth of the way: slow and fast places of four seeds are not quite even";
 }
 
-// Ragged: the border of a disc is no circle any more, and longer than one.
+// Ragged: the border of a disc is no longer a circle, and longer.
 TEST(Erosion, BordersAreMadeAnew) {
   const auto spread = [](double ragged) {
-    const Labels left = erode(disc(301, 120.0), 1, opens({0}), {.levels = 3, .step = 8.0, .ragged = ragged}).labels;
+    const Labels left =
+        erode(disc(301, 120.0), 1, opens({0}), {.levels = 3, .step = 8.0, .ragged = ragged}).labels;
     double sum = 0.0;
     double squares = 0.0;
     int count = 0;
     for (int y = 1; y < 300; ++y)
       for (int x = 1; x < 300; ++x) {
-        if (left(x, y) != 1 || (left(x + 1, y) == 1 && left(x - 1, y) == 1 && left(x, y + 1) == 1 && left(x, y - 1) == 1)) continue;
+        if (left(x, y) != 1 || (left(x + 1, y) == 1 && left(x - 1, y) == 1 && left(x, y + 1) == 1 &&
+                                left(x, y - 1) == 1))
+          continue;
         const double r = std::hypot(x - 150.0, y - 150.0);
         sum += r;
         squares += r * r;
@@ -95,7 +104,8 @@ TEST(Erosion, LevelsAreNestedAndMonotone) {
     for (std::size_t i = 0; i < now.size(); ++i) {
       EXPECT_EQ(now[i] == 1, labels[i] == 1 && (all.level[i] == 0 || all.level[i] > levels));
       ASSERT_TRUE(labels[i] == 1 || now[i] == labels[i]) << "what was not the label stays";
-      ASSERT_TRUE(before[i] == 1 || now[i] == before[i]) << "what was taken stays taken, by the same label";
+      ASSERT_TRUE(before[i] == 1 || now[i] == before[i])
+          << "what was taken stays taken, by the same label";
       taken += before[i] == 1 && now[i] != 1 ? 1 : 0;
     }
     EXPECT_GT(taken, 0U);
@@ -114,20 +124,22 @@ TEST(Erosion, NothingStaysNothingAndWhatNobodyOpensStays) {
   EXPECT_EQ(std::count(gone.begin(), gone.end(), 1), 0) << "an island goes at last";
 }
 
-// Alone between two labels, each half goes to the nearer one.
+// Between two labels, each half goes to the nearer one.
 TEST(Erosion, TheNearestLabelTakesOver) {
   Labels row(60, 9, 1);
   for (int y = 0; y < 9; ++y) {
     std::fill(row.row(y), row.row(y) + 10, std::uint8_t{2});
     std::fill(row.row(y) + 50, row.row(y) + 60, std::uint8_t{3});
   }
-  const Labels left = erode(row, 1, opens({2, 3}), {.levels = 1, .step = 30.0, .ragged = 0.0}).labels;
+  const Labels left =
+      erode(row, 1, opens({2, 3}), {.levels = 1, .step = 30.0, .ragged = 0.0}).labels;
   for (int x = 0; x < 60; ++x) EXPECT_EQ(left(x, 4), x < 30 ? 2 : 3) << x;
 }
 
 TEST(Erosion, AnyPartOfTheGridGivesTheSame) {
   const Labels labels = patchy(260, 240);
-  const ErosionParameters parameters{.levels = 2, .step = 4.0, .x = 1000.0, .y = -500.0, .dx = 1.0, .dy = -1.0};
+  const ErosionParameters parameters{
+      .levels = 2, .step = 4.0, .x = 1000.0, .y = -500.0, .dx = 1.0, .dy = -1.0};
   const Labels whole = erode(labels, 1, opens({2, 3}), parameters).labels;
   const PixelRect wanted{100, 90, 160, 140};
   for (const int margin : {erosion_reach(parameters), erosion_reach(parameters) + 13}) {
@@ -140,17 +152,26 @@ TEST(Erosion, AnyPartOfTheGridGivesTheSame) {
   }
   ErosionParameters elsewhere = parameters;
   elsewhere.x += 37.0;
-  EXPECT_NE(erode(labels, 1, opens({2, 3}), elsewhere).labels, whole) << "borders hang on the place";
+  EXPECT_NE(erode(labels, 1, opens({2, 3}), elsewhere).labels, whole)
+      << "borders depend on the position";
 }
 
-// Cells half as large show the same ground: nearly the same is left of it.
+// Cells of half the size show the same ground: nearly the same remains.
 TEST(Erosion, FinerCellsErodeAlike) {
   const auto left = [](int scale) {
     Labels labels(160 * scale, 160 * scale);
     for (int y = 0; y < labels.height(); ++y)
-      for (int x = 0; x < labels.width(); ++x) labels(x, y) = gaussian_noise(4, (x + .5) / scale, (y + .5) / scale, 16.0) > 0.0 ? 1 : 0;
+      for (int x = 0; x < labels.width(); ++x)
+        labels(x, y) = gaussian_noise(4, (x + .5) / scale, (y + .5) / scale, 16.0) > 0.0 ? 1 : 0;
     const double cell = 1.0 / scale;
-    return erode(labels, 1, opens({0}), {.levels = 2, .step = 5.0, .cell = cell, .x = .5 * cell, .y = .5 * cell, .dx = cell, .dy = cell})
+    return erode(labels, 1, opens({0}),
+                 {.levels = 2,
+                  .step = 5.0,
+                  .cell = cell,
+                  .x = .5 * cell,
+                  .y = .5 * cell,
+                  .dx = cell,
+                  .dy = cell})
         .labels;
   };
   const Labels coarse = left(1);

@@ -10,7 +10,8 @@
 namespace belvedere {
 namespace {
 
-// Below and above the size from which threads share a block, with ends that fill no share and no pattern.
+// Below and above the size from which threads share a block, with ends that are not a multiple of a
+// share or a pattern.
 const std::array<std::size_t, 6> sizes = {0, 1, 5, 5000, 1'500'001, 7'000'003};
 
 struct Colour {
@@ -23,7 +24,8 @@ TEST(ParallelFill, EveryValueIsWrittenAndNoneBeyond) {
     std::vector<Colour> colours(count + 2, Colour{{1, 2, 3}});
     const Colour value{{7, 8, 9}};
     fill_in_parallel(colours.data() + 1, &value, sizeof value, count);
-    EXPECT_EQ(std::count(colours.begin(), colours.end(), value), static_cast<std::ptrdiff_t>(count)) << count;
+    EXPECT_EQ(std::count(colours.begin(), colours.end(), value), static_cast<std::ptrdiff_t>(count))
+        << count;
     EXPECT_EQ(colours.front(), (Colour{{1, 2, 3}})) << count;
     EXPECT_EQ(colours.back(), (Colour{{1, 2, 3}})) << count;
   }
@@ -35,7 +37,8 @@ TEST(ParallelFill, ValuesLargerThanAPatternAreFilledToo) {
   std::iota(value.begin(), value.end(), 5);
   std::vector<Large> values(600);  // 21 MB
   fill_in_parallel(values.data(), value.data(), sizeof value, values.size());
-  EXPECT_TRUE(std::all_of(values.begin(), values.end(), [&](const Large& v) { return v == value; }));
+  EXPECT_TRUE(
+      std::all_of(values.begin(), values.end(), [&](const Large& v) { return v == value; }));
 }
 
 TEST(ParallelFill, ACopyIsWhatWasCopied) {

@@ -16,16 +16,20 @@ namespace {
 constexpr std::size_t large = (std::size_t{40} << 20) + 12345;
 
 TEST(ZeroedMemory, IsZeroAlsoWhereOthersWroteBefore) {
-  for (const std::size_t bytes : {std::size_t{0}, std::size_t{1}, std::size_t{4000}, std::size_t{300000}, large})
+  for (const std::size_t bytes :
+       {std::size_t{0}, std::size_t{1}, std::size_t{4000}, std::size_t{300000}, large})
     for (int turn = 0; turn < 3; ++turn) {
       auto* const memory = static_cast<unsigned char*>(allocate_zeroed(bytes));
-      ASSERT_TRUE(std::all_of(memory, memory + bytes, [](unsigned char c) { return c == 0; })) << bytes << ", turn " << turn;
+      ASSERT_TRUE(std::all_of(memory, memory + bytes, [](unsigned char c) { return c == 0; }))
+          << bytes << ", turn " << turn;
       std::fill(memory, memory + bytes, static_cast<unsigned char>(255));
       free_zeroed(memory, bytes);
     }
 }
 
-TEST(ZeroedMemory, MoreThanThereIsIsRefused) { EXPECT_THROW(allocate_zeroed(std::size_t{1} << 60), std::bad_alloc); }
+TEST(ZeroedMemory, MoreThanThereIsIsRefused) {
+  EXPECT_THROW(allocate_zeroed(std::size_t{1} << 60), std::bad_alloc);
+}
 
 TEST(ZeroedAllocator, ElementsWithInitializersAreMade) {
   struct Depth {
@@ -33,11 +37,12 @@ TEST(ZeroedAllocator, ElementsWithInitializersAreMade) {
   };
   const std::vector<Depth, ZeroedAllocator<Depth>> depths(5);
   for (const Depth& depth : depths) EXPECT_EQ(depth.m, 7.0F);
-  const std::vector<std::vector<int>, ZeroedAllocator<std::vector<int>>> lists(3, std::vector<int>{1, 2});
+  const std::vector<std::vector<int>, ZeroedAllocator<std::vector<int>>> lists(
+      3, std::vector<int>{1, 2});
   EXPECT_EQ(lists[2], (std::vector<int>{1, 2}));
 }
 
-// What a grid holds is what it was asked for, whatever lay in memory before.
+// A grid contains its requested value, whatever was in memory before.
 TEST(ZeroedMemory, GridsHoldWhatTheyAreFilledWith) {
   struct Cover {
     std::int16_t kind = -3;
@@ -49,8 +54,10 @@ TEST(ZeroedMemory, GridsHoldWhatTheyAreFilledWith) {
     Grid<float> ones(2100, 2300, 1.0F);
     Grid<Cover> covers(40, 30);
     Grid<Cover> plain(40, 30, Cover{.kind = 0});
-    EXPECT_TRUE(std::all_of(zeros.begin(), zeros.end(), [](glm::vec3 v) { return v == glm::vec3(0.0F); }));
-    EXPECT_TRUE(std::all_of(negative_zeros.begin(), negative_zeros.end(), [](float v) { return std::signbit(v); }));
+    EXPECT_TRUE(
+        std::all_of(zeros.begin(), zeros.end(), [](glm::vec3 v) { return v == glm::vec3(0.0F); }));
+    EXPECT_TRUE(std::all_of(negative_zeros.begin(), negative_zeros.end(),
+                            [](float v) { return std::signbit(v); }));
     EXPECT_TRUE(std::all_of(ones.begin(), ones.end(), [](float v) { return v == 1.0F; }));
     EXPECT_TRUE(std::all_of(covers.begin(), covers.end(), [](Cover c) { return c.kind == -3; }));
     EXPECT_TRUE(std::all_of(plain.begin(), plain.end(), [](Cover c) { return c.kind == 0; }));

@@ -14,8 +14,10 @@ using testing::HasSubstr;
 
 TEST(ConfigReader, ReadsWhatIsThereAndLeavesTheRest) {
   const std::string name = "mine.toml";
-  const ConfigValue value =
-      parse_config("a = 2\nb = true\nc = \"x\"\nd = [\"p\", \"q\"]\ne = \"#804000\"\nf = [1, 2.5]\ng = \"two\"\n", name);
+  const ConfigValue value = parse_config(
+      "a = 2\nb = true\nc = \"x\"\nd = [\"p\", \"q\"]\ne = \"#804000\"\nf = [1, 2.5]\ng = "
+      "\"two\"\n",
+      name);
   ConfigReader read(value, name);
   double a = 0.0;
   double missing = 7.0;
@@ -60,16 +62,21 @@ TEST(ConfigReader, SaysWhereAndWhatIsAllowed) {
   int word = 0;
   EXPECT_THAT(message("\na = 3\n", [&](ConfigReader& r) { r.number("a", number, 0.0, 2.0); }),
               AllOf(HasSubstr("mine.toml:2"), HasSubstr("0 … 2")));
-  EXPECT_THAT(message("a = nan\n", [&](ConfigReader& r) { r.number("a", number, 0.0, 2.0); }), HasSubstr("finite number"));
-  EXPECT_THAT(message("a = [1]\n", [&](ConfigReader& r) { r.pair("a", pair, 0.0, 2.0); }), HasSubstr("two numbers"));
-  EXPECT_THAT(message("a = [1, 3]\n", [&](ConfigReader& r) { r.pair("a", pair, 0.0, 2.0); }), HasSubstr("two numbers"));
-  EXPECT_THAT(message("a = \"#12345g\"\n", [&](ConfigReader& r) { r.colour("a", colour); }), HasSubstr("#rrggbb"));
+  EXPECT_THAT(message("a = nan\n", [&](ConfigReader& r) { r.number("a", number, 0.0, 2.0); }),
+              HasSubstr("finite number"));
+  EXPECT_THAT(message("a = [1]\n", [&](ConfigReader& r) { r.pair("a", pair, 0.0, 2.0); }),
+              HasSubstr("two numbers"));
+  EXPECT_THAT(message("a = [1, 3]\n", [&](ConfigReader& r) { r.pair("a", pair, 0.0, 2.0); }),
+              HasSubstr("two numbers"));
+  EXPECT_THAT(message("a = \"#12345g\"\n", [&](ConfigReader& r) { r.colour("a", colour); }),
+              HasSubstr("#rrggbb"));
   EXPECT_THAT(message("a = \"three\"\n",
                       [&](ConfigReader& r) {
                         r.word<int>("a", word, {{"one", 1}, {"two", 2}});
                       }),
               HasSubstr("\"one\", \"two\""));
-  EXPECT_THAT(message("other = 1\n", [&](ConfigReader& r) { r.number("a", number, 0.0, 2.0); }), HasSubstr("other"));
+  EXPECT_THAT(message("other = 1\n", [&](ConfigReader& r) { r.number("a", number, 0.0, 2.0); }),
+              HasSubstr("other"));
 }
 
 }  // namespace

@@ -16,7 +16,8 @@ TEST(HexColour, IsReadAsItIsWritten) {
 }
 
 TEST(HexColour, OtherTextsAreNone) {
-  for (const char* text : {"", "#", "c0ffee", "#c0ffe", "#c0ffee0", "#c0ffeg", "# 0ffee", "#-0ffee", "#0x0000", "red"})
+  for (const char* text :
+       {"", "#", "c0ffee", "#c0ffe", "#c0ffee0", "#c0ffeg", "# 0ffee", "#-0ffee", "#0x0000", "red"})
     EXPECT_FALSE(colour_of_hex(text)) << text;
 }
 

@@ -16,17 +16,22 @@ TEST(Json, NestsInTheOrderAdded) {
                         .add("empty", Json::object())
                         .add("raw", Json::raw("[1, 2]"));
   EXPECT_EQ(json.str(),
-            "{\n  \"b\": 1.5,\n  \"a\": [\n    true,\n    \"x\"\n  ],\n  \"none\": [],\n  \"empty\": {},\n  \"raw\": [1, 2]\n}");
+            "{\n  \"b\": 1.5,\n  \"a\": [\n    true,\n    \"x\"\n  ],\n  \"none\": [],\n  "
+            "\"empty\": {},\n  \"raw\": [1, 2]\n}");
 }
 
 TEST(Json, ListsOfNumbersStandOnOneLine) {
-  EXPECT_EQ(Json::object().add("n", Json::numbers(std::vector<float>{1.F, 0.5F})).add("none", Json::numbers(std::vector<int>())).str(),
+  EXPECT_EQ(Json::object()
+                .add("n", Json::numbers(std::vector<float>{1.F, 0.5F}))
+                .add("none", Json::numbers(std::vector<int>()))
+                .str(),
             "{\n  \"n\": [1, 0.5],\n  \"none\": []\n}");
 }
 
 TEST(Json, EscapesWhatMustBe) {
   EXPECT_EQ(json_quoted("a\"b\\c\nd\te\x01\x7f ü"), "\"a\\\"b\\\\c\\nd\\te\\u0001\\u007f ü\"");
-  EXPECT_EQ(Json::object().add("k\"", Json::texts({"v\n"})).str(), "{\n  \"k\\\"\": [\n    \"v\\n\"\n  ]\n}");
+  EXPECT_EQ(Json::object().add("k\"", Json::texts({"v\n"})).str(),
+            "{\n  \"k\\\"\": [\n    \"v\\n\"\n  ]\n}");
 }
 
 TEST(Json, NumbersReadBackAndInfinitiesAreTexts) {

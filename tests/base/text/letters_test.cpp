@@ -7,10 +7,11 @@ namespace {
 
 TEST(Letters, AreMadeSmall) {
   EXPECT_EQ(lower_case("Grüße AZ az @[ 09"), "grüße az az @[ 09");
-  EXPECT_EQ(lower_ending("Folder.X/Dem.TIF"), ".tif");
-  EXPECT_EQ(lower_ending("folder.x/dem"), "");
-  EXPECT_EQ(lower_ending("x.tar.GZ"), ".gz");
-  EXPECT_EQ(lower_ending("x.ÄÖ"), ".ÄÖ") << "letters of other alphabets are left alone, whatever the locale";
+  EXPECT_EQ(lower_extension("Folder.X/Dem.TIF"), ".tif");
+  EXPECT_EQ(lower_extension("folder.x/dem"), "");
+  EXPECT_EQ(lower_extension("x.tar.GZ"), ".gz");
+  EXPECT_EQ(lower_extension("x.ÄÖ"), ".ÄÖ")
+      << "letters of other alphabets are left alone, whatever the locale";
 }
 
 TEST(Letters, LongNumbersAreGrouped) {

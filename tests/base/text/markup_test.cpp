@@ -18,12 +18,14 @@ TEST(MarkupText, WhatXmlCannotHoldIsABlank) {
 }
 
 TEST(FilledPage, WordsOfTheTemplateBecomeTheirTexts) {
-  EXPECT_EQ(filled_page("<h1>{title}</h1> {a} b { c: {title} }", {{"title", "of {a}"}, {"a", "1"}}), "<h1>of {a}</h1> 1 b { c: of {a} }");
+  EXPECT_EQ(filled_page("<h1>{title}</h1> {a} b { c: {title} }", {{"title", "of {a}"}, {"a", "1"}}),
+            "<h1>of {a}</h1> 1 b { c: of {a} }");
   EXPECT_EQ(filled_page("open {", {}), "open {");
 }
 
 TEST(ScriptJson, NoTextEndsTheScript) {
-  EXPECT_EQ(script_json("{\"name\": \"</script><!--\"}"), "{\"name\": \"\\u003c/script>\\u003c!--\"}");
+  EXPECT_EQ(script_json("{\"name\": \"</script><!--\"}"),
+            "{\"name\": \"\\u003c/script>\\u003c!--\"}");
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include "renderer/scene/scene_file.h"
 #include "renderer/world/view.h"
 #include "tests/files.h"
-#include "tests/renderer/compose/made_up_region.h"
+#include "tests/renderer/compose/synthetic_region.h"
 
 namespace belvedere {
 namespace {
@@ -22,9 +22,12 @@ class ProposedScenes : public testing::Test {
     about_.title = "A \"chain\"";
     about_.sources.push_back({"chain.tif", "", {}});
     about_.crs = "EPSG:32632";
-    best_ = propose_views(search_, {.most = 1}).front();
+    best_ = propose_views(search_, {.max = 1}).front();
   }
-  LoadedScene parsed() const { return parse_scene(proposed_scene_text(search_, best_, about_), "chain.toml", folder_.path(), {}); }
+  LoadedScene parsed() const {
+    return parse_scene(proposed_scene_text(search_, best_, about_), "chain.toml", folder_.path(),
+                       {});
+  }
 
   test::Folder folder_;
   CoarseGround ground_ = test::chain_region();
@@ -50,21 +53,22 @@ TEST_F(ProposedScenes, ReadsBackAsTheViewThatWasFound) {
   EXPECT_EQ(scene.output.height, 1200);
 }
 
-// What was measured on the coarse ground is what the renderer's view shows.
+// The measures on the coarse ground match the renderer's view.
 TEST_F(ProposedScenes, TheRenderersViewPutsTheMainSummitWhereItWasFound) {
-  best_ = judge(search_, best_.plan).value();  // without what is done to the land
+  best_ = judge(search_, best_.plan).value();  // without changes to the land
   const Scene scene = parsed().scene;
-  const Dem dem = make_dem(test::made_up_raster(60.0, test::chain));
+  const Dem dem = make_dem(test::synthetic_raster(60.0, test::chain));
   const View view = make_view(scene, dem, silent_progress());
   DeformParameters deform = view.deform;
   deform.summits.clear();  // raised by the scene, on top of what was measured
   const Anchor& main = massifs_.anchors[static_cast<std::size_t>(best_.plan.anchor)];
-  const glm::dvec3 place = deform_point({main.place, main.altitude_m}, view.viewer_xy, deform);
-  const auto at = make_camera(view.camera)->project(place);
+  const glm::dvec3 position =
+      deform_point({main.position, main.altitude_m}, view.viewer_xy, deform);
+  const auto at = make_camera(view.camera)->project(position);
   ASSERT_TRUE(at);
   const AnchorSight& sight = best_.measures.anchors[static_cast<std::size_t>(best_.plan.anchor)];
-  EXPECT_NEAR(at->x / scene.output.width, sight.place.x, 0.003);
-  EXPECT_NEAR(at->y / scene.output.height, sight.place.y, 0.004);
+  EXPECT_NEAR(at->x / scene.output.width, sight.position.x, 0.003);
+  EXPECT_NEAR(at->y / scene.output.height, sight.position.y, 0.004);
 }
 
 TEST_F(ProposedScenes, SaysWhyAndWhatElseWasAsked) {
@@ -93,21 +97,25 @@ TEST_F(ProposedScenes, SaysWhatIsDoneToTheLandAndWhatItWins) {
   best_.changes.widen_valleys_m = 450.0;
   best_.changes.widened.words = "floor 19 to 59 %";
   const Anchor& summit = massifs_.anchors[static_cast<std::size_t>(other)];
-  best_.changes.summits.push_back({.anchor = other, .by = raise_of(summit, best_.view, 1.3), .gain = {0.2, "tops 70 to 100 %"}});
+  best_.changes.summits.push_back({.anchor = other,
+                                   .by = raise_of(summit, best_.view, 1.3),
+                                   .gain = {0.2, "tops 70 to 100 %"}});
   const Scene scene = parsed().scene;
   EXPECT_EQ(scene.generalize.valleys.width_m, 450.F);
   ASSERT_EQ(scene.deform.summits.size(), 2U);
   EXPECT_NEAR(scene.deform.summits[0].summit.factor, 1.3, 1e-9);
-  EXPECT_NEAR(scene.deform.summits[0].position->x, summit.place.x, 0.51);
-  EXPECT_THAT(proposed_scene_text(search_, best_, about_), testing::AllOf(HasSubstr("floor 19 to 59 %"), HasSubstr("tops 70 to 100 %")));
+  EXPECT_NEAR(scene.deform.summits[0].position->x, summit.position.x, 0.51);
+  EXPECT_THAT(proposed_scene_text(search_, best_, about_),
+              testing::AllOf(HasSubstr("floor 19 to 59 %"), HasSubstr("tops 70 to 100 %")));
   best_.changes.summits[0].anchor = main;
   EXPECT_EQ(parsed().scene.deform.summits.size(), 1U) << "the main summit is raised once";
 }
 
 TEST_F(ProposedScenes, WideOnesAreCylinders) {
   const ViewSearch wide{ground_, massifs_, {.format = {.aspect = 10.0, .full_turn = true}}};
-  best_ = propose_views(wide, {.most = 1}).front();
-  const Scene scene = parse_scene(proposed_scene_text(wide, best_, about_), "chain.toml", folder_.path(), {}).scene;
+  best_ = propose_views(wide, {.max = 1}).front();
+  const Scene scene =
+      parse_scene(proposed_scene_text(wide, best_, about_), "chain.toml", folder_.path(), {}).scene;
   EXPECT_EQ(scene.camera.projection, "cylindrical");
   EXPECT_EQ(scene.camera.field_of_view_deg, 360.0);
   EXPECT_EQ(scene.output.height, 240);

@@ -2,13 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/renderer/compose/made_up_region.h"
+#include "tests/renderer/compose/synthetic_region.h"
 
 namespace belvedere {
 namespace {
 
 CoarseGround region_at(const char* crs) {
-  Raster<float> raster = test::made_up_raster(40.0, test::chain);
+  Raster<float> raster = test::synthetic_raster(40.0, test::chain);
   raster.crs = normalize_crs(crs);
   return make_coarse_ground(raster, 200.0);
 }
@@ -18,8 +18,9 @@ TEST(RegionClimate, TheAlpsAreWetTheNamibIsDry) {
   ASSERT_TRUE(alps.known);
   EXPECT_GT(alps.moisture, 0.8);
   EXPECT_FALSE(is_canyon_country(alps));
-  // The same northing below the Equator's false one of 10 000 km is 43° S; the desert lies on the other side of it.
-  Raster<float> raster = test::made_up_raster(40.0, test::chain);
+  // The same northing below the Equator's false one of 10 000 km is 43° S; the desert lies in the
+  // other hemisphere.
+  Raster<float> raster = test::synthetic_raster(40.0, test::chain);
   raster.crs = normalize_crs("EPSG:32635");
   raster.transform.origin_y = 2700000.0;  // 24° N in Egypt
   const RegionClimate desert = region_climate(make_coarse_ground(raster, 200.0));
@@ -29,7 +30,7 @@ TEST(RegionClimate, TheAlpsAreWetTheNamibIsDry) {
 }
 
 TEST(RegionClimate, NowhereIsNotKnown) {
-  Raster<float> raster = test::made_up_raster(40.0, test::chain);
+  Raster<float> raster = test::synthetic_raster(40.0, test::chain);
   raster.crs.clear();
   EXPECT_FALSE(region_climate(make_coarse_ground(raster, 200.0)).known);
   EXPECT_FALSE(is_canyon_country({}));

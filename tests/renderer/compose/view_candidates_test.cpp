@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "base/parallel.h"
-#include "tests/renderer/compose/made_up_region.h"
+#include "tests/renderer/compose/synthetic_region.h"
 
 namespace belvedere {
 namespace {
@@ -18,13 +18,17 @@ TEST(ViewCandidates, AnchorsLieWhereThePlanPutsThem) {
   for (const double aspect : {2.0, 5.0})
     for (const double across : {0.35, 0.5, 0.65}) {
       const ViewSearch search{ground, massifs, {.format = {.aspect = aspect}}};
-      const ViewPlan plan{
-          .anchor = 0, .azimuth_deg = 20.0, .field_of_view_deg = 50.0, .far_m = 30000.0, .anchor_share = 0.7, .across = across};
+      const ViewPlan plan{.anchor = 0,
+                          .azimuth_deg = 20.0,
+                          .field_of_view_deg = 50.0,
+                          .far_m = 30000.0,
+                          .anchor_share = 0.7,
+                          .across = across};
       const ViewShape view = shape_of(search, plan);
-      const glm::dvec2 away = massifs.main().place - view.viewer;
+      const glm::dvec2 away = massifs.main().position - view.viewer;
       EXPECT_NEAR(glm::length(away), 21000.0, 1e-6);
       const glm::dvec2 direction = to_map(away / glm::length(away), -view.azimuth_deg);
-      EXPECT_NEAR(ComposedPicture(view).place(direction, 0.0).x, across, 1e-9);
+      EXPECT_NEAR(ComposedPicture(view).position(direction, 0.0).x, across, 1e-9);
     }
 }
 
@@ -37,7 +41,7 @@ TEST(ViewCandidates, EachFitsTheDataAndTheWishes) {
   for (const Candidate& c : candidates) {
     EXPECT_TRUE(fits_data(ground, c.view));
     EXPECT_LE(std::abs(std::remainder(c.view.azimuth_deg - 350.0, 360.0)), 15.0);
-    EXPECT_LT(c.measures.empty_edge, 0.2);
+    EXPECT_LT(c.measures.lower_edge.empty, 0.2);
   }
 }
 
@@ -74,7 +78,7 @@ TEST(ViewCandidates, TheSameForAnyThreads) {
 TEST(ViewCandidates, AViewerStandsWhereItIsWished) {
   const CoarseGround ground = test::chain_region();
   const Massifs massifs = find_massifs(ground);
-  const glm::dvec2 from = test::place_km(30.0, 2.0);
+  const glm::dvec2 from = test::position_km(30.0, 2.0);
   const std::vector<Candidate> candidates = first_candidates({ground, massifs, {.from = from}});
   ASSERT_FALSE(candidates.empty());
   for (const Candidate& c : candidates) EXPECT_EQ(c.view.viewer, from);

@@ -7,17 +7,18 @@
 
 #include "renderer/compose/ground_changes.h"
 #include "renderer/compose/proposals.h"
-#include "tests/renderer/compose/made_up_region.h"
+#include "tests/renderer/compose/synthetic_region.h"
 
 namespace belvedere {
 namespace {
 
 using testing::HasSubstr;
 
-// Narrow valleys between ridges, of whose floors little is wide enough to be seen, and a peak.
+// Narrow valleys between ridges, with floors mostly too narrow to be visible, and a peak.
 double narrow(double e, double n) {
   const double ridges = 900.0 * std::abs(std::sin(0.55 * e)) * (0.7 + 0.3 * std::sin(0.4 * n));
-  const double peak = 900.0 * std::exp(-(std::pow((e - 26.0) / 5.0, 2.0) + std::pow((n - 34.0) / 5.0, 2.0)));
+  const double peak =
+      900.0 * std::exp(-(std::pow((e - 26.0) / 5.0, 2.0) + std::pow((n - 34.0) / 5.0, 2.0)));
   return 700.0 + 6.0 * n + ridges + peak;
 }
 
@@ -26,10 +27,11 @@ class ViewChangesOf : public testing::Test {
   static std::vector<Candidate> some(const ViewSearch& search) {
     const std::vector<Candidate> candidates = first_candidates(search);
     std::vector<Candidate> out;
-    for (std::size_t i = 0; i < candidates.size(); i += candidates.size() / 12) out.push_back(*judge(search, candidates[i].plan));
+    for (std::size_t i = 0; i < candidates.size(); i += candidates.size() / 12)
+      out.push_back(*judge(search, candidates[i].plan));
     return out;
   }
-  CoarseGround ground_ = make_coarse_ground(test::made_up_raster(60.0, narrow), 300.0);
+  CoarseGround ground_ = make_coarse_ground(test::synthetic_raster(60.0, narrow), 300.0);
   Massifs massifs_ = find_massifs(ground_);
   ViewSearch search_{ground_, massifs_, {}};
 };
@@ -62,11 +64,13 @@ TEST_F(ViewChangesOf, AreTakenWhereTheyWinMuch) {
     raised += changes.summits.empty() ? 0 : 1;
     EXPECT_LE(changes.summits.size(), 2U);
     if (changes.widen_valleys_m == 0.0 && changes.summits.empty()) continue;
-    const double least = (changes.widen_valleys_m > 0.0 ? 0.2 : 0.0) + 0.25 * static_cast<double>(changes.summits.size());
-    EXPECT_GE(after.score, before.score + least - 1e-9);
-    EXPECT_THAT(describe_changes(search_, after), HasSubstr("win"));
-    // Judged once more from the start, on the ground that it says.
-    CoarseGround ground = changes.widen_valleys_m > 0.0 ? widened_ground(ground_, changes.widen_valleys_m) : ground_;
+    const double min = (changes.widen_valleys_m > 0.0 ? 0.2 : 0.0) +
+                       0.25 * static_cast<double>(changes.summits.size());
+    EXPECT_GE(after.score, before.score + min - 1e-9);
+    EXPECT_THAT(describe_changes(search_, after), HasSubstr("improve"));
+    // Evaluated again from scratch, on the ground of the candidate.
+    CoarseGround ground =
+        changes.widen_valleys_m > 0.0 ? widened_ground(ground_, changes.widen_valleys_m) : ground_;
     Massifs massifs = massifs_;
     std::vector<SummitExaggeration> summits;
     double gains = changes.widen_valleys_m > 0.0 ? changes.widened.merit : 0.0;
@@ -87,10 +91,10 @@ TEST_F(ViewChangesOf, AreTakenWhereTheyWinMuch) {
 
 TEST_F(ViewChangesOf, PlainProposalsHaveNone) {
   const auto changed = [&](bool plain) {
-    ViewWishes wishes;
-    wishes.plain = plain;
+    ViewRequest request;
+    request.plain = plain;
     int count = 0;
-    for (const Candidate& view : propose_views({ground_, massifs_, wishes}, {.most = 5}))
+    for (const Candidate& view : propose_views({ground_, massifs_, request}, {.max = 5}))
       if (view.changes.widen_valleys_m > 0.0 || !view.changes.summits.empty()) ++count;
     return count;
   };

@@ -17,14 +17,17 @@ TEST(ViewDefaults, AreSharesOfTheHorizonsDistance) {
   EXPECT_NEAR(defaults_of_horizon(80000.0).background_from_m, 4.0 * near.background_from_m, 1e-6);
 }
 
-// Warm and clear in front, cool behind: at .9 of the horizon's distance instead of .6 the last range stood in a quarter of the air's
-// colour, and regions with a view of their own were of one green from front to back.
+// Warm and clear in front, cool behind: at .9 of the horizon's distance instead of .6 the last
+// range had only a quarter of the haze, and regions with their own view were the same green from
+// front to back.
 TEST(ViewDefaults, TheLastRangeStandsInTheAirAndTheForegroundDoesNot) {
   for (const double far_m : {12000.0, 90000.0}) {
     const HorizonDefaults view = defaults_of_horizon(far_m);
     AirParameters air;
     air.haze = view_haze, air.from_m = view.air_from_m, air.scale_m = view.air_scale_m;
-    const auto share = [&](double part, double above_m) { return haze_share(air, part * far_m, air.floor_m + above_m); };
+    const auto share = [&](double part, double above_m) {
+      return haze_share(air, part * far_m, air.floor_m + above_m);
+    };
     EXPECT_EQ(share(0.42, 0.0), 0.0);
     EXPECT_GT(foreground_warmth(air, 0.42 * far_m), 0.85F);
     EXPECT_LT(share(0.70, 0.0), 0.25) << "the middle stays clear";

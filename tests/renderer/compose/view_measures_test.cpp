@@ -5,14 +5,15 @@
 #include <cmath>
 
 #include "renderer/compose/view_layout.h"
-#include "tests/renderer/compose/made_up_region.h"
+#include "tests/renderer/compose/synthetic_region.h"
 
 namespace belvedere {
 namespace {
 
-ViewShape view_of(const CoarseGround& ground, double east_km, double north_km, double azimuth_deg, double far_m, double lone = 0.0) {
+ViewShape view_of(const CoarseGround& ground, double east_km, double north_km, double azimuth_deg,
+                  double far_m, double lone = 0.0) {
   ViewShape view;
-  view.viewer = test::place_km(east_km, north_km);
+  view.viewer = test::position_km(east_km, north_km);
   view.azimuth_deg = azimuth_deg;
   view.far_m = far_m;
   view.near_m = 0.42 * far_m;
@@ -29,31 +30,39 @@ TEST(ViewMeasures, OfAConeOnAPlain) {
   const ViewMeasures m = measure_view(ground, view, massifs.anchors);
   EXPECT_TRUE(m.anchors[0].inside);
   EXPECT_EQ(m.anchors[0].seen, 1.0);
-  EXPECT_NEAR(m.anchors[0].place.x, 0.5, 0.01);
-  EXPECT_NEAR(m.anchors[0].place.y, m.skyline.summit, 0.02) << "the cone's top is the highest of the skyline";
+  EXPECT_NEAR(m.anchors[0].position.x, 0.5, 0.01);
+  EXPECT_NEAR(m.anchors[0].position.y, m.skyline.summit, 0.02)
+      << "the cone's top is the highest of the skyline";
   EXPECT_NEAR(m.anchors[0].distance_m, 40000.0, 450.0);
-  // A plain that is bent convexly hides nothing of itself; only what lies behind the cone is hidden.
+  // A plain that is bent convexly hides nothing of itself; only what lies behind the cone is
+  // hidden.
   EXPECT_GT(m.visible_ground, 0.75);
   EXPECT_LT(m.visible_ground, 0.999);
   EXPECT_EQ(m.lower_edge.empty, 0.0);
   EXPECT_EQ(m.lower_edge.cut, 0.0);
   EXPECT_GT(m.flat, 0.5) << "most of it is plain";
   // Sector between the lower edge and the horizon, over the region.
-  EXPECT_NEAR(m.area, 0.5 * 0.7679 * (view.far_m * view.far_m - view.near_m * view.near_m) / (ground.side_m * ground.side_m), 1e-3);
+  EXPECT_NEAR(m.area,
+              0.5 * 0.7679 * (view.far_m * view.far_m - view.near_m * view.near_m) /
+                  (ground.side_m * ground.side_m),
+              1e-3);
 }
 
 TEST(ViewMeasures, WhatStandsBehindAWallIsHidden) {
   // A wall of 3000 m from west to east, a hill behind it.
-  const CoarseGround ground =
-      make_coarse_ground(test::made_up_raster(60.0,
-                                              [](double e, double n) {
-                                                if (std::abs(n - 30.0) < 1.0) return 3500.0;
-                                                return 500.0 + std::max(0.0, 300.0 - 100.0 * std::hypot(e - 30.0, n - 34.0));
-                                              }),
-                         300.0);
+  const CoarseGround ground = make_coarse_ground(
+      test::synthetic_raster(60.0,
+                             [](double e, double n) {
+                               if (std::abs(n - 30.0) < 1.0) return 3500.0;
+                               return 500.0 +
+                                      std::max(0.0, 300.0 - 100.0 * std::hypot(e - 30.0, n - 34.0));
+                             }),
+      300.0);
   const ViewShape view = view_of(ground, 30.0, -10.0, 0.0, 56000.0);
-  const Anchor hill{.place = test::place_km(30.0, 34.0), .altitude_m = 800.0, .stands_m = 300.0};
-  const Anchor before{.place = test::place_km(30.0, 24.0), .altitude_m = 500.0, .stands_m = 0.0};
+  const Anchor hill{
+      .position = test::position_km(30.0, 34.0), .altitude_m = 800.0, .stands_m = 300.0};
+  const Anchor before{
+      .position = test::position_km(30.0, 24.0), .altitude_m = 500.0, .stands_m = 0.0};
   const ViewMeasures m = measure_view(ground, view, {hill, before});
   EXPECT_EQ(m.anchors[0].seen, 0.0);
   EXPECT_EQ(m.anchors[1].seen, 1.0);
@@ -65,8 +74,10 @@ TEST(ViewMeasures, ACanyonIsSeenAlongAndHiddenAcross) {
   const Massifs massifs = find_massifs(ground);
   std::size_t k = 0;
   while (massifs.anchors[k].kind != AnchorKind::canyon) ++k;
-  const ViewMeasures along = measure_view(ground, view_of(ground, 20.0, -14.0, 0.0, 44000.0), massifs.anchors);
-  const ViewMeasures across = measure_view(ground, view_of(ground, -14.0, 18.0, 90.0, 44000.0), massifs.anchors);
+  const ViewMeasures along =
+      measure_view(ground, view_of(ground, 20.0, -14.0, 0.0, 44000.0), massifs.anchors);
+  const ViewMeasures across =
+      measure_view(ground, view_of(ground, -14.0, 18.0, 90.0, 44000.0), massifs.anchors);
   EXPECT_GT(along.anchors[k].seen, across.anchors[k].seen + 0.2);
   EXPECT_GT(along.anchors[k].along, 0.9);
   EXPECT_LT(across.anchors[k].along, 0.45);
@@ -74,20 +85,25 @@ TEST(ViewMeasures, ACanyonIsSeenAlongAndHiddenAcross) {
 
 TEST(ViewMeasures, ALowerEdgeThroughMountainsIsCut) {
   const CoarseGround ground = test::chain_region();
-  // The chain lies 20 km before the horizon's middle, or the lower edge half way up its front, or behind its crest, where no top is cut
-  // off.
-  EXPECT_EQ(measure_view(ground, view_of(ground, 30.0, -8.0, 0.0, 56000.0), {}).lower_edge.cut, 0.0);
-  EXPECT_GT(measure_view(ground, view_of(ground, 30.0, 14.0, 0.0, 30000.0), {}).lower_edge.cut, 0.3);
-  EXPECT_EQ(measure_view(ground, view_of(ground, 30.0, 20.5, 0.0, 30000.0), {}).lower_edge.cut, 0.0);
+  // The chain lies 20 km before the horizon's middle, or the lower edge half way up its front, or
+  // behind its crest, where no top is cut off.
+  EXPECT_EQ(measure_view(ground, view_of(ground, 30.0, -8.0, 0.0, 56000.0), {}).lower_edge.cut,
+            0.0);
+  EXPECT_GT(measure_view(ground, view_of(ground, 30.0, 14.0, 0.0, 30000.0), {}).lower_edge.cut,
+            0.3);
+  EXPECT_EQ(measure_view(ground, view_of(ground, 30.0, 20.5, 0.0, 30000.0), {}).lower_edge.cut,
+            0.0);
 }
 
 TEST(ViewMeasures, APlateauOnTheLowerEdgeIsNotCut) {
-  // High over the gorges at its sides, but it does not rise into the picture: there is no mountain whose foot is missing.
+  // High above the gorges at its sides, but it does not rise into the picture: there is no mountain
+  // whose foot is missing.
   const auto plateau = [](double e, double n) {
     const bool gorge = std::fmod(e, 10.0) < 1.5;
-    return gorge ? 500.0 : 1900.0 + 20.0 * std::sin(n) + (n > 45.0 ? 600.0 * std::sin(0.5 * e) : 0.0);
+    return gorge ? 500.0
+                 : 1900.0 + 20.0 * std::sin(n) + (n > 45.0 ? 600.0 * std::sin(0.5 * e) : 0.0);
   };
-  const CoarseGround ground = make_coarse_ground(test::made_up_raster(60.0, plateau), 300.0);
+  const CoarseGround ground = make_coarse_ground(test::synthetic_raster(60.0, plateau), 300.0);
   const ViewShape view = view_of(ground, 30.0, 5.0, 0.0, 40000.0);
   const GroundCell* edge = ground.at(view.viewer + glm::dvec2(2000.0, view.near_m));
   ASSERT_TRUE(edge);
@@ -96,7 +112,8 @@ TEST(ViewMeasures, APlateauOnTheLowerEdgeIsNotCut) {
 }
 
 TEST(ViewMeasures, AHumpFallsOffAndHasNoPeaks) {
-  // Heights from the top: .1 in the middle, lower by `falls` at the sides, with three peaks of a deviation of `peaks`.
+  // Heights from the top: .1 in the middle, lower by `falls` at the sides, with three peaks of a
+  // deviation of `peaks`.
   const auto hump = [](double falls, double peaks) {
     std::vector<double> line;
     for (int i = 0; i < 150; ++i) {
@@ -118,7 +135,8 @@ TEST(ViewMeasures, TheEndOfTheDataShows) {
   const CoarseGround ground = test::chain_region();
   const ViewMeasures inside = measure_view(ground, view_of(ground, 30.0, -8.0, 0.0, 56000.0), {});
   const ViewMeasures corner = measure_view(ground, view_of(ground, 12.0, -8.0, 0.0, 56000.0), {});
-  EXPECT_GT(corner.lower_edge.empty + corner.rim.near_share, inside.lower_edge.empty + inside.rim.near_share);
+  EXPECT_GT(corner.lower_edge.empty + corner.rim.near_share,
+            inside.lower_edge.empty + inside.rim.near_share);
   EXPECT_LT(inside.lower_edge.empty, 0.01);
 }
 

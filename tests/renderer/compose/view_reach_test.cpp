@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "tests/renderer/compose/made_up_region.h"
+#include "tests/renderer/compose/synthetic_region.h"
 
 namespace belvedere {
 namespace {
@@ -22,8 +22,9 @@ class Reach : public testing::Test {
     camera.projection = projection_;
     return find_reach(ground_, Deformation(deform, viewer_), camera);
   }
-  CoarseGround ground_ = make_coarse_ground(test::made_up_raster(60.0, [](double, double) { return 400.0; }), 300.0);
-  glm::dvec2 viewer_ = test::place_km(30.0, 0.0);
+  CoarseGround ground_ =
+      make_coarse_ground(test::synthetic_raster(60.0, [](double, double) { return 400.0; }), 300.0);
+  glm::dvec2 viewer_ = test::position_km(30.0, 0.0);
   std::string projection_ = "perspective";
 };
 
@@ -36,8 +37,11 @@ TEST_F(Reach, EndsWhereBentGroundIsHighestInThePicture) {
   const double horizon = std::sqrt(crest_m * crest_m + 2.0 * radius_m * (eye_m - 400.0));
   EXPECT_NEAR(reach.far_m, horizon, 1.0);
   // The lower edge: half of 2 atan(tan 22° / 2) below the pitch.
-  const double edge = std::tan((20.0 * 3.14159265358979 / 180.0) + std::atan(std::tan(22.0 * 3.14159265358979 / 180.0) / 2.0));
-  const auto depression = [&](double d) { return (eye_m - 400.0 + (d - crest_m) * (d - crest_m) / (2.0 * radius_m)) / d; };
+  const double edge = std::tan((20.0 * 3.14159265358979 / 180.0) +
+                               std::atan(std::tan(22.0 * 3.14159265358979 / 180.0) / 2.0));
+  const auto depression = [&](double d) {
+    return (eye_m - 400.0 + (d - crest_m) * (d - crest_m) / (2.0 * radius_m)) / d;
+  };
   EXPECT_NEAR(depression(reach.near_m), edge, 0.03);
 }
 
@@ -53,7 +57,7 @@ TEST_F(Reach, OfAPlainEndsWithTheData) {
   EXPECT_NEAR(of(5400.0, {}).far_m, 60000.0, 1500.0);
   projection_ = "oblique";
   EXPECT_NEAR(of(5400.0, {}).far_m, 60000.0, 1500.0);
-  viewer_ = test::place_km(30.0, 100.0);
+  viewer_ = test::position_km(30.0, 100.0);
   EXPECT_EQ(of(5400.0, {}).far_m, 0.0) << "no data lie in the north";
 }
 

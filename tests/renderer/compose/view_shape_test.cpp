@@ -31,20 +31,32 @@ void expect_same_as_camera(const ViewShape& view, const char* projection) {
       constexpr double far = 10000.0;
       const auto there = camera->project(p.eye + far * glm::dvec3(on_map, -depression));
       ASSERT_TRUE(there);
-      const glm::dvec2 here = picture.place(direction, depression);
-      EXPECT_NEAR(here.x, there->x / p.width, 1e-9) << projection << ' ' << off_deg << ' ' << depression;
-      EXPECT_NEAR(here.y, there->y / p.height, 1e-9) << projection << ' ' << off_deg << ' ' << depression;
+      const glm::dvec2 here = picture.position(direction, depression);
+      EXPECT_NEAR(here.x, there->x / p.width, 1e-9)
+          << projection << ' ' << off_deg << ' ' << depression;
+      EXPECT_NEAR(here.y, there->y / p.height, 1e-9)
+          << projection << ' ' << off_deg << ' ' << depression;
     }
 }
 
 TEST(ComposedPicture, IsThePerspectiveOfTheRenderer) {
-  expect_same_as_camera({.azimuth_deg = 217.0, .field_of_view_deg = 44.0, .aspect = 2.0, .pitch_deg = -18.0}, "perspective");
+  expect_same_as_camera(
+      {.azimuth_deg = 217.0, .field_of_view_deg = 44.0, .aspect = 2.0, .pitch_deg = -18.0},
+      "perspective");
 }
 
 TEST(ComposedPicture, IsTheCylinderOfTheRenderer) {
-  expect_same_as_camera({.azimuth_deg = 31.0, .field_of_view_deg = 110.0, .aspect = 5.0, .cylinder = true, .pitch_deg = -12.0},
+  expect_same_as_camera({.azimuth_deg = 31.0,
+                         .field_of_view_deg = 110.0,
+                         .aspect = 5.0,
+                         .cylinder = true,
+                         .pitch_deg = -12.0},
                         "cylindrical");
-  expect_same_as_camera({.azimuth_deg = 31.0, .field_of_view_deg = 360.0, .aspect = 10.0, .cylinder = true, .pitch_deg = -12.0},
+  expect_same_as_camera({.azimuth_deg = 31.0,
+                         .field_of_view_deg = 360.0,
+                         .aspect = 10.0,
+                         .cylinder = true,
+                         .pitch_deg = -12.0},
                         "cylindrical");
 }
 
@@ -67,8 +79,8 @@ TEST(ViewShape, FormatsGrowWiderWithTheirSheet) {
   for (const double aspect : {1.0, 1.414, 2.0, 3.0, 5.0}) {
     const FormatLimits limits = limits_of({.aspect = aspect});
     EXPECT_GT(limits.field_of_view_deg, last);
-    EXPECT_LT(limits.least_field_deg, limits.field_of_view_deg);
-    EXPECT_GT(limits.most_field_deg, limits.field_of_view_deg);
+    EXPECT_LT(limits.min_field_deg, limits.field_of_view_deg);
+    EXPECT_GT(limits.max_field_deg, limits.field_of_view_deg);
     EXPECT_EQ(limits.cylinder, aspect > 3.5);
     last = limits.field_of_view_deg;
   }
@@ -79,7 +91,8 @@ TEST(ViewShape, FormatsGrowWiderWithTheirSheet) {
 TEST(ViewShape, DistancesGrowEvenly) {
   const std::vector<double> d = growing_distances(100.0, 1600.0, 5);
   ASSERT_EQ(d.size(), 5U);
-  for (std::size_t i = 0; i < d.size(); ++i) EXPECT_NEAR(d[i], 100.0 * std::pow(2.0, static_cast<double>(i)), 1e-9);
+  for (std::size_t i = 0; i < d.size(); ++i)
+    EXPECT_NEAR(d[i], 100.0 * std::pow(2.0, static_cast<double>(i)), 1e-9);
 }
 
 TEST(ViewShape, FansReachBeyondTheEdges) {

@@ -12,9 +12,13 @@ namespace {
 
 class ExamplePaintings : public testing::Test {
  protected:
-  ExamplePaintings() : world_(make_world(test::small_scene(), silent_progress())), palette_(read_palette("summer")) {}
+  ExamplePaintings()
+      : world_(make_world(test::small_scene(), silent_progress())),
+        palette_(read_palette("summer")) {}
   LitPicture lit() const { return make_lit_picture(world_, palette_, {0, 0, 96, 80}, {}); }
-  ExamplePainting paint(const ExampleLayers& layers) const { return paint_example(world_, palette_, lit(), layers, silent_progress()); }
+  ExamplePainting paint(const ExampleLayers& layers) const {
+    return paint_example(world_, palette_, lit(), layers, silent_progress());
+  }
 
   World world_;
   Palette palette_;
@@ -29,7 +33,7 @@ TEST_F(ExamplePaintings, EveryPixelKnowsWhosePaintItShows) {
     reached_over += g.painted_class[i] != g.land_cover[i] ? 1 : 0;
   }
   EXPECT_GT(reached_over, 0) << "strokes overlap the borders of classes";
-  EXPECT_FALSE(example.painting == example.ground_layer) << "trees stand in the painting alone";
+  EXPECT_FALSE(example.painting == example.ground_layer) << "trees are in the painting only";
   EXPECT_FALSE(g.painted_from == g.ground_from);
   EXPECT_TRUE(g.stroke.same_size(g.depth_m));
 }
@@ -64,16 +68,20 @@ TEST_F(ExamplePaintings, ClassAndColourOfPaintAreThoseOfThePlaceItGrewFrom) {
     ASSERT_EQ(classes.land_cover[i], guidance.land_cover[guidance.ground_from[i]]) << i;
 }
 
-// Grass that leans over a brook must not be copied into rivers.
+// Grass that overhangs a brook must not be copied into rivers.
 TEST_F(ExamplePaintings, WaterUnderThePaintOfItsBanksIsToldOfAsThatPaint) {
   LitPicture picture = lit();
   for (int y = 60; y < 64; ++y)
     for (int x = 0; x < 96; ++x) picture.guidance.land_cover(x, y) = LandCoverClass::water;
-  const GuidanceBuffers g = paint_example(world_, palette_, std::move(picture), {}, silent_progress()).guidance;
+  const GuidanceBuffers g =
+      paint_example(world_, palette_, std::move(picture), {}, silent_progress()).guidance;
   const auto covered = [&](const Grid<std::uint32_t>& from) {
     int count = 0;
     for (std::size_t i = 0; i < from.size(); ++i)
-      count += g.land_cover[i] == LandCoverClass::water && g.land_cover[from[i]] != LandCoverClass::water ? 1 : 0;
+      count +=
+          g.land_cover[i] == LandCoverClass::water && g.land_cover[from[i]] != LandCoverClass::water
+              ? 1
+              : 0;
     return count;
   };
   EXPECT_GT(covered(g.ground_from), 0);

@@ -9,10 +9,10 @@
 #include <set>
 
 #include "base/error.h"
+#include "renderer/exemplar/available_texels.h"
 #include "renderer/exemplar/exemplar_files.h"
 #include "renderer/exemplar/exemplars.h"
 #include "renderer/exemplar/scan.h"
-#include "renderer/exemplar/texel_supply.h"
 #include "renderer/image/guidance_io.h"
 #include "renderer/image/image_io.h"
 #include "renderer/paint/composite.h"
@@ -69,11 +69,12 @@ TEST(ExampleSheetPlan, PanelsCoverTheSheetWithMarginsBetweenThem) {
       EXPECT_GT(inner.x0, cell.x0);
       EXPECT_LT(inner.y1, cell.y1);
       EXPECT_GE(inner.width(), 16);
-      EXPECT_TRUE(cell.y0 % 64 == 0);  // or files could not be written row by row
+      EXPECT_TRUE(cell.y0 % 64 == 0);  // otherwise files could not be written row by row
       for (int y = cell.y0; y < cell.y1; ++y)
         for (int x = cell.x0; x < cell.x1; ++x) ++covered(x, y);
     }
-    EXPECT_EQ(std::count(covered.begin(), covered.end(), 1), static_cast<std::ptrdiff_t>(covered.size()));
+    EXPECT_EQ(std::count(covered.begin(), covered.end(), 1),
+              static_cast<std::ptrdiff_t>(covered.size()));
   }
 }
 
@@ -88,16 +89,20 @@ TEST(ExampleSheetPlan, IsWrittenAsItIsRead) {
   ASSERT_EQ(again.panels.size(), plan.panels.size());
   for (int p = 0; p < static_cast<int>(plan.panels.size()); ++p)
     for (const bool winter : {false, true})
-      EXPECT_EQ(write_scene(panel_scene(again, p, winter).scene), write_scene(panel_scene(plan, p, winter).scene)) << p;
+      EXPECT_EQ(write_scene(panel_scene(again, p, winter).scene),
+                write_scene(panel_scene(plan, p, winter).scene))
+          << p;
 }
 
 TEST(ExampleSheetPlan, RefusesWhatItDoesNotUnderstand) {
   const auto with = [](const std::string& more) { return std::string("columns = 1\n") + more; };
   EXPECT_NO_THROW(parse_example_sheet_plan(with("[[panels]]\n"), "p"));
-  for (const char* wrong : {"", "rows = 2\n[[panels]]\n", "width = 10\n[[panels]]\n", "[[panels]]\nterrain = \"none\"\n",
-                            "[[panels]]\nsets = []\n", "palette = 3\n[[panels]]\n"})
+  for (const char* wrong :
+       {"", "rows = 2\n[[panels]]\n", "width = 10\n[[panels]]\n",
+        "[[panels]]\nterrain = \"none\"\n", "[[panels]]\nsets = []\n", "palette = 3\n[[panels]]\n"})
     EXPECT_THROW(parse_example_sheet_plan(with(wrong), "p"), Error) << wrong;
-  EXPECT_THROW(parse_example_sheet_plan("columns = 2\n[[panels]]\n", "p"), Error);  // a row that is not full
+  EXPECT_THROW(parse_example_sheet_plan("columns = 2\n[[panels]]\n", "p"),
+               Error);  // a row that is not full
   ExampleSheetPlan plan = small_plan();
   plan.panels[0].settings.emplace_back("camera.colour=red");
   EXPECT_THROW(panel_scene(plan, 0, false), Error);
@@ -107,8 +112,10 @@ TEST(ExampleSheetPlan, LightFallsFromTheSameSideInAllPanels) {
   const ExampleSheetPlan plan = built_in_example_sheet_plan();
   for (int p = 0; p < static_cast<int>(plan.panels.size()); ++p) {
     const Scene scene = panel_scene(plan, p, false).scene;
-    EXPECT_NEAR(std::remainder(scene.sun.azimuth_deg.value() - scene.camera.azimuth_deg.value_or(0.0) - plan.light_from_deg, 360.0), 0.0,
-                1e-9)
+    EXPECT_NEAR(std::remainder(scene.sun.azimuth_deg.value() -
+                                   scene.camera.azimuth_deg.value_or(0.0) - plan.light_from_deg,
+                               360.0),
+                0.0, 1e-9)
         << p;
   }
 }
@@ -123,7 +130,8 @@ TEST(ExampleSheetPlan, WinterLaysSnowWherePanelsSaySo) {
     return count;
   };
   EXPECT_GT(snowed(true), snowed(false));
-  EXPECT_LT(snowed(true), static_cast<int>(plan.panels.size()) / 2);  // or winter would have too little of everything else
+  EXPECT_LT(snowed(true), static_cast<int>(plan.panels.size()) /
+                              2);  // otherwise winter would have too little of everything else
 }
 
 TEST(ExampleSheetPainter, IndicesOfPaintCountInTheWholeSheet) {
@@ -139,7 +147,7 @@ TEST(ExampleSheetPainter, IndicesOfPaintCountInTheWholeSheet) {
       const std::uint32_t from = g.ground_from(x, y);
       const int fx = static_cast<int>(from % 256U);
       const int fy = static_cast<int>(from / 256U);
-      // Paint comes from the own panel, from no farther than a stroke is long.
+      // Paint comes from the same panel, from at most a stroke's length away.
       ASSERT_TRUE(fx >= right.x0 && fx < right.x1 && fy >= right.y0 && fy < right.y1);
       EXPECT_LT(std::hypot(fx - x, fy - y), 40.0);
       elsewhere += fx != x || fy != y ? 1 : 0;
@@ -150,7 +158,7 @@ TEST(ExampleSheetPainter, IndicesOfPaintCountInTheWholeSheet) {
   EXPECT_TRUE(g.is_sky(g.depth_m.index(128, 128)));
   EXPECT_EQ(g.land_cover(128, 128), LandCoverClass::sky);
   EXPECT_EQ(row.ground_layer(0, 0), row.painting(128, 128));
-  // No stroke has a number twice: the panels' numbers do not meet.
+  // No stroke has a number twice: the panels' numbers are disjoint.
   std::set<std::uint32_t> left_strokes;
   std::set<std::uint32_t> right_strokes;
   for (int y = 0; y < 256; ++y)
@@ -163,8 +171,9 @@ TEST(ExampleSheetPainter, IndicesOfPaintCountInTheWholeSheet) {
 TEST(ExampleSheetPlan, SeedAndResolutionChangeEveryPanel) {
   ExampleSheetPlan plan = small_plan();
   const Scene usual = panel_scene(plan, 1, false).scene;
-  EXPECT_EQ(usual.terrain.synthetic->seed, 4U);  // as the panel says, for the plan's own seed
-  // Another seed makes other terrains, and no terrain of a neighbouring seed's. Seeds stay within what files hold exactly.
+  EXPECT_EQ(usual.terrain.synthetic->seed, 4U);  // as in the panel, for the plan's own seed
+  // Another seed gives other terrains, and none of a neighbouring seed's. Seeds stay within what
+  // files hold exactly.
   std::set<std::uint64_t> terrains = {usual.terrain.synthetic->seed};
   for (int k = 0; k < 5; ++k) {
     ++plan.seed;
@@ -173,7 +182,7 @@ TEST(ExampleSheetPlan, SeedAndResolutionChangeEveryPanel) {
   EXPECT_EQ(terrains.size(), 6U);
   EXPECT_LE(*terrains.rbegin(), ExampleSheetPlan::largest_seed);
   EXPECT_NE(panel_scene(plan, 1, false).scene.seed, usual.seed);
-  // Strokes are sized in millimetres: 25.4 dpi are a pixel a millimetre, half a unit.
+  // Strokes are sized in millimetres: 25.4 dpi are one pixel per millimetre, half a unit.
   EXPECT_NEAR(usual.pixels_per_unit(), 0.5, 1e-9);
   plan.dots_per_inch = 101.6;
   EXPECT_NEAR(panel_scene(plan, 1, false).scene.pixels_per_unit(), 2.0, 1e-9);
@@ -181,10 +190,10 @@ TEST(ExampleSheetPlan, SeedAndResolutionChangeEveryPanel) {
 
 TEST(ExampleSheetPainter, PanelsHaveTheTerrainRulesAndStrokesOfTheirOwn) {
   ExampleSheetPlan plan = small_plan();
-  plan.panels[1] = plan.panels[0];  // alike at first
+  plan.panels[1] = plan.panels[0];  // equal at first
   const PixelRect left = panel_rect(plan, 0);
   const PixelRect right = panel_rect(plan, 1);
-  // Share of the ground that both panels have alike, in a channel.
+  // Share of the ground that is equal in both panels, in a channel.
   const auto alike = [&](const ExamplePainting& row, const auto& channel) {
     int same = 0;
     int ground = 0;
@@ -201,10 +210,11 @@ TEST(ExampleSheetPainter, PanelsHaveTheTerrainRulesAndStrokesOfTheirOwn) {
     return painter.paint_row(0, {.painting = false, .sky = false}, {});
   };
   const ExamplePainting twins = painted();
-  // Rock differs a little: its spurs are the painter's.
+  // Rock differs slightly: its spurs are the painter's.
   EXPECT_GT(alike(twins, twins.guidance.altitude_m), 0.95);
   EXPECT_GT(alike(twins, twins.guidance.land_cover), 0.95);
-  EXPECT_LT(alike(twins, twins.ground_layer), 0.3);  // but no stroke lies where one of the other panel does
+  EXPECT_LT(alike(twins, twins.ground_layer),
+            0.3);  // but no stroke is at the same position in both panels
   plan.panels[1].settings.emplace_back("land_cover.settings.treeline_m=900");
   const ExamplePainting other_rules = painted();
   EXPECT_GT(alike(other_rules, other_rules.guidance.altitude_m), 0.95);
@@ -216,7 +226,8 @@ TEST(ExampleSheetPainter, PanelsHaveTheTerrainRulesAndStrokesOfTheirOwn) {
 
 TEST(ExampleSheetPainter, PaintsInTheHandOfItsPicture) {
   const ExampleSheetPlan plan = small_plan();
-  const auto mean_tone_and_blue = [&](const char* palette, const std::optional<LightParameters>& light) {
+  const auto mean_tone_and_blue = [&](const char* palette,
+                                      const std::optional<LightParameters>& light) {
     ExampleSheetPainter painter(plan, {read_palette(palette), light});
     const ExamplePainting row = painter.paint_row(0, {.painting = false, .sky = false}, {});
     glm::dvec2 sum(0.0);
@@ -239,16 +250,21 @@ class ExemplarFiles : public testing::Test {
   void paint(const std::string& name, int threads, int tile) const {
     write_example_sheet(small_plan(), out(name), {.threads = threads, .tile_px = tile});
   }
-  static LoadedScene copying(const std::string& picture, const std::string& guidance, const std::string& folder) {
-    return parse_scene("version = 1\n[[exemplar]]\npicture = \"" + picture + "\"\nguidance = \"" + guidance + "\"\n", "s.toml", folder, {});
+  static LoadedScene copying(const std::string& picture, const std::string& guidance,
+                             const std::string& folder) {
+    return parse_scene("version = 1\n[[exemplar]]\npicture = \"" + picture + "\"\nguidance = \"" +
+                           guidance + "\"\n",
+                       "s.toml", folder, {});
   }
   test::Folder folder_;
 };
 
 TEST_F(ExemplarFiles, SameBytesForAnyThreadsAndWhenMadeAgainFromTheirPlan) {
   paint("a", 1, 32);
-  write_example_sheet(read_example_sheet_plan(out("a/sheet.toml")), out("b"), {.threads = 2, .tile_px = 64});
-  for (const char* file : {"painting.tif", "ground.tif", "painting.png", "guidance.exr", "sheet.toml", "coverage.json"}) {
+  write_example_sheet(read_example_sheet_plan(out("a/sheet.toml")), out("b"),
+                      {.threads = 2, .tile_px = 64});
+  for (const char* file : {"painting.tif", "ground.tif", "painting.png", "guidance.exr",
+                           "sheet.toml", "coverage.json"}) {
     const std::string left = test::read_bytes(out(std::string("a/") + file));
     EXPECT_FALSE(left.empty()) << file;
     EXPECT_TRUE(left == test::read_bytes(out(std::string("b/") + file))) << file;
@@ -261,25 +277,31 @@ TEST_F(ExemplarFiles, AreReadAsTheSheetThatWasPainted) {
   const ExamplePainting row = painter.paint_row(0, {}, {});
   for (const char* layer : {"ground.tif", "painting.tif"}) {
     const bool ground = std::string(layer) == "ground.tif";
-    const PaintedExemplar read = read_scans(copying(layer, "guidance.exr", out("a")), silent_progress()).at(0).painted;
+    const PaintedExemplar read =
+        read_scans(copying(layer, "guidance.exr", out("a")), silent_progress()).at(0).painted;
     const Grid<glm::vec3>& picture = ground ? row.ground_layer : row.painting;
-    const PaintedClasses classes = classes_of_paint(row.guidance, ground ? row.guidance.ground_from : row.guidance.painted_from);
+    const PaintedClasses classes = classes_of_paint(
+        row.guidance, ground ? row.guidance.ground_from : row.guidance.painted_from);
     const GuideStack guides = make_guide_stack(row.guidance, classes.land_cover);
     ASSERT_TRUE(read.picture.same_size(picture));
     EXPECT_EQ(read.exemplar.guides.label, guides.label) << layer;
-    EXPECT_GT(std::count(guides.label.begin(), guides.label.end(), static_cast<std::uint8_t>(LandCoverClass::forest)), 1000);
+    EXPECT_GT(std::count(guides.label.begin(), guides.label.end(),
+                         static_cast<std::uint8_t>(LandCoverClass::forest)),
+              1000);
     double colour = 0.0;
     double base = 0.0;
     for (std::size_t i = 0; i < picture.size(); ++i) {
       for (int c = 0; c < 3; ++c) {
-        colour = std::max(colour, static_cast<double>(std::abs(read.picture[i][c] - std::clamp(picture[i][c], 0.F, 1.F))));
+        colour = std::max(colour, static_cast<double>(std::abs(
+                                      read.picture[i][c] - std::clamp(picture[i][c], 0.F, 1.F))));
         base = std::max(base, static_cast<double>(std::abs(read.base[i][c] - classes.base[i][c])));
       }
     }
     EXPECT_LT(colour, 1.0 / 65535.0) << layer;
     EXPECT_LT(base, 0.0003) << layer;  // half floats: 2⁻¹² of the light, less in encoded values
-    // Guides of half floats may round to the neighbouring step where they lie within 2⁻¹² of the half of one: of 255 steps at most
-    // a sixteenth of the range does, seldom more than one value in a hundred.
+    // Guides of half floats may round to the neighbouring step where they lie within 2⁻¹² of the
+    // half of one: of 255 steps at most a sixteenth of the range does, seldom more than one value
+    // in a hundred.
     ASSERT_EQ(read.exemplar.guides.guides.size(), guides.guides.size());
     for (std::size_t k = 0; k < guides.guides.size(); ++k) {
       const Guide& guide = guides.guides[k];
@@ -293,22 +315,25 @@ TEST_F(ExemplarFiles, AreReadAsTheSheetThatWasPainted) {
       EXPECT_LT(other, guides.label.size() / 100) << guide.name;
     }
   }
-  // Which layer a picture is makes a difference: where trees stand, paint of the painting is forest's and of the ground below another's.
+  // It matters which layer a picture is: where trees stand, paint of the painting is forest's and
+  // of the ground below another's.
   EXPECT_NE(row.guidance.painted_from, row.guidance.ground_from);
 }
 
 TEST_F(ExemplarFiles, CountedIsTheClassOfThePaintThatIsCopied) {
-  const TexelSupply counted = write_example_sheet(small_plan(), out("a"), {});
+  const AvailableTexels counted = write_example_sheet(small_plan(), out("a"), {});
   const GuidanceBuffers guidance = read_guidance(out("a/guidance.exr"));
-  TexelSupply of_ground_paint;
-  TexelSupply of_classes;
-  add_supply(of_ground_paint, guidance, classes_of_paint(guidance, guidance.ground_from).land_cover);
-  add_supply(of_classes, guidance, guidance.land_cover);
+  AvailableTexels of_ground_paint;
+  AvailableTexels of_classes;
+  add_available(of_ground_paint, guidance,
+                classes_of_paint(guidance, guidance.ground_from).land_cover);
+  add_available(of_classes, guidance, guidance.land_cover);
   EXPECT_EQ(counted.pixels, 256 * 256);
   EXPECT_EQ(counted.texels, of_ground_paint.texels);
   EXPECT_EQ(counted.border, of_ground_paint.border);
   EXPECT_NE(counted.texels, of_classes.texels);
-  EXPECT_EQ(test::read_bytes(out("a/coverage.json")), supply_json(counted, find_gaps(counted, built_in_demand(), {})));
+  EXPECT_EQ(test::read_bytes(out("a/coverage.json")),
+            available_json(counted, find_gaps(counted, built_in_needed_texels(), {})));
 }
 
 TEST_F(ExemplarFiles, GuidanceOfAnotherPaintingIsRefused) {
@@ -316,7 +341,8 @@ TEST_F(ExemplarFiles, GuidanceOfAnotherPaintingIsRefused) {
   ExampleSheetPlan plan = small_plan();
   plan.panels[1].settings.emplace_back("sun.altitude_deg=25");
   write_example_sheet(plan, out("b"), {});
-  std::filesystem::copy_file(out("b/guidance.exr"), out("a/guidance.exr"), std::filesystem::copy_options::overwrite_existing);
+  std::filesystem::copy_file(out("b/guidance.exr"), out("a/guidance.exr"),
+                             std::filesystem::copy_options::overwrite_existing);
   try {
     read_scans(copying("ground.tif", "guidance.exr", out("a")), silent_progress());
     FAIL() << "taken for one painting";

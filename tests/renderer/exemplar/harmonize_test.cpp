@@ -24,13 +24,15 @@ TEST(Oklab, KnownValuesAndRoundTrip) {
   EXPECT_NEAR(white.x, 1.0, 1e-5);
   EXPECT_NEAR(white.y, 0.0, 1e-5);
   for (int i = 0; i < 50; ++i) {
-    const glm::vec3 rgb{static_cast<float>(random_uniform(1, i, 0)), static_cast<float>(random_uniform(1, i, 1)),
+    const glm::vec3 rgb{static_cast<float>(random_uniform(1, i, 0)),
+                        static_cast<float>(random_uniform(1, i, 1)),
                         static_cast<float>(random_uniform(1, i, 2))};
     EXPECT_LT(glm::length(from_oklab(to_oklab(rgb)) - rgb), 1e-5F);
   }
 }
 
-// A painting whose label 1 stands left, 2 right, with colours normal about a mean, spread along a slanted axis.
+// A painting whose label 1 stands left, 2 right, with colours normal about a mean, spread along a
+// slanted axis.
 struct Painting2 {
   Grid<glm::vec3> picture{80, 60};
   Grid<std::uint8_t> labels{80, 60, 1};
@@ -44,13 +46,15 @@ Painting2 make(std::uint64_t seed, glm::dvec3 mean_1, glm::dvec3 mean_2, double 
       if (x >= 40) p.labels(x, y) = 2;
       const double a = random_normal(seed, x, y, 0);
       const double b = random_normal(seed, x, y, 1);
-      const glm::dvec3 lab = (x < 40 ? mean_1 : mean_2) + spread * glm::dvec3(a, 0.3 * a + 0.1 * b, 0.25 * b);
+      const glm::dvec3 lab =
+          (x < 40 ? mean_1 : mean_2) + spread * glm::dvec3(a, 0.3 * a + 0.1 * b, 0.25 * b);
       p.picture(x, y) = from_oklab(lab);
     }
   return p;
 }
 
-glm::dvec3 mean_of(const Grid<glm::vec3>& picture, const Grid<std::uint8_t>& labels, std::uint8_t label) {
+glm::dvec3 mean_of(const Grid<glm::vec3>& picture, const Grid<std::uint8_t>& labels,
+                   std::uint8_t label) {
   glm::dvec3 sum(0.0);
   double count = 0.0;
   for (std::size_t i = 0; i < picture.size(); ++i)
@@ -79,16 +83,19 @@ TEST(Harmonize, TheReferenceStaysAndTheOtherBecomesLikeIt) {
 TEST(Harmonize, CommonLooksMeetInTheMiddle) {
   const auto out = harmonize({warm.view(), cool.view()}, std::nullopt);
   for (const std::uint8_t label : {1, 2}) {
-    const glm::dvec3 middle = 0.5 * (mean_of(warm.picture, warm.labels, label) + mean_of(cool.picture, cool.labels, label));
-    EXPECT_LT(glm::length(mean_of(out[0], warm.labels, label) - middle), 0.006) << int{label};
-    EXPECT_LT(glm::length(mean_of(out[1], cool.labels, label) - middle), 0.006) << int{label};
-    EXPECT_LT(colour_distance({&out[0], &warm.labels}, {&out[1], &cool.labels}, label), 0.005) << int{label};
+    const glm::dvec3 centre = 0.5 * (mean_of(warm.picture, warm.labels, label) +
+                                     mean_of(cool.picture, cool.labels, label));
+    EXPECT_LT(glm::length(mean_of(out[0], warm.labels, label) - centre), 0.006) << int{label};
+    EXPECT_LT(glm::length(mean_of(out[1], cool.labels, label) - centre), 0.006) << int{label};
+    EXPECT_LT(colour_distance({&out[0], &warm.labels}, {&out[1], &cool.labels}, label), 0.005)
+        << int{label};
   }
 }
 
 TEST(Harmonize, PaintingsThatAreAlikeStayAsTheyAre) {
   const auto out = harmonize({warm.view(), warm.view()}, std::nullopt);
-  for (std::size_t i = 0; i < out[1].size(); ++i) ASSERT_LT(glm::length(out[1][i] - warm.picture[i]), 1e-4F);
+  for (std::size_t i = 0; i < out[1].size(); ++i)
+    ASSERT_LT(glm::length(out[1][i] - warm.picture[i]), 1e-4F);
 }
 
 TEST(Harmonize, AClassThatOnePaintingHasAloneGoesAlong) {
@@ -96,8 +103,10 @@ TEST(Harmonize, AClassThatOnePaintingHasAloneGoesAlong) {
   for (std::uint8_t& label : alone.labels)
     if (label == 2) label = 9;
   const auto out = harmonize({warm.view(), alone.view()}, 0);
-  const glm::dvec3 shift_1 = mean_of(warm.picture, warm.labels, 1) - mean_of(cool.picture, cool.labels, 1);
-  const glm::dvec3 shift_9 = mean_of(out[1], alone.labels, 9) - mean_of(cool.picture, cool.labels, 2);
+  const glm::dvec3 shift_1 =
+      mean_of(warm.picture, warm.labels, 1) - mean_of(cool.picture, cool.labels, 1);
+  const glm::dvec3 shift_9 =
+      mean_of(out[1], alone.labels, 9) - mean_of(cool.picture, cool.labels, 2);
   EXPECT_LT(glm::length(shift_9 - shift_1), 0.01);
 }
 
@@ -120,7 +129,8 @@ TEST(Harmonize, SpreadGrowsAtMostThreefold) {
   double spread = 0.0;
   const glm::dvec3 mean = mean_of(out[1], faint.labels, 1);
   for (int y = 0; y < 60; ++y)
-    for (int x = 0; x < 35; ++x) spread += std::pow(to_oklab(out[1](x, y)).x - mean.x, 2.0) / (35 * 60);
+    for (int x = 0; x < 35; ++x)
+      spread += std::pow(to_oklab(out[1](x, y)).x - mean.x, 2.0) / (35 * 60);
   EXPECT_NEAR(std::sqrt(spread), 0.036, 0.003);
 }
 
@@ -139,7 +149,7 @@ TEST(Harmonize, SameBitsForOneAndTwoThreads) {
   EXPECT_EQ(with(1)[1], with(2)[1]);
 }
 
-// Region by region to the first painting; what counts nowhere stays.
+// Region by region to the first painting; ignored pixels stay.
 TEST(Harmonize, ByRegionsAllButTheFirstChange) {
   Grid<glm::vec3> green(60, 50);
   Grid<glm::vec3> brown(60, 50);
@@ -151,7 +161,8 @@ TEST(Harmonize, ByRegionsAllButTheFirstChange) {
       brown(x, y) = light * glm::vec3(.7F, .4F, .2F);
       if (y < 5) labels(x, y) = unused_label;
     }
-  const std::vector<Grid<glm::vec3>> out = harmonize_as("regions", {{&green, &labels}, {&brown, &labels}});
+  const std::vector<Grid<glm::vec3>> out =
+      harmonize_as("regions", {{&green, &labels}, {&brown, &labels}});
   ASSERT_EQ(out.size(), 2U);
   EXPECT_EQ(out[0], green);
   for (int y = 0; y < 50; ++y)
@@ -162,7 +173,8 @@ TEST(Harmonize, ByRegionsAllButTheFirstChange) {
         ASSERT_GT(out[1](x, y).y, 1.5F * out[1](x, y).x) << "green by now, at " << x << ", " << y;
       }
     }
-  const std::vector<Grid<glm::vec3>> off = harmonize_as("off", {{&green, &labels}, {&brown, &labels}});
+  const std::vector<Grid<glm::vec3>> off =
+      harmonize_as("off", {{&green, &labels}, {&brown, &labels}});
   EXPECT_EQ(off[1], brown);
 }
 

@@ -1,4 +1,5 @@
-// A print of any size looks alike: light, base picture and strokes of the same ranges at one and at three pixels a unit of the sheet.
+// A print of any size looks the same: light, base picture and strokes of the same ranges at one and
+// at three pixels per unit of the sheet.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,7 +34,8 @@ struct Print {
 };
 
 Print print_at(double pixels_per_unit, bool upright = true, std::uint64_t seed = 1) {
-  const glm::ivec2 size(static_cast<int>(width_units * pixels_per_unit), static_cast<int>(height_units * pixels_per_unit));
+  const glm::ivec2 size(static_cast<int>(width_units * pixels_per_unit),
+                        static_cast<int>(height_units * pixels_per_unit));
   Print print;
   print.guidance = test::make_hills(size.x, size.y, pixels_per_unit);
   ToneParameters tone;
@@ -43,19 +45,22 @@ Print print_at(double pixels_per_unit, bool upright = true, std::uint64_t seed =
   BaseParameters base;
   base.pixels_per_unit = pixels_per_unit;
   base.seed = seed;
-  print.base = make_base_picture(print.guidance, read_palette("summer"), base, {0, 0}, size, silent_progress());
+  print.base = make_base_picture(print.guidance, read_palette("summer"), base, {0, 0}, size,
+                                 silent_progress());
   print.strokes.pixels_per_unit = pixels_per_unit;
   print.strokes.seed = seed;
-  print.picture =
-      paint_strokes(print.base.colour, print.guidance, print.base, {.upright = upright}, print.strokes, silent_progress()).picture;
+  print.picture = paint_strokes(print.base.colour, print.guidance, print.base, {.upright = upright},
+                                print.strokes, silent_progress())
+                      .picture;
   return print;
 }
 
-// The same picture from several seeds: what one chance throws out of the ordinary, many even out.
+// The same picture from several seeds, to average out chance.
 constexpr std::size_t print_seeds = 6;
 std::vector<Print> prints_at(double pixels_per_unit) {
   std::vector<Print> prints;
-  for (std::uint64_t seed = 1; seed <= print_seeds; ++seed) prints.push_back(print_at(pixels_per_unit, true, seed));
+  for (std::uint64_t seed = 1; seed <= print_seeds; ++seed)
+    prints.push_back(print_at(pixels_per_unit, true, seed));
   return prints;
 }
 const std::vector<Print>& small_prints() {
@@ -72,7 +77,8 @@ const Print& large_print() { return large_prints().front(); }
 Grid<float> shrunk(const Grid<float>& values, int factor) {
   Grid<float> out(values.width() / factor, values.height() / factor, 0.F);
   for (int y = 0; y < out.height() * factor; ++y)
-    for (int x = 0; x < out.width() * factor; ++x) out(x / factor, y / factor) += values(x, y) / static_cast<float>(factor * factor);
+    for (int x = 0; x < out.width() * factor; ++x)
+      out(x / factor, y / factor) += values(x, y) / static_cast<float>(factor * factor);
   return out;
 }
 
@@ -94,7 +100,8 @@ struct Spread {
   double deviation = 0.0;
   std::size_t pixels = 0;
 };
-Spread spread_of(const Grid<float>& values, const Grid<LandCoverClass>& classes, LandCoverClass id) {
+Spread spread_of(const Grid<float>& values, const Grid<LandCoverClass>& classes,
+                 LandCoverClass id) {
   Spread out;
   double squares = 0.0;
   for (std::size_t i = 0; i < values.size(); ++i)
@@ -105,7 +112,8 @@ Spread spread_of(const Grid<float>& values, const Grid<LandCoverClass>& classes,
     }
   if (out.pixels == 0) return out;
   out.mean /= static_cast<double>(out.pixels);
-  out.deviation = std::sqrt(std::max(0.0, squares / static_cast<double>(out.pixels) - out.mean * out.mean));
+  out.deviation =
+      std::sqrt(std::max(0.0, squares / static_cast<double>(out.pixels) - out.mean * out.mean));
   return out;
 }
 
@@ -122,7 +130,8 @@ TEST(Likeness, ToneOfEachClassIsAlike) {
   }
 }
 
-// Means over the seeds: where single strokes fall differs from one to the next by a tenth of these bounds.
+// Means over the seeds: the position of single strokes varies the result by a tenth of these
+// bounds.
 TEST(Likeness, TheLargePrintReducedIsTheSmallOne) {
   double sharp = 0.0;
   double soft = 0.0;
@@ -139,8 +148,9 @@ TEST(Likeness, TheLargePrintReducedIsTheSmallOne) {
 // Adds one print's part of the mean.
 void add_figures(PaintingFigures& mean, const PaintingFigures& of) {
   for (double PaintingFigures::*const figure :
-       {&PaintingFigures::stroke_length_px, &PaintingFigures::stroke_width_px, &PaintingFigures::coherence, &PaintingFigures::sharpness,
-        &PaintingFigures::saturation_mean, &PaintingFigures::lightness_mean, &PaintingFigures::lightness_spread})
+       {&PaintingFigures::stroke_length_px, &PaintingFigures::stroke_width_px,
+        &PaintingFigures::coherence, &PaintingFigures::sharpness, &PaintingFigures::saturation_mean,
+        &PaintingFigures::lightness_mean, &PaintingFigures::lightness_spread})
     mean.*figure += of.*figure / static_cast<double>(print_seeds);
 }
 
@@ -170,7 +180,8 @@ StrokeSizes sizes_of(const std::vector<Stroke>& strokes, double pixels_per_unit)
   StrokeSizes out{strokes.size()};
   for (const Stroke& s : strokes) {
     for (int i = 0; i + 1 < s.point_count; ++i) {
-      const glm::vec2 step = s.points[static_cast<std::size_t>(i) + 1] - s.points[static_cast<std::size_t>(i)];
+      const glm::vec2 step =
+          s.points[static_cast<std::size_t>(i) + 1] - s.points[static_cast<std::size_t>(i)];
       out.length += std::hypot(step.x, step.y);
     }
     out.width += s.start_width;
@@ -202,7 +213,8 @@ TEST(Likeness, KindsOfStrokeHaveTheirNumberAndTheirSizeInMillimetres) {
         for (const std::string_view name : names) {
           const StrokeKind& kind = find_stroke_kind(name);
           const IcePlan ice = plan_ice(print.guidance, print.strokes);
-          const std::vector<Stroke> more = kind.grow(StrokeScene{print.guidance, print.base, print.strokes, {.ice = &ice}}, kind.stream);
+          const std::vector<Stroke> more = kind.grow(
+              StrokeScene{print.guidance, print.base, print.strokes, {.ice = &ice}}, kind.stream);
           all.insert(all.end(), more.begin(), more.end());
         }
       return sizes_of(all, pixels_per_unit);
@@ -211,9 +223,10 @@ TEST(Likeness, KindsOfStrokeHaveTheirNumberAndTheirSizeInMillimetres) {
     const StrokeSizes large = sizes(large_prints(), 3.0);
     const std::size_t count = small.count / print_seeds;
     if (count < 40) continue;
-    // Plots for houses are found by the pixel: at one pixel a unit one in fourteen is missed.
+    // Plots for houses are found by the pixel: at one pixel per unit one in fourteen is missed.
     const double off = names[0] == "houses" ? 0.10 : count < 400 ? 0.15 : 0.05;
-    EXPECT_NEAR(static_cast<double>(large.count) / static_cast<double>(small.count), 1.0, off) << names[0];
+    EXPECT_NEAR(static_cast<double>(large.count) / static_cast<double>(small.count), 1.0, off)
+        << names[0];
     EXPECT_NEAR(large.length, small.length, (count < 400 ? 0.06 : 0.03) * small.length) << names[0];
     EXPECT_NEAR(large.width, small.width, 0.05 * small.width) << names[0];
   }

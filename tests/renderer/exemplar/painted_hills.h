@@ -11,16 +11,17 @@
 
 namespace belvedere::test {
 
-// Guidance buffers of made-up ranges, one behind the other, under a sky: every channel that tone and base picture read, with
-// silhouettes, all classes, slopes and cast shadows. A pure function of the pixel, so a part can be compared with the whole.
+// Guidance buffers of synthetic ranges, one behind the other, under a sky: every channel that tone
+// and base picture read, with silhouettes, all classes, slopes and cast shadows. A pure function of
+// the pixel, so a part can be compared with the whole.
 inline GuidanceBuffers make_hills(int width, int height, double pixels_per_unit = 1.0) {
   GuidanceBuffers g;
   const auto scalar = [&] { return Grid<float>(width, height, 0.0F); };
   const auto vector = [&] { return Grid<glm::vec3>(width, height, glm::vec3(0.0F)); };
   g.depth_m = Grid<float>(width, height, std::numeric_limits<float>::infinity());
   g.position_m = g.normal = g.normal_detail = g.normal_smooth = vector();
-  g.altitude_m = g.slope_deg = g.relief_s_m = g.relief_m_m = g.relief_l_m = g.valley_height_m = g.footprint_m = g.tone = g.rim_m = g.built =
-      scalar();
+  g.altitude_m = g.slope_deg = g.relief_s_m = g.relief_m_m = g.relief_l_m = g.valley_height_m =
+      g.footprint_m = g.tone = g.rim_m = g.built = scalar();
   g.shadow = g.sky_view = Grid<float>(width, height, 1.0F);
   g.land_cover = Grid<LandCoverClass>(width, height, LandCoverClass::sky);
   g.fall_line = g.grain = Grid<glm::vec2>(width, height, glm::vec2(0.0F));
@@ -41,23 +42,29 @@ inline GuidanceBuffers make_hills(int width, int height, double pixels_per_unit 
         const double ny = 0.4 + 0.3 * gaussian_noise(42, e, n, 900.0);
         const glm::vec3 smooth = glm::normalize(glm::vec3(nx, ny, 1.0));
         g.depth_m[i] = static_cast<float>(depth);
-        g.position_m[i] = {static_cast<float>(e), static_cast<float>(n), static_cast<float>(2400.0 - 12.0 * (v - crest))};
+        g.position_m[i] = {static_cast<float>(e), static_cast<float>(n),
+                           static_cast<float>(2400.0 - 12.0 * (v - crest))};
         g.altitude_m[i] = g.position_m[i].z;
         g.normal_smooth[i] = smooth;
-        g.normal[i] = glm::normalize(smooth + glm::vec3(0.2 * gaussian_noise(43, e, n, 250.0), 0.0, 0.0));
-        g.normal_detail[i] = glm::normalize(smooth + glm::vec3(0.4 * gaussian_noise(44, e, n, 120.0), 0.2 * nx, 0.0));
+        g.normal[i] =
+            glm::normalize(smooth + glm::vec3(0.2 * gaussian_noise(43, e, n, 250.0), 0.0, 0.0));
+        g.normal_detail[i] = glm::normalize(
+            smooth + glm::vec3(0.4 * gaussian_noise(44, e, n, 120.0), 0.2 * nx, 0.0));
         g.slope_deg[i] = static_cast<float>(25.0 + 15.0 * gaussian_noise(45, e, n, 500.0));
         g.relief_s_m[i] = static_cast<float>(8.0 * gaussian_noise(46, e, n, 180.0));
         g.relief_m_m[i] = static_cast<float>(60.0 * gaussian_noise(47, e, n, 750.0));
         g.relief_l_m[i] = static_cast<float>(150.0 * gaussian_noise(48, e, n, 1800.0));
         g.shadow[i] = gaussian_noise(49, e, n, 700.0) > 0.7 ? 0.0F : 1.0F;
-        g.sky_view[i] = static_cast<float>(std::min(1.0, 0.8 + 0.1 * gaussian_noise(50, e, n, 400.0)));
+        g.sky_view[i] =
+            static_cast<float>(std::min(1.0, 0.8 + 0.1 * gaussian_noise(50, e, n, 400.0)));
         g.rim_m[i] = static_cast<float>(std::abs(e - 2000.0));  // it ends in the east
         g.footprint_m[i] = static_cast<float>(depth / 2500.0 / pixels_per_unit);
-        g.built[i] = static_cast<float>(std::max(0.0, std::min(1.0, 0.5 * gaussian_noise(52, e, n, 600.0))));
+        g.built[i] =
+            static_cast<float>(std::max(0.0, std::min(1.0, 0.5 * gaussian_noise(52, e, n, 600.0))));
         g.grain[i] = 0.5F * glm::vec2(nx, ny);
         const double kind = 5.5 + 3.0 * gaussian_noise(51, e, n, 800.0);
-        g.land_cover[i] = static_cast<LandCoverClass>(std::min(11, std::max(1, static_cast<int>(kind))));
+        g.land_cover[i] =
+            static_cast<LandCoverClass>(std::min(11, std::max(1, static_cast<int>(kind))));
         if (g.slope_deg[i] > 8.0F) g.fall_line[i] = glm::normalize(glm::vec2(0.6 * nx, 1.0));
         break;
       }
@@ -81,18 +88,21 @@ inline GuidanceBuffers cut(const GuidanceBuffers& g, PixelRect r) {
   return part;
 }
 
-// The part of a picture that a rectangle needs when each pixel depends on neighbours within `margin_px`.
+// The part of a picture that a rectangle needs when each pixel depends on neighbours within
+// `margin_px`.
 inline PixelRect with_margin(PixelRect r, int margin_px, int width, int height) {
-  return {std::max(r.x0 - margin_px, 0), std::max(r.y0 - margin_px, 0), std::min(r.x1 + margin_px, width),
-          std::min(r.y1 + margin_px, height)};
+  return {std::max(r.x0 - margin_px, 0), std::max(r.y0 - margin_px, 0),
+          std::min(r.x1 + margin_px, width), std::min(r.y1 + margin_px, height)};
 }
 
 // A plain slope, evenly lit, without sky: for one rule at a time.
-inline GuidanceBuffers make_slope(int width, int height, LandCoverClass id, glm::vec3 normal, float slope_deg) {
+inline GuidanceBuffers make_slope(int width, int height, LandCoverClass id, glm::vec3 normal,
+                                  float slope_deg) {
   GuidanceBuffers g;
   g.depth_m = Grid<float>(width, height, 20000.0F);
   g.position_m = Grid<glm::vec3>(width, height, glm::vec3(0.0F, 0.0F, 1200.0F));
-  g.normal = g.normal_detail = g.normal_smooth = Grid<glm::vec3>(width, height, glm::normalize(normal));
+  g.normal = g.normal_detail = g.normal_smooth =
+      Grid<glm::vec3>(width, height, glm::normalize(normal));
   g.altitude_m = Grid<float>(width, height, 1200.0F);
   g.slope_deg = Grid<float>(width, height, slope_deg);
   g.relief_s_m = g.relief_m_m = g.relief_l_m = g.valley_height_m = Grid<float>(width, height, 0.0F);

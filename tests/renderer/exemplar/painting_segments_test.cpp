@@ -26,20 +26,27 @@ glm::dvec3 oklab_of(double r, double g, double b) {
   return to_oklab(glm::vec3(static_cast<float>(r), static_cast<float>(g), static_cast<float>(b)));
 }
 
-// Blue sky, snow on rock, dark wood, light meadow, and a lake below.
+// Blue sky, snow on rock, dark forest, light meadow, and a lake below.
 int part(int y) { return y / 24; }
 Grid<glm::vec3> bands() {
-  const glm::vec3 colours[5] = {{.55F, .7F, .9F}, {.45F, .42F, .42F}, {.12F, .25F, .1F}, {.6F, .75F, .35F}, {.2F, .35F, .55F}};
+  const glm::vec3 colours[5] = {{.55F, .7F, .9F},
+                                {.45F, .42F, .42F},
+                                {.12F, .25F, .1F},
+                                {.6F, .75F, .35F},
+                                {.2F, .35F, .55F}};
   Grid<glm::vec3> out(160, 120);
   for (int y = 0; y < 120; ++y)
-    for (int x = 0; x < 160; ++x) out(x, y) = colours[part(y)] + glm::vec3(static_cast<float>(random_index(20, 5, x / 2, y / 2)) / 400.F);
+    for (int x = 0; x < 160; ++x)
+      out(x, y) = colours[part(y)] +
+                  glm::vec3(static_cast<float>(random_index(20, 5, x / 2, y / 2)) / 400.F);
   return out;
 }
 
 TEST(PaintingSegments, ClassesAreGuessedByPlaceAndColour) {
   const Grid<glm::vec3> picture = bands();
   const PaintingSegments segments = segment_painting(picture, {}, usual_theta, "p.png");
-  const Grid<std::uint8_t> mask = class_mask(segments, cut_tree(segments.tree, 5), guesses_of(segments, 5));
+  const Grid<std::uint8_t> mask =
+      class_mask(segments, cut_tree(segments.tree, 5), inferred_class_of(segments, 5));
   const LandCoverClass truth[5] = {sky, rock, forest, pasture, water};
   int wrong = 0;
   for (int y = 0; y < 120; ++y)
@@ -48,25 +55,28 @@ TEST(PaintingSegments, ClassesAreGuessedByPlaceAndColour) {
 }
 
 TEST(PaintingSegments, GuessesFollowTheirRules) {
-  const auto guess = [](glm::dvec3 lab, double height, double edge, double down = 1.0, double rough = 0.5) {
-    return static_cast<LandCoverClass>(guess_class({lab, height, edge, 1.0, down, rough}));
+  const auto infer = [](glm::dvec3 lab, double height, double edge, double down = 1.0,
+                        double rough = 0.5) {
+    return static_cast<LandCoverClass>(infer_class({lab, height, edge, 1.0, down, rough}));
   };
-  EXPECT_EQ(guess(oklab_of(.5, .65, .9), .2, .5), sky);
-  EXPECT_EQ(guess(oklab_of(.95, .95, .95), .2, .5), sky);
-  EXPECT_EQ(guess(oklab_of(.95, .95, .95), .7, 0), snow);
-  EXPECT_EQ(guess(oklab_of(.8, .8, .78), .6, 0), sky);                  // haze over the horizon
-  EXPECT_EQ(guess(oklab_of(.8, .8, .78), .6, 0, 1.0, 1.5), snow);       // snow among rocks is not so smooth
-  EXPECT_EQ(guess(oklab_of(.5, .55, .6), .3, .06, 1.0, 1.6), rock);     // a cliff in blue shade
-  EXPECT_EQ(guess(oklab_of(.58, .56, .48), .2, .1, 1.0, 2.4), forest);  // leaves against the sky
-  EXPECT_EQ(guess(oklab_of(.27, .24, .17), .7, 0, 1.0, 1.3), forest);   // under old varnish
-  EXPECT_EQ(guess(oklab_of(.56, .45, .42), .9, 0), sand);
-  EXPECT_EQ(guess(oklab_of(.5, .65, .9), .7, 0), water);
-  EXPECT_EQ(guess(oklab_of(.5, .6, .75), .4, 0, 1.0, 1.0), rock);  // a mountain in blue air
-  EXPECT_EQ(guess(oklab_of(.44, .45, .48), .7, 0, 2.0), water);    // hardly blue, but strokes lie level
-  EXPECT_EQ(guess(oklab_of(.44, .45, .48), .7, 0, 1.0), rock);
-  EXPECT_EQ(guess(oklab_of(.1, .25, .1), .6, 0), forest);
-  EXPECT_EQ(guess(oklab_of(.55, .75, .3), .6, 0), pasture);
-  EXPECT_EQ(guess(oklab_of(.85, .75, .55), .6, 0), sand);
+  EXPECT_EQ(infer(oklab_of(.5, .65, .9), .2, .5), sky);
+  EXPECT_EQ(infer(oklab_of(.95, .95, .95), .2, .5), sky);
+  EXPECT_EQ(infer(oklab_of(.95, .95, .95), .7, 0), snow);
+  EXPECT_EQ(infer(oklab_of(.8, .8, .78), .6, 0), sky);  // haze over the horizon
+  EXPECT_EQ(infer(oklab_of(.8, .8, .78), .6, 0, 1.0, 1.5),
+            snow);                                                   // snow among rocks is rougher
+  EXPECT_EQ(infer(oklab_of(.5, .55, .6), .3, .06, 1.0, 1.6), rock);  // a cliff in blue shade
+  EXPECT_EQ(infer(oklab_of(.58, .56, .48), .2, .1, 1.0, 2.4), forest);  // leaves against the sky
+  EXPECT_EQ(infer(oklab_of(.27, .24, .17), .7, 0, 1.0, 1.3), forest);   // under old varnish
+  EXPECT_EQ(infer(oklab_of(.56, .45, .42), .9, 0), sand);
+  EXPECT_EQ(infer(oklab_of(.5, .65, .9), .7, 0), water);
+  EXPECT_EQ(infer(oklab_of(.5, .6, .75), .4, 0, 1.0, 1.0), rock);  // a mountain in blue air
+  EXPECT_EQ(infer(oklab_of(.44, .45, .48), .7, 0, 2.0),
+            water);  // hardly blue, but strokes are horizontal
+  EXPECT_EQ(infer(oklab_of(.44, .45, .48), .7, 0, 1.0), rock);
+  EXPECT_EQ(infer(oklab_of(.1, .25, .1), .6, 0), forest);
+  EXPECT_EQ(infer(oklab_of(.55, .75, .3), .6, 0), pasture);
+  EXPECT_EQ(infer(oklab_of(.85, .75, .55), .6, 0), sand);
 }
 
 TEST(PaintingSegments, WhatIsTransparentIsNeverCopiedFrom) {
@@ -74,16 +84,17 @@ TEST(PaintingSegments, WhatIsTransparentIsNeverCopiedFrom) {
   Grid<float> alpha(160, 120, 1.F);
   alpha(7, 9) = 0.5F;
   const PaintingSegments segments = segment_painting(picture, alpha, usual_theta, "p.png");
-  const Grid<std::uint8_t> mask = class_mask(segments, cut_tree(segments.tree, 9), guesses_of(segments, 9));
+  const Grid<std::uint8_t> mask =
+      class_mask(segments, cut_tree(segments.tree, 9), inferred_class_of(segments, 9));
   EXPECT_EQ(mask(7, 9), unused_label);
   EXPECT_EQ(std::count(mask.begin(), mask.end(), unused_label), 1);
 }
 
 TEST(PaintingSegments, EveryCutGivesEachGroupItsGuess) {
   const PaintingSegments segments = segment_painting(bands(), {}, usual_theta, "p.png");
-  ASSERT_EQ(segments.guess.size(), 2 * segments.tree.pieces - 1);
+  ASSERT_EQ(segments.inferred.size(), 2 * segments.tree.pieces - 1);
   for (const std::size_t count : {std::size_t{1}, std::size_t{7}, segments.tree.pieces}) {
-    EXPECT_EQ(guesses_of(segments, count).size(), count);
+    EXPECT_EQ(inferred_class_of(segments, count).size(), count);
     const Partition groups = cut_tree(segments.tree, count);
     EXPECT_EQ(std::set<std::uint16_t>(groups.begin(), groups.end()).size(), count);
   }
@@ -100,11 +111,12 @@ TEST(PaintingSegments, WhatCannotBeSegmentedIsRefusedByName) {
     return std::string();
   };
   EXPECT_THAT(refused(Grid<glm::vec3>(90, 20, glm::vec3(.1F))), testing::HasSubstr("90 × 20"));
-  EXPECT_THAT(refused(Grid<glm::vec3>(90, 90, glm::vec3(.1F))), testing::HasSubstr("one colour"));
+  EXPECT_THAT(refused(Grid<glm::vec3>(90, 90, glm::vec3(.1F))),
+              testing::HasSubstr("single colour"));
   EXPECT_THAT(refused(bands(), Grid<float>(160, 120, 0.F)), testing::HasSubstr("transparent"));
 }
 
-// Long and narrow: reduced no further than its short side lets.
+// Long and narrow: the short side limits the reduction.
 TEST(PaintingSegments, NarrowPaintingsKeepTheirShortSide) {
   Grid<glm::vec3> strip(12000, 40);
   for (int y = 0; y < 40; ++y)
@@ -113,10 +125,13 @@ TEST(PaintingSegments, NarrowPaintingsKeepTheirShortSide) {
   EXPECT_NE(segments.pieces(4990, 20), segments.pieces(5010, 20));
 }
 
-// The paintings whose masks were drawn by hand (five labels of the one, four of the other; specks are left out).
-void expect_agreement(const std::string& name, double merged_of_30, double merged_of_16, double one_to_one_of_6, bool shadow_is_rock) {
+// The paintings whose masks were drawn by hand (five labels in one, four in the other; specks are
+// left out).
+void expect_agreement(const std::string& name, double merged_of_30, double merged_of_16,
+                      double one_to_one_of_6, bool shadow_is_rock) {
   const std::string folder = test::data_folder() + "/paintings/";
-  if (!std::filesystem::exists(folder + name + ".jpg")) GTEST_SKIP() << folder + name << ".jpg is missing";
+  if (!std::filesystem::exists(folder + name + ".jpg"))
+    GTEST_SKIP() << folder + name << ".jpg is missing";
   const Grid<glm::vec3> picture = read_picture(folder + name + ".jpg");
   // Drawn in flat colours and then blurred by a camera: the nearest of the main ones counts.
   const Grid<glm::vec3> drawn = read_picture(folder + name + "_labels.png");
@@ -141,36 +156,47 @@ void expect_agreement(const std::string& name, double merged_of_30, double merge
   EXPECT_GT(agreement(6).one_to_one, one_to_one_of_6);
 }
 
-// The first guess as it is written, without a click: how many of the pixels that were drawn by hand have their class.
+// The inferred classes as written, without corrections: the share of hand-labelled pixels with the
+// right class.
 TEST(PaintingSegments, MostOfMonetsCoastIsNamedRight) {
   const std::string folder = test::data_folder() + "/paintings/monet_etretat";
   if (!std::filesystem::exists(folder + ".jpg")) GTEST_SKIP() << folder << ".jpg is missing";
   const Grid<glm::vec3> drawn = read_picture(folder + "_labels.png");
-  const std::vector<std::pair<glm::vec3, LandCoverClass>> meant = {
-      {{1, 1, 1}, sky}, {{1, .2F, .12F}, rock}, {{.75F, 0, 0}, rock}, {{0, 1, 0}, sand}, {{0, 0, 1}, water}};
-  const PaintingSegments segments = segment_painting(read_picture(folder + ".jpg"), {}, usual_theta, "monet");
+  const std::vector<std::pair<glm::vec3, LandCoverClass>> meant = {{{1, 1, 1}, sky},
+                                                                   {{1, .2F, .12F}, rock},
+                                                                   {{.75F, 0, 0}, rock},
+                                                                   {{0, 1, 0}, sand},
+                                                                   {{0, 0, 1}, water}};
+  const PaintingSegments segments =
+      segment_painting(read_picture(folder + ".jpg"), {}, usual_theta, "monet");
   const Grid<std::uint8_t> mask =
-      class_mask(segments, cut_tree(segments.tree, 30), guesses_of(segments, 30));  // as `exemplar segment` does
+      class_mask(segments, cut_tree(segments.tree, 30),
+                 inferred_class_of(segments, 30));  // as `exemplar segment` does
   Grid<std::uint8_t> labels(drawn.width(), drawn.height());
   Grid<std::uint16_t> named(drawn.width(), drawn.height());
   double right = 0.0;
   for (std::size_t i = 0; i < drawn.size(); ++i) {
     std::size_t best = 0;
     for (std::size_t k = 1; k < meant.size(); ++k)
-      if (glm::distance(drawn[i], meant[k].first) < glm::distance(drawn[i], meant[best].first)) best = k;
+      if (glm::distance(drawn[i], meant[k].first) < glm::distance(drawn[i], meant[best].first))
+        best = k;
     right += mask[i] == id(meant[best].second) ? 1.0 : 0.0;
     labels[i] = static_cast<std::uint8_t>(best);
     named[i] = mask[i];
   }
   EXPECT_GT(right / static_cast<double>(drawn.size()), .85);
-  // The mask tells the boulder from the cliff, which no name does.
+  // The mask separates the boulder from the cliff, which class names do not.
   EXPECT_GT(segment_agreement(named, labels).one_to_one, .60);
   std::replace(labels.begin(), labels.end(), std::uint8_t{2}, std::uint8_t{1});
   EXPECT_GT(segment_agreement(named, labels).one_to_one, .77);
 }
 
-TEST(PaintingSegments, AgreesWithMonetsMask) { expect_agreement("monet_etretat", 0.80, 0.60, 0.45, false); }
-TEST(PaintingSegments, AgreesWithMonetsMaskWhereShadowedRockIsRock) { expect_agreement("monet_etretat", 0.88, 0.82, 0.60, true); }
+TEST(PaintingSegments, AgreesWithMonetsMask) {
+  expect_agreement("monet_etretat", 0.80, 0.60, 0.45, false);
+}
+TEST(PaintingSegments, AgreesWithMonetsMaskWhereShadowedRockIsRock) {
+  expect_agreement("monet_etretat", 0.88, 0.82, 0.60, true);
+}
 TEST(PaintingSegments, AgreesWithGoghsMask) { expect_agreement("gogh", 0.84, 0.84, 0.62, false); }
 
 }  // namespace

@@ -12,12 +12,14 @@
 namespace belvedere {
 namespace {
 
-// Strokes about 3 wide and 15 long that run at `degrees` from the horizontal (clockwise, as y points down), differently light.
+// Strokes about 3 wide and 15 long at `degrees` from the horizontal (clockwise, as y points down),
+// with different lightness.
 glm::vec3 stroke_at(int x, int y, double degrees, std::uint64_t seed) {
   const double a = degrees * std::numbers::pi / 180.0;
   const double along = std::cos(a) * x + std::sin(a) * y;
   const double across = -std::sin(a) * x + std::cos(a) * y;
-  return glm::vec3(static_cast<float>(std::clamp(0.5 + 0.12 * gaussian_noise(seed, along / 5.0, across, 3.0), 0.0, 1.0)));
+  return glm::vec3(static_cast<float>(
+      std::clamp(0.5 + 0.12 * gaussian_noise(seed, along / 5.0, across, 3.0), 0.0, 1.0)));
 }
 
 TEST(FindStrokeDirection, FollowsPaintedStrokesInEachLabel) {
@@ -42,13 +44,14 @@ TEST(FindStrokeDirection, FollowsPaintedStrokesInEachLabel) {
         }
         ASSERT_NEAR(d.x * d.x + d.y * d.y, 1.F, 1e-4);
         ASSERT_GT(d.y, 0.F);
-        off += std::abs(std::remainder(std::atan2(d.y, d.x) * 180.0 / std::numbers::pi - degrees, 180.0));
+        off += std::abs(
+            std::remainder(std::atan2(d.y, d.x) * 180.0 / std::numbers::pi - degrees, 180.0));
         ++count;
       }
     EXPECT_LT(off / count, 7.0) << degrees;
     EXPECT_LT(none, count / 10) << degrees;
   }
-  // The border itself, a strong upright edge, turns nobody.
+  // The border itself, a strong vertical edge, does not turn strokes.
   for (int y = 20; y < 80; ++y) EXPECT_LT(direction(82, y).x, 0.1F) << y;
 }
 

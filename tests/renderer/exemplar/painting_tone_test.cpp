@@ -23,7 +23,8 @@ Grid<std::uint8_t> halves(int width, int height) {
 TEST(BlurWithinLabels, LetsNothingThroughABorder) {
   Grid<std::uint8_t> labels(40, 20, 1);
   for (int y = 0; y < 20; ++y)
-    for (int x = 0; x < 40; ++x) labels(x, y) = x + y < 30 ? 1 : 2;  // slanted: the boxes around the two overlap
+    for (int x = 0; x < 40; ++x)
+      labels(x, y) = x + y < 30 ? 1 : 2;  // slanted: the boxes around the two overlap
   Grid<float> values(40, 20);
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = labels[i] == 1 ? 0.25F : 0.75F;
   const Grid<float> blurred = blur_within_labels(values, labels, 5.0);
@@ -61,15 +62,17 @@ TEST(EstimateTone, FollowsTheLightOfEachLabelAndNotItsPaint) {
     for (int x = 0; x < width; ++x) {
       const float light = static_cast<float>(x % (width / 2)) / (width / 2);
       const float stroke = (y / 2) % 2 == 0 ? 0.04F : -0.04F;
-      picture(x, y) = glm::vec3((labels(x, y) == 1 ? 0.1F + 0.3F * light : 0.6F + 0.3F * light) + stroke);
+      picture(x, y) =
+          glm::vec3((labels(x, y) == 1 ? 0.1F + 0.3F * light : 0.6F + 0.3F * light) + stroke);
     }
   const Grid<float> tone = estimate_tone(picture, labels, 6.0);
   for (const int left : {0, width / 2})
     for (const auto& [share, expected] : {std::pair{0.25, 0.43}, {0.5, 0.64}, {0.75, 0.86}})
-      EXPECT_NEAR(tone(left + static_cast<int>(share * width / 2), height / 2), expected, 0.02) << left;
+      EXPECT_NEAR(tone(left + static_cast<int>(share * width / 2), height / 2), expected, 0.02)
+          << left;
   // Strokes leave hardly a trace.
   for (int x = 0; x < width; ++x) EXPECT_NEAR(tone(x, 40), tone(x, 42), 0.02) << x;
-  // … which they do where they count as light.
+  // … but they do where they count as light.
   const Grid<float> fine = estimate_tone(picture, labels, 0.5);
   EXPECT_GT(std::abs(fine(60, 40) - fine(60, 42)), 0.1);
 }
@@ -77,7 +80,8 @@ TEST(EstimateTone, FollowsTheLightOfEachLabelAndNotItsPaint) {
 TEST(EstimateTone, FlatPaintHasTheMiddleToneAndUnusedTexelsNone) {
   Grid<std::uint8_t> labels(20, 20, 4);
   labels(3, 3) = unused_label;
-  const Grid<float> tone = estimate_tone(Grid<glm::vec3>(20, 20, glm::vec3(0.3F, 0.5F, 0.7F)), labels, 3.0);
+  const Grid<float> tone =
+      estimate_tone(Grid<glm::vec3>(20, 20, glm::vec3(0.3F, 0.5F, 0.7F)), labels, 3.0);
   EXPECT_FLOAT_EQ(tone(10, 10), 0.64F);
   EXPECT_EQ(tone(3, 3), 0.F);
 }

@@ -28,7 +28,8 @@ Grid<std::uint8_t> guide(const ScannedPainting& scan, const std::string& name) {
   return found == nullptr ? Grid<std::uint8_t>(scan_width, scan_height, 128) : *found;
 }
 
-// Sky above, snow (8) left, rock (7) right, each lighter to the right; the signature stands in the rock's corner.
+// Sky above, snow (8) left, rock (7) right, each lighter to the right; the signature is in the
+// rock's corner.
 class Scans : public testing::Test {
  protected:
   Scans() {
@@ -40,9 +41,15 @@ class Scans : public testing::Test {
         const int id = y < 20 ? 0 : x < 48 ? 8 : 7;
         const float light = static_cast<float>(x % 48) / 48.F;
         const float stroke = 0.06F * static_cast<float>(random_uniform(3, x / 4, y) - 0.5);
-        if (id == 0) picture(x, y) = glm::mix(glm::vec3(0.3F, 0.5F, 0.8F), glm::vec3(0.9F, 0.8F, 0.7F), static_cast<float>(y) / 20.F);
-        if (id == 8) picture(x, y) = glm::vec3(0.55F, 0.65F, 0.85F) + 0.35F * light * glm::vec3(1.F, 0.8F, 0.3F) + stroke;
-        if (id == 7) picture(x, y) = glm::vec3(0.45F, 0.25F, 0.2F) + 0.4F * light * glm::vec3(1.F, 0.9F, 0.6F) + stroke;
+        if (id == 0)
+          picture(x, y) = glm::mix(glm::vec3(0.3F, 0.5F, 0.8F), glm::vec3(0.9F, 0.8F, 0.7F),
+                                   static_cast<float>(y) / 20.F);
+        if (id == 8)
+          picture(x, y) =
+              glm::vec3(0.55F, 0.65F, 0.85F) + 0.35F * light * glm::vec3(1.F, 0.8F, 0.3F) + stroke;
+        if (id == 7)
+          picture(x, y) =
+              glm::vec3(0.45F, 0.25F, 0.2F) + 0.4F * light * glm::vec3(1.F, 0.9F, 0.6F) + stroke;
         if (is_lettering(x, y)) {
           picture(x, y) = lettering;
           exclude(x, y) = glm::vec3(1.F);
@@ -52,7 +59,8 @@ class Scans : public testing::Test {
     write_png8(folder_ / "a.png", picture, {});
     write_grey("classes.png", classes);
     write_grey("exclude.png", exclude);
-    for (glm::vec3& colour : picture) colour = glm::vec3(0.1F) + 0.6F * glm::vec3(colour.z, colour.y, colour.x);
+    for (glm::vec3& colour : picture)
+      colour = glm::vec3(0.1F) + 0.6F * glm::vec3(colour.z, colour.y, colour.x);
     write_png8(folder_ / "b.png", picture, {});
   }
 
@@ -68,7 +76,9 @@ class Scans : public testing::Test {
 
   std::vector<ScannedPainting> read(const std::string& keys, const std::string& more = "") const {
     const LoadedScene scene = parse_scene(
-        "version = 1\n[camera]\nposition = [0, 0]\n[[exemplar]]\npicture = \"a.png\"\nclasses = \"classes.png\"\n" + keys + "\n" + more,
+        "version = 1\n[camera]\nposition = [0, 0]\n[[exemplar]]\npicture = \"a.png\"\nclasses = "
+        "\"classes.png\"\n" +
+            keys + "\n" + more,
         "s.toml", folder_.path(), {});
     check_paintings(scene);
     return read_scans(scene, silent_progress());
@@ -101,23 +111,25 @@ TEST_F(Scans, WhatIsExcludedIsNeverCopied) {
   target.label = Grid<std::uint8_t>(120, 60, 3);
   const auto copied = [&](const ScannedPainting& scan) {
     const MatchField matches = synthesize({scan.painted.exemplar}, target, {}, silent_progress());
-    return std::count_if(matches.begin(), matches.end(), [](const Match& m) { return is_lettering(m.x, m.y); });
+    return std::count_if(matches.begin(), matches.end(),
+                         [](const Match& m) { return is_lettering(m.x, m.y); });
   };
   EXPECT_GT(copied(with), 50);
   EXPECT_EQ(copied(without), 0);
-  // Neither does its colour reach ramps.
+  // Its colour does not enter ramps either.
   for (const glm::vec3& colour : without.ramps[3].ramps[0]) EXPECT_GT(colour.y, 0.4F * colour.x);
   EXPECT_LT(with.ramps[3].ramps[0][2].y, 0.3F * with.ramps[3].ramps[0][2].x);
 }
 
 TEST_F(Scans, WhatIsExcludedIsFilledWhereTheSceneSaysSo) {
-  // Rock all over, a red title across it that nobody gave a class.
+  // Rock everywhere, with a red title across it that has no class.
   Grid<glm::vec3> picture(160, 120);
   Grid<glm::vec3> classes(160, 120, glm::vec3(7.F / 255.F));
   Grid<glm::vec3> title(160, 120, glm::vec3(0.F));
   for (int y = 0; y < 120; ++y)
     for (int x = 0; x < 160; ++x) {
-      picture(x, y) = glm::vec3(0.5F, 0.45F, 0.4F) + 0.2F * static_cast<float>(random_uniform(3, x / 4, y / 2) - 0.5);
+      picture(x, y) = glm::vec3(0.5F, 0.45F, 0.4F) +
+                      0.2F * static_cast<float>(random_uniform(3, x / 4, y / 2) - 0.5);
       if (x < 30 || x >= 130 || y < 50 || y >= 60) continue;
       picture(x, y) = lettering;
       classes(x, y) = title(x, y) = glm::vec3(1.F);
@@ -140,23 +152,28 @@ TEST_F(Scans, WhatIsExcludedIsFilledWhereTheSceneSaysSo) {
 
 TEST_F(Scans, ServesOnlyWhatItShall) {
   const ScannedPainting scan = read("serves = [\"snow\"]").front();
-  for (int x = 0; x < scan_width; ++x) EXPECT_EQ(scan.painted.exemplar.guides.label(x, 60), x < 48 ? 8 : unused_label) << x;
-  // Rock comes from its named stand-in.
+  for (int x = 0; x < scan_width; ++x)
+    EXPECT_EQ(scan.painted.exemplar.guides.label(x, 60), x < 48 ? 8 : unused_label) << x;
+  // Rock comes from its fallback class.
   GuideStack target;
   target.label = Grid<std::uint8_t>(40, 40, 7);
   SynthesisParameters parameters;
   parameters.fallback = {{7, 8}};
-  for (const Match& m : synthesize({scan.painted.exemplar}, target, parameters, silent_progress())) ASSERT_LT(m.x, 48);
+  for (const Match& m : synthesize({scan.painted.exemplar}, target, parameters, silent_progress()))
+    ASSERT_LT(m.x, 48);
 }
 
 TEST_F(Scans, FoundShadowIsLeftOutWhereTheSceneSaysSo) {
   // The right part of the snow lies in blue shade.
   Grid<glm::vec3> picture = read_picture(folder_ / "a.png");
   for (int y = 20; y < scan_height; ++y)
-    for (int x = 0; x < 48; ++x) picture(x, y) = x < 28 ? glm::vec3(0.95F, 0.9F, 0.85F) : glm::vec3(0.6F, 0.68F, 0.85F);
+    for (int x = 0; x < 48; ++x)
+      picture(x, y) = x < 28 ? glm::vec3(0.95F, 0.9F, 0.85F) : glm::vec3(0.6F, 0.68F, 0.85F);
   write_png8(folder_ / "a.png", picture, {});
   const auto label_at = [&](const std::string& how, int x) {
-    return read("stroke_px = 2\nfound_shadow = \"" + how + "\"").front().painted.exemplar.guides.label(x, 50);
+    return read("stroke_px = 2\nfound_shadow = \"" + how + "\"")
+        .front()
+        .painted.exemplar.guides.label(x, 50);
   };
   EXPECT_EQ(label_at("guide", 40), 8);
   EXPECT_EQ(label_at("exclude", 40), unused_label);
@@ -165,7 +182,8 @@ TEST_F(Scans, FoundShadowIsLeftOutWhereTheSceneSaysSo) {
   const Grid<std::uint8_t> shadow = guide(guided, "shadow");
   EXPECT_LT(shadow(40, 50), 30);
   EXPECT_GT(shadow(10, 50), 225);
-  EXPECT_EQ(read("found_shadow = \"ignore\"").front().painted.exemplar.guides.find("shadow"), nullptr);
+  EXPECT_EQ(read("found_shadow = \"ignore\"").front().painted.exemplar.guides.find("shadow"),
+            nullptr);
 }
 
 TEST_F(Scans, AShadowImageIsTheGuideAsItStands) {
@@ -178,36 +196,43 @@ TEST_F(Scans, AShadowImageIsTheGuideAsItStands) {
 }
 
 TEST_F(Scans, SeveralPaintingsAreHarmonizedWhereTheSceneSaysSo) {
-  const std::string second = "[[exemplar]]\npicture = \"b.png\"\nclasses = \"classes.png\"\n[synthesis]\nharmonize = ";
+  const std::string second =
+      "[[exemplar]]\npicture = \"b.png\"\nclasses = \"classes.png\"\n[synthesis]\nharmonize = ";
   const auto distance = [&](const std::string& how) {
     const std::vector<ScannedPainting> scans = read("", second + how + "\n");
-    const auto view = [&](std::size_t i) { return LabelledPicture{&scans[i].painted.picture, &scans[i].painted.exemplar.guides.label}; };
+    const auto view = [&](std::size_t i) {
+      return LabelledPicture{&scans[i].painted.picture, &scans[i].painted.exemplar.guides.label};
+    };
     return colour_distance(view(0), view(1), 7);
   };
   const double apart = distance("\"off\"");
   EXPECT_GT(apart, 0.05);
   EXPECT_LT(distance("\"common\""), 0.2 * apart);
   EXPECT_LT(distance("\"first\""), 0.2 * apart);
-  // By regions, whatever the classes: of red exchanged with blue nothing nearer (docs/textures.md), but another picture.
+  // By regions, whatever the classes: with red and blue exchanged nothing matches better
+  // (docs/textures.md), but the picture changes.
   EXPECT_NE(distance("\"regions\""), apart);
 }
 
 TEST_F(Scans, TheirColoursBecomeThePalette) {
   const std::vector<ScannedPainting> scans = read("stroke_px = 3\nexclude = \"exclude.png\"");
   const Palette summer = read_palette("summer");
-  const Palette taken = take_colours(summer, scans, {{LandCoverClass::glacier, LandCoverClass::snow}});
+  const Palette taken =
+      take_colours(summer, scans, {{LandCoverClass::glacier, LandCoverClass::snow}});
   // Rock is the painted brown at each tone, darker in shade.
   const glm::vec3 shade = palette_colour(taken, LandCoverClass::rock, 800.0, 0.2);
   const glm::vec3 light = palette_colour(taken, LandCoverClass::rock, 2800.0, 0.9);
   EXPECT_GT(light.x, shade.x + 0.2F);
   for (const glm::vec3& colour : {shade, light}) EXPECT_GT(colour.x, colour.z + 0.1F);
-  EXPECT_EQ(taken.classes[9].stops.front().ramp, taken.classes[8].stops.front().ramp) << "glacier as snow";
-  // Forest is not in the painting: the palette's own, moved.
-  EXPECT_NE(palette_colour(taken, LandCoverClass::forest, 800.0, 0.5), palette_colour(summer, LandCoverClass::forest, 800.0, 0.5));
+  EXPECT_EQ(taken.classes[9].stops.front().ramp, taken.classes[8].stops.front().ramp)
+      << "glacier as snow";
+  // Forest is not in the painting: the palette's own, shifted.
+  EXPECT_NE(palette_colour(taken, LandCoverClass::forest, 800.0, 0.5),
+            palette_colour(summer, LandCoverClass::forest, 800.0, 0.5));
   EXPECT_EQ(taken.classes[4].stops.size(), summer.classes[4].stops.size());
   EXPECT_LT(glm::length(taken.sky.front().second - glm::vec3(0.36F, 0.56F, 0.78F)), 0.08F);
   EXPECT_LT(glm::length(taken.sky.back().second - glm::vec3(0.84F, 0.77F, 0.71F)), 0.08F);
-  // Nothing painted, nothing taken.
+  // Without a painting nothing changes.
   EXPECT_EQ(take_colours(summer, {}, {}).sky, summer.sky);
 }
 

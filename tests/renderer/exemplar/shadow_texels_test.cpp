@@ -13,7 +13,8 @@
 namespace belvedere {
 namespace {
 
-// Rock (label 7, left) and deep green wood (4, right) with strokes, and a shadow that falls over a slanted half of the rock.
+// Rock (label 7, left) and deep green forest (4, right) with strokes, and a shadow that falls over
+// a slanted half of the rock.
 struct Shaded {
   Grid<glm::vec3> picture{160, 120};
   Grid<std::uint8_t> labels{160, 120, 7};
@@ -28,8 +29,10 @@ Shaded paint(glm::vec3 shade, std::uint64_t seed = 1, double slant = 0.5) {
       s.labels(x, y) = wood ? 4 : 7;
       s.truth(x, y) = !wood && y > 40 + slant * x ? 1 : 0;
       const float stroke = 0.10F * static_cast<float>(random_uniform(seed, x / 2, y / 5) - 0.5);
-      const glm::vec3 paint = wood ? glm::vec3(0.16F, 0.28F, 0.20F) : glm::vec3(0.70F, 0.66F, 0.60F);
-      s.picture(x, y) = glm::clamp(paint * (s.truth(x, y) == 1 ? shade : glm::vec3(1.F)) + stroke, 0.F, 1.F);
+      const glm::vec3 paint =
+          wood ? glm::vec3(0.16F, 0.28F, 0.20F) : glm::vec3(0.70F, 0.66F, 0.60F);
+      s.picture(x, y) =
+          glm::clamp(paint * (s.truth(x, y) == 1 ? shade : glm::vec3(1.F)) + stroke, 0.F, 1.F);
     }
   return s;
 }
@@ -46,7 +49,7 @@ TEST(FindShadow, OverlapsTheTrueShadow) {
     both += found && s.truth[i] == 1 ? 1.0 : 0.0;
     either += found || s.truth[i] == 1 ? 1.0 : 0.0;
     if (s.labels[i] == 4) {
-      ASSERT_EQ(shadow[i], 1.F) << "dark wood is not shaded";
+      ASSERT_EQ(shadow[i], 1.F) << "dark forest is not shaded";
     }
   }
   EXPECT_GT(both / either, 0.93);
@@ -66,18 +69,20 @@ Exemplar exemplar_of(const Shaded& s) {
   Exemplar exemplar{.name = "shaded", .picture = Grid<Rgb8>(160, 120), .guides = {}};
   for (std::size_t i = 0; i < s.picture.size(); ++i)
     for (std::size_t c = 0; c < 3; ++c)
-      exemplar.picture[i][c] = static_cast<std::uint8_t>(std::lround(s.picture[i][static_cast<int>(c)] * 255.F));
+      exemplar.picture[i][c] =
+          static_cast<std::uint8_t>(std::lround(s.picture[i][static_cast<int>(c)] * 255.F));
   exemplar.guides.label = s.labels;
   return exemplar;
 }
 
 Grid<std::uint8_t> quantized(const Grid<float>& shadow) {
   Grid<std::uint8_t> values(shadow.width(), shadow.height());
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<std::uint8_t>(std::lround(shadow[i] * 255.F));
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = static_cast<std::uint8_t>(std::lround(shadow[i] * 255.F));
   return values;
 }
 
-// The share of target pixels that take their texel from where the truth says the same of shadow.
+// The share of target pixels whose texel has the same true shadow.
 TEST(FindShadow, ShadedGroundIsCopiedFromShadedGround) {
   const Shaded s = paint(blue_shade);
   Exemplar exemplar = exemplar_of(s);
@@ -86,13 +91,15 @@ TEST(FindShadow, ShadedGroundIsCopiedFromShadedGround) {
   GuideStack target;
   target.label = other.labels;
   target.guides.push_back({"shadow", Grid<std::uint8_t>(160, 120)});
-  for (std::size_t i = 0; i < other.truth.size(); ++i) target.guides[0].values[i] = other.truth[i] == 1 ? 0 : 255;
+  for (std::size_t i = 0; i < other.truth.size(); ++i)
+    target.guides[0].values[i] = other.truth[i] == 1 ? 0 : 255;
   const auto agreement = [&](double weight) {
     SynthesisParameters parameters;
     parameters.weights = {{"shadow", weight}};
     const MatchField matches = synthesize({exemplar}, target, parameters, silent_progress());
     double same = 0.0;
-    for (std::size_t i = 0; i < matches.size(); ++i) same += s.truth(matches[i].x, matches[i].y) == other.truth[i] ? 1.0 : 0.0;
+    for (std::size_t i = 0; i < matches.size(); ++i)
+      same += s.truth(matches[i].x, matches[i].y) == other.truth[i] ? 1.0 : 0.0;
     return same / static_cast<double>(matches.size());
   };
   EXPECT_GT(agreement(1.0), 0.97);

@@ -20,26 +20,28 @@ FeatureStyle line_style() {
 [kinds.road]
 width_mm = 2
 shrink = 0
-least_share = 0
+min_share = 0
 hand = 0
 [kinds.near_road]
 coarsest_m = 12
 [kinds.shrinking]
 width_mm = 2
-least_px = 0
+min_px = 0
 shrink = 0.5
-least_share = 0.1
+min_share = 0.1
 [kinds.real]
 width_mm = 0.01
-least_px = 0
+min_px = 0
 real_m = 100
 )",
                              "test.toml");
 }
 
-DrawnFeatures draw(const TestGround& ground, int kind, std::vector<glm::dvec2> places) {
+DrawnFeatures draw(const TestGround& ground, int kind, std::vector<glm::dvec2> positions) {
   const GroundSight sight = ground.sight();
-  return draw_features(set_of(line_style(), {line_feature(kind, std::move(places), line_style())}), sight, {.px_per_mm = 2.0});
+  return draw_features(
+      set_of(line_style(), {line_feature(kind, std::move(positions), line_style())}), sight,
+      {.px_per_mm = 2.0});
 }
 
 double distance_to_segment(glm::dvec2 p, glm::dvec2 a, glm::dvec2 b) {
@@ -47,7 +49,7 @@ double distance_to_segment(glm::dvec2 p, glm::dvec2 a, glm::dvec2 b) {
   return glm::length(p - a - t * (b - a));
 }
 
-// A camera makes a straight line of a straight line, and a tilted plane is one.
+// A camera maps straight lines to straight lines, and a tilted plane contains them.
 TEST(DrawnFeatures, AStraightRoadOnAPlaneLandsOnItsPixels) {
   const TestGround ground([](glm::dvec2 p) { return 0.05 * p.x + 0.1 * p.y; });
   const glm::dvec2 from{-700.0, -900.0};
@@ -58,31 +60,37 @@ TEST(DrawnFeatures, AStraightRoadOnAPlaneLandsOnItsPixels) {
   const glm::dvec2 a = ground.pixel(point(from));
   const glm::dvec2 b = ground.pixel(point(to));
   const std::vector<DrawnPoint>& points = drawn.lines[0].points;
-  EXPECT_LT(glm::length(glm::dvec2(points.front().place) - a), 0.02);
-  EXPECT_LT(glm::length(glm::dvec2(points.back().place) - b), 0.02);
+  EXPECT_LT(glm::length(glm::dvec2(points.front().position) - a), 0.02);
+  EXPECT_LT(glm::length(glm::dvec2(points.back().position) - b), 0.02);
   for (const DrawnPoint& p : points) {
-    EXPECT_LT(distance_to_segment(glm::dvec2(p.place), a, b), 0.05);
+    EXPECT_LT(distance_to_segment(glm::dvec2(p.position), a, b), 0.05);
     EXPECT_FLOAT_EQ(p.half_px, 2.F) << "2 mm of the sheet at 2 px a mm, half of it";
   }
   EXPECT_NEAR(drawn.counts[0][0].length_m, glm::length(to - from), 1e-6);
   EXPECT_NEAR(drawn.counts[0][0].seen_m, glm::length(to - from), 1e-6);
 }
 
-// Widened valleys move ground with all that lies on it.
+// Widened valleys move the ground with everything on it.
 TEST(DrawnFeatures, GoesAlongWithGroundThatMoved) {
   TestGround ground([](glm::dvec2 p) { return 0.05 * p.x + 0.1 * p.y; });
   const DrawnFeatures there = draw(ground, 0, {{300.0, -900.0}, {300.0, 1500.0}});
-  ground.goes_to = Grid<glm::vec2>(ground.surface.vertices_m.width(), ground.surface.vertices_m.height(),
-                                   glm::vec2(static_cast<float>(120.0 / ground.transform.cell_x), 0.F));
+  ground.goes_to =
+      Grid<glm::vec2>(ground.surface.vertices_m.width(), ground.surface.vertices_m.height(),
+                      glm::vec2(static_cast<float>(120.0 / ground.transform.cell_x), 0.F));
   const DrawnFeatures moved = draw(ground, 0, {{180.0, -900.0}, {180.0, 1500.0}});
   ASSERT_EQ(moved.lines.size(), 1U);
-  EXPECT_LT(glm::length(glm::dvec2(moved.lines[0].points.front().place - there.lines[0].points.front().place)), 0.02);
-  EXPECT_LT(glm::length(glm::dvec2(moved.lines[0].points.back().place - there.lines[0].points.back().place)), 0.02);
+  EXPECT_LT(glm::length(glm::dvec2(moved.lines[0].points.front().position -
+                                   there.lines[0].points.front().position)),
+            0.02);
+  EXPECT_LT(glm::length(glm::dvec2(moved.lines[0].points.back().position -
+                                   there.lines[0].points.back().position)),
+            0.02);
 }
 
-// Over ground that is not plane the picture's line keeps to the ground's own, to a third of a pixel.
+// Over uneven ground the line in the picture follows the ground's own, to a third of a pixel.
 TEST(DrawnFeatures, FollowsTheGroundItLiesOn) {
-  const TestGround ground([](glm::dvec2 p) { return 60.0 * std::sin(p.x / 140.0) * std::cos(p.y / 200.0); });
+  const TestGround ground(
+      [](glm::dvec2 p) { return 60.0 * std::sin(p.x / 140.0) * std::cos(p.y / 200.0); });
   const glm::dvec2 from{-1200.0, 200.0};
   const glm::dvec2 to{1300.0, 500.0};
   const DrawnFeatures drawn = draw(ground, 0, {from, to});
@@ -94,12 +102,14 @@ TEST(DrawnFeatures, FollowsTheGroundItLiesOn) {
     double nearest = 1e9;
     for (const DrawnLine& line : drawn.lines)
       for (std::size_t i = 0; i + 1 < line.points.size(); ++i)
-        nearest = std::min(nearest, distance_to_segment(pixel, glm::dvec2(line.points[i].place), glm::dvec2(line.points[i + 1].place)));
+        nearest = std::min(nearest, distance_to_segment(pixel, glm::dvec2(line.points[i].position),
+                                                        glm::dvec2(line.points[i + 1].position)));
     EXPECT_LT(nearest, 0.45) << k;
   }
 }
 
-// An eye at height H, D before a wall of height h, sees nothing of level ground for h D / (H - h) behind it.
+// From height H, at distance D from a wall of height h, level ground is hidden for h D / (H - h)
+// behind it.
 TEST(DrawnFeatures, AWallHidesWhatLiesBehindIt) {
   constexpr double wall_m = 300.0;
   const TestGround ground([](glm::dvec2 p) { return std::abs(p.y) < 4.0 ? wall_m : 0.0; });
@@ -107,23 +117,24 @@ TEST(DrawnFeatures, AWallHidesWhatLiesBehindIt) {
   const double hidden_m = wall_m * 3000.0 / (1500.0 - wall_m);
   ASSERT_EQ(drawn.lines.size(), 2U);
   const glm::dvec2 out = ground.pixel({0.0, hidden_m, 0.0});
-  EXPECT_NEAR(static_cast<double>(drawn.lines[1].points.front().place.y), out.y, 0.6);
-  // The line climbs the near side of the wall, which is 10 m of the map wide.
+  EXPECT_NEAR(static_cast<double>(drawn.lines[1].points.front().position.y), out.y, 0.6);
+  // The line climbs the near side of the wall, which is 10 m wide on the map.
   EXPECT_NEAR(drawn.counts[0][0].seen_m, 2600.0 - hidden_m, 30.0);
   EXPECT_EQ(drawn.counts[0][0].drawn, 1U);
 }
 
 TEST(DrawnFeatures, BumpsOfTheGroundDoNotMakeDashes) {
-  // Ripples of a metre that a low eye sees across.
-  const TestGround ground([](glm::dvec2 p) { return 1.2 * std::sin(p.y / 9.0); }, {0.0, -3000.0, 260.0});
+  // Ripples of a metre that a low eye looks across.
+  const TestGround ground([](glm::dvec2 p) { return 1.2 * std::sin(p.y / 9.0); },
+                          {0.0, -3000.0, 260.0});
   const DrawnFeatures drawn = draw(ground, 0, {{0.0, 0.0}, {30.0, 1900.0}});
   EXPECT_EQ(drawn.lines.size(), 1U);
 }
 
 TEST(DrawnFeatures, CountsSayWhatBecameOfEach) {
   const TestGround ground([](glm::dvec2 p) { return p.y > 600.0 && p.y < 650.0 ? 900.0 : 0.0; });
-  const auto count = [&](int kind, std::vector<glm::dvec2> places) {
-    return draw(ground, kind, std::move(places)).counts[0][static_cast<std::size_t>(kind)];
+  const auto count = [&](int kind, std::vector<glm::dvec2> positions) {
+    return draw(ground, kind, std::move(positions)).counts[0][static_cast<std::size_t>(kind)];
   };
   EXPECT_EQ(count(0, {{-100.0, 0.0}, {100.0, 0.0}}).drawn, 1U);
   EXPECT_EQ(count(0, {{9000.0, 0.0}, {9100.0, 0.0}}).outside_terrain, 1U);
@@ -139,8 +150,8 @@ TEST(DrawnFeatures, WidthShrinksWithDistanceAsTheStyleSays) {
   const GroundSight sight = ground.sight();
   const DrawnPoint& near = drawn.lines[0].points.front();
   const DrawnPoint& far = drawn.lines[0].points.back();
-  const double ratio =
-      sight.metres_per_px({0.0, -900.0, 0.0}, glm::dvec2(near.place)) / sight.metres_per_px({0.0, 1800.0, 0.0}, glm::dvec2(far.place));
+  const double ratio = sight.metres_per_px({0.0, -900.0, 0.0}, glm::dvec2(near.position)) /
+                       sight.metres_per_px({0.0, 1800.0, 0.0}, glm::dvec2(far.position));
   EXPECT_LT(ratio, 0.7);
   EXPECT_NEAR(static_cast<double>(far.half_px / near.half_px), std::sqrt(ratio), 0.01);
 }
@@ -149,8 +160,10 @@ TEST(DrawnFeatures, NoneIsNarrowerThanItIs) {
   const TestGround ground([](glm::dvec2) { return 0.0; });
   const DrawnFeatures drawn = draw(ground, 3, {{0.0, 0.0}, {0.0, 900.0}});
   const DrawnPoint& end = drawn.lines[0].points.back();
-  // Across the line of sight 100 m are as wide as two places 50 m aside of it are apart.
-  const double wide = glm::length(ground.pixel({50.0, 900.0, 0.0}) - ground.pixel({-50.0, 900.0, 0.0}));
+  // Across the line of sight 100 m are as wide as the distance between two positions 50 m to its
+  // sides.
+  const double wide =
+      glm::length(ground.pixel({50.0, 900.0, 0.0}) - ground.pixel({-50.0, 900.0, 0.0}));
   EXPECT_NEAR(2.0 * static_cast<double>(end.half_px), wide, 0.01 * wide);
 }
 
@@ -158,7 +171,7 @@ TEST(DrawnFeatures, FindsWhatTouchesARectangle) {
   const TestGround ground([](glm::dvec2) { return 0.0; }, {0.0, -3000.0, 1500.0}, 1200, 900);
   const DrawnFeatures drawn = draw(ground, 0, {{-900.0, -400.0}, {900.0, 1200.0}});
   ASSERT_FALSE(drawn.lines.empty());
-  const glm::vec2 at = drawn.lines[0].points.front().place;
+  const glm::vec2 at = drawn.lines[0].points.front().position;
   const int x = static_cast<int>(at.x);
   const int y = static_cast<int>(at.y);
   EXPECT_EQ(drawn.lines_at({x, y, x + 1, y + 1}), std::vector<std::uint32_t>{0});
@@ -166,7 +179,7 @@ TEST(DrawnFeatures, FindsWhatTouchesARectangle) {
   EXPECT_TRUE(no_features().lines_at({0, 0, 10, 10}).empty());
 }
 
-// Windows of finer cells lie in the place of coarse ones: the sight takes the finest.
+// Windows of finer cells replace coarse ones: the finest is used.
 TEST(GroundSight, LooksAtTheFinestWindow) {
   TestGround ground([](glm::dvec2) { return 0.0; });
   SurfaceWindow window;
@@ -176,8 +189,10 @@ TEST(GroundSight, LooksAtTheFinestWindow) {
   window.surface.vertices_m = Grid<glm::vec3>(49, 49);
   for (int y = 0; y < 49; ++y)
     for (int x = 0; x < 49; ++x) {
-      const glm::dvec2 place = ground.transform.to_crs(100.0 + 0.5 * (x - 4), 100.0 + 0.5 * (y - 4));
-      window.surface.vertices_m(x, y) = glm::vec3(glm::dvec3(place, 7.0) - ground.surface.origin);
+      const glm::dvec2 position =
+          ground.transform.to_crs(100.0 + 0.5 * (x - 4), 100.0 + 0.5 * (y - 4));
+      window.surface.vertices_m(x, y) =
+          glm::vec3(glm::dvec3(position, 7.0) - ground.surface.origin);
     }
   const glm::dvec2 inside = ground.transform.to_crs(110.3, 112.6);
   const glm::dvec2 outside = ground.transform.to_crs(130.0, 112.0);

@@ -18,8 +18,11 @@ using test::set_of;
 using test::TestGround;
 
 FeatureStyle house_style(const std::string& more = "") {
-  return parse_feature_style("version = 1\n[kinds.house]\ndraw = \"building\"\nshrink = 0\nleast_px = 0\nwidth_mm = 0.01\n" + more,
-                             "test.toml");
+  return parse_feature_style(
+      "version = 1\n[kinds.house]\ndraw = \"building\"\nshrink = 0\nleast_px = 0\nwidth_mm = "
+      "0.01\n" +
+          more,
+      "test.toml");
 }
 
 Feature house(std::vector<glm::dvec2> outline) {
@@ -30,8 +33,10 @@ Feature house(std::vector<glm::dvec2> outline) {
   return feature;
 }
 
-DrawnFeatures draw_house(const TestGround& ground, std::vector<glm::dvec2> outline, glm::dvec3 sun = {0.6, 0.0, 0.8}) {
-  return draw_features(set_of(house_style(), {house(std::move(outline))}), ground.sight(), {.px_per_mm = 20.0, .sun = sun});
+DrawnFeatures draw_house(const TestGround& ground, std::vector<glm::dvec2> outline,
+                         glm::dvec3 sun = {0.6, 0.0, 0.8}) {
+  return draw_features(set_of(house_style(), {house(std::move(outline))}), ground.sight(),
+                       {.px_per_mm = 20.0, .sun = sun});
 }
 
 TEST(DrawnHouses, StandOnTheirPlaceInTheirSize) {
@@ -40,32 +45,38 @@ TEST(DrawnHouses, StandOnTheirPlaceInTheirSize) {
   ASSERT_EQ(drawn.houses.size(), 1U);
   const DrawnHouse& one = drawn.houses[0];
   EXPECT_LT(glm::length(glm::dvec2(one.foot) - ground.pixel({0.0, 0.0, 0.0})), 0.01);
-  // The eye looks down less steeply than the roof's far side falls: it sees the southern wall and one side.
+  // The view is less steep than the roof's far side: the southern wall and one side are visible.
   ASSERT_EQ(one.faces.size(), 2U);
   const HouseFace& wall = one.faces[0];
   EXPECT_FALSE(wall.roof);
-  const double length = glm::length(ground.pixel({30.0, -10.0, 0.0}) - ground.pixel({-30.0, -10.0, 0.0}));
-  EXPECT_NEAR(static_cast<double>(glm::length(wall.corners[1] - wall.corners[0])), length, 0.01 * length);
+  const double length =
+      glm::length(ground.pixel({30.0, -10.0, 0.0}) - ground.pixel({-30.0, -10.0, 0.0}));
+  EXPECT_NEAR(static_cast<double>(glm::length(wall.corners[1] - wall.corners[0])), length,
+              0.01 * length);
   EXPECT_TRUE(one.faces[1].roof);
 }
 
 TEST(DrawnHouses, TheSunnySideIsLight) {
   const TestGround ground([](glm::dvec2) { return 0.0; }, {0.0, -300.0, 150.0}, 800, 600);
-  // The ridge lies north to south, the sun in the east.
-  const DrawnFeatures drawn = draw_house(ground, rectangle({0.0, 0.0}, 40.0, 20.0, 1.5707963), {0.8, 0.0, 0.6});
+  // The ridge runs north to south, the sun is in the east.
+  const DrawnFeatures drawn =
+      draw_house(ground, rectangle({0.0, 0.0}, 40.0, 20.0, 1.5707963), {0.8, 0.0, 0.6});
   std::vector<HouseFace> roofs;
   for (const HouseFace& face : drawn.houses.at(0).faces)
     if (face.roof) roofs.push_back(face);
   ASSERT_EQ(roofs.size(), 2U);
-  std::sort(roofs.begin(), roofs.end(), [](const HouseFace& a, const HouseFace& b) { return a.corners[0].x < b.corners[0].x; });
+  std::sort(roofs.begin(), roofs.end(),
+            [](const HouseFace& a, const HouseFace& b) { return a.corners[0].x < b.corners[0].x; });
   EXPECT_GT(roofs[1].light, roofs[0].light + 0.4F) << "the eastern side";
-  EXPECT_LT(drawn.houses[0].shades.at(0).to.x, drawn.houses[0].foot.x) << "the shadow falls to the west";
+  EXPECT_LT(drawn.houses[0].shades.at(0).to.x, drawn.houses[0].foot.x)
+      << "the shadow falls to the west";
 }
 
-// An L: two roofs whose ridges stand square to each other, and the house reaches as far as its outline.
+// An L: two roofs with perpendicular ridges, and the house extends as far as its outline.
 TEST(DrawnHouses, WingsHaveRoofsOfTheirOwn) {
   const TestGround ground([](glm::dvec2) { return 0.0; }, {0.0, -300.0, 150.0}, 800, 600);
-  const std::vector<glm::dvec2> outline = {{-30, -25}, {30, -25}, {30, -10}, {-15, -10}, {-15, 25}, {-30, 25}};
+  const std::vector<glm::dvec2> outline = {{-30, -25}, {30, -25}, {30, -10},
+                                           {-15, -10}, {-15, 25}, {-30, 25}};
   const DrawnFeatures drawn = draw_house(ground, outline);
   ASSERT_EQ(drawn.houses.size(), 1U);
   const DrawnHouse& one = drawn.houses[0];
@@ -86,8 +97,8 @@ TEST(DrawnHouses, WingsHaveRoofsOfTheirOwn) {
   // Nothing stands in the open corner of the L.
   const glm::dvec2 yard = ground.pixel({20.0, 15.0, 0.0});
   for (const HouseFace& face : one.faces) {
-    const glm::dvec2 middle = 0.5 * (glm::dvec2(face.corners[0]) + glm::dvec2(face.corners[2]));
-    EXPECT_GT(glm::length(middle - yard), 20.0);
+    const glm::dvec2 centre = 0.5 * (glm::dvec2(face.corners[0]) + glm::dvec2(face.corners[2]));
+    EXPECT_GT(glm::length(centre - yard), 20.0);
   }
 }
 

@@ -16,7 +16,8 @@ using testing::HasSubstr;
 class Sources : public testing::Test {
  protected:
   std::string write(const std::string& features) const {
-    return folder_.write("roads.geojson", "{\"type\": \"FeatureCollection\", \"features\": [" + features + "]}");
+    return folder_.write("roads.geojson",
+                         "{\"type\": \"FeatureCollection\", \"features\": [" + features + "]}");
   }
   static std::string line(const std::string& properties) {
     return "{\"type\": \"Feature\", \"properties\": {" + properties +
@@ -33,14 +34,17 @@ class Sources : public testing::Test {
 
 TEST_F(Sources, KindsComeFromAColumn) {
   const std::string file =
-      write(line("\"highway\": \"primary\", \"w\": \"7,5 m\"") + "," + line("\"highway\": \"Footway\", \"w\": \"wide\"") + "," +
+      write(line("\"highway\": \"primary\", \"w\": \"7,5 m\"") + "," +
+            line("\"highway\": \"Footway\", \"w\": \"wide\"") + "," +
             line("\"highway\": \"elevator\"") + "," + line("\"highway\": \"house\""));
-  const FeatureSet set = read({.path = file, .kind_of = "highway", .width_of = "w", .key = "features.0"});
+  const FeatureSet set =
+      read({.path = file, .kind_of = "highway", .width_of = "w", .key = "features.0"});
   ASSERT_EQ(set.features.size(), 2U);
   EXPECT_EQ(kind_of(set, 0).name, "main_road");
   EXPECT_FLOAT_EQ(set.features[0].real_m, 7.5F);
   EXPECT_EQ(kind_of(set, 1).name, "path");
-  EXPECT_FLOAT_EQ(set.features[1].real_m, static_cast<float>(kind_of(set, 1).real_m)) << "no length: the style's";
+  EXPECT_FLOAT_EQ(set.features[1].real_m, static_cast<float>(kind_of(set, 1).real_m))
+      << "no length: the style's";
   const SourceReading& reading = set.readings[0];
   EXPECT_EQ(reading.read, 4U);
   EXPECT_EQ(reading.taken, 2U);
@@ -52,20 +56,24 @@ TEST_F(Sources, KindsComeFromAColumn) {
 
 TEST_F(Sources, OrAreSaid) {
   const std::string file = write(line("\"highway\": \"elevator\""));
-  const FeatureSet set = read({.path = file, .kind = "railway", .width_mm = 1.25, .key = "features.0"});
+  const FeatureSet set =
+      read({.path = file, .kind = "railway", .width_mm = 1.25, .key = "features.0"});
   ASSERT_EQ(set.features.size(), 1U);
   EXPECT_EQ(kind_of(set, 0).name, "railway");
   EXPECT_FLOAT_EQ(set.features[0].width_mm, 1.25F);
-  // With a column, those that it says nothing known of.
-  const FeatureSet rest = read({.path = file, .kind = "track", .kind_of = "highway", .key = "features.0"});
+  // With a column, the features whose kind is unknown.
+  const FeatureSet rest =
+      read({.path = file, .kind = "track", .kind_of = "highway", .key = "features.0"});
   EXPECT_EQ(kind_of(rest, 0).name, "track");
   EXPECT_FLOAT_EQ(rest.features[0].width_mm, static_cast<float>(kind_of(rest, 0).width_mm));
 }
 
 TEST_F(Sources, AWordThatTheStyleDoesNotKnowIsSaidWithThoseItKnows) {
   const std::string file = write(line(""));
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { read({.path = file, .kind = "raod", .key = "features.3"}); }),
-              AllOf(HasSubstr("features.3.kind"), HasSubstr("\"road\" meant"), HasSubstr("motorway")));
+  EXPECT_THAT(test::message_of(ErrorKind::usage,
+                               [&] { read({.path = file, .kind = "raod", .key = "features.3"}); }),
+              AllOf(HasSubstr("features.3.kind"), HasSubstr("did you mean \"road\""),
+                    HasSubstr("motorway")));
 }
 
 }  // namespace

@@ -47,10 +47,10 @@ also = ["lane"]
 draw = "band"
 rank = 12
 width_mm = 2
-least_px = 3
+min_px = 3
 real_m = 4
 shrink = 0.25
-least_share = 0.6
+min_share = 0.6
 casing_mm = 0.7
 bed_mm = 0.8
 soft_mm = 0.9
@@ -76,10 +76,10 @@ level = true
   EXPECT_EQ(way.draw, FeatureDraw::band);
   EXPECT_EQ(way.rank, 12.0);
   EXPECT_EQ(way.width_mm, 2.0);
-  EXPECT_EQ(way.least_px, 3.0);
+  EXPECT_EQ(way.min_px, 3.0);
   EXPECT_EQ(way.real_m, 4.0);
   EXPECT_EQ(way.shrink, .25);
-  EXPECT_EQ(way.least_share, .6);
+  EXPECT_EQ(way.min_share, .6);
   EXPECT_EQ(way.casing_mm, .7);
   EXPECT_EQ(way.bed_mm, .8);
   EXPECT_EQ(way.soft_mm, .9);
@@ -93,23 +93,29 @@ level = true
   EXPECT_EQ(way.pylon_mm, 7.0);
   EXPECT_EQ(way.summer.fill, glm::vec3(1.F, 0.F, 128.F / 255.F));
   EXPECT_EQ(way.winter.fill, glm::vec3(0.F, 0.F, 1.F));
-  EXPECT_EQ(way.winter.casing, glm::vec3(0.F)) << "what winter does not say is as in summer";
+  EXPECT_EQ(way.winter.casing, glm::vec3(0.F)) << "unset winter values are those of summer";
   EXPECT_EQ(way.winter.bed, glm::vec3(1.F));
   EXPECT_EQ(way.ground, LandCoverClass::forest);
   EXPECT_TRUE(way.level);
 }
 
 TEST(FeatureStyle, WhatIsWrongIsSaidAtItsPlace) {
-  EXPECT_THAT(message("version = 1\n"), HasSubstr("no kinds of features"));
-  EXPECT_THAT(message("[kinds.road]\n"), HasSubstr("no version"));
-  EXPECT_THAT(message("version = 1\n[kinds.road]\nwidth_mm = 90\n"), AllOf(HasSubstr("mine.toml:3"), HasSubstr("0 … 50")));
-  EXPECT_THAT(message("version = 1\n[kinds.road]\nwidht_mm = 1\n"), AllOf(HasSubstr("mine.toml:3"), HasSubstr("widht_mm")));
-  EXPECT_THAT(message("version = 1\n[kinds.road]\nfill = \"red\"\n"), AllOf(HasSubstr("mine.toml:3"), HasSubstr("#rrggbb")));
+  EXPECT_THAT(message("version = 1\n"), HasSubstr("the style has no kinds"));
+  EXPECT_THAT(message("[kinds.road]\n"), HasSubstr("the version is missing"));
+  EXPECT_THAT(message("version = 1\n[kinds.road]\nwidth_mm = 90\n"),
+              AllOf(HasSubstr("mine.toml:3"), HasSubstr("0 … 50")));
+  EXPECT_THAT(message("version = 1\n[kinds.road]\nwidht_mm = 1\n"),
+              AllOf(HasSubstr("mine.toml:3"), HasSubstr("widht_mm")));
+  EXPECT_THAT(message("version = 1\n[kinds.road]\nfill = \"red\"\n"),
+              AllOf(HasSubstr("mine.toml:3"), HasSubstr("#rrggbb")));
   EXPECT_THAT(message("version = 1\n[kinds.road]\ndash_mm = [1]\n"), HasSubstr("two numbers"));
-  EXPECT_THAT(message("version = 1\n[kinds.road]\ndraw = \"air\"\n"), AllOf(HasSubstr("\"line\""), HasSubstr("\"cable\"")));
-  EXPECT_THAT(message("version = 1\n[kinds.wood]\ndraw = \"area\"\n"), HasSubstr("have no class"));
-  EXPECT_THAT(message("version = 1\n[kinds.wood]\nground = \"sky\"\n"), HasSubstr("a class of ground"));
-  EXPECT_THAT(message("version = 1\n[kinds.a]\nalso = [\"B\"]\n[kinds.b]\n"), HasSubstr("\"b\" means two kinds"));
+  EXPECT_THAT(message("version = 1\n[kinds.road]\ndraw = \"air\"\n"),
+              AllOf(HasSubstr("\"line\""), HasSubstr("\"cable\"")));
+  EXPECT_THAT(message("version = 1\n[kinds.wood]\ndraw = \"area\"\n"), HasSubstr("has no class"));
+  EXPECT_THAT(message("version = 1\n[kinds.wood]\nground = \"sky\"\n"),
+              HasSubstr("a land-cover class"));
+  EXPECT_THAT(message("version = 1\n[kinds.a]\nalso = [\"B\"]\n[kinds.b]\n"),
+              HasSubstr("\"b\" names two kinds"));
   EXPECT_THAT(test::message_of(ErrorKind::usage, [] { load_feature_style("spring"); }),
               AllOf(HasSubstr("spring"), HasSubstr("\"classic\", \"ski\"")));
 }

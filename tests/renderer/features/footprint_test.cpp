@@ -15,15 +15,19 @@ using test::rectangle;
 using Ring = std::vector<glm::dvec2>;
 
 Ring turned(Ring ring, double turn) {
-  for (glm::dvec2& p : ring) p = {7.0 + p.x * std::cos(turn) - p.y * std::sin(turn), -3.0 + p.x * std::sin(turn) + p.y * std::cos(turn)};
+  for (glm::dvec2& p : ring)
+    p = {7.0 + p.x * std::cos(turn) - p.y * std::sin(turn),
+         -3.0 + p.x * std::sin(turn) + p.y * std::cos(turn)};
   return ring;
 }
 
-double area_of(const Footprint& foot) { return 4.0 * glm::length(foot.along) * glm::length(foot.across); }
+double area_of(const Footprint& foot) {
+  return 4.0 * glm::length(foot.along) * glm::length(foot.across);
+}
 
-bool covers(const std::vector<Footprint>& wings, glm::dvec2 place) {
+bool covers(const std::vector<Footprint>& wings, glm::dvec2 position) {
   for (const Footprint& wing : wings) {
-    const glm::dvec2 off = place - wing.middle;
+    const glm::dvec2 off = position - wing.centre;
     if (std::abs(glm::dot(off, glm::normalize(wing.along))) < glm::length(wing.along) &&
         std::abs(glm::dot(off, glm::normalize(wing.across))) < glm::length(wing.across))
       return true;
@@ -34,12 +38,13 @@ bool covers(const std::vector<Footprint>& wings, glm::dvec2 place) {
 TEST(Footprint, IsFoundWhateverItsTurn) {
   for (const double turn : {0.0, 0.3, 1.1, 2.0}) {
     std::vector<glm::dvec2> outline = rectangle({40.0, -20.0}, 30.0, 12.0, turn);
-    outline.push_back(0.5 * (outline.front() + outline.back()));  // a place along a wall
+    outline.push_back(0.5 * (outline.front() + outline.back()));  // a point along a wall
     const Footprint foot = footprint_of(outline);
-    EXPECT_LT(glm::length(foot.middle - glm::dvec2(40.0, -20.0)), 1e-9);
+    EXPECT_LT(glm::length(foot.centre - glm::dvec2(40.0, -20.0)), 1e-9);
     EXPECT_NEAR(glm::length(foot.along), 15.0, 1e-9);
     EXPECT_NEAR(glm::length(foot.across), 6.0, 1e-9);
-    EXPECT_NEAR(std::abs(glm::dot(foot.along / 15.0, glm::dvec2(std::cos(turn), std::sin(turn)))), 1.0, 1e-9);
+    EXPECT_NEAR(std::abs(glm::dot(foot.along / 15.0, glm::dvec2(std::cos(turn), std::sin(turn)))),
+                1.0, 1e-9);
   }
 }
 
@@ -48,10 +53,12 @@ TEST(Wings, ARectangleIsOne) {
   ASSERT_EQ(wings.size(), 1U);
   EXPECT_NEAR(area_of(wings[0]), 360.0, 1e-6);
   // With a bay of 2 × 3 m on one side as well.
-  EXPECT_EQ(wings_of({{{0, 0}, {30, 0}, {30, 12}, {16, 12}, {16, 14}, {13, 14}, {13, 12}, {0, 12}}}).size(), 1U);
+  EXPECT_EQ(wings_of({{{0, 0}, {30, 0}, {30, 12}, {16, 12}, {16, 14}, {13, 14}, {13, 12}, {0, 12}}})
+                .size(),
+            1U);
 }
 
-// An L of 30 × 10 and 10 × 25: two wings that share its corner, whatever its turn.
+// An L of 30 × 10 and 10 × 25: two wings that share its corner, for any rotation.
 TEST(Wings, AnLHasTwoThatMeetInItsCorner) {
   const Ring l = {{0, 0}, {30, 0}, {30, 10}, {10, 10}, {10, 25}, {0, 25}};
   for (const double turn : {0.0, 0.37, 1.2}) {
@@ -60,13 +67,15 @@ TEST(Wings, AnLHasTwoThatMeetInItsCorner) {
     ASSERT_EQ(wings.size(), 2U) << turn;
     EXPECT_NEAR(area_of(wings[0]), 300.0, 1e-6) << "the largest is the first";
     EXPECT_NEAR(area_of(wings[1]), 250.0, 1e-6) << "the other reaches into the corner";
-    EXPECT_NEAR(glm::dot(glm::normalize(wings[0].along), glm::normalize(wings[1].along)), 0.0, 1e-9);
+    EXPECT_NEAR(glm::dot(glm::normalize(wings[0].along), glm::normalize(wings[1].along)), 0.0,
+                1e-9);
     EXPECT_FALSE(covers(wings, turned({{20, 20}}, turn)[0])) << "the open corner";
-    for (const glm::dvec2 in : {glm::dvec2(5, 5), glm::dvec2(28, 5), glm::dvec2(5, 23)}) EXPECT_TRUE(covers(wings, turned({in}, turn)[0]));
+    for (const glm::dvec2 in : {glm::dvec2(5, 5), glm::dvec2(28, 5), glm::dvec2(5, 23)})
+      EXPECT_TRUE(covers(wings, turned({in}, turn)[0]));
   }
 }
 
-// The same seen in a mirror: where the corner lies does not matter.
+// The mirror image: the position of the corner does not matter.
 TEST(Wings, AnLMayLieAnyWayRound) {
   for (const double sx : {1.0, -1.0})
     for (const double sy : {1.0, -1.0}) {
@@ -85,14 +94,17 @@ TEST(Wings, ACourtStaysOpen) {
   const std::vector<Footprint> wings = wings_of({turned(outer, 0.2), turned(court, 0.2)});
   ASSERT_EQ(wings.size(), 4U);
   EXPECT_FALSE(covers(wings, turned({{20, 15}}, 0.2)[0]));
-  for (const glm::dvec2 in : {glm::dvec2(20, 4), glm::dvec2(20, 26), glm::dvec2(5, 15), glm::dvec2(35, 15), glm::dvec2(2, 2)})
+  for (const glm::dvec2 in : {glm::dvec2(20, 4), glm::dvec2(20, 26), glm::dvec2(5, 15),
+                              glm::dvec2(35, 15), glm::dvec2(2, 2)})
     EXPECT_TRUE(covers(wings, turned({in}, 0.2)[0]));
 }
 
-// What no straight wings make up keeps the rectangle around it, or few rectangles within it; no house is lost.
+// Outlines without straight wings keep the rectangle around them, or few rectangles inside them; no
+// house is lost.
 TEST(Wings, RoundAndBrokenOutlinesBecomeFewRectangles) {
   Ring round;
-  for (int k = 0; k < 60; ++k) round.emplace_back(20.0 * std::cos(k * 0.10472), 20.0 * std::sin(k * 0.10472));
+  for (int k = 0; k < 60; ++k)
+    round.emplace_back(20.0 * std::cos(k * 0.10472), 20.0 * std::sin(k * 0.10472));
   const std::vector<Footprint> wings = wings_of({round});
   EXPECT_LE(wings.size(), 8U);
   EXPECT_TRUE(covers(wings, {0.3, 0.2}));

@@ -12,8 +12,9 @@ namespace {
 
 DrawnFeatures one_house() {
   DrawnFeatures features;
-  features.style =
-      parse_feature_style("version = 1\n[kinds.house]\ndraw = \"building\"\nfill = \"#ff0000\"\ncasing = \"#ffffff\"\n", "test.toml");
+  features.style = parse_feature_style(
+      "version = 1\n[kinds.house]\ndraw = \"building\"\nfill = \"#ff0000\"\ncasing = \"#ffffff\"\n",
+      "test.toml");
   features.sheet_px = {320, 240};
   features.net = {2, 1};
   features.houses_in = {{0}, {}};
@@ -23,8 +24,12 @@ DrawnFeatures one_house() {
   house.distance_m = 20000.F;
   house.reach_px = 10.F;
   house.shades = {{.from = house.foot, .to = house.foot + glm::vec2(-6.F, 1.F), .width = 4.F}};
-  house.faces = {{.corners = {{{94.F, 122.F}, {106.F, 122.F}, {106.F, 116.F}, {94.F, 116.F}}}, .light = 0.2F, .roof = false},
-                 {.corners = {{{93.F, 116.F}, {107.F, 116.F}, {111.F, 110.F}, {97.F, 110.F}}}, .light = 0.9F, .roof = true}};
+  house.faces = {{.corners = {{{94.F, 122.F}, {106.F, 122.F}, {106.F, 116.F}, {94.F, 116.F}}},
+                  .light = 0.2F,
+                  .roof = false},
+                 {.corners = {{{93.F, 116.F}, {107.F, 116.F}, {111.F, 110.F}, {97.F, 110.F}}},
+                  .light = 0.9F,
+                  .roof = true}};
   features.houses.push_back(house);
   return features;
 }
@@ -50,11 +55,12 @@ TEST(HouseStrokes, PaintsRoofOverWallAndAShadowBeside) {
   EXPECT_LT(std::abs(wall.x - wall.y), 0.1F);
   EXPECT_LT(painting.picture(95, 121).y, 0.5F + 0.45F);
   EXPECT_EQ(painting.picture(130, 120), glm::vec3(0.5F));
-  // The roof leans to the right as its corners do: its paint is whole, and ends where they say.
+  // The roof leans to the right as its corners do: its paint is complete, and ends where they do.
   for (int y = 110; y < 116; ++y) {
     const float left = 93.F + 4.F * (116.F - (static_cast<float>(y) + 0.5F)) / 6.F;
     for (int x = 85; x < 120; ++x) {
-      const float inside = std::min(static_cast<float>(x) + 0.5F - left, left + 14.F - static_cast<float>(x) - 0.5F);
+      const float inside =
+          std::min(static_cast<float>(x) + 0.5F - left, left + 14.F - static_cast<float>(x) - 0.5F);
       const glm::vec3 here = painting.picture(x, y);
       if (inside > 1.5F && y > 110 && y < 115) {
         EXPECT_GT(here.x, here.y + 0.4F) << x << ' ' << y;
@@ -70,26 +76,31 @@ TEST(HouseStrokes, NearerGroundHidesThem) {
   Picture p = meadow();
   for (float& depth : p.guidance.depth_m) depth = 15000.F;
   Painting painting = begin_painting(p.ground.colour);
-  paint_in_order(painting, p.guidance, house_strokes(one_house(), p.scene()), 1.0, silent_progress());
+  paint_in_order(painting, p.guidance, house_strokes(one_house(), p.scene()), 1.0,
+                 silent_progress());
   EXPECT_EQ(painting.picture(100, 113), glm::vec3(0.5F));
 }
 
-// Before anything stands: all ground is seen; what stands takes its share of it. Nothing grows where it is cleared.
+// Without standing objects all ground is visible; they take their share of it. Nothing grows on
+// cleared ground.
 TEST(HouseStrokes, StandingThingsKeepOffClearedGroundAndTellWhatTheyHide) {
   Picture p = plain_picture(LandCoverClass::forest, 320, 240);
   for (int y = 0; y < 240; ++y)
     for (int x = 0; x < 320; ++x) {
       p.guidance.depth_m(x, y) = 60000.F - 160.F * static_cast<float>(y);
-      p.guidance.position_m(x, y) = glm::vec3(20.F * static_cast<float>(x), p.guidance.depth_m(x, y), 900.F);
+      p.guidance.position_m(x, y) =
+          glm::vec3(20.F * static_cast<float>(x), p.guidance.depth_m(x, y), 900.F);
     }
-  const StrokeLayers trees{.sky = false, .ground = false, .accents = false, .breaks = false, .upright = true};
+  const StrokeLayers trees{
+      .sky = false, .ground = false, .accents = false, .breaks = false, .upright = true};
   MappedGround mapped;
   mapped.cleared = Grid<std::uint8_t>(320, 240, 0);
   SheetWindow window;
   window.sheet_px = {320, 240};
   window.mapped = &mapped;
-  const auto paint = [&](const SheetWindow& place) {
-    return paint_strokes(p.ground.colour, p.guidance, p.ground, trees, p.parameters, silent_progress(), place);
+  const auto paint = [&](const SheetWindow& position) {
+    return paint_strokes(p.ground.colour, p.guidance, p.ground, trees, p.parameters,
+                         silent_progress(), position);
   };
   const Painting wood = paint(window);
   SheetWindow plain = window;
@@ -97,31 +108,36 @@ TEST(HouseStrokes, StandingThingsKeepOffClearedGroundAndTellWhatTheyHide) {
   const Painting before = paint(plain);
   EXPECT_TRUE(before.seen_ground.empty());
   std::size_t different = 0;
-  for (std::size_t i = 0; i < wood.picture.size(); ++i) different += wood.picture[i] != before.picture[i] ? 1 : 0;
+  for (std::size_t i = 0; i < wood.picture.size(); ++i)
+    different += wood.picture[i] != before.picture[i] ? 1 : 0;
   EXPECT_EQ(different, 0U) << "a map without anything changes nothing";
   double seen = 0.0;
   for (const float share : wood.seen_ground) seen += share;
-  EXPECT_LT(seen / static_cast<double>(wood.seen_ground.size()), 0.5) << "a forest hides its ground";
-  EXPECT_TRUE(wood.seen_hung.empty());
+  EXPECT_LT(seen / static_cast<double>(wood.seen_ground.size()), 0.5)
+      << "a forest hides its ground";
+  EXPECT_TRUE(wood.seen_overhead.empty());
 
-  // What hangs is hidden by the trees that stand nearer: none where it hangs before all, all where it hangs behind them.
-  MappedGround hung = mapped;
-  hung.hung_m = Grid<float>(320, 240, std::numeric_limits<float>::infinity());
+  // Overhead objects are hidden by nearer trees: by none in front of everything, by all behind
+  // them.
+  MappedGround overhead = mapped;
+  overhead.overhead_m = Grid<float>(320, 240, std::numeric_limits<float>::infinity());
   for (int y = 0; y < 240; ++y)
-    for (int x = 0; x < 160; ++x) hung.hung_m(x, y) = 20000.F;
-  window.mapped = &hung;
+    for (int x = 0; x < 160; ++x) overhead.overhead_m(x, y) = 20000.F;
+  window.mapped = &overhead;
   const Painting ropes = paint(window);
-  for (std::size_t i = 0; i < ropes.picture.size(); ++i) ASSERT_EQ(ropes.picture[i], wood.picture[i]) << "what hangs is painted later";
+  for (std::size_t i = 0; i < ropes.picture.size(); ++i)
+    ASSERT_EQ(ropes.picture[i], wood.picture[i]) << "overhead objects are painted later";
   for (int y = 0; y < 240; ++y)
-    for (int x = 0; x < 320; ++x) ASSERT_EQ(ropes.seen_hung(x, y), x < 160 ? 1.F : wood.seen_ground(x, y));
-  // Amid the wood: trees of the rows before it hide it, those behind do not.
-  for (float& distance_m : hung.hung_m) distance_m = 60000.F - 160.F * 120.F;
+    for (int x = 0; x < 320; ++x)
+      ASSERT_EQ(ropes.seen_overhead(x, y), x < 160 ? 1.F : wood.seen_ground(x, y));
+  // Inside the forest: trees of the rows in front hide it, those behind do not.
+  for (float& distance_m : overhead.overhead_m) distance_m = 60000.F - 160.F * 120.F;
   const Painting amid = paint(window);
   double before_it = 0.0;
   for (int x = 0; x < 320; ++x) {
-    EXPECT_EQ(amid.seen_hung(x, 60), 1.F) << "only what is farther stands there";
-    before_it += amid.seen_hung(x, 180);
-    EXPECT_EQ(amid.seen_hung(x, 180), wood.seen_ground(x, 180));
+    EXPECT_EQ(amid.seen_overhead(x, 60), 1.F) << "all objects there are farther";
+    before_it += amid.seen_overhead(x, 180);
+    EXPECT_EQ(amid.seen_overhead(x, 180), wood.seen_ground(x, 180));
   }
   EXPECT_LT(before_it / 320.0, 0.6);
   window.mapped = &mapped;
@@ -129,7 +145,8 @@ TEST(HouseStrokes, StandingThingsKeepOffClearedGroundAndTellWhatTheyHide) {
   for (int y = 100; y < 160; ++y)
     for (int x = 0; x < 320; ++x) mapped.cleared(x, y) = 1;
   const Painting lane = paint(window);
-  for (int x = 40; x < 280; ++x) EXPECT_EQ(lane.seen_ground(x, 130), 1.F) << "trees stand below and reach up some pixels, and no farther";
+  for (int x = 40; x < 280; ++x)
+    EXPECT_EQ(lane.seen_ground(x, 130), 1.F) << "trees below reach up some pixels, and no farther";
   std::size_t elsewhere = 0;
   for (int y = 0; y < 60; ++y)
     for (int x = 0; x < 320; ++x) elsewhere += lane.picture(x, y) != wood.picture(x, y) ? 1 : 0;

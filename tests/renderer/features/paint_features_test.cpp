@@ -73,11 +73,16 @@ TestGround level() {
 }
 
 DrawnFeatures draw(const TestGround& ground, std::vector<Feature> features) {
-  return draw_features(set_of(painted_style(), std::move(features)), ground.sight(), {.px_per_mm = 2.0});
+  return draw_features(set_of(painted_style(), std::move(features)), ground.sight(),
+                       {.px_per_mm = 2.0});
 }
-Feature line(int kind, std::vector<glm::dvec2> places) { return line_feature(kind, std::move(places), painted_style()); }
+Feature line(int kind, std::vector<glm::dvec2> positions) {
+  return line_feature(kind, std::move(positions), painted_style());
+}
 
-glm::vec3 at(const Grid<glm::vec3>& picture, glm::dvec2 pixel) { return picture(static_cast<int>(pixel.x), static_cast<int>(pixel.y)); }
+glm::vec3 at(const Grid<glm::vec3>& picture, glm::dvec2 pixel) {
+  return picture(static_cast<int>(pixel.x), static_cast<int>(pixel.y));
+}
 
 std::size_t differing(const Grid<glm::vec3>& a, const Grid<glm::vec3>& b) {
   std::size_t count = 0;
@@ -87,8 +92,9 @@ std::size_t differing(const Grid<glm::vec3>& a, const Grid<glm::vec3>& b) {
 
 TEST(PaintFeatures, ARoadIsAsWideAsTheStyleSays) {
   const TestGround ground = level();
-  const Grid<glm::vec3> picture = painted(ground, draw(ground, {line(road, {{-1500.0, 0.0}, {1500.0, 0.0}})}));
-  // Level and square to the sight: a row of the picture.
+  const Grid<glm::vec3> picture =
+      painted(ground, draw(ground, {line(road, {{-1500.0, 0.0}, {1500.0, 0.0}})}));
+  // Level and perpendicular to the view: a row of the picture.
   double light = 0.0;
   int covered = 0;
   for (int y = 0; y < picture.height(); ++y) {
@@ -107,20 +113,23 @@ TEST(PaintFeatures, CasingsOfCrossingRoadsJoin) {
   const Grid<glm::vec3> alone = painted(ground, draw(ground, {a}));
   const Grid<glm::vec3> both = painted(ground, draw(ground, {a, b}));
   const glm::dvec2 crossing = ground.pixel({0.0, 0.0, 0.0});
-  // Where the first road alone has its edge, the second runs through.
+  // Where the first road alone has its edge, the second continues.
   const glm::dvec2 edge = crossing + glm::dvec2(0.0, 5.0);
   EXPECT_LT(at(alone, edge).y, 0.2F);
   EXPECT_GT(at(both, edge).y, 0.9F);
   EXPECT_GT(at(both, crossing).y, 0.9F);
   // And a fill is never darkened by the other's casing.
-  for (std::size_t i = 0; i < alone.size(); ++i) EXPECT_TRUE(alone[i].y <= 0.9F || both[i].y > 0.9F) << i;
+  for (std::size_t i = 0; i < alone.size(); ++i)
+    EXPECT_TRUE(alone[i].y <= 0.9F || both[i].y > 0.9F) << i;
 }
 
 TEST(PaintFeatures, TheOrderOfTheFileDoesNotMatter) {
-  const TestGround ground([](glm::dvec2 p) { return 80.0 * std::sin(p.x / 300.0) * std::sin(p.y / 250.0); });
-  std::vector<Feature> features = {line(road, {{-1200.0, 0.0}, {1200.0, 300.0}}), line(path, {{-900.0, 500.0}, {900.0, -300.0}}),
-                                   line(road, {{0.0, -700.0}, {100.0, 900.0}}), line(run, {{-500.0, -300.0}, {700.0, 900.0}}),
-                                   line(lift, {{-700.0, -500.0}, {200.0, 1200.0}})};
+  const TestGround ground(
+      [](glm::dvec2 p) { return 80.0 * std::sin(p.x / 300.0) * std::sin(p.y / 250.0); });
+  std::vector<Feature> features = {
+      line(road, {{-1200.0, 0.0}, {1200.0, 300.0}}), line(path, {{-900.0, 500.0}, {900.0, -300.0}}),
+      line(road, {{0.0, -700.0}, {100.0, 900.0}}), line(run, {{-500.0, -300.0}, {700.0, 900.0}}),
+      line(lift, {{-700.0, -500.0}, {200.0, 1200.0}})};
   const Grid<glm::vec3> first = painted(ground, draw(ground, features));
   std::reverse(features.begin(), features.end());
   EXPECT_EQ(differing(first, painted(ground, draw(ground, features))), 0U);
@@ -130,17 +139,21 @@ TEST(PaintFeatures, TheOrderOfTheFileDoesNotMatter) {
 }
 
 TEST(PaintFeatures, AnyRectangleAndAnyThreadsShowTheWhole) {
-  const TestGround ground([](glm::dvec2 p) { return 80.0 * std::sin(p.x / 300.0) * std::sin(p.y / 250.0); });
-  const DrawnFeatures drawn =
-      draw(ground, {line(rough, {{-1200.0, 0.0}, {1200.0, 300.0}}), line(path, {{-900.0, 500.0}, {900.0, -300.0}}),
-                    line(run, {{-500.0, -300.0}, {700.0, 900.0}}), line(lift, {{-700.0, -500.0}, {200.0, 1200.0}})});
+  const TestGround ground(
+      [](glm::dvec2 p) { return 80.0 * std::sin(p.x / 300.0) * std::sin(p.y / 250.0); });
+  const DrawnFeatures drawn = draw(ground, {line(rough, {{-1200.0, 0.0}, {1200.0, 300.0}}),
+                                            line(path, {{-900.0, 500.0}, {900.0, -300.0}}),
+                                            line(run, {{-500.0, -300.0}, {700.0, 900.0}}),
+                                            line(lift, {{-700.0, -500.0}, {200.0, 1200.0}})});
   const Grid<glm::vec3> whole = painted(ground, drawn);
-  for (const PixelRect rect : {PixelRect{37, 51, 222, 260}, PixelRect{150, 90, 391, 131}, PixelRect{199, 0, 200, 300}}) {
+  for (const PixelRect rect :
+       {PixelRect{37, 51, 222, 260}, PixelRect{150, 90, 391, 131}, PixelRect{199, 0, 200, 300}}) {
     const ThreadLimit one(1);
     const Grid<glm::vec3> part = painted(ground, drawn, rect, rect);
     std::size_t wrong = 0;
     for (int y = rect.y0; y < rect.y1; ++y)
-      for (int x = rect.x0; x < rect.x1; ++x) wrong += part(x - rect.x0, y - rect.y0) != whole(x, y) ? 1 : 0;
+      for (int x = rect.x0; x < rect.x1; ++x)
+        wrong += part(x - rect.x0, y - rect.y0) != whole(x, y) ? 1 : 0;
     EXPECT_EQ(wrong, 0U);
   }
   const PixelRect asked{100, 100, 180, 170};
@@ -152,15 +165,18 @@ TEST(PaintFeatures, AnyRectangleAndAnyThreadsShowTheWhole) {
     }
 }
 
-// As a layer of their own over the ground they are the picture, also where something half stands before them and where bands tint.
+// As a layer over the ground they give the picture, also where something in front covers half and
+// where bands tint.
 TEST(PaintFeatures, TheirPaintAddsUpToALayer) {
   const TestGround ground = level();
-  const DrawnFeatures drawn =
-      draw(ground, {line(rough, {{-1200.0, 0.0}, {1200.0, 300.0}}), line(path, {{-900.0, 500.0}, {900.0, -300.0}}),
-                    line(run, {{-500.0, -300.0}, {700.0, 900.0}}), line(lift, {{-700.0, -500.0}, {200.0, 1200.0}})});
+  const DrawnFeatures drawn = draw(ground, {line(rough, {{-1200.0, 0.0}, {1200.0, 300.0}}),
+                                            line(path, {{-900.0, 500.0}, {900.0, -300.0}}),
+                                            line(run, {{-500.0, -300.0}, {700.0, 900.0}}),
+                                            line(lift, {{-700.0, -500.0}, {200.0, 1200.0}})});
   for (const float seen : {1.F, 0.6F}) {
     PaintParts parts(ground.sheet());
-    const Grid<glm::vec3> picture = painted(ground, drawn, ground.sheet(), ground.sheet(), seen, {}, &parts);
+    const Grid<glm::vec3> picture =
+        painted(ground, drawn, ground.sheet(), ground.sheet(), seen, {}, &parts);
     EXPECT_EQ(differing(picture, painted(ground, drawn, seen)), 0U) << "a layer changes no pixel";
     const Grid<glm::vec4>& sum = parts.sum(PaintPart::features);
     double opacity = 0.0;
@@ -175,9 +191,12 @@ TEST(PaintFeatures, TheirPaintAddsUpToALayer) {
 }
 
 TEST(PaintFeatures, AMountainStandsBeforeTheRoadBehindIt) {
-  const auto ridge = [](glm::dvec2 p) { return std::abs(p.y) < 300.0 && p.x > 0.0 ? 700.0 * (1.0 - std::abs(p.y) / 300.0) : 0.0; };
+  const auto ridge = [](glm::dvec2 p) {
+    return std::abs(p.y) < 300.0 && p.x > 0.0 ? 700.0 * (1.0 - std::abs(p.y) / 300.0) : 0.0;
+  };
   const TestGround ground(ridge);
-  const Grid<glm::vec3> picture = painted(ground, draw(ground, {line(road, {{-1200.0, 700.0}, {1200.0, 700.0}})}));
+  const Grid<glm::vec3> picture =
+      painted(ground, draw(ground, {line(road, {{-1200.0, 700.0}, {1200.0, 700.0}})}));
   const GuidanceBuffers guidance = ground.guidance();
   const float behind_m = 3600.F;
   std::size_t drawn = 0;
@@ -192,7 +211,8 @@ TEST(PaintFeatures, AMountainStandsBeforeTheRoadBehindIt) {
 
 TEST(PaintFeatures, WhatStandsHidesWaysAndNotLifts) {
   const TestGround ground = level();
-  const DrawnFeatures way = draw(ground, {line(road, {{-1200.0, 0.0}, {1200.0, 0.0}}), line(run, {{0.0, -500.0}, {0.0, 500.0}})});
+  const DrawnFeatures way = draw(ground, {line(road, {{-1200.0, 0.0}, {1200.0, 0.0}}),
+                                          line(run, {{0.0, -500.0}, {0.0, 500.0}})});
   const Grid<glm::vec3> hidden = painted(ground, way, 0.F);
   for (std::size_t i = 0; i < hidden.size(); ++i) EXPECT_EQ(hidden[i], bare);
   const DrawnFeatures cable = draw(ground, {line(lift, {{-700.0, 0.0}, {700.0, 200.0}})});
@@ -205,7 +225,7 @@ TEST(PaintFeatures, WhatStandsNearerThanALiftHidesIt) {
   const Grid<glm::vec3> free = painted(ground, cable);
   Grid<float> seen(free.width(), free.height(), 1.F);
   EXPECT_EQ(differing(free, painted(ground, cable, ground.sheet(), ground.sheet(), 1.F, seen)), 0U);
-  // Its left half stands behind trees.
+  // Its left half is behind trees.
   for (int y = 0; y < seen.height(); ++y) std::fill_n(seen.row(y), seen.width() / 2, 0.F);
   const Grid<glm::vec3> half = painted(ground, cable, ground.sheet(), ground.sheet(), 1.F, seen);
   std::size_t right = 0;
@@ -219,27 +239,34 @@ TEST(PaintFeatures, WhatStandsNearerThanALiftHidesIt) {
 
 TEST(PaintFeatures, TellsHowFarRopesHang) {
   const TestGround ground = level();
-  const DrawnFeatures cable = draw(ground, {line(lift, {{-700.0, 0.0}, {700.0, 0.0}}), line(road, {{-700.0, 400.0}, {700.0, 400.0}})});
-  const Grid<float> hung = find_hung(cable, ground.sheet());
-  ASSERT_EQ(hung.width(), ground.sheet().width());
-  const Grid<glm::vec3> picture = painted(ground, draw(ground, {line(lift, {{-700.0, 0.0}, {700.0, 0.0}})}));
+  const DrawnFeatures cable = draw(ground, {line(lift, {{-700.0, 0.0}, {700.0, 0.0}}),
+                                            line(road, {{-700.0, 400.0}, {700.0, 400.0}})});
+  const Grid<float> overhead = find_overhead(cable, ground.sheet());
+  ASSERT_EQ(overhead.width(), ground.sheet().width());
+  const Grid<glm::vec3> picture =
+      painted(ground, draw(ground, {line(lift, {{-700.0, 0.0}, {700.0, 0.0}})}));
   const double distance_m = glm::length(glm::dvec3(0.0, -3000.0, 1500.0));
   std::size_t ropes = 0;
   for (std::size_t i = 0; i < picture.size(); ++i) {
     if (picture[i] != bare) {
-      ASSERT_NEAR(static_cast<double>(hung[i]), distance_m, 0.05 * distance_m) << "wherever its paint lies";
+      ASSERT_NEAR(static_cast<double>(overhead[i]), distance_m, 0.05 * distance_m)
+          << "wherever its paint is";
       ++ropes;
     }
   }
   EXPECT_GT(ropes, 100U);
-  EXPECT_TRUE(std::isinf(hung(200, 5)));
+  EXPECT_TRUE(std::isinf(overhead(200, 5)));
   const glm::dvec2 way = ground.pixel({0.0, 400.0, 0.0});
-  EXPECT_TRUE(std::isinf(hung(static_cast<int>(way.x), static_cast<int>(way.y)))) << "roads hang nowhere";
-  EXPECT_TRUE(find_hung(draw(ground, {line(road, {{-700.0, 0.0}, {700.0, 0.0}})}), ground.sheet()).empty());
+  EXPECT_TRUE(std::isinf(overhead(static_cast<int>(way.x), static_cast<int>(way.y))))
+      << "roads are not overhead";
+  EXPECT_TRUE(
+      find_overhead(draw(ground, {line(road, {{-700.0, 0.0}, {700.0, 0.0}})}), ground.sheet())
+          .empty());
   const PixelRect part{140, 90, 291, 201};
-  const Grid<float> window = find_hung(cable, part);
+  const Grid<float> window = find_overhead(cable, part);
   for (int y = 0; y < part.height(); ++y)
-    for (int x = 0; x < part.width(); ++x) ASSERT_EQ(window(x, y), hung(part.x0 + x, part.y0 + y));
+    for (int x = 0; x < part.width(); ++x)
+      ASSERT_EQ(window(x, y), overhead(part.x0 + x, part.y0 + y));
 }
 
 TEST(PaintFeatures, GroundBelowARopeIsClearedOfTrees) {
@@ -247,21 +274,27 @@ TEST(PaintFeatures, GroundBelowARopeIsClearedOfTrees) {
   const DrawnFeatures cable = draw(ground, {line(lift, {{-700.0, 0.0}, {700.0, 0.0}})});
   const Grid<std::uint8_t> cleared = find_cleared(cable, ground.guidance().depth_m, ground.sheet());
   const glm::dvec2 foot = ground.pixel({100.0, 0.0, 0.0});
-  const auto at_foot = [&](double down) { return cleared(static_cast<int>(foot.x), static_cast<int>(foot.y + down)); };
+  const auto at_foot = [&](double down) {
+    return cleared(static_cast<int>(foot.x), static_cast<int>(foot.y + down));
+  };
   EXPECT_EQ(at_foot(0.0), 1);
   EXPECT_EQ(at_foot(9.0), 1) << "2.5 times 2 mm below, at 2 px a mm";
   EXPECT_EQ(at_foot(14.0), 0);
   EXPECT_EQ(at_foot(-8.0), 0);
 }
 
-// A river 60 m wide across the sight: its water and a bank on either side, 2.5 times as far below it; nothing of it is painted.
+// A river 60 m wide across the view: its water and a bank on either side, 2.5 times as far below
+// it; nothing of it is painted.
 TEST(PaintFeatures, BanksOfRiversAreCleared) {
   const TestGround ground = level();
-  const CoverCourse course{.places = {{-1500.0, 0.0}, {0.0, 0.0}, {1500.0, 0.0}}, .half_width_m = {30.F, 30.F, 30.F}, .kind = river};
-  const DrawnFeatures drawn = draw_features(set_of(painted_style(), {line(river, {{-1500.0, 0.0}, {1500.0, 0.0}})}), ground.sight(),
-                                            {.px_per_mm = 2.0}, {&course, 1});
+  const CoverRiver centreline{.positions = {{-1500.0, 0.0}, {0.0, 0.0}, {1500.0, 0.0}},
+                              .half_width_m = {30.F, 30.F, 30.F},
+                              .kind = river};
+  const DrawnFeatures drawn =
+      draw_features(set_of(painted_style(), {line(river, {{-1500.0, 0.0}, {1500.0, 0.0}})}),
+                    ground.sight(), {.px_per_mm = 2.0}, {&centreline, 1});
   const Grid<float> depth_m = ground.guidance().depth_m;
-  const double middle_m = glm::length(glm::dvec3(0.0, 3000.0, 1500.0));
+  const double centre_m = glm::length(glm::dvec3(0.0, 3000.0, 1500.0));
   const Grid<std::uint8_t> cleared = find_cleared(drawn, depth_m, ground.sheet());
   const double far_bank = ground.pixel({0.0, 30.0, 0.0}).y;
   const double near_bank = ground.pixel({0.0, -30.0, 0.0}).y;
@@ -269,8 +302,9 @@ TEST(PaintFeatures, BanksOfRiversAreCleared) {
   for (int y = 0; y < cleared.height(); ++y) {
     const double up = far_bank - (y + 0.5);
     const double down = y + 0.5 - near_bank;
-    const double farther = std::abs(static_cast<double>(depth_m(200, y)) / middle_m - 1.0);
-    if (std::abs(up - 6.0) < 1.0 || std::abs(down - 15.0) < 1.0 || std::abs(farther - 0.04) < 0.005) continue;
+    const double farther = std::abs(static_cast<double>(depth_m(200, y)) / centre_m - 1.0);
+    if (std::abs(up - 6.0) < 1.0 || std::abs(down - 15.0) < 1.0 || std::abs(farther - 0.04) < 0.005)
+      continue;
     EXPECT_EQ(cleared(200, y) != 0, up < 6.0 && down < 15.0 && farther < 0.04) << y;
   }
   EXPECT_EQ(differing(painted(ground, drawn), Grid<glm::vec3>(400, 300, bare)), 0U);
@@ -279,20 +313,23 @@ TEST(PaintFeatures, BanksOfRiversAreCleared) {
 
 TEST(PaintFeatures, BandsTintAndLetTheReliefShowThrough) {
   const TestGround ground = level();
-  const Grid<glm::vec3> picture = painted(ground, draw(ground, {line(run, {{-1200.0, 0.0}, {1200.0, 0.0}})}));
-  const glm::vec3 middle = at(picture, ground.pixel({0.0, 0.0, 0.0}));
-  EXPECT_NEAR(middle.x, 0.F, 1e-3F);
-  EXPECT_NEAR(middle.y, 0.4F * 128.F / 255.F, 1e-3F);
-  EXPECT_NEAR(middle.z, 0.4F, 1e-3F);
-  // Its edge is soft: over some pixels it goes over to the ground.
+  const Grid<glm::vec3> picture =
+      painted(ground, draw(ground, {line(run, {{-1200.0, 0.0}, {1200.0, 0.0}})}));
+  const glm::vec3 centre = at(picture, ground.pixel({0.0, 0.0, 0.0}));
+  EXPECT_NEAR(centre.x, 0.F, 1e-3F);
+  EXPECT_NEAR(centre.y, 0.4F * 128.F / 255.F, 1e-3F);
+  EXPECT_NEAR(centre.z, 0.4F, 1e-3F);
+  // Its edge is soft: over some pixels it blends into the ground.
   int between = 0;
-  for (int y = 0; y < picture.height(); ++y) between += picture(200, y).x > 0.05F && picture(200, y).x < 0.35F ? 1 : 0;
+  for (int y = 0; y < picture.height(); ++y)
+    between += picture(200, y).x > 0.05F && picture(200, y).x < 0.35F ? 1 : 0;
   EXPECT_GE(between, 4);
 }
 
 TEST(PaintFeatures, DashesAreAsLongAsTheStyleSays) {
   const TestGround ground = level();
-  const Grid<glm::vec3> picture = painted(ground, draw(ground, {line(path, {{-1200.0, 0.0}, {1200.0, 0.0}})}));
+  const Grid<glm::vec3> picture =
+      painted(ground, draw(ground, {line(path, {{-1200.0, 0.0}, {1200.0, 0.0}})}));
   const int row = static_cast<int>(ground.pixel({0.0, 0.0, 0.0}).y);
   int changes = 0;
   int on = 0;
@@ -315,7 +352,8 @@ TEST(PaintFeatures, DashesAreAsLongAsTheStyleSays) {
 
 TEST(PaintFeatures, TheHandIsUnevenAndLiesOnTheSheet) {
   const TestGround ground = level();
-  const Grid<glm::vec3> picture = painted(ground, draw(ground, {line(rough, {{-1200.0, 0.0}, {1200.0, 0.0}})}));
+  const Grid<glm::vec3> picture =
+      painted(ground, draw(ground, {line(rough, {{-1200.0, 0.0}, {1200.0, 0.0}})}));
   std::vector<double> widths;
   for (int x = 100; x < 300; ++x) {
     double light = 0.0;
@@ -331,30 +369,36 @@ TEST(PaintFeatures, TheHandIsUnevenAndLiesOnTheSheet) {
 TEST(PaintFeatures, TreesAreClearedOnlyWhereALineNeedsIt) {
   const auto cliff = [](glm::dvec2 p) { return p.y > 60.0 ? 500.0 : 0.0; };
   const TestGround ground(cliff);
-  const DrawnFeatures drawn =
-      draw(ground, {line(road, {{-1200.0, 0.0}, {1200.0, 0.0}}), line(path, {{-1200.0, -600.0}, {1200.0, -600.0}})});
+  const DrawnFeatures drawn = draw(ground, {line(road, {{-1200.0, 0.0}, {1200.0, 0.0}}),
+                                            line(path, {{-1200.0, -600.0}, {1200.0, -600.0}})});
   const GuidanceBuffers guidance = ground.guidance();
   const Grid<std::uint8_t> cleared = find_cleared(drawn, guidance.depth_m, ground.sheet());
   const double row = ground.pixel({0.0, 0.0, 0.0}).y;
-  // 4 px of the road itself, 6 px of room beside it, 15 px below, where trees would stand before it.
+  // 4 px of the road itself, 6 px at its sides, 15 px below, where trees would stand in front of
+  // it.
   for (int y = 0; y < cleared.height(); ++y) {
     const double away = y + 0.5 - row;
     const bool needed = away > -9.5 && away < 18.5;
     const bool near_edge = std::abs(away + 10.0) < 1.0 || std::abs(away - 19.0) < 1.0;
-    const float farther = std::abs(guidance.depth_m(200, y) / guidance.depth_m(200, static_cast<int>(row)) - 1.F);
+    const float farther =
+        std::abs(guidance.depth_m(200, y) / guidance.depth_m(200, static_cast<int>(row)) - 1.F);
     if (near_edge || std::abs(farther - 0.04F) < 0.005F) continue;
-    EXPECT_EQ(cleared(200, y) != 0, needed && farther < 0.04F) << y << ", " << away << " px below the line, " << farther;
+    EXPECT_EQ(cleared(200, y) != 0, needed && farther < 0.04F)
+        << y << ", " << away << " px below the line, " << farther;
   }
   const PixelRect part{31, 77, 260, 208};
   Grid<float> depth(part.width(), part.height());
   for (int y = 0; y < depth.height(); ++y)
-    for (int x = 0; x < depth.width(); ++x) depth(x, y) = guidance.depth_m(part.x0 + x, part.y0 + y);
+    for (int x = 0; x < depth.width(); ++x)
+      depth(x, y) = guidance.depth_m(part.x0 + x, part.y0 + y);
   const Grid<std::uint8_t> window = find_cleared(drawn, depth, part);
   for (int y = 0; y < depth.height(); ++y)
-    for (int x = 0; x < depth.width(); ++x) ASSERT_EQ(window(x, y), cleared(part.x0 + x, part.y0 + y));
+    for (int x = 0; x < depth.width(); ++x)
+      ASSERT_EQ(window(x, y), cleared(part.x0 + x, part.y0 + y));
 }
 
-// Ground that is drawn higher or lower than it was traced takes its ways along, and the trees that they clear; what hangs in the air stays.
+// Ground that is drawn higher or lower than traced takes its roads along, and the cleared trees;
+// overhead objects stay.
 TEST(PaintFeatures, WaysGoAlongWithCrestsOfRock) {
   const TestGround ground = level();
   const DrawnFeatures drawn = draw(ground, {line(road, {{-1200.0, 0.0}, {1200.0, 0.0}})});
@@ -365,17 +409,20 @@ TEST(PaintFeatures, WaysGoAlongWithCrestsOfRock) {
     GuidanceBuffers guidance = ground.guidance();
     const Grid<float> depth = guidance.depth_m;
     for (int y = 0; y < 300; ++y)
-      for (int x = 0; x < 400; ++x) guidance.depth_m(x, y) = depth(x, std::clamp(y + rows(x, y), 0, 299));
+      for (int x = 0; x < 400; ++x)
+        guidance.depth_m(x, y) = depth(x, std::clamp(y + rows(x, y), 0, 299));
     Grid<glm::vec3> picture(400, 300, bare);
     const Grid<glm::vec3> base = picture;
     const Grid<float> none(400, 300, 0.F);
     const Grid<float> all(400, 300, 1.F);
-    paint_features(picture, features, {guidance, base, none, all, {}, &rows}, ground.sheet(), ground.sheet());
+    paint_features(picture, features, {guidance, base, none, all, {}, &rows}, ground.sheet(),
+                   ground.sheet());
     return std::pair(picture, find_cleared(features, guidance.depth_m, ground.sheet(), &rows));
   };
   const auto [plain, cleared] = shifted(drawn, 0, 0);
   EXPECT_EQ(differing(plain, painted(ground, drawn)), 0U);
-  const auto [moved, moved_cleared] = shifted(drawn, 140, -9);  // 140 rows up over two borders of tiles, 9 down
+  const auto [moved, moved_cleared] =
+      shifted(drawn, 140, -9);  // 140 rows up over two borders of tiles, 9 down
   std::size_t paint = 0;
   for (int y = 10; y < 290; ++y)
     for (const int x : {50, 120, 199, 200, 260, 390}) {
@@ -386,7 +433,8 @@ TEST(PaintFeatures, WaysGoAlongWithCrestsOfRock) {
       paint += moved(x, y) != bare ? 1 : 0;
     }
   EXPECT_GT(paint, 20U);
-  // A rope stays in its own rows; the ground behind it is farther there, so that none of it is hidden.
+  // A rope stays in its own rows; the ground behind it is farther there, so nothing of it is
+  // hidden.
   const auto [rope, rope_cleared] = shifted(cable, 0, -3);
   EXPECT_EQ(differing(rope, shifted(cable, 0, 0).first), 0U);
 }
@@ -399,7 +447,8 @@ TEST(PaintFeatures, GridsOfOtherSizesAreABug) {
         Grid<glm::vec3> picture(10, 10);
         const GuidanceBuffers guidance = ground.guidance();
         const Grid<float> grid(10, 10);
-        paint_features(picture, drawn, {guidance, picture, grid, grid, {}}, {0, 0, 10, 10}, {0, 0, 10, 10});
+        paint_features(picture, drawn, {guidance, picture, grid, grid, {}}, {0, 0, 10, 10},
+                       {0, 0, 10, 10});
       },
       Error);
 }

@@ -13,7 +13,8 @@
 
 namespace belvedere::test {
 
-// Ground of 10 m cells, 4 × 4 km around (0, 0), that an eye in the south looks at: its altitude is a function of the place.
+// Ground of 10 m cells, 4 × 4 km around (0, 0), viewed from the south: its altitude is a function
+// of the position.
 struct TestGround {
   static constexpr double cell_m = 10.0;
   static constexpr int cells = 401;
@@ -22,15 +23,16 @@ struct TestGround {
   std::unique_ptr<Camera> camera;
   std::unique_ptr<Tracer> tracer;
 
-  Grid<glm::vec2> goes_to;  // as widened valleys have it; empty: nothing moved
-  explicit TestGround(const std::function<double(glm::dvec2)>& altitude_m, glm::dvec3 eye = {0.0, -3000.0, 1500.0}, int width = 400,
-                      int height = 300) {
+  Grid<glm::vec2> goes_to;  // as for widened valleys; empty: nothing moved
+  explicit TestGround(const std::function<double(glm::dvec2)>& altitude_m,
+                      glm::dvec3 eye = {0.0, -3000.0, 1500.0}, int width = 400, int height = 300) {
     surface.origin = {eye.x, eye.y, 0.0};
     surface.vertices_m = Grid<glm::vec3>(cells, cells);
     for (int y = 0; y < cells; ++y)
       for (int x = 0; x < cells; ++x) {
-        const glm::dvec2 place = transform.to_crs(x, y);
-        surface.vertices_m(x, y) = glm::vec3(glm::dvec3(place, altitude_m(place)) - surface.origin);
+        const glm::dvec2 position = transform.to_crs(x, y);
+        surface.vertices_m(x, y) =
+            glm::vec3(glm::dvec3(position, altitude_m(position)) - surface.origin);
       }
     CameraParameters parameters;
     parameters.width = width;
@@ -45,7 +47,7 @@ struct TestGround {
   glm::dvec2 pixel(glm::dvec3 point) const { return *camera->project(point); }
   PixelRect sheet() const { return {0, 0, camera->size().x, camera->size().y}; }
 
-  // Depth of each pixel's middle, and an even light.
+  // Depth of each pixel's centre, and even light.
   GuidanceBuffers guidance() const {
     GuidanceBuffers out;
     const int width = camera->size().x;
@@ -66,11 +68,12 @@ struct TestGround {
   }
 };
 
-inline Feature line_feature(int kind, std::vector<glm::dvec2> places, const FeatureStyle& style) {
+inline Feature line_feature(int kind, std::vector<glm::dvec2> positions,
+                            const FeatureStyle& style) {
   Feature feature;
   feature.kind = kind;
   feature.shape = MapShape::line;
-  feature.parts = {std::move(places)};
+  feature.parts = {std::move(positions)};
   feature.width_mm = static_cast<float>(style.kinds[static_cast<std::size_t>(kind)].width_mm);
   feature.real_m = static_cast<float>(style.kinds[static_cast<std::size_t>(kind)].real_m);
   return feature;
@@ -85,8 +88,9 @@ inline FeatureSet set_of(FeatureStyle style, std::vector<Feature> features) {
 }
 
 // A picture of plain grey ground with the features painted on it.
-inline Grid<glm::vec3> painted(const TestGround& ground, const DrawnFeatures& drawn, PixelRect rect, PixelRect asked, float seen = 1.F,
-                               const Grid<float>& seen_hung = {}, PaintParts* parts = nullptr) {
+inline Grid<glm::vec3> painted(const TestGround& ground, const DrawnFeatures& drawn, PixelRect rect,
+                               PixelRect asked, float seen = 1.F,
+                               const Grid<float>& seen_overhead = {}, PaintParts* parts = nullptr) {
   const GuidanceBuffers all = ground.guidance();
   const int width = rect.width();
   const int height = rect.height();
@@ -104,10 +108,12 @@ inline Grid<glm::vec3> painted(const TestGround& ground, const DrawnFeatures& dr
   const Grid<glm::vec3> base = picture;
   const Grid<float> haze(width, height, 0.F);
   const Grid<float> ground_seen(width, height, seen);
-  paint_features(picture, drawn, {part, base, haze, ground_seen, seen_hung}, rect, asked, parts);
+  paint_features(picture, drawn, {part, base, haze, ground_seen, seen_overhead}, rect, asked,
+                 parts);
   return picture;
 }
-inline Grid<glm::vec3> painted(const TestGround& ground, const DrawnFeatures& drawn, float seen = 1.F) {
+inline Grid<glm::vec3> painted(const TestGround& ground, const DrawnFeatures& drawn,
+                               float seen = 1.F) {
   return painted(ground, drawn, ground.sheet(), ground.sheet(), seen);
 }
 

@@ -15,13 +15,16 @@ namespace {
 
 class FileBytes : public testing::Test {
  protected:
-  void SetUp() override { file_ = ::open(std::string(folder_ / "bytes").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666); }
+  void SetUp() override {
+    file_ = ::open(std::string(folder_ / "bytes").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  }
   void TearDown() override { ::close(file_); }
   test::Folder folder_;
   int file_ = -1;
 };
 
-constexpr std::array<std::byte, 5> word = {std::byte{'w'}, std::byte{'o'}, std::byte{'r'}, std::byte{'d'}, std::byte{'s'}};
+constexpr std::array<std::byte, 5> word = {std::byte{'w'}, std::byte{'o'}, std::byte{'r'},
+                                           std::byte{'d'}, std::byte{'s'}};
 
 TEST_F(FileBytes, ComeBackFromTheirPlace) {
   EXPECT_EQ(write_bytes_at(file_, word.data(), word.size(), 3), 0);

@@ -9,11 +9,11 @@
 namespace belvedere {
 namespace {
 
-// The rest of what tiles hold and forget is tested by the stages that keep them (stage_graph_test.cpp).
+// Other behaviour of tile stores is tested by the stages that use them (stage_graph_test.cpp).
 TEST(TileStore, AFolderThatCannotBeWrittenIsAnErrorOfTheOutput) {
   const std::string message = test::message_of(ErrorKind::output, [] {
-    TileStore::Place place{"/proc/nowhere", 0};
-    TileStore store(place, 10, 10, 8, {1});
+    TileStore::Place position{"/proc/nowhere", 0};
+    TileStore store(position, 10, 10, 8, {1});
     Grid<std::uint8_t> values(8, 8);
     store.put(0, 0, {0, 0, 8, 8}, {plane_of(values)});
   });
@@ -22,8 +22,8 @@ TEST(TileStore, AFolderThatCannotBeWrittenIsAnErrorOfTheOutput) {
 
 TEST(TileStore, PlanesAndPlacesThatAreNotTheTilesAreRefused) {
   const test::Folder folder;
-  TileStore::Place place{folder.path(), 1000};
-  TileStore store(place, 10, 10, 8, {1});
+  TileStore::Place position{folder.path(), 1000};
+  TileStore store(position, 10, 10, 8, {1});
   Grid<std::uint8_t> wrong(7, 8);
   test::message_of(ErrorKind::bug, [&] { store.put(0, 0, {0, 0, 8, 8}, {plane_of(wrong)}); });
   test::message_of(ErrorKind::bug, [&] { store.put(0, 0, {1, 0, 9, 8}, {plane_of(wrong)}); });

@@ -37,7 +37,7 @@ struct Told : Progress {
 
 class CachedProducts : public ::testing::Test {
  protected:
-  // Stages that had to be done for a world; what the cache has is none.
+  // Stages that had to run for a world; cached ones are not listed.
   std::vector<std::string> stages(const std::vector<std::string>& settings) const {
     Told told;
     const World world = make_world(small_scene(settings), told, cache_);
@@ -57,16 +57,21 @@ TEST_F(CachedProducts, StandInTheTableInTheirOrder) {
 }
 
 TEST_F(CachedProducts, KeysNameTheProgramAndAllThatIsGiven) {
-  const CacheKey key = make_cache_key(CachedProduct::land_cover, CacheKeyText().add("seed", 3), "karwendel");
-  EXPECT_THAT(key.text, AllOf(HasSubstr(program_version()), HasSubstr(hash_file("/proc/self/exe")), HasSubstr("format=2\nseed=3\n")));
-  EXPECT_NE(key.product, make_cache_key(CachedProduct::example_sheet, CacheKeyText().add("seed", 3), "karwendel").product);
+  const CacheKey key =
+      make_cache_key(CachedProduct::land_cover, CacheKeyText().add("seed", 3), "karwendel");
+  EXPECT_THAT(key.text, AllOf(HasSubstr(program_version()), HasSubstr(hash_file("/proc/self/exe")),
+                              HasSubstr("format=2\nseed=3\n")));
+  EXPECT_NE(key.product,
+            make_cache_key(CachedProduct::example_sheet, CacheKeyText().add("seed", 3), "karwendel")
+                .product);
 }
 
 TEST_F(CachedProducts, AreMadeOnceAndBringTheirRemarksAlong) {
   int made = 0;
   const auto get = [&](Progress& progress) {
     return cached<std::string>(
-        cache_, [] { return make_cache_key(CachedProduct::land_cover, CacheKeyText(), "test"); }, progress,
+        cache_, [] { return make_cache_key(CachedProduct::land_cover, CacheKeyText(), "test"); },
+        progress,
         [&](Progress& watcher) {
           ++made;
           watcher.begin("working", 1.0);
@@ -83,14 +88,15 @@ TEST_F(CachedProducts, AreMadeOnceAndBringTheirRemarksAlong) {
   EXPECT_THAT(second.stages, IsEmpty());
   EXPECT_THAT(first.notes, ElementsAre("something was filled"));
   EXPECT_EQ(second.notes, first.notes);
-  // Bytes that another format left under this key are none.
+  // Bytes that another format left under this key are ignored.
   cache_.store(make_cache_key(CachedProduct::land_cover, CacheKeyText(), "test"), Bytes(7), first);
   EXPECT_EQ(get(second), "value");
   EXPECT_EQ(made, 2);
 }
 
 TEST_F(CachedProducts, AWorldIsTheSameFromAColdOrAWarmCacheOrNone) {
-  const std::vector<std::string> settings = {"generalize.foreground=[1.4,0.8,0.6,1.2]", "generalize.background=[1,0.2,0.1,1]",
+  const std::vector<std::string> settings = {"generalize.foreground=[1.4,0.8,0.6,1.2]",
+                                             "generalize.background=[1,0.2,0.1,1]",
                                              "generalize.widen_valleys_m=700"};
   const World none = make_world(small_scene(settings), silent_progress());
   const World cold = make_world(small_scene(settings), silent_progress(), cache_);
@@ -116,15 +122,18 @@ TEST_F(CachedProducts, AWorldIsTheSameFromAColdOrAWarmCacheOrNone) {
   }
 }
 
-// They have no stage of their own to tell by: entries are counted, and what other land and another cover have is what they have uncached.
+// They report no stage of their own: entries are counted, and results for other land and another
+// cover are compared with uncached ones.
 TEST_F(CachedProducts, SurroundingsHangOnElevationAndLandCoverAlone) {
   const auto kept = [&] {
     const std::vector<CacheEntry> entries = cache_entries(folder_.path());
-    return std::count_if(entries.begin(), entries.end(),
-                         [](const CacheEntry& entry) { return entry.product == "surroundings of the ground"; });
+    return std::count_if(entries.begin(), entries.end(), [](const CacheEntry& entry) {
+      return entry.product == "surroundings of the ground";
+    });
   };
   const World first = make_world(small_scene(), silent_progress(), cache_);
-  for (const char* same : {"sun.altitude_deg=12", "camera.position=[6000, -4001]", "generalize.crest=0.5", "deform.exaggeration=1.3"}) {
+  for (const char* same : {"sun.altitude_deg=12", "camera.position=[6000, -4001]",
+                           "generalize.crest=0.5", "deform.exaggeration=1.3"}) {
     stages({same});
     EXPECT_EQ(kept(), 1) << same;
   }
@@ -140,7 +149,9 @@ TEST_F(CachedProducts, SurroundingsHangOnElevationAndLandCoverAlone) {
       EXPECT_EQ(world->terrain.flow, none.terrain.flow) << other;
       EXPECT_EQ(world->terrain.floor_plan.built, none.terrain.floor_plan.built) << other;
     }
-    EXPECT_FALSE(warm.terrain.floor_plan.built == first.terrain.floor_plan.built && warm.terrain.flow == first.terrain.flow) << other;
+    EXPECT_FALSE(warm.terrain.floor_plan.built == first.terrain.floor_plan.built &&
+                 warm.terrain.flow == first.terrain.flow)
+        << other;
   }
 }
 
@@ -160,36 +171,48 @@ TEST_F(CachedProducts, DamagedOnesAreMadeAgain) {
   EXPECT_THAT(stages({}), ElementsAre("building the ray tracer"));
 }
 
-// What each product hangs on, and what it does not.
+// What each product depends on, and what it does not.
 TEST_F(CachedProducts, AreFoundExactlyWhereAllThatGoesInIsTheSame) {
   stages({});
   const std::string tracer = "building the ray tracer";
-  for (const char* same : {"sun.altitude_deg=12", "output.width=48", "palette=autumn", "camera.pitch_deg=-30", "title=Hills",
-                           "deform.exaggeration=1.3", "light.sun=0.5", "synthesis.residual=0.5"})
+  for (const char* same :
+       {"sun.altitude_deg=12", "output.width=48", "palette=autumn", "camera.pitch_deg=-30",
+        "title=Hills", "deform.exaggeration=1.3", "light.sun=0.5", "synthesis.residual=0.5"})
     EXPECT_THAT(stages({same}), ElementsAre(tracer)) << same;
   for (const char* other : {"terrain.synthetic.seed=4", "terrain.synthetic.cell_m=99"})
-    EXPECT_THAT(stages({other}), ElementsAre("synthetic terrain", "class rules", "generalize", tracer)) << other;
-  // So small a map has summits lower than either: another terrain of the same heights, and so the same ground.
-  EXPECT_THAT(stages({"terrain.synthetic.highest_m=3300"}), ElementsAre("synthetic terrain", tracer));
-  for (const char* other : {"seed=2", "palette=winter", "land_cover.settings.treeline_m=1500",
-                            "land_cover.towns.0={ name = \"A\", position = [3000, 3000], radius_m = 400 }"})
+    EXPECT_THAT(stages({other}),
+                ElementsAre("synthetic terrain", "class rules", "generalize", tracer))
+        << other;
+  // So small a map has summits lower than either: another terrain with the same heights, and so the
+  // same ground.
+  EXPECT_THAT(stages({"terrain.synthetic.highest_m=3300"}),
+              ElementsAre("synthetic terrain", tracer));
+  for (const char* other :
+       {"seed=2", "palette=winter", "land_cover.settings.treeline_m=1500",
+        "land_cover.towns.0={ name = \"A\", position = [3000, 3000], radius_m = 400 }"})
     EXPECT_THAT(stages({other}), ElementsAre("class rules", tracer)) << other;
-  for (const char* other : {"generalize.crest=0.5", "camera.position=[6000, -4001]", "generalize.keep_lakes=false",
-                            "generalize.print_detail_px=2", "generalize.foreground_to_m=31000"})
+  for (const char* other :
+       {"generalize.crest=0.5", "camera.position=[6000, -4001]", "generalize.keep_lakes=false",
+        "generalize.print_detail_px=2", "generalize.foreground_to_m=31000"})
     EXPECT_THAT(stages({other}), ElementsAre("generalize", tracer)) << other;
   // What the print can show depends on camera and size.
-  for (const char* other : {"output.width=48", "camera.pitch_deg=-30", "deform.exaggeration=1.3", "camera.field_of_view_deg=40"})
-    EXPECT_THAT(stages({"generalize.print_detail_px=2", other}), ElementsAre("generalize", tracer)) << other;
+  for (const char* other : {"output.width=48", "camera.pitch_deg=-30", "deform.exaggeration=1.3",
+                            "camera.field_of_view_deg=40"})
+    EXPECT_THAT(stages({"generalize.print_detail_px=2", other}), ElementsAre("generalize", tracer))
+        << other;
 }
 
 // The same name, size and time, other contents.
 TEST_F(CachedProducts, FilesCountByWhatIsInThem) {
   const test::Folder scene_folder("scene");
-  Raster<float> raster{Grid<float>(64, 64, 900.F), {500000.0, 5200000.0, 100.0, 100.0}, normalize_crs("EPSG:32632")};
+  Raster<float> raster{
+      Grid<float>(64, 64, 900.F), {500000.0, 5200000.0, 100.0, 100.0}, normalize_crs("EPSG:32632")};
   for (int y = 0; y < 64; ++y)
-    for (int x = 0; x < 64; ++x) raster.cells(x, y) += static_cast<float>(20 * ((x * 7 + y * 5) % 40));
+    for (int x = 0; x < 64; ++x)
+      raster.cells(x, y) += static_cast<float>(20 * ((x * 7 + y * 5) % 40));
   const LoadedScene scene = parse_scene(
-      "version = 1\n[[terrain.sources]]\nfile = \"dem.asc\"\n[camera]\nposition = [503000, 5190000]\nheight_m = 9000\n[output]\nwidth "
+      "version = 1\n[[terrain.sources]]\nfile = \"dem.asc\"\n[camera]\nposition = [503000, "
+      "5190000]\nheight_m = 9000\n[output]\nwidth "
       "= 64\nheight = 64\n",
       "s.toml", scene_folder.path(), {});
   const std::string file = scene_folder / "dem.asc";

@@ -24,15 +24,16 @@ Dem make_valley() {
   dem.transform = {0.0, valley_cells * valley_cell_m, valley_cell_m, valley_cell_m};
   for (int y = 0; y < valley_cells; ++y)
     for (int x = 0; x < valley_cells; ++x)
-      dem.altitude_m(x, y) = 900.0F - 1.2F * static_cast<float>(y) + 6.0F * std::abs(static_cast<float>(x) - 59.5F);
+      dem.altitude_m(x, y) =
+          900.0F - 1.2F * static_cast<float>(y) + 6.0F * std::abs(static_cast<float>(x) - 59.5F);
   return dem;
 }
 
 MapRivers one_river() {
   MapRivers rivers;
-  rivers.lines.push_back({.places = {{6300.0, 11800.0}, {6200.0, 6000.0}, {6300.0, 300.0}},
+  rivers.lines.push_back({.positions = {{6300.0, 11800.0}, {6200.0, 6000.0}, {6300.0, 300.0}},
                           .width_m = 0.0,
-                          .least_width_m = 20.0,
+                          .min_width_m = 20.0,
                           .snap_m = 800.0,
                           .group = 1});
   rivers.looks.resize(2);
@@ -52,11 +53,14 @@ std::unique_ptr<Camera> camera_at(double altitude_m) {
 
 class LaidRivers : public testing::Test {
  protected:
-  std::vector<CoverCourse> laid(double least_px, const Camera* camera = nullptr, const Cache& cache = no_cache()) const {
-    std::vector<CoverCourse> rivers = lay_rivers(one_river(), scene_, valley_, silent_progress(), cache);
+  std::vector<CoverRiver> laid(double min_px, const Camera* camera = nullptr,
+                               const Cache& cache = no_cache()) const {
+    std::vector<CoverRiver> rivers =
+        lay_rivers(one_river(), scene_, valley_, silent_progress(), cache);
     const Deformation flat;
-    for (CoverCourse& river : rivers)
-      if (camera != nullptr) river = widen_for_view(river, {.least_px = least_px}, valley_, {*camera, flat});
+    for (CoverRiver& river : rivers)
+      if (camera != nullptr)
+        river = widen_for_view(river, {.min_px = min_px}, valley_, {*camera, flat});
     return rivers;
   }
   test::Folder folder_;
@@ -64,40 +68,42 @@ class LaidRivers : public testing::Test {
   LoadedScene scene_ = parse_scene("version = 1\n", "mine.toml", folder_.path(), {});
 };
 
-float widest(const std::vector<CoverCourse>& courses) {
-  return *std::max_element(courses[0].half_width_m.begin(), courses[0].half_width_m.end());
+float widest(const std::vector<CoverRiver>& centrelines) {
+  return *std::max_element(centrelines[0].half_width_m.begin(), centrelines[0].half_width_m.end());
 }
 
 TEST_F(LaidRivers, RunAlongTheBottomOfTheirValley) {
-  const std::vector<CoverCourse> courses = laid(0.0);
-  ASSERT_EQ(courses.size(), 1U);
-  EXPECT_EQ(courses[0].painted_as, LandCoverClass::water);
-  EXPECT_EQ(courses[0].rank, 7.0F);
-  for (const glm::dvec2 place : courses[0].places) {
-    if (place.y < 1500.0 || place.y > 10500.0) continue;
-    EXPECT_NEAR(place.x, 6000.0, valley_cell_m) << place.y;
+  const std::vector<CoverRiver> centrelines = laid(0.0);
+  ASSERT_EQ(centrelines.size(), 1U);
+  EXPECT_EQ(centrelines[0].painted_as, LandCoverClass::water);
+  EXPECT_EQ(centrelines[0].rank, 7.0F);
+  for (const glm::dvec2 position : centrelines[0].positions) {
+    if (position.y < 1500.0 || position.y > 10500.0) continue;
+    EXPECT_NEAR(position.x, 6000.0, valley_cell_m) << position.y;
   }
 }
 
 TEST_F(LaidRivers, AreWidenedWhereTheyWouldBreakIntoDotsAndUpToThreeTimes) {
   const float own = widest(laid(2.0));
-  // Straight down with 50° over 1000 pixels: a pixel is .93 m of each km below the eye.
+  // Straight down with 50° over 1000 pixels: a pixel covers .93 m per km of height.
   const auto near = camera_at(3000.0);
   EXPECT_EQ(widest(laid(2.0, near.get())), own) << "some ten pixels wide as it is";
   const auto far = camera_at(60000.0);
-  EXPECT_NEAR(widest(laid(0.75 * 2.0F * own / 55.2, far.get())), own, 0.01F) << "asked for less than it has";
+  EXPECT_NEAR(widest(laid(0.75 * 2.0F * own / 55.2, far.get())), own, 0.01F)
+      << "the minimum is below its own width";
   EXPECT_NEAR(widest(laid(2.0 * 2.0 * own / 55.2, far.get())), 2.0F * own, 0.06F * own);
   EXPECT_NEAR(widest(laid(50.0, far.get())), 3.0F * own, 0.01F);
 }
 
-TEST_F(LaidRivers, GuessedOnesFadeBeforeTheyBreakIntoDots) {
-  CoverCourse brook;
-  for (int y = 0; y < 100; ++y) brook.places.emplace_back(6000.0, 9000.0 - 50.0 * y), brook.half_width_m.push_back(10.F);
+TEST_F(LaidRivers, InferredOnesFadeBeforeTheyBreakIntoDots) {
+  CoverRiver brook;
+  for (int y = 0; y < 100; ++y)
+    brook.positions.emplace_back(6000.0, 9000.0 - 50.0 * y), brook.half_width_m.push_back(10.F);
   const Deformation flat;
   const auto far = camera_at(60000.0);
-  // 55 m to the pixel.
-  const auto half_m = [&](double least_px, bool fades) {
-    const CoverCourse drawn = widen_for_view(brook, {least_px, fades}, valley_, {*far, flat});
+  // 55 m per pixel.
+  const auto half_m = [&](double min_px, bool fades) {
+    const CoverRiver drawn = widen_for_view(brook, {min_px, fades}, valley_, {*far, flat});
     return *std::max_element(drawn.half_width_m.begin(), drawn.half_width_m.end());
   };
   EXPECT_NEAR(half_m(0.2, true), 10.F, 0.01F);
@@ -107,28 +113,31 @@ TEST_F(LaidRivers, GuessedOnesFadeBeforeTheyBreakIntoDots) {
   EXPECT_NEAR(half_m(5.0, false), 30.F, 0.1F) << "a map's stays";
 }
 
-TEST_F(LaidRivers, GuessedOnesAreWiderBelowTheirTributariesAlsoFromAfar) {
+TEST_F(LaidRivers, InferredOnesAreWiderBelowTheirTributariesAlsoFromAfar) {
   const Deformation flat;
   const auto far = camera_at(60000.0);
   const auto half_m = [&](float own_m, bool fades) {
-    CoverCourse river;
-    for (int y = 0; y < 100; ++y) river.places.emplace_back(6000.0, 9000.0 - 50.0 * y), river.half_width_m.push_back(own_m);
-    const CoverCourse drawn = widen_for_view(river, {.least_px = 1.5, .fades = fades}, valley_, {*far, flat});
+    CoverRiver river;
+    for (int y = 0; y < 100; ++y)
+      river.positions.emplace_back(6000.0, 9000.0 - 50.0 * y), river.half_width_m.push_back(own_m);
+    const CoverRiver drawn =
+        widen_for_view(river, {.min_px = 1.5, .fades = fades}, valley_, {*far, flat});
     return *std::max_element(drawn.half_width_m.begin(), drawn.half_width_m.end());
   };
-  // 41 m each way are least_px.
+  // 41 m in each direction are min_px.
   EXPECT_GT(half_m(40.F, true), 1.3F * half_m(20.F, true));
-  EXPECT_NEAR(half_m(40.F, false), half_m(20.F, false), 0.1F) << "a map says itself which rivers are large";
+  EXPECT_NEAR(half_m(40.F, false), half_m(20.F, false), 0.1F)
+      << "a map gives the sizes of its rivers";
 }
 
 TEST_F(LaidRivers, AreTheSameFromTheCache) {
   const Cache cache({.folder = folder_ / "cache", .limit_bytes = 0});
-  const std::vector<CoverCourse> first = laid(0.0, nullptr, cache);
-  const std::vector<CoverCourse> again = laid(0.0, nullptr, cache);
+  const std::vector<CoverRiver> first = laid(0.0, nullptr, cache);
+  const std::vector<CoverRiver> again = laid(0.0, nullptr, cache);
   ASSERT_EQ(first.size(), again.size());
-  EXPECT_EQ(first[0].places, again[0].places);
+  EXPECT_EQ(first[0].positions, again[0].positions);
   EXPECT_EQ(first[0].half_width_m, again[0].half_width_m);
-  EXPECT_EQ(first[0].places, laid(0.0)[0].places);
+  EXPECT_EQ(first[0].positions, laid(0.0)[0].positions);
 }
 
 }  // namespace

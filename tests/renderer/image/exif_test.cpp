@@ -11,15 +11,20 @@ namespace {
 std::vector<std::uint8_t> bytes_of(std::string_view text) { return {text.begin(), text.end()}; }
 
 TEST(Exif, ReadsWhatItWrites) {
-  const ExifTags tags{.description = "first line\nsecond: \\ line", .software = "Belvedere", .dots_per_inch = 301.5};
+  const ExifTags tags{.description = "first line\nsecond: \\ line",
+                      .software = "Belvedere",
+                      .dots_per_inch = 301.5};
   EXPECT_EQ(read_exif(write_exif(tags)), tags);
   EXPECT_EQ(read_exif(write_exif({})), ExifTags{});
-  const ExifTags short_words{.description = "abc", .software = "x", .dots_per_inch = 0.0};  // short enough to stand in their entries
+  const ExifTags short_words{.description = "abc",
+                             .software = "x",
+                             .dots_per_inch = 0.0};  // short enough to stand in their entries
   EXPECT_EQ(read_exif(write_exif(short_words)), short_words);
 }
 
 TEST(Exif, BytesAreThoseOfTheStandard) {
-  // TIFF 6.0, section 2: head, number of entries, (tag, type, count, value or its offset) …, 0, then the values.
+  // TIFF 6.0, section 2: head, number of entries, (tag, type, count, value or its offset) …, 0,
+  // then the values.
   const std::string_view expected(
       "II*\0\x08\0\0\0"
       "\x03\0"
@@ -30,7 +35,8 @@ TEST(Exif, BytesAreThoseOfTheStandard) {
       "\xc0\xc6\x2d\0\x10\x27\0\0"
       "\xc0\xc6\x2d\0\x10\x27\0\0",
       66);
-  EXPECT_EQ(write_exif({.description = {}, .software = {}, .dots_per_inch = 300.0}), bytes_of(expected));
+  EXPECT_EQ(write_exif({.description = {}, .software = {}, .dots_per_inch = 300.0}),
+            bytes_of(expected));
 }
 
 TEST(Exif, ReadsBigEndianAndCentimetres) {
@@ -49,15 +55,18 @@ TEST(Exif, ReadsBigEndianAndCentimetres) {
 }
 
 TEST(Exif, DamagedBytesSayNothingOrLess) {
-  const std::vector<std::uint8_t> whole = write_exif({.description = "some words", .software = "a program", .dots_per_inch = 72.0});
+  const std::vector<std::uint8_t> whole =
+      write_exif({.description = "some words", .software = "a program", .dots_per_inch = 72.0});
   for (std::size_t size = 0; size < whole.size(); ++size) {
-    const ExifTags tags = read_exif({whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)});
+    const ExifTags tags =
+        read_exif({whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)});
     EXPECT_TRUE(tags.description.empty() || tags.description == "some words") << size;
   }
   for (std::size_t at = 4; at < whole.size(); ++at) {
     std::vector<std::uint8_t> bytes = whole;
     bytes[at] = 0xff;
-    read_exif(bytes);  // offsets and counts beyond the end: the sanitizers would see a step out of bounds
+    read_exif(bytes);  // offsets and counts beyond the end: the sanitizers would report an access
+                       // out of bounds
   }
 }
 

@@ -28,11 +28,15 @@ float uniform(int x, int y, std::uint64_t draw, double low, double high) {
 // Every channel of the table, with values of its kind all over the range of its type.
 template <class T>
 T some_value(const GuidanceChannel& channel, int x, int y, std::uint64_t draw) {
-  const glm::vec3 v(uniform(x, y, draw, -1e4, 1e4), uniform(x, y, draw + 1, -1e4, 1e4), uniform(x, y, draw + 2, -1e4, 1e4));
-  if (channel.kind == ChannelKind::class_id) return value_of<T>(glm::vec3(static_cast<float>((x + y) % land_cover_class_count), 0.F, 0.F));
-  if (channel.type == ChannelStorage::uint32) return value_of<T>(glm::vec3(std::abs(v.x), 0.F, 0.F));
+  const glm::vec3 v(uniform(x, y, draw, -1e4, 1e4), uniform(x, y, draw + 1, -1e4, 1e4),
+                    uniform(x, y, draw + 2, -1e4, 1e4));
+  if (channel.kind == ChannelKind::class_id)
+    return value_of<T>(glm::vec3(static_cast<float>((x + y) % land_cover_class_count), 0.F, 0.F));
+  if (channel.type == ChannelStorage::uint32)
+    return value_of<T>(glm::vec3(std::abs(v.x), 0.F, 0.F));
   if constexpr (std::is_same_v<T, glm::vec2> || std::is_same_v<T, glm::vec3>) {
-    if (channel.kind == ChannelKind::direction) return x == 1 ? T(0.F) : glm::normalize(value_of<T>(v));
+    if (channel.kind == ChannelKind::direction)
+      return x == 1 ? T(0.F) : glm::normalize(value_of<T>(v));
   }
   return value_of<T>(v);
 }
@@ -47,7 +51,9 @@ GuidanceBuffers make_guidance(int width, int height) {
         [&](auto member) {
           auto& grid = g.*member;
           for (int y = 0; y < height; ++y)
-            for (int x = 0; x < width; ++x) grid(x, y) = some_value<typename std::decay_t<decltype(grid)>::value_type>(channel, x, y, draw);
+            for (int x = 0; x < width; ++x)
+              grid(x, y) = some_value<typename std::decay_t<decltype(grid)>::value_type>(channel, x,
+                                                                                         y, draw);
         },
         channel.member);
   }
@@ -55,14 +61,16 @@ GuidanceBuffers make_guidance(int width, int height) {
   return g;
 }
 
-// Half keeps 11 bits: a relative error of 2^-11 at most, half of that when rounded; float and ids come back as they were.
+// Half keeps 11 bits: a relative error of 2^-11 at most, half of that when rounded; float and ids
+// come back as they were.
 template <class T>
 bool same_in_file(const T& a, const T& b, ChannelStorage type) {
   if constexpr (std::is_same_v<T, float>) {
     return a == b || (type == ChannelStorage::half && std::abs(a - b) <= 0x1p-11F * std::abs(a));
   } else if constexpr (std::is_same_v<T, glm::vec2> || std::is_same_v<T, glm::vec3>) {
     for (int c = 0; c < T::length(); ++c)
-      if (std::abs(a[c] - b[c]) > (type == ChannelStorage::half ? 0x1p-10F * glm::length(a) : 0.F)) return false;
+      if (std::abs(a[c] - b[c]) > (type == ChannelStorage::half ? 0x1p-10F * glm::length(a) : 0.F))
+        return false;
     return true;
   } else {
     return a == b;
@@ -79,7 +87,8 @@ TEST(GuidanceIo, EveryChannelComesBack) {
         [&](auto member) {
           ASSERT_TRUE((r.*member).same_size(g.*member)) << channel.names[0];
           for (std::size_t i = 0; i < (g.*member).size(); ++i)
-            ASSERT_TRUE(same_in_file((g.*member)[i], (r.*member)[i], channel.type)) << channel.names[0] << " " << i;
+            ASSERT_TRUE(same_in_file((g.*member)[i], (r.*member)[i], channel.type))
+                << channel.names[0] << " " << i;
         },
         channel.member);
   }
@@ -114,7 +123,8 @@ TEST(GuidanceIo, HeaderNamesChannelsTypesAndClasses) {
 
 TEST(GuidanceIo, RefusesAVectorWithoutOneOfItsComponents) {
   const Folder folder("guidance");
-  ExrWriter writer(folder / "half.exr", 2, 1, {{"normal", {{"N.X", ChannelType::half}, {"N.Z", ChannelType::half}}}}, {});
+  ExrWriter writer(folder / "half.exr", 2, 1,
+                   {{"normal", {{"N.X", ChannelType::half}, {"N.Z", ChannelType::half}}}}, {});
   writer.write_rows(0, 0, 1, {0.F, 1.F, 0.F, 1.F});
   writer.finish();
   try {
@@ -132,7 +142,7 @@ TEST(GuidanceIo, StreamedIsTheSameFile) {
   write_guidance(folder / "whole.exr", g, {});
   GuidanceWriter writer(folder / "streamed.exr", 70, 200, {});
   writer.write_rows(g, 0, 128, 0);
-  // The rest comes from buffers with a margin of their own.
+  // The rest is taken from buffers with a margin.
   GuidanceBuffers lower = make_guidance(70, 200);
   writer.write_rows(lower, 128, 72, 128);
   writer.finish();
@@ -167,8 +177,11 @@ TEST(GuidanceIo, RefusesWhatIsNone) {
   write_exr(folder / "picture.exr", Image(3, 3), {});
   EXPECT_EQ(kind("picture.exr"), ErrorKind::input);
   EXPECT_EQ(kind("absent.exr"), ErrorKind::input);
-  ExrWriter writer(folder / "id.exr", 2, 1, {{"class", {{"landcover.id", ChannelType::uint32}}}}, {});
-  writer.write_rows(0, 0, 1, {std::bit_cast<float>(3u), std::bit_cast<float>(static_cast<std::uint32_t>(land_cover_class_count))});
+  ExrWriter writer(folder / "id.exr", 2, 1, {{"class", {{"landcover.id", ChannelType::uint32}}}},
+                   {});
+  writer.write_rows(0, 0, 1,
+                    {std::bit_cast<float>(3u),
+                     std::bit_cast<float>(static_cast<std::uint32_t>(land_cover_class_count))});
   writer.finish();
   EXPECT_EQ(kind("id.exr"), ErrorKind::input);
 }

@@ -36,7 +36,8 @@ class MemoryVariable {
   MemoryVariable& operator=(const MemoryVariable&) = delete;
 };
 
-// --- pictures ------------------------------------------------------------------------------------------------------------------------
+// --- pictures
+// ------------------------------------------------------------------------------------------------------------------------
 
 TEST(Tiff, RoundsToTheNearestStepAndReadsBack) {
   const Folder folder("tiff");
@@ -50,7 +51,9 @@ TEST(Tiff, RoundsToTheNearestStepAndReadsBack) {
   EXPECT_EQ(again(1, 0), glm::vec3(0.0f, 1.0f / 65535.0f, 1.0f));
   for (std::size_t i = 2; i < picture.size(); ++i) {
     for (int c = 0; c < 3; ++c) {
-      ASSERT_EQ(std::lround(again[i][c] * 65535.0), std::lround(static_cast<double>(picture[i][c]) * 65535.0)) << i;
+      ASSERT_EQ(std::lround(again[i][c] * 65535.0),
+                std::lround(static_cast<double>(picture[i][c]) * 65535.0))
+          << i;
     }
   }
 }
@@ -64,7 +67,8 @@ TEST(Tiff, CarriesResolutionProfileAndNotes) {
   for (const bool png : {false, true}) {
     const std::string path = folder / (png ? "a.png" : "a.tif");
     if (png) options.icc_profile.clear();  // libpng checks profiles; icc_test embeds a true one
-    png ? write_png8(path, random_picture(20, 10), options) : write_tiff16(path, random_picture(20, 10), options);
+    png ? write_png8(path, random_picture(20, 10), options)
+        : write_tiff16(path, random_picture(20, 10), options);
     const ImageInfo info = read_image_info(path);
     EXPECT_EQ(info.format, png ? "png" : "tiff");
     EXPECT_EQ(info.width, 20);
@@ -85,7 +89,7 @@ TEST(Tiff, SameBytesForAnyThreads) {
     const ThreadLimit one(1);
     write_tiff16(folder / "one.tif", picture, {});
   }
-  ::sleep(1);  // another second must not show either
+  ::sleep(1);  // the time must not show either
   write_tiff16(folder / "two.tif", picture, {});
   EXPECT_EQ(test::read_bytes(folder / "one.tif"), test::read_bytes(folder / "two.tif"));
 }
@@ -111,7 +115,9 @@ TEST(Png, RoundsToTheNearestStepAndReadsBack) {
   const Grid<glm::vec3> again = read_picture(folder / "a.png");
   EXPECT_EQ(again(0, 0), glm::vec3(0.0f, 1.0f, 1.0f / 255.0f));
   for (std::size_t i = 1; i < picture.size(); ++i) {
-    for (int c = 0; c < 3; ++c) ASSERT_EQ(std::lround(again[i][c] * 255.0), std::lround(static_cast<double>(picture[i][c]) * 255.0));
+    for (int c = 0; c < 3; ++c)
+      ASSERT_EQ(std::lround(again[i][c] * 255.0),
+                std::lround(static_cast<double>(picture[i][c]) * 255.0));
   }
 }
 
@@ -128,7 +134,8 @@ TEST(Exr, PictureReadsBackAsHalf) {
 
 TEST(ReadPicture, AlphaDoesNotTouchColours) {
   const Folder folder("png");
-  test::write_bytes(folder / "rgba.png", test::make_png(2, 1, 8, 6, "\x64\xc8\x32\x00\x64\xc8\x32\x80"s));
+  test::write_bytes(folder / "rgba.png",
+                    test::make_png(2, 1, 8, 6, "\x64\xc8\x32\x00\x64\xc8\x32\x80"s));
   Grid<float> alpha;
   Grid<glm::vec3> picture = read_picture(folder / "rgba.png", &alpha);
   for (int x = 0; x < 2; ++x) {
@@ -187,7 +194,10 @@ TEST(ReadGrey, PaletteThatWasWrittenGivesItsNumbersAndColours) {
   const Grid<std::uint8_t> two(5, 3, 1);  // of two colours a file packs eight pixels into a byte
   image_io::write_palette_png(folder / "2.png", two, {{0, 0, 0}, {9, 9, 9}});
   EXPECT_THAT(read_grey(folder / "2.png"), testing::Each(1));
-  EXPECT_EQ(kind_of([&] { image_io::write_palette_png(folder / "gone/x.png", two, {{0, 0, 0}, {9, 9, 9}}); }), ErrorKind::output);
+  EXPECT_EQ(kind_of([&] {
+              image_io::write_palette_png(folder / "gone/x.png", two, {{0, 0, 0}, {9, 9, 9}});
+            }),
+            ErrorKind::output);
 }
 
 TEST(ReadGrey, RefusesColour) {
@@ -196,16 +206,23 @@ TEST(ReadGrey, RefusesColour) {
   EXPECT_EQ(kind_of([&] { read_grey(folder / "rgb.png"); }), ErrorKind::input);
 }
 
-// --- damaged, hostile, foreign ---------------------------------------------------------------------------------------------------
+// --- damaged, hostile, foreign
+// ---------------------------------------------------------------------------------------------------
 
 // 32 × 32 grey, quality 60, by the Independent JPEG Group's encoder.
 const std::string jpeg_bytes(
-    "\xff\xd8\xff\xe0\x00\x10\x4a\x46\x49\x46\x00\x01\x01\x00\x00\x01\x00\x01\x00\x00\xff\xdb\x00\x43\x00\x0d\x09\x0a\x0b\x0a\x08\x0d"
-    "\x0b\x0a\x0b\x0e\x0e\x0d\x0f\x13\x20\x15\x13\x12\x12\x13\x27\x1c\x1e\x17\x20\x2e\x29\x31\x30\x2e\x29\x2d\x2c\x33\x3a\x4a\x3e\x33"
-    "\x36\x46\x37\x2c\x2d\x40\x57\x41\x46\x4c\x4e\x52\x53\x52\x32\x3e\x5a\x61\x5a\x50\x60\x4a\x51\x52\x4f\xff\xc0\x00\x0b\x08\x00\x20"
-    "\x00\x20\x01\x01\x11\x00\xff\xc4\x00\x16\x00\x01\x01\x01\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x04\x05\x07\xff\xc4"
-    "\x00\x16\x10\x01\x01\x01\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x03\x00\x61\xff\xda\x00\x08\x01\x01\x00\x00\x3f\x00"
-    "\xcf\xc4\x32\x78\x86\x4f\x10\xc9\xe2\x19\x46\x10\xc9\xe2\x19\x3c\x43\x27\x08\x65\x1c\x43\x27\x08\x64\xf1\x0c\x9e\x21\x94\x61\x0c"
+    "\xff\xd8\xff\xe0\x00\x10\x4a\x46\x49\x46\x00\x01\x01\x00\x00\x01\x00\x01\x00\x00\xff\xdb\x00"
+    "\x43\x00\x0d\x09\x0a\x0b\x0a\x08\x0d"
+    "\x0b\x0a\x0b\x0e\x0e\x0d\x0f\x13\x20\x15\x13\x12\x12\x13\x27\x1c\x1e\x17\x20\x2e\x29\x31\x30"
+    "\x2e\x29\x2d\x2c\x33\x3a\x4a\x3e\x33"
+    "\x36\x46\x37\x2c\x2d\x40\x57\x41\x46\x4c\x4e\x52\x53\x52\x32\x3e\x5a\x61\x5a\x50\x60\x4a\x51"
+    "\x52\x4f\xff\xc0\x00\x0b\x08\x00\x20"
+    "\x00\x20\x01\x01\x11\x00\xff\xc4\x00\x16\x00\x01\x01\x01\x00\x00\x00\x00\x00\x00\x00\x00\x00"
+    "\x00\x00\x00\x00\x04\x05\x07\xff\xc4"
+    "\x00\x16\x10\x01\x01\x01\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x03\x00\x61\xff"
+    "\xda\x00\x08\x01\x01\x00\x00\x3f\x00"
+    "\xcf\xc4\x32\x78\x86\x4f\x10\xc9\xe2\x19\x46\x10\xc9\xe2\x19\x3c\x43\x27\x08\x65\x1c\x43\x27"
+    "\x08\x64\xf1\x0c\x9e\x21\x94\x61\x0c"
     "\x9e\x21\x93\xc4\x32\x78\x86\x5f\xff\xd9",
     202);
 TEST(ReadPicture, TruncatedFilesAreFound) {
@@ -215,21 +232,25 @@ TEST(ReadPicture, TruncatedFilesAreFound) {
   const Grid<glm::vec3> picture = random_picture(300, 300);
   write_tiff16(folder / "own.tif", picture, {});
   write_png8(folder / "own.png", picture, {});
-  const std::vector<std::pair<std::string, std::string>> files = {{"a.tif", test::make_tiff(40, 40, rows)},
-                                                                  {"b.tif", test::read_bytes(folder / "own.tif")},
-                                                                  {"c.png", test::make_png(40, 40, 8, 0, rows)},
-                                                                  {"d.png", test::read_bytes(folder / "own.png")},
-                                                                  {"e.png", test::make_png(40, 40, 8, 3, rows, std::string(768, 'x'))},
-                                                                  {"f.jpg", jpeg_bytes}};
+  const std::vector<std::pair<std::string, std::string>> files = {
+      {"a.tif", test::make_tiff(40, 40, rows)},
+      {"b.tif", test::read_bytes(folder / "own.tif")},
+      {"c.png", test::make_png(40, 40, 8, 0, rows)},
+      {"d.png", test::read_bytes(folder / "own.png")},
+      {"e.png", test::make_png(40, 40, 8, 3, rows, std::string(768, 'x'))},
+      {"f.jpg", jpeg_bytes}};
   for (const auto& [name, whole] : files) {
     test::write_bytes(folder / name, whole);
     EXPECT_NO_THROW(read_picture(folder / name)) << name;
     for (const double part : {0.0, 0.02, 0.1, 0.5, 0.9, 0.995}) {
       test::write_bytes(folder / name,
-                        std::string_view(whole).substr(0, static_cast<std::size_t>(part * static_cast<double>(whole.size()))));
-      EXPECT_EQ(kind_of([path = folder / name] { read_picture(path); }), ErrorKind::input) << name << " cut to " << part;
+                        std::string_view(whole).substr(
+                            0, static_cast<std::size_t>(part * static_cast<double>(whole.size()))));
+      EXPECT_EQ(kind_of([path = folder / name] { read_picture(path); }), ErrorKind::input)
+          << name << " cut to " << part;
       if (!name.ends_with("jpg")) {
-        EXPECT_EQ(kind_of([path = folder / name] { read_grey(path); }), ErrorKind::input) << name << " cut to " << part;
+        EXPECT_EQ(kind_of([path = folder / name] { read_grey(path); }), ErrorKind::input)
+            << name << " cut to " << part;
       }
     }
   }
@@ -241,7 +262,8 @@ TEST(ReadPicture, JpegIsReadWhole) {
   const Grid<glm::vec3> picture = read_picture(folder / "a.jpg");
   ASSERT_EQ(picture.height(), 32);
   for (int y = 0; y < 32; ++y) {
-    for (int x = 0; x < 32; ++x) ASSERT_NEAR(picture(x, y).x * 255.0, (4 * y + 3 * x) % 256, 8.0) << x << " " << y;
+    for (int x = 0; x < 32; ++x)
+      ASSERT_NEAR(picture(x, y).x * 255.0, (4 * y + 3 * x) % 256, 8.0) << x << " " << y;
   }
 }
 
@@ -259,7 +281,8 @@ TEST(ReadPicture, HugeClaimsAreRefusedBeforeAllocating) {
   EXPECT_EQ(kind_of([&] { read_grey(folder / "p.png"); }), ErrorKind::limit);
   EXPECT_EQ(kind_of([&] { read_channel(folder / "a.exr", "Z"); }), ErrorKind::limit);
   EXPECT_EQ(kind_of([&] { read_channel(folder / "max.exr", "Z"); }), ErrorKind::limit);
-  EXPECT_EQ(read_image_info(folder / "a.exr").width, 95000) << "looking at the header costs nothing";
+  EXPECT_EQ(read_image_info(folder / "a.exr").width, 95000)
+      << "looking at the header costs nothing";
 }
 
 TEST(ReadPicture, KeepsToTheMemoryGiven) {
@@ -286,7 +309,8 @@ TEST(ReadPicture, NamesWhatIsNoPicture) {
   EXPECT_EQ(read_image_info(folder / "png.tif").format, "png");
 }
 
-// --- output that fails -----------------------------------------------------------------------------------------------------------
+// --- output that fails
+// -----------------------------------------------------------------------------------------------------------
 
 TEST(Output, FullDiskLeavesTheOldFileWhole) {
   const Folder folder("full");
@@ -307,7 +331,8 @@ TEST(Output, FullDiskLeavesTheOldFileWhole) {
     // In the first byte, in the middle, and in the last byte.
     for (const rlim_t limit : {rlim_t{0}, size / 2, size - 1}) {
       const SmallDisk disk(limit);
-      EXPECT_EQ(kind_of([&, w = &write, n = &name] { (*w)(folder / *n); }), ErrorKind::output) << name << " " << limit;
+      EXPECT_EQ(kind_of([&, w = &write, n = &name] { (*w)(folder / *n); }), ErrorKind::output)
+          << name << " " << limit;
       EXPECT_EQ(test::read_bytes(folder / name), "old") << name << " " << limit;
       EXPECT_EQ(folder.count(), files) << "the temporary file is removed";
     }
@@ -320,10 +345,13 @@ TEST(Output, PlacesWhereNothingCanBeWritten) {
   const Folder folder("place");
   test::write_bytes(folder / "file", "x");
   const Grid<glm::vec3> picture(2, 2);
-  for (const std::string& place : {folder / "file/a", folder / "absent/a", "/proc/a"s}) {
-    EXPECT_EQ(kind_of([&] { write_tiff16(place + ".tif", picture, {}); }), ErrorKind::output) << place;
-    EXPECT_EQ(kind_of([&] { write_png8(place + ".png", picture, {}); }), ErrorKind::output) << place;
-    EXPECT_EQ(kind_of([&] { write_exr(place + ".exr", picture, {}); }), ErrorKind::output) << place;
+  for (const std::string& position : {folder / "file/a", folder / "absent/a", "/proc/a"s}) {
+    EXPECT_EQ(kind_of([&] { write_tiff16(position + ".tif", picture, {}); }), ErrorKind::output)
+        << position;
+    EXPECT_EQ(kind_of([&] { write_png8(position + ".png", picture, {}); }), ErrorKind::output)
+        << position;
+    EXPECT_EQ(kind_of([&] { write_exr(position + ".exr", picture, {}); }), ErrorKind::output)
+        << position;
   }
   EXPECT_EQ(kind_of([&] { check_output_folder(folder / "file/below"); }), ErrorKind::output);
   EXPECT_EQ(kind_of([&] { check_output_folder("/proc/self"); }), ErrorKind::output);
@@ -345,7 +373,8 @@ TEST(GreyPng, NumbersComeBackAsTheyWere) {
   ASSERT_EQ(read.width(), 256);
   ASSERT_EQ(read.height(), 3);
   for (std::size_t i = 0; i < grey.size(); ++i) EXPECT_EQ(read[i], grey[i]);
-  test::message_of(ErrorKind::output, [&] { image_io::write_grey_png(folder / "gone/g.png", grey); });
+  test::message_of(ErrorKind::output,
+                   [&] { image_io::write_grey_png(folder / "gone/g.png", grey); });
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
-#include "renderer/image/color.h"
+#include "renderer/image/display_conversion.h"
 #include "tests/files.h"
 #include "tests/renderer/image/random_picture.h"
 
@@ -16,13 +16,15 @@ namespace {
 using test::Folder;
 using test::random_picture;
 
-void write_jxl16(const std::string& path, const Grid<glm::vec3>& encoded, const PictureFileOptions& options) {
+void write_jxl16(const std::string& path, const Grid<glm::vec3>& encoded,
+                 const PictureFileOptions& options) {
   write_whole(*open_jxl16(path, encoded.width(), encoded.height(), options), encoded);
 }
 
 TEST(Jxl, KeepsEveryValueAndRoundsToTheNearest) {
   const Folder folder("jxl");
-  Grid<glm::vec3> picture = random_picture(530, 270);  // three groups of 256 across, the last one cut
+  Grid<glm::vec3> picture =
+      random_picture(530, 270);  // three groups of 256 across, the last one cut
   picture(1, 0) = glm::vec3(0.49F / 65535.0F, 0.51F / 65535.0F, 1.0F);
   write_jxl16(folder / "a.jxl", picture, {});
   const Grid<glm::vec3> again = read_jxl_picture(folder / "a.jxl", nullptr);
@@ -30,7 +32,9 @@ TEST(Jxl, KeepsEveryValueAndRoundsToTheNearest) {
   EXPECT_EQ(again(1, 0), glm::vec3(0.0F, 1.0F / 65535.0F, 1.0F));
   for (std::size_t i = 0; i < picture.size(); ++i)
     for (int c = 0; c < 3; ++c)
-      ASSERT_EQ(std::lround(again[i][c] * 65535.0), std::lround(static_cast<double>(picture[i][c]) * 65535.0)) << i;
+      ASSERT_EQ(std::lround(again[i][c] * 65535.0),
+                std::lround(static_cast<double>(picture[i][c]) * 65535.0))
+          << i;
 }
 
 TEST(Jxl, WithoutAProfileItIsMarkedSrgb) {

@@ -17,7 +17,10 @@ class LabelImage : public testing::Test {
     for (int y = 0; y < 16; ++y)
       for (int x = 0; x < 20; ++x) {
         const std::string mixed = x == 9 ? "\xaa\x30\x55" : "\x55\x30\xaa";
-        rows += y >= 12 ? third : x < 9 ? std::string("\xff\0\0", 3) : x > 10 ? std::string("\0\0\xff", 3) : mixed;
+        rows += y >= 12  ? third
+                : x < 9  ? std::string("\xff\0\0", 3)
+                : x > 10 ? std::string("\0\0\xff", 3)
+                         : mixed;
       }
     return write(name, 2, rows);
   }
@@ -31,13 +34,15 @@ class LabelImage : public testing::Test {
 
 TEST_F(LabelImage, ColoursThatAreTheSameAreTheSameLabelInEveryFile) {
   const std::string green("\0\xff\0", 3);
-  const LabelImages images = read_label_images({draw("a.png", green), draw("b.png", std::string("\0\0\xff", 3))});
+  const LabelImages images =
+      read_label_images({draw("a.png", green), draw("b.png", std::string("\0\0\xff", 3))});
   ASSERT_EQ(images.colours.size(), 3U);
   EXPECT_EQ(images.colours[0], (Rgb8{0, 0, 255}));
   EXPECT_EQ(images.colours[1], (Rgb8{0, 255, 0}));
   EXPECT_EQ(images.colours[2], (Rgb8{255, 0, 0}));
   for (int x = 0; x < 20; ++x) {
-    EXPECT_EQ(images.labels[0](x, 4), x < 10 ? 2 : 0) << x;  // each half of the soft edge goes to its side
+    EXPECT_EQ(images.labels[0](x, 4), x < 10 ? 2 : 0)
+        << x;  // each half of the soft edge goes to its side
     EXPECT_EQ(images.labels[0](x, 15), 1) << x;
     EXPECT_EQ(images.labels[1](x, 15), 0) << x;
   }

@@ -1,4 +1,5 @@
-// Files that appear whole or not at all. What writers of pictures make of full disks and forbidden places stands in image_io_test.cpp.
+// Files that appear complete or not at all. How writers of pictures handle full disks and forbidden
+// folders is tested in image_io_test.cpp.
 #include "renderer/image/output_file.h"
 
 #include <gmock/gmock.h>
@@ -21,7 +22,9 @@ using testing::Not;
 
 class OutputFiles : public testing::Test {
  protected:
-  std::string refused(const std::function<void()>& f) const { return test::message_of(ErrorKind::output, f); }
+  std::string refused(const std::function<void()>& f) const {
+    return test::message_of(ErrorKind::output, f);
+  }
   test::Folder folder_;
 };
 
@@ -51,7 +54,8 @@ TEST_F(OutputFiles, WhatIsNotCommittedLeavesNothing) {
 }
 
 TEST_F(OutputFiles, AreTriedAtOnce) {
-  EXPECT_THAT(refused([&] { OutputFile file(folder_ / "none/a.tif"); }), AllOf(HasSubstr("none/a.tif"), HasSubstr("No such file")));
+  EXPECT_THAT(refused([&] { OutputFile file(folder_ / "none/a.tif"); }),
+              AllOf(HasSubstr("none/a.tif"), HasSubstr("No such file")));
   EXPECT_THAT(refused([&] { OutputFile file(folder_.path() + "/"); }), HasSubstr("is a folder"));
 }
 
@@ -59,7 +63,8 @@ TEST_F(OutputFiles, AFolderOfTheNameIsNotReplaced) {
   fs::create_directories(folder_ / "a.tif");
   {
     OutputFile file(folder_ / "a.tif");
-    EXPECT_THAT(refused([&] { file.commit(); }), AllOf(HasSubstr("a.tif"), HasSubstr("cannot be replaced")));
+    EXPECT_THAT(refused([&] { file.commit(); }),
+                AllOf(HasSubstr("a.tif"), HasSubstr("cannot be replaced")));
   }
   EXPECT_TRUE(fs::is_directory(folder_ / "a.tif"));
   EXPECT_EQ(folder_.count(), 1U);
@@ -68,7 +73,8 @@ TEST_F(OutputFiles, AFolderOfTheNameIsNotReplaced) {
 TEST_F(OutputFiles, AFailureNamesTheFileAndTheFirstReason) {
   const OutputFile file(folder_ / "a.tif");
   EXPECT_THAT(refused([&] { file.fail("strip 3 is bad\nstrip 4 is bad"); }),
-              AllOf(HasSubstr("a.tif: cannot be written"), HasSubstr("strip 3"), Not(HasSubstr("a.tmp.tif")), Not(HasSubstr("strip 4"))));
+              AllOf(HasSubstr("a.tif: cannot be written"), HasSubstr("strip 3"),
+                    Not(HasSubstr("a.tmp.tif")), Not(HasSubstr("strip 4"))));
 }
 
 TEST_F(OutputFiles, FoldersAreMadeAndLeftEmpty) {
@@ -76,7 +82,8 @@ TEST_F(OutputFiles, FoldersAreMadeAndLeftEmpty) {
   EXPECT_TRUE(fs::is_directory(folder_ / "new/below"));
   EXPECT_TRUE(fs::is_empty(folder_ / "new/below"));
   folder_.write("file", "in the way");
-  EXPECT_THAT(refused([&] { check_output_folder(folder_ / "file/below"); }), HasSubstr("file/below"));
+  EXPECT_THAT(refused([&] { check_output_folder(folder_ / "file/below"); }),
+              HasSubstr("file/below"));
   EXPECT_THAT(refused([&] { check_output_folder("/proc/self"); }), HasSubstr("/proc/self"));
 }
 

@@ -17,13 +17,16 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-// 20 × 10 pixels of depth (float), tone (half) and class (ids), each by place.
-std::string write_buffers(const test::Folder& folder, const std::string& name, const std::function<float(int)>& depth,
-                          const std::function<float(int)>& tone, const std::function<std::uint32_t(int)>& id) {
+// 20 × 10 pixels of depth (float), tone (half) and class (ids), each by position.
+std::string write_buffers(const test::Folder& folder, const std::string& name,
+                          const std::function<float(int)>& depth,
+                          const std::function<float(int)>& tone,
+                          const std::function<std::uint32_t(int)>& id) {
   std::string path = folder / (name + ".exr");
-  ExrWriter writer(
-      path, 20, 10,
-      {{"depth", {{"Z", ChannelType::float32}, {"tone.V", ChannelType::half}}}, {"class", {{"landcover.id", ChannelType::uint32}}}}, {});
+  ExrWriter writer(path, 20, 10,
+                   {{"depth", {{"Z", ChannelType::float32}, {"tone.V", ChannelType::half}}},
+                    {"class", {{"landcover.id", ChannelType::uint32}}}},
+                   {});
   std::vector<float> values;
   std::vector<float> ids;
   for (int i = 0; i < 200; ++i) {
@@ -52,10 +55,11 @@ TEST(PictureDiff, FiguresOfAKnownDifference) {
   const std::string a = write_buffers(folder, "a", ramp, half, classes);
   // Depth differs by 3 and 4 at two of 200 pixels, the class at ten.
   const std::string b = write_buffers(
-      folder, "b", [](int i) { return static_cast<float>(i) + (i == 20    ? 3.F
-                                                               : i == 120 ? -4.F
-                                                                          : 0.F); }, half,
-      [](int i) { return static_cast<std::uint32_t>(i % 7 + (i % 20 == 0 ? 1 : 0)); });
+      folder, "b",
+      [](int i) {
+        return static_cast<float>(i) + (i == 20 ? 3.F : i == 120 ? -4.F : 0.F);
+      },
+      half, [](int i) { return static_cast<std::uint32_t>(i % 7 + (i % 20 == 0 ? 1 : 0)); });
   const PictureDifference difference = compare_pictures(a, b);
   EXPECT_TRUE(difference.mismatches.empty());
   EXPECT_EQ(difference.width, 20);
@@ -83,7 +87,8 @@ TEST(PictureDiff, SkyIsEqualToSkyAndInfinitelyFarFromLand) {
   const test::Folder folder;
   const std::string a = write_buffers(folder, "sky", sky_above, half, classes);
   EXPECT_TRUE(is_same(compare_pictures(a, a), {}));
-  const PictureDifference difference = compare_pictures(a, write_buffers(folder, "land", ramp, half, classes));
+  const PictureDifference difference =
+      compare_pictures(a, write_buffers(folder, "land", ramp, half, classes));
   EXPECT_EQ(channel(difference, "Z").max, infinity);
   EXPECT_DOUBLE_EQ(channel(difference, "Z").differing_share, 0.25);
   EXPECT_FALSE(is_same(difference, {.mean = 1e300, .max = 1e300}));
@@ -93,7 +98,8 @@ TEST(PictureDiff, ChannelsThatOneLacksAreAMismatch) {
   const test::Folder folder;
   const std::string a = write_buffers(folder, "both", ramp, half, classes);
   const std::string b = folder / "one.exr";
-  ExrWriter writer(b, 20, 10, {{"depth", {{"Z", ChannelType::float32}, {"extra", ChannelType::half}}}}, {});
+  ExrWriter writer(b, 20, 10,
+                   {{"depth", {{"Z", ChannelType::float32}, {"extra", ChannelType::half}}}}, {});
   std::vector<float> values;
   for (int i = 0; i < 200; ++i) values.insert(values.end(), {ramp(i), 0.F});
   writer.write_rows(0, 0, 10, values);
@@ -107,7 +113,8 @@ TEST(PictureDiff, ChannelsThatOneLacksAreAMismatch) {
 TEST(PictureDiff, FormatsOfEqualValuesAreEqual) {
   const test::Folder folder;
   Grid<glm::vec3> picture(30, 20);
-  for (std::size_t i = 0; i < picture.size(); ++i) picture[i] = glm::vec3(static_cast<float>(i % 256) / 255.F, 0.F, 1.F);
+  for (std::size_t i = 0; i < picture.size(); ++i)
+    picture[i] = glm::vec3(static_cast<float>(i % 256) / 255.F, 0.F, 1.F);
   const std::string png = folder / "picture.png";
   const std::string tiff = folder / "picture.tif";
   write_png8(png, picture, {});
@@ -127,7 +134,8 @@ TEST(PictureDiff, OtherSizesAndMissingFiles) {
   const std::string b = folder / "s2.png";
   write_png8(a, Grid<glm::vec3>(5, 5), {});
   write_png8(b, Grid<glm::vec3>(5, 6), {});
-  EXPECT_THAT(compare_pictures(a, b).mismatches, ::testing::ElementsAre("5 × 5 pixels against 5 × 6"));
+  EXPECT_THAT(compare_pictures(a, b).mismatches,
+              ::testing::ElementsAre("5 × 5 pixels against 5 × 6"));
   EXPECT_THROW(compare_pictures(a, "/nowhere/x.png"), Error);
 }
 

@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/random.h"
-#include "renderer/image/color.h"
+#include "renderer/image/display_conversion.h"
 #include "renderer/image/image_io.h"
 #include "tests/files.h"
 #include "tests/renderer/image/random_picture.h"
@@ -21,13 +21,15 @@ namespace {
 using test::Folder;
 using test::random_picture;
 
-void write_as(const PictureFormat& format, const std::string& path, const Grid<glm::vec3>& picture, const PictureFileOptions& options) {
+void write_as(const PictureFormat& format, const std::string& path, const Grid<glm::vec3>& picture,
+              const PictureFileOptions& options) {
   write_whole(*format.open(path, picture.width(), picture.height(), options), picture);
 }
 
 TEST(PictureFormats, WhatIsWrittenReadsBackAsTheRowSays) {
   const Folder folder("formats");
-  const Grid<glm::vec3> picture = random_picture(300, 139);  // several tiles or groups of each format, the last ones cut
+  const Grid<glm::vec3> picture =
+      random_picture(300, 139);  // several tiles or groups of each format, the last ones cut
   PictureFileOptions options;
   options.dots_per_inch = 301.5;
   options.icc_profile = srgb_profile();
@@ -35,7 +37,7 @@ TEST(PictureFormats, WhatIsWrittenReadsBackAsTheRowSays) {
   for (const PictureFormat& format : picture_formats()) {
     if (format.open == nullptr) continue;
     SCOPED_TRACE(format.title);
-    const std::string path = folder / ("a." + std::string(format.ending));
+    const std::string path = folder / ("a." + std::string(format.extension));
     write_as(format, path, picture, options);
     EXPECT_EQ(&format_of_file(path), &format);
     const ImageInfo info = read_image_info(path);
@@ -44,7 +46,9 @@ TEST(PictureFormats, WhatIsWrittenReadsBackAsTheRowSays) {
     EXPECT_EQ(info.height, 139);
     ASSERT_EQ(info.parts.size(), 1u);
     ASSERT_EQ(info.parts[0].channels.size(), 3u);
-    const ChannelType type = format.linear ? ChannelType::half : format.bits == 16 ? ChannelType::uint16 : ChannelType::uint8;
+    const ChannelType type = format.linear       ? ChannelType::half
+                             : format.bits == 16 ? ChannelType::uint16
+                                                 : ChannelType::uint8;
     EXPECT_EQ(info.parts[0].channels[0].type, type);
     EXPECT_EQ(info.icc_profile, format.profile ? options.icc_profile : std::vector<std::uint8_t>{});
     EXPECT_NEAR(info.dots_per_inch, format.resolution ? 301.5 : 0.0, 0.02);
@@ -73,8 +77,8 @@ TEST(PictureFormats, SameBytesForAnyThreads) {
   options.icc_profile = srgb_profile();
   for (const PictureFormat& format : picture_formats()) {
     if (format.open == nullptr) continue;
-    const std::string one = folder / ("one." + std::string(format.ending));
-    const std::string all = folder / ("all." + std::string(format.ending));
+    const std::string one = folder / ("one." + std::string(format.extension));
+    const std::string all = folder / ("all." + std::string(format.extension));
     {
       const ThreadLimit single(1);
       write_as(format, one, picture, options);
@@ -91,24 +95,26 @@ TEST(PictureFormats, OddPixelsAreCutAndCutOffFilesFound) {
   for (const PictureFormat& format : picture_formats()) {
     if (format.open == nullptr) continue;
     SCOPED_TRACE(format.title);
-    const std::string path = folder / ("a." + std::string(format.ending));
+    const std::string path = folder / ("a." + std::string(format.extension));
     write_as(format, path, picture, {});
     if (!format.linear) {
       EXPECT_EQ(read_picture(path)(0, 0), glm::vec3(0.0F, 1.0F, 0.0F));
     }
     const std::string whole = test::read_bytes(path);
     for (const double share : {0.3, 0.7, 0.95}) {
-      test::write_bytes(path, whole.substr(0, static_cast<std::size_t>(share * static_cast<double>(whole.size()))));
+      test::write_bytes(
+          path,
+          whole.substr(0, static_cast<std::size_t>(share * static_cast<double>(whole.size()))));
       EXPECT_THROW(read_picture(path), Error) << share;
     }
   }
 }
 
 TEST(PictureFormats, EndingsAndNamesAreThereOnce) {
-  std::set<std::string_view> endings;
+  std::set<std::string_view> extensions;
   std::set<std::string_view> names;
   for (const PictureFormat& format : picture_formats()) {
-    EXPECT_TRUE(endings.insert(format.ending).second) << format.ending;
+    EXPECT_TRUE(extensions.insert(format.extension).second) << format.extension;
     EXPECT_TRUE(names.insert(format.name).second) << format.name;
     EXPECT_EQ(format.open == nullptr, format.meaning.empty()) << format.title;
   }
@@ -117,23 +123,24 @@ TEST(PictureFormats, EndingsAndNamesAreThereOnce) {
 TEST(PictureFormats, TheBytesDecideAndNotTheName) {
   const Folder folder("formats");
   write_png8(folder / "named.tif", random_picture(9, 9), {});
-  EXPECT_EQ(format_of_file(folder / "named.tif").ending, "png");
+  EXPECT_EQ(format_of_file(folder / "named.tif").extension, "png");
   test::write_bytes(folder / "no.png", "nothing that is a picture");
   try {
     format_of_file(folder / "no.png");
     ADD_FAILURE() << "it was accepted";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::input);
-    for (const PictureFormat& format : picture_formats()) EXPECT_THAT(error.allowed(), testing::HasSubstr(std::string(format.title)));
+    for (const PictureFormat& format : picture_formats())
+      EXPECT_THAT(error.allowed(), testing::HasSubstr(std::string(format.title)));
   }
 }
 
-// What a row promises before anything is written, so that a print is planned with it.
+// Memory that a writer promises before anything is written, so that a print can be planned with it.
 TEST(PictureFormats, OnlyThoseThatPackPicturesWholeGrowWithTheHeight) {
   for (const PictureFormat& format : picture_formats()) {
     if (format.open == nullptr) continue;
     const double high = format.writer_bytes(40000, 16000);
-    if (format.ending == "jxl") {
+    if (format.extension == "jxl") {
       EXPECT_EQ(high, 90.0 * 40000 * 16000);
     } else {
       EXPECT_EQ(high, format.writer_bytes(40000, 100)) << format.title;

@@ -13,14 +13,16 @@ namespace {
 
 Grid<glm::vec3> picture() {
   Grid<glm::vec3> out(21, 13);
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = {static_cast<float>(i % 256) / 255.F, 0.2F, static_cast<float>(i % 7) / 255.F};
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = {static_cast<float>(i % 256) / 255.F, 0.2F, static_cast<float>(i % 7) / 255.F};
   return out;
 }
 
 TEST(PictureHash, IsOfPixelsAndNotOfTheFile) {
   const test::Folder folder;
   write_png8(folder / "a.png", picture(), {});
-  write_png8(folder / "b.png", picture(), {.dots_per_inch = 300.0, .icc_profile = {}, .notes = {{"made", "otherwise"}}});
+  write_png8(folder / "b.png", picture(),
+             {.dots_per_inch = 300.0, .icc_profile = {}, .notes = {{"made", "otherwise"}}});
   ASSERT_NE(test::read_bytes(folder / "a.png"), test::read_bytes(folder / "b.png"));
   const PictureHash a = hash_picture(folder / "a.png");
   EXPECT_EQ(a.whole, hash_picture(folder / "b.png").whole);
@@ -48,10 +50,12 @@ TEST(PictureHash, OnePixelAndTheSizeCount) {
   EXPECT_NE(hash_picture(folder / "c.png").whole, hash_picture(folder / "d.png").whole);
 }
 
-// By hand: two pixels' values as the bytes a file would hold them in.
+// By hand: two pixels' values as the bytes in a file.
 TEST(PictureHash, OfAnExrIsThatOfEachChannelsBits) {
   const test::Folder folder;
-  ExrWriter writer(folder / "a.exr", 2, 1, {{"part", {{"Z", ChannelType::float32}, {"landcover.id", ChannelType::uint32}}}}, {});
+  ExrWriter writer(folder / "a.exr", 2, 1,
+                   {{"part", {{"Z", ChannelType::float32}, {"landcover.id", ChannelType::uint32}}}},
+                   {});
   writer.write_rows(0, 0, 1, {1.F, std::bit_cast<float>(7U), -2.F, std::bit_cast<float>(300U)});
   writer.finish();
   const PictureHash hash = hash_picture(folder / "a.exr");
@@ -59,12 +63,14 @@ TEST(PictureHash, OfAnExrIsThatOfEachChannelsBits) {
   EXPECT_EQ(hash.channels[0].channel, "Z");
   EXPECT_EQ(hash.channels[0].hash, hash_bytes(std::string("\0\0\x80\x3f\0\0\0\xc0", 8)));
   EXPECT_EQ(hash.channels[1].hash, hash_bytes(std::string("\x07\0\0\0\x2c\x01\0\0", 8)));
-  EXPECT_EQ(hash.whole, hash_bytes("2 1\nZ " + hash.channels[0].hash + "\nlandcover.id " + hash.channels[1].hash + "\n"));
+  EXPECT_EQ(hash.whole, hash_bytes("2 1\nZ " + hash.channels[0].hash + "\nlandcover.id " +
+                                   hash.channels[1].hash + "\n"));
 }
 
 TEST(PictureHash, WhatIsNoPictureIsRefused) {
   const test::Folder folder;
-  EXPECT_EQ(test::error_of([&] { hash_picture(folder.write("a.png", "text")); }).kind(), ErrorKind::input);
+  EXPECT_EQ(test::error_of([&] { hash_picture(folder.write("a.png", "text")); }).kind(),
+            ErrorKind::input);
 }
 
 }  // namespace

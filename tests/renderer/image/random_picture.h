@@ -13,7 +13,9 @@ inline Grid<glm::vec3> random_picture(int width, int height, std::uint64_t seed 
   Grid<glm::vec3> out(width, height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
-      for (int c = 0; c < 3; ++c) out(x, y)[c] = static_cast<float>(random_uniform(seed, x, y, static_cast<std::uint64_t>(c)));
+      for (int c = 0; c < 3; ++c)
+        out(x, y)[c] =
+            static_cast<float>(random_uniform(seed, x, y, static_cast<std::uint64_t>(c)));
   return out;
 }
 

@@ -6,10 +6,10 @@
 
 namespace belvedere::test {
 
-// What Debian draws text with; tests of widths and shapes skip where it is missing.
+// The font that Debian draws text with; tests of widths and shapes are skipped where it is missing.
 inline constexpr const char* sans = "DejaVu Sans";
 
-// Words along a line that bends.
+// Words along a curved line.
 inline DrawnText bent(const std::string& words, double spacing = 0.0) {
   return {.text = words,
           .type = {.family = sans, .size_px = 40.0, .spacing = spacing},

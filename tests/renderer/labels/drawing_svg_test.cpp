@@ -23,10 +23,16 @@ std::string svg_of(const DrawnText& text) { return shapes_svg({text}); }
 
 TEST(DrawingSvg, SaysTextAsTextAndTurnsItsLetters) {
   Drawing drawing{.size_px = {200, 100}, .shapes = {}};
-  drawing.shapes.push_back(DrawnText{.text = "Inn & Co", .type = {}, .at = {10, 20}, .anchor = 1.0, .colour = "#102030"});
-  drawing.shapes.push_back(
-      DrawnText{.text = "Tal", .type = {}, .colour = "#102030", .halo = "#ffffff", .halo_px = 2.0, .along = {{0, 50}, {100, 40}}});
-  drawing.shapes.push_back(DrawnPath{.points = {{0, 0}, {1, 0}, {1, 1}}, .closed = true, .fill = "#ff0000", .stroke = {}});
+  drawing.shapes.push_back(DrawnText{
+      .text = "Inn & Co", .type = {}, .at = {10, 20}, .anchor = 1.0, .colour = "#102030"});
+  drawing.shapes.push_back(DrawnText{.text = "Tal",
+                                     .type = {},
+                                     .colour = "#102030",
+                                     .halo = "#ffffff",
+                                     .halo_px = 2.0,
+                                     .along = {{0, 50}, {100, 40}}});
+  drawing.shapes.push_back(DrawnPath{
+      .points = {{0, 0}, {1, 0}, {1, 1}}, .closed = true, .fill = "#ff0000", .stroke = {}});
   const std::string svg = drawing_svg(drawing, 400.0);
   EXPECT_THAT(svg, HasSubstr("width=\"400.000mm\" height=\"200.000mm\""));
   EXPECT_THAT(svg, HasSubstr("text-anchor=\"end\">Inn &amp; Co</text>"));
@@ -60,7 +66,8 @@ TEST(DrawingSvg, LettersThatHangTogetherAreOneOutline) {
 
 Grid<glm::vec3> drawn_by_librsvg(const test::Folder& folder, const Drawing& drawing) {
   folder.write("a.svg", drawing_svg(drawing, drawing.size_px.x * 25.4 / 96.0));
-  const std::string command = "rsvg-convert --background-color=white -o '" + (folder / "a.png") + "' '" + (folder / "a.svg") + "'";
+  const std::string command = "rsvg-convert --background-color=white -o '" + (folder / "a.png") +
+                              "' '" + (folder / "a.svg") + "'";
   EXPECT_EQ(std::system(command.c_str()), 0);
   const auto file = OIIO::ImageInput::open(folder / "a.png");
   if (!file) return {};
@@ -68,17 +75,22 @@ Grid<glm::vec3> drawn_by_librsvg(const test::Folder& folder, const Drawing& draw
   std::vector<float> values(pixels.size() * static_cast<std::size_t>(file->spec().nchannels));
   EXPECT_TRUE(file->read_image(0, 0, 0, -1, OIIO::TypeDesc::FLOAT, values.data()));
   for (std::size_t i = 0; i < pixels.size(); ++i)
-    for (int c = 0; c < 3; ++c) pixels[i][c] = values[i * static_cast<std::size_t>(file->spec().nchannels) + static_cast<std::size_t>(c)];
+    for (int c = 0; c < 3; ++c)
+      pixels[i][c] = values[i * static_cast<std::size_t>(file->spec().nchannels) +
+                            static_cast<std::size_t>(c)];
   return pixels;
 }
 
-// An independent program shows what the picture shows: straight and bent, spaced, with halos, in several scripts.
+// An independent program shows the same as the picture: straight and curved, spaced, with halos, in
+// several scripts.
 TEST(DrawingSvg, LibrsvgDrawsWhatThePictureHas) {
   const TextMeasure measure;
   if (measure.family_of({.family = sans}) != sans) GTEST_SKIP() << "DejaVu is not installed";
-  if (std::system("command -v rsvg-convert > /dev/null") != 0) GTEST_SKIP() << "needs librsvg's program rsvg-convert (librsvg2-bin)";
+  if (std::system("command -v rsvg-convert > /dev/null") != 0)
+    GTEST_SKIP() << "needs librsvg's program rsvg-convert (librsvg2-bin)";
   const test::Folder folder;
-  for (const DrawnText& text : {bent("Karwendeltal"), bent("INNTAL", 0.6), bent("הר חרמון"), bent("جبل الشيخ"), bent("Ćićarija")}) {
+  for (const DrawnText& text : {bent("Karwendeltal"), bent("INNTAL", 0.6), bent("הר חרמון"),
+                                bent("جبل الشيخ"), bent("Ćićarija")}) {
     const Drawing drawing{.size_px = {600, 220}, .shapes = {text}};
     const Grid<glm::vec3> theirs = drawn_by_librsvg(folder, drawing);
     ASSERT_EQ(theirs.width(), 600) << text.text;

@@ -16,15 +16,16 @@ LabelSheet one_label(const std::string& name) {
   LabelPoint point;
   point.name = name;
   point.altitude_m = 2749.0;
-  point.place = {680000.0, 5250000.0};
+  point.position = {680000.0, 5250000.0};
   point.where = "peaks.csv:2";
   LabelMark mark;
-  mark.drawn_place = {680100.0, 5250000.0};
+  mark.drawn_position = {680100.0, 5250000.0};
   mark.dem_altitude_m = 2731.25;
   mark.pixel = {1000.0, 400.0};
   mark.distance_m = 31234.5;
   mark.state = MarkState::seen;
-  return make_labels({point}, {mark}, std::vector<double>(2000, 0.0), load_label_style("classic"), {2000, 800}, 1000.0);
+  return make_labels({point}, {mark}, std::vector<double>(2000, 0.0), load_label_style("classic"),
+                     {2000, 800}, 1000.0);
 }
 
 TEST(LabelFiles, SvgIsTheSheetInMillimetresWithTextAsText) {
@@ -52,21 +53,21 @@ TEST(LabelFiles, TheTableHasEveryPoint) {
   sheet.labels[1].mark.state = MarkState::outside_terrain;
   sheet.labels[1].mark.dem_altitude_m = NAN;
   const std::string csv = labels_csv(sheet);
-  EXPECT_THAT(
-      csv,
-      HasSubstr(
-          "\"A; \"\"B\"\"\",summit,5,placed,1000.00,400.00,31234,2749.0,2731.2,680000.00,5250000.00,680100.00,5250000.00,,peaks.csv:2\n"));
+  EXPECT_THAT(csv, HasSubstr("\"A; "
+                             "\"\"B\"\"\",summit,5,placed,1000.00,400.00,31234,2749.0,2731.2,"
+                             "680000.00,5250000.00,680100.00,5250000.00,,peaks.csv:2\n"));
   EXPECT_THAT(csv, HasSubstr("C,summit,5,outside the terrain,,,,2749.0,,"));
 }
 
 TEST(LabelFiles, GeoJsonSpeaksLongitudeAndLatitude) {
   const std::string json = labels_geojson(one_label("A"), normalize_crs("EPSG:32632"));
-  const glm::dvec2 place = transform_point("EPSG:32632", "EPSG:4326", {680100.0, 5250000.0});
+  const glm::dvec2 position = transform_point("EPSG:32632", "EPSG:4326", {680100.0, 5250000.0});
   char text[64];
-  std::snprintf(text, sizeof text, "%.7f", place.x);
+  std::snprintf(text, sizeof text, "%.7f", position.x);
   EXPECT_THAT(json, HasSubstr(text));
   EXPECT_THAT(json, HasSubstr("\"outcome\": \"placed\""));
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [] { labels_geojson(one_label("A"), ""); }), HasSubstr("no CRS"));
+  EXPECT_THAT(test::message_of(ErrorKind::usage, [] { labels_geojson(one_label("A"), ""); }),
+              HasSubstr("no CRS"));
 }
 
 }  // namespace

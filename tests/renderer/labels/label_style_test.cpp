@@ -15,14 +15,16 @@ TEST(LabelStyle, TheClassicOneKnowsTheWordsOfMaps) {
   const LabelStyle style = load_label_style("classic");
   EXPECT_EQ(style.find("summit"), 0) << "points that say nothing are summits";
   EXPECT_EQ(style.find("Peak"), 0);
-  EXPECT_EQ(style.kinds[static_cast<std::size_t>(style.find("village"))].place, LabelPlace::beside);
-  EXPECT_EQ(style.kinds[static_cast<std::size_t>(style.find("reservoir"))].place, LabelPlace::over);
+  EXPECT_EQ(style.kinds[static_cast<std::size_t>(style.find("village"))].position,
+            LabelPlace::beside);
+  EXPECT_EQ(style.kinds[static_cast<std::size_t>(style.find("reservoir"))].position,
+            LabelPlace::over);
   EXPECT_EQ(style.find("spaceport"), -1);
 }
 
 TEST(LabelStyle, ReadsEveryKey) {
   const LabelStyle style = parse_label_style(R"(version = 1
-least_px = 9
+min_px = 9
 row_mm = 7
 [kinds.hut]
 also = ["shelter"]
@@ -43,7 +45,7 @@ climb_m = 30
                                              "mine.toml");
   ASSERT_EQ(style.kinds.size(), 1U);
   const LabelKindStyle& hut = style.kinds[0];
-  EXPECT_EQ(style.least_px, 9.0);
+  EXPECT_EQ(style.min_px, 9.0);
   EXPECT_EQ(style.row_mm, 7.0);
   EXPECT_EQ(hut.size_mm, 5.0);
   EXPECT_TRUE(hut.bold && hut.italic && hut.altitude);
@@ -58,16 +60,23 @@ climb_m = 30
 
 TEST(LabelStyle, WhatIsWrongIsSaidAtItsPlace) {
   const auto message = [](const std::string& text) {
-    return test::message_of(ErrorKind::usage, [&] { parse_label_style("version = 1\n" + text, "mine.toml"); });
+    return test::message_of(ErrorKind::usage,
+                            [&] { parse_label_style("version = 1\n" + text, "mine.toml"); });
   };
-  EXPECT_THAT(message("[kinds.hut]\nsize_mm = 0\n"), AllOf(HasSubstr("mine.toml:3"), HasSubstr("0.5 … 100")));
+  EXPECT_THAT(message("[kinds.hut]\nsize_mm = 0\n"),
+              AllOf(HasSubstr("mine.toml:3"), HasSubstr("0.5 … 100")));
   EXPECT_THAT(message("[kinds.hut]\ncolour = \"red\"\n"), HasSubstr("\"#rrggbb\""));
-  EXPECT_THAT(message("[kinds.hut]\nplace = \"under\"\n"), HasSubstr("\"above\", \"beside\", \"over\""));
+  EXPECT_THAT(message("[kinds.hut]\nplace = \"under\"\n"),
+              HasSubstr("\"above\", \"beside\", \"over\""));
   EXPECT_THAT(message("[kinds.hut]\nmak = \"dot\"\n"), HasSubstr("mak"));
   EXPECT_THAT(message(""), HasSubstr("no kinds"));
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [] { parse_label_style("[kinds.a]\n", "mine.toml"); }), HasSubstr("version = 1"));
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [] { load_label_style("baroque"); }), HasSubstr("\"classic\""));
-  EXPECT_THAT(test::message_of(ErrorKind::input, [] { load_label_style("/no/such.toml"); }), HasSubstr("/no/such.toml"));
+  EXPECT_THAT(
+      test::message_of(ErrorKind::usage, [] { parse_label_style("[kinds.a]\n", "mine.toml"); }),
+      HasSubstr("version = 1"));
+  EXPECT_THAT(test::message_of(ErrorKind::usage, [] { load_label_style("baroque"); }),
+              HasSubstr("\"classic\""));
+  EXPECT_THAT(test::message_of(ErrorKind::input, [] { load_label_style("/no/such.toml"); }),
+              HasSubstr("/no/such.toml"));
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ TEST(Margin, BarsHaveRoundLengths) {
   EXPECT_EQ(length_text(200.0), "200\u00A0m");
 }
 
-// All of it stands on the paper and none on the picture, on wide and narrow sheets.
+// All of it is on the paper and none on the picture, on wide and narrow sheets.
 TEST(Margin, LeavesThePictureFree) {
   MarginContent content{.title = "Karwendel",
                         .subtitle = "from the north",
@@ -28,13 +28,16 @@ TEST(Margin, LeavesThePictureFree) {
                                     {"water", "#3366aa"},
                                     {"scree", "#bbaa99"},
                                     {"pasture", "#99aa55"}},
-                        .features = {{.name = "main road"}, {.name = "lift", .form = SwatchForm::cable}, {.name = "path"}},
+                        .features = {{.name = "main road"},
+                                     {.name = "lift", .form = SwatchForm::cable},
+                                     {.name = "path"}},
                         .scales = {{5000.0, .4}, {40000.0, .05}},
                         .directions = true,
                         .view_azimuth_deg = 182.0,
                         .sun_azimuth_deg = 315.0,
                         .sun_altitude_deg = 30.0,
-                        .sources = {"ALOS World 3D 30 m, JAXA (free of charge with credit)", "names: general knowledge"}};
+                        .sources = {"ALOS World 3D 30 m, JAXA (free of charge with credit)",
+                                    "names: general knowledge"}};
   const TextMeasure measure;
   for (const int width : {2400, 700}) {
     const Margin margin = lay_out_margin(content, {}, {width, 500}, 3.0, 30.0);
@@ -47,7 +50,10 @@ TEST(Margin, LeavesThePictureFree) {
         ++texts;
         EXPECT_GT(text->at.y - text->type.size_px, 530.0) << text->text;
         EXPECT_LT(text->at.y, margin.drawing.size_px.y) << text->text;
-        EXPECT_LT(text->at.x + (1.0 - text->anchor) * measure.measure(text->text, text->type).width_px, width + 60.0) << text->text;
+        EXPECT_LT(
+            text->at.x + (1.0 - text->anchor) * measure.measure(text->text, text->type).width_px,
+            width + 60.0)
+            << text->text;
       }
     EXPECT_GE(texts, 16);
   }
@@ -65,10 +71,12 @@ TEST(Margin, TheRoseTurnsWithTheView) {
   bool first = true;
   for (const DrawnShape& shape : margin.drawing.shapes) {
     if (const DrawnCircle* circle = std::get_if<DrawnCircle>(&shape)) {
-      (first ? rose : sun) = circle->middle;
+      (first ? rose : sun) = circle->centre;
       first = false;
     }
-    if (const DrawnText* text = std::get_if<DrawnText>(&shape); text != nullptr && text->text == "N") north = text->at;
+    if (const DrawnText* text = std::get_if<DrawnText>(&shape);
+        text != nullptr && text->text == "N")
+      north = text->at;
   }
   EXPECT_GT(north.y, rose.y);
   EXPECT_NEAR(north.x, rose.x, 1e-6);
@@ -76,18 +84,22 @@ TEST(Margin, TheRoseTurnsWithTheView) {
   EXPECT_GT(sun.y, rose.y);
 }
 
-// What a bar says is what two places of the ground so far from each other are apart.
+// The length of a bar is the distance of two ground points in the picture.
 TEST(Margin, ScalesAreThoseOfTheGround) {
-  const BareView bare = make_bare_view(test::small_scene({"output.width=960", "output.height=800"}), silent_progress());
+  const BareView bare = make_bare_view(test::small_scene({"output.width=960", "output.height=800"}),
+                                       silent_progress());
   const GeoMap map = bare.geo_map();
-  const std::vector<ScaleBar> bars = find_scales(map, glm::dvec2(bare.view.camera.eye), 100.0, {960, 800});
+  const std::vector<ScaleBar> bars =
+      find_scales(map, glm::dvec2(bare.view.camera.eye), 100.0, {960, 800});
   ASSERT_FALSE(bars.empty());
   if (bars.size() == 2) {
     EXPECT_GT(bars[1].distance_m, bars[0].distance_m);
     EXPECT_LT(bars[1].px_per_m, bars[0].px_per_m);
   }
-  const double focal_px = 480.0 / std::tan(.5 * bare.view.camera.field_of_view_deg * std::acos(-1.0) / 180.0);
-  for (const ScaleBar& bar : bars) EXPECT_NEAR(bar.px_per_m * bar.distance_m / focal_px, 1.0, .15) << bar.distance_m;
+  const double focal_px =
+      480.0 / std::tan(.5 * bare.view.camera.field_of_view_deg * std::acos(-1.0) / 180.0);
+  for (const ScaleBar& bar : bars)
+    EXPECT_NEAR(bar.px_per_m * bar.distance_m / focal_px, 1.0, .15) << bar.distance_m;
 }
 
 }  // namespace

@@ -22,7 +22,8 @@ TEST(PlacedText, KnowsWhichLettersStandWhere) {
 }
 
 TEST(PlacedText, NothingStandsOnALineThatIsTooShort) {
-  EXPECT_TRUE(place_letters(bent("Ein viel zu langer Name für diese kurze Linie"), TextMeasure()).empty());
+  EXPECT_TRUE(
+      place_letters(bent("Ein viel zu langer Name für diese kurze Linie"), TextMeasure()).empty());
 }
 
 }  // namespace

@@ -18,9 +18,15 @@ Drawing busy() {
   Drawing drawing{.size_px = {700, 400}, .shapes = {}};
   const TextStyle type{.family = family, .size_px = 37.0};
   int y = 50;
-  for (const char* words : {"Birkkarspitze 2749 m", "Ελληνικά и русский", "جبل الشيخ", "הר חרמון", "山と渓谷"}) {
-    drawing.shapes.push_back(
-        DrawnText{.text = words, .type = type, .at = {350.3, y}, .anchor = .5, .colour = "#102040", .halo = "#ffffff", .halo_px = 4.0});
+  for (const char* words :
+       {"Birkkarspitze 2749 m", "Ελληνικά и русский", "جبل الشيخ", "הר חרמון", "山と渓谷"}) {
+    drawing.shapes.push_back(DrawnText{.text = words,
+                                       .type = type,
+                                       .at = {350.3, y},
+                                       .anchor = .5,
+                                       .colour = "#102040",
+                                       .halo = "#ffffff",
+                                       .halo_px = 4.0});
     y += 61;
   }
   drawing.shapes.push_back(DrawnText{.text = "Hinterautal",
@@ -29,9 +35,16 @@ Drawing busy() {
                                      .halo = "#ffffee",
                                      .halo_px = 3.0,
                                      .along = {{20, 380}, {200, 340}, {420, 330}, {690, 390}}});
-  drawing.shapes.push_back(DrawnCircle{.middle = {128, 128}, .radius_px = 20, .fill = "#ffcc00", .stroke = "#000000", .width_px = 1.3});
-  drawing.shapes.push_back(
-      DrawnPath{.points = {{3.1, 5.2}, {640.7, 301.3}, {30, 390}}, .fill = {}, .stroke = "#b3202a", .width_px = 4.2, .dashes_px = {9, 6}});
+  drawing.shapes.push_back(DrawnCircle{.centre = {128, 128},
+                                       .radius_px = 20,
+                                       .fill = "#ffcc00",
+                                       .stroke = "#000000",
+                                       .width_px = 1.3});
+  drawing.shapes.push_back(DrawnPath{.points = {{3.1, 5.2}, {640.7, 301.3}, {30, 390}},
+                                     .fill = {},
+                                     .stroke = "#b3202a",
+                                     .width_px = 4.2,
+                                     .dashes_px = {9, 6}});
   return drawing;
 }
 
@@ -44,8 +57,11 @@ Grid<glm::vec3> painted(const SheetPainter& painter, PixelRect part) {
 TEST(SheetPainter, AnyPartHasThePixelsOfTheWhole) {
   const SheetPainter painter(busy());
   const Grid<glm::vec3> whole = painted(painter, {0, 0, 700, 400});
-  EXPECT_GT(std::count_if(whole.begin(), whole.end(), [](glm::vec3 p) { return p != glm::vec3(.3F, .5F, .7F); }), 20000);
-  for (const PixelRect part : {PixelRect{1, 1, 700, 400}, {127, 0, 129, 400}, {0, 63, 700, 65}, {333, 111, 600, 222}})
+  EXPECT_GT(std::count_if(whole.begin(), whole.end(),
+                          [](glm::vec3 p) { return p != glm::vec3(.3F, .5F, .7F); }),
+            20000);
+  for (const PixelRect part :
+       {PixelRect{1, 1, 700, 400}, {127, 0, 129, 400}, {0, 63, 700, 65}, {333, 111, 600, 222}})
     EXPECT_TRUE(painted(painter, part) == part_of(whole, part)) << part.x0 << ',' << part.y0;
 }
 
@@ -60,8 +76,10 @@ TEST(SheetPainter, ThreadsChangeNothing) {
 TEST(SheetPainter, CoversWhatAShapeCovers) {
   const SheetPainter painter(
       {.size_px = {300, 300},
-       .shapes = {
-           DrawnPath{.points = {{120, 120}, {140.5, 120}, {140.5, 140}, {120, 140}}, .closed = true, .fill = "#ff8000", .stroke = {}}}});
+       .shapes = {DrawnPath{.points = {{120, 120}, {140.5, 120}, {140.5, 140}, {120, 140}},
+                            .closed = true,
+                            .fill = "#ff8000",
+                            .stroke = {}}}});
   const Grid<glm::vec3> pixels = painted(painter, {0, 0, 300, 300});
   const glm::vec3 paint(1.0F, 128.0F / 255.0F, 0.0F);
   EXPECT_EQ(pixels(120, 120), paint);
@@ -71,13 +89,19 @@ TEST(SheetPainter, CoversWhatAShapeCovers) {
   EXPECT_NEAR(pixels(140, 130).b, .5 * .7, .004);
 }
 
-// The halo lies around the letters, never over them: text without it covers the same pixels in full ink.
+// The halo lies around the letters, never over them: text without it covers the same pixels in full
+// ink.
 TEST(SheetPainter, HalosLieBelowTheirLetters) {
-  DrawnText text{.text = "Tirol", .type = {.family = family, .size_px = 60.0}, .at = {20, 80}, .colour = "#000000"};
-  const Grid<glm::vec3> bare = painted(SheetPainter({.size_px = {300, 120}, .shapes = {text}}), {0, 0, 300, 120});
+  DrawnText text{.text = "Tirol",
+                 .type = {.family = family, .size_px = 60.0},
+                 .at = {20, 80},
+                 .colour = "#000000"};
+  const Grid<glm::vec3> bare =
+      painted(SheetPainter({.size_px = {300, 120}, .shapes = {text}}), {0, 0, 300, 120});
   text.halo = "#ffffff";
   text.halo_px = 5.0;
-  const Grid<glm::vec3> haloed = painted(SheetPainter({.size_px = {300, 120}, .shapes = {text}}), {0, 0, 300, 120});
+  const Grid<glm::vec3> haloed =
+      painted(SheetPainter({.size_px = {300, 120}, .shapes = {text}}), {0, 0, 300, 120});
   int ink = 0, light = 0;
   for (std::size_t i = 0; i < bare.size(); ++i) {
     if (bare[i] == glm::vec3(0.0F)) {
@@ -90,10 +114,11 @@ TEST(SheetPainter, HalosLieBelowTheirLetters) {
   EXPECT_GT(light, 300);
 }
 
-// Letters one by one are as wide as the line that was measured, in any script.
+// Letters one by one are as wide as the whole line, in any script.
 TEST(SheetPainter, LettersAddUpToTheirLine) {
   const TextMeasure measure;
-  for (const char* words : {"Östliche Karwendelspitze", "جبل الشيخ", "e\u0301a\u0308", "山と渓谷"}) {
+  for (const char* words :
+       {"Östliche Karwendelspitze", "جبل الشيخ", "e\u0301a\u0308", "山と渓谷"}) {
     const TextStyle type{.family = family, .size_px = 40.0};
     double sum = 0.0;
     for (const TextLetter& letter : measure.letters(words, type)) sum += letter.width_px;

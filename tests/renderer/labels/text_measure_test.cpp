@@ -9,8 +9,8 @@ namespace {
 
 using test::sans;
 
-// DejaVu's own table of widths: 1401 of 2048 units for H, 2048 units are the type's size. The font comes with every Debian that draws text;
-// another machine's fonts are not known.
+// DejaVu's own table of widths: 1401 of 2048 units for H, 2048 units are the type's size. The font
+// comes with every Debian that draws text; another machine's fonts are not known.
 TEST(TextMeasure, IsTheFontsOwnWidth) {
   const TextMeasure measure;
   const TextStyle style{.family = sans, .size_px = 100.0};

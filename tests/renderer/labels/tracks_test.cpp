@@ -17,30 +17,33 @@ using testing::HasSubstr;
 
 class Tracks : public testing::Test {
  protected:
-  Track track_of(std::vector<glm::dvec2> places, const Grid<float>* dem = nullptr) const {
-    const DrawnGround ground{dem != nullptr ? *dem : bare_.dem.altitude_m, bare_.generalized_m, bare_.dem.transform, bare_.dem.cell_m(),
-                             map_};
-    return find_tracks(ground, {{"tour", "tour.gpx, feature 0", std::move(places)}})[0];
+  Track track_of(std::vector<glm::dvec2> positions, const Grid<float>* dem = nullptr) const {
+    const DrawnGround ground{dem != nullptr ? *dem : bare_.dem.altitude_m, bare_.generalized_m,
+                             bare_.dem.transform, bare_.dem.cell_m(), map_};
+    return find_tracks(ground, {{"tour", "tour.gpx, feature 0", std::move(positions)}})[0];
   }
-  const BareView bare_ =
-      make_bare_view(test::small_scene({"output.width=960", "output.height=800", "deform.exaggeration=1.5"}), silent_progress());
+  const BareView bare_ = make_bare_view(
+      test::small_scene({"output.width=960", "output.height=800", "deform.exaggeration=1.5"}),
+      silent_progress());
   const GeoMap map_ = bare_.geo_map();
 };
 
-// Up and down a roof of 1:10 on 4 km: what is climbed is known.
+// Up and down a roof of 1:10 on 4 km: the ascent is known.
 TEST_F(Tracks, LengthAndAscentOfARoof) {
   Grid<float> roof(bare_.dem.width(), bare_.dem.height());
   for (int y = 0; y < roof.height(); ++y)
-    for (int x = 0; x < roof.width(); ++x) roof(x, y) = 1000.F - 10.F * static_cast<float>(std::abs(x - 60));  // 100 m a cell
-  const double middle = bare_.dem.transform.to_crs(60.0, 0.0).x;
-  const Track track = track_of({{middle - 2000.0, 6000.0}, {middle + 2000.0, 6000.0}, {middle - 1000.0, 6000.0}}, &roof);
+    for (int x = 0; x < roof.width(); ++x)
+      roof(x, y) = 1000.F - 10.F * static_cast<float>(std::abs(x - 60));  // 100 m a cell
+  const double centre = bare_.dem.transform.to_crs(60.0, 0.0).x;
+  const Track track = track_of(
+      {{centre - 2000.0, 6000.0}, {centre + 2000.0, 6000.0}, {centre - 1000.0, 6000.0}}, &roof);
   EXPECT_NEAR(track.length_m, 7000.0, 1e-6);
   EXPECT_NEAR(track.climb_m, 200.0 + 200.0, 1.0);
   EXPECT_NEAR(track.profile.front().y, 800.0, 1.0);
   EXPECT_NEAR(track.profile.back().x, 7000.0, 1e-6);
 }
 
-// Whatever the picture says of single places, the runs say of the way.
+// The states of single points match those of the runs of the track.
 TEST_F(Tracks, AreSeenWhereTheirPlacesAre) {
   double seen_m = 0.0;
   double length_m = 0.0;
@@ -53,10 +56,12 @@ TEST_F(Tracks, AreSeenWhereTheirPlacesAre) {
     for (const TrackRun& run : track.runs) {
       ++(run.seen ? seen_runs : hidden_runs);
       ASSERT_GE(run.pixels.size(), 2U);
-      for (std::size_t i = 0; i + 1 < run.pixels.size(); ++i) EXPECT_LT(glm::length(run.pixels[i + 1] - run.pixels[i]), 60.0) << "no leap";
+      for (std::size_t i = 0; i + 1 < run.pixels.size(); ++i)
+        EXPECT_LT(glm::length(run.pixels[i + 1] - run.pixels[i]), 60.0) << "no leap";
     }
     for (std::size_t i = 0; i + 1 < track.runs.size(); ++i)
-      EXPECT_TRUE(track.runs[i].seen != track.runs[i + 1].seen || track.runs[i].pixels.back() != track.runs[i + 1].pixels.front())
+      EXPECT_TRUE(track.runs[i].seen != track.runs[i + 1].seen ||
+                  track.runs[i].pixels.back() != track.runs[i + 1].pixels.front())
           << "runs that go on are one";
   }
   std::size_t visible = 0;

@@ -21,7 +21,10 @@ struct Scenery {
     p.pitch_deg = 0.0;
     p.field_of_view_deg = 60.0;
     camera = make_camera(p);
-    cloud = make_lee_cloud({.kind = MistKind::lee, .place = glm::dvec2(0.0, ahead_m), .size_m = 3000.0, .wind_from_deg = wind_from_deg},
+    cloud = make_lee_cloud({.kind = MistKind::lee,
+                            .position = glm::dvec2(0.0, ahead_m),
+                            .size_m = 3000.0,
+                            .wind_from_deg = wind_from_deg},
                            2000.0, deformation, *camera, 11);
   }
   // Sum of the shares left and right of the summit.
@@ -31,7 +34,8 @@ struct Scenery {
     for (int y = 0; y < 200; ++y)
       for (int x = 0; x < 400; ++x) {
         const glm::dvec2 pixel(x + 0.5, y + 0.5);
-        const LeeSight sight = see_lee_cloud(*cloud, edges, camera->ray(pixel), pixel, depth_m, sun);
+        const LeeSight sight =
+            see_lee_cloud(*cloud, edges, camera->ray(pixel), pixel, depth_m, sun);
         (x < 200 ? sum.x : sum.y) += static_cast<double>(sight.share);
       }
     return sum;
@@ -56,7 +60,7 @@ TEST(LeeCloud, NearerGroundHidesItAndFartherGroundDoesNot) {
   EXPECT_EQ(scenery.shares(20000.0), all);
   const double cut = scenery.shares(10000.0).y;
   EXPECT_GT(cut, 0.1 * all.y);
-  EXPECT_LT(cut, 0.9 * all.y) << "a slope through its middle";
+  EXPECT_LT(cut, 0.9 * all.y) << "a slope through its centre";
 }
 
 TEST(LeeCloud, ItsBoxHoldsAllOfIt) {
@@ -83,7 +87,8 @@ TEST(LeeCloud, IsLitFromTheSunsSide) {
     for (int y = 0; y < 200; ++y)
       for (int x = 200; x < 400; ++x) {
         const glm::dvec2 pixel(x + 0.5, y + 0.5);
-        const LeeSight sight = see_lee_cloud(*scenery.cloud, edges, scenery.camera->ray(pixel), pixel, no_ground, towards_sun);
+        const LeeSight sight = see_lee_cloud(*scenery.cloud, edges, scenery.camera->ray(pixel),
+                                             pixel, no_ground, towards_sun);
         light += static_cast<double>(sight.share * sight.light);
         share += static_cast<double>(sight.share);
       }
@@ -92,7 +97,9 @@ TEST(LeeCloud, IsLitFromTheSunsSide) {
   EXPECT_GT(mean_light({0.9, 0.0, 0.43}), mean_light({-0.9, 0.0, 0.43}) + 0.05);
 }
 
-TEST(LeeCloud, BehindTheEyeThereIsNone) { EXPECT_FALSE(Scenery(270.0, -10000.0).cloud.has_value()); }
+TEST(LeeCloud, BehindTheEyeThereIsNone) {
+  EXPECT_FALSE(Scenery(270.0, -10000.0).cloud.has_value());
+}
 
 }  // namespace
 }  // namespace belvedere

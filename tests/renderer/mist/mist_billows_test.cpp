@@ -37,10 +37,11 @@ TEST(MistBillows, TwiceTheStrengthIsTwiceTheHeight) {
   MistBillows one(5, 1.0, 90.0);
   MistBillows two(5, 2.0, 90.0);
   for (const double x : {10.0, 400.0, 9000.0})
-    EXPECT_NEAR(two.height_m({x, 50.0}, metres_per_unit), 2.0 * one.height_m({x, 50.0}, metres_per_unit), 1e-9);
+    EXPECT_NEAR(two.height_m({x, 50.0}, metres_per_unit),
+                2.0 * one.height_m({x, 50.0}, metres_per_unit), 1e-9);
 }
 
-// Octaves come and go with distance without a jump.
+// Octaves fade in and out with distance, without a jump.
 TEST(MistBillows, DistanceChangesThemSmoothly) {
   MistBillows billows(7, 1.0, 90.0);
   double before = billows.height_m({5000.0, 7000.0}, 5.0);
@@ -53,7 +54,7 @@ TEST(MistBillows, DistanceChangesThemSmoothly) {
   EXPECT_LT(largest, 3.0);
 }
 
-// A pure function of the place, whatever was asked before.
+// A pure function of the position, whatever was evaluated before.
 TEST(MistBillows, AnswersHangOnThePlaceAlone) {
   MistBillows one(9, 1.0, 90.0);
   MistBillows other(9, 1.0, 90.0);

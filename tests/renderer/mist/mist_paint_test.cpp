@@ -14,17 +14,20 @@ namespace {
 constexpr int width = 220;
 constexpr int height = 160;
 
-// A bank whose share falls off to its rim, and a nearer one before a part of it.
+// A bank whose share falls towards its edge, and a nearer one in front of a part of it.
 MistSight bank() {
-  MistSight sight{Grid<float>(width, height, 0.F), Grid<float>(width, height, std::numeric_limits<float>::infinity()),
+  MistSight sight{Grid<float>(width, height, 0.F),
+                  Grid<float>(width, height, std::numeric_limits<float>::infinity()),
                   Grid<float>(width, height, 0.F), Grid<float>(width, height, 0.F)};
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
-      const float away = std::hypot((static_cast<float>(x) - 110.F) / 90.F, (static_cast<float>(y) - 80.F) / 60.F);
+      const float away =
+          std::hypot((static_cast<float>(x) - 110.F) / 90.F, (static_cast<float>(y) - 80.F) / 60.F);
       if (away >= 1.F) continue;
       sight.share(x, y) = std::min(1.F, 3.F * (1.F - away));
       sight.depth_m(x, y) = x < 60 ? 9000.F : 20000.F + 10.F * static_cast<float>(height - y);
-      sight.light(x, y) = 0.5F + 0.4F * std::sin(static_cast<float>(x) * 0.1F) * std::cos(static_cast<float>(y) * 0.13F);
+      sight.light(x, y) = 0.5F + 0.4F * std::sin(static_cast<float>(x) * 0.1F) *
+                                     std::cos(static_cast<float>(y) * 0.13F);
       sight.altitude_m(x, y) = 1500.F;
     }
   return sight;
@@ -49,7 +52,7 @@ TEST(MistPaint, NoPaintLiesWhereThereIsNoMist) {
     }
 }
 
-// The brush moves edges, it does not thin mist out or thicken it.
+// The brush moves edges; it does not make mist thinner or denser.
 TEST(MistPaint, AsMuchIsHiddenAsIsSeen) {
   const MistSight sight = bank();
   const MistPaint painted = paint(sight, {});
@@ -72,12 +75,12 @@ TEST(MistPaint, AWindowIsPaintedAsTheWhole) {
   const PixelRect sheet{0, 0, width, height};
   for (const PixelRect asked : {PixelRect{90, 70, 130, 100}, {0, 0, 30, 160}, {219, 80, 220, 81}}) {
     const PixelRect window = intersection(sheet, grown(asked, margin));
-    const MistSight part{part_of(sight.share, window), part_of(sight.depth_m, window), part_of(sight.light, window),
-                         part_of(sight.altitude_m, window)};
-    const MistPaint painted =
-        paint(part, {.origin_px = {window.x0, window.y0},
-                     .sheet_px = {width, height},
-                     .asked = {asked.x0 - window.x0, asked.y0 - window.y0, asked.x1 - window.x0, asked.y1 - window.y0}});
+    const MistSight part{part_of(sight.share, window), part_of(sight.depth_m, window),
+                         part_of(sight.light, window), part_of(sight.altitude_m, window)};
+    const MistPaint painted = paint(part, {.origin_px = {window.x0, window.y0},
+                                           .sheet_px = {width, height},
+                                           .asked = {asked.x0 - window.x0, asked.y0 - window.y0,
+                                                     asked.x1 - window.x0, asked.y1 - window.y0}});
     EXPECT_TRUE(painted.share == part_of(whole.share, asked));
     EXPECT_TRUE(painted.colour == part_of(whole.colour, asked));
   }

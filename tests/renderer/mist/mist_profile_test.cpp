@@ -28,7 +28,8 @@ TEST(MistProfile, StraightDownItIsTheIntegralOfARamp) {
   EXPECT_NEAR(optical_depth(mist, 500.0, -200.0, 300.0), 0.01 * (300.0 - 40.0), 1e-12);
 }
 
-// However a way is divided, the sum is the same, and that of many small steps by the middle rule.
+// However a path is divided, the sum is the same, and equal to that of many small steps by the
+// midpoint rule.
 TEST(MistProfile, AWayIsTheSumOfItsParts) {
   const MistProfile mist{0.012, 60.0};
   const double length = 700.0;
@@ -37,7 +38,8 @@ TEST(MistProfile, AWayIsTheSumOfItsParts) {
   const auto below = [&](double t) { return from + (to - from) * t / length; };
   double parts = 0.0;
   double fine = 0.0;
-  for (int k = 0; k < 7; ++k) parts += optical_depth(mist, 100.0, below(100.0 * k), below(100.0 * (k + 1)));
+  for (int k = 0; k < 7; ++k)
+    parts += optical_depth(mist, 100.0, below(100.0 * k), below(100.0 * (k + 1)));
   for (int k = 0; k < 70000; ++k) fine += 0.01 * extinction_at(mist, below(0.01 * (k + 0.5)));
   EXPECT_NEAR(parts, optical_depth(mist, length, from, to), 1e-12);
   EXPECT_NEAR(fine, optical_depth(mist, length, from, to), 1e-6);
@@ -46,7 +48,8 @@ TEST(MistProfile, AWayIsTheSumOfItsParts) {
 
 TEST(MistProfile, LevelWaysAgreeWithNearlyLevelOnes) {
   const MistProfile mist{0.012, 60.0};
-  EXPECT_NEAR(optical_depth(mist, 900.0, 30.0, 30.0), optical_depth(mist, 900.0, 29.99, 30.01), 1e-9);
+  EXPECT_NEAR(optical_depth(mist, 900.0, 30.0, 30.0), optical_depth(mist, 900.0, 29.99, 30.01),
+              1e-9);
 }
 
 }  // namespace

@@ -8,32 +8,36 @@
 
 #include "base/grid_part.h"
 #include "base/parallel.h"
-#include "tests/renderer/trace/made_up_ground.h"
+#include "tests/renderer/trace/synthetic_ground.h"
 
 namespace belvedere {
 namespace {
 
 using test::all_meadow;
-using test::MadeUpWorld;
 using test::make_world;
+using test::SyntheticWorld;
 
 // A sea of fog without heaps or soft edges.
-MistAir flat_sea(double to_m, double sight_m, const MadeUpWorld& world) {
+MistAir flat_sea(double to_m, double visibility_m, const SyntheticWorld& world) {
   MistAir air;
-  air.layers = {{.to_m = to_m, .sight_m = sight_m, .edge_m = 0.0, .billows = 0.0, .place = {}}};
-  air.ground = make_mist_ground(world.terrain.generalized_m, world.terrain.rim_m, world.terrain.dem->transform, false);
+  air.layers = {
+      {.to_m = to_m, .visibility_m = visibility_m, .edge_m = 0.0, .billows = 0.0, .position = {}}};
+  air.ground = make_mist_ground(world.terrain.generalized_m, world.terrain.rim_m,
+                                world.terrain.dem->transform, false);
   air.farthest_m = 60000.0;
   return air;
 }
 
-MistSight see(const MistAir& air, const MadeUpWorld& world, const Camera& camera, const GuidanceBuffers& guidance) {
+MistSight see(const MistAir& air, const SyntheticWorld& world, const Camera& camera,
+              const GuidanceBuffers& guidance) {
   const Deformation deformation(world.deform_parameters, world.viewer);
   return see_mist(air, {.camera = camera, .deformation = deformation}, guidance.depth_m, {0, 0});
 }
 
-// Parallel rays that fall by 30° cross a layer 300 m high on 600 m: exp(-ln 50 · 600 / sight) is left.
+// Parallel rays that fall by 30° cross a layer 300 m high over 600 m: exp(-ln 50 · 600 /
+// visibility) remains.
 TEST(MistSight, OverAPlaneALayerLetsThroughWhatTheFormulaSays) {
-  const MadeUpWorld world = make_world(
+  const SyntheticWorld world = make_world(
       200, 200, [](double, double) { return 500.0; }, all_meadow);
   CameraParameters p;
   p.projection = "oblique";
@@ -58,24 +62,26 @@ TEST(MistSight, OverAPlaneALayerLetsThroughWhatTheFormulaSays) {
   EXPECT_GT(seen, 500);
 }
 
-// Through the middles of pixels, as mist is seen.
-GuidanceBuffers trace_middles(const MadeUpWorld& world, const Camera& camera) {
+// Through the centres of pixels, as for mist.
+GuidanceBuffers trace_centres(const SyntheticWorld& world, const Camera& camera) {
   GuidanceParameters parameters;
   parameters.sampling.pixel_samples = 1;
   return test::trace(world, camera, parameters);
 }
 
 double cone_m(double east, double south) {
-  return std::max(0.0, 2000.0 - 0.5 * std::sqrt((east - 3000.0) * (east - 3000.0) + (south - 3900.0) * (south - 3900.0)));
+  return std::max(0.0, 2000.0 - 0.5 * std::sqrt((east - 3000.0) * (east - 3000.0) +
+                                                (south - 3900.0) * (south - 3900.0)));
 }
 
-// Dense fog up to 1000 m over a cone: an island whose shore is the contour of 1000 m, whatever the ground is bent to.
+// Dense fog up to 1000 m over a cone: an island whose shore is the contour of 1000 m, however the
+// ground is bent.
 void expect_island(const DeformParameters& deformed) {
-  const MadeUpWorld world = make_world(200, 260, cone_m, all_meadow, deformed);
+  const SyntheticWorld world = make_world(200, 260, cone_m, all_meadow, deformed);
   CameraParameters p = test::southward(160, 120, -38.0);
   p.eye.z = 9000.0;
   const auto camera = make_camera(p);
-  const GuidanceBuffers guidance = trace_middles(world, *camera);
+  const GuidanceBuffers guidance = trace_centres(world, *camera);
   const MistSight sight = see(flat_sea(1000.0, 2.0, world), world, *camera, guidance);
   int island = 0, sea = 0;
   for (std::size_t i = 0; i < sight.share.size(); ++i) {
@@ -104,35 +110,46 @@ TEST(MistSight, OnBentAndRaisedGroundTheShoreStaysAtItsAltitude) {
   expect_island(d);
 }
 
-// What stands before the sea is not in it, and the sky is veiled only where the line of sight passes through it.
+// Ground in front of the sea is not in it, and the sky is veiled only where the line of sight
+// passes through it.
 TEST(MistSight, NearerGroundStandsBeforeTheSea) {
-  const MadeUpWorld world = make_world(200, 260, cone_m, all_meadow);
+  const SyntheticWorld world = make_world(200, 260, cone_m, all_meadow);
   const auto camera = make_camera(test::southward(40, 30));
   Grid<float> near(40, 30, 500.F);
   const Deformation deformation(world.deform_parameters, world.viewer);
-  const MistSight sight = see_mist(flat_sea(1000.0, 2.0, world), {.camera = *camera, .deformation = deformation}, near, {0, 0});
-  EXPECT_TRUE(std::all_of(sight.share.begin(), sight.share.end(), [](float share) { return share == 0.F; }));
-  EXPECT_TRUE(std::all_of(sight.depth_m.begin(), sight.depth_m.end(), [](float depth) { return std::isinf(depth); }));
+  const MistSight sight = see_mist(flat_sea(1000.0, 2.0, world),
+                                   {.camera = *camera, .deformation = deformation}, near, {0, 0});
+  EXPECT_TRUE(std::all_of(sight.share.begin(), sight.share.end(),
+                          [](float share) { return share == 0.F; }));
+  EXPECT_TRUE(std::all_of(sight.depth_m.begin(), sight.depth_m.end(),
+                          [](float depth) { return std::isinf(depth); }));
 }
 
 // Heaps, banks, a lee cloud and cast shadows, in any rectangle and with any threads.
 TEST(MistSight, AnyRectangleAndAnyThreadsGiveTheBitsOfTheWhole) {
-  const MadeUpWorld world = test::rough_world();
+  const SyntheticWorld world = test::rough_world();
   const auto camera = make_camera(test::southward(150, 110));
   const GuidanceBuffers guidance = test::trace(world, *camera);
   const Deformation deformation(world.deform_parameters, world.viewer);
   MistAir air = flat_sea(1100.0, 300.0, world);
   air.layers.front().billows = 1.0;
-  air.layers.push_back({.kind = MistKind::valley, .height_m = 200.0, .patches = 0.4, .place = {}});
-  air.ground = make_mist_ground(world.terrain.generalized_m, world.terrain.rim_m, world.terrain.dem->transform, true);
+  air.layers.push_back(
+      {.kind = MistKind::valley, .height_m = 200.0, .patches = 0.4, .position = {}});
+  air.ground = make_mist_ground(world.terrain.generalized_m, world.terrain.rim_m,
+                                world.terrain.dem->transform, true);
   air.rim_fade_m = 1000.0;
-  const auto cloud =
-      make_lee_cloud({.kind = MistKind::lee, .place = glm::dvec2(653000.0, 5317500.0), .size_m = 2000.0}, 1500.0, deformation, *camera, 3);
+  const auto cloud = make_lee_cloud(
+      {.kind = MistKind::lee, .position = glm::dvec2(653000.0, 5317500.0), .size_m = 2000.0},
+      1500.0, deformation, *camera, 3);
   ASSERT_TRUE(cloud.has_value());
   air.clouds = {*cloud};
-  const MistView view{.camera = *camera, .deformation = deformation, .tracer = world.tracer.get(), .sun_direction = {-0.6, 0.6, 0.53}};
+  const MistView view{.camera = *camera,
+                      .deformation = deformation,
+                      .tracer = world.tracer.get(),
+                      .sun_direction = {-0.6, 0.6, 0.53}};
   const MistSight whole = see_mist(air, view, guidance.depth_m, {0, 0});
-  const auto misty = std::count_if(whole.share.begin(), whole.share.end(), [](float share) { return share > 0.5F; });
+  const auto misty = std::count_if(whole.share.begin(), whole.share.end(),
+                                   [](float share) { return share > 0.5F; });
   EXPECT_GT(misty, 2000);
   const ThreadLimit one(1);
   for (const PixelRect rect : {PixelRect{17, 60, 90, 109}, {100, 31, 101, 32}, {0, 0, 150, 110}}) {
@@ -144,34 +161,39 @@ TEST(MistSight, AnyRectangleAndAnyThreadsGiveTheBitsOfTheWhole) {
   }
 }
 
-// A wall of rock between the sun and the sea throws its shadow on it.
+// A wall of rock between the sun and the sea casts its shadow on it.
 TEST(MistSight, SummitsThrowShadowsOnTheSea) {
-  const MadeUpWorld world = make_world(200, 260, cone_m, all_meadow);
+  const SyntheticWorld world = make_world(200, 260, cone_m, all_meadow);
   CameraParameters p = test::southward(160, 120, -38.0);
   p.eye.z = 9000.0;
   const auto camera = make_camera(p);
   const GuidanceBuffers guidance = test::trace(world, *camera);
   const Deformation deformation(world.deform_parameters, world.viewer);
   const MistAir air = flat_sea(1000.0, 50.0, world);
-  MistView view{.camera = *camera, .deformation = deformation, .tracer = world.tracer.get(), .sun_direction = {0.94, 0.0, 0.34}};
+  MistView view{.camera = *camera,
+                .deformation = deformation,
+                .tracer = world.tracer.get(),
+                .sun_direction = {0.94, 0.0, 0.34}};
   const MistSight shaded = see_mist(air, view, guidance.depth_m, {0, 0});
   view.tracer = nullptr;
   const MistSight open = see_mist(air, view, guidance.depth_m, {0, 0});
-  // The sun stands in the east, which lies left of a view to the south: the shadow falls to the right.
+  // The sun is in the east, on the left of a view to the south: the shadow falls to the right.
   int left = 0, right = 0;
   for (int y = 0; y < 120; ++y)
     for (int x = 0; x < 160; ++x)
-      if (shaded.share(x, y) > 0.9F && shaded.light(x, y) < 0.8F * open.light(x, y)) ++(x < 80 ? left : right);
+      if (shaded.share(x, y) > 0.9F && shaded.light(x, y) < 0.8F * open.light(x, y))
+        ++(x < 80 ? left : right);
   EXPECT_GT(right, 40);
   EXPECT_GT(right, 4 * left);
 }
 
 TEST(MistSight, WithoutMistNothingIsSeen) {
-  const MadeUpWorld world = make_world(
+  const SyntheticWorld world = make_world(
       20, 20, [](double, double) { return 500.0; }, all_meadow);
   const auto camera = make_camera(test::southward(16, 16));
   const Deformation deformation;
-  const MistSight sight = see_mist({}, {.camera = *camera, .deformation = deformation}, Grid<float>(16, 16, 100.F), {0, 0});
+  const MistSight sight = see_mist({}, {.camera = *camera, .deformation = deformation},
+                                   Grid<float>(16, 16, 100.F), {0, 0});
   EXPECT_EQ(sight.share, Grid<float>(16, 16, 0.F));
 }
 

@@ -17,7 +17,8 @@ TEST(Haze, GrowsWithDistanceAndSaturates) {
     last = haze_share(p, depth, 600.0);
   }
   EXPECT_NEAR(haze_share(p, p.from_m + p.scale_m, 600.0), 0.85 * (1.0 - std::exp(-1.0)), 1e-12);
-  EXPECT_NEAR(haze_share(p, p.from_m + 0.5 * p.scale_m, 600.0), 0.85 * (1.0 - std::exp(-std::pow(0.5, 1.35))), 1e-12);
+  EXPECT_NEAR(haze_share(p, p.from_m + 0.5 * p.scale_m, 600.0),
+              0.85 * (1.0 - std::exp(-std::pow(0.5, 1.35))), 1e-12);
   EXPECT_NEAR(haze_share(p, 1e7, 600.0), 0.85, 1e-9);
   EXPECT_NEAR(haze_share(p, 1e7, 600.0 + 900.0), 0.85 * (0.58 + 0.42 * std::exp(-1.0)), 1e-9);
 }
@@ -25,10 +26,13 @@ TEST(Haze, GrowsWithDistanceAndSaturates) {
 TEST(Haze, IsThickenedAmongFarRangesAndThinnerOnTheirCrests) {
   const AirParameters p;
   const Palette palette = read_palette("summer");
-  const auto share = [&](float far, float raised) { return static_cast<double>(air_share(p, palette, 70000.0, 600.0, far, raised)); };
+  const auto share = [&](float far, float raised) {
+    return static_cast<double>(air_share(p, palette, 70000.0, 600.0, far, raised));
+  };
   const double plain = haze_share(p, 70000.0, 600.0);
   EXPECT_NEAR(share(0.0F, 0.0F), plain, 1e-6);
-  EXPECT_EQ(share(0.0F, 1.0F), share(0.0F, -1.0F)) << "near, crest and foot stand in the same air";
+  EXPECT_EQ(share(0.0F, 1.0F), share(0.0F, -1.0F))
+      << "near the viewer, crest and foot have the same air";
   EXPECT_NEAR(share(1.0F, 0.0F), plain + 0.34 * (1.0 - plain), 1e-6);
   const double crest = 0.7 * plain - 0.06;
   EXPECT_NEAR(share(1.0F, 1.0F), crest + 0.34 * (1.0 - crest), 1e-6);
@@ -50,8 +54,10 @@ TEST(Air, TurnsFromItsNearToItsFarColour) {
   const Palette palette = read_palette("summer");
   EXPECT_EQ(air_colour(p, palette, 0.0), palette.haze_near);
   EXPECT_EQ(air_colour(p, palette, 1e6), palette.haze_far);
-  const double middle_m = 0.5 * (0.88 * p.from_m + p.from_m + 1.06 * p.scale_m);
-  for (int k = 0; k < 3; ++k) EXPECT_NEAR(air_colour(p, palette, middle_m)[k], 0.5F * (palette.haze_near[k] + palette.haze_far[k]), 1e-6F);
+  const double centre_m = 0.5 * (0.88 * p.from_m + p.from_m + 1.06 * p.scale_m);
+  for (int k = 0; k < 3; ++k)
+    EXPECT_NEAR(air_colour(p, palette, centre_m)[k],
+                0.5F * (palette.haze_near[k] + palette.haze_far[k]), 1e-6F);
 }
 
 TEST(Air, WarmthEndsWhereGreensHaveGoneStale) {
@@ -59,11 +65,12 @@ TEST(Air, WarmthEndsWhereGreensHaveGoneStale) {
   EXPECT_EQ(foreground_warmth(p, 0.82 * p.from_m), 1.0F);
   EXPECT_NEAR(foreground_warmth(p, (0.82 + 0.515) * p.from_m), 0.5F, 1e-6F);
   EXPECT_EQ(foreground_warmth(p, 1.86 * p.from_m), 0.0F);
-  EXPECT_EQ(green_staleness(p, 0.75 * p.from_m), 0.0F);
-  EXPECT_NEAR(green_staleness(p, 1.125 * p.from_m), 0.5F, 1e-6F);
-  EXPECT_EQ(green_staleness(p, 1.5 * p.from_m), 1.0F);
-  EXPECT_EQ(foreground_warmth({.from_m = 0.0}, 10.0), 0.0F) << "air from the eye on leaves no foreground";
-  EXPECT_EQ(green_staleness({.from_m = 0.0}, 10.0), 0.0F);
+  EXPECT_EQ(green_desaturation(p, 0.75 * p.from_m), 0.0F);
+  EXPECT_NEAR(green_desaturation(p, 1.125 * p.from_m), 0.5F, 1e-6F);
+  EXPECT_EQ(green_desaturation(p, 1.5 * p.from_m), 1.0F);
+  EXPECT_EQ(foreground_warmth({.from_m = 0.0}, 10.0), 0.0F)
+      << "air from the eye on leaves no foreground";
+  EXPECT_EQ(green_desaturation({.from_m = 0.0}, 10.0), 0.0F);
 }
 
 }  // namespace

@@ -20,8 +20,10 @@ using test::make_hills;
 using test::make_slope;
 using test::with_margin;
 
-BasePicture picture_of(const GuidanceBuffers& g, const BaseParameters& p = {}, const char* palette = "summer") {
-  return make_base_picture(g, read_palette(palette), p, {0, 0}, {g.width(), g.height()}, silent_progress());
+BasePicture picture_of(const GuidanceBuffers& g, const BaseParameters& p = {},
+                       const char* palette = "summer") {
+  return make_base_picture(g, read_palette(palette), p, {0, 0}, {g.width(), g.height()},
+                           silent_progress());
 }
 
 BaseParameters plain() {
@@ -37,9 +39,12 @@ TEST(Base, IsTheRampWhereEverythingElseIsOff) {
   const Palette palette = read_palette("summer");
   const BasePicture base = picture_of(g, plain());
   for (int k = 0; k < 3; ++k) {
-    EXPECT_NEAR(base.colour(15, 10)[k], palette_colour(palette, LandCoverClass::pasture, 1200.0, 0.6)[k], 1e-6F);
-    EXPECT_NEAR(base.darker(15, 10)[k], palette_colour(palette, LandCoverClass::pasture, 1200.0, 0.6 - 0.17)[k], 1e-6F);
-    EXPECT_NEAR(base.lighter(15, 10)[k], palette_colour(palette, LandCoverClass::pasture, 1200.0, 0.6 + 0.17)[k], 1e-6F);
+    EXPECT_NEAR(base.colour(15, 10)[k],
+                palette_colour(palette, LandCoverClass::pasture, 1200.0, 0.6)[k], 1e-6F);
+    EXPECT_NEAR(base.darker(15, 10)[k],
+                palette_colour(palette, LandCoverClass::pasture, 1200.0, 0.6 - 0.17)[k], 1e-6F);
+    EXPECT_NEAR(base.lighter(15, 10)[k],
+                palette_colour(palette, LandCoverClass::pasture, 1200.0, 0.6 + 0.17)[k], 1e-6F);
   }
 }
 
@@ -61,7 +66,7 @@ TEST(Base, RockHasTheHueOfItsPlaneAndTurfAndSnowOnItsTreads) {
   expect(palette_colour(palette, LandCoverClass::alpine_grass, 1200.0, 0.55));
 }
 
-// Ice is blue where ground without any lies near; deep in the snow it is white with firn.
+// Ice is blue near ice-free ground; deep in the snow it is white with firn.
 TEST(Base, TonguesAreIceAndFirnIsSnow) {
   GuidanceBuffers g = make_slope(200, 40, LandCoverClass::glacier, {0.0F, 0.0F, 1.0F}, 10.0F);
   for (int y = 0; y < 40; ++y)
@@ -73,12 +78,13 @@ TEST(Base, TonguesAreIceAndFirnIsSnow) {
   EXPECT_LT(glm::length(base.colour(22, 20) - ice), 1e-5F);
   EXPECT_LT(glm::length(base.colour(180, 20) - snow), 1e-5F);
   EXPECT_GT(glm::length(ice - snow), 0.05F);
-  const float from_ice = glm::length(picture_of(g, plain(), "winter").colour(22, 20) -
-                                     palette_colour(read_palette("winter"), LandCoverClass::glacier, 1200.0, 0.6));
-  EXPECT_GT(from_ice, 0.01F) << "in winter tongues lie under snow";
+  const float from_ice =
+      glm::length(picture_of(g, plain(), "winter").colour(22, 20) -
+                  palette_colour(read_palette("winter"), LandCoverClass::glacier, 1200.0, 0.6));
+  EXPECT_GT(from_ice, 0.01F) << "in winter tongues are covered by snow";
 }
 
-// Lit ground throws warm light up into the shade of a wall, at its foot and nowhere else.
+// Lit ground reflects warm light into the shade of a wall, at its foot and nowhere else.
 TEST(Base, ShadeOfWallsIsWarmAtTheirFoot) {
   GuidanceBuffers g = make_slope(30, 120, LandCoverClass::rock, {0.0F, 0.0F, 1.0F}, 50.0F);
   for (int y = 90; y < 120; ++y)
@@ -94,33 +100,36 @@ TEST(Base, ShadeOfWallsIsWarmAtTheirFoot) {
   EXPECT_NEAR(warmth(0.7F, 88), warmth(0.7F, 40), 1e-4F) << "in the sun there is none";
 }
 
-// Pale and warm, and never as white as snow; in winter it lies under as much snow as scree does.
+// Pale and warm, and never as white as snow; in winter it has as much snow cover as scree.
 TEST(Base, SandIsPaleAndWarm) {
   const GuidanceBuffers g = make_slope(30, 20, LandCoverClass::sand, {0.0F, 0.0F, 1.0F}, 2.0F);
   for (const char* season : {"summer", "autumn", "winter", "desert", "evening", "morning"}) {
     const Palette palette = read_palette(season);
     const glm::vec3 colour = picture_of(g, plain(), season).colour(15, 10);
-    EXPECT_GT(luma(colour), luma(palette_colour(palette, LandCoverClass::rock, 1200.0, 0.6))) << season;
-    EXPECT_LT(luma(colour), luma(palette_colour(palette, LandCoverClass::snow, 1200.0, 0.6))) << season;
+    EXPECT_GT(luma(colour), luma(palette_colour(palette, LandCoverClass::rock, 1200.0, 0.6)))
+        << season;
+    EXPECT_LT(luma(colour), luma(palette_colour(palette, LandCoverClass::snow, 1200.0, 0.6)))
+        << season;
     if (!palette.winter) {
       EXPECT_GT(colour.r, colour.b) << season;
     }
   }
-  const GuidanceBuffers rubble = make_slope(30, 20, LandCoverClass::scree, {0.0F, 0.0F, 1.0F}, 2.0F);
+  const GuidanceBuffers rubble =
+      make_slope(30, 20, LandCoverClass::scree, {0.0F, 0.0F, 1.0F}, 2.0F);
   const glm::vec3 sand = picture_of(g, plain(), "winter").colour(15, 10);
   const glm::vec3 scree = picture_of(rubble, plain(), "winter").colour(15, 10);
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(sand[c], scree[c], 0.04F);
 }
 
-// Warm light shifts what it lights and leaves shade to the palette.
+// Warm light shifts lit colours and leaves shade to the palette.
 TEST(Base, ARegionsWarmthShiftsLitColoursAlone) {
   BaseParameters p = plain();
   const auto colours = [&](float tone, double warmth) {
     GuidanceBuffers g = make_slope(8, 8, LandCoverClass::pasture, {0.0F, 0.0F, 1.0F}, 10.0F);
     for (float& t : g.tone) t = tone;
-    p.light_field =
-        std::make_shared<const LightField>(glm::dvec3(0.0, 0.0, 1.0), glm::dvec2(1.0, 0.0),
-                                           std::vector{LightRegion{.radius_m = 1e5, .warmth = warmth}}, std::vector<CloudShadow>(), 1);
+    p.light_field = std::make_shared<const LightField>(
+        glm::dvec3(0.0, 0.0, 1.0), glm::dvec2(1.0, 0.0),
+        std::vector{LightRegion{.radius_m = 1e5, .warmth = warmth}}, std::vector<CloudShadow>(), 1);
     return picture_of(g, p).colour(4, 4);
   };
   const glm::vec3 lit = colours(0.9F, 0.0);
@@ -159,7 +168,8 @@ GuidanceBuffers make_end(float relief_l_m) {
   return g;
 }
 
-// Haze in depth, no eraser: on its way to the end low ground first turns into blue air, and only the last strip into what lies beyond.
+// Towards its end low terrain first turns into blue air, and only the last strip into the colour
+// beyond.
 TEST(Base, TerrainEndsInAir) {
   const Palette palette = read_palette("summer");
   BaseParameters p = plain();
@@ -175,10 +185,12 @@ TEST(Base, TerrainEndsInAir) {
       const float gone = 1.0F - step(std::min(1.0, 500.0 * x / (0.38 * 3000.0)));
       const glm::vec3 beyond = air_beyond(palette, (y + 0.5) / 4.0);
       const auto expected = [&](float colour, int k) {
-        return (colour * (1.0F - air) + palette.haze_near[k] * air) * (1.0F - gone) + beyond[k] * gone;
+        return (colour * (1.0F - air) + palette.haze_near[k] * air) * (1.0F - gone) +
+               beyond[k] * gone;
       };
       for (int k = 0; k < 3; ++k) {
-        ASSERT_NEAR(base.colour(x, y)[k], expected(full.colour(x, y)[k], k), 1e-6F) << x << ", " << y;
+        ASSERT_NEAR(base.colour(x, y)[k], expected(full.colour(x, y)[k], k), 1e-6F)
+            << x << ", " << y;
         ASSERT_NEAR(base.darker(x, y)[k], expected(full.darker(x, y)[k], k), 1e-6F);
         ASSERT_NEAR(base.lighter(x, y)[k], expected(full.lighter(x, y)[k], k), 1e-6F);
       }
@@ -199,11 +211,12 @@ TEST(Base, MountainsAtTheEndStayAsSilhouettes) {
     EXPECT_LT(glm::length(low.colour(0, y) - beyond), 0.01F) << "the ground is gone";
     EXPECT_GT(glm::length(high.colour(0, y) - beyond), 0.05F) << "the crest is not";
     EXPECT_LT(luma(high.colour(0, y)), luma(beyond)) << "and darker than the sky";
-    EXPECT_EQ(high.colour(6, y), low.colour(6, y)) << "farther in, both stand in the same air";
+    EXPECT_EQ(high.colour(6, y), low.colour(6, y)) << "farther in, both have the same air";
   }
 }
 
-// Steep crests, one behind the other in clear air beyond the foreground: each lighter and bluer than the one before.
+// Steep crests, one behind the other in clear air beyond the foreground: each lighter and bluer
+// than the one before.
 TEST(Base, FarRangesGrowPale) {
   const BaseParameters p;
   const Palette palette = read_palette("summer");
@@ -238,7 +251,7 @@ TEST(Base, MistLiesInValleys) {
   EXPECT_NEAR(behind_edge(300.0F), 0.25F * behind_edge(0.0F), 0.02F);
 }
 
-// Grass of hollows is fresh, that of ridges ripe: greener and yellower than between.
+// Grass in hollows is greener, on ridges yellower, than between.
 TEST(Base, GrassIsGreenerInHollows) {
   GuidanceBuffers g = make_slope(60, 40, LandCoverClass::alpine_grass, {0.0F, 0.0F, 1.0F}, 20.0F);
   BaseParameters p = plain();
@@ -253,7 +266,8 @@ TEST(Base, GrassIsGreenerInHollows) {
 }
 
 TEST(Base, RangesReadApart) {
-  // A near range before a far one of the same colour: the far side lightens towards the edge, the near side darkens.
+  // A near range in front of a far one of the same colour: the far side lightens towards the edge,
+  // the near side darkens.
   GuidanceBuffers g = make_slope(20, 160, LandCoverClass::forest, {0.0F, 0.0F, 1.0F}, 10.0F);
   for (int y = 0; y < 80; ++y)
     for (int x = 0; x < 20; ++x) g.depth_m(x, y) = 32000.0F;
@@ -299,7 +313,8 @@ TEST(Base, RiversHaveBanksOfGravelHereAndThere) {
   GuidanceBuffers g = make_slope(60, 600, LandCoverClass::pasture, {0.0F, 0.0F, 1.0F}, 1.0F);
   for (int y = 0; y < 600; ++y)
     for (int x = 0; x < 60; ++x) {
-      g.position_m(x, y) = glm::vec3(20.0F * static_cast<float>(x), -20.0F * static_cast<float>(y), 600.0F);
+      g.position_m(x, y) =
+          glm::vec3(20.0F * static_cast<float>(x), -20.0F * static_cast<float>(y), 600.0F);
       if (x >= 28 && x < 32) g.land_cover(x, y) = LandCoverClass::water;
     }
   const BasePicture base = picture_of(g, plain());
@@ -326,7 +341,8 @@ TEST(Base, PartEqualsWhole) {
     const PixelRect kept{width / 2 - 20, height / 2 - 30, width / 2 + 21, height / 2 + 9};
     const PixelRect part = with_margin(kept, base_margin_px(p), width, height);
     ASSERT_GT(part.x0, 0);
-    const BasePicture base = make_base_picture(cut(hills, part), palette, p, {part.x0, part.y0}, {width, height}, silent_progress());
+    const BasePicture base = make_base_picture(cut(hills, part), palette, p, {part.x0, part.y0},
+                                               {width, height}, silent_progress());
     for (int y = kept.y0; y < kept.y1; ++y)
       for (int x = kept.x0; x < kept.x1; ++x) {
         const int px = x - part.x0, py = y - part.y0;
@@ -342,29 +358,38 @@ TEST(Base, PartEqualsWhole) {
 
 TEST(Base, OfAPrintLooksAroundInItsWideView) {
   test::Print print;
-  for (std::size_t i = 0; i < print.near.tone.size(); ++i) print.near.tone[i] = print.near.sky_view[i] * 0.8F;
+  for (std::size_t i = 0; i < print.near.tone.size(); ++i)
+    print.near.tone[i] = print.near.sky_view[i] * 0.8F;
   BaseParameters p;
   p.pixels_per_unit = test::print_ppu;
   const Palette palette = read_palette("summer");
-  // A lake, which looks up and down for its shores, and level ground above it, which looks for water.
+  // A lake, which searches up and down for its shores, and level ground above it, which searches
+  // for water.
   for (int y = 690; y < 1000; ++y)
-    for (int x = 300; x < 1100; ++x) print.near.land_cover(x, y) = y < 760 ? LandCoverClass::valley_floor : LandCoverClass::water;
+    for (int x = 300; x < 1100; ++x)
+      print.near.land_cover(x, y) = y < 760 ? LandCoverClass::valley_floor : LandCoverClass::water;
   const glm::ivec2 size{print.width, print.height};
-  const BasePicture whole = make_base_picture(print.near, {print.far, test::print_factor}, palette, p, {0, 0}, size, silent_progress());
-  for (const PixelRect kept : {PixelRect{640, 520, 700, 570}, PixelRect{640, 735, 700, 758}, PixelRect{640, 880, 700, 900}}) {
+  const BasePicture whole = make_base_picture(print.near, {print.far, test::print_factor}, palette,
+                                              p, {0, 0}, size, silent_progress());
+  for (const PixelRect kept : {PixelRect{640, 520, 700, 570}, PixelRect{640, 735, 700, 758},
+                               PixelRect{640, 880, 700, 900}}) {
     const Grid<LandCoverClass> classes = test::cut(print.near.land_cover, kept);
-    const bool has_water = std::find(classes.begin(), classes.end(), LandCoverClass::water) != classes.end();
+    const bool has_water =
+        std::find(classes.begin(), classes.end(), LandCoverClass::water) != classes.end();
     const test::Window near = test::window_of(print.near, base_window(kept, has_water, p));
-    const test::Window far = test::window_of(print.far, wide_rect(grown(kept, base_margin_px(p)), test::print_factor));
+    const test::Window far =
+        test::window_of(print.far, wide_rect(grown(kept, base_margin_px(p)), test::print_factor));
     const BasePicture part =
-        make_base_picture(near.held, {far.held, test::print_factor, {far.rect.x0, far.rect.y0}}, palette, p, {near.rect.x0, near.rect.y0},
-                          size, silent_progress(), moved(kept, -near.rect.x0, -near.rect.y0));
+        make_base_picture(near.held, {far.held, test::print_factor, {far.rect.x0, far.rect.y0}},
+                          palette, p, {near.rect.x0, near.rect.y0}, size, silent_progress(),
+                          moved(kept, -near.rect.x0, -near.rect.y0));
     EXPECT_TRUE(part.colour == test::cut(whole.colour, kept));
     EXPECT_TRUE(part.accent == test::cut(whole.accent, kept));
     EXPECT_TRUE(part.tree_density == test::cut(whole.tree_density, kept));
     EXPECT_TRUE(part.haze == test::cut(whole.haze, kept));
   }
-  const BasePicture own = make_base_picture(print.near, palette, p, {0, 0}, size, silent_progress());
+  const BasePicture own =
+      make_base_picture(print.near, palette, p, {0, 0}, size, silent_progress());
   double squares = 0.0;
   for (std::size_t i = 0; i < own.colour.size(); ++i) {
     const glm::vec3 off = own.colour[i] - whole.colour[i];

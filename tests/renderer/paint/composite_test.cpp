@@ -15,13 +15,17 @@ namespace {
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
 TEST(Srgb, KnownValues) {
-  // 8-bit code, linear value (IEC 61966-2-1 evaluated with 12 digits elsewhere).
-  const std::pair<double, double> known[] = {
-      {0.0, 0.0}, {10.0, 0.003035269835}, {11.0, 0.003346535764}, {128.0, 0.215860500500}, {255.0, 1.0}};
+  // 8-bit code, linear value (IEC 61966-2-1, computed independently with 12 digits).
+  const std::pair<double, double> known[] = {{0.0, 0.0},
+                                             {10.0, 0.003035269835},
+                                             {11.0, 0.003346535764},
+                                             {128.0, 0.215860500500},
+                                             {255.0, 1.0}};
   for (const auto& [code, linear] : known) {
     const Grid<glm::vec3> encoded(1, 1, glm::vec3(static_cast<float>(code / 255.0)));
     EXPECT_NEAR(decode_srgb(encoded)(0, 0).x, linear, 1e-7);
-    EXPECT_NEAR(encode_srgb(Image(1, 1, glm::vec3(static_cast<float>(linear))))(0, 0).z, code / 255.0, 1e-7);
+    EXPECT_NEAR(encode_srgb(Image(1, 1, glm::vec3(static_cast<float>(linear))))(0, 0).z,
+                code / 255.0, 1e-7);
   }
 }
 
@@ -61,18 +65,20 @@ TEST(TransferResidual, AddsAPartOfTheDifferenceOfBases) {
 
 TEST(TransferResidual, SameBaseGivesTheTexel) {
   const std::vector<PaintedExemplar> exemplars = {make_exemplar(true)};
-  const Grid<glm::vec3> out =
-      transfer_residual(MatchField(1, 1, Match{0, 2, 1}), exemplars, Grid<glm::vec3>(1, 1, glm::vec3(0.4f)), {}, 0.75);
+  const Grid<glm::vec3> out = transfer_residual(MatchField(1, 1, Match{0, 2, 1}), exemplars,
+                                                Grid<glm::vec3>(1, 1, glm::vec3(0.4f)), {}, 0.75);
   EXPECT_EQ(out(0, 0), exemplars[0].picture(2, 1));
 }
 
-// Terrain's light blended over copied paint: strokes are lighter and darker than their base by as much, guides match light to a few
-// hundredths, and the ground in the sun keeps the mean luminance of its base. Paint times light, as relief shading is often laid over a
-// picture, turns dark.
+// The terrain's light over copied paint: strokes are lighter and darker than their base by equal
+// amounts, guides match light to a few hundredths, and sunlit ground keeps the mean luminance of
+// its base. Paint times light, the usual overlay of relief shading, gets dark.
 TEST(TransferResidual, KeepsTheMeanLuminanceOfLitGround) {
   constexpr int width = 300;
   constexpr int height = 200;
-  const auto light_at = [](std::uint64_t seed, int x, int y) { return static_cast<float>(0.45 + 0.4 * random_uniform(seed, x, y)); };
+  const auto light_at = [](std::uint64_t seed, int x, int y) {
+    return static_cast<float>(0.45 + 0.4 * random_uniform(seed, x, y));
+  };
   PaintedExemplar exemplar;
   exemplar.picture = exemplar.base = Grid<glm::vec3>(width, height);
   Grid<glm::vec3> target(width, height);
@@ -81,7 +87,9 @@ TEST(TransferResidual, KeepsTheMeanLuminanceOfLitGround) {
     for (int x = 0; x < width; ++x) {
       const float light = light_at(1, x, y);
       exemplar.base(x, y) = glm::vec3(0.9F, 1.0F, 0.7F) * light;
-      exemplar.picture(x, y) = exemplar.base(x, y) + glm::vec3(static_cast<float>(0.12 * (random_uniform(2, x, y) - 0.5)));
+      exemplar.picture(x, y) =
+          exemplar.base(x, y) +
+          glm::vec3(static_cast<float>(0.12 * (random_uniform(2, x, y) - 0.5)));
       const float asked = light + static_cast<float>(0.1 * (random_uniform(3, x, y) - 0.5));
       target(x, y) = glm::vec3(0.9F, 1.0F, 0.7F) * asked;
       matches(x, y) = {0, static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y)};
@@ -89,41 +97,48 @@ TEST(TransferResidual, KeepsTheMeanLuminanceOfLitGround) {
   }
   const auto luminance = [](const Grid<glm::vec3>& encoded) {
     double sum = 0.0;
-    for (const glm::vec3& linear : decode_srgb(encoded)) sum += 0.2126 * linear.x + 0.7152 * linear.y + 0.0722 * linear.z;
+    for (const glm::vec3& linear : decode_srgb(encoded))
+      sum += 0.2126 * linear.x + 0.7152 * linear.y + 0.0722 * linear.z;
     return sum / static_cast<double>(encoded.size());
   };
   const double base = luminance(target);
-  EXPECT_NEAR(luminance(transfer_residual(matches, {exemplar}, target, {}, 0.75)) / base, 1.0, 0.01);
-  EXPECT_NEAR(luminance(transfer_residual(matches, {exemplar}, target, {}, 0.25)) / base, 1.0, 0.01);
+  EXPECT_NEAR(luminance(transfer_residual(matches, {exemplar}, target, {}, 0.75)) / base, 1.0,
+              0.01);
+  EXPECT_NEAR(luminance(transfer_residual(matches, {exemplar}, target, {}, 0.25)) / base, 1.0,
+              0.01);
   Grid<glm::vec3> multiplied(width, height);
-  for (std::size_t i = 0; i < multiplied.size(); ++i) multiplied[i] = exemplar.picture[i] * target[i].y;
+  for (std::size_t i = 0; i < multiplied.size(); ++i)
+    multiplied[i] = exemplar.picture[i] * target[i].y;
   EXPECT_LT(luminance(multiplied) / base, 0.6);
 }
 
-// Of a texel's own planes of rock nothing is left but the strokes on them.
+// Of a texel's own planes of rock only the strokes on them remain.
 TEST(TransferResidual, RockAndSnowTakeAllOfTheLightOfTheirOwnPlace) {
   const std::vector<PaintedExemplar> exemplars = {make_exemplar(true)};
   const MatchField matches(2, 1, Match{0, 0, 0});
   Grid<LandCoverClass> shown(2, 1, LandCoverClass::scree);
   const auto painted = [&](LandCoverClass formed) {
     shown(1, 0) = formed;
-    return transfer_residual(matches, exemplars, Grid<glm::vec3>(2, 1, glm::vec3(0.6F)), {}, 0.5, shown);
+    return transfer_residual(matches, exemplars, Grid<glm::vec3>(2, 1, glm::vec3(0.6F)), {}, 0.5,
+                             shown);
   };
   EXPECT_NEAR(painted(LandCoverClass::rock)(0, 0).x, 0.5F + 0.5F * 0.2F, 1e-6F);
   EXPECT_NEAR(painted(LandCoverClass::rock)(1, 0).x, 0.5F + 0.2F, 1e-6F);
-  // The texel's strokes are .1 lighter than its base: more than snow takes.
+  // The texel's strokes are .1 lighter than its base: more than snow accepts.
   for (const LandCoverClass icy : {LandCoverClass::snow, LandCoverClass::glacier}) {
-    EXPECT_GT(painted(icy)(1, 0).x, 0.6F + 0.5F * snow_strokes_most);
-    EXPECT_LT(painted(icy)(1, 0).x, 0.6F + snow_strokes_most);
+    EXPECT_GT(painted(icy)(1, 0).x, 0.6F + 0.5F * snow_strokes_max);
+    EXPECT_LT(painted(icy)(1, 0).x, 0.6F + snow_strokes_max);
   }
 }
 
-// Paint of a model goes by the law of copies: the same texel and base give the same picture, for every class and through air.
+// Paint of a model follows the formula of copies: the same texel and base give the same picture,
+// for every class and through air.
 TEST(LayModelPaint, IsTheLawOfCopies) {
   std::vector<PaintedExemplar> exemplars = {make_exemplar(true)};
   const int classes = static_cast<int>(land_cover_classes().size());
   MatchField matches(classes, 2);
-  ModelPaint paint{Grid<std::uint8_t>(classes, 2), Grid<glm::vec3>(classes, 2), Grid<glm::vec3>(classes, 2)};
+  ModelPaint paint{Grid<std::uint8_t>(classes, 2), Grid<glm::vec3>(classes, 2),
+                   Grid<glm::vec3>(classes, 2)};
   Grid<glm::vec3> base(classes, 2);
   Grid<LandCoverClass> shown(classes, 2);
   Grid<float> haze(classes, 2);
@@ -149,8 +164,10 @@ TEST(LayModelPaint, IsTheLawOfCopies) {
 TEST(TransferResidual, RefusesMatchesOutside) {
   const std::vector<PaintedExemplar> exemplars = {make_exemplar(true)};
   const Grid<glm::vec3> base(1, 1);
-  EXPECT_THROW(transfer_residual(MatchField(1, 1, Match{1, 0, 0}), exemplars, base, {}, 0.5), Error);
-  EXPECT_THROW(transfer_residual(MatchField(1, 1, Match{0, 3, 0}), exemplars, base, {}, 0.5), Error);
+  EXPECT_THROW(transfer_residual(MatchField(1, 1, Match{1, 0, 0}), exemplars, base, {}, 0.5),
+               Error);
+  EXPECT_THROW(transfer_residual(MatchField(1, 1, Match{0, 3, 0}), exemplars, base, {}, 0.5),
+               Error);
   EXPECT_THROW(transfer_residual(MatchField(2, 1), exemplars, base, {}, 0.5), Error);
 }
 
@@ -177,7 +194,8 @@ TEST(MixBorders, GivesTheBordersOfThePaintingItself) {
   std::vector<Stroke> strokes;
   for (int k = 0; k < 60; ++k) {
     Stroke s;
-    const glm::vec2 at(40.F * static_cast<float>(random_uniform(1, k, 0)), 30.F * static_cast<float>(random_uniform(1, k, 1)));
+    const glm::vec2 at(40.F * static_cast<float>(random_uniform(1, k, 0)),
+                       30.F * static_cast<float>(random_uniform(1, k, 1)));
     s.points = {at - glm::vec2(5.F, 2.F), at + glm::vec2(5.F, 2.F)};
     s.point_count = 2;
     s.start_width = s.end_width = 3.F;
@@ -185,18 +203,21 @@ TEST(MixBorders, GivesTheBordersOfThePaintingItself) {
     s.bristle = 0.5F;
     s.depth_m = 1000.F;
     s.seed = static_cast<std::uint32_t>(k);
-    s.source = static_cast<std::uint32_t>(g.depth_m.index(static_cast<int>(at.x), static_cast<int>(at.y)));
+    s.source =
+        static_cast<std::uint32_t>(g.depth_m.index(static_cast<int>(at.x), static_cast<int>(at.y)));
     s.colour = glm::vec3(g.land_cover[s.source] == LandCoverClass::pasture ? 1.F : 0.F);
     strokes.push_back(s);
   }
   Grid<glm::vec3> canvas(40, 30, glm::vec3(0.F));
-  for (std::size_t i = 0; i < canvas.size(); ++i) canvas[i] = glm::vec3(g.land_cover[i] == LandCoverClass::pasture ? 1.F : 0.F);
+  for (std::size_t i = 0; i < canvas.size(); ++i)
+    canvas[i] = glm::vec3(g.land_cover[i] == LandCoverClass::pasture ? 1.F : 0.F);
   Painting draft = begin_painting(canvas);
   paint_in_order(draft, g, strokes, 1.0, silent_progress());
-  // A picture of whole pixels, each of the class that shows there most: torn paper.
+  // A picture of whole pixels, each of its most frequent class: looks like torn paper.
   const Grid<LandCoverClass> shown = shown_classes(draft, g.land_cover);
   Grid<glm::vec3> copied = canvas;
-  for (std::size_t i = 0; i < copied.size(); ++i) copied[i] = glm::vec3(shown[i] == LandCoverClass::pasture ? 1.F : 0.F);
+  for (std::size_t i = 0; i < copied.size(); ++i)
+    copied[i] = glm::vec3(shown[i] == LandCoverClass::pasture ? 1.F : 0.F);
   const Grid<glm::vec3> out = mix_borders(copied, draft, shown, g.land_cover, canvas);
   int mixed = 0;
   for (std::size_t i = 0; i < out.size(); ++i) {
@@ -225,7 +246,8 @@ TEST(MixBorders, TakesTheColourOfWhereTheStrokeGrew) {
       ASSERT_EQ(out[i], copied[i]) << "one class alone";
     }
   }
-  // Where the stroke grew, rock has been painted over the grass: its colour there is not grass's.
+  // At the stroke's origin rock has been painted over the grass: its colour there is not that of
+  // grass.
   Grid<LandCoverClass> shown = land_cover;
   shown[grass] = LandCoverClass::rock;
   const Grid<glm::vec3> hidden = mix_borders(copied, draft, shown, land_cover, base);
@@ -236,10 +258,12 @@ TEST(MixBorders, TakesTheColourOfWhereTheStrokeGrew) {
 TEST(MixBorders, RefusesGridsOfDifferentSize) {
   const Painting draft = begin_painting(Grid<glm::vec3>(4, 3));
   const Grid<LandCoverClass> classes(4, 3);
-  EXPECT_THROW(mix_borders(Grid<glm::vec3>(3, 3), draft, classes, classes, Grid<glm::vec3>(4, 3)), Error);
+  EXPECT_THROW(mix_borders(Grid<glm::vec3>(3, 3), draft, classes, classes, Grid<glm::vec3>(4, 3)),
+               Error);
 }
 
-// The part of pixel x, y (centre at whole numbers) below the line v = slope u + offset, by 64 × 64 samples: fine enough for 1e-3.
+// Share of pixel x, y (centre at whole numbers) below the line v = slope u + offset, from 64 × 64
+// samples: accurate to 1e-3.
 double covered(int x, int y, double slope, double offset) {
   int inside = 0;
   for (int j = 0; j < 64; ++j) {
@@ -258,7 +282,8 @@ struct Edge {
   Grid<float> coverage;  // of the near surface
 };
 
-// A near surface below a slanted line before something else; every pixel is painted for the surface that fills most of it.
+// A near surface below a slanted line in front of something else; every pixel is painted for the
+// surface that fills most of it.
 Edge make_edge(double slope, float far_depth, glm::vec3 near_colour, glm::vec3 far_colour) {
   constexpr int size = 40;
   Edge e{Grid<glm::vec3>(size, size), {}, Grid<float>(size, size)};
@@ -291,7 +316,9 @@ TEST(BlendEdges, GivesTheLightOfTheCoveredArea) {
         for (int x = 0; x < out.width(); ++x) {
           const float part = e.coverage(x, y);
           const glm::vec3 expected = part * pure(0, 0) + (1.0f - part) * sky(0, 0);
-          for (int c = 0; c < 3; ++c) largest = std::max(largest, static_cast<double>(std::abs(out(x, y)[c] - expected[c]) / sky(0, 0)[c]));
+          for (int c = 0; c < 3; ++c)
+            largest = std::max(
+                largest, static_cast<double>(std::abs(out(x, y)[c] - expected[c]) / sky(0, 0)[c]));
         }
       }
       EXPECT_LT(largest, 0.05) << slope << " " << far_depth;
@@ -302,7 +329,8 @@ TEST(BlendEdges, GivesTheLightOfTheCoveredArea) {
 TEST(BlendEdges, LeavesWholePixelsAlone) {
   Edge e = make_edge(0.37, infinity, glm::vec3(0.2f), glm::vec3(0.9f));
   for (int y = 0; y < 40; ++y) {
-    for (int x = 0; x < 40; ++x) e.picture(x, y) += static_cast<float>(0.05 * random_uniform(4, x, y));
+    for (int x = 0; x < 40; ++x)
+      e.picture(x, y) += static_cast<float>(0.05 * random_uniform(4, x, y));
   }
   const Grid<glm::vec3> out = blend_edges(e.picture, e.guidance);
   int changed = 0;
@@ -330,9 +358,9 @@ TEST(BlendEdges, OneSurfaceIsNotBlurred) {
   }
   EXPECT_EQ(blend_edges(picture, guidance), picture);
   guidance.depth_m = Grid<float>(8, 8, infinity);
-  EXPECT_EQ(blend_edges(picture, guidance), picture) << "sky beside sky";
+  EXPECT_EQ(blend_edges(picture, guidance), picture) << "sky next to sky";
   guidance.front = {};
-  EXPECT_THROW(blend_edges(picture, guidance), Error) << "nothing known";
+  EXPECT_THROW(blend_edges(picture, guidance), Error) << "no depths and no front";
 }
 
 }  // namespace

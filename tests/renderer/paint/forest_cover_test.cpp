@@ -13,29 +13,33 @@ namespace {
 
 using enum LandCoverClass;
 
-// A wooded slope of 20 m a unit at 1700 m, where only spruces grow. `ppu` pixels a unit.
+// A wooded slope of 20 m per unit at 1700 m, with spruces only. `ppu` pixels per unit.
 GuidanceBuffers wood(int width, int height, float ppu = 1.0F) {
   GuidanceBuffers g = test::make_slope(width, height, forest, {0.0F, 0.0F, 1.0F}, 28.0F);
   const float metres = 20.0F / ppu;
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
-      g.position_m(x, y) = {metres * (static_cast<float>(x) + 0.5F), -metres * (static_cast<float>(y) + 0.5F), 1700.0F};
+      g.position_m(x, y) = {metres * (static_cast<float>(x) + 0.5F),
+                            -metres * (static_cast<float>(y) + 0.5F), 1700.0F};
   g.footprint_m = Grid<float>(width, height, metres);
   return g;
 }
 
-// Variance of the counts in square windows of 40 units (20 mm) over their mean: 1 for trees strewn at random, near 0 for a lattice.
+// Variance of the counts in square windows of 40 units (20 mm) divided by their mean: 1 for trees
+// at random positions, near 0 for a lattice.
 template <class Density>
 double dispersion(Density&& density_of) {
   GuidanceBuffers g = wood(800, 600);
-  BasePicture base = make_base_picture(g, read_palette("summer"), {}, {0, 0}, {800, 600}, silent_progress());
+  BasePicture base =
+      make_base_picture(g, read_palette("summer"), {}, {0, 0}, {800, 600}, silent_progress());
   density_of(base.tree_density);
   const StrokeParameters parameters;
   constexpr int cell = 40;
   Grid<int> counts(800 / cell, 600 / cell, 0);
   for (const Stroke& s : wood_strokes({g, base, parameters}))
     if (s.gate == StrokeGate::upright && s.alpha > 0.85F)  // bodies
-      ++counts(std::clamp(static_cast<int>(s.points[0].x), 0, 799) / cell, std::clamp(static_cast<int>(s.points[0].y), 0, 599) / cell);
+      ++counts(std::clamp(static_cast<int>(s.points[0].x), 0, 799) / cell,
+               std::clamp(static_cast<int>(s.points[0].y), 0, 599) / cell);
   double sum = 0.0;
   double squares = 0.0;
   for (const int n : counts) {
@@ -70,7 +74,7 @@ TEST(ForestCover, GladesAreBareAndFew) {
   EXPECT_LT(share, 0.15);
 }
 
-// Meadow above or below: the treeline frays, the lower edge stands like a wall.
+// Meadow above or below: the treeline is frayed, the lower edge forms a wall.
 TEST(ForestCover, ThinsToTheTreelineNotToTheMeadow) {
   const auto density_at_edge = [](LandCoverClass beyond, bool above) {
     GuidanceBuffers g = wood(600, 160);
@@ -88,7 +92,8 @@ TEST(ForestCover, ThinsToTheTreelineNotToTheMeadow) {
   EXPECT_GT(density_at_edge(valley_floor, false), 0.6);
 }
 
-// Avalanches start at the treeline and run down the fall line, so what is bare there is longer than wide.
+// Avalanches start at the treeline and run down the fall line, so bare areas there are longer than
+// wide.
 TEST(ForestCover, TracksRunDownTheFallLine) {
   GuidanceBuffers g = wood(600, 200);
   const glm::vec2 fall(0.6F, 0.8F);
@@ -108,7 +113,7 @@ TEST(ForestCover, TracksRunDownTheFallLine) {
   EXPECT_LT(along, 0.65 * across);
 }
 
-// Glades lie where the ground offers itself: on shoulders and on the valley's floor rather than in gullies and on steep slopes.
+// Glades lie on shoulders and on the valley floor rather than in gullies and on steep slopes.
 TEST(ForestCover, GladesFollowTheRelief) {
   const auto glades = [](float slope_deg, float relief_m, float valley_height_m) {
     GuidanceBuffers g = wood(800, 600);
@@ -126,7 +131,7 @@ TEST(ForestCover, GladesFollowTheRelief) {
   EXPECT_GT(floor, 1.2 * slope);
   EXPECT_LT(gully, slope);
   EXPECT_LT(steep, 0.8 * slope);
-  EXPECT_LT(shoulder, 0.5) << "still a wood";
+  EXPECT_LT(shoulder, 0.5) << "still a forest";
 }
 
 TEST(ForestCover, HollowsAreFullerThanRidges) {
@@ -145,7 +150,9 @@ TEST(ForestCover, KeepsItsSizeOnTheSheet) {
   const ForestCover large = make_forest_cover(many, {many}, {.pixels_per_unit = 4.0}, {0, 0});
   double difference = 0.0;
   for (int y = 10; y < 140; ++y)
-    for (int x = 10; x < 190; ++x) difference += std::abs(small.density(x, y) - large.density(4 * x + 2, 4 * y + 2)) / (180.0 * 130.0);
+    for (int x = 10; x < 190; ++x)
+      difference +=
+          std::abs(small.density(x, y) - large.density(4 * x + 2, 4 * y + 2)) / (180.0 * 130.0);
   EXPECT_LT(difference, 0.05);
 }
 
@@ -157,7 +164,8 @@ TEST(ForestCover, OtherGroundHasNone) {
   EXPECT_EQ(cover.glade, Grid<float>(40, 30, 0.0F));
 }
 
-// A treeline above the part that is compared, out of reach of a small margin: tracks and thinning depend on it.
+// A treeline above the part that is compared, out of reach of a small margin: tracks and thinning
+// depend on it.
 TEST(ForestCover, PartEqualsWhole) {
   GuidanceBuffers g = wood(360, 400);
   for (auto& d : g.fall_line) d = glm::vec2(0.28F, 0.96F);
@@ -170,7 +178,8 @@ TEST(ForestCover, PartEqualsWhole) {
   ASSERT_GT(part.x0, 0);
   ASSERT_GT(part.y0, 0);
   const GuidanceBuffers held = test::cut(g, part);
-  const ForestCover cover = make_forest_cover(held, {held, 1, {part.x0, part.y0}}, {}, {part.x0, part.y0});
+  const ForestCover cover =
+      make_forest_cover(held, {held, 1, {part.x0, part.y0}}, {}, {part.x0, part.y0});
   for (int y = kept.y0; y < kept.y1; ++y)
     for (int x = kept.x0; x < kept.x1; ++x) {
       ASSERT_EQ(cover.density(x - part.x0, y - part.y0), whole.density(x, y));

@@ -32,7 +32,8 @@ TEST(Guides, AreNamedOnceAndSayWhatTheyMean) {
 
 TEST(Guides, OfAPictureWithEveryChannelAreTheWholeTable) {
   GuidanceBuffers g;
-  for (const GuidanceChannel& channel : guidance_channels()) fill_channel(g, channel, 4, 3, channel.sky);
+  for (const GuidanceChannel& channel : guidance_channels())
+    fill_channel(g, channel, 4, 3, channel.sky);
   std::vector<std::string> names;
   for (const Guide& guide : make_guide_stack(g, g.land_cover).guides) names.push_back(guide.name);
   EXPECT_EQ(names, guide_names());
@@ -83,11 +84,13 @@ TEST(Guides, AreQuantizedAsDocumented) {
   EXPECT_EQ(guide("fall_line_x")[1], 0);
   g.shadow = {};
   EXPECT_EQ(make_guide_stack(g, g.land_cover).guides.size(), stack.guides.size() - 1);
-  EXPECT_EQ(make_guide_stack(g, g.land_cover).find("shadow"), nullptr) << "left out, as its channel is absent";
+  EXPECT_EQ(make_guide_stack(g, g.land_cover).find("shadow"), nullptr)
+      << "left out, as its channel is absent";
 }
 
-// A meadow whose left half drains little ground and whose right half much, of one grey grain; a target whose flow is `flow` all over. How
-// much of it is copied from the right half when that guide weighs `weight`.
+// A meadow whose left half drains little ground and whose right half much, of one grey grain; a
+// target with `flow` everywhere. Returns the share copied from the right half when that guide has
+// `weight`.
 double copied_from_the_brook(float flow, double weight) {
   GuidanceBuffers g = make_slope(96, 64, LandCoverClass::pasture, {0.0F, 0.0F, 1.0F}, 10.0F);
   g.flow = Grid<float>(96, 64, 3.0F);
@@ -105,7 +108,8 @@ double copied_from_the_brook(float flow, double weight) {
   parameters.weights = default_guide_weights();
   for (auto& [name, value] : parameters.weights)
     if (name == "flow") value = weight;
-  const MatchField matches = synthesize({exemplar}, make_guide_stack(target, target.land_cover), parameters, silent_progress());
+  const MatchField matches = synthesize({exemplar}, make_guide_stack(target, target.land_cover),
+                                        parameters, silent_progress());
   double right = 0.0;
   for (const Match& m : matches) right += m.x >= 48 ? 1.0 : 0.0;
   return right / static_cast<double>(matches.size());
@@ -117,11 +121,11 @@ TEST(Guides, FlowChoosesAmongTexelsByTheWaterTheySee) {
   const double unasked = copied_from_the_brook(8.0F, 0.0);
   EXPECT_GT(unasked, 0.2);
   EXPECT_LT(unasked, 0.8);
-  EXPECT_EQ(unasked, copied_from_the_brook(3.0F, 0.0)) << "off where a scene says nothing";
+  EXPECT_EQ(unasked, copied_from_the_brook(3.0F, 0.0)) << "off by default";
 }
 
-// Rock painted from a neighbour of the same class whose base differs by .05, .10 and nothing: a little is the life of strokes, more is a
-// border that they reached over.
+// Rock painted from a neighbour of the same class whose base differs by .05, .10 and nothing: a
+// small difference is the variety of strokes, a larger one a border that they crossed.
 TEST(PaintedClasses, WithinAClassTakeOnlyWhatStrokesDoNotCarry) {
   const GuidanceBuffers g = make_slope(4, 1, LandCoverClass::rock, {0.0F, 0.0F, 1.0F}, 10.0F);
   Grid<glm::vec3> base(4, 1);

@@ -5,16 +5,17 @@
 
 namespace belvedere::test {
 
-inline constexpr double print_ppu = 8.0;  // pixels of a unit
+inline constexpr double print_ppu = 8.0;  // pixels per unit
 inline constexpr int print_factor = 4;    // of its wide view
 
-// Hills at print scale, and what a camera of a quarter of the pixels sees of them.
+// Hills at print scale, and the view of a camera with a quarter of the pixels.
 struct Print {
   int width = 1400;
   int height = 1100;
   GuidanceBuffers near = make_hills(width, height, print_ppu);
   GuidanceBuffers far =
-      make_hills((width + print_factor - 1) / print_factor, (height + print_factor - 1) / print_factor, print_ppu / print_factor);
+      make_hills((width + print_factor - 1) / print_factor,
+                 (height + print_factor - 1) / print_factor, print_ppu / print_factor);
 };
 
 struct Window {

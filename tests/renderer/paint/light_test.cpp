@@ -34,7 +34,8 @@ TEST(Tone, GrowsWithLight) {
   for (double angle = 0.0; angle < 1.8; angle += 0.2) {
     const glm::vec3 towards = glm::normalize(sun_side_normal);
     const glm::vec3 side = glm::normalize(glm::vec3(1.0F, 1.0F, 0.0F));
-    const glm::vec3 normal = towards * static_cast<float>(std::cos(angle)) + side * static_cast<float>(std::sin(angle));
+    const glm::vec3 normal =
+        towards * static_cast<float>(std::cos(angle)) + side * static_cast<float>(std::sin(angle));
     const double tone = mean(tone_of(make_slope(24, 24, LandCoverClass::pasture, normal, 10.0F)));
     EXPECT_LT(tone, lighter) << "angle " << angle;
     lighter = tone;
@@ -47,21 +48,25 @@ TEST(Tone, ShadowTakesItsShareOfTheSun) {
   for (float& s : dark.shadow) s = 0.0F;
   ToneParameters p;
   p.light.sun = 0.6;  // full light must not clip here
-  // The sun alone gives sun_strength on this slope; a cast shadow takes shadow_depth of it, and tone is light / 0.98.
+  // The sun alone gives sun_strength on this slope; a cast shadow removes shadow_depth of it, and
+  // tone is light / 0.98.
   for (const double depth : {0.3, 0.78}) {
     p.light.shadow_depth = depth;
     EXPECT_NEAR(mean(tone_of(lit, p)) - mean(tone_of(dark, p)), 0.6 * depth / 0.98, 1e-3);
   }
 }
 
-// A cone seen from above, as normals and places: its eastern half under a region's sun in the east, the rest under one in the west.
+// A cone seen from above, as normals and positions: its eastern half under a region's sun in the
+// east, the rest under one in the west.
 GuidanceBuffers make_cone(int size) {
   GuidanceBuffers g = make_slope(size, size, LandCoverClass::pasture, {0.0F, 0.0F, 1.0F}, 30.0F);
   for (int y = 0; y < size; ++y)
     for (int x = 0; x < size; ++x) {
-      const glm::vec2 out = glm::vec2(static_cast<float>(x), static_cast<float>(-y)) + glm::vec2(0.5F - 0.5F * size, 0.5F * size - 0.5F);
+      const glm::vec2 out = glm::vec2(static_cast<float>(x), static_cast<float>(-y)) +
+                            glm::vec2(0.5F - 0.5F * size, 0.5F * size - 0.5F);
       g.position_m(x, y) = glm::vec3(10.0F * out, 1200.0F);
-      g.normal(x, y) = g.normal_detail(x, y) = g.normal_smooth(x, y) = glm::normalize(glm::vec3(glm::normalize(out), 1.0F));
+      g.normal(x, y) = g.normal_detail(x, y) = g.normal_smooth(x, y) =
+          glm::normalize(glm::vec3(glm::normalize(out), 1.0F));
     }
   return g;
 }
@@ -78,8 +83,11 @@ TEST(Tone, AConeIsLitFromTwoSides) {
   from_east.sun_direction = east;
   from_east.sun_image_x = 1.0;
   ToneParameters both = from_west;
-  const LightRegion half{.rings = {{{100, -1000}, {1000, -1000}, {1000, 1000}, {100, 1000}}}, .blend_m = 200.0, .sun_direction = east};
-  both.light_field = std::make_shared<const LightField>(west, glm::dvec2(1.0, 0.0), std::vector{half}, std::vector<CloudShadow>(), 1);
+  const LightRegion half{.rings = {{{100, -1000}, {1000, -1000}, {1000, 1000}, {100, 1000}}},
+                         .blend_m = 200.0,
+                         .sun_direction = east};
+  both.light_field = std::make_shared<const LightField>(
+      west, glm::dvec2(1.0, 0.0), std::vector{half}, std::vector<CloudShadow>(), 1);
   const Grid<float> tone = tone_of(cone, both);
   const Grid<float> left = tone_of(cone, from_west);
   const Grid<float> right = tone_of(cone, from_east);
@@ -91,10 +99,10 @@ TEST(Tone, AConeIsLitFromTwoSides) {
       } else if (at > 100.0F) {
         ASSERT_NEAR(tone(x, y), right(x, y), 1e-5F);
       } else if (std::abs(at) < 10.0F && y % 24 == 0) {
-        // Half of each: the sum of both suns, which stands higher and in the north.
-        ToneParameters middle = from_west;
-        middle.sun_direction = both.light_field->at({static_cast<double>(at), 0.0}).sun;
-        EXPECT_NEAR(tone(x, y), tone_of(cone, middle)(x, y), 1e-5F);
+        // Half of each: the sum of both suns, which is higher and in the north.
+        ToneParameters centre = from_west;
+        centre.sun_direction = both.light_field->at({static_cast<double>(at), 0.0}).sun;
+        EXPECT_NEAR(tone(x, y), tone_of(cone, centre)(x, y), 1e-5F);
       }
     }
   EXPECT_GT(tone(10, 48), 0.7F);
@@ -102,7 +110,7 @@ TEST(Tone, AConeIsLitFromTwoSides) {
   EXPECT_LT(right(10, 48), 0.4F);
 }
 
-// A cloud takes its share of the sunlight and nothing of the sky's.
+// A cloud removes its share of the sunlight and nothing of the sky's.
 TEST(Tone, ACloudShadowTakesItsShareOfTheSun) {
   const GuidanceBuffers lit = make_slope(24, 24, LandCoverClass::pasture, sun_side_normal, 10.0F);
   ToneParameters p;
@@ -110,9 +118,12 @@ TEST(Tone, ACloudShadowTakesItsShareOfTheSun) {
   ToneParameters clouded = p;
   clouded.light_field = std::make_shared<const LightField>(
       p.sun_direction, glm::dvec2(1.0, 0.0), std::vector<LightRegion>(),
-      std::vector{CloudShadow{.center = {0.0, 0.0}, .radius_m = 4000.0, .strength = 0.5, .blend_m = 500.0}}, 1);
+      std::vector{
+          CloudShadow{.centre = {0.0, 0.0}, .radius_m = 4000.0, .strength = 0.5, .blend_m = 500.0}},
+      1);
   const float kept = clouded.light_field->at({0.0, 0.0}).strength;
-  EXPECT_NEAR(mean(tone_of(lit, p)) - mean(tone_of(lit, clouded)), 0.6 * (1.0 - static_cast<double>(kept)) / 0.98, 1e-3);
+  EXPECT_NEAR(mean(tone_of(lit, p)) - mean(tone_of(lit, clouded)),
+              0.6 * (1.0 - static_cast<double>(kept)) / 0.98, 1e-3);
 }
 
 TEST(Tone, SkyViewAndReliefLighten) {
@@ -144,28 +155,34 @@ TEST(Tone, StaysInRange) {
 }
 
 TEST(Tone, OutcropsInTheWoodAreCalmerThanWalls) {
-  // A slope of rock, lit in its left half and in shadow in its right one, and the same with wood all around a small patch of each.
+  // A slope of rock, lit in its left half and in shadow in its right one, and the same with forest
+  // all around a small patch of each.
   GuidanceBuffers wall = make_slope(160, 80, LandCoverClass::rock, sun_side_normal, 45.0F);
   for (int y = 0; y < 80; ++y)
     for (int x = 80; x < 160; ++x) wall.shadow(x, y) = 0.0F;
   GuidanceBuffers outcrops = wall;
-  const auto in_patch = [](int x, int y) { return std::abs(y - 40) < 6 && (std::abs(x - 40) < 6 || std::abs(x - 120) < 6); };
+  const auto in_patch = [](int x, int y) {
+    return std::abs(y - 40) < 6 && (std::abs(x - 40) < 6 || std::abs(x - 120) < 6);
+  };
   for (int y = 0; y < 80; ++y)
     for (int x = 0; x < 160; ++x)
       if (!in_patch(x, y)) outcrops.land_cover(x, y) = LandCoverClass::forest;
   ToneParameters p;
   p.ribs = 0.0;
-  const auto patch = [&](const Grid<float>& tone, int middle) {
+  const auto patch = [&](const Grid<float>& tone, int centre) {
     double sum = 0.0;
     int count = 0;
     for (int y = 35; y <= 45; ++y)
-      for (int x = middle - 5; x <= middle + 5; ++x, ++count) sum += static_cast<double>(tone(x, y));
+      for (int x = centre - 5; x <= centre + 5; ++x, ++count)
+        sum += static_cast<double>(tone(x, y));
     return sum / count;
   };
   const Grid<float> of_wall = tone_of(wall, p);
   const Grid<float> of_outcrops = tone_of(outcrops, p);
   EXPECT_LT(patch(of_outcrops, 40), patch(of_wall, 40) - 0.1) << "not white";
-  EXPECT_LT(patch(of_outcrops, 40) - patch(of_outcrops, 120), 0.7 * (patch(of_wall, 40) - patch(of_wall, 120))) << "less contrast";
+  EXPECT_LT(patch(of_outcrops, 40) - patch(of_outcrops, 120),
+            0.7 * (patch(of_wall, 40) - patch(of_wall, 120)))
+      << "less contrast";
 }
 
 TEST(Tone, OfRockIsThatOfItsRelief) {
@@ -175,10 +192,10 @@ TEST(Tone, OfRockIsThatOfItsRelief) {
   ToneParameters p;
   EXPECT_NEAR(mean(tone_of(wall, p)), 0.7, 0.06) << "pools of light alone move it";
   EXPECT_NE(mean(tone_of(wall, p)), plain);
-  // The picture's contrast works on it, about .55.
+  // The picture's contrast applies to it, around .55.
   p.light.contrast = 2.0;
   EXPECT_NEAR(mean(tone_of(wall, p)), 0.85, 0.12);
-  // Other ground asks for none.
+  // Other ground does not need it.
   GuidanceBuffers meadow = make_slope(24, 24, LandCoverClass::pasture, sun_side_normal, 20.0F);
   const Grid<float> without = tone_of(meadow);
   meadow.rock_tone = Grid<float>(24, 24, 0.1F);
@@ -186,7 +203,8 @@ TEST(Tone, OfRockIsThatOfItsRelief) {
 }
 
 TEST(Tone, WallsInShadowKeepTheirForms) {
-  // Two planes in the deepest shade: both darker than the darkest paint would be, and they still differ.
+  // Two planes in the deepest shade: both darker than the darkest paint would be, and they still
+  // differ.
   GuidanceBuffers wall = make_slope(24, 24, LandCoverClass::rock, sun_side_normal, 50.0F);
   const auto tone = [&](float relief) {
     wall.rock_tone = Grid<float>(24, 24, relief);
@@ -197,36 +215,41 @@ TEST(Tone, WallsInShadowKeepTheirForms) {
   EXPECT_GT(tone(-0.1F), tone(-0.2F) + 0.01);
 }
 
-// Level snow of one normal still has forms, in the sun and in the shade, and never ends in bare white or one dark.
+// Level snow with one normal still has forms, in the sun and in the shade, and never becomes pure
+// white or one dark tone.
 TEST(Tone, SnowHasForms) {
   GuidanceBuffers field = make_slope(160, 120, LandCoverClass::snow, {0.0F, 0.0F, 1.0F}, 8.0F);
   for (int y = 0; y < 120; ++y)
     for (int x = 0; x < 160; ++x)
-      field.position_m(x, y) = glm::vec3(15.0F * static_cast<float>(x), -15.0F * static_cast<float>(y), 1200.0F);
+      field.position_m(x, y) =
+          glm::vec3(15.0F * static_cast<float>(x), -15.0F * static_cast<float>(y), 1200.0F);
   const auto spread = [&](LandCoverClass id, float shadow, bool winter) {
     for (LandCoverClass& each : field.land_cover) each = id;
     for (float& s : field.shadow) s = shadow;
     ToneParameters p;
     p.winter = winter;
     const Grid<float> tone = tone_of(field, p);
-    const double middle = mean(tone);
+    const double centre = mean(tone);
     double squares = 0.0;
-    for (const float t : tone) squares += (static_cast<double>(t) - middle) * (static_cast<double>(t) - middle);
+    for (const float t : tone)
+      squares += (static_cast<double>(t) - centre) * (static_cast<double>(t) - centre);
     return std::sqrt(squares / static_cast<double>(tone.size()));
   };
   EXPECT_GT(spread(LandCoverClass::snow, 1.0F, false), 0.065);
   EXPECT_GT(spread(LandCoverClass::glacier, 1.0F, false), 0.06);
   EXPECT_GT(spread(LandCoverClass::snow, 0.0F, false), 0.025) << "shade keeps its forms";
   EXPECT_LT(spread(LandCoverClass::pasture, 1.0F, false), 0.05) << "grass has none of it";
-  EXPECT_GT(spread(LandCoverClass::pasture, 1.0F, true), 0.055) << "but in winter it lies under snow";
+  EXPECT_GT(spread(LandCoverClass::pasture, 1.0F, true), 0.055)
+      << "but in winter it is covered by snow";
 }
 
 TEST(Tone, SnowShadeIsNeverTheDarkestAndKeepsItsForms) {
-  // The deepest shade of two slopes that look away from the sun.
+  // The deepest shade of two slopes that face away from the sun.
   GuidanceBuffers shade = make_slope(24, 24, LandCoverClass::snow, {0.6F, -0.6F, 0.7F}, 48.0F);
   for (float& s : shade.shadow) s = 0.0F;
   const auto tone = [&](glm::vec3 normal, float sky_view) {
-    shade.normal = shade.normal_detail = shade.normal_smooth = Grid<glm::vec3>(24, 24, glm::normalize(normal));
+    shade.normal = shade.normal_detail = shade.normal_smooth =
+        Grid<glm::vec3>(24, 24, glm::normalize(normal));
     for (float& v : shade.sky_view) v = sky_view;
     return mean(tone_of(shade));
   };
@@ -235,16 +258,17 @@ TEST(Tone, SnowShadeIsNeverTheDarkestAndKeepsItsForms) {
   EXPECT_GT(tone({0.5F, -0.7F, 0.5F}, 0.5F), deep + 0.005);
 }
 
-// Under a crest of snow a lip is lighter than what lies below it, here and there; without anything farther behind there is no crest.
+// Under a crest of snow a lip is lighter than the snow below it, in places; without anything
+// farther behind there is no crest.
 TEST(Tone, CornicesHangOverCrestsOfSnow) {
   GuidanceBuffers g = make_slope(400, 40, LandCoverClass::snow, {0.3F, -0.3F, 0.9F}, 25.0F);
   ToneParameters p;
   p.ribs = 0.0;
   const auto shades = [&] {
     const Grid<float> tone = tone_of(g, p);
-    int hung = 0;
-    for (int x = 0; x < 400; ++x) hung += tone(x, 10) > tone(x, 13) + 0.1F ? 1 : 0;
-    return hung;
+    int overhead = 0;
+    for (int x = 0; x < 400; ++x) overhead += tone(x, 10) > tone(x, 13) + 0.1F ? 1 : 0;
+    return overhead;
   };
   const int flat = shades();
   for (int x = 0; x < 400; ++x)
@@ -260,7 +284,8 @@ TEST(Tone, CrestTakesTheToneFromBelow) {
   GuidanceBuffers g = make_slope(24, 24, LandCoverClass::pasture, sun_side_normal, 10.0F);
   for (int x = 0; x < 24; ++x) {
     for (int y = 0; y < 10; ++y) g.depth_m(x, y) = 40000.0F;
-    for (int y = 10; y < 12; ++y) g.normal(x, y) = g.normal_smooth(x, y) = glm::normalize(glm::vec3(0.6F, -0.6F, 0.2F));
+    for (int y = 10; y < 12; ++y)
+      g.normal(x, y) = g.normal_smooth(x, y) = glm::normalize(glm::vec3(0.6F, -0.6F, 0.2F));
   }
   const Grid<float> tone = tone_of(g);
   EXPECT_EQ(tone(12, 10), tone(12, 13));
@@ -302,7 +327,8 @@ TEST(Tone, PartEqualsWhole) {
     ASSERT_GT(part.x0, 0);
     const Grid<float> tone = make_tone(cut(hills, part), p, {part.x0, part.y0}, silent_progress());
     for (int y = kept.y0; y < kept.y1; ++y)
-      for (int x = kept.x0; x < kept.x1; ++x) ASSERT_EQ(tone(x - part.x0, y - part.y0), whole(x, y)) << x << " " << y << " ppu " << ppu;
+      for (int x = kept.x0; x < kept.x1; ++x)
+        ASSERT_EQ(tone(x - part.x0, y - part.y0), whole(x, y)) << x << " " << y << " ppu " << ppu;
   }
 }
 
@@ -310,16 +336,19 @@ TEST(Tone, OfAPrintLooksAroundInItsWideView) {
   const test::Print print;
   ToneParameters p;
   p.pixels_per_unit = test::print_ppu;
-  const Grid<float> whole = make_tone(print.near, {print.far, test::print_factor}, p, {0, 0}, silent_progress());
+  const Grid<float> whole =
+      make_tone(print.near, {print.far, test::print_factor}, p, {0, 0}, silent_progress());
   const PixelRect kept{640, 560, 700, 610};
   const test::Window near = test::window_of(print.near, grown(kept, tone_near_margin_px(p)));
-  const test::Window far = test::window_of(print.far, wide_rect(grown(kept, tone_margin_px(p)), test::print_factor));
+  const test::Window far =
+      test::window_of(print.far, wide_rect(grown(kept, tone_margin_px(p)), test::print_factor));
   ASSERT_GT(far.rect.x0, 0);
   ASSERT_GT(far.rect.y0, 0);
-  const Grid<float> part = make_tone(near.held, {far.held, test::print_factor, {far.rect.x0, far.rect.y0}}, p, {near.rect.x0, near.rect.y0},
-                                     silent_progress(), moved(kept, -near.rect.x0, -near.rect.y0));
+  const Grid<float> part = make_tone(
+      near.held, {far.held, test::print_factor, {far.rect.x0, far.rect.y0}}, p,
+      {near.rect.x0, near.rect.y0}, silent_progress(), moved(kept, -near.rect.x0, -near.rect.y0));
   EXPECT_TRUE(part == test::cut(whole, kept));
-  // And it is the light that every pixel's own surroundings give, to the eye.
+  // And it is visually the light from every pixel's own surroundings.
   const Grid<float> own = make_tone(print.near, p, {0, 0}, silent_progress());
   double squares = 0.0;
   for (std::size_t i = 0; i < own.size(); ++i) squares += (own[i] - whole[i]) * (own[i] - whole[i]);
@@ -338,7 +367,8 @@ TEST(Tone, SameBitsForAnyThreads) {
 }
 
 TEST(Tone, LooksAlikeAtAllResolutions) {
-  // Sizes are units of the sheet: at twice the resolution the mean of four pixels is the pixel of the small picture, but for sampling.
+  // Sizes are in units of the sheet: at twice the resolution the mean of four pixels is the pixel
+  // of the small picture, except for sampling.
   const GuidanceBuffers small = make_hills(200, 150, 1.0);
   const GuidanceBuffers large = make_hills(400, 300, 2.0);
   ToneParameters p;
@@ -347,14 +377,14 @@ TEST(Tone, LooksAlikeAtAllResolutions) {
   const Grid<float> at_two = tone_of(large, p);
   double difference = 0.0, spread = 0.0;
   int count = 0;
-  const double middle = mean(at_one);
+  const double centre = mean(at_one);
   for (int y = 0; y < 150; ++y)
     for (int x = 0; x < 200; ++x) {
       if (small.is_sky(small.depth_m.index(x, y))) continue;
-      const double fine =
-          0.25 * (at_two(2 * x, 2 * y) + at_two(2 * x + 1, 2 * y) + at_two(2 * x, 2 * y + 1) + at_two(2 * x + 1, 2 * y + 1));
+      const double fine = 0.25 * (at_two(2 * x, 2 * y) + at_two(2 * x + 1, 2 * y) +
+                                  at_two(2 * x, 2 * y + 1) + at_two(2 * x + 1, 2 * y + 1));
       difference += std::abs(fine - at_one(x, y));
-      spread += std::abs(at_one(x, y) - middle);
+      spread += std::abs(at_one(x, y) - centre);
       ++count;
     }
   EXPECT_LT(difference / count, 0.25 * spread / count);

@@ -47,11 +47,13 @@ TEST(PictureFilter, BlurOnASurfaceKeepsSurfacesApart) {
   EXPECT_NEAR(blur_in_picture(values, 3.0, {0, 0})(19, 10), 0.43F, 0.05F);
 }
 
-// One neighbour after the other, outward by pairs, along rows and then down columns.
-Grid<float> blur_plainly(const Grid<float>& values, const Grid<float>& depth_m, double sigma, int stride, PixelRect wanted) {
+// One neighbour after the other, outward in pairs, along rows and then down columns.
+Grid<float> blur_plainly(const Grid<float>& values, const Grid<float>& depth_m, double sigma,
+                         int stride, PixelRect wanted) {
   std::vector<float> kernel;
   for (int k = 0; k <= static_cast<int>(std::ceil(3.0 * sigma / stride)); ++k)
-    kernel.push_back(static_cast<float>(exact::exp(-0.5 * k * k / (sigma / stride * (sigma / stride)))));
+    kernel.push_back(
+        static_cast<float>(exact::exp(-0.5 * k * k / (sigma / stride * (sigma / stride)))));
   const auto pass = [&](const Grid<float>& in, int step_x, int step_y) {
     Grid<float> out(in.width(), in.height());
     for (int y = 0; y < in.height(); ++y)
@@ -85,16 +87,21 @@ TEST(PictureFilter, BlurOnASurfaceIsThatOfOnePixelAfterTheOther) {
     PixelRect wanted;
   };
   for (const Case& c :
-       {Case{61, 47, 2.3, 1, {0, 0, 61, 47}}, Case{61, 47, 1.0, 1, {3, 5, 60, 40}}, Case{200, 90, 9.0, 1, {31, 11, 190, 90}},
-        Case{150, 160, 17.0, 2, {0, 40, 150, 160}}, Case{9, 7, 5.0, 1, {0, 0, 9, 7}}, Case{300, 4, 40.0, 5, {20, 1, 280, 4}}}) {
+       {Case{61, 47, 2.3, 1, {0, 0, 61, 47}}, Case{61, 47, 1.0, 1, {3, 5, 60, 40}},
+        Case{200, 90, 9.0, 1, {31, 11, 190, 90}}, Case{150, 160, 17.0, 2, {0, 40, 150, 160}},
+        Case{9, 7, 5.0, 1, {0, 0, 9, 7}}, Case{300, 4, 40.0, 5, {20, 1, 280, 4}}}) {
     Grid<float> values(c.width, c.height);
     Grid<float> depth(c.width, c.height);
     for (int y = 0; y < c.height; ++y)
       for (int x = 0; x < c.width; ++x) {
         values(x, y) = static_cast<float>(gaussian_noise(2, x, y, 1.5));
-        depth(x, y) = gaussian_noise(3, x, y, 6.0) > 1.0 ? sky_depth_m : 10000.F + 200.F * static_cast<float>(gaussian_noise(4, x, y, 4.0));
+        depth(x, y) = gaussian_noise(3, x, y, 6.0) > 1.0
+                          ? sky_depth_m
+                          : 10000.F + 200.F * static_cast<float>(gaussian_noise(4, x, y, 4.0));
       }
-    EXPECT_EQ(blur_on_surface(values, depth, c.sigma, c.wanted), blur_plainly(values, depth, c.sigma, c.stride, c.wanted)) << c.sigma;
+    EXPECT_EQ(blur_on_surface(values, depth, c.sigma, c.wanted),
+              blur_plainly(values, depth, c.sigma, c.stride, c.wanted))
+        << c.sigma;
   }
 }
 
@@ -147,14 +154,15 @@ TEST(PictureFilter, ARampIsEnlargedToARamp) {
   for (int y = 0; y < 16; ++y)
     for (int x = 0; x < 20; ++x) values(x, y) = static_cast<float>(3 * x - 2 * y);
   const WideView wide{g, factor, {100, 50}};
-  const PixelRect rect{402, 203, 470, 258};  // inside the middles of the outer pixels
+  const PixelRect rect{402, 203, 470, 258};  // inside the centres of the outer pixels
   const Grid<float> large = enlarge(wide, values, rect);
   for (int y = 0; y < large.height(); ++y)
     for (int x = 0; x < large.width(); ++x) {
       const double u = (rect.x0 + x + 0.5) / factor - 0.5 - 100.0;
       const double v = (rect.y0 + y + 0.5) / factor - 0.5 - 50.0;
       ASSERT_NEAR(large(x, y), 3.0 * u - 2.0 * v, 1e-4);
-      ASSERT_NEAR(value_on_surface(wide, values, rect.x0 + x, rect.y0 + y, 20000.0F), 3.0 * u - 2.0 * v, 1e-4);
+      ASSERT_NEAR(value_on_surface(wide, values, rect.x0 + x, rect.y0 + y, 20000.0F),
+                  3.0 * u - 2.0 * v, 1e-4);
     }
 }
 
@@ -166,7 +174,8 @@ TEST(PictureFilter, OfFactorOneItIsThePixelsThemselves) {
   for (int y = 0; y < same.height(); ++y)
     for (int x = 0; x < same.width(); ++x) {
       ASSERT_EQ(same(x, y), g.slope_deg(4 + x, 11 + y));
-      ASSERT_EQ(value_on_surface(wide, g.slope_deg, 11 + x, 20 + y, g.depth_m(4 + x, 11 + y)), g.slope_deg(4 + x, 11 + y));
+      ASSERT_EQ(value_on_surface(wide, g.slope_deg, 11 + x, 20 + y, g.depth_m(4 + x, 11 + y)),
+                g.slope_deg(4 + x, 11 + y));
     }
   EXPECT_EQ(wide_rect(rect, 1), rect);
 }
@@ -180,15 +189,16 @@ TEST(PictureFilter, NothingIsMixedAcrossASilhouette) {
       values(x, y) = 0.0F;
     }
   const WideView wide{g, factor, {0, 0}};
-  for (int y = 14; y < 18; ++y) {  // between the middles of the two rows
+  for (int y = 14; y < 18; ++y) {  // between the centres of the two rows
     EXPECT_EQ(value_on_surface(wide, values, 15, y, 20000.0F), 1.0F) << y;
     EXPECT_EQ(value_on_surface(wide, values, 15, y, 50000.0F), 0.0F) << y;
   }
-  EXPECT_EQ(value_on_surface(wide, values, 15, 25, 35000.0F), 1.0F) << "on no surface that is seen: the pixel that holds it";
+  EXPECT_EQ(value_on_surface(wide, values, 15, 25, 35000.0F), 1.0F)
+      << "on no surface that is seen: the pixel that holds it";
 }
 
-// Crests of rock rise above where the wide view saw them: with the value of the pixel that holds them, which sees the valley behind, light
-// and cover of a crest would go in stairs of wide pixels.
+// Crests of rock rise above where the wide view saw them: with the value of the pixel that contains
+// them, which shows the valley behind, light and cover of a crest would have steps of wide pixels.
 TEST(PictureFilter, WhatRoseHasTheValuesOfItsSurfaceBeneath) {
   constexpr int ridge = surface_look_rows + 6;  // the first row of the near surface
   GuidanceBuffers g = level_view(8, ridge + 4);
@@ -201,9 +211,13 @@ TEST(PictureFilter, WhatRoseHasTheValuesOfItsSurfaceBeneath) {
   const WideView wide{g, factor, {0, 0}};
   for (int rows = 1; rows <= surface_look_rows; ++rows)
     for (int x = 2; x < 30; ++x)
-      ASSERT_NEAR(value_on_surface(wide, values, x, factor * (ridge - rows), 20000.0F), (x + 0.5) / factor - 0.5, 1e-4) << x << " " << rows;
-  EXPECT_EQ(value_on_surface(wide, values, 15, factor * (ridge - surface_look_rows) - 1, 20000.0F), -100.0F) << "no farther";
-  // So does what sank, and where wide pixels are the pixels themselves.
+      ASSERT_NEAR(value_on_surface(wide, values, x, factor * (ridge - rows), 20000.0F),
+                  (x + 0.5) / factor - 0.5, 1e-4)
+          << x << " " << rows;
+  EXPECT_EQ(value_on_surface(wide, values, 15, factor * (ridge - surface_look_rows) - 1, 20000.0F),
+            -100.0F)
+      << "no farther";
+  // The same for what sank, and where wide pixels are the pixels themselves.
   EXPECT_EQ(value_on_surface(wide, values, 14, factor * (ridge + 2), 50000.0F), -100.0F);
   EXPECT_EQ(value_on_surface({g, 1, {0, 0}}, values, 5, ridge - 4, 20000.0F), 5.0F);
 }

@@ -15,7 +15,8 @@ TEST(PictureNoise, EqualsTheNoiseOfBase) {
   GroundNoise ground(9, 210.0);
   for (int y = 0; y < 40; ++y)
     for (int x = 0; x < 70; ++x) {
-      EXPECT_NEAR(grid(x, y), gaussian_noise(9, (x - 13 + 0.5) / 1.7, (y + 250 + 0.5) / 1.7, 3.2, 7.0), 2e-6);
+      EXPECT_NEAR(grid(x, y),
+                  gaussian_noise(9, (x - 13 + 0.5) / 1.7, (y + 250 + 0.5) / 1.7, 3.2, 7.0), 2e-6);
       const double e = 31.0 * x - 700.0, n = -57.0 * y;
       EXPECT_NEAR(ground(e, n), gaussian_noise(9, e, n, 210.0), 2e-6);
     }
@@ -24,7 +25,9 @@ TEST(PictureNoise, EqualsTheNoiseOfBase) {
 TEST(PictureNoise, PartEqualsWhole) {
   const Grid<float> whole = make_image_noise(5, {-40, 12}, 90, 60, 2.3, 3.0, 1.5);
   const PixelRect part{17, 23, 71, 50};
-  EXPECT_EQ(make_image_noise(5, {-40 + part.x0, 12 + part.y0}, part.width(), part.height(), 2.3, 3.0, 1.5), test::cut(whole, part));
+  EXPECT_EQ(make_image_noise(5, {-40 + part.x0, 12 + part.y0}, part.width(), part.height(), 2.3,
+                             3.0, 1.5),
+            test::cut(whole, part));
 }
 
 TEST(PictureNoise, HasMeanZeroAndDeviationOne) {
@@ -40,7 +43,7 @@ TEST(PictureNoise, HasMeanZeroAndDeviationOne) {
   EXPECT_NEAR(std::sqrt(squares / count), 1.0, 0.05);
 }
 
-// Whatever order places are asked in, and wherever the memory of lattice values was overwritten in between.
+// In any order of positions, and after any overwriting of cached lattice values.
 TEST(GroundNoise, RemembersNothingThatMatters) {
   GroundNoise often(3, 150.0);
   for (int i = 0; i < 3000; ++i) often(1e3 * i, -7e2 * i);
@@ -49,7 +52,7 @@ TEST(GroundNoise, RemembersNothingThatMatters) {
     const double x = -5e4 + 613.0 * i;
     EXPECT_EQ(often(x, 0.3 * x), fresh(x, 0.3 * x)) << i;
   }
-  // Lattice values 1024 rows apart have one place in that memory.
+  // Lattice values 1024 rows apart share one slot of the cache.
   const double far_m = 1024.0 * 150.0 * std::sqrt(3.0);
   GroundNoise twice(3, 150.0);
   twice(10.0, 20.0);

@@ -30,7 +30,8 @@ TEST(RangeEdges, MistLiesOnTheFarSideAndShadeOnTheNear) {
   EXPECT_EQ(near_side.mist, 0.0F);
   EXPECT_NEAR(near_side.dark, 0.15F, 1e-6F);
   EXPECT_NEAR(range_edge(9.0F, 0.0F, 0.0F, 1.0F).mist, 0.35F, 1e-6F) << "it never closes";
-  EXPECT_NEAR(range_edge(9.0F, 2.0F, 0.0F, 1.0F).mist, 0.55F, 1e-6F) << "among far ranges it is denser";
+  EXPECT_NEAR(range_edge(9.0F, 2.0F, 0.0F, 1.0F).mist, 0.55F, 1e-6F)
+      << "among far ranges it is denser";
   EXPECT_NEAR(range_edge(9.0F, 0.0F, 1.0F, 1.0F).mist, 0.25F * 0.35F, 1e-6F) << "crests stay clear";
   EXPECT_EQ(range_edge(9.0F, 0.0F, 0.0F, 0.0F).mist, 0.0F);
   EXPECT_NEAR(range_edge(-9.0F, 0.0F, 0.0F, 2.0F).dark, 0.5F, 1e-6F);

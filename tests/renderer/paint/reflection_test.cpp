@@ -23,7 +23,8 @@ GuidanceBuffers lake() {
 TEST(Reflection, ShowsTheFarShoreUpsideDown) {
   const GuidanceBuffers g = lake();
   const Mirrored m = find_reflections(g, 1.0);
-  EXPECT_EQ(m.source(40, 60), g.depth_m.index(40, 58));  // 1.25 rows above the last row of forest, rounded
+  EXPECT_EQ(m.source(40, 60),
+            g.depth_m.index(40, 58));  // 1.25 rows above the last row of forest, rounded
   EXPECT_EQ(m.source(40, 67), g.depth_m.index(40, 59 - 10));
   EXPECT_EQ(m.source(40, 59), -1);
   EXPECT_EQ(m.source(40, 109), -1) << "beyond its reach water shows the sky";
@@ -44,7 +45,8 @@ TEST(Reflection, DarkensTheWaterBelowADarkShore) {
   GuidanceBuffers g = lake();
   BaseParameters p;
   p.air.haze = p.air.range_mist = p.air.warm_near = p.air.hue_drift = p.air.clouds = 0.0;
-  const BasePicture base = make_base_picture(g, read_palette("summer"), p, {0, 0}, {80, 140}, silent_progress());
+  const BasePicture base =
+      make_base_picture(g, read_palette("summer"), p, {0, 0}, {80, 140}, silent_progress());
   double near_shore = 0.0;
   double open = 0.0;
   for (int x = 0; x < 80; ++x) {
@@ -65,13 +67,13 @@ TEST(Reflection, IsOfTheSlopeBehindALevelMeadow) {
   EXPECT_EQ(m.source(40, 67), g.depth_m.index(40, 49 - 10));
   EXPECT_LT(m.share(40, 62), find_reflections(lake(), 1.0).share(40, 62));
   EXPECT_GT(m.share(40, 62), 0.3F);
-  // Level to the end of what is looked through: only sky.
+  // Level as far as it is searched: only sky.
   for (float& slope : g.slope_deg) slope = 1.0F;
   EXPECT_EQ(find_reflections(g, 1.0).source(40, 62), -1);
 }
 
 TEST(Reflection, KnowsBothShores) {
-  const Mirrored m = find_reflections(lake(), 2.0);  // two pixels a unit
+  const Mirrored m = find_reflections(lake(), 2.0);  // two pixels per unit
   EXPECT_FLOAT_EQ(m.to_far(40, 65), 3.0F);           // row 59 is land
   EXPECT_FLOAT_EQ(m.to_near(40, 65), 22.5F);         // row 110 is
   EXPECT_EQ(m.to_near(40, 50), open_water);
@@ -82,8 +84,9 @@ TEST(Reflection, WaterIsPalerFarAwayWithADarkLineUnderTheShoreAndAPaleOneBeforeU
   for (float& slope : g.slope_deg) slope = 1.0F;  // no image
   BaseParameters p;
   p.air.haze = p.air.range_mist = p.air.warm_near = p.air.hue_drift = p.air.clouds = 0.0;
-  const BasePicture base = make_base_picture(g, read_palette("summer"), p, {0, 0}, {80, 140}, silent_progress());
-  // Means over some rows: streaks of wind go their own way.
+  const BasePicture base =
+      make_base_picture(g, read_palette("summer"), p, {0, 0}, {80, 140}, silent_progress());
+  // Means over some rows: streaks of wind are independent of them.
   const auto rows = [&](int first, int last) {
     double sum = 0.0;
     for (int y = first; y <= last; ++y)

@@ -15,7 +15,8 @@ namespace belvedere {
 namespace {
 
 TEST(Ribs, LineIntegralHasDeviationOne) {
-  const GuidanceBuffers g = test::make_slope(500, 300, LandCoverClass::rock, {0.0F, 0.3F, 1.0F}, 45.0F);
+  const GuidanceBuffers g =
+      test::make_slope(500, 300, LandCoverClass::rock, {0.0F, 0.3F, 1.0F}, 45.0F);
   const Grid<std::uint8_t> all(500, 300, 1);
   const std::array<Grid<float>, 3> fields = integrate_along_fall_line(g, {g}, all, 3, {0, 0}, 1.0);
   for (std::size_t k = 0; k < 3; ++k) {
@@ -33,7 +34,8 @@ TEST(Ribs, LineIntegralHasDeviationOne) {
   }
 }
 
-// One streamline after the other, over wide pixels of three: sums in the same order, so the same bits but for the scale.
+// One streamline after the other, over wide pixels of three: sums in the same order, so the same
+// bits except for the scale.
 TEST(Ribs, AreSumsAlongStreamlines) {
   constexpr int factor = 3;
   constexpr double ppu = 6.0;
@@ -43,15 +45,18 @@ TEST(Ribs, AreSumsAlongStreamlines) {
   const glm::ivec2 origin{300, 600};
   const GuidanceBuffers seen = thin_out({g, 1, origin}, factor);
   const WideView wide{seen, factor, origin / factor};
-  const std::array<Grid<float>, 3> fields = integrate_along_fall_line(g, wide, Grid<std::uint8_t>(150, 100, 1), 3, origin, ppu);
+  const std::array<Grid<float>, 3> fields =
+      integrate_along_fall_line(g, wide, Grid<std::uint8_t>(150, 100, 1), 3, origin, ppu);
   for (std::size_t k = 0; k < 3; ++k) {
     const double sigma = rib_widths[k].sigma_units;
     const Grid<float> noise =
-        make_image_noise(stream_seed(3, Stream::rib_lines, k), wide.origin_px, seen.width(), seen.height(), ppu / factor, sigma, sigma);
+        make_image_noise(stream_seed(3, Stream::rib_lines, k), wide.origin_px, seen.width(),
+                         seen.height(), ppu / factor, sigma, sigma);
     const int steps = static_cast<int>(rib_widths[k].length_units / 4.0);
     const int count = 2 * steps + 1;
     double variance = count;
-    for (int i = 1; i < count; ++i) variance += 2.0 * (count - i) * std::exp(-(i / sigma) * (i / sigma));
+    for (int i = 1; i < count; ++i)
+      variance += 2.0 * (count - i) * std::exp(-(i / sigma) * (i / sigma));
     const auto sum_of = [&](int x, int y, float sign) {
       glm::vec2 offset(0.0F), direction(0.0F), fall = g.fall_line(x, y);
       float depth_m = g.depth_m(x, y);
@@ -60,8 +65,9 @@ TEST(Ribs, AreSumsAlongStreamlines) {
       for (int i = 0; i < steps; ++i) {
         if (bound && (fall.x != 0.0F || fall.y != 0.0F)) direction = fall * sign;
         offset += direction * static_cast<float>(2.0 * ppu);
-        const std::size_t at = wide.index(origin.x + x + static_cast<int>(std::floor(offset.x + 0.5F)),
-                                          origin.y + y + static_cast<int>(std::floor(offset.y + 0.5F)));
+        const std::size_t at =
+            wide.index(origin.x + x + static_cast<int>(std::floor(offset.x + 0.5F)),
+                       origin.y + y + static_cast<int>(std::floor(offset.y + 0.5F)));
         bound = bound && same_surface(depth_m, seen.depth_m[at]);
         depth_m = seen.depth_m[at];
         fall = seen.fall_line[at];
@@ -71,7 +77,8 @@ TEST(Ribs, AreSumsAlongStreamlines) {
     };
     for (int y = 0; y < 100; y += 3)
       for (int x = 0; x < 150; ++x) {
-        const float sum = noise[wide.index(origin.x + x, origin.y + y)] + sum_of(x, y, 1.0F) + sum_of(x, y, -1.0F);
+        const float sum = noise[wide.index(origin.x + x, origin.y + y)] + sum_of(x, y, 1.0F) +
+                          sum_of(x, y, -1.0F);
         ASSERT_NEAR(fields[k](x, y), sum / std::sqrt(variance), 1e-5) << k << ' ' << x << ' ' << y;
       }
   }
@@ -100,13 +107,18 @@ TEST(Ribs, PartWithItsMarginEqualsWhole) {
   const PixelRect wide = test::with_margin(part, margin, 260, 200);
   ASSERT_GT(wide.x0, 0) << "else nothing is cut off";
   const GuidanceBuffers held = test::cut(whole, wide);
-  const Grid<float> cut = make_ribs(held, {held, 1, {wide.x0, wide.y0}}, test::cut(all, wide), {}, {wide.x0, wide.y0});
-  EXPECT_EQ(test::cut(cut, {part.x0 - wide.x0, part.y0 - wide.y0, part.x1 - wide.x0, part.y1 - wide.y0}), test::cut(ribs, part));
+  const Grid<float> cut =
+      make_ribs(held, {held, 1, {wide.x0, wide.y0}}, test::cut(all, wide), {}, {wide.x0, wide.y0});
+  EXPECT_EQ(
+      test::cut(cut, {part.x0 - wide.x0, part.y0 - wide.y0, part.x1 - wide.x0, part.y1 - wide.y0}),
+      test::cut(ribs, part));
 }
 
-// Flanks that are lit from one side lie in shade from the other; the deepest hollows alone, up to a quarter, are dark from both.
+// Flanks lit from one side are in shade from the other; only the deepest hollows, up to a quarter,
+// are dark from both.
 TEST(Ribs, TheOtherSunTurnsThemOver) {
-  const GuidanceBuffers g = test::make_slope(160, 120, LandCoverClass::rock, {0.0F, 0.3F, 1.0F}, 45.0F);
+  const GuidanceBuffers g =
+      test::make_slope(160, 120, LandCoverClass::rock, {0.0F, 0.3F, 1.0F}, 45.0F);
   const Grid<std::uint8_t> all(160, 120, 1);
   const Grid<float> right = make_ribs(g, {g}, all, {.sun_side = 0.4}, {0, 0});
   const Grid<float> left = make_ribs(g, {g}, all, {.sun_side = -1.0}, {0, 0});
@@ -120,14 +132,16 @@ TEST(Ribs, TheOtherSunTurnsThemOver) {
 }
 
 TEST(Ribs, StandOnlyWhereTheyAreWanted) {
-  const GuidanceBuffers g = test::make_slope(80, 60, LandCoverClass::rock, {0.0F, 0.3F, 1.0F}, 45.0F);
+  const GuidanceBuffers g =
+      test::make_slope(80, 60, LandCoverClass::rock, {0.0F, 0.3F, 1.0F}, 45.0F);
   Grid<std::uint8_t> left_half(80, 60, 0);
   for (int y = 0; y < 60; ++y)
     for (int x = 0; x < 40; ++x) left_half(x, y) = 1;
   const Grid<float> some = make_ribs(g, {g}, left_half, {}, {0, 0});
   const Grid<float> everywhere = make_ribs(g, {g}, Grid<std::uint8_t>(80, 60, 1), {}, {0, 0});
   for (int y = 0; y < 60; ++y)
-    for (int x = 0; x < 80; ++x) ASSERT_EQ(some(x, y), x < 40 ? everywhere(x, y) : 0.F) << x << ' ' << y;
+    for (int x = 0; x < 80; ++x)
+      ASSERT_EQ(some(x, y), x < 40 ? everywhere(x, y) : 0.F) << x << ' ' << y;
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ TEST(RockKinds, HaveNamesOfTheirOwnAndHuesThatFillTheWhole) {
   EXPECT_THROW(find_rock_kind("cheese"), Error);
 }
 
-// A scene can ask for all of them, and for no other.
+// A scene can request all of them, and no other.
 TEST(RockKinds, AreTheChoicesOfAScene) {
   std::set<std::string_view> names;
   for (const RockKind& kind : rock_kinds()) names.insert(kind.name);

@@ -17,7 +17,7 @@ namespace {
 
 constexpr float sky_depth = std::numeric_limits<float>::infinity();
 
-// Heaps here and there: what clouds are like is tested in clouds_test.cpp.
+// Heaps here and there: clouds themselves are tested in clouds_test.cpp.
 SkyParameters fair_sky() {
   SkyParameters p;
   p.kind = SkyKind::fair;
@@ -37,8 +37,9 @@ TEST(Sky, GradientEndsInItsStops) {
   EXPECT_EQ(sky_gradient(palette, -1.0), palette.sky.front().second);
   EXPECT_EQ(sky_gradient(palette, 1.0), palette.sky.back().second);
   EXPECT_EQ(sky_gradient(palette, 2.0), palette.sky.back().second);
-  const glm::vec3 middle = sky_gradient(palette, 0.45);
-  for (int k = 0; k < 3; ++k) EXPECT_NEAR(middle[k], 0.5F * (palette.sky[1].second[k] + palette.sky[2].second[k]), 1e-6F);
+  const glm::vec3 centre = sky_gradient(palette, 0.45);
+  for (int k = 0; k < 3; ++k)
+    EXPECT_NEAR(centre[k], 0.5F * (palette.sky[1].second[k] + palette.sky[2].second[k]), 1e-6F);
 }
 
 TEST(Sky, WithoutCloudsItIsTheGradient) {
@@ -49,7 +50,8 @@ TEST(Sky, WithoutCloudsItIsTheGradient) {
   for (int x = 0; x < 600; x += 7) {
     EXPECT_LT(glm::length(sky(x, 0) - palette.sky.front().second), 0.05F);
     EXPECT_LT(glm::length(sky(x, 119) - palette.sky.back().second), 0.01F);
-    EXPECT_LT(glm::length(sky(x, 149) - air_beyond(palette, 149.5 / 120.0)), 1e-6F) << "below the horizon";
+    EXPECT_LT(glm::length(sky(x, 149) - air_beyond(palette, 149.5 / 120.0)), 1e-6F)
+        << "below the horizon";
   }
 }
 
@@ -69,7 +71,8 @@ TEST(Sky, CloudsHaveFlatBasesAndShrinkTowardsTheHorizon) {
   EXPECT_GT(near / near_count, 1.5 * far / far_count);
 }
 
-// Height over width and the place of the highest head: what tells two clouds apart at a glance.
+// Height over width and the position of the highest head: the features that distinguish two clouds
+// at a glance.
 TEST(Sky, NoTwoCloudsAreAlike) {
   const std::vector<Cloud> clouds = make_clouds(fair_sky());
   std::vector<glm::dvec2> shapes;
@@ -78,28 +81,31 @@ TEST(Sky, NoTwoCloudsAreAlike) {
     for (const CloudHead& head : cloud.heads)
       if (head.centre.y - head.radius.y < top->centre.y - top->radius.y) top = &head;
     const double width = cloud.to.x - cloud.from.x;
-    shapes.emplace_back((cloud.base_px - cloud.from.y) / width, (top->centre.x - cloud.from.x) / width);
+    shapes.emplace_back((cloud.base_px - cloud.from.y) / width,
+                        (top->centre.x - cloud.from.x) / width);
   }
   double low = 1.0, high = 0.0, left = 1.0, right = 0.0;
   int alike = 0, pairs = 0;
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     low = std::min(low, shapes[i].x), high = std::max(high, shapes[i].x);
     left = std::min(left, shapes[i].y), right = std::max(right, shapes[i].y);
-    for (std::size_t k = i + 1; k < shapes.size(); ++k, ++pairs) alike += glm::length(shapes[i] - shapes[k]) < 0.02 ? 1 : 0;
+    for (std::size_t k = i + 1; k < shapes.size(); ++k, ++pairs)
+      alike += glm::length(shapes[i] - shapes[k]) < 0.02 ? 1 : 0;
   }
   EXPECT_GT(high, 2.5 * low) << "heaps and drawn-out banks";
-  EXPECT_GT(right - left, 0.35) << "heads stand left, right and in the middle";
+  EXPECT_GT(right - left, 0.35) << "the highest head is left, right or in the centre";
   EXPECT_LT(alike, 0.06 * pairs);
 }
 
-// Where clouds stand, as a mask of columns: no other seed may share more of it than chance would.
+// The columns with clouds, as a mask: no other seed may share more of it than chance would.
 TEST(Sky, EverySeedHasASkyOfItsOwn) {
   const auto columns = [](std::uint64_t seed) {
     SkyParameters p = fair_sky();
     p.seed = seed;
     std::vector<bool> mask(2400, false);
     for (const Cloud& cloud : make_clouds(p))
-      for (int x = std::max(0, static_cast<int>(cloud.from.x)); x < std::min(2400.0F, cloud.to.x); ++x)
+      for (int x = std::max(0, static_cast<int>(cloud.from.x)); x < std::min(2400.0F, cloud.to.x);
+           ++x)
         if (cloud.base_px < 150.0F) mask[static_cast<std::size_t>(x)] = true;
     return mask;
   };
@@ -108,14 +114,16 @@ TEST(Sky, EverySeedHasASkyOfItsOwn) {
     for (std::uint64_t b = a + 1; b < 8; ++b) {
       const std::vector<bool> one = columns(a), other = columns(b);
       int both = 0, either = 0;
-      for (std::size_t x = 0; x < one.size(); ++x) both += one[x] && other[x], either += one[x] || other[x];
+      for (std::size_t x = 0; x < one.size(); ++x)
+        both += one[x] && other[x], either += one[x] || other[x];
       ASSERT_GT(either, 200) << a << ", " << b;
       worst = std::max(worst, 100 * both / either);
     }
   EXPECT_LT(worst, 75);
 }
 
-// The sky must not be the loudest part: clear sky and veils change from row to row, hardly along a row.
+// The sky must not be too prominent: clear sky and veils change from row to row, hardly along a
+// row.
 TEST(Sky, VeilsLieLevel) {
   const Palette palette = read_palette("summer");
   for (const std::uint64_t seed : {1, 2, 3}) {
@@ -127,22 +135,27 @@ TEST(Sky, VeilsLieLevel) {
     for (int y = 4; y < 190; y += 2)
       for (int x = 4; x < 2396; x += 2) {
         bool clear = true;
-        for (const Cloud& c : clouds) clear = clear && (x < c.from.x - 8 || x > c.to.x + 8 || y < c.from.y - 8 || y > c.to.y + 8);
+        for (const Cloud& c : clouds)
+          clear =
+              clear && (x < c.from.x - 8 || x > c.to.x + 8 || y < c.from.y - 8 || y > c.to.y + 8);
         if (!clear) continue;
-        // What is left of the gradient from top to horizon, which is level by nature, would hide the slope of veils.
+        // A remainder of the vertical gradient, which is level by nature, would hide the slope of
+        // veils.
         const double gx = sky(x + 4, y).r - sky(x - 4, y).r;
-        const double gy =
-            sky(x, y + 4).r - sky(x, y - 4).r - (sky_gradient(palette, (y + 4.5) / 198.0).r - sky_gradient(palette, (y - 3.5) / 198.0).r);
+        const double gy = sky(x, y + 4).r - sky(x, y - 4).r -
+                          (sky_gradient(palette, (y + 4.5) / 198.0).r -
+                           sky_gradient(palette, (y - 3.5) / 198.0).r);
         xx += gx * gx, xy += gx * gy, yy += gy * gy;
       }
     ASSERT_GT(yy, 0.0);
-    // The axis of least change, degrees from level, and how strongly the veils keep to it.
+    // The axis of least change, degrees from level, and how closely the veils follow it.
     EXPECT_LT(std::abs(0.5 * std::atan2(2.0 * xy, yy - xx)) * 57.3, 3.0) << seed;
     EXPECT_GT(yy, 12.0 * xx) << seed;
   }
 }
 
-// They come from a place beside the picture, so that all of them lean away from it, and none stands upright like a ray.
+// They start at a position outside the picture, so that all of them lean away from it, and none is
+// upright like a ray.
 TEST(Sky, StreaksAllLeanOneWay) {
   const Palette palette = read_palette("summer");
   double leaning = 0.0;
@@ -157,11 +170,13 @@ TEST(Sky, StreaksAllLeanOneWay) {
     for (int y = 10; y < 150; y += 2)
       for (int x = 8; x < 2392; x += 2) {
         const double gx = sky(x + 3, y).r - sky(x - 3, y).r;
-        const double gy =
-            sky(x, y + 3).r - sky(x, y - 3).r - (sky_gradient(palette, (y + 3.5) / 198.0).r - sky_gradient(palette, (y - 2.5) / 198.0).r);
+        const double gy = sky(x, y + 3).r - sky(x, y - 3).r -
+                          (sky_gradient(palette, (y + 3.5) / 198.0).r -
+                           sky_gradient(palette, (y - 2.5) / 198.0).r);
         thirds[static_cast<std::size_t>(x / 800)] += gx * gy;
       }
-    // Along a streak nothing changes: where it leans to the right as it rises, light grows to the right and downwards alike.
+    // Along a streak nothing changes: where it leans to the right as it rises, light increases to
+    // the right and downwards alike.
     for (const double third : thirds) leaning += (third > 0.0) == (from_px < 0.0) ? 1.0 : 0.0;
   }
   EXPECT_GE(leaning, 10.0) << "of 12 thirds of skies";
@@ -172,7 +187,8 @@ TEST(Sky, BelowTheHorizonIsHazeNotSky) {
   EXPECT_EQ(air_beyond(palette, 0.4), sky_gradient(palette, 0.4));
   EXPECT_EQ(air_beyond(palette, 1.0), sky_gradient(palette, 1.0));
   const glm::vec3 deep = air_beyond(palette, 3.0);
-  EXPECT_LT(glm::length(deep - palette.haze_far), 0.45F * glm::length(palette.sky.back().second - palette.haze_far));
+  EXPECT_LT(glm::length(deep - palette.haze_far),
+            0.45F * glm::length(palette.sky.back().second - palette.haze_far));
 }
 
 TEST(Sky, CloudsAreLitFromAboveAndShadedBelow) {
@@ -204,7 +220,8 @@ TEST(Sky, PartEqualsWholeAndTerrainIsLeftOut) {
   const Grid<glm::vec3> whole = make_sky(depth, palette, p, {0, 0});
   EXPECT_EQ(whole(300, 120), glm::vec3(0.0F));
   const PixelRect rect{123, 17, 391, 140};
-  EXPECT_EQ(make_sky(test::cut(depth, rect), palette, p, {rect.x0, rect.y0}), test::cut(whole, rect));
+  EXPECT_EQ(make_sky(test::cut(depth, rect), palette, p, {rect.x0, rect.y0}),
+            test::cut(whole, rect));
 }
 
 TEST(Sky, SkylineByRaysIsWhereTheCrestProjects) {
@@ -212,7 +229,9 @@ TEST(Sky, SkylineByRaysIsWhereTheCrestProjects) {
   DeformedSurface surface;
   surface.vertices_m = Grid<glm::vec3>(200, 90);
   for (int y = 0; y < 90; ++y)
-    for (int x = 0; x < 200; ++x) surface.vertices_m(x, y) = {100.0F * x - 10000.0F, 7000.0F - 100.0F * y, y == 10 ? 400.0F : 0.0F};
+    for (int x = 0; x < 200; ++x)
+      surface.vertices_m(x, y) = {100.0F * x - 10000.0F, 7000.0F - 100.0F * y,
+                                  y == 10 ? 400.0F : 0.0F};
   surface.origin = {500000.0, 5000000.0, 0.0};
   const Tracer tracer(surface);
   CameraParameters parameters;
@@ -221,7 +240,8 @@ TEST(Sky, SkylineByRaysIsWhereTheCrestProjects) {
   parameters.eye = surface.origin + glm::dvec3(0.0, 0.0, 900.0);
   parameters.pitch_deg = -10.0;
   const auto camera = make_camera(parameters);
-  const std::optional<glm::dvec2> crest = camera->project(surface.origin + glm::dvec3(0.0, 6000.0, 400.0));
+  const std::optional<glm::dvec2> crest =
+      camera->project(surface.origin + glm::dvec3(0.0, 6000.0, 400.0));
   ASSERT_TRUE(crest);
   EXPECT_NEAR(skyline_row_px(*camera, tracer, -1.0), crest->y, 1.5);
   parameters.pitch_deg = 60.0;

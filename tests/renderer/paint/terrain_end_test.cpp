@@ -9,9 +9,9 @@ TEST(TerrainEnd, StandsInAirBeforeItDissolves) {
   const TerrainEnd inside = terrain_end_at(4000.0F, 4000.0, 0.0F);
   EXPECT_EQ(inside.air, 0.0F);
   EXPECT_EQ(inside.dissolved, 0.0F);
-  const TerrainEnd middle = terrain_end_at(2000.0F, 4000.0, 0.0F);
-  EXPECT_NEAR(middle.air, 0.43F, 1e-6F);
-  EXPECT_EQ(middle.dissolved, 0.0F) << "only the last .38 of the fade";
+  const TerrainEnd centre = terrain_end_at(2000.0F, 4000.0, 0.0F);
+  EXPECT_NEAR(centre.air, 0.43F, 1e-6F);
+  EXPECT_EQ(centre.dissolved, 0.0F) << "only the last .38 of the fade";
   const TerrainEnd strip = terrain_end_at(760.0F, 4000.0, 0.0F);
   EXPECT_NEAR(strip.dissolved, 0.5F, 1e-6F);
   const TerrainEnd end = terrain_end_at(0.0F, 4000.0, 0.0F);

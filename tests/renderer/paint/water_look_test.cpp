@@ -12,13 +12,17 @@ namespace {
 
 using test::no_noise;
 
-// One pixel of water far from its shores, below one of forest that it mirrors where `mirrors` says so.
+// One pixel of water far from its shores, below one of forest that it reflects if `mirrors` is set.
 struct ForestLake {
-  GuidanceBuffers guidance = test::make_slope(1, 2, LandCoverClass::forest, {0.0F, 0.0F, 1.0F}, 0.0F);
-  Mirrored mirrored{Grid<std::int32_t>(1, 2, -1), Grid<float>(1, 2, 0.0F), Grid<float>(1, 2, 30.0F), Grid<float>(1, 2, 30.0F)};
+  GuidanceBuffers guidance =
+      test::make_slope(1, 2, LandCoverClass::forest, {0.0F, 0.0F, 1.0F}, 0.0F);
+  Mirrored mirrored{Grid<std::int32_t>(1, 2, -1), Grid<float>(1, 2, 0.0F), Grid<float>(1, 2, 30.0F),
+                    Grid<float>(1, 2, 30.0F)};
   Palette palette = read_palette("summer");
   ForestLake() { guidance.land_cover(0, 1) = LandCoverClass::water; }
-  WaterLook look(float around, float streak = 0.0F) const { return water_look(guidance, palette, mirrored, 1, around, streak, no_noise); }
+  WaterLook look(float around, float streak = 0.0F) const {
+    return water_look(guidance, palette, mirrored, 1, around, streak, no_noise);
+  }
 };
 
 TEST(WaterLook, OpenWaterIsItsRamp) {
@@ -34,7 +38,8 @@ TEST(WaterLook, IsPaleTowardsTheHorizonAndShallowAtTheNearBank) {
   lake.mirrored.to_far[1] = 20.0F;
   EXPECT_NEAR(lake.look(1.0F).tone_shift, 0.26F * 0.25F, 1e-6F);
   lake.mirrored.to_far[1] = 0.7F;
-  EXPECT_NEAR(lake.look(1.0F).tone_shift, 0.26F * (60.0F / 60.7F - 0.5F) - 0.30F, 1e-6F) << "a dark line under the far bank";
+  EXPECT_NEAR(lake.look(1.0F).tone_shift, 0.26F * (60.0F / 60.7F - 0.5F) - 0.30F, 1e-6F)
+      << "a dark line under the far bank";
   lake.mirrored.to_near[1] = 1.1F;
   EXPECT_NEAR(lake.look(1.0F).shallow_share, 0.38F, 1e-6F);
 }
@@ -44,7 +49,8 @@ TEST(WaterLook, MirrorsTheShoreDarkerAndBluer) {
   lake.mirrored.source[1] = 0;
   lake.mirrored.share[1] = 1.0F;
   const WaterLook look = lake.look(1.0F);
-  const glm::vec3 wood = palette_colour(lake.palette, LandCoverClass::forest, 1200.0, 0.75 * static_cast<double>(0.6F));
+  const glm::vec3 wood = palette_colour(lake.palette, LandCoverClass::forest, 1200.0,
+                                        0.75 * static_cast<double>(0.6F));
   EXPECT_NEAR(look.image_share, 0.85F, 1e-6F);
   EXPECT_NEAR(look.image.r, 0.80F * wood.r, 1e-6F);
   EXPECT_NEAR(look.image.b, 0.98F * wood.b, 1e-6F);
@@ -55,7 +61,8 @@ TEST(WaterLook, BrooksRunBetweenGrassAndGravel) {
   const ForestLake lake;
   const WaterLook brook = lake.look(0.2F);
   EXPECT_NEAR(brook.bank_share, 0.12F, 1e-6F);
-  EXPECT_EQ(brook.bank, palette_colour(lake.palette, LandCoverClass::valley_floor, 1200.0, static_cast<double>(0.6F)));
+  EXPECT_EQ(brook.bank, palette_colour(lake.palette, LandCoverClass::valley_floor, 1200.0,
+                                       static_cast<double>(0.6F)));
   EXPECT_EQ(brook.tone_shift, 0.0F);
   EXPECT_EQ(lake.look(1.0F).bank_share, 0.0F);
 }

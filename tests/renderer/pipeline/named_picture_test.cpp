@@ -18,11 +18,13 @@ namespace {
 
 using testing::HasSubstr;
 
-const std::vector<std::string> named = {
-    "output.width=320", "output.height=200",      "output.formats=[\"png\"]",    "synthesis.enabled=false",
-    "labels.summits=6", "labels.in_picture=true", "labels.least_prominence_m=40"};
+const std::vector<std::string> named = {"output.width=320",          "output.height=200",
+                                        "output.formats=[\"png\"]",  "synthesis.enabled=false",
+                                        "labels.summits=6",          "labels.in_picture=true",
+                                        "labels.min_prominence_m=40"};
 
-void render_to(const std::string& folder, std::vector<std::string> more, const SheetRequest& request = {}) {
+void render_to(const std::string& folder, std::vector<std::string> more,
+               const SheetRequest& request = {}) {
   std::vector<std::string> settings = named;
   settings.insert(settings.end(), more.begin(), more.end());
   SheetRequest own = request;
@@ -47,14 +49,16 @@ TEST(NamedPicture, HasThePanoramaUnderItsNamesAndAPartHasThePixelsOfTheWhole) {
   EXPECT_TRUE(read_picture(folder / "part/panorama_names.png") == part_of(names, part));
 }
 
-// The paper around changes no pixel of the picture, and the classes of the legend are those of the palette.
+// The paper around changes no pixel of the picture, and the colours of the legend are those of the
+// palette.
 TEST(NamedPicture, TheMarginLiesAroundThePicture) {
   const test::Folder folder;
   render_to(folder / "bare", {});
   render_to(folder / "framed", {"margin={ title = \"Test\", frame_mm = 2 }"});
   const Grid<glm::vec3> bare = read_picture(folder / "bare/panorama_names.png");
   const Grid<glm::vec3> framed = read_picture(folder / "framed/panorama_names.png");
-  EXPECT_TRUE(read_picture(folder / "bare/panorama.png") == read_picture(folder / "framed/panorama.png"));
+  EXPECT_TRUE(read_picture(folder / "bare/panorama.png") ==
+              read_picture(folder / "framed/panorama.png"));
   const int frame = (framed.width() - bare.width()) / 2;
   ASSERT_GT(frame, 2);
   EXPECT_GT(framed.height(), bare.height() + 2 * frame);
@@ -66,27 +70,35 @@ TEST(NamedPicture, TheMarginLiesAroundThePicture) {
   EXPECT_THAT(test::read_bytes(folder / "framed/margin.svg"), HasSubstr(">forest</text>"));
 }
 
-// A margin alone asks for paper, not for names: the picture in it has another name, and none where the scene only lists them.
+// A margin without names: the picture in it has another name, and does not exist if the scene only
+// lists names.
 TEST(NamedPicture, AMarginWithoutNamesInThePictureIsPanoramaMargin) {
   const test::Folder folder;
   const auto has = [&](const std::string& file) { return std::filesystem::exists(folder / file); };
-  render_to(folder / "alone", {"labels.in_picture=false", "labels.summits=0", "margin={ title = \"Test\", frame_mm = 2 }"});
+  render_to(folder / "alone", {"labels.in_picture=false", "labels.summits=0",
+                               "margin={ title = \"Test\", frame_mm = 2 }"});
   EXPECT_TRUE(has("alone/panorama_margin.png") && has("alone/margin.svg"));
   EXPECT_FALSE(has("alone/panorama_names.png") || has("alone/labels.svg"));
-  render_to(folder / "listed", {"labels.in_picture=false", "margin={ title = \"Test\", frame_mm = 2 }"});
+  render_to(folder / "listed",
+            {"labels.in_picture=false", "margin={ title = \"Test\", frame_mm = 2 }"});
   EXPECT_TRUE(has("listed/panorama_margin.png") && has("listed/labels.svg"));
   EXPECT_FALSE(has("listed/panorama_names.png"));
-  EXPECT_TRUE(read_picture(folder / "listed/panorama_margin.png") == read_picture(folder / "alone/panorama_margin.png"))
+  EXPECT_TRUE(read_picture(folder / "listed/panorama_margin.png") ==
+              read_picture(folder / "alone/panorama_margin.png"))
       << "names that are not asked into the picture";
   SheetRequest request;
   request.part = PixelRect{60, 20, 260, 140};
-  render_to(folder / "part", {"labels.in_picture=false", "labels.summits=0", "margin={ title = \"Test\" }"}, request);
-  EXPECT_FALSE(has("part/panorama_margin.png")) << "a part has no margin: it would be the panorama once more";
+  render_to(folder / "part",
+            {"labels.in_picture=false", "labels.summits=0", "margin={ title = \"Test\" }"},
+            request);
+  EXPECT_FALSE(has("part/panorama_margin.png"))
+      << "a part has no margin: it would be the panorama once more";
 }
 
 TEST(NamedPicture, AskingForNamesWithoutAnyIsRefused) {
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [] { test::small_scene({"labels.in_picture=true"}); }),
-              HasSubstr("labels.in_picture has nothing to draw"));
+  EXPECT_THAT(
+      test::message_of(ErrorKind::usage, [] { test::small_scene({"labels.in_picture=true"}); }),
+      HasSubstr("labels.in_picture is set, but there are no labels"));
 }
 
 // Before the picture is made, not after it.
@@ -94,15 +106,19 @@ TEST(NamedPicture, WrongNamesAreSaidBeforeAnythingIsPainted) {
   const test::Folder folder;
   folder.write("far.csv", "name,east,north\nA,900000,900000\n");
   const LoadedScene scene = test::small_scene({"labels.points.0.file=\"far.csv\""}, folder.path());
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { render(scene, folder / "out", {.cache = test::shared_cache()}, {}); }),
-              HasSubstr("none of 1 points lies on the terrain"));
+  EXPECT_THAT(
+      test::message_of(ErrorKind::usage,
+                       [&] { render(scene, folder / "out", {.cache = test::shared_cache()}, {}); }),
+      HasSubstr("none of 1 points lies on the terrain"));
   EXPECT_FALSE(std::filesystem::exists(folder / "out/panorama.png"));
 }
 
-// A sheet for print: what a part of it shows of names is what the whole shows there, at the size that letters have on that sheet.
+// A sheet for print: a part of it shows the names where the whole shows them, at the size of
+// letters on that sheet.
 TEST(NamedPicture, APartOfALargeSheetHasTheNamesOfTheWhole) {
   const test::Folder folder;
-  const std::vector<std::string> large = {"output.width=800", "output.height=500", "output.sheet_width_mm=80"};
+  const std::vector<std::string> large = {"output.width=800", "output.height=500",
+                                          "output.sheet_width_mm=80"};
   render_to(folder / "whole", large);
   const Grid<glm::vec3> names = read_picture(folder / "whole/panorama_names.png");
   const Grid<glm::vec3> clean = read_picture(folder / "whole/panorama.png");
@@ -111,7 +127,8 @@ TEST(NamedPicture, APartOfALargeSheetHasTheNamesOfTheWhole) {
   while (first < clean.size() && clean[first] == names[first]) ++first;
   ASSERT_LT(first, clean.size());
   const glm::ivec2 at(static_cast<int>(first) % 800, static_cast<int>(first) / 800);
-  const PixelRect part = intersection({0, 0, 800, 500}, {at.x - 117, at.y - 3, at.x + 201, at.y + 129});
+  const PixelRect part =
+      intersection({0, 0, 800, 500}, {at.x - 117, at.y - 3, at.x + 201, at.y + 129});
   SheetRequest request;
   request.part = part;
   render_to(folder / "part", large, request);
@@ -120,12 +137,15 @@ TEST(NamedPicture, APartOfALargeSheetHasTheNamesOfTheWhole) {
   EXPECT_FALSE(cut == read_picture(folder / "part/panorama.png")) << "there are names in it";
 }
 
-// What is drawn of a road is in the legend, and what the style has besides is not.
+// Drawn roads are in the legend, other kinds of the style are not.
 TEST(NamedPicture, TheLegendShowsFeaturesThatAreDrawn) {
   DrawnFeatures drawn;
   drawn.style = load_feature_style("classic");
-  drawn.counts = {std::vector<DrawnCount>(drawn.style.kinds.size()), std::vector<DrawnCount>(drawn.style.kinds.size())};
-  const auto at = [&](const char* word) { return static_cast<std::size_t>(drawn.style.find(word)); };
+  drawn.counts = {std::vector<DrawnCount>(drawn.style.kinds.size()),
+                  std::vector<DrawnCount>(drawn.style.kinds.size())};
+  const auto at = [&](const char* word) {
+    return static_cast<std::size_t>(drawn.style.find(word));
+  };
   drawn.counts[1][at("main_road")].drawn = 3;
   drawn.counts[0][at("lift")].drawn = 1;
   drawn.counts[0][at("railway")].hidden = 4;

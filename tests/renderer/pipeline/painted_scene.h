@@ -9,8 +9,8 @@
 
 namespace belvedere::test {
 
-// A painting of reds beside a scene: eleven stripes, one for each class from id 1 on but those from `classes` on, each lighter to the
-// right.
+// A painting of reds beside a scene: eleven stripes, one for each class from id 1 on but those from
+// `classes` on, each lighter to the right.
 inline void write_painting(const Folder& folder, int classes = 12) {
   constexpr int stripe = 8;
   Grid<glm::vec3> red(12 * stripe, 40);
@@ -27,7 +27,8 @@ inline void write_painting(const Folder& folder, int classes = 12) {
 
 // The small scene with that painting.
 inline LoadedScene painted_scene(const Folder& folder, std::vector<std::string> settings = {}) {
-  settings.insert(settings.begin(), "exemplar.0={ picture = \"red.png\", classes = \"classes.png\", stroke_px = 1 }");
+  settings.insert(settings.begin(),
+                  "exemplar.0={ picture = \"red.png\", classes = \"classes.png\", stroke_px = 1 }");
   return small_scene(settings, folder.path());
 }
 

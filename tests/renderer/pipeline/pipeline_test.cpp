@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 using test::read_bytes;
 
-// A small whole: made-up terrain, painted sheet, synthesis, strokes, files.
+// A small end-to-end case: synthetic terrain, painted sheet, synthesis, strokes, files.
 constexpr const char* small_scene = R"(
 version = 1
 [terrain.synthetic]
@@ -50,11 +50,12 @@ sheet_width_mm = 150
 
 class Pipeline : public testing::Test {
  protected:
-  // One render that several tests look at: on one thread.
+  // One render shared by several tests: on one thread.
   static void SetUpTestSuite() {
     folder_of_all_ = std::make_unique<test::Folder>();
     rendered_ = folder_of_all_->path();
-    render(parse_scene(small_scene, "small.toml", ".", {}), rendered_, {.threads = 1, .tile_px = 32});
+    render(parse_scene(small_scene, "small.toml", ".", {}), rendered_,
+           {.threads = 1, .tile_px = 32});
   }
   static void TearDownTestSuite() { folder_of_all_.reset(); }
   static inline std::unique_ptr<test::Folder> folder_of_all_;
@@ -62,7 +63,8 @@ class Pipeline : public testing::Test {
 
   std::string out(const std::string& name) const { return folder_ / name; }
   LoadedScene scene(const std::vector<std::string>& settings = {}) const {
-    return parse_scene(small_scene, "small.toml", folder_.path(), {.data_folders = {}, .settings = settings});
+    return parse_scene(small_scene, "small.toml", folder_.path(),
+                       {.data_folders = {}, .settings = settings});
   }
   static void expect_same_files(const std::string& a, const std::string& b) {
     for (const char* file : {"panorama.tif", "panorama.png", "panorama.exr", "guidance.exr"}) {
@@ -72,12 +74,14 @@ class Pipeline : public testing::Test {
     }
   }
 
-  // A golden picture is small, and was looked at when it was made. A change of the look is meant to fail here: look at the new picture,
-  // then run with BELVEDERE_WRITE_GOLDEN=1 and commit it. Thresholds, of 1, leave room for another processor's last bits, not for another
-  // look: .003 in the mean of all pixels, and one pixel in a hundred may be .1 off.
+  // A golden picture is small, and was inspected when it was made. A change of the look is meant to
+  // fail here: look at the new picture, then run with BELVEDERE_WRITE_GOLDEN=1 and commit it.
+  // Thresholds, of 1, allow for another processor's last bits, not for another look: .003 on
+  // average over all pixels, and one pixel in a hundred may be .1 off.
   static void expect_golden(const std::string& picture, const std::string& name) {
     const std::string golden = test::source_folder() + "/tests/golden/" + name;
-    if (std::getenv("BELVEDERE_WRITE_GOLDEN") != nullptr) fs::copy_file(picture, golden, fs::copy_options::overwrite_existing);
+    if (std::getenv("BELVEDERE_WRITE_GOLDEN") != nullptr)
+      fs::copy_file(picture, golden, fs::copy_options::overwrite_existing);
     const Grid<glm::vec3> expected = read_picture(golden);
     const Grid<glm::vec3> found = read_picture(picture);
     ASSERT_TRUE(found.same_size(expected));
@@ -102,7 +106,8 @@ TEST_F(Pipeline, SameBytesForAnyThreadsAndTiles) {
 
 TEST_F(Pipeline, GuidanceAloneEqualsGuidanceOfTheWholeRender) {
   // Taller than one band of the streamed file, with a margin on both sides of its seams.
-  const std::vector<std::string> tall = {"output.height=1100", "output.width=96", "output.sheet_width_mm=96", "synthesis.enabled=false",
+  const std::vector<std::string> tall = {"output.height=1100", "output.width=96",
+                                         "output.sheet_width_mm=96", "synthesis.enabled=false",
                                          "sampling.pixel_samples=1"};
   render(scene(tall), out("a"), {.cache = test::shared_cache()});
   render_guidance(scene(tall), out("b"), {.cache = test::shared_cache()});
@@ -130,7 +135,8 @@ TEST_F(Pipeline, PanoramaShowsSkyOverTerrainAndIsPainted) {
   EXPECT_LT(difference / count, 0.12);
 }
 
-// A painting in reds, each class lighter to the right: its colours become those of the base picture, with or without its strokes.
+// A painting in reds, each class lighter to the right: its colours become those of the base
+// picture, with or without its strokes.
 TEST_F(Pipeline, ColoursOfAPaintingReachTheBasePicture) {
   Grid<glm::vec3> red(88, 40);
   std::string classes;
@@ -142,10 +148,12 @@ TEST_F(Pipeline, ColoursOfAPaintingReachTheBasePicture) {
     }
   write_png8(out("red.png"), red, {});
   test::write_bytes(out("classes.png"), test::make_png(88, 40, 8, 0, classes));
-  const std::string painting = "exemplar.0={ picture = \"red.png\", classes = \"classes.png\", stroke_px = 1 }";
+  const std::string painting =
+      "exemplar.0={ picture = \"red.png\", classes = \"classes.png\", stroke_px = 1 }";
   const auto redness = [&](const std::string& colours) {
-    render_guidance(scene({painting, "synthesis.colours=" + colours, "synthesis.enabled=false", "air.haze=0", "air.range_mist=0",
-                           "sampling.pixel_samples=1", "output.width=96", "output.height=64", "output.sheet_width_mm=96"}),
+    render_guidance(scene({painting, "synthesis.colours=" + colours, "synthesis.enabled=false",
+                           "air.haze=0", "air.range_mist=0", "sampling.pixel_samples=1",
+                           "output.width=96", "output.height=64", "output.sheet_width_mm=96"}),
                     out(colours), {});
     const GuidanceBuffers guidance = read_guidance(out(colours) + "/guidance.exr");
     double sum = 0.0;
@@ -163,8 +171,8 @@ TEST_F(Pipeline, ColoursOfAPaintingReachTheBasePicture) {
 
 TEST_F(Pipeline, LooksAsItDid) { expect_golden(rendered_ + "/panorama.png", "small_panorama.png"); }
 
-// Nearer mountains turned by a handle and raised, a summit stretched, the ground tipped towards the viewer: light, land cover and strokes
-// go along.
+// Nearer mountains turned by a handle and raised, a summit stretched, the ground tilted towards the
+// viewer: light, land cover and strokes follow.
 TEST_F(Pipeline, TurnedMountainLooksAsItDid) {
   constexpr const char* turned = R"(
 [synthesis]
@@ -188,7 +196,8 @@ move_m = [0, 400]
 rotate_deg = 60
 raise_m = 250
 )";
-  render(parse_scene(std::string(small_scene) + turned, "turned.toml", ".", {}), out("turned"), {.cache = test::shared_cache()});
+  render(parse_scene(std::string(small_scene) + turned, "turned.toml", ".", {}), out("turned"),
+         {.cache = test::shared_cache()});
   expect_golden(out("turned/panorama.png"), "turned_mountain.png");
 }
 
@@ -196,7 +205,8 @@ TEST_F(Pipeline, EveryFileSaysWhatMadeIt) {
   for (const char* file : {"panorama.tif", "panorama.exr", "guidance.exr"}) {
     const ImageInfo info = read_image_info(rendered_ + "/" + file);
     ASSERT_TRUE(info.notes.contains("belvedere:scene")) << file;
-    EXPECT_NE(info.notes.at("belvedere:scene").find("[terrain.synthetic]"), std::string::npos) << file;
+    EXPECT_NE(info.notes.at("belvedere:scene").find("[terrain.synthetic]"), std::string::npos)
+        << file;
     EXPECT_TRUE(info.notes.contains("belvedere:camera")) << file;
   }
 }
@@ -213,7 +223,8 @@ TEST_F(Pipeline, AnOutputThatCannotBeWrittenIsRefusedBeforeTheWork) {
 
 TEST_F(Pipeline, APictureBeyondMemoryIsRefusedWithTheEstimate) {
   try {
-    render(scene({"output.width=60000", "output.height=60000"}), out("a"), {.memory_bytes = 100U << 20U});
+    render(scene({"output.width=60000", "output.height=60000"}), out("a"),
+           {.memory_bytes = 100U << 20U});
     FAIL() << "no error";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::limit);
@@ -236,7 +247,8 @@ TEST_F(Pipeline, ASunBelowTheHorizonIsNotedAndLeavesSkyLight) {
     std::string all;
     void note(std::string_view text) override { all += text; }
   } notes;
-  render_guidance(scene({"sun.altitude_deg=-5"}), out("a"), {.progress = notes, .cache = test::shared_cache()});
+  render_guidance(scene({"sun.altitude_deg=-5"}), out("a"),
+                  {.progress = notes, .cache = test::shared_cache()});
   EXPECT_NE(notes.all.find("below the horizon"), std::string::npos);
   const GuidanceBuffers guidance = read_guidance(out("a/guidance.exr"));
   for (std::size_t i = 0; i < guidance.shadow.size(); ++i) {

@@ -23,8 +23,9 @@
 namespace belvedere {
 namespace {
 
-// A made-up range of 14 × 14 mountains of all heights with 220 names, seen from the south. Names in scripts that run from right to left,
-// that join their letters, that no font of the machine may have; short ones and long ones.
+// A synthetic range of 14 × 14 mountains of all heights with 220 names, seen from the south. Names
+// in scripts that run from right to left, that join their letters, that may be in no font of the
+// machine; short ones and long ones.
 constexpr int cells = 320;
 constexpr double cell_m = 60.0;
 constexpr GeoTransform frame{680000.0, 5260000.0, cell_m, cell_m};
@@ -52,7 +53,9 @@ struct Peak {
   double top_m = 0.0;
 };
 
-double height_of(const Peak& peak, glm::dvec2 cell) { return peak.top_m - 42.0 * glm::length(cell - peak.cell); }
+double height_of(const Peak& peak, glm::dvec2 cell) {
+  return peak.top_m - 42.0 * glm::length(cell - peak.cell);
+}
 
 std::vector<Peak> make_peaks() {
   std::vector<Peak> peaks;
@@ -60,7 +63,8 @@ std::vector<Peak> make_peaks() {
     for (int i = 0; i < 14; ++i) {
       const int k = 14 * j + i;
       const glm::dvec2 jitter(drawn(k, 0) - .5, drawn(k, 1) - .5);
-      peaks.push_back({glm::dvec2(17.0 + 22.0 * i, 17.0 + 22.0 * j) + 8.0 * jitter, 900.0 + 1000.0 * drawn(k, 2)});
+      peaks.push_back({glm::dvec2(17.0 + 22.0 * i, 17.0 + 22.0 * j) + 8.0 * jitter,
+                       900.0 + 1000.0 * drawn(k, 2)});
     }
   return peaks;
 }
@@ -95,19 +99,22 @@ height = 1000
 sheet_width_mm = 900
 )";
 
-// Made once: a range, its names as files, its sheet, and the picture's own buffers, which know nothing of names.
+// Made once: a range, its names as files, its sheet, and the picture's own buffers, which contain
+// no names.
 class ManyNames : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = new test::Folder("range");
     write_files();
     loaded_ = new LoadedScene(parse_scene(scene_text, "range.toml", folder_->path(), {}));
-    job_ = {.points = {*folder_ / "names.csv"}, .shapes = {*folder_ / "valleys.geojson"}, .tracks = {}};
+    job_ = {
+        .points = {*folder_ / "names.csv"}, .shapes = {*folder_ / "valleys.geojson"}, .tracks = {}};
     bare_ = new BareView(make_bare_view(*loaded_, silent_progress()));
     sheet_ = new LabelSheet(make_label_sheet(*loaded_, job_, *bare_, silent_progress()));
     world_ = new World(make_world(*loaded_, silent_progress()));
-    traced_ = new GuidanceBuffers(trace_guidance(world_->terrain, *world_->surface, world_->tracer, *world_->camera,
-                                                 {.sampling = loaded_->scene.sampling}, {0, 0, size_px.x, size_px.y}, silent_progress()));
+    traced_ = new GuidanceBuffers(trace_guidance(
+        world_->terrain, *world_->surface, world_->tracer, *world_->camera,
+        {.sampling = loaded_->scene.sampling}, {0, 0, size_px.x, size_px.y}, silent_progress()));
   }
   static void TearDownTestSuite() {
     delete traced_;
@@ -136,14 +143,17 @@ class ManyNames : public testing::Test {
       glm::dvec2 cell(320.0 * drawn(i, 3), 320.0 * drawn(i, 4));
       const char* kind = k % 3 == 0 ? "town" : k % 3 == 1 ? "hut" : "lake";
       if (k < peaks.size()) {
-        // A file's place of a summit lies up to 130 m beside it; a mountain within the flank of another is none.
-        const bool stands = raster.cells(static_cast<int>(std::lround(peaks[k].cell.x)), static_cast<int>(std::lround(peaks[k].cell.y))) <
+        // Positions of summits in the file are up to 130 m off; a mountain within the flank of
+        // another does not count.
+        const bool stands = raster.cells(static_cast<int>(std::lround(peaks[k].cell.x)),
+                                         static_cast<int>(std::lround(peaks[k].cell.y))) <
                             static_cast<float>(peaks[k].top_m + 1.0);
         kind = stands ? "summit" : "pass";
         cell = peaks[k].cell + 3.0 * glm::dvec2(drawn(i, 3) - .5, drawn(i, 4) - .5);
       }
-      const glm::dvec2 place = frame.to_crs(cell.x, cell.y);
-      names += fmt::format("{},{},{},{:.1f},{:.1f}\n", name, kind, 1 + static_cast<int>(8.0 * drawn(i, 5)), place.x, place.y);
+      const glm::dvec2 position = frame.to_crs(cell.x, cell.y);
+      names += fmt::format("{},{},{},{:.1f},{:.1f}\n", name, kind,
+                           1 + static_cast<int>(8.0 * drawn(i, 5)), position.x, position.y);
     }
     folder_->write("names.csv", names);
 
@@ -152,22 +162,27 @@ class ManyNames : public testing::Test {
       std::vector<glm::dvec2> row;
       for (int s = 0; s <= 12; ++s) row.push_back(frame.to_crs(60.0 + 17.0 * s, 70.0 + 44.0 * v));
       PointTransform("EPSG:32632", "EPSG:4326").apply(row);
-      std::string places;
-      for (const glm::dvec2 p : row) places += fmt::format("{}[{:.6f},{:.6f}]", places.empty() ? "" : ",", p.x, p.y);
+      std::string positions;
+      for (const glm::dvec2 p : row)
+        positions += fmt::format("{}[{:.6f},{:.6f}]", positions.empty() ? "" : ",", p.x, p.y);
       valleys += fmt::format(
           R"({}{{"type":"Feature","properties":{{"name":"{}tal","kind":"valley","rank":2}},"geometry":{{"type":"LineString","coordinates":[{}]}}}})",
-          valleys.empty() ? "" : ",", words[static_cast<std::size_t>(v)], places);
+          valleys.empty() ? "" : ",", words[static_cast<std::size_t>(v)], positions);
     }
-    folder_->write("valleys.geojson", R"({"type":"FeatureCollection","features":[)" + valleys + "]}");
+    folder_->write("valleys.geojson",
+                   R"({"type":"FeatureCollection","features":[)" + valleys + "]}");
   }
 
-  // How high the ground that a pixel shows is drawn over the bent datum below it, exaggerated.
+  // Height of the drawn ground of a pixel above the bent datum below it, exaggerated.
   static double drawn_height_m(int x, int y) {
     const Ray ray = world_->camera->ray({x + .5, y + .5});
-    const glm::dvec3 point = glm::dvec3(ray.origin) + static_cast<double>(traced_->depth_m(x, y)) * glm::dvec3(ray.direction);
-    return point.z - world_->deformation.point({place_of(x, y), 0.0}).z;
+    const glm::dvec3 point = glm::dvec3(ray.origin) + static_cast<double>(traced_->depth_m(x, y)) *
+                                                          glm::dvec3(ray.direction);
+    return point.z - world_->deformation.point({position_of(x, y), 0.0}).z;
   }
-  static glm::dvec2 place_of(int x, int y) { return glm::dvec2(traced_->position_m(x, y)) + glm::dvec2(traced_->origin_m); }
+  static glm::dvec2 position_of(int x, int y) {
+    return glm::dvec2(traced_->position_m(x, y)) + glm::dvec2(traced_->origin_m);
+  }
 
   inline static test::Folder* folder_ = nullptr;
   inline static LoadedScene* loaded_ = nullptr;
@@ -201,23 +216,29 @@ TEST_F(ManyNames, NoBoxLiesOverAnother) {
       boxes.emplace_back(i, label.spot.text);
     else
       for (const LabelBox& letter : label.spot.letters) boxes.emplace_back(i, letter);
-    const double r = label.spot.baseline.empty() ? .5 * sheet_->kind_of(label).mark_mm * sheet_->px_per_mm : 0.0;
+    const double r =
+        label.spot.baseline.empty() ? .5 * sheet_->kind_of(label).mark_mm * sheet_->px_per_mm : 0.0;
     const glm::dvec2 m = label.mark.pixel;
-    if (r > 0.0 && sheet_->kind_of(label).mark != LabelMarkShape::none) boxes.emplace_back(i, LabelBox{m.x - r, m.y - r, m.x + r, m.y + r});
-    if (label.spot.has_leader) boxes.emplace_back(i, LabelBox{m.x - .1, label.spot.leader_top_px, m.x + .1, m.y - r});
+    if (r > 0.0 && sheet_->kind_of(label).mark != LabelMarkShape::none)
+      boxes.emplace_back(i, LabelBox{m.x - r, m.y - r, m.x + r, m.y + r});
+    if (label.spot.has_leader)
+      boxes.emplace_back(i, LabelBox{m.x - .1, label.spot.leader_top_px, m.x + .1, m.y - r});
   }
   std::size_t overlaps = 0;
   for (std::size_t a = 0; a < boxes.size(); ++a)
     for (std::size_t b = 0; b < a; ++b) {
-      const bool marks = boxes[a].second.right - boxes[a].second.left < 12.0 && boxes[b].second.right - boxes[b].second.left < 12.0;
-      if (boxes[a].first == boxes[b].first || marks || !boxes[a].second.overlaps(boxes[b].second)) continue;
+      const bool marks = boxes[a].second.right - boxes[a].second.left < 12.0 &&
+                         boxes[b].second.right - boxes[b].second.left < 12.0;
+      if (boxes[a].first == boxes[b].first || marks || !boxes[a].second.overlaps(boxes[b].second))
+        continue;
       ++overlaps;
-      ADD_FAILURE() << sheet_->labels[boxes[a].first].text << " and " << sheet_->labels[boxes[b].first].text;
+      ADD_FAILURE() << sheet_->labels[boxes[a].first].text << " and "
+                    << sheet_->labels[boxes[b].first].text;
     }
   EXPECT_EQ(overlaps, 0U);
 }
 
-// Boxes are what the layout believes. The letters' own paint, name by name, knows nothing of them.
+// Boxes belong to the layout. The letters' own paint, name by name, is independent of them.
 TEST_F(ManyNames, NoPaintOfTwoNamesSharesAPixel) {
   constexpr int around = 24;
   Grid<int> owner(size_px.x, size_px.y, -1);
@@ -231,9 +252,11 @@ TEST_F(ManyNames, NoPaintOfTwoNamesSharesAPixel) {
     for (DrawnShape& shape : drawing.shapes)
       if (DrawnText* text = std::get_if<DrawnText>(&shape)) text->halo.clear();
     const double foot = std::max(label.spot.text.bottom, label.mark.pixel.y);
-    const PixelRect rect = intersection({0, 0, size_px.x, size_px.y},
-                                        {static_cast<int>(label.spot.text.left) - around, static_cast<int>(label.spot.text.top) - around,
-                                         static_cast<int>(label.spot.text.right) + around, static_cast<int>(foot) + around});
+    const PixelRect rect = intersection(
+        {0, 0, size_px.x, size_px.y},
+        {static_cast<int>(label.spot.text.left) - around,
+         static_cast<int>(label.spot.text.top) - around,
+         static_cast<int>(label.spot.text.right) + around, static_cast<int>(foot) + around});
     Grid<glm::vec3> paper(rect.width(), rect.height(), glm::vec3(1.F, 0.F, 1.F));
     const Grid<glm::vec3> clean = paper;
     SheetPainter(drawing).paint(paper, {rect.x0, rect.y0});
@@ -242,16 +265,19 @@ TEST_F(ManyNames, NoPaintOfTwoNamesSharesAPixel) {
         if (glm::length(paper(x, y) - clean(x, y)) < .3F) continue;
         ++painted;
         int& who = owner(rect.x0 + x, rect.y0 + y);
-        ASSERT_TRUE(who < 0 || who == static_cast<int>(i)) << label.text << " and " << sheet_->labels[static_cast<std::size_t>(who)].text;
+        ASSERT_TRUE(who < 0 || who == static_cast<int>(i))
+            << label.text << " and " << sheet_->labels[static_cast<std::size_t>(who)].text;
         who = static_cast<int>(i);
       }
   }
   EXPECT_GT(painted, 20000U);
 }
 
-// The picture's own buffers say where a summit is drawn: of all pixels that show ground within 300 m of the file's place those whose ground
-// is drawn highest, as far as heights can be told from pixels: a pixel's middle may lie half its width of ground below the very top. Or the
-// mark stands over that place on the edge behind which the summit falls out of sight: two pixels higher other ground is shown.
+// The picture's own buffers give the position of a summit: of all pixels that show ground within
+// 300 m of the file's position those with the highest drawn ground, within the resolution of
+// pixels: a pixel's centre may be half its width of ground below the very top. Or the mark is above
+// that position on the edge behind which the summit falls out of sight: two pixels higher other
+// ground is shown.
 TEST_F(ManyNames, MarksOfSummitsStandWithinTwoPixelsOfTheDrawnSummit) {
   constexpr double reach_m = 300.0;
   constexpr double steepest = 1.0;  // mountains of 42 m a cell of 60 m, exaggerated by 1.4
@@ -268,44 +294,53 @@ TEST_F(ManyNames, MarksOfSummitsStandWithinTwoPixelsOfTheDrawnSummit) {
     const glm::ivec2 about(label.mark.pixel);
     for (int y = std::max(0, about.y - 120); y < std::min(size_px.y, about.y + 120); ++y)
       for (int x = std::max(0, about.x - 120); x < std::min(size_px.x, about.x + 120); ++x) {
-        const double away_m = glm::length(place_of(x, y) - label.point.place);
+        const double away_m = glm::length(position_of(x, y) - label.point.position);
         if (std::isinf(traced_->depth_m(x, y)) || away_m > reach_m) continue;
-        shown.push_back({{x + .5, y + .5}, drawn_height_m(x, y), static_cast<double>(traced_->footprint_m(x, y))});
+        shown.push_back({{x + .5, y + .5},
+                         drawn_height_m(x, y),
+                         static_cast<double>(traced_->footprint_m(x, y))});
         if (shown.back().height_m <= highest_m) continue;
         highest_m = shown.back().height_m;
         where_m = away_m;
       }
-    // Where ground still rises at the end of the reach, generalization left no summit there.
+    // Where ground still rises at the end of the search radius, generalization left no summit
+    // there.
     if (where_m > reach_m - 1.5 * cell_m) continue;
     double off_px = std::numeric_limits<double>::infinity();
     for (const Shown& s : shown)
-      if (s.height_m >= highest_m - .5 * steepest * s.footprint_m) off_px = std::min(off_px, glm::length(label.mark.pixel - s.pixel));
+      if (s.height_m >= highest_m - .5 * steepest * s.footprint_m)
+        off_px = std::min(off_px, glm::length(label.mark.pixel - s.pixel));
     ++summits;
     const glm::ivec2 over(label.mark.pixel - glm::dvec2(0.0, 2.0));
     const auto at_top =
-        std::max_element(shown.begin(), shown.end(), [](const Shown& a, const Shown& b) { return a.height_m < b.height_m; });
-    const bool on_edge =
-        at_top != shown.end() && label.mark.pixel.y < at_top->pixel.y &&
-        (over.y < 0 || std::isinf(traced_->depth_m(over.x, over.y)) || traced_->depth_m(over.x, over.y) > label.mark.distance_m + reach_m);
+        std::max_element(shown.begin(), shown.end(),
+                         [](const Shown& a, const Shown& b) { return a.height_m < b.height_m; });
+    const bool on_edge = at_top != shown.end() && label.mark.pixel.y < at_top->pixel.y &&
+                         (over.y < 0 || std::isinf(traced_->depth_m(over.x, over.y)) ||
+                          traced_->depth_m(over.x, over.y) > label.mark.distance_m + reach_m);
     if (on_edge) continue;
-    EXPECT_LE(off_px, 2.0) << label.text << " marked at " << label.mark.pixel.x << ',' << label.mark.pixel.y;
+    EXPECT_LE(off_px, 2.0) << label.text << " marked at " << label.mark.pixel.x << ','
+                           << label.mark.pixel.y;
   }
   EXPECT_GT(summits, 60U);
 }
 
-// Seen is what the depth of the picture shows there, hidden what it shows something nearer of.
+// Visible marks have the depth of the picture, hidden ones are behind something nearer.
 TEST_F(ManyNames, SeenAndHiddenAgreeWithTheTracedDepth) {
   std::size_t seen = 0, hidden = 0;
   for (const Label& label : sheet_->labels) {
     const LabelMark& mark = label.mark;
     if (label.mark.state != MarkState::seen && label.mark.state != MarkState::hidden) continue;
-    if (!label.spot.baseline.empty() || label.point.where.find("valleys") != std::string::npos) continue;
-    double nearest = std::numeric_limits<double>::infinity();  // of the ground around in the picture to the mark's own
+    if (!label.spot.baseline.empty() || label.point.where.find("valleys") != std::string::npos)
+      continue;
+    double nearest = std::numeric_limits<double>::infinity();  // of the ground around in the
+                                                               // picture to the mark's own
     double farthest_m = 0.0;
     for (int dy = -1; dy <= 1; ++dy)
       for (int dx = -1; dx <= 1; ++dx) {
         const auto depth_m = static_cast<double>(
-            traced_->depth_m.clamped(static_cast<int>(std::floor(mark.pixel.x)) + dx, static_cast<int>(std::floor(mark.pixel.y)) + dy));
+            traced_->depth_m.clamped(static_cast<int>(std::floor(mark.pixel.x)) + dx,
+                                     static_cast<int>(std::floor(mark.pixel.y)) + dy));
         nearest = std::min(nearest, std::abs(depth_m - mark.distance_m));
         farthest_m = std::max(farthest_m, depth_m);
       }
@@ -315,8 +350,8 @@ TEST_F(ManyNames, SeenAndHiddenAgreeWithTheTracedDepth) {
     } else {
       ++hidden;
       EXPECT_FALSE(label.spot.placed) << label.text;
-      const auto in_front_m = static_cast<double>(
-          traced_->depth_m.clamped(static_cast<int>(std::floor(mark.pixel.x)), static_cast<int>(std::floor(mark.pixel.y))));
+      const auto in_front_m = static_cast<double>(traced_->depth_m.clamped(
+          static_cast<int>(std::floor(mark.pixel.x)), static_cast<int>(std::floor(mark.pixel.y))));
       EXPECT_LT(in_front_m, mark.distance_m - .5) << label.text;
     }
   }
@@ -328,7 +363,8 @@ TEST_F(ManyNames, TheSameBytesForOneThreadAndTwo) {
   const auto files = [&](int threads) {
     const ThreadLimit limit(threads);
     const LabelSheet sheet = make_label_sheet(*loaded_, job_, *bare_, silent_progress());
-    return std::array{labels_svg(sheet, ""), labels_csv(sheet), labels_geojson(sheet, bare_->dem.crs)};
+    return std::array{labels_svg(sheet, ""), labels_csv(sheet),
+                      labels_geojson(sheet, bare_->dem.crs)};
   };
   const auto one = files(1);
   EXPECT_EQ(one, files(2));

@@ -21,8 +21,12 @@ using testing::SizeIs;
 class ScenePaints : public testing::Test {
  protected:
   ScenePaints() { test::write_painting(folder_); }
-  LoadedScene scene(const std::vector<std::string>& settings = {}) const { return test::painted_scene(folder_, settings); }
-  void damage() const { fs::resize_file(folder_ / "red.png", fs::file_size(folder_ / "red.png") / 2); }
+  LoadedScene scene(const std::vector<std::string>& settings = {}) const {
+    return test::painted_scene(folder_, settings);
+  }
+  void damage() const {
+    fs::resize_file(folder_ / "red.png", fs::file_size(folder_ / "red.png") / 2);
+  }
   std::string refused(const LoadedScene& loaded) const {
     return test::message_of(ErrorKind::input, [&] { require_inputs(loaded); });
   }
@@ -33,7 +37,8 @@ const std::string no_synthesis = "synthesis.enabled=false";
 const std::string its_colours = "synthesis.colours=painting";
 
 TEST_F(ScenePaints, InputsThatAreWholePass) {
-  for (const std::vector<std::string>& settings : {std::vector<std::string>{}, {no_synthesis}, {no_synthesis, its_colours}})
+  for (const std::vector<std::string>& settings :
+       {std::vector<std::string>{}, {no_synthesis}, {no_synthesis, its_colours}})
     EXPECT_NO_THROW(require_inputs(scene(settings)));
 }
 
@@ -41,8 +46,9 @@ TEST_F(ScenePaints, ADamagedPaintingIsRefusedWhereverItsStrokesOrColoursAreUsed)
   damage();
   EXPECT_THAT(refused(scene()), HasSubstr("red.png"));
   EXPECT_THAT(refused(scene({its_colours})), HasSubstr("red.png"));
-  EXPECT_THAT(refused(scene({no_synthesis, its_colours})), HasSubstr("red.png")) << "without its strokes, but in its colours";
-  EXPECT_NO_THROW(require_inputs(scene({no_synthesis}))) << "nobody looks at it";
+  EXPECT_THAT(refused(scene({no_synthesis, its_colours})), HasSubstr("red.png"))
+      << "without its strokes, but in its colours";
+  EXPECT_NO_THROW(require_inputs(scene({no_synthesis}))) << "nobody uses it";
 }
 
 TEST_F(ScenePaints, AFileThatIsMissingIsRefusedAnyway) {
@@ -61,13 +67,16 @@ TEST_F(ScenePaints, PaintingsAreReadWhereTheyAreUsed) {
 }
 
 TEST_F(ScenePaints, ThePaletteIsTheScenesOrThePaintings) {
-  const auto forest = [](const Palette& palette) { return palette_colour(palette, LandCoverClass::forest, 900.0, 0.6); };
+  const auto forest = [](const Palette& palette) {
+    return palette_colour(palette, LandCoverClass::forest, 900.0, 0.6);
+  };
   const glm::vec3 own = forest(read_scene_palette(scene(), silent_progress()));
   EXPECT_EQ(own, forest(read_palette("summer")));
   const glm::vec3 painted = forest(read_scene_palette(scene({its_colours}), silent_progress()));
   EXPECT_GT(painted.x, painted.z + 0.2F) << "the painting is red";
   EXPECT_EQ(painted, forest(read_scene_paint(scene({its_colours}), silent_progress()).palette));
-  EXPECT_EQ(forest(read_scene_palette(scene({"palette=winter"}), silent_progress())), forest(read_palette("winter")));
+  EXPECT_EQ(forest(read_scene_palette(scene({"palette=winter"}), silent_progress())),
+            forest(read_palette("winter")));
 }
 
 }  // namespace

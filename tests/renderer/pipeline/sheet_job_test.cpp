@@ -28,7 +28,8 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-// Synthesis in two levels of tiles, over the border between two of them; everything that stands, flows or mirrors.
+// Synthesis in two levels of tiles, over the border between two of them; with trees, rivers and
+// reflections.
 constexpr const char* wide_scene = R"(
 version = 1
 [terrain.synthetic]
@@ -67,7 +68,9 @@ class SheetJob : public testing::Test {
   static LoadedScene scene(const std::vector<std::string>& settings = {}) {
     return parse_scene(wide_scene, "wide.toml", ".", {.data_folders = {}, .settings = settings});
   }
-  static belvedere::Run shared(int threads = 0) { return {.threads = threads, .cache = test::shared_cache()}; }
+  static belvedere::Run shared(int threads = 0) {
+    return {.threads = threads, .cache = test::shared_cache()};
+  }
   static std::string whole() { return all_->path(); }
   static void expect_same_files(const std::string& a, const std::string& b) {
     for (const char* file : {"panorama.tif", "panorama.png", "panorama.exr", "guidance.exr"}) {
@@ -85,11 +88,15 @@ TEST_F(SheetJob, APartIsThePixelsOfTheWholeInEveryFile) {
   const GuidanceBuffers guidance = read_guidance(whole() + "/guidance.exr");
   int number = 0;
   // A pixel, across the border of pieces and tiles, corners, edges.
-  for (const PixelRect part : {PixelRect{1023, 64, 1024, 65}, {990, 40, 1060, 110}, {0, 0, 37, 29}, {1040, 100, 1100, 130}}) {
+  for (const PixelRect part : {PixelRect{1023, 64, 1024, 65},
+                               {990, 40, 1060, 110},
+                               {0, 0, 37, 29},
+                               {1040, 100, 1100, 130}}) {
     const std::string out = folder_ / std::to_string(number++);
     render(scene(), out, shared(), {.part = part});
     for (const char* file : {"/panorama.tif", "/panorama.png", "/panorama.exr"})
-      EXPECT_TRUE(read_picture(out + file) == part_of(read_picture(whole() + file), part)) << file << " " << number;
+      EXPECT_TRUE(read_picture(out + file) == part_of(read_picture(whole() + file), part))
+          << file << " " << number;
     const GuidanceBuffers cut = read_guidance(out + "/guidance.exr");
     for (const GuidanceChannel& channel : guidance_channels())
       std::visit(
@@ -107,7 +114,8 @@ struct UnpackedLayer {
   Grid<float> opacity;
 };
 std::map<std::string, UnpackedLayer> unpack(const std::string& out) {
-  EXPECT_EQ(std::system(("cd " + out + " && python3 -m zipfile -e panorama.ora layers").c_str()), 0);
+  EXPECT_EQ(std::system(("cd " + out + " && python3 -m zipfile -e panorama.ora layers").c_str()),
+            0);
   std::map<std::string, UnpackedLayer> layers;
   for (const PictureLayer& layer : picture_layers()) {
     if (layer.of != LayerOf::all) continue;
@@ -117,7 +125,8 @@ std::map<std::string, UnpackedLayer> unpack(const std::string& out) {
   return layers;
 }
 
-// Layers laid over each other are the panorama, change none of its bytes, and are the same for any part, pieces and threads.
+// The composite of the layers is the panorama, they change none of its bytes, and are the same for
+// any part, pieces and threads.
 TEST_F(SheetJob, LayersMakeThePanorama) {
   const std::string all = folder_ / "all";
   render(scene(), all, shared(), {.layers = {"ora", "psd", "exr"}});
@@ -131,13 +140,15 @@ TEST_F(SheetJob, LayersMakeThePanorama) {
   for (const PictureLayer& layer : picture_layers()) {
     if (layer.mask || layer.of != LayerOf::all) continue;
     const UnpackedLayer& one = layers.at(layer.name);
-    for (std::size_t i = 0; i < flat.size(); ++i) flat[i] += one.opacity[i] * (one.colour[i] - flat[i]);
+    for (std::size_t i = 0; i < flat.size(); ++i)
+      flat[i] += one.opacity[i] * (one.colour[i] - flat[i]);
     if (layer.name == "edges")
       for (const float opacity : one.opacity) edges += opacity;
   }
   for (std::size_t i = 0; i < flat.size(); ++i)
     for (int c = 0; c < 3; ++c) ASSERT_NEAR(flat[i][c], panorama[i][c], 6.0 / 65535.0) << i;
-  EXPECT_LT(edges, 0.1 * static_cast<double>(flat.size())) << "layers of strokes say nearly all of it";
+  EXPECT_LT(edges, 0.1 * static_cast<double>(flat.size()))
+      << "layers of strokes say nearly all of it";
 
   const PixelRect part{990, 40, 1060, 110};
   const std::string cut = folder_ / "cut";
@@ -150,35 +161,47 @@ TEST_F(SheetJob, LayersMakeThePanorama) {
 }
 
 TEST_F(SheetJob, PartsOfAPlanMakeTheSameLayers) {
-  const SheetRequest request{.channels = GuidanceChoice{std::vector<std::string>{}}, .layers = {"ora", "exr"}};
+  const SheetRequest request{.channels = GuidanceChoice{std::vector<std::string>{}},
+                             .layers = {"ora", "exr"}};
   render(scene(), folder_ / "one", shared(), request);
   plan_sheet(scene(), folder_ / "many", shared(), request);
   for (const int part : {2, 1}) make_part(scene(), folder_ / "many", part, 2, shared(), request);
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { make_part(scene(), folder_ / "many", 1, 2, shared()); }),
+  EXPECT_THAT(test::message_of(ErrorKind::usage,
+                               [&] { make_part(scene(), folder_ / "many", 1, 2, shared()); }),
               HasSubstr("results differ"));
   join_parts(scene(), folder_ / "many", 2, folder_ / "many", shared(), request);
   for (const char* file : {"panorama.tif", "panorama.ora", "panorama_layers.exr"})
-    EXPECT_TRUE(test::read_bytes(folder_ / "one/" + file) == test::read_bytes(folder_ / "many/" + file)) << file;
+    EXPECT_TRUE(test::read_bytes(folder_ / "one/" + file) ==
+                test::read_bytes(folder_ / "many/" + file))
+        << file;
 }
 
 TEST_F(SheetJob, LayersAreOfTheProgramsOwnColours) {
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { render(scene(), folder_.path(), shared(), {.layers = {"xcf"}}); }),
-              HasSubstr("ora, psd, exr"));
+  EXPECT_THAT(
+      test::message_of(ErrorKind::usage,
+                       [&] { render(scene(), folder_.path(), shared(), {.layers = {"xcf"}}); }),
+      HasSubstr("ora, psd, exr"));
   folder_.write("show.ocio", "no matter what");
   const LoadedScene other =
-      parse_scene(wide_scene, "wide.toml", folder_.path(), {.data_folders = {}, .settings = {"output.ocio_config=show.ocio"}});
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { render(other, folder_.path(), shared(), {.layers = {"ora"}}); }),
-              HasSubstr("ocio_config"));
+      parse_scene(wide_scene, "wide.toml", folder_.path(),
+                  {.data_folders = {}, .settings = {"output.ocio_config=show.ocio"}});
+  EXPECT_THAT(
+      test::message_of(ErrorKind::usage,
+                       [&] { render(other, folder_.path(), shared(), {.layers = {"ora"}}); }),
+      HasSubstr("ocio_config"));
 }
 
-// Ground from a texture model: one lattice of tiles, whatever is asked of the sheet.
+// Ground from a texture model: one lattice of tiles, whatever part of the sheet is requested.
 TEST_F(SheetJob, GroundFromAModelIsTheSameInPartsAndPieces) {
   LearnParameters few;
   few.types = 16;
-  test::write_bytes(folder_ / "m.model", model_text(learn_texture(test::meadow_crop(64, 64), {}, few).model));
+  test::write_bytes(folder_ / "m.model",
+                    model_text(learn_texture(test::meadow_crop(64, 64), {}, few).model));
   const std::vector<std::string> settings = {
-      "exemplar.1={ model = \"m.model\", serves = [\"pasture\", \"alpine_grass\", \"forest\"], prefer = \"model\" }"};
-  const LoadedScene modelled = parse_scene(wide_scene, "wide.toml", folder_.path(), {.data_folders = {}, .settings = settings});
+      "exemplar.1={ model = \"m.model\", serves = [\"pasture\", \"alpine_grass\", \"forest\"], "
+      "prefer = \"model\" }"};
+  const LoadedScene modelled = parse_scene(wide_scene, "wide.toml", folder_.path(),
+                                           {.data_folders = {}, .settings = settings});
   const std::string all = folder_ / "all";
   const PixelRect wide{440, 0, 720, 130};
   render(modelled, all, shared(), {.part = wide});
@@ -191,7 +214,7 @@ TEST_F(SheetJob, GroundFromAModelIsTheSameInPartsAndPieces) {
   expect_same_files(all, folder_ / "small");
 }
 
-// Only what was asked for is made and written, and it is what the whole file has.
+// Only what was requested is made and written, and it equals the same part of the whole file.
 TEST_F(SheetJob, GuidanceHoldsTheChannelsThatWereAskedFor) {
   const PixelRect part{990, 40, 1060, 110};
   const GuidanceBuffers all = read_guidance(whole() + "/guidance.exr");
@@ -200,22 +223,31 @@ TEST_F(SheetJob, GuidanceHoldsTheChannelsThatWereAskedFor) {
   EXPECT_EQ(two.depth_m, part_of(all.depth_m, part));
   EXPECT_EQ(two.land_cover, part_of(all.land_cover, part));
   EXPECT_TRUE(two.normal.empty() && two.altitude_m.empty());
-  render_guidance(scene(), folder_ / "classes", shared(), {.channels = {{"landcover.id"}}, .part = part});
-  EXPECT_EQ(read_guidance(folder_ / "classes/guidance.exr").land_cover, two.land_cover) << "without distances beside them";
-  render(scene(), folder_ / "none", shared(), {.channels = std::vector<std::string>(), .part = part});
+  render_guidance(scene(), folder_ / "classes", shared(),
+                  {.channels = {{"landcover.id"}}, .part = part});
+  EXPECT_EQ(read_guidance(folder_ / "classes/guidance.exr").land_cover, two.land_cover)
+      << "without distances beside them";
+  render(scene(), folder_ / "none", shared(),
+         {.channels = std::vector<std::string>(), .part = part});
   EXPECT_FALSE(fs::exists(folder_ / "none/guidance.exr"));
-  EXPECT_EQ(test::read_bytes(folder_ / "none/panorama.tif"), test::read_bytes(folder_ / "two/panorama.tif"));
+  EXPECT_EQ(test::read_bytes(folder_ / "none/panorama.tif"),
+            test::read_bytes(folder_ / "two/panorama.tif"));
   EXPECT_THAT(test::message_of(ErrorKind::usage,
-                               [&] { render_guidance(scene(), folder_ / "none", shared(), {.channels = std::vector<std::string>()}); }),
+                               [&] {
+                                 render_guidance(scene(), folder_ / "none", shared(),
+                                                 {.channels = std::vector<std::string>()});
+                               }),
               HasSubstr("--channels"));
 }
 
-// The texels that pixels were copied from, as the sheet's stages had them, whatever the part and the pieces.
+// The texels that pixels were copied from, as in the sheet's stages, whatever the part and the
+// pieces.
 TEST_F(SheetJob, MatchesAreThoseThePictureWasCopiedBy) {
   const PixelRect part{980, 30, 1080, 130};
   const PixelRect corner{1020, 60, 1060, 110};
   render(scene(), folder_ / "part", shared(), {.matches = true, .part = part});
-  render(scene(), folder_ / "corner", shared(1), {.matches = true, .part = corner, .piece_px = 64, .block_px = 96});
+  render(scene(), folder_ / "corner", shared(1),
+         {.matches = true, .part = corner, .piece_px = 64, .block_px = 96});
   EXPECT_EQ(test::read_bytes(folder_ / "part/panorama.tif").empty(), false);
   const GuidanceBuffers guidance = read_guidance(folder_ / "part/guidance.exr");
   const auto ids = [&](const char* folder, const char* channel) {
@@ -224,7 +256,8 @@ TEST_F(SheetJob, MatchesAreThoseThePictureWasCopiedBy) {
   const Grid<std::uint32_t> exemplar = ids("part", "exemplar");
   const Grid<std::uint32_t> x = ids("part", "x");
   const Grid<std::uint32_t> y = ids("part", "y");
-  const PixelRect within{corner.x0 - part.x0, corner.y0 - part.y0, corner.x1 - part.x0, corner.y1 - part.y0};
+  const PixelRect within{corner.x0 - part.x0, corner.y0 - part.y0, corner.x1 - part.x0,
+                         corner.y1 - part.y0};
   EXPECT_EQ(ids("corner", "exemplar"), part_of(exemplar, within));
   EXPECT_EQ(ids("corner", "x"), part_of(x, within));
   EXPECT_EQ(ids("corner", "y"), part_of(y, within));
@@ -240,16 +273,22 @@ TEST_F(SheetJob, MatchesAreThoseThePictureWasCopiedBy) {
     }
   }
   EXPECT_GT(copied, 2000);
-  EXPECT_THAT(read_image_info(folder_ / "part/match.exr").notes.at("belvedere:matched_pictures"), testing::StartsWith("240 180 "));
-  EXPECT_THAT(
-      test::message_of(ErrorKind::usage, [&] { render(scene({"synthesis.enabled=false"}), folder_ / "no", shared(), {.matches = true}); }),
-      HasSubstr("--match"));
+  EXPECT_THAT(read_image_info(folder_ / "part/match.exr").notes.at("belvedere:matched_pictures"),
+              testing::StartsWith("240 180 "));
+  EXPECT_THAT(test::message_of(ErrorKind::usage,
+                               [&] {
+                                 render(scene({"synthesis.enabled=false"}), folder_ / "no",
+                                        shared(), {.matches = true});
+                               }),
+              HasSubstr("--match"));
 }
 
 TEST_F(SheetJob, APartOutsideOfTheSheetIsRefused) {
   for (const PixelRect part : {PixelRect{0, 0, 0, 5}, {1090, 0, 1101, 5}, {-1, 0, 5, 5}})
-    EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { render(scene(), folder_.path(), shared(), {.part = part}); }),
-                HasSubstr("1100 × 130"));
+    EXPECT_THAT(
+        test::message_of(ErrorKind::usage,
+                         [&] { render(scene(), folder_.path(), shared(), {.part = part}); }),
+        HasSubstr("1100 × 130"));
 }
 
 TEST_F(SheetJob, PiecesAndTilesOfStagesChangeNoByte) {
@@ -257,7 +296,7 @@ TEST_F(SheetJob, PiecesAndTilesOfStagesChangeNoByte) {
   expect_same_files(whole(), folder_ / "small");
 }
 
-// Stops after so many steps, as a user or the system would.
+// Stops after this many steps, like an interruption.
 struct Stopping : Progress {
   explicit Stopping(int steps) : left(steps) {}
   void advance(double) override {
@@ -272,7 +311,8 @@ TEST_F(SheetJob, ARunThatWasStoppedGoesOnToTheSameBytes) {
   for (int steps = 400;; steps += 700) {
     Stopping progress(steps);
     try {
-      render(scene(), folder_.path(), {.progress = progress, .cache = test::shared_cache()}, request);
+      render(scene(), folder_.path(), {.progress = progress, .cache = test::shared_cache()},
+             request);
       break;
     } catch (const Error& error) {
       ASSERT_EQ(error.kind(), ErrorKind::interrupted) << error.what();
@@ -286,12 +326,13 @@ TEST_F(SheetJob, ARunThatWasStoppedGoesOnToTheSameBytes) {
 TEST_F(SheetJob, PartsInAnyOrderJoinToTheSameBytes) {
   plan_sheet(scene(), folder_.path(), shared());
   for (const int part : {3, 1, 3}) make_part(scene(), folder_.path(), part, 3, shared());
-  // What is missing is named; a damaged piece is missing, and made again.
+  // Missing pieces are named; a damaged piece counts as missing, and is made again.
   const auto expect_missing = [&](const std::string& which) {
-    const std::string message =
-        test::message_of(ErrorKind::input, [&] { join_parts(scene(), folder_.path(), 3, folder_.path(), shared()); });
+    const std::string message = test::message_of(ErrorKind::input, [&] {
+      join_parts(scene(), folder_.path(), 3, folder_.path(), shared());
+    });
     EXPECT_THAT(message, HasSubstr(which));
-    EXPECT_THAT(message, HasSubstr(" of 3 is missing or not whole"));
+    EXPECT_THAT(message, HasSubstr(" of 3 is missing or incomplete"));
     EXPECT_THAT(message, HasSubstr("missing"));
   };
   expect_missing("part 2");
@@ -310,8 +351,10 @@ TEST_F(SheetJob, PartsInAnyOrderJoinToTheSameBytes) {
   for (const int part : {1, 2, 3}) make_part(scene(), folder_.path(), part, 3, shared());
   join_parts(scene(), folder_.path(), 3, folder_.path(), shared());
   expect_same_files(whole(), folder_.path());
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { make_part(scene({"seed=9"}), folder_.path(), 1, 3, shared()); }),
-              HasSubstr("scene differs"));
+  EXPECT_THAT(
+      test::message_of(ErrorKind::usage,
+                       [&] { make_part(scene({"seed=9"}), folder_.path(), 1, 3, shared()); }),
+      HasSubstr("scene differs"));
   test::message_of(ErrorKind::usage, [&] { make_part(scene(), folder_.path(), 4, 3, shared()); });
 }
 

@@ -14,7 +14,8 @@ namespace {
 constexpr double mib = 1048576.0;
 
 Scene print_of(const std::vector<std::string>& settings = {}) {
-  std::vector<std::string> all = {"output.width=20000", "output.height=8000", "output.sheet_width_mm=1200"};
+  std::vector<std::string> all = {"output.width=20000", "output.height=8000",
+                                  "output.sheet_width_mm=1200"};
   all.insert(all.end(), settings.begin(), settings.end());
   return test::small_scene(all).scene;
 }
@@ -27,11 +28,13 @@ int block_of(const Scene& scene, std::uint64_t memory_mib, const StandingBytes& 
 TEST(SheetMemory, LessMemoryMakesSmallerBlocksAndTooLittleIsRefused) {
   const Scene scene = print_of();
   EXPECT_EQ(block_of(scene, 6144), 1024);
-  // Windows of (1024 + 2 · 67 units)² pixels: surroundings that are looked up in a wide view take no more.
+  // Windows of (1024 + 2 · 67 units)² pixels: surroundings that are sampled in a wide view take no
+  // more.
   EXPECT_EQ(block_of(scene, 1300), 1024);
   EXPECT_LT(block_of(scene, 700), 1024);
   EXPECT_GE(block_of(scene, 700), 256);
-  EXPECT_NE(test::message_of(ErrorKind::limit, [&] { block_of(scene, 200); }).find("MiB"), std::string::npos);
+  EXPECT_NE(test::message_of(ErrorKind::limit, [&] { block_of(scene, 200); }).find("MiB"),
+            std::string::npos);
 }
 
 TEST(SheetMemory, WhatStandsThereLeavesLessToBlocks) {
@@ -40,9 +43,10 @@ TEST(SheetMemory, WhatStandsThereLeavesLessToBlocks) {
   EXPECT_LT(block_of(scene, 2048, {.ground = 1000.0 * mib}), 1024);
   EXPECT_LT(block_of(scene, 2048, {.besides = 1000.0 * mib}), 1024);
   // Pictures to copy from that leave nothing are refused, with what the whole takes.
-  const std::string refused = test::message_of(ErrorKind::limit, [&] { block_of(scene, 2048, {.besides = 1700.0 * mib}); });
+  const std::string refused =
+      test::message_of(ErrorKind::limit, [&] { block_of(scene, 2048, {.besides = 1700.0 * mib}); });
   EXPECT_NE(refused.find("at most 2048 MiB"), std::string::npos) << refused;
-  // Ground was made to fit the memory: it is not refused for what it leaves.
+  // Ground was fitted to the memory: it is not refused for what it leaves.
   EXPECT_LT(block_of(scene, 2048, {.ground = 1700.0 * mib}), 1024);
 }
 
@@ -50,7 +54,9 @@ TEST(SheetMemory, WhatIsPaintedAsAWholeIsRefusedSooner) {
   const Scene scene = print_of();
   const MemoryLimit limit(700U << 20U);
   EXPECT_LT(choose_block_px(scene, scene.pixels_per_unit()), 1024);
-  EXPECT_FALSE(test::message_of(ErrorKind::limit, [&] { choose_block_px(scene, scene.pixels_per_unit(), {}, 1024); }).empty());
+  EXPECT_FALSE(test::message_of(ErrorKind::limit, [&] {
+                 choose_block_px(scene, scene.pixels_per_unit(), {}, 1024);
+               }).empty());
 }
 
 TEST(SheetMemory, SmallPartsHaveSmallTiles) {
@@ -62,13 +68,17 @@ TEST(SheetMemory, SmallPartsHaveSmallTiles) {
 }
 
 TEST(SheetMemory, AllThatIsCopiedFromIsCounted) {
-  const auto bytes = [](const std::vector<std::string>& settings) { return copying_bytes(print_of(settings), {}); };
+  const auto bytes = [](const std::vector<std::string>& settings) {
+    return copying_bytes(print_of(settings), {});
+  };
   // A texel for eight pixels of the sheet.
   const double sheet = bytes({});
   EXPECT_NEAR(sheet, 20e6 * 85.0, 0.01 * sheet);
   EXPECT_NEAR(bytes({"exemplar=[{ width = 1000, height = 500 }]"}), 0.5e6 * 85.0, 1.0);
-  // Of a painting nothing is known before it is read; one that is not there leaves the sheet that is painted then.
-  const std::string painting = "exemplar=[{ picture = \"p.tif\", classes = \"c.tif\", optional = true }]";
+  // The size of a painting is not known before it is read; a missing one leaves the sheet that is
+  // painted instead.
+  const std::string painting =
+      "exemplar=[{ picture = \"p.tif\", classes = \"c.tif\", optional = true }]";
   EXPECT_EQ(bytes({painting}), 0.0);
   EXPECT_EQ(copying_bytes(print_of({painting}), std::vector<ScannedPainting>(1)), sheet);
   std::vector<ScannedPainting> read(1);

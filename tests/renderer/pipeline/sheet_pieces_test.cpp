@@ -49,7 +49,8 @@ TEST(SheetPieces, LayersTakeMemoryOfAPieceAtATime) {
   EXPECT_EQ(whole, piece_bytes_of(scene, {.layers = {"ora", "psd"}}));
   EXPECT_GT(whole, 1024.0 * 500.0 * 150.0);
   EXPECT_LT(whole, 1024.0 * 500.0 * 250.0);
-  EXPECT_EQ(piece_bytes_of(scene, {.layers = {"ora"}, .part = PixelRect{0, 0, 512, 250}}), whole / 4.0);
+  EXPECT_EQ(piece_bytes_of(scene, {.layers = {"ora"}, .part = PixelRect{0, 0, 512, 250}}),
+            whole / 4.0);
 }
 
 TEST(SheetPieces, TheIdentityHangsOnSceneAndPart) {

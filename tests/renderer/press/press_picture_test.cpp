@@ -23,17 +23,20 @@ TEST(PressPicture, IsThePictureOfAFolderThatIsRgb) {
   EXPECT_EQ(find_press_picture(folder.path()).width, 20);
   EXPECT_NEAR(find_press_picture(folder.path()).dots_per_inch, 300.0, 1e-3);
   test::write_pictures(folder / "panorama", {"tif"}, picture, {{}, test::press_profile()});
-  EXPECT_EQ(find_press_picture(folder.path()).file, folder / "panorama.png") << "the TIFF is CMYK now";
+  EXPECT_EQ(find_press_picture(folder.path()).file, folder / "panorama.png")
+      << "the TIFF is CMYK now";
 }
 
 TEST(PressPicture, SaysWhatItCannotTake) {
   const test::Folder folder;
   const Image picture(20, 10, glm::vec3(0.5F));
   test::write_pictures(folder / "panorama", {"tif", "exr"}, picture, {{}, test::press_profile()});
-  const auto refused = [&](const std::string& path) { return test::message_of(ErrorKind::input, [&] { find_press_picture(path); }); };
+  const auto refused = [&](const std::string& path) {
+    return test::message_of(ErrorKind::input, [&] { find_press_picture(path); });
+  };
   EXPECT_THAT(refused(folder / "panorama.tif"), HasSubstr("CMYK"));
   EXPECT_THAT(refused(folder / "panorama.exr"), HasSubstr("linear light"));
-  EXPECT_THAT(refused(folder / "absent.png"), HasSubstr("is not there"));
+  EXPECT_THAT(refused(folder / "absent.png"), HasSubstr("does not exist"));
   EXPECT_THAT(refused(folder.path()), HasSubstr("has no panorama"));
 }
 

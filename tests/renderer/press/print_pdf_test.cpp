@@ -1,4 +1,4 @@
-// PDF files, read by programs of other people: Poppler's and qpdf's.
+// PDF files, read by other programs: Poppler's and qpdf's.
 #include "renderer/press/print_pdf.h"
 
 #include <gmock/gmock.h>
@@ -11,7 +11,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/random.h"
-#include "renderer/image/color.h"
+#include "renderer/image/display_conversion.h"
 #include "renderer/image/image_io.h"
 #include "tests/files.h"
 #include "tests/renderer/image/icc/press_profile.h"
@@ -29,24 +29,29 @@ Grid<glm::vec3> coloured_squares() {
   Grid<glm::vec3> out(150, 100);
   for (int y = 0; y < 100; ++y)
     for (int x = 0; x < 150; ++x)
-      for (int c = 0; c < 3; ++c) out(x, y)[c] = static_cast<float>(random_uniform(9, x / 10, y / 10, static_cast<std::uint64_t>(c)));
+      for (int c = 0; c < 3; ++c)
+        out(x, y)[c] =
+            static_cast<float>(random_uniform(9, x / 10, y / 10, static_cast<std::uint64_t>(c)));
   return out;
 }
 
 class PrintPdf : public testing::Test {
  protected:
   PrintPdf() {
-    write_tiff16(folder_ / "a.tif", coloured_squares(), {.dots_per_inch = dots_per_inch, .icc_profile = srgb_profile(), .notes = {}});
+    write_tiff16(folder_ / "a.tif", coloured_squares(),
+                 {.dots_per_inch = dots_per_inch, .icc_profile = srgb_profile(), .notes = {}});
   }
 
   PdfReport write(const std::string& name, const PdfParameters& parameters) const {
     Progress progress;
-    return write_print_pdf(folder_ / name, find_press_picture(folder_ / "a.tif"), parameters, progress);
+    return write_print_pdf(folder_ / name, find_press_picture(folder_ / "a.tif"), parameters,
+                           progress);
   }
-  // What a program says; the test fails where it cannot.
+  // Output of a program; the test fails where it cannot run.
   std::string say(const std::string& command) const {
     const std::string out = folder_ / "said";
-    EXPECT_EQ(std::system(("cd " + folder_.path() + " && " + command + " > said 2>&1").c_str()), 0) << test::read_bytes(out);
+    EXPECT_EQ(std::system(("cd " + folder_.path() + " && " + command + " > said 2>&1").c_str()), 0)
+        << test::read_bytes(out);
     return test::read_bytes(out);
   }
   static PdfParameters for_press() {
@@ -64,7 +69,8 @@ class PrintPdf : public testing::Test {
     std::istringstream words(line);
     std::string word;
     for (int i = 0; i < 11; ++i) words >> word;  // the 11th is the object
-    say("qpdf --show-object=" + word + " --filtered-stream-data " + file + " | cat > numbers; true");
+    say("qpdf --show-object=" + word + " --filtered-stream-data " + file +
+        " | cat > numbers; true");
     return test::read_bytes(folder_ / "numbers");
   }
   test::Folder folder_;
@@ -79,14 +85,19 @@ TEST_F(PrintPdf, NumbersAreThoseOfThePress) {
     EXPECT_NEAR(report.picture_mm.x, 150 * 25.4 / dots_per_inch, 1e-3);
     EXPECT_EQ(report.ink.pixels, 150U * 100U);
     const std::string found = numbers("a.pdf");
-    const Grid<Inks> inks = PressConversion(parameters.press, parameters.device).convert(read_picture(folder_ / "a.tif"));
+    const Grid<Inks> inks = PressConversion(parameters.press, parameters.device)
+                                .convert(read_picture(folder_ / "a.tif"));
     ASSERT_EQ(found.size(), inks.size() * 4 * static_cast<std::size_t>(bits / 8));
     for (std::size_t i = 0; i < inks.size(); ++i)
       for (std::size_t c = 0; c < 4; ++c) {
-        const auto byte = [&](std::size_t at) { return static_cast<double>(static_cast<std::uint8_t>(found[at])); };
+        const auto byte = [&](std::size_t at) {
+          return static_cast<double>(static_cast<std::uint8_t>(found[at]));
+        };
         const std::size_t at = 4 * i + c;
-        const double value = bits == 16 ? (256.0 * byte(2 * at) + byte(2 * at + 1)) / 65535.0 : byte(at) / 255.0;
-        ASSERT_NEAR(value, inks[i][static_cast<int>(c)], bits == 16 ? .51 / 65535.0 : .51 / 255.0) << i;
+        const double value =
+            bits == 16 ? (256.0 * byte(2 * at) + byte(2 * at + 1)) / 65535.0 : byte(at) / 255.0;
+        ASSERT_NEAR(value, inks[i][static_cast<int>(c)], bits == 16 ? .51 / 65535.0 : .51 / 255.0)
+            << i;
       }
   }
 }
@@ -100,9 +111,13 @@ TEST_F(PrintPdf, IsBuiltAsPdfXAsks) {
   const std::string info = say("pdfinfo -box a.pdf");
   EXPECT_THAT(info, HasSubstr("Karwendel & Inn"));
   EXPECT_THAT(info, ContainsRegex("PDF version: *1.6"));
-  EXPECT_THAT(info, ContainsRegex("BleedBox: *22.68 *22.68 *130.68 *94.68"));  // 8 mm; 150 × 100 pixels of 1/100 inch
-  EXPECT_THAT(info, ContainsRegex("TrimBox: *28.35 *28.35 *125.01 *89.01"));   // 2 mm less on each side
-  EXPECT_THAT(say("pdfinfo -meta a.pdf"), HasSubstr("<pdfxid:GTS_PDFXVersion>PDF/X-4</pdfxid:GTS_PDFXVersion>"));
+  EXPECT_THAT(
+      info, ContainsRegex(
+                "BleedBox: *22.68 *22.68 *130.68 *94.68"));  // 8 mm; 150 × 100 pixels of 1/100 inch
+  EXPECT_THAT(info,
+              ContainsRegex("TrimBox: *28.35 *28.35 *125.01 *89.01"));  // 2 mm less on each side
+  EXPECT_THAT(say("pdfinfo -meta a.pdf"),
+              HasSubstr("<pdfxid:GTS_PDFXVersion>PDF/X-4</pdfxid:GTS_PDFXVersion>"));
   const std::string bytes = test::read_bytes(folder_ / "a.pdf");
   EXPECT_THAT(bytes, HasSubstr("/S /GTS_PDFX"));
   EXPECT_THAT(bytes, HasSubstr("/Trapped /False"));
@@ -116,7 +131,9 @@ TEST_F(PrintPdf, WithoutAPressItIsThePicture) {
   const Grid<glm::vec3> as_read = read_picture(folder_ / "a.tif");
   ASSERT_EQ(found.size(), as_read.size() * 3);
   for (std::size_t i = 0; i < found.size(); ++i)
-    ASSERT_NEAR(static_cast<std::uint8_t>(found[i]), 255.0F * as_read[i / 3][static_cast<int>(i % 3)], .51) << i;
+    ASSERT_NEAR(static_cast<std::uint8_t>(found[i]),
+                255.0F * as_read[i / 3][static_cast<int>(i % 3)], .51)
+        << i;
   say("pdftoppm -r 100 -png a.pdf page");
   const Grid<glm::vec3> page = read_picture(folder_ / "page-1.png");
   const Grid<glm::vec3> squares = coloured_squares();
@@ -124,11 +141,14 @@ TEST_F(PrintPdf, WithoutAPressItIsThePicture) {
   for (int y = 5; y < 100; y += 10)
     for (int x = 5; x < 150; x += 10)
       for (int c = 0; c < 3; ++c)
-        EXPECT_NEAR(page(x, y)[c], squares(x, y)[c], .03) << x << " " << y << ": by the tables of the program that shows it";
+        EXPECT_NEAR(page(x, y)[c], squares(x, y)[c], .03)
+            << x << " " << y << ": by the tables of the program that shows it";
 }
 
 TEST_F(PrintPdf, LabelsStayTextAndPrintInBlack) {
-  folder_.write("labels.svg", R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 150 100" font-family="sans-serif" font-size="12px">
+  folder_.write(
+      "labels.svg",
+      R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 150 100" font-family="sans-serif" font-size="12px">
 <text x="10" y="40" fill="#000000">Grosse</text><g opacity=".5"><rect x="9" y="9" width="9" height="9" fill="#000000"/></g>
 <text x="10" y="70" fill="#8b1a1a">Seekar</text></svg>)");
   PdfParameters parameters = for_press();
@@ -168,15 +188,22 @@ TEST_F(PrintPdf, SameBytesForAnyThreads) {
 TEST_F(PrintPdf, FaultsLeaveNoFile) {
   write_png8(folder_ / "b.png", coloured_squares(), {});
   Progress progress;
-  const auto no_size = [&] { write_print_pdf(folder_ / "b.pdf", find_press_picture(folder_ / "b.png"), {}, progress); };
+  const auto no_size = [&] {
+    write_print_pdf(folder_ / "b.pdf", find_press_picture(folder_ / "b.png"), {}, progress);
+  };
   EXPECT_THAT(test::message_of(ErrorKind::usage, no_size), HasSubstr("--width-mm"));
   PdfParameters parameters;
   parameters.labels = folder_.write("text.svg", "no drawing");
-  EXPECT_THAT(test::message_of(ErrorKind::input, [&] { write("c.pdf", parameters); }), HasSubstr("text.svg"));
+  EXPECT_THAT(test::message_of(ErrorKind::input, [&] { write("c.pdf", parameters); }),
+              HasSubstr("text.svg"));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "c.pdf"));
-  EXPECT_THAT(
-      test::message_of(ErrorKind::output, [&] { write_print_pdf("/dev/full/a.pdf", find_press_picture(folder_ / "a.tif"), {}, progress); }),
-      HasSubstr("/dev/full"));
+  EXPECT_THAT(test::message_of(ErrorKind::output,
+                               [&] {
+                                 write_print_pdf("/dev/full/a.pdf",
+                                                 find_press_picture(folder_ / "a.tif"), {},
+                                                 progress);
+                               }),
+              HasSubstr("/dev/full"));
 }
 
 }  // namespace

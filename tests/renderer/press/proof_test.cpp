@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "renderer/image/color.h"
+#include "renderer/image/display_conversion.h"
 #include "renderer/image/image_io.h"
 #include "tests/files.h"
 #include "tests/renderer/image/icc/press_profile.h"
@@ -22,17 +22,22 @@ Grid<glm::vec3> greys_and_greens() {
   Grid<glm::vec3> out(80, 150);
   for (int y = 0; y < 150; ++y)
     for (int x = 0; x < 80; ++x)
-      out(x, y) = x < 20 ? glm::vec3(0.0F, 1.0F, 0.003F * static_cast<float>(y)) : glm::vec3(0.3F + 0.004F * static_cast<float>(y));
+      out(x, y) = x < 20 ? glm::vec3(0.0F, 1.0F, 0.003F * static_cast<float>(y))
+                         : glm::vec3(0.3F + 0.004F * static_cast<float>(y));
   return out;
 }
 
 class Proof : public testing::Test {
  protected:
-  Proof() { write_tiff16(folder_ / "a.tif", greys_and_greens(), {.dots_per_inch = 300.0, .icc_profile = srgb_profile(), .notes = {}}); }
+  Proof() {
+    write_tiff16(folder_ / "a.tif", greys_and_greens(),
+                 {.dots_per_inch = 300.0, .icc_profile = srgb_profile(), .notes = {}});
+  }
   ProofReport make(const std::string& name) {
     Progress progress;
-    return write_proof(find_press_picture(folder_ / "a.tif"), test::press_profile(), {.device = {RenderingIntent::relative, true}}, 0.0,
-                       folder_ / name, progress);
+    return write_proof(find_press_picture(folder_ / "a.tif"), test::press_profile(),
+                       {.device = {RenderingIntent::relative, true}}, 0.0, folder_ / name,
+                       progress);
   }
   test::Folder folder_;
 };
@@ -54,7 +59,8 @@ TEST_F(Proof, TellsSharesAndShowsThem) {
 TEST_F(Proof, FiguresAreThoseOfThePixels) {
   const ProofReport report = make("b");
   const ProofRows rows =
-      SoftProof(test::press_profile(), {.device = {RenderingIntent::relative, true}}).make(read_picture(folder_ / "a.tif"));
+      SoftProof(test::press_profile(), {.device = {RenderingIntent::relative, true}})
+          .make(read_picture(folder_ / "a.tif"));
   std::vector<double> sorted(rows.delta_e.begin(), rows.delta_e.end());
   std::sort(sorted.begin(), sorted.end());
   double sum = 0.0;
@@ -74,7 +80,8 @@ TEST_F(Proof, SameBytesForAnyThreads) {
   }
   make("more");
   for (const char* file : {"_proof.png", "_outside.png"})
-    EXPECT_EQ(test::read_bytes(folder_ / (std::string("one") + file)), test::read_bytes(folder_ / (std::string("more") + file)));
+    EXPECT_EQ(test::read_bytes(folder_ / (std::string("one") + file)),
+              test::read_bytes(folder_ / (std::string("more") + file)));
 }
 
 }  // namespace

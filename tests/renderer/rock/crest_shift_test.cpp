@@ -36,7 +36,9 @@ GuidanceBuffers level_edge(LandCoverClass of_wall = LandCoverClass::rock) {
   return g;
 }
 
-CrestShift shift_of(const GuidanceBuffers& g) { return shift_crests(g, {g, 1, {0, 0}}, parameters(), {0, 0}, {0, 0, width, height}); }
+CrestShift shift_of(const GuidanceBuffers& g) {
+  return shift_crests(g, {g, 1, {0, 0}}, parameters(), {0, 0}, {0, 0, width, height});
+}
 
 // The topmost row of the wall in a column.
 int top_of(const GuidanceBuffers& g, int x) {
@@ -91,7 +93,7 @@ TEST(CrestShift, ShowsEveryPixelAsOneOfItsColumn) {
 TEST(CrestShift, LeavesEdgesOfMeadowsAndLowRims) {
   const GuidanceBuffers meadow = level_edge(LandCoverClass::alpine_grass);
   for (const std::int16_t rows : shift_of(meadow).rows) ASSERT_EQ(rows, 0);
-  // Rock of four units before something nearer: too little to stretch.
+  // Rock of four units in front of something nearer: too little to stretch.
   GuidanceBuffers rim = level_edge();
   for (int y = edge + 8; y < height; ++y)
     for (int x = 0; x < width; ++x) {
@@ -106,16 +108,21 @@ TEST(CrestShift, OfAPartIsThatOfTheWhole) {
   print.near.front = Grid<float>(print.width, print.height, 1.0F);
   RockParameters p = parameters();
   p.light.pixels_per_unit = test::print_ppu;
-  const CrestShift whole = shift_crests(print.near, {print.far, test::print_factor}, p, {0, 0}, {0, 0, print.width, print.height});
+  const CrestShift whole = shift_crests(print.near, {print.far, test::print_factor}, p, {0, 0},
+                                        {0, 0, print.width, print.height});
   int moved_pixels = 0;
   for (const std::int16_t rows : whole.rows) moved_pixels += rows != 0 ? 1 : 0;
   ASSERT_GT(moved_pixels, 1000);
-  for (const PixelRect kept : {PixelRect{300, 380, 420, 520}, PixelRect{700, 250, 820, 420}, PixelRect{0, 600, 200, 700}}) {
+  for (const PixelRect kept : {PixelRect{300, 380, 420, 520}, PixelRect{700, 250, 820, 420},
+                               PixelRect{0, 600, 200, 700}}) {
     const int margin = crest_margin_px(test::print_ppu);
-    const test::Window near = test::window_of(print.near, {kept.x0, kept.y0 - margin, kept.x1, kept.y1 + margin});
-    const test::Window far = test::window_of(print.far, wide_rect(grown(kept, rock_view_margin_px(p) + margin), test::print_factor));
-    const CrestShift part = shift_crests(near.held, {far.held, test::print_factor, {far.rect.x0, far.rect.y0}}, p,
-                                         {near.rect.x0, near.rect.y0}, moved(kept, -near.rect.x0, -near.rect.y0));
+    const test::Window near =
+        test::window_of(print.near, {kept.x0, kept.y0 - margin, kept.x1, kept.y1 + margin});
+    const test::Window far = test::window_of(
+        print.far, wide_rect(grown(kept, rock_view_margin_px(p) + margin), test::print_factor));
+    const CrestShift part =
+        shift_crests(near.held, {far.held, test::print_factor, {far.rect.x0, far.rect.y0}}, p,
+                     {near.rect.x0, near.rect.y0}, moved(kept, -near.rect.x0, -near.rect.y0));
     EXPECT_TRUE(part.rows == test::cut(whole.rows, kept));
     EXPECT_TRUE(part.front == test::cut(whole.front, kept));
   }

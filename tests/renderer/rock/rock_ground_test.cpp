@@ -12,7 +12,8 @@ using enum LandCoverClass;
 TEST(RockGround, SpursStandInTheMeadowAndGulliesLetDebrisUp) {
   // Half rock, half meadow around; more rock above than below: the foot of a wall.
   const auto shown = [](LandCoverClass mapped, float stands) {
-    return rock_border({.mapped = mapped, .rock = 0.5F, .turf = 0.4F, .above = 0.6F, .stands = stands});
+    return rock_border(
+        {.mapped = mapped, .rock = 0.5F, .turf = 0.4F, .above = 0.6F, .stands = stands});
   };
   EXPECT_EQ(shown(rock, 0.4F), rock);
   EXPECT_EQ(shown(rock, -0.4F), scree);
@@ -29,7 +30,7 @@ TEST(RockGround, NothingChangesFarFromABorder) {
   }
 }
 
-// What people or trees have made stays.
+// Man-made classes, forest and water stay.
 TEST(RockGround, WoodsWatersAndVillagesStay) {
   for (const LandCoverClass id : {forest, water, settlement, valley_floor, glacier})
     EXPECT_EQ(rock_border({.mapped = id, .rock = 0.8F, .stands = 0.6F}), id);
@@ -37,12 +38,21 @@ TEST(RockGround, WoodsWatersAndVillagesStay) {
 
 TEST(RockGround, WhereSnowIsNearItFillsTheGullies) {
   EXPECT_EQ(rock_border({.mapped = rock, .rock = 0.5F, .snow = 0.5F, .stands = -0.5F}), snow);
-  EXPECT_EQ(rock_border({.mapped = rock, .rock = 0.5F, .turf = 0.6F, .snow = 0.5F, .above = 0.6F, .stands = -0.5F}), scree);
-  EXPECT_EQ(rock_border({.mapped = rock, .rock = 0.5F, .stands = -0.5F}), rock) << "a rim above grass: no debris lies there";
+  EXPECT_EQ(rock_border({.mapped = rock,
+                         .rock = 0.5F,
+                         .turf = 0.6F,
+                         .snow = 0.5F,
+                         .above = 0.6F,
+                         .stands = -0.5F}),
+            scree);
+  EXPECT_EQ(rock_border({.mapped = rock, .rock = 0.5F, .stands = -0.5F}), rock)
+      << "an edge above grass: there is no debris";
 }
 
 TEST(RockGround, CrestsStandOutOfSteepSnow) {
-  const auto at = [](float slope_deg, float stands) { return rock_border({.mapped = snow, .slope_deg = slope_deg, .stands = stands}); };
+  const auto at = [](float slope_deg, float stands) {
+    return rock_border({.mapped = snow, .slope_deg = slope_deg, .stands = stands});
+  };
   EXPECT_EQ(at(50.0F, 0.5F), rock);
   EXPECT_EQ(at(50.0F, -0.2F), snow);
   EXPECT_EQ(at(30.0F, 0.6F), snow);
@@ -50,7 +60,8 @@ TEST(RockGround, CrestsStandOutOfSteepSnow) {
 
 TEST(RockGround, DebrisReachesUpBeneathFunnels) {
   const auto at = [](float funnel, float cones) {
-    return rock_border({.mapped = rock, .rock = 0.5F, .above = 0.6F, .funnel = funnel, .cones = cones});
+    return rock_border(
+        {.mapped = rock, .rock = 0.5F, .above = 0.6F, .funnel = funnel, .cones = cones});
   };
   EXPECT_EQ(at(1.0F, 1.0F), rock);
   EXPECT_EQ(at(-1.5F, 1.0F), scree);

@@ -14,7 +14,8 @@ namespace {
 
 using test::limestone;
 
-// A wall that faces north, 60° steep; the eye looks south, so that east lies to the left of the picture.
+// A wall that faces north, 60° steep; the view is to the south, so east is on the left of the
+// picture.
 RockPixel wall_pixel() {
   RockPixel p;
   p.normal = glm::normalize(glm::vec3(0.0F, 1.0F, 0.6F));
@@ -59,7 +60,7 @@ float tone_of(const Flank& flank, const ToneParameters& light) {
 }
 
 TEST(RockLight, FlanksThatFaceTheSunAreLit) {
-  // Left in the picture is east.
+  // The left of the picture is east.
   EXPECT_GT(tone_of(Flank(0), sun_from(0.7)), tone_of(Flank(1), sun_from(0.7)) + 0.25F);
   EXPECT_GT(tone_of(Flank(1), sun_from(-0.7)), tone_of(Flank(0), sun_from(-0.7)) + 0.25F);
   EXPECT_NEAR(tone_of(Flank(0), sun_from(0.7)), tone_of(Flank(1), sun_from(-0.7)), 1e-4F);
@@ -74,8 +75,9 @@ TEST(RockLight, NoSizeMovesTheToneByMoreThanItsShare) {
   for (const float slope : {-3.0F, -0.5F, 0.5F, 3.0F}) {
     flank.hits[1] = flank.hits[0];
     flank.hits[1].slope = {slope, 0.0F};
-    // Its lines and its share of crest and gully are .06 and less.
-    EXPECT_NEAR(light_rock(limestone(), light, false, p, flank.hits).tone, large, 0.13F + 0.07F) << slope;
+    // Its lines and its share of crest and gully are .06 at most.
+    EXPECT_NEAR(light_rock(limestone(), light, false, p, flank.hits).tone, large, 0.13F + 0.07F)
+        << slope;
   }
 }
 
@@ -87,10 +89,12 @@ TEST(RockLight, ACastShadowTakesTheLight) {
   const float shaded = light_rock(limestone(), sun_from(0.7), false, p, flank.hits).tone;
   EXPECT_GT(lit, shaded + 0.4F);
   // Shade still has forms.
-  EXPECT_GT(std::abs(light_rock(limestone(), sun_from(0.7), false, p, Flank(1).hits).tone - shaded), 0.02F);
+  EXPECT_GT(std::abs(light_rock(limestone(), sun_from(0.7), false, p, Flank(1).hits).tone - shaded),
+            0.02F);
 }
 
-// Walls in cast shadow were felt: planes .07 of the tone apart, half of them below the darkest paint.
+// Walls in cast shadow used to look like felt: planes .07 of the tone apart, half of them below the
+// darkest paint.
 TEST(RockLight, WallsInShadeHavePlanesToo) {
   RockPixel p = wall_pixel();
   p.shadow = 0.0F;
@@ -110,16 +114,16 @@ TEST(RockLight, WallsInShadeHavePlanesToo) {
 TEST(RockLight, LargeSpursStandInTheSunsWay) {
   const Flank flank(0);
   const ToneParameters light = sun_from(0.7);
-  const SunWay way = way_to_sun(limestone(), light, wall_pixel(), flank.hits);
-  // The sun stands to the east, left in the picture, and above.
+  const SunPath way = way_to_sun(limestone(), light, wall_pixel(), flank.hits);
+  // The sun is in the east, on the left of the picture, and above.
   EXPECT_LT(way.offset.x, -5.0F);
   EXPECT_GT(way.gained, 0.0F);
   EXPECT_EQ(sun_past(limestone(), way, 0.3F, 0.3F), 1.0F);
   EXPECT_LT(sun_past(limestone(), way, 2.0F, 0.3F), 0.35F);
-  EXPECT_EQ(sun_past(limestone(), way, -1e9F, 0.3F), 1.0F) << "nothing stands there";
+  EXPECT_EQ(sun_past(limestone(), way, -1e9F, 0.3F), 1.0F) << "there is no spur";
   EXPECT_LT(light_rock(limestone(), light, false, wall_pixel(), flank.hits, 0.2F).tone,
             light_rock(limestone(), light, false, wall_pixel(), flank.hits, 1.0F).tone - 0.2F);
-  // From behind the wall no sun comes at all.
+  // No sun arrives from behind the wall.
   ToneParameters behind;
   behind.sun_direction = {0.0, -0.8, 0.6};
   EXPECT_EQ(way_to_sun(limestone(), behind, wall_pixel(), flank.hits).gained, 0.0F);
@@ -201,7 +205,7 @@ TEST(RockLight, SnowLiesOnTreadsInWinterAndTurfInSummer) {
   EXPECT_LT(light_rock(limestone(), sun_from(0.7), false, p, none).turf, 0.05F);
 }
 
-// Each small spur had its own flake of snow, and walls looked strewn with confetti.
+// Formerly each small spur had its own patch of snow, and walls looked strewn with confetti.
 TEST(RockLight, SmallSpursHoldNoSnowOfTheirOwnInWinter) {
   RockPixel p = wall_pixel();
   p.normal = glm::normalize(glm::vec3(0.0F, 1.0F, 0.95F));
@@ -219,7 +223,7 @@ TEST(RockLight, SmallSpursHoldNoSnowOfTheirOwnInWinter) {
     }
     return light_rock(limestone(), sun_from(0.7), winter, p, flank.hits).snow;
   };
-  EXPECT_NE(snow_at(false, -1.5F), snow_at(false, 1.5F)) << "their light and old snow know them";
+  EXPECT_NE(snow_at(false, -1.5F), snow_at(false, 1.5F)) << "they affect light and old snow";
   EXPECT_EQ(snow_at(true, -1.5F), snow_at(true, 1.5F));
 }
 

@@ -92,21 +92,25 @@ TEST(RockRelief, StrokesRunDownThePlanes) {
 TEST(RockRelief, OfAPartIsThatOfTheWhole) {
   const test::Print print;
   RockParameters p = parameters_of(test::print_ppu);
-  const RockRelief whole = make_rock_relief(print.near, {print.far, test::print_factor}, p, {0, 0}, silent_progress());
+  const RockRelief whole =
+      make_rock_relief(print.near, {print.far, test::print_factor}, p, {0, 0}, silent_progress());
   bool any = false;
   for (const std::uint32_t facet : whole.facet) any = any || facet != 0;
   ASSERT_TRUE(any);
-  for (const PixelRect kept : {PixelRect{640, 560, 700, 610}, PixelRect{0, 300, 3, 420}, PixelRect{900, 700, 901, 701}}) {
+  for (const PixelRect kept :
+       {PixelRect{640, 560, 700, 610}, PixelRect{0, 300, 3, 420}, PixelRect{900, 700, 901, 701}}) {
     const test::Window near = test::window_of(print.near, grown(kept, rock_near_margin_px(p)));
-    const test::Window far = test::window_of(print.far, wide_rect(grown(kept, rock_margin_px(p)), test::print_factor));
-    const RockRelief part = make_rock_relief(near.held, {far.held, test::print_factor, {far.rect.x0, far.rect.y0}}, p,
-                                             {near.rect.x0, near.rect.y0}, silent_progress(), moved(kept, -near.rect.x0, -near.rect.y0));
+    const test::Window far =
+        test::window_of(print.far, wide_rect(grown(kept, rock_margin_px(p)), test::print_factor));
+    const RockRelief part = make_rock_relief(
+        near.held, {far.held, test::print_factor, {far.rect.x0, far.rect.y0}}, p,
+        {near.rect.x0, near.rect.y0}, silent_progress(), moved(kept, -near.rect.x0, -near.rect.y0));
     expect_same(part, cut(whole, kept));
   }
 }
 
 TEST(RockRelief, LooksNoFartherThanItsMargins) {
-  // A picture so large that the margins end within it, at a pixel a unit.
+  // A picture large enough for the margins to end inside it, at one pixel per unit.
   const GuidanceBuffers hills = test::make_hills(1300, 1200, 1.0);
   const RockParameters p = parameters_of(1.0);
   const RockRelief whole = relief_of(hills, p);
@@ -115,8 +119,9 @@ TEST(RockRelief, LooksNoFartherThanItsMargins) {
   const test::Window far = test::window_of(hills, grown(kept, rock_margin_px(p)));
   ASSERT_GT(far.rect.x0, 0);
   ASSERT_LT(far.rect.y1, 1200);
-  const RockRelief part = make_rock_relief(near.held, {far.held, 1, {far.rect.x0, far.rect.y0}}, p, {near.rect.x0, near.rect.y0},
-                                           silent_progress(), moved(kept, -near.rect.x0, -near.rect.y0));
+  const RockRelief part = make_rock_relief(near.held, {far.held, 1, {far.rect.x0, far.rect.y0}}, p,
+                                           {near.rect.x0, near.rect.y0}, silent_progress(),
+                                           moved(kept, -near.rect.x0, -near.rect.y0));
   expect_same(part, cut(whole, kept));
 }
 
@@ -137,7 +142,8 @@ TEST(RockRelief, KindsOfRockDiffer) {
   for (const char* kind : {"granite", "sandstone", "volcanic"}) {
     const RockRelief other = relief_of(g, parameters_of(1.0, kind));
     int same = 0;
-    for (std::size_t i = 0; i < other.tone.size(); ++i) same += other.tone[i] == limestone.tone[i] ? 1 : 0;
+    for (std::size_t i = 0; i < other.tone.size(); ++i)
+      same += other.tone[i] == limestone.tone[i] ? 1 : 0;
     EXPECT_LT(same, 200 * 200 / 50) << kind;
   }
 }
@@ -152,7 +158,8 @@ TEST(RockRelief, IsTakenIntoTheGuidance) {
   EXPECT_TRUE(has_channel(g, &GuidanceBuffers::rock_cover));
 }
 
-// The wide view sees crests where they were before they rose, and meadows of the valley in their place.
+// The wide view shows crests where they were before they rose, and meadows of the valley at their
+// new position.
 TEST(RockRelief, ARisenCrestIsLitAsTheWallBelowIt) {
   constexpr int factor = 8;
   constexpr int ridge = 20;  // of the wide view
@@ -168,11 +175,14 @@ TEST(RockRelief, ARisenCrestIsLitAsTheWallBelowIt) {
   };
   put_valley(seen, ridge);
   put_valley(g, ridge * factor - rise);
-  const RockRelief relief = make_rock_relief(g, {seen, factor, {0, 0}}, parameters_of(factor), {0, 0}, silent_progress());
+  const RockRelief relief =
+      make_rock_relief(g, {seen, factor, {0, 0}}, parameters_of(factor), {0, 0}, silent_progress());
   for (int y = ridge * factor - rise; y < ridge * factor; ++y)
-    for (int x = 0; x < g.width(); ++x) ASSERT_EQ(relief.land_cover(x, y), LandCoverClass::rock) << x << " " << y;
-  // Rock far from rock is calm, so that it would be flat there.
-  EXPECT_GT(contrast_of(relief, ridge * factor - rise, ridge * factor), 0.6 * contrast_of(relief, ridge * factor, ridge * factor + rise));
+    for (int x = 0; x < g.width(); ++x)
+      ASSERT_EQ(relief.land_cover(x, y), LandCoverClass::rock) << x << " " << y;
+  // Rock far from other rock has no contrast, so it would be flat there.
+  EXPECT_GT(contrast_of(relief, ridge * factor - rise, ridge * factor),
+            0.6 * contrast_of(relief, ridge * factor, ridge * factor + rise));
 }
 
 }  // namespace

@@ -26,7 +26,8 @@ TEST(RockView, LooksAtAPixelAUnit) {
   EXPECT_NEAR(view.thin.footprint_m(50, 50), 2.0F * g.footprint_m(100, 100), 1e-4F);
 }
 
-// A wall whose distance grows to the right passes from one size of spurs to the next, in whole cells.
+// A wall whose distance grows to the right changes from one size of spurs to the next in whole
+// cells.
 TEST(RockView, SizesChangeByCellsNotByPixels) {
   GuidanceBuffers g = test::make_wall(900, 60, 1.0);
   for (int y = 0; y < 60; ++y)
@@ -36,7 +37,8 @@ TEST(RockView, SizesChangeByCellsNotByPixels) {
     }
   const RockView view = view_rock(g, {g, 1, {0, 0}}, parameters(1.0), {0, 0}, {0, 0, 900, 60});
   const auto band = [&](int x, int y) {
-    return view.bands.at({static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F}, g.depth_m(x, y), 2.0F * g.footprint_m(x, y));
+    return view.bands.at({static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F},
+                         g.depth_m(x, y), 2.0F * g.footprint_m(x, y));
   };
   EXPECT_EQ(band(5, 30), 0);
   EXPECT_EQ(band(895, 30), 3);
@@ -48,14 +50,14 @@ TEST(RockView, SizesChangeByCellsNotByPixels) {
 
 TEST(RockView, EdgesWaverByLessThanAUnit) {
   const Warp warp(1);
-  float most = 0.0F;
+  float max = 0.0F;
   for (int k = 0; k < 2000; ++k) {
-    const glm::vec2 place(0.37F * static_cast<float>(k), 0.73F * static_cast<float>(k));
-    const glm::vec2 moved = warp(place, 2.0F) - place;
-    most = std::max({most, std::abs(moved.x), std::abs(moved.y)});
+    const glm::vec2 position(0.37F * static_cast<float>(k), 0.73F * static_cast<float>(k));
+    const glm::vec2 moved = warp(position, 2.0F) - position;
+    max = std::max({max, std::abs(moved.x), std::abs(moved.y)});
   }
-  EXPECT_GT(most, 0.6F);
-  EXPECT_LT(most, 1.7F);
+  EXPECT_GT(max, 0.6F);
+  EXPECT_LT(max, 1.7F);
 }
 
 }  // namespace

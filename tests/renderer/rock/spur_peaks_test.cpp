@@ -13,11 +13,13 @@ namespace {
 
 constexpr std::uint32_t own_parent = 77;
 
-// A height with its spur's number, as the words of spurs.h say it: one spur after the other.
-std::vector<std::pair<float, int>> heights_at(const SpurCells& cells, float slender, glm::vec2 place, float depth_m, std::uint32_t parent) {
+// A height with its spur's number, by the definition in spurs.h: one spur after the other.
+std::vector<std::pair<float, int>> heights_at(const SpurCells& cells, float slender,
+                                              glm::vec2 position, float depth_m,
+                                              std::uint32_t parent) {
   using namespace spur_form;
-  const int column = static_cast<int>(std::floor(place.x / cells.spacing));
-  const int row = static_cast<int>(std::floor(place.y / cells.spacing));
+  const int column = static_cast<int>(std::floor(position.x / cells.spacing));
+  const int row = static_cast<int>(std::floor(position.y / cells.spacing));
   std::vector<std::pair<float, int>> heights;
   for (int y = 0; y < cells.count.y; ++y)
     for (int x = 0; x < cells.count.x; ++x) {
@@ -26,8 +28,10 @@ std::vector<std::pair<float, int>> heights_at(const SpurCells& cells, float slen
       const int number = y * cells.count.x + x;
       const Spur& spur = cells.spurs[static_cast<std::size_t>(number)];
       if (!spur.grown) continue;
-      const glm::vec2 offset = (place - spur.place) * (1.0F / cells.spacing);
-      if (std::abs(depth_m - spur.depth_m) > spur.tolerance_m * (stray + std::sqrt(offset.x * offset.x + offset.y * offset.y))) continue;
+      const glm::vec2 offset = (position - spur.position) * (1.0F / cells.spacing);
+      if (std::abs(depth_m - spur.depth_m) >
+          spur.tolerance_m * (stray + std::sqrt(offset.x * offset.x + offset.y * offset.y)))
+        continue;
       const float v = (offset.x * spur.down.x + offset.y * spur.down.y) * slender;
       const float u = offset.x * spur.down.y - offset.y * spur.down.x;
       const float wide = std::abs(u);
@@ -40,15 +44,18 @@ std::vector<std::pair<float, int>> heights_at(const SpurCells& cells, float slen
         height += back_rise * (v - head);
       else
         height += back_rise * (tail - head) - spur.foot * (v - tail);
-      height -= spur.flank[u > 0.0F ? 1 : 0] / (opening + opening_along * std::clamp(v, opening_from, opening_to)) * wide;
+      height -= spur.flank[u > 0.0F ? 1 : 0] /
+                (opening + opening_along * std::clamp(v, opening_from, opening_to)) * wide;
       if (spur.parent != parent) height -= cells.lost_beyond;
       heights.emplace_back(height, number);
     }
-  std::stable_sort(heights.begin(), heights.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::stable_sort(heights.begin(), heights.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
   return heights;
 }
 
-// Spurs of any form, on two surfaces, with gaps; every seventh is the twin of the one before it, so that heights are equal.
+// Spurs of any form, on two surfaces, with gaps; every seventh equals the one before it, so that
+// heights are equal.
 SpurCells any_spurs(glm::ivec2 count) {
   SpurCells cells;
   cells.spacing = 7.0F;
@@ -57,11 +64,15 @@ SpurCells any_spurs(glm::ivec2 count) {
   for (int y = 0; y < count.y; ++y)
     for (int x = 0; x < count.x; ++x) {
       std::uint64_t draws = 0;
-      const auto between = [&](float low, float high) { return low + (high - low) * static_cast<float>(random_uniform(5, x, y, draws++)); };
+      const auto between = [&](float low, float high) {
+        return low + (high - low) * static_cast<float>(random_uniform(5, x, y, draws++));
+      };
       Spur spur;
       spur.grown = between(0.0F, 1.0F) < 0.8F;
-      spur.place.x = (static_cast<float>(cells.first.x + x) + between(0.0F, 1.0F)) * cells.spacing;
-      spur.place.y = (static_cast<float>(cells.first.y + y) + between(0.0F, 1.0F)) * cells.spacing;
+      spur.position.x =
+          (static_cast<float>(cells.first.x + x) + between(0.0F, 1.0F)) * cells.spacing;
+      spur.position.y =
+          (static_cast<float>(cells.first.y + y) + between(0.0F, 1.0F)) * cells.spacing;
       const float turn = between(-1.0F, 1.0F);
       spur.down = {turn, std::sqrt(1.0F - turn * turn)};
       spur.top = between(0.0F, 0.9F);
@@ -98,7 +109,8 @@ TEST(SpurPeaks, AreThoseOfALookAtOneAfterTheOther) {
         const SpurPeaks peaks = find_peaks(cells, 0.7F, {x, y}, depth_m, own_parent);
         ASSERT_EQ(peaks.best, heights.empty() ? -1 : heights[0].second) << x << ' ' << y;
         ASSERT_EQ(peaks.next, heights.size() < 2 ? -1 : heights[1].second) << x << ' ' << y;
-        ASSERT_EQ(peaks.next_height, heights.size() < 2 ? -1e9F : heights[1].first) << x << ' ' << y;
+        ASSERT_EQ(peaks.next_height, heights.size() < 2 ? -1e9F : heights[1].first)
+            << x << ' ' << y;
         found += heights.empty() ? 0 : 1;
         ties += heights.size() > 1 && heights[0].first == heights[1].first ? 1 : 0;
       }

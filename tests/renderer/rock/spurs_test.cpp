@@ -14,13 +14,16 @@ using test::limestone;
 
 constexpr std::array<bool, spur_bands> second_band = {false, true, false, false};
 
-// Spurs of a wall seen from afar, a pixel a unit.
+// Spurs of a wall seen from afar, one pixel per unit.
 struct Wall {
   explicit Wall(GuidanceBuffers g) : guidance(std::move(g)) {
     fall = smooth_fall_lines(wide, 1.0, {0, 0, guidance.width(), guidance.height()});
-    field = grow_spurs({wide, fall, 1.0, 1}, limestone(), {0, 0, guidance.width(), guidance.height()}, second_band);
+    field = grow_spurs({wide, fall, 1.0, 1}, limestone(),
+                       {0, 0, guidance.width(), guidance.height()}, second_band);
   }
-  SpurHits at(float x, float y) const { return find_spurs(field, 1, {x, y}, guidance.depth_m(static_cast<int>(x), static_cast<int>(y))); }
+  SpurHits at(float x, float y) const {
+    return find_spurs(field, 1, {x, y}, guidance.depth_m(static_cast<int>(x), static_cast<int>(y)));
+  }
   GuidanceBuffers guidance;
   WideView wide{guidance, 1, {0, 0}};
   Grid<glm::vec2> fall;
@@ -37,7 +40,7 @@ SpurField lone_spur() {
   cells.count = {1, 1};
   Spur spur;
   spur.grown = true;
-  spur.place = {50.0F, 50.0F};
+  spur.position = {50.0F, 50.0F};
   spur.top = 0.5F;
   spur.flank = {1.0F, 1.5F};
   spur.depth_m = 1000.0F;
@@ -50,7 +53,9 @@ SpurField lone_spur() {
 
 TEST(Spurs, AreRoofsWithTwoFlatFlanks) {
   const SpurField field = lone_spur();
-  const auto height = [&](float x, float y) { return find_spurs(field, 1, {x, y}, 1000.0F)[0].height; };
+  const auto height = [&](float x, float y) {
+    return find_spurs(field, 1, {x, y}, 1000.0F)[0].height;
+  };
   EXPECT_FLOAT_EQ(height(50.0F, 50.0F), 0.5F);
   // Along the crest it hardly falls, and a flank falls by its steepness.
   EXPECT_NEAR(height(50.0F, 60.0F), 0.5F, 0.02F);
@@ -60,10 +65,11 @@ TEST(Spurs, AreRoofsWithTwoFlatFlanks) {
   EXPECT_EQ(left.side, 0);
   EXPECT_NEAR(height(50.0F, 60.0F) - right.height, 0.25F * right.steepness, 0.01F);
   EXPECT_NEAR(right.steepness / left.steepness, 1.5F, 1e-4F);
-  // Flat flanks: the slope is that of the heights, and the same at two places.
+  // Flat flanks: the slope is that of the heights, and the same at two positions.
   const float along_x = (height(56.0F, 60.0F) - height(54.0F, 60.0F)) / 2.0F * 20.0F;
   EXPECT_NEAR(right.slope.x, along_x, 0.03F);
-  EXPECT_NEAR(height(57.0F, 60.0F) - height(55.0F, 60.0F), height(55.0F, 60.0F) - height(53.0F, 60.0F), 1e-4F);
+  EXPECT_NEAR(height(57.0F, 60.0F) - height(55.0F, 60.0F),
+              height(55.0F, 60.0F) - height(53.0F, 60.0F), 1e-4F);
 }
 
 TEST(Spurs, HoldOnToTheirOwnSurface) {
@@ -102,7 +108,7 @@ TEST(Spurs, EndAtRampsThatCrossAWall) {
     EXPECT_GT(std::abs(ramp.along.y), 0.3F) << "nor level";
   }
   EXPECT_GT(ramps, 5);
-  // Of spurs on the two sides of an edge few are the same.
+  // Few spurs are the same on both sides of an edge.
   int same = 0;
   int edges = 0;
   int same_elsewhere = 0;
@@ -111,7 +117,8 @@ TEST(Spurs, EndAtRampsThatCrossAWall) {
     for (float x = 60.5F; x < 340.0F; x += 1.0F) {
       const SpurHits here = wall.at(x, y);
       const SpurHits below = wall.at(x, y + 2.0F);
-      const bool across = here.below_ramp < 0.0F && below.below_ramp > 0.0F && here.below_ramp > -2.5F && below.below_ramp < 2.5F;
+      const bool across = here.below_ramp < 0.0F && below.below_ramp > 0.0F &&
+                          here.below_ramp > -2.5F && below.below_ramp < 2.5F;
       (across ? edges : elsewhere) += 1;
       (across ? same : same_elsewhere) += here[0].spur == below[0].spur ? 1 : 0;
     }
@@ -124,7 +131,8 @@ TEST(Spurs, AreSmallOnFarWalls) {
   EXPECT_EQ(spur_band(44.0F), 1);
   EXPECT_EQ(spur_band(60.0F), 2);
   EXPECT_EQ(spur_band(500.0F), 3);
-  for (int band = 1; band < spur_bands; ++band) EXPECT_LT(spur_spacing(limestone(), 0, band), spur_spacing(limestone(), 0, band - 1));
+  for (int band = 1; band < spur_bands; ++band)
+    EXPECT_LT(spur_spacing(limestone(), 0, band), spur_spacing(limestone(), 0, band - 1));
 }
 
 TEST(Spurs, NeverLeanMoreThanAWallFalls) {
@@ -142,7 +150,8 @@ TEST(Spurs, NeverLeanMoreThanAWallFalls) {
 TEST(Spurs, OfAPartAreThoseOfTheWhole) {
   const Wall wall(test::make_hills(1000, 1000, 1.0));
   const PixelRect part{490, 490, 510, 516};
-  const PixelRect held = grown(part, static_cast<int>(std::ceil(spur_margin_units(limestone()))) + smooth_fall_reach(1.0, 1));
+  const PixelRect held = grown(part, static_cast<int>(std::ceil(spur_margin_units(limestone()))) +
+                                         smooth_fall_reach(1.0, 1));
   ASSERT_GT(held.x0, 0);
   ASSERT_LT(held.x1, 1000);
   const GuidanceBuffers cut = test::cut(wall.guidance, held);
@@ -151,9 +160,9 @@ TEST(Spurs, OfAPartAreThoseOfTheWhole) {
   const SpurField field = grow_spurs({wide, fall, 1.0, 1}, limestone(), part, second_band);
   for (int y = part.y0; y < part.y1; ++y)
     for (int x = part.x0; x < part.x1; ++x) {
-      const glm::vec2 place(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
-      const SpurHits own = find_spurs(field, 1, place, wall.guidance.depth_m(x, y));
-      const SpurHits whole = wall.at(place.x, place.y);
+      const glm::vec2 position(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
+      const SpurHits own = find_spurs(field, 1, position, wall.guidance.depth_m(x, y));
+      const SpurHits whole = wall.at(position.x, position.y);
       for (std::size_t k = 0; k < own.sizes.size(); ++k) {
         ASSERT_EQ(own[k].height, whole[k].height) << x << ' ' << y << " size " << k;
         ASSERT_EQ(own[k].flank_id(), whole[k].flank_id());

@@ -43,7 +43,8 @@ TEST(Draft, IsNeverLargerThanTheSceneNorTiny) {
   EXPECT_EQ(draft.output.width, 64);
   EXPECT_EQ(draft.output.height, 50);
   EXPECT_EQ(draft.sampling.sky_directions, 0);
-  for (const auto& [px, third] : {std::pair{300, 100}, {301, 100}, {302, 101}, {193, 64}, {10, 10}}) {
+  for (const auto& [px, third] :
+       {std::pair{300, 100}, {301, 100}, {302, 101}, {193, 64}, {10, 10}}) {
     scene.output.width = px;
     EXPECT_EQ(make_draft(scene).output.width, third) << px;
   }

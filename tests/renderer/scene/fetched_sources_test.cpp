@@ -17,13 +17,15 @@ TEST(FetchedSources, AreTheTablesOfAScene) {
   area.elevation.licence = "© Surveyors";
   area.elevation.get_from = "belvedere fetch";
   const std::string heights = fetched_sources(area, "data");
-  EXPECT_THAT(heights, AllOf(HasSubstr("[[terrain.sources]]\nfile = \"data/elevation.tif\"\n"), HasSubstr("licence = \"© Surveyors\""),
-                             HasSubstr("\\\"N47\\\""), Not(HasSubstr("land_cover"))));
+  EXPECT_THAT(heights, AllOf(HasSubstr("[[terrain.sources]]\nfile = \"data/elevation.tif\"\n"),
+                             HasSubstr("licence = \"© Surveyors\""), HasSubstr("\\\"N47\\\""),
+                             Not(HasSubstr("land_cover"))));
   area.land_cover.emplace();
   area.land_cover->file = "land_cover.tif";
   area.land_cover->source.legend = "esa_worldcover";
-  EXPECT_THAT(fetched_sources(area, ""), AllOf(HasSubstr("[land_cover]\nlegend = \"esa_worldcover\""),
-                                               HasSubstr("[[land_cover.sources]]\nfile = \"land_cover.tif\"")));
+  EXPECT_THAT(fetched_sources(area, ""),
+              AllOf(HasSubstr("[land_cover]\nlegend = \"esa_worldcover\""),
+                    HasSubstr("[[land_cover.sources]]\nfile = \"land_cover.tif\"")));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The keys of [deform]: what they mean, what they refuse.
+// The keys of [deform]: their meaning, and what they refuse.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -59,7 +59,7 @@ TEST(SceneDeform, KeysBecomeADeformation) {
   EXPECT_EQ(p.summits[0].radius_m, 5000.0);
   EXPECT_EQ(p.summits[0].base_m, 1500.0);
   ASSERT_EQ(p.handles.size(), 2U);
-  EXPECT_EQ(p.handles[0].center, glm::dvec2(680000.0, 5250000.0));
+  EXPECT_EQ(p.handles[0].centre, glm::dvec2(680000.0, 5250000.0));
   EXPECT_EQ(p.handles[0].core_m, 4000.0);  // half of the radius
   EXPECT_EQ(p.handles[0].move_m, glm::dvec2(500.0, -200.0));
   EXPECT_EQ(p.handles[0].rotate_deg, 50.0);
@@ -69,39 +69,53 @@ TEST(SceneDeform, KeysBecomeADeformation) {
   // Longitude and latitude need a CRS.
   const Scene lonlat = scene_of("[[deform.handles]]\nposition_lonlat = [11.4, 47.3]\n");
   EXPECT_THROW(resolve_deform(lonlat.deform, dem), Error);
-  // What only the deformation can tell gets the scene's key.
-  const Scene overlap = scene_of("[[deform.handles]]\nposition = [0, 0]\n[[deform.handles]]\nposition = [4000, 0]\n");
+  // Errors that only the deformation can detect get the scene's key.
+  const Scene overlap =
+      scene_of("[[deform.handles]]\nposition = [0, 0]\n[[deform.handles]]\nposition = [4000, 0]\n");
   const Error error = test::error_of([&] { resolve_deform(overlap.deform, dem); });
   EXPECT_EQ(error.where(), "deform.handles.1");
   EXPECT_THAT(error.found(), HasSubstr("handles.0 overlap"));
 }
 
 TEST(SceneDeform, WrittenReadsBackAndSettingsReachEachElement) {
-  const Scene scene = scene_of(every_deform_key, {"deform.handles.0.rotate_deg=-30", "deform.bend.points.1.inclination_deg=-2"});
+  const Scene scene = scene_of(every_deform_key, {"deform.handles.0.rotate_deg=-30",
+                                                  "deform.bend.points.1.inclination_deg=-2"});
   EXPECT_EQ(scene.deform.handles[0].handle.rotate_deg, -30.0);
   EXPECT_EQ(scene.deform.ground.bend.points[1].inclination_deg, -2.0);
   const std::string written = write_scene(scene);
   EXPECT_EQ(write_scene(parse_scene(written, "again.toml", ".", {}).scene), written);
-  EXPECT_THAT(written, AllOf(HasSubstr("[[deform.bend.points]]"), HasSubstr("[[deform.summits]]"), HasSubstr("rotate_deg = -30")));
+  EXPECT_THAT(written, AllOf(HasSubstr("[[deform.bend.points]]"), HasSubstr("[[deform.summits]]"),
+                             HasSubstr("rotate_deg = -30")));
 }
 
 TEST(SceneDeform, RefusesWhatCannotBe) {
   const std::string points = "[[deform.bend.points]]\ndistance_m = 1000\ninclination_deg = 9\n";
   EXPECT_THAT(refused(points), AllOf(HasSubstr("s.toml:2:"), HasSubstr("a single control point")));
-  EXPECT_THAT(refused(points + points), HasSubstr("distances that grow"));
-  EXPECT_THAT(refused(points + "[[deform.bend.points]]\ndistance_m = 2000\ndrop_m = 9\n"), HasSubstr("one curve"));
-  EXPECT_THAT(refused(points + "[[deform.bend.points]]\ndistance_m = 2000\n"), HasSubstr("neither"));
-  EXPECT_THAT(refused("[[deform.bend.points]]\ndistance_m = 1\ndrop_m = 1\ninclination_deg = 1\n"), HasSubstr("exclude each other"));
+  EXPECT_THAT(refused(points + points), HasSubstr("distances in ascending order"));
+  EXPECT_THAT(refused(points + "[[deform.bend.points]]\ndistance_m = 2000\ndrop_m = 9\n"),
+              HasSubstr("one curve"));
+  EXPECT_THAT(refused(points + "[[deform.bend.points]]\ndistance_m = 2000\n"),
+              HasSubstr("neither"));
+  EXPECT_THAT(refused("[[deform.bend.points]]\ndistance_m = 1\ndrop_m = 1\ninclination_deg = 1\n"),
+              HasSubstr("exclude each other"));
   EXPECT_THAT(refused("[[deform.bend.points]]\ndrop_m = 1\n"), HasSubstr("distance_m is missing"));
-  EXPECT_THAT(refused("[[deform.bend.points]]\ndistance_m = 1\ninclination_deg = 85\n"), HasSubstr("-80 … 80"));
-  EXPECT_THAT(refused("[deform.bend]\nradius_m = 90000\n" + points + "[[deform.bend.points]]\ndistance_m = 2000\ninclination_deg = 0\n"),
-              HasSubstr("beside radius_m"));
-  EXPECT_THAT(refused("[deform]\nforeground_to_m = 95000\nbackground_exaggeration = 2\n"), HasSubstr("beyond"));
-  EXPECT_THAT(refused("[[deform.handles]]\nradius_m = 5\n"), HasSubstr("deform.handles.0 has no position"));
-  EXPECT_THAT(refused("[[deform.summits]]\nradius_m = 50\n"), HasSubstr("deform.summits.0 has no position"));
-  EXPECT_THAT(refused("[[deform.handles]]\nposition = [0, 0]\nradius_m = 500\ncore_m = 500\n"), HasSubstr("s.toml:5:10: "));
-  EXPECT_THAT(refused("[[deform.handles]]\nposition = [0, 0]\nrotate_deg = 200\n"), HasSubstr("-170 … 170°"));
-  EXPECT_THAT(refused("[[deform.summits]]\nposition = [0, 0]\nfactor = 0.1\n"), HasSubstr("0.3 … 5"));
+  EXPECT_THAT(refused("[[deform.bend.points]]\ndistance_m = 1\ninclination_deg = 85\n"),
+              HasSubstr("-80 … 80"));
+  EXPECT_THAT(refused("[deform.bend]\nradius_m = 90000\n" + points +
+                      "[[deform.bend.points]]\ndistance_m = 2000\ninclination_deg = 0\n"),
+              HasSubstr("together with radius_m"));
+  EXPECT_THAT(refused("[deform]\nforeground_to_m = 95000\nbackground_exaggeration = 2\n"),
+              HasSubstr("beyond"));
+  EXPECT_THAT(refused("[[deform.handles]]\nradius_m = 5\n"),
+              HasSubstr("deform.handles.0 has no position"));
+  EXPECT_THAT(refused("[[deform.summits]]\nradius_m = 50\n"),
+              HasSubstr("deform.summits.0 has no position"));
+  EXPECT_THAT(refused("[[deform.handles]]\nposition = [0, 0]\nradius_m = 500\ncore_m = 500\n"),
+              HasSubstr("s.toml:5:10: "));
+  EXPECT_THAT(refused("[[deform.handles]]\nposition = [0, 0]\nrotate_deg = 200\n"),
+              HasSubstr("-170 … 170°"));
+  EXPECT_THAT(refused("[[deform.summits]]\nposition = [0, 0]\nfactor = 0.1\n"),
+              HasSubstr("0.3 … 5"));
 }
 
 }  // namespace

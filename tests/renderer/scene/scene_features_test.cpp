@@ -24,9 +24,9 @@ kind = "road"
 width_mm = 0.8
 width_of = "width"
 level_of = "level"
-people_of = "people"
+population_of = "people"
 snap_m = 80
-keep_guesses = true
+keep_inferred = true
 optional = true
 [[features]]
 source = "lifts.geojson"
@@ -43,25 +43,30 @@ kind = "lift"
   EXPECT_EQ(roads.width_mm, 0.8);
   EXPECT_EQ(roads.width_of, "width");
   EXPECT_EQ(roads.level_of, "level");
-  EXPECT_EQ(roads.people_of, "people");
+  EXPECT_EQ(roads.population_of, "people");
   EXPECT_EQ(roads.snap_m, 80.0);
-  EXPECT_TRUE(roads.keep_guesses);
+  EXPECT_TRUE(roads.keep_inferred);
   EXPECT_EQ(loaded.scene.features[1].snap_m, 150.0);
   EXPECT_TRUE(roads.optional);
   EXPECT_EQ(loaded.scene.features[1].kind, "lift");
 }
 
 TEST(SceneFeatures, AKindIsNeeded) {
-  const auto message = [](const std::string& text) { return test::message_of(ErrorKind::usage, [&] { parse("version = 1\n" + text); }); };
-  EXPECT_THAT(message("[[features]]\nsource = \"roads.gpkg\"\n"), AllOf(HasSubstr("no kind"), HasSubstr("kind_of")));
-  EXPECT_THAT(message("[[features]]\nkind = \"road\"\n"), HasSubstr("features.0.source is missing"));
+  const auto message = [](const std::string& text) {
+    return test::message_of(ErrorKind::usage, [&] { parse("version = 1\n" + text); });
+  };
+  EXPECT_THAT(message("[[features]]\nsource = \"roads.gpkg\"\n"),
+              AllOf(HasSubstr("no kind"), HasSubstr("kind_of")));
+  EXPECT_THAT(message("[[features]]\nkind = \"road\"\n"),
+              HasSubstr("features.0.source is missing"));
   EXPECT_THAT(message("features_style = \"spring\"\n"), HasSubstr("\"classic\""));
 }
 
-// Their files belong to the scene as any other: found, asked for, hashed.
+// Their files belong to the scene like any other: found, checked, hashed.
 TEST(SceneFeatures, FilesAreInputs) {
-  const LoadedScene loaded =
-      parse("version = 1\n[[features]]\nsource = \"no_such.gpkg\"\nkind = \"road\"\norigin = \"a survey\"\nget_from = \"there\"\n");
+  const LoadedScene loaded = parse(
+      "version = 1\n[[features]]\nsource = \"no_such.gpkg\"\nkind = \"road\"\norigin = \"a "
+      "survey\"\nget_from = \"there\"\n");
   EXPECT_THAT(test::message_of(ErrorKind::input, [&] { require_scene_files(loaded); }),
               AllOf(HasSubstr("features.0.source"), HasSubstr("a survey"), HasSubstr("there")));
 }

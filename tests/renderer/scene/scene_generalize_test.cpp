@@ -1,4 +1,4 @@
-// The keys of [generalize]: what they mean, that they read back, what they refuse.
+// The keys of [generalize]: their meaning, that they read back, what they refuse.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,8 +14,12 @@ using ::testing::HasSubstr;
 using Weights = std::vector<float>;
 
 Scene generalize_scene(const std::string& text) { return test::scene_of("[generalize]\n" + text); }
-std::string refused_generalize(const std::string& text) { return test::refused("[generalize]\n" + text); }
-Scene again(const Scene& scene) { return parse_scene(write_scene(scene), "again.toml", ".", {}).scene; }
+std::string refused_generalize(const std::string& text) {
+  return test::refused("[generalize]\n" + text);
+}
+Scene again(const Scene& scene) {
+  return parse_scene(write_scene(scene), "again.toml", ".", {}).scene;
+}
 
 void expect_same(const SceneGeneralize& a, const SceneGeneralize& b) {
   EXPECT_EQ(a.preset, b.preset);
@@ -89,7 +93,8 @@ TEST(SceneGeneralizeKeys, EachArrivesWhereItIsMeant) {
   EXPECT_TRUE(read.automatic_mask);
   EXPECT_EQ(read.mask, "where.tif");
   ASSERT_EQ(read.mask_classes.size(), 2U);
-  for (const auto& [name, share] : read.mask_classes) EXPECT_EQ(share, name == "water" ? 0.0 : 0.2) << name;
+  for (const auto& [name, share] : read.mask_classes)
+    EXPECT_EQ(share, name == "water" ? 0.0 : 0.2) << name;
   EXPECT_FALSE(read.keep_lakes);
   EXPECT_TRUE(read.destripe);
   EXPECT_TRUE(read.line_integral);
@@ -102,7 +107,8 @@ TEST(SceneGeneralizeKeys, WrittenReadBackTheSame) {
   EXPECT_EQ(write_scene(again(scene)), write_scene(scene));
 }
 
-// What a scene says beside a preset stays its last word when it is written, also where it says what holds without a preset.
+// Keys beside a preset keep precedence when the scene is written, also those that have the default
+// without a preset.
 TEST(SceneGeneralizeKeys, PresetsFillWhatIsNotWrittenAndReadBack) {
   for (const GeneralizePreset& preset : generalize_presets()) {
     SCOPED_TRACE(preset.name);
@@ -115,33 +121,42 @@ TEST(SceneGeneralizeKeys, PresetsFillWhatIsNotWrittenAndReadBack) {
   const Scene flat = generalize_scene("preset = \"figure5\"\nmask_slope_deg = [0, 0]\n");
   EXPECT_EQ(flat.generalize.mask_slope_deg, (std::array{0.0, 0.0}));
   expect_same(again(flat).generalize, flat.generalize);
-  const Scene bold = generalize_scene("preset = \"bold_ridges\"\nautomatic_mask = false\nforeground = [1, 1, 1, 1, 1, 1]\n");
+  const Scene bold = generalize_scene(
+      "preset = \"bold_ridges\"\nautomatic_mask = false\nforeground = [1, 1, 1, 1, 1, 1]\n");
   EXPECT_FALSE(bold.generalize.automatic_mask);
   expect_same(again(bold).generalize, bold.generalize);
 }
 
 TEST(SceneGeneralizeKeys, ABackgroundThatIsNotWrittenFollowsUnlessThePresetHasTwo) {
-  const std::string six = "foreground = [1, 1, 1, 0.5, 0.5, 0.5]\nforeground_ridges = [0, 0, 0, 1, 1, 1]\n";
+  const std::string six =
+      "foreground = [1, 1, 1, 0.5, 0.5, 0.5]\nforeground_ridges = [0, 0, 0, 1, 1, 1]\n";
   const Scene same = generalize_scene("preset = \"smooth_slopes\"\n" + six);
   EXPECT_EQ(same.generalize.bands.background, same.generalize.bands.foreground);
   EXPECT_EQ(same.generalize.bands.background_ridges, same.generalize.bands.foreground_ridges);
-  EXPECT_EQ(same.generalize.bands.background_valleys, find_generalize_preset("smooth_slopes")->bands.background_valleys);
+  EXPECT_EQ(same.generalize.bands.background_valleys,
+            find_generalize_preset("smooth_slopes")->bands.background_valleys);
   const Scene two = generalize_scene("preset = \"panorama\"\n" + six);
   EXPECT_EQ(two.generalize.bands.background, find_generalize_preset("panorama")->bands.background);
-  EXPECT_EQ(two.generalize.bands.background_ridges, find_generalize_preset("panorama")->bands.background_ridges);
+  EXPECT_EQ(two.generalize.bands.background_ridges,
+            find_generalize_preset("panorama")->bands.background_ridges);
   for (const Scene& scene : {same, two}) expect_same(again(scene).generalize, scene.generalize);
 }
 
 TEST(SceneGeneralizeKeys, RefuseWhatCannotBe) {
   const std::string three = "foreground = [1, 1, 1]\n";
-  for (const std::string set : {"background", "foreground_ridges", "foreground_valleys", "background_ridges", "background_valleys"}) {
-    EXPECT_THAT(refused_generalize(three + set + " = [1, 1]\n"), AllOf(HasSubstr("s.toml:4:"), HasSubstr(set + " has 2 weights"))) << set;
+  for (const std::string set : {"background", "foreground_ridges", "foreground_valleys",
+                                "background_ridges", "background_valleys"}) {
+    EXPECT_THAT(refused_generalize(three + set + " = [1, 1]\n"),
+                AllOf(HasSubstr("s.toml:4:"), HasSubstr(set + " has 2 weights")))
+        << set;
     EXPECT_THAT(refused_generalize(three + set + " = [1, 1, 5.5]\n"), HasSubstr("… 5")) << set;
   }
-  EXPECT_THAT(refused_generalize(three + "background_ridges = [0, 0, -5.5]\n"), HasSubstr("-5 … 5"));
+  EXPECT_THAT(refused_generalize(three + "background_ridges = [0, 0, -5.5]\n"),
+              HasSubstr("-5 … 5"));
   EXPECT_THAT(refused_generalize("foreground = [1, -0.1]\n"), HasSubstr("0 … 5"));
   // A preset brings six arrays; one of another length beside it fits none of them.
-  EXPECT_THAT(refused_generalize("preset = \"smooth_slopes\"\nforeground = [1, 1]\n"), HasSubstr("6 weights"));
+  EXPECT_THAT(refused_generalize("preset = \"smooth_slopes\"\nforeground = [1, 1]\n"),
+              HasSubstr("6 weights"));
   EXPECT_THAT(refused_generalize("preset = \"figure9\"\n"),
               AllOf(HasSubstr("s.toml:3:"), HasSubstr("figure9"), HasSubstr("smooth_slopes")));
   EXPECT_THAT(refused_generalize("print_detail_px = 0.25\n"), HasSubstr("0.5 … 20"));

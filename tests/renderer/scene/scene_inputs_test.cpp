@@ -1,4 +1,5 @@
-// The files that scenes name: where they are looked for, what must be there. Declared in renderer/scene/scene_file.h.
+// The files that scenes name: where they are searched, which are required. Declared in
+// renderer/scene/scene_file.h.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -25,12 +26,15 @@ using testing::StartsWith;
 class SceneFolders : public ::testing::Test {
  protected:
   void SetUp() override {
-    for (const char* file : {"scenes/here.tif", "data/alps/dem.tif", "secret/x.tif"}) root_.write(file, "x");
+    for (const char* file : {"scenes/here.tif", "data/alps/dem.tif", "secret/x.tif"})
+      root_.write(file, "x");
   }
   std::string path(const std::string& relative) const { return root_ / relative; }
   LoadedScene load(const std::string& text, bool with_data = true) const {
     return parse_scene("version = 1\n" + text, "s.toml", path("scenes"),
-                       {.data_folders = with_data ? std::vector<std::string>{path("data")} : std::vector<std::string>{}, .settings = {}});
+                       {.data_folders = with_data ? std::vector<std::string>{path("data")}
+                                                  : std::vector<std::string>{},
+                        .settings = {}});
   }
   test::Folder root_;
 };
@@ -39,23 +43,31 @@ TEST_F(SceneFolders, FilesAreFoundBesideTheSceneAndInDataFolders) {
   const LoadedScene scene = load("");
   EXPECT_EQ(find_scene_file(scene, "here.tif"), fs::canonical(path("scenes/here.tif")));
   EXPECT_EQ(find_scene_file(scene, "alps/dem.tif"), fs::canonical(path("data/alps/dem.tif")));
-  EXPECT_EQ(find_scene_file(scene, "../data/alps/dem.tif"), fs::canonical(path("data/alps/dem.tif")));
-  EXPECT_EQ(find_scene_file(scene, path("data/alps/dem.tif")), fs::canonical(path("data/alps/dem.tif")));
+  EXPECT_EQ(find_scene_file(scene, "../data/alps/dem.tif"),
+            fs::canonical(path("data/alps/dem.tif")));
+  EXPECT_EQ(find_scene_file(scene, path("data/alps/dem.tif")),
+            fs::canonical(path("data/alps/dem.tif")));
   EXPECT_EQ(find_scene_file(scene, "alps/none.tif"), "");
   EXPECT_EQ(find_scene_file(scene, ""), "");
   EXPECT_EQ(find_named_file(scene, "palettes", "winter"), "winter");
-  EXPECT_THAT(message_of(ErrorKind::input, [&] { find_named_file(scene, "palettes", "none.toml"); }), HasSubstr("summer"));
+  EXPECT_THAT(
+      message_of(ErrorKind::input, [&] { find_named_file(scene, "palettes", "none.toml"); }),
+      HasSubstr("summer"));
 }
 
 TEST_F(SceneFolders, PathsMayNotLeaveTheAllowedFolders) {
   for (const std::string& file :
-       {std::string("../secret/x.tif"), std::string("../secret/absent.tif"), path("secret/x.tif"), std::string("/etc/passwd"),
-        std::string("../../../../../../../../etc/passwd"), std::string("../scenes_not/x.tif"), std::string("..")})
-    EXPECT_THAT(message_of(ErrorKind::usage, [&] { load("[[terrain.sources]]\nfile = \"" + file + "\"\n"); }),
+       {std::string("../secret/x.tif"), std::string("../secret/absent.tif"), path("secret/x.tif"),
+        std::string("/etc/passwd"), std::string("../../../../../../../../etc/passwd"),
+        std::string("../scenes_not/x.tif"), std::string("..")})
+    EXPECT_THAT(message_of(ErrorKind::usage,
+                           [&] { load("[[terrain.sources]]\nfile = \"" + file + "\"\n"); }),
                 AllOf(StartsWith("s.toml:3:8: "), HasSubstr("outside"), HasSubstr("--data")))
         << file;
-  EXPECT_THAT(message_of(ErrorKind::usage, [&] { load("[[terrain.sources]]\nfile = \"../data/alps/dem.tif\"\n", false); }),
-              HasSubstr("outside"));
+  EXPECT_THAT(
+      message_of(ErrorKind::usage,
+                 [&] { load("[[terrain.sources]]\nfile = \"../data/alps/dem.tif\"\n", false); }),
+      HasSubstr("outside"));
   // Links: to a file, to a folder, through two of them, and one that leads into an allowed folder.
   fs::create_symlink("../secret/x.tif", path("scenes/link.tif"));
   fs::create_directory_symlink(path("secret"), path("scenes/folder"));
@@ -63,9 +75,12 @@ TEST_F(SceneFolders, PathsMayNotLeaveTheAllowedFolders) {
   fs::create_symlink("../data/alps/dem.tif", path("scenes/allowed.tif"));
   const LoadedScene scene = load("");
   for (const char* file : {"link.tif", "folder/x.tif", "link2.tif", "folder/none.tif"})
-    EXPECT_THAT(message_of(ErrorKind::usage, [&] { find_scene_file(scene, file); }), HasSubstr("outside")) << file;
+    EXPECT_THAT(message_of(ErrorKind::usage, [&] { find_scene_file(scene, file); }),
+                HasSubstr("outside"))
+        << file;
   EXPECT_EQ(find_scene_file(scene, "allowed.tif"), fs::canonical(path("data/alps/dem.tif")));
-  EXPECT_THAT(message_of(ErrorKind::usage, [&] { find_scene_file(scene, std::string("here.tif\0../x", 13)); }),
+  EXPECT_THAT(message_of(ErrorKind::usage,
+                         [&] { find_scene_file(scene, std::string("here.tif\0../x", 13)); }),
               HasSubstr("control characters"));
 }
 
@@ -86,8 +101,11 @@ classes = "mask.png"
 optional = true
 )");
   const std::string message = message_of(ErrorKind::input, [&] { require_scene_files(scene); });
-  EXPECT_THAT(message, AllOf(HasSubstr("2 files"), HasSubstr("alps/south.tif (terrain.sources.1.file)"), HasSubstr("Tyrol survey"),
-                             HasSubstr("CC0"), HasSubstr("https://example.org/south"), HasSubstr("press.icc"), HasSubstr(path("data"))));
+  EXPECT_THAT(
+      message,
+      AllOf(HasSubstr("2 files"), HasSubstr("alps/south.tif (terrain.sources.1.file)"),
+            HasSubstr("Tyrol survey"), HasSubstr("CC0"), HasSubstr("https://example.org/south"),
+            HasSubstr("press.icc"), HasSubstr(path("data"))));
   EXPECT_THAT(message, AllOf(Not(HasSubstr("alps/dem.tif")), Not(HasSubstr("scan.png"))));
   EXPECT_EQ(scene_inputs(scene).size(), 5U);
   EXPECT_NO_THROW(require_scene_files(load("[[terrain.sources]]\nfile = \"alps/dem.tif\"\n")));
@@ -96,19 +114,23 @@ optional = true
 TEST_F(SceneFolders, CreditsAreSaidOnceAndWithTheirLicence) {
   const LoadedScene scene = load(
       "[[terrain.sources]]\nfile = \"alps/dem.tif\"\norigin = \"Tyrol survey\"\nlicence = \"CC0\"\n"
-      "[[terrain.sources]]\nfile = \"alps/south.tif\"\norigin = \"Tyrol survey\"\nlicence = \"CC0\"\n"
+      "[[terrain.sources]]\nfile = \"alps/south.tif\"\norigin = \"Tyrol survey\"\nlicence = "
+      "\"CC0\"\n"
       "[[terrain.sources]]\nfile = \"here.tif\"\n"
-      "[land_cover]\nlegend = \"nlcd\"\n[[land_cover.sources]]\nfile = \"here.tif\"\norigin = \"WorldCover\"\n");
+      "[land_cover]\nlegend = \"nlcd\"\n[[land_cover.sources]]\nfile = \"here.tif\"\norigin = "
+      "\"WorldCover\"\n");
   EXPECT_THAT(source_credits(scene), ElementsAre("Tyrol survey (CC0)", "WorldCover"));
   EXPECT_THAT(source_credits(load("")), IsEmpty());
 }
 
 TEST_F(SceneFolders, InputsAreFilesAndNoBuiltInNames) {
   EXPECT_THAT(scene_inputs(load("")), IsEmpty());
-  EXPECT_THAT(scene_inputs(load("palette = \"winter\"\n[land_cover]\nlegend = \"nlcd\"\n[[land_cover.sources]]\nfile = \"here.tif\"\n")),
+  EXPECT_THAT(scene_inputs(load("palette = \"winter\"\n[land_cover]\nlegend = "
+                                "\"nlcd\"\n[[land_cover.sources]]\nfile = \"here.tif\"\n")),
               testing::SizeIs(1));
   const std::vector<SceneInput> inputs =
-      scene_inputs(load("palette = \"mine.toml\"\n[[terrain.sources]]\nfile = \"alps/dem.tif\"\norigin = \"Tyrol\"\n"));
+      scene_inputs(load("palette = \"mine.toml\"\n[[terrain.sources]]\nfile = "
+                        "\"alps/dem.tif\"\norigin = \"Tyrol\"\n"));
   std::vector<std::string> keys;
   for (const SceneInput& input : inputs) keys.push_back(input.key);
   std::sort(keys.begin(), keys.end());
@@ -116,7 +138,8 @@ TEST_F(SceneFolders, InputsAreFilesAndNoBuiltInNames) {
   for (const SceneInput& input : inputs) {
     const bool dem = input.key != "palette";
     EXPECT_EQ(input.file, dem ? "alps/dem.tif" : "mine.toml");
-    EXPECT_EQ(input.path, dem ? fs::canonical(path("data/alps/dem.tif")).string() : "") << "empty: it is missing";
+    EXPECT_EQ(input.path, dem ? fs::canonical(path("data/alps/dem.tif")).string() : "")
+        << "empty: it is missing";
     EXPECT_EQ(input.origin, dem ? "Tyrol" : "");
     EXPECT_FALSE(input.optional);
   }

@@ -26,7 +26,10 @@ SceneLock sample() {
           .width = 800,
           .height = 367,
           .settings = {"palette=\"winter\"", "seed=3"},
-          .inputs = {{.file = "b \"quoted\".tif", .absent = false, .bytes = 1234567890123, .hash = "abcd"},
+          .inputs = {{.file = "b \"quoted\".tif",
+                      .absent = false,
+                      .bytes = 1234567890123,
+                      .hash = "abcd"},
                      {.file = "a.png", .absent = true, .bytes = 0, .hash = {}}},
           .products = {{.file = "panorama.tif", .channels = {{"R", "1"}, {"G", "2"}, {"B", "3"}}},
                        {.file = "guidance.exr", .channels = {{"P.X", "4"}, {"Z", "5"}}}}};
@@ -56,11 +59,21 @@ TEST(SceneLock, WhatIsNoLockIsAnInputErrorWithItsPlace) {
     std::string text = good;
     return text.replace(text.find(from), from.size(), to);
   };
-  EXPECT_THAT(test::message_of(ErrorKind::input, [&] { parse_lock(with("version = 1", "version = 2"), "x.lock"); }), HasSubstr("format 2"));
-  EXPECT_THAT(test::message_of(ErrorKind::input, [&] { parse_lock(with("width = 800", "widht = 800"), "x.lock"); }), HasSubstr("x.lock"));
-  EXPECT_THAT(test::message_of(ErrorKind::input, [&] { parse_lock(with("width = 800", "width = 0"), "x.lock"); }), HasSubstr("width"));
-  EXPECT_THAT(test::message_of(ErrorKind::input, [&] { parse_lock(with("bytes = 1234567890123\n", ""), "x.lock"); }), HasSubstr("bytes"));
-  EXPECT_THAT(test::message_of(ErrorKind::input, [&] { parse_lock("<<<<<<< ours\n" + good, "x.lock"); }), HasSubstr("x.lock:1"));
+  EXPECT_THAT(test::message_of(ErrorKind::input,
+                               [&] { parse_lock(with("version = 1", "version = 2"), "x.lock"); }),
+              HasSubstr("format 2"));
+  EXPECT_THAT(test::message_of(ErrorKind::input,
+                               [&] { parse_lock(with("width = 800", "widht = 800"), "x.lock"); }),
+              HasSubstr("x.lock"));
+  EXPECT_THAT(test::message_of(ErrorKind::input,
+                               [&] { parse_lock(with("width = 800", "width = 0"), "x.lock"); }),
+              HasSubstr("width"));
+  EXPECT_THAT(test::message_of(ErrorKind::input,
+                               [&] { parse_lock(with("bytes = 1234567890123\n", ""), "x.lock"); }),
+              HasSubstr("bytes"));
+  EXPECT_THAT(
+      test::message_of(ErrorKind::input, [&] { parse_lock("<<<<<<< ours\n" + good, "x.lock"); }),
+      HasSubstr("x.lock:1"));
   EXPECT_THAT(test::message_of(ErrorKind::input, [] { read_lock("/nowhere/x.lock"); }),
               AllOf(HasSubstr("/nowhere/x.lock"), HasSubstr("belvedere lock")));
 }
@@ -78,27 +91,38 @@ TEST(SceneLock, ProductsAreComparedChannelByChannel) {
   now[1].channels.push_back({"flow.V", "7"});
   now.erase(now.begin());
   const std::string words = describe(compare_products(sample().products, now));
-  EXPECT_EQ(words,
-            "\n  guidance.exr P.X: 4 in the lock, now not made\n  guidance.exr Z: 5 in the lock, now 6"
-            "\n  guidance.exr flow.V: not in the lock, now 7\n  panorama.tif: 3 channels in the lock, now not made");
+  EXPECT_EQ(
+      words,
+      "\n  guidance.exr P.X: 4 in the lock, now not made\n  guidance.exr Z: 5 in the lock, now 6"
+      "\n  guidance.exr flow.V: not in the lock, now 7\n  panorama.tif: 3 channels in the lock, "
+      "now not made");
   EXPECT_THAT(compare_products(now, sample().products), SizeIs(4));
 }
 
 class LockedScene : public testing::Test {
  protected:
   void SetUp() override {
-    Raster<float> raster{Grid<float>(4, 4, 7.F), {500000.0, 5200000.0, 100.0, 100.0}, normalize_crs("EPSG:32632")};
+    Raster<float> raster{
+        Grid<float>(4, 4, 7.F), {500000.0, 5200000.0, 100.0, 100.0}, normalize_crs("EPSG:32632")};
     write_raster(folder_ / "data/a.tif", raster);
-    folder_.write("data/tiles/b.asc", "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 30\n1 2\n3 4\n");
+    folder_.write("data/tiles/b.asc",
+                  "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 30\n1 2\n3 4\n");
     folder_.write("data/all.vrt",
-                  "<VRTDataset rasterXSize=\"2\" rasterYSize=\"2\"><GeoTransform>0,30,0,60,0,-30</GeoTransform><VRTRasterBand "
-                  "dataType=\"Float32\" band=\"1\"><SimpleSource><SourceFilename relativeToVRT=\"1\">tiles/b.asc</SourceFilename>"
+                  "<VRTDataset rasterXSize=\"2\" "
+                  "rasterYSize=\"2\"><GeoTransform>0,30,0,60,0,-30</GeoTransform><VRTRasterBand "
+                  "dataType=\"Float32\" band=\"1\"><SimpleSource><SourceFilename "
+                  "relativeToVRT=\"1\">tiles/b.asc</SourceFilename>"
                   "<SourceBand>1</SourceBand></SimpleSource></VRTRasterBand></VRTDataset>");
     folder_.write("scene/alps.toml",
-                  "version = 1\n[[terrain.sources]]\nfile = \"a.tif\"\n[[land_cover.sources]]\nfile = \"all.vrt\"\n"
-                  "[land_cover]\nlegend = \"nlcd\"\n[[exemplar]]\npicture = \"p.png\"\nclasses = \"c.png\"\noptional = true\n");
+                  "version = 1\n[[terrain.sources]]\nfile = "
+                  "\"a.tif\"\n[[land_cover.sources]]\nfile = \"all.vrt\"\n"
+                  "[land_cover]\nlegend = \"nlcd\"\n[[exemplar]]\npicture = \"p.png\"\nclasses = "
+                  "\"c.png\"\noptional = true\n");
   }
-  LoadedScene scene() const { return read_scene(folder_ / "scene/alps.toml", {.data_folders = {folder_ / "data"}, .settings = {}}); }
+  LoadedScene scene() const {
+    return read_scene(folder_ / "scene/alps.toml",
+                      {.data_folders = {folder_ / "data"}, .settings = {}});
+  }
 
   struct Folders : test::Folder {
     Folders() {
@@ -128,13 +152,17 @@ TEST_F(LockedScene, AnotherByteOfTheSameSizeIsFoundAlsoBehindAVrt) {
   std::string bytes = test::read_bytes(folder_ / "data/tiles/b.asc");
   bytes[bytes.size() - 2] = '5';
   folder_.write("data/tiles/b.asc", bytes);
-  const std::string message = test::message_of(ErrorKind::input, [&] { require_locked_inputs(scene(), lock, "alps.toml"); });
-  EXPECT_THAT(message, AllOf(HasSubstr("tiles/b.asc"), HasSubstr(lock.inputs[4].hash), HasSubstr(hash_bytes(bytes)),
-                             HasSubstr("belvedere lock --update alps.toml"), Not(HasSubstr("a.tif"))));
+  const std::string message = test::message_of(
+      ErrorKind::input, [&] { require_locked_inputs(scene(), lock, "alps.toml"); });
+  EXPECT_THAT(
+      message,
+      AllOf(HasSubstr("tiles/b.asc"), HasSubstr(lock.inputs[4].hash), HasSubstr(hash_bytes(bytes)),
+            HasSubstr("belvedere lock --update alps.toml"), Not(HasSubstr("a.tif"))));
   // An optional painting that is there now changes the picture as well.
   lock.inputs = find_inputs(scene());
   folder_.write("scene/p.png", "x");
-  EXPECT_THAT(test::message_of(ErrorKind::input, [&] { require_locked_inputs(scene(), lock, "alps.toml"); }),
+  EXPECT_THAT(test::message_of(ErrorKind::input,
+                               [&] { require_locked_inputs(scene(), lock, "alps.toml"); }),
               AllOf(HasSubstr("p.png"), HasSubstr("no such file in the lock")));
 }
 
@@ -142,20 +170,26 @@ TEST_F(LockedScene, InputsMoreOrFewerAreNamed) {
   SceneLock lock;
   lock.inputs = find_inputs(scene());
   lock.inputs[0].file = "older.tif";
-  EXPECT_THAT(test::message_of(ErrorKind::input, [&] { require_locked_inputs(scene(), lock, "alps.toml"); }),
-              AllOf(HasSubstr("a.tif: not in the lock, now "), HasSubstr("older.tif: "), HasSubstr("the scene does not need it")));
+  EXPECT_THAT(test::message_of(ErrorKind::input,
+                               [&] { require_locked_inputs(scene(), lock, "alps.toml"); }),
+              AllOf(HasSubstr("a.tif: not in the lock, now "), HasSubstr("older.tif: "),
+                    HasSubstr("the scene does not need it")));
 }
 
 TEST(SceneLock, TheSceneIsItsSettingsNotItsText) {
-  const auto hash = [](const std::string& text) { return hash_scene(parse_scene("version = 1\n" + text, "x.toml", ".", {}).scene); };
-  const std::string scene = "[terrain.synthetic]\nwidth = 96\nheight = 96\n[camera]\nposition = [0, 0]\n";
+  const auto hash = [](const std::string& text) {
+    return hash_scene(parse_scene("version = 1\n" + text, "x.toml", ".", {}).scene);
+  };
+  const std::string scene =
+      "[terrain.synthetic]\nwidth = 96\nheight = 96\n[camera]\nposition = [0, 0]\n";
   EXPECT_EQ(hash(scene), hash("# a comment\n" + scene));
   EXPECT_NE(hash(scene), hash(scene + "pitch_deg = -3\n"));
 }
 
 TEST(SceneServers, AreAskedOnlyForRastersAndOnlyWithLeave) {
   const auto refused = [](const std::string& text) {
-    return test::message_of(ErrorKind::usage, [&] { parse_scene("version = 1\n" + text, "x.toml", ".", {}); });
+    return test::message_of(ErrorKind::usage,
+                            [&] { parse_scene("version = 1\n" + text, "x.toml", ".", {}); });
   };
   EXPECT_THAT(refused("[[terrain.sources]]\nfile = \"https://example.org/a.tif\"\n"),
               AllOf(HasSubstr("x.toml:3:8"), HasSubstr("--allow-http")));

@@ -25,7 +25,7 @@ namespace {
 
 using testing::HasSubstr;
 
-// What a stage takes as it stands is of one type, so there is no second default to drift.
+// Members shared with a stage have one type, so there is no second default to drift.
 static_assert(std::is_same_v<decltype(SceneAir::look), decltype(BaseParameters::air)>);
 static_assert(std::is_same_v<decltype(Scene::light), decltype(ToneParameters::light)>);
 static_assert(std::is_same_v<decltype(Scene::water), decltype(BaseParameters::water)>);
@@ -80,7 +80,7 @@ TEST(SceneTable, DefaultsAreThoseOfTheStages) {
       {"output.height", CameraParameters{}.height},
       {"terrain.cell_m", DemParameters{}.cell_m},
       {"terrain.max_void_share", DemParameters{}.max_void_share},
-      {"terrain.most_mcells", SceneTerrain{}.most_mcells},
+      {"terrain.max_mcells", SceneTerrain{}.max_mcells},
       {"terrain.sources.band", RasterSource{}.band},
       {"land_cover.sources.band", RasterSource{}.band},
       {"terrain.synthetic.cell_m", SyntheticParameters{}.cell_m},
@@ -98,7 +98,7 @@ TEST(SceneTable, DefaultsAreThoseOfTheStages) {
   EXPECT_EQ(Scene{}.tracing.instruction_set, TracerParameters{}.instruction_set);
 }
 
-// What follows from the region where a scene does not say it has no default, and can be asked for by a word.
+// Keys that are derived from the region have no default, and can be set to "auto".
 TEST(SceneTable, DerivedKeysAreAutoWhereNotWritten) {
   int derived = 0;
   for (const SceneSection& section : scene_sections())
@@ -112,20 +112,25 @@ TEST(SceneTable, DerivedKeysAreAutoWhereNotWritten) {
       EXPECT_THAT(scene_reference(), HasSubstr(std::string(key.derived))) << key.name;
       const std::string name = join_key(section.name, key.name);
       const auto with = [&](const std::string& value) {
-        return write_scene(parse_scene("version = 1\n", "s.toml", ".", {.data_folders = {}, .settings = {name + "=" + value}}).scene);
+        return write_scene(parse_scene("version = 1\n", "s.toml", ".",
+                                       {.data_folders = {}, .settings = {name + "=" + value}})
+                               .scene);
       };
       EXPECT_EQ(with("auto"), with("\"auto\"")) << name;
-      EXPECT_NE(with("auto"), with(key.unit == "m" || key.name == "rim_fade_m" ? "1000" : "2")) << name;
+      EXPECT_NE(with("auto"), with(key.unit == "m" || key.name == "rim_fade_m" ? "1000" : "2"))
+          << name;
     }
   EXPECT_EQ(derived, 15);
-  EXPECT_THAT(scene_reference(), HasSubstr("| `exaggeration` | a number or \"auto\"; 0.1 … 10 | `\"auto\"` |"));
+  EXPECT_THAT(scene_reference(),
+              HasSubstr("| `exaggeration` | a number or \"auto\"; 0.1 … 10 | `\"auto\"` |"));
 }
 
-// What people read says the same.
+// The reference contains the same.
 TEST(SceneTable, DefaultsReachSchemaReferenceAndWrittenScene) {
   const double haze = AirParameters{}.haze;
   EXPECT_THAT(write_scene(Scene{}), HasSubstr(fmt::format("\n[air]\nhaze = {}\n", haze)));
-  EXPECT_THAT(scene_reference(), HasSubstr(fmt::format("| `haze` | a number; 0 … 1 | `{}` |", haze)));
+  EXPECT_THAT(scene_reference(),
+              HasSubstr(fmt::format("| `haze` | a number; 0 … 1 | `{}` |", haze)));
   const std::string schema = scene_json_schema();
   const std::size_t at = schema.find("\"haze\"");
   ASSERT_NE(at, std::string::npos);
@@ -141,7 +146,7 @@ TEST(SceneTable, NamesEachSectionAndKeyOnce) {
   for (const auto& [name, count] : names) EXPECT_EQ(count, 1) << name;
 }
 
-// What lies below the scene names its own fields in messages; the scene's keys are put to them above.
+// Code below the scene names its own fields in messages; the scene's keys are prefixed above it.
 TEST(SceneTable, LowerLayersDoNotSpeakSceneKeys) {
   std::vector<std::string> keys;
   for (const SceneSection& section : scene_sections()) {
@@ -151,14 +156,16 @@ TEST(SceneTable, LowerLayersDoNotSpeakSceneKeys) {
   }
   ASSERT_GT(keys.size(), 100U);
   int files = 0;
-  for (const char* folder : {"base", "terrain", "texture", "renderer/image", "renderer/trace", "renderer/paint"})
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(test::source_folder() + "/" + folder)) {
+  for (const char* folder :
+       {"base", "terrain", "texture", "renderer/image", "renderer/trace", "renderer/paint"})
+    for (const auto& entry :
+         std::filesystem::recursive_directory_iterator(test::source_folder() + "/" + folder)) {
       if (entry.path().extension() != ".cpp" && entry.path().extension() != ".h") continue;
       ++files;
       std::ifstream source(entry.path());
       for (std::string line; std::getline(source, line);) {
         if (line.starts_with("#include")) continue;
-        // What stands between quotes.
+        // The text between quotes.
         bool quoted = false;
         std::string text;
         for (std::size_t i = 0; i < line.size(); ++i) {
@@ -169,7 +176,9 @@ TEST(SceneTable, LowerLayersDoNotSpeakSceneKeys) {
             text += line[i];
           }
         }
-        for (const std::string& key : keys) EXPECT_EQ(text.find(key), std::string::npos) << entry.path() << ": " << key << " in " << line;
+        for (const std::string& key : keys)
+          EXPECT_EQ(text.find(key), std::string::npos)
+              << entry.path() << ": " << key << " in " << line;
       }
     }
   EXPECT_GT(files, 200);
@@ -177,7 +186,8 @@ TEST(SceneTable, LowerLayersDoNotSpeakSceneKeys) {
 
 TEST(SceneTable, WaterHasItsKeys) {
   const LoadedScene loaded = parse_scene(
-      "version = 1\n[season]\nfrozen_lakes = \"always\"\n[water]\nmirror = \"column\"\nmirror_share = 0.5\nwind = 2\nbeds = false\n"
+      "version = 1\n[season]\nfrozen_lakes = \"always\"\n[water]\nmirror = "
+      "\"column\"\nmirror_share = 0.5\nwind = 2\nbeds = false\n"
       "surf_mm = 0\nfoam = false\n",
       "w.toml", ".", {});
   const WaterParameters& water = loaded.scene.water;
@@ -188,16 +198,22 @@ TEST(SceneTable, WaterHasItsKeys) {
   EXPECT_FALSE(water.beds);
   EXPECT_EQ(water.surf_mm, 0.0);
   EXPECT_FALSE(water.foam);
-  for (const char* wrong : {"[water]\nmirror = \"glass\"\n", "[water]\nwind = 3\n", "[season]\nfrozen_lakes = \"yes\"\n"})
-    EXPECT_THROW(parse_scene(std::string("version = 1\n") + wrong, "w.toml", ".", {}), Error) << wrong;
+  for (const char* wrong : {"[water]\nmirror = \"glass\"\n", "[water]\nwind = 3\n",
+                            "[season]\nfrozen_lakes = \"yes\"\n"})
+    EXPECT_THROW(parse_scene(std::string("version = 1\n") + wrong, "w.toml", ".", {}), Error)
+        << wrong;
 }
 
 TEST(SceneTable, LocalLightHasItsKeys) {
   const LoadedScene loaded = parse_scene(
-      "version = 1\n[[light.regions]]\nname = \"a\"\nposition = [10, 20]\nradius_m = 30\nturn_deg = -40\naltitude_deg = 50\n"
-      "strength = 0.6\nwarmth = -0.7\nblend_m = 80\n[[light.regions]]\npoints_lonlat = [[1, 2], [3, 4], [5, 7]]\nazimuth_deg = 9\n"
-      "[[light.regions]]\nfile = \"r.gpkg\"\nlayer = \"l\"\nwhere = \"x = 1\"\norigin = \"o\"\nlicence = \"c\"\nget_from = \"g\"\n"
-      "optional = true\n[[light.clouds]]\nposition_lonlat = [11, 47]\nradius_m = 120\nstrength = 0.3\nblend_m = 140\n",
+      "version = 1\n[[light.regions]]\nname = \"a\"\nposition = [10, 20]\nradius_m = 30\nturn_deg "
+      "= -40\naltitude_deg = 50\n"
+      "strength = 0.6\nwarmth = -0.7\nblend_m = 80\n[[light.regions]]\npoints_lonlat = [[1, 2], "
+      "[3, 4], [5, 7]]\nazimuth_deg = 9\n"
+      "[[light.regions]]\nfile = \"r.gpkg\"\nlayer = \"l\"\nwhere = \"x = 1\"\norigin = "
+      "\"o\"\nlicence = \"c\"\nget_from = \"g\"\n"
+      "optional = true\n[[light.clouds]]\nposition_lonlat = [11, 47]\nradius_m = 120\nstrength = "
+      "0.3\nblend_m = 140\n",
       "l.toml", ".", {});
   ASSERT_EQ(loaded.scene.light_regions.size(), 3U);
   const SceneLightRegion& circle = loaded.scene.light_regions[0];
@@ -206,9 +222,11 @@ TEST(SceneTable, LocalLightHasItsKeys) {
   EXPECT_EQ(circle.radius_m, 30.0);
   EXPECT_EQ(circle.turn_deg, -40.0);
   EXPECT_EQ(circle.altitude_deg, 50.0);
-  EXPECT_EQ(std::tuple(circle.strength, circle.warmth, circle.blend_m), std::tuple(0.6, -0.7, 80.0));
+  EXPECT_EQ(std::tuple(circle.strength, circle.warmth, circle.blend_m),
+            std::tuple(0.6, -0.7, 80.0));
   const SceneLightRegion& outline = loaded.scene.light_regions[1];
-  EXPECT_THAT(outline.points_lonlat, testing::ElementsAre(glm::dvec2(1, 2), glm::dvec2(3, 4), glm::dvec2(5, 7)));
+  EXPECT_THAT(outline.points_lonlat,
+              testing::ElementsAre(glm::dvec2(1, 2), glm::dvec2(3, 4), glm::dvec2(5, 7)));
   EXPECT_EQ(outline.azimuth_deg, 9.0);
   EXPECT_FALSE(outline.optional || outline.turn_deg || outline.altitude_deg);
   const SceneLightRegion& file = loaded.scene.light_regions[2];
@@ -220,10 +238,16 @@ TEST(SceneTable, LocalLightHasItsKeys) {
   EXPECT_EQ(cloud.position_lonlat, glm::dvec2(11.0, 47.0));
   EXPECT_EQ(std::tuple(cloud.radius_m, cloud.strength), std::tuple(120.0, 0.3));
   EXPECT_EQ(cloud.blend_m, 140.0);
-  const std::string place = "position = [1, 1]\nradius_m = 20\n";
-  for (const char* wrong : {"strength = 2.1\n", "warmth = -1.1\n", "turn_deg = 181\n", "altitude_deg = 0\n", "blend_m = -1\n", "sun = 1\n"})
-    EXPECT_THROW(parse_scene("version = 1\n[[light.regions]]\n" + place + wrong, "l.toml", ".", {}), Error) << wrong;
-  EXPECT_THROW(parse_scene("version = 1\n[[light.clouds]]\n" + place + "strength = 1.1\n", "l.toml", ".", {}), Error);
+  const std::string position = "position = [1, 1]\nradius_m = 20\n";
+  for (const char* wrong : {"strength = 2.1\n", "warmth = -1.1\n", "turn_deg = 181\n",
+                            "altitude_deg = 0\n", "blend_m = -1\n", "sun = 1\n"})
+    EXPECT_THROW(
+        parse_scene("version = 1\n[[light.regions]]\n" + position + wrong, "l.toml", ".", {}),
+        Error)
+        << wrong;
+  EXPECT_THROW(parse_scene("version = 1\n[[light.clouds]]\n" + position + "strength = 1.1\n",
+                           "l.toml", ".", {}),
+               Error);
 }
 
 }  // namespace

@@ -10,10 +10,12 @@ namespace belvedere::test {
 
 // Of a file whose second line `text` begins in.
 inline Scene scene_of(const std::string& text, const std::vector<std::string>& settings = {}) {
-  return parse_scene("version = 1\n" + text, "s.toml", ".", {.data_folders = {}, .settings = settings}).scene;
+  return parse_scene("version = 1\n" + text, "s.toml", ".",
+                     {.data_folders = {}, .settings = settings})
+      .scene;
 }
 
-// What its reader says against it.
+// The error of its reader.
 inline std::string refused(const std::string& text, const std::vector<std::string>& settings = {}) {
   return message_of(ErrorKind::usage, [&] { scene_of(text, settings); });
 }

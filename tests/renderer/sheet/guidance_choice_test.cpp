@@ -16,7 +16,8 @@ TEST(GuidanceChoice, NamesChannelsOfASheet) {
   EXPECT_THAT(*read_guidance_choice("Z,landcover.id"), ElementsAre("Z", "landcover.id"));
   EXPECT_TRUE(read_guidance_choice("none")->empty());
   for (const char* wrong : {"", "Z,", "Z,,N.X", "depth", "landcover", "none,Z", "z"}) {
-    const std::string message = test::message_of(ErrorKind::usage, [&] { read_guidance_choice(wrong); });
+    const std::string message =
+        test::message_of(ErrorKind::usage, [&] { read_guidance_choice(wrong); });
     EXPECT_THAT(message, HasSubstr("landcover.id")) << wrong;
     EXPECT_THAT(message, HasSubstr("none")) << wrong;
   }

@@ -14,7 +14,8 @@ namespace {
 // A file written from packed guidance is the file of the guidance itself.
 TEST(GuidancePack, KeepsAllThatTheFileKeeps) {
   const World world = make_world(test::small_scene(), silent_progress());
-  const GuidanceBuffers guidance = make_lit_picture(world, read_palette("summer"), {0, 0, 96, 80}, {}).guidance;
+  const GuidanceBuffers guidance =
+      make_lit_picture(world, read_palette("summer"), {0, 0, 96, 80}, {}).guidance;
   const GuidanceBuffers back = unpack_guidance(pack_guidance(guidance), guidance);
   const test::Folder folder;
   write_guidance(folder / "a.exr", guidance, {});
@@ -25,10 +26,15 @@ TEST(GuidancePack, KeepsAllThatTheFileKeeps) {
 
 TEST(GuidancePack, ASheetsGuidanceHasTheChannelsOfTracingAndLight) {
   const World world = make_world(test::small_scene(), silent_progress());
-  const GuidanceBuffers guidance = make_lit_picture(world, read_palette("summer"), {0, 0, 96, 80}, {}).guidance;
+  const GuidanceBuffers guidance =
+      make_lit_picture(world, read_palette("summer"), {0, 0, 96, 80}, {}).guidance;
   const GuidanceBuffers like = sheet_guidance_like(guidance.origin_m);
   for (const GuidanceChannel& channel : guidance_channels())
-    std::visit([&](auto member) { EXPECT_EQ((like.*member).empty(), (guidance.*member).empty()) << channel.names[0]; }, channel.member);
+    std::visit(
+        [&](auto member) {
+          EXPECT_EQ((like.*member).empty(), (guidance.*member).empty()) << channel.names[0];
+        },
+        channel.member);
   EXPECT_EQ(blank_packed(like, 5, 4).planes.size(), pack_guidance(guidance).planes.size());
 }
 

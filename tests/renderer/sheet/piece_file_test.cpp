@@ -69,7 +69,8 @@ TEST_F(PieceFile, ADamagedPieceIsFound) {
 TEST_F(PieceFile, NothingElseIsLeft) { EXPECT_EQ(folder_.count(), 1U); }
 
 TEST_F(PieceFile, AFolderThatIsNotThereIsAnErrorOfTheOutput) {
-  test::message_of(ErrorKind::output, [&] { write_piece(folder_ / "none/a.piece", key, values_.planes()); });
+  test::message_of(ErrorKind::output,
+                   [&] { write_piece(folder_ / "none/a.piece", key, values_.planes()); });
 }
 
 TEST_F(PieceFile, BytesComeBack) {

@@ -15,7 +15,9 @@ const JobIdentity scene_job{{"scene", "a"}};
 const PixelRect piece_rect{0, 0, 64, 48};
 const PixelRect next{64, 0, 128, 48};
 
-std::shared_ptr<Grid<float>> made(float value) { return std::make_shared<Grid<float>>(64, 48, value); }
+std::shared_ptr<Grid<float>> made(float value) {
+  return std::make_shared<Grid<float>>(64, 48, value);
+}
 
 TEST(PieceWriter, BringsPiecesToDiskAndKeepsTheirValuesUntilThen) {
   const test::Folder folder;
@@ -30,7 +32,8 @@ TEST(PieceWriter, BringsPiecesToDiskAndKeepsTheirValuesUntilThen) {
   }
   EXPECT_TRUE(work.has("panorama", piece_rect));
   Grid<float> read(64, 48);
-  read_piece_rows(work.path("panorama", next), work.key("panorama", next), 0, 48, 64, {plane_of(read)});
+  read_piece_rows(work.path("panorama", next), work.key("panorama", next), 0, 48, 64,
+                  {plane_of(read)});
   EXPECT_EQ(read, *made(2.F));
 }
 
@@ -49,11 +52,12 @@ TEST(PieceWriter, SaysWhatCouldNotBeWritten) {
   const test::Folder folder;
   const WorkFolder work(folder / "work", scene_job, WorkMode::begin);
   PieceWriter writer(work);
-  // The piece before is told of with the next one, the last at the end.
+  // Errors of a piece are thrown with the next one, those of the last at the end.
   std::filesystem::remove_all(folder / "work");
   const auto values = made(1.F);
   writer.keep("panorama", piece_rect, {plane_of(*values)}, values);
-  test::message_of(ErrorKind::output, [&] { writer.keep("panorama", next, {plane_of(*values)}, values); });
+  test::message_of(ErrorKind::output,
+                   [&] { writer.keep("panorama", next, {plane_of(*values)}, values); });
   writer.keep("panorama", next, {plane_of(*values)}, values);
   const std::string message = test::message_of(ErrorKind::output, [&] { writer.finish(); });
   EXPECT_NE(message.find("cannot be created"), std::string::npos) << message;

@@ -22,29 +22,29 @@ class WorkFolderTest : public testing::Test {
     work.keep("panorama", small_rect, {plane_of(values)});
   }
   test::Folder folder_;
-  std::string place_ = folder_ / "out/.belvedere";
+  std::string position_ = folder_ / "out/.belvedere";
 };
 
 TEST_F(WorkFolderTest, ARunThatResumesFindsWhatIsWhole) {
   {
-    WorkFolder work(place_, job, WorkMode::begin);
+    WorkFolder work(position_, job, WorkMode::begin);
     EXPECT_FALSE(work.has("panorama", small_rect));
     keep(work, 1);
     work.keep_bytes("plan", "chosen");
   }
-  const WorkFolder again(place_, job, WorkMode::resume);
+  const WorkFolder again(position_, job, WorkMode::resume);
   EXPECT_TRUE(again.has("panorama", small_rect));
   EXPECT_FALSE(again.has("guidance", small_rect));
   EXPECT_EQ(again.read_bytes("plan"), "chosen");
 }
 
 TEST_F(WorkFolderTest, ARunThatBeginsFindsNothing) {
-  keep(WorkFolder(place_, job, WorkMode::begin), 1);
-  EXPECT_FALSE(WorkFolder(place_, job, WorkMode::begin).has("panorama", small_rect));
+  keep(WorkFolder(position_, job, WorkMode::begin), 1);
+  EXPECT_FALSE(WorkFolder(position_, job, WorkMode::begin).has("panorama", small_rect));
 }
 
 TEST_F(WorkFolderTest, ADamagedPieceIsRemoved) {
-  const WorkFolder work(place_, job, WorkMode::begin);
+  const WorkFolder work(position_, job, WorkMode::begin);
   keep(work, 1);
   const std::string path = work.path("panorama", small_rect);
   std::string bytes = test::read_bytes(path);
@@ -55,49 +55,51 @@ TEST_F(WorkFolderTest, ADamagedPieceIsRemoved) {
 }
 
 TEST_F(WorkFolderTest, AnotherJobsPiecesAreRefusedByName) {
-  keep(WorkFolder(place_, job, WorkMode::begin), 1);
+  keep(WorkFolder(position_, job, WorkMode::begin), 1);
   JobIdentity other = job;
   other["dem.tif"] = "9";
-  const auto resume = [&] { WorkFolder(place_, other, WorkMode::resume); };
+  const auto resume = [&] { WorkFolder(position_, other, WorkMode::resume); };
   EXPECT_THAT(test::message_of(ErrorKind::usage, resume), HasSubstr("dem.tif differs"));
-  EXPECT_TRUE(WorkFolder(place_, job, WorkMode::resume).has("panorama", small_rect)) << "and are left alone";
+  EXPECT_TRUE(WorkFolder(position_, job, WorkMode::resume).has("panorama", small_rect))
+      << "and are left alone";
 }
 
 TEST_F(WorkFolderTest, TheSecondRunIntoAFolderIsRefused) {
-  const WorkFolder first(place_, job, WorkMode::begin);
+  const WorkFolder first(position_, job, WorkMode::begin);
   keep(first, 1);
   for (const WorkMode mode : {WorkMode::begin, WorkMode::resume})
-    EXPECT_THAT(test::message_of(ErrorKind::output, [&] { WorkFolder(place_, job, mode); }), HasSubstr("another run"));
+    EXPECT_THAT(test::message_of(ErrorKind::output, [&] { WorkFolder(position_, job, mode); }),
+                HasSubstr("another run"));
   EXPECT_TRUE(first.has("panorama", small_rect));
 }
 
 TEST_F(WorkFolderTest, ManyMayJoinAPlan) {
-  test::message_of(ErrorKind::usage, [&] { WorkFolder(place_, job, WorkMode::join); });
-  begin_shared_work(place_, job);
-  const WorkFolder a(place_, job, WorkMode::join);
-  const WorkFolder b(place_, job, WorkMode::join);
+  test::message_of(ErrorKind::usage, [&] { WorkFolder(position_, job, WorkMode::join); });
+  begin_shared_work(position_, job);
+  const WorkFolder a(position_, job, WorkMode::join);
+  const WorkFolder b(position_, job, WorkMode::join);
   keep(a, 1);
   EXPECT_TRUE(b.has("panorama", small_rect));
-  begin_shared_work(place_, job);
+  begin_shared_work(position_, job);
   EXPECT_TRUE(b.has("panorama", small_rect)) << "planned again, nothing is lost";
-  test::message_of(ErrorKind::usage, [&] { begin_shared_work(place_, {{"scene", "other"}}); });
+  test::message_of(ErrorKind::usage, [&] { begin_shared_work(position_, {{"scene", "other"}}); });
 }
 
 TEST_F(WorkFolderTest, ARunThatCameToNothingLeavesNothing) {
-  { const WorkFolder work(place_, job, WorkMode::begin); }
-  EXPECT_FALSE(std::filesystem::exists(place_));
+  { const WorkFolder work(position_, job, WorkMode::begin); }
+  EXPECT_FALSE(std::filesystem::exists(position_));
   {
-    const WorkFolder work(place_, job, WorkMode::begin);
+    const WorkFolder work(position_, job, WorkMode::begin);
     work.keep_bytes("notes", "of headers");
   }
-  EXPECT_FALSE(std::filesystem::exists(place_));
+  EXPECT_FALSE(std::filesystem::exists(position_));
 }
 
 TEST_F(WorkFolderTest, WhatIsDoneIsRemoved) {
-  WorkFolder work(place_, job, WorkMode::begin);
+  WorkFolder work(position_, job, WorkMode::begin);
   keep(work, 1);
   work.clear();
-  EXPECT_FALSE(std::filesystem::exists(place_));
+  EXPECT_FALSE(std::filesystem::exists(position_));
 }
 
 TEST(JobIdentity, ComesBackFromItsText) { EXPECT_EQ(job_from_text(to_text(job)), job); }

@@ -9,9 +9,11 @@
 namespace belvedere {
 namespace {
 
-// Before there is a world the stages reach as far as they will when there is one, so that memory is told beforehand.
+// Before there is a world the stages have the same reaches as afterwards, so that memory is known
+// beforehand.
 TEST(GroundInputs, AnEstimateHasTheReachesOfTheWorlds) {
-  const LoadedScene scene = test::small_scene({"output.width=400", "output.height=200", "land_cover.rock=granite"});
+  const LoadedScene scene =
+      test::small_scene({"output.width=400", "output.height=200", "land_cover.rock=granite"});
   const World world = make_world(scene, silent_progress());
   const Palette palette = read_palette("summer");
   TileStore::Place nowhere;
@@ -22,7 +24,8 @@ TEST(GroundInputs, AnEstimateHasTheReachesOfTheWorlds) {
     return add_picture_stages(graph, ground, nullptr).picture->bytes_to_make(256);
   };
   const double bytes = add(made, make_ground_inputs(world, view_of(world), palette, {}));
-  EXPECT_EQ(add(estimated, estimate_ground_inputs(scene.scene, scene.scene.pixels_per_unit())), bytes);
+  EXPECT_EQ(add(estimated, estimate_ground_inputs(scene.scene, scene.scene.pixels_per_unit())),
+            bytes);
   EXPECT_GT(bytes, 400.0 * 200.0 * 60.0);
   EXPECT_EQ(estimated.draw(4.0), made.draw(4.0));
 }

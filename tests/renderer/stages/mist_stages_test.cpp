@@ -17,30 +17,36 @@ namespace {
 
 constexpr PixelRect sheet{0, 0, 230, 210};
 
-// A scene whose picture is painted in strokes alone, in the stages of a sheet.
+// A scene whose picture is painted in strokes only, in the stages of a sheet.
 struct PaintedSheet {
   struct Stages {
     Stages(PaintedSheet& sheet, int tile_px)
-        : graph(sheet.place, silent_progress()),
-          ground(add_ground_stages(graph, make_ground_inputs(sheet.world, view_of(sheet.world), sheet.palette, {}), tile_px)),
+        : graph(sheet.position, silent_progress()),
+          ground(add_ground_stages(
+              graph, make_ground_inputs(sheet.world, view_of(sheet.world), sheet.palette, {}),
+              tile_px)),
           picture(add_picture_stages(graph, ground, nullptr)) {}
     StageGraph graph;
     GroundStages ground;
     PictureStages picture;
   };
   explicit PaintedSheet(std::vector<std::string> settings)
-      : world(make_world((settings.insert(settings.end(), {"output.width=230", "output.height=210", "output.sheet_width_mm=115"}),
+      : world(make_world((settings.insert(settings.end(), {"output.width=230", "output.height=210",
+                                                           "output.sheet_width_mm=115"}),
                           test::small_scene(settings)),
                          silent_progress())) {}
-  Grid<glm::vec3> make(PixelRect rect, int tile_px = 96) { return Stages(*this, tile_px).picture.picture->read(rect).colour; }
+  Grid<glm::vec3> make(PixelRect rect, int tile_px = 96) {
+    return Stages(*this, tile_px).picture.picture->read(rect).colour;
+  }
   const Palette palette = read_palette("summer");
   const World world;
   const test::Folder folder;
-  TileStore::Place place{folder.path(), 1U << 24U};
+  TileStore::Place position{folder.path(), 1U << 24U};
 };
 
-const std::vector<std::string> misty = {"air.mist.0={ kind = \"sea\", to_m = 1100 }", "air.mist.1={ kind = \"valley\" }",
-                                        "air.mist.2={ kind = \"lee\", position = [6000, 7000], size_m = 2500 }"};
+const std::vector<std::string> misty = {
+    "air.mist.0={ kind = \"sea\", to_m = 1100 }", "air.mist.1={ kind = \"valley\" }",
+    "air.mist.2={ kind = \"lee\", position = [6000, 7000], size_m = 2500 }"};
 
 TEST(MistOfASheet, AnyRectangleTilesAndThreadsGiveThePictureOfTheWhole) {
   PaintedSheet painted(misty);
@@ -56,9 +62,9 @@ TEST(MistOfASheet, ASeaBelowAllGroundChangesNothing) {
   EXPECT_TRUE(dry.make(sheet) == low.make(sheet));
 }
 
-// Deep under fog there is neither tree nor ground: the picture is the mist's paint.
+// Deep under fog neither trees nor ground are visible: the picture is the mist's paint.
 TEST(MistOfASheet, NothingStandsOutOfDeepFog) {
-  PaintedSheet deep({"air.mist.0={ kind = \"sea\", to_m = 3900, sight_m = 60, billows = 0 }"});
+  PaintedSheet deep({"air.mist.0={ kind = \"sea\", to_m = 3900, visibility_m = 60, billows = 0 }"});
   const PaintedSheet::Stages stages(deep, 96);
   Grid<glm::vec3> fog(230, 210, glm::vec3(0.F));
   lay_mist(fog, {0, 0}, stages.picture.mist_paint->read(sheet));
@@ -69,7 +75,9 @@ TEST(MistOfASheet, NothingStandsOutOfDeepFog) {
     for (int x = 40; x < 190; ++x) {
       if (veil(x, y) < 0.999F) continue;
       ++hidden;
-      for (int c = 0; c < 3; ++c) EXPECT_NEAR(picture(x, y)[c], fog(x, y)[c], 0.08F) << "edges are softened; a tree is .3 darker";
+      for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(picture(x, y)[c], fog(x, y)[c], 0.08F)
+            << "edges are softened; a tree is .3 darker";
     }
   EXPECT_GT(hidden, 8000);
 }

@@ -30,7 +30,8 @@ const GroundModels& meadow_models() {
     GroundModels out;
     out.models.push_back(std::move(of));
     for (GroundModels::OfClass* of_class : {&out.lit, &out.shaded})
-      for (const LandCoverClass id : {pasture, water}) (*of_class)[static_cast<std::size_t>(id)] = 0;
+      for (const LandCoverClass id : {pasture, water})
+        (*of_class)[static_cast<std::size_t>(id)] = 0;
     return out;
   }();
   return models;
@@ -47,10 +48,12 @@ GuidanceBuffers flat_guidance(int width, int height, LandCoverClass id, glm::vec
 // The paint of a square of one class on a slope.
 ModelPaint painted(LandCoverClass id, glm::vec2 down, int side = 160) {
   const PixelRect tile{0, 0, side, side};
-  return make_model_paint(meadow_models(), tile, Grid<LandCoverClass>(side, side, id), flat_guidance(side, side, id, down), tile);
+  return make_model_paint(meadow_models(), tile, Grid<LandCoverClass>(side, side, id),
+                          flat_guidance(side, side, id, down), tile);
 }
 
-// The way strokes run, degrees clockwise from level, 0…180: of the structure tensor of lightness.
+// Direction of strokes, degrees clockwise from horizontal, 0…180: from the structure tensor of
+// lightness.
 double stroke_deg(const Grid<glm::vec3>& picture) {
   double xx = 0.0;
   double xy = 0.0;
@@ -88,7 +91,8 @@ TEST(ModelGround, OnlyItsClassesArePaintedAndNoSky) {
       if (x < 20) shown(x, y) = rock;
       if (y < 12) guidance.depth_m(x, y) = infinity;
     }
-  const ModelPaint paint = make_model_paint(meadow_models(), {0, 0, side, side}, shown, guidance, {0, 0, side, side});
+  const ModelPaint paint =
+      make_model_paint(meadow_models(), {0, 0, side, side}, shown, guidance, {0, 0, side, side});
   for (int y = 0; y < side; ++y)
     for (int x = 0; x < side; ++x) {
       const bool expected = x >= 20 && y >= 12;
@@ -97,7 +101,8 @@ TEST(ModelGround, OnlyItsClassesArePaintedAndNoSky) {
     }
 }
 
-// Of a class with two models bright places have the one and dark places the other; in between they meet raggedly.
+// In a class with two models bright positions have one and dark positions the other, with a ragged
+// border between.
 TEST(ModelGround, LightAndShadeHaveModelsOfTheirOwn) {
   constexpr int side = 96;
   GroundModels two = meadow_models();
@@ -122,10 +127,11 @@ TEST(ModelGround, LightAndShadeHaveModelsOfTheirOwn) {
   const ModelPaint one = make_model_paint(meadow_models(), tile, shown, guidance, tile);
   EXPECT_EQ(paint.texel(80, 40), one.texel(80, 40));
   EXPECT_NE(part_of(paint.texel, {0, 0, 32, side}), part_of(one.texel, {0, 0, 32, side}));
-  EXPECT_THROW(make_model_paint(two, tile, shown, guidance, tile), Error) << "light decides, and there is none";
+  EXPECT_THROW(make_model_paint(two, tile, shown, guidance, tile), Error)
+      << "light decides, and there is none";
 }
 
-// Its own light is what is left when strokes are blurred away: the same mean, and much smoother.
+// Its own light is what remains when strokes are blurred away: the same mean, and much smoother.
 TEST(ModelGround, TheBaseIsThePaintWithoutItsStrokes) {
   const ModelPaint paint = painted(pasture, {0.F, 1.F});
   const auto figures = [](const Grid<glm::vec3>& picture) {
@@ -136,7 +142,8 @@ TEST(ModelGround, TheBaseIsThePaintWithoutItsStrokes) {
         mean += static_cast<double>(picture(x, y).y);
         step += std::abs(static_cast<double>(picture(x, y).y - picture(x - 1, y).y));
       }
-    return std::pair(mean / static_cast<double>(picture.size()), step / static_cast<double>(picture.size()));
+    return std::pair(mean / static_cast<double>(picture.size()),
+                     step / static_cast<double>(picture.size()));
   };
   const auto [texel_mean, texel_step] = figures(paint.texel);
   const auto [base_mean, base_step] = figures(paint.base);
@@ -144,20 +151,25 @@ TEST(ModelGround, TheBaseIsThePaintWithoutItsStrokes) {
   EXPECT_LT(base_step, texel_step / 4.0);
 }
 
-// Tiles side by side, each made from its own box: what they show beside each other is one texture, to a level where it matters.
+// Tiles side by side, each made from its own box: the result is one texture, to within one level
+// where it matters.
 TEST(ModelGround, TilesMeetWithoutASeam) {
   constexpr int side = 150;
   const GuidanceBuffers guidance = flat_guidance(2 * side, side, pasture, {.6F, .8F});
   const PixelRect sheet{0, 0, 2 * side, side};
   const auto tile = [&](PixelRect rect) {
-    return make_model_paint(meadow_models(), rect, Grid<LandCoverClass>(rect.width(), rect.height(), pasture), guidance, sheet);
+    return make_model_paint(meadow_models(), rect,
+                            Grid<LandCoverClass>(rect.width(), rect.height(), pasture), guidance,
+                            sheet);
   };
   const ModelPaint whole = tile(sheet);
   const ModelPaint right = tile({side, 0, 2 * side, side});
-  const ModelPaint cut{.made = {}, .texel = part_of(whole.texel, {side, 0, 2 * side, side}), .base = {}};
+  const ModelPaint cut{
+      .made = {}, .texel = part_of(whole.texel, {side, 0, 2 * side, side}), .base = {}};
   double worst = 0.0;
   for (std::size_t i = 0; i < cut.texel.size(); ++i)
-    for (int c = 0; c < 3; ++c) worst = std::max(worst, std::abs(static_cast<double>(cut.texel[i][c] - right.texel[i][c])));
+    for (int c = 0; c < 3; ++c)
+      worst = std::max(worst, std::abs(static_cast<double>(cut.texel[i][c] - right.texel[i][c])));
   EXPECT_LE(worst, 2.5 / 255.0);
 }
 

@@ -25,7 +25,8 @@ CameraParameters base(const std::string& projection) {
 }
 
 void expect_near(glm::dvec3 a, glm::dvec3 b, double tolerance) {
-  EXPECT_LT(glm::length(a - b), tolerance) << a.x << ' ' << a.y << ' ' << a.z << " against " << b.x << ' ' << b.y << ' ' << b.z;
+  EXPECT_LT(glm::length(a - b), tolerance)
+      << a.x << ' ' << a.y << ' ' << a.z << " against " << b.x << ' ' << b.y << ' ' << b.z;
 }
 
 TEST(Camera, ProjectUndoesRayInEveryProjection) {
@@ -34,7 +35,7 @@ TEST(Camera, ProjectUndoesRayInEveryProjection) {
       CameraParameters p = base(std::string(projection.name));
       p.pitch_deg = pitch;
       const auto camera = make_camera(p);
-      // Places beyond the picture's edges round trip as well.
+      // Positions beyond the picture's edges round-trip as well.
       for (double y = -20.0; y <= 430.0; y += 37.3) {
         for (double x = -30.0; x <= 830.0; x += 41.7) {
           for (const double t : {3.0, 9000.0, 120000.0}) {
@@ -60,7 +61,8 @@ TEST(Camera, MiddleRayLooksAlongAzimuthAndPitch) {
       const Ray ray = make_camera(p)->ray({400.0, 200.0});
       const double a = to_radians(azimuth);
       const double b = to_radians(p.pitch_deg);
-      expect_near(ray.direction, {std::sin(a) * std::cos(b), std::cos(a) * std::cos(b), std::sin(b)}, 1e-12);
+      expect_near(ray.direction,
+                  {std::sin(a) * std::cos(b), std::cos(a) * std::cos(b), std::sin(b)}, 1e-12);
       expect_near(ray.origin, p.eye, 1e-6);
     }
   }
@@ -71,8 +73,8 @@ TEST(Camera, RightIsClockwiseAndDownIsDown) {
     CameraParameters p = base(std::string(projection.name));
     p.azimuth_deg = 0.0;
     const auto camera = make_camera(p);
-    const Ray middle = camera->ray({400.0, 200.0});
-    const glm::dvec3 ahead = middle.origin + 20000.0 * middle.direction;
+    const Ray centre = camera->ray({400.0, 200.0});
+    const glm::dvec3 ahead = centre.origin + 20000.0 * centre.direction;
     const auto east = camera->project(ahead + glm::dvec3(500.0, 0.0, 0.0));
     const auto lower = camera->project(ahead - glm::dvec3(0.0, 0.0, 500.0));
     ASSERT_TRUE(east && lower);
@@ -87,8 +89,10 @@ TEST(Camera, FieldOfViewSpansThePicturesEdges) {
   p.pitch_deg = 0.0;
   p.azimuth_deg = 0.0;
   const auto perspective = make_camera(p);
-  expect_near(perspective->ray({0.0, 200.0}).direction, {-std::sin(to_radians(25.0)), std::cos(to_radians(25.0)), 0.0}, 1e-12);
-  expect_near(perspective->ray({800.0, 200.0}).direction, {std::sin(to_radians(25.0)), std::cos(to_radians(25.0)), 0.0}, 1e-12);
+  expect_near(perspective->ray({0.0, 200.0}).direction,
+              {-std::sin(to_radians(25.0)), std::cos(to_radians(25.0)), 0.0}, 1e-12);
+  expect_near(perspective->ray({800.0, 200.0}).direction,
+              {std::sin(to_radians(25.0)), std::cos(to_radians(25.0)), 0.0}, 1e-12);
 
   p.projection = "cylindrical";
   p.field_of_view_deg = 360.0;
@@ -101,7 +105,8 @@ TEST(Camera, FieldOfViewSpansThePicturesEdges) {
   p.pitch_deg = -45.0;
   p.view_width_m = 8000.0;
   const auto oblique = make_camera(p);
-  EXPECT_NEAR(oblique->ray({800.0, 7.0}).origin.x - oblique->ray({0.0, 7.0}).origin.x, 8000.0, 1e-6);
+  EXPECT_NEAR(oblique->ray({800.0, 7.0}).origin.x - oblique->ray({0.0, 7.0}).origin.x, 8000.0,
+              1e-6);
 }
 
 TEST(Camera, StraightDownKeepsTheAzimuthOnTop) {
@@ -120,7 +125,7 @@ TEST(Camera, ObliqueIsAMapWithHeightsUpwards) {
   CameraParameters p = base("oblique");
   p.azimuth_deg = 0.0;
   p.pitch_deg = -30.0;
-  p.view_width_m = 8000.0;  // 10 m a pixel
+  p.view_width_m = 8000.0;  // 10 m per pixel
   const auto camera = make_camera(p);
   const glm::dvec3 foot = p.eye + glm::dvec3(0.0, 30000.0, -20000.0);
   const auto at = camera->project(foot);
@@ -134,7 +139,8 @@ TEST(Camera, ObliqueIsAMapWithHeightsUpwards) {
   EXPECT_NEAR(summit->x, at->x, 1e-6);
   EXPECT_NEAR(at->y - summit->y, 100.0 / std::tan(to_radians(30.0)), 1e-6);
   EXPECT_FALSE(camera->project(p.eye + glm::dvec3(0.0, 0.0, 1.0)));
-  expect_near(camera->eye(), p.eye - glm::dvec3(0.0, 2000.0, 0.0), 1e-6);  // lower edge: 200 px of 10 m nearer
+  expect_near(camera->eye(), p.eye - glm::dvec3(0.0, 2000.0, 0.0),
+              1e-6);  // lower edge: 200 px of 10 m nearer
 }
 
 TEST(Camera, VerticalLinesStayVerticalOnTheCylinder) {
@@ -142,13 +148,14 @@ TEST(Camera, VerticalLinesStayVerticalOnTheCylinder) {
   p.field_of_view_deg = 200.0;
   const auto camera = make_camera(p);
   for (const double bearing : {90.0, 140.0, 182.0, 265.0}) {
-    const glm::dvec3 foot = p.eye + 7000.0 * glm::dvec3(std::sin(to_radians(bearing)), std::cos(to_radians(bearing)), 0.0);
+    const glm::dvec3 foot = p.eye + 7000.0 * glm::dvec3(std::sin(to_radians(bearing)),
+                                                        std::cos(to_radians(bearing)), 0.0);
     const auto low = camera->project(foot - glm::dvec3(0.0, 0.0, 9000.0));
     const auto high = camera->project(foot + glm::dvec3(0.0, 0.0, 2000.0));
     ASSERT_TRUE(low && high);
     EXPECT_NEAR(low->x, high->x, 1e-9);
     EXPECT_NEAR(low->x, 400.0 + (bearing - 182.0) * 4.0, 1e-6);
-    // The tangent of the elevation angle runs evenly over y.
+    // The tangent of the elevation angle is linear in y.
     EXPECT_NEAR(low->y - high->y, 11000.0 / 7000.0 * 800.0 / to_radians(200.0), 1e-6);
   }
 }

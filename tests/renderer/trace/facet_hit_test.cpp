@@ -11,16 +11,19 @@
 namespace belvedere {
 namespace {
 
-// 5 × 4 posts a metre apart, rows to the south, on the plane z = x / 2.
+// 5 × 4 posts one metre apart, rows to the south, on the plane z = x / 2.
 struct Slope {
   Slope() {
     surface.vertices_m = Grid<glm::vec3>(5, 4);
     for (int y = 0; y < 4; ++y)
-      for (int x = 0; x < 5; ++x) surface.vertices_m(x, y) = {static_cast<float>(x), -static_cast<float>(y), 0.5F * static_cast<float>(x)};
+      for (int x = 0; x < 5; ++x)
+        surface.vertices_m(x, y) = {static_cast<float>(x), -static_cast<float>(y),
+                                    0.5F * static_cast<float>(x)};
     parts = make_traced_parts(surface, 64);
   }
   bool down_at(double x, double y, glm::vec2 in_tile, Hit& hit) const {
-    return resolve_facet(parts[0], parts[0].tiles[0], in_tile, {{x, -y, 10.0}, {0.0, 0.0, -1.0}}, hit);
+    return resolve_facet(parts[0], parts[0].tiles[0], in_tile, {{x, -y, 10.0}, {0.0, 0.0, -1.0}},
+                         hit);
   }
 
   DeformedSurface surface;
@@ -42,7 +45,7 @@ TEST(FacetHit, PlaceDistanceAndNormalAreThoseOfThePlane) {
 TEST(FacetHit, AFacetNamedWronglyGivesWayToItsNeighbour) {
   const Slope slope;
   Hit hit;
-  // The ray meets the cell east of the one that is named.
+  // The ray hits the cell east of the given one.
   ASSERT_TRUE(slope.down_at(2.0001, 1.4, {1.9999F / 4.F, 1.4F / 3.F}, hit));
   EXPECT_NEAR(hit.column, 2.0001, 1e-12);
   EXPECT_NEAR(hit.distance_m, 10.0 - 0.5 * 2.0001, 1e-12);

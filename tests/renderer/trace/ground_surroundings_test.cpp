@@ -29,8 +29,10 @@ LandCover cover_of(const Dem& dem, LandCoverClass id) {
 }
 
 TEST(GroundSurroundings, HeightAboveAValleyIsThatAboveItsFloor) {
-  // A trough: 300 m deep, its floor five cells wide, flanks of 10 m a cell.
-  const Dem dem = dem_of(81, 60, [](int x, int) { return 500.0 + std::clamp(10.0 * (std::abs(x - 40) - 2), 0.0, 300.0); });
+  // A trough: 300 m deep, its floor five cells wide, flanks of 10 m per cell.
+  const Dem dem = dem_of(81, 60, [](int x, int) {
+    return 500.0 + std::clamp(10.0 * (std::abs(x - 40) - 2), 0.0, 300.0);
+  });
   const GroundSurroundings found = find_surroundings(dem, cover_of(dem, LandCoverClass::pasture));
   EXPECT_NEAR(found.valley_height_m(40, 30), 0.0, 0.5);
   EXPECT_NEAR(found.valley_height_m(50, 30), 80.0, 0.5);
@@ -43,10 +45,12 @@ TEST(GroundSurroundings, TheRimIsTheBorderAndVoidsThatReachIt) {
   const GroundSurroundings whole = find_surroundings(dem, cover);
   for (int y = 0; y < 30; ++y)
     for (int x = 0; x < 40; ++x)
-      EXPECT_NEAR(whole.rim_m(x, y), ring_cell_m * std::min(std::min(x, 39 - x), std::min(y, 29 - y)), 1e-3) << x << ' ' << y;
+      EXPECT_NEAR(whole.rim_m(x, y),
+                  ring_cell_m * std::min(std::min(x, 39 - x), std::min(y, 29 - y)), 1e-3)
+          << x << ' ' << y;
   dem.filled = Grid<std::uint8_t>(40, 30, 0);
-  dem.filled(20, 15) = 1;                              // a flaw in the middle of known terrain
-  for (int x = 0; x <= 9; ++x) dem.filled(x, 14) = 1;  // a void that comes in from the border
+  dem.filled(20, 15) = 1;                              // a void inside known terrain
+  for (int x = 0; x <= 9; ++x) dem.filled(x, 14) = 1;  // a void that reaches the border
   const GroundSurroundings voids = find_surroundings(dem, cover);
   EXPECT_NEAR(voids.rim_m(20, 15), ring_cell_m * std::hypot(11.0, 1.0), 1e-3);
   EXPECT_EQ(voids.rim_m(9, 14), 0.F);
@@ -60,8 +64,9 @@ TEST(GroundSurroundings, CatchmentsThatAreThereAreTaken) {
   catchments.km2();
   const GroundSurroundings found = find_surroundings(dem, cover, &catchments);
   EXPECT_EQ(found.flow, find_surroundings(dem, cover).flow);
-  for (int y = 0; y < 60; ++y) EXPECT_NEAR(found.flow(4, y), std::log10(ring_cell_m * ring_cell_m * (y + 1)), 1e-5) << y;
-  // All is town.
+  for (int y = 0; y < 60; ++y)
+    EXPECT_NEAR(found.flow(4, y), std::log10(ring_cell_m * ring_cell_m * (y + 1)), 1e-5) << y;
+  // Everything is town.
   for (const float built : found.floor_plan.built) EXPECT_NEAR(built, 1.F, 1e-4F);
 }
 

@@ -11,23 +11,26 @@
 
 #include "renderer/trace/guidance.h"
 #include "terrain/cover/map_cover.h"
-#include "tests/renderer/trace/made_up_ground.h"
+#include "tests/renderer/trace/synthetic_ground.h"
 
 namespace belvedere {
 namespace {
 
 using test::cell;
-using test::MadeUpWorld;
 using test::make_world;
 using test::southward;
+using test::SyntheticWorld;
 using test::trace;
 
-// Bumps of surface layers are in the normals of level ground, even about up, smaller from afar, and none on water; nothing else moves.
+// Bumps of surface layers appear in the normals of level ground, symmetric about up, smaller from
+// afar, and none on water; nothing else changes.
 TEST(GuidanceGround, BumpsOfLayersTurnTheNormals) {
   const auto made = [](double height_m, double length_m) {
-    MadeUpWorld world = make_world(
+    SyntheticWorld world = make_world(
         200, 200, [](double, double) { return 500.0; },
-        [](double x, double) { return x > 3000.0 ? LandCoverClass::alpine_grass : LandCoverClass::water; });
+        [](double x, double) {
+          return x > 3000.0 ? LandCoverClass::alpine_grass : LandCoverClass::water;
+        });
     LandCover cover = *world.terrain.land_cover;
     cover.relief.transform = cover.classes.transform;
     cover.relief.bumps.push_back({height_m, length_m, 7, Grid<float>(200, 200, 1.F)});
@@ -64,22 +67,26 @@ TEST(GuidanceGround, BumpsOfLayersTurnTheNormals) {
   EXPECT_LT(glm::length(glm::dvec2(mean)), 0.02);
   EXPECT_GT(near / near_count, 1.3 * far / far_count);
   EXPECT_GT(far / far_count, 0.0);
-  // Bumps that are shorter than a pixel of the nearest ground are not seen at all.
+  // Bumps shorter than a pixel of the nearest ground are invisible.
   EXPECT_EQ(trace(made(12.0, 10.0), *camera).normal, smooth.normal);
-  // Any part has the whole's.
-  const MadeUpWorld world = made(12.0, 300.0);
+  // Any part equals the whole.
+  const SyntheticWorld world = made(12.0, 300.0);
   const PixelRect rect{17, 40, 70, 61};
-  const GuidanceBuffers part = trace_guidance(world.terrain, world.surface, *world.tracer, *camera, {}, rect, silent_progress());
+  const GuidanceBuffers part = trace_guidance(world.terrain, world.surface, *world.tracer, *camera,
+                                              {}, rect, silent_progress());
   for (int y = 0; y < rect.height(); ++y)
-    for (int x = 0; x < rect.width(); ++x) ASSERT_EQ(part.normal(x, y), bumpy.normal(rect.x0 + x, rect.y0 + y));
+    for (int x = 0; x < rect.width(); ++x)
+      ASSERT_EQ(part.normal(x, y), bumpy.normal(rect.x0 + x, rect.y0 + y));
 }
 
-// Wood ends raggedly on grass, within a cell or two of where the map has its border and about it; at water's edge nothing is moved.
+// Forest has a ragged border with grass, within a cell or two of the map's border; a shore is not
+// moved.
 TEST(GuidanceGround, WhatGrowsHasRaggedBordersAndShoresKeepTheirs) {
   const auto border_of = [](LandCoverClass beyond) {
-    const MadeUpWorld world = make_world(
-        80, 80, [](double, double) { return 500.0; }, [&](double x, double) { return x > 39.5 * cell ? LandCoverClass::forest : beyond; });
-    std::vector<double> places;  // columns where each row's border lies
+    const SyntheticWorld world = make_world(
+        80, 80, [](double, double) { return 500.0; },
+        [&](double x, double) { return x > 39.5 * cell ? LandCoverClass::forest : beyond; });
+    std::vector<double> positions;  // columns of each row's border
     for (double row = 5.0; row < 75.0; row += 0.2) {
       int outside = 0;
       for (double column = 30.0; column < 50.0; column += 0.05) {
@@ -89,13 +96,14 @@ TEST(GuidanceGround, WhatGrowsHasRaggedBordersAndShoresKeepTheirs) {
           EXPECT_EQ(id, column > 39.5 ? LandCoverClass::forest : beyond) << column << ' ' << row;
         }
       }
-      places.push_back(30.0 + 0.05 * outside);
+      positions.push_back(30.0 + 0.05 * outside);
     }
     double sum = 0.0;
     double squares = 0.0;
-    for (const double place : places) sum += place, squares += place * place;
-    const double mean = sum / static_cast<double>(places.size());
-    return std::pair(mean, std::sqrt(std::max(0.0, squares / static_cast<double>(places.size()) - mean * mean)));
+    for (const double position : positions) sum += position, squares += position * position;
+    const double mean = sum / static_cast<double>(positions.size());
+    return std::pair(mean, std::sqrt(std::max(0.0, squares / static_cast<double>(positions.size()) -
+                                                       mean * mean)));
   };
   const auto [grass, ragged] = border_of(LandCoverClass::pasture);
   EXPECT_NEAR(grass, 39.5, 0.35);
@@ -106,24 +114,29 @@ TEST(GuidanceGround, WhatGrowsHasRaggedBordersAndShoresKeepTheirs) {
   EXPECT_LT(straight, 0.03);
 }
 
-// Lines of a map keep their shape where a widened valley draws their ground out: they are asked for where lines are drawn, cells where
-// the ground came from.
+// Lines of a map keep their shape where a widened valley stretches their ground: they are read
+// where lines are drawn, cells at the origin of the ground.
 TEST(GuidanceGround, ARiverOfAMapLiesWhereLinesAreDrawn) {
-  MadeUpWorld world = make_world(
+  SyntheticWorld world = make_world(
       200, 200, [](double, double) { return 500.0; },
-      [](double x, double) { return x > 2000.0 ? LandCoverClass::valley_floor : LandCoverClass::settlement; });
+      [](double x, double) {
+        return x > 2000.0 ? LandCoverClass::valley_floor : LandCoverClass::settlement;
+      });
   const GeoTransform& transform = world.terrain.dem->transform;
   LandCover cover = *world.terrain.land_cover;
   const glm::dvec2 from = transform.to_crs(100.0, 20.0);
   const glm::dvec2 to = transform.to_crs(100.0, 180.0);
-  lay_map(cover, std::make_shared<const MapCover>(std::vector<CoverArea>{},
-                                                  std::vector<CoverCourse>{{.places = {from, to}, .half_width_m = {60.F, 60.F}}},
-                                                  transform.to_crs(0.0, 199.0), transform.to_crs(199.0, 0.0)));
+  lay_map(cover,
+          std::make_shared<const MapCover>(
+              std::vector<CoverArea>{},
+              std::vector<CoverRiver>{{.positions = {from, to}, .half_width_m = {60.F, 60.F}}},
+              transform.to_crs(0.0, 199.0), transform.to_crs(199.0, 0.0)));
   world.terrain.land_cover = std::make_shared<const LandCover>(std::move(cover));
   EXPECT_EQ(class_at(world.terrain, 100.0, 90.0), LandCoverClass::water);
   world.terrain.came_from = Grid<glm::vec2>(200, 200, glm::vec2(-3.F, 0.F));
   world.terrain.goes_to = Grid<glm::vec2>(200, 200, glm::vec2(10.F, 0.F));
-  for (const double off : {-1.5, 0.0, 1.5}) EXPECT_EQ(class_at(world.terrain, 110.0 + off, 90.0), LandCoverClass::water) << off;
+  for (const double off : {-1.5, 0.0, 1.5})
+    EXPECT_EQ(class_at(world.terrain, 110.0 + off, 90.0), LandCoverClass::water) << off;
   for (const double column : {100.0, 103.0, 106.0, 114.0})
     EXPECT_EQ(class_at(world.terrain, column, 90.0), LandCoverClass::valley_floor) << column;
   // Cells came from three columns farther west.
@@ -132,10 +145,13 @@ TEST(GuidanceGround, ARiverOfAMapLiesWhereLinesAreDrawn) {
 }
 
 TEST(GuidanceGround, GroundThatMovedTakesAlongWhatLiesOnIt) {
-  // The ground rises to the east, with a forest from 3 km on; all of it came from ten cells farther west.
-  MadeUpWorld world = make_world(
+  // The ground rises to the east, with a forest from 3 km on; all of it came from ten cells farther
+  // west.
+  SyntheticWorld world = make_world(
       200, 200, [](double x, double) { return 500.0 + 0.1 * x; },
-      [](double x, double) { return x > 3000.0 ? LandCoverClass::forest : LandCoverClass::alpine_grass; });
+      [](double x, double) {
+        return x > 3000.0 ? LandCoverClass::forest : LandCoverClass::alpine_grass;
+      });
   world.terrain.came_from = Grid<glm::vec2>(200, 200, glm::vec2(-10.F, 0.F));
   const auto camera = make_camera(southward(96, 64));
   const GuidanceBuffers b = trace(world, *camera);
@@ -148,7 +164,9 @@ TEST(GuidanceGround, GroundThatMovedTakesAlongWhatLiesOnIt) {
     EXPECT_NEAR(b.altitude_m[i], 500.0 + 0.1 * (east - 300.0), 0.1);
     if (std::abs(east - 3300.0) < 100.0) continue;
     (east > 3300.0 ? forest : grass) += 1;
-    EXPECT_EQ(b.land_cover[i], east > 3300.0 ? LandCoverClass::forest : LandCoverClass::alpine_grass) << east;
+    EXPECT_EQ(b.land_cover[i],
+              east > 3300.0 ? LandCoverClass::forest : LandCoverClass::alpine_grass)
+        << east;
   }
   EXPECT_GT(forest, 200);
   EXPECT_GT(grass, 200);

@@ -14,16 +14,16 @@
 
 #include "base/angle.h"
 #include "renderer/trace/guidance_rays.h"
-#include "tests/renderer/trace/made_up_ground.h"
+#include "tests/renderer/trace/synthetic_ground.h"
 
 namespace belvedere {
 namespace {
 
 using test::all_meadow;
-using test::MadeUpWorld;
 using test::make_world;
 using test::rough_world;
 using test::southward;
+using test::SyntheticWorld;
 using test::trace;
 
 TEST(Guidance, SkyDirectionsAreCosineWeightedAndDealtOutEvenly) {
@@ -46,20 +46,23 @@ TEST(Guidance, SkyDirectionsAreCosineWeightedAndDealtOutEvenly) {
 }
 
 TEST(Guidance, SunBelowTheHorizonLeavesAllTerrainInShadow) {
-  const MadeUpWorld world = rough_world();
+  const SyntheticWorld world = rough_world();
   GuidanceParameters parameters;
   parameters.sun_direction = glm::normalize(glm::dvec3(-0.7, 0.7, -0.05));
   const GuidanceBuffers b = trace(world, *make_camera(southward(64, 48)), parameters);
-  for (std::size_t i = 0; i < b.depth_m.size(); ++i) EXPECT_EQ(b.shadow[i], b.is_sky(i) ? 1.F : 0.F);
+  for (std::size_t i = 0; i < b.depth_m.size(); ++i)
+    EXPECT_EQ(b.shadow[i], b.is_sky(i) ? 1.F : 0.F);
 }
 
-// A wall across a plain: the umbra ends where the disc's upper edge passes the crest, the penumbra where its lower edge does.
+// A wall across a plain: the umbra ends where the disc's upper edge passes the crest, the penumbra
+// where its lower edge does.
 TEST(Guidance, PenumbraOfAWallIsAsWideAsTheDisc) {
   const double wall = 400.0;
-  const MadeUpWorld world = make_world(
-      300, 300, [&](double, double y) { return y >= 6000.0 && y <= 6030.0 ? wall : 0.0; }, all_meadow);
+  const SyntheticWorld world = make_world(
+      300, 300, [&](double, double y) { return y >= 6000.0 && y <= 6030.0 ? wall : 0.0; },
+      all_meadow);
   CameraParameters p;
-  p.projection = "oblique";  // straight down: a map, 10 m a pixel
+  p.projection = "oblique";  // straight down: a map, 10 m per pixel
   p.pitch_deg = -90.0;
   p.width = 64;
   p.height = 256;
@@ -71,7 +74,8 @@ TEST(Guidance, PenumbraOfAWallIsAsWideAsTheDisc) {
   parameters.sampling.sky_directions = 0;
   parameters.sun_radius_rad = 0.05;
   const double altitude = to_radians(30.0);
-  parameters.sun_direction = {0.0, -std::cos(altitude), std::sin(altitude)};  // from the south: the shadow falls north
+  parameters.sun_direction = {0.0, -std::cos(altitude),
+                              std::sin(altitude)};  // from the south: the shadow falls north
   const GuidanceBuffers b = trace(world, *camera, parameters);
   const auto length = [&](double angle) { return wall / std::tan(angle); };
   for (int y = 0; y < b.height(); ++y) {
@@ -88,7 +92,7 @@ TEST(Guidance, PenumbraOfAWallIsAsWideAsTheDisc) {
     if (from_wall < length(altitude + 0.05) - 20.0 && from_wall > 40.0) {
       EXPECT_EQ(lit, 0.0) << from_wall;
     }
-    // In the middle of the penumbra half of the disc is seen.
+    // In the centre of the penumbra half of the disc is visible.
     if (std::abs(from_wall - length(altitude)) < 6.0) {
       EXPECT_NEAR(lit, 0.5, 0.12);
     }
@@ -100,14 +104,15 @@ class WallUnderTwoSuns : public testing::Test {
  protected:
   static constexpr double wall = 400.0;
   static constexpr double wall_y = 5320000.0 - 15.0 - 6000.0;
-  MadeUpWorld world_ = make_world(
-      300, 300, [](double, double y) { return y >= 6000.0 && y <= 6030.0 ? wall : 0.0; }, all_meadow);
+  SyntheticWorld world_ = make_world(
+      300, 300, [](double, double y) { return y >= 6000.0 && y <= 6030.0 ? wall : 0.0; },
+      all_meadow);
   GuidanceParameters parameters_;
   std::unique_ptr<const Camera> camera_;
 
   WallUnderTwoSuns() {
     CameraParameters p;
-    p.projection = "oblique";  // straight down: a map, 20 m a pixel
+    p.projection = "oblique";  // straight down: a map, 20 m per pixel
     p.pitch_deg = -90.0;
     p.width = 128;
     p.height = 128;
@@ -119,11 +124,15 @@ class WallUnderTwoSuns : public testing::Test {
     parameters_.sun_radius_rad = 0.01;
     const double altitude = to_radians(30.0);
     parameters_.sun_direction = {0.0, -std::cos(altitude), std::sin(altitude)};
-    const LightRegion east{.rings = {{{654500.0, 5300000.0}, {665000.0, 5300000.0}, {665000.0, 5330000.0}, {654500.0, 5330000.0}}},
+    const LightRegion east{.rings = {{{654500.0, 5300000.0},
+                                      {665000.0, 5300000.0},
+                                      {665000.0, 5330000.0},
+                                      {654500.0, 5330000.0}}},
                            .blend_m = 400.0,
                            .sun_direction = {0.0, std::cos(altitude), std::sin(altitude)}};
-    parameters_.light_field = std::make_shared<const LightField>(parameters_.sun_direction, glm::dvec2(1.0, 0.0), std::vector{east},
-                                                                 std::vector<CloudShadow>(), 1);
+    parameters_.light_field =
+        std::make_shared<const LightField>(parameters_.sun_direction, glm::dvec2(1.0, 0.0),
+                                           std::vector{east}, std::vector<CloudShadow>(), 1);
   }
 };
 
@@ -152,27 +161,34 @@ TEST_F(WallUnderTwoSuns, PartsAndTilesHaveTheBitsOfTheWhole) {
   for (const int tile : {8, 64}) {
     parameters_.tile_size = tile;
     const PixelRect part{21, 35, 90, 101};
-    const GuidanceBuffers b =
-        trace_guidance(world_.terrain, world_.surface, *world_.tracer, *camera_, parameters_, part, silent_progress());
+    const GuidanceBuffers b = trace_guidance(world_.terrain, world_.surface, *world_.tracer,
+                                             *camera_, parameters_, part, silent_progress());
     for (int y = part.y0; y < part.y1; ++y)
-      for (int x = part.x0; x < part.x1; ++x) ASSERT_EQ(b.shadow(x - part.x0, y - part.y0), whole.shadow(x, y)) << x << " " << y;
+      for (int x = part.x0; x < part.x1; ++x)
+        ASSERT_EQ(b.shadow(x - part.x0, y - part.y0), whole.shadow(x, y)) << x << " " << y;
   }
 }
 
-// A region under the picture's own sun is no other light, whatever ways it takes to say so.
+// A region with the picture's own sun changes nothing, however it is written.
 TEST_F(WallUnderTwoSuns, ARegionOfTheSameSunCastsTheSameShadows) {
-  const LightRegion same{.center = {654500.0, wall_y}, .radius_m = 900.0, .blend_m = 300.0, .sun_direction = parameters_.sun_direction};
+  const LightRegion same{.centre = {654500.0, wall_y},
+                         .radius_m = 900.0,
+                         .blend_m = 300.0,
+                         .sun_direction = parameters_.sun_direction};
   parameters_.light_field =
-      std::make_shared<const LightField>(parameters_.sun_direction, glm::dvec2(1.0, 0.0), std::vector{same}, std::vector<CloudShadow>(), 1);
+      std::make_shared<const LightField>(parameters_.sun_direction, glm::dvec2(1.0, 0.0),
+                                         std::vector{same}, std::vector<CloudShadow>(), 1);
   const GuidanceBuffers with = trace(world_, *camera_, parameters_);
   parameters_.light_field = nullptr;
   const GuidanceBuffers without = trace(world_, *camera_, parameters_);
-  for (std::size_t i = 0; i < with.shadow.size(); ++i) EXPECT_NEAR(with.shadow[i], without.shadow[i], 1e-6F);
+  for (std::size_t i = 0; i < with.shadow.size(); ++i)
+    EXPECT_NEAR(with.shadow[i], without.shadow[i], 1e-6F);
 }
 
-// The two probing rays a pixel must not change the picture: against all rays traced one by one.
+// The two probing rays per pixel must not change the picture: compared with all rays traced one by
+// one.
 TEST(Guidance, ShadowsWithoutPenumbraAreFoundByTwoRays) {
-  const MadeUpWorld world = rough_world();
+  const SyntheticWorld world = rough_world();
   const auto camera = make_camera(southward(160, 96, -18.0));
   GuidanceParameters parameters;
   parameters.sampling.pixel_samples = 1;
@@ -182,7 +198,7 @@ TEST(Guidance, ShadowsWithoutPenumbraAreFoundByTwoRays) {
   double difference = 0.0;
   int ground = 0;
   int partly = 0;
-  const auto places = disc_places(64);
+  const auto positions = disc_positions(64);
   for (int y = 0; y < b.height(); ++y) {
     for (int x = 0; x < b.width(); ++x) {
       const std::size_t i = b.depth_m.index(x, y);
@@ -192,12 +208,15 @@ TEST(Guidance, ShadowsWithoutPenumbraAreFoundByTwoRays) {
       const Ray ray = camera->ray({x + 0.5, y + 0.5});
       Hit hit;
       world.tracer->intersect({&ray, 1}, {&hit, 1});
-      const glm::dvec3 start = ray.origin + ray.direction * hit.distance_m + 0.05 * hit.facet_normal();
-      const glm::dvec3 side = glm::normalize(glm::cross(parameters.sun_direction, glm::dvec3(0, 0, 1)));
+      const glm::dvec3 start =
+          ray.origin + ray.direction * hit.distance_m + 0.05 * hit.facet_normal();
+      const glm::dvec3 side =
+          glm::normalize(glm::cross(parameters.sun_direction, glm::dvec3(0, 0, 1)));
       const glm::dvec3 above = glm::cross(side, parameters.sun_direction);
       std::vector<Ray> rays;
-      for (const glm::dvec2 p : places)
-        rays.push_back({start, glm::normalize(parameters.sun_direction + 0.03 * (side * p.x + above * p.y))});
+      for (const glm::dvec2 p : positions)
+        rays.push_back(
+            {start, glm::normalize(parameters.sun_direction + 0.03 * (side * p.x + above * p.y))});
       std::vector<std::uint8_t> blocked(rays.size());
       world.tracer->occluded(rays, 1e9, blocked);
       const auto free = std::count(blocked.begin(), blocked.end(), 0);

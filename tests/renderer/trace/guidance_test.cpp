@@ -20,26 +20,26 @@
 #include "base/guidance_channels.h"
 #include "base/parallel.h"
 #include "renderer/trace/guidance_rays.h"
-#include "tests/renderer/trace/made_up_ground.h"
+#include "tests/renderer/trace/synthetic_ground.h"
 
 namespace belvedere {
 namespace {
 
 using test::all_meadow;
 using test::cell;
-using test::MadeUpWorld;
 using test::make_world;
 using test::rough_world;
 using test::southward;
+using test::SyntheticWorld;
 using test::trace;
 
 TEST(Guidance, PixelPlacesShareNoColumnAndNoRow) {
   for (const int n : {1, 4, 9, 16}) {
-    const auto places = pixel_sample_places(n);
-    ASSERT_EQ(places.size(), static_cast<std::size_t>(n));
+    const auto positions = pixel_sample_positions(n);
+    ASSERT_EQ(positions.size(), static_cast<std::size_t>(n));
     std::set<int> columns;
     std::set<int> rows;
-    for (const glm::dvec2 p : places) {
+    for (const glm::dvec2 p : positions) {
       columns.insert(static_cast<int>(std::floor(p.x * n)));
       rows.insert(static_cast<int>(std::floor(p.y * n)));
       EXPECT_NEAR(p.x * n - std::floor(p.x * n), 0.5, 1e-9);
@@ -52,7 +52,7 @@ TEST(Guidance, PixelPlacesShareNoColumnAndNoRow) {
 }
 
 TEST(Guidance, LevelGroundIsLitOpenAndFlat) {
-  const MadeUpWorld world = make_world(
+  const SyntheticWorld world = make_world(
       200, 200, [](double, double) { return 500.0; }, all_meadow);
   const auto camera = make_camera(southward(96, 64));
   const GuidanceBuffers b = trace(world, *camera);
@@ -73,18 +73,19 @@ TEST(Guidance, LevelGroundIsLitOpenAndFlat) {
   EXPECT_GT(ground, 2000);
 }
 
-// The distance to the border of the data, or to a void that reaches it; a void in the middle is mended and counts as ground.
+// The distance to the border of the data, or to a void that reaches it; a void inside the terrain
+// is filled and counts as ground.
 TEST(Guidance, RimIsTheDistanceToTheEndOfTheKnownTerrain) {
   constexpr int side = 200;
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto void_at = [](double x, double y, double x0, double x1, double y0, double y1) {
     return x >= x0 * cell && x <= x1 * cell && y >= y0 * cell && y <= y1 * cell;
   };
-  const MadeUpWorld world = make_world(
+  const SyntheticWorld world = make_world(
       side, side,
       [&](double x, double y) {
         const bool bay = void_at(x, y, 0, 60, 70, 90);        // from the western border inwards
-        const bool hole = void_at(x, y, 120, 130, 100, 110);  // in the middle of known terrain
+        const bool hole = void_at(x, y, 120, 130, 100, 110);  // inside known terrain
         return bay || hole ? nan : 500.0;
       },
       all_meadow);
@@ -96,14 +97,16 @@ TEST(Guidance, RimIsTheDistanceToTheEndOfTheKnownTerrain) {
   int in_hole = 0;
   for (std::size_t i = 0; i < b.depth_m.size(); ++i) {
     if (b.is_sky(i)) continue;
-    const glm::dvec3 place = glm::dvec3(b.position_m[i]) + world.surface.origin;
-    const glm::dvec2 at = world.terrain.dem->transform.to_cell(place.x, place.y);
+    const glm::dvec3 position = glm::dvec3(b.position_m[i]) + world.surface.origin;
+    const glm::dvec2 at = world.terrain.dem->transform.to_cell(position.x, position.y);
     std::array<double, 4> sides = {at.x, at.y, side - 1 - at.x, side - 1 - at.y};
     std::sort(sides.begin(), sides.end());
     const double border = sides[0];
-    const double bay = std::hypot(std::max(at.x - 60.0, 0.0), std::max({70.0 - at.y, at.y - 90.0, 0.0}));
+    const double bay =
+        std::hypot(std::max(at.x - 60.0, 0.0), std::max({70.0 - at.y, at.y - 90.0, 0.0}));
     const double expected = cell * std::max(0.0, std::min(border, bay));
-    // Bilinear between posts: exact by a straight side, up to half a cell off around corners and where two ends are as near.
+    // Bilinear between posts: exact along a straight side, up to half a cell off around corners and
+    // where two edges are equally near.
     const bool one_side = std::min(sides[1], bay) > border + 2.0;
     ASSERT_NEAR(b.rim_m[i], expected, one_side ? 0.05 : 0.75 * cell) << at.x << ", " << at.y;
     exact += one_side ? 1 : 0;
@@ -118,7 +121,7 @@ TEST(Guidance, RimIsTheDistanceToTheEndOfTheKnownTerrain) {
 }
 
 TEST(Guidance, SkyPixelsHoldTheirDefaults) {
-  const MadeUpWorld world = make_world(
+  const SyntheticWorld world = make_world(
       100, 100, [](double, double) { return 500.0; }, all_meadow);
   const auto camera = make_camera(southward(64, 32, 20.0));
   const GuidanceBuffers b = trace(world, *camera);
@@ -140,7 +143,7 @@ TEST(Guidance, RampHasItsSlopeAspectNormalsAndSkyView) {
   const double south = 0.25;
   DeformParameters d;
   d.exaggeration = 1.6;
-  const MadeUpWorld world = make_world(
+  const SyntheticWorld world = make_world(
       400, 400, [&](double x, double y) { return 100.0 + east * x + south * y; }, all_meadow, d);
   CameraParameters p = southward(160, 96, -30.0);
   p.eye.z = 6000.0;
@@ -154,21 +157,24 @@ TEST(Guidance, RampHasItsSlopeAspectNormalsAndSkyView) {
   int inner = 0;
   for (std::size_t i = 0; i < b.depth_m.size(); ++i) {
     if (b.is_sky(i)) continue;
-    const glm::dvec3 place = glm::dvec3(b.position_m[i]) + world.surface.origin;
-    const glm::dvec2 at = world.terrain.dem->transform.to_cell(place.x, place.y);
-    if (at.x < 70.0 || at.y < 70.0 || at.x > 330.0 || at.y > 330.0) continue;  // the Gaussians see the rim
+    const glm::dvec3 position = glm::dvec3(b.position_m[i]) + world.surface.origin;
+    const glm::dvec2 at = world.terrain.dem->transform.to_cell(position.x, position.y);
+    if (at.x < 70.0 || at.y < 70.0 || at.x > 330.0 || at.y > 330.0)
+      continue;  // the Gaussians reach the border
     ++inner;
     ASSERT_NEAR(b.slope_deg[i], to_degrees(std::atan(std::hypot(east, south))), 0.05);
-    ASSERT_NEAR(b.aspect_deg[i], 360.0 - to_degrees(std::atan2(east, south)), 0.1);  // downhill: north-west
+    ASSERT_NEAR(b.aspect_deg[i], 360.0 - to_degrees(std::atan2(east, south)),
+                0.1);  // downhill: north-west
     ASSERT_LT(glm::length(glm::dvec3(b.normal[i]) - normal), 1e-3);
     ASSERT_LT(glm::length(glm::dvec3(b.normal_smooth[i]) - normal), 1e-3);
     ASSERT_LT(glm::length(glm::dvec3(b.normal_detail[i]) - detail), 1e-3);
     ASSERT_NEAR(b.altitude_m[i], 100.0 + (east * at.x + south * at.y) * cell, 0.01);
-    ASSERT_NEAR(place.z, b.altitude_m[i], 0.01);
-    // A tilted plane sees (1 + cos tilt) / 2 of a cosine-weighted sky.
+    ASSERT_NEAR(position.z, b.altitude_m[i], 0.01);
+    // A tilted plane has a sky view of (1 + cos tilt) / 2 with cosine weights.
     ASSERT_NEAR(b.sky_view[i], 0.5 * (1.0 + normal.z), 0.02);
     ASSERT_NEAR(b.relief_m_m[i], 0.0, 0.5);
-    // The fall line goes left (west is right when looking south, so downhill west is to the right) and down (towards the viewer).
+    // The fall line goes left (west is right when looking south, so downhill west is to the right)
+    // and down (towards the viewer).
     ASSERT_GT(b.fall_line[i].x, 0.1F);
     ASSERT_GT(b.fall_line[i].y, 0.1F);
     ASSERT_NEAR(glm::length(b.fall_line[i]), 1.0, 1e-5);
@@ -177,7 +183,7 @@ TEST(Guidance, RampHasItsSlopeAspectNormalsAndSkyView) {
 }
 
 TEST(Guidance, PlacesProjectBackIntoTheirPixels) {
-  const MadeUpWorld world = rough_world();
+  const SyntheticWorld world = rough_world();
   for (const char* projection : {"perspective", "oblique", "cylindrical"}) {
     CameraParameters p = southward(200, 120, -30.0);
     p.projection = projection;
@@ -192,10 +198,11 @@ TEST(Guidance, PlacesProjectBackIntoTheirPixels) {
         const std::size_t i = b.depth_m.index(x, y);
         if (b.is_sky(i)) continue;
         ++ground;
-        const glm::dvec3 place = glm::dvec3(b.position_m[i]) + world.surface.origin;
-        const auto at = camera->project(deform_point(place, world.viewer, world.deform_parameters));
+        const glm::dvec3 position = glm::dvec3(b.position_m[i]) + world.surface.origin;
+        const auto at =
+            camera->project(deform_point(position, world.viewer, world.deform_parameters));
         ASSERT_TRUE(at);
-        // Within the pixel; a facet lies up to some decimetres off the bilinear altitude.
+        // Inside the pixel; a facet differs from the bilinear altitude by up to some decimetres.
         ASSERT_NEAR(at->x, x + 0.5, 0.6) << projection;
         ASSERT_NEAR(at->y, y + 0.5, 0.8) << projection;
       }
@@ -205,7 +212,7 @@ TEST(Guidance, PlacesProjectBackIntoTheirPixels) {
 }
 
 TEST(Guidance, FootprintIsMetresAPixel) {
-  const MadeUpWorld world = rough_world();
+  const SyntheticWorld world = rough_world();
   CameraParameters p = southward(120, 80, -30.0);
   p.eye.z = 6500.0;
   p.projection = "oblique";
@@ -218,9 +225,11 @@ TEST(Guidance, FootprintIsMetresAPixel) {
       ASSERT_NEAR(map.footprint_m[i], 50.0, 1e-3);
     }
   }
-  const std::size_t middle = view.depth_m.index(60, 40);
-  ASSERT_FALSE(view.is_sky(middle));
-  EXPECT_NEAR(view.footprint_m[middle], view.depth_m[middle] * 2.0 * std::tan(to_radians(25.0)) / 120.0, 0.01 * view.footprint_m[middle]);
+  const std::size_t centre = view.depth_m.index(60, 40);
+  ASSERT_FALSE(view.is_sky(centre));
+  EXPECT_NEAR(view.footprint_m[centre],
+              view.depth_m[centre] * 2.0 * std::tan(to_radians(25.0)) / 120.0,
+              0.01 * view.footprint_m[centre]);
 }
 
 TEST(Guidance, FallLineFollowsTheSlopeInThePicture) {
@@ -230,25 +239,26 @@ TEST(Guidance, FallLineFollowsTheSlopeInThePicture) {
     glm::vec2 image;
   } cases[] = {{1.0, 0.0, {-1.F, 0.F}}, {-1.0, 0.0, {1.F, 0.F}}, {0.0, -1.0, {0.F, 1.F}}};
   for (const auto& c : cases) {
-    const MadeUpWorld world = make_world(
-        200, 200, [&](double x, double y) { return 1000.0 - 0.2 * (c.dx * x + c.dy * y); }, all_meadow);
+    const SyntheticWorld world = make_world(
+        200, 200, [&](double x, double y) { return 1000.0 - 0.2 * (c.dx * x + c.dy * y); },
+        all_meadow);
     const auto camera = make_camera(southward(64, 48, -25.0));
     const GuidanceBuffers b = trace(world, *camera);
-    const std::size_t middle = b.depth_m.index(32, 24);
-    ASSERT_FALSE(b.is_sky(middle));
-    EXPECT_GT(glm::dot(b.fall_line[middle], c.image), 0.7F) << c.dx << ' ' << c.dy;
+    const std::size_t centre = b.depth_m.index(32, 24);
+    ASSERT_FALSE(b.is_sky(centre));
+    EXPECT_GT(glm::dot(b.fall_line[centre], c.image), 0.7F) << c.dx << ' ' << c.dy;
   }
 }
 
 TEST(Guidance, MostSamplesWinThePixelAndItsValuesComeFromOneOfThem) {
-  const MadeUpWorld world = rough_world();
+  const SyntheticWorld world = rough_world();
   CameraParameters p = southward(120, 72, -14.0);
   const auto camera = make_camera(p);
   GuidanceParameters parameters;
   parameters.sampling.sky_directions = 0;
   parameters.sampling.shadow_rays = 1;
   const GuidanceBuffers b = trace(world, *camera, parameters);
-  const auto places = pixel_sample_places(4);
+  const auto positions = pixel_sample_positions(4);
   int mixed = 0;
   int edges = 0;
   for (int y = 0; y < b.height(); ++y) {
@@ -256,23 +266,27 @@ TEST(Guidance, MostSamplesWinThePixelAndItsValuesComeFromOneOfThem) {
       const std::size_t i = b.depth_m.index(x, y);
       std::array<int, land_cover_class_count> votes{};
       std::vector<std::pair<LandCoverClass, double>> seen;
-      for (const glm::dvec2 place : places) {
-        const Ray ray = camera->ray(glm::dvec2(x, y) + place);
+      for (const glm::dvec2 position : positions) {
+        const Ray ray = camera->ray(glm::dvec2(x, y) + position);
         Hit hit;
         world.tracer->intersect({&ray, 1}, {&hit, 1});
         const glm::dvec2 at = world.terrain.dem->transform.to_crs(hit.column, hit.row);
-        seen.emplace_back(hit.found ? world.terrain.land_cover->at(at.x, at.y) : LandCoverClass::sky,
-                          hit.found ? hit.distance_m : std::numeric_limits<double>::infinity());
+        seen.emplace_back(
+            hit.found ? world.terrain.land_cover->at(at.x, at.y) : LandCoverClass::sky,
+            hit.found ? hit.distance_m : std::numeric_limits<double>::infinity());
         ++votes[static_cast<std::size_t>(seen.back().first)];
       }
-      const auto winner = static_cast<LandCoverClass>(std::max_element(votes.begin(), votes.end()) - votes.begin());
+      const auto winner =
+          static_cast<LandCoverClass>(std::max_element(votes.begin(), votes.end()) - votes.begin());
       ASSERT_EQ(b.land_cover[i], winner) << x << ' ' << y;
       const double depth = b.depth_m[i];
-      EXPECT_TRUE(
-          std::any_of(seen.begin(), seen.end(), [&](const auto& s) { return s.first == winner && static_cast<float>(s.second) == depth; }));
+      EXPECT_TRUE(std::any_of(seen.begin(), seen.end(), [&](const auto& s) {
+        return s.first == winner && static_cast<float>(s.second) == depth;
+      }));
       EXPECT_FLOAT_EQ(b.coverage[i], 1.F - static_cast<float>(votes[0]) / 4.F);
       const auto together = std::count_if(seen.begin(), seen.end(), [&](const auto& s) {
-        return winner == LandCoverClass::sky ? s.first == LandCoverClass::sky : std::abs(s.second - depth) <= 0.03 * depth;
+        return winner == LandCoverClass::sky ? s.first == LandCoverClass::sky
+                                             : std::abs(s.second - depth) <= 0.03 * depth;
       });
       EXPECT_FLOAT_EQ(b.front[i], static_cast<float>(together) / 4.F);
       mixed += *std::max_element(votes.begin(), votes.end()) < 4 ? 1 : 0;
@@ -284,37 +298,45 @@ TEST(Guidance, MostSamplesWinThePixelAndItsValuesComeFromOneOfThem) {
 }
 
 template <class T>
-void expect_same(const Grid<T>& whole, const Grid<T>& part, PixelRect region, PixelRect keep, std::string_view channel) {
+void expect_same(const Grid<T>& whole, const Grid<T>& part, PixelRect region, PixelRect keep,
+                 std::string_view channel) {
   ASSERT_EQ(part.width(), region.width()) << channel;
   ASSERT_EQ(part.height(), region.height()) << channel;
   for (int y = keep.y0; y < keep.y1; ++y) {
     for (int x = keep.x0; x < keep.x1; ++x) {
-      ASSERT_EQ(std::memcmp(&whole(x, y), &part(x - region.x0, y - region.y0), sizeof(T)), 0) << channel << " at " << x << ' ' << y;
+      ASSERT_EQ(std::memcmp(&whole(x, y), &part(x - region.x0, y - region.y0), sizeof(T)), 0)
+          << channel << " at " << x << ' ' << y;
     }
   }
 }
 
-// inner: where the channels that look at neighbours are the same.
-void expect_same_buffers(const GuidanceBuffers& whole, const GuidanceBuffers& part, PixelRect region, PixelRect inner) {
+// inner: where the channels that read neighbours are the same.
+void expect_same_buffers(const GuidanceBuffers& whole, const GuidanceBuffers& part,
+                         PixelRect region, PixelRect inner) {
   for (const GuidanceChannel& channel : guidance_channels()) {
     if (channel.maker != ChannelMaker::trace) continue;
-    const bool local =
-        channel.member != GuidanceMember(&GuidanceBuffers::sky_view) && channel.member != GuidanceMember(&GuidanceBuffers::silhouette);
-    std::visit([&](auto member) { expect_same(whole.*member, part.*member, region, local ? region : inner, channel.names[0]); },
-               channel.member);
+    const bool local = channel.member != GuidanceMember(&GuidanceBuffers::sky_view) &&
+                       channel.member != GuidanceMember(&GuidanceBuffers::silhouette);
+    std::visit(
+        [&](auto member) {
+          expect_same(whole.*member, part.*member, region, local ? region : inner,
+                      channel.names[0]);
+        },
+        channel.member);
   }
 }
 
 TEST(Guidance, TracesTheChannelsOfItsShareOfTheTableAndNoOthers) {
-  const MadeUpWorld world = make_world(
+  const SyntheticWorld world = make_world(
       20, 20, [](double, double) { return 0.0; }, all_meadow);
   const GuidanceBuffers b = trace(world, *make_camera(southward(16, 16)));
   for (const GuidanceChannel& channel : guidance_channels())
-    EXPECT_EQ(has_channel(b, channel.member), channel.maker == ChannelMaker::trace) << channel.names[0];
+    EXPECT_EQ(has_channel(b, channel.member), channel.maker == ChannelMaker::trace)
+        << channel.names[0];
 }
 
 TEST(Guidance, AnyRectangleTileSizeAndThreadCountGivesTheSameBits) {
-  const MadeUpWorld world = rough_world();
+  const SyntheticWorld world = rough_world();
   const auto camera = make_camera(southward(131, 77, -16.0));  // no multiple of a block
   GuidanceBuffers whole;
   {
@@ -327,19 +349,20 @@ TEST(Guidance, AnyRectangleTileSizeAndThreadCountGivesTheSameBits) {
     parameters.tile_size = tile;
     expect_same_buffers(whole, trace(world, *camera, parameters), {0, 0, 131, 77}, {0, 0, 131, 77});
   }
-  for (const PixelRect region :
-       {PixelRect{0, 0, 61, 77}, PixelRect{13, 5, 131, 40}, PixelRect{50, 33, 59, 42}, PixelRect{128, 70, 131, 77}}) {
-    const GuidanceBuffers part =
-        trace_guidance(world.terrain, world.surface, *world.tracer, *camera, parameters, region, silent_progress());
+  for (const PixelRect region : {PixelRect{0, 0, 61, 77}, PixelRect{13, 5, 131, 40},
+                                 PixelRect{50, 33, 59, 42}, PixelRect{128, 70, 131, 77}}) {
+    const GuidanceBuffers part = trace_guidance(world.terrain, world.surface, *world.tracer,
+                                                *camera, parameters, region, silent_progress());
     const int m = guidance_margin_px();
-    const PixelRect inner = {region.x0 == 0 ? 0 : region.x0 + m, region.y0 == 0 ? 0 : region.y0 + m, region.x1 == 131 ? 131 : region.x1 - m,
+    const PixelRect inner = {region.x0 == 0 ? 0 : region.x0 + m, region.y0 == 0 ? 0 : region.y0 + m,
+                             region.x1 == 131 ? 131 : region.x1 - m,
                              region.y1 == 77 ? 77 : region.y1 - m};
     expect_same_buffers(whole, part, region, inner);
   }
 }
 
 TEST(Guidance, RefusesParametersOutOfRange) {
-  const MadeUpWorld world = make_world(
+  const SyntheticWorld world = make_world(
       20, 20, [](double, double) { return 0.0; }, all_meadow);
   const auto camera = make_camera(southward(16, 16));
   const auto refused = [&](auto change, const char* key) {
@@ -357,9 +380,12 @@ TEST(Guidance, RefusesParametersOutOfRange) {
   refused([](auto& p) { p.sampling.shadow_rays = 0; }, "shadow_rays");
   refused([](auto& p) { p.sampling.sky_directions = 300; }, "sky_directions");
   refused([](auto& p) { p.sampling.sky_reach_m = -1.0; }, "sky_reach_m");
-  refused([](auto& p) { p.sun_radius_rad = std::numeric_limits<double>::quiet_NaN(); }, "sun_radius_rad");
+  refused([](auto& p) { p.sun_radius_rad = std::numeric_limits<double>::quiet_NaN(); },
+          "sun_radius_rad");
   refused([](auto& p) { p.sun_direction = glm::dvec3(0.0); }, "sun");
-  EXPECT_THROW(trace_guidance(world.terrain, world.surface, *world.tracer, *camera, {}, {0, 0, 17, 16}, silent_progress()), Error);
+  EXPECT_THROW(trace_guidance(world.terrain, world.surface, *world.tracer, *camera, {},
+                              {0, 0, 17, 16}, silent_progress()),
+               Error);
 }
 
 }  // namespace

@@ -15,22 +15,24 @@ namespace {
 
 constexpr float sky = std::numeric_limits<float>::infinity();
 
-// Depth along the ray of a perspective picture for a level plain, the eye 500 m above it, the horizon at row `horizon`; 1000 pixels of
-// focal length; columns from -width/2.
+// Depth along the ray of a perspective picture for a level plain, the eye 500 m above it, the
+// horizon at row `horizon`; 1000 pixels of focal length; columns from -width/2.
 Grid<float> plain(int width, int height, double horizon) {
   Grid<float> depth(width, height);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const double down = (y + 0.5 - horizon) / 1000.0;
       const double side = (x + 0.5 - width / 2.0) / 1000.0;
-      depth(x, y) = down > 0.0 ? static_cast<float>(500.0 / down * std::sqrt(1.0 + down * down + side * side)) : sky;
+      depth(x, y) =
+          down > 0.0 ? static_cast<float>(500.0 / down * std::sqrt(1.0 + down * down + side * side))
+                     : sky;
     }
   }
   return depth;
 }
 
 TEST(Silhouettes, AGrazingPlaneHasNone) {
-  // The horizon stands just above the picture: from one row to the next the depth falls to a third.
+  // The horizon is just above the picture: from one row to the next the depth falls to a third.
   const Grid<float> depth = plain(80, 60, -0.01);
   EXPECT_GT(depth(40, 0) / depth(40, 1), 2.5F);
   const Grid<float> found = find_silhouettes(depth);
@@ -43,7 +45,8 @@ TEST(Silhouettes, ATiltedWallHasNone) {
   // A wall seen almost edge-on, its inverse depth linear along x and y.
   Grid<float> depth(100, 30);
   for (int y = 0; y < 30; ++y) {
-    for (int x = 0; x < 100; ++x) depth(x, y) = static_cast<float>(1.0 / (1e-5 + 2e-6 * x + 1e-6 * y));
+    for (int x = 0; x < 100; ++x)
+      depth(x, y) = static_cast<float>(1.0 / (1e-5 + 2e-6 * x + 1e-6 * y));
   }
   const Grid<float> found = find_silhouettes(depth);
   EXPECT_LT(*std::max_element(found.begin(), found.end()), 0.01F);
@@ -83,7 +86,8 @@ TEST(Silhouettes, StrengthIsFourteenTimesTheLogRatio) {
     for (int y = 0; y < 5; ++y) {
       for (int x = 0; x < 10; ++x) depth(x, y) = static_cast<float>(1000.0 * ratio);
     }
-    EXPECT_NEAR(find_silhouettes(depth)(5, 5), std::min(1.0, 14.0 * std::log(ratio)), 1e-4) << ratio;
+    EXPECT_NEAR(find_silhouettes(depth)(5, 5), std::min(1.0, 14.0 * std::log(ratio)), 1e-4)
+        << ratio;
   }
 }
 
@@ -100,7 +104,8 @@ TEST(Silhouettes, EverythingIsNearerThanTheSky) {
 }
 
 TEST(Silhouettes, AHillAgainstAGrazingPlainIsOne) {
-  // The plain again, with a near hill in front of its lower half, rounded so that its crest is grazing as well.
+  // The plain again, with a near hill in front of its lower half, rounded so that its crest is
+  // grazing as well.
   Grid<float> depth = plain(60, 60, 5.0);
   for (int y = 30; y < 60; ++y) {
     for (int x = 0; x < 60; ++x) depth(x, y) = 6000.F + 400.F / static_cast<float>(y - 29);
@@ -114,10 +119,12 @@ TEST(Silhouettes, AHillAgainstAGrazingPlainIsOne) {
 }
 
 TEST(Silhouettes, TheEdgeOfAPlateauIsNone) {
-  // A steep face whose top passes into grazing level ground: a crease in the surface, nothing is hidden.
+  // A steep face whose top passes into grazing level ground: a crease in the surface, nothing is
+  // hidden.
   Grid<float> depth = plain(40, 60, 10.0);
   for (int y = 30; y < 60; ++y) {
-    for (int x = 0; x < 40; ++x) depth(x, y) = depth(x, 29) * (1.F - 0.002F * static_cast<float>(y - 29));
+    for (int x = 0; x < 40; ++x)
+      depth(x, y) = depth(x, 29) * (1.F - 0.002F * static_cast<float>(y - 29));
   }
   const Grid<float> found = find_silhouettes(depth);
   for (int x = 0; x < 40; ++x) EXPECT_LT(found(x, 30), 0.05F) << x;
@@ -126,7 +133,8 @@ TEST(Silhouettes, TheEdgeOfAPlateauIsNone) {
 TEST(Silhouettes, SameBitsForAnyThreadCount) {
   Grid<float> depth(150, 120);
   for (int y = 0; y < 120; ++y) {
-    for (int x = 0; x < 150; ++x) depth(x, y) = static_cast<float>(1000.0 + 200.0 * random_uniform(3, x, y));
+    for (int x = 0; x < 150; ++x)
+      depth(x, y) = static_cast<float>(1000.0 + 200.0 * random_uniform(3, x, y));
   }
   const auto run = [&](int threads) {
     const ThreadLimit limit(threads);

@@ -22,13 +22,15 @@ struct Instant {
   double second;
 };
 
-// The same from ERFA, the IAU's standards: geometric place of the sun, aberration by the earth's speed, precession and nutation,
-// sidereal time, parallax. Nothing of it is shared with the algorithm under test.
+// The same from ERFA, the IAU's standards: geometric position of the sun, aberration by the Earth's
+// speed, precession and nutation, sidereal time, parallax. It shares nothing with the algorithm
+// under test.
 SunPosition erfa(double longitude_deg, double latitude_deg, const Instant& t) {
   double day = 0.0;
   double part = 0.0;
   eraDtf2d("UTC", t.year, t.month, t.day, t.hour, t.minute, t.second, &day, &part);
-  const double terrestrial = part + 69.0 / 86400.0;  // between UTC and TT; a minute moves the sun by 0.0007°
+  const double terrestrial =
+      part + 69.0 / 86400.0;  // between UTC and TT; a minute moves the sun by 0.0007°
   double heliocentric[2][3];
   double barycentric[2][3];
   eraEpv00(day, terrestrial, heliocentric, barycentric);
@@ -36,7 +38,8 @@ SunPosition erfa(double longitude_deg, double latitude_deg, const Instant& t) {
   double distance = 0.0;
   const double light_days_per_au = 0.005775518331;
   for (int i = 0; i < 3; ++i) distance += heliocentric[0][i] * heliocentric[0][i];
-  for (int i = 0; i < 3; ++i) sun[i] = -heliocentric[0][i] / std::sqrt(distance) + barycentric[1][i] * light_days_per_au;
+  for (int i = 0; i < 3; ++i)
+    sun[i] = -heliocentric[0][i] / std::sqrt(distance) + barycentric[1][i] * light_days_per_au;
   double to_date[3][3];
   eraPnm06a(day, terrestrial, to_date);
   double apparent[3];
@@ -44,7 +47,8 @@ SunPosition erfa(double longitude_deg, double latitude_deg, const Instant& t) {
   double right_ascension = 0.0;
   double declination = 0.0;
   eraC2s(apparent, &right_ascension, &declination);
-  const double hour_angle = eraGst06(day, part, day, terrestrial, to_date) + longitude_deg * degree - right_ascension;
+  const double hour_angle =
+      eraGst06(day, part, day, terrestrial, to_date) + longitude_deg * degree - right_ascension;
   double azimuth = 0.0;
   double altitude = 0.0;
   eraHd2ae(hour_angle, declination, latitude_deg * degree, &azimuth, &altitude);
@@ -52,10 +56,11 @@ SunPosition erfa(double longitude_deg, double latitude_deg, const Instant& t) {
 }
 
 std::string iso(const Instant& t) {
-  return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02.0f}Z", t.year, t.month, t.day, t.hour, t.minute, t.second);
+  return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02.0f}Z", t.year, t.month, t.day, t.hour,
+                     t.minute, t.second);
 }
 
-// Angle between two directions, degrees: near the zenith an azimuth alone says nothing.
+// Angle between two directions, degrees: near the zenith an azimuth alone is meaningless.
 double apart_deg(const SunPosition& a, const SunPosition& b) {
   const glm::dvec3 u = sun_direction(a);
   const glm::dvec3 v = sun_direction(b);
@@ -66,13 +71,19 @@ TEST(Sun, AgreesWithTheStandardsOfAstronomy) {
   double worst = 0.0;
   double squares = 0.0;
   int count = 0;
-  for (const auto& [longitude, latitude] :
-       {std::pair{11.39, 47.27}, {-121.76, 46.85}, {-70.01, -32.65}, {86.93, 27.99}, {0.0, 0.0}, {179.9, -45.0}, {-16.0, 78.0}}) {
+  for (const auto& [longitude, latitude] : {std::pair{11.39, 47.27},
+                                            {-121.76, 46.85},
+                                            {-70.01, -32.65},
+                                            {86.93, 27.99},
+                                            {0.0, 0.0},
+                                            {179.9, -45.0},
+                                            {-16.0, 78.0}}) {
     for (const int year : {2020, 2024, 2031, 2040, 2050}) {
       for (int month = 1; month <= 12; ++month) {
         for (const int hour : {0, 5, 9, 12, 17, 22}) {
           const Instant t{year, month, 3 + 2 * month, hour, 37, 11.0};
-          const double apart = apart_deg(sun_position(longitude, latitude, iso(t)), erfa(longitude, latitude, t));
+          const double apart =
+              apart_deg(sun_position(longitude, latitude, iso(t)), erfa(longitude, latitude, t));
           worst = std::max(worst, apart);
           squares += apart * apart;
           ++count;
@@ -81,7 +92,7 @@ TEST(Sun, AgreesWithTheStandardsOfAstronomy) {
       }
     }
   }
-  EXPECT_LE(std::sqrt(squares / count), 0.0028);  // forgetting the parallax would show here
+  EXPECT_LE(std::sqrt(squares / count), 0.0028);  // a missing parallax would show here
   RecordProperty("worst_deg", std::to_string(worst));
   RecordProperty("rms_deg", std::to_string(std::sqrt(squares / count)));
 }
@@ -90,7 +101,8 @@ TEST(Sun, StaysUsableOutsideItsYears) {
   for (const int year : {1900, 1925, 1950, 1975, 2000, 2075, 2100}) {
     for (int month = 1; month <= 12; ++month) {
       const Instant t{year, month, 15, 10, 0, 0.0};
-      EXPECT_LE(apart_deg(sun_position(11.39, 47.27, iso(t)), erfa(11.39, 47.27, t)), 0.02) << iso(t);
+      EXPECT_LE(apart_deg(sun_position(11.39, 47.27, iso(t)), erfa(11.39, 47.27, t)), 0.02)
+          << iso(t);
     }
   }
 }
@@ -109,8 +121,9 @@ TEST(Sun, StandsInTheSouthAtNoonAndInTheNorthBelowTheEquator) {
 TEST(Sun, ZonesAndFractionsMeanTheSameInstant) {
   const auto at = [](const char* time) { return sun_position(11.39, 47.27, time); };
   const SunPosition utc = at("2024-07-15T09:30:00Z");
-  for (const char* same : {"2024-07-15T11:30:00+02:00", "2024-07-15T09:30Z", "2024-07-15T09:30:00.000Z", "2024-07-15T00:00:00-09:30",
-                           "2024-07-14T23:30:00-10:00", "2024-07-15T09:30:00+00:00"}) {
+  for (const char* same :
+       {"2024-07-15T11:30:00+02:00", "2024-07-15T09:30Z", "2024-07-15T09:30:00.000Z",
+        "2024-07-15T00:00:00-09:30", "2024-07-14T23:30:00-10:00", "2024-07-15T09:30:00+00:00"}) {
     EXPECT_LT(apart_deg(utc, at(same)), 1e-9) << same;
   }
   // Across midnight, a month and a leap day.

@@ -22,7 +22,8 @@ namespace {
 
 constexpr double mesh_cell_m = 30.0;
 
-// Posts every 30 m, the first at (0, 0), rows southwards, around a far-away origin as real scenes have it.
+// Posts every 30 m, the first at (0, 0), rows southwards, around a distant origin as in real
+// scenes.
 template <class F>
 DeformedSurface make_surface(int width, int height, F&& altitude) {
   DeformedSurface surface;
@@ -30,12 +31,13 @@ DeformedSurface make_surface(int width, int height, F&& altitude) {
   surface.vertices_m = Grid<glm::vec3>(width, height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
-      surface.vertices_m(x, y) = {static_cast<float>(x * mesh_cell_m), static_cast<float>(-y * mesh_cell_m),
+      surface.vertices_m(x, y) = {static_cast<float>(x * mesh_cell_m),
+                                  static_cast<float>(-y * mesh_cell_m),
                                   static_cast<float>(altitude(x * mesh_cell_m, -y * mesh_cell_m))};
   return surface;
 }
 
-// A rough terrain that needs nothing but random numbers: octaves of value noise, interpolated linearly.
+// A rough terrain that needs only random numbers: octaves of value noise, interpolated linearly.
 double rough_altitude(double x, double y) {
   double sum = 0.0;
   for (int octave = 0; octave < 6; ++octave) {
@@ -71,16 +73,20 @@ bool occluded(const Tracer& tracer, const Ray& ray, double reach_m = 1e9) {
 }
 
 bool same_bits(const Hit& a, const Hit& b) {
-  return a.found == b.found && a.distance_m == b.distance_m && a.column == b.column && a.row == b.row && a.facet_area == b.facet_area;
+  return a.found == b.found && a.distance_m == b.distance_m && a.column == b.column &&
+         a.row == b.row && a.facet_area == b.facet_area;
 }
 
 // Rays of a perspective view over the surface, in bundles of 4 × 4 pixels.
-std::vector<Ray> view_rays(const DeformedSurface& surface, int width, int height, double height_m, double pitch_deg = -10.0) {
+std::vector<Ray> view_rays(const DeformedSurface& surface, int width, int height, double height_m,
+                           double pitch_deg = -10.0) {
   CameraParameters p;
   p.width = width;
   p.height = height;
   const glm::dvec3 a = surface.origin + glm::dvec3(surface.vertices_m(0, 0));
-  const glm::dvec3 b = surface.origin + glm::dvec3(surface.vertices_m(surface.vertices_m.width() - 1, surface.vertices_m.height() - 1));
+  const glm::dvec3 b =
+      surface.origin + glm::dvec3(surface.vertices_m(surface.vertices_m.width() - 1,
+                                                     surface.vertices_m.height() - 1));
   p.eye = {0.5 * (a.x + b.x), a.y + 0.15 * (a.y - b.y), height_m};
   p.azimuth_deg = 180.0;
   p.pitch_deg = pitch_deg;
@@ -93,8 +99,10 @@ std::vector<Ray> view_rays(const DeformedSurface& surface, int width, int height
 }
 
 TEST(Tracer, DiagonalRunsFromNorthEastToSouthWest) {
-  // A saddle: 100 m at two opposite posts. Along the diagonal that joins the low posts the cell is low, along the other it is high.
-  const DeformedSurface surface = make_surface(2, 2, [](double x, double y) { return (x == 0.0) == (y == 0.0) ? 100.0 : 0.0; });
+  // A saddle: 100 m at two opposite posts. Along the diagonal that joins the low posts the cell is
+  // low, along the other it is high.
+  const DeformedSurface surface =
+      make_surface(2, 2, [](double x, double y) { return (x == 0.0) == (y == 0.0) ? 100.0 : 0.0; });
   const Tracer tracer(surface);
   const Hit hit = intersect(tracer, ray_from({15.0, -15.0, 1000.0}, {0.0, 0.0, -1.0}));
   ASSERT_TRUE(hit.found);
@@ -105,7 +113,8 @@ TEST(Tracer, DiagonalRunsFromNorthEastToSouthWest) {
 }
 
 TEST(Tracer, PlaceIsExactOnAPlane) {
-  const DeformedSurface surface = make_surface(300, 200, [](double x, double y) { return 0.25 * x - 0.125 * y; });
+  const DeformedSurface surface =
+      make_surface(300, 200, [](double x, double y) { return 0.25 * x - 0.125 * y; });
   const Tracer tracer(surface);
   const glm::dvec3 normal = glm::normalize(glm::dvec3(-0.25, 0.125, 1.0));
   for (int i = 0; i < 2000; ++i) {
@@ -114,7 +123,8 @@ TEST(Tracer, PlaceIsExactOnAPlane) {
     const glm::dvec3 eye(4000.0, 9000.0, 9000.0);
     const Hit hit = intersect(tracer, ray_from(eye, target - eye));
     ASSERT_TRUE(hit.found);
-    EXPECT_NEAR(hit.distance_m, glm::length(target - eye), 1e-3);  // posts are floats: half a millimetre
+    EXPECT_NEAR(hit.distance_m, glm::length(target - eye),
+                1e-3);  // posts are floats: half a millimetre
     EXPECT_NEAR(hit.column, target.x / mesh_cell_m, 1e-4);
     EXPECT_NEAR(hit.row, -target.y / mesh_cell_m, 1e-4);
     EXPECT_GT(glm::dot(hit.facet_normal(), normal), 1.0 - 1e-7);
@@ -124,11 +134,12 @@ TEST(Tracer, PlaceIsExactOnAPlane) {
 TEST(Tracer, EveryPostIsHitInEveryTileAndTheLast) {
   // Sizes that leave a last tile of one cell, of a whole tile, and a single tile.
   for (const int size : {2, 33, 65, 66, 129}) {
-    const DeformedSurface surface = make_surface(size, size, [](double x, double y) { return rough_altitude(x, y); });
+    const DeformedSurface surface =
+        make_surface(size, size, [](double x, double y) { return rough_altitude(x, y); });
     const Tracer tracer(surface);
     for (int y = 0; y < size; ++y) {
       for (int x = 0; x < size; ++x) {
-        // Just inside: the terrain's own rim may be missed.
+        // Just inside: the terrain's own edge may be missed.
         const double px = std::clamp(x * mesh_cell_m, 1e-3, (size - 1) * mesh_cell_m - 1e-3);
         const double py = std::clamp(y * mesh_cell_m, 1e-3, (size - 1) * mesh_cell_m - 1e-3);
         const Hit hit = intersect(tracer, ray_from({px, -py, 20000.0}, {0.0, 0.0, -1.0}));
@@ -143,7 +154,8 @@ TEST(Tracer, EveryPostIsHitInEveryTileAndTheLast) {
 
 TEST(Tracer, WallIsHitAtItsFace) {
   // A wall 600 m high, one cell thick, its foot between x = 3000 and 3030.
-  const DeformedSurface surface = make_surface(200, 100, [](double x, double) { return x >= 3030.0 && x <= 3060.0 ? 600.0 : 0.0; });
+  const DeformedSurface surface = make_surface(
+      200, 100, [](double x, double) { return x >= 3030.0 && x <= 3060.0 ? 600.0 : 0.0; });
   const Tracer tracer(surface);
   const Hit face = intersect(tracer, ray_from({1000.0, -1500.0, 300.0}, {1.0, 0.0, 0.0}));
   ASSERT_TRUE(face.found);
@@ -151,7 +163,7 @@ TEST(Tracer, WallIsHitAtItsFace) {
   EXPECT_NEAR(face.column, 100.5, 1e-6);
   EXPECT_NEAR(face.facet_normal().x, -600.0 / std::hypot(600.0, 30.0), 1e-9);
   EXPECT_FALSE(intersect(tracer, ray_from({1000.0, -1500.0, 601.0}, {1.0, 0.0, 0.0})).found);
-  // From below the facet is hit as well and its normal still points up.
+  // From below the facet is hit as well, and its normal still points up.
   const Hit below = intersect(tracer, ray_from({1000.0, -1500.0, -300.0}, {0.0, 0.0, 1.0}));
   ASSERT_TRUE(below.found);
   EXPECT_NEAR(below.facet_normal().z, 1.0, 1e-12);
@@ -159,7 +171,8 @@ TEST(Tracer, WallIsHitAtItsFace) {
 
 TEST(Tracer, ShadowOfAWallIsItsHeightOverTheTangent) {
   const double height = 600.0;
-  const DeformedSurface surface = make_surface(400, 100, [&](double x, double) { return x >= 9000.0 && x <= 9030.0 ? height : 0.0; });
+  const DeformedSurface surface = make_surface(
+      400, 100, [&](double x, double) { return x >= 9000.0 && x <= 9030.0 ? height : 0.0; });
   const Tracer tracer(surface);
   for (const double altitude : {8.0, 15.0, 30.0, 45.0, 60.0}) {
     const glm::dvec3 sun(std::cos(to_radians(altitude)), 0.0, std::sin(to_radians(altitude)));
@@ -171,13 +184,15 @@ TEST(Tracer, ShadowOfAWallIsItsHeightOverTheTangent) {
         break;
       }
     }
-    EXPECT_NEAR(9000.0 - lit_from, height / std::tan(to_radians(altitude)), mesh_cell_m) << altitude;
+    EXPECT_NEAR(9000.0 - lit_from, height / std::tan(to_radians(altitude)), mesh_cell_m)
+        << altitude;
     EXPECT_NEAR(9000.0 - lit_from, height / std::tan(to_radians(altitude)), 2.0) << altitude;
   }
 }
 
 TEST(Tracer, APlaneHasNoShadowAndReachIsKept) {
-  const DeformedSurface plane = make_surface(300, 300, [](double x, double y) { return 0.2 * x + 0.1 * y; });
+  const DeformedSurface plane =
+      make_surface(300, 300, [](double x, double y) { return 0.2 * x + 0.1 * y; });
   const Tracer tracer(plane);
   const glm::dvec3 normal = glm::normalize(glm::dvec3(-0.2, -0.1, 1.0));
   const std::vector<Ray> rays = view_rays(plane, 120, 80, 6000.0, -40.0);
@@ -187,15 +202,18 @@ TEST(Tracer, APlaneHasNoShadowAndReachIsKept) {
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (!hits[i].found) continue;
     ++count;
-    const glm::dvec3 start = rays[i].origin + rays[i].direction * hits[i].distance_m + 0.05 * hits[i].facet_normal();
-    for (const glm::dvec3 sun : {glm::dvec3(-0.6, 0.6, 0.5), glm::dvec3(0.99, 0.0, 0.25), glm::dvec3(0.0, 0.0, 1.0)}) {
+    const glm::dvec3 start =
+        rays[i].origin + rays[i].direction * hits[i].distance_m + 0.05 * hits[i].facet_normal();
+    for (const glm::dvec3 sun :
+         {glm::dvec3(-0.6, 0.6, 0.5), glm::dvec3(0.99, 0.0, 0.25), glm::dvec3(0.0, 0.0, 1.0)}) {
       if (glm::dot(normal, sun) > 0.01) {
         EXPECT_FALSE(occluded(tracer, {start, glm::normalize(sun)}));
       }
     }
   }
   EXPECT_GT(count, 3000);
-  const Ray down = ray_from({3000.0, -3000.0, 5300.0}, {0.0, 0.0, -1.0});  // the ground is 300 m high there
+  const Ray down =
+      ray_from({3000.0, -3000.0, 5300.0}, {0.0, 0.0, -1.0});  // the ground is 300 m high there
   EXPECT_FALSE(occluded(tracer, down, 4999.0));
   EXPECT_TRUE(occluded(tracer, down, 5001.0));
 }
@@ -222,7 +240,7 @@ void expect_like_oracle(const DeformedSurface& surface, double height_m) {
     if (!there || !hits[i].found) continue;
     ++found;
     worst = std::max(worst, std::abs(expected[i] - hits[i].distance_m));
-    // Column and row say the same place as the distance.
+    // Column and row give the same position as the distance.
     const glm::dvec3 p = rays[i].origin + rays[i].direction * hits[i].distance_m - surface.origin;
     const glm::dvec3 corner(surface.vertices_m(0, 0));
     ASSERT_NEAR(hits[i].column, (p.x - corner.x) / mesh_cell_m, 0.01);
@@ -234,7 +252,9 @@ void expect_like_oracle(const DeformedSurface& surface, double height_m) {
   EXPECT_LT(worst, 0.05);
 }
 
-TEST(Tracer, AgreesWithHeightfieldOnRoughGround) { expect_like_oracle(make_surface(700, 600, rough_altitude), 5200.0); }
+TEST(Tracer, AgreesWithHeightfieldOnRoughGround) {
+  expect_like_oracle(make_surface(700, 600, rough_altitude), 5200.0);
+}
 
 TEST(Tracer, AgreesWithHeightfieldOnInnsbruck) {
   const std::string file = test::data_folder() + "/innsbruck/innsbruck_utm32_30m.tif";
@@ -245,12 +265,14 @@ TEST(Tracer, AgreesWithHeightfieldOnInnsbruck) {
   constexpr int x0 = 700;
   constexpr int y0 = 1400;
   const DeformedSurface surface = make_surface(900, 800, [&](double x, double y) {
-    return dem.cells(x0 + static_cast<int>(std::lround(x / mesh_cell_m)), y0 - static_cast<int>(std::lround(y / mesh_cell_m)));
+    return dem.cells(x0 + static_cast<int>(std::lround(x / mesh_cell_m)),
+                     y0 - static_cast<int>(std::lround(y / mesh_cell_m)));
   });
   expect_like_oracle(surface, 4500.0);
 }
 
-// Each kind of vector instructions takes bundles apart in its own way, and Debian's Embree stops the program where it meets a wrong ray.
+// Each instruction set splits bundles in its own way, and Debian's Embree terminates the program on
+// an invalid ray.
 class EachInstructionSet : public testing::TestWithParam<std::string> {};
 
 TEST_P(EachInstructionSet, NaNRaysMissAndHarmNoNeighbour) {
@@ -267,7 +289,8 @@ TEST_P(EachInstructionSet, NaNRaysMissAndHarmNoNeighbour) {
   const Tracer& tracer = *made;
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double inf = std::numeric_limits<double>::infinity();
-  std::vector<Ray> rays(21, ray_from({1500.0, -1500.0, 9000.0}, {0.01, 0.02, -1.0}));  // no multiple of 16
+  std::vector<Ray> rays(
+      21, ray_from({1500.0, -1500.0, 9000.0}, {0.01, 0.02, -1.0}));  // not a multiple of 16
   const Hit good = intersect(tracer, rays[0]);
   ASSERT_TRUE(good.found);
   rays[2].origin.x = nan;
@@ -311,16 +334,19 @@ TEST_P(EachInstructionSet, BundlesOfAnyLengthAreTraced) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Tracer, EachInstructionSet, testing::Values("sse2", "sse4.2", "avx", "avx2", "avx512"), [](const auto& set) {
-  std::string name = set.param;
-  std::erase(name, '.');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Tracer, EachInstructionSet,
+                         testing::Values("sse2", "sse4.2", "avx", "avx2", "avx512"),
+                         [](const auto& set) {
+                           std::string name = set.param;
+                           std::erase(name, '.');
+                           return name;
+                         });
 
 std::vector<Hit> trace_in_tasks(const Tracer& tracer, const std::vector<Ray>& rays) {
   std::vector<Hit> hits(rays.size());
   parallel_ranges(rays.size() / 64, std::size_t{1}, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i != end; ++i) tracer.intersect(std::span(rays).subspan(i * 64, 64), std::span(hits).subspan(i * 64, 64));
+    for (std::size_t i = begin; i != end; ++i)
+      tracer.intersect(std::span(rays).subspan(i * 64, 64), std::span(hits).subspan(i * 64, 64));
   });
   return hits;
 }
@@ -350,7 +376,9 @@ TEST(Tracer, SameBitsForAnyThreadsTilesAndBundles) {
   int found = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     found += one[i].found ? 1 : 0;
-    if (!same_bits(one[i], two[i]) || !same_bits(one[i], other_tiles[i]) || !same_bits(one[i], shifted[i])) ++different;
+    if (!same_bits(one[i], two[i]) || !same_bits(one[i], other_tiles[i]) ||
+        !same_bits(one[i], shifted[i]))
+      ++different;
   }
   EXPECT_GT(found, 30000);
   EXPECT_EQ(different, 0);
@@ -371,12 +399,14 @@ TEST(Tracer, InstructionSetsAgreeOnTheFacet) {
     try {
       tracer.emplace(surface, parameters);
     } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::limit);  // this machine lacks it: said, not silently replaced
+      EXPECT_EQ(error.kind(),
+                ErrorKind::limit);  // this machine lacks it: reported, not silently replaced
       continue;
     }
     const std::vector<Hit> hits = trace_in_tasks(*tracer, rays);
     int different = 0;
-    for (std::size_t i = 0; i < rays.size(); ++i) different += same_bits(hits[i], expected[i]) ? 0 : 1;
+    for (std::size_t i = 0; i < rays.size(); ++i)
+      different += same_bits(hits[i], expected[i]) ? 0 : 1;
     EXPECT_EQ(different, 0) << isa << " of " << rays.size();
   }
 }

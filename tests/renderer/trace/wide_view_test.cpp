@@ -40,7 +40,8 @@ TEST(WideView, APixelOfTheSheetLiesInOneOfIts) {
 }
 
 TEST(WideView, ItsRectangleHoldsWhatLiesBetween) {
-  for (const PixelRect rect : {PixelRect{0, 0, 1, 1}, PixelRect{17, 30, 41, 33}, PixelRect{-9, -4, 8, 3}}) {
+  for (const PixelRect rect :
+       {PixelRect{0, 0, 1, 1}, PixelRect{17, 30, 41, 33}, PixelRect{-9, -4, 8, 3}}) {
     const PixelRect wide = wide_rect(rect, factor);
     EXPECT_LE((wide.x0 + 0.5) * factor, rect.x0 + 0.5);
     EXPECT_LE((wide.y0 + 0.5) * factor, rect.y0 + 0.5);

@@ -1,4 +1,4 @@
-// Generalization for a view: how much ground a pixel shows, what the print can show, and that every view has its own.
+// Generalization for a view: ground per pixel, the print's detail, and that every view has its own.
 #include "renderer/world/generalize_view.h"
 
 #include <gtest/gtest.h>
@@ -27,8 +27,9 @@ Dem plane(int width, int height, double cell) {
   return dem;
 }
 
-// A perspective over the plane z = 0. Pixels are f (x, y) / c with x, y, c the point's coordinates in the camera, so the map from ground to
-// picture has the derivatives below; on the middle ray that is d / f across and d² / (f h) = d / f / sin(incidence) along the view.
+// A perspective over the plane z = 0. Pixels are f (x, y) / c with x, y, c the point's coordinates
+// in the camera, so the map from ground to picture has the derivatives below; on the central ray
+// that is d / f across and d² / (f h) = d / f / sin(incidence) along the view.
 TEST(GroundMetresPerPixel, AreThoseOfAPerspectiveOverAPlane) {
   const Dem dem = plane(161, 161, 50.0);
   View view;
@@ -65,7 +66,8 @@ TEST(GroundMetresPerPixel, AreThoseOfAPerspectiveOverAPlane) {
       ++checked;
     }
   EXPECT_GT(checked, 90);
-  // Below the eye the view is steep: c = h / 2, and a metre along the view takes more pixels than one across.
+  // Below the viewer the view is steep: c = h / 2, and a metre along the view takes more pixels
+  // than one across.
   EXPECT_NEAR(shown(80, 112), h * sine * sine / f, 0.005 * h / f);
   // Ahead (row 16: 4800 m away on the ground) one across takes more.
   EXPECT_NEAR(shown(80, 16), (4800.0 * cosine + h * sine) / f, 0.001 * 5000.0 / f);
@@ -83,39 +85,49 @@ TEST(GroundMetresPerPixel, GoOnBehindTheEyeAsTheDistanceDoes) {
   EXPECT_NEAR(shown(48, 96) / shown(48, 80), distance(96) / distance(80), 1e-3);
 }
 
-// A restless slope, seen from where a scene and a test say.
+// A rugged slope, seen from the position of a scene and a test.
 class ViewedGround : public testing::Test {
  protected:
   void SetUp() override {
-    ground_ = {Grid<float>(160, 200), {500000.0, 5200000.0, 100.0, 100.0}, normalize_crs("EPSG:32632")};
+    ground_ = {
+        Grid<float>(160, 200), {500000.0, 5200000.0, 100.0, 100.0}, normalize_crs("EPSG:32632")};
     for (int y = 0; y < 200; ++y)
       for (int x = 0; x < 160; ++x)
-        ground_.cells(x, y) = static_cast<float>(900.0 + 3.0 * x + 20.0 * std::sin(x * 1.9) * std::cos(y * 1.3) + 30.0 * std::sin(y * .4));
+        ground_.cells(x, y) =
+            static_cast<float>(900.0 + 3.0 * x + 20.0 * std::sin(x * 1.9) * std::cos(y * 1.3) +
+                               30.0 * std::sin(y * .4));
     write_raster(folder_ / "dem.tif", ground_);
   }
-  LoadedScene scene(const std::string& settings, const std::string& camera = "position = [508000, 5190000]") const {
+  LoadedScene scene(const std::string& settings,
+                    const std::string& camera = "position = [508000, 5190000]") const {
     return parse_scene(
-        "version = 1\n[[terrain.sources]]\nfile = \"dem.tif\"\n[camera]\nheight_m = 5000\n" + camera + "\n[generalize]\n" + settings,
+        "version = 1\n[[terrain.sources]]\nfile = \"dem.tif\"\n[camera]\nheight_m = 5000\n" +
+            camera + "\n[generalize]\n" + settings,
         "s.toml", folder_.path(), {});
   }
   Grid<float> seen(const LoadedScene& loaded, const View* view = nullptr) const {
     const Dem dem = make_scene_dem(loaded, silent_progress());
     const View made = make_view(loaded.scene, dem, silent_progress());
-    return generalize_for_view(loaded, dem, nullptr, view == nullptr ? made : *view, silent_progress()).altitude_m;
+    return generalize_for_view(loaded, dem, nullptr, view == nullptr ? made : *view,
+                               silent_progress())
+        .altitude_m;
   }
-  // Straight down from so high that a pixel shows so many metres.
+  // Straight down, with this many metres per pixel.
   static View from_above(double m_per_pixel) {
     View view;
     view.camera.width = 1000;
     view.camera.height = 1000;
     view.camera.pitch_deg = -90.0;
-    view.camera.eye = {508000.0, 5190000.0, 1500.0 + m_per_pixel * 500.0 / std::tan(0.5 * view.camera.field_of_view_deg * degree)};
+    view.camera.eye = {
+        508000.0, 5190000.0,
+        1500.0 + m_per_pixel * 500.0 / std::tan(0.5 * view.camera.field_of_view_deg * degree)};
     view.viewer_xy = {508000.0, 5190000.0};
     return view;
   }
   static double largest_difference(const Grid<float>& a, const Grid<float>& b) {
     double largest = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, static_cast<double>(std::abs(a[i] - b[i])));
+    for (std::size_t i = 0; i < a.size(); ++i)
+      largest = std::max(largest, static_cast<double>(std::abs(a[i] - b[i])));
     return largest;
   }
 
@@ -123,12 +135,14 @@ class ViewedGround : public testing::Test {
   test::Folder folder_;
 };
 
-// Bands have wavelengths of 400, 800 … m, of which 2.5 pixels must hold one whole: 160 m, 320 m … to the pixel; at twice of it a band is
-// gone.
+// Bands have wavelengths of 400, 800 … m, and 2.5 pixels must fit in one: 160 m, 320 m … per pixel;
+// at twice that a band vanishes.
 TEST_F(ViewedGround, BandsFinerThanThePrintGoAndOthersStay) {
-  const std::string print = "keep_lakes = false\nforeground = [1, 1, 1]\nbackground = [1, 1, 1]\nprint_detail_px = ";
+  const std::string print =
+      "keep_lakes = false\nforeground = [1, 1, 1]\nbackground = [1, 1, 1]\nprint_detail_px = ";
   const View limit = from_above(318.0);
-  const Grid<float> without_finest = seen(scene("keep_lakes = false\nforeground = [1, 1, 0]\nbackground = [1, 1, 0]\n"), &limit);
+  const Grid<float> without_finest =
+      seen(scene("keep_lakes = false\nforeground = [1, 1, 0]\nbackground = [1, 1, 0]\n"), &limit);
   ASSERT_GT(largest_difference(without_finest, ground_.cells), 15.0);
   EXPECT_LT(largest_difference(seen(scene(print + "2.5\n"), &limit), without_finest), 0.5);
   const View near = from_above(150.0);
@@ -137,7 +151,8 @@ TEST_F(ViewedGround, BandsFinerThanThePrintGoAndOthersStay) {
   EXPECT_EQ(seen(scene(print + "0\n"), &limit), ground_.cells);
 }
 
-// What the distance makes of a band: the share that is left of it, cell by cell, falls no faster than a straight line would.
+// Attenuation of a band by distance: its remaining share, cell by cell, falls no faster than a
+// straight line would.
 TEST_F(ViewedGround, NoStepWithDistanceIsLargerThanALinearOne) {
   const double near = 5000.0;
   const double far = 11000.0;
@@ -145,36 +160,42 @@ TEST_F(ViewedGround, NoStepWithDistanceIsLargerThanALinearOne) {
       seen(scene("keep_lakes = false\nforeground = [1]\nbackground = [0]\nforeground_to_m = 5000\n"
                  "background_from_m = 11000\n"));
   const Grid<float> band = make_laplacian_pyramid(ground_.cells, 1).bands[0];
-  const auto share = [&](int x, int y) { return 1.0 - (static_cast<double>(ground_.cells(x, y)) - out(x, y)) / band(x, y); };
+  const auto share = [&](int x, int y) {
+    return 1.0 - (static_cast<double>(ground_.cells(x, y)) - out(x, y)) / band(x, y);
+  };
   int checked = 0;
-  double least = 1.0;
-  double most = 0.0;
+  double min = 1.0;
+  double max = 0.0;
   for (int y = 1; y < 200; ++y)
     for (int x = 0; x < 160; ++x) {
       if (std::abs(band(x, y)) < 3.F || std::abs(band(x, y - 1)) < 3.F) continue;
-      EXPECT_LE(std::abs(share(x, y) - share(x, y - 1)), 100.0 / (far - near) + 2e-4) << x << ' ' << y;
-      const glm::dvec2 place = ground_.transform.to_crs(x, y);
-      const double distance = std::hypot(place.x - 508000.0, place.y - 5190000.0);
+      EXPECT_LE(std::abs(share(x, y) - share(x, y - 1)), 100.0 / (far - near) + 2e-4)
+          << x << ' ' << y;
+      const glm::dvec2 position = ground_.transform.to_crs(x, y);
+      const double distance = std::hypot(position.x - 508000.0, position.y - 5190000.0);
       EXPECT_NEAR(share(x, y), foreground_share(distance, near, far), 2e-4) << x << ' ' << y;
-      least = std::min(least, share(x, y));
-      most = std::max(most, share(x, y));
+      min = std::min(min, share(x, y));
+      max = std::max(max, share(x, y));
       ++checked;
     }
   EXPECT_GT(checked, 5000);
-  EXPECT_LT(least, 0.05);
-  EXPECT_GT(most, 0.99);
+  EXPECT_LT(min, 0.05);
+  EXPECT_GT(max, 0.99);
 }
 
 TEST_F(ViewedGround, TwoViewsOfOneSceneHaveEachItsOwn) {
   const std::string settings =
-      "keep_lakes = false\nforeground = [1, 1, 1]\nbackground = [1, 0.5, 0]\nforeground_to_m = 4000\nbackground_from_m = 7000\n";
+      "keep_lakes = false\nforeground = [1, 1, 1]\nbackground = [1, 0.5, 0]\nforeground_to_m = "
+      "4000\nbackground_from_m = 7000\n";
   const Grid<float> from_south_west = seen(scene(settings, "position = [501000, 5181000]"));
   const Grid<float> from_north_east = seen(scene(settings, "position = [515000, 5199000]"));
-  const Grid<float> all_far = seen(scene("keep_lakes = false\nforeground = [1, 0.5, 0]\nbackground = [1, 0.5, 0]\n"));
+  const Grid<float> all_far =
+      seen(scene("keep_lakes = false\nforeground = [1, 0.5, 0]\nbackground = [1, 0.5, 0]\n"));
   EXPECT_GT(largest_difference(from_south_west, from_north_east), 15.0);
   for (int y = 0; y < 15; ++y)
     for (int x = 0; x < 15; ++x) {
-      // Cells at the south-western and at the north-eastern corner: untouched where the viewer stands, all background from the other.
+      // Cells at the south-western and at the north-eastern corner: unchanged near the viewer, only
+      // background at the other.
       const glm::ivec2 west(x, 199 - y);
       const glm::ivec2 east(159 - x, y);
       ASSERT_EQ(from_south_west(west.x, west.y), ground_.cells(west.x, west.y));
@@ -191,12 +212,13 @@ TEST_F(ViewedGround, TheShareFallsWithDistanceWithoutAJump) {
   write_raster(folder_ / "dem.tif", ground_);
   const std::string bands = "keep_lakes = false\nforeground = [1, 1]\nbackground = [1, 0]\n";
   const std::string view = "position = [508000, 5175000]";  // 5 km south of the rim
-  const Grid<float> out = seen(scene(bands + "foreground_to_m = 8000\nbackground_from_m = 16000\n", view));
+  const Grid<float> out =
+      seen(scene(bands + "foreground_to_m = 8000\nbackground_from_m = 16000\n", view));
   const int x = 80;
   const double whole = 1050.0 - out(x, 0);  // more than 17 km away
   ASSERT_GT(whole, 40.0);
   double before = 0.0;
-  double middle = -1.0;
+  double centre = -1.0;
   for (int y = 199; y >= 0; --y) {
     const double far = (1050.0 - out(x, y)) / whole;
     const double distance_m = 5000.0 + 100.0 * (199 - y) + 50.0;
@@ -208,10 +230,10 @@ TEST_F(ViewedGround, TheShareFallsWithDistanceWithoutAJump) {
     }
     ASSERT_GE(far, before - 1e-6) << y;
     ASSERT_LE(far - before, 100.0 / 8000.0 + 1e-5) << y;  // no steeper than the line
-    if (middle < 0.0 && distance_m >= 12000.0) middle = far;
+    if (centre < 0.0 && distance_m >= 12000.0) centre = far;
     before = far;
   }
-  EXPECT_NEAR(middle, 0.5, 0.02);
+  EXPECT_NEAR(centre, 0.5, 0.02);
 }
 
 }  // namespace

@@ -16,7 +16,9 @@ const RasterFrame frame{{0.0, 245760.0, 30.0, 30.0}, 8192, 8192, {}};
 Dem level_ground(int halved) {
   const int side = 8192 >> halved;
   const double cell = std::ldexp(30.0, halved);
-  Dem dem = make_dem({Grid<float>(side, side, 0.F), {0.5 * (30.0 - cell), 245760.0 - 0.5 * (30.0 - cell), cell, cell}, {}});
+  Dem dem = make_dem({Grid<float>(side, side, 0.F),
+                      {0.5 * (30.0 - cell), 245760.0 - 0.5 * (30.0 - cell), cell, cell},
+                      {}});
   dem.halved = halved;
   return dem;
 }
@@ -33,7 +35,8 @@ View view(int width) {
 
 double cells_of(const GroundPlan& plan) {
   double cells = std::pow(8192 >> plan.coarsest, 2);
-  for (const GroundWindow& window : plan.windows) cells += static_cast<double>(window.part.width()) * window.part.height();
+  for (const GroundWindow& window : plan.windows)
+    cells += static_cast<double>(window.part.width()) * window.part.height();
   return cells;
 }
 

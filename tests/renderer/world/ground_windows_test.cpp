@@ -28,20 +28,22 @@ namespace {
 
 using test::Notes;
 
-// Made-up mountains of 27 × 27 km in a file, seen from their southern edge. What would follow from the region is written, so that whole and
-// windows are the same view.
-constexpr const char* few_cells = "terrain.most_mcells=0.6";
+// Synthetic mountains of 27 × 27 km in a file, seen from their southern edge. Values that would be
+// derived from the region are written, so that whole and windows are the same view.
+constexpr const char* few_cells = "terrain.max_mcells=0.6";
 
 class GroundWindows : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = new test::Folder;
-    const Dem dem = make_synthetic_terrain({.width = 900, .height = 900, .cell_m = 30, .lowest_m = 500, .highest_m = 3000, .seed = 5},
-                                           silent_progress());
+    const Dem dem = make_synthetic_terrain(
+        {.width = 900, .height = 900, .cell_m = 30, .lowest_m = 500, .highest_m = 3000, .seed = 5},
+        silent_progress());
     GeoTransform transform = dem.transform;
     transform.origin_x = 600000;
     transform.origin_y = 5227000;
-    write_raster(*folder_ / "terrain.tif", Raster<float>{dem.altitude_m, transform, normalize_crs("EPSG:32632")});
+    write_raster(*folder_ / "terrain.tif",
+                 Raster<float>{dem.altitude_m, transform, normalize_crs("EPSG:32632")});
   }
   static void TearDownTestSuite() {
     whole_.reset();
@@ -85,7 +87,8 @@ width = 320
 height = 200
 sheet_width_mm = 160
 )";
-    return parse_scene(text, "big.toml", *folder_ / "", {.data_folders = {*folder_ / ""}, .settings = settings});
+    return parse_scene(text, "big.toml", *folder_ / "",
+                       {.data_folders = {*folder_ / ""}, .settings = settings});
   }
   // The ground in one grid and in windows, each made once.
   static const World& in_one() { return made(whole_, {}); }
@@ -94,21 +97,25 @@ sheet_width_mm = 160
     GuidanceParameters parameters;
     parameters.sampling = world.scene.sampling;
     parameters.sun_direction = world.view.sun_direction;
-    return trace_guidance(world.terrain, *world.surface, world.tracer, *world.camera, parameters, {0, 0, 320, 200}, silent_progress());
+    return trace_guidance(world.terrain, *world.surface, world.tracer, *world.camera, parameters,
+                          {0, 0, 320, 200}, silent_progress());
   }
 
   static test::Folder* folder_;
 
  private:
-  static const World& made(std::unique_ptr<World>& world, const std::vector<std::string>& settings) {
-    if (world == nullptr) world = std::unique_ptr<World>(new World(make_world(scene(settings), silent_progress())));
+  static const World& made(std::unique_ptr<World>& world,
+                           const std::vector<std::string>& settings) {
+    if (world == nullptr)
+      world = std::unique_ptr<World>(new World(make_world(scene(settings), silent_progress())));
     return *world;
   }
   static inline std::unique_ptr<World> whole_, parts_;
 };
 test::Folder* GroundWindows::folder_ = nullptr;
 
-// Guessed rivers of a window run where those of the same cells run in the whole, not where coarser cells have their valley.
+// Inferred rivers of a window run where those of the same cells run in the whole, not where coarser
+// cells have their valley.
 TEST_F(GroundWindows, RiversLieInTheValleysOfTheirOwnCells) {
   const World& whole = in_one();
   const World& parts = in_windows();
@@ -116,29 +123,34 @@ TEST_F(GroundWindows, RiversLieInTheValleysOfTheirOwnCells) {
   const auto mean_apart_m = [&](const TerrainModel& ground, const Dem& dem, const PixelRect& part) {
     double sum = 0.0;
     int count = 0;
-    if (ground.land_cover->guessed == nullptr) return std::pair(sum, count);
-    for (const CoverCourse& river : whole.land_cover->guessed->courses())
-      for (std::size_t i = 0; i < river.places.size(); ++i) {
-        const glm::dvec2 at = dem.transform.to_cell(river.places[i].x, river.places[i].y);
-        const bool inside = at.x > part.x0 + 40 && at.y > part.y0 + 40 && at.x < part.x1 - 40 && at.y < part.y1 - 40;
+    if (ground.land_cover->inferred == nullptr) return std::pair(sum, count);
+    for (const CoverRiver& river : whole.land_cover->inferred->centrelines())
+      for (std::size_t i = 0; i < river.positions.size(); ++i) {
+        const glm::dvec2 at = dem.transform.to_cell(river.positions[i].x, river.positions[i].y);
+        const bool inside = at.x > part.x0 + 40 && at.y > part.y0 + 40 && at.x < part.x1 - 40 &&
+                            at.y < part.y1 - 40;
         if (!inside || river.half_width_m[i] < 8.F) continue;
         double nearest = 1e9;
-        for (const CoverCourse& other : ground.land_cover->guessed->courses())
-          for (const glm::dvec2 place : other.places) nearest = std::min(nearest, glm::distance(place, river.places[i]));
+        for (const CoverRiver& other : ground.land_cover->inferred->centrelines())
+          for (const glm::dvec2 position : other.positions)
+            nearest = std::min(nearest, glm::distance(position, river.positions[i]));
         sum += nearest;
         ++count;
       }
     return std::pair(sum / std::max(count, 1), count);
   };
   const TerrainWindow& finest = parts.terrain.windows.back();
-  const auto [own, places] = mean_apart_m(finest.ground, *finest.ground.dem, finest.part);
-  EXPECT_GT(places, 30);
+  const auto [own, positions] = mean_apart_m(finest.ground, *finest.ground.dem, finest.part);
+  EXPECT_GT(positions, 30);
   EXPECT_LT(own, 15.0) << "half a cell";
   const auto [coarse, same_places] = mean_apart_m(parts.terrain, *finest.ground.dem, finest.part);
-  EXPECT_GT(coarse, 2.0 * own) << "the whole's coarser cells know no better, or this test needs no windows";
+  EXPECT_GT(coarse, 2.0 * own)
+      << "the whole's coarser cells know no better, or this test needs no windows";
 }
 
-bool is_sky(const GuidanceBuffers& seen, int x, int y) { return !std::isfinite(seen.depth_m(x, y)); }
+bool is_sky(const GuidanceBuffers& seen, int x, int y) {
+  return !std::isfinite(seen.depth_m(x, y));
+}
 
 TEST_F(GroundWindows, ShowWhatTheWholeShows) {
   Notes notes;
@@ -164,7 +176,7 @@ TEST_F(GroundWindows, ShowWhatTheWholeShows) {
       Hit hit;
       parts.tracer.intersect({&ray, 1}, {&hit, 1});
       ++pixels[static_cast<std::size_t>(hit.window)];
-      // Behind an edge both may see another slope: only places that are the same are compared.
+      // Behind an edge each may see another slope: only identical positions are compared.
       const double apart = std::abs(a.depth_m(x, y) - b.depth_m(x, y)) / a.depth_m(x, y);
       ++ground;
       depth.push_back(apart);
@@ -176,7 +188,8 @@ TEST_F(GroundWindows, ShowWhatTheWholeShows) {
   EXPECT_GT(pixels[2], 5000) << "the finest window is in the picture";
   EXPECT_GT(pixels[1], 1000);
   const auto part = [](std::vector<double> values, double share) {
-    const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    const auto at = values.begin() +
+                    static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
     std::nth_element(values.begin(), at, values.end());
     return *at;
   };
@@ -195,22 +208,27 @@ TEST_F(GroundWindows, NoCracksLetTheSkyThrough) {
   const GuidanceBuffers seen = guidance_of(parts);
   for (int y = 1; y + 1 < 200; ++y)
     for (int x = 1; x + 1 < 320; ++x)
-      EXPECT_TRUE(!is_sky(seen, x, y) || is_sky(seen, x, y - 1) || is_sky(seen, x - 1, y) || is_sky(seen, x + 1, y)) << x << ' ' << y;
-  // At posts that only the finer side of a joint has, rays aim between where that post would lie and the coarser side's edge: from either
-  // side they must meet ground there, and not go on below it.
+      EXPECT_TRUE(!is_sky(seen, x, y) || is_sky(seen, x, y - 1) || is_sky(seen, x - 1, y) ||
+                  is_sky(seen, x + 1, y))
+          << x << ' ' << y;
+  // At vertices that only the finer side of a joint has, rays aim between that vertex and the
+  // coarser side's edge: from either side they must hit ground there, and not continue below it.
   int aimed = 0;
   for (const TerrainWindow& window : parts.terrain.windows) {
     const Dem& dem = *window.ground.dem;
     const auto height = [&](int x, int y) {
-      return parts.deformation.point({dem.transform.to_crs(x, y), static_cast<double>(window.ground.generalized_m(x, y))}).z;
+      return parts.deformation
+          .point(
+              {dem.transform.to_crs(x, y), static_cast<double>(window.ground.generalized_m(x, y))})
+          .z;
     };
     const double cell = dem.cell_m();
     for (const int y : {window.part.y0, window.part.y1 - 1})
       for (int x = window.part.x0 + 1; x < window.part.x1 - 1; x += 2) {
         const double edge = 0.5 * (height(x - 1, y) + height(x + 1, y));
         const double gap = std::abs(height(x, y) - edge);
-        const bool level =
-            std::abs(height(x, y + 1) - height(x, y - 1)) < 0.4 * cell && std::abs(height(x + 1, y) - height(x - 1, y)) < 0.4 * cell;
+        const bool level = std::abs(height(x, y + 1) - height(x, y - 1)) < 0.4 * cell &&
+                           std::abs(height(x + 1, y) - height(x - 1, y)) < 0.4 * cell;
         if (gap < 0.5 || gap > 0.15 * cell || !level) continue;
         const glm::dvec3 aim(dem.transform.to_crs(x, y), 0.5 * (height(x, y) + edge));
         for (const double side : {-1.0, 1.0}) {
@@ -218,7 +236,8 @@ TEST_F(GroundWindows, NoCracksLetTheSkyThrough) {
           const Ray ray{aim + step, -glm::normalize(step)};
           Hit hit;
           parts.tracer.intersect({&ray, 1}, {&hit, 1});
-          EXPECT_TRUE(hit.found && hit.distance_m < 2.0 * glm::length(step)) << x << ' ' << y << ", gap " << gap;
+          EXPECT_TRUE(hit.found && hit.distance_m < 2.0 * glm::length(step))
+              << x << ' ' << y << ", gap " << gap;
           ++aimed;
         }
       }
@@ -230,10 +249,13 @@ TEST_F(GroundWindows, MeetTheGroundAroundThemInAllTheyKnow) {
   const World& parts = in_windows();
   const TerrainModel* coarser = &parts.terrain;
   for (const TerrainWindow& window : parts.terrain.windows) {
-    const auto expect_joined = [&](const Grid<float>& fine, const Grid<float>& coarse, const char* what) {
+    const auto expect_joined = [&](const Grid<float>& fine, const Grid<float>& coarse,
+                                   const char* what) {
       for (int x = 0; x < window.part.width(); x += 2)
         for (const int y : {0, window.part.height() - 1})
-          EXPECT_EQ(fine(window.part.x0 + x, window.part.y0 + y), coarse(window.replaces.x0 + x / 2, window.replaces.y0 + y / 2)) << what;
+          EXPECT_EQ(fine(window.part.x0 + x, window.part.y0 + y),
+                    coarse(window.replaces.x0 + x / 2, window.replaces.y0 + y / 2))
+              << what;
     };
     expect_joined(window.ground.generalized_m, coarser->generalized_m, "generalized");
     expect_joined(window.ground.dem->altitude_m, coarser->dem->altitude_m, "altitude");
@@ -261,22 +283,25 @@ TEST_F(GroundWindows, RiversAreAsLargeAsTheWholeKnowsThem) {
   const World& parts = in_windows();
   const TerrainWindow& finest = parts.terrain.windows.back();
   const auto largest = [](const Grid<float>& flow, const PixelRect& rect) {
-    float most = 0.F;
+    float max = 0.F;
     for (int y = rect.y0; y < rect.y1; ++y)
-      for (int x = rect.x0; x < rect.x1; ++x) most = std::max(most, flow(x, y));
-    return most;
+      for (int x = rect.x0; x < rect.x1; ++x) max = std::max(max, flow(x, y));
+    return max;
   };
   const glm::dvec2 first = finest.ground.dem->transform.to_crs(finest.part.x0, finest.part.y0);
   const glm::ivec2 at(glm::round(whole.dem->transform.to_cell(first.x, first.y)));
-  const float of_whole = largest(whole.terrain.flow, {at.x, at.y, at.x + finest.part.width(), at.y + finest.part.height()});
-  // A logarithm; within a factor of two, as coarse cells draw divides elsewhere, and a river along the halo's edge may count twice.
+  const float of_whole = largest(
+      whole.terrain.flow, {at.x, at.y, at.x + finest.part.width(), at.y + finest.part.height()});
+  // A logarithm; within a factor of two, as coarse cells draw divides elsewhere, and a river along
+  // the halo's edge may count twice.
   EXPECT_NEAR(largest(finest.ground.flow, finest.part), of_whole, 0.3);
 }
 
 TEST_F(GroundWindows, ADemThatFitsStaysWhole) {
-  const World plenty = make_world(scene({"terrain.most_mcells=1"}), silent_progress());
+  const World plenty = make_world(scene({"terrain.max_mcells=1"}), silent_progress());
   EXPECT_TRUE(plenty.terrain.windows.empty());
-  EXPECT_EQ(plenty.terrain.generalized_m, make_world(scene(), silent_progress()).terrain.generalized_m);
+  EXPECT_EQ(plenty.terrain.generalized_m,
+            make_world(scene(), silent_progress()).terrain.generalized_m);
 }
 
 // The same mountains sunk until the sea reaches far into them.
@@ -295,8 +320,8 @@ class GroundWindowsByTheSea : public GroundWindows {
   }
 };
 
-// Shares of the finest window's cells, in a frame of so many around its part's edge and inside of it, that have the class of the coarser
-// ground below.
+// Shares of the finest window's cells, in a frame of so many around its part's edge and inside of
+// it, that have the class of the coarser ground below.
 struct Agreement {
   double at_edge = 0.0;
   double inside = 0.0;
@@ -306,18 +331,20 @@ Agreement agreement_of(const World& parts, std::size_t index) {
   const LandCover& fine = *window.ground.land_cover;
   const TerrainModel& before = index == 0 ? parts.terrain : parts.terrain.windows[index - 1].ground;
   const LandCover& coarser = *before.land_cover;
-  const auto class_at = [](const LandCover& cover, glm::dvec2 place) {
-    const glm::ivec2 at(glm::round(cover.classes.transform.to_cell(place.x, place.y)));
+  const auto class_at = [](const LandCover& cover, glm::dvec2 position) {
+    const glm::ivec2 at(glm::round(cover.classes.transform.to_cell(position.x, position.y)));
     return cover.classes.cells.clamped(at.x, at.y);
   };
   std::array<double, 2> same{};
   std::array<double, 2> all{};
   for (int y = 0; y < window.part.height(); ++y)
     for (int x = 0; x < window.part.width(); ++x) {
-      const int from_edge = std::min({x, y, window.part.width() - 1 - x, window.part.height() - 1 - y});
+      const int from_edge =
+          std::min({x, y, window.part.width() - 1 - x, window.part.height() - 1 - y});
       const std::size_t where = from_edge < 6 ? 0 : 1;
-      const glm::dvec2 place = window.ground.dem->transform.to_crs(window.part.x0 + x, window.part.y0 + y);
-      same[where] += class_at(fine, place) == class_at(coarser, place) ? 1.0 : 0.0;
+      const glm::dvec2 position =
+          window.ground.dem->transform.to_crs(window.part.x0 + x, window.part.y0 + y);
+      same[where] += class_at(fine, position) == class_at(coarser, position) ? 1.0 : 0.0;
       all[where] += 1.0;
     }
   return {same[0] / all[0], same[1] / all[1]};
@@ -334,14 +361,17 @@ TEST_F(GroundWindowsByTheSea, HaveTheWholesSeaAndClimate) {
   int same = 0;
   for (int y = 0; y < 200; ++y)
     for (int x = 0; x < 320; ++x) {
-      if (is_sky(a, x, y) || is_sky(b, x, y) || std::abs(a.depth_m(x, y) - b.depth_m(x, y)) > 0.02 * a.depth_m(x, y)) continue;
+      if (is_sky(a, x, y) || is_sky(b, x, y) ||
+          std::abs(a.depth_m(x, y) - b.depth_m(x, y)) > 0.02 * a.depth_m(x, y))
+        continue;
       ++ground;
       same += a.land_cover(x, y) == b.land_cover(x, y) ? 1 : 0;
     }
   EXPECT_GE(same, 0.9 * ground);
   for (std::size_t i = 0; i < parts.terrain.windows.size(); ++i) {
     const Agreement agreement = agreement_of(parts, i);
-    EXPECT_GT(agreement.at_edge, agreement.inside - 0.05) << "window " << i << ": a line would be seen at its joint";
+    EXPECT_GT(agreement.at_edge, agreement.inside - 0.05)
+        << "window " << i << ": a line would be seen at its joint";
     // Water at the sea's level is sea in the whole's cells and in the window's.
     const TerrainModel& ground_i = parts.terrain.windows[i].ground;
     int sea = 0;
@@ -357,19 +387,22 @@ TEST_F(GroundWindowsByTheSea, HaveTheWholesSeaAndClimate) {
   }
 }
 
-bool is_icy(LandCoverClass id) { return id == LandCoverClass::glacier || id == LandCoverClass::snow; }
+bool is_icy(LandCoverClass id) {
+  return id == LandCoverClass::glacier || id == LandCoverClass::snow;
+}
 
 // The whole's class at a cell of a window.
 LandCoverClass class_of(const World& whole, const TerrainWindow& window, int x, int y) {
   const Raster<LandCoverClass>& classes = whole.land_cover->classes;
-  const glm::dvec2 place = window.ground.dem->transform.to_crs(x, y);
-  const glm::ivec2 at(glm::round(classes.transform.to_cell(place.x, place.y)));
+  const glm::dvec2 position = window.ground.dem->transform.to_crs(x, y);
+  const glm::ivec2 at(glm::round(classes.transform.to_cell(position.x, position.y)));
   return classes.cells.clamped(at.x, at.y);
 }
 
 TEST_F(GroundWindows, IceGoesOnAcrossJoints) {
-  // Specks are cleaned on either side for itself, in cells of its own.
-  const std::vector<std::string> settings = {"land_cover.settings.ice_line_m=1700", "land_cover.settings.snowline_m=2400",
+  // Specks are removed on each side separately, in its own cells.
+  const std::vector<std::string> settings = {"land_cover.settings.ice_line_m=1700",
+                                             "land_cover.settings.snowline_m=2400",
                                              "land_cover.settings.speck_cells=0"};
   std::vector<std::string> with_few = settings;
   with_few.emplace_back(few_cells);
@@ -392,12 +425,15 @@ TEST_F(GroundWindows, IceGoesOnAcrossJoints) {
       icy += is_icy(here) || is_icy(there) ? 1 : 0;
       same_ice += is_icy(here) && is_icy(there) ? 1 : 0;
     };
-    for (int x = 0; x < window.part.width(); x += 2) compare(x, 0), compare(x, window.part.height() - 1);
-    for (int y = 0; y < window.part.height(); y += 2) compare(0, y), compare(window.part.width() - 1, y);
+    for (int x = 0; x < window.part.width(); x += 2)
+      compare(x, 0), compare(x, window.part.height() - 1);
+    for (int y = 0; y < window.part.height(); y += 2)
+      compare(0, y), compare(window.part.width() - 1, y);
     EXPECT_GT(icy, posts / 20);
     EXPECT_GT(same, 0.98 * posts) << "window " << i;
     EXPECT_GT(same_ice, 0.95 * icy) << "window " << i;
-    // And farther in, where the window's own cells count, ice is where the whole has it: as well as cells of twice the width know.
+    // And farther in, where the window's own cells apply, ice is where the whole has it: within the
+    // accuracy of cells of twice the width.
     double both = 0.0, either = 0.0;
     for (int y = window.part.y0 + 32; y < window.part.y1 - 32; ++y)
       for (int x = window.part.x0 + 32; x < window.part.x1 - 32; ++x) {
@@ -412,10 +448,12 @@ TEST_F(GroundWindows, IceGoesOnAcrossJoints) {
 }
 
 TEST_F(GroundWindows, LayersSeeTheWholesClimateAndWideGround) {
-  folder_->write("high.layers.toml",
-                 "version = 1\nground = { class = \"rock\" }\n[[layers]]\nname = \"cold\"\nclass = \"snow\"\nwhen = \"temperature < 4\"\n"
-                 "[[layers]]\nname = \"high\"\nclass = \"glacier\"\nwhen = \"relief_4000 > 300\"\n"
-                 "[[layers]]\nname = \"sunny\"\nclass = \"pasture\"\nwhen = \"radiation > 6500\"\n");
+  folder_->write(
+      "high.layers.toml",
+      "version = 1\nground = { class = \"rock\" }\n[[layers]]\nname = \"cold\"\nclass = "
+      "\"snow\"\nwhen = \"temperature < 4\"\n"
+      "[[layers]]\nname = \"high\"\nclass = \"glacier\"\nwhen = \"relief_4000 > 300\"\n"
+      "[[layers]]\nname = \"sunny\"\nclass = \"pasture\"\nwhen = \"radiation > 6500\"\n");
   const std::string layers = "land_cover.layers=\"high.layers.toml\"";
   const World whole = make_world(scene({layers}), silent_progress());
   const World parts = make_world(scene({layers, few_cells}), silent_progress());
@@ -430,19 +468,23 @@ TEST_F(GroundWindows, LayersSeeTheWholesClimateAndWideGround) {
       same += fine(x, y) == class_of(whole, finest, x, y) ? 1.0 : 0.0;
       kinds[static_cast<std::size_t>(fine(x, y))] += 1.0;
     }
-  for (const LandCoverClass id : {LandCoverClass::rock, LandCoverClass::snow, LandCoverClass::glacier, LandCoverClass::pasture})
+  for (const LandCoverClass id : {LandCoverClass::rock, LandCoverClass::snow,
+                                  LandCoverClass::glacier, LandCoverClass::pasture})
     EXPECT_GT(kinds[static_cast<std::size_t>(id)], 0.02 * all) << static_cast<int>(id);
   EXPECT_GT(same, 0.995 * all);
 }
 
-// Bumps and beds begin at a window's edge as the ground before it has them, and are the same noise.
+// Bumps and beds begin at a window's edge as in the coarser ground, and are the same noise.
 TEST_F(GroundWindows, BumpsAndBedsAreJoined) {
   folder_->write("rough.layers.toml",
-                 "version = 1\nground = { class = \"rock\" }\n[[inputs]]\nname = \"slope\"\nlow = 0\nhigh = 60\n[[layers]]\n"
-                 "name = \"stones\"\nclass = \"scree\"\nroughness = { height_m = 5, length_m = 300 }\n[layers.functions]\n"
+                 "version = 1\nground = { class = \"rock\" }\n[[inputs]]\nname = \"slope\"\nlow = "
+                 "0\nhigh = 60\n[[layers]]\n"
+                 "name = \"stones\"\nclass = \"scree\"\nroughness = { height_m = 5, length_m = 300 "
+                 "}\n[layers.functions]\n"
                  "slope = { low = 10, high = 35, width = 8 }\n");
-  const World parts =
-      make_world(scene({"land_cover.layers=\"rough.layers.toml\"", "land_cover.colours=\"layers\"", few_cells}), silent_progress());
+  const World parts = make_world(scene({"land_cover.layers=\"rough.layers.toml\"",
+                                        "land_cover.colours=\"layers\"", few_cells}),
+                                 silent_progress());
   const TerrainModel* coarser = &parts.terrain;
   for (const TerrainWindow& window : parts.terrain.windows) {
     const GroundRelief& fine = window.ground.land_cover->relief;
@@ -453,15 +495,22 @@ TEST_F(GroundWindows, BumpsAndBedsAreJoined) {
     ASSERT_TRUE(fine.lake_depth_m.same_size(window.ground.dem->altitude_m));
     int differs = 0;
     for (int x = window.part.x0; x < window.part.x1; ++x) {
-      const glm::dvec2 place = fine.transform.to_crs(x, window.part.y0);
-      const glm::dvec2 cell = coarse.transform.to_cell(place.x, place.y);
-      // Every other post is one of the coarser ground's.
-      if (std::abs(cell.x - std::round(cell.x)) > 0.1 || std::abs(cell.y - std::round(cell.y)) > 0.1) continue;
-      const auto there = coarse.bumps[0].share.clamped(static_cast<int>(std::lround(cell.x)), static_cast<int>(std::lround(cell.y)));
+      const glm::dvec2 position = fine.transform.to_crs(x, window.part.y0);
+      const glm::dvec2 cell = coarse.transform.to_cell(position.x, position.y);
+      // Every other vertex is one of the coarser ground's.
+      if (std::abs(cell.x - std::round(cell.x)) > 0.1 ||
+          std::abs(cell.y - std::round(cell.y)) > 0.1)
+        continue;
+      const auto there = coarse.bumps[0].share.clamped(static_cast<int>(std::lround(cell.x)),
+                                                       static_cast<int>(std::lround(cell.y)));
       EXPECT_FLOAT_EQ(fine.bumps[0].share(x, window.part.y0), there);
       const int inside = (window.part.y0 + window.part.y1) / 2;
-      const glm::dvec2 middle = coarse.transform.to_cell(place.x, fine.transform.to_crs(x, inside).y);
-      differs += std::abs(fine.bumps[0].share(x, inside) - sample_bilinear(coarse.bumps[0].share, middle.x, middle.y)) > 0.01F ? 1 : 0;
+      const glm::dvec2 centre =
+          coarse.transform.to_cell(position.x, fine.transform.to_crs(x, inside).y);
+      differs += std::abs(fine.bumps[0].share(x, inside) -
+                          sample_bilinear(coarse.bumps[0].share, centre.x, centre.y)) > 0.01F
+                     ? 1
+                     : 0;
     }
     EXPECT_GT(differs, 3) << "inside it has its own";
     coarser = &window.ground;
@@ -470,7 +519,8 @@ TEST_F(GroundWindows, BumpsAndBedsAreJoined) {
 
 TEST_F(GroundWindows, ABudgetThatHoldsNotEvenTheCoarsestIsRefused) {
   const MemoryLimit limit(std::uint64_t{8} << 20);
-  const std::string message = test::message_of(ErrorKind::limit, [] { make_world(scene(), silent_progress()); });
+  const std::string message =
+      test::message_of(ErrorKind::limit, [] { make_world(scene(), silent_progress()); });
   EXPECT_NE(message.find("900 × 900 cells, even in cells of 120 m"), std::string::npos) << message;
   EXPECT_NE(message.find("--memory"), std::string::npos) << message;
 }

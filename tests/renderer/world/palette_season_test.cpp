@@ -11,8 +11,10 @@ TEST(PaletteSeason, AltitudesMoveAndSingleRampsStay) {
   const Palette summer = read_palette("summer");
   const Palette moved = palette_at_other_altitudes(summer, 800.0);
   for (const double altitude : {500.0, 1200.0, 1900.0, 2600.0}) {
-    EXPECT_EQ(palette_colour(moved, forest, altitude + 800.0, 0.5), palette_colour(summer, forest, altitude, 0.5));
-    EXPECT_EQ(palette_colour(moved, alpine_grass, altitude + 800.0, 0.5), palette_colour(summer, alpine_grass, altitude, 0.5));
+    EXPECT_EQ(palette_colour(moved, forest, altitude + 800.0, 0.5),
+              palette_colour(summer, forest, altitude, 0.5));
+    EXPECT_EQ(palette_colour(moved, alpine_grass, altitude + 800.0, 0.5),
+              palette_colour(summer, alpine_grass, altitude, 0.5));
   }
   EXPECT_NE(palette_colour(moved, forest, 900.0, 0.5), palette_colour(summer, forest, 900.0, 0.5));
   EXPECT_EQ(palette_colour(moved, rock, 900.0, 0.5), palette_colour(summer, rock, 900.0, 0.5));
@@ -30,12 +32,15 @@ TEST(PaletteSeason, MixesByAltitude) {
       for (int k = 0; k < 3; ++k) EXPECT_NEAR(a[k], b[k], 2e-3F);
     };
     near(palette_colour(mixed, pasture, 700.0, tone), palette_colour(summer, pasture, 700.0, tone));
-    near(palette_colour(mixed, pasture, 2500.0, tone), palette_colour(autumn, pasture, 2500.0, tone));
+    near(palette_colour(mixed, pasture, 2500.0, tone),
+         palette_colour(autumn, pasture, 2500.0, tone));
     near(palette_colour(mixed, forest, 1500.0, tone),
-         0.5F * (palette_colour(summer, forest, 1500.0, tone) + palette_colour(autumn, forest, 1500.0, tone)));
+         0.5F * (palette_colour(summer, forest, 1500.0, tone) +
+                 palette_colour(autumn, forest, 1500.0, tone)));
   }
-  // What has no altitude lies halfway between the shares of the lowest and the highest ground.
-  EXPECT_NEAR(mixed.growth.leaf_share, 0.5 * (summer.growth.leaf_share + autumn.growth.leaf_share), 1e-9);
+  // Colours without altitude lie halfway between the shares of the lowest and the highest ground.
+  EXPECT_NEAR(mixed.growth.leaf_share, 0.5 * (summer.growth.leaf_share + autumn.growth.leaf_share),
+              1e-9);
   EXPECT_FALSE(mixed.winter);
 }
 
@@ -45,7 +50,8 @@ TEST(PaletteSeason, NothingOfTheSecondIsTheFirst) {
       summer, read_palette("autumn"), [](double) { return 0.0; }, 500.0, 3000.0);
   for (const double altitude : {600.0, 1234.0, 2800.0})
     for (const LandCoverClass id : {forest, pasture, alpine_grass, rock})
-      EXPECT_NEAR(palette_colour(same, id, altitude, 0.4).x, palette_colour(summer, id, altitude, 0.4).x, 1e-6F);
+      EXPECT_NEAR(palette_colour(same, id, altitude, 0.4).x,
+                  palette_colour(summer, id, altitude, 0.4).x, 1e-6F);
   EXPECT_EQ(same.sky, summer.sky);
 }
 

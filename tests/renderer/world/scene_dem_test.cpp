@@ -12,32 +12,39 @@
 namespace belvedere {
 namespace {
 
-// A valley between ridges whose rows stand too high and too low in turn, read by a scene with these settings.
+// A valley between ridges whose rows stand too high and too low in turn, read by a scene with these
+// settings.
 class TerrainOperators : public testing::Test {
  protected:
   void SetUp() override {
     striped_ = valley(0.0);
     for (int y = 0; y < striped_.cells.height(); ++y)
-      for (int x = 0; x < striped_.cells.width(); ++x) striped_.cells(x, y) += y / 2 % 2 == 0 ? 4.F : -4.F;
+      for (int x = 0; x < striped_.cells.width(); ++x)
+        striped_.cells(x, y) += y / 2 % 2 == 0 ? 4.F : -4.F;
     write_raster(folder_ / "striped.tif", striped_);
     write_raster(folder_ / "clean.tif", valley());
   }
-  // Its gullies run nearly along columns: to be called stripes themselves.
+  // Its gullies run nearly along columns and could be taken for stripes.
   static Raster<float> valley(double gullies_m = 60.0) {
-    Raster<float> raster{Grid<float>(160, 200), {500000.0, 5200000.0, 100.0, 100.0}, normalize_crs("EPSG:32632")};
+    Raster<float> raster{
+        Grid<float>(160, 200), {500000.0, 5200000.0, 100.0, 100.0}, normalize_crs("EPSG:32632")};
     for (int y = 0; y < 200; ++y)
       for (int x = 0; x < 160; ++x)
         raster.cells(x, y) =
-            static_cast<float>(900.0 - y + 18.0 * std::abs(x - 80.0) + gullies_m * std::sin(x / 3.0) * std::sin(y / 11.0 + x));
+            static_cast<float>(900.0 - y + 18.0 * std::abs(x - 80.0) +
+                               gullies_m * std::sin(x / 3.0) * std::sin(y / 11.0 + x));
     return raster;
   }
   LoadedScene scene(const std::string& file, const std::string& settings) const {
-    return parse_scene("version = 1\n[[terrain.sources]]\nfile = \"" + file + "\"\n[generalize]\n" + settings, "s.toml", folder_.path(),
-                       {});
+    return parse_scene(
+        "version = 1\n[[terrain.sources]]\nfile = \"" + file + "\"\n[generalize]\n" + settings,
+        "s.toml", folder_.path(), {});
   }
   Grid<float> generalized(const std::string& settings) const {
     const LoadedScene loaded = scene("clean.tif", settings);
-    return generalize_for_view(loaded, make_scene_dem(loaded, silent_progress()), nullptr, {}, silent_progress()).altitude_m;
+    return generalize_for_view(loaded, make_scene_dem(loaded, silent_progress()), nullptr, {},
+                               silent_progress())
+        .altitude_m;
   }
 
   Raster<float> striped_;
@@ -51,7 +58,8 @@ TEST_F(TerrainOperators, AreOffUnlessASceneAsksForThem) {
 
 TEST_F(TerrainOperators, StripesLeaveTheDemItself) {
   const Grid<float> before = make_scene_dem(scene("striped.tif", ""), silent_progress()).altitude_m;
-  const Grid<float> after = make_scene_dem(scene("striped.tif", "destripe = true\n"), silent_progress()).altitude_m;
+  const Grid<float> after =
+      make_scene_dem(scene("striped.tif", "destripe = true\n"), silent_progress()).altitude_m;
   const auto error = [](const Grid<float>& z) {
     const Grid<float> expected = valley(0.0).cells;
     double sum = 0.0;

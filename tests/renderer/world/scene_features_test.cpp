@@ -25,27 +25,29 @@ using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
 
-// Rolling ground of 8 × 8 km with a coordinate system of its own, and a forest on all of it.
+// Rolling ground of 8 × 8 km with its own coordinate system, and a forest on all of it.
 class SceneFeaturesInPictures : public testing::Test {
  protected:
   SceneFeaturesInPictures() {
     std::string dem = "ncols 80\nnrows 80\nxllcorner 680000\nyllcorner 5240000\ncellsize 100\n";
     for (int y = 0; y < 80; ++y)
       for (int x = 0; x < 80; ++x)
-        dem += fmt::format("{:.1f}{}", 900.0 + 60.0 * std::sin(x / 6.0) * std::cos(y / 7.0), x == 79 ? '\n' : ' ');
+        dem += fmt::format("{:.1f}{}", 900.0 + 60.0 * std::sin(x / 6.0) * std::cos(y / 7.0),
+                           x == 79 ? '\n' : ' ');
     folder_.write("dem.asc", dem);
   }
   std::string write(const std::string& name, const std::string& features) const {
-    return folder_.write(
-        name,
-        "{\"type\": \"FeatureCollection\", \"crs\": {\"type\": \"name\", \"properties\": {\"name\": \"EPSG:32632\"}}, \"features\": [" +
-            features + "]}");
+    return folder_.write(name,
+                         "{\"type\": \"FeatureCollection\", \"crs\": {\"type\": \"name\", "
+                         "\"properties\": {\"name\": \"EPSG:32632\"}}, \"features\": [" +
+                             features + "]}");
   }
-  static std::string line(const std::string& kind, const std::string& places) {
+  static std::string line(const std::string& kind, const std::string& positions) {
     return fmt::format(
-        "{{\"type\": \"Feature\", \"properties\": {{\"kind\": \"{}\"}}, \"geometry\": {{\"type\": \"LineString\", \"coordinates\": "
+        "{{\"type\": \"Feature\", \"properties\": {{\"kind\": \"{}\"}}, \"geometry\": {{\"type\": "
+        "\"LineString\", \"coordinates\": "
         "[{}]}}}}",
-        kind, places);
+        kind, positions);
   }
   LoadedScene scene(const std::string& features = "", int width = 240, int height = 160) const {
     return parse_scene(fmt::format(R"(version = 1
@@ -86,8 +88,10 @@ formats = ["tif"]
                                    width, height, features),
                        "features.toml", folder_.path(), {});
   }
-  static constexpr const char* block = "[[features]]\nsource = \"roads.geojson\"\nkind_of = \"kind\"\n";
-  Grid<glm::vec3> painted(const LoadedScene& loaded, const std::string& name, const SheetRequest& request = {}) const {
+  static constexpr const char* block =
+      "[[features]]\nsource = \"roads.geojson\"\nkind_of = \"kind\"\n";
+  Grid<glm::vec3> painted(const LoadedScene& loaded, const std::string& name,
+                          const SheetRequest& request = {}) const {
     render(loaded, folder_ / name, {.cache = test::shared_cache()}, request);
     return read_picture(folder_ / (name + "/panorama.tif"));
   }
@@ -110,12 +114,13 @@ TEST_F(SceneFeaturesInPictures, AnyPartShowsTheWholeAndFarFromThemNothingChanges
 
   const Grid<glm::vec3> before = painted(scene(), "before");
   World world = make_world(scene(), silent_progress());
-  const GroundSight sight(world.dem->transform, *world.surface, *world.camera, world.tracer, world.terrain.goes_to);
+  const GroundSight sight(world.dem->transform, *world.surface, *world.camera, world.tracer,
+                          world.terrain.goes_to);
   glm::dvec2 low(1e9);
   glm::dvec2 high(-1e9);
-  for (const glm::dvec2 place :
-       {glm::dvec2(682500, 5243000), glm::dvec2(685500, 5244500), glm::dvec2(683000, 5242000), glm::dvec2(684500, 5243600)}) {
-    const glm::dvec2 pixel = *sight.pixel(*sight.ground(place));
+  for (const glm::dvec2 position : {glm::dvec2(682500, 5243000), glm::dvec2(685500, 5244500),
+                                    glm::dvec2(683000, 5242000), glm::dvec2(684500, 5243600)}) {
+    const glm::dvec2 pixel = *sight.pixel(*sight.ground(position));
     low = glm::min(low, pixel);
     high = glm::max(high, pixel);
   }
@@ -125,7 +130,7 @@ TEST_F(SceneFeaturesInPictures, AnyPartShowsTheWholeAndFarFromThemNothingChanges
     for (int x = 0; x < before.width(); ++x) {
       if (before(x, y) == whole(x, y)) continue;
       ++changed;
-      // Trees are some 20 units high: what is cleared may have reached so far.
+      // Trees are about 20 units high: cleared ones may have reached this far.
       const bool far = x < low.x - 25 || y < low.y - 40 || x > high.x + 25 || y > high.y + 25;
       changed_far += far ? 1 : 0;
     }
@@ -133,7 +138,7 @@ TEST_F(SceneFeaturesInPictures, AnyPartShowsTheWholeAndFarFromThemNothingChanges
   EXPECT_EQ(changed_far, 0U);
 }
 
-// Means of what layers show over the picture that they make, which must be the panorama.
+// Means of the composite of the layers, which must equal the panorama.
 struct LaidLayers {
   double mist = 0.0;
   double features = 0.0;
@@ -141,13 +146,15 @@ struct LaidLayers {
 };
 LaidLayers lay_layers(const std::string& folder, bool with_mist) {
   const Grid<glm::vec3> picture = read_picture(folder + "/panorama.tif");
-  EXPECT_EQ(std::system(("cd " + folder + " && python3 -m zipfile -e panorama.ora layers").c_str()), 0);
+  EXPECT_EQ(std::system(("cd " + folder + " && python3 -m zipfile -e panorama.ora layers").c_str()),
+            0);
   Grid<glm::vec3> flat(picture.width(), picture.height(), glm::vec3(0.F));
   LaidLayers laid;
   for (const PictureLayer& layer : picture_layers()) {
     if (layer.mask || (layer.of == LayerOf::mist && !with_mist)) continue;
     Grid<float> share;
-    const Grid<glm::vec3> colour = read_picture(folder + "/layers/data/" + layer.name + ".png", &share);
+    const Grid<glm::vec3> colour =
+        read_picture(folder + "/layers/data/" + layer.name + ".png", &share);
     for (std::size_t i = 0; i < flat.size(); ++i) {
       flat[i] += share[i] * (colour[i] - flat[i]);
       if (layer.of == LayerOf::mist) laid.mist += share[i];
@@ -159,21 +166,23 @@ LaidLayers lay_layers(const std::string& folder, bool with_mist) {
   for (std::size_t i = 0; i < flat.size(); ++i)
     for (int c = 0; c < 3; ++c) off += std::abs(flat[i][c] - picture[i][c]) > 6.0 / 65535.0 ? 1 : 0;
   EXPECT_EQ(off, 0U);
-  for (double* sum : {&laid.mist, &laid.features, &laid.edges}) *sum /= static_cast<double>(flat.size());
+  for (double* sum : {&laid.mist, &laid.features, &laid.edges})
+    *sum /= static_cast<double>(flat.size());
   return laid;
 }
 
-// Roads and lifts can be moved or repainted alone: where their layer is empty the picture is that of the others. In mist they are as thin
-// as the picture shows them, and mist is a layer of its own below.
+// Roads and lifts can be moved or repainted alone: where their layer is empty the picture is that
+// of the others. In mist they are as faint as in the picture, and mist is a layer of its own below.
 TEST_F(SceneFeaturesInPictures, TheyAndMistAreLayersOfTheirOwn) {
-  write("roads.geojson",
-        line("motorway", "[682500, 5243000], [685500, 5244500]") + "," + line("lift", "[683000, 5242000], [684500, 5243500]"));
+  write("roads.geojson", line("motorway", "[682500, 5243000], [685500, 5244500]") + "," +
+                             line("lift", "[683000, 5242000], [684500, 5243500]"));
   painted(scene(block), "clear", {.layers = {"ora"}});
   const LaidLayers clear = lay_layers(folder_ / "clear", false);
   EXPECT_GT(clear.features, 0.005);
   EXPECT_LT(clear.edges, 0.1) << "layers say nearly all of it";
-  painted(scene(std::string(block) + "[[air.mist]]\nkind = \"sea\"\nto_m = 980\nsight_m = 500\nbillows = 0.2\n"), "misty",
-          {.layers = {"ora"}});
+  painted(scene(std::string(block) +
+                "[[air.mist]]\nkind = \"sea\"\nto_m = 980\nsight_m = 500\nbillows = 0.2\n"),
+          "misty", {.layers = {"ora"}});
   const LaidLayers misty = lay_layers(folder_ / "misty", true);
   EXPECT_GT(misty.mist, 0.1);
   EXPECT_LT(misty.features, 0.8 * clear.features);
@@ -185,8 +194,11 @@ TEST_F(SceneFeaturesInPictures, AFileWhoseFeaturesAllLieElsewhereIsSaidWithBothE
   write("roads.geojson", line("road", "[482500, 5243000], [485500, 5244500]"));
   const LoadedScene loaded = scene(block);
   const World world = make_world(loaded, silent_progress());
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { draw_scene_features(loaded, world, false, silent_progress()); }),
-              AllOf(HasSubstr("none of 1 features"), HasSubstr("E 482500 … 485500"), HasSubstr("E 680000 … 688000")));
+  EXPECT_THAT(
+      test::message_of(ErrorKind::usage,
+                       [&] { draw_scene_features(loaded, world, false, silent_progress()); }),
+      AllOf(HasSubstr("none of 1 features"), HasSubstr("E 482500 … 485500"),
+            HasSubstr("E 680000 … 688000")));
 }
 
 TEST_F(SceneFeaturesInPictures, WhatIsLeftOutIsNoted) {
@@ -194,13 +206,16 @@ TEST_F(SceneFeaturesInPictures, WhatIsLeftOutIsNoted) {
                              line("runway", "[682500, 5243000], [685500, 5244500]") + "," +
                              line("house", "[682500, 5243000], [685500, 5244500]"));
   Notes notes;
-  const LoadedScene loaded = scene(std::string(block) + "[[features]]\nsource = \"none.gpkg\"\nkind = \"road\"\noptional = true\n");
+  const LoadedScene loaded =
+      scene(std::string(block) +
+            "[[features]]\nsource = \"none.gpkg\"\nkind = \"road\"\noptional = true\n");
   const FeatureSet set = read_scene_features(loaded, "EPSG:32632", notes);
   EXPECT_EQ(set.features.size(), 1U);
   EXPECT_EQ(set.readings.size(), 1U);
-  EXPECT_THAT(notes.all, Contains(AllOf(HasSubstr("\"runway\""), HasSubstr("of another shape"))));
+  EXPECT_THAT(notes.all, Contains(AllOf(HasSubstr("\"runway\""), HasSubstr("of a geometry type"))));
   EXPECT_THAT(notes.all, Contains(HasSubstr("none.gpkg is left out")));
-  EXPECT_TRUE(read_scene_features(scene(), "", notes).features.empty()) << "a scene without features asks for no coordinate system";
+  EXPECT_TRUE(read_scene_features(scene(), "", notes).features.empty())
+      << "a scene without features asks for no coordinate system";
 }
 
 }  // namespace

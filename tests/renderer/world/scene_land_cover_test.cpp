@@ -15,26 +15,32 @@ namespace {
 
 using enum LandCoverClass;
 
-// The rules see glacier east of 501 km, snow north of 5199 km, which wins, and forest elsewhere. The raster tells three columns of classes
-// apart, on cells of its own.
+// The rules see glacier east of 501 km, snow north of 5199 km, which wins, and forest elsewhere.
+// The raster tells three columns of classes apart, on cells of its own.
 class RefinedLandCover : public testing::Test {
  protected:
   static constexpr double east = 500000.0;
   static constexpr double north = 5200000.0;
 
-  static Dem level() { return make_dem({Grid<float>(20, 20, 1000.F), {east, north, 100.0, 100.0}, normalize_crs("EPSG:32632")}); }
+  static Dem level() {
+    return make_dem(
+        {Grid<float>(20, 20, 1000.F), {east, north, 100.0, 100.0}, normalize_crs("EPSG:32632")});
+  }
   LandCover refined(const std::string& refine) const {
-    folder_.write(
-        "rules.toml",
-        "version = 1\nname = \"two\"\n[parameters]\nspeck_cells = 0\n[[layers]]\nclass = \"forest\"\nwhen = \"1\"\n"
-        "[[layers]]\nclass = \"glacier\"\nwhen = \"easting > 501000\"\n[[layers]]\nclass = \"snow\"\nwhen = \"northing > 5199000\"\n");
-    Raster<float> codes{Grid<float>(50, 50), {east, north, 40.0, 40.0}, normalize_crs("EPSG:32632")};
+    folder_.write("rules.toml",
+                  "version = 1\nname = \"two\"\n[parameters]\nspeck_cells = 0\n[[layers]]\nclass = "
+                  "\"forest\"\nwhen = \"1\"\n"
+                  "[[layers]]\nclass = \"glacier\"\nwhen = \"easting > 501000\"\n[[layers]]\nclass "
+                  "= \"snow\"\nwhen = \"northing > 5199000\"\n");
+    Raster<float> codes{
+        Grid<float>(50, 50), {east, north, 40.0, 40.0}, normalize_crs("EPSG:32632")};
     for (int y = 0; y < 50; ++y)
       for (int x = 0; x < 50; ++x) codes.cells(x, y) = code(x);
     write_raster(folder_ / "cover.tif", codes);
-    const LoadedScene scene = parse_scene("version = 1\n[land_cover]\nlegend = \"esa_worldcover\"\nrules = \"rules.toml\"\n" + refine +
-                                              "[[land_cover.sources]]\nfile = \"cover.tif\"\n",
-                                          "s.toml", folder_.path(), {});
+    const LoadedScene scene = parse_scene(
+        "version = 1\n[land_cover]\nlegend = \"esa_worldcover\"\nrules = \"rules.toml\"\n" +
+            refine + "[[land_cover.sources]]\nfile = \"cover.tif\"\n",
+        "s.toml", folder_.path(), {});
     return make_scene_land_cover(scene, level(), silent_progress());
   }
   // ESA WorldCover: grassland, bare ground, trees, in stripes one cell wide.
@@ -51,12 +57,14 @@ TEST_F(RefinedLandCover, ChangesTheNamedClassWhereTheRulesSeeTheOther) {
   int snows = 0;
   for (int y = 0; y < 50; ++y)
     for (int x = 0; x < 50; ++x) {
-      // The rules stand on the DEM's cells of 100 m: the border lies between columns 9 and 10, and rows 9 and 10; cells of 40 m have
-      // their centres at (n + 0.5) · 0.4 of those.
+      // The rules stand on the DEM's cells of 100 m: the border lies between columns 9 and 10, and
+      // rows 9 and 10; cells of 40 m have their centres at (n + 0.5) · 0.4 of those.
       const bool east_of = (x + 0.5) * 0.4 > 10.0;
       const bool north_of = (y + 0.5) * 0.4 < 10.0;
       const LandCoverClass read = as_read(x);
-      const LandCoverClass expected = read == rock && east_of && !north_of ? glacier : read == pasture && north_of ? snow : read;
+      const LandCoverClass expected = read == rock && east_of && !north_of ? glacier
+                                      : read == pasture && north_of        ? snow
+                                                                           : read;
       ASSERT_EQ(cover.classes.cells(x, y), expected) << x << ", " << y;
       glaciers += expected == glacier ? 1 : 0;
       snows += expected == snow ? 1 : 0;
@@ -69,13 +77,19 @@ TEST_F(RefinedLandCover, ChangesTheNamedClassWhereTheRulesSeeTheOther) {
 TEST(ErodedLandCover, DrawsBackInTheScene) {
   const test::Folder folder;
   folder.write("rules.toml",
-               "version = 1\nname = \"two\"\n[parameters]\nspeck_cells = 0\n[[layers]]\nclass = \"forest\"\nwhen = \"1\"\n"
+               "version = 1\nname = \"two\"\n[parameters]\nspeck_cells = 0\n[[layers]]\nclass = "
+               "\"forest\"\nwhen = \"1\"\n"
                "[[layers]]\nclass = \"snow\"\nwhen = \"northing > 5199000\"\n");
   const auto snow_rows = [&](const std::string& erode) {
-    const Dem level = make_dem({Grid<float>(400, 40, 1000.F), {500000.0, 5200000.0, 50.0, 50.0}, normalize_crs("EPSG:32632")});
-    const LoadedScene scene = parse_scene("version = 1\n[land_cover]\nrules = \"rules.toml\"\n" + erode, "s.toml", folder.path(), {});
+    const Dem level = make_dem({Grid<float>(400, 40, 1000.F),
+                                {500000.0, 5200000.0, 50.0, 50.0},
+                                normalize_crs("EPSG:32632")});
+    const LoadedScene scene = parse_scene(
+        "version = 1\n[land_cover]\nrules = \"rules.toml\"\n" + erode, "s.toml", folder.path(), {});
     const LandCover cover = make_scene_land_cover(scene, level, silent_progress());
-    return static_cast<double>(std::count(cover.classes.cells.begin(), cover.classes.cells.end(), snow)) / 400.0;
+    return static_cast<double>(
+               std::count(cover.classes.cells.begin(), cover.classes.cells.end(), snow)) /
+           400.0;
   };
   EXPECT_EQ(snow_rows(""), 20.0);
   EXPECT_NEAR(snow_rows("erode = { snow = 4 }\n"), 16.0, 0.7);
@@ -88,20 +102,22 @@ TEST_F(RefinedLandCover, WithoutTheKeyTheRasterHoldsAlone) {
     for (int x = 0; x < 50; ++x) ASSERT_EQ(cover.classes.cells(x, y), as_read(x));
 }
 
-// A scene's layers stand in for rules; its settings are theirs.
+// A scene's layers replace rules; its settings are those of the layers.
 TEST(LayeredLandCover, LayersOfTheSceneSayWhatTheGroundIs) {
   const test::Folder folder;
-  folder.write(
-      "two.layers.toml",
-      "version = 1\nground = { class = \"forest\" }\n[[inputs]]\nname = \"altitude\"\nlow = 0\nhigh = 3000\n[parameters]\nline_m = 5000\n"
-      "[[layers]]\nname = \"ice\"\nclass = \"glacier\"\nwhen = \"altitude > line_m\"\n");
+  folder.write("two.layers.toml",
+               "version = 1\nground = { class = \"forest\" }\n[[inputs]]\nname = \"altitude\"\nlow "
+               "= 0\nhigh = 3000\n[parameters]\nline_m = 5000\n"
+               "[[layers]]\nname = \"ice\"\nclass = \"glacier\"\nwhen = \"altitude > line_m\"\n");
   Grid<float> altitude(20, 20, 1000.F);
   for (int y = 0; y < 20; ++y)
     for (int x = 12; x < 20; ++x) altitude(x, y) = 2000.F;
-  const Dem dem = make_dem({altitude, {500000.0, 5200000.0, 100.0, 100.0}, normalize_crs("EPSG:32632")});
+  const Dem dem =
+      make_dem({altitude, {500000.0, 5200000.0, 100.0, 100.0}, normalize_crs("EPSG:32632")});
   const auto cover = [&](const std::string& settings) {
     const LoadedScene scene =
-        parse_scene("version = 1\n[land_cover]\nlayers = \"two.layers.toml\"\n" + settings, "s.toml", folder.path(), {});
+        parse_scene("version = 1\n[land_cover]\nlayers = \"two.layers.toml\"\n" + settings,
+                    "s.toml", folder.path(), {});
     return make_scene_land_cover(scene, dem, silent_progress()).classes.cells;
   };
   for (const LandCoverClass id : cover("")) ASSERT_EQ(id, forest);
@@ -111,14 +127,18 @@ TEST(LayeredLandCover, LayersOfTheSceneSayWhatTheGroundIs) {
   EXPECT_THROW(cover("settings = { line = 1500 }\n"), Error);
 }
 
-// Colours come along only where a scene asks for them: of the layers, also where a raster has the classes, also from the cache.
+// Colours are added only if a scene asks for them: of the layers, also where a raster has the
+// classes, also from the cache.
 TEST_F(RefinedLandCover, TheLayersColoursComeWithLayersOrARaster) {
   folder_.write("two.layers.toml",
                 "version = 1\nground = { class = \"forest\", colour = \"#102030\" }\n"
-                "[[layers]]\nname = \"ice\"\nclass = \"glacier\"\ncolour = \"#a0b0c0\"\nwhen = \"relief_180 > -1000\"\n");
+                "[[layers]]\nname = \"ice\"\nclass = \"glacier\"\ncolour = \"#a0b0c0\"\nwhen = "
+                "\"relief_180 > -1000\"\n");
   const Cache cache({.folder = folder_ / "cache", .limit_bytes = 0});
   const auto cover = [&](const std::string& keys) {
-    const LoadedScene scene = parse_scene("version = 1\n[land_cover]\nlayers = \"two.layers.toml\"\n" + keys, "s.toml", folder_.path(), {});
+    const LoadedScene scene =
+        parse_scene("version = 1\n[land_cover]\nlayers = \"two.layers.toml\"\n" + keys, "s.toml",
+                    folder_.path(), {});
     return make_scene_land_cover(scene, level(), silent_progress(), cache);
   };
   for (int run = 0; run < 2; ++run) {
@@ -126,29 +146,40 @@ TEST_F(RefinedLandCover, TheLayersColoursComeWithLayersOrARaster) {
     const LandCover made = cover("colours = \"layers\"\n");
     ASSERT_EQ(made.colours.cells.width(), 20);
     EXPECT_EQ(made.colours.transform, level().transform);
-    for (const GroundColour& colour : made.colours.cells) ASSERT_EQ(colour, GroundColour(0xa0, 0xb0, 0xc0, 255));
+    for (const GroundColour& colour : made.colours.cells)
+      ASSERT_EQ(colour, GroundColour(0xa0, 0xb0, 0xc0, 255));
   }
   refined("");  // writes the raster
-  const LandCover both = cover("colours = \"layers\"\nlegend = \"esa_worldcover\"\n[[land_cover.sources]]\nfile = \"cover.tif\"\n");
-  for (int x = 0; x < 50; ++x) EXPECT_EQ(both.classes.cells(x, 7), as_read(x)) << "the raster's classes stay";
+  const LandCover both = cover(
+      "colours = \"layers\"\nlegend = \"esa_worldcover\"\n[[land_cover.sources]]\nfile = "
+      "\"cover.tif\"\n");
+  for (int x = 0; x < 50; ++x)
+    EXPECT_EQ(both.classes.cells(x, 7), as_read(x)) << "the raster's classes stay";
   EXPECT_EQ(both.colours.cells(3, 3), GroundColour(0xa0, 0xb0, 0xc0, 255));
 }
 
-// With the colours come bumps and beds of lakes, as high as the scene wants them, also from the cache; with palette colours neither.
+// With the colours come bumps and beds of lakes, at the scene's height, also from the cache; with
+// palette colours neither.
 TEST(LayeredLandCover, BumpsAndBedsComeWithTheLayersColours) {
   const test::Folder folder;
   folder.write("rough.layers.toml",
                "version = 1\nground = { class = \"rock\", colour = \"#605040\" }\n"
-               "[[layers]]\nname = \"stones\"\nclass = \"scree\"\nwhen = \"altitude > 1020\"\nroughness = { height_m = 3, length_m = 40 }\n"
-               "[[layers]]\nname = \"lake\"\nclass = \"water\"\ncolour = \"#0000ff\"\nwhen = \"lake > 0.5\"\n");
+               "[[layers]]\nname = \"stones\"\nclass = \"scree\"\nwhen = \"altitude > "
+               "1020\"\nroughness = { height_m = 3, length_m = 40 }\n"
+               "[[layers]]\nname = \"lake\"\nclass = \"water\"\ncolour = \"#0000ff\"\nwhen = "
+               "\"lake > 0.5\"\n");
   Grid<float> altitude(80, 80);
   for (int y = 0; y < 80; ++y)
-    for (int x = 0; x < 80; ++x) altitude(x, y) = static_cast<float>(900.0 + 4.0 * std::max(0.0, std::hypot(x - 40.0, y - 40.0) - 15.0));
-  const Dem dem = make_dem({altitude, {500000.0, 5200000.0, 50.0, 50.0}, normalize_crs("EPSG:32632")});
+    for (int x = 0; x < 80; ++x)
+      altitude(x, y) =
+          static_cast<float>(900.0 + 4.0 * std::max(0.0, std::hypot(x - 40.0, y - 40.0) - 15.0));
+  const Dem dem =
+      make_dem({altitude, {500000.0, 5200000.0, 50.0, 50.0}, normalize_crs("EPSG:32632")});
   const Cache cache({.folder = folder / "cache", .limit_bytes = 0});
   const auto cover = [&](const std::string& keys) {
     const LoadedScene scene =
-        parse_scene("version = 1\n[land_cover]\nlayers = \"rough.layers.toml\"\n" + keys, "s.toml", folder.path(), {});
+        parse_scene("version = 1\n[land_cover]\nlayers = \"rough.layers.toml\"\n" + keys, "s.toml",
+                    folder.path(), {});
     return make_scene_land_cover(scene, dem, silent_progress(), cache);
   };
   for (int run = 0; run < 2; ++run) {
@@ -163,7 +194,8 @@ TEST(LayeredLandCover, BumpsAndBedsComeWithTheLayersColours) {
     EXPECT_EQ(made.classes.cells(40, 40), water);
     EXPECT_GT(made.relief.lake_depth_m(40, 40), made.relief.lake_depth_m(30, 40));
     EXPECT_EQ(made.relief.lake_depth_m(10, 40), 0.F);
-    EXPECT_EQ(made.colours.cells(30, 40), GroundColour(0x60, 0x50, 0x40, 255)) << "the bed is dry ground, not the water's colour";
+    EXPECT_EQ(made.colours.cells(30, 40), GroundColour(0x60, 0x50, 0x40, 255))
+        << "the bed is dry ground, not the water's colour";
     const LandCover other = cover("colours = \"layers\"\nbumps = 2.5\nlake_beds = false\n");
     EXPECT_EQ(other.relief.bumps[0].height_m, 7.5);
     EXPECT_TRUE(other.relief.lake_depth_m.empty());
@@ -171,23 +203,26 @@ TEST(LayeredLandCover, BumpsAndBedsComeWithTheLayersColours) {
   }
 }
 
-// Layers that ask for the climate get that of the scene, and the cache tells one climate from another.
+// Layers that need the climate get that of the scene, and the cache distinguishes climates.
 TEST(LayersInAScene, HangOnItsClimateAlsoFromTheCache) {
   const test::Folder folder;
   folder.write("cold.layers.toml",
-               "version = 1\nground = { class = \"rock\" }\n[[layers]]\nname = \"cold\"\nclass = \"snow\"\nwhen = \"temperature < 0\"\n");
+               "version = 1\nground = { class = \"rock\" }\n[[layers]]\nname = \"cold\"\nclass = "
+               "\"snow\"\nwhen = \"temperature < 0\"\n");
   std::string stations = "name,lon,lat,altitude_m,t_year\n";
   for (int i = 0; i < 10; ++i)  // 0 °C at 1500 m, at 2500 m where they are warmer
-    stations +=
-        "S,9.1,46." + std::to_string(90 + i % 10) + "," + std::to_string(500 + 200 * i) + "," + std::to_string(6.0 - 1.2 * i) + "\n";
+    stations += "S,9.1,46." + std::to_string(90 + i % 10) + "," + std::to_string(500 + 200 * i) +
+                "," + std::to_string(6.0 - 1.2 * i) + "\n";
   folder.write("stations.csv", stations);
   Grid<float> altitude(40, 20);
   for (int y = 0; y < 20; ++y)
     for (int x = 0; x < 40; ++x) altitude(x, y) = 100.F * static_cast<float>(x);
   const auto made = [&](const std::string& climate, const std::string& crs, const Cache& cache) {
-    const Dem dem = make_dem({altitude, {500000.0, 5200000.0, 100.0, 100.0}, crs.empty() ? crs : normalize_crs(crs)});
-    const LoadedScene scene =
-        parse_scene("version = 1\n[land_cover]\nlayers = \"cold.layers.toml\"\n[climate]\n" + climate, "s.toml", folder.path(), {});
+    const Dem dem = make_dem(
+        {altitude, {500000.0, 5200000.0, 100.0, 100.0}, crs.empty() ? crs : normalize_crs(crs)});
+    const LoadedScene scene = parse_scene(
+        "version = 1\n[land_cover]\nlayers = \"cold.layers.toml\"\n[climate]\n" + climate, "s.toml",
+        folder.path(), {});
     return make_scene_land_cover(scene, dem, silent_progress(), cache).classes.cells;
   };
   const Cache cache({.folder = folder / "cache", .limit_bytes = 0});

@@ -19,14 +19,15 @@ TEST(SceneMist, AScenesMistIsNoneWhereItAsksForNone) {
 }
 
 TEST(SceneMist, IsWhatTheSceneSays) {
-  const World world =
-      make_world(test::small_scene({"air.mist.0={ kind = \"sea\", to_m = 900, sight_m = 222 }", "air.mist.1={ kind = \"valley\" }",
-                                    "air.mist.2={ kind = \"lee\", position = [6000, 6000], size_m = 1500 }"}),
-                 silent_progress());
+  const World world = make_world(
+      test::small_scene({"air.mist.0={ kind = \"sea\", to_m = 900, visibility_m = 222 }",
+                         "air.mist.1={ kind = \"valley\" }",
+                         "air.mist.2={ kind = \"lee\", position = [6000, 6000], size_m = 1500 }"}),
+      silent_progress());
   ASSERT_EQ(world.mist.layers.size(), 2U);
   EXPECT_EQ(world.mist.layers[0].kind, MistKind::sea);
   EXPECT_EQ(world.mist.layers[0].to_m, 900.0);
-  EXPECT_EQ(world.mist.layers[0].sight_m, 222.0);
+  EXPECT_EQ(world.mist.layers[0].visibility_m, 222.0);
   EXPECT_EQ(world.mist.layers[1].kind, MistKind::valley);
   EXPECT_EQ(world.mist.layers[1].patches, 0.35);
   EXPECT_FALSE(world.mist.ground.floor_m.empty());
@@ -37,7 +38,8 @@ TEST(SceneMist, IsWhatTheSceneSays) {
 
 TEST(SceneMist, WhatIsMissingIsNamed) {
   const auto message = [](const char* mist) {
-    return test::message_of(ErrorKind::usage, [&] { test::small_scene({std::string("air.mist.0=") + mist}); });
+    return test::message_of(ErrorKind::usage,
+                            [&] { test::small_scene({std::string("air.mist.0=") + mist}); });
   };
   EXPECT_THAT(message("{ kind = \"sea\" }"), HasSubstr("to_m"));
   EXPECT_THAT(message("{ kind = \"lee\" }"), HasSubstr("position"));

@@ -16,7 +16,9 @@ namespace {
 using enum LandCoverClass;
 
 Dem tyrol(const std::string& crs = "EPSG:32632") {
-  Raster<float> raster{Grid<float>(100, 100), {680000.0, 5240000.0, 90.0, 90.0}, crs.empty() ? crs : normalize_crs(crs)};
+  Raster<float> raster{Grid<float>(100, 100),
+                       {680000.0, 5240000.0, 90.0, 90.0},
+                       crs.empty() ? crs : normalize_crs(crs)};
   for (int y = 0; y < 100; ++y)
     for (int x = 0; x < 100; ++x) raster.cells(x, y) = 600.F + 22.F * static_cast<float>(x);
   return make_dem(std::move(raster));
@@ -24,7 +26,9 @@ Dem tyrol(const std::string& crs = "EPSG:32632") {
 
 class SceneSeasonTest : public testing::Test {
  protected:
-  LoadedScene scene(const std::string& text) const { return parse_scene("version = 1\n" + text, "s.toml", folder_.path(), {}); }
+  LoadedScene scene(const std::string& text) const {
+    return parse_scene("version = 1\n" + text, "s.toml", folder_.path(), {});
+  }
   test::Folder folder_;
 };
 
@@ -42,7 +46,8 @@ TEST_F(SceneSeasonTest, DaysAreCountedFromTheFirstOfJanuary) {
 std::array<double, 365> year(double mean, double half_range) {
   std::array<double, 365> days{};
   for (std::size_t d = 0; d < days.size(); ++d)
-    days[d] = mean + half_range * std::cos(2.0 * 3.14159265358979 * (static_cast<double>(d) - 200.0) / 365.0);
+    days[d] = mean + half_range * std::cos(2.0 * 3.14159265358979 *
+                                           (static_cast<double>(d) - 200.0) / 365.0);
   return days;
 }
 
@@ -61,8 +66,9 @@ TEST_F(SceneSeasonTest, AutumnComesWithTheColdAndGoesWithTheWinter) {
 TEST_F(SceneSeasonTest, SummerTurnsFromTheHeightsDown) {
   const Palette summer = read_palette("summer");
   const Palette autumn = read_palette("autumn");
-  const LoadedScene october = scene("[land_cover.settings]\ntreeline_m = 1820\n[season]\ndate = \"09-25\"\n");
-  const Palette palette = palette_of_place(summer, october, tyrol());
+  const LoadedScene october =
+      scene("[land_cover.settings]\ntreeline_m = 1820\n[season]\ndate = \"09-25\"\n");
+  const Palette palette = palette_for_location(summer, october, tyrol());
   const auto turned = [&](double altitude_m) {
     const glm::vec3 a = palette_colour(summer, pasture, altitude_m, 0.5);
     const glm::vec3 b = palette_colour(autumn, pasture, altitude_m, 0.5);
@@ -76,16 +82,20 @@ TEST_F(SceneSeasonTest, SummerTurnsFromTheHeightsDown) {
 TEST_F(SceneSeasonTest, PalettesFollowTheTreelineOfThePlaceUnlessTheSceneHasItsOwn) {
   const Palette summer = read_palette("summer");
   const LoadedScene own = scene("[land_cover.settings]\ntreeline_m = 2400\n");
-  EXPECT_EQ(palette_colour(palette_of_place(summer, own, tyrol()), forest, 1000.0, 0.5), palette_colour(summer, forest, 1000.0, 0.5));
-  // Mexico, 19° N: forest up to some 3800 m, so that 1400 m lie far below all that the palette tells apart.
+  EXPECT_EQ(palette_colour(palette_for_location(summer, own, tyrol()), forest, 1000.0, 0.5),
+            palette_colour(summer, forest, 1000.0, 0.5));
+  // Mexico, 19° N: forest up to about 3800 m, so that 1400 m lie far below the range of the
+  // palette.
   const LoadedScene open = scene("");
   Dem mexico = tyrol("EPSG:32614");
   mexico.transform.origin_y = 2100000.0;
-  const Palette there = palette_of_place(summer, open, mexico);
+  const Palette there = palette_for_location(summer, open, mexico);
   EXPECT_EQ(palette_colour(there, forest, 1400.0, 0.5), palette_colour(summer, forest, 0.0, 0.5));
-  EXPECT_NE(palette_colour(there, forest, 3000.0, 0.5), palette_colour(summer, forest, 3000.0, 0.5));
-  // Terrain of no known place, and a painter's own palette, stay.
-  EXPECT_EQ(palette_colour(palette_of_place(summer, open, tyrol("")), forest, 1000.0, 0.5), palette_colour(summer, forest, 1000.0, 0.5));
+  EXPECT_NE(palette_colour(there, forest, 3000.0, 0.5),
+            palette_colour(summer, forest, 3000.0, 0.5));
+  // Terrain of unknown position, and a painter's own palette, are unchanged.
+  EXPECT_EQ(palette_colour(palette_for_location(summer, open, tyrol("")), forest, 1000.0, 0.5),
+            palette_colour(summer, forest, 1000.0, 0.5));
 }
 
 TEST_F(SceneSeasonTest, LakesFreezeWhereTheColdestMonthIsBelowThreeDegreesOfFrost) {
@@ -103,8 +113,11 @@ TEST_F(SceneSeasonTest, LakesFreezeWhereTheColdestMonthIsBelowThreeDegreesOfFros
 }
 
 TEST_F(SceneSeasonTest, WinterHasIceByTheClimateUnlessTheSceneSaysOtherwise) {
-  const auto from_m = [&](const std::string& palette, const std::string& asked, const std::string& crs = "EPSG:32632") {
-    return palette_of_place(read_palette(palette), scene("[season]\nfrozen_lakes = \"" + asked + "\"\n"), tyrol(crs)).lakes_freeze_from_m;
+  const auto from_m = [&](const std::string& palette, const std::string& asked,
+                          const std::string& crs = "EPSG:32632") {
+    return palette_for_location(read_palette(palette),
+                                scene("[season]\nfrozen_lakes = \"" + asked + "\"\n"), tyrol(crs))
+        .lakes_freeze_from_m;
   };
   // The lakes of Tyrol at 930 m are frozen, those of the plain, some 550 m high, mostly are not.
   EXPECT_GT(from_m("winter", "auto"), 300.0);
@@ -112,7 +125,8 @@ TEST_F(SceneSeasonTest, WinterHasIceByTheClimateUnlessTheSceneSaysOtherwise) {
   EXPECT_EQ(from_m("winter", "always"), -std::numeric_limits<double>::infinity());
   EXPECT_EQ(from_m("winter", "never"), std::numeric_limits<double>::infinity());
   EXPECT_EQ(from_m("summer", "always"), std::numeric_limits<double>::infinity());
-  EXPECT_EQ(from_m("winter", "auto", ""), std::numeric_limits<double>::infinity()) << "a place that is not known";
+  EXPECT_EQ(from_m("winter", "auto", ""), std::numeric_limits<double>::infinity())
+      << "a place that is not known";
 }
 
 }  // namespace

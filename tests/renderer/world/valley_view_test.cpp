@@ -15,8 +15,8 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-// A level perspective 90° wide: its plane lies half a width before the eye, so that the picture's rim is seen at a slope of
-// (height / width) · cos(angle off the middle).
+// A level perspective 90° wide: its plane lies half a width before the eye, so that the picture's
+// rim is seen at a slope of (height / width) · cos(angle off the middle).
 TEST(SightLines, OfALevelPerspective) {
   CameraParameters camera;
   camera.width = 400;
@@ -46,18 +46,23 @@ TEST(KnownAltitude, IsVoidWhereSomethingWasFilled) {
   raster.cells(3, 4) = NAN;
   const Grid<float> known = known_altitude(make_dem(std::move(raster)));
   for (int y = 0; y < 8; ++y)
-    for (int x = 0; x < 8; ++x) EXPECT_EQ(std::isnan(known(x, y)), x == 3 && y == 4) << x << ' ' << y;
+    for (int x = 0; x < 8; ++x)
+      EXPECT_EQ(std::isnan(known(x, y)), x == 3 && y == 4) << x << ' ' << y;
 }
 
 // The search for a bend tries many on one ground.
 TEST(BareView, BentAnewIsAsIfItHadBeenMadeSo) {
-  const std::string bend = "deform.bend.points=[{ distance_m = 3000, inclination_deg = 15 }, { distance_m = 12000, inclination_deg = 0 }]";
+  const std::string bend =
+      "deform.bend.points=[{ distance_m = 3000, inclination_deg = 15 }, { distance_m = 12000, "
+      "inclination_deg = 0 }]";
   const BareView bent = make_bare_view(test::small_scene({bend}), silent_progress());
-  BareView anew = make_bare_view(test::small_scene(), silent_progress());
-  const auto place = [](const BareView& bare) { return bare.deformation.point({6000.0, 1000.0, 1000.0}); };
-  EXPECT_NE(place(anew), place(bent));
-  bend_anew(anew, bent.view.deform.bend);
-  EXPECT_EQ(place(anew), place(bent));
+  BareView again = make_bare_view(test::small_scene(), silent_progress());
+  const auto position = [](const BareView& bare) {
+    return bare.deformation.point({6000.0, 1000.0, 1000.0});
+  };
+  EXPECT_NE(position(again), position(bent));
+  bend_again(again, bent.view.deform.bend);
+  EXPECT_EQ(position(again), position(bent));
 }
 
 }  // namespace

@@ -25,20 +25,23 @@ Dem make_ridge(int width, int height) {
   raster.cells = Grid<float>(width, height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
-      raster.cells(x, y) = static_cast<float>(500.0 + 1500.0 * std::exp(-0.5 * std::pow((x - 0.5 * width) * 0.3 / 6.0, 2.0)));
-  raster.transform = {.origin_x = 600000.0, .origin_y = 5250000.0, .cell_x = 300.0, .cell_y = 300.0};
+      raster.cells(x, y) = static_cast<float>(
+          500.0 + 1500.0 * std::exp(-0.5 * std::pow((x - 0.5 * width) * 0.3 / 6.0, 2.0)));
+  raster.transform = {
+      .origin_x = 600000.0, .origin_y = 5250000.0, .cell_x = 300.0, .cell_y = 300.0};
   raster.crs = normalize_crs("EPSG:32632");
   return make_dem(std::move(raster));
 }
 
-// Colder northwards by .7 K a degree, 5 … 6.5 K/km, 800 mm and 100 mm/km.
-PlaceClimate made_up(glm::dvec2 lonlat) {
+// Colder northwards by .7 K per degree, 5 … 6.5 K/km, 800 mm and 100 mm/km.
+PlaceClimate synthetic(glm::dvec2 lonlat) {
   PlaceClimate column;
   for (std::size_t m = 0; m < 12; ++m) {
     column.sea_level_c[m] = 12.0 - 0.7 * (lonlat.y - 47.0) + (m >= 5 && m <= 7 ? 8.0 : 0.0);
     column.lapse_k_per_km[m] = m >= 5 && m <= 7 ? 6.5 : 5.0;
   }
-  for (std::size_t km = 0; km < 8; ++km) column.rain_mm_at_km[km] = 800.0 + 100.0 * static_cast<double>(km);
+  for (std::size_t km = 0; km < 8; ++km)
+    column.rain_mm_at_km[km] = 800.0 + 100.0 * static_cast<double>(km);
   return column;
 }
 
@@ -56,9 +59,10 @@ std::string join(const std::vector<std::string>& lines) {
 
 TEST(Climate, WithoutSourcesItIsTheDefaultAtEachPlace) {
   const Dem dem = make_ridge(60, 400);
-  const Climate climate = make_climate(dem, {.upslope = {.strength = 0.0}}, made_up, silent_progress());
+  const Climate climate =
+      make_climate(dem, {.upslope = {.strength = 0.0}}, synthetic, silent_progress());
   for (const int row : {0, 170, 399}) {
-    const double latitude = climate.place.latitude_deg.at(30, row);
+    const double latitude = climate.position.latitude_deg.at(30, row);
     const PlaceClimate column = climate.at(30, row);
     EXPECT_NEAR(monthly_c(column, 2000.0)[0], 12.0 - 0.7 * (latitude - 47.0) - 10.0, 1e-3);
     EXPECT_NEAR(monthly_c(column, 2000.0)[6], 20.0 - 0.7 * (latitude - 47.0) - 13.0, 1e-3);
@@ -67,54 +71,68 @@ TEST(Climate, WithoutSourcesItIsTheDefaultAtEachPlace) {
     EXPECT_NEAR(rain_mm(column, 9000.0), 1500.0, 1e-9);
     EXPECT_NEAR(column.summer_share, 0.5, 1e-12);
   }
-  EXPECT_THAT(join(climate.sources), AllOf(HasSubstr("temperature: by latitude"), HasSubstr("rain: by latitude")));
+  EXPECT_THAT(join(climate.sources),
+              AllOf(HasSubstr("temperature: from latitude"), HasSubstr("rain: from latitude")));
 }
 
 TEST(Climate, WindSharesRainOutOnLargeMapsOrWhereItIsAskedFor) {
-  // 60 km wide: westerlies of themselves.
-  const Climate large = make_climate(make_ridge(200, 60), {}, made_up, silent_progress());
+  // 60 km wide: westerlies by default.
+  const Climate large = make_climate(make_ridge(200, 60), {}, synthetic, silent_progress());
   EXPECT_EQ(large.wind_from_deg, 270.0);
   EXPECT_GT(rain_mm(large.at(80, 30), 1000.0), 1.2 * rain_mm(large.at(120, 30), 1000.0));
-  const Climate turned = make_climate(make_ridge(200, 60), {.wind_from_deg = 90.0}, made_up, silent_progress());
+  const Climate turned =
+      make_climate(make_ridge(200, 60), {.wind_from_deg = 90.0}, synthetic, silent_progress());
   EXPECT_LT(1.2 * rain_mm(turned.at(80, 30), 1000.0), rain_mm(turned.at(120, 30), 1000.0));
-  const Climate small = make_climate(make_ridge(60, 60), {}, made_up, silent_progress());
+  const Climate small = make_climate(make_ridge(60, 60), {}, synthetic, silent_progress());
   EXPECT_TRUE(small.rain_share.empty());
-  EXPECT_FALSE(make_climate(make_ridge(60, 60), {.wind_from_deg = 200.0}, made_up, silent_progress()).rain_share.empty());
+  EXPECT_FALSE(
+      make_climate(make_ridge(60, 60), {.wind_from_deg = 200.0}, synthetic, silent_progress())
+          .rain_share.empty());
   EXPECT_EQ(usual_wind_from_deg(-3.0), 90.0);
   EXPECT_EQ(usual_wind_from_deg(-45.0), 270.0);
 }
 
 TEST(Climate, ARasterOfMonthsIsMetAtItsOwnAltitudes) {
-  // A raster that is the truth of another climate at this ground: 6 K/km, in tenths of a kelvin.
+  // A raster with the exact values of another climate on this ground: 6 K/km, in tenths of a
+  // kelvin.
   const Dem dem = make_ridge(100, 30);
   const test::Folder folder;
   Raster<float> month{Grid<float>(100, 30), dem.transform, dem.crs};
-  for (std::size_t i = 0; i < month.cells.size(); ++i) month.cells[i] = 10.0F * (273.15F + 15.0F - 6e-3F * dem.altitude_m[i]);
+  for (std::size_t i = 0; i < month.cells.size(); ++i)
+    month.cells[i] = 10.0F * (273.15F + 15.0F - 6e-3F * dem.altitude_m[i]);
   write_raster(folder / "month.tif", month);
   std::string vrt =
-      "<VRTDataset rasterXSize=\"100\" rasterYSize=\"30\"><SRS>EPSG:32632</SRS><GeoTransform>600000,300,0,5250000,0,-300</GeoTransform>";
+      "<VRTDataset rasterXSize=\"100\" "
+      "rasterYSize=\"30\"><SRS>EPSG:32632</SRS><GeoTransform>600000,300,0,5250000,0,-300</"
+      "GeoTransform>";
   for (int band = 1; band <= 12; ++band)
     vrt += "<VRTRasterBand dataType=\"Float32\" band=\"" + std::to_string(band) +
            "\"><SimpleSource><SourceFilename "
-           "relativeToVRT=\"1\">month.tif</SourceFilename><SourceBand>1</SourceBand></SimpleSource></VRTRasterBand>";
+           "relativeToVRT=\"1\">month.tif</SourceFilename><SourceBand>1</SourceBand></"
+           "SimpleSource></VRTRasterBand>";
   ClimateParameters parameters;
   parameters.temperature = source_of(folder.write("months.vrt", vrt + "</VRTDataset>"));
   parameters.temperature_factor = 0.1;
-  const Climate climate = make_climate(dem, parameters, made_up, silent_progress());
+  const Climate climate = make_climate(dem, parameters, synthetic, silent_progress());
   for (int y = 5; y < 25; y += 4)
     for (int x = 5; x < 95; x += 6) {
       const PlaceClimate column = climate.at(x, y);
-      EXPECT_NEAR(monthly_c(column, dem.altitude_m(x, y))[3], 15.0 - 6e-3 * dem.altitude_m(x, y), 0.15) << x << ' ' << y;
+      EXPECT_NEAR(monthly_c(column, dem.altitude_m(x, y))[3], 15.0 - 6e-3 * dem.altitude_m(x, y),
+                  0.15)
+          << x << ' ' << y;
       EXPECT_NEAR(column.lapse_k_per_km[3], 6.0, 0.1);
     }
   EXPECT_THAT(join(climate.sources), HasSubstr("in kelvin"));
   parameters.temperature = source_of(folder / "month.tif");
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { make_climate(dem, parameters, made_up, silent_progress()); }),
-              HasSubstr("12, the means"));
-  // Rain of the year in one band.
+  EXPECT_THAT(
+      test::message_of(ErrorKind::usage,
+                       [&] { make_climate(dem, parameters, synthetic, silent_progress()); }),
+      HasSubstr("12 bands, the means"));
+  // Annual rain in one band.
   for (float& value : month.cells) value = 640.0F;
   write_raster(folder / "rain.tif", month);
-  const Climate wet = make_climate(dem, {.rain = source_of(folder / "rain.tif")}, made_up, silent_progress());
+  const Climate wet =
+      make_climate(dem, {.rain = source_of(folder / "rain.tif")}, synthetic, silent_progress());
   EXPECT_NEAR(rain_mm(wet.at(20, 15), dem.altitude_m(20, 15)), 640.0, 5.0);
 }
 
@@ -124,30 +142,34 @@ TEST(Climate, StationsHaveTheFirstWordAndTellHowSureTheyAre) {
   DemParameters where;
   where.sources = {source_of(folder + "srtm_oetztal.tif")};
   const Dem dem = read_dem(where, silent_progress());
-  const Climate climate = make_climate(dem, {.stations = folder + "HISTALP_oetztal.nc"}, made_up, silent_progress());
-  EXPECT_THAT(join(climate.sources), AllOf(HasSubstr("falls 5.74 K/km"), HasSubstr("5.5"), HasSubstr("resampled stations"),
-                                           HasSubstr("mm a km higher"), HasSubstr("wind from 270°")));
-  const PlaceClimate middle = climate.at(0.5 * dem.width(), 0.5 * dem.height());
+  const Climate climate =
+      make_climate(dem, {.stations = folder + "HISTALP_oetztal.nc"}, synthetic, silent_progress());
+  EXPECT_THAT(join(climate.sources),
+              AllOf(HasSubstr("falls 5.74 K/km"), HasSubstr("5.5"), HasSubstr("resampled stations"),
+                    HasSubstr("mm per km of altitude"), HasSubstr("wind from 270°")));
+  const PlaceClimate centre = climate.at(0.5 * dem.width(), 0.5 * dem.height());
   double year = 0.0;
-  for (std::size_t m = 0; m < 12; ++m) year += monthly_c(middle, 1938.0)[m] / 12.0;
+  for (std::size_t m = 0; m < 12; ++m) year += monthly_c(centre, 1938.0)[m] / 12.0;
   EXPECT_NEAR(year, 2.4, 1.0) << "Obergurgl, 1938 m, has 2.6 °C";
-  EXPECT_NEAR(rain_mm(middle, 1938.0), 900.0, 350.0);
+  EXPECT_NEAR(rain_mm(centre, 1938.0), 900.0, 350.0);
 }
 
-// What measured glaciers tell makes up for the default's rain: where stations tell the rain, hollows gather what is usual.
+// The correction by measured glaciers applies only to the default's rain: with rain from stations,
+// hollows collect the usual amount.
 TEST(Climate, HollowsGatherWhatIsUsualWhereRainIsKnown) {
   const test::Folder folder;
   std::string with_rain = "east,north,altitude,t_year,rain_mm\n";
   std::string without = "east,north,altitude,t_year\n";
   for (int i = 0; i < 9; ++i) {
-    const std::string place = "610000,5240000," + std::to_string(400 + 250 * i) + "," + std::to_string(9.0 - 0.006 * 250 * i);
-    with_rain += place + "," + std::to_string(900 + 20 * i) + "\n";
-    without += place + "\n";
+    const std::string position = "610000,5240000," + std::to_string(400 + 250 * i) + "," +
+                                 std::to_string(9.0 - 0.006 * 250 * i);
+    with_rain += position + "," + std::to_string(900 + 20 * i) + "\n";
+    without += position + "\n";
   }
   const auto scarce = [](glm::dvec2 lonlat) {
-    PlaceClimate place = made_up(lonlat);
-    place.gathers = 0.6;
-    return place;
+    PlaceClimate position = synthetic(lonlat);
+    position.gathers = 0.6;
+    return position;
   };
   const Dem dem = make_ridge(60, 60);
   const auto gathers = [&](const std::string& file) {
@@ -164,11 +186,13 @@ TEST(Climate, MeansOfTheYearTakeTheirCourseFromTheDefaultAndTheSceneHasTheLastWo
   const test::Folder folder;
   std::string text = "east,north,altitude,t_year\n";
   for (int i = 0; i < 9; ++i)
-    text += "610000,5240000," + std::to_string(400 + 250 * i) + "," + std::to_string(9.0 - 0.006 * 250 * i) + "\n";
+    text += "610000,5240000," + std::to_string(400 + 250 * i) + "," +
+            std::to_string(9.0 - 0.006 * 250 * i) + "\n";
   ClimateParameters parameters;
   parameters.stations = folder.write("s.csv", text);
   const Dem dem = make_ridge(60, 60);
-  const PlaceClimate column = make_climate(dem, parameters, made_up, silent_progress()).at(30, 30);
+  const PlaceClimate column =
+      make_climate(dem, parameters, synthetic, silent_progress()).at(30, 30);
   double year = 0.0;
   double lapse = 0.0;
   for (std::size_t m = 0; m < 12; ++m) {
@@ -179,11 +203,13 @@ TEST(Climate, MeansOfTheYearTakeTheirCourseFromTheDefaultAndTheSceneHasTheLastWo
   EXPECT_NEAR(lapse, 6.0, 1e-6);
   EXPECT_NEAR(column.sea_level_c[6] - column.sea_level_c[0], 8.0, 1e-9);
   parameters.lapse_k_per_km = 4.0;
-  const PlaceClimate said = make_climate(dem, parameters, made_up, silent_progress()).at(30, 30);
+  const PlaceClimate said = make_climate(dem, parameters, synthetic, silent_progress()).at(30, 30);
   EXPECT_EQ(said.lapse_k_per_km[0], 4.0);
   parameters.lapse_k_per_km = 40.0;
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { make_climate(dem, parameters, made_up, silent_progress()); }),
-              HasSubstr("lapse_k_per_km"));
+  EXPECT_THAT(
+      test::message_of(ErrorKind::usage,
+                       [&] { make_climate(dem, parameters, synthetic, silent_progress()); }),
+      HasSubstr("lapse_k_per_km"));
 }
 
 }  // namespace

@@ -24,41 +24,45 @@ const ClimateField& built_in_field() {
 
 double km_between(const MeasuredGlacier& a, const MeasuredGlacier& b) {
   const double north = (a.latitude_deg - b.latitude_deg) * 111.2;
-  const double east = (a.longitude_deg - b.longitude_deg) * 111.2 * std::cos(to_radians(a.latitude_deg));
+  const double east =
+      (a.longitude_deg - b.longitude_deg) * 111.2 * std::cos(to_radians(a.latitude_deg));
   return std::hypot(north, east);
 }
 
-// Misses of equilibrium lines that all glaciers farther than that from each tell, m.
+// Errors of equilibrium lines predicted from all glaciers farther than that from each, m.
 struct GlacierMisses {
   double rms = 0.0;
   double mean = 0.0;
   double alps_rms = 0.0;
 };
-GlacierMisses misses_without_glaciers_within(double km, const GlacierKinship& kinship = {}) {
+GlacierMisses misses_without_glaciers_within(double km, const GlacierSimilarity& similarity = {}) {
   const std::vector<MeasuredGlacier> all = read_measured_glaciers();
-  // What a glacier says of itself hangs on nothing but its place.
-  const SnowGathering whole = make_snow_gathering(built_in_field(), all, kinship);
+  // The equilibrium line of a measured glacier depends only on its position.
+  const SnowGathering whole = make_snow_gathering(built_in_field(), all, similarity);
   GlacierMisses misses;
   int alps = 0;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    SnowGathering others{kinship, {}, {}};
+    SnowGathering others{similarity, {}, {}};
     for (std::size_t k = 0; k < all.size(); ++k)
       if (k != i && km_between(all[i], all[k]) > km) {
-        others.places.push_back(whole.places[k]);
+        others.positions.push_back(whole.positions[k]);
         others.log_gathers.push_back(whole.log_gathers[k]);
       }
-    PlaceClimate place = place_climate(built_in_field(), all[i].longitude_deg, all[i].latitude_deg);
-    place.gathers = gathers_at(others, all[i].longitude_deg, all[i].latitude_deg);
-    const double miss = snow_line_m(place) - all[i].equilibrium_m;
+    PlaceClimate position =
+        place_climate(built_in_field(), all[i].longitude_deg, all[i].latitude_deg);
+    position.gathers = gathers_at(others, all[i].longitude_deg, all[i].latitude_deg);
+    const double miss = snow_line_m(position) - all[i].equilibrium_m;
     misses.rms += miss * miss;
     misses.mean += miss;
-    if (all[i].latitude_deg > 45.0 && all[i].latitude_deg < 47.5 && all[i].longitude_deg > 5.0 && all[i].longitude_deg < 14.0) {
+    if (all[i].latitude_deg > 45.0 && all[i].latitude_deg < 47.5 && all[i].longitude_deg > 5.0 &&
+        all[i].longitude_deg < 14.0) {
       misses.alps_rms += miss * miss;
       ++alps;
     }
   }
   const auto n = static_cast<double>(all.size());
-  return {std::sqrt(misses.rms / n), misses.mean / n, std::sqrt(misses.alps_rms / std::max(1, alps))};
+  return {std::sqrt(misses.rms / n), misses.mean / n,
+          std::sqrt(misses.alps_rms / std::max(1, alps))};
 }
 
 TEST(DefaultClimate, GlaciersAreToldByTheOthers) {
@@ -69,11 +73,12 @@ TEST(DefaultClimate, GlaciersAreToldByTheOthers) {
   const GlacierMisses alone = misses_without_glaciers_within(100.0);
   EXPECT_LT(alone.rms, 230.0) << "without those within 100 km";
   EXPECT_LT(alone.alps_rms, 205.0);
-  // Without any glacier the Alps, whose summits have stations, come out too low.
-  EXPECT_GT(misses_without_glaciers_within(0.0, {.reach_km = 300.0, .usual_weight = 1e9}).alps_rms, misses.alps_rms + 100.0);
+  // Without glaciers the lines in the Alps, whose summits have stations, are too low.
+  EXPECT_GT(misses_without_glaciers_within(0.0, {.reach_km = 300.0, .usual_weight = 1e9}).alps_rms,
+            misses.alps_rms + 100.0);
 }
 
-// No line hangs on a station or a glacier beside it.
+// No line depends on a single nearby station or glacier.
 TEST(DefaultClimate, LinesHoldWithoutStationsAndGlaciersNearThem) {
   const std::vector<MeasuredGlacier> all = read_measured_glaciers();
   double square_m = 0.0;
@@ -81,14 +86,16 @@ TEST(DefaultClimate, LinesHoldWithoutStationsAndGlaciersNearThem) {
   for (std::size_t i = 0; i < all.size(); i += 4, ++count) {
     std::vector<ClimateStation> stations;
     for (const ClimateStation& s : read_climate_stations())
-      if (km_between({s.name, s.latitude_deg, s.longitude_deg, 0.0}, all[i]) > 100.0) stations.push_back(s);
+      if (km_between({s.name, s.latitude_deg, s.longitude_deg, 0.0}, all[i]) > 100.0)
+        stations.push_back(s);
     std::vector<MeasuredGlacier> glaciers;
     for (const MeasuredGlacier& g : all)
       if (km_between(g, all[i]) > 100.0) glaciers.push_back(g);
     const ClimateField field = make_climate_field(stations);
-    PlaceClimate place = place_climate(field, all[i].longitude_deg, all[i].latitude_deg);
-    place.gathers = gathers_at(make_snow_gathering(field, glaciers), all[i].longitude_deg, all[i].latitude_deg);
-    const double miss = snow_line_m(place) - all[i].equilibrium_m;
+    PlaceClimate position = place_climate(field, all[i].longitude_deg, all[i].latitude_deg);
+    position.gathers =
+        gathers_at(make_snow_gathering(field, glaciers), all[i].longitude_deg, all[i].latitude_deg);
+    const double miss = snow_line_m(position) - all[i].equilibrium_m;
     square_m += miss * miss;
   }
   RecordProperty("rms", std::to_string(std::sqrt(square_m / count)));
@@ -97,13 +104,15 @@ TEST(DefaultClimate, LinesHoldWithoutStationsAndGlaciersNearThem) {
 
 TEST(DefaultClimate, AGlacierAloneHasItsOwnLine) {
   const MeasuredGlacier glacier{"G", 46.8, 10.8, 3000.0};
-  const SnowGathering gathering = make_snow_gathering(built_in_field(), {glacier}, {.reach_km = 300.0, .usual_weight = 1e-9});
-  PlaceClimate place = place_climate(built_in_field(), 10.8, 46.8);
-  place.gathers = gathers_at(gathering, 10.8, 46.8);
-  EXPECT_NEAR(snow_line_m(place), 3000.0, 0.1);
-  // It speaks for its neighbours, and for nobody on the other side of the Earth.
+  const SnowGathering gathering =
+      make_snow_gathering(built_in_field(), {glacier}, {.reach_km = 300.0, .usual_weight = 1e-9});
+  PlaceClimate position = place_climate(built_in_field(), 10.8, 46.8);
+  position.gathers = gathers_at(gathering, 10.8, 46.8);
+  EXPECT_NEAR(snow_line_m(position), 3000.0, 0.1);
+  // It affects its neighbours, but nothing on the other side of the Earth.
   const SnowGathering modest = make_snow_gathering(built_in_field(), {glacier});
-  EXPECT_GT(std::log(gathers_at(modest, 10.8, 46.8)) / std::log(gathers_at(modest, 14.0, 46.8)), 1.2);
+  EXPECT_GT(std::log(gathers_at(modest, 10.8, 46.8)) / std::log(gathers_at(modest, 14.0, 46.8)),
+            1.2);
   EXPECT_NEAR(gathers_at(modest, -169.0, -46.8), 1.0, 1e-3);
   EXPECT_NEAR(gathers_at({}, 10.8, 46.8), 1.0, 1e-12);
 }
@@ -117,7 +126,8 @@ TEST(DefaultClimate, BadGlaciersNameTheirLine) {
     }
     return std::string();
   };
-  EXPECT_THAT(message_of("version = 1\nglaciers = [\n[\"A\", 95.0, 0, 3000, \"W\"]]"), HasSubstr("g.toml:3"));
+  EXPECT_THAT(message_of("version = 1\nglaciers = [\n[\"A\", 95.0, 0, 3000, \"W\"]]"),
+              HasSubstr("g.toml:3"));
   EXPECT_THAT(message_of("version = 1\nglaciers = [\n[\"A\", 45.0, 0]]"), HasSubstr("g.toml:3"));
   EXPECT_THAT(message_of("version = 2\nglaciers = []"), HasSubstr("version = 1"));
 }

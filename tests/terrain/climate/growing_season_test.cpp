@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "tests/terrain/climate/made_up_months.h"
+#include "tests/terrain/climate/synthetic_months.h"
 
 namespace belvedere {
 namespace {
@@ -61,7 +61,8 @@ TEST(Treeline, ExcessCountsKelvin) {
 }
 
 TEST(Treeline, ShortSummersNeedTheirDays) {
-  // Summers of 14 K above a cold year: warm enough, but shorter than 94 days, so that days decide and not the mean.
+  // Summers 14 K above a cold year: warm enough, but shorter than 94 days, so that days decide and
+  // not the mean.
   const Months wave = means_of_wave(-31.0, 45.0, 1, 0.55);
   const double excess = treeline_excess_k(wave);
   Months at_line = wave;
@@ -73,7 +74,8 @@ TEST(Treeline, ShortSummersNeedTheirDays) {
 
 TEST(HighestAltitude, IsFoundToAMillimetre) {
   EXPECT_NEAR(highest_m([](double m) { return m < 1234.567; }), 1234.567, 2e-3);
-  EXPECT_NEAR(highest_m([](double m) { return m < -50.0 || (m > 3000.0 && m < 3333.3); }), 3333.3, 2e-3);
+  EXPECT_NEAR(highest_m([](double m) { return m < -50.0 || (m > 3000.0 && m < 3333.3); }), 3333.3,
+              2e-3);
   EXPECT_EQ(highest_m([](double) { return true; }), 9000.0);
   EXPECT_EQ(highest_m([](double) { return false; }), -2000.0);
 }

@@ -13,7 +13,8 @@ namespace belvedere {
 namespace {
 
 TEST(HorizonSweep, AWallStandsAsHighAsItIsFarFromAnyDirection) {
-  // A straight wall seen across: its tangent is height / distance, less what the Earth falls away.
+  // A straight wall, perpendicular to the view: its tangent is height / distance, minus earth
+  // curvature.
   constexpr double cell_m = 50.0;
   for (const double azimuth : {0.0, 90.0, 180.0, 270.0}) {
     Grid<float> ground(301, 301, 100.0F);
@@ -25,14 +26,15 @@ TEST(HorizonSweep, AWallStandsAsHighAsItIsFarFromAnyDirection) {
       const int x = upright ? 150 + from * away : 120;
       const int y = upright ? 120 : 150 - from * away;
       const double distance = away * cell_m;
-      EXPECT_NEAR(tangents(x, y), 500.0 / distance - distance / (2.0 * sight_radius_m), 2e-6 * (1.0 + 500.0 / distance))
+      EXPECT_NEAR(tangents(x, y), 500.0 / distance - distance / (2.0 * sight_radius_m),
+                  2e-6 * (1.0 + 500.0 / distance))
           << azimuth << ' ' << away;
     }
   }
 }
 
 TEST(HorizonSweep, FarMountainsSinkBehindTheEarth) {
-  // 4000 m over the sea, 150 km away: 1535 m are hidden.
+  // 4000 m above the sea, 150 km away: 1535 m are hidden.
   constexpr int width = 1600;
   Grid<float> sea(width, 3, 0.0F);
   for (int y = 0; y < 3; ++y) sea(1550, y) = 4000.0F;
@@ -44,7 +46,8 @@ TEST(HorizonSweep, AnyDirectionOnSmoothHillsIsWhatMarchingFinds) {
   constexpr int size = 160;
   Grid<float> hills(size, size);
   for (int y = 0; y < size; ++y)
-    for (int x = 0; x < size; ++x) hills(x, y) = static_cast<float>(300.0 * std::sin(x / 11.0) * std::cos(y / 13.0) + 4.0 * x);
+    for (int x = 0; x < size; ++x)
+      hills(x, y) = static_cast<float>(300.0 * std::sin(x / 11.0) * std::cos(y / 13.0) + 4.0 * x);
   const auto height = [&](double x, double y) {
     const int x0 = std::min(static_cast<int>(x), size - 2);
     const int y0 = std::min(static_cast<int>(y), size - 2);
@@ -66,7 +69,9 @@ TEST(HorizonSweep, AnyDirectionOnSmoothHillsIsWhatMarchingFinds) {
           const double px = x + t * east / cell_x;
           const double py = y - t * north / cell_y;
           if (px < 0 || py < 0 || px > size - 1 || py > size - 1) break;
-          if (t >= cell_x) highest = std::max(highest, (height(px, py) - hills(x, y) - t * t / (2.0 * sight_radius_m)) / t);
+          if (t >= cell_x)
+            highest = std::max(highest,
+                               (height(px, py) - hills(x, y) - t * t / (2.0 * sight_radius_m)) / t);
         }
         EXPECT_NEAR(tangents(x, y), highest, 0.025) << azimuth << ' ' << x << ' ' << y;
       }
@@ -75,10 +80,12 @@ TEST(HorizonSweep, AnyDirectionOnSmoothHillsIsWhatMarchingFinds) {
 
 TEST(HorizonSweep, EveryCellIsSeenOnceAndTheRimOnThatSideSeesNothing) {
   Grid<float> ground(37, 23);
-  for (std::size_t i = 0; i < ground.size(); ++i) ground[i] = static_cast<float>(random_uniform(1, static_cast<int>(i), 0) * 100.0);
+  for (std::size_t i = 0; i < ground.size(); ++i)
+    ground[i] = static_cast<float>(random_uniform(1, static_cast<int>(i), 0) * 100.0);
   for (int azimuth = 0; azimuth < 360; azimuth += 15) {
     Grid<int> seen(37, 23, 0);
-    sweep_horizon(ground, plan_sweep(37, 23, {30.0, 30.0}, exact::turn(to_radians(azimuth))), [&](int x, int y, float) { ++seen(x, y); });
+    sweep_horizon(ground, plan_sweep(37, 23, {30.0, 30.0}, exact::turn(to_radians(azimuth))),
+                  [&](int x, int y, float) { ++seen(x, y); });
     for (const int count : seen) EXPECT_EQ(count, 1) << azimuth;
   }
   EXPECT_EQ(horizon_tangents(ground, {30.0, 30.0}, 0.0)(5, 0), no_horizon);

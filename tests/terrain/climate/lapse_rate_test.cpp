@@ -17,12 +17,13 @@ namespace {
 
 using testing::HasSubstr;
 
-struct MadeUp {
+struct Synthetic {
   std::vector<double> altitude_m, temperature_c;
 };
-// T = 14 - 5.5 K/km from 300 to 3300 m, with .5 K noise; every tenth station is 6 K wrong, either way.
-MadeUp make_stations(int count, int seed) {
-  MadeUp out;
+// T = 14 - 5.5 K/km from 300 to 3300 m, with .5 K noise; every tenth station is 6 K wrong, either
+// way.
+Synthetic make_stations(int count, int seed) {
+  Synthetic out;
   for (int i = 0; i < count; ++i) {
     const auto key = static_cast<std::uint64_t>(seed);
     const double z = 300.0 + 3000.0 * random_uniform(key, i, 1);
@@ -39,7 +40,7 @@ TEST(LapseRate, IsRecoveredThroughNoiseAndGrossErrors) {
   int within = 0;
   constexpr int draws = 200;
   for (int seed = 0; seed < draws; ++seed) {
-    const MadeUp stations = make_stations(20, seed);
+    const Synthetic stations = make_stations(20, seed);
     const LapseRate rate = fit_lapse_rate(stations.altitude_m, stations.temperature_c, 200);
     square += std::pow(rate.k_per_km - 5.5, 2.0);
     if (rate.low_k_per_km <= 5.5 && 5.5 <= rate.high_k_per_km) ++within;
@@ -66,16 +67,21 @@ TEST(LapseRate, ALineIsFoundExactlyAndUnknownValuesAreLeftOut) {
 }
 
 TEST(LapseRate, TellsWhereStationsTellNothing) {
-  EXPECT_THAT(test::message_of(ErrorKind::input, [] { fit_lapse_rate({100.0, 900.0}, {10.0, 5.0}); }), HasSubstr("at least 3 stations"));
   EXPECT_THAT(test::message_of(ErrorKind::input,
                                [] {
-                                 fit_lapse_rate({100.0, 110.0, 120.0, 130.0}, {10.0, 9.0, 8.0, 9.0});
+                                 fit_lapse_rate({100.0, 900.0}, {10.0, 5.0});
                                }),
-              HasSubstr("50 m"));
+              HasSubstr("at least 3 stations"));
+  EXPECT_THAT(
+      test::message_of(ErrorKind::input,
+                       [] {
+                         fit_lapse_rate({100.0, 110.0, 120.0, 130.0}, {10.0, 9.0, 8.0, 9.0});
+                       }),
+      HasSubstr("50 m"));
 }
 
 TEST(LapseRate, ManyStationsTakeNoMorePairs) {
-  const MadeUp stations = make_stations(3000, 9);
+  const Synthetic stations = make_stations(3000, 9);
   EXPECT_NEAR(fit_lapse_rate(stations.altitude_m, stations.temperature_c, 20).k_per_km, 5.5, 0.05);
 }
 
@@ -90,7 +96,8 @@ TEST(LapseRate, TheOetztalIsAsItWasMeasured) {
   const auto rate_of = [&](int month) {
     std::vector<double> t;
     for (const Station& station : table.stations)
-      t.push_back(month < 0 ? station.temperature_year_c : station.temperature_c[static_cast<std::size_t>(month)]);
+      t.push_back(month < 0 ? station.temperature_year_c
+                            : station.temperature_c[static_cast<std::size_t>(month)]);
     return fit_lapse_rate(z, t);
   };
   const LapseRate year = rate_of(-1);

@@ -17,19 +17,26 @@ namespace belvedere {
 namespace {
 
 // Ground in Tyrol from a formula of metres east and north of the north-western corner.
-Dem ground(int width, int height, double cell_m, const std::function<double(double, double)>& altitude) {
-  Raster<float> raster{Grid<float>(width, height), {680000.0, 5240000.0, cell_m, cell_m}, normalize_crs("EPSG:32632")};
+Dem ground(int width, int height, double cell_m,
+           const std::function<double(double, double)>& altitude) {
+  Raster<float> raster{Grid<float>(width, height),
+                       {680000.0, 5240000.0, cell_m, cell_m},
+                       normalize_crs("EPSG:32632")};
   for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) raster.cells(x, y) = static_cast<float>(altitude(x * cell_m, -y * cell_m));
+    for (int x = 0; x < width; ++x)
+      raster.cells(x, y) = static_cast<float>(altitude(x * cell_m, -y * cell_m));
   return make_dem(std::move(raster));
 }
 
 Climate climate_of(const Dem& dem) {
   return make_climate(
-      dem, {}, [](glm::dvec2 lonlat) { return default_climate(lonlat.x, lonlat.y); }, silent_progress());
+      dem, {}, [](glm::dvec2 lonlat) { return default_climate(lonlat.x, lonlat.y); },
+      silent_progress());
 }
 
-MapPlace place_of(const Dem& dem) { return make_map_place(dem.transform, dem.crs, dem.width(), dem.height(), {}); }
+MapPosition position_of(const Dem& dem) {
+  return make_map_position(dem.transform, dem.crs, dem.width(), dem.height(), {});
+}
 
 TEST(MapClimate, PostsHoldTheLinesOfTheirPlaces) {
   const Dem dem = ground(400, 300, 90.0, [](double e, double) { return 600.0 + 0.02 * e; });
@@ -45,17 +52,20 @@ TEST(MapClimate, PostsHoldTheLinesOfTheirPlaces) {
   // The last post stands on the last cell.
   std::vector<float> altitude(400, 1000.F);
   std::vector<float> row(400);
-  fill_climate_row(rules, ClimateVariable::treeline, dem.transform, 299, 400, altitude.data(), row.data());
+  fill_climate_row(rules, ClimateVariable::treeline, dem.transform, 299, 400, altitude.data(),
+                   row.data());
   EXPECT_NEAR(row[399], treeline_m(climate.at(399.0, 299.0)), 0.05);
-  fill_climate_row(rules, ClimateVariable::moisture, dem.transform, 0, 400, altitude.data(), row.data());
+  fill_climate_row(rules, ClimateVariable::moisture, dem.transform, 0, 400, altitude.data(),
+                   row.data());
   EXPECT_NEAR(row[0], plant_water_share(corner, 1000.0), 0.01);
 }
 
-// Between posts and altitudes values are straight: how far they stray from the climate itself, over 90 km of the default climate with wind,
-// at all altitudes that maps of there have.
+// Between posts and altitudes values are linear: their maximum error against the climate itself,
+// over 90 km of the default climate with wind, at all altitudes of maps there.
 TEST(MapClimate, TablesStayCloseToTheClimateBetweenTheirPosts) {
   const Dem dem = ground(600, 500, 150.0, [](double e, double n) {
-    return 1500.0 + 900.0 * std::sin(e / 9000.0) * std::cos(n / 7000.0) + 300.0 * std::sin(e / 2500.0);
+    return 1500.0 + 900.0 * std::sin(e / 9000.0) * std::cos(n / 7000.0) +
+           300.0 * std::sin(e / 2500.0);
   });
   const Climate climate = climate_of(dem);
   const RuleClimate rules = make_map_climate(dem, climate, {});
@@ -82,13 +92,18 @@ TEST(MapClimate, TablesStayCloseToTheClimateBetweenTheirPosts) {
         const auto at = static_cast<std::size_t>(x);
         const PlaceClimate here = climate.at(x, y);
         double year_c = 0.0;
-        for (const double month_c : monthly_c(here, static_cast<double>(z))) year_c += month_c / 12.0;
+        for (const double month_c : monthly_c(here, static_cast<double>(z)))
+          year_c += month_c / 12.0;
         worst_c = std::max(worst_c, std::abs(static_cast<double>(temperature[at]) - year_c));
-        const double miss = std::abs(static_cast<double>(moisture[at]) - plant_water_share(here, static_cast<double>(z)));
+        const double miss = std::abs(static_cast<double>(moisture[at]) -
+                                     plant_water_share(here, static_cast<double>(z)));
         worst_moisture = std::max(worst_moisture, miss);
         square_moisture += miss * miss;
-        worst_rain = std::max(worst_rain, std::abs(static_cast<double>(rain[at]) / rain_mm(here, static_cast<double>(z)) - 1.0));
-        worst_line_m = std::max(worst_line_m, std::abs(static_cast<double>(treeline[at]) - treeline_m(here)));
+        worst_rain = std::max(
+            worst_rain,
+            std::abs(static_cast<double>(rain[at]) / rain_mm(here, static_cast<double>(z)) - 1.0));
+        worst_line_m =
+            std::max(worst_line_m, std::abs(static_cast<double>(treeline[at]) - treeline_m(here)));
         ++count;
       }
     }
@@ -108,28 +123,30 @@ TEST(MapClimate, LevelGroundGetsLevelGroundsSunAtAnyAltitude) {
   const ThreadLimit one(1);  // so little ground is no work for two
   for (const double altitude : {0.0, 3000.0}) {
     const Dem dem = ground(20, 20, 100.0, [&](double, double) { return altitude; });
-    const Grid<float> share = sun_share(dem, place_of(dem), {});
+    const Grid<float> share = sun_share(dem, position_of(dem), {});
     EXPECT_NEAR(share(10, 10), 1.F, 2e-3F) << altitude;
   }
-  // Also beside ground of other altitudes that throws no shadow: a very gentle ramp.
+  // Also next to ground of other altitudes that casts no shadow: a very gentle ramp.
   const Dem ramp = ground(200, 20, 100.0, [](double e, double) { return 0.1 * e; });
-  EXPECT_NEAR(sun_share(ramp, place_of(ramp), {})(150, 10), 1.F, 0.03F);
+  EXPECT_NEAR(sun_share(ramp, position_of(ramp), {})(150, 10), 1.F, 0.03F);
 }
 
 TEST(MapClimate, SunnySlopesGetMoreAndShadedOnesLess) {
   const ThreadLimit one(1);  // so little ground is no work for two
   const Dem south = ground(30, 30, 100.0, [](double, double n) { return 3400.0 + 0.4 * n; });
   const Dem north = ground(30, 30, 100.0, [](double, double n) { return 1600.0 - 0.4 * n; });
-  EXPECT_GT(sun_share(south, place_of(south), {})(15, 15), 1.15F);
-  EXPECT_LT(sun_share(north, place_of(north), {})(15, 15), 0.7F);
+  EXPECT_GT(sun_share(south, position_of(south), {})(15, 15), 1.15F);
+  EXPECT_LT(sun_share(north, position_of(north), {})(15, 15), 0.7F);
 }
 
 TEST(MapClimate, IsTheSameForAnyThreads) {
-  const Dem dem = ground(150, 100, 50.0, [](double e, double n) { return 1500.0 + 700.0 * std::sin(e / 900.0) * std::cos(n / 700.0); });
+  const Dem dem = ground(150, 100, 50.0, [](double e, double n) {
+    return 1500.0 + 700.0 * std::sin(e / 900.0) * std::cos(n / 700.0);
+  });
   const auto make = [&](int threads) {
     const ThreadLimit limit(threads);
     RuleClimate climate = make_map_climate(dem, climate_of(dem), {});
-    climate.sun = sun_share(dem, place_of(dem), {});
+    climate.sun = sun_share(dem, position_of(dem), {});
     return climate;
   };
   const RuleClimate one = make(1);
@@ -140,12 +157,13 @@ TEST(MapClimate, IsTheSameForAnyThreads) {
 }
 
 TEST(MapClimate, AWindowHasTheSunThatTheWholeGivesIt) {
-  // A range in the south, 2500 m over a plain with small hills, of which the window sees none.
+  // A range in the south, 2500 m above a plain with small hills, entirely outside the window.
   const auto altitude = [](double e, double n) {
-    return 600.0 + 2500.0 * std::exp(-std::pow((n + 21000.0) / 1500.0, 2.0)) + 40.0 * std::sin(e / 900.0) * std::cos(n / 700.0);
+    return 600.0 + 2500.0 * std::exp(-std::pow((n + 21000.0) / 1500.0, 2.0)) +
+           40.0 * std::sin(e / 900.0) * std::cos(n / 700.0);
   };
   const Dem whole = ground(300, 300, 90.0, altitude);
-  const Grid<float> of_whole = sun_share(whole, place_of(whole), {});
+  const Grid<float> of_whole = sun_share(whole, position_of(whole), {});
   Dem window = whole;
   window.altitude_m = Grid<float>(90, 80);
   for (int y = 0; y < 80; ++y)
@@ -153,7 +171,7 @@ TEST(MapClimate, AWindowHasTheSunThatTheWholeGivesIt) {
   window.transform.origin_x += 100 * 90.0;
   window.transform.origin_y -= 120 * 90.0;
   const Grid<float> share = sun_share(window, whole, {}, {});
-  const Grid<float> alone = sun_share(window, place_of(window), {});
+  const Grid<float> alone = sun_share(window, position_of(window), {});
   ASSERT_TRUE(share.same_size(window.altitude_m));
   float apart = 0.F;
   float apart_alone = 0.F;

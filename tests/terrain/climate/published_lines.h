@@ -9,7 +9,7 @@
 namespace belvedere::test {
 
 struct PublishedLine {
-  std::string place;
+  std::string position;
   double latitude_deg;
   double longitude_deg;
   double altitude_m;
@@ -22,7 +22,8 @@ inline std::vector<PublishedLine> published_lines(const std::string& kind) {
   std::vector<PublishedLine> lines;
   for (const ConfigValue& value : as_array(*find(as_table(document, name), kind), name)) {
     const ConfigArray& row = as_array(value, name);
-    lines.push_back({as_string(row.at(0), name), as_number(row.at(1), name), as_number(row.at(2), name), as_number(row.at(3), name)});
+    lines.push_back({as_string(row.at(0), name), as_number(row.at(1), name),
+                     as_number(row.at(2), name), as_number(row.at(3), name)});
   }
   return lines;
 }

@@ -24,28 +24,30 @@ namespace {
 
 constexpr double cell_m = 30.0;
 
-MapPlace flat_place(int width, int height, double latitude_deg) {
-  MapPlace place;
-  place.width = width;
-  place.height = height;
-  place.cell_m = {cell_m, cell_m};
-  place.latitude_deg.at_first = latitude_deg;
-  return place;
+MapPosition flat_position(int width, int height, double latitude_deg) {
+  MapPosition position;
+  position.width = width;
+  position.height = height;
+  position.cell_m = {cell_m, cell_m};
+  position.latitude_deg.at_first = latitude_deg;
+  return position;
 }
 
-// A plane that falls towards an azimuth of the map; its middle is at 1000 m.
+// A plane that falls towards an azimuth of the map; its centre is at 1000 m.
 Grid<float> make_plane(double slope_deg, double towards_deg, int size = 33) {
   Grid<float> plane(size, size);
   const double fall = std::tan(to_radians(slope_deg)) * cell_m;
   for (int y = 0; y < size; ++y)
     for (int x = 0; x < size; ++x)
-      plane(x, y) = static_cast<float>(
-          1000.0 - fall * ((x - size / 2) * std::sin(to_radians(towards_deg)) - (y - size / 2) * std::cos(to_radians(towards_deg))));
+      plane(x, y) =
+          static_cast<float>(1000.0 - fall * ((x - size / 2) * std::sin(to_radians(towards_deg)) -
+                                              (y - size / 2) * std::cos(to_radians(towards_deg))));
   return plane;
 }
 
-// A year above the air on a slope that faces the equator (or away from it: below 0), northern latitudes: the day of level ground at
-// latitude - slope, as long as the sun is up here and there (Iqbal 1983).
+// A year above the atmosphere on a slope that faces the equator (or away from it: below 0),
+// northern latitudes: the day of level ground at latitude - slope, while the sun is above both
+// horizons (Iqbal 1983).
 double year_on_slope_mj(double latitude_deg, double slope_deg) {
   double sum = 0.0;
   for (int day = 1; day <= 365; ++day) {
@@ -55,9 +57,9 @@ double year_on_slope_mj(double latitude_deg, double slope_deg) {
     };
     const double there = to_radians(latitude_deg - slope_deg);
     const double set = std::min(sunset(to_radians(latitude_deg)), sunset(there));
-    sum += std::max(
-        0.0, 24.0 / std::numbers::pi * 3600e-6 * 1367.0 * sun.nearness *
-                 (std::cos(there) * std::cos(sun.declination_rad) * std::sin(set) + set * std::sin(there) * std::sin(sun.declination_rad)));
+    sum += std::max(0.0, 24.0 / std::numbers::pi * 3600e-6 * 1367.0 * sun.nearness *
+                             (std::cos(there) * std::cos(sun.declination_rad) * std::sin(set) +
+                              set * std::sin(there) * std::sin(sun.declination_rad)));
   }
   return sum;
 }
@@ -69,28 +71,33 @@ TEST(Radiation, PlanesGetWhatTheClosedFormSays) {
   double worst = 0.0;
   for (const double latitude : {0.0, 20.0, 47.0, 60.0})
     for (const double slope : {-40.0, -20.0, -10.0, 0.0, 10.0, 25.0, 40.0}) {
-      if (latitude > 50.0 && slope < -20.0) continue;  // the sun shines twice a day there: another formula
+      if (latitude > 50.0 && slope < -20.0)
+        continue;  // the sun shines twice a day there: another formula
       const Grid<float> plane = make_plane(std::abs(slope), slope < 0.0 ? 0.0 : 180.0, 9);
-      const Radiation radiation = potential_radiation(plane, flat_place(9, 9, latitude), above_the_air);
+      const Radiation radiation =
+          potential_radiation(plane, flat_position(9, 9, latitude), above_the_air);
       const double expected = year_on_slope_mj(latitude, slope);
       worst = std::max(worst, std::abs(radiation.direct_mj_m2(4, 4) / expected - 1.0));
-      EXPECT_NEAR(radiation.direct_mj_m2(4, 4), expected, 0.0015 * expected) << latitude << ' ' << slope;
+      EXPECT_NEAR(radiation.direct_mj_m2(4, 4), expected, 0.0015 * expected)
+          << latitude << ' ' << slope;
     }
   RecordProperty("worst", std::to_string(worst));
 }
 
 TEST(Radiation, LevelGroundInAPitGetsTheSunAboveItsRim) {
-  // A ring whose rim stands 10° high all around.
+  // A ring whose edge is 10° above the horizon all around.
   constexpr int size = 201;
   Grid<float> pit(size, size, 0.0F);
   for (int y = 0; y < size; ++y)
     for (int x = 0; x < size; ++x)
-      if (std::hypot(x - 100.0, y - 100.0) > 80.0) pit(x, y) = static_cast<float>(std::tan(to_radians(10.0)) * 80.5 * cell_m);
+      if (std::hypot(x - 100.0, y - 100.0) > 80.0)
+        pit(x, y) = static_cast<float>(std::tan(to_radians(10.0)) * 80.5 * cell_m);
   const RadiationParameters parameters;
-  const Radiation radiation = potential_radiation(pit, flat_place(size, size, 47.0), parameters);
+  const Radiation radiation = potential_radiation(pit, flat_position(size, size, 47.0), parameters);
   double expected = 0.0;
   for (const SunMoment& sun : sun_moments(47.0, parameters.sun))
-    if (sun.sine > std::sin(to_radians(10.0))) expected += sun.exposure_mj * sun.sine * clear_share(0.75, sun.air_mass, 0.0);
+    if (sun.sine > std::sin(to_radians(10.0)))
+      expected += sun.exposure_mj * sun.sine * clear_share(0.75, sun.air_mass, 0.0);
   EXPECT_NEAR(radiation.direct_mj_m2(100, 100), expected, 0.002 * expected);
   EXPECT_NEAR(radiation.sky_view(100, 100), std::pow(std::cos(to_radians(10.0)), 2.0), 0.002);
 }
@@ -109,9 +116,11 @@ TEST(Radiation, IsWhatRaysThatMarchOverTheGroundFind) {
   RadiationParameters parameters;
   parameters.sun.step_min = 10.0;
   const double latitude = 46.5;
-  const Radiation radiation = potential_radiation(ground, flat_place(size, size, latitude), parameters);
+  const Radiation radiation =
+      potential_radiation(ground, flat_position(size, size, latitude), parameters);
   parameters.azimuths = 64;
-  const Radiation finer = potential_radiation(ground, flat_place(size, size, latitude), parameters);
+  const Radiation finer =
+      potential_radiation(ground, flat_position(size, size, latitude), parameters);
   const std::vector<SunMoment> moments = sun_moments(latitude, parameters.sun);
   const auto height = [&](double x, double y) {
     const int x0 = std::min(static_cast<int>(x), size - 2);
@@ -148,10 +157,15 @@ TEST(Radiation, IsWhatRaysThatMarchOverTheGroundFind) {
       }
       double sum = 0.0;
       for (const SunMoment& sun : moments) {
-        const auto d = static_cast<std::size_t>(sun.azimuth_rad / (2.0 * std::numbers::pi) * directions) % directions;
+        const auto d =
+            static_cast<std::size_t>(sun.azimuth_rad / (2.0 * std::numbers::pi) * directions) %
+            directions;
         if (sun.sine <= horizon[d] * sun.cosine) continue;
-        const double facing = (sun.sine - sun.cosine * (east * std::sin(sun.azimuth_rad) + north * std::cos(sun.azimuth_rad))) / length;
-        sum += std::max(0.0, facing) * sun.exposure_mj * clear_share(0.75, sun.air_mass, static_cast<double>(ground(x, y)));
+        const double facing = (sun.sine - sun.cosine * (east * std::sin(sun.azimuth_rad) +
+                                                        north * std::cos(sun.azimuth_rad))) /
+                              length;
+        sum += std::max(0.0, facing) * sun.exposure_mj *
+               clear_share(0.75, sun.air_mass, static_cast<double>(ground(x, y)));
       }
       square += std::pow(radiation.direct_mj_m2(x, y) - sum, 2.0);
       finer_square += std::pow(finer.direct_mj_m2(x, y) - sum, 2.0);
@@ -164,7 +178,8 @@ TEST(Radiation, IsWhatRaysThatMarchOverTheGroundFind) {
   RecordProperty("rms", std::to_string(rms));
   const double finer_rms = std::sqrt(finer_square / count) / mean;
   RecordProperty("finer", std::to_string(finer_rms));
-  EXPECT_LT(rms, 0.0020) << "of the mean; .00195 was measured: what is left between 32 directions of such walls";
+  EXPECT_LT(rms, 0.0020)
+      << "of the mean; .00195 was measured: what is left between 32 directions of such walls";
   EXPECT_LT(finer_rms, 0.0011);
   EXPECT_LT(std::sqrt(sky_square / count), 0.003);
 }
@@ -173,32 +188,45 @@ TEST(Radiation, TrueNorthIsWhereTheMapSaysItIs) {
   const ThreadLimit one(1);  // so little ground is no work for two
   // The columns of this map run towards 30° east of north: a slope to its east faces 120°.
   const RadiationParameters parameters;
-  MapPlace leaning = flat_place(33, 33, 47.0);
+  MapPosition leaning = flat_position(33, 33, 47.0);
   leaning.grid_north_deg.at_first = 30.0;
-  const float leant = potential_radiation(make_plane(25.0, 90.0), leaning, parameters).direct_mj_m2(16, 16);
-  const float upright = potential_radiation(make_plane(25.0, 120.0), flat_place(33, 33, 47.0), parameters).direct_mj_m2(16, 16);
-  const float unturned = potential_radiation(make_plane(25.0, 90.0), flat_place(33, 33, 47.0), parameters).direct_mj_m2(16, 16);
+  const float leant =
+      potential_radiation(make_plane(25.0, 90.0), leaning, parameters).direct_mj_m2(16, 16);
+  const float upright =
+      potential_radiation(make_plane(25.0, 120.0), flat_position(33, 33, 47.0), parameters)
+          .direct_mj_m2(16, 16);
+  const float unturned =
+      potential_radiation(make_plane(25.0, 90.0), flat_position(33, 33, 47.0), parameters)
+          .direct_mj_m2(16, 16);
   EXPECT_NEAR(leant, upright, 2e-4F * upright);
   EXPECT_GT(std::abs(unturned / upright - 1.0F), 0.05F);
-  // And changes over it, from 0 on the left.
-  MapPlace changing = flat_place(33, 33, 47.0);
+  // And it varies over the map, from 0 on the left.
+  MapPosition changing = flat_position(33, 33, 47.0);
   changing.grid_north_deg.per_column = 3.0 / 32.0;
   const Radiation over = potential_radiation(make_plane(25.0, 90.0), changing, parameters);
-  const Radiation same = potential_radiation(make_plane(25.0, 90.0), flat_place(33, 33, 47.0), parameters);
-  const float by_3_deg = potential_radiation(make_plane(25.0, 93.0), flat_place(33, 33, 47.0), parameters).direct_mj_m2(16, 16) - unturned;
-  EXPECT_NEAR(over.direct_mj_m2(30, 16) - same.direct_mj_m2(30, 16), by_3_deg * 30.0F / 32.0F, 0.06F * by_3_deg);
-  EXPECT_NEAR(over.direct_mj_m2(3, 16) - same.direct_mj_m2(3, 16), by_3_deg * 3.0F / 32.0F, 0.06F * by_3_deg);
+  const Radiation same =
+      potential_radiation(make_plane(25.0, 90.0), flat_position(33, 33, 47.0), parameters);
+  const float by_3_deg =
+      potential_radiation(make_plane(25.0, 93.0), flat_position(33, 33, 47.0), parameters)
+          .direct_mj_m2(16, 16) -
+      unturned;
+  EXPECT_NEAR(over.direct_mj_m2(30, 16) - same.direct_mj_m2(30, 16), by_3_deg * 30.0F / 32.0F,
+              0.06F * by_3_deg);
+  EXPECT_NEAR(over.direct_mj_m2(3, 16) - same.direct_mj_m2(3, 16), by_3_deg * 3.0F / 32.0F,
+              0.06F * by_3_deg);
 }
 
 TEST(Radiation, LatitudeChangesOverTheMapWithoutASeam) {
   constexpr int size = 120;
   const Grid<float> level(size, size, 500.0F);
-  MapPlace place = flat_place(size, size, 50.0);
-  place.latitude_deg.per_row = -3.0 / (size - 1);
-  const Radiation radiation = potential_radiation(level, place, {});
+  MapPosition position = flat_position(size, size, 50.0);
+  position.latitude_deg.per_row = -3.0 / (size - 1);
+  const Radiation radiation = potential_radiation(level, position, {});
   for (const int row : {0, 40, 119}) {
-    const double latitude = place.latitude_deg.at(0, row);
-    const float alone = potential_radiation(Grid<float>(3, 3, 500.0F), flat_place(3, 3, latitude), {}).direct_mj_m2(1, 1);
+    const double latitude = position.latitude_deg.at(0, row);
+    const float alone =
+        potential_radiation(Grid<float>(3, 3, 500.0F), flat_position(3, 3, latitude), {})
+            .direct_mj_m2(1, 1);
     EXPECT_NEAR(radiation.direct_mj_m2(60, row), alone, 3e-4F * alone) << row;
   }
   for (int y = 2; y < size; ++y) {
@@ -212,26 +240,33 @@ TEST(Radiation, SunnySidesGetMoreThanShadyOnesInEitherHemisphere) {
   const ThreadLimit one(1);  // so little ground is no work for two
   for (const double latitude : {47.0, -33.0}) {
     const double sunny = latitude > 0.0 ? 180.0 : 0.0;
-    const float warm = potential_radiation(make_plane(30.0, sunny), flat_place(33, 33, latitude), {}).direct_mj_m2(16, 16);
-    const float cold = potential_radiation(make_plane(30.0, 180.0 - sunny), flat_place(33, 33, latitude), {}).direct_mj_m2(16, 16);
+    const float warm =
+        potential_radiation(make_plane(30.0, sunny), flat_position(33, 33, latitude), {})
+            .direct_mj_m2(16, 16);
+    const float cold =
+        potential_radiation(make_plane(30.0, 180.0 - sunny), flat_position(33, 33, latitude), {})
+            .direct_mj_m2(16, 16);
     EXPECT_GT(warm, 1.8F * cold);
   }
-  const float east = potential_radiation(make_plane(30.0, 90.0), flat_place(33, 33, 47.0), {}).direct_mj_m2(16, 16);
-  const float west = potential_radiation(make_plane(30.0, 270.0), flat_place(33, 33, 47.0), {}).direct_mj_m2(16, 16);
+  const float east = potential_radiation(make_plane(30.0, 90.0), flat_position(33, 33, 47.0), {})
+                         .direct_mj_m2(16, 16);
+  const float west = potential_radiation(make_plane(30.0, 270.0), flat_position(33, 33, 47.0), {})
+                         .direct_mj_m2(16, 16);
   EXPECT_NEAR(east, west, 1e-4F * east);
 }
 
 TEST(Radiation, VoidsGetNothingAndAnyThreadsTheSameBits) {
-  SyntheticParameters made_up;
-  made_up.width = 130;
-  made_up.height = 97;
-  Grid<float> ground = make_ridged_noise(made_up).altitude_m;
-  for (int i = 20; i < 60; ++i) ground(i, 40) = ground(70, i) = std::numeric_limits<float>::quiet_NaN();
+  SyntheticParameters synthetic;
+  synthetic.width = 130;
+  synthetic.height = 97;
+  Grid<float> ground = make_ridged_noise(synthetic).altitude_m;
+  for (int i = 20; i < 60; ++i)
+    ground(i, 40) = ground(70, i) = std::numeric_limits<float>::quiet_NaN();
   RadiationParameters parameters;
   parameters.azimuths = 16;
   parameters.sun.step_min = 10.0;
-  const MapPlace place = flat_place(130, 97, 47.0);
-  const Radiation all = potential_radiation(ground, place, parameters);
+  const MapPosition position = flat_position(130, 97, 47.0);
+  const Radiation all = potential_radiation(ground, position, parameters);
   for (std::size_t i = 0; i < ground.size(); ++i) {
     ASSERT_EQ(std::isnan(all.direct_mj_m2[i]), std::isnan(ground[i]));
     ASSERT_EQ(std::isnan(all.sky_view[i]), std::isnan(ground[i]));
@@ -240,7 +275,7 @@ TEST(Radiation, VoidsGetNothingAndAnyThreadsTheSameBits) {
     }
   }
   const ThreadLimit one(1);
-  const Radiation alone = potential_radiation(ground, place, parameters);
+  const Radiation alone = potential_radiation(ground, position, parameters);
   for (std::size_t i = 0; i < ground.size(); ++i) {
     if (std::isnan(ground[i])) continue;
     ASSERT_EQ(all.direct_mj_m2[i], alone.direct_mj_m2[i]);
@@ -249,39 +284,47 @@ TEST(Radiation, VoidsGetNothingAndAnyThreadsTheSameBits) {
 }
 
 TEST(RadiationLong, CorrelatesWithGrassRSun) {
-  if (std::system("test -x /usr/bin/grass") != 0) GTEST_SKIP() << "needs GRASS GIS (Debian: grass-core)";
-  // On the meridian of UTM 32, 47.5° N; smooth hills, because r.sun takes slopes of another formula.
+  if (std::system("test -x /usr/bin/grass") != 0)
+    GTEST_SKIP() << "needs GRASS GIS (Debian: grass-core)";
+  // On the meridian of UTM 32, 47.5° N; smooth hills, because r.sun uses another formula for
+  // slopes.
   constexpr int size = 120;
   Grid<float> hills(size, size);
   for (int y = 0; y < size; ++y)
     for (int x = 0; x < size; ++x)
-      hills(x, y) =
-          static_cast<float>(1500.0 + 150.0 * std::sin(x / 9.0) * std::cos(y / 11.0) + 80.0 * std::sin((x + 2 * y) / 17.0) + 3.0 * y);
+      hills(x, y) = static_cast<float>(1500.0 + 150.0 * std::sin(x / 9.0) * std::cos(y / 11.0) +
+                                       80.0 * std::sin((x + 2 * y) / 17.0) + 3.0 * y);
   const test::Folder folder;
-  folder.write("z.bin", {reinterpret_cast<const char*>(hills.data()), hills.size() * sizeof(float)});
+  folder.write("z.bin",
+               {reinterpret_cast<const char*>(hills.data()), hills.size() * sizeof(float)});
   folder.write("run.sh",
                "set -e\n"
                "g.region n=5263600 s=5260000 e=503600 w=500000 rows=120 cols=120\n"
-               "r.in.bin -f input=z.bin output=z bytes=4 north=5263600 south=5260000 east=503600 west=500000 rows=120 cols=120\n"
+               "r.in.bin -f input=z.bin output=z bytes=4 north=5263600 south=5260000 east=503600 "
+               "west=500000 rows=120 cols=120\n"
                "r.slope.aspect elevation=z slope=slope aspect=aspect\n"
                "sum=0\n"
                "for day in 15 45 75 105 135 166 197 228 258 288 319 349; do\n"
-               "  r.sun elevation=z slope=slope aspect=aspect linke_value=3 beam_rad=b$day day=$day step=0.25\n"
+               "  r.sun elevation=z slope=slope aspect=aspect linke_value=3 beam_rad=b$day "
+               "day=$day step=0.25\n"
                "  sum=\"$sum+b$day\"\n"
                "done\n"
                "r.mapcalc expression=\"total=float($sum)\"\n"
                "r.out.bin -f input=total output=all.bin bytes=4 null=-9999\n");
-  const std::string command = "cd '" + folder.path() + "' && grass --tmp-location EPSG:32632 --exec bash run.sh > log.txt 2>&1";
+  const std::string command =
+      "cd '" + folder.path() +
+      "' && grass --tmp-location EPSG:32632 --exec bash run.sh > log.txt 2>&1";
   ASSERT_EQ(std::system(command.c_str()), 0) << test::read_bytes(folder / "log.txt");
   const std::string bytes = test::read_bytes(folder / "all.bin");
   ASSERT_EQ(bytes.size(), hills.size() * sizeof(float));
   Grid<float> theirs(size, size);
   std::copy_n(bytes.data(), bytes.size(), reinterpret_cast<char*>(theirs.data()));
-  const MapPlace place = make_map_place({.origin_x = 500000.0, .origin_y = 5263600.0, .cell_x = 30.0, .cell_y = 30.0},
-                                        normalize_crs("EPSG:32632"), size, size, {});
+  const MapPosition position = make_map_position(
+      {.origin_x = 500000.0, .origin_y = 5263600.0, .cell_x = 30.0, .cell_y = 30.0},
+      normalize_crs("EPSG:32632"), size, size, {});
   RadiationParameters parameters;
   parameters.sun.transmissivity = 0.77;  // about Linke 3
-  const Radiation ours = potential_radiation(hills, place, parameters);
+  const Radiation ours = potential_radiation(hills, position, parameters);
   double n = 0, a = 0, b = 0, aa = 0, bb = 0, ab = 0;
   for (int y = 3; y < size - 3; ++y)
     for (int x = 3; x < size - 3; ++x) {
@@ -292,7 +335,7 @@ TEST(RadiationLong, CorrelatesWithGrassRSun) {
   const double r = (ab - a * b / n) / std::sqrt((aa - a * a / n) * (bb - b * b / n));
   RecordProperty("r", std::to_string(r));
   EXPECT_GT(r, 0.995);
-  // Wh on twelve days, each for a month; r.sun has another air mass.
+  // Wh on twelve days, each for a month; r.sun uses another air mass.
   EXPECT_NEAR(a / n * 3600e-6 * 365.0 / 12.0, b / n, 0.05 * b / n);
 }
 

@@ -13,7 +13,8 @@ namespace {
 RuleClimate climate() {
   RuleClimate c = alpine_climate();
   c.line_posts = c.table_posts = {-100.0, 1100.0, 300.0, 300.0};
-  for (Grid<float>* line : {&c.treeline_m, &c.ice_line_m, &c.snow_line_m, &c.season_snow_m}) *line = Grid<float>(2, 2, (*line)(0, 0));
+  for (Grid<float>* line : {&c.treeline_m, &c.ice_line_m, &c.snow_line_m, &c.season_snow_m})
+    *line = Grid<float>(2, 2, (*line)(0, 0));
   for (auto* table : {&c.temperature_c, &c.rain_mm})
     for (Grid<float>& level : *table) level = Grid<float>(2, 2, level(0, 0));
   c.treeline_m(0, 0) = 1000.F;
@@ -68,11 +69,14 @@ TEST(RuleClimate, TablesAreStraightOverAltitude) {
 TEST(RuleClimate, WithoutAPlaceItIsTheNorthernAlps) {
   const std::array<float, 2> altitude = {500.F, 2500.F};
   std::array<float, 2> row{};
-  fill_climate_row(alpine_climate(), ClimateVariable::treeline, cells, 0, 2, altitude.data(), row.data());
+  fill_climate_row(alpine_climate(), ClimateVariable::treeline, cells, 0, 2, altitude.data(),
+                   row.data());
   EXPECT_EQ(row[1], 1820.F);
-  fill_climate_row(alpine_climate(), ClimateVariable::temperature, cells, 0, 2, altitude.data(), row.data());
+  fill_climate_row(alpine_climate(), ClimateVariable::temperature, cells, 0, 2, altitude.data(),
+                   row.data());
   EXPECT_NEAR(row[0] - row[1], 11.F, 1e-4F);  // 5.5 K a km
-  fill_climate_row(alpine_climate(), ClimateVariable::season_snow, cells, 0, 2, altitude.data(), row.data());
+  fill_climate_row(alpine_climate(), ClimateVariable::season_snow, cells, 0, 2, altitude.data(),
+                   row.data());
   EXPECT_EQ(row[0], no_season_snow_m);
 }
 

@@ -48,13 +48,14 @@ TEST(Stations, ATableOfMonthsAndRain) {
 TEST(Stations, MeansOfTheYearAreEnoughAndFewStationsAreNoted) {
   const test::Folder folder;
   Notes notes;
-  const StationTable table =
-      read_stations(folder.write("s.csv", "lon;lat;elevation;t_year\n11;47;600;8.5\n11.1;47.1;2000;0\n"), "EPSG:32632", notes);
+  const StationTable table = read_stations(
+      folder.write("s.csv", "lon;lat;elevation;t_year\n11;47;600;8.5\n11.1;47.1;2000;0\n"),
+      "EPSG:32632", notes);
   EXPECT_EQ(table.stations[1].temperature_year_c, 0.0);
   EXPECT_FALSE(table.has_months());
   EXPECT_FALSE(table.has_rain());
-  EXPECT_NEAR(table.stations[0].place.x, 652000.0, 2000.0);
-  EXPECT_THAT(notes.text(), AllOf(HasSubstr("2 stations"), HasSubstr("8 or more")));
+  EXPECT_NEAR(table.stations[0].position.x, 652000.0, 2000.0);
+  EXPECT_THAT(notes.text(), AllOf(HasSubstr("2 stations"), HasSubstr("at least 8")));
 }
 
 TEST(Stations, MissingColumnsAreNamed) {
@@ -63,11 +64,14 @@ TEST(Stations, MissingColumnsAreNamed) {
     const std::string path = folder.write("s.csv", text);
     return test::message_of(ErrorKind::usage, [&] { read_stations(path, "", silent_progress()); });
   };
-  EXPECT_THAT(message("east,north,t_year\n1,2,3\n"), AllOf(HasSubstr("no column altitude_m"), HasSubstr("s.csv")));
+  EXPECT_THAT(message("east,north,t_year\n1,2,3\n"),
+              AllOf(HasSubstr("no column altitude_m"), HasSubstr("s.csv")));
   EXPECT_THAT(message("east,north,altitude\n1,2,3\n"), HasSubstr("t_year"));
-  EXPECT_THAT(message("east,north,altitude,t_1,t_2,t_4\n1,2,3,4,5,6\n"), AllOf(HasSubstr("t_3, t_5"), HasSubstr("all of them")));
+  EXPECT_THAT(message("east,north,altitude,t_1,t_2,t_4\n1,2,3,4,5,6\n"),
+              AllOf(HasSubstr("t_3, t_5"), HasSubstr("all of t_1")));
   EXPECT_THAT(message("altitude,t_year\n1,2\n"), HasSubstr("lon and lat, or east and north"));
-  EXPECT_THAT(message("east,north,altitude,t_year\n1,2,600,warm\n"), AllOf(HasSubstr("s.csv:2"), HasSubstr("warm"), HasSubstr("°C")));
+  EXPECT_THAT(message("east,north,altitude,t_year\n1,2,600,warm\n"),
+              AllOf(HasSubstr("s.csv:2"), HasSubstr("warm"), HasSubstr("°C")));
   EXPECT_THAT(message("east,north,altitude,t_year\n1,2,,5\n"), HasSubstr("no altitude"));
   EXPECT_THAT(message("east,north,altitude,t_year\n1,2,60000,5\n"), HasSubstr("60000"));
 }
@@ -76,12 +80,15 @@ TEST(Stations, EmptyAndBrokenFiles) {
   const test::Folder folder;
   const auto message = [&](const std::string& name, const std::string& text) {
     const std::string path = folder.write(name, text);
-    return test::message_of(ErrorKind::input, [&] { read_stations(path, "EPSG:32632", silent_progress()); });
+    return test::message_of(ErrorKind::input,
+                            [&] { read_stations(path, "EPSG:32632", silent_progress()); });
   };
   EXPECT_THAT(message("s.csv", "east,north,altitude,t_year\n"), HasSubstr("no station"));
-  EXPECT_THAT(message("s.nc", "this is no netCDF"), HasSubstr("cannot be read as netCDF"));
-  EXPECT_THAT(test::message_of(ErrorKind::input, [&] { read_stations(folder / "none.nc", "EPSG:32632", silent_progress()); }),
-              HasSubstr("no such file"));
+  EXPECT_THAT(message("s.nc", "this is no netCDF"), HasSubstr("not a netCDF file"));
+  EXPECT_THAT(
+      test::message_of(ErrorKind::input,
+                       [&] { read_stations(folder / "none.nc", "EPSG:32632", silent_progress()); }),
+      HasSubstr("file not found"));
 }
 
 TEST(Stations, AHistoryOfTheClimateGivesItsLastThirtyYears) {
@@ -90,13 +97,15 @@ TEST(Stations, AHistoryOfTheClimateGivesItsLastThirtyYears) {
   const StationTable table = read_stations(path, "EPSG:4326", silent_progress());
   ASSERT_EQ(table.stations.size(), 49U);
   for (const Station& station : table.stations) {
-    EXPECT_GT(station.place.x, 9.0);
-    EXPECT_LT(station.place.x, 13.0);
+    EXPECT_GT(station.position.x, 9.0);
+    EXPECT_LT(station.position.x, 13.0);
     EXPECT_GT(station.temperature_c[6], station.temperature_c[0] + 10.0);
     EXPECT_GT(station.rain_mm, 500.0);
     EXPECT_LT(station.rain_mm, 2000.0);
   }
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { read_stations(path, "", silent_progress()); }), HasSubstr("without CRS"));
+  EXPECT_THAT(
+      test::message_of(ErrorKind::usage, [&] { read_stations(path, "", silent_progress()); }),
+      HasSubstr("terrain has no CRS"));
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ PlaceClimate even(double mean_c, double rain_mm) {
 }
 
 TEST(WaterBalance, EvenRainIsSharedAsItFalls) {
-  // 10 °C could use 650 mm.
+  // The potential evapotranspiration at 10 °C is 650 mm.
   EXPECT_NEAR(plant_water_share(even(10.0, 325.0), 0.0), 0.5, 1e-9);
   EXPECT_NEAR(plant_water_share(even(10.0, 650.0), 0.0), 1.0, 1e-9);
   EXPECT_NEAR(plant_water_share(even(10.0, 2000.0), 0.0), 1.0, 1e-9);
@@ -27,7 +27,9 @@ TEST(WaterBalance, EvenRainIsSharedAsItFalls) {
   EXPECT_NEAR(plant_water_share(even(10.0, 0.0), 0.0), 0.0, 1e-9);
 }
 
-TEST(WaterBalance, WhereNothingGrowsNothingLacks) { EXPECT_EQ(plant_water_share(even(-3.0, 0.0), 0.0), 1.0); }
+TEST(WaterBalance, WhereNothingGrowsNothingLacks) {
+  EXPECT_EQ(plant_water_share(even(-3.0, 0.0), 0.0), 1.0);
+}
 
 TEST(WaterBalance, WinterRainServesSummerOnlyAsFarAsTheSoilHoldsIt) {
   PlaceClimate summer_rain = even(10.0, 600.0);
@@ -37,15 +39,16 @@ TEST(WaterBalance, WinterRainServesSummerOnlyAsFarAsTheSoilHoldsIt) {
   winter_rain.summer_share = 0.1;
   EXPECT_GT(plant_water_share(summer_rain, 0.0), plant_water_share(winter_rain, 0.0) + 0.04);
   // A deeper soil carries more of it into the summer.
-  EXPECT_GT(plant_water_share(winter_rain, 0.0, {.soil_mm = 300.0}), plant_water_share(winter_rain, 0.0) + 0.04);
+  EXPECT_GT(plant_water_share(winter_rain, 0.0, {.soil_mm = 300.0}),
+            plant_water_share(winter_rain, 0.0) + 0.04);
 }
 
 TEST(WaterBalance, SnowWaitsForTheThaw) {
   PlaceClimate cold = even(8.0, 300.0);
   for (const std::size_t m : {0U, 1U, 2U, 9U, 10U, 11U}) cold.sea_level_c[m] = -8.0;
   cold.summer_share = 0.0;  // as much in winter as there can be: 247 of the 300 mm
-  // 260 mm could be used; of the snow that melts in April the soil keeps 120 mm beside what April uses, and May to September's rain comes
-  // on top.
+  // Demand is 260 mm; of the snow that melts in April the soil keeps 120 mm besides April's demand,
+  // and the rain of May to September adds to it.
   const Months falls = monthly_rain_mm(cold, 0.0);
   const double later_mm = std::accumulate(falls.begin() + 4, falls.begin() + 9, 0.0);
   const double april_mm = 8.0 * 65.0 / 12.0;
@@ -63,7 +66,7 @@ TEST(WaterBalance, KnowsWoodsFromSteppesAndDeserts) {
   const auto at = [](double longitude, double latitude, double altitude_m) {
     return plant_water_share(default_climate(longitude, latitude), altitude_m);
   };
-  // Rules have closed forest from .72 on, bare ground from .26 down.
+  // The rules have closed forest from .72 on, bare ground from .26 down.
   EXPECT_GT(at(8.6, 47.4, 600.0), 0.9);       // Zürich
   EXPECT_GT(at(-60.0, -3.1, 70.0), 0.72);     // Manaus
   EXPECT_GT(at(-122.3, 47.5, 800.0), 0.72);   // Cascades above Seattle

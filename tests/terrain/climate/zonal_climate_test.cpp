@@ -41,28 +41,31 @@ LineMisses misses_of(const std::vector<PublishedLine>& lines, F&& line_of) {
 
 double km_between(double lat_a, double lon_a, double lat_b, double lon_b) {
   const double c = std::sin(to_radians(lat_a)) * std::sin(to_radians(lat_b)) +
-                   std::cos(to_radians(lat_a)) * std::cos(to_radians(lat_b)) * std::cos(to_radians(lon_a - lon_b));
+                   std::cos(to_radians(lat_a)) * std::cos(to_radians(lat_b)) *
+                       std::cos(to_radians(lon_a - lon_b));
   return 6371.0 * std::acos(std::clamp(c, -1.0, 1.0));
 }
 
 // Stations farther than that from a place.
-std::vector<ClimateStation> stations_away(const PublishedLine& line, double least_km) {
+std::vector<ClimateStation> stations_away(const PublishedLine& line, double min_km) {
   std::vector<ClimateStation> away;
   for (const ClimateStation& s : read_climate_stations())
-    if (km_between(s.latitude_deg, s.longitude_deg, line.latitude_deg, line.longitude_deg) > least_km) away.push_back(s);
+    if (km_between(s.latitude_deg, s.longitude_deg, line.latitude_deg, line.longitude_deg) > min_km)
+      away.push_back(s);
   return away;
 }
 
 TEST(ZonalClimate, TreelinesAreThePublishedOnes) {
   const std::vector<PublishedLine> lines = published_lines("treelines");
   ASSERT_GE(lines.size(), 27U);
-  const LineMisses misses =
-      misses_of(lines, [](const PublishedLine& l) { return treeline_m(default_climate(l.longitude_deg, l.latitude_deg)); });
+  const LineMisses misses = misses_of(lines, [](const PublishedLine& l) {
+    return treeline_m(default_climate(l.longitude_deg, l.latitude_deg));
+  });
   EXPECT_LT(misses.rms_m, 300.0);
   EXPECT_LT(std::abs(misses.mean_m), 50.0);
 }
 
-// No line hangs on a station beside it.
+// No line depends on a single nearby station.
 TEST(ZonalClimate, LinesHoldWithoutTheStationsNearThem) {
   const auto every_third = [](std::vector<PublishedLine> lines) {
     std::vector<PublishedLine> some;
@@ -70,14 +73,17 @@ TEST(ZonalClimate, LinesHoldWithoutTheStationsNearThem) {
     return some;
   };
   const auto climate_without = [](const PublishedLine& l) {
-    return place_climate(make_climate_field(stations_away(l, 100.0)), l.longitude_deg, l.latitude_deg);
+    return place_climate(make_climate_field(stations_away(l, 100.0)), l.longitude_deg,
+                         l.latitude_deg);
   };
-  EXPECT_LT(
-      misses_of(every_third(published_lines("treelines")), [&](const PublishedLine& l) { return treeline_m(climate_without(l)); }).rms_m,
-      330.0);
+  EXPECT_LT(misses_of(every_third(published_lines("treelines")),
+                      [&](const PublishedLine& l) { return treeline_m(climate_without(l)); })
+                .rms_m,
+            330.0);
 }
 
-// A lone cone of 3800 m at 35° N keeps no snow on its open slopes; neither does a desert range.
+// A lone cone of 3800 m at 35° N has no perennial snow on its open slopes; neither has a desert
+// range.
 TEST(ZonalClimate, NoSnowStaysOnASubtropicalVolcano) {
   SnowParameters open;
   open.gathering = 1.0;
@@ -88,7 +94,7 @@ TEST(ZonalClimate, NoSnowStaysOnASubtropicalVolcano) {
 TEST(ZonalClimate, StationsAreToldByTheOthers) {
   const std::vector<ClimateStation> stations = read_climate_stations();
   ASSERT_GT(stations.size(), 400U);
-  // Every tenth is left out and told by the rest, at its own altitude.
+  // Every tenth is left out and predicted from the others, at its own altitude.
   double july = 0.0;
   double rain = 0.0;
   int count = 0;
@@ -100,9 +106,9 @@ TEST(ZonalClimate, StationsAreToldByTheOthers) {
     for (std::size_t k = fold; k < stations.size(); k += 10) {
       const ClimateStation& s = stations[k];
       if (s.rain_mm < 100.0 || std::abs(s.latitude_deg) > 75.0) continue;
-      const PlaceClimate place = place_climate(field, s.longitude_deg, s.latitude_deg);
-      july += std::pow(monthly_c(place, s.altitude_m)[6] - s.season_c[2], 2.0);
-      rain += std::pow(std::log(rain_mm(place, s.altitude_m) / s.rain_mm), 2.0);
+      const PlaceClimate position = place_climate(field, s.longitude_deg, s.latitude_deg);
+      july += std::pow(monthly_c(position, s.altitude_m)[6] - s.season_c[2], 2.0);
+      rain += std::pow(std::log(rain_mm(position, s.altitude_m) / s.rain_mm), 2.0);
       ++count;
     }
   }
@@ -115,43 +121,45 @@ TEST(ZonalClimate, IsSmoothOverTheGlobe) {
   const auto near = [](const PlaceClimate& a, const PlaceClimate& b, double kelvin) {
     for (std::size_t m = 0; m < 12; ++m) EXPECT_NEAR(a.sea_level_c[m], b.sea_level_c[m], kelvin);
     for (std::size_t k = 0; k < 8; ++k)
-      EXPECT_NEAR(a.rain_mm_at_km[k], b.rain_mm_at_km[k], 1e-3 + kelvin * (2.0 + 0.1 * a.rain_mm_at_km[k]));
+      EXPECT_NEAR(a.rain_mm_at_km[k], b.rain_mm_at_km[k],
+                  1e-3 + kelvin * (2.0 + 0.1 * a.rain_mm_at_km[k]));
   };
   near(default_climate(180.0, 66.0), default_climate(-180.0, 66.0), 1e-6);
   near(default_climate(10.0, 90.0), default_climate(-150.0, 90.0), 1e-6);
   near(default_climate(10.0, -90.0), default_climate(-150.0, -90.0), 1e-6);
   for (double latitude = -85.0; latitude < 86.0; latitude += 19.0)
     for (double longitude = -177.0; longitude < 180.0; longitude += 43.0)
-      near(default_climate(longitude, latitude), default_climate(longitude + 0.1, latitude + 0.1), 1.5);
+      near(default_climate(longitude, latitude), default_climate(longitude + 0.1, latitude + 0.1),
+           1.5);
 }
 
 TEST(ZonalClimate, IsSoundEverywhere) {
   for (double latitude = -90.0; latitude <= 90.0; latitude += 15.0)
     for (double longitude = -180.0; longitude < 180.0; longitude += 30.0) {
-      const PlaceClimate place = default_climate(longitude, latitude);
+      const PlaceClimate position = default_climate(longitude, latitude);
       for (std::size_t m = 0; m < 12; ++m) {
-        EXPECT_GT(place.sea_level_c[m], -75.0) << latitude << " " << longitude;
-        EXPECT_LT(place.sea_level_c[m], 55.0) << latitude << " " << longitude;
+        EXPECT_GT(position.sea_level_c[m], -75.0) << latitude << " " << longitude;
+        EXPECT_LT(position.sea_level_c[m], 55.0) << latitude << " " << longitude;
       }
-      for (const double rain : place.rain_mm_at_km) {
+      for (const double rain : position.rain_mm_at_km) {
         EXPECT_GE(rain, 0.0);
         EXPECT_LT(rain, 8000.0);
       }
-      EXPECT_LE(snow_line_m(place, {1.0, 0.0}), 9000.0);
+      EXPECT_LE(snow_line_m(position, {1.0, 0.0}), 9000.0);
     }
 }
 
 TEST(ZonalClimate, MonthsAndRainFollowTheLines) {
-  PlaceClimate place;
-  place.sea_level_c.fill(20.0);
-  place.lapse_k_per_km.fill(6.0);
-  place.rain_mm_at_km = {1000.0, 1200.0, 1600.0, 1600.0, 1600.0, 1600.0, 1600.0, 800.0};
-  place.summer_share = 0.7;
-  EXPECT_DOUBLE_EQ(monthly_c(place, 2500.0)[4], 5.0);
-  EXPECT_NEAR(rain_mm(place, 1250.0), 1300.0, 1e-9);
-  EXPECT_NEAR(rain_mm(place, -400.0), 1000.0, 1e-9);
-  EXPECT_NEAR(rain_mm(place, 8800.0), 800.0, 1e-9);
-  const Months rain = monthly_rain_mm(place, 1000.0);
+  PlaceClimate position;
+  position.sea_level_c.fill(20.0);
+  position.lapse_k_per_km.fill(6.0);
+  position.rain_mm_at_km = {1000.0, 1200.0, 1600.0, 1600.0, 1600.0, 1600.0, 1600.0, 800.0};
+  position.summer_share = 0.7;
+  EXPECT_DOUBLE_EQ(monthly_c(position, 2500.0)[4], 5.0);
+  EXPECT_NEAR(rain_mm(position, 1250.0), 1300.0, 1e-9);
+  EXPECT_NEAR(rain_mm(position, -400.0), 1000.0, 1e-9);
+  EXPECT_NEAR(rain_mm(position, 8800.0), 800.0, 1e-9);
+  const Months rain = monthly_rain_mm(position, 1000.0);
   double year = 0.0;
   double summer = 0.0;
   for (std::size_t m = 0; m < 12; ++m) {
@@ -171,7 +179,8 @@ TEST(ZonalClimate, BadStationsNameTheirLine) {
     }
     return std::string();
   };
-  EXPECT_THAT(message_of("version = 1\nstations = [\n[\"A\", 95.0, 0, 0, 1, 2, 3, 2, 500, 0.5]]"), HasSubstr("s.toml:3"));
+  EXPECT_THAT(message_of("version = 1\nstations = [\n[\"A\", 95.0, 0, 0, 1, 2, 3, 2, 500, 0.5]]"),
+              HasSubstr("s.toml:3"));
   EXPECT_THAT(message_of("version = 1\nstations = [\n[\"A\", 45.0, 0]]"), HasSubstr("s.toml:3"));
   EXPECT_THAT(message_of("version = 2\nstations = []"), HasSubstr("version = 1"));
   EXPECT_THROW(make_climate_field({}), Error);

@@ -11,7 +11,7 @@
 #include "terrain/cover/class_rules.h"
 #include "tests/terrain/cover/class_rules_ground.h"
 
-// Class rules by the climate of a place.
+// Class rules with the local climate.
 namespace belvedere {
 namespace {
 
@@ -29,12 +29,14 @@ RuleClimate climate(float treeline_m, float snow_m, float moisture) {
   return c;
 }
 
-Grid<LandCoverClass> apply_in(const RuleClimate& where, const Dem& dem, const std::vector<std::pair<std::string, double>>& settings = {}) {
+Grid<LandCoverClass> apply_in(const RuleClimate& where, const Dem& dem,
+                              const std::vector<std::pair<std::string, double>>& settings = {}) {
   ClassRuleParameters parameters;
   parameters.settings = settings;
   parameters.seed = 7;
   parameters.climate = where;
-  return apply_class_rules(read_class_rules("life_zones"), parameters, dem, silent_progress()).classes.cells;
+  return apply_class_rules(read_class_rules("life_zones"), parameters, dem, silent_progress())
+      .classes.cells;
 }
 
 // Mean altitude of the highest tenth of forest cells; 0 without forest.
@@ -45,19 +47,26 @@ double forest_top(const Grid<LandCoverClass>& classes, const Dem& dem) {
   if (altitudes.empty()) return 0.0;
   std::sort(altitudes.rbegin(), altitudes.rend());
   const std::size_t count = std::max<std::size_t>(1, altitudes.size() / 10);
-  return std::accumulate(altitudes.begin(), altitudes.begin() + static_cast<std::ptrdiff_t>(count), 0.0) / static_cast<double>(count);
+  return std::accumulate(altitudes.begin(), altitudes.begin() + static_cast<std::ptrdiff_t>(count),
+                         0.0) /
+         static_cast<double>(count);
 }
 
 TEST(LifeZones, TheTreelineIsThatOfTheClimateUnlessTheSceneHasItsOwn) {
-  const Dem dem = ground(300, [](double e, double n) { return 3700.0 - 0.4663 * std::hypot(e, n); });
+  const Dem dem =
+      ground(300, [](double e, double n) { return 3700.0 - 0.4663 * std::hypot(e, n); });
   for (const float treeline : {2200.F, 3000.F}) {
-    EXPECT_NEAR(forest_top(apply_in(climate(treeline, 5500.F, 1.F), dem), dem), treeline, 200.0) << treeline;
-    EXPECT_NEAR(forest_top(apply_in(climate(treeline, 5500.F, 1.F), dem, {{"treeline_m", 2600.0}}), dem), 2600.0, 200.0);
+    EXPECT_NEAR(forest_top(apply_in(climate(treeline, 5500.F, 1.F), dem), dem), treeline, 200.0)
+        << treeline;
+    EXPECT_NEAR(
+        forest_top(apply_in(climate(treeline, 5500.F, 1.F), dem, {{"treeline_m", 2600.0}}), dem),
+        2600.0, 200.0);
   }
 }
 
 TEST(LifeZones, ForestClimbsHigherOnSunnySlopes) {
-  const Dem dem = ground(240, [](double e, double n) { return 2900.0 - 0.4663 * std::hypot(e, n); });
+  const Dem dem =
+      ground(240, [](double e, double n) { return 2900.0 - 0.4663 * std::hypot(e, n); });
   const Grid<LandCoverClass> c = apply_in(climate(1900.F, 4500.F, 1.F), dem, {{"raggedness", 0.0}});
   const auto highest = [&](int from, int to) {
     float top = 0.F;
@@ -70,7 +79,8 @@ TEST(LifeZones, ForestClimbsHigherOnSunnySlopes) {
 }
 
 TEST(LifeZones, NoSnowWhereTheLineIsAboveAllGround) {
-  const Dem volcano = ground(240, [](double e, double n) { return 3800.0 - 0.6 * std::hypot(e, n); });
+  const Dem volcano =
+      ground(240, [](double e, double n) { return 3800.0 - 0.6 * std::hypot(e, n); });
   const Grid<LandCoverClass> dry = apply_in(climate(3000.F, 4600.F, 0.9F), volcano);
   EXPECT_EQ(share(dry, snow) + share(dry, glacier), 0.0);
   const Grid<LandCoverClass> wet = apply_in(climate(2000.F, 2600.F, 1.F), volcano);
@@ -78,9 +88,12 @@ TEST(LifeZones, NoSnowWhereTheLineIsAboveAllGround) {
 }
 
 TEST(LifeZones, WhereWaterIsScarceForestGivesWayToBushesGrassAndSand) {
-  const Dem hills = ground(240, [](double e, double n) { return 900.0 + 120.0 * std::cos(e / 500.0) * std::cos(n / 700.0) + 0.02 * e; });
+  const Dem hills = ground(240, [](double e, double n) {
+    return 900.0 + 120.0 * std::cos(e / 500.0) * std::cos(n / 700.0) + 0.02 * e;
+  });
   const auto on = [&](const Dem& dem, float moisture) {
-    return apply_in(climate(3500.F, 5000.F, moisture), dem, {{"settlement", -1.0}, {"clearings", -1.0}});
+    return apply_in(climate(3500.F, 5000.F, moisture), dem,
+                    {{"settlement", -1.0}, {"clearings", -1.0}});
   };
   const auto shares = [&](float moisture) { return on(hills, moisture); };
   const auto wet = shares(1.F);
@@ -96,13 +109,16 @@ TEST(LifeZones, WhereWaterIsScarceForestGivesWayToBushesGrassAndSand) {
   EXPECT_GT(share(steppe, alpine_grass), 0.4);
   EXPECT_EQ(share(desert, forest), 0.0);
   EXPECT_GT(share(desert, sand) + share(desert, scree) + share(desert, rock), 0.7);
-  const Dem slope = ground(240, [](double e, double n) { return 1500.0 + 0.45 * n + 30.0 * std::cos(e / 300.0); });  // 24°
+  const Dem slope = ground(240, [](double e, double n) {
+    return 1500.0 + 0.45 * n + 30.0 * std::cos(e / 300.0);
+  });  // 24°
   EXPECT_GT(share(on(slope, 0.08F), rock), 0.6) << "nothing holds soil there";
   EXPECT_LT(share(on(slope, 1.F), rock), 0.1);
 }
 
 TEST(LifeZones, TheDatesSnowLiesOnOpenGroundAboveItsLine) {
-  const Dem dem = ground(240, [](double e, double n) { return 2900.0 - 0.4663 * std::hypot(e, n); });
+  const Dem dem =
+      ground(240, [](double e, double n) { return 2900.0 - 0.4663 * std::hypot(e, n); });
   RuleClimate october = climate(1820.F, 4000.F, 1.F);
   october.season_snow_m(0, 0) = 2100.F;
   const Grid<LandCoverClass> c = apply_in(october, dem);
@@ -120,25 +136,27 @@ TEST(LifeZones, TheDatesSnowLiesOnOpenGroundAboveItsLine) {
 TEST(ClassRules, PartsAreGivenWhatTheWholeFinds) {
   const ClassRules rules = read_class_rules("life_zones");
   ClassRuleParameters parameters;
-  // A treeline that rises to the east: open altitudes hang on it in the middle of the map.
+  // A treeline that rises to the east: altitudes left open depend on it at the centre of the map.
   parameters.climate.line_posts = {1000.0, 5000.0, 7200.0, 7200.0};
-  for (Grid<float>* line :
-       {&parameters.climate.treeline_m, &parameters.climate.ice_line_m, &parameters.climate.snow_line_m, &parameters.climate.season_snow_m})
+  for (Grid<float>* line : {&parameters.climate.treeline_m, &parameters.climate.ice_line_m,
+                            &parameters.climate.snow_line_m, &parameters.climate.season_snow_m})
     *line = Grid<float>(2, 1, (*line)(0, 0));
   parameters.climate.treeline_m(0, 0) = 1500.F;
   parameters.climate.treeline_m(1, 0) = 1900.F;
   parameters.settings = {{"treeline_m", 0.0}, {"town_highest_m", 0.0}, {"floor_highest_m", 1111.0}};
   const ClassRuleParameters parts = parameters_for_parts(rules, parameters, cone());
   std::vector<float> row(240);
-  fill_climate_row(parameters.climate, ClimateVariable::treeline, cone().transform, 120, 240, cone().altitude_m.row(120), row.data());
+  fill_climate_row(parameters.climate, ClimateVariable::treeline, cone().transform, 120, 240,
+                   cone().altitude_m.row(120), row.data());
   const auto setting = [&](const std::string& name) {
-    const auto at = std::find_if(parts.settings.begin(), parts.settings.end(), [&](const auto& p) { return p.first == name; });
+    const auto at = std::find_if(parts.settings.begin(), parts.settings.end(),
+                                 [&](const auto& p) { return p.first == name; });
     return at == parts.settings.end() ? std::nan("") : at->second;
   };
   EXPECT_EQ(setting("town_highest_m"), row[120] - 520.0);
   EXPECT_EQ(setting("floor_highest_m"), 1111.0) << "what is said holds";
   ASSERT_TRUE(parts.sites.has_value());
-  // On the whole itself nothing is different.
+  // Applied to the whole itself, nothing changes.
   EXPECT_EQ(apply_class_rules(rules, parts, cone(), silent_progress()).classes.cells,
             apply_class_rules(rules, parameters, cone(), silent_progress()).classes.cells);
 }

@@ -10,25 +10,29 @@
 
 namespace belvedere::test {
 
-// Ground from a formula of metres east and north of the middle, 30 m cells.
+// Ground from a formula of metres east and north of the centre, 30 m cells.
 inline Dem ground(int size, const std::function<double(double, double)>& altitude) {
   Dem dem;
   dem.altitude_m = Grid<float>(size, size);
   dem.filled = Grid<std::uint8_t>(size, size, 0);
   dem.transform = {1000.0, 5000.0, 30.0, 30.0};
   for (int y = 0; y < size; ++y)
-    for (int x = 0; x < size; ++x) dem.altitude_m(x, y) = static_cast<float>(altitude(30.0 * (x - size / 2), -30.0 * (y - size / 2)));
+    for (int x = 0; x < size; ++x)
+      dem.altitude_m(x, y) =
+          static_cast<float>(altitude(30.0 * (x - size / 2), -30.0 * (y - size / 2)));
   return dem;
 }
 
-// A cone of 25° with its summit in the middle.
+// A cone of 25° with its summit at the centre.
 inline const Dem& cone() {
-  static const Dem dem = ground(240, [](double e, double n) { return 2900.0 - 0.4663 * std::hypot(e, n); });
+  static const Dem dem =
+      ground(240, [](double e, double n) { return 2900.0 - 0.4663 * std::hypot(e, n); });
   return dem;
 }
 
 inline double share(const Grid<LandCoverClass>& classes, LandCoverClass id) {
-  return static_cast<double>(std::count(classes.begin(), classes.end(), id)) / static_cast<double>(classes.size());
+  return static_cast<double>(std::count(classes.begin(), classes.end(), id)) /
+         static_cast<double>(classes.size());
 }
 
 }  // namespace belvedere::test

@@ -15,33 +15,34 @@ using test::share;
 
 // A valley of 52 km² that falls from north to south, its sides rising by a fifth.
 const Dem& valley() {
-  static const Dem dem = ground(240, [](double e, double n) { return 700.0 + 0.02 * n + 0.2 * std::abs(e); });
+  static const Dem dem =
+      ground(240, [](double e, double n) { return 700.0 + 0.02 * n + 0.2 * std::abs(e); });
   return dem;
 }
 
-TEST(ClassRulesRivers, GuessedRiversAreLinesWhereTheRulesHaveThem) {
+TEST(ClassRulesRivers, InferredRiversAreLinesWhereTheRulesHaveThem) {
   ClassRules rules{"toy", {{"speck_cells", 0.0}}, {}, {{pasture, "1"}, {water, "northing < 0"}}};
-  const auto rivers = [&](const std::string& where, bool guessed = true) {
+  const auto rivers = [&](const std::string& where, bool inferred = true) {
     rules.rivers = where;
     ClassRuleParameters parameters;
-    parameters.rivers = guessed;
-    return apply_class_rules(rules, parameters, valley(), silent_progress()).guessed_rivers;
+    parameters.rivers = inferred;
+    return apply_class_rules(rules, parameters, valley(), silent_progress()).inferred_rivers;
   };
   EXPECT_TRUE(rivers("").empty());
   EXPECT_TRUE(rivers("0").empty());
   EXPECT_TRUE(rivers("1", false).empty()) << "a map has them";
-  const std::vector<CoverCourse> all = rivers("valley_height < 60");
+  const std::vector<CoverRiver> all = rivers("valley_height < 60");
   ASSERT_EQ(all.size(), 1U);
   EXPECT_EQ(all[0].painted_as, water);
-  const double middle = valley().transform.to_crs(120, 0).x;
-  for (const glm::dvec2 place : all[0].places) {
-    EXPECT_NEAR(place.x, middle, 31.0);
-    EXPECT_GT(place.y, -70.0) << "below lies a lake";
+  const double centre = valley().transform.to_crs(120, 0).x;
+  for (const glm::dvec2 position : all[0].positions) {
+    EXPECT_NEAR(position.x, centre, 31.0);
+    EXPECT_GT(position.y, -70.0) << "below lies a lake";
   }
-  EXPECT_NEAR(all[0].places.back().y, -40.0, 40.0);
-  // Where the rules say so, in words of their own, and by the class.
-  for (const CoverCourse& river : rivers("northing > 1000"))
-    for (const glm::dvec2 place : river.places) EXPECT_GT(place.y, 980.0);
+  EXPECT_NEAR(all[0].positions.back().y, -40.0, 40.0);
+  // Where the rules put them, by an expression and by the class.
+  for (const CoverRiver& river : rivers("northing > 1000"))
+    for (const glm::dvec2 position : river.positions) EXPECT_GT(position.y, 980.0);
   EXPECT_TRUE(rivers("not is_pasture").empty());
   rules.rivers = "northing >";
   EXPECT_THROW(apply_class_rules(rules, {}, valley(), silent_progress()), Error);
@@ -56,13 +57,13 @@ TEST(ClassRulesRivers, LifeZonesHaveRiversDownToTheRimWhereRainFeedsThem) {
     return apply_class_rules(rules, parameters, valley(), silent_progress());
   };
   const LandCover wet = rivers(1.F);
-  ASSERT_EQ(wet.guessed_rivers.size(), 1U);
-  const CoverCourse& river = wet.guessed_rivers[0];
-  EXPECT_LT(river.places.back().y, valley().transform.to_crs(0, 237).y);
+  ASSERT_EQ(wet.inferred_rivers.size(), 1U);
+  const CoverRiver& river = wet.inferred_rivers[0];
+  EXPECT_LT(river.positions.back().y, valley().transform.to_crs(0, 237).y);
   EXPECT_EQ(river.half_width_m.front(), 0.F);
   EXPECT_GT(river.half_width_m.back(), 11.F);
   EXPECT_EQ(share(wet.classes.cells, water), 0.0) << "the cells have no stairs of it";
-  EXPECT_TRUE(rivers(0.08F).guessed_rivers.empty());
+  EXPECT_TRUE(rivers(0.08F).inferred_rivers.empty());
 }
 
 }  // namespace

@@ -24,7 +24,8 @@ using test::cone;
 using test::ground;
 using test::share;
 
-Grid<LandCoverClass> apply(const ClassRules& rules, const Dem& dem, const std::vector<std::pair<std::string, double>>& settings = {},
+Grid<LandCoverClass> apply(const ClassRules& rules, const Dem& dem,
+                           const std::vector<std::pair<std::string, double>>& settings = {},
                            const std::vector<KnownTown>& towns = {}) {
   ClassRuleParameters parameters;
   parameters.settings = settings;
@@ -41,7 +42,13 @@ TEST(ClassRules, LifeZonesAreReadAndNameTheirParameters) {
 }
 
 TEST(ClassRules, LaterLayersWinAndSeeTheClassSoFar) {
-  ClassRules rules{"toy", {}, {}, {{forest, "1"}, {rock, "easting > 2000"}, {scree, "is_rock and northing > 3000"}, {snow, "is_rock"}}};
+  ClassRules rules{"toy",
+                   {},
+                   {},
+                   {{forest, "1"},
+                    {rock, "easting > 2000"},
+                    {scree, "is_rock and northing > 3000"},
+                    {snow, "is_rock"}}};
   rules.parameters = {{"speck_cells", 0.0}};
   const Dem dem = ground(100, [](double, double) { return 100.0; });
   const Grid<LandCoverClass> c = apply(rules, dem);
@@ -54,37 +61,46 @@ TEST(ClassRules, LaterLayersWinAndSeeTheClassSoFar) {
 }
 
 TEST(ClassRules, TerrainVariablesMeanWhatTheySay) {
-  const auto at_middle = [](const std::string& when, const std::function<double(double, double)>& f) {
+  const auto at_centre = [](const std::string& when,
+                            const std::function<double(double, double)>& f) {
     const ClassRules rules{"toy", {{"speck_cells", 0.0}}, {}, {{forest, "1"}, {rock, when}}};
     return apply(rules, ground(160, f))(80, 80) == rock;
   };
   const auto south_slope = [](double, double n) { return 1000.0 + 0.5 * n; };  // rises to the north
-  EXPECT_TRUE(at_middle("south > 0.95", south_slope));
-  EXPECT_FALSE(at_middle("south > -0.95", [](double, double n) { return 1000.0 - 0.5 * n; }));
-  EXPECT_TRUE(at_middle("abs(south) < 0.01", [](double e, double) { return 1000.0 + 0.5 * e; }));
-  EXPECT_TRUE(at_middle("north < -0.95 and abs(east) < 0.01 and abs(north + south) < 0.001", south_slope));
-  EXPECT_TRUE(at_middle("relief_4000 > 250 and roughness > 0 and flatness > 1 and above_valley > 300",
-                        [](double e, double) { return 1000.0 - 0.5 * std::abs(e); }));
-  EXPECT_TRUE(at_middle("abs(slope - 26.565) < 0.01", south_slope));
-  EXPECT_TRUE(at_middle("abs(altitude - 1000) < 0.01", south_slope));
-  const auto ridge = [](double e, double) { return 1000.0 - 0.5 * std::abs(e); };
-  EXPECT_TRUE(at_middle("relief_180 > 20 and relief_750 > 100 and relief_1800 > 200", ridge));
-  EXPECT_TRUE(at_middle("relief_180 < -20 and relief_750 < -100", [](double e, double) { return 1000.0 + 0.5 * std::abs(e); }));
-  EXPECT_TRUE(at_middle("abs(valley_height - 465) < 40", ridge));  // 0.5 · 900 m, the window square; the valley is smoothed
-  EXPECT_TRUE(at_middle("valley_floor > 0.99", [](double, double) { return 600.0; }));
-  EXPECT_FALSE(at_middle("valley_floor > 0.01", [](double, double) { return 1600.0; }));
+  EXPECT_TRUE(at_centre("south > 0.95", south_slope));
+  EXPECT_FALSE(at_centre("south > -0.95", [](double, double n) { return 1000.0 - 0.5 * n; }));
+  EXPECT_TRUE(at_centre("abs(south) < 0.01", [](double e, double) { return 1000.0 + 0.5 * e; }));
   EXPECT_TRUE(
-      at_middle("lake > 0.5 and not river > 0.5", [](double e, double n) { return std::max(500.0, 300.0 + 0.2 * std::hypot(e, n)); }));
+      at_centre("north < -0.95 and abs(east) < 0.01 and abs(north + south) < 0.001", south_slope));
+  EXPECT_TRUE(
+      at_centre("relief_4000 > 250 and roughness > 0 and flatness > 1 and above_valley > 300",
+                [](double e, double) { return 1000.0 - 0.5 * std::abs(e); }));
+  EXPECT_TRUE(at_centre("abs(slope - 26.565) < 0.01", south_slope));
+  EXPECT_TRUE(at_centre("abs(altitude - 1000) < 0.01", south_slope));
+  const auto ridge = [](double e, double) { return 1000.0 - 0.5 * std::abs(e); };
+  EXPECT_TRUE(at_centre("relief_180 > 20 and relief_750 > 100 and relief_1800 > 200", ridge));
+  EXPECT_TRUE(at_centre("relief_180 < -20 and relief_750 < -100",
+                        [](double e, double) { return 1000.0 + 0.5 * std::abs(e); }));
+  EXPECT_TRUE(at_centre("abs(valley_height - 465) < 40",
+                        ridge));  // 0.5 · 900 m, the window square; the valley is smoothed
+  EXPECT_TRUE(at_centre("valley_floor > 0.99", [](double, double) { return 600.0; }));
+  EXPECT_FALSE(at_centre("valley_floor > 0.01", [](double, double) { return 1600.0; }));
+  EXPECT_TRUE(at_centre("lake > 0.5 and not river > 0.5", [](double e, double n) {
+    return std::max(500.0, 300.0 + 0.2 * std::hypot(e, n));
+  }));
 }
 
 TEST(ClassRules, ScreeBelowRockOnly) {
   // A wall between two gentle slopes, falling to the south.
-  const Dem dem = ground(
-      120, [](double, double n) { return n > 300.0 ? 2000.0 + 0.4 * (n - 300.0) : (n > 0.0 ? 1500.0 + n * 5.0 / 3.0 : 1500.0 + 0.4 * n); });
-  const ClassRules rules{"toy",
-                         {{"apron_m", 400.0}, {"speck_cells", 0.0}},
-                         {},
-                         {{forest, "1"}, {rock, "slope > 45"}, {scree, "is_forest and below_rock > 0.5"}}};
+  const Dem dem = ground(120, [](double, double n) {
+    return n > 300.0 ? 2000.0 + 0.4 * (n - 300.0)
+                     : (n > 0.0 ? 1500.0 + n * 5.0 / 3.0 : 1500.0 + 0.4 * n);
+  });
+  const ClassRules rules{
+      "toy",
+      {{"apron_m", 400.0}, {"speck_cells", 0.0}},
+      {},
+      {{forest, "1"}, {rock, "slope > 45"}, {scree, "is_forest and below_rock > 0.5"}}};
   const Grid<LandCoverClass> c = apply(rules, dem);
   int below = 0;
   int above = 0;
@@ -112,8 +128,9 @@ TEST(ClassRules, ForestEndsAtARaggedTreeline) {
   EXPECT_LT(lowest_grass, 1820.0);
   // The setting moves it.
   EXPECT_LT(share(apply(rules, cone(), {{"treeline_m", 1500.0}}), forest), share(c, forest) - 0.1);
-  // Without raggedness the line on the west side is where the formula says: no exposure, and 35 m · relief / 60 m for the cone's convexity,
-  // whose relief_750 is 750² / 2 · 0.4663 / 2250 m = 58 m; less 60 m for wind, because its relief_1800 is over 240 m.
+  // Without raggedness the line on the west side is where the formula says: no exposure, and 35 m ·
+  // relief / 60 m for the cone's convexity, whose relief_750 is 750² / 2 · 0.4663 / 2250 m = 58 m;
+  // less 60 m for wind, because its relief_1800 is over 240 m.
   const Grid<LandCoverClass> smooth = apply(rules, cone(), {{"raggedness", 0.0}});
   int x = 0;
   while (smooth(x, 120) == forest || smooth(x, 120) == pasture || smooth(x, 120) == shrub) ++x;
@@ -121,8 +138,10 @@ TEST(ClassRules, ForestEndsAtARaggedTreeline) {
 }
 
 TEST(ClassRules, SnowReachesLowerOnTheNorthSide) {
-  const Dem high = ground(240, [](double e, double n) { return 3500.0 - 0.4663 * std::hypot(e, n); });
-  const Grid<LandCoverClass> c = apply(read_class_rules("life_zones"), high, {{"ice_line_m", 9000.0}});
+  const Dem high =
+      ground(240, [](double e, double n) { return 3500.0 - 0.4663 * std::hypot(e, n); });
+  const Grid<LandCoverClass> c =
+      apply(read_class_rules("life_zones"), high, {{"ice_line_m", 9000.0}});
   const auto lowest_snow = [&](bool north_side) {
     double lowest = 1e9;
     for (int y = 0; y < 240; ++y)
@@ -136,7 +155,8 @@ TEST(ClassRules, SnowReachesLowerOnTheNorthSide) {
 }
 
 TEST(ClassRules, WaterLiesOverAll) {
-  const Dem dem = ground(160, [](double e, double n) { return std::max(600.0, 560.0 + 0.1 * std::hypot(e, n)); });
+  const Dem dem = ground(
+      160, [](double e, double n) { return std::max(600.0, 560.0 + 0.1 * std::hypot(e, n)); });
   for (const double winter : {0.0, 1.0}) {
     const Grid<LandCoverClass> c = apply(read_class_rules("life_zones"), dem, {{"winter", winter}});
     EXPECT_EQ(c(80, 80), water);
@@ -158,7 +178,8 @@ TEST(ClassRules, TheSeaIsWaterWithABeach) {
   ClassRules rules = read_class_rules("life_zones");
   const Dem& dem = shore_of_the_sea();
   // A town at the shore, half of it at sea.
-  const Grid<LandCoverClass> c = apply(rules, dem, {}, {{.place = dem.transform.to_crs(118.0, 150.0), .radius_m = 600.0}});
+  const Grid<LandCoverClass> c =
+      apply(rules, dem, {}, {{.position = dem.transform.to_crs(118.0, 150.0), .radius_m = 600.0}});
   double water_at_sea = 0.0;
   double water_on_land = 0.0;
   double sand_by_the_sea = 0.0;
@@ -177,17 +198,21 @@ TEST(ClassRules, TheSeaIsWaterWithABeach) {
   EXPECT_GT(sand_by_the_sea / (300.0 * 5.0), 0.4);
   EXPECT_EQ(c(100, 150), water);  // no houses in it
   EXPECT_GT(share(c, settlement), 0.0);
-  // Where there is none, fields and houses stand there, as on any plain.
+  // Without a sea, fields and houses are there, as on any plain.
   ClassRuleParameters without_sea;
   without_sea.sea.look = false;
   without_sea.seed = 7;
-  const Grid<LandCoverClass> dry = apply_class_rules(rules, without_sea, dem, silent_progress()).classes.cells;
+  const Grid<LandCoverClass> dry =
+      apply_class_rules(rules, without_sea, dem, silent_progress()).classes.cells;
   EXPECT_LT(share(dry, water), 0.02);
   EXPECT_EQ(share(dry, sand), 0.0);
 }
 
 TEST(ClassRules, VariablesOfTheSea) {
-  ClassRules rules{"toy", {{"speck_cells", 0.0}}, {}, {{forest, "1"}, {sand, "coast > 0 and coast < 100"}, {water, "sea"}}};
+  ClassRules rules{"toy",
+                   {{"speck_cells", 0.0}},
+                   {},
+                   {{forest, "1"}, {sand, "coast > 0 and coast < 100"}, {water, "sea"}}};
   const Grid<LandCoverClass> c = apply(rules, shore_of_the_sea());
   EXPECT_EQ(c(20, 20), water);
   EXPECT_EQ(c(120, 20), sand);  // noise moves the shore by up to two cells
@@ -197,7 +222,8 @@ TEST(ClassRules, VariablesOfTheSea) {
 }
 
 TEST(ClassRules, ReedsGrowIntoLakesFromTheShore) {
-  const Dem dem = ground(160, [](double e, double n) { return std::max(600.0, 560.0 + 0.05 * std::hypot(e, n)); });
+  const Dem dem = ground(
+      160, [](double e, double n) { return std::max(600.0, 560.0 + 0.05 * std::hypot(e, n)); });
   const ClassRules rules = read_class_rules("life_zones");
   const Grid<LandCoverClass> open = apply(rules, dem);
   const Grid<LandCoverClass> grown = apply(rules, dem, {{"reeds", 1.0}});
@@ -233,8 +259,9 @@ TEST(ClassRules, TownsAreWhereTheSceneSaysAndNowhereElse) {
   const glm::dvec2 town = plain.transform.to_crs(60, 140);
   EXPECT_EQ(share(apply(rules, plain, {{"settlement", -1.0}}), settlement), 0.0);
   const Grid<LandCoverClass> with = apply(rules, plain, {{"settlement", -1.0}}, {{town, 900.0}});
-  // As large as a circle of that radius, less the river; ragged by a fifth of the radius.
-  EXPECT_NEAR(share(with, settlement) * 6000.0 * 6000.0, 3.14159 * 900.0 * 900.0, 0.25 * 3.14159 * 900.0 * 900.0);
+  // As large as a circle of that radius, minus the river; ragged by a fifth of the radius.
+  EXPECT_NEAR(share(with, settlement) * 6000.0 * 6000.0, 3.14159 * 900.0 * 900.0,
+              0.25 * 3.14159 * 900.0 * 900.0);
   for (int y = 0; y < 200; ++y)
     for (int x = 0; x < 200; ++x)
       if (with(x, y) == settlement) {
@@ -245,32 +272,38 @@ TEST(ClassRules, TownsAreWhereTheSceneSaysAndNowhereElse) {
 
 TEST(ClassRules, TownsAreNoParametersAnyMore) {
   const test::Folder folder;
-  const std::string file =
-      folder.write("r.toml", "version = 1\n[parameters]\ntown_1_east = 5\n[[layers]]\nclass = \"forest\"\nwhen = \"1\"\n");
+  const std::string file = folder.write(
+      "r.toml",
+      "version = 1\n[parameters]\ntown_1_east = 5\n[[layers]]\nclass = \"forest\"\nwhen = \"1\"\n");
   EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { read_class_rules(file); }),
-              testing::AllOf(testing::HasSubstr("r.toml:3:"), testing::HasSubstr("town_1_east"), testing::HasSubstr("towns of the scene")));
-  for (const char* name : {"town_highest_m", "town_1", "my_town_1_east"}) EXPECT_FALSE(names_old_town(name)) << name;
+              testing::AllOf(testing::HasSubstr("r.toml:3:"), testing::HasSubstr("town_1_east"),
+                             testing::HasSubstr("towns of the scene")));
+  for (const char* name : {"town_highest_m", "town_1", "my_town_1_east"})
+    EXPECT_FALSE(names_old_town(name)) << name;
 }
 
 TEST(ClassRules, VillagesStandOnValleyFloorsAndInClearings) {
   // A trough from north to south with gentle shoulders.
   const Dem dem = ground(240, [](double e, double n) {
-    return 650.0 + 0.012 * n + 0.5 * std::max(0.0, std::abs(e) - 900.0) - 0.35 * std::max(0.0, std::abs(e) - 1700.0);
+    return 650.0 + 0.012 * n + 0.5 * std::max(0.0, std::abs(e) - 900.0) -
+           0.35 * std::max(0.0, std::abs(e) - 1700.0);
   });
   const ClassRules rules = read_class_rules("life_zones");
   const Grid<LandCoverClass> some = apply(rules, dem);
   EXPECT_GT(share(some, settlement), 0.001);
   EXPECT_LT(share(some, settlement), 0.1);
   EXPECT_EQ(share(apply(rules, dem, {{"town_highest_m", 500.0}}), settlement), 0.0);
-  // Nobody builds in the wood: it ends before the houses.
+  // No houses in the forest: it ends before them.
   int in_wood = 0;
   for (int y = 1; y < 239; ++y)
     for (int x = 1; x < 239; ++x)
-      if (some(x, y) == settlement && some(x + 1, y) == forest && some(x - 1, y) == forest) ++in_wood;
+      if (some(x, y) == settlement && some(x + 1, y) == forest && some(x - 1, y) == forest)
+        ++in_wood;
   EXPECT_EQ(in_wood, 0);
 }
 
-// A plain with one town that is known: fields about it, meadows beyond, and more of them where nobody is known.
+// A plain with one known town: fields around it, meadows beyond, and more of them where there are
+// no known towns.
 TEST(ClassRules, FieldsLieAboutTownsAndMeadowsBetween) {
   const Dem plain = ground(240, [](double e, double) { return 500.0 + 0.015 * e; });
   const ClassRules rules = read_class_rules("life_zones");
@@ -293,13 +326,18 @@ TEST(ClassRules, FieldsLieAboutTownsAndMeadowsBetween) {
   EXPECT_LT(fields_far, far / 50);
   EXPECT_GT(meadows_far, far * 9 / 10);
   // As in the Alps, fields everywhere.
-  EXPECT_EQ(share(apply(rules, plain, {{"settlement", -1.0}, {"guesses", 1.0}}), valley_floor), 1.0);
+  EXPECT_EQ(
+      share(apply(rules, plain, {{"settlement", -1.0}, {"inferred_villages", 1.0}}), valley_floor),
+      1.0);
 }
 
 // Wooded slopes of one steepness all around, 700 m … 1400 m.
-Grid<LandCoverClass> wooded_cone(double slope_deg, const std::vector<std::pair<std::string, double>>& settings) {
+Grid<LandCoverClass> wooded_cone(double slope_deg,
+                                 const std::vector<std::pair<std::string, double>>& settings) {
   const double fall = std::tan(slope_deg * 0.017453292519943295);
-  return apply(read_class_rules("life_zones"), ground(160, [&](double e, double n) { return 1400.0 - fall * std::hypot(e, n); }), settings);
+  return apply(read_class_rules("life_zones"),
+               ground(160, [&](double e, double n) { return 1400.0 - fall * std::hypot(e, n); }),
+               settings);
 }
 
 TEST(ClassRules, CragsStandOutOfWoodedSlopesTheMoreTheSteeper) {
@@ -319,22 +357,27 @@ TEST(ClassRules, ClearingsClimbSteeperSlopes) {
   const double all = share(wooded_cone(25.0, {{"clearings", 1.0}}), pasture);
   EXPECT_GT(all, half);
   EXPECT_GT(all, 0.3);
-  EXPECT_LT(share(wooded_cone(8.0, {{"clearings", -1.0}}), pasture), 0.2 * share(wooded_cone(8.0, {}), pasture));
+  EXPECT_LT(share(wooded_cone(8.0, {{"clearings", -1.0}}), pasture),
+            0.2 * share(wooded_cone(8.0, {}), pasture));
 }
 
-// Above the line a gentle glacier is white with firn; where it falls steeply, and below the line, it shows its ice.
+// Above the line a gentle glacier is white with firn; where it falls steeply, and below the line,
+// it shows its ice.
 TEST(ClassRules, FirnHidesIceAboveTheLineButNotOnSteps) {
-  const std::vector<std::pair<std::string, double>> settings = {{"ice_line_m", 3000.0}, {"snowline_m", 9000.0}, {"raggedness", 0.0}};
+  const std::vector<std::pair<std::string, double>> settings = {
+      {"ice_line_m", 3000.0}, {"snowline_m", 9000.0}, {"raggedness", 0.0}};
   const auto shares = [&](double gradient) {
-    // A trough that falls to the south, its middle at the line.
-    const Dem dem = ground(200, [&](double e, double n) { return 3000.0 + gradient * n + 0.0002 * e * e; });
+    // A trough that falls to the south, its centre at the line.
+    const Dem dem =
+        ground(200, [&](double e, double n) { return 3000.0 + gradient * n + 0.0002 * e * e; });
     const Grid<LandCoverClass> c = apply(read_class_rules("life_zones"), dem, settings);
     double firn_above = 0.0, ice_above = 0.0, firn_below = 0.0, ice_below = 0.0;
     for (std::size_t i = 0; i < c.size(); ++i) {
       if (std::abs(static_cast<int>(i % 200) - 100) > 15) continue;
       const bool above = dem.altitude_m[i] > 3250.F;
       if (!above && dem.altitude_m[i] > 2950.F) continue;
-      (c[i] == snow ? (above ? firn_above : firn_below) : (above ? ice_above : ice_below)) += c[i] == snow || c[i] == glacier ? 1.0 : 0.0;
+      (c[i] == snow ? (above ? firn_above : firn_below) : (above ? ice_above : ice_below)) +=
+          c[i] == snow || c[i] == glacier ? 1.0 : 0.0;
     }
     return std::array<double, 4>{firn_above, ice_above, firn_below, ice_below};
   };
@@ -346,20 +389,26 @@ TEST(ClassRules, FirnHidesIceAboveTheLineButNotOnSteps) {
   EXPECT_GT(steep[1], 300.0) << "steps of ice above the line";
 }
 
-// Above the last grass lies rubble, even where it is level, and so it does about the tongues of glaciers; never in lower woods.
+// Above the highest grass there is rubble, even on level ground, and around the tongues of
+// glaciers; never in lower forest.
 TEST(ClassRules, RubbleLiesAboveTheGrassAndAboutTheIce) {
   const ClassRules rules = read_class_rules("life_zones");
   const Dem gentle = ground(200, [](double, double n) { return 2000.0 + 0.3 * n; });
-  const Grid<LandCoverClass> c = apply(rules, gentle, {{"raggedness", 0.0}, {"snowline_m", 9000.0}, {"ice_line_m", 9000.0}});
+  const Grid<LandCoverClass> c =
+      apply(rules, gentle, {{"raggedness", 0.0}, {"snowline_m", 9000.0}, {"ice_line_m", 9000.0}});
   double highest_grass = 0.0;
   for (std::size_t i = 0; i < c.size(); ++i)
-    if (c[i] == alpine_grass) highest_grass = std::max(highest_grass, static_cast<double>(gentle.altitude_m[i]));
+    if (c[i] == alpine_grass)
+      highest_grass = std::max(highest_grass, static_cast<double>(gentle.altitude_m[i]));
   EXPECT_GT(highest_grass, 1820.0 + 300.0);
   EXPECT_LT(highest_grass, 1820.0 + 1000.0);
 
-  const Dem trough = ground(200, [](double e, double n) { return 2300.0 + 0.2 * n + 0.0003 * e * e; });
-  const Grid<LandCoverClass> icy = apply(rules, trough, {{"ice_line_m", 2450.0}, {"treeline_m", 2200.0}, {"raggedness", 0.0}});
-  const Grid<LandCoverClass> bare = apply(rules, trough, {{"ice_line_m", 9000.0}, {"treeline_m", 2200.0}, {"raggedness", 0.0}});
+  const Dem trough =
+      ground(200, [](double e, double n) { return 2300.0 + 0.2 * n + 0.0003 * e * e; });
+  const Grid<LandCoverClass> icy =
+      apply(rules, trough, {{"ice_line_m", 2450.0}, {"treeline_m", 2200.0}, {"raggedness", 0.0}});
+  const Grid<LandCoverClass> bare =
+      apply(rules, trough, {{"ice_line_m", 9000.0}, {"treeline_m", 2200.0}, {"raggedness", 0.0}});
   int rubble = 0;
   for (int y = 1; y < 199; ++y)
     for (int x = 1; x < 199; ++x) {
@@ -368,16 +417,20 @@ TEST(ClassRules, RubbleLiesAboveTheGrassAndAboutTheIce) {
       bool near_ice = false;
       for (int v = -6; v <= 6 && !near_ice; ++v)
         for (int u = -6; u <= 6 && !near_ice; ++u)
-          near_ice = icy.contains(x + u, y + v) && (icy(x + u, y + v) == glacier || icy(x + u, y + v) == snow);
+          near_ice = icy.contains(x + u, y + v) &&
+                     (icy(x + u, y + v) == glacier || icy(x + u, y + v) == snow);
       EXPECT_TRUE(near_ice) << x << ", " << y;
     }
   EXPECT_GT(rubble, 100);
 }
 
 TEST(ClassRules, GlaciersFlowDownValleysInTongues) {
-  // A valley that falls to the south from a snow field: its ice reaches far below the ice line, that of the ridges beside it does not.
-  const Dem dem = ground(200, [](double e, double n) { return 2700.0 + 0.25 * n + 0.00045 * e * e; });
-  const Grid<LandCoverClass> c = apply(read_class_rules("life_zones"), dem, {{"ice_line_m", 3000.0}, {"raggedness", 0.0}});
+  // A valley that falls to the south from a snow field: its ice reaches far below the ice line,
+  // that of the adjacent ridges does not.
+  const Dem dem =
+      ground(200, [](double e, double n) { return 2700.0 + 0.25 * n + 0.00045 * e * e; });
+  const Grid<LandCoverClass> c =
+      apply(read_class_rules("life_zones"), dem, {{"ice_line_m", 3000.0}, {"raggedness", 0.0}});
   double lowest_ice = 1e9;
   int column = 0;
   for (int y = 0; y < 200; ++y)
@@ -421,14 +474,15 @@ TEST(ClassRules, UnknownSettingNamesTheNearest) {
   }
 }
 
-// What a rules file of this text is refused for.
+// The error of a rules file with this text.
 std::string refused(const std::string& text) {
   const test::Folder folder;
   try {
     read_class_rules(folder.write("rules.toml", text));
   } catch (const Error& e) {
     EXPECT_EQ(e.kind(), ErrorKind::usage);
-    const std::string where = e.where().substr(std::min(e.where().size(), folder.path().size() + 1));
+    const std::string where =
+        e.where().substr(std::min(e.where().size(), folder.path().size() + 1));
     return where + " " + e.found();
   }
   return "accepted";
@@ -441,14 +495,20 @@ TEST(ClassRules, FilesAreRefusedWithTheirPlace) {
             "rules.toml:4:9 unknown name \"slop\"; did you mean \"slope\"?");
   EXPECT_THAT(refused(head + "[[layers]]\nclass = \"rok\"\nwhen = \"1\"\n"),
               testing::HasSubstr(":3:9 unknown class \"rok\"; did you mean \"rock\"?"));
-  EXPECT_THAT(refused(head + "[[layers]]\nclass = \"rock\"\n"), testing::HasSubstr("a layer without when"));
-  EXPECT_THAT(refused(head + "[[layers]]\nclass = \"rock\"\nwhen = \"1\"\nif = \"2\"\n"), testing::HasSubstr("unknown key \"if\""));
-  EXPECT_THAT(refused(head + "[terms]\na = \"b + 1\"\nb = \"1\"\n[[layers]]\nclass = \"rock\"\nwhen = \"a\"\n"),
-              testing::HasSubstr(":3:6 unknown name \"b\""));
-  EXPECT_THAT(refused(head + "[terms]\na = \"is_rock\"\n[[layers]]\nclass = \"rock\"\nwhen = \"a\"\n"),
-              testing::HasSubstr("only layers know the class so far"));
-  EXPECT_THAT(refused(head + "[parameters]\nslope = 3\n"), testing::HasSubstr("already means something"));
-  EXPECT_THAT(refused(head + "[parameters]\n\"a b\" = 3\n"), testing::HasSubstr("the name \"a b\""));
+  EXPECT_THAT(refused(head + "[[layers]]\nclass = \"rock\"\n"),
+              testing::HasSubstr("a layer without when"));
+  EXPECT_THAT(refused(head + "[[layers]]\nclass = \"rock\"\nwhen = \"1\"\nif = \"2\"\n"),
+              testing::HasSubstr("unknown key \"if\""));
+  EXPECT_THAT(
+      refused(head +
+              "[terms]\na = \"b + 1\"\nb = \"1\"\n[[layers]]\nclass = \"rock\"\nwhen = \"a\"\n"),
+      testing::HasSubstr(":3:6 unknown name \"b\""));
+  EXPECT_THAT(
+      refused(head + "[terms]\na = \"is_rock\"\n[[layers]]\nclass = \"rock\"\nwhen = \"a\"\n"),
+      testing::HasSubstr("the class so far is available only in layers"));
+  EXPECT_THAT(refused(head + "[parameters]\nslope = 3\n"), testing::HasSubstr("already in use"));
+  EXPECT_THAT(refused(head + "[parameters]\n\"a b\" = 3\n"),
+              testing::HasSubstr("the name \"a b\""));
   EXPECT_THAT(refused(head), testing::HasSubstr("no layers"));
   EXPECT_THAT(refused("version = 2\n"), testing::HasSubstr("the number 2"));
   EXPECT_THROW(read_class_rules("alpin"), Error);

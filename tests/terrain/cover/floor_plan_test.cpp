@@ -16,8 +16,9 @@ struct Map {
   LandCover cover;
 };
 
-// 30 m cells; altitude and class by metres east and north of the middle.
-Map make_map(int size, const std::function<double(double, double)>& altitude, const std::function<LandCoverClass(double, double)>& id) {
+// 30 m cells; altitude and class by metres east and north of the centre.
+Map make_map(int size, const std::function<double(double, double)>& altitude,
+             const std::function<LandCoverClass(double, double)>& id) {
   Map map;
   map.dem.altitude_m = Grid<float>(size, size);
   map.dem.filled = Grid<std::uint8_t>(size, size, 0);
@@ -39,20 +40,25 @@ double level(double, double) { return 600.0; }
 TEST(FloorPlan, GrainFollowsARiver) {
   for (const double degrees : {0.0, 30.0, 90.0, 135.0}) {
     const double a = degrees * 3.14159265 / 180.0;
-    const Map map =
-        make_map(120, level, [&](double e, double n) { return std::abs(n * std::cos(a) - e * std::sin(a)) < 60.0 ? water : valley_floor; });
+    const Map map = make_map(120, level, [&](double e, double n) {
+      return std::abs(n * std::cos(a) - e * std::sin(a)) < 60.0 ? water : valley_floor;
+    });
     const FloorPlan plan = plan_floor(map.cover, map.dem);
-    for (const glm::ivec2 place : {glm::ivec2(60, 60), glm::ivec2(66, 52)}) {
-      const glm::vec2 grain = plan.grain(place.x, place.y);
+    for (const glm::ivec2 position : {glm::ivec2(60, 60), glm::ivec2(66, 52)}) {
+      const glm::vec2 grain = plan.grain(position.x, position.y);
       EXPECT_GT(glm::length(grain), 0.5F) << degrees;
-      EXPECT_GT(glm::dot(glm::normalize(grain), glm::vec2(std::cos(2.0 * a), std::sin(2.0 * a))), 0.97F) << degrees;
+      EXPECT_GT(glm::dot(glm::normalize(grain), glm::vec2(std::cos(2.0 * a), std::sin(2.0 * a))),
+                0.97F)
+          << degrees;
     }
   }
 }
 
 TEST(FloorPlan, GrainFollowsTheFootOfTheSlopeWhereNoRiverIs) {
   // A valley that runs from southwest to northeast.
-  const auto trough = [](double e, double n) { return 600.0 + 0.5 * std::max(0.0, std::abs(n - e) / 1.41421 - 500.0); };
+  const auto trough = [](double e, double n) {
+    return 600.0 + 0.5 * std::max(0.0, std::abs(n - e) / 1.41421 - 500.0);
+  };
   const Map map = make_map(120, trough, [](double, double) { return valley_floor; });
   const glm::vec2 grain = plan_floor(map.cover, map.dem).grain(60, 60);
   EXPECT_NEAR(grain.x, 0.F, 0.1F);
@@ -70,7 +76,9 @@ TEST(FloorPlan, OpenPlainHasNoGrainAndNoHouses) {
 
 TEST(FloorPlan, TownsAreDenserThanVillagesAndInTheirMiddle) {
   const auto built_in_middle = [](double radius_m, double at_m) {
-    const Map map = make_map(160, level, [&](double e, double n) { return std::hypot(e, n) < radius_m ? settlement : valley_floor; });
+    const Map map = make_map(160, level, [&](double e, double n) {
+      return std::hypot(e, n) < radius_m ? settlement : valley_floor;
+    });
     return plan_floor(map.cover, map.dem).built(80 + static_cast<int>(at_m / 30.0), 80);
   };
   EXPECT_LT(built_in_middle(180.0, 0.0), 0.4F);

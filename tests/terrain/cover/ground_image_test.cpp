@@ -27,13 +27,16 @@ class GroundImage : public testing::Test {
  protected:
   std::string write(int bands, const RasterFrame& frame) const {
     const std::string path = folder_ / "image.tif";
-    std::vector<Grid<std::uint8_t>> cells(static_cast<std::size_t>(bands), Grid<std::uint8_t>(frame.width, frame.height, 77));
+    std::vector<Grid<std::uint8_t>> cells(static_cast<std::size_t>(bands),
+                                          Grid<std::uint8_t>(frame.width, frame.height, 77));
     for (int y = 0; y < frame.height; ++y)
       for (int x = 0; x < frame.width; ++x) {
         cells[0](x, y) = static_cast<std::uint8_t>(10 * x);
         if (bands > 1) cells[1](x, y) = static_cast<std::uint8_t>(8 * y);
       }
-    ByteRasterRows rows(path, {.frame = frame, .bands = std::vector<ByteRasterLayout::Band>(cells.size()), .is_colour = bands == 3});
+    ByteRasterRows rows(path, {.frame = frame,
+                               .bands = std::vector<ByteRasterLayout::Band>(cells.size()),
+                               .is_colour = bands == 3});
     rows.write(0, cells);
     rows.prepare();
     rows.commit();
@@ -44,18 +47,21 @@ class GroundImage : public testing::Test {
 
 TEST_F(GroundImage, IsTheBytesOfCellsThatCoincideAndUnknownBeyond) {
   const std::string path = write(3, frame_of(20, 16, 30.0));
-  const Raster<GroundColour> read = read_ground_image(path, frame_of(30, 16, 30.0, -150.0), true, silent_progress());
+  const Raster<GroundColour> read =
+      read_ground_image(path, frame_of(30, 16, 30.0, -150.0), true, silent_progress());
   ASSERT_EQ(read.cells.width(), 30);
   for (int y = 0; y < 16; ++y)
     for (int x = 0; x < 30; ++x) {
       const bool known = x >= 5 && x < 25;
-      const GroundColour expected = known ? GroundColour(10 * (x - 5), 8 * y, 77, 255) : GroundColour(0);
+      const GroundColour expected =
+          known ? GroundColour(10 * (x - 5), 8 * y, 77, 255) : GroundColour(0);
       ASSERT_EQ(read.cells(x, y), expected) << x << ", " << y;
     }
 }
 
 TEST_F(GroundImage, FinerPicturesAreAveraged) {
-  const Raster<GroundColour> read = read_ground_image(write(3, frame_of(20, 16, 30.0)), frame_of(10, 8, 60.0), true, silent_progress());
+  const Raster<GroundColour> read = read_ground_image(
+      write(3, frame_of(20, 16, 30.0)), frame_of(10, 8, 60.0), true, silent_progress());
   for (int y = 1; y < 7; ++y)
     for (int x = 1; x < 9; ++x) {
       EXPECT_NEAR(read.cells(x, y).r, 20 * x + 5, 2);
@@ -65,13 +71,18 @@ TEST_F(GroundImage, FinerPicturesAreAveraged) {
 
 TEST_F(GroundImage, RefusesWhatIsNoPictureOfTheGround) {
   const auto refused = [](const std::string& path, double moved_m) {
-    return message_of(ErrorKind::input, [&] { read_ground_image(path, frame_of(20, 16, 30.0, moved_m), true, silent_progress()); });
+    return message_of(ErrorKind::input, [&] {
+      read_ground_image(path, frame_of(20, 16, 30.0, moved_m), true, silent_progress());
+    });
   };
   const std::string colour = write(3, frame_of(20, 16, 30.0));
-  EXPECT_THAT(refused(colour, 90000.0), HasSubstr("nothing of the terrain"));
-  EXPECT_NO_THROW(read_ground_image(colour, frame_of(20, 16, 30.0, 90000.0), false, silent_progress())) << "a window may lie beside it";
+  EXPECT_THAT(refused(colour, 90000.0), HasSubstr("does not cover the terrain"));
+  EXPECT_NO_THROW(
+      read_ground_image(colour, frame_of(20, 16, 30.0, 90000.0), false, silent_progress()))
+      << "a window may lie beside it";
   EXPECT_THAT(refused(write(1, frame_of(20, 16, 30.0)), 0.0), HasSubstr("red, green and blue"));
-  Raster<float> high{Grid<float>(20, 16, 300.F), {east, north, 30.0, 30.0}, normalize_crs("EPSG:32632")};
+  Raster<float> high{
+      Grid<float>(20, 16, 300.F), {east, north, 30.0, 30.0}, normalize_crs("EPSG:32632")};
   write_raster(folder_ / "high.tif", high);
   EXPECT_THAT(refused(folder_ / "high.tif", 0.0), HasSubstr("red, green and blue"));
 }

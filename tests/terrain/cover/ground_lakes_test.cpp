@@ -11,11 +11,15 @@
 namespace belvedere {
 namespace {
 
-// Slopes about a round lake of 400 m at 500 m.
+// Slopes around a round lake of 400 m at 500 m.
 Dem hollow() {
-  return test::ground(80, [](double e, double n) { return 500.0 + std::max(0.0, 0.2 * (std::hypot(e, n) - 400.0)); });
+  return test::ground(80, [](double e, double n) {
+    return 500.0 + std::max(0.0, 0.2 * (std::hypot(e, n) - 400.0));
+  });
 }
-std::size_t count(const Grid<std::uint8_t>& mask) { return static_cast<std::size_t>(std::count(mask.begin(), mask.end(), 1)); }
+std::size_t count(const Grid<std::uint8_t>& mask) {
+  return static_cast<std::size_t>(std::count(mask.begin(), mask.end(), 1));
+}
 
 TEST(GroundLakes, LevelGroundWithBanksIsOne) {
   const Grid<std::uint8_t> lakes = ground_lakes(hollow(), {}, {});
@@ -43,9 +47,12 @@ TEST(GroundLakes, HalvedCellsAskForFewerOfThem) {
   EXPECT_GT(count(ground_lakes(dem, large, {})), 400U);
 }
 
-// A hole that reaches over the window's rim is a lake where the ground around knows it for one.
+// A void that extends beyond the window's edge is a lake if the surrounding ground has a lake
+// there.
 TEST(GroundLakes, HolesOverTheRimAreWhatTheWholeKnows) {
-  Dem dem = test::ground(80, [](double e, double n) { return 500.0 + std::max(0.0, 0.2 * (std::hypot(e + 1200.0, n) - 400.0)); });
+  Dem dem = test::ground(80, [](double e, double n) {
+    return 500.0 + std::max(0.0, 0.2 * (std::hypot(e + 1200.0, n) - 400.0));
+  });
   for (int y = 0; y < 80; ++y)
     for (int x = 0; x < 80; ++x)
       if (dem.altitude_m(x, y) < 500.5F) dem.filled(x, y) = 1;

@@ -13,11 +13,18 @@ using enum LandCoverClass;
 
 // Cells of 10 m: f forest, r rock, w water, h houses, s snow.
 LandCover drawn(const std::vector<std::string>& rows) {
-  LandCover cover{{Grid<LandCoverClass>(static_cast<int>(rows[0].size()), static_cast<int>(rows.size())), {0.0, 0.0, 10.0, 10.0}, ""}};
+  LandCover cover{
+      {Grid<LandCoverClass>(static_cast<int>(rows[0].size()), static_cast<int>(rows.size())),
+       {0.0, 0.0, 10.0, 10.0},
+       ""}};
   for (int y = 0; y < cover.classes.cells.height(); ++y)
     for (int x = 0; x < cover.classes.cells.width(); ++x) {
       const char c = rows[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)];
-      cover.classes.cells(x, y) = c == 'f' ? forest : c == 'r' ? rock : c == 'w' ? water : c == 'h' ? settlement : snow;
+      cover.classes.cells(x, y) = c == 'f'   ? forest
+                                  : c == 'r' ? rock
+                                  : c == 'w' ? water
+                                  : c == 'h' ? settlement
+                                             : snow;
     }
   return cover;
 }
@@ -28,7 +35,11 @@ std::vector<std::string> picture(const LandCover& cover) {
     rows.emplace_back();
     for (int x = 0; x < cover.classes.cells.width(); ++x) {
       const LandCoverClass id = cover.classes.cells(x, y);
-      rows.back() += id == forest ? 'f' : id == rock ? 'r' : id == water ? 'w' : id == settlement ? 'h' : 's';
+      rows.back() += id == forest       ? 'f'
+                     : id == rock       ? 'r'
+                     : id == water      ? 'w'
+                     : id == settlement ? 'h'
+                                        : 's';
     }
   }
   return rows;
@@ -48,21 +59,25 @@ TEST(LandCoverPatches, SmallOnesGoToTheNearestLargeOne) {
 
 TEST(LandCoverPatches, CornersDoNotJoin) {
   const Rows rows = {"rffff", "frfff", "ffrff", "fffff"};
-  EXPECT_EQ(picture(remove_small_patches(drawn(rows), {.smallest_m2 = 300.0}).cover), Rows(4, "fffff"));
+  EXPECT_EQ(picture(remove_small_patches(drawn(rows), {.smallest_m2 = 300.0}).cover),
+            Rows(4, "fffff"));
 }
 
 TEST(LandCoverPatches, RiversAndHamletsStayAndHamletsGrow) {
   const Rows rows = {"wffffffff", "fwfffffff", "ffwffffff", "fffwfffhf", "ffffwffff", "fffffwfff"};
   const PatchResult result = remove_small_patches(drawn(rows), {.smallest_m2 = 500.0});
   // Six cells of river, joined by corners, are enough; one house becomes five.
-  EXPECT_EQ(picture(result.cover), (Rows{"wffffffff", "fwfffffff", "ffwffffhf", "fffwffhhh", "ffffwffhf", "fffffwfff"}));
+  EXPECT_EQ(picture(result.cover),
+            (Rows{"wffffffff", "fwfffffff", "ffwffffhf", "fffwffhhh", "ffffwffhf", "fffffwfff"}));
 }
 
 TEST(LandCoverPatches, GrowthHasAnEndAndSparesWhatIsKept) {
-  const Rows rows = {"wwwwwwwwwww", "wwwwwwwwwww", "fffffhfffff", "fffffffffff", "fffffffffff", "fffffffffff", "fffffffffff"};
-  // 22 cells are asked for; three to each side of what is no water make 16.
+  const Rows rows = {"wwwwwwwwwww", "wwwwwwwwwww", "fffffhfffff", "fffffffffff",
+                     "fffffffffff", "fffffffffff", "fffffffffff"};
+  // 22 cells are needed; three to each side, except in water, make 16.
   EXPECT_EQ(picture(remove_small_patches(drawn(rows), {.smallest_m2 = 2200.0}).cover),
-            (Rows{"wwwwwwwwwww", "wwwwwwwwwww", "ffhhhhhhhff", "fffhhhhhfff", "ffffhhhffff", "fffffhfffff", "fffffffffff"}));
+            (Rows{"wwwwwwwwwww", "wwwwwwwwwww", "ffhhhhhhhff", "fffhhhhhfff", "ffffhhhffff",
+                  "fffffhfffff", "fffffffffff"}));
 }
 
 TEST(LandCoverPatches, WhatGoesIsNotFilledWithWater) {
@@ -71,7 +86,8 @@ TEST(LandCoverPatches, WhatGoesIsNotFilledWithWater) {
 }
 
 TEST(LandCoverPatches, ReportsAreasAndPatches) {
-  const PatchResult result = remove_small_patches(drawn({"fffffrrrrr", "frrffrrrrr", "frrffrrfrr", "fffffrrrrr"}), {.smallest_m2 = 410.0});
+  const PatchResult result = remove_small_patches(
+      drawn({"fffffrrrrr", "frrffrrrrr", "frrffrrfrr", "fffffrrrrr"}), {.smallest_m2 = 410.0});
   ASSERT_EQ(result.areas.size(), 2U);
   const ClassArea& woods = result.areas[0];
   EXPECT_EQ(woods.id, forest);

@@ -19,11 +19,13 @@ LandCoverClass class_of(const Legend& legend, int code) {
 
 TEST_F(Legends, BuiltInOnesAreWhole) {
   const Legend esa = read_legend("esa_worldcover");
-  for (const int code : {10, 20, 30, 40, 50, 60, 70, 80, 90, 95, 100}) EXPECT_TRUE(esa.entries.contains(code)) << code;
+  for (const int code : {10, 20, 30, 40, 50, 60, 70, 80, 90, 95, 100})
+    EXPECT_TRUE(esa.entries.contains(code)) << code;
   EXPECT_EQ(esa.entries.size(), 11U);
 
   const Legend nlcd = read_legend("nlcd");
-  for (const int code : {11, 12, 21, 22, 23, 24, 31, 41, 42, 43, 51, 52, 71, 72, 73, 74, 81, 82, 90, 95})
+  for (const int code :
+       {11, 12, 21, 22, 23, 24, 31, 41, 42, 43, 51, 52, 71, 72, 73, 74, 81, 82, 90, 95})
     EXPECT_TRUE(nlcd.entries.contains(code)) << code;
   EXPECT_EQ(nlcd.entries.size(), 20U);
   EXPECT_EQ(nlcd.entries.at(42).label, "Evergreen forest");
@@ -81,7 +83,7 @@ TEST_F(Legends, CsvWithClasses) {
     return std::string(error.what());
   };
   EXPECT_THAT(refused("code,class\n1,forest\n2,woods\n"), HasSubstr("b.csv:3"));
-  EXPECT_THAT(refused("code,class\n1,forest\n1,water\n"), HasSubstr("second time"));
+  EXPECT_THAT(refused("code,class\n1,forest\n1,water\n"), HasSubstr("duplicate code"));
   EXPECT_THAT(refused("code,class\nx,forest\n"), HasSubstr("b.csv:2"));
   EXPECT_THAT(refused("code,class\n1,\"forest\n"), HasSubstr("quote"));
   EXPECT_THAT(refused("code,class\n1,forest,2\n"), HasSubstr("3 fields"));
@@ -91,7 +93,8 @@ TEST_F(Legends, CsvWithClasses) {
 
 TEST_F(Legends, TomlWithCodes) {
   write_text("a.toml",
-             "nodata = [0]\n[codes]\n3 = \"rock\"\n4 = { label = \"Wood\", class = \"forest\", also = [40, 41] }\n5 = { class = \"water\", "
+             "nodata = [0]\n[codes]\n3 = \"rock\"\n4 = { label = \"Wood\", class = \"forest\", "
+             "also = [40, 41] }\n5 = { class = \"water\", "
              "also = 50 }\n");
   const Legend legend = read_legend(path("a.toml"));
   EXPECT_EQ(legend.name, "a");
@@ -106,10 +109,11 @@ TEST_F(Legends, TomlWithCodes) {
     return std::string(error.what());
   };
   EXPECT_THAT(refused("[codes]\n3 = \"rocks\"\n"), HasSubstr("b.toml:2:5"));
-  EXPECT_THAT(refused("[codes]\n3 = \"sky\"\n"), HasSubstr("no class"));
+  EXPECT_THAT(refused("[codes]\n3 = \"sky\"\n"), HasSubstr("unknown class"));
   EXPECT_THAT(refused("[codes]\nx = \"rock\"\n"), HasSubstr("b.toml:2:1"));
   EXPECT_THAT(refused("[codes]\n3 = { label = \"Wood\" }\n"), HasSubstr("class"));
-  EXPECT_THAT(refused("[codes]\n3 = { class = \"rock\", also = 3 }\n"), HasSubstr("second time"));
+  EXPECT_THAT(refused("[codes]\n3 = { class = \"rock\", also = 3 }\n"),
+              HasSubstr("duplicate code"));
   EXPECT_THAT(refused("[codez]\n3 = \"rock\"\n"), HasSubstr("codes"));
   EXPECT_THAT(refused("name = \"nothing\"\n"), HasSubstr("no codes"));
   EXPECT_THAT(refused("match = \"x\"\n[codes]\n3 = \"rock\"\n"), HasSubstr("csv"));
@@ -121,7 +125,8 @@ TEST_F(Legends, TomlThatMapsTheWordsOfATable) {
              "Grass,O-1a\n101,Non-fuel,Non-fuel\n102,Water,Non-fuel\n200,Odd,X\n");
   write_text("a.toml",
              "name = \"Fuel\"\ncsv = \"table.csv\"\nmatch = [\"fuel_type\", \"descriptive_name\"]\n"
-             "[map]\n\"water\" = \"water\"\n\"Non-*\" = \"rock\"\n\"[CD]-?\" = \"snow\"\n\"?-1*\" = \"forest\"\n\"*grass\" = "
+             "[map]\n\"water\" = \"water\"\n\"Non-*\" = \"rock\"\n\"[CD]-?\" = \"snow\"\n\"?-1*\" "
+             "= \"forest\"\n\"*grass\" = "
              "\"pasture\"\n[codes]\n31 = \"shrub\"\n");
   const Legend legend = read_legend(path("a.toml"));
   EXPECT_EQ(class_of(legend, 1), forest);

@@ -36,9 +36,9 @@ std::vector<float> values(const std::string& text) {
 
 float value(const std::string& text) { return values(text)[0]; }
 
-std::string fault(const std::string& text, ConfigPlace place = {4, 8}) {
+std::string fault(const std::string& text, ConfigPosition position = {4, 8}) {
   try {
-    const RuleExpression expression(text, names, "rules.toml", place);
+    const RuleExpression expression(text, names, "rules.toml", position);
   } catch (const Error& e) {
     EXPECT_EQ(e.kind(), ErrorKind::usage);
     return e.where() + " " + e.found();
@@ -70,7 +70,7 @@ TEST(RuleExpression, Comparisons) {
   EXPECT_EQ(value("south > -1"), 1.F);
   EXPECT_EQ(values("slope >= 100")[99], 0.F);
   EXPECT_EQ(values("slope >= 100")[100], 1.F);
-  // Both sides are worked out in memory of their own.
+  // Both sides are computed in separate memory.
   EXPECT_EQ(values("slope * 2 > slope + 10")[10], 0.F);
   EXPECT_EQ(values("slope * 2 > slope + 10")[11], 1.F);
 }
@@ -106,17 +106,20 @@ TEST(RuleExpression, HatIsAClampedMinimumOfTwoRamps) {
   EXPECT_EQ(values("hat(slope, 20, 60, 0)")[61], 0.F);
 }
 
-// Every step of a block, cell by cell, over numbers of all kinds; the last line's results take the place of operands.
+// Every step of a block, cell by cell, over numbers of all kinds; the last line's results take the
+// place of operands.
 TEST(RuleExpression, StepsAreThoseOfOneCellAfterTheOther) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const float inf = std::numeric_limits<float>::infinity();
-  const std::vector<float> special = {0.F, -0.F, 1.F, -1.F, 0.5F, 2.F, nan, inf, -inf, 1e-40F, 3e38F};
+  const std::vector<float> special = {0.F, -0.F, 1.F,  -1.F,   0.5F, 2.F,
+                                      nan, inf,  -inf, 1e-40F, 3e38F};
   const auto make = [&](std::int64_t column) {
     std::vector<float> cells(rule_block);
     for (int i = 0; i < rule_block; ++i)
-      cells[static_cast<std::size_t>(i)] = random_uniform(7, column, i, 0) < 0.7
-                                               ? special[random_bits(7, column, i, 1) % special.size()]
-                                               : static_cast<float>(4.0 * random_uniform(7, column, i, 2) - 2.0);
+      cells[static_cast<std::size_t>(i)] =
+          random_uniform(7, column, i, 0) < 0.7
+              ? special[random_bits(7, column, i, 1) % special.size()]
+              : static_cast<float>(4.0 * random_uniform(7, column, i, 2) - 2.0);
     return cells;
   };
   const std::vector<float> a = make(0), b = make(1), c = make(2);
@@ -128,7 +131,8 @@ TEST(RuleExpression, StepsAreThoseOfOneCellAfterTheOther) {
       {"altitude / slope", [](float x, float y, float) { return x / y; }},
       {"altitude < slope", [](float x, float y, float) { return x < y ? 1.F : 0.F; }},
       {"altitude <= slope", [](float x, float y, float) { return x <= y ? 1.F : 0.F; }},
-      {"altitude and slope", [](float x, float y, float) { return x > 0.F && y > 0.F ? 1.F : 0.F; }},
+      {"altitude and slope",
+       [](float x, float y, float) { return x > 0.F && y > 0.F ? 1.F : 0.F; }},
       {"altitude or slope", [](float x, float y, float) { return x > 0.F || y > 0.F ? 1.F : 0.F; }},
       {"-altitude", [](float x, float, float) { return -x; }},
       {"not altitude", [](float x, float, float) { return x > 0.F ? 0.F : 1.F; }},
@@ -156,7 +160,8 @@ TEST(RuleExpression, StepsAreThoseOfOneCellAfterTheOther) {
   for (const auto& [text, plain] : steps) {
     std::vector<float> out(rule_block);
     RuleExpression::Scratch scratch;
-    RuleExpression(text, names, "rules.toml", {1, 1}).evaluate({a.data(), b.data(), c.data()}, out.data(), scratch);
+    RuleExpression(text, names, "rules.toml", {1, 1})
+        .evaluate({a.data(), b.data(), c.data()}, out.data(), scratch);
     for (std::size_t i = 0; i < out.size(); ++i) {
       const float expected = plain(a[i], b[i], c[i]);
       if (std::isnan(expected))
@@ -169,33 +174,40 @@ TEST(RuleExpression, StepsAreThoseOfOneCellAfterTheOther) {
 }
 
 TEST(RuleExpression, DeepButHonestNestingWorks) {
-  EXPECT_EQ(value("((((((((((altitude + ((slope + (south + (1 + 2) * south) * 2) * 2) * 2))))))))))"), 1000.F + 4.F * (-0.5F - 1.5F) * 2.F);
-  EXPECT_EQ(value("south * (south + south * (south + south * (altitude - 1000)))"), -0.5F * (-0.5F + -0.5F * -0.5F));
+  EXPECT_EQ(
+      value("((((((((((altitude + ((slope + (south + (1 + 2) * south) * 2) * 2) * 2))))))))))"),
+      1000.F + 4.F * (-0.5F - 1.5F) * 2.F);
+  EXPECT_EQ(value("south * (south + south * (south + south * (altitude - 1000)))"),
+            -0.5F * (-0.5F + -0.5F * -0.5F));
 }
 
 TEST(RuleExpression, KnowsItsVariables) {
-  EXPECT_THAT(RuleExpression("south + altitude * south", names, "", {}).variables(), testing::ElementsAre(0, 2));
+  EXPECT_THAT(RuleExpression("south + altitude * south", names, "", {}).variables(),
+              testing::ElementsAre(0, 2));
   EXPECT_TRUE(RuleExpression("treeline_m + winter", names, "", {}).variables().empty());
 }
 
 TEST(RuleExpression, FaultsNameFileLineAndColumn) {
   // The text stands behind its quote: `when = "…"` with the quote in column 8.
-  EXPECT_EQ(fault("altitude > treline_m"), "rules.toml:4:20 unknown name \"treline_m\"; did you mean \"treeline_m\"?");
-  EXPECT_EQ(fault("clap(altitude)"), "rules.toml:4:9 unknown function \"clap\"; did you mean \"clip\"?");
-  EXPECT_EQ(fault("1 < slope < 3"), "rules.toml:4:19 a chain of comparisons");
+  EXPECT_EQ(fault("altitude > treline_m"),
+            "rules.toml:4:20 unknown name \"treline_m\"; did you mean \"treeline_m\"?");
+  EXPECT_EQ(fault("clap(altitude)"),
+            "rules.toml:4:9 unknown function \"clap\"; did you mean \"clip\"?");
+  EXPECT_EQ(fault("1 < slope < 3"), "rules.toml:4:19 chained comparison");
   EXPECT_EQ(fault("(1 + 2"), "rules.toml:4:15 unexpected end of the expression");
   EXPECT_EQ(fault("1 + "), "rules.toml:4:13 unexpected end of the expression");
   EXPECT_EQ(fault(""), "rules.toml:4:9 unexpected end of the expression");
   EXPECT_EQ(fault("1 2"), "rules.toml:4:11 unexpected \"2\"");
-  EXPECT_EQ(fault("2slope"), "rules.toml:4:10 a letter right after a number");
+  EXPECT_EQ(fault("2slope"), "rules.toml:4:10 letter directly after a number");
   EXPECT_EQ(fault("slope = 3"), "rules.toml:4:15 unexpected character \"=\"");
   EXPECT_EQ(fault("clip(1, 2)"), "rules.toml:4:9 clip with 2 values");
   EXPECT_EQ(fault("max(1)"), "rules.toml:4:9 max with 1 value");
   EXPECT_EQ(fault("hat(1, 2, 3)"), "rules.toml:4:9 hat with 3 values");
-  EXPECT_EQ(fault("1e999"), "rules.toml:4:9 a number that is too large");
+  EXPECT_EQ(fault("1e999"), "rules.toml:4:9 number too large");
   EXPECT_EQ(fault("slope and"), "rules.toml:4:18 unexpected end of the expression");
   // A text of several lines starts below its quotes.
-  EXPECT_EQ(fault("altitude > 3\n  and slop > 2\n"), "rules.toml:6:7 unknown name \"slop\"; did you mean \"slope\"?");
+  EXPECT_EQ(fault("altitude > 3\n  and slop > 2\n"),
+            "rules.toml:6:7 unknown name \"slop\"; did you mean \"slope\"?");
   EXPECT_THAT(fault("slop", {}), testing::StartsWith("rules.toml unknown name"));
   const std::string deep(100000, '(');
   EXPECT_THAT(fault(deep), testing::HasSubstr("nested too deeply"));

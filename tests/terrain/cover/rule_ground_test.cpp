@@ -25,8 +25,8 @@ const RuleAround around{nothing, {20, 30, 180, 170}, 32};
 
 TEST(OwnShare, GrowsFromTheEdgeOfThePartAlongARaggedLine) {
   const Grid<float> share = own_share(around, fine, 200, 200, 7);
-  float least = 1.F;
-  float most = 0.F;
+  float min = 1.F;
+  float max = 0.F;
   for (int y = 0; y < 200; ++y)
     for (int x = 0; x < 200; ++x) {
       const int from_edge = std::min({x - 20, 179 - x, y - 30, 169 - y});
@@ -37,10 +37,11 @@ TEST(OwnShare, GrowsFromTheEdgeOfThePartAlongARaggedLine) {
         EXPECT_EQ(share(x, y), 1.F) << x << ' ' << y;
       }
     }
-  // Where a straight line would be half way.
-  for (int y = 70; y < 130; ++y) least = std::min(least, share(36, y)), most = std::max(most, share(36, y));
-  EXPECT_LT(least, 0.25F);
-  EXPECT_GT(most, 0.75F);
+  // Position of a straight line at half the distance.
+  for (int y = 70; y < 130; ++y)
+    min = std::min(min, share(36, y)), max = std::max(max, share(36, y));
+  EXPECT_LT(min, 0.25F);
+  EXPECT_GT(max, 0.75F);
 }
 
 TEST(OwnShare, HangsOnPlacesAndSeed) {
@@ -90,9 +91,11 @@ TEST(RuleGround, PartsKeepTheirPlace) {
   EXPECT_EQ(part.transform.to_crs(2, 4), fine.to_crs(12, 9));
 }
 
-// relief_4000 of a window is what it is in the whole, far from the window's rim as well.
+// relief_4000 of a window equals that of the whole, far from the window's edge as well.
 TEST(RuleGround, WideReliefOfAWindowReachesOverTheWhole) {
-  const auto altitude = [](double e, double n) { return 1500.0 + 0.05 * e + 500.0 * std::sin(e / 2500.0) * std::cos(n / 3000.0); };
+  const auto altitude = [](double e, double n) {
+    return 1500.0 + 0.05 * e + 500.0 * std::sin(e / 2500.0) * std::cos(n / 3000.0);
+  };
   const Dem whole = test::ground(1300, altitude);
   const PixelRect cells{580, 600, 720, 730};
   Dem window = whole;
@@ -100,9 +103,11 @@ TEST(RuleGround, WideReliefOfAWindowReachesOverTheWhole) {
   window.filled = part_of(whole.filled, cells);
   window.transform.origin_x += cells.x0 * whole.transform.cell_x;
   window.transform.origin_y -= cells.y0 * whole.transform.cell_y;
-  const ClassRules rules{"one", {{"speck_cells", 0.0}}, {}, {{LandCoverClass::rock, "relief_4000 > 0"}}};
+  const ClassRules rules{
+      "one", {{"speck_cells", 0.0}}, {}, {{LandCoverClass::rock, "relief_4000 > 0"}}};
   const std::vector<std::string>& names = class_rules::variable_names();
-  const auto slot = static_cast<std::size_t>(std::find(names.begin(), names.end(), "relief_4000") - names.begin());
+  const auto slot = static_cast<std::size_t>(std::find(names.begin(), names.end(), "relief_4000") -
+                                             names.begin());
   const Grid<float> of_whole = part_of(see_rule_ground(rules, {}, whole).inputs[slot], cells);
   ClassRuleParameters parameters;
   const Grid<float> alone = see_rule_ground(rules, parameters, window).inputs[slot];
@@ -110,7 +115,7 @@ TEST(RuleGround, WideReliefOfAWindowReachesOverTheWhole) {
   const Grid<float> joined = see_rule_ground(rules, parameters, window).inputs[slot];
   float apart = 0.F;
   float apart_alone = 0.F;
-  // At the window's rim, in its halo, the spline between blocks of a kilometre ends.
+  // At the window's edge, in its halo, the spline between blocks of a kilometre ends.
   for (int y = 48; y < 82; ++y)
     for (int x = 48; x < 92; ++x) {
       apart = std::max(apart, std::abs(joined(x, y) - of_whole(x, y)));

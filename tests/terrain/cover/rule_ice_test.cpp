@@ -8,7 +8,8 @@
 namespace belvedere::class_rules {
 namespace {
 
-// A valley of 18 km that falls to the south from a snow field; every `step`-th cell of 30 m, from row y0 on.
+// A valley of 18 km that falls to the south from a snow field; every `step`-th cell of 30 m, from
+// row y0 on.
 constexpr int columns = 120;
 constexpr int rows = 600;
 Dem valley(int step, int y0, int y1) {
@@ -18,7 +19,8 @@ Dem valley(int step, int y0, int y1) {
   dem.filled = Grid<std::uint8_t>(dem.width(), dem.height(), 0);
   for (int y = 0; y < dem.height(); ++y)
     for (int x = 0; x < dem.width(); ++x)
-      dem.altitude_m(x, y) = static_cast<float>(3200.0 - 0.08 * 30.0 * (y0 + y * step) + 0.25 * 30.0 * std::abs(x * step - columns / 2));
+      dem.altitude_m(x, y) = static_cast<float>(3200.0 - 0.08 * 30.0 * (y0 + y * step) +
+                                                0.25 * 30.0 * std::abs(x * step - columns / 2));
   return dem;
 }
 // Snow on the uppermost 150 rows, and below it a little more melts than falls.
@@ -56,14 +58,17 @@ TEST(FlowingIce, GoesOnIntoAWindowBelowItsSnow) {
       both += is && joins ? 1 : 0;
     }
   EXPECT_GT(of_whole, 2000);
-  EXPECT_GT(both, 0.85 * (of_whole + of_joined - both)) << of_whole << " cells of the whole, " << of_joined << " of the window";
+  EXPECT_GT(both, 0.85 * (of_whole + of_joined - both))
+      << of_whole << " cells of the whole, " << of_joined << " of the window";
 }
 
 TEST(FlowingIce, NothingEntersWhereNothingIsKnownOrTheWholeEnds) {
   const Dem window = valley(1, 0, rows);
   EXPECT_TRUE(find_ice_entries({}, window).empty());
   const RuleIce coarse = flowing_ice(balance(2, 0, rows), valley(2, 0, rows));
-  EXPECT_TRUE(find_ice_entries({valley(2, 0, rows).transform, {}, coarse.km2, coarse.surface_m}, window).empty());
+  EXPECT_TRUE(
+      find_ice_entries({valley(2, 0, rows).transform, {}, coarse.km2, coarse.surface_m}, window)
+          .empty());
 }
 
 }  // namespace

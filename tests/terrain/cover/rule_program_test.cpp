@@ -18,7 +18,8 @@ namespace {
 const GeoTransform transform{4000.0, 9000.0, 30.0, 30.0};
 
 RuleProgram program_of(const std::string& term, const std::string& condition) {
-  return compile_expressions(expression_names(KnownTo::rules), {{"k", 2.0}}, {{"t", term}}, {{condition, "condition"}}, "test", {});
+  return compile_expressions(expression_names(KnownTo::rules), {{"k", 2.0}}, {{"t", term}},
+                             {{condition, "condition"}}, "test", {});
 }
 
 std::size_t slot_of(const std::string& name) {
@@ -26,12 +27,15 @@ std::size_t slot_of(const std::string& name) {
   return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
-// The values of the condition in a rectangle of the raster; altitudes are a grid, eastings are made row by row.
-Grid<float> values_of(const RuleProgram& program, const Grid<float>& altitude_m, const PixelRect& cells) {
+// The values of the condition in a rectangle of the raster; altitudes are a grid, eastings are made
+// row by row.
+Grid<float> values_of(const RuleProgram& program, const Grid<float>& altitude_m,
+                      const PixelRect& cells) {
   const Grid<float> part = part_of(altitude_m, cells);
   const auto fill = [&](std::size_t slot, int y, float* out) {
     EXPECT_EQ(slot, slot_of("easting"));
-    for (int x = 0; x < cells.width(); ++x) out[x] = static_cast<float>(transform.to_crs(cells.x0 + x, cells.y0 + y).x);
+    for (int x = 0; x < cells.width(); ++x)
+      out[x] = static_cast<float>(transform.to_crs(cells.x0 + x, cells.y0 + y).x);
   };
   const RuleGrids grids(program, program.all_needs(), transform, cells, 5, {&part}, fill);
   RuleRows rows(grids);
@@ -56,12 +60,14 @@ Grid<float> altitudes() {
 
 TEST(RuleRows, GridsNoiseRowsAndTermsMeetInTheirCells) {
   const Grid<float> altitude_m = altitudes();
-  const Grid<float> values = values_of(program_of("altitude + k * n210", "t - easting"), altitude_m, {0, 0, 600, 9});
+  const Grid<float> values =
+      values_of(program_of("altitude + k * n210", "t - easting"), altitude_m, {0, 0, 600, 9});
   for (int y = 0; y < 9; y += 4)
     for (const int x : {0, 255, 256, 511, 512, 599}) {
-      const glm::dvec2 place = transform.to_crs(x, y);
-      const double noise = gaussian_noise(stream_seed(5, Stream::class_noise, 1), place.x, place.y, 210.0);
-      EXPECT_NEAR(values(x, y), altitude_m(x, y) + 2.0 * noise - place.x, 1e-3) << x << ' ' << y;
+      const glm::dvec2 position = transform.to_crs(x, y);
+      const double noise =
+          gaussian_noise(stream_seed(5, Stream::class_noise, 1), position.x, position.y, 210.0);
+      EXPECT_NEAR(values(x, y), altitude_m(x, y) + 2.0 * noise - position.x, 1e-3) << x << ' ' << y;
     }
 }
 
@@ -69,7 +75,8 @@ TEST(RuleRows, AnyRectangleHasTheBitsOfTheWhole) {
   const Grid<float> altitude_m = altitudes();
   const RuleProgram program = program_of("altitude * n60", "t + n1800 * easting");
   const Grid<float> whole = values_of(program, altitude_m, {0, 0, 600, 9});
-  for (const PixelRect& cells : {PixelRect{17, 2, 590, 8}, PixelRect{300, 0, 301, 9}, PixelRect{0, 3, 256, 4}})
+  for (const PixelRect& cells :
+       {PixelRect{17, 2, 590, 8}, PixelRect{300, 0, 301, 9}, PixelRect{0, 3, 256, 4}})
     EXPECT_TRUE(values_of(program, altitude_m, cells) == part_of(whole, cells)) << cells.x0;
 }
 

@@ -12,8 +12,8 @@
 namespace belvedere {
 namespace {
 
-// A valley floor 3 km wide from west to east between slopes, a river along it, and a side valley that opens at `mouth_m` east of the
-// middle.
+// A valley floor 3 km wide from west to east between slopes, a river along it, and a side valley
+// that opens at `mouth_m` east of the centre.
 struct Valley {
   static constexpr int width = 700;
   static constexpr int height = 240;
@@ -33,8 +33,10 @@ struct Valley {
         floor(x, y) = aside < 1500.0 ? 1.F : 0.F;
         slope(x, y) = aside < 1500.0 ? 0.F : 24.F;
       }
-    for (int x = 0; x < width; ++x) catchment_km2(x, height / 2) = 600.F + 0.01F * static_cast<float>(x);
-    for (int y = 0; y < height / 2; ++y) catchment_km2(mouth_column, y) = 100.F + static_cast<float>(y);
+    for (int x = 0; x < width; ++x)
+      catchment_km2(x, height / 2) = 600.F + 0.01F * static_cast<float>(x);
+    for (int y = 0; y < height / 2; ++y)
+      catchment_km2(mouth_column, y) = 100.F + static_cast<float>(y);
   }
   TownGround ground() const { return {altitude_m, floor, catchment_km2, slope, south, transform}; }
 };
@@ -47,9 +49,11 @@ TEST(Towns, StandOnTheFloorBesideTheRiverNotInIt) {
   ASSERT_GT(sites.size(), 4U);
   int near_river = 0;
   for (const TownSite& site : sites) {
-    const glm::dvec2 at = valley.transform.to_cell(site.place.x, site.place.y);
+    const glm::dvec2 at = valley.transform.to_cell(site.position.x, site.position.y);
     EXPECT_TRUE(site.on_floor);
-    EXPECT_EQ(valley.floor(static_cast<int>(std::lround(at.x)), static_cast<int>(std::lround(at.y))), 1.F);
+    EXPECT_EQ(
+        valley.floor(static_cast<int>(std::lround(at.x)), static_cast<int>(std::lround(at.y))),
+        1.F);
     const double away = std::abs(at.y - Valley::height / 2) * Valley::cell_m;
     EXPECT_GT(away, 125.0);
     near_river += away < 900.0 ? 1 : 0;
@@ -69,7 +73,7 @@ TEST(Towns, TheLargestStandsWhereASideValleyOpens) {
     const std::vector<TownSite> sites = find_town_sites(valley.ground(), p);
     const TownSite& first = sites.front();
     const glm::dvec2 opening = valley.transform.to_crs(mouth, Valley::height / 2 - 50);
-    EXPECT_LT(glm::length(first.place - opening), 1200.0) << mouth;
+    EXPECT_LT(glm::length(first.position - opening), 1200.0) << mouth;
     for (const TownSite& site : sites) EXPECT_LE(site.radius_m, first.radius_m + 150.0);
   }
 }
@@ -84,7 +88,8 @@ TEST(Towns, KeepADistanceAndDifferInSize) {
   for (std::size_t a = 0; a < sites.size(); ++a) {
     smallest = std::min(smallest, sites[a].radius_m);
     largest = std::max(largest, sites[a].radius_m);
-    for (std::size_t b = 0; b < a; ++b) EXPECT_GT(glm::length(sites[a].place - sites[b].place), 1000.0);
+    for (std::size_t b = 0; b < a; ++b)
+      EXPECT_GT(glm::length(sites[a].position - sites[b].position), 1000.0);
   }
   EXPECT_GT(largest, 2.5 * smallest);
 }
@@ -96,7 +101,8 @@ TEST(Towns, AmountRaisesWhatIsBuiltAndNothingIsHigherThanAsked) {
     p.amount = amount;
     p.highest_m = highest_m;
     double sum = 0.0;
-    for (const TownSite& site : find_town_sites(valley.ground(), p)) sum += 3.14159e-6 * site.radius_m * site.radius_m * site.stretch;
+    for (const TownSite& site : find_town_sites(valley.ground(), p))
+      sum += 3.14159e-6 * site.radius_m * site.radius_m * site.stretch;
     return sum;
   };
   EXPECT_EQ(built_km2(-1.0, 1300.0), 0.0);
@@ -105,7 +111,7 @@ TEST(Towns, AmountRaisesWhatIsBuiltAndNothingIsHigherThanAsked) {
   EXPECT_EQ(built_km2(0.5, 590.0), 0.0);
 }
 
-// Level ground as far as one sees, a river of 600 km² through its middle from west to east.
+// Unbounded level ground, with a river of 600 km² through its centre from west to east.
 struct Plain {
   static constexpr int side = 700;
   static constexpr double cell_m = 30.0;
@@ -117,26 +123,30 @@ struct Plain {
   GeoTransform transform{0.0, side* cell_m, cell_m, cell_m};
 
   Plain() {
-    for (int x = 0; x < side; ++x) catchment_km2(x, side / 2) = 600.F + 0.01F * static_cast<float>(x);
+    for (int x = 0; x < side; ++x)
+      catchment_km2(x, side / 2) = 600.F + 0.01F * static_cast<float>(x);
   }
   TownGround ground() const { return {altitude_m, floor, catchment_km2, slope, south, transform}; }
 };
 
-// A plain of 21 × 21 km could hold a hundred and fifty villages at the distance that they keep.
+// A plain of 21 × 21 km could hold a hundred and fifty villages at their minimum distance.
 TEST(Towns, PlainsAreNotFilledButWhereRiversAre) {
   const Plain plain;
   const std::vector<TownSite> sites = find_town_sites(plain.ground(), {});
   EXPECT_GE(sites.size(), 3U);
   EXPECT_LE(sites.size(), 14U);
   for (const TownSite& site : sites) {
-    const double from_river = std::abs(plain.transform.to_cell(site.place.x, site.place.y).y - Plain::side / 2) * Plain::cell_m;
+    const double from_river =
+        std::abs(plain.transform.to_cell(site.position.x, site.position.y).y - Plain::side / 2) *
+        Plain::cell_m;
     const double from_edge =
-        std::min({site.place.x, site.place.y, Plain::side * Plain::cell_m - site.place.x, Plain::side * Plain::cell_m - site.place.y});
+        std::min({site.position.x, site.position.y, Plain::side * Plain::cell_m - site.position.x,
+                  Plain::side * Plain::cell_m - site.position.y});
     EXPECT_LT(std::min(from_river, from_edge), 1500.0);
   }
-  // As in the Alps: all over, and larger.
+  // As in the Alps: everywhere, and larger.
   TownParameters alpine;
-  alpine.guesses = 1.0;
+  alpine.inferred = 1.0;
   const std::vector<TownSite> many = find_town_sites(plain.ground(), alpine);
   EXPECT_GT(many.size(), 60U);
   const auto built_m2 = [](const std::vector<TownSite>& all) {
@@ -145,8 +155,10 @@ TEST(Towns, PlainsAreNotFilledButWhereRiversAre) {
     return sum;
   };
   const Valley valley;
-  EXPECT_GT(find_town_sites(valley.ground(), alpine).size(), find_town_sites(valley.ground(), {}).size());
-  EXPECT_GT(built_m2(find_town_sites(valley.ground(), alpine)), 1.5 * built_m2(find_town_sites(valley.ground(), {})));
+  EXPECT_GT(find_town_sites(valley.ground(), alpine).size(),
+            find_town_sites(valley.ground(), {}).size());
+  EXPECT_GT(built_m2(find_town_sites(valley.ground(), alpine)),
+            1.5 * built_m2(find_town_sites(valley.ground(), {})));
 }
 
 TEST(Towns, NobodyIsGuessedWhereTheLandFeedsNobody) {
@@ -159,30 +171,30 @@ TEST(Towns, NobodyIsGuessedWhereTheLandFeedsNobody) {
     for (int x = 350; x < Valley::width; ++x) east(x, y) = 1.F;
   TownParameters p;
   p.known = {{{3000.0, 3300.0}, 700.0}};
-  const auto sites_with = [&](const Grid<float>* living) {
-    ground.living = living;
+  const auto sites_with = [&](const Grid<float>* suitability) {
+    ground.suitability = suitability;
     return find_town_sites(ground, p);
   };
-  // What is known stays.
+  // Known towns stay.
   ASSERT_EQ(sites_with(&none).size(), 1U);
-  EXPECT_EQ(sites_with(&none)[0].place, glm::dvec2(3000.0, 3300.0));
+  EXPECT_EQ(sites_with(&none)[0].position, glm::dvec2(3000.0, 3300.0));
   EXPECT_EQ(sites_with(&all).size(), sites_with(nullptr).size());
   const std::vector<TownSite> half = sites_with(&east);
   EXPECT_GT(half.size(), 2U);
-  for (std::size_t i = 1; i < half.size(); ++i) EXPECT_GE(half[i].place.x, 350 * Valley::cell_m);
+  for (std::size_t i = 1; i < half.size(); ++i) EXPECT_GE(half[i].position.x, 350 * Valley::cell_m);
 }
 
-// By the climates of places: Innsbruck, Seattle, Kiruna's mountains, Death Valley, the steppe of Mongolia.
+// For real climates: Innsbruck, Seattle, Kiruna's mountains, Death Valley, the steppe of Mongolia.
 TEST(Towns, LandFeedsPeopleByWaterAndWarmth) {
-  EXPECT_EQ(living_of_land(1.F, 9.F), 1.F);
-  EXPECT_EQ(living_of_land(0.8F, 11.F), 1.F);
-  EXPECT_EQ(living_of_land(1.F, -3.F), 0.F);
-  EXPECT_EQ(living_of_land(0.05F, 25.F), 0.F);
-  EXPECT_EQ(living_of_land(0.35F, 0.F), 0.F);
+  EXPECT_EQ(agricultural_suitability(1.F, 9.F), 1.F);
+  EXPECT_EQ(agricultural_suitability(0.8F, 11.F), 1.F);
+  EXPECT_EQ(agricultural_suitability(1.F, -3.F), 0.F);
+  EXPECT_EQ(agricultural_suitability(0.05F, 25.F), 0.F);
+  EXPECT_EQ(agricultural_suitability(0.35F, 0.F), 0.F);
   float before = 0.F;
   for (float moisture = 0.F; moisture <= 1.F; moisture += 0.01F) {
-    EXPECT_GE(living_of_land(moisture, 8.F), before);
-    before = living_of_land(moisture, 8.F);
+    EXPECT_GE(agricultural_suitability(moisture, 8.F), before);
+    before = agricultural_suitability(moisture, 8.F);
   }
 }
 
@@ -196,7 +208,8 @@ TEST(Towns, HamletsHaveAFloorWithinReach) {
     }
   const auto hamlets = [&] {
     int count = 0;
-    for (const TownSite& site : find_town_sites(valley.ground(), {})) count += site.on_floor ? 0 : 1;
+    for (const TownSite& site : find_town_sites(valley.ground(), {}))
+      count += site.on_floor ? 0 : 1;
     return count;
   };
   EXPECT_GT(hamlets(), 0);
@@ -209,10 +222,12 @@ TEST(Towns, KnownOnesComeFirstAndKeepOthersAway) {
   TownParameters p;
   p.known = {{{9000.0, 3300.0}, 1200.0}, {{0.0, 0.0}, 0.0}};
   const std::vector<TownSite> sites = find_town_sites(valley.ground(), p);
-  EXPECT_EQ(sites.front().place, glm::dvec2(9000.0, 3300.0));
+  EXPECT_EQ(sites.front().position, glm::dvec2(9000.0, 3300.0));
   // As large as a circle of that radius.
-  EXPECT_NEAR(sites.front().radius_m * sites.front().radius_m * sites.front().stretch, 1200.0 * 1200.0, 1.0);
-  for (std::size_t k = 1; k < sites.size(); ++k) EXPECT_GT(glm::length(sites[k].place - sites[0].place), 1900.0);
+  EXPECT_NEAR(sites.front().radius_m * sites.front().radius_m * sites.front().stretch,
+              1200.0 * 1200.0, 1.0);
+  for (std::size_t k = 1; k < sites.size(); ++k)
+    EXPECT_GT(glm::length(sites[k].position - sites[0].position), 1900.0);
 }
 
 TEST(Towns, FieldIsOneInTheMiddleAndZeroAtTheEdge) {

@@ -12,17 +12,20 @@ namespace {
 
 BendCurve drops(std::vector<std::pair<double, double>> points) {
   BendCurve curve;
-  for (const auto& [distance, drop] : points) curve.points.push_back({distance, drop, std::nullopt});
+  for (const auto& [distance, drop] : points)
+    curve.points.push_back({distance, drop, std::nullopt});
   return curve;
 }
 
 BendCurve inclinations(std::vector<std::pair<double, double>> points) {
   BendCurve curve;
-  for (const auto& [distance, angle] : points) curve.points.push_back({distance, std::nullopt, angle});
+  for (const auto& [distance, angle] : points)
+    curve.points.push_back({distance, std::nullopt, angle});
   return curve;
 }
 
-const BendCurve steps = drops({{10000, 9000}, {30000, 3000}, {50000, 500}, {60000, 500}, {90000, 4000}, {120000, 9000}});
+const BendCurve steps = drops(
+    {{10000, 9000}, {30000, 3000}, {50000, 500}, {60000, 500}, {90000, 4000}, {120000, 9000}});
 
 TEST(BendCurve, RunsThroughItsDropsAndNeverBeyond) {
   const BendProfile bend(steps);
@@ -35,7 +38,8 @@ TEST(BendCurve, RunsThroughItsDropsAndNeverBeyond) {
       EXPECT_GE(bend.drop_m(d), std::min(drop, before) - 1e-9);
       EXPECT_LE(bend.drop_m(d), std::max(drop, before) + 1e-9);
       const double next = bend.drop_m(d + 250.0) - bend.drop_m(d);
-      EXPECT_GE(next * (drop - before), 0.0) << "not monotone at " << d;  // level where two drops are equal
+      EXPECT_GE(next * (drop - before), 0.0)
+          << "not monotone at " << d;  // level where two drops are equal
     }
   }
 }
@@ -47,7 +51,8 @@ TEST(BendCurve, IsLevelAtAnExtremeOfItsDrops) {
 }
 
 TEST(BendCurve, IsSmoothAtItsPointsAndStraightBeyond) {
-  for (const BendCurve& curve : {steps, inclinations({{10000, 25}, {40000, 12}, {80000, 0}, {120000, -3}})}) {
+  for (const BendCurve& curve :
+       {steps, inclinations({{10000, 25}, {40000, 12}, {80000, 0}, {120000, -3}})}) {
     const BendProfile bend(curve);
     const double h = 0.5;
     for (const BendPoint& point : curve.points) {
@@ -67,23 +72,24 @@ TEST(BendCurve, KeepsItsInclinations) {
   const BendProfile bend(curve);
   for (const BendPoint& point : curve.points) {
     EXPECT_NEAR(to_degrees(std::atan(bend.slope(point.distance_m))), *point.inclination_deg, 1e-9);
-    // The drop's own slope says the same.
+    // The derivative of the drop agrees.
     const double fall = bend.drop_m(point.distance_m + 1.0) - bend.drop_m(point.distance_m - 1.0);
     EXPECT_NEAR(to_degrees(std::atan(-fall / 2.0)), *point.inclination_deg, 1e-3);
   }
-  // Level at 80 km, which is the highest place: drops count from there, and are positive on both sides.
+  // Level at 80 km, the highest point: drops count from there, and are positive on both sides.
   EXPECT_NEAR(bend.drop_m(80000.0), 0.0, 1e-9);
   EXPECT_GT(bend.drop_m(79000.0), 0.0);
   EXPECT_GT(bend.drop_m(81000.0), 0.0);
-  // From the steepest place on, the inclination only falls.
-  for (double d = 10000.0; d < 120000.0; d += 500.0) EXPECT_GE(bend.slope(d), bend.slope(d + 500.0) - 1e-12);
+  // Beyond the steepest point, the inclination only decreases.
+  for (double d = 10000.0; d < 120000.0; d += 500.0)
+    EXPECT_GE(bend.slope(d), bend.slope(d + 500.0) - 1e-12);
 }
 
 TEST(BendCurve, CountsDropsFromTheHighestPlaceBetweenPoints) {
   const BendProfile bend(inclinations({{0, 10}, {100000, -20}}));
-  double least = 1e9;
-  for (double d = 0.0; d <= 100000.0; d += 10.0) least = std::min(least, bend.drop_m(d));
-  EXPECT_NEAR(least, 0.0, 1e-3);
+  double min = 1e9;
+  for (double d = 0.0; d <= 100000.0; d += 10.0) min = std::min(min, bend.drop_m(d));
+  EXPECT_NEAR(min, 0.0, 1e-3);
 }
 
 TEST(BendCurve, TwoInclinationsAreAParabola) {
@@ -106,8 +112,8 @@ TEST(BendCurve, RefusesWhatIsNoCurve) {
   empty.points[2].drop_m.reset();
   BendCurve beside = steps;
   beside.radius_m = 1e5;
-  for (const BendCurve& curve :
-       {both, mixed, empty, beside, drops({{1000, 5}}), drops({{1000, 5}, {1000, 6}}), drops({{2000, 5}, {1000, 6}})}) {
+  for (const BendCurve& curve : {both, mixed, empty, beside, drops({{1000, 5}}),
+                                 drops({{1000, 5}, {1000, 6}}), drops({{2000, 5}, {1000, 6}})}) {
     try {
       const BendProfile bend(curve);
       FAIL();

@@ -17,7 +17,8 @@ const GeoTransform innsbruck{680000.0, 5260000.0, 30.0, 30.0};
 Grid<float> hills() {
   Grid<float> grid(40, 30);
   for (int y = 0; y < 30; ++y) {
-    for (int x = 0; x < 40; ++x) grid(x, y) = 1500.F + 37.123F * static_cast<float>((x * 7 + y * 13) % 11);
+    for (int x = 0; x < 40; ++x)
+      grid(x, y) = 1500.F + 37.123F * static_cast<float>((x * 7 + y * 13) % 11);
   }
   return grid;
 }
@@ -37,8 +38,9 @@ TEST(Deform, NothingAskedIsTheIdentity) {
   EXPECT_EQ(surface.origin, origin);
   for (int y = 0; y < 30; ++y) {
     for (int x = 0; x < 40; ++x) {
-      const glm::dvec2 place = innsbruck.to_crs(x, y);
-      ASSERT_EQ(surface.vertices_m(x, y), glm::vec3(place.x - origin.x, place.y - origin.y, altitude(x, y)));
+      const glm::dvec2 position = innsbruck.to_crs(x, y);
+      ASSERT_EQ(surface.vertices_m(x, y),
+                glm::vec3(position.x - origin.x, position.y - origin.y, altitude(x, y)));
     }
   }
   const glm::dvec3 point(123.25, -9.5, 777.125);
@@ -53,10 +55,13 @@ TEST(Deform, BendIsItsFormula) {
   }();
   EXPECT_DOUBLE_EQ(bend_drop_m(p, 82000.0), 6e-6 * 4000.0 * 4000.0);
   EXPECT_DOUBLE_EQ(bend_drop_m(p, 22000.0), 60000.0 * 60000.0 / 280000.0);
-  EXPECT_DOUBLE_EQ(bend_drop_m(p, 100000.0), 18000.0 * 18000.0 / 280000.0 + 6e-6 * 22000.0 * 22000.0);
+  EXPECT_DOUBLE_EQ(bend_drop_m(p, 100000.0),
+                   18000.0 * 18000.0 / 280000.0 + 6e-6 * 22000.0 * 22000.0);
   // 3 km east and 4 km north of the viewer: 5 km, in any direction alike.
-  EXPECT_DOUBLE_EQ(deform_point({3000.0, 4000.0, 1000.0}, {0.0, 0.0}, p).z, 1600.0 - 77000.0 * 77000.0 / 280000.0);
-  EXPECT_DOUBLE_EQ(deform_point({-4000.0, 3000.0, 1000.0}, {0.0, 0.0}, p).z, 1600.0 - 77000.0 * 77000.0 / 280000.0);
+  EXPECT_DOUBLE_EQ(deform_point({3000.0, 4000.0, 1000.0}, {0.0, 0.0}, p).z,
+                   1600.0 - 77000.0 * 77000.0 / 280000.0);
+  EXPECT_DOUBLE_EQ(deform_point({-4000.0, 3000.0, 1000.0}, {0.0, 0.0}, p).z,
+                   1600.0 - 77000.0 * 77000.0 / 280000.0);
 }
 
 TEST(Deform, EarthCurvatureDropsAsSurveyorsTable) {
@@ -67,7 +72,7 @@ TEST(Deform, EarthCurvatureDropsAsSurveyorsTable) {
   EXPECT_NEAR(bend_drop_m(p, 100000.0), 784.8, 0.1);
   p.refraction = 0.13;
   EXPECT_NEAR(bend_drop_m(p, 100000.0), 682.8, 0.1);
-  // It is not exaggerated, altitudes are.
+  // It is not exaggerated; altitudes are.
   p.exaggeration = 2.0;
   EXPECT_NEAR(deform_point({100000.0, 0.0, 500.0}, {0.0, 0.0}, p).z, 1000.0 - 682.8, 0.1);
   EXPECT_EQ(bend_drop_m(p, 0.0), 0.0);
@@ -96,7 +101,8 @@ TEST(Deform, VertexEqualsDeformPoint) {
 }
 
 TEST(Deform, UtmCoordinatesKeepCentimetres) {
-  // 42 km from the origin and 5,260 km from the equator, a vertex must still lie within half a centimetre.
+  // 42 km from the origin and 5,260 km from the equator, a vertex must still lie within half a
+  // centimetre.
   const Grid<float> altitude = hills();
   const glm::dvec2 viewer(691234.56, 5302017.89);
   const DeformParameters p = panorama();
@@ -112,15 +118,20 @@ TEST(Deform, UtmCoordinatesKeepCentimetres) {
   }
 }
 
-// Everything at once, to be compared between points and vertices, and between threads.
+// All effects at once, to compare points with vertices, and numbers of threads.
 DeformParameters rearranged() {
   DeformParameters p = panorama();
   p.background_exaggeration = 1.2;
   p.foreground_to_m = 41000.0;
   p.background_from_m = 42500.0;
   p.summits = {{{680600.0, 5259600.0}, 500.0, 1.4, 1500.0}};
-  p.handles = {{.center = {680500.0, 5259500.0}, .move_m = {40.0, 15.0}, .rotate_deg = 50.0, .radius_m = 400.0, .core_m = 120.0},
-               {.center = {680900.0, 5259300.0}, .raise_m = 80.0, .radius_m = 300.0, .core_m = 50.0}};
+  p.handles = {
+      {.centre = {680500.0, 5259500.0},
+       .move_m = {40.0, 15.0},
+       .rotate_deg = 50.0,
+       .radius_m = 400.0,
+       .core_m = 120.0},
+      {.centre = {680900.0, 5259300.0}, .raise_m = 80.0, .radius_m = 300.0, .core_m = 50.0}};
   return p;
 }
 
@@ -155,7 +166,8 @@ TEST(Deform, ExaggerationIsExactAtBothEndsAndSmoothBetween) {
   EXPECT_EQ(height(60000.0), 600.0 + 1.1 * 1000.0);
   EXPECT_EQ(height(150000.0), 600.0 + 1.1 * 1000.0);
   EXPECT_DOUBLE_EQ(height(40000.0), 600.0 + 1.4 * 1000.0);
-  for (const double edge : {20000.0, 60000.0}) EXPECT_NEAR(height(edge + 10.0), height(edge - 10.0), 0.01);
+  for (const double edge : {20000.0, 60000.0})
+    EXPECT_NEAR(height(edge + 10.0), height(edge - 10.0), 0.01);
   for (double d = 20000.0; d < 60000.0; d += 500.0) EXPECT_LT(height(d + 500.0), height(d));
   // The base keeps its height everywhere.
   EXPECT_EQ(deform_point({0.0, 40000.0, 600.0}, {0.0, 0.0}, p).z, 600.0);
@@ -164,18 +176,22 @@ TEST(Deform, ExaggerationIsExactAtBothEndsAndSmoothBetween) {
 TEST(Deform, ASummitRisesAloneAndSmoothly) {
   DeformParameters p;
   p.summits = {{{5000.0, 5000.0}, 3000.0, 1.5, 1000.0}};
-  const auto rise = [&](double from_summit, double z) { return deform_point({5000.0 + from_summit, 5000.0, z}, {0.0, 0.0}, p).z - z; };
+  const auto rise = [&](double from_summit, double z) {
+    return deform_point({5000.0 + from_summit, 5000.0, z}, {0.0, 0.0}, p).z - z;
+  };
   EXPECT_DOUBLE_EQ(rise(0.0, 2600.0), 0.5 * 1600.0);
   EXPECT_EQ(rise(3000.0, 2600.0), 0.0);
   EXPECT_EQ(rise(9000.0, 2600.0), 0.0);
   EXPECT_EQ(rise(0.0, 1000.0), 0.0);
   EXPECT_EQ(rise(0.0, 400.0), 0.0);
   EXPECT_DOUBLE_EQ(rise(0.0, 1200.0), 100.0);  // from 200 m above the base on in full
-  // No step and no kink at the rim, at the centre, at the base and where the factor has come in.
+  // No step and no kink at the edge, at the centre, at the base and at the end of the blend.
   const double h = 1.0;
   for (const double r : {3000.0, 0.0})
-    EXPECT_NEAR((rise(r, 2600.0) - rise(r - h, 2600.0)) / h, (rise(r + h, 2600.0) - rise(r, 2600.0)) / h, 1e-3);
-  for (const double z : {1000.0, 1200.0}) EXPECT_NEAR((rise(0.0, z) - rise(0.0, z - h)) / h, (rise(0.0, z + h) - rise(0.0, z)) / h, 0.01);
+    EXPECT_NEAR((rise(r, 2600.0) - rise(r - h, 2600.0)) / h,
+                (rise(r + h, 2600.0) - rise(r, 2600.0)) / h, 1e-3);
+  for (const double z : {1000.0, 1200.0})
+    EXPECT_NEAR((rise(0.0, z) - rise(0.0, z - h)) / h, (rise(0.0, z + h) - rise(0.0, z)) / h, 0.01);
   // Higher ground stays higher.
   for (double z = 900.0; z < 2600.0; z += 5.0) EXPECT_GT(rise(0.0, z + 5.0) + 5.0, rise(0.0, z));
 }
@@ -184,30 +200,35 @@ TEST(Deform, SourceIsTheInverseOfHandles) {
   const Deformation deformation(rearranged(), {691234.5, 5302017.25});
   for (int y = 0; y < 30; ++y)
     for (int x = 0; x < 40; ++x) {
-      const glm::dvec2 place = innsbruck.to_crs(x + 0.3, y + 0.1);
-      const auto source = deformation.source_of(glm::dvec2(deformation.point({place, 1500.0})));
+      const glm::dvec2 position = innsbruck.to_crs(x + 0.3, y + 0.1);
+      const auto source = deformation.source_of(glm::dvec2(deformation.point({position, 1500.0})));
       ASSERT_TRUE(source);
-      ASSERT_LT(glm::length(*source - place), 0.01) << x << ' ' << y;
+      ASSERT_LT(glm::length(*source - position), 0.01) << x << ' ' << y;
     }
 }
 
 TEST(Deform, LightSeesTheRearrangedShapeWithoutTheBend) {
   DeformParameters p = panorama();
-  p.handles = {{.center = {1000.0, 60000.0}, .rotate_deg = 50.0, .radius_m = 4000.0, .core_m = 2000.0}};
+  p.handles = {
+      {.centre = {1000.0, 60000.0}, .rotate_deg = 50.0, .radius_m = 4000.0, .core_m = 2000.0}};
   const Deformation deformation(p, {0.0, 0.0});
-  // In the core: turned clockwise by 50°, heights exaggerated 1.6 times, nothing else.
+  // In the core: rotated clockwise by 50°, heights exaggerated 1.6 times, nothing else.
   const glm::dmat3 shape = deformation.shape_jacobian({1500.0, 60500.0, 1800.0});
   const double c = std::cos(to_radians(50.0));
   const double s = std::sin(to_radians(50.0));
-  const glm::dmat3 expected(glm::dvec3(c, -s, 0.0), glm::dvec3(s, c, 0.0), glm::dvec3(0.0, 0.0, 1.6));
-  for (int column = 0; column < 3; ++column) EXPECT_LT(glm::length(shape[column] - expected[column]), 1e-8);
+  const glm::dmat3 expected(glm::dvec3(c, -s, 0.0), glm::dvec3(s, c, 0.0),
+                            glm::dvec3(0.0, 0.0, 1.6));
+  for (int column = 0; column < 3; ++column)
+    EXPECT_LT(glm::length(shape[column] - expected[column]), 1e-8);
 }
 
 TEST(Deform, SameBitsForAnyThreadCountWithEverythingAsked) {
   const Grid<float> altitude = hills();
   const auto run = [&](int threads) {
     const ThreadLimit limit(threads);
-    return deform(altitude, innsbruck, {691000.0, 5302000.0}, {691000.0, 5302000.0, 0.0}, rearranged()).vertices_m;
+    return deform(altitude, innsbruck, {691000.0, 5302000.0}, {691000.0, 5302000.0, 0.0},
+                  rearranged())
+        .vertices_m;
   };
   EXPECT_EQ(run(1), run(2));
 }
@@ -216,7 +237,9 @@ TEST(Deform, SameBitsForAnyThreadCount) {
   const Grid<float> altitude = hills();
   const auto run = [&](int threads) {
     const ThreadLimit limit(threads);
-    return deform(altitude, innsbruck, {691000.0, 5302000.0}, {691000.0, 5302000.0, 0.0}, panorama()).vertices_m;
+    return deform(altitude, innsbruck, {691000.0, 5302000.0}, {691000.0, 5302000.0, 0.0},
+                  panorama())
+        .vertices_m;
   };
   EXPECT_EQ(run(1), run(2));
 }

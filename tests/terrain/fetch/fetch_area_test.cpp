@@ -1,4 +1,4 @@
-// Areas put together from made-up tiles, whose heights are known everywhere.
+// Areas assembled from synthetic tiles with known heights.
 #include "terrain/fetch/fetch_area.h"
 
 #include <gmock/gmock.h>
@@ -18,9 +18,13 @@ using ::testing::SizeIs;
 
 using FetchArea = ServedTiles;
 
-// Slants in degrees: cubic convolution and linear rows between parts give them exactly, whatever the width of cells.
-double slant(double longitude, double latitude) { return 900.0 + 40.0 * (longitude - 11.0) + 25.0 * (latitude - 47.0); }
-constexpr double rounding_m = 0.02;  // of floats, and of places between control points of a reprojection
+// Linear in degrees: cubic convolution and linear rows between parts reproduce it exactly, for any
+// cell width.
+double slant(double longitude, double latitude) {
+  return 900.0 + 40.0 * (longitude - 11.0) + 25.0 * (latitude - 47.0);
+}
+constexpr double rounding_m =
+    0.02;  // of floats, and of places between control points of a reprojection
 
 TEST(FetchFrame, LiesAroundThePlaceOnTheZonesLattice) {
   FetchParameters parameters;
@@ -30,14 +34,14 @@ TEST(FetchFrame, LiesAroundThePlaceOnTheZonesLattice) {
   EXPECT_EQ(describe_crs(frame.crs), "EPSG:32632");
   EXPECT_EQ(std::fmod(frame.transform.origin_x, 30.0), 0.0);
   EXPECT_EQ(std::fmod(frame.transform.origin_y, 30.0), 0.0);
-  const glm::dvec2 middle = transform_point("EPSG:4326", frame.crs, parameters.at_lonlat);
+  const glm::dvec2 centre = transform_point("EPSG:4326", frame.crs, parameters.at_lonlat);
   const glm::dvec2 end = frame.transform.to_crs(frame.width - 0.5, frame.height - 0.5);
-  EXPECT_LE(frame.transform.origin_x, middle.x - 30000.0);
-  EXPECT_GT(frame.transform.origin_x, middle.x - 30030.0);
-  EXPECT_GE(end.x, middle.x + 30000.0);
-  EXPECT_LT(end.x, middle.x + 30030.0);
-  EXPECT_LE(end.y, middle.y - 20000.0);
-  EXPECT_GT(end.y, middle.y - 20030.0);
+  EXPECT_LE(frame.transform.origin_x, centre.x - 30000.0);
+  EXPECT_GT(frame.transform.origin_x, centre.x - 30030.0);
+  EXPECT_GE(end.x, centre.x + 30000.0);
+  EXPECT_LT(end.x, centre.x + 30030.0);
+  EXPECT_LE(end.y, centre.y - 20000.0);
+  EXPECT_GT(end.y, centre.y - 20030.0);
 }
 
 TEST(FetchFrame, FollowsHemisphereZoneAndPole) {
@@ -53,11 +57,13 @@ TEST(FetchFrame, FollowsHemisphereZoneAndPole) {
   for (const glm::dvec2 at : {glm::dvec2(0.0, 89.9), glm::dvec2(10.0, -90.0)}) {
     FetchParameters parameters;
     parameters.at_lonlat = at;
-    EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { fetch_frame(parameters, 30.0); }), HasSubstr("pole"));
+    EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { fetch_frame(parameters, 30.0); }),
+                HasSubstr("pole"));
   }
   FetchParameters swapped;
   swapped.at_lonlat = {47.0, 111.0};
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { fetch_frame(swapped, 30.0); }), HasSubstr("longitude first"));
+  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { fetch_frame(swapped, 30.0); }),
+              HasSubstr("longitude first"));
 }
 
 TEST_F(FetchArea, FourTilesJoinWithoutASeam) {
@@ -75,7 +81,9 @@ TEST_F(FetchArea, FourTilesJoinWithoutASeam) {
 // At 50° cells change their width: parts of 120 and 80 columns.
 TEST_F(FetchArea, CellsOfTwoWidthsJoinWithoutASeam) {
   const MapSource source = elevation_source();
-  const auto hills = [](double longitude, double latitude) { return 500.0 + 80.0 * (longitude - 11.0) + 300.0 * (latitude - 50.0); };
+  const auto hills = [](double longitude, double latitude) {
+    return 500.0 + 80.0 * (longitude - 11.0) + 300.0 * (latitude - 50.0);
+  };
   for (int west : {10, 11, 12})
     for (int south : {49, 50}) serve_tile(source, west, south, hills);
   serve();
@@ -92,9 +100,12 @@ TEST_F(FetchArea, CellsOfTwoWidthsJoinWithoutASeam) {
 TEST_F(FetchArea, TheDateLineIsNoBorder) {
   const MapSource source = elevation_source();
   const auto hills = [](double longitude, double latitude) {
-    return 400.0 + 100.0 * (longitude - (longitude < 0.0 ? -180.0 : 180.0)) + 50.0 * (latitude + 17.0);
+    return 400.0 + 100.0 * (longitude - (longitude < 0.0 ? -180.0 : 180.0)) +
+           50.0 * (latitude + 17.0);
   };
-  const auto from_east = [&](double longitude, double latitude) { return 400.0 + 100.0 * (longitude - 180.0) + 50.0 * (latitude + 17.0); };
+  const auto from_east = [&](double longitude, double latitude) {
+    return 400.0 + 100.0 * (longitude - 180.0) + 50.0 * (latitude + 17.0);
+  };
   serve_tile(source, 179, -17, from_east);
   serve_tile(source, 180, -17, from_east);
   serve();
@@ -104,7 +115,7 @@ TEST_F(FetchArea, TheDateLineIsNoBorder) {
   EXPECT_LT(largest_error(elevation(), hills), rounding_m);
 }
 
-// An island: the tile to its east is not there.
+// An island: the tile to its east is missing.
 TEST_F(FetchArea, ATileThatIsNotThereIsSea) {
   const MapSource source = elevation_source();
   const auto island = [](double longitude, double latitude) {
@@ -128,20 +139,27 @@ TEST_F(FetchArea, ATileThatIsNotThereIsSea) {
   EXPECT_GT(*std::max_element(dem.cells.begin(), dem.cells.end()), 1000.0F);
 }
 
-// Services keep tiles back. Ground that ends in a wall at the border of a tile is no coast.
+// Services withhold tiles. Ground that ends in a wall at the border of a tile is not a coast.
 TEST_F(FetchArea, AMissingTileBesideHighGroundIsNoSea) {
   const MapSource source = elevation_source();
   serve_tile(source, 44, 39, [](double, double) { return 1400.0; });
   serve();
-  const std::string message = test::message_of(ErrorKind::input, [&] { fetch(parameters({44.5, 39.95}, 40.0)); });
-  EXPECT_THAT(message, AllOf(HasSubstr("N40E044"), HasSubstr("no sea"), HasSubstr("copernicus_glo90")));
+  const std::string message = test::message_of(ErrorKind::input, [&] {
+    fetch(parameters({44.5, 39.95}, 40.0));
+  });
+  EXPECT_THAT(message,
+              AllOf(HasSubstr("N40E044"), HasSubstr("not sea"), HasSubstr("copernicus_glo90")));
   EXPECT_FALSE(std::filesystem::exists(path("out/elevation.tif")));
   EXPECT_TRUE(std::filesystem::is_empty(path("out")));
 }
 
 TEST_F(FetchArea, NothingAtAllIsAnError) {
   serve();
-  EXPECT_THAT(test::message_of(ErrorKind::input, [&] { fetch(parameters({-30.5, 20.5}, 40.0)); }), HasSubstr("none of the 1 tiles"));
+  EXPECT_THAT(test::message_of(ErrorKind::input,
+                               [&] {
+                                 fetch(parameters({-30.5, 20.5}, 40.0));
+                               }),
+              HasSubstr("none of the 1 tiles"));
 }
 
 TEST_F(FetchArea, OtherMeaningsOfMissingTiles) {
@@ -149,7 +167,8 @@ TEST_F(FetchArea, OtherMeaningsOfMissingTiles) {
   serve();
   FetchParameters p = parameters({9.95, 42.5}, 50.0);
   p.elevation = write("strict.toml", elevation_toml(120, "missing = \"error\""));
-  EXPECT_THAT(test::message_of(ErrorKind::input, [&] { fetch(p); }), HasSubstr("has no tiles N42E010"));
+  EXPECT_THAT(test::message_of(ErrorKind::input, [&] { fetch(p); }),
+              HasSubstr("lacks the tiles N42E010"));
   p.elevation = write("holes.toml", elevation_toml(120, "missing = \"nothing\""));
   fetch(p);
   const Raster<float> dem = elevation();
@@ -167,23 +186,28 @@ TEST_F(FetchArea, ATileOfAnotherGridIsRefused) {
                                }),
               AllOf(HasSubstr("N47_00_E011"), HasSubstr("the tile begins at 11.99")));
   std::filesystem::remove(path("served/dem/N47_00_E011_00_DEM.tif"));
-  std::filesystem::copy_file(serve_tile(elevation_source(60), 11, 47, slant), path("served/dem/other.tif"));
+  std::filesystem::copy_file(serve_tile(elevation_source(60), 11, 47, slant),
+                             path("served/dem/other.tif"));
   FetchParameters refreshed = parameters({11.5, 47.5}, 40.0);
   refreshed.refresh = true;
-  EXPECT_THAT(test::message_of(ErrorKind::input, [&] { fetch(refreshed); }), HasSubstr("60 × 60 cells"));
+  EXPECT_THAT(test::message_of(ErrorKind::input, [&] { fetch(refreshed); }),
+              HasSubstr("60 × 60 cells"));
 }
 
-// Codes come through as they are; where no tile is, the low ground is sea and the rest unknown.
+// Codes are unchanged; where tiles are missing, low ground is sea and the rest unknown.
 TEST_F(FetchArea, LandCoverKeepsItsCodesAndGetsItsSea) {
   const MapSource heights = elevation_source();
   const MapSource cover = parse_map_source(cover_toml(), "test_cover.toml");
-  // A shore that falls to the sea at 12.0° E, with a rock off it; the tile of land cover east of 12° is not there.
+  // A shore that falls to the sea at 12.0° E, with a rock off it; the land-cover tile east of 12°
+  // is missing.
   const auto shore = [](double longitude, double latitude) {
     if (std::hypot(longitude - 12.2, latitude - 43.5) < 0.03) return 60.0;
     return longitude < 11.95 ? 200.0 : 0.0;
   };
   for (int west : {11, 12}) serve_tile(heights, west, 43, shore);
-  const auto codes = [](double longitude, double latitude) { return longitude > 11.95 ? 80.0 : latitude > 43.5 ? 10.0 : 40.0; };
+  const auto codes = [](double longitude, double latitude) {
+    return longitude > 11.95 ? 80.0 : latitude > 43.5 ? 10.0 : 40.0;
+  };
   serve_tile(cover, 9, 42, codes);
   serve();
   const FetchedArea area = fetch(parameters({12.0, 43.5}, 50.0, true));
@@ -206,7 +230,7 @@ TEST_F(FetchArea, LandCoverKeepsItsCodesAndGetsItsSea) {
       ASSERT_EQ(read.cells(x, y), static_cast<int>(codes(at.x, at.y))) << at.x << ", " << at.y;
     }
   EXPECT_GT(unknown, 100);
-  EXPECT_THAT(progress_.notes, HasSubstr("nothing is known of them"));
+  EXPECT_THAT(progress_.notes, HasSubstr("their class is unknown"));
 }
 
 TEST_F(FetchArea, WiderCellsOfLandCoverAreOnesOfTheSource) {
@@ -236,16 +260,19 @@ TEST_F(FetchArea, TheRecordSaysWhereEveryCellComesFrom) {
   const std::string record = test::read_bytes(area.record);
   const ConfigValue parsed = parse_config(record, "fetched.toml");
   EXPECT_NE(find(as_table(parsed, "x"), "fetched"), nullptr);
-  EXPECT_THAT(record, AllOf(HasSubstr("credit = \"© who measured"), HasSubstr("address = \"" + mirror() + "dem/N47_00_E011_00_DEM.tif\""),
-                            HasSubstr("edition-7"), HasSubstr("hash = \"" + area.elevation.hash + "\"")));
-  // From the cache the same bytes, and the day on which it was asked.
+  EXPECT_THAT(record,
+              AllOf(HasSubstr("credit = \"© who measured"),
+                    HasSubstr("address = \"" + mirror() + "dem/N47_00_E011_00_DEM.tif\""),
+                    HasSubstr("edition-7"), HasSubstr("hash = \"" + area.elevation.hash + "\"")));
+  // From the cache the same bytes, and the date of the request.
   now_ += 10 * 86400;
   const std::string first = test::read_bytes(path("out/elevation.tif"));
   fetch(parameters({11.5, 47.5}, 40.0), "again");
   EXPECT_TRUE(test::read_bytes(path("again/elevation.tif")) == first);
   EXPECT_EQ(test::read_bytes(path("again/fetched.toml")), record);
   EXPECT_THAT(
-      fetch_record(parameters({11.5, 47.5}, 40.0), area, [](const FetchedArea& of) { return "head of " + of.elevation.file + "\n"; }),
+      fetch_record(parameters({11.5, 47.5}, 40.0), area,
+                   [](const FetchedArea& of) { return "head of " + of.elevation.file + "\n"; }),
       HasSubstr("head of elevation.tif\n\n[request]"));
 }
 
@@ -268,14 +295,16 @@ TEST_F(FetchArea, WhoeverStopsItLeavesNothingBehind) {
 
 class FetchAreaLong : public FetchArea {};
 
-// The built-in source at its true size: the tile N47E011 made of real ground, beside that ground itself.
+// The built-in source at its true size: the tile N47E011 made of real ground, compared with that
+// ground.
 TEST_F(FetchAreaLong, RealGroundComesBackAsItWas) {
   RasterSource ground;
   ground.path = test::data_folder() + "/innsbruck/innsbruck_utm32_30m.tif";
   if (!std::filesystem::exists(ground.path)) GTEST_SKIP() << "no " << ground.path;
   const MapSource source = read_map_source("copernicus_glo30");
   const double cell = 1.0 / 3600.0;
-  const RasterFrame tile{{11.0 - 0.5 * cell, 48.0 + 0.5 * cell, cell, cell}, 3600, 3600, normalize_crs("EPSG:4326")};
+  const RasterFrame tile{
+      {11.0 - 0.5 * cell, 48.0 + 0.5 * cell, cell, cell}, 3600, 3600, normalize_crs("EPSG:4326")};
   Raster<float> raster = warp_rasters({ground}, tile, progress_);
   const std::string name = "Copernicus_DSM_COG_10_N47_00_E011_00_DEM";
   std::filesystem::create_directories(path("served/" + name));
@@ -287,10 +316,13 @@ TEST_F(FetchAreaLong, RealGroundComesBackAsItWas) {
   const Raster<float> dem = elevation();
   const Raster<float> true_ground = warp_rasters({ground}, area.elevation.frame, progress_);
   double sum = 0.0;
-  for (std::size_t i = 0; i < dem.cells.size(); ++i) sum += std::pow(dem.cells[i] - true_ground.cells[i], 2.0);
-  EXPECT_LT(std::sqrt(sum / static_cast<double>(dem.cells.size())), 2.0);  // m; twice resampled in steep limestone
-  // Of a file of tens of megabytes only what lies in the area.
-  EXPECT_LT(area.bytes, std::filesystem::file_size(path("served/" + name + "/" + name + ".tif")) / 2);
+  for (std::size_t i = 0; i < dem.cells.size(); ++i)
+    sum += std::pow(dem.cells[i] - true_ground.cells[i], 2.0);
+  EXPECT_LT(std::sqrt(sum / static_cast<double>(dem.cells.size())),
+            2.0);  // m; twice resampled in steep limestone
+  // Only the part of a file of tens of megabytes that lies in the area.
+  EXPECT_LT(area.bytes,
+            std::filesystem::file_size(path("served/" + name + "/" + name + ".tif")) / 2);
 }
 
 }  // namespace

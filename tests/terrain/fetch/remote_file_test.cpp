@@ -1,4 +1,5 @@
-// Servers as they are: busy, slow, cut off, changed, gone. What is read is right all the same, and nothing is asked for twice.
+// Realistic server behaviour: busy, slow, cut off, changed, gone. The data read are always right,
+// and nothing is requested twice.
 #include "terrain/fetch/remote_file.h"
 
 #include <gmock/gmock.h>
@@ -27,17 +28,21 @@ class Remote : public ServedTiles {
     for (char& c : out) c = static_cast<char>((state = state * 1664525U + 1013904223U) >> 24U);
     return out;
   }
-  // A file of four pieces and a rest.
+  // A file of four pieces and a remainder.
   std::string serve_noise(const std::vector<std::string>& modes = {}, unsigned seed = 1) {
     const std::string bytes = noise(4 * mib + 1000, seed);
     folder_.write("served/file.bin", bytes);
     serve(modes);
     return bytes;
   }
-  std::string read(std::uint64_t offset, std::size_t count, bool with_cache = true) { return read(offset, count, with_cache, manners()); }
-  std::string read(std::uint64_t offset, std::size_t count, bool with_cache, const HttpManners& with_manners) {
-    HttpClient client(with_manners, progress_);
-    RemoteFile file(server_->address("file.bin"), {client, with_cache ? cache_ : no_cache(), progress_, now_, false});
+  std::string read(std::uint64_t offset, std::size_t count, bool with_cache = true) {
+    return read(offset, count, with_cache, http_options());
+  }
+  std::string read(std::uint64_t offset, std::size_t count, bool with_cache,
+                   const HttpOptions& with_http_options) {
+    HttpClient client(with_http_options, progress_);
+    RemoteFile file(server_->address("file.bin"),
+                    {client, with_cache ? cache_ : no_cache(), progress_, now_, false});
     std::string out(count, '\0');
     file.read(offset, count, out.data());
     return out;
@@ -47,7 +52,7 @@ class Remote : public ServedTiles {
 TEST_F(Remote, OnlyTheBytesThatAreNeededComeAndOnce) {
   const std::string bytes = serve_noise();
   EXPECT_TRUE(read(2 * mib + 10, 100) == bytes.substr(2 * mib + 10, 100));
-  // The first piece, with which the server says how large the file is, and the third.
+  // The first piece, whose response contains the file size, and the third.
   EXPECT_THAT(requests(), SizeIs(2));
   EXPECT_THAT(requests()[1], HasSubstr(fmt::format("bytes={}-{}", 2 * mib, 3 * mib - 1)));
   EXPECT_TRUE(read(0, bytes.size()) == bytes);
@@ -71,18 +76,19 @@ TEST_F(Remote, FaultsAreAskedForAgainUntilAllIsThere) {
       clear_cache(path("cache"));
       progress_.notes.clear();
       const std::string bytes = serve_noise(modes);
-      EXPECT_TRUE(read(100, 3 * mib, with_cache) == bytes.substr(100, 3 * mib)) << modes[0] << with_cache << progress_.notes;
+      EXPECT_TRUE(read(100, 3 * mib, with_cache) == bytes.substr(100, 3 * mib))
+          << modes[0] << with_cache << progress_.notes;
       if (modes[0] == "no-ranges" && modes.size() == 1) continue;
-      EXPECT_THAT(progress_.notes, AllOf(HasSubstr("file.bin"), HasSubstr("again"))) << modes[0];
+      EXPECT_THAT(progress_.notes, AllOf(HasSubstr("file.bin"), HasSubstr("retrying"))) << modes[0];
     }
   }
 }
 
-// A cut answer of several pieces: those that came whole are not asked for again.
+// A response of several pieces that is cut: complete pieces are not requested again.
 TEST_F(Remote, WhatCameBeforeACutIsKept) {
   const std::string bytes = serve_noise({"cut=1", "after=1"});
   EXPECT_TRUE(read(0, 4 * mib) == bytes.substr(0, 4 * mib));
-  // 3 pieces were asked for, 9/4 of one came: two are there.
+  // 3 pieces were requested, 9/4 of one arrived: two are there.
   ASSERT_THAT(requests(), SizeIs(3));
   EXPECT_THAT(requests()[2], HasSubstr(fmt::format("bytes={}-", 3 * mib)));
 }
@@ -97,7 +103,7 @@ TEST_F(Remote, ServersWithoutPartsAreAskedOnce) {
 TEST_F(Remote, ThereIsAnEndToPatience) {
   std::size_t asked_before = 0;
   const auto fails = [&](const std::vector<std::string>& modes, int retries) {
-    HttpManners tried = manners();
+    HttpOptions tried = http_options();
     tried.retries = retries;
     clear_cache(path("cache"));
     serve_noise(modes);
@@ -106,7 +112,7 @@ TEST_F(Remote, ThereIsAnEndToPatience) {
   };
   EXPECT_THAT(fails({"fail=1000"}, 3), AllOf(HasSubstr("503"), HasSubstr("file.bin")));
   EXPECT_EQ(requests().size() - asked_before, 4U);  // three retries
-  EXPECT_THAT(fails({"stall"}, 0), HasSubstr("silent"));
+  EXPECT_THAT(fails({"stall"}, 0), HasSubstr("timed out"));
   EXPECT_THAT(fails({"short=1000"}, 3), HasSubstr("other bytes"));
 }
 
@@ -130,7 +136,7 @@ TEST_F(Remote, ARunGoesOnWhereTheLastEnded) {
 TEST_F(Remote, OfflineWhatIsKeptServes) {
   const std::string bytes = serve_noise();
   read(0, 2 * mib);
-  HttpClient client(manners(), progress_);
+  HttpClient client(http_options(), progress_);
   const std::string address = server_->address("file.bin");
   server_.reset();
   now_ += 400LL * 86400;  // old, but there is nothing newer
@@ -138,21 +144,24 @@ TEST_F(Remote, OfflineWhatIsKeptServes) {
   std::string out(100, '\0');
   file.read(mib + 7, 100, out.data());
   EXPECT_TRUE(out == bytes.substr(mib + 7, 100));
-  EXPECT_THAT(progress_.notes, HasSubstr("what was known of it earlier is used"));
+  EXPECT_THAT(progress_.notes, HasSubstr("using cached properties"));
   RemoteFile more(address, {client, cache_, progress_, now_, false});
-  const std::string message = test::message_of(ErrorKind::input, [&] { more.read(3 * mib, 100, out.data()); });
-  EXPECT_THAT(message, AllOf(HasSubstr("does not take calls"), HasSubstr("--mirror")));
+  const std::string message =
+      test::message_of(ErrorKind::input, [&] { more.read(3 * mib, 100, out.data()); });
+  EXPECT_THAT(message, AllOf(HasSubstr("connection refused"), HasSubstr("--mirror")));
   EXPECT_TRUE(more.is_lost());
   RemoteFile nowhere("http://no-such-name.invalid/a.tif", {client, cache_, progress_, now_, false});
   EXPECT_THAT(test::message_of(ErrorKind::input, [&] { nowhere.describe(); }),
-              AllOf(HasSubstr("no-such-name.invalid"), HasSubstr("offline")));
+              AllOf(HasSubstr("no-such-name.invalid"), HasSubstr("cannot resolve host")));
 }
 
 TEST_F(Remote, WhatIsMissingIsKnownForAMonth) {
   serve();
-  HttpClient client(manners(), progress_);
+  HttpClient client(http_options(), progress_);
   const auto is_missing = [&](bool refresh) {
-    return RemoteFile(server_->address("none.bin"), {client, cache_, progress_, now_, refresh}).describe().missing;
+    return RemoteFile(server_->address("none.bin"), {client, cache_, progress_, now_, refresh})
+        .describe()
+        .missing;
   };
   EXPECT_TRUE(is_missing(false));
   EXPECT_TRUE(is_missing(false));
@@ -166,19 +175,22 @@ TEST_F(Remote, WhatIsMissingIsKnownForAMonth) {
   EXPECT_TRUE(is_missing(false));
 }
 
-// Another edition under the same name: pieces of two are never mixed.
+// Another version under the same name: pieces of two versions are never mixed.
 TEST_F(Remote, AChangedFileIsReadAnew) {
   const MapSource source = elevation_source(600);
   const auto edition = [&](unsigned seed, const std::string& tag) {
     std::uint32_t state = seed;
-    const std::string file =
-        serve_tile(source, 11, 47, [&](double, double) { return ((state = state * 1664525U + 1013904223U) >> 12U) * 1e-3; });
+    const std::string file = serve_tile(source, 11, 47, [&](double, double) {
+      return ((state = state * 1664525U + 1013904223U) >> 12U) * 1e-3;
+    });
     test::write_bytes(file + ".tag", tag);
   };
   serve();
-  HttpClient client(manners(), progress_);
+  HttpClient client(http_options(), progress_);
   const auto cells = [&](const Cache& cache, const DegreeBox& box) {
-    return read_elevation_tiles(source, box, mirror(), {client, cache, progress_, now_, false}).parts[0].cells;
+    return read_elevation_tiles(source, box, mirror(), {client, cache, progress_, now_, false})
+        .parts[0]
+        .cells;
   };
   edition(1, "\"one\"");
   cells(cache_, {11.4, 47.9, 11.6, 47.95});
@@ -189,29 +201,37 @@ TEST_F(Remote, AChangedFileIsReadAnew) {
   EXPECT_THAT(progress_.notes, HasSubstr("changed on the server"));
 }
 
-// Bytes that came damaged do not stay in the cache for good.
+// Damaged bytes do not stay in the cache.
 TEST_F(Remote, DamageIsAskedForAgain) {
   const MapSource source = elevation_source(600);
   std::uint32_t state = 5;
-  const std::string file =
-      serve_tile(source, 11, 47, [&](double, double) { return ((state = state * 1664525U + 1013904223U) >> 12U) * 1e-3; });
+  const std::string file = serve_tile(source, 11, 47, [&](double, double) {
+    return ((state = state * 1664525U + 1013904223U) >> 12U) * 1e-3;
+  });
   const std::string good = test::read_bytes(file);
   std::string bad = good;
-  std::fill(bad.begin() + static_cast<std::ptrdiff_t>(bad.size() / 3), bad.begin() + static_cast<std::ptrdiff_t>(bad.size() / 2), 'x');
+  std::fill(bad.begin() + static_cast<std::ptrdiff_t>(bad.size() / 3),
+            bad.begin() + static_cast<std::ptrdiff_t>(bad.size() / 2), 'x');
   test::write_bytes(file, bad);
   serve();
-  HttpClient client(manners(), progress_);
+  HttpClient client(http_options(), progress_);
   const auto cells = [&](const Cache& cache) {
-    return read_elevation_tiles(source, {11.1, 47.1, 11.9, 47.9}, mirror(), {client, cache, progress_, now_, false}).parts[0].cells;
+    return read_elevation_tiles(source, {11.1, 47.1, 11.9, 47.9}, mirror(),
+                                {client, cache, progress_, now_, false})
+        .parts[0]
+        .cells;
   };
-  EXPECT_THAT(test::message_of(ErrorKind::input, [&] { cells(cache_); }), AllOf(HasSubstr("N47_00_E011"), HasSubstr("damaged")));
+  EXPECT_THAT(test::message_of(ErrorKind::input, [&] { cells(cache_); }),
+              AllOf(HasSubstr("N47_00_E011"), HasSubstr("damaged")));
   test::write_bytes(file, good);
   EXPECT_EQ(cells(cache_), cells(no_cache()));
 }
 
-TEST(HttpManners, AreHeldToTheirRange) {
-  EXPECT_EQ(test::error_of([] { HttpClient({.silence_s = 0}, silent_progress()); }).kind(), ErrorKind::usage);
-  EXPECT_EQ(test::error_of([] { HttpClient({.retries = 21}, silent_progress()); }).kind(), ErrorKind::usage);
+TEST(HttpOptions, AreHeldToTheirRange) {
+  EXPECT_EQ(test::error_of([] { HttpClient({.silence_s = 0}, silent_progress()); }).kind(),
+            ErrorKind::usage);
+  EXPECT_EQ(test::error_of([] { HttpClient({.retries = 21}, silent_progress()); }).kind(),
+            ErrorKind::usage);
 }
 
 }  // namespace

@@ -18,41 +18,54 @@
 
 namespace belvedere {
 
-// Notes and stages, kept.
+// Records notes and stages.
 class KeptProgress : public Progress {
  public:
   void note(std::string_view text) override { notes += std::string(text) + "\n"; }
   std::string notes;
 };
 
-// Map services of made-up tiles, served by tests/http_server.py from a folder of the test's own.
+// Services of synthetic tiles, served by tests/http_server.py from a folder of the test's own.
 class ServedTiles : public ::testing::Test {
  protected:
   void SetUp() override {
     if (!test::has_python()) GTEST_SKIP() << "there is no python3 to serve files";
   }
-  // A source in the manner of Copernicus: tiles of 1° and `rows` rows, on the lines, wider cells from 50° on.
-  static std::string elevation_toml(int rows = 120, const std::string& missing = "missing = \"sea\"\nsea_value = 0") {
+  // A source in the manner of Copernicus: tiles of 1° and `rows` rows, on the lines, wider cells
+  // from 50° on.
+  static std::string elevation_toml(
+      int rows = 120, const std::string& missing = "missing = \"sea\"\nsea_value = 0") {
     return fmt::format(
-        "name = \"Test heights\"\nkind = \"elevation\"\nurl = \"https://heights.example.org/dem/{{lat}}_00_{{lon}}_00_DEM.tif\"\n"
-        "date = \"2021\"\ncell_m = {}\n{}\ncredit = \"© who measured\"\nlicence = \"free with credit\"\n"
-        "[grid]\ncrs = \"EPSG:4326\"\ntile_deg = [1, 1]\nrows = {}\ncolumns = [[0, {}], [50, {}]]\ncells = \"on the lines\"\n",
+        "name = \"Test heights\"\nkind = \"elevation\"\nurl = "
+        "\"https://heights.example.org/dem/{{lat}}_00_{{lon}}_00_DEM.tif\"\n"
+        "date = \"2021\"\ncell_m = {}\n{}\ncredit = \"© who measured\"\nlicence = \"free with "
+        "credit\"\n"
+        "[grid]\ncrs = \"EPSG:4326\"\ntile_deg = [1, 1]\nrows = {}\ncolumns = [[0, {}], [50, "
+        "{}]]\ncells = \"on the lines\"\n",
         111000 / rows, missing, rows, rows, rows * 2 / 3);
   }
   static std::string cover_toml() {
-    return "name = \"Test cover\"\nkind = \"land_cover\"\nurl = \"https://cover.example.org/v1/{lat}{lon}_Map.tif\"\nlegend = "
+    return "name = \"Test cover\"\nkind = \"land_cover\"\nurl = "
+           "\"https://cover.example.org/v1/{lat}{lon}_Map.tif\"\nlegend = "
            "\"esa_worldcover\"\n"
-           "cell_m = 300\nmissing = \"sea\"\nsea_value = 80\ncredit = \"© who looked\"\nlicence = \"CC BY 4.0\"\n"
-           "[grid]\ncrs = \"EPSG:4326\"\ntile_deg = [3, 3]\nlatitudes = [-60, 84]\nrows = 1200\ncolumns = [[0, 1200]]\n"
+           "cell_m = 300\nmissing = \"sea\"\nsea_value = 80\ncredit = \"© who looked\"\nlicence = "
+           "\"CC BY 4.0\"\n"
+           "[grid]\ncrs = \"EPSG:4326\"\ntile_deg = [3, 3]\nlatitudes = [-60, 84]\nrows = "
+           "1200\ncolumns = [[0, 1200]]\n"
            "cells = \"between the lines\"\n";
   }
-  std::string write(const std::string& name, const std::string& text) const { return folder_.write(name, text); }
+  std::string write(const std::string& name, const std::string& text) const {
+    return folder_.write(name, text);
+  }
   std::string path(const std::string& name) const { return folder_ / name; }
-  MapSource elevation_source(int rows = 120) const { return parse_map_source(elevation_toml(rows), "test_heights.toml"); }
+  MapSource elevation_source(int rows = 120) const {
+    return parse_map_source(elevation_toml(rows), "test_heights.toml");
+  }
 
-  // The tile whose south-west corner is given, of a function of longitude (as given, perhaps beyond 180) and latitude. Where it lies on
-  // disk.
-  std::string serve_tile(const MapSource& source, int west, int south, const std::function<double(double, double)>& value) const {
+  // The tile whose south-west corner is given, of a function of longitude (as given, perhaps beyond
+  // 180) and latitude. Where it lies on disk.
+  std::string serve_tile(const MapSource& source, int west, int south,
+                         const std::function<double(double, double)>& value) const {
     const MapTile tile{static_cast<int>((west - source.origin_deg.x) / source.tile_deg.x),
                        static_cast<int>((source.origin_deg.y - south) / source.tile_deg.y) - 1};
     const int columns = tile_columns(source, tile.row);
@@ -74,13 +87,15 @@ class ServedTiles : public ::testing::Test {
     if (source.kind == MapSourceKind::elevation) {
       write_raster(file, raster);
     } else {
-      Raster<std::uint8_t> codes{Grid<std::uint8_t>(columns, source.rows), raster.transform, raster.crs};
-      for (std::size_t i = 0; i < codes.cells.size(); ++i) codes.cells[i] = static_cast<std::uint8_t>(raster.cells[i]);
+      Raster<std::uint8_t> codes{Grid<std::uint8_t>(columns, source.rows), raster.transform,
+                                 raster.crs};
+      for (std::size_t i = 0; i < codes.cells.size(); ++i)
+        codes.cells[i] = static_cast<std::uint8_t>(raster.cells[i]);
       write_raster(file, codes);
     }
     return file;
   }
-  // Starts the server of what was written. Each request is a line of requests().
+  // Starts a server for the files written. Each request is a line of requests().
   void serve(std::vector<std::string> modes = {}) {
     server_.reset();
     modes.push_back("log=" + path("requests"));
@@ -94,8 +109,15 @@ class ServedTiles : public ::testing::Test {
     for (std::string line; std::getline(text, line);) lines.push_back(line);
     return lines;
   }
-  // Impatient, so that faults take no time.
-  HttpManners manners() const { return {.connect_s = 2, .silence_s = 1, .answer_s = 20, .retries = 3, .wait_s = 0.01, .pause_s = 0.0}; }
+  // Short timeouts, so that failures take no time.
+  HttpOptions http_options() const {
+    return {.connect_s = 2,
+            .silence_s = 1,
+            .answer_s = 20,
+            .retries = 3,
+            .wait_s = 0.01,
+            .pause_s = 0.0};
+  }
   FetchParameters parameters(glm::dvec2 at, double size_km, bool with_cover = false) const {
     FetchParameters out;
     out.at_lonlat = at;
@@ -104,7 +126,7 @@ class ServedTiles : public ::testing::Test {
     out.land_cover = with_cover ? write("test_cover.toml", cover_toml()) : std::string();
     out.mirror = mirror();
     out.now_unix_s = now_;
-    out.manners = manners();
+    out.http_options = http_options();
     return out;
   }
   FetchedArea fetch(const FetchParameters& parameters, const std::string& out = "out") {
@@ -116,7 +138,8 @@ class ServedTiles : public ::testing::Test {
     return read_raster(source);
   }
   // The largest difference between the cells of a raster and a function of longitude and latitude.
-  static double largest_error(const Raster<float>& raster, const std::function<double(double, double)>& value) {
+  static double largest_error(const Raster<float>& raster,
+                              const std::function<double(double, double)>& value) {
     const PointTransform to_degrees(raster.crs, "EPSG:4326");
     double worst = 0.0;
     for (int y = 0; y < raster.cells.height(); ++y)

@@ -44,7 +44,8 @@ TEST(TilePlan, EveryCellOfAPartLiesInOneTile) {
       EXPECT_EQ(cells_of(tiles), (part.x1 - part.x0) * (part.y1 - part.y0)) << "step " << step;
       for (const TileCells& t : tiles)
         for (const int y : {t.y0, t.y1 - 1})
-          for (const int x : {t.x0, t.x1 - 1}) EXPECT_EQ(tile_at(part, x, y), t.tile) << "step " << step;
+          for (const int x : {t.x0, t.x1 - 1})
+            EXPECT_EQ(tile_at(part, x, y), t.tile) << "step " << step;
     }
   }
 }
@@ -66,16 +67,19 @@ TEST(TilePlan, CellsOnLinesLieHalfACellFarther) {
   EXPECT_NEAR(part.lattice.transform(0, 0).origin_x, -180.05, 1e-12);
   EXPECT_NEAR(part.lattice.transform(0, 0).origin_y, 90.05, 1e-12);
   // The middle of a cell is a whole tenth of a degree.
-  EXPECT_NEAR(part.lattice.transform(part.x0, part.y0).to_crs(0, 0).x * 10.0, std::round((part.x0 - 1800.0)), 1e-9);
+  EXPECT_NEAR(part.lattice.transform(part.x0, part.y0).to_crs(0, 0).x * 10.0,
+              std::round((part.x0 - 1800.0)), 1e-9);
 }
 
 TEST(TilePlan, TilesBeyondTheServiceAreNotAskedFor) {
   EXPECT_THAT(tiles_of(tens(), {0.0, 84.0, 1.0, 85.0}), IsEmpty());
   MapSource whole = tens();
   whole.latitudes = {-90.0, 90.0};
-  // Six cells of a fifth of a degree reach into the tiles beside it, six of a tenth into the one below.
+  // Six cells of a fifth of a degree reach into the tiles beside it, six of a tenth into the one
+  // below.
   EXPECT_THAT(tiles_of(whole, {0.5, 84.65, 0.52, 84.66}),
-              ElementsAre(MapTile{179, 4}, MapTile{180, 4}, MapTile{181, 4}, MapTile{179, 5}, MapTile{180, 5}, MapTile{181, 5}));
+              ElementsAre(MapTile{179, 4}, MapTile{180, 4}, MapTile{181, 4}, MapTile{179, 5},
+                          MapTile{180, 5}, MapTile{181, 5}));
 }
 
 }  // namespace

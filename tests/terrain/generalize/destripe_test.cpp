@@ -20,7 +20,8 @@ namespace {
 
 using test::grid_of;
 
-// Ranges of all directions with detail, and a crest that runs dead straight along row 150 for half the width.
+// Ranges of all directions with detail, and a crest that runs dead straight along row 150 for half
+// the width.
 double ridged(double x, double y, int octaves = 6) {
   const double ranges = 900.0 * synthetic::ridged_noise(3, x / 130.0, y / 130.0, octaves);
   const double straight = x < 200.0 ? 220.0 * std::max(0.0, 1.0 - std::abs(y - 150.0) / 14.0) : 0.0;
@@ -33,7 +34,7 @@ double rms_difference(const Grid<float>& a, const Grid<float>& b) {
   return std::sqrt(sum / static_cast<double>(a.size()));
 }
 
-// RMS of what b adds to a and whole rows have in common, away from the crest.
+// RMS of what b adds to a that is constant along whole rows, away from the crest.
 double row_stripes(const Grid<float>& a, const Grid<float>& b) {
   double sum = 0.0;
   for (int y = 0; y < a.height(); ++y) {
@@ -45,23 +46,29 @@ double row_stripes(const Grid<float>& a, const Grid<float>& b) {
   return std::sqrt(sum / a.height());
 }
 
-// Bands of three or four rows, no two alike, 3 m in the mean (RMS).
-double band(int y) { return 4.5 * std::sin(y * 1.7 + 2.0 * random_uniform(5, y / 40, 0)) * (0.7 + 0.6 * random_uniform(6, y / 9, 0)); }
+// Bands of three or four rows, all different, 3 m on average (RMS).
+double band(int y) {
+  return 4.5 * std::sin(y * 1.7 + 2.0 * random_uniform(5, y / 40, 0)) *
+         (0.7 + 0.6 * random_uniform(6, y / 9, 0));
+}
 
 const Grid<float>& clean() {
   static const Grid<float> grid = grid_of(400, 360, [](int x, int y) { return ridged(x, y); });
   return grid;
 }
 
-TEST(Destripe, TerrainWithoutStripesComesBackBitForBit) { EXPECT_EQ(destripe(clean(), {}, silent_progress()), clean()); }
+TEST(Destripe, TerrainWithoutStripesComesBackBitForBit) {
+  EXPECT_EQ(destripe(clean(), {}, silent_progress()), clean());
+}
 
 TEST(Destripe, TakesOffRowsThatStandTooHighOrLowAndKeepsRidges) {
-  const Grid<float> striped = grid_of(400, 360, [](int x, int y) { return ridged(x, y) + band(y); });
+  const Grid<float> striped =
+      grid_of(400, 360, [](int x, int y) { return ridged(x, y) + band(y); });
   const Grid<float> out = destripe(striped, {}, silent_progress());
   EXPECT_LT(row_stripes(clean(), out), 0.15 * row_stripes(clean(), striped));
-  // Little else changes: what a row does not have in common.
+  // Little else changes: the part that is not constant along rows.
   EXPECT_LT(rms_difference(clean(), out), 0.22 * row_stripes(clean(), striped));
-  // A crest that runs along the rows is itself like a stripe; it comes out no blunter than it went in.
+  // A crest along the rows is itself like a stripe; it must stay as sharp as before.
   const auto bend = [](const Grid<float>& z) {
     double sum = 0.0;
     for (int x = 20; x < 180; ++x) sum += z(x, 148) - 2.0 * z(x, 150) + z(x, 152);
@@ -77,9 +84,10 @@ TEST(Destripe, StripesThatChangeOnTheirWayAndLakesThatHaveNone) {
   for (int y = 0; y < terrain.height(); ++y) {
     for (int x = 0; x < terrain.width(); ++x) {
       if (in_lake(x, y)) terrain(x, y) = 700.F;
-      // Each stripe turns into another one from the left border to the right.
+      // Each stripe changes into another one from the left border to the right.
       const double share = x / 400.0;
-      const double stripe = 1.4 * (std::cos(1.5708 * share) * band(y) + std::sin(1.5708 * share) * band(y + 1000));
+      const double stripe =
+          1.4 * (std::cos(1.5708 * share) * band(y) + std::sin(1.5708 * share) * band(y + 1000));
       striped(x, y) = terrain(x, y) + (in_lake(x, y) ? 0.F : static_cast<float>(stripe));
     }
   }
@@ -106,18 +114,22 @@ TEST(Destripe, RealMountainsKeepNextToNothingOfMadeUpStripes) {
 }
 
 TEST(Destripe, TakesOffColumnsAsWell) {
-  const Grid<float> striped = grid_of(360, 400, [](int x, int y) { return ridged(y, x) + band(x); });
+  const Grid<float> striped =
+      grid_of(360, 400, [](int x, int y) { return ridged(y, x) + band(x); });
   const Grid<float> turned = grid_of(360, 400, [](int x, int y) { return ridged(y, x); });
-  EXPECT_LT(rms_difference(turned, destripe(striped, {}, silent_progress())), 0.22 * rms_difference(turned, striped));
+  EXPECT_LT(rms_difference(turned, destripe(striped, {}, silent_progress())),
+            0.22 * rms_difference(turned, striped));
 }
 
 TEST(Destripe, UndoesTheStepsOfNearestNeighbours) {
-  // A grid turned by 9° and resampled by nearest neighbours: each cell shows the terrain of up to half a cell beside it.
+  // A grid turned by 9° and resampled by nearest neighbours: each cell shows the terrain of up to
+  // half a cell beside it.
   const double turn = 9.0 * 3.14159265358979 / 180.0;
   const Grid<float> stepped = grid_of(400, 360, [&](int x, int y) {
     const double u = std::round(x * std::cos(turn) + y * std::sin(turn));
     const double v = std::round(y * std::cos(turn) - x * std::sin(turn));
-    return ridged(u * std::cos(turn) - v * std::sin(turn), v * std::cos(turn) + u * std::sin(turn), 4);
+    return ridged(u * std::cos(turn) - v * std::sin(turn), v * std::cos(turn) + u * std::sin(turn),
+                  4);
   });
   const Grid<float> smooth = grid_of(400, 360, [](int x, int y) { return ridged(x, y, 4); });
   const Grid<float> out = destripe(stepped, {}, silent_progress());
@@ -127,7 +139,8 @@ TEST(Destripe, UndoesTheStepsOfNearestNeighbours) {
 TEST(Destripe, SmallGridsAndOneOrTwoThreads) {
   const Grid<float> small = grid_of(30, 400, [](int x, int y) { return ridged(x, y) + band(y); });
   EXPECT_EQ(destripe(small, {}, silent_progress()), small);
-  const Grid<float> striped = grid_of(150, 131, [](int x, int y) { return ridged(x, y) + band(y); });
+  const Grid<float> striped =
+      grid_of(150, 131, [](int x, int y) { return ridged(x, y) + band(y); });
   const auto run = [&](int threads) {
     const ThreadLimit limit(threads);
     return destripe(striped, {}, silent_progress());
@@ -148,7 +161,8 @@ TEST(Destripe, RealTerrainLosesItsStripes) {
   source.path = path;
   const Grid<float> before = read_raster(source).cells;
   const Grid<float> after = destripe(before, {}, silent_progress());
-  // Its stripes are 4.5 rows wide: energy of that band on the slopes, along lines of their tilt (.1), against a tilt of .2 without stripes.
+  // Its stripes are 4.5 rows wide: energy of that band on the slopes, along lines of their tilt
+  // (.1), against a tilt of .2 without stripes.
   const auto energy = [](const Grid<float>& z, double tilt) {
     const Grid<float> smooth = gaussian_blur(z, 1.6);
     double sum = 0.0;
@@ -157,7 +171,8 @@ TEST(Destripe, RealTerrainLosesItsStripes) {
         double line = 0.0;
         for (int x = x0 + 1; x < x0 + 63; ++x) {
           const int v = y + static_cast<int>(std::lround(tilt * (x - x0 - 32)));
-          line += (z(x, v) - 0.25 * (z(x, v - 2) + z(x, v + 2) + z(x, v - 3) + z(x, v + 3))) * (smooth(x + 1, v) - smooth(x - 1, v));
+          line += (z(x, v) - 0.25 * (z(x, v - 2) + z(x, v + 2) + z(x, v - 3) + z(x, v + 3))) *
+                  (smooth(x + 1, v) - smooth(x - 1, v));
         }
         sum += line * line;
       }

@@ -23,10 +23,12 @@ TEST(ForegroundShare, IsNowhereSteeperThanTheLineAndHasNoCrease) {
   const double step = 1e-3;
   double slope = 0.0;
   for (double t = -0.5; t < 1.5; t += step) {
-    const double next = (foreground_share(t, 0.0, 1.0) - foreground_share(t + step, 0.0, 1.0)) / step;
+    const double next =
+        (foreground_share(t, 0.0, 1.0) - foreground_share(t + step, 0.0, 1.0)) / step;
     EXPECT_GE(next, 0.0) << t;
     EXPECT_LE(next, 1.0 + 1e-9) << t;
-    EXPECT_LE(std::abs(next - slope), 1.01 * step / 0.25) << t;  // the slope turns by no more than the parabola's
+    EXPECT_LE(std::abs(next - slope), 1.01 * step / 0.25)
+        << t;  // the slope turns by no more than the parabola's
     slope = next;
   }
 }

@@ -17,10 +17,10 @@
 #include "terrain/io/dem.h"
 #include "terrain/synthetic/synthetic.h"
 #include "tests/paths.h"
-#include "tests/terrain/generalize/made_up_relief.h"
+#include "tests/terrain/generalize/synthetic_relief.h"
 #include "tests/terrain/shape/terrain_measures.h"
 
-// Generalization against answers worked out by hand.
+// Generalization against analytic results.
 namespace belvedere {
 namespace {
 
@@ -36,14 +36,16 @@ using test::Weights;
 double response(double omega) { return 0.4 + 0.5 * std::cos(omega) + 0.1 * std::cos(2.0 * omega); }
 
 TEST(GeneralizeGain, OfACosineIsThatOfItsBandAlone) {
-  // Reducing multiplies cos ωx by H(ω) and doubles ω, expanding multiplies by H again, so band i (0 the finest) holds
-  // Π_{j<i} H(2^j ω)² · (1 - H(2^i ω)²) of the wave. What is mirrored to other frequencies is orthogonal to the wave over 256 cells as
-  // long as its number of waves is no multiple of 8.
+  // Reducing multiplies cos ωx by H(ω) and doubles ω, expanding multiplies by H again, so band i (0
+  // the finest) holds Π_{j<i} H(2^j ω)² · (1 - H(2^i ω)²) of the wave. Aliases at other frequencies
+  // are orthogonal to the wave over 256 cells if its number of waves is not a multiple of 8.
   constexpr int window = 256;
   for (const int waves : {3, 7, 13, 21, 45, 101}) {
     const double omega = 2.0 * std::numbers::pi * waves / window;
     for (const bool along_x : {true, false}) {
-      const auto wave = [&](int x, int y) { return 100.0 * std::cos(omega * ((along_x ? x : y) - 128)); };
+      const auto wave = [&](int x, int y) {
+        return 100.0 * std::cos(omega * ((along_x ? x : y) - 128));
+      };
       const Grid<float> terrain = grid_of(along_x ? 512 : 40, along_x ? 40 : 512, wave);
       double before = 1.0;  // what reaches the band
       for (std::size_t band = 0; band < 4; ++band) {
@@ -60,7 +62,8 @@ TEST(GeneralizeGain, OfACosineIsThatOfItsBandAlone) {
             const int y = along_x ? 20 : i;
             sum += out(x, y) * wave(x, y);
           }
-          EXPECT_NEAR(sum / (0.5 * window * 1e4), 1.0 + (weight - 1.0) * gain, 1e-5) << waves << " waves, band " << band << ", " << along_x;
+          EXPECT_NEAR(sum / (0.5 * window * 1e4), 1.0 + (weight - 1.0) * gain, 1e-5)
+              << waves << " waves, band " << band << ", " << along_x;
         }
       }
     }
@@ -80,20 +83,24 @@ TEST(GeneralizeEquationFive, MixesRidgeAndValleySetsAsWeights) {
   const auto mixed = [&](float share) {
     const auto mix = [share](const Weights& near, const Weights& far) {
       Weights out = near;
-      for (std::size_t i = 0; i < near.size(); ++i) out[i] = share * near[i] + (1.F - share) * far[i];
+      for (std::size_t i = 0; i < near.size(); ++i)
+        out[i] = share * near[i] + (1.F - share) * far[i];
       return out;
     };
-    return everywhere(mix(p.foreground, p.background), mix(p.foreground_ridges, p.background_ridges),
+    return everywhere(mix(p.foreground, p.background),
+                      mix(p.foreground_ridges, p.background_ridges),
                       mix(p.foreground_valleys, p.background_valleys));
   };
   GeneralizeGrids grids;
   for (const float share : {1.F, .75F, .5F, 0.F}) {
     grids.foreground_share = Grid<float>(160, 120, share);
-    EXPECT_LE(largest_difference(run(terrain, p, grids), run(terrain, mixed(share))), 2e-3) << share;
+    EXPECT_LE(largest_difference(run(terrain, p, grids), run(terrain, mixed(share))), 2e-3)
+        << share;
   }
-  // Each of the arrays counts.
-  for (Weights GeneralizeParameters::*set : {&GeneralizeParameters::foreground_ridges, &GeneralizeParameters::background_ridges,
-                                             &GeneralizeParameters::foreground_valleys, &GeneralizeParameters::background_valleys}) {
+  // Each of the arrays has an effect.
+  for (Weights GeneralizeParameters::*set :
+       {&GeneralizeParameters::foreground_ridges, &GeneralizeParameters::background_ridges,
+        &GeneralizeParameters::foreground_valleys, &GeneralizeParameters::background_valleys}) {
     GeneralizeParameters other = p;
     (other.*set)[3] += 1.F;
     grids.foreground_share = Grid<float>(160, 120, .5F);
@@ -109,9 +116,10 @@ double finest_of_wave(int x) {
 }
 
 TEST(GeneralizeSides, OfAWaveAreWholeAndLeaveTheOtherSideBitForBit) {
-  // Crests at x = 0, 10, …, troughs at 5, 15, …. Along x alone P = p² r has the sign of r, L_0's second difference by the kernel, as
-  // has its mean.
-  const Grid<float> terrain = grid_of(120, 48, [](int x, int) { return 100.0 * std::cos(2.0 * std::numbers::pi * x / 10.0); });
+  // Crests at x = 0, 10, …, troughs at 5, 15, …. Along x alone P = p² r has the sign of r, L_0's
+  // second difference by the kernel, as has its mean.
+  const Grid<float> terrain = grid_of(
+      120, 48, [](int x, int) { return 100.0 * std::cos(2.0 * std::numbers::pi * x / 10.0); });
   GeneralizeParameters ridges = everywhere({1, 1, 1}, {0, 0, 3}, {0, 0, 0});
   GeneralizeParameters valleys = everywhere({1, 1, 1}, {0, 0, 0}, {0, 0, 3});
   ridges.exponent = valleys.exponent = 0.F;  // c = 1
@@ -125,10 +133,12 @@ TEST(GeneralizeSides, OfAWaveAreWholeAndLeaveTheOtherSideBitForBit) {
 }
 
 TEST(GeneralizeSides, OfAVeeAndARoof) {
-  // Along the bottom of a V the band is level across: only its bend tells that it is a valley. The flanks of the dip that the band holds
-  // bend the other way, and weakly.
-  const Grid<float> vee = grid_of(129, 129, [](int x, int y) { return 1000.0 + 20.0 * std::abs(x - 64) + 5.0 * y; });
-  const Grid<float> roof = grid_of(129, 129, [](int x, int y) { return 3000.0 - 20.0 * std::abs(x - 64) + 5.0 * y; });
+  // Along the bottom of a V the band is level across: only its curvature shows that it is a valley.
+  // The flanks of the dip in the band curve the other way, weakly.
+  const Grid<float> vee =
+      grid_of(129, 129, [](int x, int y) { return 1000.0 + 20.0 * std::abs(x - 64) + 5.0 * y; });
+  const Grid<float> roof =
+      grid_of(129, 129, [](int x, int y) { return 3000.0 - 20.0 * std::abs(x - 64) + 5.0 * y; });
   GeneralizeParameters ridges = everywhere({1, 1, 1, 1}, {0, 1, 1, 1}, {0, 0, 0, 0});
   GeneralizeParameters valleys = everywhere({1, 1, 1, 1}, {0, 0, 0, 0}, {0, 1, 1, 1});
   ridges.exponent = valleys.exponent = 0.F;
@@ -141,7 +151,8 @@ TEST(GeneralizeSides, OfAVeeAndARoof) {
 }
 
 TEST(GeneralizeRecursion, TheFinestWeightsDoNotMoveTheFinestBreakLines) {
-  // A' is linear in u_5 and v_5 with c_5 as it is: a step of u_5 adds L_5, a step of v_5 adds c_5 L_5, however large it is.
+  // A' is linear in u_5 and v_5 with c_5 as it is: a step of u_5 adds L_5, a step of v_5 adds c_5
+  // L_5, however large it is.
   const Grid<float> terrain = alpine(128, 128);
   const auto out = [&](float u, float v) {
     const Weights line = {0.F, .4F, .5F, .6F, v};
@@ -155,9 +166,10 @@ TEST(GeneralizeRecursion, TheFinestWeightsDoNotMoveTheFinestBreakLines) {
   double u_error = 0.0;
   double v_error = 0.0;
   for (std::size_t i = 0; i < plain.size(); ++i) {
-    u_error = std::max(u_error, std::abs((static_cast<double>(often[i]) - plain[i]) - 5.0 * (static_cast<double>(once[i]) - plain[i])));
-    v_error =
-        std::max(v_error, std::abs((static_cast<double>(line_often[i]) - often[i]) - 4.0 * (static_cast<double>(line[i]) - plain[i])));
+    u_error = std::max(u_error, std::abs((static_cast<double>(often[i]) - plain[i]) -
+                                         5.0 * (static_cast<double>(once[i]) - plain[i])));
+    v_error = std::max(v_error, std::abs((static_cast<double>(line_often[i]) - often[i]) -
+                                         4.0 * (static_cast<double>(line[i]) - plain[i])));
   }
   EXPECT_LE(u_error, 3e-3);
   EXPECT_LE(v_error, 3e-3);
@@ -169,19 +181,23 @@ Grid<float> transposed(const Grid<float>& grid) {
 }
 
 Grid<float> mirrored(const Grid<float>& grid) {
-  return grid_of(grid.width(), grid.height(), [&](int x, int y) { return grid(grid.width() - 1 - x, y); });
+  return grid_of(grid.width(), grid.height(),
+                 [&](int x, int y) { return grid(grid.width() - 1 - x, y); });
 }
 
 TEST(GeneralizeArtefacts, NeitherRowsNorColumnsAreFavoured) {
-  // Turned and mirrored terrain gives turned and mirrored results. Mirrored sizes of 2^bands n + 1 keep their coarse cells.
+  // Turned and mirrored terrain gives turned and mirrored results. Mirrored sizes of 2^bands n + 1
+  // keep their coarse cells.
   const Grid<float> terrain = alpine(193, 161);
   GeneralizeParameters p = find_generalize_preset("figure4")->bands;
   const Grid<float> out = run(terrain, p);
   EXPECT_LE(largest_difference(run(transposed(terrain), p), transposed(out)), 0.01);
   EXPECT_LE(largest_difference(run(mirrored(terrain), p), mirrored(out)), 0.01);
-  // Noise without a direction keeps none: the energy of steps along rows and columns stays equal.
-  const Grid<float> noise = grid_of(257, 257, [](int x, int y) { return 1000.0 + 100.0 * random_uniform(5, x, y); });
-  const Grid<float> smooth = run(noise, everywhere({1.F, .8F, .5F, .3F, .2F}, {0.F, .2F, .5F, .7F, .8F}));
+  // Noise without a direction stays isotropic: the energy of steps along rows and columns is equal.
+  const Grid<float> noise =
+      grid_of(257, 257, [](int x, int y) { return 1000.0 + 100.0 * random_uniform(5, x, y); });
+  const Grid<float> smooth =
+      run(noise, everywhere({1.F, .8F, .5F, .3F, .2F}, {0.F, .2F, .5F, .7F, .8F}));
   double rows = 0.0;
   double columns = 0.0;
   for (int y = 1; y < 257; ++y)
@@ -192,7 +208,8 @@ TEST(GeneralizeArtefacts, NeitherRowsNorColumnsAreFavoured) {
   EXPECT_NEAR(rows / columns, 1.0, 0.02);
 }
 
-// Facets of the triangulated terrain outside lakes: level ones, and those that share their exact normal with another.
+// Facets of the triangulated terrain outside lakes: level ones, and those that share their exact
+// normal with another.
 struct Facets {
   int level = 0;
   int repeated = 0;
@@ -208,7 +225,9 @@ Facets facets_of(const Grid<float>& z, const Grid<unsigned char>& lakes) {
   };
   for (int y = 0; y + 1 < z.height(); ++y)
     for (int x = 0; x + 1 < z.width(); ++x) {
-      if (lakes(x, y) != 0 || lakes(x + 1, y) != 0 || lakes(x, y + 1) != 0 || lakes(x + 1, y + 1) != 0) continue;
+      if (lakes(x, y) != 0 || lakes(x + 1, y) != 0 || lakes(x, y + 1) != 0 ||
+          lakes(x + 1, y + 1) != 0)
+        continue;
       add(z(x + 1, y) - z(x, y), z(x, y + 1) - z(x, y));
       add(z(x + 1, y + 1) - z(x, y + 1), z(x + 1, y + 1) - z(x + 1, y));
     }
@@ -223,8 +242,11 @@ TEST(GeneralizeArtefacts, NoFlatTrianglesAndNoRepeatedNormalsArise) {
   Grid<unsigned char> lakes(200, 200);
   for (int y = 0; y < 200; ++y)
     for (int x = 0; x < 200; ++x) {
-      const auto level_with = [&](int i, int j) { return terrain.contains(i, j) && terrain(i, j) == terrain(x, y); };
-      lakes(x, y) = level_with(x + 1, y) || level_with(x - 1, y) || level_with(x, y + 1) || level_with(x, y - 1);
+      const auto level_with = [&](int i, int j) {
+        return terrain.contains(i, j) && terrain(i, j) == terrain(x, y);
+      };
+      lakes(x, y) = level_with(x + 1, y) || level_with(x - 1, y) || level_with(x, y + 1) ||
+                    level_with(x, y - 1);
     }
   const Facets before = facets_of(terrain, lakes);
   ASSERT_GT(before.all, 58600);
@@ -238,7 +260,8 @@ TEST(GeneralizeArtefacts, NoFlatTrianglesAndNoRepeatedNormalsArise) {
   }
 }
 
-// What a run digs below the hollows that were there: the depth of each cell under its outlet, beyond the depth it had.
+// What a run digs below existing hollows: the depth of each cell under its outlet, beyond its
+// original depth.
 double dug_m3(const Grid<float>& before, const Grid<float>& after) {
   const Grid<float> full_before = filled_hollows(before);
   const Grid<float> full_after = filled_hollows(after);

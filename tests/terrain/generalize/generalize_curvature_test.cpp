@@ -18,7 +18,7 @@
 #include "terrain/shape/derivatives.h"
 #include "tests/base/reconstruct.h"
 #include "tests/paths.h"
-#include "tests/terrain/generalize/made_up_relief.h"
+#include "tests/terrain/generalize/synthetic_relief.h"
 #include "tests/terrain/shape/terrain_measures.h"
 
 namespace belvedere {
@@ -37,9 +37,11 @@ GeneralizeGrids masked(Grid<float> mask) {
 }
 
 TEST(GeneralizeCurvature, PyramidReconstructsHighRelief) {
-  for (const auto& [width, height] : {std::pair{512, 512}, std::pair{513, 379}, std::pair{37, 61}}) {
+  for (const auto& [width, height] :
+       {std::pair{512, 512}, std::pair{513, 379}, std::pair{37, 61}}) {
     const Grid<float> terrain = alpine(width, height, 5000.0);
-    EXPECT_LE(largest_difference(test::reconstruct(make_laplacian_pyramid(terrain, 6)), terrain), 1e-3);
+    EXPECT_LE(largest_difference(test::reconstruct(make_laplacian_pyramid(terrain, 6)), terrain),
+              1e-3);
   }
 }
 
@@ -48,14 +50,17 @@ TEST(GeneralizeCurvature, ExponentZeroAddsBothWeights) {
     const Grid<float> terrain = alpine(width, height);
     GeneralizeParameters local = everywhere({1.F, .5F, .25F}, {.25F, .5F, .5F}, {.25F, .5F, .5F});
     local.exponent = 0.F;
-    EXPECT_LE(largest_difference(run(terrain, local), run(terrain, everywhere({1.25F, 1.F, .75F}))), 2e-3);
+    EXPECT_LE(largest_difference(run(terrain, local), run(terrain, everywhere({1.25F, 1.F, .75F}))),
+              2e-3);
     local.exponent = 1.F;
-    EXPECT_GT(largest_difference(run(terrain, local), run(terrain, everywhere({1.25F, 1.F, .75F}))), 1.0);
+    EXPECT_GT(largest_difference(run(terrain, local), run(terrain, everywhere({1.25F, 1.F, .75F}))),
+              1.0);
   }
 }
 
 TEST(GeneralizeCurvature, CurvatureComesFromTheBandsBelow) {
-  // The finest weights do not change where the second finest band finds its ridges: at the coarser level nothing differs.
+  // The finest weights do not change where the second finest band finds its ridges: the coarser
+  // level is identical.
   const Grid<float> terrain = alpine(128, 128);
   const Grid<float> a = run(terrain, everywhere({1.F, .3F, 1.F}, {0.F, .7F, 0.F}));
   const Grid<float> b = run(terrain, everywhere({1.F, .3F, 0.F}, {0.F, .7F, 0.F}));
@@ -63,25 +68,31 @@ TEST(GeneralizeCurvature, CurvatureComesFromTheBandsBelow) {
   Grid<float> difference = a;
   for (std::size_t i = 0; i < difference.size(); ++i) difference[i] = a[i] - b[i] - finest[i];
   EXPECT_LE(largest_difference(difference, Grid<float>(128, 128)), 1e-3);
-  // The weights below do: a change of the coarsest moves the ridges of the next.
-  const auto middle = [&](float coarsest) {
+  // The lower weights do: a change of the coarsest moves the ridges of the next.
+  const auto centre = [&](float coarsest) {
     Grid<float> out = run(terrain, everywhere({coarsest, .3F, 1.F}, {0.F, .7F, 0.F}));
     const Grid<float> plain = run(terrain, everywhere({coarsest, .3F, 1.F}));
     for (std::size_t i = 0; i < out.size(); ++i) out[i] -= plain[i];
     return out;
   };
-  EXPECT_GT(largest_difference(middle(1.F), middle(.2F)), 1.0);
+  EXPECT_GT(largest_difference(centre(1.F), centre(.2F)), 1.0);
 }
 
 TEST(GeneralizeCurvature, ValleySetLeavesConvexGroundAndRidgeSetConcaveGround) {
-  // A fold of one wavelength along x, slightly tilted along y: its crest is at x = 24, its trough at 72.
+  // A fold of one wavelength along x, slightly tilted along y: its crest is at x = 24, its trough
+  // at 72.
   Grid<float> fold(96, 64);
   for (int y = 0; y < 64; ++y)
-    for (int x = 0; x < 96; ++x) fold(x, y) = static_cast<float>(2000.0 + 60.0 * std::sin(x / 96.0 * 6.2831853) + 3.0 * y);
-  GeneralizeParameters ridges = everywhere({1.F, 1.F, 1.F, 1.F}, {0.F, 1.F, 1.F, 1.F}, {0.F, 0.F, 0.F, 0.F});
-  GeneralizeParameters valleys = everywhere({1.F, 1.F, 1.F, 1.F}, {0.F, 0.F, 0.F, 0.F}, {0.F, 1.F, 1.F, 1.F});
+    for (int x = 0; x < 96; ++x)
+      fold(x, y) = static_cast<float>(2000.0 + 60.0 * std::sin(x / 96.0 * 6.2831853) + 3.0 * y);
+  GeneralizeParameters ridges =
+      everywhere({1.F, 1.F, 1.F, 1.F}, {0.F, 1.F, 1.F, 1.F}, {0.F, 0.F, 0.F, 0.F});
+  GeneralizeParameters valleys =
+      everywhere({1.F, 1.F, 1.F, 1.F}, {0.F, 0.F, 0.F, 0.F}, {0.F, 1.F, 1.F, 1.F});
   ridges.exponent = valleys.exponent = 0.F;  // c = 1: only the choice of the set counts
-  const auto change = [&](const Grid<float>& out, int x) { return std::abs(static_cast<double>(out(x, 32)) - fold(x, 32)); };
+  const auto change = [&](const Grid<float>& out, int x) {
+    return std::abs(static_cast<double>(out(x, 32)) - fold(x, 32));
+  };
   const Grid<float> r = run(fold, ridges);
   const Grid<float> v = run(fold, valleys);
   EXPECT_GT(change(r, 24), 3.0 * change(r, 72));
@@ -99,10 +110,13 @@ TEST(GeneralizeCurvature, MaskZeroReturnsTheOriginalBitForBit) {
 }
 
 TEST(GeneralizeCurvature, HalfMaskLeavesNoSeam) {
-  // A crest along the mask's edge: there the change is large, and level across the edge but for a seam.
+  // A crest along the mask's edge: there the change is large, and constant across the edge except
+  // for a seam.
   Grid<float> terrain(256, 256);
   for (int y = 0; y < 256; ++y)
-    for (int x = 0; x < 256; ++x) terrain(x, y) = static_cast<float>(1500.0 + 200.0 * std::cos((x - 127.5) / 64.0 * 6.2831853) + 2.0 * y);
+    for (int x = 0; x < 256; ++x)
+      terrain(x, y) =
+          static_cast<float>(1500.0 + 200.0 * std::cos((x - 127.5) / 64.0 * 6.2831853) + 2.0 * y);
   const GeneralizeParameters p = everywhere({1.8F, 2.F, 1.5F, 1.F, 1.F});
   Grid<float> half(256, 256);
   for (int y = 0; y < 256; ++y) std::fill_n(half.row(y), 128, 1.F);
@@ -112,7 +126,8 @@ TEST(GeneralizeCurvature, HalfMaskLeavesNoSeam) {
   double naive = 0.0;
   for (int y = 0; y < 256; ++y) {
     // The step of the change from the last filtered to the first original column.
-    seam += std::abs((static_cast<double>(out(127, y)) - terrain(127, y)) - (static_cast<double>(out(128, y)) - terrain(128, y)));
+    seam += std::abs((static_cast<double>(out(127, y)) - terrain(127, y)) -
+                     (static_cast<double>(out(128, y)) - terrain(128, y)));
     naive += std::abs(static_cast<double>(all(127, y)) - terrain(127, y));
   }
   EXPECT_LE(seam, 0.1 * naive);
@@ -120,14 +135,16 @@ TEST(GeneralizeCurvature, HalfMaskLeavesNoSeam) {
 
 TEST(GeneralizeCurvature, BlurTakesSpikesOffBreakLines) {
   const Grid<float> terrain = alpine(256, 256);
-  GeneralizeParameters p = everywhere({1.F, 1.F, .3F, .1F, 0.F}, {0.F, 0.F, .9F, 1.2F, 1.2F}, {0.F, 0.F, .9F, 1.2F, 1.2F});
+  GeneralizeParameters p = everywhere({1.F, 1.F, .3F, .1F, 0.F}, {0.F, 0.F, .9F, 1.2F, 1.2F},
+                                      {0.F, 0.F, .9F, 1.2F, 1.2F});
   const auto spikes = [&](double blur) {
     p.blur_cells = static_cast<float>(blur);
     const Grid<float> out = run(terrain, p);
     double sum = 0.0;  // fourth differences: what stands out from both neighbours
     for (int y = 2; y < 254; ++y)
       for (int x = 2; x < 254; ++x) {
-        const double d = out(x - 2, y) - 4.0 * out(x - 1, y) + 6.0 * out(x, y) - 4.0 * out(x + 1, y) + out(x + 2, y);
+        const double d = out(x - 2, y) - 4.0 * out(x - 1, y) + 6.0 * out(x, y) -
+                         4.0 * out(x + 1, y) + out(x + 2, y);
         sum += d * d;
       }
     return std::sqrt(sum);
@@ -140,7 +157,8 @@ TEST(GeneralizeCurvature, RidgesStaySharperThanUnderABlurOfEqualEnergy) {
   Grid<float> roof(129, 129);
   for (int y = 0; y < 129; ++y)
     for (int x = 0; x < 129; ++x)
-      roof(x, y) = static_cast<float>(2000.0 - 18.0 * std::abs(x - 64) + 4.0 * y + 15.0 * random_uniform(3, x, y));
+      roof(x, y) = static_cast<float>(2000.0 - 18.0 * std::abs(x - 64) + 4.0 * y +
+                                      15.0 * random_uniform(3, x, y));
   const Grid<float> out = run(roof, everywhere({1.F, .3F, 0.F, 0.F}, {0.F, .7F, 1.F, 1.F}));
   const auto rough = [](const Grid<float>& g) {  // energy of the detail on the slope
     double sum = 0.0;
@@ -154,8 +172,8 @@ TEST(GeneralizeCurvature, RidgesStaySharperThanUnderABlurOfEqualEnergy) {
   double low = 0.2;
   double high = 8.0;
   for (int i = 0; i < 20; ++i) {
-    const double middle = 0.5 * (low + high);
-    (rough(gaussian_blur(roof, middle)) > rough(out) ? low : high) = middle;
+    const double centre = 0.5 * (low + high);
+    (rough(gaussian_blur(roof, centre)) > rough(out) ? low : high) = centre;
   }
   const Grid<float> blurred = gaussian_blur(roof, high);
   const auto bend = [](const Grid<float>& g) {
@@ -172,14 +190,18 @@ TEST(GeneralizeCurvature, WhatThePrintCannotShowGoes) {
   GeneralizeGrids grids;
   grids.pixel_ground = {Grid<float>(128, 128, 1.F), 1};
   EXPECT_EQ(run(terrain, p, grids), terrain);
-  // Wavelengths 120, 240, 480 m; at 110 m a pixel and 2.5 pixels the limit is 275 m: the finest is gone, the coarsest whole.
+  // Wavelengths 120, 240, 480 m; at 110 m a pixel and 2.5 pixels the limit is 275 m: the finest is
+  // gone, the coarsest whole.
   grids.pixel_ground = {Grid<float>(9, 9, 110.F), 16};
   const float t = 2.F * 240.F / 275.F - 1.F;
-  EXPECT_LE(largest_difference(run(terrain, p, grids), run(terrain, everywhere({1.F, t * t * (3.F - 2.F * t), 0.F}))), 5e-3);
+  EXPECT_LE(largest_difference(run(terrain, p, grids),
+                               run(terrain, everywhere({1.F, t * t * (3.F - 2.F * t), 0.F}))),
+            5e-3);
 }
 
 TEST(GeneralizeCurvature, SameBitsForAnyThreadCountAndAnySize) {
-  for (const auto& size : {std::pair{301, 417}, std::pair{1, 40}, std::pair{40, 1}, std::pair{3, 3}, std::pair{1, 1}}) {
+  for (const auto& size : {std::pair{301, 417}, std::pair{1, 40}, std::pair{40, 1}, std::pair{3, 3},
+                           std::pair{1, 1}}) {
     const int width = size.first;  // clang 14 captures no structured bindings
     const int height = size.second;
     const Grid<float> terrain = alpine(width, height);
@@ -196,14 +218,19 @@ TEST(GeneralizeCurvature, SameBitsForAnyThreadCountAndAnySize) {
 }
 
 TEST(GeneralizeCurvature, EveryPresetIsInRange) {
-  for (const GeneralizePreset& preset : generalize_presets()) EXPECT_NO_THROW(run(alpine(64, 64), preset.bands)) << preset.name;
+  for (const GeneralizePreset& preset : generalize_presets())
+    EXPECT_NO_THROW(run(alpine(64, 64), preset.bands)) << preset.name;
 }
 
 TEST(Mask, SlopeMaskKeepsFlatGroundAndTheFootOfTheSlope) {
-  // The slope begins at x = 20; two columns of flat at x = 50 are a ledge, and no flat.
+  // The slope begins at x = 20; two level columns at x = 50 are a ledge, not a flat.
   Grid<float> ground(80, 40);
   for (int y = 0; y < 40; ++y)
-    for (int x = 0; x < 80; ++x) ground(x, y) = 15.F * static_cast<float>(x < 20 ? 0 : x <= 50 ? x - 20 : x <= 52 ? 30 : x - 22);
+    for (int x = 0; x < 80; ++x)
+      ground(x, y) = 15.F * static_cast<float>(x < 20    ? 0
+                                               : x <= 50 ? x - 20
+                                               : x <= 52 ? 30
+                                                         : x - 22);
   const Grid<float> mask = slope_mask(ground, {cell_m, cell_m}, {});
   EXPECT_LE(mask(5, 20), 1e-6F);
   EXPECT_LT(mask(21, 20), 0.15F);  // 26° steep as the next

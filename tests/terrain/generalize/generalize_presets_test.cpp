@@ -5,7 +5,7 @@
 #include <set>
 #include <string_view>
 
-#include "tests/terrain/generalize/made_up_relief.h"
+#include "tests/terrain/generalize/synthetic_relief.h"
 
 namespace belvedere {
 namespace {
@@ -27,7 +27,8 @@ TEST(GeneralizePresets, HaveAsManyWeightsInEachSetAsBands) {
   for (const GeneralizePreset& preset : generalize_presets()) {
     const GeneralizeParameters& bands = preset.bands;
     EXPECT_EQ(bands.background.size(), bands.foreground.size()) << preset.name;
-    for (const Weights* sides : {&bands.foreground_ridges, &bands.foreground_valleys, &bands.background_ridges, &bands.background_valleys})
+    for (const Weights* sides : {&bands.foreground_ridges, &bands.foreground_valleys,
+                                 &bands.background_ridges, &bands.background_valleys})
       EXPECT_TRUE(sides->empty() || sides->size() == bands.foreground.size()) << preset.name;
   }
 }
@@ -53,13 +54,17 @@ TEST(GeneralizePresets, FillWhatIsNotWritten) {
   written.foreground = {1.F, .5F, .5F, 1.F, 1.F, 1.F};
   EXPECT_EQ(choose(written, "").background, written.foreground);
   EXPECT_EQ(choose(written, "bold_ridges").background, written.foreground);
-  EXPECT_EQ(choose(written, "bold_ridges").foreground_ridges, find_generalize_preset("bold_ridges")->bands.foreground_ridges);
-  EXPECT_EQ(choose(written, "panorama").background, find_generalize_preset("panorama")->bands.background);
+  EXPECT_EQ(choose(written, "bold_ridges").foreground_ridges,
+            find_generalize_preset("bold_ridges")->bands.foreground_ridges);
+  EXPECT_EQ(choose(written, "panorama").background,
+            find_generalize_preset("panorama")->bands.background);
   written.background = {0.F, 0.F, 0.F, 0.F, 0.F, .5F};
   written.foreground_valleys = {0.F, 0.F, 0.F, 0.F, 1.F, 1.F};
-  for (const char* preset : {"", "bold_ridges", "panorama"}) EXPECT_EQ(choose(written, preset).background, written.background) << preset;
+  for (const char* preset : {"", "bold_ridges", "panorama"})
+    EXPECT_EQ(choose(written, preset).background, written.background) << preset;
   EXPECT_EQ(choose(written, "").background_valleys, written.foreground_valleys);
-  EXPECT_EQ(choose(written, "panorama").background_valleys, find_generalize_preset("panorama")->bands.background_valleys);
+  EXPECT_EQ(choose(written, "panorama").background_valleys,
+            find_generalize_preset("panorama")->bands.background_valleys);
   WrittenWeights far;
   far.background = {1.F, 0.F};
   EXPECT_EQ(choose(far, "").foreground, (Weights{1.F, 1.F}));

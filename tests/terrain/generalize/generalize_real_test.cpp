@@ -7,9 +7,9 @@
 
 #include "base/pyramid.h"
 #include "terrain/generalize/generalize.h"
-#include "tests/terrain/generalize/made_up_relief.h"
+#include "tests/terrain/generalize/synthetic_relief.h"
 
-// What the method promises, on real ground, against formulas worked out here in double.
+// The method's properties on real ground, against formulas computed here in double.
 namespace belvedere {
 namespace {
 
@@ -31,12 +31,16 @@ Quadric quadric(const Grid<float>& g, int x, int y) {
   const auto z = [&](int dx, int dy) { return static_cast<double>(g(x + dx, y + dy)); };
   return {(z(1, -1) + z(1, 0) + z(1, 1) - z(-1, -1) - z(-1, 0) - z(-1, 1)) / 6.0,
           (z(-1, -1) + z(0, -1) + z(1, -1) - z(-1, 1) - z(0, 1) - z(1, 1)) / 6.0,
-          (z(-1, -1) + z(1, -1) + z(-1, 0) + z(1, 0) + z(-1, 1) + z(1, 1) - 2.0 * (z(0, -1) + z(0, 0) + z(0, 1))) / 3.0,
+          (z(-1, -1) + z(1, -1) + z(-1, 0) + z(1, 0) + z(-1, 1) + z(1, 1) -
+           2.0 * (z(0, -1) + z(0, 0) + z(0, 1))) /
+              3.0,
           (z(1, -1) + z(-1, 1) - z(-1, -1) - z(1, 1)) / 4.0,
-          (z(-1, -1) + z(0, -1) + z(1, -1) + z(-1, 1) + z(0, 1) + z(1, 1) - 2.0 * (z(-1, 0) + z(0, 0) + z(1, 0))) / 3.0};
+          (z(-1, -1) + z(0, -1) + z(1, -1) + z(-1, 1) + z(0, 1) + z(1, 1) -
+           2.0 * (z(-1, 0) + z(0, 0) + z(1, 0))) /
+              3.0};
 }
 
-// A stretch of the Karwendel's DEM.
+// A part of the Karwendel's DEM.
 constexpr int side = 200;
 std::optional<Grid<float>> karwendel() {
   const auto whole = real_ground("innsbruck/innsbruck_utm32_30m.tif");
@@ -44,8 +48,8 @@ std::optional<Grid<float>> karwendel() {
   return window(*whole, (whole->width() - side) / 2, (whole->height() - side) / 2, side);
 }
 
-// c by its definition, [y][x]: |curvature| · cell / full, at most 1, of expand(G_1); a Gaussian over it; the power of that. Cells nearer to
-// the rim than the kernel reaches are left 0.
+// c by its definition, [y][x]: |curvature| · cell / full, at most 1, of expand(G_1); a Gaussian
+// over it; then the power. Cells closer to the border than the kernel's radius stay 0.
 Grid<double> break_lines(const Grid<float>& sum, const GeneralizeParameters& p) {
   const bool plan = p.curvature == CurvatureForm::plan;
   const double full = p.full_curvature > 0.F ? p.full_curvature : plan ? 0.8 : 0.15;
@@ -55,8 +59,10 @@ Grid<double> break_lines(const Grid<float>& sum, const GeneralizeParameters& p) 
       const Quadric z = quadric(sum, x, y);
       const double n = z.q * z.q * z.r - 2.0 * z.p * z.q * z.s + z.p * z.p * z.t;
       const double g2 = z.p * z.p + z.q * z.q;
-      // Lengths are in cells, altitudes in metres: N/g² · cell / full is N/g² / cell of that, N/g³ · cell as it stands.
-      const double k = plan ? std::abs(n) / std::pow(g2 + 1e-6 * cell_m * cell_m, 1.5) : std::abs(n) / g2 / cell_m;
+      // Lengths are in cells, altitudes in metres: N/g² · cell / full is N/g² / cell of that, N/g³
+      // · cell as it stands.
+      const double k = plan ? std::abs(n) / std::pow(g2 + 1e-6 * cell_m * cell_m, 1.5)
+                            : std::abs(n) / g2 / cell_m;
       c(x, y) = std::min(k / full, 1.0);
     }
   const double sigma = p.blur_cells;
@@ -68,7 +74,8 @@ Grid<double> break_lines(const Grid<float>& sum, const GeneralizeParameters& p) 
       double values = 0.0;
       for (int dy = -radius; dy <= radius; ++dy)
         for (int dx = -radius; dx <= radius; ++dx) {
-          const double w = radius == 0 ? 1.0 : std::exp(-0.5 * (dx * dx + dy * dy) / (sigma * sigma));
+          const double w =
+              radius == 0 ? 1.0 : std::exp(-0.5 * (dx * dx + dy * dy) / (sigma * sigma));
           weights += w;
           values += w * c(x + dx, y + dy);
         }
@@ -87,9 +94,10 @@ TEST(RealGeneralize, WeightsAlongBreakLinesFollowEquationFour) {
   };
   using enum CurvatureForm;
   for (const Case& each :
-       {Case{bounded, 0.F, 0.F, 1.F}, Case{bounded, 0.F, 1.F, 1.F}, Case{bounded, .3F, 2.F, 1.F}, Case{bounded, 0.F, 1.F, .25F},
-        Case{bounded, 0.F, 1.F, .5F}, Case{bounded, 0.F, 1.F, .75F}, Case{bounded, 0.F, 0.F, 2.F}, Case{plan, 0.F, 0.F, 1.F},
-        Case{plan, 0.F, 1.F, .5F}, Case{plan, 2.F, 1.5F, .6F}}) {
+       {Case{bounded, 0.F, 0.F, 1.F}, Case{bounded, 0.F, 1.F, 1.F}, Case{bounded, .3F, 2.F, 1.F},
+        Case{bounded, 0.F, 1.F, .25F}, Case{bounded, 0.F, 1.F, .5F}, Case{bounded, 0.F, 1.F, .75F},
+        Case{bounded, 0.F, 0.F, 2.F}, Case{plan, 0.F, 0.F, 1.F}, Case{plan, 0.F, 1.F, .5F},
+        Case{plan, 2.F, 1.5F, .6F}}) {
     GeneralizeParameters p;
     p.foreground = p.background = {1.F};
     p.foreground_ridges = p.background_ridges = p.foreground_valleys = p.background_valleys = {4.F};
@@ -100,22 +108,23 @@ TEST(RealGeneralize, WeightsAlongBreakLinesFollowEquationFour) {
     const Grid<float> out = run(*terrain, p);
     const Grid<double> c = break_lines(sum, p);
     std::vector<double> off;
-    double least = 1.0;
-    double most = 0.0;
+    double min = 1.0;
+    double max = 0.0;
     for (int y = 8; y + 8 < side; ++y)
       for (int x = 8; x + 8 < side; ++x) {
         const double band = static_cast<double>((*terrain)(x, y)) - sum(x, y);
         if (std::abs(band) < 2.0) continue;
         const double is = (static_cast<double>(out(x, y)) - (*terrain)(x, y)) / (4.0 * band);
         off.push_back(std::abs(is - c(x, y)));
-        least = std::min(least, c(x, y));
-        most = std::max(most, c(x, y));
+        min = std::min(min, c(x, y));
+        max = std::max(max, c(x, y));
       }
-    SCOPED_TRACE(testing::Message() << (each.form == plan ? "plan" : "bounded") << ' ' << each.full << ' ' << each.blur << ' '
-                                    << each.exponent);
+    SCOPED_TRACE(testing::Message() << (each.form == plan ? "plan" : "bounded") << ' ' << each.full
+                                    << ' ' << each.blur << ' ' << each.exponent);
     ASSERT_GT(off.size(), 10000U);
-    EXPECT_GT(most - least, 0.4);
-    // A float's altitude has steps of 1e-4 m; where ground is all but level they turn a contour, in a few cells.
+    EXPECT_GT(max - min, 0.4);
+    // A float's altitude has steps of 1e-4 m; on nearly level ground they turn a contour, in a few
+    // cells.
     std::sort(off.begin(), off.end());
     EXPECT_LT(off[off.size() * 99 / 100], 1e-3);
     EXPECT_LT(off.back(), 0.05);
@@ -142,7 +151,8 @@ TEST(RealGeneralize, TheSetWithoutWeightsLeavesItsSideOfTheGround) {
     for (int y = 1; y + 1 < side; ++y)
       for (int x = 1; x + 1 < side; ++x) {
         const Quadric z = quadric(band, x, y);
-        const double profile = -(z.p * z.p * z.r + 2.0 * z.p * z.q * z.s + z.q * z.q * z.t);  // the sign of the profile curvature
+        const double profile = -(z.p * z.p * z.r + 2.0 * z.p * z.q * z.s +
+                                 z.q * z.q * z.t);  // the sign of the profile curvature
         if (std::abs(band(x, y)) < 0.5F || (profile < 0.0) != concave) continue;
         const double share = (static_cast<double>(out(x, y)) - (*terrain)(x, y)) / band(x, y);
         ++cells;
@@ -150,7 +160,8 @@ TEST(RealGeneralize, TheSetWithoutWeightsLeavesItsSideOfTheGround) {
         by_half += share > 0.5 ? 1 : 0;
       }
     EXPECT_GT(cells, 12000);
-    // Where the form is not clear: next to level along the fall, as on the bottom of a valley that falls in steps.
+    // Where the form is unclear: nearly level along the fall line, as on the bottom of a valley
+    // that falls in steps.
     EXPECT_LT(changed, 0.12 * cells) << (concave ? "concave" : "convex") << ", of " << cells;
     EXPECT_LT(by_half, 0.07 * cells) << (concave ? "concave" : "convex") << ", of " << cells;
   }

@@ -22,19 +22,23 @@ using test::grid_of;
 constexpr glm::dvec2 report_cell_m = {25.0, 25.0};
 
 TEST(DistanceSlices, GoFromNearToFarInEqualSteps) {
-  const Grid<float> share =
-      grid_of(6, 1, [](int x, int) { return std::array{1.0, 0.76, 0.74, 0.5, 0.1, 0.0}[static_cast<std::size_t>(x)]; });
+  const Grid<float> share = grid_of(6, 1, [](int x, int) {
+    return std::array{1.0, 0.76, 0.74, 0.5, 0.1, 0.0}[static_cast<std::size_t>(x)];
+  });
   const Grid<std::uint8_t> slices = distance_slices(share, {6, 1}, 4);
   EXPECT_EQ(std::vector<int>(slices.begin(), slices.end()), (std::vector<int>{0, 0, 1, 2, 3, 3}));
   EXPECT_EQ(distance_slices({}, {2, 2}, 3), Grid<std::uint8_t>(2, 2));
 }
 
 TEST(BandEnergy, OfStripesOneCellWideIsAllInTheFinestBand) {
-  // The 5-tap kernel takes (-1)^x off completely: .4 - 2 · .25 + 2 · .05 = 0. Far ground has half the amplitude. Rims stand in slices of
-  // their own, because borders are extended linearly.
+  // The 5-tap kernel removes (-1)^x completely: .4 - 2 · .25 + 2 · .05 = 0. Far ground has half the
+  // amplitude. Borders are in slices of their own, because they are extended linearly.
   const int width = 160;
-  const Grid<float> share = grid_of(width, 32, [&](int x, int) { return x < 16 ? 1.0 : x < 80 ? 0.7 : x < 144 ? 0.3 : 0.0; });
-  const Grid<float> stripes = grid_of(width, 32, [](int x, int) { return (x % 2 == 0 ? 1.0 : -1.0) * (x < 80 ? 8.0 : 4.0); });
+  const Grid<float> share = grid_of(width, 32, [&](int x, int) {
+    return x < 16 ? 1.0 : x < 80 ? 0.7 : x < 144 ? 0.3 : 0.0;
+  });
+  const Grid<float> stripes = grid_of(
+      width, 32, [](int x, int) { return (x % 2 == 0 ? 1.0 : -1.0) * (x < 80 ? 8.0 : 4.0); });
   const auto energy = band_energy(stripes, share, 3, 4);
   ASSERT_EQ(energy.size(), 4U);
   ASSERT_EQ(energy[1].size(), 3U);
@@ -44,7 +48,8 @@ TEST(BandEnergy, OfStripesOneCellWideIsAllInTheFinestBand) {
 }
 
 TEST(BandEnergy, IsZeroOnARampAndInBandsTooCoarseForTheTerrain) {
-  const auto energy = band_energy(grid_of(20, 20, [](int x, int y) { return 3.0 * x + y; }), {}, 8, 2);
+  const auto energy =
+      band_energy(grid_of(20, 20, [](int x, int y) { return 3.0 * x + y; }), {}, 8, 2);
   for (const double e : energy[0]) EXPECT_NEAR(e, 0.0, 1e-8);
   for (const double e : energy[1]) EXPECT_EQ(e, 0.0);  // no cells there
 }
@@ -55,7 +60,8 @@ TEST(AltitudeChange, OfKnownDifferences) {
   after(0, 0) += 3.F;   // near
   after(1, 0) -= 5.F;   // near
   after(3, 1) -= 12.F;  // far
-  const Grid<std::uint8_t> slice_of = distance_slices(grid_of(4, 2, [](int x, int) { return x < 2 ? 1.0 : 0.0; }), {4, 2}, 2);
+  const Grid<std::uint8_t> slice_of =
+      distance_slices(grid_of(4, 2, [](int x, int) { return x < 2 ? 1.0 : 0.0; }), {4, 2}, 2);
   const auto changes = altitude_change(before, after, slice_of, 2);
   EXPECT_EQ(changes[0].cells, 4U);
   EXPECT_DOUBLE_EQ(changes[0].mean_m, -0.5);
@@ -67,7 +73,8 @@ TEST(AltitudeChange, OfKnownDifferences) {
 }
 
 TEST(CrestCurvature, OfARoundedRidgeInAnyDirection) {
-  // z = -k/2 d², d the distance from a line: bends by k, however the line runs and climbs.
+  // z = -k/2 d², d the distance from a line: has curvature k, whatever the line's direction and
+  // slope.
   constexpr double k = 0.004;
   for (const double azimuth : {0.0, 0.4, 1.3, 2.2}) {
     const Grid<float> ridge = grid_of(21, 21, [&](int x, int y) {
@@ -78,14 +85,17 @@ TEST(CrestCurvature, OfARoundedRidgeInAnyDirection) {
     });
     EXPECT_NEAR(crest_curvature(ridge, report_cell_m)(10, 10), k, 1e-3 * k) << azimuth;
   }
-  EXPECT_NEAR(crest_curvature(grid_of(9, 9, [](int x, int y) { return 0.5 * k * 625.0 * (x * x + y * y); }), report_cell_m)(4, 4), -k,
-              1e-3 * k);
+  EXPECT_NEAR(
+      crest_curvature(grid_of(9, 9, [](int x, int y) { return 0.5 * k * 625.0 * (x * x + y * y); }),
+                      report_cell_m)(4, 4),
+      -k, 1e-3 * k);
 }
 
 TEST(RidgeLines, RunAlongCrestsOnly) {
   // Ridges at x = 20 and 60 that climb to the south, a valley between them.
-  const Grid<float> ridges =
-      grid_of(81, 60, [](int x, int y) { return 300.0 * std::cos(2.0 * std::numbers::pi * (x - 20) / 40.0) + 4.0 * y; });
+  const Grid<float> ridges = grid_of(81, 60, [](int x, int y) {
+    return 300.0 * std::cos(2.0 * std::numbers::pi * (x - 20) / 40.0) + 4.0 * y;
+  });
   const Grid<std::uint8_t> lines = ridge_lines(ridges, report_cell_m);
   int on = 0;
   for (int y = 5; y < 55; ++y)
@@ -95,26 +105,34 @@ TEST(RidgeLines, RunAlongCrestsOnly) {
       EXPECT_TRUE(x == 20 || x == 60) << x;
     }
   EXPECT_GT(on, 20);
-  const Grid<std::uint8_t> none = ridge_lines(grid_of(30, 30, [](int x, int y) { return 2.0 * x - y; }), report_cell_m);
+  const Grid<std::uint8_t> none =
+      ridge_lines(grid_of(30, 30, [](int x, int y) { return 2.0 * x - y; }), report_cell_m);
   EXPECT_EQ(none, Grid<std::uint8_t>(30, 30));
 }
 
 TEST(RidgeSharpness, FindsTheGaussianThatDidIt) {
-  // A wave of 24 cells brought to g of its height: a Gaussian of σ = λ/2π √(-2 ln g) does the same and keeps as much.
+  // A wave of 24 cells reduced to g of its height: a Gaussian of σ = λ/2π √(-2 ln g) does the same
+  // and keeps as much.
   constexpr double wave_cells = 24.0;
   constexpr double g = 0.6;
   const auto wave = [&](double factor) {
-    return grid_of(481, 60, [=](int x, int) { return factor * 200.0 * std::cos(2.0 * std::numbers::pi * x / wave_cells); });
+    return grid_of(481, 60, [=](int x, int) {
+      return factor * 200.0 * std::cos(2.0 * std::numbers::pi * x / wave_cells);
+    });
   };
-  // The rims, where waves are extended linearly, stand in the near slice.
-  const Grid<float> share = grid_of(481, 60, [](int x, int) { return x < 120 || x > 360 ? 1.0 : 0.0; });
-  const RidgeSharpness sharp = ridge_sharpness(wave(1.0), wave(g), report_cell_m, share, 5, 2).at(1);
+  // The borders, where waves are extended linearly, are in the near slice.
+  const Grid<float> share =
+      grid_of(481, 60, [](int x, int) { return x < 120 || x > 360 ? 1.0 : 0.0; });
+  const RidgeSharpness sharp =
+      ridge_sharpness(wave(1.0), wave(g), report_cell_m, share, 5, 2).at(1);
   EXPECT_GT(sharp.cells, 50U);
   EXPECT_NEAR(sharp.kept(), g, 1e-4);
   EXPECT_NEAR(sharp.kept_by_gaussian(), g, 0.01);
-  EXPECT_NEAR(sharp.gaussian_cells, wave_cells / (2.0 * std::numbers::pi) * std::sqrt(-2.0 * std::log(g)), 0.05);
-  // Heightened terrain has no Gaussian.
-  const RidgeSharpness higher = ridge_sharpness(wave(1.0), wave(1.5), report_cell_m, share, 5, 2).at(1);
+  EXPECT_NEAR(sharp.gaussian_cells,
+              wave_cells / (2.0 * std::numbers::pi) * std::sqrt(-2.0 * std::log(g)), 0.05);
+  // Raised terrain has no equivalent Gaussian.
+  const RidgeSharpness higher =
+      ridge_sharpness(wave(1.0), wave(1.5), report_cell_m, share, 5, 2).at(1);
   EXPECT_EQ(higher.gaussian_cells, 0.0);
   EXPECT_NEAR(higher.kept(), 1.5, 1e-4);
   EXPECT_EQ(higher.kept_by_gaussian(), 1.0);
@@ -122,8 +140,9 @@ TEST(RidgeSharpness, FindsTheGaussianThatDidIt) {
 
 TEST(RidgeSharpness, CurvatureKeepsMoreThanAGaussianOfEqualEnergy) {
   // Roof ridges with rough slopes.
-  const Grid<float> roofs = grid_of(
-      257, 200, [](int x, int y) { return 1500.0 - 18.0 * std::abs(x % 64 - 32) + 3.0 * y + 25.0 * (random_uniform(3, x, y) - 0.5); });
+  const Grid<float> roofs = grid_of(257, 200, [](int x, int y) {
+    return 1500.0 - 18.0 * std::abs(x % 64 - 32) + 3.0 * y + 25.0 * (random_uniform(3, x, y) - 0.5);
+  });
   const GeneralizeParameters p = {.foreground = {1.F, 0.5F, 0.F, 0.F},
                                   .background = {1.F, 0.5F, 0.F, 0.F},
                                   .foreground_ridges = {0.F, 0.5F, 1.2F, 1.2F},
@@ -136,7 +155,8 @@ TEST(RidgeSharpness, CurvatureKeepsMoreThanAGaussianOfEqualEnergy) {
 
 TEST(FootPits, OfAMoatOfKnownVolume) {
   // A plain before a slope; five cells are dug 4 m deep at its foot, one far away.
-  const Grid<float> before = grid_of(60, 40, [](int x, int) { return x < 30 ? 500.0 : 500.0 + (x - 29) * 15.0; });
+  const Grid<float> before =
+      grid_of(60, 40, [](int x, int) { return x < 30 ? 500.0 : 500.0 + (x - 29) * 15.0; });
   Grid<float> after = before;
   for (int y = 10; y < 15; ++y) after(27, y) -= 4.F;
   after(3, 3) -= 9.F;
@@ -148,7 +168,7 @@ TEST(FootPits, OfAMoatOfKnownVolume) {
   EXPECT_NEAR(pits.lowered_m3, 5 * 4.0 * 625.0, 1e-3);
   EXPECT_NEAR(pits.deepest_m, 4.0, 1e-4);
   EXPECT_EQ(foot_pits(before, before, feet, report_cell_m).hollows_m3, 0.0);
-  // A trench with an outlet holds no water, but the ground is gone.
+  // A trench with an outlet holds no water, but ground was removed.
   for (int y = 0; y < 40; ++y) after(27, y) = 496.F;
   const FootPits trench = foot_pits(before, after, feet, report_cell_m);
   EXPECT_NEAR(trench.hollows_m3, 0.0, 1e-3);
@@ -156,7 +176,8 @@ TEST(FootPits, OfAMoatOfKnownVolume) {
 }
 
 TEST(SlopeFeet, LieOnTheFlatBesideTheSlope) {
-  const Grid<float> front = grid_of(120, 60, [](int x, int) { return x < 60 ? 500.0 : 500.0 + (x - 59) * 20.0; });
+  const Grid<float> front =
+      grid_of(120, 60, [](int x, int) { return x < 60 ? 500.0 : 500.0 + (x - 59) * 20.0; });
   const Grid<std::uint8_t> feet = slope_feet(front, report_cell_m, 4);
   EXPECT_EQ(feet(56, 30), 1);
   EXPECT_EQ(feet(100, 30), 0);  // on the slope
@@ -164,13 +185,15 @@ TEST(SlopeFeet, LieOnTheFlatBesideTheSlope) {
 }
 
 TEST(GeneralizeReport, IsTheSameForAnyNumberOfThreads) {
-  const Grid<float> z =
-      grid_of(150, 97, [](int x, int y) { return 900.0 * random_uniform(5, x / 9, y / 7) + 80.0 * random_uniform(6, x, y); });
+  const Grid<float> z = grid_of(150, 97, [](int x, int y) {
+    return 900.0 * random_uniform(5, x / 9, y / 7) + 80.0 * random_uniform(6, x, y);
+  });
   const Grid<float> lower = grid_of(150, 97, [&](int x, int y) { return 0.7 * z(x, y); });
   const Grid<float> share = grid_of(150, 97, [](int, int y) { return y / 96.0; });
   const auto measure = [&] {
     const auto sharp = ridge_sharpness(z, lower, report_cell_m, share, 4, 3);
-    return std::tuple(band_energy(z, share, 4, 3), sharp[1].gaussian_cells, sharp[2].gaussian_per_m);
+    return std::tuple(band_energy(z, share, 4, 3), sharp[1].gaussian_cells,
+                      sharp[2].gaussian_per_m);
   };
   const ThreadLimit one(1);
   const auto single = measure();

@@ -18,29 +18,36 @@ constexpr double grass_cell_m = 20.0;
 
 TEST(PlanCurvature, IsTheNegativeOfGrassPlanc) {
   // r.param.scale fits the same quadric to 3 × 3 cells; its planc counts hollows as positive.
-  if (std::system("test -x /usr/bin/grass") != 0) GTEST_SKIP() << "needs GRASS GIS (Debian: grass-core)";
+  if (std::system("test -x /usr/bin/grass") != 0)
+    GTEST_SKIP() << "needs GRASS GIS (Debian: grass-core)";
   Grid<float> hills(size, size);
   for (int y = 0; y < size; ++y)
     for (int x = 0; x < size; ++x) {
       hills(x, y) =
-          static_cast<float>(12.0 * x - 7.0 * y + 90.0 * std::sin(x / 7.0) * std::cos(y / 9.0) + 40.0 * std::sin((x + 2 * y) / 11.0));
+          static_cast<float>(12.0 * x - 7.0 * y + 90.0 * std::sin(x / 7.0) * std::cos(y / 9.0) +
+                             40.0 * std::sin((x + 2 * y) / 11.0));
     }
   const test::Folder folder;
-  folder.write("z.bin", {reinterpret_cast<const char*>(hills.data()), hills.size() * sizeof(float)});
+  folder.write("z.bin",
+               {reinterpret_cast<const char*>(hills.data()), hills.size() * sizeof(float)});
   folder.write("run.sh",
                "set -e\n"
                "g.region n=2000 s=0 e=2000 w=0 rows=100 cols=100\n"
-               "r.in.bin -f input=z.bin output=z bytes=4 north=2000 south=0 east=2000 west=0 rows=100 cols=100\n"
+               "r.in.bin -f input=z.bin output=z bytes=4 north=2000 south=0 east=2000 west=0 "
+               "rows=100 cols=100\n"
                "for run in 1 2; do\n"
                "  r.param.scale --overwrite input=z output=k method=planc size=3\n"
                "  r.out.bin -f input=k output=$1.$run bytes=4 null=-9999\n"
                "done\n");
   const auto planc = [&](const std::string& name) {
-    const std::string command = "cd '" + folder.path() + "' && grass --tmp-location XY --exec bash run.sh " + name + " > log.txt 2>&1";
+    const std::string command = "cd '" + folder.path() +
+                                "' && grass --tmp-location XY --exec bash run.sh " + name +
+                                " > log.txt 2>&1";
     EXPECT_EQ(std::system(command.c_str()), 0) << test::read_bytes(folder / "log.txt");
-    return std::array{test::read_bytes(folder / (name + ".1")), test::read_bytes(folder / (name + ".2"))};
+    return std::array{test::read_bytes(folder / (name + ".1")),
+                      test::read_bytes(folder / (name + ".2"))};
   };
-  // Now and then a run of r.param.scale goes wrong: two that agree are right.
+  // r.param.scale occasionally fails: two equal results are right.
   std::vector<std::string> runs;
   std::string bytes;
   bool agreed = false;
@@ -59,7 +66,8 @@ TEST(PlanCurvature, IsTheNegativeOfGrassPlanc) {
   double largest = 0.0;
   for (int y = 1; y + 1 < size; ++y)
     for (int x = 1; x + 1 < size; ++x) {
-      // Theirs are floats made from differences of large sums: to a part of the curvature, or of that of a circle of 100 km.
+      // Their results are floats from differences of large sums: accurate to a fraction of the
+      // curvature, or of that of a circle of 100 km.
       EXPECT_NEAR(theirs(x, y), -ours(x, y), 1e-3 * std::abs(ours(x, y)) + 1e-5) << x << ' ' << y;
       largest = std::max(largest, std::abs(static_cast<double>(ours(x, y))));
     }

@@ -9,33 +9,43 @@
 
 #include "tests/terrain/generalize/plan_curvature.h"
 
-// Rows by value, where one row has a closed form; what bands make of them: generalize_analytic_test.cpp, generalize_real_test.cpp.
+// Values of rows with a closed form; results of whole bands: generalize_analytic_test.cpp,
+// generalize_real_test.cpp.
 namespace belvedere {
 namespace {
 
 constexpr double rows_cell_m = 20.0;
 
-// f(x, y) in metres, x east and y north of the grid's middle.
+// f(x, y) in metres, x east and y north of the grid's centre.
 template <class F>
 Grid<float> surface(int size, F&& f) {
   Grid<float> grid(size, size);
   for (int y = 0; y < size; ++y) {
-    for (int x = 0; x < size; ++x) grid(x, y) = static_cast<float>(f((x - size / 2) * rows_cell_m, (size / 2 - y) * rows_cell_m));
+    for (int x = 0; x < size; ++x)
+      grid(x, y) =
+          static_cast<float>(f((x - size / 2) * rows_cell_m, (size / 2 - y) * rows_cell_m));
   }
   return grid;
 }
 
-Grid<float> plan_curvature(const Grid<float>& altitude_m) { return test::curvature_by_rows(altitude_m, rows_cell_m, true); }
-Grid<float> bounded_plan_curvature(const Grid<float>& altitude_m) { return test::curvature_by_rows(altitude_m, rows_cell_m, false); }
+Grid<float> plan_curvature(const Grid<float>& altitude_m) {
+  return test::curvature_by_rows(altitude_m, rows_cell_m, true);
+}
+Grid<float> bounded_plan_curvature(const Grid<float>& altitude_m) {
+  return test::curvature_by_rows(altitude_m, rows_cell_m, false);
+}
 
 TEST(PlanCurvature, OfAConeIsOneOverTheRadius) {
   // Hills are convex, hollows concave, whatever the slope.
   for (const double steepness : {0.2, 1.0}) {
-    const Grid<float> hill = surface(201, [&](double x, double y) { return 3000.0 - steepness * std::hypot(x, y); });
-    const Grid<float> hollow = surface(201, [&](double x, double y) { return steepness * std::hypot(x, y); });
+    const Grid<float> hill =
+        surface(201, [&](double x, double y) { return 3000.0 - steepness * std::hypot(x, y); });
+    const Grid<float> hollow =
+        surface(201, [&](double x, double y) { return steepness * std::hypot(x, y); });
     const Grid<float> kp = plan_curvature(hill);
     const Grid<float> kp_hollow = plan_curvature(hollow);
-    for (const auto& [x, y] : {std::pair{100, 50}, std::pair{180, 100}, std::pair{140, 150}, std::pair{40, 160}}) {
+    for (const auto& [x, y] :
+         {std::pair{100, 50}, std::pair{180, 100}, std::pair{140, 150}, std::pair{40, 160}}) {
       const double radius = std::hypot(x - 100, y - 100) * rows_cell_m;
       EXPECT_NEAR(kp(x, y) * radius, 1.0, 2e-3) << x << ' ' << y;
       EXPECT_NEAR(kp_hollow(x, y) * radius, -1.0, 2e-3) << x << ' ' << y;
@@ -44,9 +54,11 @@ TEST(PlanCurvature, OfAConeIsOneOverTheRadius) {
 }
 
 TEST(PlanCurvature, OfAParaboloidIsOneOverTheRadius) {
-  const Grid<float> hill = surface(201, [](double x, double y) { return 3000.0 - 2e-4 * (x * x + y * y); });
+  const Grid<float> hill =
+      surface(201, [](double x, double y) { return 3000.0 - 2e-4 * (x * x + y * y); });
   const Grid<float> kp = plan_curvature(hill);
-  for (const auto& [x, y] : {std::pair{100, 50}, std::pair{180, 100}, std::pair{140, 150}, std::pair{40, 160}}) {
+  for (const auto& [x, y] :
+       {std::pair{100, 50}, std::pair{180, 100}, std::pair{140, 150}, std::pair{40, 160}}) {
     EXPECT_NEAR(kp(x, y) * std::hypot(x - 100, y - 100) * rows_cell_m, 1.0, 2e-3) << x << ' ' << y;
   }
   // On the summit the contour is a point: no direction, no curvature.
@@ -56,7 +68,8 @@ TEST(PlanCurvature, OfAParaboloidIsOneOverTheRadius) {
 TEST(PlanCurvature, OfAQuadricIsExact) {
   // z = a x² + b y² + c x y + d x + e y: the 3 × 3 fit returns its derivatives exactly.
   const double a = 3e-4, b = -1e-4, c = 2e-4, d = 0.3, e = -0.2;
-  const Grid<float> quadric = surface(61, [&](double x, double y) { return a * x * x + b * y * y + c * x * y + d * x + e * y; });
+  const Grid<float> quadric = surface(
+      61, [&](double x, double y) { return a * x * x + b * y * y + c * x * y + d * x + e * y; });
   const Grid<float> kp = plan_curvature(quadric);
   const Grid<float> bounded = bounded_plan_curvature(quadric);
   for (const auto& [column, row] : {std::pair{30, 30}, std::pair{10, 44}, std::pair{50, 12}}) {
@@ -72,7 +85,8 @@ TEST(PlanCurvature, OfAQuadricIsExact) {
 }
 
 TEST(PlanCurvature, BoundedFormStaysFiniteWhereTheOtherDiverges) {
-  const Grid<float> saddle = surface(21, [](double x, double y) { return 1e-3 * (x * x - y * y) + 1e-5 * x; });
+  const Grid<float> saddle =
+      surface(21, [](double x, double y) { return 1e-3 * (x * x - y * y) + 1e-5 * x; });
   const Grid<float> bounded = bounded_plan_curvature(saddle);
   // Inside the border, where the window is whole.
   for (int y = 1; y < 20; ++y) {
@@ -82,14 +96,17 @@ TEST(PlanCurvature, BoundedFormStaysFiniteWhereTheOtherDiverges) {
 
 TEST(BreakLine, IsTheCurvatureAgainstAFullOneAndAtMostOne) {
   // A cone, whose contours have radii of 200 m and more: full at 20 cells.
-  const Grid<float> hill = surface(101, [](double x, double y) { return 3000.0 - 0.5 * std::hypot(x, y); });
-  const Grid<float> hollow = surface(101, [](double x, double y) { return 3000.0 + 0.5 * std::hypot(x, y); });
+  const Grid<float> hill =
+      surface(101, [](double x, double y) { return 3000.0 - 0.5 * std::hypot(x, y); });
+  const Grid<float> hollow =
+      surface(101, [](double x, double y) { return 3000.0 + 0.5 * std::hypot(x, y); });
   for (const bool plan : {true, false}) {
     const double full_per_m = (plan ? 1.0 : 0.5) / 400.0;
     const BreakLineScale scale{plan, 1.F / 20.F, 1.F / 20.F, static_cast<float>(1.0 / full_per_m)};
     for (const Grid<float>* ground : {&hill, &hollow}) {
       std::vector<float> row(99);
-      break_line_row(ground->row(49) + 1, ground->row(50) + 1, ground->row(51) + 1, 99, scale, row.data());
+      break_line_row(ground->row(49) + 1, ground->row(50) + 1, ground->row(51) + 1, 99, scale,
+                     row.data());
       for (const int cells : {10, 15, 25, 40}) {
         const double c = std::min(20.0 / cells, 1.0);
         EXPECT_NEAR(row[static_cast<std::size_t>(49 + cells)], c, 4e-3) << plan << ' ' << cells;
@@ -105,15 +122,17 @@ TEST(PowerRow, IsThePowerForAnyExponent) {
     for (int i = 0; i <= 1000; ++i) values.push_back(static_cast<float>(i) / 1000.F);
     power_row(values.data(), static_cast<int>(values.size()), exponent);
     for (int i = 0; i <= 1000; ++i)
-      ASSERT_NEAR(values[static_cast<std::size_t>(i)], std::pow(i / 1000.0, static_cast<double>(exponent)), 1e-5) << i << ' ' << exponent;
+      ASSERT_NEAR(values[static_cast<std::size_t>(i)],
+                  std::pow(i / 1000.0, static_cast<double>(exponent)), 1e-5)
+          << i << ' ' << exponent;
     EXPECT_EQ(values.front(), 0.F);
     EXPECT_EQ(values.back(), 1.F);
   }
 }
 
-// The share of the ridge set in the middle of L = height + p x + r x²/2 + t y²/2, where P = p² r, if the mean is that of
-// p x + (r x² + t y²) / 2 with curvatures of its own.
-float share_in_the_middle(double height, double p, double r, double mean_r, double mean_t) {
+// The share of the ridge set at the centre of L = height + p x + r x²/2 + t y²/2, where P = p² r,
+// if the mean is that of p x + (r x² + t y²) / 2 with curvatures of its own.
+float share_at_centre(double height, double p, double r, double mean_r, double mean_t) {
   using Rows = std::vector<std::vector<float>>;
   const auto rows = [&](double base, double bend_x, double bend_y) {
     Rows z(3, std::vector<float>(3));
@@ -133,23 +152,23 @@ float share_in_the_middle(double height, double p, double r, double mean_r, doub
 }
 
 TEST(ConvexShare, IsOneOrNoneWhereTheFormIsClear) {
-  // Curvature of 1 m a cell² against .22 of 2 m: the ground around has no say.
+  // Curvature of 1 m per cell² against .22 of 2 m: the surrounding ground has no weight.
   for (const double around : {-1.0, 1.0}) {
-    EXPECT_EQ(share_in_the_middle(2.0, 3.0, -1.0, around, 0.0), 1.F);
-    EXPECT_EQ(share_in_the_middle(2.0, 3.0, 1.0, around, 0.0), 0.F);
-    EXPECT_EQ(share_in_the_middle(-2.0, 3.0, 0.45, around, 0.0), 0.F);
+    EXPECT_EQ(share_at_centre(2.0, 3.0, -1.0, around, 0.0), 1.F);
+    EXPECT_EQ(share_at_centre(2.0, 3.0, 1.0, around, 0.0), 0.F);
+    EXPECT_EQ(share_at_centre(-2.0, 3.0, 0.45, around, 0.0), 0.F);
   }
 }
 
 TEST(ConvexShare, GoesToWhatIsAroundWhereTheFormIsNotClear) {
   // .11 of .22 · 2 m: a quarter by the cell itself.
-  EXPECT_NEAR(share_in_the_middle(2.0, 3.0, 0.11, -1.0, 0.0), 0.75F, 1e-4F);
-  EXPECT_NEAR(share_in_the_middle(2.0, 3.0, -0.11, 1.0, 0.0), 0.25F, 1e-4F);
-  EXPECT_EQ(share_in_the_middle(2.0, 3.0, -0.11, -1.0, 0.0), 1.F);
-  EXPECT_EQ(share_in_the_middle(2.0, 3.0, 0.11, 1.0, 0.0), 0.F);
-  // On the crest and along the bottom P is 0, and the bend across tells.
-  EXPECT_EQ(share_in_the_middle(2.0, 0.0, -1.0, -0.5, 0.25), 1.F);
-  EXPECT_EQ(share_in_the_middle(-2.0, 0.0, 1.0, 0.5, -0.25), 0.F);
+  EXPECT_NEAR(share_at_centre(2.0, 3.0, 0.11, -1.0, 0.0), 0.75F, 1e-4F);
+  EXPECT_NEAR(share_at_centre(2.0, 3.0, -0.11, 1.0, 0.0), 0.25F, 1e-4F);
+  EXPECT_EQ(share_at_centre(2.0, 3.0, -0.11, -1.0, 0.0), 1.F);
+  EXPECT_EQ(share_at_centre(2.0, 3.0, 0.11, 1.0, 0.0), 0.F);
+  // On the crest and along the bottom P is 0, and the curvature across decides.
+  EXPECT_EQ(share_at_centre(2.0, 0.0, -1.0, -0.5, 0.25), 1.F);
+  EXPECT_EQ(share_at_centre(-2.0, 0.0, 1.0, 0.5, -0.25), 0.F);
 }
 
 }  // namespace

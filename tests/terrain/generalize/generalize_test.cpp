@@ -12,7 +12,7 @@
 #include "base/parallel.h"
 #include "base/pyramid.h"
 #include "tests/base/reconstruct.h"
-#include "tests/terrain/generalize/made_up_relief.h"
+#include "tests/terrain/generalize/synthetic_relief.h"
 
 namespace belvedere {
 namespace {
@@ -29,10 +29,14 @@ Grid<float> equation_two(const Grid<float>& altitude_m, const std::vector<float>
   return test::reconstruct(pyramid);
 }
 
-Grid<float> generalized(const Grid<float>& altitude_m, const GeneralizeParameters& parameters, const Grid<float>& share = {},
-                        const Grid<unsigned char>& keep = {}) {
+Grid<float> generalized(const Grid<float>& altitude_m, const GeneralizeParameters& parameters,
+                        const Grid<float>& share = {}, const Grid<unsigned char>& keep = {}) {
   return belvedere::generalize(altitude_m, {30.0, 30.0},
-                               {.foreground_share = share, .keep = keep, .mask = {}, .amplification_mask = {}, .pixel_ground = {}},
+                               {.foreground_share = share,
+                                .keep = keep,
+                                .mask = {},
+                                .amplification_mask = {},
+                                .pixel_ground = {}},
                                parameters, silent_progress());
 }
 
@@ -51,7 +55,9 @@ TEST(Generalize, EqualsEquationTwoForAnySize) {
   const std::vector<float> weights = {1.F, 1.F, 2.F, .25F, 0.F};  // figure 2 of the paper
   for (const auto& [width, height] : {std::pair{256, 256}, std::pair{133, 90}, std::pair{37, 61}}) {
     const Grid<float> terrain = alpine(width, height);
-    EXPECT_LE(largest_difference(generalized(terrain, {weights, weights, 0.F}), equation_two(terrain, weights)), 2e-3);
+    EXPECT_LE(largest_difference(generalized(terrain, {weights, weights, 0.F}),
+                                 equation_two(terrain, weights)),
+              2e-3);
   }
 }
 
@@ -61,7 +67,9 @@ TEST(Generalize, TheFirstWeightIsTheCoarsestBand) {
   for (int y = 0; y < 128; ++y) {
     for (int x = 0; x < 128; ++x) noise(x, y) = (x + y) % 2 == 0 ? 10.F : -10.F;
   }
-  const auto largest = [](const Grid<float>& g) { return *std::max_element(g.begin() + 64 * 60, g.begin() + 64 * 70); };
+  const auto largest = [](const Grid<float>& g) {
+    return *std::max_element(g.begin() + 64 * 60, g.begin() + 64 * 70);
+  };
   EXPECT_NEAR(largest(generalized(noise, {{1, 1, 1, 0}, {1, 1, 1, 0}, 0.F})), 0.F, 0.5F);
   EXPECT_NEAR(largest(generalized(noise, {{0, 1, 1, 1}, {0, 1, 1, 1}, 0.F})), 10.F, 0.5F);
 }
@@ -69,7 +77,9 @@ TEST(Generalize, TheFirstWeightIsTheCoarsestBand) {
 TEST(Generalize, SmallDemsGoWithoutTheCoarsestBands) {
   const Grid<float> terrain = alpine(6, 5);  // two bands at most
   const std::vector<float> weights = {9.F, 9.F, 9.F, 9.F, .5F, 0.F};
-  EXPECT_LE(largest_difference(generalized(terrain, {weights, weights, 0.F}), equation_two(terrain, {.5F, 0.F})), 1e-3);
+  EXPECT_LE(largest_difference(generalized(terrain, {weights, weights, 0.F}),
+                               equation_two(terrain, {.5F, 0.F})),
+            1e-3);
   EXPECT_EQ(generalized(Grid<float>(1, 1, 7.F), {weights, weights, 1.F})(0, 0), 7.F);
 }
 
@@ -77,13 +87,19 @@ TEST(Generalize, ForegroundShareMixesTheWeights) {
   const Grid<float> terrain = alpine(160, 120);
   const std::vector<float> fore = {1.2F, 1.2F, 1.1F, 1.F};
   const std::vector<float> back = {1.5F, 1.F, .3F, 0.F};
-  const std::vector<float> middle = {1.35F, 1.1F, .7F, .5F};
+  const std::vector<float> centre = {1.35F, 1.1F, .7F, .5F};
   const GeneralizeParameters parameters{fore, back, 0.F};
   const Grid<float> near = equation_two(terrain, fore);
-  EXPECT_LE(largest_difference(generalized(terrain, parameters), near), 2e-3);  // no share: all foreground
-  EXPECT_LE(largest_difference(generalized(terrain, parameters, Grid<float>(160, 120, 1.F)), near), 2e-3);
-  EXPECT_LE(largest_difference(generalized(terrain, parameters, Grid<float>(160, 120, 0.F)), equation_two(terrain, back)), 2e-3);
-  EXPECT_LE(largest_difference(generalized(terrain, parameters, Grid<float>(160, 120, .5F)), equation_two(terrain, middle)), 2e-3);
+  EXPECT_LE(largest_difference(generalized(terrain, parameters), near),
+            2e-3);  // no share: all foreground
+  EXPECT_LE(largest_difference(generalized(terrain, parameters, Grid<float>(160, 120, 1.F)), near),
+            2e-3);
+  EXPECT_LE(largest_difference(generalized(terrain, parameters, Grid<float>(160, 120, 0.F)),
+                               equation_two(terrain, back)),
+            2e-3);
+  EXPECT_LE(largest_difference(generalized(terrain, parameters, Grid<float>(160, 120, .5F)),
+                               equation_two(terrain, centre)),
+            2e-3);
 }
 
 TEST(Generalize, ShareThatChangesAlongTheViewLeavesNoSeam) {
@@ -108,9 +124,11 @@ TEST(Generalize, ShareThatChangesAlongTheViewLeavesNoSeam) {
 TEST(Generalize, RampStaysARamp) {
   Grid<float> ramp(90, 70);
   for (int y = 0; y < 70; ++y) {
-    for (int x = 0; x < 90; ++x) ramp(x, y) = 500.F + 10.F * static_cast<float>(x) + 4.F * static_cast<float>(y);
+    for (int x = 0; x < 90; ++x)
+      ramp(x, y) = 500.F + 10.F * static_cast<float>(x) + 4.F * static_cast<float>(y);
   }
-  EXPECT_LE(largest_difference(generalized(ramp, {{2, 0, 5, 0, 3}, {2, 0, 5, 0, 3}, 0.F}), ramp), 1e-2);
+  EXPECT_LE(largest_difference(generalized(ramp, {{2, 0, 5, 0, 3}, {2, 0, 5, 0, 3}, 0.F}), ramp),
+            1e-2);
 }
 
 // A lake of 40 × 30 cells at 800 m in steep country, whose bands are amplified.
@@ -142,28 +160,32 @@ TEST(Generalize, NoStepStandsAtTheShore) {
   const LakeCase c;
   const Grid<float> out = generalized(c.terrain, c.parameters, {}, c.keep);
   const Grid<float> free = generalized(c.terrain, c.parameters);
-  // The step that the change D = A' - A makes from the last lake cell to the first shore cell, along the whole shore.
+  // The step of the change D = A' - A from the last lake cell to the first shore cell, along the
+  // whole shore.
   double step = 0.0;
   double naive_step = 0.0;
   for (int x = 60; x < 100; ++x) {
     for (const int y : {59, 90}) {
       step += std::abs(static_cast<double>(out(x, y)) - c.terrain(x, y));
-      naive_step += std::abs(static_cast<double>(free(x, y)) - c.terrain(x, y));  // keeping lake cells and nothing else
+      naive_step += std::abs(static_cast<double>(free(x, y)) -
+                             c.terrain(x, y));  // keeping lake cells and nothing else
     }
   }
   EXPECT_LE(step, 0.1 * naive_step);
-  // Far from the lake nothing of it is felt.
+  // Far from the lake it has no effect.
   EXPECT_NEAR(out(3, 3), free(3, 3), 1.0);
 }
 
 TEST(Generalize, LakesAreNotLeftOnATable) {
-  // A broad valley with a lake 12 cells wide on its level floor. Amplified coarse bands lower the floor far; the lake stays,
-  // so the floor must come up to it, over many cells.
+  // A broad valley with a lake 12 cells wide on its level floor. Amplified coarse bands lower the
+  // floor far; the lake stays, so the floor must come up to it, over many cells.
   Grid<float> valley(200, 200);
   Grid<unsigned char> keep(200, 200);
   for (int y = 0; y < 200; ++y) {
     for (int x = 0; x < 200; ++x) {
-      valley(x, y) = 600.F + 800.F * std::clamp((static_cast<float>(std::abs(x - 100)) - 25.F) / 40.F, 0.F, 1.F);
+      valley(x, y) =
+          600.F +
+          800.F * std::clamp((static_cast<float>(std::abs(x - 100)) - 25.F) / 40.F, 0.F, 1.F);
       keep(x, y) = std::abs(x - 100) < 6 && std::abs(y - 100) < 20;
     }
   }
@@ -172,7 +194,9 @@ TEST(Generalize, LakesAreNotLeftOnATable) {
   EXPECT_GT(sinking, 100.0);
   const Grid<float> out = generalized(valley, parameters, {}, keep);
   double steepest = 0.0;
-  for (int i = 0; i < 60; ++i) steepest = std::max(steepest, std::abs(static_cast<double>(out(100, 119 + i)) - out(100, 120 + i)));
+  for (int i = 0; i < 60; ++i)
+    steepest =
+        std::max(steepest, std::abs(static_cast<double>(out(100, 119 + i)) - out(100, 120 + i)));
   EXPECT_LT(steepest, 0.055 * sinking);  // a cell; evenly over 32 cells it were .031
 }
 
@@ -181,7 +205,8 @@ TEST(Generalize, CrestsRiseWhereTheyAreHighOnly) {
   const auto roof = [](float ground) {
     Grid<float> grid(96, 96);
     for (int y = 0; y < 96; ++y) {
-      for (int x = 0; x < 96; ++x) grid(x, y) = ground + std::max(0.F, 200.F - 20.F * static_cast<float>(std::abs(x - 48)));
+      for (int x = 0; x < 96; ++x)
+        grid(x, y) = ground + std::max(0.F, 200.F - 20.F * static_cast<float>(std::abs(x - 48)));
     }
     return grid;
   };
@@ -194,7 +219,7 @@ TEST(Generalize, CrestsRiseWhereTheyAreHighOnly) {
   EXPECT_GT(sharp(48, 48) - high(48, 48), 10.F);
   EXPECT_LE(sharp(48, 48) - high(48, 48), .9F * 60.F);
   EXPECT_NEAR(sharp(5, 48), high(5, 48), 0.5F);
-  // Far off it is a fifth less.
+  // In the distance it is a fifth less.
   const Grid<float> far = generalized(high, parameters, Grid<float>(96, 96, 0.F));
   EXPECT_NEAR(far(48, 48) - high(48, 48), .8F * (sharp(48, 48) - high(48, 48)), 1e-2F);
 }
@@ -218,12 +243,13 @@ TEST(Generalize, CrestEqualsItsFormula) {
   const Grid<float> ground = keep_bands({0, 0, 0, 0, 1, 1}, true);
   Grid<float> expected = terrain;
   for (std::size_t i = 0; i < expected.size(); ++i) {
-    expected[i] += 1.5F * std::clamp((ground[i] - 1200.F) / 700.F, 0.F, 1.F) * std::clamp(detail[i], 0.F, 60.F);
+    expected[i] += 1.5F * std::clamp((ground[i] - 1200.F) / 700.F, 0.F, 1.F) *
+                   std::clamp(detail[i], 0.F, 60.F);
   }
   EXPECT_LE(largest_difference(out, expected), 5e-3);
 }
 
-// The parts of a DEM that is larger than memory are generalized apart, at several sizes of cells.
+// The parts of a DEM that is larger than memory are generalized separately, at several cell sizes.
 TEST(Generalize, AHalvedDemGetsWhatTheWholeGetsInItsBands) {
   const Grid<float> terrain = alpine(129, 111);
   GeneralizeParameters parameters;
@@ -240,7 +266,7 @@ TEST(Generalize, AHalvedDemGetsWhatTheWholeGetsInItsBands) {
   for (std::size_t i = 0; i < expected.size(); ++i) expected[i] += terrain[i];
   EXPECT_LE(largest_difference(whole, expected), 2e-3);
   EXPECT_GT(largest_difference(whole, terrain), 5.0);
-  // Halved so often that no band is left.
+  // Halved so often that no band remains.
   parameters.finest_band = 5;
   EXPECT_EQ(generalize(half, {60.0, 60.0}, {}, parameters, silent_progress()), half);
 }
@@ -266,7 +292,8 @@ TEST(Generalize, CrestsOfAHalvedDemAreMadeOfTheBandsItHas) {
     const Grid<float> low = test::reconstruct(ground);
     Grid<float> expected = terrain;
     for (std::size_t i = 0; i < expected.size(); ++i)
-      expected[i] += 1.5F * std::clamp((low[i] - 1200.F) / 700.F, 0.F, 1.F) * std::clamp(fine[i], 0.F, 60.F);
+      expected[i] +=
+          1.5F * std::clamp((low[i] - 1200.F) / 700.F, 0.F, 1.F) * std::clamp(fine[i], 0.F, 60.F);
     EXPECT_LE(largest_difference(out, expected), 5e-3) << halved;
   }
 }
@@ -280,7 +307,8 @@ TEST(Generalize, SaysWhatIsWrong) {
 TEST(Generalize, SameBitsForAnyThreadCount) {
   const LakeCase c;
   Grid<float> share(160, 160);
-  for (std::size_t i = 0; i < share.size(); ++i) share[i] = static_cast<float>(i) / static_cast<float>(share.size());
+  for (std::size_t i = 0; i < share.size(); ++i)
+    share[i] = static_cast<float>(i) / static_cast<float>(share.size());
   const auto run = [&](int threads) {
     const ThreadLimit limit(threads);
     return generalized(c.terrain, c.parameters, share, c.keep);

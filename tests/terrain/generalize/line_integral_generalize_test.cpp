@@ -9,7 +9,7 @@
 #include "base/filter.h"
 #include "base/parallel.h"
 #include "terrain/synthetic/synthetic_noise.h"
-#include "tests/terrain/generalize/made_up_relief.h"
+#include "tests/terrain/generalize/synthetic_relief.h"
 
 namespace belvedere {
 namespace {
@@ -17,21 +17,24 @@ namespace {
 using test::cell_m;
 using test::grid_of;
 
-Grid<float> run_along_lines(const Grid<float>& altitude_m, const LineIntegralParameters& parameters = {}) {
+Grid<float> run_along_lines(const Grid<float>& altitude_m,
+                            const LineIntegralParameters& parameters = {}) {
   return generalize_along_slope_lines(altitude_m, cell_m, parameters, silent_progress());
 }
 
 double largest_difference(const Grid<float>& a, const Grid<float>& b, int margin) {
   double largest = 0.0;
   for (int y = margin; y < a.height() - margin; ++y)
-    for (int x = margin; x < a.width() - margin; ++x) largest = std::max(largest, std::abs(static_cast<double>(a(x, y)) - b(x, y)));
+    for (int x = margin; x < a.width() - margin; ++x)
+      largest = std::max(largest, std::abs(static_cast<double>(a(x, y)) - b(x, y)));
   return largest;
 }
 
 // A roof with a horizontal crest in column 80, 30° steep, and gullies and noise on its sides.
 double roof(int x, int y) {
   const double side = std::abs(x - 80.0);
-  const double detail = std::min(side / 10.0, 1.0) * 25.0 * synthetic::fractal_noise(4, x / 6.0, y / 6.0, 3);
+  const double detail =
+      std::min(side / 10.0, 1.0) * 25.0 * synthetic::fractal_noise(4, x / 6.0, y / 6.0, 3);
   return 2500.0 - side * cell_m * std::tan(0.5235988) + detail;
 }
 
@@ -43,7 +46,7 @@ double roughness(const Grid<float>& z, int x0, int x1) {
   return sum;
 }
 
-// How much lower the sides of the crest are than the crest, two cells off.
+// Height of the crest above its sides, two cells away.
 double crest_bend(const Grid<float>& z) {
   double sum = 0.0;
   for (int y = 10; y < z.height() - 10; ++y) sum += 2.0 * z(80, y) - z(78, y) - z(82, y);
@@ -51,11 +54,13 @@ double crest_bend(const Grid<float>& z) {
 }
 
 TEST(LineIntegral, PlanesComeBack) {
-  const Grid<float> plane = grid_of(70, 50, [](int x, int y) { return 900.0 + 11.0 * x - 7.0 * y; });
+  const Grid<float> plane =
+      grid_of(70, 50, [](int x, int y) { return 900.0 + 11.0 * x - 7.0 * y; });
   LineIntegralParameters parameters;
   parameters.detail_cells = 0.F;  // the blur replicates borders, slope lines do not
   const Grid<float> out = run_along_lines(plane, parameters);
-  // A line that runs along the rim and leaves it at a corner knows no slope beyond: the corners alone may differ a little.
+  // A line that runs along the border and leaves it at a corner has no slope beyond: only the
+  // corners may differ slightly.
   EXPECT_LT(largest_difference(out, plane, 1), 0.05);
   EXPECT_LT(largest_difference(run_along_lines(plane), plane, 24), 0.05);
 }
@@ -64,7 +69,7 @@ TEST(LineIntegral, SidesBecomePlainAndTheCrestStaysSharperThanUnderABlur) {
   const Grid<float> terrain = grid_of(161, 120, roof);
   const Grid<float> out = run_along_lines(terrain);
   EXPECT_LT(roughness(out, 20, 70), 0.1 * roughness(terrain, 20, 70));
-  // A Gaussian that leaves as much roughness on the sides is the failing baseline.
+  // A Gaussian that leaves as much roughness on the sides is the baseline to beat.
   double sigma = 0.5;
   while (roughness(gaussian_blur(terrain, sigma), 20, 70) > roughness(out, 20, 70)) sigma += 0.25;
   EXPECT_GT(crest_bend(out), 1.5 * crest_bend(gaussian_blur(terrain, sigma)));
@@ -76,11 +81,13 @@ TEST(LineIntegral, SharpnessOfRidgesIsAParameter) {
   blunt.ridge_sharpness = 0.F;
   LineIntegralParameters sharp;
   sharp.ridge_sharpness = 1.F;
-  EXPECT_GT(crest_bend(run_along_lines(terrain, sharp)), crest_bend(run_along_lines(terrain, blunt)));
+  EXPECT_GT(crest_bend(run_along_lines(terrain, sharp)),
+            crest_bend(run_along_lines(terrain, blunt)));
 }
 
 TEST(LineIntegral, ALakeStaysLevelUpToTheFootOfItsSlopes) {
-  const Grid<float> terrain = grid_of(120, 80, [](int x, int y) { return x < 60 ? 500.0 : 500.0 + 20.0 * (x - 60) + 0.1 * y; });
+  const Grid<float> terrain = grid_of(
+      120, 80, [](int x, int y) { return x < 60 ? 500.0 : 500.0 + 20.0 * (x - 60) + 0.1 * y; });
   const Grid<float> out = run_along_lines(terrain);
   float highest = 0.F;
   float near_shore = 0.F;

@@ -7,9 +7,9 @@
 #include "terrain/generalize/generalize_presets.h"
 #include "terrain/generalize/generalize_report.h"
 #include "terrain/generalize/mask.h"
-#include "tests/terrain/generalize/made_up_relief.h"
+#include "tests/terrain/generalize/synthetic_relief.h"
 
-// What masks promise, on real ground.
+// Properties of masks on real ground.
 namespace belvedere {
 namespace {
 
@@ -17,12 +17,14 @@ using test::cell_m;
 using test::real_ground;
 using test::run;
 
-// The step of `out` from column x - 1 to x beyond whatever lies between the original ground's step and the generalized ground's, so beyond
-// what the ground itself does there; the mean of all rows, m.
+// The step of `out` from column x - 1 to x beyond the range between the original ground's step and
+// the generalized ground's, so beyond the ground's own steps; the mean of all rows, m.
 double step_at(const Grid<float>& out, const Grid<float>& original, const Grid<float>& all, int x) {
   double sum = 0.0;
   for (int y = 0; y < out.height(); ++y) {
-    const auto step = [&](const Grid<float>& g) { return static_cast<double>(g(x, y)) - g(x - 1, y); };
+    const auto step = [&](const Grid<float>& g) {
+      return static_cast<double>(g(x, y)) - g(x - 1, y);
+    };
     const double low = std::min(step(original), step(all));
     const double high = std::max(step(original), step(all));
     sum += std::max({0.0, low - step(out), step(out) - high});
@@ -45,7 +47,8 @@ TEST(RealMask, AlongTheEdgeOfADrawnMaskNoPresetLeavesASeam) {
       Grid<float> naive = *terrain;
       for (int y = 0; y < naive.height(); ++y) std::copy_n(all.row(y), edge, naive.row(y));
       double worst = 0.0;
-      for (int x = edge - 16; x <= edge + 16; ++x) worst = std::max(worst, step_at(out, *terrain, all, x));
+      for (int x = edge - 16; x <= edge + 16; ++x)
+        worst = std::max(worst, step_at(out, *terrain, all, x));
       EXPECT_LT(worst, 0.1 * step_at(naive, *terrain, all, edge)) << preset.name << ", " << file;
     }
   }
@@ -56,12 +59,16 @@ TEST(RealMask, MasksTakeHollowsOffTheFootOfSlopes) {
     const char* file;
     double by_slope, by_feet;  // of the hollows dug without a mask, what is left at most
   };
-  for (const Case& each : {Case{"lost_river/mackay.tif", 0.2, 0.01}, Case{"big_tujunga/bigtujunga.tif", 0.5, 0.01}}) {
+  for (const Case& each :
+       {Case{"lost_river/mackay.tif", 0.2, 0.01}, Case{"big_tujunga/bigtujunga.tif", 0.5, 0.01}}) {
     const auto terrain = real_ground(each.file);
     if (!terrain) GTEST_SKIP() << "needs " << each.file;
     const GeneralizeParameters bands = find_generalize_preset("figure2")->bands;
-    const Grid<std::uint8_t> feet = slope_feet(*terrain, {cell_m, cell_m}, static_cast<int>(bands.foreground.size()));
-    const auto hollows_m3 = [&](const Grid<float>& ground) { return foot_pits(*terrain, ground, feet, {cell_m, cell_m}).hollows_m3; };
+    const Grid<std::uint8_t> feet =
+        slope_feet(*terrain, {cell_m, cell_m}, static_cast<int>(bands.foreground.size()));
+    const auto hollows_m3 = [&](const Grid<float>& ground) {
+      return foot_pits(*terrain, ground, feet, {cell_m, cell_m}).hollows_m3;
+    };
     const double original = hollows_m3(*terrain);
     const double dug = hollows_m3(run(*terrain, bands)) - original;
     EXPECT_GT(dug, 1e6) << each.file;
@@ -70,8 +77,9 @@ TEST(RealMask, MasksTakeHollowsOffTheFootOfSlopes) {
     EXPECT_LT(hollows_m3(run(*terrain, bands, slope)) - original, each.by_slope * dug) << each.file;
     GeneralizeGrids automatic;
     automatic.amplification_mask = slope_foot_mask(*terrain, {cell_m, cell_m}, 32);
-    EXPECT_LT(hollows_m3(run(*terrain, bands, automatic)) - original, each.by_feet * dug) << each.file;
-    // Steep ground is generalized all the same.
+    EXPECT_LT(hollows_m3(run(*terrain, bands, automatic)) - original, each.by_feet * dug)
+        << each.file;
+    // Steep ground is still generalized.
     double steep = 0.0;
     for (const float m : slope.mask) steep += m;
     EXPECT_GT(steep / static_cast<double>(slope.mask.size()), 0.55) << each.file;

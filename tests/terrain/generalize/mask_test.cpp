@@ -17,16 +17,19 @@ class MaskFile : public RasterFiles {
   // 20 × 12 cells of 30 m.
   const RasterFrame frame_{{500000.0, 5200360.0, 30.0, 30.0}, 20, 12, "EPSG:32632"};
   template <class F>
-  RasterSource mask_of(F&& value, double cell = 30.0, int width = 20, int height = 12, const std::string& nodata = "") const {
+  RasterSource mask_of(F&& value, double cell = 30.0, int width = 20, int height = 12,
+                       const std::string& nodata = "") const {
     write_ascii(
-        "mask.asc", width, height, 500000.0, 5200360.0 - cell * height, cell, [&](int x, int y) { return std::to_string(value(x, y)); },
-        nodata);
+        "mask.asc", width, height, 500000.0, 5200360.0 - cell * height, cell,
+        [&](int x, int y) { return std::to_string(value(x, y)); }, nodata);
     RasterSource source;
     source.path = path("mask.asc");
     source.crs = "EPSG:32632";
     return source;
   }
-  Grid<float> read(const RasterSource& source) const { return read_mask(source, frame_, silent_progress()); }
+  Grid<float> read(const RasterSource& source) const {
+    return read_mask(source, frame_, silent_progress());
+  }
 };
 
 TEST(ClassMask, TakesEachClassAtItsShare) {
@@ -53,49 +56,59 @@ TEST_F(MaskFile, ReadsSharesAndGreyValues) {
 
 TEST_F(MaskFile, WithoutDataIsGeneralized) {
   // Declared voids in the west, and a file that ends after 10 columns.
-  const Grid<float> mask = read(mask_of([](int x, int) { return x < 4 ? -1 : 0; }, 30.0, 10, 12, "-1"));
+  const Grid<float> mask =
+      read(mask_of([](int x, int) { return x < 4 ? -1 : 0; }, 30.0, 10, 12, "-1"));
   EXPECT_EQ(mask(1, 5), 1.F);
   EXPECT_EQ(mask(7, 5), 0.F);
   EXPECT_EQ(mask(15, 5), 1.F);
 }
 
 TEST_F(MaskFile, HardEdgesOnOtherCellsStayInTheirRange) {
-  // Resampling must not carry values below 0 or above 1: then the mask would be refused, or read as one of 0…255.
+  // Resampling must not produce values below 0 or above 1: the mask would be rejected, or read as
+  // one of 0…255.
   for (const double cell : {50.0, 20.0, 7.0}) {
-    for (const double most : {1.0, 255.0}) {
+    for (const double max : {1.0, 255.0}) {
       const int width = static_cast<int>(600.0 / cell) + 1;
       const int height = static_cast<int>(360.0 / cell) + 1;
-      const Grid<float> mask = read(mask_of([&](int x, int) { return x * cell < 300.0 ? most : 0.0; }, cell, width, height));
+      const Grid<float> mask = read(
+          mask_of([&](int x, int) { return x * cell < 300.0 ? max : 0.0; }, cell, width, height));
       for (const float v : mask) {
         ASSERT_GE(v, 0.F);
         ASSERT_LE(v, 1.F);
       }
-      EXPECT_NEAR(mask(4, 6), 1.F, 1e-6F) << cell << ' ' << most;
-      EXPECT_NEAR(mask(16, 6), 0.F, 1e-6F) << cell << ' ' << most;
+      EXPECT_NEAR(mask(4, 6), 1.F, 1e-6F) << cell << ' ' << max;
+      EXPECT_NEAR(mask(16, 6), 0.F, 1e-6F) << cell << ' ' << max;
     }
   }
 }
 
 TEST_F(MaskFile, SaysWhatIsWrong) {
-  const auto message = [&](const RasterSource& source) { return test::message_of(ErrorKind::input, [&] { read(source); }); };
+  const auto message = [&](const RasterSource& source) {
+    return test::message_of(ErrorKind::input, [&] { read(source); });
+  };
   EXPECT_NE(message(mask_of([](int, int) { return 300; })).find("300"), std::string::npos);
-  EXPECT_NE(message(mask_of([](int x, int) { return x == 3 ? -2 : 1; })).find("-2"), std::string::npos);
-  EXPECT_NE(message(mask_of([](int, int) { return -1; }, 30.0, 20, 12, "-1")).find("no data"), std::string::npos);
+  EXPECT_NE(message(mask_of([](int x, int) { return x == 3 ? -2 : 1; })).find("-2"),
+            std::string::npos);
+  EXPECT_NE(
+      message(mask_of([](int, int) { return -1; }, 30.0, 20, 12, "-1")).find("does not cover"),
+      std::string::npos);
 }
 
 TEST_F(MaskFile, SlopeAndDrawnMaskProtectTogether) {
-  // Waves 40 cells long in the east; the west is a plain with small bumps, which the slope index keeps. The mask as drawn keeps the south.
+  // Waves 40 cells long in the east; the west is a plain with small bumps, which the slope mask
+  // keeps. The drawn mask keeps the south.
   const int size = 160;
   Grid<float> terrain(size, size);
   for (int y = 0; y < size; ++y)
     for (int x = 0; x < size; ++x) {
       const double rise = std::clamp((x - 70.0) / 10.0, 0.0, 1.0);
-      terrain(x, y) =
-          static_cast<float>(1000.0 + 0.2 * std::sin(x * 0.9) * std::sin(y * 0.8) + rise * (25.0 * x + 60.0 * std::sin(y * 0.5)));
+      terrain(x, y) = static_cast<float>(1000.0 + 0.2 * std::sin(x * 0.9) * std::sin(y * 0.8) +
+                                         rise * (25.0 * x + 60.0 * std::sin(y * 0.5)));
     }
   RasterFrame frame = frame_;
   frame.width = frame.height = size;
-  const RasterSource source = mask_of([](int, int y) { return y < 80 ? 255 : 0; }, 30.0, size, size);
+  const RasterSource source =
+      mask_of([](int, int y) { return y < 80 ? 255 : 0; }, 30.0, size, size);
   const Grid<float> slope = slope_mask(terrain, {30.0, 30.0}, {});
   const Grid<float> drawn = read_mask(source, frame, silent_progress());
   const auto run = [&](const Grid<float>& mask) {
@@ -111,7 +124,8 @@ TEST_F(MaskFile, SlopeAndDrawnMaskProtectTogether) {
   const auto change = [&](const Grid<float>& out, int x0, int y0) {
     double sum = 0.0;
     for (int y = y0; y < y0 + 40; ++y)
-      for (int x = x0; x < x0 + 40; ++x) sum += std::abs(static_cast<double>(out(x, y)) - terrain(x, y));
+      for (int x = x0; x < x0 + 40; ++x)
+        sum += std::abs(static_cast<double>(out(x, y)) - terrain(x, y));
     return sum / 1600.0;
   };
   const int west = 10, east = 105, north = 15, south = 105;

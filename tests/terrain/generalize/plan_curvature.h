@@ -7,7 +7,8 @@
 
 namespace belvedere::test {
 
-// Plan curvature, 1/m, of a whole grid by the rows that generalize() finds break lines with; cells on the rim are 0.
+// Plan curvature, 1/m, of a whole grid by the rows that generalize() uses for break lines; border
+// cells are 0.
 inline Grid<float> curvature_by_rows(const Grid<float>& altitude_m, double cell_m, bool plan) {
   BreakLineScale scale;
   scale.plan = plan;
@@ -15,8 +16,8 @@ inline Grid<float> curvature_by_rows(const Grid<float>& altitude_m, double cell_
   Grid<float> out(altitude_m.width(), altitude_m.height());
   std::vector<float> row(static_cast<std::size_t>(altitude_m.width()) - 2);
   for (int y = 1; y + 1 < out.height(); ++y) {
-    plan_curvature_row(altitude_m.row(y - 1) + 1, altitude_m.row(y) + 1, altitude_m.row(y + 1) + 1, static_cast<int>(row.size()), scale,
-                       row.data());
+    plan_curvature_row(altitude_m.row(y - 1) + 1, altitude_m.row(y) + 1, altitude_m.row(y + 1) + 1,
+                       static_cast<int>(row.size()), scale, row.data());
     std::copy(row.begin(), row.end(), out.row(y) + 1);
   }
   return out;

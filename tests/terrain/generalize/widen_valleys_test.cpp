@@ -15,15 +15,15 @@
 #include "terrain/io/raster_io.h"
 #include "terrain/shape/hydrology.h"
 #include "tests/paths.h"
-#include "tests/terrain/generalize/made_up_relief.h"
+#include "tests/terrain/generalize/synthetic_relief.h"
 
 namespace belvedere {
 namespace {
 
 using test::cell_m;
 
-// A valley along column 100 that falls to the south, walls of 27°, ridges 1350 m above it in columns 10 and 190; `floor_m` is the
-// half-width of its flat floor.
+// A valley along column 100 that falls to the south, walls of 27°, ridges 1350 m above it in
+// columns 10 and 190; `floor_m` is the half-width of its flat floor.
 Grid<float> make_valley(double floor_m) {
   Grid<float> grid(201, 300);
   for (int y = 0; y < grid.height(); ++y) {
@@ -39,16 +39,18 @@ Grid<float> make_valley(double floor_m) {
 WidenValleysParameters valleys_of(float width_m) {
   WidenValleysParameters parameters;
   parameters.width_m = width_m;
-  parameters.least_catchment_km2 = 4.F;
+  parameters.min_catchment_km2 = 4.F;
   parameters.full_catchment_km2 = 6.F;
   return parameters;
 }
 
-Grid<float> widen(const Grid<float>& altitude_m, const WidenValleysParameters& parameters, const Grid<std::uint8_t>& keep = {}) {
+Grid<float> widen(const Grid<float>& altitude_m, const WidenValleysParameters& parameters,
+                  const Grid<std::uint8_t>& keep = {}) {
   return widen_valleys(altitude_m, keep, cell_m, parameters, silent_progress()).altitude_m;
 }
 
-// Width of the ground lower than `above_m` over the course in this row, m, between the walls' crossings.
+// Width of the ground lower than `above_m` above the centreline in this row, m, between the walls'
+// crossings.
 double width_at(const Grid<float>& z, int row, double above_m) {
   const double level = z(100, row) + above_m;
   const auto crossing = [&](int step) {
@@ -66,14 +68,17 @@ double pit_volume(const Grid<float>& z) {
   return sum;
 }
 
-TEST(WidenValleys, OffReturnsTheInput) { EXPECT_EQ(widen(make_valley(0.0), valleys_of(0.F)), make_valley(0.0)); }
+TEST(WidenValleys, OffReturnsTheInput) {
+  EXPECT_EQ(widen(make_valley(0.0), valleys_of(0.F)), make_valley(0.0));
+}
 
 TEST(WidenValleys, TheFloorGrowsByTheWidthAskedFor) {
   for (const double floor_m : {0.0, 300.0}) {
     const Grid<float> valley = make_valley(floor_m);
     for (const float width_m : {240.F, 480.F}) {
       const Grid<float> out = widen(valley, valleys_of(width_m));
-      EXPECT_NEAR(width_at(out, 200, 40.0) - width_at(valley, 200, 40.0), width_m, 0.1 * width_m) << floor_m;
+      EXPECT_NEAR(width_at(out, 200, 40.0) - width_at(valley, 200, 40.0), width_m, 0.1 * width_m)
+          << floor_m;
       // High on the walls it changes less.
       EXPECT_LT(width_at(out, 200, 900.0) - width_at(valley, 200, 900.0), 0.5 * width_m);
     }
@@ -83,17 +88,18 @@ TEST(WidenValleys, TheFloorGrowsByTheWidthAskedFor) {
 TEST(WidenValleys, RidgesKeepHeightAndPlaceAndWallsHaveNoSteps) {
   const Grid<float> valley = make_valley(0.0);
   const Grid<float> out = widen(valley, valleys_of(480.F));
-  // Away from the mouth, where nobody knows how the valley goes on.
+  // Away from the mouth, where the continuation of the valley is unknown.
   double lost = 0.0;
   for (int y = 60; y < 250; ++y) {
     lost = std::max(lost, static_cast<double>(std::abs(out(10, y) - valley(10, y))));
     EXPECT_EQ(std::max_element(out.row(y), out.row(y) + 100) - out.row(y), 10) << y;
   }
   EXPECT_LT(lost, 2.0);
-  // Walls of 15 m a cell become steeper, no cliffs.
+  // Walls of 15 m per cell become steeper, but not cliffs.
   double steepest = 0.0;
   for (int y = 60; y < 270; ++y)
-    for (int x = 12; x < 100; ++x) steepest = std::max(steepest, static_cast<double>(std::abs(out(x + 1, y) - out(x, y))));
+    for (int x = 12; x < 100; ++x)
+      steepest = std::max(steepest, static_cast<double>(std::abs(out(x + 1, y) - out(x, y))));
   EXPECT_LT(steepest, 1.6 * 15.0);
 }
 
@@ -123,13 +129,14 @@ TEST(WidenValleys, LakesStay) {
   }
 }
 
-// What lies on a lake and at its shores stays with it.
+// Features on a lake and at its shores do not move.
 TEST(WidenValleys, LinesByLakesStay) {
   const Grid<float> valley = make_valley(0.0);
   Grid<std::uint8_t> keep(valley.width(), valley.height());
   for (int y = 140; y < 160; ++y)
     for (int x = 108; x < 116; ++x) keep(x, y) = 1;
-  const Grid<glm::vec2> ways = widen_valleys(valley, keep, 30.0, valleys_of(480.F), silent_progress()).goes_to;
+  const Grid<glm::vec2> ways =
+      widen_valleys(valley, keep, 30.0, valleys_of(480.F), silent_progress()).goes_to;
   EXPECT_GT(ways(112, 80).x, 7.F);
   EXPECT_EQ(ways(112, 150), glm::vec2(0.F));
   EXPECT_LT(glm::length(ways(117, 150)), 0.5F) << "the shore";
@@ -140,10 +147,12 @@ TEST(WidenValleys, EachCellKnowsWhereItsGroundCameFrom) {
   const Grid<float> valley = make_valley(0.0);
   Grid<std::uint8_t> keep(valley.width(), valley.height());
   keep(95, 100) = 1;
-  const WidenedValleys wide = widen_valleys(valley, keep, cell_m, valleys_of(480.F), silent_progress());
+  const WidenedValleys wide =
+      widen_valleys(valley, keep, cell_m, valleys_of(480.F), silent_progress());
   ASSERT_TRUE(wide.came_from.same_size(valley));
   for (int y = 120; y < 240; y += 10) {
-    // What lay on the wall 12 cells beside the course lies 8 cells farther off now, half of 480 m.
+    // Features on the wall 12 cells from the centreline are now 8 cells farther away, half of 480
+    // m.
     for (const int side : {-1, 1}) {
       EXPECT_NEAR(wide.came_from(100 + side * 20, y).x, -side * 8.0, 0.5) << y;
       EXPECT_NEAR(wide.came_from(100 + side * 20, y).y, 0.0, 0.5);
@@ -152,14 +161,16 @@ TEST(WidenValleys, EachCellKnowsWhereItsGroundCameFrom) {
       EXPECT_NEAR(glm::length(wide.came_from(100 + side, y)), 0.0, 0.0);
       EXPECT_NEAR(glm::length(wide.came_from(100 + side * 89, y)), 0.0, 0.1);  // the ridge
     }
-    // On the walls altitude goes along.
+    // On the walls the altitude moves with them.
     for (int x = 115; x < 185; ++x) {
       const glm::vec2 from = glm::vec2(x, y) + wide.came_from(x, y);
-      EXPECT_NEAR(wide.altitude_m(x, y), sample_bilinear(valley, from.x, from.y), 8.0) << x << " " << y;
+      EXPECT_NEAR(wide.altitude_m(x, y), sample_bilinear(valley, from.x, from.y), 8.0)
+          << x << " " << y;
     }
   }
   EXPECT_EQ(wide.came_from(95, 100), glm::vec2(0.F));
-  EXPECT_TRUE(widen_valleys(valley, {}, cell_m, valleys_of(0.F), silent_progress()).came_from.empty());
+  EXPECT_TRUE(
+      widen_valleys(valley, {}, cell_m, valleys_of(0.F), silent_progress()).came_from.empty());
 }
 
 TEST(WidenValleys, OneOrTwoThreadsAndFaults) {
@@ -173,7 +184,7 @@ TEST(WidenValleys, OneOrTwoThreadsAndFaults) {
   EXPECT_THROW(widen(make_valley(0.0), parameters), Error);
   // No catchment is large enough: nothing changes.
   parameters = valleys_of(100.F);
-  parameters.least_catchment_km2 = 9000.F;
+  parameters.min_catchment_km2 = 9000.F;
   parameters.full_catchment_km2 = 10000.F;
   EXPECT_EQ(widen(make_valley(0.0), parameters), make_valley(0.0));
 }
@@ -191,7 +202,8 @@ TEST(WidenValleys, ARealRangeKeepsItsSummitsAndGetsNoPits) {
   parameters.width_m = 400.F;
   const Grid<float> out = widen(part, parameters);
   EXPECT_LE(pit_volume(out), 1.05 * pit_volume(part));
-  EXPECT_NEAR(*std::max_element(out.begin(), out.end()), *std::max_element(part.begin(), part.end()), 1.0);
+  EXPECT_NEAR(*std::max_element(out.begin(), out.end()),
+              *std::max_element(part.begin(), part.end()), 1.0);
   double moved = 0.0;
   for (std::size_t i = 0; i < out.size(); ++i) moved += std::abs(out[i] - part[i]);
   EXPECT_GT(moved / static_cast<double>(out.size()), 1.0);

@@ -13,13 +13,15 @@ Grid<float> wavy_ground(int width, int height) {
   Grid<float> grid(width, height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
-      grid(x, y) = static_cast<float>(900.0 + 37.3 * std::sin(0.7 * x) * std::cos(0.45 * y) + 0.1 * (x * 7 + y));
+      grid(x, y) = static_cast<float>(900.0 + 37.3 * std::sin(0.7 * x) * std::cos(0.45 * y) +
+                                      0.1 * (x * 7 + y));
   return grid;
 }
 
 Grid<float> in_strips(const Grid<float>& grid, int rows, int blocks) {
   BlockMeans means(grid.width(), grid.height(), blocks);
-  for (int y = 0; y < grid.height(); y += rows) means.push(part_of(grid, {0, y, grid.width(), std::min(y + rows, grid.height())}));
+  for (int y = 0; y < grid.height(); y += rows)
+    means.push(part_of(grid, {0, y, grid.width(), std::min(y + rows, grid.height())}));
   return means.means();
 }
 
@@ -32,13 +34,15 @@ TEST(BlockMeans, AreTheMeansOfWholeBlocks) {
   ASSERT_EQ(means.width(), 3);
   ASSERT_EQ(means.height(), 2);
   for (int y = 0; y < 2; ++y)
-    for (int x = 0; x < 3; ++x) EXPECT_EQ(means(x, y), static_cast<float>(100 * (3 * y + 1) + 3 * x + 1));
+    for (int x = 0; x < 3; ++x)
+      EXPECT_EQ(means(x, y), static_cast<float>(100 * (3 * y + 1) + 3 * x + 1));
 }
 
 TEST(BlockMeans, AreTheSameHoweverTheRowsCome) {
   const Grid<float> grid = wavy_ground(215, 101);
   const Grid<float> whole = in_strips(grid, 101, 40);
-  for (const int rows : {1, 5, 6, 7, 50}) EXPECT_EQ(in_strips(grid, rows, 40), whole) << rows << " rows at once";
+  for (const int rows : {1, 5, 6, 7, 50})
+    EXPECT_EQ(in_strips(grid, rows, 40), whole) << rows << " rows at once";
 }
 
 TEST(BlockMeans, VoidsTakeNoPart) {

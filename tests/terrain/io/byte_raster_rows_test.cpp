@@ -12,7 +12,8 @@ namespace belvedere {
 namespace {
 
 ByteRasterLayout layout(int bands) {
-  ByteRasterLayout made{.frame = {{1000.0, 2000.0, 5.0, 4.0}, 300, 550, normalize_crs("EPSG:32632")}};
+  ByteRasterLayout made{
+      .frame = {{1000.0, 2000.0, 5.0, 4.0}, 300, 550, normalize_crs("EPSG:32632")}};
   for (int i = 0; i < bands; ++i) made.bands.push_back({"band " + std::to_string(i), 1.0});
   return made;
 }

@@ -14,9 +14,10 @@
 namespace belvedere {
 namespace {
 
-// Values that no smoothing makes equal by chance.
+// Values that smoothing does not make equal by chance.
 float rough_value(int x, int y) {
-  return static_cast<float>(900.0 + 37.0 * std::sin(0.7 * x) * std::cos(0.45 * y) + 3.0 * ((x * 7 + y * 13) % 11));
+  return static_cast<float>(900.0 + 37.0 * std::sin(0.7 * x) * std::cos(0.45 * y) +
+                            3.0 * ((x * 7 + y * 13) % 11));
 }
 
 Grid<float> rough_grid(int width, int height) {
@@ -31,19 +32,22 @@ Grid<float> reduce_in_strips(const Grid<float>& grid, int rows) {
   Grid<float> out((grid.width() + 1) / 2, (grid.height() + 1) / 2);
   int made = 0;
   for (int y = 0; y < grid.height(); y += rows) {
-    const Grid<float> part = reducer.push(part_of(grid, {0, y, grid.width(), std::min(y + rows, grid.height())}));
-    for (int row = 0; row < part.height(); ++row, ++made) std::copy_n(part.row(row), part.width(), out.row(made));
+    const Grid<float> part =
+        reducer.push(part_of(grid, {0, y, grid.width(), std::min(y + rows, grid.height())}));
+    for (int row = 0; row < part.height(); ++row, ++made)
+      std::copy_n(part.row(row), part.width(), out.row(made));
   }
   EXPECT_EQ(made, out.height());
   return out;
 }
 
 TEST(DemRowReducer, EqualsReduceHoweverTheRowsCome) {
-  for (const glm::ivec2 size :
-       {glm::ivec2(1, 1), glm::ivec2(2, 2), glm::ivec2(3, 5), glm::ivec2(6, 4), glm::ivec2(37, 52), glm::ivec2(40, 41)})
+  for (const glm::ivec2 size : {glm::ivec2(1, 1), glm::ivec2(2, 2), glm::ivec2(3, 5),
+                                glm::ivec2(6, 4), glm::ivec2(37, 52), glm::ivec2(40, 41)})
     for (const int rows : {1, 2, 3, 7, 100}) {
       const Grid<float> grid = rough_grid(size.x, size.y);
-      EXPECT_EQ(reduce_in_strips(grid, rows), reduce(grid)) << size.x << " × " << size.y << ", " << rows << " rows at once";
+      EXPECT_EQ(reduce_in_strips(grid, rows), reduce(grid))
+          << size.x << " × " << size.y << ", " << rows << " rows at once";
     }
 }
 
@@ -54,7 +58,8 @@ TEST(DemRowReducer, VoidsTakeNoPart) {
   const Grid<float> half = reduce_in_strips(level, 5);
   for (int y = 0; y < 10; ++y)
     for (int x = 0; x < 10; ++x) {
-      const bool deep = x >= 4 && x <= 5 && y >= 4 && y <= 5;  // no known cell under the kernel, or few
+      const bool deep =
+          x >= 4 && x <= 5 && y >= 4 && y <= 5;  // no known cell under the kernel, or few
       if (deep)
         EXPECT_TRUE(std::isnan(half(x, y))) << x << ' ' << y;
       else if (!std::isnan(half(x, y)))
@@ -77,7 +82,8 @@ class DemLevelsTest : public RasterFiles {
     DemParameters parameters;
     parameters.sources.resize(1);
     parameters.sources[0].path =
-        write_ascii("rough.asc", width, height, 600000, 5200000, 30, [](int x, int y) { return std::to_string(rough_value(x, y)); });
+        write_ascii("rough.asc", width, height, 600000, 5200000, 30,
+                    [](int x, int y) { return std::to_string(rough_value(x, y)); });
     parameters.sources[0].crs = "EPSG:32632";
     return parameters;
   }
@@ -86,7 +92,8 @@ class DemLevelsTest : public RasterFiles {
 TEST_F(DemLevelsTest, WindowsAreThoseOfTheWholePyramid) {
   const DemParameters parameters = rough_file(150, 131);
   const RasterFrame frame = choose_frame(parameters.sources, "", 0.0, {});
-  std::vector<Grid<float>> pyramid = {warp_rasters(parameters.sources, frame, silent_progress()).cells};
+  std::vector<Grid<float>> pyramid = {
+      warp_rasters(parameters.sources, frame, silent_progress()).cells};
   for (int level = 1; level <= 3; ++level) pyramid.push_back(reduce(pyramid.back()));
   for (const double kept : {0.0, 1e9}) {
     DemLevels levels(parameters, frame, 3, kept, silent_progress());
@@ -95,21 +102,24 @@ TEST_F(DemLevelsTest, WindowsAreThoseOfTheWholePyramid) {
     EXPECT_EQ(whole.halved, 3);
     for (int level = 0; level <= 3; ++level) {
       const Grid<float>& all = pyramid[static_cast<std::size_t>(level)];
-      const PixelRect rects[] = {
-          {0, 0, all.width(), all.height()}, {5, 3, 17, 9}, {all.width() - 7, all.height() - 6, all.width(), all.height()}};
+      const PixelRect rects[] = {{0, 0, all.width(), all.height()},
+                                 {5, 3, 17, 9},
+                                 {all.width() - 7, all.height() - 6, all.width(), all.height()}};
       for (const PixelRect& rect : rects)
-        EXPECT_EQ(levels.window(level, rect, whole).altitude_m, part_of(all, rect)) << "level " << level << ", kept " << kept;
+        EXPECT_EQ(levels.window(level, rect, whole).altitude_m, part_of(all, rect))
+            << "level " << level << ", kept " << kept;
     }
   }
 }
 
 TEST_F(DemLevelsTest, CellsLieWhereTheirGroundIs) {
-  // A ramp is its own mean: at every level the altitude is that of the cell's middle.
+  // A ramp is its own mean: at every level the altitude is that of the cell's centre.
   DemParameters parameters;
   parameters.sources.resize(1);
   parameters.sources[0].crs = "EPSG:32632";
-  parameters.sources[0].path = write_ascii("ramp.asc", 90, 70, 600000, 5200000, 30,
-                                           [](int x, int y) { return std::to_string(1000.0 + 4.0 * (x + 0.5) - 2.0 * (y + 0.5)); });
+  parameters.sources[0].path = write_ascii(
+      "ramp.asc", 90, 70, 600000, 5200000, 30,
+      [](int x, int y) { return std::to_string(1000.0 + 4.0 * (x + 0.5) - 2.0 * (y + 0.5)); });
   const RasterFrame frame = choose_frame(parameters.sources, "", 0.0, {});
   DemLevels levels(parameters, frame, 2, 0.0, silent_progress());
   const Dem whole = levels.whole();
@@ -117,8 +127,9 @@ TEST_F(DemLevelsTest, CellsLieWhereTheirGroundIs) {
     const Dem window = levels.window(level, {4, 6, 16, 15}, whole);
     for (int y = 0; y < window.height(); ++y)
       for (int x = 0; x < window.width(); ++x) {
-        const glm::dvec2 place = window.transform.to_crs(x, y);
-        const double expected = 1000.0 + 4.0 * (place.x - 600000.0) / 30.0 - 2.0 * (5200000.0 + 70.0 * 30.0 - place.y) / 30.0;
+        const glm::dvec2 position = window.transform.to_crs(x, y);
+        const double expected = 1000.0 + 4.0 * (position.x - 600000.0) / 30.0 -
+                                2.0 * (5200000.0 + 70.0 * 30.0 - position.y) / 30.0;
         EXPECT_NEAR(window.altitude_m(x, y), expected, 2e-3) << "level " << level;
       }
   }
@@ -131,12 +142,15 @@ TEST_F(DemLevelsTest, VoidsOfAWindowAreFilledAsTheWholeIs) {
   parameters.sources[0].nodata = -9999;
   parameters.sources[0].path = write_ascii(
       "holes.asc", 120, 120, 600000, 5200000, 30,
-      [](int x, int y) { return x >= 40 && x < 70 && y >= 50 && y < 80 ? std::string("-9999") : std::to_string(1000.0 + 5.0 * x); },
+      [](int x, int y) {
+        return x >= 40 && x < 70 && y >= 50 && y < 80 ? std::string("-9999")
+                                                      : std::to_string(1000.0 + 5.0 * x);
+      },
       "-9999");
   const RasterFrame frame = choose_frame(parameters.sources, "", 0.0, {});
   DemLevels levels(parameters, frame, 2, 0.0, silent_progress());
   const Dem whole = levels.whole();
-  // Wholly within the void, where no rim is known.
+  // Entirely within the void, without a known border.
   const Dem inside = levels.window(0, {50, 60, 60, 70}, whole);
   for (int y = 0; y < 10; ++y)
     for (int x = 0; x < 10; ++x) {
@@ -153,7 +167,8 @@ TEST_F(DemLevelsTest, RasterWindowsHaveTheBitsOfTheWholeAlsoReprojected) {
   RasterFrame frame = choose_frame(parameters.sources, "EPSG:32633", 41.0, {});
   const Grid<float> whole = warp_rasters(parameters.sources, frame, silent_progress()).cells;
   RasterWindows windows(parameters.sources, frame);
-  for (const PixelRect& rect : {PixelRect{0, 0, frame.width, frame.height}, PixelRect{13, 29, 70, 64}, PixelRect{50, 40, 51, 41}}) {
+  for (const PixelRect& rect : {PixelRect{0, 0, frame.width, frame.height},
+                                PixelRect{13, 29, 70, 64}, PixelRect{50, 40, 51, 41}}) {
     const Grid<float> part = windows.read(rect);
     for (int y = 0; y < part.height(); ++y)
       for (int x = 0; x < part.width(); ++x) {

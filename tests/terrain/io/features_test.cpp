@@ -32,7 +32,8 @@ class MapFeatureFiles : public RasterFiles {
 };
 
 TEST_F(MapFeatureFiles, PointsLinesAndAreasWithWhatIsSaidOfThem) {
-  const MapFeatures read = read_map_features(mixed(), {.layer = {}, .where = {}, .columns = {"KIND", "width"}}, utm_);
+  const MapFeatures read =
+      read_map_features(mixed(), {.layer = {}, .where = {}, .columns = {"KIND", "width"}}, utm_);
   EXPECT_EQ(read.read, 5U);
   EXPECT_EQ(read.without_shape, 2U) << "no geometry, and a line of one place";
   ASSERT_EQ(read.features.size(), 4U) << "two parts of a line are two lines";
@@ -45,30 +46,40 @@ TEST_F(MapFeatureFiles, PointsLinesAndAreasWithWhatIsSaidOfThem) {
   EXPECT_EQ(read.features[2].parts[0].size(), 3U) << "without the closing place";
   EXPECT_THAT(read.features[2].values, ElementsAre("lake", ""));
   EXPECT_EQ(read.features[3].shape, MapShape::point);
-  EXPECT_LT(glm::length(read.features[3].parts[0][0] - transform_point("EPSG:4326", utm_, {11.0, 47.0})), 1e-3);
+  EXPECT_LT(
+      glm::length(read.features[3].parts[0][0] - transform_point("EPSG:4326", utm_, {11.0, 47.0})),
+      1e-3);
 }
 
 TEST_F(MapFeatureFiles, OnlyWhatTheFilterAsksFor) {
-  const MapFeatures read = read_map_features(mixed(), {.layer = {}, .where = "kind = 'road' AND width > 5", .columns = {}}, utm_);
+  const MapFeatures read = read_map_features(
+      mixed(), {.layer = {}, .where = "kind = 'road' AND width > 5", .columns = {}}, utm_);
   EXPECT_EQ(read.read, 1U);
   EXPECT_EQ(read.features.size(), 2U);
-  EXPECT_TRUE(read_map_features(mixed(), {.layer = {}, .where = "kind = 'sea'", .columns = {}}, utm_).features.empty());
+  EXPECT_TRUE(
+      read_map_features(mixed(), {.layer = {}, .where = "kind = 'sea'", .columns = {}}, utm_)
+          .features.empty());
 }
 
 TEST_F(MapFeatureFiles, TracksOfGpxAndNotTheirPlacesOnceMore) {
-  const std::string file =
-      write_text("tour.gpx", R"(<?xml version="1.0"?><gpx version="1.1" creator="test" xmlns="http://www.topografix.com/GPX/1/1">
+  const std::string file = write_text(
+      "tour.gpx",
+      R"(<?xml version="1.0"?><gpx version="1.1" creator="test" xmlns="http://www.topografix.com/GPX/1/1">
 <wpt lat="47.0" lon="11.0"><name>hut</name></wpt>
 <trk><name>back</name><trkseg><trkpt lat="47.2" lon="11.2"/><trkpt lat="47.1" lon="11.3"/><trkpt lat="47.0" lon="11.4"/></trkseg></trk></gpx>)");
   const MapFeatures read = read_map_features(file, {}, utm_);
   ASSERT_EQ(read.features.size(), 2U);
   EXPECT_EQ(read.features[0].shape, MapShape::point);
   EXPECT_EQ(read.features[1].parts[0].size(), 3U);
-  EXPECT_EQ(read_map_features(file, {.layer = "track_points", .where = {}, .columns = {}}, utm_).features.size(), 3U) << "where asked for";
+  EXPECT_EQ(read_map_features(file, {.layer = "track_points", .where = {}, .columns = {}}, utm_)
+                .features.size(),
+            3U)
+      << "where asked for";
 }
 
 TEST_F(MapFeatureFiles, PlacesThatTheSystemDoesNotHaveAreCountedAndTheirFeaturesLeftOutWhole) {
-  const std::string file = write_text("poles.geojson", R"({"type": "FeatureCollection", "features": [
+  const std::string file =
+      write_text("poles.geojson", R"({"type": "FeatureCollection", "features": [
 {"type": "Feature", "properties": {}, "geometry": {"type": "LineString", "coordinates": [[11, 47], [11, 5000]]}},
 {"type": "Feature", "properties": {}, "geometry": {"type": "LineString", "coordinates": [[11, 47], [11, 48]]}}]})");
   const MapFeatures read = read_map_features(file, {}, utm_);
@@ -86,8 +97,9 @@ TEST_F(MapFeatureFiles, WhatLiesBesideTheBoxIsCountedAndLetGo) {
   EXPECT_EQ(read.features[0].parts[0].size(), 3U);
   EXPECT_EQ(read.beside, 3U);
   EXPECT_LT(read.extent.low.x, low.x) << "of all, beside the box as well";
-  // One that only runs through it lies in it.
-  const std::string through = write_text("through.geojson", R"({"type": "FeatureCollection", "features": [
+  // A line that only passes through the box lies in it.
+  const std::string through =
+      write_text("through.geojson", R"({"type": "FeatureCollection", "features": [
 {"type": "Feature", "properties": {}, "geometry": {"type": "LineString", "coordinates": [[10, 47], [12, 47]]}}]})");
   EXPECT_EQ(read_map_features(through, {.box = MapBox{low, high}}, utm_).features.size(), 1U);
 }
@@ -102,29 +114,37 @@ TEST_F(MapFeatureFiles, PlacesAtZeroAreNobodysPlaces) {
 }
 
 TEST_F(MapFeatureFiles, OpenStreetMapsOwnFormat) {
-  const std::string file = write_text("region.osm", R"(<?xml version="1.0" encoding="UTF-8"?><osm version="0.6">
+  const std::string file =
+      write_text("region.osm", R"(<?xml version="1.0" encoding="UTF-8"?><osm version="0.6">
 <node id="1" lat="47.0" lon="11.0" version="1"/><node id="2" lat="47.0" lon="11.1" version="1"/><node id="3" lat="47.1" lon="11.1" version="1"/>
 <node id="4" lat="47.05" lon="11.05" version="1"><tag k="place" v="village"/><tag k="name" v="Dorf"/></node>
 <way id="10" version="1"><nd ref="1"/><nd ref="2"/><nd ref="3"/><tag k="waterway" v="river"/><tag k="name" v="Ache"/></way>
 <way id="11" version="1"><nd ref="1"/><nd ref="2"/><nd ref="3"/><nd ref="1"/><tag k="natural" v="water"/></way>
 </osm>)");
-  const MapFeatures rivers = read_map_features(file, {.where = "waterway = 'river'", .columns = {"waterway"}}, utm_);
+  const MapFeatures rivers =
+      read_map_features(file, {.where = "waterway = 'river'", .columns = {"waterway"}}, utm_);
   ASSERT_EQ(rivers.features.size(), 1U);
   EXPECT_EQ(rivers.features[0].shape, MapShape::line);
   EXPECT_THAT(rivers.features[0].values, ElementsAre("river"));
-  const MapFeatures waters = read_map_features(file, {.layer = "multipolygons", .columns = {"natural"}}, utm_);
+  const MapFeatures waters =
+      read_map_features(file, {.layer = "multipolygons", .columns = {"natural"}}, utm_);
   ASSERT_EQ(waters.features.size(), 1U);
   EXPECT_EQ(waters.features[0].shape, MapShape::area);
   EXPECT_THAT(waters.features[0].values, ElementsAre("water"));
   EXPECT_EQ(read_map_features(file, {}, utm_).features.size(), 3U) << "layers that the file mixes";
-  EXPECT_THAT(message_of(ErrorKind::input, [&] { read_map_features(write_text("broken.osm.pbf", "no such thing"), {}, utm_); }),
-              HasSubstr("broken.osm.pbf"));
+  EXPECT_THAT(
+      message_of(
+          ErrorKind::input,
+          [&] { read_map_features(write_text("broken.osm.pbf", "no such thing"), {}, utm_); }),
+      HasSubstr("broken.osm.pbf"));
 }
 
-// The same region as XML and as PBF, which another program made of it.
+// The same region as XML and as PBF, converted by another program.
 TEST_F(MapFeatureFiles, OpenStreetMapsBinaryFormatHoldsTheSame) {
-  if (std::system("command -v osmium > /dev/null") != 0) GTEST_SKIP() << "needs the program osmium (osmium-tool)";
-  const std::string xml = write_text("country.osm", R"(<?xml version="1.0" encoding="UTF-8"?><osm version="0.6" generator="test">
+  if (std::system("command -v osmium > /dev/null") != 0)
+    GTEST_SKIP() << "needs the program osmium (osmium-tool)";
+  const std::string xml = write_text(
+      "country.osm", R"(<?xml version="1.0" encoding="UTF-8"?><osm version="0.6" generator="test">
 <node id="1" lat="47.0" lon="11.0" version="1"/><node id="2" lat="47.0" lon="11.1" version="1"/><node id="3" lat="47.1" lon="11.1" version="1"/>
 <node id="4" lat="47.05" lon="11.05" version="1"><tag k="place" v="village"/><tag k="name" v="Dorf"/><tag k="population" v="812"/></node>
 <node id="5" lat="47.04" lon="11.07" version="1"/><node id="6" lat="47.04" lon="11.08" version="1"/><node id="7" lat="47.05" lon="11.08" version="1"/>
@@ -136,8 +156,11 @@ TEST_F(MapFeatureFiles, OpenStreetMapsBinaryFormatHoldsTheSame) {
 <tag k="type" v="multipolygon"/><tag k="natural" v="wood"/></relation>
 </osm>)");
   const std::string pbf = (std::filesystem::path(xml).parent_path() / "country.osm.pbf").string();
-  ASSERT_EQ(std::system(("osmium cat --overwrite -o '" + pbf + "' '" + xml + "' > /dev/null 2>&1").c_str()), 0);
-  const MapFeatures woods = read_map_features(pbf, {.layer = "multipolygons", .where = "natural = 'wood'", .columns = {"natural"}}, utm_);
+  ASSERT_EQ(std::system(
+                ("osmium cat --overwrite -o '" + pbf + "' '" + xml + "' > /dev/null 2>&1").c_str()),
+            0);
+  const MapFeatures woods = read_map_features(
+      pbf, {.layer = "multipolygons", .where = "natural = 'wood'", .columns = {"natural"}}, utm_);
   ASSERT_EQ(woods.features.size(), 1U);
   EXPECT_EQ(woods.features[0].parts.size(), 2U) << "a clearing in the wood";
   const MapFeatures one = read_map_features(xml, {.columns = {"name", "highway"}}, utm_);
@@ -151,7 +174,8 @@ TEST_F(MapFeatureFiles, OpenStreetMapsBinaryFormatHoldsTheSame) {
     for (std::size_t k = 0; k < one.features[i].parts.size(); ++k) {
       ASSERT_EQ(other.features[i].parts[k].size(), one.features[i].parts[k].size());
       for (std::size_t n = 0; n < one.features[i].parts[k].size(); ++n)
-        EXPECT_LT(glm::length(other.features[i].parts[k][n] - one.features[i].parts[k][n]), 0.02) << "PBF counts in 1e-7 degrees";
+        EXPECT_LT(glm::length(other.features[i].parts[k][n] - one.features[i].parts[k][n]), 0.02)
+            << "PBF counts in 1e-7 degrees";
     }
   }
 }
@@ -162,15 +186,21 @@ TEST_F(MapFeatureFiles, WhatIsWrongIsSaid) {
   };
   const std::string file = mixed();
   EXPECT_THAT(message(ErrorKind::usage, path("roads.kml"), {}), HasSubstr(".gpkg"));
-  EXPECT_THAT(message(ErrorKind::input, path("none.gpkg"), {}), HasSubstr("no such file"));
-  EXPECT_THAT(message(ErrorKind::input, write_text("broken.geojson", "{\"type\": "), {}), HasSubstr("broken.geojson"));
+  EXPECT_THAT(message(ErrorKind::input, path("none.gpkg"), {}), HasSubstr("file not found"));
+  EXPECT_THAT(message(ErrorKind::input, write_text("broken.geojson", "{\"type\": "), {}),
+              HasSubstr("broken.geojson"));
   EXPECT_THAT(message(ErrorKind::usage, file, {.layer = "roads", .where = {}, .columns = {}}),
               AllOf(HasSubstr("\"roads\""), HasSubstr("mixed")));
   EXPECT_THAT(message(ErrorKind::usage, file, {.layer = {}, .where = {}, .columns = {"highway"}}),
               AllOf(HasSubstr("\"highway\""), HasSubstr("kind, width")));
-  EXPECT_THAT(message(ErrorKind::usage, file, {.layer = {}, .where = "kind == = 'x'", .columns = {}}), HasSubstr("is not understood"));
-  EXPECT_THAT(message(ErrorKind::usage, file, {.layer = {}, .where = "highway = 'x'", .columns = {}}), HasSubstr("is not understood"));
-  EXPECT_THAT(message_of(ErrorKind::usage, [&] { read_map_features(file, {}, ""); }), HasSubstr("no CRS"));
+  EXPECT_THAT(
+      message(ErrorKind::usage, file, {.layer = {}, .where = "kind == = 'x'", .columns = {}}),
+      HasSubstr("invalid filter"));
+  EXPECT_THAT(
+      message(ErrorKind::usage, file, {.layer = {}, .where = "highway = 'x'", .columns = {}}),
+      HasSubstr("invalid filter"));
+  EXPECT_THAT(message_of(ErrorKind::usage, [&] { read_map_features(file, {}, ""); }),
+              HasSubstr("no CRS"));
 }
 
 }  // namespace

@@ -26,8 +26,9 @@ RasterFrame utm_frame(GeoTransform transform, int width, int height) {
 
 TEST(LatticeMap, CellsThatCoincideAreWholeNumbers) {
   // The frame begins 4 cells to the east and 7 to the south of the source.
-  const LatticeMap map(upright(600000.0, 5200000.0, 30.0), normalize_crs(utm32), {601000.0, 5199000.0},
-                       utm_frame({600000.0 + 4 * 30.0, 5200000.0 - 7 * 30.0, 30.0, 30.0}, 200, 100));
+  const LatticeMap map(
+      upright(600000.0, 5200000.0, 30.0), normalize_crs(utm32), {601000.0, 5199000.0},
+      utm_frame({600000.0 + 4 * 30.0, 5200000.0 - 7 * 30.0, 30.0, 30.0}, 200, 100));
   ASSERT_TRUE(map.offset().has_value());
   EXPECT_EQ(*map.offset(), glm::ivec2(4, 7));
   EXPECT_EQ(map(0, 0), glm::dvec2(4.0, 7.0));
@@ -53,8 +54,9 @@ TEST(LatticeMap, ReprojectionIsExactToAThousandthOfACell) {
   double worst = 0.0;
   for (int y = 3; y < 500; y += 29)
     for (int x = 5; x < 500; x += 31) {
-      const glm::dvec2 place = transform_point(metric.crs, degrees, metric.transform.to_crs(x, y));
-      const glm::dvec2 exact{(place.x - 10.0) / cell - 0.5, (47.5 - place.y) / cell - 0.5};
+      const glm::dvec2 position =
+          transform_point(metric.crs, degrees, metric.transform.to_crs(x, y));
+      const glm::dvec2 exact{(position.x - 10.0) / cell - 0.5, (47.5 - position.y) / cell - 0.5};
       worst = std::max(worst, glm::distance(map(x, y), exact));
     }
   EXPECT_LT(worst, 1e-3);

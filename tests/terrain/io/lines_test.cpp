@@ -20,8 +20,9 @@ class Lines : public RasterFiles {
 };
 
 TEST_F(Lines, OfGpxTracksAndRoutes) {
-  const std::string file =
-      write_text("tour.gpx", R"(<?xml version="1.0"?><gpx version="1.1" creator="test" xmlns="http://www.topografix.com/GPX/1/1">
+  const std::string file = write_text(
+      "tour.gpx",
+      R"(<?xml version="1.0"?><gpx version="1.1" creator="test" xmlns="http://www.topografix.com/GPX/1/1">
 <wpt lat="47.0" lon="11.0"><name>no line</name></wpt>
 <rte><name>there</name><rtept lat="47.1" lon="11.1"/><rtept lat="47.2" lon="11.2"/></rte>
 <trk><name>back</name><trkseg><trkpt lat="47.2" lon="11.2"/><trkpt lat="47.1" lon="11.3"/><trkpt lat="47.0" lon="11.4"/></trkseg>
@@ -30,9 +31,11 @@ TEST_F(Lines, OfGpxTracksAndRoutes) {
   ASSERT_EQ(lines.size(), 3U);
   EXPECT_EQ(lines[0].name, "there");
   EXPECT_EQ(lines[1].name, "back");
-  EXPECT_EQ(lines[1].places.size(), 3U);
-  EXPECT_EQ(lines[2].places.size(), 2U) << "a segment of its own: the way is not known between them";
-  EXPECT_LT(glm::length(lines[0].places[1] - transform_point("EPSG:4326", utm_, {11.2, 47.2})), 1e-3);
+  EXPECT_EQ(lines[1].positions.size(), 3U);
+  EXPECT_EQ(lines[2].positions.size(), 2U)
+      << "a segment of its own: the way is not known between them";
+  EXPECT_LT(glm::length(lines[0].positions[1] - transform_point("EPSG:4326", utm_, {11.2, 47.2})),
+            1e-3);
 }
 
 TEST_F(Lines, OfGeoJson) {
@@ -42,16 +45,24 @@ TEST_F(Lines, OfGeoJson) {
   const std::vector<MapLine> lines = read_lines(file, utm_);
   ASSERT_EQ(lines.size(), 2U);
   EXPECT_EQ(lines[1].name, "A");
-  EXPECT_EQ(lines[1].places.size(), 3U);
+  EXPECT_EQ(lines[1].positions.size(), 3U);
 }
 
 TEST_F(Lines, WrongFilesAreSaid) {
-  EXPECT_THAT(message_of(ErrorKind::usage, [&] { read_lines(path("tour.kml"), utm_); }), HasSubstr(".gpx"));
-  EXPECT_THAT(message_of(ErrorKind::input, [&] { read_lines(path("none.gpx"), utm_); }), HasSubstr("no such file"));
-  EXPECT_THAT(message_of(ErrorKind::input, [&] { read_lines(write_text("bad.gpx", "<gpx"), utm_); }), HasSubstr("bad.gpx"));
-  const std::string point = R"({"type": "Feature", "properties": {}, "geometry": {"type": "Point", "coordinates": [11, 47]}})";
-  EXPECT_THAT(message_of(ErrorKind::input, [&] { read_lines(write_text("point.geojson", point), utm_); }), HasSubstr("no line"));
-  EXPECT_THAT(message_of(ErrorKind::usage, [&] { read_lines(write_text("a.geojson", point), ""); }), HasSubstr("no CRS"));
+  EXPECT_THAT(message_of(ErrorKind::usage, [&] { read_lines(path("tour.kml"), utm_); }),
+              HasSubstr(".gpx"));
+  EXPECT_THAT(message_of(ErrorKind::input, [&] { read_lines(path("none.gpx"), utm_); }),
+              HasSubstr("file not found"));
+  EXPECT_THAT(
+      message_of(ErrorKind::input, [&] { read_lines(write_text("bad.gpx", "<gpx"), utm_); }),
+      HasSubstr("bad.gpx"));
+  const std::string point =
+      R"({"type": "Feature", "properties": {}, "geometry": {"type": "Point", "coordinates": [11, 47]}})";
+  EXPECT_THAT(
+      message_of(ErrorKind::input, [&] { read_lines(write_text("point.geojson", point), utm_); }),
+      HasSubstr("no line"));
+  EXPECT_THAT(message_of(ErrorKind::usage, [&] { read_lines(write_text("a.geojson", point), ""); }),
+              HasSubstr("no CRS"));
 }
 
 }  // namespace

@@ -21,7 +21,8 @@ using testing::HasSubstr;
 
 class Points : public RasterFiles {
  protected:
-  // Two towns as a layer that ogr2ogr, an independent program, writes from GeoJSON; empty where it is missing.
+  // Two towns as a layer that ogr2ogr, an independent program, writes from GeoJSON; empty if it is
+  // missing.
   std::string write_layer(const std::string& name, const std::string& options) const {
     write_text("source.geojson",
                R"({"type": "FeatureCollection", "features": [
@@ -29,7 +30,8 @@ class Points : public RasterFiles {
    "geometry": {"type": "Point", "coordinates": [11.3936, 47.2692]}},
   {"type": "Feature", "properties": {"name": "Hall", "population": 14000.5, "note": "salt"},
    "geometry": {"type": "Point", "coordinates": [11.5066, 47.2826]}}]})");
-    const std::string command = "ogr2ogr " + options + " '" + path(name) + "' '" + path("source.geojson") + "' > /dev/null 2>&1";
+    const std::string command = "ogr2ogr " + options + " '" + path(name) + "' '" +
+                                path("source.geojson") + "' > /dev/null 2>&1";
     return std::system(command.c_str()) == 0 ? path(name) : std::string();
   }
   static bool has_ogr2ogr() { return std::system("command -v ogr2ogr > /dev/null") == 0; }
@@ -38,20 +40,23 @@ class Points : public RasterFiles {
 };
 
 TEST_F(Points, CsvByDegreesAndByMetres) {
-  const std::string degrees =
-      write_text("a.csv", "Name;LON;Lat;radius_m\nInnsbruck;11.3936;47.2692;2600\n\"Hall; Tirol\";11.5066;47.2826;\n");
+  const std::string degrees = write_text(
+      "a.csv",
+      "Name;LON;Lat;radius_m\nInnsbruck;11.3936;47.2692;2600\n\"Hall; Tirol\";11.5066;47.2826;\n");
   const PointTable table = read_points(degrees, utm_);
   EXPECT_THAT(table.columns, ElementsAre("Name", "LON", "Lat", "radius_m"));
   EXPECT_EQ(table.find("RADIUS_M"), 3);
   EXPECT_EQ(table.find("size"), -1);
   ASSERT_EQ(table.points.size(), 2U);
-  EXPECT_LT(glm::length(table.points[0].place - transform_point("EPSG:4326", utm_, {11.3936, 47.2692})), 1e-3);
+  EXPECT_LT(glm::length(table.points[0].position -
+                        transform_point("EPSG:4326", utm_, {11.3936, 47.2692})),
+            1e-3);
   EXPECT_THAT(table.points[1].values, ElementsAre("Hall; Tirol", "11.5066", "47.2826", ""));
   EXPECT_EQ(table.points[1].where, degrees + ":3");
   // Metres are those of the scene, with or without a CRS.
   const std::string metres = write_text("b.csv", "north,east\n5237500.5,681000\n");
-  EXPECT_EQ(read_points(metres, "").points.at(0).place, glm::dvec2(681000.0, 5237500.5));
-  EXPECT_EQ(read_points(metres, utm_).points.at(0).place, glm::dvec2(681000.0, 5237500.5));
+  EXPECT_EQ(read_points(metres, "").points.at(0).position, glm::dvec2(681000.0, 5237500.5));
+  EXPECT_EQ(read_points(metres, utm_).points.at(0).position, glm::dvec2(681000.0, 5237500.5));
 }
 
 TEST_F(Points, LayersAreReprojected) {
@@ -62,17 +67,18 @@ TEST_F(Points, LayersAreReprojected) {
     ASSERT_FALSE(file.empty()) << name;
     const PointTable table = read_points(file, utm_);
     ASSERT_EQ(table.points.size(), 2U) << name;
-    EXPECT_LT(glm::length(table.points[1].place - hall), 1e-3) << name;
+    EXPECT_LT(glm::length(table.points[1].position - hall), 1e-3) << name;
     const int population = table.find("population");
     ASSERT_GE(population, 0) << name;
-    EXPECT_EQ(std::stod(table.points[1].values[static_cast<std::size_t>(population)]), 14000.5) << name;
+    EXPECT_EQ(std::stod(table.points[1].values[static_cast<std::size_t>(population)]), 14000.5)
+        << name;
     const int note = table.find("note");
     ASSERT_GE(note, 0) << name;
     EXPECT_EQ(table.points[0].values[static_cast<std::size_t>(note)], "") << name;
   }
   // From another CRS.
   const PointTable web = read_points(write_layer("web.gpkg", "-t_srs EPSG:3857"), utm_);
-  EXPECT_LT(glm::length(web.points.at(1).place - hall), 1e-2);
+  EXPECT_LT(glm::length(web.points.at(1).position - hall), 1e-2);
 }
 
 TEST_F(Points, OfSeveralLayersTheOneNamedTowns) {
@@ -86,30 +92,38 @@ TEST_F(Points, OfSeveralLayersTheOneNamedTowns) {
 }
 
 TEST_F(Points, RefuseWhatGivesNoPlace) {
-  const auto refused = [&](const std::string& name, const std::string& text, ErrorKind kind = ErrorKind::usage) {
+  const auto refused = [&](const std::string& name, const std::string& text,
+                           ErrorKind kind = ErrorKind::usage) {
     const std::string file = write_text(name, text);
     return message_of(kind, [&] { read_points(file, utm_); });
   };
-  EXPECT_THAT(refused("a.csv", "name,x,y\nA,1,2\n"), AllOf(HasSubstr("a.csv:1"), HasSubstr("name, x, y"), HasSubstr("lon and lat")));
-  EXPECT_THAT(refused("a.csv", "lon,lat\n11,47\n11.5,91\n"), AllOf(HasSubstr("a.csv:3"), HasSubstr("lat is \"91\"")));
-  EXPECT_THAT(refused("a.csv", "lon;lat\n11,5;47\n"), HasSubstr("with a point before decimals"));
+  EXPECT_THAT(refused("a.csv", "name,x,y\nA,1,2\n"),
+              AllOf(HasSubstr("a.csv:1"), HasSubstr("name, x, y"), HasSubstr("lon and lat")));
+  EXPECT_THAT(refused("a.csv", "lon,lat\n11,47\n11.5,91\n"),
+              AllOf(HasSubstr("a.csv:3"), HasSubstr("lat is \"91\"")));
+  EXPECT_THAT(refused("a.csv", "lon;lat\n11,5;47\n"), HasSubstr("with a decimal point"));
   EXPECT_THAT(refused("a.csv", "lon,lat\n,47\n"), HasSubstr("lon is \"\""));
   EXPECT_THAT(refused("a.csv", "lon,lat\nnan,47\n"), HasSubstr("lon is \"nan\""));
   EXPECT_THAT(refused("a.xlsx", "lon,lat\n11,47\n"), HasSubstr(".gpkg"));
   EXPECT_THAT(refused("a.gpkg", "lon,lat\n11,47\n", ErrorKind::input), HasSubstr("GPKG"));
-  EXPECT_THAT(refused("a.geojson", R"({"type": "LineString", "coordinates": [[11, 47], [12, 48]]})", ErrorKind::input),
-              HasSubstr("no layer"));
-  EXPECT_THAT(message_of(ErrorKind::input, [&] { read_points(path("none.gpkg"), utm_); }), HasSubstr("no such file"));
+  EXPECT_THAT(refused("a.geojson", R"({"type": "LineString", "coordinates": [[11, 47], [12, 48]]})",
+                      ErrorKind::input),
+              HasSubstr("no point layer"));
+  EXPECT_THAT(message_of(ErrorKind::input, [&] { read_points(path("none.gpkg"), utm_); }),
+              HasSubstr("file not found"));
   const std::string degrees = write_text("b.csv", "lon,lat\n11,47\n");
-  EXPECT_THAT(message_of(ErrorKind::usage, [&] { read_points(degrees, ""); }), HasSubstr("without CRS"));
+  EXPECT_THAT(message_of(ErrorKind::usage, [&] { read_points(degrees, ""); }),
+              HasSubstr("terrain has no CRS"));
 }
 
-// A file must not lead to others: a virtual layer under a harmless name is none.
+// A file must not refer to others: a virtual layer under a harmless name is rejected.
 TEST_F(Points, OnlyTheFormatThatTheEndingNames) {
   write_text("secret.csv", "lon,lat\n11,47\n");
-  const std::string virtual_layer = "<OGRVRTDataSource><OGRVRTLayer name=\"secret\"><SrcDataSource>" + path("secret.csv") +
-                                    "</SrcDataSource><GeometryType>wkbPoint</GeometryType><LayerSRS>WGS84</LayerSRS>"
-                                    "<GeometryField encoding=\"PointFromColumns\" x=\"lon\" y=\"lat\"/></OGRVRTLayer></OGRVRTDataSource>";
+  const std::string virtual_layer =
+      "<OGRVRTDataSource><OGRVRTLayer name=\"secret\"><SrcDataSource>" + path("secret.csv") +
+      "</SrcDataSource><GeometryType>wkbPoint</GeometryType><LayerSRS>WGS84</LayerSRS>"
+      "<GeometryField encoding=\"PointFromColumns\" x=\"lon\" "
+      "y=\"lat\"/></OGRVRTLayer></OGRVRTDataSource>";
   for (const char* name : {"a.geojson", "a.gpkg", "a.shp", "a.fgb"}) {
     const std::string file = write_text(name, virtual_layer);
     message_of(ErrorKind::input, [&] { read_points(file, utm_); });

@@ -25,7 +25,9 @@ RasterSource source_of(const std::string& path, const std::string& crs = {}) {
 }
 
 // Hills of a few hundred metres over a kilometre, in metres of any CRS.
-float hills(double x, double y) { return static_cast<float>(1000.0 + 200.0 * std::sin(x / 300.0) * std::cos(y / 400.0) + 0.01 * x); }
+float hills(double x, double y) {
+  return static_cast<float>(1000.0 + 200.0 * std::sin(x / 300.0) * std::cos(y / 400.0) + 0.01 * x);
+}
 
 Raster<float> make_hills(int width, int height, GeoTransform transform, const std::string& crs) {
   Raster<float> raster{Grid<float>(width, height), transform, normalize_crs(crs)};
@@ -38,7 +40,8 @@ Raster<float> make_hills(int width, int height, GeoTransform transform, const st
 }
 
 TEST_F(RasterIo, GeoTiffComesBackToTheBit) {
-  Raster<float> raster = make_hills(300, 170, {652049.036943126, 5320655.789191568, 30.0, 30.0}, "EPSG:32632");
+  Raster<float> raster =
+      make_hills(300, 170, {652049.036943126, 5320655.789191568, 30.0, 30.0}, "EPSG:32632");
   raster.cells(7, 9) = NAN;
   write_raster(path("a.tif"), raster);
   const Raster<float> back = read_raster(source_of(path("a.tif")));
@@ -65,19 +68,22 @@ TEST_F(RasterIo, AsciiComesBackToTheBit) {
   const Raster<float> back = read_raster(source_of(path("a.asc")));
   EXPECT_EQ(back.transform, raster.transform);
   EXPECT_EQ(describe_crs(back.crs), "EPSG:32632");
-  for (std::size_t i = 0; i + 1 < raster.cells.size(); ++i) ASSERT_EQ(back.cells[i], raster.cells[i]) << i;
+  for (std::size_t i = 0; i + 1 < raster.cells.size(); ++i)
+    ASSERT_EQ(back.cells[i], raster.cells[i]) << i;
   EXPECT_TRUE(std::isnan(back.cells(30, 16)));
 }
 
 TEST_F(RasterIo, WritingLeavesNothingHalfDone) {
   const Raster<float> raster = make_hills(20, 10, {0.0, 0.0, 30.0, 20.0}, "EPSG:32632");
   write_text("old.asc", "the old file");
-  EXPECT_EQ(error_of([&] { write_raster(path("old.asc"), raster); }).kind(), ErrorKind::output);  // cells are not square
+  EXPECT_EQ(error_of([&] { write_raster(path("old.asc"), raster); }).kind(),
+            ErrorKind::output);  // cells are not square
   EXPECT_EQ(read_text("old.asc"), "the old file");
-  EXPECT_EQ(error_of([&] { write_raster(path("no/folder/a.tif"), raster); }).kind(), ErrorKind::output);
+  EXPECT_EQ(error_of([&] { write_raster(path("no/folder/a.tif"), raster); }).kind(),
+            ErrorKind::output);
   EXPECT_EQ(error_of([&] { write_raster(path("a.jpg"), raster); }).kind(), ErrorKind::output);
   EXPECT_EQ(folder_.count(), 1U);
-  // Written, but not to be renamed onto a folder: the temporary file goes away.
+  // Written, but cannot be renamed onto a folder: the temporary file is removed.
   std::filesystem::create_directories(path("folder.tif/full"));
   EXPECT_EQ(error_of([&] { write_raster(path("folder.tif"), raster); }).kind(), ErrorKind::output);
   std::filesystem::remove_all(path("folder.tif"));
@@ -99,7 +105,8 @@ TEST_F(RasterIo, TruncatedGeoTiffIsAnErrorInItsOwnWords) {
   write_raster(path("whole.tif"), raster);
   const std::string whole = read_text("whole.tif");
   for (const double part : {0.001, 0.1, 0.5, 0.95}) {
-    write_text("cut.tif", whole.substr(0, static_cast<std::size_t>(part * static_cast<double>(whole.size()))));
+    write_text("cut.tif",
+               whole.substr(0, static_cast<std::size_t>(part * static_cast<double>(whole.size()))));
     testing::internal::CaptureStderr();
     const Error error = error_of([&] { read_raster(source_of(path("cut.tif"))); });
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");  // the library prints nothing
@@ -117,8 +124,9 @@ TEST_F(RasterIo, TruncatedAsciiIsAnError) {
 
 TEST_F(RasterIo, HugeSizesAreRefusedBeforeAllocating) {
   // A VRT without sources of 2^20 × 2^20 cells: 4 TiB.
-  write_text("huge.vrt",
-             R"(<VRTDataset rasterXSize="1048576" rasterYSize="1048576"><GeoTransform>0,30,0,0,0,-30</GeoTransform>
+  write_text(
+      "huge.vrt",
+      R"(<VRTDataset rasterXSize="1048576" rasterYSize="1048576"><GeoTransform>0,30,0,0,0,-30</GeoTransform>
              <VRTRasterBand dataType="Float32" band="1"/></VRTDataset>)");
   EXPECT_EQ(error_of([&] { read_raster(source_of(path("huge.vrt"))); }).kind(), ErrorKind::limit);
   write_raster(path("a.tif"), make_hills(600, 600, {0.0, 0.0, 30.0, 30.0}, "EPSG:32632"));
@@ -130,7 +138,8 @@ TEST_F(RasterIo, HugeSizesAreRefusedBeforeAllocating) {
 std::string vrt_of(const std::string& file) {
   return R"(<VRTDataset rasterXSize="20" rasterYSize="10"><SRS>EPSG:32632</SRS><GeoTransform>0,30,0,0,0,-30</GeoTransform>
     <VRTRasterBand dataType="Float32" band="1"><SimpleSource><SourceFilename relativeToVRT="1">)" +
-         file + R"(</SourceFilename><SourceBand>1</SourceBand></SimpleSource></VRTRasterBand></VRTDataset>)";
+         file +
+         R"(</SourceFilename><SourceBand>1</SourceBand></SimpleSource></VRTRasterBand></VRTDataset>)";
 }
 
 TEST_F(RasterIo, VrtOnlyWhereItIsNamedSoAndItsSourcesOpen) {
@@ -154,7 +163,8 @@ TEST_F(RasterIo, VrtOnlyWhereItIsNamedSoAndItsSourcesOpen) {
   write_text("circle.vrt", vrt_of("circle.vrt"));
   EXPECT_EQ(error_of([&] { read_raster(source_of(path("circle.vrt"))); }).kind(), ErrorKind::input);
   write_text("in_hidden.vrt", vrt_of("hidden.tif"));
-  EXPECT_EQ(error_of([&] { read_raster(source_of(path("in_hidden.vrt"))); }).kind(), ErrorKind::input);
+  EXPECT_EQ(error_of([&] { read_raster(source_of(path("in_hidden.vrt"))); }).kind(),
+            ErrorKind::input);
   write_text("remote.vrt", vrt_of("/vsicurl/http://127.0.0.1:9/a.tif"));
   EXPECT_EQ(error_of([&] { read_raster(source_of(path("remote.vrt"))); }).kind(), ErrorKind::input);
 
@@ -167,7 +177,8 @@ TEST_F(RasterIo, VrtOnlyWhereItIsNamedSoAndItsSourcesOpen) {
 TEST_F(RasterIo, NodataOfEveryKindIsVoid) {
   const auto grid = [&](const std::string& value, const std::string& nodata) {
     write_ascii(
-        "n.asc", 3, 2, 0, 0, 30, [&](int x, int y) { return x == 1 && y == 0 ? value : "12.5"; }, nodata);
+        "n.asc", 3, 2, 0, 0, 30, [&](int x, int y) { return x == 1 && y == 0 ? value : "12.5"; },
+        nodata);
     return read_raster(source_of(path("n.asc"))).cells;
   };
   for (const char* value : {"-9999", "-32768", "32767", "nan"}) {
@@ -179,7 +190,8 @@ TEST_F(RasterIo, NodataOfEveryKindIsVoid) {
   }
   EXPECT_TRUE(std::isnan(grid("77", "77")(1, 0)));
   EXPECT_TRUE(std::isnan(grid("-3.4028234663852886e+38", "-3.4028234663852886e+38")(1, 0)));
-  EXPECT_EQ(grid("-9999", "77")(1, 0), -9999.F);  // where the file names another, this one is a depth
+  EXPECT_EQ(grid("-9999", "77")(1, 0),
+            -9999.F);  // where the file names another, this one is a depth
   RasterSource source = source_of(path("n.asc"));
   source.nodata = 12.5;
   EXPECT_TRUE(std::isnan(read_raster(source).cells(0, 0)));
@@ -208,16 +220,19 @@ TEST_F(RasterIo, FeetBecomeMetres) {
   EXPECT_EQ(read_raster(source).cells(0, 0), 1000.5F);
   source.unit_to_m = 0.3048;
   EXPECT_FLOAT_EQ(read_raster(source).cells(0, 0), 304.9524F);
-  // Said by the file itself, in a VRT's band; so are scale and offset.
+  // Given by the file itself, in a VRT's band; so are scale and offset.
   const auto with = [&](const std::string& tags) {
-    write_text("f.vrt", R"(<VRTDataset rasterXSize="2" rasterYSize="1"><GeoTransform>0,30,0,0,0,-30</GeoTransform>
+    write_text(
+        "f.vrt",
+        R"(<VRTDataset rasterXSize="2" rasterYSize="1"><GeoTransform>0,30,0,0,0,-30</GeoTransform>
       <VRTRasterBand dataType="Float32" band="1">)" +
-                            tags + R"(<SimpleSource><SourceFilename relativeToVRT="1">f.asc</SourceFilename>
+            tags + R"(<SimpleSource><SourceFilename relativeToVRT="1">f.asc</SourceFilename>
       <SourceBand>1</SourceBand></SimpleSource></VRTRasterBand></VRTDataset>)");
     return source_of(path("f.vrt"));
   };
   EXPECT_FLOAT_EQ(read_raster(with("<UnitType>ft</UnitType>")).cells(0, 0), 304.9524F);
-  EXPECT_FLOAT_EQ(read_raster(with("<UnitType>us-ft</UnitType>")).cells(1, 0), 1000.5F * 1200.F / 3937.F);
+  EXPECT_FLOAT_EQ(read_raster(with("<UnitType>us-ft</UnitType>")).cells(1, 0),
+                  1000.5F * 1200.F / 3937.F);
   EXPECT_FLOAT_EQ(read_raster(with("<Offset>5</Offset><Scale>0.1</Scale>")).cells(0, 0), 105.05F);
   const Error odd = error_of([&] { read_raster(with("<UnitType>degrees</UnitType>")); });
   EXPECT_EQ(odd.kind(), ErrorKind::input);
@@ -230,10 +245,15 @@ TEST_F(RasterIo, NoCrsIsAnErrorThatNamesItsKey) {
   EXPECT_EQ(error.kind(), ErrorKind::input);
   EXPECT_THAT(error.what(), HasSubstr("`crs`"));
   const RasterFrame frame = choose_frame({source_of(path("n.asc"), "EPSG:32632")}, "", 0.0, {});
-  EXPECT_EQ(error_of([&] { warp_rasters({source_of(path("n.asc"))}, frame, silent_progress()); }).kind(), ErrorKind::input);
+  EXPECT_EQ(
+      error_of([&] { warp_rasters({source_of(path("n.asc"))}, frame, silent_progress()); }).kind(),
+      ErrorKind::input);
   EXPECT_EQ(frame.width, 4);
   EXPECT_EQ(frame.transform, (GeoTransform{500000.0, 5000120.0, 30.0, 30.0}));
-  EXPECT_EQ(error_of([&] { choose_frame({source_of(path("n.asc"), "EPSG:banana")}, "", 0.0, {}); }).kind(), ErrorKind::usage);
+  EXPECT_EQ(error_of([&] {
+              choose_frame({source_of(path("n.asc"), "EPSG:banana")}, "", 0.0, {});
+            }).kind(),
+            ErrorKind::usage);
 }
 
 TEST_F(RasterIo, PointsAreLongitudeFirst) {
@@ -248,7 +268,8 @@ TEST_F(RasterIo, PointsAreLongitudeFirst) {
   EXPECT_EQ(error_of([] { normalize_crs("nonsense"); }).kind(), ErrorKind::usage);
   EXPECT_EQ(error_of([] { normalize_crs("http://127.0.0.1:9/crs"); }).kind(), ErrorKind::usage);
   write_text("crs.txt", normalize_crs("EPSG:32632"));
-  EXPECT_EQ(error_of([&] { normalize_crs(path("crs.txt")); }).kind(), ErrorKind::usage);  // reads no files
+  EXPECT_EQ(error_of([&] { normalize_crs(path("crs.txt")); }).kind(),
+            ErrorKind::usage);  // reads no files
 }
 
 TEST_F(RasterIo, GeographicDataGetTheirUtmZone) {
@@ -262,12 +283,14 @@ TEST_F(RasterIo, GeographicDataGetTheirUtmZone) {
   const Error stretched = error_of([&] { choose_frame({source}, "EPSG:3857", 0.0, {}); });
   EXPECT_EQ(stretched.kind(), ErrorKind::usage);
   EXPECT_THAT(stretched.what(), HasSubstr("EPSG:32632"));
-  EXPECT_EQ(error_of([&] { choose_frame({source}, "EPSG:4326", 0.0, {}); }).kind(), ErrorKind::usage);
+  EXPECT_EQ(error_of([&] { choose_frame({source}, "EPSG:4326", 0.0, {}); }).kind(),
+            ErrorKind::usage);
 }
 
 TEST_F(RasterIo, WebMercatorAndFeetAreNotTakenForMetres) {
   write_ascii("m.asc", 4, 4, 1268000, 5985000, 30, [](int, int) { return "5"; });
-  EXPECT_EQ(describe_crs(choose_frame({source_of(path("m.asc"), "EPSG:3857")}, "", 0.0, {}).crs), "EPSG:32632");
+  EXPECT_EQ(describe_crs(choose_frame({source_of(path("m.asc"), "EPSG:3857")}, "", 0.0, {}).crs),
+            "EPSG:32632");
   // Washington South in US survey feet.
   write_ascii("f.asc", 4, 4, 1200000, 500000, 100, [](int, int) { return "5"; });
   const RasterFrame frame = choose_frame({source_of(path("f.asc"), "EPSG:2286")}, "", 0.0, {});
@@ -278,7 +301,8 @@ TEST_F(RasterIo, WebMercatorAndFeetAreNotTakenForMetres) {
 TEST_F(RasterIo, ExtentCutsToWholeCells) {
   write_raster(path("a.tif"), make_hills(100, 80, {500000.0, 5200000.0, 30.0, 30.0}, "EPSG:32632"));
   const RasterSource source = source_of(path("a.tif"));
-  const RasterFrame frame = choose_frame({source}, "", 0.0, std::array<double, 4>{500100.0, 5199000.0, 500400.0, 5199500.0});
+  const RasterFrame frame = choose_frame(
+      {source}, "", 0.0, std::array<double, 4>{500100.0, 5199000.0, 500400.0, 5199500.0});
   EXPECT_EQ(frame.transform, (GeoTransform{500090.0, 5199520.0, 30.0, 30.0}));
   EXPECT_EQ(frame.width, 11);
   EXPECT_EQ(frame.height, 18);
@@ -286,12 +310,19 @@ TEST_F(RasterIo, ExtentCutsToWholeCells) {
   const Raster<float> part = warp_rasters({source}, frame, silent_progress());
   EXPECT_EQ(part.cells(0, 0), whole.cells(3, 16));
   EXPECT_EQ(part.cells(10, 17), whole.cells(13, 33));
-  EXPECT_EQ(error_of([&] { choose_frame({source}, "", 0.0, std::array<double, 4>{0, 0, 10, 10}); }).kind(), ErrorKind::input);
-  EXPECT_EQ(error_of([&] { choose_frame({source}, "", 0.0, std::array<double, 4>{10, 0, 0, 10}); }).kind(), ErrorKind::usage);
+  EXPECT_EQ(error_of([&] {
+              choose_frame({source}, "", 0.0, std::array<double, 4>{0, 0, 10, 10});
+            }).kind(),
+            ErrorKind::input);
+  EXPECT_EQ(error_of([&] {
+              choose_frame({source}, "", 0.0, std::array<double, 4>{10, 0, 0, 10});
+            }).kind(),
+            ErrorKind::usage);
   EXPECT_EQ(error_of([&] { choose_frame({source}, "", 1e-5, {}); }).kind(), ErrorKind::limit);
 }
 
-// Another UTM zone's grid of the same hills: what comes back must be the hills, wherever the cells lay.
+// The same hills in the grid of another UTM zone: the result must be the hills, wherever the cells
+// were.
 TEST_F(RasterIo, ReprojectionFindsTheSameGround) {
   const GeoTransform transform{300000.0, 5230000.0, 30.0, 30.0};
   const PointTransform to_32("EPSG:32633", "EPSG:32632");
@@ -327,8 +358,11 @@ TEST_F(RasterIo, SouthUpAndRotatedRastersComeUpright) {
   const Raster<float> raster = make_hills(40, 30, {500000.0, 5200000.0, 30.0, 30.0}, "EPSG:32632");
   write_raster(path("a.tif"), raster);
   const auto vrt = [&](const std::string& name, const std::string& transform) {
-    write_text(name, R"(<VRTDataset rasterXSize="40" rasterYSize="30"><SRS>EPSG:32632</SRS><GeoTransform>)" + transform +
-                         R"(</GeoTransform><VRTRasterBand dataType="Float32" band="1"><NoDataValue>-9999</NoDataValue><SimpleSource>
+    write_text(
+        name,
+        R"(<VRTDataset rasterXSize="40" rasterYSize="30"><SRS>EPSG:32632</SRS><GeoTransform>)" +
+            transform +
+            R"(</GeoTransform><VRTRasterBand dataType="Float32" band="1"><NoDataValue>-9999</NoDataValue><SimpleSource>
       <SourceFilename relativeToVRT="1">a.tif</SourceFilename><SourceBand>1</SourceBand></SimpleSource></VRTRasterBand></VRTDataset>)");
     return source_of(path(name));
   };
@@ -348,7 +382,8 @@ TEST_F(RasterIo, SouthUpAndRotatedRastersComeUpright) {
 TEST_F(RasterIo, TilesJoinWithoutSeamAndTheFirstWins) {
   const Raster<float> whole = make_hills(100, 60, {500000.0, 5200000.0, 30.0, 30.0}, "EPSG:32632");
   const auto part = [&](int x0, int x1, float shift) {
-    Raster<float> raster{Grid<float>(x1 - x0, 60), {500000.0 + 30.0 * x0, 5200000.0, 30.0, 30.0}, whole.crs};
+    Raster<float> raster{
+        Grid<float>(x1 - x0, 60), {500000.0 + 30.0 * x0, 5200000.0, 30.0, 30.0}, whole.crs};
     for (int y = 0; y < 60; ++y)
       for (int x = x0; x < x1; ++x) raster.cells(x - x0, y) = whole.cells(x, y) + shift;
     return raster;
@@ -356,17 +391,20 @@ TEST_F(RasterIo, TilesJoinWithoutSeamAndTheFirstWins) {
   write_raster(path("whole.tif"), whole);
   write_raster(path("west.tif"), part(0, 50, 0.F));
   write_raster(path("east.tif"), part(50, 100, 0.F));
-  // Half a cell off, so that every value is interpolated, across the seam as well.
+  // Half a cell off, so that every value is interpolated, also across the seam.
   RasterFrame frame{{500015.0, 5199985.0, 30.0, 30.0}, 99, 59, whole.crs};
   const Raster<float> one = warp_rasters({source_of(path("whole.tif"))}, frame, silent_progress());
-  const Raster<float> two = warp_rasters({source_of(path("west.tif")), source_of(path("east.tif"))}, frame, silent_progress());
+  const Raster<float> two = warp_rasters({source_of(path("west.tif")), source_of(path("east.tif"))},
+                                         frame, silent_progress());
   EXPECT_EQ(one.cells, two.cells);
-  // Where they overlap, earlier sources win; their voids let later ones through.
+  // Where they overlap, earlier sources take precedence; later ones fill their voids.
   Raster<float> upper = part(0, 70, 500.F);
   upper.cells(20, 20) = NAN;
   write_raster(path("upper.tif"), upper);
-  const RasterFrame all = choose_frame({source_of(path("upper.tif")), source_of(path("whole.tif"))}, "", 0.0, {});
-  const Raster<float> both = warp_rasters({source_of(path("upper.tif")), source_of(path("whole.tif"))}, all, silent_progress());
+  const RasterFrame all =
+      choose_frame({source_of(path("upper.tif")), source_of(path("whole.tif"))}, "", 0.0, {});
+  const Raster<float> both = warp_rasters(
+      {source_of(path("upper.tif")), source_of(path("whole.tif"))}, all, silent_progress());
   EXPECT_EQ(both.cells(10, 10), upper.cells(10, 10));
   EXPECT_EQ(both.cells(20, 20), whole.cells(20, 20));
   EXPECT_EQ(both.cells(90, 10), whole.cells(90, 10));
@@ -379,13 +417,15 @@ TEST_F(RasterIo, TilesOfDifferentCrsMeet) {
     const PointTransform to_32(crs, "EPSG:32632");
     Raster<float> raster{Grid<float>(60, 60), transform, normalize_crs(crs)};
     for (int y = 0; y < 60; ++y)
-      for (int x = 0; x < 60; ++x) raster.cells(x, y) = static_cast<float>(to_32.apply(transform.to_crs(x, y)).y - 5.2e6);
+      for (int x = 0; x < 60; ++x)
+        raster.cells(x, y) = static_cast<float>(to_32.apply(transform.to_crs(x, y)).y - 5.2e6);
     write_raster(path(name), raster);
     return source_of(path(name));
   };
   const glm::dvec2 corner{730000.0, 5230000.0};
   const RasterSource a = plane("a.tif", "EPSG:32632", corner);
-  const glm::dvec2 other = transform_point("EPSG:32632", "EPSG:32633", corner + glm::dvec2{1500.0, 0.0});
+  const glm::dvec2 other =
+      transform_point("EPSG:32632", "EPSG:32633", corner + glm::dvec2{1500.0, 0.0});
   const RasterSource b = plane("b.tif", "EPSG:32633", other);
   const RasterFrame frame = choose_frame({a, b}, "", 0.0, {});
   EXPECT_EQ(describe_crs(frame.crs), "EPSG:32632");
@@ -395,15 +435,16 @@ TEST_F(RasterIo, TilesOfDifferentCrsMeet) {
     for (int x = 0; x < frame.width; ++x) {
       if (std::isnan(both.cells(x, y))) continue;
       ++known;
-      // Rim cells of b are held level over half a cell.
+      // Border cells of b are constant over half a cell.
       ASSERT_NEAR(both.cells(x, y), frame.transform.to_crs(x, y).y - 5.2e6, 16.0);
     }
   EXPECT_GT(known, 6000U);
 }
 
 TEST_F(RasterIo, FinerSourcesAreAveraged) {
-  // A checkerboard of ±100 m has no place in cells ten times as wide.
-  write_ascii("c.asc", 400, 400, 500000, 5200000, 3, [](int x, int y) { return (x + y) % 2 == 0 ? "900" : "1100"; });
+  // A checkerboard of ±100 m is averaged away in cells ten times as wide.
+  write_ascii("c.asc", 400, 400, 500000, 5200000, 3,
+              [](int x, int y) { return (x + y) % 2 == 0 ? "900" : "1100"; });
   const RasterSource source = source_of(path("c.asc"), "EPSG:32632");
   const RasterFrame frame = choose_frame({source}, "", 30.0, {});
   const Raster<float> coarse = warp_rasters({source}, frame, silent_progress());
@@ -412,15 +453,19 @@ TEST_F(RasterIo, FinerSourcesAreAveraged) {
 }
 
 TEST_F(RasterIo, LakesStayFlatBesideSlopes) {
-  write_ascii("l.asc", 60, 60, 500000, 5200000, 30, [](int x, int) { return x < 30 ? "500" : std::to_string(500 + 25 * (x - 29)); });
+  write_ascii("l.asc", 60, 60, 500000, 5200000, 30,
+              [](int x, int) { return x < 30 ? "500" : std::to_string(500 + 25 * (x - 29)); });
   const RasterSource source = source_of(path("l.asc"), "EPSG:32632");
-  const RasterFrame frame{{500007.0, 5201800.0 - 11.0, 30.0, 30.0}, 59, 59, normalize_crs("EPSG:32632")};
+  const RasterFrame frame{
+      {500007.0, 5201800.0 - 11.0, 30.0, 30.0}, 59, 59, normalize_crs("EPSG:32632")};
   const Raster<float> shifted = warp_rasters({source}, frame, silent_progress());
   for (int x = 0; x < 29; ++x) ASSERT_EQ(shifted.cells(x, 30), 500.F) << x;
 }
 
 TEST_F(RasterIo, SameBitsForAnyThreads) {
-  const auto value = [](int x, int y) { return std::to_string(1000.0 + 300.0 * std::sin(0.05 * x) * std::cos(0.04 * y)); };
+  const auto value = [](int x, int y) {
+    return std::to_string(1000.0 + 300.0 * std::sin(0.05 * x) * std::cos(0.04 * y));
+  };
   write_ascii("g.asc", 700, 600, 11.0, 47.0, 1.0 / 3600.0, value);
   const RasterSource source = source_of(path("g.asc"), "EPSG:4326");
   const RasterFrame frame = choose_frame({source}, "", 0.0, {});
@@ -432,11 +477,13 @@ TEST_F(RasterIo, SameBitsForAnyThreads) {
   const Raster<float> two = run(2);
   ASSERT_TRUE(one.cells.same_size(two.cells));
   for (std::size_t i = 0; i < one.cells.size(); ++i)
-    ASSERT_TRUE(one.cells[i] == two.cells[i] || (std::isnan(one.cells[i]) && std::isnan(two.cells[i])));
+    ASSERT_TRUE(one.cells[i] == two.cells[i] ||
+                (std::isnan(one.cells[i]) && std::isnan(two.cells[i])));
 }
 
 TEST_F(RasterIo, CodesAreNeverBlended) {
-  write_ascii("c.asc", 200, 150, 11.0, 47.0, 1.0 / 3600.0, [](int x, int y) { return (x / 7 + y / 5) % 2 == 0 ? "11" : "95"; });
+  write_ascii("c.asc", 200, 150, 11.0, 47.0, 1.0 / 3600.0,
+              [](int x, int y) { return (x / 7 + y / 5) % 2 == 0 ? "11" : "95"; });
   const RasterSource source = source_of(path("c.asc"), "EPSG:4326");
   const RasterFrame frame = choose_frame({source}, "", 0.0, {});
   const Raster<std::int32_t> codes = warp_codes({source}, frame, silent_progress());

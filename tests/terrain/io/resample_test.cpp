@@ -23,17 +23,22 @@ TEST(Resampler, CopiesCellsToTheBitWhereTheyCoincide) {
   for (const double scale : {0.3, 1.0, 1.0005}) {
     const Resampler resampler({scale, scale});
     for (int y = 0; y < 9; ++y)
-      for (int x = 0; x < 12; ++x) ASSERT_EQ(resampler.sample(cells, {x, y}), cells(x, y)) << scale << ' ' << x << ' ' << y;
+      for (int x = 0; x < 12; ++x)
+        ASSERT_EQ(resampler.sample(cells, {x, y}), cells(x, y)) << scale << ' ' << x << ' ' << y;
   }
 }
 
-// Keys 1981: with a = -1/2 polynomials of the second degree come back. Here they have no summit within reach, where the range would cut.
+// Keys 1981: with a = -1/2 polynomials of the second degree are reproduced. Here they have no
+// extremum nearby, where the range would clamp.
 TEST(Resampler, ReproducesParabolas) {
-  const auto parabola = [](double x, double y) { return 3.0 + 2.0 * x + 0.5 * y + 0.25 * x * x + 0.125 * y * y; };
+  const auto parabola = [](double x, double y) {
+    return 3.0 + 2.0 * x + 0.5 * y + 0.25 * x * x + 0.125 * y * y;
+  };
   const Grid<float> cells = make(12, 12, parabola);
   const Resampler resampler({1.0, 1.0});
   for (const double x : {4.0, 4.25, 5.5, 6.9})
-    for (const double y : {3.1, 5.0, 6.5}) EXPECT_NEAR(resampler.sample(cells, {x, y}), parabola(x, y), 1e-5) << x << ' ' << y;
+    for (const double y : {3.1, 5.0, 6.5})
+      EXPECT_NEAR(resampler.sample(cells, {x, y}), parabola(x, y), 1e-5) << x << ' ' << y;
 }
 
 TEST(Resampler, NeverLeavesTheRangeOfItsCells) {
@@ -50,7 +55,8 @@ TEST(Resampler, NeverLeavesTheRangeOfItsCells) {
 }
 
 TEST(Resampler, AveragesWhatIsFinerThanItsSamples) {
-  // Stripes one cell wide, across which four cells make a sample: their mean; along them nothing is averaged.
+  // Stripes one cell wide, across which four cells make a sample: their mean; along them nothing is
+  // averaged.
   const Grid<float> stripes = make(40, 40, [](int x, int) { return x % 2; });
   EXPECT_NEAR(Resampler({4.0, 1.0}).sample(stripes, {20.0, 20.0}), 0.5, 0.02);
   EXPECT_NEAR(Resampler({4.0, 1.0}).sample(stripes, {21.0, 20.0}), 0.5, 0.02);
@@ -72,12 +78,13 @@ TEST(Resampler, KnowsNothingOutside) {
   const Grid<float> cells = make(12, 9, bumps);
   const Resampler resampler({1.0, 1.0});
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  for (const glm::dvec2 at : {glm::dvec2{-1.0, 4.0}, glm::dvec2{12.0, 4.0}, glm::dvec2{4.0, 9.0}, glm::dvec2{1e300, 4.0},
-                              glm::dvec2{4.0, -infinity}, glm::dvec2{std::nan(""), 4.0}})
+  for (const glm::dvec2 at :
+       {glm::dvec2{-1.0, 4.0}, glm::dvec2{12.0, 4.0}, glm::dvec2{4.0, 9.0}, glm::dvec2{1e300, 4.0},
+        glm::dvec2{4.0, -infinity}, glm::dvec2{std::nan(""), 4.0}})
     EXPECT_TRUE(std::isnan(resampler.sample(cells, at))) << at.x << ' ' << at.y;
 }
 
-// Whoever reads a window of a file trusts the reach: what lies beyond it changes nothing.
+// Window readers rely on the reach: cells beyond it have no effect.
 TEST(Resampler, LooksNoFurtherThanItsReach) {
   for (const double scale : {1.0, 1.5, 3.2}) {
     const Resampler resampler({scale, 1.0});
@@ -88,7 +95,8 @@ TEST(Resampler, LooksNoFurtherThanItsReach) {
       for (int v = 0; v < 40; ++v)
         for (int u = 0; u < 40; ++u)
           if (std::abs(u - x) > reach.x || std::abs(v - 20.4) > reach.y) other(u, v) = NAN;
-      EXPECT_EQ(resampler.sample(other, {x, 20.4}), resampler.sample(cells, {x, 20.4})) << scale << ' ' << x;
+      EXPECT_EQ(resampler.sample(other, {x, 20.4}), resampler.sample(cells, {x, 20.4}))
+          << scale << ' ' << x;
     }
   }
 }
@@ -100,8 +108,8 @@ TEST(SampleNearest, TakesTheCellThatHoldsThePlace) {
   EXPECT_EQ(sample_nearest(codes, {-0.5, -0.5}), 10);
   EXPECT_EQ(sample_nearest(codes, {0.49, 0.51}), 13);
   EXPECT_EQ(sample_nearest(codes, {2.49, 1.49}), 15);
-  for (const glm::dvec2 at :
-       {glm::dvec2{-0.51, 0.0}, glm::dvec2{2.5, 0.0}, glm::dvec2{0.0, 1.5}, glm::dvec2{1e300, 0.0}, glm::dvec2{std::nan(""), 0.0}})
+  for (const glm::dvec2 at : {glm::dvec2{-0.51, 0.0}, glm::dvec2{2.5, 0.0}, glm::dvec2{0.0, 1.5},
+                              glm::dvec2{1e300, 0.0}, glm::dvec2{std::nan(""), 0.0}})
     EXPECT_EQ(sample_nearest(codes, at), -1) << at.x << ' ' << at.y;
 }
 

@@ -16,9 +16,11 @@ namespace {
 class Streams : public RasterFiles {
  protected:
   Raster<float> write_noise() const {
-    Raster<float> raster{Grid<float>(600, 500), {500000.0, 5200000.0, 30.0, 30.0}, normalize_crs("EPSG:32632")};
+    Raster<float> raster{
+        Grid<float>(600, 500), {500000.0, 5200000.0, 30.0, 30.0}, normalize_crs("EPSG:32632")};
     std::uint32_t state = 1;
-    for (float& z : raster.cells) z = static_cast<float>((state = state * 1664525U + 1013904223U) >> 8U) * 1e-4F;
+    for (float& z : raster.cells)
+      z = static_cast<float>((state = state * 1664525U + 1013904223U) >> 8U) * 1e-4F;
     write_raster(path("noise.tif"), raster);
     return raster;
   }
@@ -32,7 +34,7 @@ class Streams : public RasterFiles {
 TEST_F(Streams, AreReadAsFilesAre) {
   const Raster<float> raster = write_noise();
   const std::string bytes = read_text("noise.tif");
-  // Several of one name, one after the other and side by side.
+  // Several with the same name, one after the other and at the same time.
   for (int i = 0; i < 3; ++i) {
     std::uint64_t read = 0;
     const ByteSource source{bytes.size(), [&](std::uint64_t offset, std::size_t count, char* to) {
@@ -54,10 +56,12 @@ TEST_F(Streams, WhatTheirFunctionThrowsIsKept) {
   write_noise();
   const std::string bytes = read_text("noise.tif");
   for (const std::uint64_t good : {std::uint64_t{0}, bytes.size() / 2}) {
-    const StreamFile stream("noise.tif", {bytes.size(), [&](std::uint64_t offset, std::size_t count, char* to) {
-                                            if (offset + count > good) throw std::runtime_error("the line is dead");
-                                            bytes.copy(to, count, offset);
-                                          }});
+    const StreamFile stream("noise.tif",
+                            {bytes.size(), [&](std::uint64_t offset, std::size_t count, char* to) {
+                               if (offset + count > good)
+                                 throw std::runtime_error("the line is dead");
+                               bytes.copy(to, count, offset);
+                             }});
     EXPECT_EQ(error_of([&] { read_raster(source_of(stream)); }).kind(), ErrorKind::input);
     EXPECT_THROW(stream.rethrow(), std::runtime_error);
   }

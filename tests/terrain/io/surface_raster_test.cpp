@@ -15,20 +15,23 @@ const GeoTransform frame{680000.0, 5260000.0, 30.0, 30.0};
 Grid<float> rough(int width, int height) {
   Grid<float> z(width, height);
   for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) z(x, y) = 1000.F + 10.F * static_cast<float>((x * 7 + y * 13) % 11);
+    for (int x = 0; x < width; ++x)
+      z(x, y) = 1000.F + 10.F * static_cast<float>((x * 7 + y * 13) % 11);
   return z;
 }
 
 TEST(SurfaceRaster, WhatStaysInPlanKeepsItsPosts) {
   const Grid<float> z = rough(50, 40);
   EXPECT_EQ(raster_of_moved(z, frame, [](glm::dvec3 p) { return p; }), z);
-  const Grid<float> bent = raster_of_moved(z, frame, [](glm::dvec3 p) { return glm::dvec3(p.x, p.y, 2.0 * p.z - 100.0); });
+  const Grid<float> bent = raster_of_moved(
+      z, frame, [](glm::dvec3 p) { return glm::dvec3(p.x, p.y, 2.0 * p.z - 100.0); });
   EXPECT_EQ(bent(17, 23), 2.F * z(17, 23) - 100.F);
 }
 
 TEST(SurfaceRaster, AShiftByWholeCellsMovesTheCells) {
   const Grid<float> z = rough(50, 40);
-  const Grid<float> moved = raster_of_moved(z, frame, [](glm::dvec3 p) { return glm::dvec3(p.x + 90.0, p.y + 60.0, p.z); });
+  const Grid<float> moved = raster_of_moved(
+      z, frame, [](glm::dvec3 p) { return glm::dvec3(p.x + 90.0, p.y + 60.0, p.z); });
   for (int y = 0; y < 40; ++y)
     for (int x = 0; x < 50; ++x) {
       if (x < 3 || y >= 38) {
@@ -40,20 +43,22 @@ TEST(SurfaceRaster, AShiftByWholeCellsMovesTheCells) {
 }
 
 TEST(SurfaceRaster, ATurnedPlaneIsThePlaneTurned) {
-  // z rises to the east; turned clockwise by 50° in the core it rises to azimuth 140°.
+  // z rises to the east; rotated clockwise by 50° in the core it rises to azimuth 140°.
   Grid<float> z(101, 101);
   for (int y = 0; y < 101; ++y)
     for (int x = 0; x < 101; ++x) z(x, y) = static_cast<float>(2.0 * x);
   DeformParameters p;
   const glm::dvec2 centre = frame.to_crs(50, 50);
-  p.handles = {{.center = centre, .rotate_deg = 50.0, .radius_m = 1400.0, .core_m = 700.0}};
+  p.handles = {{.centre = centre, .rotate_deg = 50.0, .radius_m = 1400.0, .core_m = 700.0}};
   const Deformation deformation(p, {0.0, 0.0});
-  const Grid<float> out = raster_of_moved(z, frame, [&](glm::dvec3 q) { return deformation.point(q); });
+  const Grid<float> out =
+      raster_of_moved(z, frame, [&](glm::dvec3 q) { return deformation.point(q); });
   const double c = std::cos(50.0 * M_PI / 180.0);
   const double s = std::sin(50.0 * M_PI / 180.0);
   for (int y = 35; y <= 65; ++y)
     for (int x = 35; x <= 65; ++x) {
-      const double source = (x - 50) * c - (50 - y) * s;  // the post that came here lies 50° counter-clockwise
+      const double source =
+          (x - 50) * c - (50 - y) * s;  // the post that came here lies 50° counter-clockwise
       EXPECT_NEAR(static_cast<double>(out(x, y)), 100.0 + 2.0 * source, 1e-3);
     }
   EXPECT_EQ(out(0, 0), z(0, 0));
@@ -65,8 +70,10 @@ TEST(SurfaceRaster, OverhangsKeepTheHighestAndVoidsStayVoids) {
   for (int y = 0; y < 20; ++y)
     for (int x = 0; x < 60; ++x) z(x, y) = x < 30 ? 500.F : 100.F;
   z(45, 10) = std::nanf("");
-  // The western half runs 10 cells over the eastern one.
-  const auto push = [](glm::dvec3 p) { return glm::dvec3(p.z > 300.0 ? p.x + 300.0 : p.x, p.y, p.z); };
+  // The western half overlaps the eastern one by 10 cells.
+  const auto push = [](glm::dvec3 p) {
+    return glm::dvec3(p.z > 300.0 ? p.x + 300.0 : p.x, p.y, p.z);
+  };
   const Grid<float> out = raster_of_moved(z, frame, push);
   for (int x = 10; x < 40; ++x) EXPECT_EQ(out(x, 5), 500.F) << x;
   for (int x = 40; x < 60; ++x) EXPECT_EQ(out(x, 5), 100.F) << x;
@@ -78,7 +85,11 @@ TEST(SurfaceRaster, OverhangsKeepTheHighestAndVoidsStayVoids) {
 TEST(SurfaceRaster, SameBitsForAnyThreadCount) {
   const Grid<float> z = rough(150, 200);
   DeformParameters p;
-  p.handles = {{.center = frame.to_crs(70, 90), .move_m = {333.0, -121.0}, .rotate_deg = 77.0, .radius_m = 2000.0, .core_m = 500.0}};
+  p.handles = {{.centre = frame.to_crs(70, 90),
+                .move_m = {333.0, -121.0},
+                .rotate_deg = 77.0,
+                .radius_m = 2000.0,
+                .core_m = 500.0}};
   const Deformation deformation(p, {0.0, 0.0});
   const auto run = [&](int threads) {
     const ThreadLimit limit(threads);

@@ -27,7 +27,7 @@ TEST(LakeBeds, AreBowlsDeepestInTheMiddle) {
   EXPECT_EQ(depth(100, 30), 0.F);
   const float deepest = depth(100, 100);
   EXPECT_NEAR(deepest, 0.08 * 605.0, 2.0);  // half the shore's slope times the way to the shore
-  // Half way to the shore: three quarters of the depth; the shore falls off at .16.
+  // Half way to the shore: three quarters of the depth; the slope at the shore is .16.
   EXPECT_NEAR(depth(70, 100), 0.75 * deepest, 0.04 * deepest);
   EXPECT_NEAR(depth(43, 100) - depth(42, 100), 1.6, 0.2);
   for (int x = 41; x < 100; ++x) EXPECT_GE(depth(x + 1, 100), depth(x, 100)) << x;

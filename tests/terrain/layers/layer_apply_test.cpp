@@ -15,7 +15,7 @@ namespace {
 
 using enum LandCoverClass;
 
-// Two tiles and a bit each way.
+// Two tiles and a bit in each direction.
 Dem hills() {
   Dem dem;
   dem.altitude_m = Grid<float>(1100, 700);
@@ -23,7 +23,8 @@ Dem hills() {
   dem.transform = {500'000.0, 5'200'000.0, 20.0, 20.0};
   for (int y = 0; y < 700; ++y)
     for (int x = 0; x < 1100; ++x)
-      dem.altitude_m(x, y) = static_cast<float>(1500.0 + 700.0 * std::sin(x / 80.0) * std::cos(y / 60.0) + 0.5 * x);
+      dem.altitude_m(x, y) =
+          static_cast<float>(1500.0 + 700.0 * std::sin(x / 80.0) * std::cos(y / 60.0) + 0.5 * x);
   return dem;
 }
 
@@ -40,16 +41,18 @@ SurfaceLayers three() {
   layers.layers[1].name = "ice";
   layers.layers[1].painted_as = glacier;
   layers.layers[1].noise = {300.0, 4, 0.6, 0.8};
-  layers.layers[1].functions = {LayerHat{2000.0, INFINITY, 500.0, 0.0}, LayerHat{-INFINITY, 0.0, 0.0, 80.0}};
+  layers.layers[1].functions = {LayerHat{2000.0, INFINITY, 500.0, 0.0},
+                                LayerHat{-INFINITY, 0.0, 0.0, 80.0}};
   return layers;
 }
 
-// How often classes are drawn is how much they cover, sharpened or not.
+// The frequency of drawn classes equals their coverage, sharpened or not.
 TEST(LayerApply, FrequenciesAreShares) {
   const Dem dem = hills();
   const LayerProgram program = compile_layers(three());
   const LayerGround ground = make_layer_ground(dem, {}, program.inputs);
-  const auto coverage = layer_coverage(program, layer_inputs(ground), dem.transform, {0, 0, 1100, 700}, 1);
+  const auto coverage =
+      layer_coverage(program, layer_inputs(ground), dem.transform, {0, 0, 1100, 700}, 1);
   const auto shares = class_shares(program, layer_shares(program, coverage));
   const LayerApplyResult result = apply_layers(
       three(), dem, {}, {}, [](const LayerStrip&) {}, silent_progress());
@@ -62,7 +65,8 @@ TEST(LayerApply, FrequenciesAreShares) {
   }
 }
 
-// What land cover of rough layers brings along: how much each covers, and the beds; what is painted as water has no colour of its own then.
+// Additional results of land cover with rough layers: the cover of each, and the beds; layers
+// painted as water have no colour of their own then.
 TEST(LayerApply, ReliefIsTheCoverageOfRoughLayers) {
   const Dem dem = hills();
   SurfaceLayers layers = three();
@@ -79,20 +83,25 @@ TEST(LayerApply, ReliefIsTheCoverageOfRoughLayers) {
   EXPECT_EQ(cover.relief.bumps[0].length_m, 50.0);
   const LayerProgram program = compile_layers(layers);
   const auto coverage =
-      layer_coverage(program, layer_inputs(make_layer_ground(dem, {}, program.inputs)), dem.transform, {0, 0, 1100, 700}, 1);
+      layer_coverage(program, layer_inputs(make_layer_ground(dem, {}, program.inputs)),
+                     dem.transform, {0, 0, 1100, 700}, 1);
   EXPECT_EQ(cover.relief.bumps[0].share, coverage[1]);
   EXPECT_TRUE(cover.relief.lake_depth_m.same_size(dem.altitude_m));
-  for (const GroundColour& colour : cover.colours.cells) ASSERT_GE(colour.r + 1, colour.b) << "no blue";
+  for (const GroundColour& colour : cover.colours.cells)
+    ASSERT_GE(colour.r + 1, colour.b) << "no blue";
   parameters.relief = false;
-  EXPECT_TRUE(layer_land_cover(layers, dem, {}, parameters, silent_progress()).relief.lake_depth_m.empty());
+  EXPECT_TRUE(
+      layer_land_cover(layers, dem, {}, parameters, silent_progress()).relief.lake_depth_m.empty());
 }
 
-// Strips and tiles are the program's own business: coverages and colours are those of the whole, whatever the threads.
+// Strips and tiles do not affect the result: coverages and colours are those of the whole, for any
+// number of threads.
 TEST(LayerApply, TilesAndThreadsLeaveNoTrace) {
   const Dem dem = hills();
   const LayerProgram program = compile_layers(three());
   const LayerGround ground = make_layer_ground(dem, {}, program.inputs);
-  const auto coverage = layer_coverage(program, layer_inputs(ground, {0, 0, 1100, 700}), dem.transform, {0, 0, 1100, 700}, 1);
+  const auto coverage = layer_coverage(program, layer_inputs(ground, {0, 0, 1100, 700}),
+                                       dem.transform, {0, 0, 1100, 700}, 1);
   LayerApplyParameters parameters;
   parameters.coverage = true;
   const auto run = [&](int threads) {
@@ -105,7 +114,9 @@ TEST(LayerApply, TilesAndThreadsLeaveNoTrace) {
           for (std::size_t k = 0; k < coverage.size(); ++k)
             for (int y = 0; y < strip.coverage[k].height(); ++y)
               for (int x = 0; x < 1100; ++x)
-                ASSERT_EQ(strip.coverage[k](x, y), static_cast<int>(255.F * coverage[k](x, strip.y0 + y) + 0.5F)) << x << ' ' << y;
+                ASSERT_EQ(strip.coverage[k](x, y),
+                          static_cast<int>(255.F * coverage[k](x, strip.y0 + y) + 0.5F))
+                    << x << ' ' << y;
         },
         silent_progress());
     return classes;

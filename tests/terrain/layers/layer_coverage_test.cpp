@@ -23,19 +23,27 @@ SurfaceLayer layer(const std::string& name, int parent, std::uint32_t rgb, doubl
   return made;
 }
 
-std::vector<Grid<float>> coverage_of(const SurfaceLayers& layers, const std::vector<Grid<float>>& inputs, const PixelRect& cells,
-                                     const GeoTransform& transform = metres, std::uint64_t seed = 7) {
+std::vector<Grid<float>> coverage_of(const SurfaceLayers& layers,
+                                     const std::vector<Grid<float>>& inputs, const PixelRect& cells,
+                                     const GeoTransform& transform = metres,
+                                     std::uint64_t seed = 7) {
   return layer_coverage(compile_layers(layers), inputs, transform, cells, seed);
 }
 
-// Smooth random functions of five inputs for twelve layers in three generations, with noise of four octaves.
+// Smooth random functions of five inputs for twelve layers in three generations, with noise of four
+// octaves.
 SurfaceLayers twelve_layers(LayerModel model) {
   SurfaceLayers layers;
   layers.model = model;
-  layers.inputs = {{"altitude", 0.0, 1.0}, {"slope", 0.0, 1.0}, {"north", 0.0, 1.0}, {"east", 0.0, 1.0}, {"flatness", 0.0, 1.0}};
+  layers.inputs = {{"altitude", 0.0, 1.0},
+                   {"slope", 0.0, 1.0},
+                   {"north", 0.0, 1.0},
+                   {"east", 0.0, 1.0},
+                   {"flatness", 0.0, 1.0}};
   constexpr int parents[12] = {-1, 0, 1, 0, -1, 4, 4, -1, 7, 8, 8, -1};
   for (int k = 0; k < 12; ++k) {
-    SurfaceLayer made = layer("layer " + std::to_string(k), parents[k], static_cast<std::uint32_t>(random_bits(1, k, 0) & 0xffffffU), 0.9);
+    SurfaceLayer made = layer("layer " + std::to_string(k), parents[k],
+                              static_cast<std::uint32_t>(random_bits(1, k, 0) & 0xffffffU), 0.9);
     made.noise.amplitude = 0.8;
     made.noise.scale_m = 300.0;
     for (int i = 0; i < 5; ++i) {
@@ -46,7 +54,8 @@ SurfaceLayers twelve_layers(LayerModel model) {
       }
       const double phase = 6.0 * random_uniform(2, k, i);
       for (int s = 0; s < 256; ++s)
-        samples.samples[static_cast<std::size_t>(s)] = static_cast<std::uint8_t>(std::lround(200.0 + 55.0 * std::sin(0.02 * s + phase)));
+        samples.samples[static_cast<std::size_t>(s)] =
+            static_cast<std::uint8_t>(std::lround(200.0 + 55.0 * std::sin(0.02 * s + phase)));
       made.functions.emplace_back(samples);
     }
     layers.layers.push_back(made);
@@ -62,7 +71,8 @@ std::vector<Grid<float>> waves(int count, const PixelRect& cells, const GeoTrans
     for (int y = 0; y < grid.height(); ++y)
       for (int x = 0; x < grid.width(); ++x) {
         const glm::dvec2 at = transform.to_crs(cells.x0 + x, cells.y0 + y);
-        grid(x, y) = static_cast<float>(0.5 + 0.5 * std::sin(at.x / (700.0 + 90.0 * i) + at.y / (900.0 - 70.0 * i) + i));
+        grid(x, y) = static_cast<float>(
+            0.5 + 0.5 * std::sin(at.x / (700.0 + 90.0 * i) + at.y / (900.0 - 70.0 * i) + i));
       }
   }
   return inputs;
@@ -72,14 +82,16 @@ std::vector<Grid<float>> waves(int count, const PixelRect& cells, const GeoTrans
 TEST(LayerCoverage, ThreeLayersInClosedForm) {
   SurfaceLayers layers;
   layers.ground_rgb = 0x646464;  // 100
-  layers.layers = {layer("a", -1, 0xc80000, 0.5), layer("b", 0, 0x00c800, 0.5), layer("c", -1, 0x0000c8, 0.25)};
+  layers.layers = {layer("a", -1, 0xc80000, 0.5), layer("b", 0, 0x00c800, 0.5),
+                   layer("c", -1, 0x0000c8, 0.25)};
   for (SurfaceLayer& l : layers.layers) l.functions.clear();
   const LayerProgram program = compile_layers(layers);
   const auto c = layer_coverage(program, {}, metres, {0, 0, 3, 2}, 1);
   EXPECT_EQ(c[0](2, 1), 0.5F);
   EXPECT_EQ(c[1](2, 1), 0.25F);  // half of the half that its parent covers
   EXPECT_EQ(c[2](2, 1), 0.25F);
-  // Red: 100 → 150 → 112.5 → 84.375. Green: 100 → 50 → 87.5 → 65.625. Blue: 100 → 50 → 37.5 → 78.125.
+  // Red: 100 → 150 → 112.5 → 84.375. Green: 100 → 50 → 87.5 → 65.625. Blue: 100 → 50 → 37.5
+  // → 78.125.
   const glm::vec3 colour = layer_colour(program, c)(2, 1);
   EXPECT_EQ(colour, glm::vec3(84.375F, 65.625F, 78.125F));
   // Shares: c .25; b .25 · .75; a .5 · .75 · .75; the ground the rest.
@@ -90,11 +102,13 @@ TEST(LayerCoverage, ThreeLayersInClosedForm) {
   EXPECT_EQ(shares[0](0, 0), 0.28125F);
 }
 
-// Whatever bias and functions say, all is all and nothing is nothing; and so for children. An expression of 0 is not true.
+// Whatever bias and functions are, full and zero coverage stay; also for children. An expression of
+// 0 is false.
 TEST(LayerCoverage, StaysBetweenNothingAndAll) {
   SurfaceLayers layers;
-  layers.layers = {layer("loud", -1, 0xc80000, 1.7), layer("child", 0, 0x00c800, 1.7), layer("silent", -1, 0x0000c8, -0.3),
-                   layer("nowhere", -1, 0x0000c8, 1.0), layer("everywhere", -1, 0x0000c8, 1.0)};
+  layers.layers = {layer("loud", -1, 0xc80000, 1.7), layer("child", 0, 0x00c800, 1.7),
+                   layer("silent", -1, 0x0000c8, -0.3), layer("nowhere", -1, 0x0000c8, 1.0),
+                   layer("everywhere", -1, 0x0000c8, 1.0)};
   layers.layers[3].when = "0";
   layers.layers[4].when = "0.001";
   const LayerProgram program = compile_layers(layers);
@@ -106,14 +120,18 @@ TEST(LayerCoverage, StaysBetweenNothingAndAll) {
   EXPECT_EQ(c[4](2, 1), 1.F);
 }
 
-// The hierarchy of the paper's figure 4: rock; grass with dark and dry grass; sand and its like after. Height and colour go from each layer
-// to the next, coverage to children alone: what fails its conditions changes nothing and lets no child appear.
+// The hierarchy of the paper's figure 4: rock; grass with dark and dry grass; sand and a similar
+// layer. Height and colour pass from each layer to the next, coverage only to children: a layer
+// that fails its conditions changes nothing and hides its children.
 TEST(LayerCoverage, CoverageGoesToChildrenAlone) {
   SurfaceLayers layers;
   layers.inputs = {{"altitude", 0.0, 1000.0}};
-  const auto hat = [](double low, double high) { return std::vector<LayerFunction>{LayerHat{low, high, 0.0, 0.0}}; };
-  layers.layers = {layer("grass", -1, 0x00ff00, 0.8), layer("dark grass", 0, 0x008000, 0.5), layer("dry grass", 1, 0x808000, 0.5),
-                   layer("light grass", 0, 0x80ff80, 0.25), layer("sand", -1, 0xffff00, 1.0)};
+  const auto hat = [](double low, double high) {
+    return std::vector<LayerFunction>{LayerHat{low, high, 0.0, 0.0}};
+  };
+  layers.layers = {layer("grass", -1, 0x00ff00, 0.8), layer("dark grass", 0, 0x008000, 0.5),
+                   layer("dry grass", 1, 0x808000, 0.5), layer("light grass", 0, 0x80ff80, 0.25),
+                   layer("sand", -1, 0xffff00, 1.0)};
   layers.layers[0].functions = hat(0.0, 600.0);
   layers.layers[1].functions = hat(0.0, 300.0);
   layers.layers[2].functions = hat(0.0, 1000.0);
@@ -143,7 +161,8 @@ TEST(LayerCoverage, TablesAndHatsEqualTheirDefinition) {
   layers.inputs = {{"altitude", -100.0, 3000.0}, {"slope", 0.0, 60.0}};
   SurfaceLayer made = layer("one", -1, 0);
   LayerSamples samples;
-  for (int i = 0; i < 256; ++i) samples.samples[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(random_bits(4, i, 0));
+  for (int i = 0; i < 256; ++i)
+    samples.samples[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(random_bits(4, i, 0));
   made.functions = {samples, LayerHat{10.0, 40.0, 5.0, 12.0}};
   layers.layers = {made};
   Grid<float> altitude(500, 1), slope(500, 1);
@@ -153,19 +172,23 @@ TEST(LayerCoverage, TablesAndHatsEqualTheirDefinition) {
   }
   const auto c = coverage_of(layers, {altitude, slope}, {0, 0, 500, 1});
   for (int x = 0; x < 500; ++x) {
-    const double expected = layer_function_value(made.functions[0], layers.inputs[0], layers.model, static_cast<double>(altitude(x, 0))) *
-                            layer_function_value(made.functions[1], layers.inputs[1], layers.model, static_cast<double>(slope(x, 0)));
+    const double expected = layer_function_value(made.functions[0], layers.inputs[0], layers.model,
+                                                 static_cast<double>(altitude(x, 0))) *
+                            layer_function_value(made.functions[1], layers.inputs[1], layers.model,
+                                                 static_cast<double>(slope(x, 0)));
     EXPECT_NEAR(c[0](x, 0), expected, 2e-5) << x;
   }
 }
 
-// Shares of an additive file are the softmax of siblings times the parent's, whatever the order of painting.
+// Shares of an additive file are the softmax of siblings times the parent's, whatever the order of
+// painting.
 TEST(LayerCoverage, AdditiveSharesAreExact) {
   SurfaceLayers layers;
   layers.model = LayerModel::additive;
-  layers.layers = {layer("rock", -1, 0x808080, std::log(1.0)), layer("wood", -1, 0x008000, std::log(3.0)),
-                   layer("spruce", 1, 0x004000, std::log(1.0)), layer("beech", 1, 0x00a000, std::log(2.0)),
-                   layer("ice", -1, 0xffffff, 0.0)};
+  layers.layers = {layer("rock", -1, 0x808080, std::log(1.0)),
+                   layer("wood", -1, 0x008000, std::log(3.0)),
+                   layer("spruce", 1, 0x004000, std::log(1.0)),
+                   layer("beech", 1, 0x00a000, std::log(2.0)), layer("ice", -1, 0xffffff, 0.0)};
   const LayerProgram program = compile_layers(layers);
   const auto c = layer_coverage(program, {}, metres, {0, 0, 1, 1}, 1);
   const auto shares = layer_shares(program, c);
@@ -215,7 +238,8 @@ TEST(LayerCoverage, AnyRectangleHasTheBitsOfTheWhole) {
   for (std::size_t k = 0; k < c.size(); ++k) ASSERT_EQ(part_of(c[k], part), d[k]) << k;
 }
 
-// Detail beyond the raster's resolution changes nothing on the mean: a cell of 20 m against 8 × 8 cells of 2.5 m.
+// Detail beyond the raster's resolution changes nothing on average: a cell of 20 m against 8 × 8
+// cells of 2.5 m.
 TEST(LayerCoverage, MeanColourDoesNotHangOnResolution) {
   for (const LayerModel model : {LayerModel::product, LayerModel::additive}) {
     const SurfaceLayers layers = twelve_layers(model);
@@ -224,14 +248,16 @@ TEST(LayerCoverage, MeanColourDoesNotHangOnResolution) {
     const GeoTransform fine{600'000.0, 5'200'000.0, 2.5, 2.5};
     const auto mean_of = [&](const GeoTransform& transform, int size) {
       const PixelRect cells{0, 0, size, size};
-      const auto colour = layer_colour(program, layer_coverage(program, waves(5, cells, transform), transform, cells, 5));
+      const auto colour = layer_colour(
+          program, layer_coverage(program, waves(5, cells, transform), transform, cells, 5));
       glm::dvec3 sum(0.0);
       for (const glm::vec3& c : colour) sum += glm::dvec3(c);
       return sum / static_cast<double>(colour.size());
     };
     const glm::dvec3 a = mean_of(coarse, 80);
     const glm::dvec3 b = mean_of(fine, 640);
-    for (int i = 0; i < 3; ++i) EXPECT_NEAR(a[i], b[i], 0.1) << (model == LayerModel::product ? "product" : "additive");
+    for (int i = 0; i < 3; ++i)
+      EXPECT_NEAR(a[i], b[i], 0.1) << (model == LayerModel::product ? "product" : "additive");
   }
 }
 

@@ -15,12 +15,16 @@ using test::metres;
 using enum LandCoverClass;
 
 std::vector<Grid<float>> no_shares(int width, int height) {
-  return std::vector<Grid<float>>(static_cast<std::size_t>(land_cover_class_count), Grid<float>(width, height));
+  return std::vector<Grid<float>>(static_cast<std::size_t>(land_cover_class_count),
+                                  Grid<float>(width, height));
 }
-Grid<float>& of(std::vector<Grid<float>>& shares, LandCoverClass id) { return shares[static_cast<std::size_t>(id)]; }
+Grid<float>& of(std::vector<Grid<float>>& shares, LandCoverClass id) {
+  return shares[static_cast<std::size_t>(id)];
+}
 
 double frequency(const Grid<LandCoverClass>& classes, LandCoverClass id) {
-  return static_cast<double>(std::count(classes.begin(), classes.end(), id)) / static_cast<double>(classes.size());
+  return static_cast<double>(std::count(classes.begin(), classes.end(), id)) /
+         static_cast<double>(classes.size());
 }
 
 std::vector<Grid<float>> constant_shares(int size) {
@@ -40,7 +44,8 @@ TEST(LayerDrawing, FrequencyIsTheShare) {
     parameters.spectrum = spectrum;
     parameters.octaves = 4;
     const std::vector<Grid<float>> shares = constant_shares(700);
-    const Grid<LandCoverClass> drawn = draw_classes(plan_layer_drawing(parameters, shares), shares, metres, {0, 0, 700, 700});
+    const Grid<LandCoverClass> drawn =
+        draw_classes(plan_layer_drawing(parameters, shares), shares, metres, {0, 0, 700, 700});
     EXPECT_NEAR(frequency(drawn, forest), 0.55, 0.015) << spectrum;
     EXPECT_NEAR(frequency(drawn, rock), 0.30, 0.015) << spectrum;
     EXPECT_NEAR(frequency(drawn, snow), 0.12, 0.01) << spectrum;
@@ -48,7 +53,8 @@ TEST(LayerDrawing, FrequencyIsTheShare) {
   }
 }
 
-// From forest to rock over the region, with a little snow on rock: sharpened shares come up as often on the whole, but less mixed.
+// From forest to rock over the region, with a little snow on rock: sharpened shares have the same
+// total frequency, but are less mixed.
 TEST(LayerDrawing, SharpeningKeepsMeanShares) {
   constexpr int size = 600;
   std::vector<Grid<float>> shares = no_shares(size, size);
@@ -85,7 +91,8 @@ TEST(LayerDrawing, LargeSpectraMakeLargePatches) {
   const auto edges = [&](double spectrum) {
     LayerDrawingParameters parameters;
     parameters.spectrum = spectrum;
-    const Grid<LandCoverClass> drawn = draw_classes(plan_layer_drawing(parameters, shares), shares, metres, {0, 0, 400, 400});
+    const Grid<LandCoverClass> drawn =
+        draw_classes(plan_layer_drawing(parameters, shares), shares, metres, {0, 0, 400, 400});
     int count = 0;
     for (int y = 0; y < 400; ++y)
       for (int x = 1; x < 400; ++x) count += drawn(x, y) != drawn(x - 1, y) ? 1 : 0;
@@ -108,7 +115,8 @@ TEST(LayerDrawing, NothingIsDrawnWhereNothingIs) {
   std::vector<Grid<float>> shares = no_shares(4, 1);
   of(shares, sky)(0, 0) = 1.F;
   of(shares, rock)(1, 0) = 1e-6F;
-  const Grid<LandCoverClass> drawn = draw_classes(plan_layer_drawing({}, shares), shares, metres, {0, 0, 4, 1});
+  const Grid<LandCoverClass> drawn =
+      draw_classes(plan_layer_drawing({}, shares), shares, metres, {0, 0, 4, 1});
   EXPECT_EQ(drawn(0, 0), sky);
   EXPECT_EQ(drawn(1, 0), rock);
   EXPECT_THROW(plan_layer_drawing({.power = 0.5}, shares), Error);

@@ -22,10 +22,14 @@ SurfaceLayers one_colour(std::uint32_t rgb) {
   return layers;
 }
 
-Grid<glm::vec3> drawn(const Dem& dem, const SurfaceLayers& layers, const LayerPictureParameters& parameters) {
+Grid<glm::vec3> drawn(const Dem& dem, const SurfaceLayers& layers,
+                      const LayerPictureParameters& parameters) {
   Grid<glm::vec3> all(dem.width() * parameters.finer, dem.height() * parameters.finer);
   draw_layer_picture(
-      layers, dem, {}, parameters, [&](int y0, const Grid<glm::vec3>& rows) { std::copy(rows.begin(), rows.end(), all.row(y0)); },
+      layers, dem, {}, parameters,
+      [&](int y0, const Grid<glm::vec3>& rows) {
+        std::copy(rows.begin(), rows.end(), all.row(y0));
+      },
       silent_progress());
   return all;
 }
@@ -37,12 +41,13 @@ Dem ramp(int size, float rise_east, float rise_south) {
   dem.transform = {1000.0, 5000.0, 10.0, 10.0};
   for (int y = 0; y < size; ++y)
     for (int x = 0; x < size; ++x)
-      dem.altitude_m(x, y) = 400.F + 10.F * (rise_east * static_cast<float>(x) + rise_south * static_cast<float>(y));
+      dem.altitude_m(x, y) =
+          400.F + 10.F * (rise_east * static_cast<float>(x) + rise_south * static_cast<float>(y));
   return dem;
 }
 
-// Lambert's cosine over that of level ground: level ground keeps its colour, a slope that faces light 45° high gets √2 of it, one that
-// turns away the shade alone.
+// Lambert's cosine over that of level ground: level ground keeps its colour, a slope that faces
+// light 45° high gets √2 of it, one that faces away only the shade.
 TEST(LayerPicture, BrightnessIsLambertsCosine) {
   const LayerPictureParameters light{.light_from = 90.0, .light_height = 45.0, .shade = 0.25};
   EXPECT_NEAR(SlopeLight(light).brightness({0.F, 0.F, 1.F}), 1.0, 1e-6);
@@ -61,15 +66,17 @@ TEST(LayerPicture, APlaneHasOneColourAtAnyFineness) {
   for (const int finer : {1, 3, 8}) {
     const LayerPictureParameters parameters{.finer = finer, .light_from = 270.0};
     const Grid<glm::vec3> picture = drawn(plane, one_colour(0x804020), parameters);
-    const float brightness = SlopeLight(parameters).brightness(glm::normalize(glm::vec3(-0.3F, 0.F, 1.F)));
+    const float brightness =
+        SlopeLight(parameters).brightness(glm::normalize(glm::vec3(-0.3F, 0.F, 1.F)));
     EXPECT_GT(brightness, 1.1F);
-    const glm::vec3 middle = picture(30 * finer, 30 * finer);
-    EXPECT_NEAR(middle.x, 128.F * brightness, 0.3F) << finer;
-    EXPECT_NEAR(middle.y, 64.F * brightness, 0.3F) << finer;
+    const glm::vec3 centre = picture(30 * finer, 30 * finer);
+    EXPECT_NEAR(centre.x, 128.F * brightness, 0.3F) << finer;
+    EXPECT_NEAR(centre.y, 64.F * brightness, 0.3F) << finer;
   }
 }
 
-// A level lake in a bowl: pale at its shore, deep in the middle; without beds it is its layers' ground.
+// A level lake in a bowl: pale at its shore, deep at the centre; without beds it is its layers'
+// ground.
 TEST(LayerPicture, LakesShowTheirBeds) {
   Dem bowl = ramp(120, 0.F, 0.F);
   for (int y = 0; y < 120; ++y)

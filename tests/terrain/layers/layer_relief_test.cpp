@@ -13,7 +13,7 @@ namespace {
 
 constexpr double cell_m = 20.0;
 
-// A layer of stones on level ground at 400 m: all of it, or more and more to the east.
+// A layer of stones on level ground at 400 m: uniform, or increasing to the east.
 SurfaceLayers stones(double height_m, double length_m) {
   SurfaceLayers layers;
   layers.name = "stones";
@@ -37,7 +37,8 @@ Dem level(int size) {
 GroundRelief relief_of(const SurfaceLayers& layers, const Dem& dem, std::uint64_t seed) {
   const SurfaceLayer& layer = layers.layers[0];
   return {dem.transform,
-          {{layer.roughness_m, layer.roughness_scale_m, bump_seed(layer, seed), Grid<float>(dem.width(), dem.height(), 1.F)}},
+          {{layer.roughness_m, layer.roughness_scale_m, bump_seed(layer, seed),
+            Grid<float>(dem.width(), dem.height(), 1.F)}},
           {}};
 }
 
@@ -49,10 +50,12 @@ TEST(LayerRelief, NoiseAtAPlaceIsThatOfTheRaster) {
   for (int y = 20; y < 50; ++y) {
     rows.fill(y, row.data());
     for (int x = 10; x < 60; ++x) {
-      const glm::dvec2 place = fine.to_crs(x, y);
-      const NoiseAtPlace at = layer_noise_at(noise, 5, place, 7.0);
+      const glm::dvec2 position = fine.to_crs(x, y);
+      const NoiseAtPosition at = layer_noise_at(noise, 5, position, 7.0);
       ASSERT_NEAR(at.value, row[static_cast<std::size_t>(x - 10)], 1e-5) << x << ' ' << y;
-      const auto value = [&](double east, double north) { return layer_noise_at(noise, 5, place + glm::dvec2(east, north), 7.0).value; };
+      const auto value = [&](double east, double north) {
+        return layer_noise_at(noise, 5, position + glm::dvec2(east, north), 7.0).value;
+      };
       if (std::abs(at.value) > 0.99) continue;
       ASSERT_NEAR(at.slope.x, (value(0.01, 0.0) - value(-0.01, 0.0)) / 0.02, 1e-5);
       ASSERT_NEAR(at.slope.y, (value(0.0, 0.01) - value(0.0, -0.01)) / 0.02, 1e-5);
@@ -66,15 +69,15 @@ TEST(LayerRelief, SlopesAreThoseOfTheGroundAsThePictureFromAboveRaisesIt) {
   const SurfaceLayers layers = stones(6.0, 80.0);
   constexpr int factor = 8;
   const LayerProgram program = compile_layers(layers);
-  const LayerSurface surface =
-      layer_surface(program, make_layer_ground(dem, {}, program.inputs), factor, {0, 0, 24 * factor, 24 * factor}, 3);
+  const LayerSurface surface = layer_surface(program, make_layer_ground(dem, {}, program.inputs),
+                                             factor, {0, 0, 24 * factor, 24 * factor}, 3);
   const GroundRelief relief = relief_of(layers, dem, 3);
   const GeoTransform fine{1000.0, 5000.0, cell_m / factor, cell_m / factor};
   double square = 0.0;
   for (int y = 40; y < 140; ++y)
     for (int x = 40; x < 140; ++x) {
-      const glm::dvec2 place = fine.to_crs(x, y);
-      const glm::dvec2 slope = bump_slope(relief, place, cell_m / factor);
+      const glm::dvec2 position = fine.to_crs(x, y);
+      const glm::dvec2 slope = bump_slope(relief, position, cell_m / factor);
       const glm::vec3 normal = surface.normal(x, y);
       // Central differences over two cells of 2.5 m of bumps of which the shortest are 10 m long.
       ASSERT_NEAR(slope.x, -normal.x / normal.z, 0.015) << x << ' ' << y;
@@ -112,7 +115,8 @@ TEST(LayerRelief, LevelGroundStaysLevelInTheMeanAndIsSmoothFromAfar) {
   EXPECT_EQ(look(60.0), 0.0);
 }
 
-// Half as much cover, half as steep; where cover grows to the east its own slope counts: d(C N) = C dN + N dC.
+// Half as much cover, half as steep; where cover grows to the east its own slope counts: d(C N) = C
+// dN + N dC.
 TEST(LayerRelief, CoverageScalesAndTiltsTheBumps) {
   const Dem dem = level(40);
   const GroundRelief all = relief_of(stones(4.0, 60.0), dem, 2);
@@ -123,13 +127,13 @@ TEST(LayerRelief, CoverageScalesAndTiltsTheBumps) {
     for (int x = 0; x < 40; ++x) growing.bumps[0].share(x, y) = static_cast<float>(x) / 40.F;
   const LayerNoise noise = bump_noise(60.0);
   for (double x = 1200.0; x < 1600.0; x += 17.0) {
-    const glm::dvec2 place(x, 4630.0);
-    const glm::dvec2 whole = bump_slope(all, place, 2.0);
-    EXPECT_LT(glm::length(bump_slope(half, place, 2.0) - 0.5 * whole), 1e-6);
-    const double cover = dem.transform.to_cell(place.x, place.y).x / 40.0;
-    const double here = layer_noise_at(noise, all.bumps[0].seed, place, 2.0).value;
+    const glm::dvec2 position(x, 4630.0);
+    const glm::dvec2 whole = bump_slope(all, position, 2.0);
+    EXPECT_LT(glm::length(bump_slope(half, position, 2.0) - 0.5 * whole), 1e-6);
+    const double cover = dem.transform.to_cell(position.x, position.y).x / 40.0;
+    const double here = layer_noise_at(noise, all.bumps[0].seed, position, 2.0).value;
     const glm::dvec2 expected = cover * whole + glm::dvec2(4.0 * here / (40.0 * cell_m), 0.0);
-    EXPECT_LT(glm::length(bump_slope(growing, place, 2.0) - expected), 1e-6) << x;
+    EXPECT_LT(glm::length(bump_slope(growing, position, 2.0) - expected), 1e-6) << x;
   }
   EXPECT_EQ(bump_slope({}, {1200.0, 4600.0}, 1.0), glm::dvec2(0.0));
 }

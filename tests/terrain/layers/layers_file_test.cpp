@@ -19,13 +19,13 @@ using testing::HasSubstr;
 
 constexpr char head[] = "version = 1\n[[inputs]]\nname = \"altitude\"\nlow = 0\nhigh = 4000\n";
 
-void expect_fault(const std::string& text, const std::string& place, const std::string& found) {
+void expect_fault(const std::string& text, const std::string& position, const std::string& found) {
   try {
     parse_surface_layers(text, "x.toml");
     FAIL() << "read: " << text;
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::usage);
-    EXPECT_EQ(error.where(), place);
+    EXPECT_EQ(error.where(), position);
     EXPECT_THAT(error.found(), HasSubstr(found));
   }
 }
@@ -40,7 +40,8 @@ SurfaceLayers rich() {
   layers.parameters = {{"treeline_m", 1800.1}, {"small", 1e-9}};
   layers.terms = {{"high", "altitude - treeline_m + 100 * n210"}};
   LayerSamples samples;
-  for (std::size_t i = 0; i < 256; ++i) samples.samples[i] = static_cast<std::uint8_t>(random_bits(3, static_cast<std::int64_t>(i), 0));
+  for (std::size_t i = 0; i < 256; ++i)
+    samples.samples[i] = static_cast<std::uint8_t>(random_bits(3, static_cast<std::int64_t>(i), 0));
   SurfaceLayer grass;
   grass.name = "grass";
   grass.painted_as = LandCoverClass::alpine_grass;
@@ -54,7 +55,9 @@ SurfaceLayers rich() {
   dry.parent = 0;
   dry.painted_as.reset();
   dry.when = "high > small";
-  dry.functions = {{}, LayerHat{-std::numeric_limits<double>::infinity(), 30.0, 3.0, 3.0}, LayerHat{1.0, 2.0, 0.0, 0.0}};
+  dry.functions = {{},
+                   LayerHat{-std::numeric_limits<double>::infinity(), 30.0, 3.0, 3.0},
+                   LayerHat{1.0, 2.0, 0.0, 0.0}};
   samples.at_0 = 0.125;
   samples.at_255 = 1.0 / 7.0;
   SurfaceLayer snow;
@@ -138,32 +141,39 @@ TEST(LayersFile, SamplesAreBase64) {
   EXPECT_THAT(text, HasSubstr("8PHy8/T19vf4+fr7/P3+/w==\""));
 }
 
-// Fewer values stand at even distances from end to end, with straight lines between them.
+// Fewer values lie at even distances from end to end, with straight lines between them.
 TEST(LayersFile, FewKnotsSayAllSamples) {
   // 0 and 255: Python's base64 of those two bytes.
-  const std::string ramp = std::string(head) + "[[layers]]\nname = \"a\"\nfunctions = { altitude = { samples = \"AP8=\" } }\n";
+  const std::string ramp =
+      std::string(head) +
+      "[[layers]]\nname = \"a\"\nfunctions = { altitude = { samples = \"AP8=\" } }\n";
   const SurfaceLayers two = parse_surface_layers(ramp, "x.toml");
   const auto& samples = std::get<LayerSamples>(two.layers[0].functions[0]);
   EXPECT_EQ(samples.knots, (std::vector<std::uint8_t>{0, 255}));
-  for (int i = 0; i < 256; ++i) EXPECT_NEAR(samples.samples[static_cast<std::size_t>(i)], 255.0 * layer_sample_place(i), 0.5) << i;
+  for (int i = 0; i < 256; ++i)
+    EXPECT_NEAR(samples.samples[static_cast<std::size_t>(i)], 255.0 * layer_sample_place(i), 0.5)
+        << i;
   for (const std::size_t count : {2U, 3U, 4U, 31U, 32U, 33U, 255U}) {
     LayerSamples function;
     for (std::size_t j = 0; j < count; ++j)
-      function.knots.push_back(static_cast<std::uint8_t>(random_bits(4, static_cast<std::int64_t>(j), static_cast<std::int64_t>(count))));
+      function.knots.push_back(static_cast<std::uint8_t>(
+          random_bits(4, static_cast<std::int64_t>(j), static_cast<std::int64_t>(count))));
     function.samples = samples_of_knots(function.knots);
     SurfaceLayers layers = two;
     layers.layers[0].functions[0] = function;
     const std::string text = surface_layers_text(layers);
-    const auto read = std::get<LayerSamples>(parse_surface_layers(text, "x.toml").layers[0].functions[0]);
+    const auto read =
+        std::get<LayerSamples>(parse_surface_layers(text, "x.toml").layers[0].functions[0]);
     EXPECT_EQ(read.knots, function.knots) << count;
     EXPECT_EQ(read.samples, function.samples) << count;
-    // Where two knots are at even places between, samples are on the line: exact in whole numbers.
+    // Halfway between two knots samples are on the line: exact in whole numbers.
     for (int i = 0; i < 256; ++i) {
       const double at = layer_sample_place(i) * static_cast<double>(count - 1);
       const auto first = static_cast<std::size_t>(at);
       const double low = function.knots[first];
       const double high = function.knots[std::min(first + 1, count - 1)];
-      ASSERT_NEAR(function.samples[static_cast<std::size_t>(i)], low + (at - static_cast<double>(first)) * (high - low), 0.5001);
+      ASSERT_NEAR(function.samples[static_cast<std::size_t>(i)],
+                  low + (at - static_cast<double>(first)) * (high - low), 0.5001);
     }
   }
 }
@@ -171,7 +181,8 @@ TEST(LayersFile, FewKnotsSayAllSamples) {
 TEST(LayersFile, OrdersLayersDepthFirst) {
   const SurfaceLayers layers = parse_surface_layers(
       "version = "
-      "1\n[[layers]]\nname=\"c\"\nparent=\"b\"\n[[layers]]\nname=\"a\"\n[[layers]]\nname=\"b\"\n[[layers]]\nname=\"d\"\nparent=\"a\"\n",
+      "1\n[[layers]]\nname=\"c\"\nparent=\"b\"\n[[layers]]\nname=\"a\"\n[[layers]]\nname=\"b\"\n[["
+      "layers]]\nname=\"d\"\nparent=\"a\"\n",
       "x.toml");
   ASSERT_EQ(layers.layers.size(), 4U);
   EXPECT_EQ(layers.layers[0].name, "a");
@@ -184,22 +195,34 @@ TEST(LayersFile, OrdersLayersDepthFirst) {
 
 TEST(LayersFile, FaultsNameTheirPlace) {
   expect_fault(
-      "version = 1\n[[layers]]\nname=\"a\"\nparent=\"b\"\n[[layers]]\nname=\"b\"\nparent=\"a\"\n[[layers]]\nname=\"c\"\nparent=\"a\"\n",
+      "version = "
+      "1\n[[layers]]\nname=\"a\"\nparent=\"b\"\n[[layers]]\nname=\"b\"\nparent=\"a\"\n[[layers]]"
+      "\nname=\"c\"\nparent=\"a\"\n",
       "x.toml:4:8", "own ancestor: a → b → a");
-  expect_fault("version = 1\n[[layers]]\nname=\"a\"\nparent=\"gras\"\n[[layers]]\nname=\"grass\"\n", "x.toml:4:8",
-               "did you mean \"grass\"");
-  expect_fault("version = 1\n[[layers]]\nname=\"a\"\nclass = \"forrest\"\n", "x.toml:4:9", "did you mean \"forest\"");
-  expect_fault("version = 1\n[[inputs]]\nname = \"altitud\"\nlow = 0\nhigh = 1\n", "x.toml:3:8", "did you mean \"altitude\"");
-  expect_fault(std::string(head) + "[[layers]]\nname=\"a\"\n[layers.functions]\naltitute = { low = 3 }\n", "x.toml:9:1",
+  expect_fault("version = 1\n[[layers]]\nname=\"a\"\nparent=\"gras\"\n[[layers]]\nname=\"grass\"\n",
+               "x.toml:4:8", "did you mean \"grass\"");
+  expect_fault("version = 1\n[[layers]]\nname=\"a\"\nclass = \"forrest\"\n", "x.toml:4:9",
+               "did you mean \"forest\"");
+  expect_fault("version = 1\n[[inputs]]\nname = \"altitud\"\nlow = 0\nhigh = 1\n", "x.toml:3:8",
                "did you mean \"altitude\"");
-  expect_fault(std::string(head) + "[[layers]]\nname=\"a\"\n[layers.functions]\naltitude = { samples = \"AAE_\" }\n", "x.toml:9:24",
-               "not bytes in base64");
-  expect_fault(std::string(head) + "[[layers]]\nname=\"a\"\nwhen = \"slop > 3\"\n", "x.toml:8:9", "did you mean \"slope\"");
-  expect_fault(std::string(head) + "[[layers]]\nname=\"a\"\ncolour = \"red\"\n", "x.toml:8:10", "red");
-  expect_fault(std::string(head) + "[[layers]]\nname=\"a\"\n[[layers]]\nname=\"a\"\n", "x.toml:8:1", "second layer");
+  expect_fault(
+      std::string(head) + "[[layers]]\nname=\"a\"\n[layers.functions]\naltitute = { low = 3 }\n",
+      "x.toml:9:1", "did you mean \"altitude\"");
+  expect_fault(
+      std::string(head) +
+          "[[layers]]\nname=\"a\"\n[layers.functions]\naltitude = { samples = \"AAE_\" }\n",
+      "x.toml:9:24", "not bytes in base64");
+  expect_fault(std::string(head) + "[[layers]]\nname=\"a\"\nwhen = \"slop > 3\"\n", "x.toml:8:9",
+               "did you mean \"slope\"");
+  expect_fault(std::string(head) + "[[layers]]\nname=\"a\"\ncolour = \"red\"\n", "x.toml:8:10",
+               "red");
+  expect_fault(std::string(head) + "[[layers]]\nname=\"a\"\n[[layers]]\nname=\"a\"\n", "x.toml:8:1",
+               "second layer");
   expect_fault("version = 1\nmodel = \"sum\"\nlayers = []\n", "x.toml:2:9", "unknown model");
-  expect_fault("version = 1\nlayers = []\n[parameters]\nslope = 3\n", "x.toml:4:1", "already means");
-  expect_fault(std::string(head) + "[[layers]]\nname=\"a\"\nnoise = { octaves = 13 }\n", "x.toml:8:21", "13");
+  expect_fault("version = 1\nlayers = []\n[parameters]\nslope = 3\n", "x.toml:4:1",
+               "already in use");
+  expect_fault(std::string(head) + "[[layers]]\nname=\"a\"\nnoise = { octaves = 13 }\n",
+               "x.toml:8:21", "13");
   expect_fault("version = 2\nlayers = []\n", "x.toml:1:11", "2");
 }
 

@@ -15,24 +15,27 @@ using Row = std::vector<glm::dvec2>;
 constexpr glm::dvec2 low{0.0, 0.0};
 constexpr glm::dvec2 high{100.0, 60.0};
 
-bool is_sea(const CoastAreas& areas, glm::dvec2 place) {
+bool is_sea(const CoastAreas& areas, glm::dvec2 position) {
   bool odd = false;
   for (const Row& ring : areas.rings)
     for (std::size_t i = 0; i < ring.size(); ++i) {
       const glm::dvec2 a = ring[i];
       const glm::dvec2 b = ring[(i + 1) % ring.size()];
-      if ((a.y <= place.y) != (b.y <= place.y) && place.x < a.x + (place.y - a.y) * ((b.x - a.x) / (b.y - a.y))) odd = !odd;
+      if ((a.y <= position.y) != (b.y <= position.y) &&
+          position.x < a.x + (position.y - a.y) * ((b.x - a.x) / (b.y - a.y)))
+        odd = !odd;
     }
   return odd;
 }
 
-// Every place of a net of 1 m is what `sea` says.
+// Every position of a 1 m grid is as in `sea`.
 void expect_sea(const std::vector<Row>& lines, const std::function<bool(glm::dvec2)>& sea) {
   const CoastAreas areas = close_coast(lines, low, high);
   EXPECT_EQ(areas.problem, "");
   std::size_t wrong = 0;
   for (double y = 0.517; y < high.y; y += 1.0)
-    for (double x = 0.493; x < high.x; x += 1.0) wrong += is_sea(areas, {x, y}) != sea({x, y}) ? 1 : 0;
+    for (double x = 0.493; x < high.x; x += 1.0)
+      wrong += is_sea(areas, {x, y}) != sea({x, y}) ? 1 : 0;
   EXPECT_EQ(wrong, 0U);
 }
 
@@ -41,9 +44,10 @@ Row reversed(Row row) {
   return row;
 }
 
-Row square(glm::dvec2 middle, double half) {  // against the clock
-  return {middle + glm::dvec2(-half, -half), middle + glm::dvec2(half, -half), middle + glm::dvec2(half, half),
-          middle + glm::dvec2(-half, half), middle + glm::dvec2(-half, -half)};
+Row square(glm::dvec2 centre, double half) {  // against the clock
+  return {centre + glm::dvec2(-half, -half), centre + glm::dvec2(half, -half),
+          centre + glm::dvec2(half, half), centre + glm::dvec2(-half, half),
+          centre + glm::dvec2(-half, -half)};
 }
 
 TEST(Coast, LandLiesToTheLeftOfALineAcross) {
@@ -72,21 +76,30 @@ TEST(Coast, PiecesInAnyOrderAreOneLine) {
 }
 
 TEST(Coast, IslandsAndStraits) {
-  const auto in = [](glm::dvec2 p, glm::dvec2 m, double h) { return std::abs(p.x - m.x) < h && std::abs(p.y - m.y) < h; };
+  const auto in = [](glm::dvec2 p, glm::dvec2 m, double h) {
+    return std::abs(p.x - m.x) < h && std::abs(p.y - m.y) < h;
+  };
   const Row island = square({70.0, 30.0}, 10.0);
-  expect_sea({{{40.0, -20.0}, {40.0, 80.0}}, island}, [&](glm::dvec2 p) { return p.x > 40.0 && !in(p, {70.0, 30.0}, 10.0); });
+  expect_sea({{{40.0, -20.0}, {40.0, 80.0}}, island}, [&](glm::dvec2 p) {
+    return p.x > 40.0 && !in(p, {70.0, 30.0}, 10.0);
+  });
   expect_sea({island}, [&](glm::dvec2 p) { return !in(p, {70.0, 30.0}, 10.0); });
   expect_sea({reversed(island)}, [&](glm::dvec2 p) { return in(p, {70.0, 30.0}, 10.0); });
-  // A strait between two coasts; an island that the edge cuts.
-  expect_sea({{{40.0, -20.0}, {40.0, 80.0}}, {{60.0, 80.0}, {60.0, -20.0}}}, [](glm::dvec2 p) { return p.x > 40.0 && p.x < 60.0; });
-  expect_sea({square({100.0, 30.0}, 10.0)}, [&](glm::dvec2 p) { return !in(p, {100.0, 30.0}, 10.0); });
+  // A strait between two coasts; an island cut by the edge.
+  expect_sea({{{40.0, -20.0}, {40.0, 80.0}}, {{60.0, 80.0}, {60.0, -20.0}}},
+             [](glm::dvec2 p) { return p.x > 40.0 && p.x < 60.0; });
+  expect_sea({square({100.0, 30.0}, 10.0)}, [&](glm::dvec2 p) {
+    return !in(p, {100.0, 30.0}, 10.0);
+  });
   // A line that leaves the terrain and comes back: two bays.
-  expect_sea({{{-10.0, 40.0}, {20.0, 40.0}, {20.0, 80.0}, {50.0, 80.0}, {50.0, 40.0}, {120.0, 40.0}}},
-             [](glm::dvec2 p) { return p.y < 40.0 || (p.x > 20.0 && p.x < 50.0); });
+  expect_sea(
+      {{{-10.0, 40.0}, {20.0, 40.0}, {20.0, 80.0}, {50.0, 80.0}, {50.0, 40.0}, {120.0, 40.0}}},
+      [](glm::dvec2 p) { return p.y < 40.0 || (p.x > 20.0 && p.x < 50.0); });
 }
 
 TEST(Coast, NothingOnTheTerrainIsNoSea) {
-  const CoastAreas areas = close_coast({{{-50.0, -50.0}, {-50.0, 90.0}}, square({300.0, 30.0}, 10.0)}, low, high);
+  const CoastAreas areas =
+      close_coast({{{-50.0, -50.0}, {-50.0, 90.0}}, square({300.0, 30.0}, 10.0)}, low, high);
   EXPECT_EQ(areas.problem, "");
   EXPECT_FALSE(is_sea(areas, {50.0, 30.0}));
 }
@@ -95,8 +108,9 @@ TEST(Coast, WhatBoundsNothingIsSaid) {
   const CoastAreas ends = close_coast({{{40.0, -20.0}, {40.0, 30.0}}}, low, high);
   EXPECT_THAT(ends.problem, testing::HasSubstr("E 40, N 30"));
   EXPECT_TRUE(ends.rings.empty());
-  const CoastAreas alike = close_coast({{{40.0, -20.0}, {40.0, 80.0}}, {{60.0, -20.0}, {60.0, 80.0}}}, low, high);
-  EXPECT_THAT(alike.problem, testing::HasSubstr("run the same way"));
+  const CoastAreas alike =
+      close_coast({{{40.0, -20.0}, {40.0, 80.0}}, {{60.0, -20.0}, {60.0, 80.0}}}, low, high);
+  EXPECT_THAT(alike.problem, testing::HasSubstr("run in the same direction"));
   EXPECT_TRUE(alike.rings.empty());
 }
 

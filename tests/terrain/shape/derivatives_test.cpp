@@ -23,26 +23,33 @@ namespace {
 
 constexpr double surface_cell_m = 20.0;
 
-// f(x, y) in metres, x east and y north of the grid's middle.
+// f(x, y) in metres, x east and y north of the grid's centre.
 template <class F>
 Grid<float> surface(int size, F&& f) {
   Grid<float> grid(size, size);
   for (int y = 0; y < size; ++y) {
-    for (int x = 0; x < size; ++x) grid(x, y) = static_cast<float>(f((x - size / 2) * surface_cell_m, (size / 2 - y) * surface_cell_m));
+    for (int x = 0; x < size; ++x)
+      grid(x, y) =
+          static_cast<float>(f((x - size / 2) * surface_cell_m, (size / 2 - y) * surface_cell_m));
   }
   return grid;
 }
 
 TEST(Slope, OfTiltedPlanes) {
   const Grid<float> plane = surface(9, [](double x, double y) { return 0.3 * x - 0.4 * y; });
-  EXPECT_NEAR(slope_deg(plane, surface_cell_m, surface_cell_m)(4, 4), to_degrees(std::atan(0.5)), 1e-4);
+  EXPECT_NEAR(slope_deg(plane, surface_cell_m, surface_cell_m)(4, 4), to_degrees(std::atan(0.5)),
+              1e-4);
   // Cells twice as wide halve the rise to the east.
-  EXPECT_NEAR(slope_deg(plane, 2.0 * surface_cell_m, surface_cell_m)(4, 4), to_degrees(std::atan(std::hypot(0.15, 0.4))), 1e-4);
-  EXPECT_EQ(slope_deg(Grid<float>(4, 4, 100.F), surface_cell_m, surface_cell_m), Grid<float>(4, 4, 0.F));
+  EXPECT_NEAR(slope_deg(plane, 2.0 * surface_cell_m, surface_cell_m)(4, 4),
+              to_degrees(std::atan(std::hypot(0.15, 0.4))), 1e-4);
+  EXPECT_EQ(slope_deg(Grid<float>(4, 4, 100.F), surface_cell_m, surface_cell_m),
+            Grid<float>(4, 4, 0.F));
 }
 
 TEST(Relief, IsTheDifferenceOfTwoBlurs) {
-  const Grid<float> ground = surface(64, [](double x, double y) { return 500.0 + 200.0 * std::sin(x / 90.0) * std::cos(y / 70.0); });
+  const Grid<float> ground = surface(64, [](double x, double y) {
+    return 500.0 + 200.0 * std::sin(x / 90.0) * std::cos(y / 70.0);
+  });
   const Grid<float> inner = gaussian_blur(ground, 3.0);
   const Grid<float> outer = gaussian_blur(ground, 9.0);
   const Grid<float> above = relief(ground, surface_cell_m, 60.0, 180.0);
@@ -55,24 +62,30 @@ TEST(Relief, IsTheDifferenceOfTwoBlurs) {
 
 TEST(HeightAboveValley, OfAVeeShapedValley) {
   // A floor at 600 m whose flanks rise 1 in 2, cut off 400 m above.
-  const Grid<float> valley = surface(121, [](double x, double) { return 600.0 + std::min(400.0, 0.5 * std::abs(x)); });
+  const Grid<float> valley =
+      surface(121, [](double x, double) { return 600.0 + std::min(400.0, 0.5 * std::abs(x)); });
   const Grid<float> height = height_above_valley(valley, surface_cell_m, 300.0);
-  EXPECT_NEAR(height(60 + 10, 60), 100.0, 15.0);  // 200 m off: the floor is in reach, smoothed by a cell
-  EXPECT_NEAR(height(60 + 30, 60), 150.0, 1.0);   // 600 m off the reach ends 300 m down the flank
+  EXPECT_NEAR(height(60 + 10, 60), 100.0,
+              15.0);  // 200 m off: the floor is in reach, smoothed by a cell
+  EXPECT_NEAR(height(60 + 30, 60), 150.0, 1.0);  // 600 m off the reach ends 300 m down the flank
   EXPECT_NEAR(height(60, 60), 0.0, 1e-6);
   for (const float v : height) ASSERT_GE(v, 0.F);
 }
 
 TEST(Derivatives, SameBitsForAnyThreadCount) {
-  const Grid<float> ground = surface(150, [](double x, double y) { return 500.0 + 200.0 * std::sin(x / 90.0) * std::cos(y / 70.0); });
+  const Grid<float> ground = surface(150, [](double x, double y) {
+    return 500.0 + 200.0 * std::sin(x / 90.0) * std::cos(y / 70.0);
+  });
   const auto run = [&](int threads) {
     const ThreadLimit limit(threads);
-    return std::array{slope_deg(ground, 20, 20), relief(ground, 20, 40, 900), height_above_valley(ground, 20, 400)};
+    return std::array{slope_deg(ground, 20, 20), relief(ground, 20, 40, 900),
+                      height_above_valley(ground, 20, 400)};
   };
   EXPECT_EQ(run(1), run(2));
 }
 
-// A raster that GDAL's own programs wrote as plain floats, read without our reader, so that both sides are independent.
+// A raster that GDAL's own programs wrote as plain floats, read without our reader, so that both
+// sides are independent.
 Grid<float> read_envi(const std::string& path) {
   std::ifstream header(path.substr(0, path.find_last_of('.')) + ".hdr");
   int width = 0;
@@ -87,7 +100,8 @@ Grid<float> read_envi(const std::string& path) {
   }
   Grid<float> grid(width, height);
   std::ifstream data(path, std::ios::binary);
-  data.read(reinterpret_cast<char*>(grid.data()), static_cast<std::streamsize>(grid.size() * sizeof(float)));
+  data.read(reinterpret_cast<char*>(grid.data()),
+            static_cast<std::streamsize>(grid.size() * sizeof(float)));
   EXPECT_TRUE(data.good()) << path;
   return grid;
 }
@@ -95,12 +109,15 @@ Grid<float> read_envi(const std::string& path) {
 TEST(Derivatives, EqualGdaldem) {
   const std::string dem = test::data_folder() + "/lost_river/mackay.tif";
   if (!std::filesystem::exists(dem)) GTEST_SKIP() << "needs " << dem;
-  if (std::system("command -v gdaldem gdal_translate > /dev/null") != 0) GTEST_SKIP() << "needs GDAL's program gdaldem";
-  const std::filesystem::path folder = std::filesystem::path(test::build_folder()) / "derivatives_test";
+  if (std::system("command -v gdaldem gdal_translate > /dev/null") != 0)
+    GTEST_SKIP() << "needs GDAL's program gdaldem";
+  const std::filesystem::path folder =
+      std::filesystem::path(test::build_folder()) / "derivatives_test";
   std::filesystem::create_directories(folder);
   const auto run = [&](const std::string& command, const std::string& name) {
     const std::string out = (folder / name).string();
-    EXPECT_EQ(std::system((command + " '" + dem + "' '" + out + "' > /dev/null 2>&1").c_str()), 0) << command;
+    EXPECT_EQ(std::system((command + " '" + dem + "' '" + out + "' > /dev/null 2>&1").c_str()), 0)
+        << command;
     return read_envi(out);
   };
   const Grid<float> altitude = run("gdal_translate -q -of ENVI -ot Float32", "dem.bin");
@@ -112,7 +129,8 @@ TEST(Derivatives, EqualGdaldem) {
     for (int x = 1; x + 1 < altitude.width(); ++x) {
       if (slope(x, y) < 0.F) continue;  // a void nearby
       ++compared;
-      slope_error = std::max(slope_error, std::abs(static_cast<double>(slope(x, y)) - our_slope(x, y)));
+      slope_error =
+          std::max(slope_error, std::abs(static_cast<double>(slope(x, y)) - our_slope(x, y)));
     }
   }
   EXPECT_GT(compared, altitude.size() * 9 / 10);

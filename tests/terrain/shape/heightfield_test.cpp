@@ -12,8 +12,10 @@
 namespace belvedere {
 namespace {
 
-// Random heights over cells of cell_m; x east, y north, the first row northmost, as the renderer's surfaces.
-Grid<glm::vec3> random_surface(int width, int height, float cell_m, float relief_m, std::uint64_t seed) {
+// Random heights over cells of cell_m; x east, y north, the first row northmost, as the renderer's
+// surfaces.
+Grid<glm::vec3> random_surface(int width, int height, float cell_m, float relief_m,
+                               std::uint64_t seed) {
   Grid<glm::vec3> vertices(width, height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
@@ -22,8 +24,9 @@ Grid<glm::vec3> random_surface(int width, int height, float cell_m, float relief
   return vertices;
 }
 
-// Möller & Trumbore 1997, against every facet: another formula than the one under test.
-std::optional<double> brute_force(const Grid<glm::vec3>& vertices, glm::dvec3 origin, glm::dvec3 direction) {
+// Möller & Trumbore 1997, against every facet: a different formula from the one under test.
+std::optional<double> brute_force(const Grid<glm::vec3>& vertices, glm::dvec3 origin,
+                                  glm::dvec3 direction) {
   double nearest = std::numeric_limits<double>::infinity();
   const auto facet = [&](glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
     const glm::dvec3 ab = b - a;
@@ -59,13 +62,14 @@ TEST(Heightfield, AgreesWithEveryFacetOnRandomRays) {
     const glm::dvec3 size(30.0 * (width - 1), 30.0 * (height - 1), 90.0);
     for (int i = 0; i < 1500; ++i) {
       const auto u = [&](int draw) { return random_uniform(seed + 1, i, draw); };
-      // Eyes within, beside, above and below the surface; looks of any direction and length.
+      // Eyes within, next to, above and below the surface; rays of any direction and length.
       const glm::dvec3 eye = (glm::dvec3(u(0), u(1), u(2)) * 2.0 - 0.5) * size;
       const glm::dvec3 look = (glm::dvec3(u(3), u(4), u(5)) * 1.4 - 0.2) * size - eye;
       const glm::dvec3 direction = look * (0.001 + 10.0 * u(6));
       const std::optional<double> expected = brute_force(vertices, eye, direction);
       const std::optional<double> found = field.intersect(eye, direction);
-      ASSERT_EQ(found.has_value(), expected.has_value()) << "ray " << i << " of " << width << "x" << height;
+      ASSERT_EQ(found.has_value(), expected.has_value())
+          << "ray " << i << " of " << width << "x" << height;
       ++rays;
       if (!expected) continue;
       ++hits;
@@ -83,7 +87,8 @@ TEST(Heightfield, SplitsCellsAlongTheDiagonalOfTheTracer) {
   vertices(0, 1) = {0, 0, 10};
   vertices(1, 1) = {1, 0, 0};
   const test::Heightfield field(vertices);
-  // Straight down on the middle: 10 on the ridge between the raised posts; the other diagonal would give 0.
+  // Straight down at the centre: 10 on the ridge between the raised posts; the other diagonal would
+  // give 0.
   EXPECT_DOUBLE_EQ(*field.intersect({0.5, 0.5, 100.0}, {0, 0, -1}), 90.0);
   EXPECT_DOUBLE_EQ(*field.intersect({0.25, 0.75, 100.0}, {0, 0, -2}), 47.5);
   EXPECT_DOUBLE_EQ(*field.intersect({0.5, 0.5, -5.0}, {0, 0, 1}), 15.0);  // from below
@@ -97,10 +102,12 @@ TEST(Heightfield, NoRayFallsThroughEdgesAndVertices) {
   for (int y = 1; y < 8; ++y) {
     for (int x = 1; x < 8; ++x) {
       const glm::dvec3 a(vertices(x, y));
-      for (const auto& [dx, dy] : {std::pair{0, 0}, std::pair{1, 0}, std::pair{0, 1}, std::pair{1, -1}}) {
+      for (const auto& [dx, dy] :
+           {std::pair{0, 0}, std::pair{1, 0}, std::pair{0, 1}, std::pair{1, -1}}) {
         const glm::dvec3 target = 0.5 * (a + glm::dvec3(vertices(x + dx, y + dy)));
         for (int i = 0; i < 8; ++i) {
-          const glm::dvec3 eye(120.0 + 300.0 * (random_uniform(9, i, 0) - 0.5), 120.0 + 300.0 * (random_uniform(9, i, 1) - 0.5), 500.0);
+          const glm::dvec3 eye(120.0 + 300.0 * (random_uniform(9, i, 0) - 0.5),
+                               120.0 + 300.0 * (random_uniform(9, i, 1) - 0.5), 500.0);
           EXPECT_TRUE(field.intersect(eye, target - eye)) << x << ' ' << y << " ray " << i;
         }
         EXPECT_TRUE(field.intersect({target.x, target.y, 500.0}, {0, 0, -1})) << x << ' ' << y;

@@ -12,7 +12,7 @@ namespace {
 constexpr int side = 400;
 
 TEST(HoleLakes, HaveLevelShores) {
-  // A lake in a bowl, and a shadow of the radar across a slope.
+  // A lake in a bowl, and a radar shadow across a slope.
   Raster<float> raster;
   raster.cells = Grid<float>(side, side);
   for (int y = 0; y < side; ++y)
@@ -23,7 +23,8 @@ TEST(HoleLakes, HaveLevelShores) {
     }
   for (int y = 250; y < 350; ++y)
     for (int x = 250; x < 350; ++x)
-      if (!std::isnan(raster.cells(x, y))) raster.cells(x, y) = 700.F + 5.F * static_cast<float>(x - 250);
+      if (!std::isnan(raster.cells(x, y)))
+        raster.cells(x, y) = 700.F + 5.F * static_cast<float>(x - 250);
   raster.transform = {0.0, 0.0, 30.0, 30.0};
   const Dem dem = make_dem(std::move(raster));
   const Grid<std::uint8_t> lakes = find_hole_lakes(dem);
@@ -32,7 +33,7 @@ TEST(HoleLakes, HaveLevelShores) {
   EXPECT_EQ(lakes(140, 100), 0);
 }
 
-// What reaches over a window's rim is a lake where the larger terrain has one.
+// A void that extends beyond a window's edge is a lake if the larger terrain has one.
 TEST(HoleLakes, OverTheRimAreKnownFromOutside) {
   Dem dem;
   dem.altitude_m = Grid<float>(80, 60, 500.F);
@@ -42,7 +43,7 @@ TEST(HoleLakes, OverTheRimAreKnownFromOutside) {
   EXPECT_EQ(find_hole_lakes(dem)(10, 20), 0);
   Grid<std::uint8_t> known(80, 60, 0);
   EXPECT_EQ(find_hole_lakes(dem, 150, known)(10, 20), 0);
-  // Its shore there lies elsewhere, as coarser cells have it.
+  // Its shore there differs because of the coarser cells.
   for (int y = 6; y < 36; ++y)
     for (int x = 0; x < 16; ++x) known(x, y) = 1;
   const Grid<std::uint8_t> lakes = find_hole_lakes(dem, 150, known);

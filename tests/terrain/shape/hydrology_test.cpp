@@ -23,13 +23,14 @@ namespace {
 Grid<float> rough(int width, int height, std::uint64_t seed) {
   Grid<float> grid(width, height);
   for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) grid(x, y) = static_cast<float>(1000.0 + 50.0 * random_uniform(seed, x, y));
+    for (int x = 0; x < width; ++x)
+      grid(x, y) = static_cast<float>(1000.0 + 50.0 * random_uniform(seed, x, y));
   }
   return grid;
 }
 
-// A flood in the plainest way: one heap for all cells but those of hollows, which are taken in the order in which they are found; then the
-// steepest way where the flooded surface falls.
+// The simplest flood: one heap for all cells except those of hollows, which are taken in the order
+// in which they are found; then steepest descent where the flooded surface falls.
 struct PlainFlood {
   Grid<float> level_m;
   Grid<double> cells;  // that drain through each
@@ -54,7 +55,8 @@ PlainFlood flood_plainly(const Grid<float>& altitude_m) {
     const int y = static_cast<int>(cell) / width;
     for (int v = y - 1; v <= y + 1; ++v)
       for (int u = x - 1; u <= x + 1; ++u)
-        if ((u != x || v != y) && altitude_m.contains(u, v)) f(altitude_m.index(u, v), u != x && v != y);
+        if ((u != x || v != y) && altitude_m.contains(u, v))
+          f(altitude_m.index(u, v), u != x && v != y);
   };
   for (std::size_t next = 0; next < order.size() || !rising.empty(); ++next) {
     if (next == order.size()) {
@@ -85,27 +87,31 @@ PlainFlood flood_plainly(const Grid<float>& altitude_m) {
     });
   }
   for (auto cell = order.rbegin(); cell != order.rend(); ++cell)
-    if (towards[*cell] >= 0) flood.cells[static_cast<std::size_t>(towards[*cell])] += flood.cells[*cell];
+    if (towards[*cell] >= 0)
+      flood.cells[static_cast<std::size_t>(towards[*cell])] += flood.cells[*cell];
   return flood;
 }
 
 TEST(FlowAccumulation, IsThatOfAPlainFlood) {
-  // Whole metres make flats, noise makes hollows in hollows; altitudes below zero, a rim higher than the middle.
+  // Whole metres make flats, noise makes hollows in hollows; altitudes below zero, a rim higher
+  // than the middle.
   for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
     for (const float step : {0.F, 1.F, 10.F, 25.F}) {
       Grid<float> ground = rough(83, 61, seed);
       for (int y = 0; y < 61; ++y) {
         for (int x = 0; x < 83; ++x) {
           float& z = ground(x, y);
-          z += 0.05F * static_cast<float>((x - 40) * (x - 40) + (y - 30) * (y - 30)) - (seed == 4 ? 1040.F : 0.F);
+          z += 0.05F * static_cast<float>((x - 40) * (x - 40) + (y - 30) * (y - 30)) -
+               (seed == 4 ? 1040.F : 0.F);
           if (step > 0.F) z = step * std::floor(z / step);
         }
       }
       const PlainFlood plain = flood_plainly(ground);
       EXPECT_EQ(fill_hollows(ground), plain.level_m) << seed << ' ' << step;
       const Grid<float> area = flow_accumulation_km2(ground, 1000.0);
-      // Values grow downstream by a float's last bit where whole cells do not.
-      for (std::size_t i = 0; i < area.size(); ++i) ASSERT_FLOAT_EQ(area[i], static_cast<float>(plain.cells[i])) << seed << ' ' << step;
+      // Values grow downstream by a float's last bit if whole cells do not.
+      for (std::size_t i = 0; i < area.size(); ++i)
+        ASSERT_FLOAT_EQ(area[i], static_cast<float>(plain.cells[i])) << seed << ' ' << step;
     }
   }
 }
@@ -118,7 +124,8 @@ TEST(FlowAccumulation, OfATiltedPlaneCountsTheCellsAbove) {
   }
   const Grid<float> area = flow_accumulation_km2(plane, 1000.0);
   for (int y = 0; y < 50; ++y) {
-    for (int x = 0; x < 7; ++x) EXPECT_FLOAT_EQ(area(x, y), static_cast<float>(y + 1)) << x << ' ' << y;
+    for (int x = 0; x < 7; ++x)
+      EXPECT_FLOAT_EQ(area(x, y), static_cast<float>(y + 1)) << x << ' ' << y;
   }
 }
 
@@ -126,20 +133,23 @@ TEST(FlowAccumulation, OfAValleyGathersBothFlanks) {
   // Flanks 1 in 2, a floor that falls to the south: all water leaves through the floor's last cell.
   Grid<float> valley(61, 80);
   for (int y = 0; y < 80; ++y) {
-    for (int x = 0; x < 61; ++x) valley(x, y) = 900.F - static_cast<float>(y) + 15.F * static_cast<float>(std::abs(x - 30));
+    for (int x = 0; x < 61; ++x)
+      valley(x, y) = 900.F - static_cast<float>(y) + 15.F * static_cast<float>(std::abs(x - 30));
   }
   const Grid<float> area = flow_accumulation_km2(valley, 30.0);
-  // Water runs off the flanks within a row or two, rim cells keep theirs.
+  // Water runs off the flanks within a row or two, border cells keep theirs.
   EXPECT_NEAR(area(30, 79), 61 * 80 * 9e-4, 61 * 9e-4 * 1.5);
   EXPECT_NEAR(area(30, 40), 61 * 41 * 9e-4, 61 * 9e-4 * 25);
   for (int y = 1; y < 80; ++y) EXPECT_GT(area(30, y), area(30, y - 1));
 }
 
 TEST(FlowAccumulation, FillsAHollowToItsOutlet) {
-  // A bowl in a plane, its rim breached at one place: everything that falls into the bowl leaves there.
+  // A bowl in a plane, its edge breached at one position: all rain in the bowl leaves there.
   Grid<float> bowl(41, 41);
   for (int y = 0; y < 41; ++y) {
-    for (int x = 0; x < 41; ++x) bowl(x, y) = std::hypot(static_cast<float>(x - 20), static_cast<float>(y - 20)) < 15.F ? 100.F : 200.F;
+    for (int x = 0; x < 41; ++x)
+      bowl(x, y) =
+          std::hypot(static_cast<float>(x - 20), static_cast<float>(y - 20)) < 15.F ? 100.F : 200.F;
   }
   for (int x = 34; x < 41; ++x) bowl(x, 20) = 150.F;
   const Grid<float> area = flow_accumulation_km2(bowl, 1000.0);
@@ -149,7 +159,8 @@ TEST(FlowAccumulation, FillsAHollowToItsOutlet) {
 }
 
 TEST(FlowAccumulation, EveryCellDrainsStrictlyDownstream) {
-  // Noise is all hollows. Off the rim each cell has a neighbour of a larger catchment; what leaves the grid is all of it.
+  // Noise is all hollows. Away from the border each cell has a neighbour with a larger catchment;
+  // the total outflow of the grid is complete.
   const Grid<float> ground = rough(70, 55, 4);
   const Grid<float> area = flow_accumulation_km2(ground, 1000.0);
   for (int y = 1; y < 54; ++y) {
@@ -165,18 +176,20 @@ TEST(FlowAccumulation, EveryCellDrainsStrictlyDownstream) {
 }
 
 TEST(FlowAccumulation, LosesNoWater) {
-  // Noise full of hollows inside a moat that falls towards one corner: all water must leave there, to the last cell.
+  // Noise full of hollows inside a moat that falls towards one corner: all water must leave there,
+  // to the last cell.
   Grid<float> ground = rough(50, 40, 6);
   for (int y = 0; y < 40; ++y) {
     for (int x = 0; x < 50; ++x) {
-      if (x == 0 || y == 0 || x == 49 || y == 39) ground(x, y) = 1.F + 0.5F * static_cast<float>(x + y);
+      if (x == 0 || y == 0 || x == 49 || y == 39)
+        ground(x, y) = 1.F + 0.5F * static_cast<float>(x + y);
     }
   }
   EXPECT_EQ(flow_accumulation_km2(ground, 1000.0)(0, 0), 2000.F);
   EXPECT_FLOAT_EQ(flow_accumulation_km2(ground, 50.0)(0, 0), 5.F);
 }
 
-// A lake of 30 × 20 cells whose banks rise by `bank_m` a cell.
+// A lake of 30 × 20 cells whose banks rise by `bank_m` per cell.
 Grid<float> with_lake(float level_m, float bank_m) {
   Grid<float> ground(80, 70);
   for (int y = 0; y < 70; ++y) {
@@ -206,7 +219,9 @@ TEST(Lakes, AreFoundUpToTheirShore) {
 }
 
 TEST(Lakes, NeedSizeAndFlatness) {
-  const auto count = [](const Grid<std::uint8_t>& mask) { return std::count(mask.begin(), mask.end(), 1); };
+  const auto count = [](const Grid<std::uint8_t>& mask) {
+    return std::count(mask.begin(), mask.end(), 1);
+  };
   EXPECT_EQ(count(find_lakes(with_lake(800.F, 1.F), {.max_range_m = 0.25F, .min_cells = 700})), 0);
   Grid<float> ripples = with_lake(800.F, 1.F);
   for (int y = 0; y < 70; ++y) {
@@ -214,13 +229,14 @@ TEST(Lakes, NeedSizeAndFlatness) {
   }
   EXPECT_EQ(count(find_lakes(ripples, {})), 0);
   EXPECT_GT(count(find_lakes(ripples, {.max_range_m = 0.4F})), 500);
-  // A channel three cells wide is no lake, however long.
+  // A channel three cells wide is not a lake, however long.
   Grid<float> channel(200, 30, 50.F);
   for (int x = 0; x < 200; ++x) {
     for (int y = 14; y < 17; ++y) channel(x, y) = 40.F;
   }
   for (int y = 0; y < 30; ++y) {
-    for (int x = 0; x < 200; ++x) channel(x, y) += y < 14 || y > 16 ? static_cast<float>(std::abs(y - 15)) : 0.F;
+    for (int x = 0; x < 200; ++x)
+      channel(x, y) += y < 14 || y > 16 ? static_cast<float>(std::abs(y - 15)) : 0.F;
   }
   EXPECT_EQ(count(find_lakes(channel, {})), 0);
 }
@@ -231,7 +247,9 @@ TEST(Lakes, StepsOfAFloodPlainAreNone) {
   for (int y = 0; y < 60; ++y) {
     for (int x = 0; x < 240; ++x) plain(x, y) = static_cast<float>(700 - x / 30);
   }
-  const auto count = [](const Grid<std::uint8_t>& mask) { return std::count(mask.begin(), mask.end(), 1); };
+  const auto count = [](const Grid<std::uint8_t>& mask) {
+    return std::count(mask.begin(), mask.end(), 1);
+  };
   EXPECT_EQ(count(find_lakes(plain, {})), 0);
   EXPECT_GT(count(find_lakes(plain, {.min_bank_m = 0.F})), 5000);
   // Nor where a wall of rock stands on one side of them.
@@ -239,7 +257,7 @@ TEST(Lakes, StepsOfAFloodPlainAreNone) {
     for (int x = 0; x < 240; ++x) plain(x, y) += 100.F * static_cast<float>(10 - y);
   }
   const Grid<std::uint8_t> lakes = find_lakes(plain, {});
-  // The last step lies at the rim and may be one: what is beyond it nobody knows.
+  // The last step lies at the border and may be one: the ground beyond it is unknown.
   for (int y = 0; y < 60; ++y) EXPECT_EQ(std::count(lakes.row(y), lakes.row(y) + 210, 1), 0) << y;
 }
 
@@ -260,7 +278,8 @@ Grid<float> tyrol_90m() {
   }
   const Grid<std::int32_t> nearest = nearest_marked(known);
   Grid<float> filled = ground;
-  for (std::size_t i = 0; i < ground.size(); ++i) filled[i] = ground[static_cast<std::size_t>(nearest[i])];
+  for (std::size_t i = 0; i < ground.size(); ++i)
+    filled[i] = ground[static_cast<std::size_t>(nearest[i])];
   return filled;
 }
 
@@ -271,8 +290,9 @@ TEST(Hydrology, FindsTheInn) {
   const auto mouth = static_cast<int>(std::max_element(area.begin(), area.end()) - area.begin());
   const int x = mouth % ground.width();
   const int y = mouth / ground.width();
-  // It leaves at the eastern rim below Wörgl, about 507 m above the sea, with 2850 km² of this DEM behind it at 30 m; low
-  // passes move some valleys from one side to the other when only every third cell is left.
+  // It leaves at the eastern rim below Wörgl, about 507 m above the sea, with 2850 km² of this DEM
+  // behind it at 30 m; low passes move some valleys from one side to the other when only every
+  // third cell is left.
   EXPECT_EQ(x, ground.width() - 1);
   EXPECT_NEAR(y, 1961 / 3, 15);
   EXPECT_NEAR(ground(x, y), 507.F, 15.F);
@@ -286,7 +306,8 @@ TEST(Hydrology, SameBitsForAnyThreadCount) {
   const auto run = [&](int threads) {
     const ThreadLimit limit(threads);
     const Grid<float> area = flow_accumulation_km2(ground, 2000.0);
-    return std::tuple{area, river_mask(area, 30.0), find_lakes(ground, {.max_range_m = 60.F, .min_bank_m = 0.F})};
+    return std::tuple{area, river_mask(area, 30.0),
+                      find_lakes(ground, {.max_range_m = 60.F, .min_bank_m = 0.F})};
   };
   EXPECT_EQ(run(1), run(2));
 }
@@ -295,11 +316,14 @@ TEST(FlowAccumulation, WhatEntersAtTheRimIsCarriedDownstreamAlone) {
   // A valley that runs south, of cells of 1 km²; 250 km² come in at its head.
   Grid<float> valley(11, 30);
   for (int y = 0; y < 30; ++y)
-    for (int x = 0; x < 11; ++x) valley(x, y) = 500.F - 3.F * static_cast<float>(y) + 10.F * static_cast<float>(std::abs(x - 5));
+    for (int x = 0; x < 11; ++x)
+      valley(x, y) =
+          500.F - 3.F * static_cast<float>(y) + 10.F * static_cast<float>(std::abs(x - 5));
   const Grid<float> own = flow_accumulation_km2(valley, 1000.0);
   const Grid<float> with = flow_accumulation_km2(valley, 1000.0, {{5, 0, 250.0}, {400, 3, 9.0}});
   for (int y = 0; y < 30; ++y)
-    for (int x = 0; x < 11; ++x) EXPECT_FLOAT_EQ(with(x, y), own(x, y) + (x == 5 ? 250.F : 0.F)) << x << ' ' << y;
+    for (int x = 0; x < 11; ++x)
+      EXPECT_FLOAT_EQ(with(x, y), own(x, y) + (x == 5 ? 250.F : 0.F)) << x << ' ' << y;
 }
 
 }  // namespace

@@ -16,12 +16,14 @@ Dem shore() {
   raster.transform = {0.0, 10.0 * lake_side, 10.0, 10.0};
   for (int y = 0; y < lake_side; ++y)
     for (int x = 0; x < lake_side; ++x)
-      raster.cells(x, y) = static_cast<float>(900.0 + 2.0 * std::sin(12.9 * x + 78.2 * y) + (x < 40 ? 0.0 : 10.0 * (x - 39)));
+      raster.cells(x, y) = static_cast<float>(900.0 + 2.0 * std::sin(12.9 * x + 78.2 * y) +
+                                              (x < 40 ? 0.0 : 10.0 * (x - 39)));
   return make_dem(std::move(raster));
 }
 
 KnownLake lake(double x0, double y0, double x1, double y1) {
-  return {.rings = {{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}}, .level_m = {}, .where = "lakes.geojson"};
+  return {
+      .rings = {{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}}, .level_m = {}, .where = "lakes.geojson"};
 }
 
 TEST(KnownLakes, WaterIsLevelAtTheGroundsOwnLevel) {
@@ -38,8 +40,10 @@ TEST(KnownLakes, WaterIsLevelAtTheGroundsOwnLevel) {
   for (int y = 0; y < lake_side; ++y)
     for (int x = 0; x < lake_side; ++x) {
       const glm::dvec2 p = dem.transform.to_crs(x, y);
-      const bool water = p.x > 100 && p.x < 300 && p.y > 100 && p.y < 400 && !(p.x > 150 && p.x < 200 && p.y > 200 && p.y < 250);
-      ASSERT_EQ(dem.altitude_m(x, y), water ? static_cast<float>(*levels[0].level_m) : before.altitude_m(x, y));
+      const bool water = p.x > 100 && p.x < 300 && p.y > 100 && p.y < 400 &&
+                         !(p.x > 150 && p.x < 200 && p.y > 200 && p.y < 250);
+      ASSERT_EQ(dem.altitude_m(x, y),
+                water ? static_cast<float>(*levels[0].level_m) : before.altitude_m(x, y));
     }
 }
 
@@ -53,7 +57,7 @@ TEST(KnownLakes, AnOutlineThatReachesUpTheBankDoesNotLiftTheWater) {
   EXPECT_GT(dem.altitude_m(50, 30), 1000.F) << "a bank stays";
 }
 
-// A river's bed that is called a lake.
+// A river bed that is labelled as a lake.
 TEST(KnownLakes, GroundThatFallsIsNoLake) {
   Dem dem = shore();
   const Dem before = dem;
@@ -78,7 +82,9 @@ TEST(KnownLakes, TheMapsLevelCountsWhereItCanBe) {
 TEST(KnownLakes, TooSmallOrElsewhereChangesNothing) {
   Dem dem = shore();
   const Dem before = dem;
-  const std::vector<KnownLake> lakes = {lake(101, 101, 103, 103), lake(-900, -900, -100, -100), {.rings = {}, .level_m = {}, .where = ""}};
+  const std::vector<KnownLake> lakes = {lake(101, 101, 103, 103),
+                                        lake(-900, -900, -100, -100),
+                                        {.rings = {}, .level_m = {}, .where = ""}};
   const std::vector<LakeLevel> levels = find_lake_levels(dem, lakes);
   for (const LakeLevel& level : levels) EXPECT_FALSE(level.level_m.has_value());
   level_known_lakes(dem, lakes, levels);

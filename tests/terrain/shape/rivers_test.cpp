@@ -1,4 +1,4 @@
-// river_half_width_m and river_mask of terrain/shape/hydrology.h on catchments that are given, not found.
+// river_half_width_m and river_mask of terrain/shape/hydrology.h for given catchments.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,10 +10,13 @@
 namespace belvedere {
 namespace {
 
-// A river down the rows, at column(y) in row y, whose catchment hardly grows: 110 km² makes 36 m wide.
-Grid<float> river_down(int width, int height, const std::function<int(int)>& column, float catchment_km2 = 110.F) {
+// A river down the rows, at column(y) in row y, whose catchment hardly grows: 110 km² makes 36 m
+// wide.
+Grid<float> river_down(int width, int height, const std::function<int(int)>& column,
+                       float catchment_km2 = 110.F) {
   Grid<float> area(width, height, 1.F);
-  for (int y = 0; y < height; ++y) area(column(y), y) = catchment_km2 + 1e-4F * static_cast<float>(y);
+  for (int y = 0; y < height; ++y)
+    area(column(y), y) = catchment_km2 + 1e-4F * static_cast<float>(y);
   return area;
 }
 
@@ -40,7 +43,8 @@ Grid<float> river_along(int width, int height, double from_km2, double to_km2, F
   for (int x = 0; x < width; ++x) {
     const int next = row(x);
     for (; y != next; y += next > y ? 1 : -1)
-      area(x, y) = static_cast<float>(from_km2 + (to_km2 - from_km2) * (step += 0.5) / (2.0 * width));
+      area(x, y) =
+          static_cast<float>(from_km2 + (to_km2 - from_km2) * (step += 0.5) / (2.0 * width));
     area(x, y) = static_cast<float>(from_km2 + (to_km2 - from_km2) * (step += 0.5) / (2.0 * width));
   }
   return area;
@@ -48,7 +52,8 @@ Grid<float> river_along(int width, int height, double from_km2, double to_km2, F
 
 TEST(Rivers, AreAsWideAsTheirCatchmentSays) {
   // A straight river of 500 km²: 72 m wide, on cells of 10 m.
-  const Grid<float> mask = river_mask(river_along(60, 41, 500.0, 500.1, [](int) { return 20; }), 10.0);
+  const Grid<float> mask =
+      river_mask(river_along(60, 41, 500.0, 500.1, [](int) { return 20; }), 10.0);
   for (int x = 20; x < 40; ++x) {
     double width_m = 0.0;
     for (int y = 0; y < 41; ++y) width_m += 10.0 * mask(x, y);
@@ -59,8 +64,10 @@ TEST(Rivers, AreAsWideAsTheirCatchmentSays) {
 }
 
 TEST(Rivers, ThinOnesCoverAPartOfTheirCells) {
-  // 36 m of water, drawn 60 m wide to be seen, in cells of 200 m: three tenths, not nothing and not a whole cell.
-  const Grid<float> mask = river_mask(river_along(30, 9, 110.0, 110.1, [](int) { return 4; }), 200.0);
+  // 36 m of water, drawn 60 m wide to be visible, in cells of 200 m: three tenths, not nothing and
+  // not a whole cell.
+  const Grid<float> mask =
+      river_mask(river_along(30, 9, 110.0, 110.1, [](int) { return 4; }), 200.0);
   EXPECT_NEAR(mask(15, 4), 0.3F, 0.01F);
   EXPECT_EQ(mask(15, 6), 0.F);
 }
@@ -69,7 +76,9 @@ TEST(Rivers, HaveNoStairs) {
   // A line that falls one cell in five. The smoothed one must follow it without the steps.
   const auto line = [](double x) { return 10.0 + 0.2 * x; };
   const Grid<float> mask =
-      river_mask(river_along(150, 50, 500.0, 501.0, [&](int x) { return static_cast<int>(std::lround(line(x))); }), 30.0);
+      river_mask(river_along(150, 50, 500.0, 501.0,
+                             [&](int x) { return static_cast<int>(std::lround(line(x))); }),
+                 30.0);
   double worst = 0.0;
   for (int x = 30; x < 120; ++x) {
     double sum = 0.0;
@@ -89,11 +98,13 @@ TEST(Rivers, TributariesReachTheMainRiver) {
   for (int x = 50; x < 100; ++x) area(x, 40) += 200.F;
   for (int y = 0; y < 40; ++y) area(50, y) = 200.F + 0.01F * static_cast<float>(y);
   const Grid<float> mask = river_mask(area, 30.0);
-  for (int y = 5; y < 40; ++y) EXPECT_GT(*std::max_element(mask.row(y) + 45, mask.row(y) + 56), 0.5F) << y;
+  for (int y = 5; y < 40; ++y)
+    EXPECT_GT(*std::max_element(mask.row(y) + 45, mask.row(y) + 56), 0.5F) << y;
 }
 
 TEST(Rivers, SmallStreamsAreNone) {
-  const Grid<float> mask = river_mask(river_along(50, 20, 20.0, 70.0, [](int) { return 10; }), 30.0);
+  const Grid<float> mask =
+      river_mask(river_along(50, 20, 20.0, 70.0, [](int) { return 10; }), 30.0);
   EXPECT_EQ(*std::max_element(mask.begin(), mask.end()), 0.F);
 }
 
@@ -102,21 +113,23 @@ TEST(Rivers, AreTheShareOfEachCellThatTheyCover) {
   EXPECT_NEAR(coarse(10, 15), 0.6, 1e-3) << "36 m, drawn 60 m wide, of a cell of 100 m";
   EXPECT_EQ(coarse(9, 15), 0.F);
   const Grid<float> fine = river_mask(river_down(21, 30, [](int) { return 10; }), 25.0);
-  // From the centre line 12.5 m, 37.5 m and 62.5 m: cells end there, the river at 18 m.
+  // From the centreline 12.5 m, 37.5 m and 62.5 m: cells end there, the river at 18 m.
   EXPECT_NEAR(fine(10, 15), 1.0, 1e-3);
   EXPECT_NEAR(fine(11, 15), 0.22, 1e-3);
   EXPECT_NEAR(fine(9, 15), 0.22, 1e-3);
   EXPECT_EQ(fine(12, 15), 0.F);
 }
 
-// A grid's path to the south-south-east goes in steps of one and two; smoothed it is the straight line x = y / 2 - 1/4.
+// A grid's path to the south-south-east goes in steps of one and two; smoothed it is the straight
+// line x = y / 2 - 1/4.
 TEST(Rivers, ASmoothedPathIsAStraightLine) {
   constexpr double cell_m = 50.0;
   const Grid<float> mask = river_mask(river_down(60, 100, [](int y) { return y / 2; }), cell_m);
   for (int y = 40; y < 60; ++y) {
     for (int x = 0; x < 60; ++x) {
       const double distance_m = std::abs(x - (0.5 * y - 0.25)) / std::sqrt(1.25) * cell_m;
-      const double covered = std::min(distance_m + 0.5 * cell_m, 29.0) - std::max(distance_m - 0.5 * cell_m, -29.0);
+      const double covered =
+          std::min(distance_m + 0.5 * cell_m, 29.0) - std::max(distance_m - 0.5 * cell_m, -29.0);
       EXPECT_NEAR(mask(x, y), std::clamp(covered / cell_m, 0.0, 1.0), 2e-3) << x << ' ' << y;
     }
   }

@@ -16,35 +16,39 @@ constexpr double sea_cell_m = 30.0;
 
 // A number of -1…1 for a cell.
 float noise_at(int x, int y) {
-  const std::uint32_t h = (static_cast<std::uint32_t>(x) * 2654435761U) ^ (static_cast<std::uint32_t>(y) * 2246822519U);
+  const std::uint32_t h =
+      (static_cast<std::uint32_t>(x) * 2654435761U) ^ (static_cast<std::uint32_t>(y) * 2246822519U);
   const std::uint32_t g = (h ^ (h >> 15U)) * 2654435769U;
   return static_cast<float>((g ^ (g >> 13U)) & 0xffffU) / 32767.5F - 1.F;
 }
 
-// Land, m, of a coast: the sea in the west, a beach of 1 %, hills, a cliff in the south, an island; < 0 is the sea's bed.
+// Land, m, of a coast: the sea in the west, a beach of 1 %, hills, a cliff in the south, an island;
+// < 0 is the sea bed.
 float land_at(int x, int y) {
   const double shore = 140.0 + 25.0 * std::sin(y * 0.035) + 12.0 * std::sin(y * 0.11);
   const double inland = (x - shore) * sea_cell_m;
-  double z = y > 300 ? (inland > 0.0 ? 60.0 + 0.05 * inland : -30.0) : (inland < 900.0 ? 0.01 * inland : 9.0 + 0.12 * (inland - 900.0));
+  double z = y > 300 ? (inland > 0.0 ? 60.0 + 0.05 * inland : -30.0)
+                     : (inland < 900.0 ? 0.01 * inland : 9.0 + 0.12 * (inland - 900.0));
   const double island = std::hypot(x - 60.0, y - 120.0) * sea_cell_m;
   if (island < 450.0) z = std::max(z, 45.0 - 0.1 * island);
   return static_cast<float>(z);
 }
 
-// The coast as a DEM has it, the sea at `level` and as rough as that.
+// The coast in a DEM, with the sea at `level` and with that noise.
 Dem coast(float level, float roughness) {
   Raster<float> raster;
   raster.cells = Grid<float>(sea_size, sea_size);
   for (int y = 0; y < sea_size; ++y)
     for (int x = 0; x < sea_size; ++x) {
       const float land = land_at(x, y);
-      raster.cells(x, y) = land < 0.F ? level + roughness * noise_at(x, y) : level + land + 0.3F * roughness * noise_at(x, y);
+      raster.cells(x, y) = land < 0.F ? level + roughness * noise_at(x, y)
+                                      : level + land + 0.3F * roughness * noise_at(x, y);
     }
   raster.transform = {0.0, 0.0, sea_cell_m, sea_cell_m};
   return make_dem(std::move(raster));
 }
 
-// Shares of the true sea that is found, and of the land (from `sure_m` up) that is taken for sea.
+// Share of the true sea that is found, and of the land (from `sure_m` up) that is taken for sea.
 struct Score {
   double found = 0.0;
   double wrong = 0.0;
@@ -108,7 +112,9 @@ TEST(Sea, LandBelowItIsLand) {
     Dem dem = coast(0.F, roughness);
     for (int y = 40; y < 110; ++y)
       for (int x = 190; x < 260; ++x)
-        dem.altitude_m(x, y) = x < 193 || y < 43 || x > 256 || y > 106 ? 6.F : -2.5F + 0.3F * roughness * noise_at(x, y);
+        dem.altitude_m(x, y) = x < 193 || y < 43 || x > 256 || y > 106
+                                   ? 6.F
+                                   : -2.5F + 0.3F * roughness * noise_at(x, y);
     for (int y = 150; y < 250; ++y)
       for (int x = 330; x < sea_size; ++x) dem.altitude_m(x, y) = -80.F;
     const Sea sea = find_sea(dem);
@@ -121,11 +127,13 @@ TEST(Sea, LandBelowItIsLand) {
   }
 }
 
-// Flats that dry at low tide: below the level they are sea, above it land, and channels in them are sea.
+// Flats that dry at low tide: below the level they are sea, above it land, and channels in them are
+// sea.
 TEST(Sea, TidalFlatsEndAtItsLevel) {
   Dem dem = coast(0.F, 0.F);
   for (int y = 20; y < 80; ++y)
-    for (int x = 90; x < 190; ++x) dem.altitude_m(x, y) = -0.8F + 0.02F * static_cast<float>(x - 90);
+    for (int x = 90; x < 190; ++x)
+      dem.altitude_m(x, y) = -0.8F + 0.02F * static_cast<float>(x - 90);
   const Sea sea = find_sea(dem);
   ASSERT_FALSE(sea.empty());
   EXPECT_EQ(sea.mask(100, 50), 1);
@@ -139,7 +147,8 @@ TEST(Sea, PlainsThatRiseGentlyAreNone) {
     Raster<float> raster;
     raster.cells = Grid<float>(sea_size, sea_size);
     for (int y = 0; y < sea_size; ++y)
-      for (int x = 0; x < sea_size; ++x) raster.cells(x, y) = -3.F + 0.015F * static_cast<float>(x) + roughness * noise_at(x, y);
+      for (int x = 0; x < sea_size; ++x)
+        raster.cells(x, y) = -3.F + 0.015F * static_cast<float>(x) + roughness * noise_at(x, y);
     raster.transform = {0.0, 0.0, sea_cell_m, sea_cell_m};
     EXPECT_TRUE(find_sea(make_dem(std::move(raster))).empty()) << roughness;
   }
@@ -161,7 +170,8 @@ TEST(Sea, RoughBaysBehindASpitAreSea) {
     Dem dem = coast(0.F, 2.F);
     for (int y = 0; y < sea_size; ++y)
       for (int x = 0; x < sea_size; ++x)
-        if (std::hypot(x - 190.0 - farther, y - 100.0) < 50.0) dem.altitude_m(x, y) = 2.F * noise_at(x, y);
+        if (std::hypot(x - 190.0 - farther, y - 100.0) < 50.0)
+          dem.altitude_m(x, y) = 2.F * noise_at(x, y);
     EXPECT_EQ(find_sea(dem).mask(190 + farther, 100), farther == 0 ? 1 : 0);
   }
 }
@@ -176,7 +186,7 @@ TEST(Sea, HolesBesideItAreSea) {
         const float land = land_at(x, y);
         raster.cells(x, y) = land >= 0.F ? land : x < known_from ? NAN : 0.F;
       }
-    // A hole on a mountain by the edge is none.
+    // A void on a mountain at the border is not sea.
     for (int y = 180; y < 220; ++y)
       for (int x = 380; x < sea_size; ++x) raster.cells(x, y) = NAN;
     raster.transform = {0.0, 0.0, sea_cell_m, sea_cell_m};
@@ -201,7 +211,8 @@ TEST(Sea, StaysWhereItIsOnceLevel) {
   ASSERT_FALSE(again.empty());
   EXPECT_NEAR(again.level_m, sea.level_m, 1e-3);
   std::size_t lost = 0;
-  for (std::size_t i = 0; i < sea.mask.size(); ++i) lost += sea.mask[i] != 0 && again.mask[i] == 0 ? 1 : 0;
+  for (std::size_t i = 0; i < sea.mask.size(); ++i)
+    lost += sea.mask[i] != 0 && again.mask[i] == 0 ? 1 : 0;
   EXPECT_EQ(lost, 0U);
 }
 
@@ -247,14 +258,17 @@ Dem part(const Dem& dem, int x0, int y0, int width, int height) {
       out.altitude_m(x, y) = dem.altitude_m(x0 + x, y0 + y);
       out.filled(x, y) = dem.filled(x0 + x, y0 + y);
     }
-  out.transform = {dem.transform.origin_x + x0 * sea_cell_m, dem.transform.origin_y - y0 * sea_cell_m, sea_cell_m, sea_cell_m};
+  out.transform = {dem.transform.origin_x + x0 * sea_cell_m,
+                   dem.transform.origin_y - y0 * sea_cell_m, sea_cell_m, sea_cell_m};
   return out;
 }
 
 // Means of four by four cells.
 Dem coarse(const Dem& dem) {
   Raster<float> raster{
-      Grid<float>(sea_size / 4, sea_size / 4), {dem.transform.origin_x, dem.transform.origin_y, 4 * sea_cell_m, 4 * sea_cell_m}, {}};
+      Grid<float>(sea_size / 4, sea_size / 4),
+      {dem.transform.origin_x, dem.transform.origin_y, 4 * sea_cell_m, 4 * sea_cell_m},
+      {}};
   for (int y = 0; y < sea_size / 4; ++y)
     for (int x = 0; x < sea_size / 4; ++x) {
       float sum = 0.F;
@@ -269,9 +283,11 @@ TEST(SeaOfAWindow, IsThatOfTheWholeAtItsLevel) {
   for (const float roughness : {0.F, 1.F}) {
     const Dem dem = coast(0.4F, roughness);
     const Dem whole = coarse(dem);
-    // Steps of the whole's cells; a sea of 35 of them is too narrow to be told from noise there.
+    // Steps of the whole's cells; a sea of 35 of them is too narrow to be distinguished from noise
+    // there.
     Sea of_whole = find_sea(dem);
-    const Grid<std::uint8_t> fine = std::exchange(of_whole.mask, Grid<std::uint8_t>(sea_size / 4, sea_size / 4));
+    const Grid<std::uint8_t> fine =
+        std::exchange(of_whole.mask, Grid<std::uint8_t>(sea_size / 4, sea_size / 4));
     for (int y = 0; y < sea_size / 4; ++y)
       for (int x = 0; x < sea_size / 4; ++x) of_whole.mask(x, y) = fine(4 * x + 1, 4 * y + 2);
     const Dem window = part(dem, 60, 40, 220, 240);
@@ -289,24 +305,27 @@ TEST(SeaOfAWindow, IsThatOfTheWholeAtItsLevel) {
         wrong += land > 1.F + 2.F * roughness && sea.mask(x, y) != 0 ? 1 : 0;
       }
     EXPECT_GT(found, 0.99 * wet) << roughness;
-    EXPECT_LT(wrong, 0.005 * wet) << roughness << ": its shore is the window's, not the whole's steps";
-    EXPECT_EQ(find_sea(window, {.known = std::make_shared<const Sea>(sea)}).mask, sea.mask) << "nothing else is looked for";
+    EXPECT_LT(wrong, 0.005 * wet) << roughness
+                                  << ": its shore is the window's, not the whole's steps";
+    EXPECT_EQ(find_sea(window, {.known = std::make_shared<const Sea>(sea)}).mask, sea.mask)
+        << "nothing else is looked for";
   }
 }
 
 TEST(SeaOfAWindow, LevelGroundAtItsRimIsNone) {
-  // A basin at 0 m inland, cut by the window's rim: alone the window takes it for sea.
+  // A basin at 0 m inland, cut by the window's border: alone the window takes it for sea.
   Dem dem = coast(0.F, 0.F);
   for (int y = 60; y < 180; ++y)
     for (int x = 250; x < 390; ++x) dem.altitude_m(x, y) = 0.F;
   const Dem whole = coarse(dem);
-  const Sea of_whole = find_sea(whole, {.least_cells = 100});
+  const Sea of_whole = find_sea(whole, {.min_cells = 100});
   ASSERT_FALSE(of_whole.empty());
   EXPECT_EQ(of_whole.mask(320 / 4, 120 / 4), 0);
   const Dem window = part(dem, 230, 40, 100, 160);
   ASSERT_FALSE(find_sea(window).empty());
   EXPECT_TRUE(continue_sea(window, whole, of_whole).empty());
-  EXPECT_TRUE(continue_sea(part(dem, 0, 0, 300, 300), whole, {}).empty()) << "nor is there any where the whole has none";
+  EXPECT_TRUE(continue_sea(part(dem, 0, 0, 300, 300), whole, {}).empty())
+      << "nor is there any where the whole has none";
   const Dem both = part(dem, 60, 40, 270, 160);
   const Sea sea = continue_sea(both, whole, of_whole);
   ASSERT_FALSE(sea.empty());

@@ -10,10 +10,11 @@
 
 #include "base/grid.h"
 
-// Figures that tests compare terrains by.
+// Measures for comparing terrains in tests.
 namespace belvedere {
 
-// Hollows filled to their outlet by a plain priority flood from the rim: an implementation of its own, as an oracle.
+// Hollows filled to their outlet by a plain priority flood from the border: an independent
+// implementation, as an oracle.
 inline Grid<float> filled_hollows(const Grid<float>& altitude_m) {
   using Place = std::tuple<float, int, int>;
   std::priority_queue<Place, std::vector<Place>, std::greater<>> open;
@@ -46,7 +47,8 @@ inline Grid<float> filled_hollows(const Grid<float>& altitude_m) {
 inline double pit_volume_m3(const Grid<float>& altitude_m, double cell_m) {
   const Grid<float> filled = filled_hollows(altitude_m);
   double sum = 0.0;
-  for (std::size_t i = 0; i < filled.size(); ++i) sum += static_cast<double>(filled[i]) - altitude_m[i];
+  for (std::size_t i = 0; i < filled.size(); ++i)
+    sum += static_cast<double>(filled[i]) - altitude_m[i];
   return sum * cell_m * cell_m;
 }
 

@@ -10,22 +10,27 @@ namespace belvedere {
 namespace {
 
 constexpr double floor_cell_m = 50.0;
-constexpr int middle = 60;
+constexpr int centre = 60;
 
-// A valley that runs south: a level floor 2 km wide at 500 m, flanks that rise 1 in 2 to 1000 m, level heights beyond.
+// A valley that runs south: a level floor 2 km wide at 500 m, flanks that rise 1 in 2 to 1000 m,
+// level ground beyond.
 Grid<float> trough() {
   Grid<float> ground(121, 60);
   for (int y = 0; y < ground.height(); ++y)
-    for (int x = 0; x < ground.width(); ++x) ground(x, y) = 500.F + 25.F * static_cast<float>(std::clamp(std::abs(x - middle) - 20, 0, 20));
+    for (int x = 0; x < ground.width(); ++x)
+      ground(x, y) =
+          500.F + 25.F * static_cast<float>(std::clamp(std::abs(x - centre) - 20, 0, 20));
   return ground;
 }
 
-int count(const Grid<std::uint8_t>& marks) { return std::accumulate(marks.begin(), marks.end(), 0); }
+int count(const Grid<std::uint8_t>& marks) {
+  return std::accumulate(marks.begin(), marks.end(), 0);
+}
 
 TEST(ValleyFloor, IsTheLevelGroundBetweenTheFlanks) {
   const Grid<std::uint8_t> floor = find_valley_floor(trough(), floor_cell_m);
   for (int x = 0; x < 121; ++x) {
-    const int off = std::abs(x - middle);
+    const int off = std::abs(x - centre);
     if (off <= 18) {
       EXPECT_EQ(floor(x, 30), 1) << x;
     }
@@ -37,7 +42,8 @@ TEST(ValleyFloor, IsTheLevelGroundBetweenTheFlanks) {
 
 TEST(ValleyFloor, APlainIsNone) {
   EXPECT_EQ(count(find_valley_floor(Grid<float>(121, 60, 500.F), floor_cell_m)), 0);
-  EXPECT_EQ(count(find_valley_floor(trough(), floor_cell_m, {.below_highest_m = 501.0})), 0) << "the heights are only 500 m higher";
+  EXPECT_EQ(count(find_valley_floor(trough(), floor_cell_m, {.below_highest_m = 501.0})), 0)
+      << "the heights are only 500 m higher";
 }
 
 TEST(ValleyFloor, ALevelTerraceAboveItIsNone) {
@@ -51,9 +57,10 @@ TEST(ValleyFloor, ALevelTerraceAboveItIsNone) {
 TEST(ValleyFloor, GentleSlopesCountAsFarAsAllowed) {
   Grid<float> ground = trough();
   for (int y = 0; y < ground.height(); ++y)
-    for (int x = 0; x < ground.width(); ++x) ground(x, y) += 2.5F * static_cast<float>(y);  // atan(2.5 / 50) = 2.9°
-  EXPECT_EQ(find_valley_floor(ground, floor_cell_m)(middle, 30), 1);
-  EXPECT_EQ(find_valley_floor(ground, floor_cell_m, {.steepest_deg = 2.5})(middle, 30), 0);
+    for (int x = 0; x < ground.width(); ++x)
+      ground(x, y) += 2.5F * static_cast<float>(y);  // atan(2.5 / 50) = 2.9°
+  EXPECT_EQ(find_valley_floor(ground, floor_cell_m)(centre, 30), 1);
+  EXPECT_EQ(find_valley_floor(ground, floor_cell_m, {.steepest_deg = 2.5})(centre, 30), 0);
 }
 
 TEST(ValleyFloor, VoidsAreNoneAndTakeNothingFromWhatLiesFarOff) {
@@ -61,8 +68,8 @@ TEST(ValleyFloor, VoidsAreNoneAndTakeNothingFromWhatLiesFarOff) {
   for (int y = 0; y < 6; ++y)
     for (int x = 0; x < ground.width(); ++x) ground(x, y) = NAN;
   const Grid<std::uint8_t> floor = find_valley_floor(ground, floor_cell_m);
-  EXPECT_EQ(floor(middle, 3), 0);
-  EXPECT_EQ(floor(middle, 40), 1);
+  EXPECT_EQ(floor(centre, 3), 0);
+  EXPECT_EQ(floor(centre, 40), 1);
 }
 
 }  // namespace

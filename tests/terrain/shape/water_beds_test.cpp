@@ -16,7 +16,8 @@ struct Ground {
   Grid<std::uint8_t> water;
 };
 
-// A crater of 795 m radius filled to 500 m, whose banks rise by `slope`, and a river of 60 m width that leaves it to the east.
+// A crater of 795 m radius filled to 500 m, whose banks rise by `slope`, and a river of 60 m width
+// that leaves it to the east.
 Ground crater(double slope) {
   Ground ground;
   ground.dem.altitude_m = Grid<float>(260, 240);
@@ -28,7 +29,8 @@ Ground crater(double slope) {
       const double r = bed_cell_m * std::hypot(x - 110, y - 120);
       const bool river = x > 110 && std::abs(y - 120) <= 3;
       ground.water(x, y) = r <= 795.0 || river ? 1 : 0;
-      ground.dem.altitude_m(x, y) = ground.water(x, y) != 0 ? 500.F : static_cast<float>(500.0 + slope * (r - 795.0));
+      ground.dem.altitude_m(x, y) =
+          ground.water(x, y) != 0 ? 500.F : static_cast<float>(500.0 + slope * (r - 795.0));
     }
   return ground;
 }
@@ -37,8 +39,8 @@ TEST(WaterBeds, GoOnAsTheBanksBegin) {
   for (const double slope : {0.1, 0.3}) {
     const Ground g = crater(slope);
     const WaterBeds beds = make_water_beds(g.water, g.dem);
-    // Along a row to the west: the shore lies 5 m outside of the last cell of water, and the bank at it on average a little outside of 800
-    // m.
+    // Along a row to the west: the shore lies 5 m outside the last cell of water, and the bank at
+    // it on average a little outside 800 m.
     for (int x = 31; x < 100; ++x) {
       const double off_m = bed_cell_m * (x - 30) - 5.0;
       const double expected = 60.0 * (1.0 - std::exp(-slope * off_m / 60.0));
@@ -52,7 +54,8 @@ TEST(WaterBeds, GoOnAsTheBanksBegin) {
 TEST(WaterBeds, SteepBanksFallOffFasterThanFlatOnes) {
   const Ground steep = crater(0.4);
   const Ground flat = crater(0.02);
-  EXPECT_GT(make_water_beds(steep.water, steep.dem).depth_m(35, 120), 3.F * make_water_beds(flat.water, flat.dem).depth_m(35, 120));
+  EXPECT_GT(make_water_beds(steep.water, steep.dem).depth_m(35, 120),
+            3.F * make_water_beds(flat.water, flat.dem).depth_m(35, 120));
 }
 
 TEST(WaterBeds, RiversAreNoLakes) {
@@ -73,7 +76,7 @@ TEST(WaterBeds, LevelsStayAndWindowsAgree) {
   const Grid<float> before = g.dem.altitude_m;
   const WaterBeds whole = make_water_beds(g.water, g.dem);
   EXPECT_TRUE(g.dem.altitude_m == before);
-  // A window whose rim is farther off than beds look.
+  // A window whose border is farther away than the reach of beds.
   Ground part;
   part.dem.altitude_m = Grid<float>(120, 200);
   part.dem.filled = Grid<std::uint8_t>(120, 200, 0);

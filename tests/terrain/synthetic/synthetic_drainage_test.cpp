@@ -20,12 +20,14 @@ namespace belvedere::synthetic {
 namespace {
 
 // The flood itself, cell by cell.
-Drainage flood(Grid<float>& altitude_m, const std::vector<std::int32_t>& outlets, std::uint64_t seed) {
+Drainage flood(Grid<float>& altitude_m, const std::vector<std::int32_t>& outlets,
+               std::uint64_t seed) {
   const int width = altitude_m.width();
   const auto for_neighbours = [&](std::int32_t i, auto&& f) {
     for (int dy = -1; dy <= 1; ++dy)
       for (int dx = -1; dx <= 1; ++dx)
-        if ((dx != 0 || dy != 0) && altitude_m.contains(i % width + dx, i / width + dy)) f(i + dy * width + dx, dx != 0 && dy != 0);
+        if ((dx != 0 || dy != 0) && altitude_m.contains(i % width + dx, i / width + dy))
+          f(i + dy * width + dx, dx != 0 && dy != 0);
   };
   Drainage drainage;
   drainage.receiver.assign(altitude_m.size(), -2);
@@ -45,7 +47,8 @@ Drainage flood(Grid<float>& altitude_m, const std::vector<std::int32_t>& outlets
   }
   for (const std::int32_t i : drainage.order) {
     if (drainage.receiver[at(i)] < 0) continue;
-    const float diagonal = 1.F / (2.F - static_cast<float>(random_uniform(seed, i % width, i / width)));
+    const float diagonal =
+        1.F / (2.F - static_cast<float>(random_uniform(seed, i % width, i / width)));
     float steepest = 0.F;
     for_neighbours(i, [&](std::int32_t j, bool is_diagonal) {
       const float drop = (altitude_m[at(i)] - altitude_m[at(j)]) * (is_diagonal ? diagonal : 1.F);
@@ -56,11 +59,13 @@ Drainage flood(Grid<float>& altitude_m, const std::vector<std::int32_t>& outlets
   return drainage;
 }
 
-// Chance in whole metres: the fewer there are, the more flats and pits.
+// Random whole metres: the fewer there are, the more flats and pits.
 Grid<float> rough(int width, int height, int metres, std::uint64_t seed) {
   Grid<float> z(width, height);
   for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) z(x, y) = static_cast<float>(static_cast<int>(random_uniform(seed, x, y) * metres) - metres / 3);
+    for (int x = 0; x < width; ++x)
+      z(x, y) =
+          static_cast<float>(static_cast<int>(random_uniform(seed, x, y) * metres) - metres / 3);
   return z;
 }
 
@@ -116,7 +121,8 @@ TEST(SyntheticDrainage, CatchmentsAddUpDownstream) {
   Grid<float> inflow(5, 1, 0.F);
   inflow(3, 0) = 10.F;
   const Grid<float> km2 = catchments_km2(drainage, inflow, 1000.0);
-  EXPECT_THAT(std::vector<float>(km2.begin(), km2.end()), testing::ElementsAre(15.F, 14.F, 13.F, 12.F, 1.F));
+  EXPECT_THAT(std::vector<float>(km2.begin(), km2.end()),
+              testing::ElementsAre(15.F, 14.F, 13.F, 12.F, 1.F));
 }
 
 }  // namespace

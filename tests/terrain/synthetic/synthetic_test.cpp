@@ -38,8 +38,9 @@ void for_neighbours(const Grid<float>& z, int x, int y, F&& f) {
       if ((dx != 0 || dy != 0) && z.contains(x + dx, y + dy)) f(z.index(x + dx, y + dy));
 }
 
-// Sizes of level areas, found by plain search for equal neighbours.
-std::vector<std::size_t> level_areas(const Grid<float>& z, std::vector<std::uint8_t>& in_lake, std::size_t smallest) {
+// Sizes of level areas, found by a simple search for equal neighbours.
+std::vector<std::size_t> level_areas(const Grid<float>& z, std::vector<std::uint8_t>& in_lake,
+                                     std::size_t smallest) {
   std::vector<std::size_t> sizes;
   std::vector<std::uint8_t> seen(z.size(), 0);
   in_lake.assign(z.size(), 0);
@@ -48,11 +49,12 @@ std::vector<std::size_t> level_areas(const Grid<float>& z, std::vector<std::uint
     std::vector<std::size_t> area = {start};
     seen[start] = 1;
     for (std::size_t k = 0; k < area.size(); ++k)
-      for_neighbours(z, static_cast<int>(area[k]) % z.width(), static_cast<int>(area[k]) / z.width(), [&](std::size_t j) {
-        if (seen[j] != 0 || z[j] != z[start]) return;
-        seen[j] = 1;
-        area.push_back(j);
-      });
+      for_neighbours(z, static_cast<int>(area[k]) % z.width(),
+                     static_cast<int>(area[k]) / z.width(), [&](std::size_t j) {
+                       if (seen[j] != 0 || z[j] != z[start]) return;
+                       seen[j] = 1;
+                       area.push_back(j);
+                     });
     if (area.size() < smallest) continue;
     sizes.push_back(area.size());
     for (const std::size_t i : area) in_lake[i] = 1;
@@ -92,7 +94,8 @@ TEST(SyntheticTerrain, HasTheFormOfTheAlps) {
   EXPECT_GE(*high, 0.7F * 3400.F);
   const Grid<float> slope = slope_deg(dem.altitude_m, 120.0, 120.0);
   const auto share = [&](auto&& holds) {
-    return static_cast<double>(std::count_if(slope.begin(), slope.end(), holds)) / static_cast<double>(slope.size());
+    return static_cast<double>(std::count_if(slope.begin(), slope.end(), holds)) /
+           static_cast<double>(slope.size());
   };
   // The Karwendel and the Inn valley: 8 % flatter than 5°, 24 % steeper than 35° at 30 m.
   const double flat = share([](float s) { return s < 5.F; });
@@ -102,9 +105,11 @@ TEST(SyntheticTerrain, HasTheFormOfTheAlps) {
   EXPECT_GT(steep, 0.08);
   EXPECT_LT(steep, 0.45);
   EXPECT_LT(share([](float s) { return s > 65.F; }), 0.002);  // no needles
-  // A main valley: a tenth of the map lies within 250 m of the lowest ground; and high ground for ice.
+  // A main valley: a tenth of the map lies within 250 m of the lowest ground; and high ground for
+  // ice.
   const auto within = [&](float from, float to) {
-    return static_cast<double>(std::count_if(dem.altitude_m.begin(), dem.altitude_m.end(), [&](float z) { return z >= from && z < to; })) /
+    return static_cast<double>(std::count_if(dem.altitude_m.begin(), dem.altitude_m.end(),
+                                             [&](float z) { return z >= from && z < to; })) /
            static_cast<double>(dem.altitude_m.size());
   };
   EXPECT_GT(within(500.F, 750.F), 0.04);
@@ -125,8 +130,8 @@ TEST(SyntheticTerrain, IsTheSameForAnyNumberOfThreadsAndDiffersBySeed) {
 }
 
 TEST(SyntheticTerrain, SmallAndOddSizesWork) {
-  for (const auto& [width, height, cell] :
-       {std::tuple{16, 16, 30.0}, std::tuple{57, 33, 30.0}, std::tuple{40, 90, 1000.0}, std::tuple{64, 64, 1.0}}) {
+  for (const auto& [width, height, cell] : {std::tuple{16, 16, 30.0}, std::tuple{57, 33, 30.0},
+                                            std::tuple{40, 90, 1000.0}, std::tuple{64, 64, 1.0}}) {
     SyntheticParameters p;
     p.width = width;
     p.height = height;
@@ -134,7 +139,9 @@ TEST(SyntheticTerrain, SmallAndOddSizesWork) {
     const Dem dem = make_synthetic_terrain(p, silent_progress());
     ASSERT_EQ(dem.width(), width);
     ASSERT_EQ(dem.height(), height);
-    EXPECT_TRUE(std::all_of(dem.altitude_m.begin(), dem.altitude_m.end(), [](float z) { return z >= 500.F && z <= 3400.F; })) << width;
+    EXPECT_TRUE(std::all_of(dem.altitude_m.begin(), dem.altitude_m.end(), [](float z) {
+      return z >= 500.F && z <= 3400.F;
+    })) << width;
     EXPECT_LT(*std::min_element(dem.altitude_m.begin(), dem.altitude_m.end()),
               *std::max_element(dem.altitude_m.begin(), dem.altitude_m.end()));
   }
@@ -174,7 +181,8 @@ TEST(RidgedNoise, KeepsItsRangeAtAnySize) {
 Grid<float> random_ground(int width, int height, std::uint64_t seed) {
   Grid<float> z(width, height);
   for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) z(x, y) = 100.F * static_cast<float>(random_uniform(seed, x, y));
+    for (int x = 0; x < width; ++x)
+      z(x, y) = 100.F * static_cast<float>(random_uniform(seed, x, y));
   return z;
 }
 
@@ -184,7 +192,8 @@ TEST(Drainage, CarriesAllWaterToTheOutletAndReceiversComeFirst) {
   const synthetic::Drainage drainage = synthetic::find_drainage(z, outlets, 1);
   ASSERT_EQ(drainage.order.size(), z.size());
   std::vector<std::size_t> rank(z.size());
-  for (std::size_t k = 0; k < drainage.order.size(); ++k) rank[static_cast<std::size_t>(drainage.order[k])] = k;
+  for (std::size_t k = 0; k < drainage.order.size(); ++k)
+    rank[static_cast<std::size_t>(drainage.order[k])] = k;
   for (std::size_t i = 0; i < z.size(); ++i) {
     const std::int32_t r = drainage.receiver[i];
     if (i == 7) {
@@ -202,11 +211,11 @@ TEST(Drainage, CarriesAllWaterToTheOutletAndReceiversComeFirst) {
 }
 
 TEST(Erosion, SlopesDoNotPreferTheGridsDirections) {
-  // Steady ground around a single outlet in the middle is a cone of the same slope all around.
+  // Steady ground around a single outlet at the centre is a cone with the same slope all around.
   constexpr int size = 101;
   Grid<float> z = random_ground(size, size, 9);
-  const std::int32_t middle = (size / 2) * size + size / 2;
-  z[static_cast<std::size_t>(middle)] = 0.F;
+  const std::int32_t centre = (size / 2) * size + size / 2;
+  z[static_cast<std::size_t>(centre)] = 0.F;
   const Grid<float> uplift(size, size, 10.F);
   const Grid<float> softness(size, size, 1.F);
   synthetic::ErosionParameters p;
@@ -214,15 +223,17 @@ TEST(Erosion, SlopesDoNotPreferTheGridsDirections) {
   p.steepest = 100.F;
   const Grid<float> no_inflow(size, size, 0.F);
   for (int step = 0; step < 60; ++step) {
-    const synthetic::Drainage drainage = synthetic::find_drainage(z, {middle}, 1);
+    const synthetic::Drainage drainage = synthetic::find_drainage(z, {centre}, 1);
     Grid<synthetic::ErosionCell> cells;
-    synthetic::erode(z, drainage, synthetic::catchments_km2(drainage, no_inflow, 30.0), uplift, softness, p, cells);
+    synthetic::erode(z, drainage, synthetic::catchments_km2(drainage, no_inflow, 30.0), uplift,
+                     softness, p, cells);
   }
   const auto height_at = [&](int dx, int dy) { return z(size / 2 + dx, size / 2 + dy); };
   const float straight = height_at(40, 0) / 40.F;
   const float diagonal = height_at(28, 28) / std::hypot(28.F, 28.F);
   const float between = height_at(37, 15) / std::hypot(37.F, 15.F);
-  EXPECT_NEAR(straight, 10.F / (8.F * std::pow(10000.F, 0.6F)), 0.1F * straight);  // U / (K A^m) a cell
+  EXPECT_NEAR(straight, 10.F / (8.F * std::pow(10000.F, 0.6F)),
+              0.1F * straight);  // U / (K A^m) a cell
   EXPECT_NEAR(diagonal / straight, 1.F, 0.06F);
   EXPECT_NEAR(between / straight, 1.F, 0.06F);
 }

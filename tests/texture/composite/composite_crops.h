@@ -3,7 +3,8 @@
 #include "tests/texture/statistical/texture_crops.h"
 #include "texture/composite/learn_composite.h"
 
-// A crop of two made-up textures, of which is known where each is: meadow above, grey stripes below a ragged border.
+// A crop of two synthetic textures with known positions: meadow above, grey stripes below a ragged
+// border.
 namespace belvedere::test {
 
 struct Composite {
@@ -27,7 +28,7 @@ inline Composite two_textures(int width, int height) {
   return out;
 }
 
-// Few types, no choice of seeds: what tests need.
+// Few types, no choice of seeds: sufficient for tests.
 inline CompositeParameters quick_learning() {
   CompositeParameters parameters;
   parameters.learn.types = 16;
@@ -37,9 +38,10 @@ inline CompositeParameters quick_learning() {
   return parameters;
 }
 
-// What is learnt of them, once.
+// The model learnt from them, once.
 inline const CompositeModel& two_textures_model() {
-  static const CompositeModel model = learn_composite(two_textures(200, 150).crop(), quick_learning());
+  static const CompositeModel model =
+      learn_composite(two_textures(200, 150).crop(), quick_learning());
   return model;
 }
 

@@ -25,11 +25,14 @@ TEST(LayoutFigures, KnowTopFromBottomAtAnySize) {
   EXPECT_EQ(same.profile, 0.0);
   EXPECT_EQ(same.far_pairs, 0.0);
   EXPECT_LT(layout_figures(crop, halves(200, 320, false)).profile, .02);
-  // Turned over, every strip holds what it never held; differences along rows stay, those along columns turn their sign.
+  // Turned over, every strip contains what it never contained; differences along rows stay, those
+  // along columns change their sign.
   const LayoutFigures turned = layout_figures(crop, halves(160, 160, true));
   EXPECT_NEAR(turned.profile, 2.0, 1e-9);
-  // In one band of three, along columns: of pairs d apart d / (160 - d) reach over the middle, at most all, and all of them move.
-  EXPECT_NEAR(turned.far_pairs, 2.0 / 24.0 * (16.0 / 144.0 + 32.0 / 128.0 + 64.0 / 96.0 + 1.0), .01);
+  // In one band of three, along columns: of pairs d apart the share d / (160 - d), at most 1,
+  // crosses the centre, and all of these change.
+  EXPECT_NEAR(turned.far_pairs, 2.0 / 24.0 * (16.0 / 144.0 + 32.0 / 128.0 + 64.0 / 96.0 + 1.0),
+              .01);
 }
 
 }  // namespace

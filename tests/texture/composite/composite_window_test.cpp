@@ -36,23 +36,28 @@ Grid<std::uint8_t> discs(int width, int height) {
 
 TEST(CompositeWindow, AnyWindowIsAPartOfTheWhole) {
   const Grid<std::uint8_t> labels = discs(560, 140);  // two tiles
-  const Grid<Rgb8> whole = make_composite_window(two_textures_model(), record(), labels, {0, 0, 560, 140}, quick_window);
+  const Grid<Rgb8> whole =
+      make_composite_window(two_textures_model(), record(), labels, {0, 0, 560, 140}, quick_window);
   {
     const ThreadLimit threads(3);
     for (const PixelRect window : {PixelRect{480, 90, 560, 140}, PixelRect{530, 0, 560, 40}})
-      EXPECT_EQ(make_composite_window(two_textures_model(), record(), labels, window, quick_window), part_of(whole, window));
+      EXPECT_EQ(make_composite_window(two_textures_model(), record(), labels, window, quick_window),
+                part_of(whole, window));
     // One tile above the other.
     const Grid<std::uint8_t> tall = discs(60, 540);
-    const Grid<Rgb8> column = make_composite_window(two_textures_model(), record(), tall, {0, 0, 60, 540}, quick_window);
+    const Grid<Rgb8> column =
+        make_composite_window(two_textures_model(), record(), tall, {0, 0, 60, 540}, quick_window);
     const PixelRect below{10, 515, 50, 540};
-    EXPECT_EQ(make_composite_window(two_textures_model(), record(), tall, below, quick_window), part_of(column, below));
+    EXPECT_EQ(make_composite_window(two_textures_model(), record(), tall, below, quick_window),
+              part_of(column, below));
   }
   // Each label in its texture.
   const Grid<std::uint8_t> zone = near_borders(labels, 6);
   int wrong = 0;
-  for (std::size_t i = 0; i < whole.size(); ++i) wrong += zone[i] == 0 && is_green(whole[i]) != (labels[i] == 0) ? 1 : 0;
+  for (std::size_t i = 0; i < whole.size(); ++i)
+    wrong += zone[i] == 0 && is_green(whole[i]) != (labels[i] == 0) ? 1 : 0;
   EXPECT_LT(wrong, static_cast<int>(whole.size() / 500));
-  // No step where tiles meet: that of one column is as that of those beside it.
+  // No step where tiles meet: that column's step is like its neighbours'.
   const auto step = [&](int x) {
     double sum = 0.0;
     for (int y = 0; y < 140; ++y)
@@ -65,7 +70,9 @@ TEST(CompositeWindow, AnyWindowIsAPartOfTheWhole) {
 }
 
 TEST(CompositeWindow, RefusesWhatIsBeyondTheMap) {
-  EXPECT_THROW(make_composite_window(two_textures_model(), record(), discs(560, 60), {500, 0, 600, 40}, quick_window), Error);
+  EXPECT_THROW(make_composite_window(two_textures_model(), record(), discs(560, 60),
+                                     {500, 0, 600, 40}, quick_window),
+               Error);
 }
 
 }  // namespace

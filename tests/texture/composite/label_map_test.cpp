@@ -18,23 +18,29 @@ Grid<std::uint8_t> map_of(int width, int height, F&& label) {
 }
 
 TEST(LabelMap, ACheckerboardHasKnownTables) {
-  const LabelMapModel model = learn_label_map(map_of(64, 64, [](int x, int y) { return (x + y) % 2; }), 2);
-  const auto table = [&](int scale, int offset) { return model.pairs.data() + model.pair_table(scale, offset); };
-  // Beside and below: never alike. Across a corner, two farther, and at every wider scale: always.
+  const LabelMapModel model =
+      learn_label_map(map_of(64, 64, [](int x, int y) { return (x + y) % 2; }), 2);
+  const auto table = [&](int scale, int offset) {
+    return model.pairs.data() + model.pair_table(scale, offset);
+  };
+  // Direct neighbours: never equal. Across a corner, two apart, and at every coarser scale: always.
   for (const int offset : {0, 1}) {
     EXPECT_EQ(table(0, offset)[0], 0.F);
     EXPECT_NEAR(table(0, offset)[1], .5F, .01F);
   }
   for (const int offset : {2, 3, 4, 5}) EXPECT_NEAR(table(0, offset)[0], .5F, .01F);
   EXPECT_EQ(table(3, 0)[1], 0.F);
-  // The corners of the ring are alike, its sides are not.
+  // The corners of the ring are equal, its sides are not.
   EXPECT_EQ(model.rings[1U << 0 | 1U << 2 | 1U << 5 | 1U << 7], 1.F);
   EXPECT_EQ(model.rings[ring_patterns + 255], 1.F);
 }
 
 TEST(LabelMap, HeadsAndTailsAreNotMistaken) {
-  // Label 1 lies right of 0 and below 2.
-  const LabelMapModel model = learn_label_map(map_of(60, 60, [](int x, int y) { return y < 30 ? 2 : x < 30 ? 0 : 1; }), 3);
+  // Label 1 is right of 0 and below 2.
+  const LabelMapModel model =
+      learn_label_map(map_of(60, 60, [](int x, int y) { return y < 30   ? 2
+                                                               : x < 30 ? 0
+                                                                        : 1; }), 3);
   const auto share = [&](int offset, std::size_t tail, std::size_t head) {
     return model.pairs[model.pair_table(0, offset) + 3 * tail + head];
   };
@@ -45,8 +51,10 @@ TEST(LabelMap, HeadsAndTailsAreNotMistaken) {
 }
 
 TEST(LabelMap, LengthOfBordersIsExact) {
-  // One upright border in a map of 64 × 48: of 63 neighbours a row one differs, of those s apart s do, as long as they reach over it.
-  const LabelMapModel model = learn_label_map(map_of(64, 48, [](int x, int) { return x < 32 ? 0 : 1; }), 2);
+  // One vertical border in a map of 64 × 48: of 63 neighbours per row one differs, of those s apart
+  // s do, as long as they cross it.
+  const LabelMapModel model =
+      learn_label_map(map_of(64, 48, [](int x, int) { return x < 32 ? 0 : 1; }), 2);
   const auto shares = border_shares(model);
   for (int scale = 0; scale < label_scales; ++scale) {
     const double step = 1 << scale;
@@ -55,7 +63,8 @@ TEST(LabelMap, LengthOfBordersIsExact) {
 }
 
 TEST(LabelMap, ProfileFollowsTheHeight) {
-  const LabelMapModel model = learn_label_map(map_of(20, 160, [](int, int y) { return y < 80 ? 0 : 1; }), 2);
+  const LabelMapModel model =
+      learn_label_map(map_of(20, 160, [](int, int y) { return y < 80 ? 0 : 1; }), 2);
   for (std::size_t strip = 0; strip < label_strips; ++strip) {
     EXPECT_NEAR(model.profile[2 * strip] + model.profile[2 * strip + 1], 1.F, 1e-6);
     if (strip < 7) {
@@ -65,17 +74,19 @@ TEST(LabelMap, ProfileFollowsTheHeight) {
       EXPECT_EQ(model.profile[2 * strip], 0.F) << strip;
     }
   }
-  // The two strips beside the border are mixed alike, as near as 256ths of a strip can say.
+  // The two strips next to the border are mixed equally, as far as 256ths of a strip can express
+  // it.
   EXPECT_NEAR(model.profile[2 * 7], 1.F - model.profile[2 * 8], 1.0 / 256.0);
   EXPECT_NEAR(model.profile[2 * 7], .875F, .01F);
-  EXPECT_EQ(strip_place(0, 160).upper, 0);
-  EXPECT_EQ(strip_place(0, 160).lower_256, 0);
-  EXPECT_EQ(strip_place(159, 160).upper, label_strips - 2);
-  EXPECT_EQ(strip_place(159, 160).lower_256, 256);
+  EXPECT_EQ(strip_position(0, 160).upper, 0);
+  EXPECT_EQ(strip_position(0, 160).lower_256, 0);
+  EXPECT_EQ(strip_position(159, 160).upper, label_strips - 2);
+  EXPECT_EQ(strip_position(159, 160).lower_256, 256);
 }
 
 TEST(LabelMap, LayoutIsCountedOnceAMapAndPatchesByArea) {
-  const LabelMapModel sky = learn_label_map(map_of(64, 64, [](int, int y) { return y < 32 ? 0 : 1; }), 2);
+  const LabelMapModel sky =
+      learn_label_map(map_of(64, 64, [](int, int y) { return y < 32 ? 0 : 1; }), 2);
   const LabelMapModel tall = at_size(sky, 64, 128);
   for (int scale = 0; scale < label_scales; ++scale) {
     const std::size_t at = sky.pair_table(scale, 1);
@@ -85,13 +96,17 @@ TEST(LabelMap, LayoutIsCountedOnceAMapAndPatchesByArea) {
                 1.F, 1e-5);
   }
   EXPECT_NEAR(1.F - tall.rings[255], .5F * (1.F - sky.rings[255]), 1e-6);
-  // Of a map that is really twice as high, that is the truth.
-  const auto off = label_map_figures(sky, map_of(64, 128, [](int, int y) { return y < 64 ? 0 : 1; }));
+  // For a map that is really twice as high, this is correct.
+  const auto off =
+      label_map_figures(sky, map_of(64, 128, [](int, int y) { return y < 64 ? 0 : 1; }));
   EXPECT_LT(off.pairs_for_size, .25 * off.pairs);
   EXPECT_LT(off.profile, 1e-6);
 
-  const auto board = [](int w, int h) { return map_of(w, h, [](int x, int y) { return (x / 8 + y / 8) % 2; }); };
-  EXPECT_LT(label_map_figures(learn_label_map(board(128, 128), 2), board(256, 256)).pairs_for_size, .02);
+  const auto board = [](int w, int h) {
+    return map_of(w, h, [](int x, int y) { return (x / 8 + y / 8) % 2; });
+  };
+  EXPECT_LT(label_map_figures(learn_label_map(board(128, 128), 2), board(256, 256)).pairs_for_size,
+            .02);
 }
 
 TEST(LabelMap, CountsOfLabelsHaveLimits) {

@@ -27,7 +27,7 @@ TEST(LearnComposite, EachLabelIsLearntFromItsOwnPixels) {
   const CompositeModel model = learn_composite(two.crop(), test::quick_learning());
   ASSERT_EQ(model.labels.size(), 2U);
   EXPECT_EQ(model.labels[0].name, "#008000");
-  // The meadow is green, the stripes are grey: neither has seen the other.
+  // The meadow is green, the stripes are grey: neither contains colours of the other.
   const auto& green = model.labels[0].model.bands.mean;
   const auto& grey = model.labels[1].model.bands.mean;
   EXPECT_GT(green[1], green[2] + 40.F);
@@ -47,7 +47,8 @@ TEST(LearnComposite, UnknownPixelsBelongToNothing) {
       two.labels(x, y) = no_label;
     }
   const CompositeModel model = learn_composite(two.crop(), test::quick_learning());
-  EXPECT_LT(std::abs(model.labels[1].model.bands.mean[0] - model.labels[1].model.bands.mean[2]), 8.F);
+  EXPECT_LT(std::abs(model.labels[1].model.bands.mean[0] - model.labels[1].model.bands.mean[2]),
+            8.F);
   EXPECT_EQ(model.map.labels, 2);
 }
 
@@ -81,7 +82,7 @@ TEST(LearnComposite, BadLabelsAreNamed) {
   test::Composite flat = test::two_textures(120, 120);
   for (std::size_t i = 0; i < flat.labels.size(); ++i)
     if (flat.labels[i] == 0) flat.picture[i] = {9, 9, 9};
-  EXPECT_THAT(refusal(flat.crop()), AllOf(HasSubstr("#008000"), HasSubstr("one colour")));
+  EXPECT_THAT(refusal(flat.crop()), AllOf(HasSubstr("#008000"), HasSubstr("single colour")));
 }
 
 }  // namespace

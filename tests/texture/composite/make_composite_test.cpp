@@ -20,7 +20,8 @@ const TextureParameters quick_make{.rounds = 8, .sweeps = 3};
 Grid<std::uint8_t> drawn(int width, int height) {
   Grid<std::uint8_t> labels(width, height);
   for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) labels(x, y) = (x - 50) * (x - 50) + (y - 40) * (y - 40) < 900 ? 1 : 0;
+    for (int x = 0; x < width; ++x)
+      labels(x, y) = (x - 50) * (x - 50) + (y - 40) * (y - 40) < 900 ? 1 : 0;
   return labels;
 }
 
@@ -29,7 +30,8 @@ TEST(MakeComposite, EveryLabelHasItsOwnTexture) {
   const Grid<Rgb8> made = make_composite(two_textures_model(), labels, quick_make);
   const Grid<std::uint8_t> zone = near_borders(labels, remade_border_px);
   int wrong = 0;
-  for (std::size_t i = 0; i < made.size(); ++i) wrong += zone[i] == 0 && is_green(made[i]) != (labels[i] == 0) ? 1 : 0;
+  for (std::size_t i = 0; i < made.size(); ++i)
+    wrong += zone[i] == 0 && is_green(made[i]) != (labels[i] == 0) ? 1 : 0;
   EXPECT_LE(wrong, 5);  // of ten thousand, at the tails of greens
 }
 
@@ -37,8 +39,11 @@ TEST(MakeComposite, EveryLabelHasItsOwnTexture) {
 TEST(MakeComposite, KeepsTheLayoutThatOneTextureLoses) {
   const test::Composite crop = test::two_textures(200, 150);
   const CliqueModel single = learn_texture(crop.picture, {}, test::quick_learning().learn).model;
-  const double one = layout_figures(crop.picture, make_texture(single, 200, 150, quick_make)).profile;
-  const double composite = layout_figures(crop.picture, make_composite(two_textures_model(), crop.labels, quick_make)).profile;
+  const double one =
+      layout_figures(crop.picture, make_texture(single, 200, 150, quick_make)).profile;
+  const double composite =
+      layout_figures(crop.picture, make_composite(two_textures_model(), crop.labels, quick_make))
+          .profile;
   EXPECT_LT(composite, .75 * one) << one;
 }
 
@@ -60,7 +65,8 @@ TEST(MakeComposite, TheTransitionChangesBordersAlone) {
 }
 
 TEST(MakeComposite, ThreadsChangeNothing) {
-  const Grid<std::uint8_t> labels = make_label_map(two_textures_model().map, 90, 70, {.effort = .2});
+  const Grid<std::uint8_t> labels =
+      make_label_map(two_textures_model().map, 90, 70, {.effort = .2});
   Grid<Rgb8> one;
   {
     const ThreadLimit limit(1);
@@ -90,11 +96,14 @@ TEST(MakeComposite, ThinLabelsAreStillOfTheirTexture) {
 }
 
 TEST(MakeComposite, OneLabelAloneAndUnknownOnes) {
-  EXPECT_EQ(make_composite(two_textures_model(), Grid<std::uint8_t>(40, 30), quick_make).width(), 40);
-  EXPECT_THROW(make_composite(two_textures_model(), Grid<std::uint8_t>(40, 30, 2), quick_make), Error);
+  EXPECT_EQ(make_composite(two_textures_model(), Grid<std::uint8_t>(40, 30), quick_make).width(),
+            40);
+  EXPECT_THROW(make_composite(two_textures_model(), Grid<std::uint8_t>(40, 30, 2), quick_make),
+               Error);
 }
 
-// Red left, blue right, green far away: a violet between red and blue becomes one of the two, whichever is nearer, a reddish one stays.
+// Red left, blue right, green far away: a violet between red and blue becomes one of the two,
+// whichever is nearer, a reddish one stays.
 TEST(SnapColours, TakesColoursOfTheTwoSides) {
   constexpr Rgb8 red{200, 20, 20};
   constexpr Rgb8 blue{20, 20, 200};
@@ -108,7 +117,7 @@ TEST(SnapColours, TakesColoursOfTheTwoSides) {
     }
   Grid<std::uint8_t> zone(60, 20);
   zone(19, 10) = zone(20, 10) = zone(18, 4) = zone(21, 4) = 1;
-  picture(19, 10) = {105, 110, 120};  // nearest to green, which is not near
+  picture(19, 10) = {105, 110, 120};  // nearest to green, which is not nearby
   picture(20, 10) = {90, 20, 140};
   picture(18, 4) = {205, 16, 22};  // within a cell of red
   picture(21, 4) = {130, 20, 90};

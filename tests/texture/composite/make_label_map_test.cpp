@@ -14,7 +14,8 @@ Grid<std::uint8_t> patches(int side, std::uint64_t seed) {
   Grid<std::uint8_t> map(side, side);
   for (int y = 0; y < side; ++y)
     for (int x = 0; x < side; ++x) {
-      const double wide = gaussian_noise(seed, x, y, 12.0) + .25 * gaussian_noise(seed + 1, x, y, 2.0);
+      const double wide =
+          gaussian_noise(seed, x, y, 12.0) + .25 * gaussian_noise(seed + 1, x, y, 2.0);
       map(x, y) = wide > 1.1 ? 2 : wide > 0.0 ? 1 : 0;
     }
   return map;
@@ -37,20 +38,23 @@ double share_in_rows(const Grid<std::uint8_t>& map, int y0, int y1, int label) {
 TEST(MakeLabelMap, PatchesComeNearInPairsAndBorders) {
   const LabelMapModel model = learn_label_map(patches(192, 5), 3);
   const LabelMapFigures with = label_map_figures(model, make_label_map(model, 192, 192, {}));
-  // What another piece of the same pattern differs by: the floor that nature sets.
+  // The difference of another piece of the same pattern: the natural lower bound.
   const LabelMapFigures floor = label_map_figures(model, patches(192, 77));
   EXPECT_LT(with.pairs, .5 * floor.pairs);
   EXPECT_LT(with.rings, .5 * floor.rings);
   const auto wanted = border_shares(model);
-  for (std::size_t s = 0; s < label_scales; ++s) EXPECT_NEAR(with.borders[s] / wanted[s], 1.0, .08) << s;
-  // Pairs alone leave open how borders run.
-  const LabelMapFigures without = label_map_figures(model, make_label_map(model, 192, 192, {.rings = false}));
+  for (std::size_t s = 0; s < label_scales; ++s)
+    EXPECT_NEAR(with.borders[s] / wanted[s], 1.0, .08) << s;
+  // Pairs alone do not determine the shape of borders.
+  const LabelMapFigures without =
+      label_map_figures(model, make_label_map(model, 192, 192, {.rings = false}));
   EXPECT_GT(without.rings, 1.3 * with.rings);
 }
 
 TEST(MakeLabelMap, AMapOfTwiceTheSizeHasTheSamePairs) {
   const LabelMapModel model = learn_label_map(patches(160, 8), 3);
-  const LabelMapFigures off = label_map_figures(model, make_label_map(model, 320, 320, {.effort = .6}));
+  const LabelMapFigures off =
+      label_map_figures(model, make_label_map(model, 320, 320, {.effort = .6}));
   EXPECT_LT(off.pairs, .05);
 }
 
@@ -64,7 +68,8 @@ TEST(MakeLabelMap, StripesKeepTopAndBottom) {
   }
 }
 
-// Clouds in one band of a sky. Pairs alone know that it is a band, and what lies at the edges of the map, but not where in between.
+// Clouds in one band of a sky. Pairs alone determine that there is a band, and the edges of the
+// map, but not the position of the band.
 TEST(MakeLabelMap, LayoutIsKeptOfWhatCouldLieAnywhere) {
   Grid<std::uint8_t> crop = patches(192, 21);
   for (int y = 0; y < 192; ++y)
@@ -74,7 +79,8 @@ TEST(MakeLabelMap, LayoutIsKeptOfWhatCouldLieAnywhere) {
   const Grid<std::uint8_t> with = make_label_map(model, 192, 192, {.effort = .5});
   EXPECT_NEAR(share_in_rows(with, 45, 75, 1), there, .2 * there);
   EXPECT_LT(share_in_rows(with, 100, 160, 1), .05);
-  const Grid<std::uint8_t> without = make_label_map(model, 192, 192, {.seed = 2, .layout = false, .effort = .5});
+  const Grid<std::uint8_t> without =
+      make_label_map(model, 192, 192, {.seed = 2, .layout = false, .effort = .5});
   EXPECT_GT(share_in_rows(without, 100, 160, 1), .15);
 }
 

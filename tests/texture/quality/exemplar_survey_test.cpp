@@ -8,7 +8,7 @@
 namespace belvedere {
 namespace {
 
-// Grey noise of contrast `left` and `right` of the middle, all one class; a guide that leaves out a stretch.
+// Grey noise of contrast `left` and `right` of the centre, all one class; a guide with a gap.
 Exemplar two_hands(int left, int right) {
   Exemplar exemplar;
   exemplar.name = "two hands";
@@ -18,9 +18,13 @@ Exemplar two_hands(int left, int right) {
   for (int y = 0; y < 120; ++y) {
     for (int x = 0; x < 160; ++x) {
       const int contrast = x < 80 ? left : right;
-      const int grey = 128 + static_cast<int>(random_index(static_cast<std::uint32_t>(2 * contrast + 1), 3, x, y)) - contrast;
+      const int grey =
+          128 +
+          static_cast<int>(random_index(static_cast<std::uint32_t>(2 * contrast + 1), 3, x, y)) -
+          contrast;
       exemplar.picture(x, y).fill(static_cast<std::uint8_t>(grey));
-      exemplar.guides.guides[0].values(x, y) = static_cast<std::uint8_t>(y < 60 ? 20 + y : 60 + y);  // 20…79, 120…179
+      exemplar.guides.guides[0].values(x, y) =
+          static_cast<std::uint8_t>(y < 60 ? 20 + y : 60 + y);  // 20…79, 120…179
     }
   }
   return exemplar;
@@ -34,7 +38,7 @@ TEST(ExemplarSurvey, HalvesOfOneHandAreAlikeAndOfTwoAreNot) {
   EXPECT_LT(even.checkerboard.clique, 0.12);
   const ClassSurvey uneven = survey_exemplar(two_hands(60, 10)).classes.at(0);
   EXPECT_GT(uneven.left_right.clique, 0.8);
-  EXPECT_LT(uneven.checkerboard.clique, 0.12) << "squares of both hands lie in both halves";
+  EXPECT_LT(uneven.checkerboard.clique, 0.12) << "squares of both styles are in both halves";
   // Uniform from -60 to 60 against -10 to 10: quantiles are off by 25 on average.
   EXPECT_NEAR(uneven.left_right.colour, 25.0, 1.5);
 }
@@ -42,7 +46,7 @@ TEST(ExemplarSurvey, HalvesOfOneHandAreAlikeAndOfTwoAreNot) {
 TEST(ExemplarSurvey, GuidesAreToldWithTheirGaps) {
   const ClassSurvey of = survey_exemplar(two_hands(60, 60)).classes.at(0);
   ASSERT_EQ(of.guides.size(), 1U);
-  const GuideSupply& altitude = of.guides[0];
+  const GuideTexels& altitude = of.guides[0];
   EXPECT_EQ(altitude.lowest, 20);
   EXPECT_EQ(altitude.highest, 179);
   EXPECT_EQ(altitude.low, 26);  // 5 % of 120 rows
@@ -56,7 +60,8 @@ TEST(ExemplarSurvey, CountsWhatIsExcludedAndWhatLiesInside) {
   Exemplar exemplar = two_hands(60, 60);
   for (int y = 0; y < 120; ++y) {
     for (int x = 0; x < 20; ++x) exemplar.guides.label(x, y) = unused_label;
-    for (int x = 150; x < 160; ++x) exemplar.guides.label(x, y) = 9;  // all within 8 pixels of a border
+    for (int x = 150; x < 160; ++x)
+      exemplar.guides.label(x, y) = 9;  // all within 8 pixels of a border
   }
   const ExemplarSurvey survey = survey_exemplar(exemplar);
   EXPECT_EQ(survey.texels, 19200U);
@@ -80,15 +85,19 @@ TEST(ExemplarSurvey, TellsHowManyPixelsFindTexelsOfTheirAltitude) {
   EXPECT_EQ(covered_share(exemplars, target, 4, "altitude", 3), 132.0 / 200.0);
   EXPECT_EQ(covered_share(exemplars, target, 4, "altitude", 40), 1.0);
   EXPECT_EQ(covered_share(exemplars, target, 5, "altitude", 0), 1.0);
-  EXPECT_EQ(test::message_of(ErrorKind::usage, [&] { covered_share(exemplars, target, 4, "tone", 0); }).empty(), false);
+  EXPECT_EQ(
+      test::message_of(ErrorKind::usage, [&] { covered_share(exemplars, target, 4, "tone", 0); })
+          .empty(),
+      false);
 }
 
-// Bars along a row, 12 pixels long on 1 high: their run is told.
+// Bars along a row, 12 pixels long and 1 high: their run is measured.
 TEST(ExemplarSurvey, TellsHowLongStrokesAre) {
   Exemplar exemplar = two_hands(60, 60);
   for (int y = 0; y < 120; ++y)
     for (int x = 0; x < 160; ++x)
-      exemplar.picture(x, y).fill(static_cast<std::uint8_t>(random_index(2, 8, (x + 5 * y) / 12, y) == 0 ? 20 : 220));
+      exemplar.picture(x, y).fill(
+          static_cast<std::uint8_t>(random_index(2, 8, (x + 5 * y) / 12, y) == 0 ? 20 : 220));
   EXPECT_GT(survey_exemplar(exemplar).classes.at(0).stroke_run_px, 12.0);
 }
 

@@ -20,7 +20,7 @@ Rgb8 grey(int value) {
   return {v, v, v};
 }
 
-// Horizontal dashes of `length` pixels, each of a brightness of its own.
+// Horizontal dashes of `length` pixels, each with its own brightness.
 Grid<Rgb8> dashes(int width, int height, int length, std::uint64_t seed) {
   Grid<Rgb8> picture(width, height);
   for (int y = 0; y < height; ++y) {
@@ -50,17 +50,19 @@ Exemplar exemplar_of(const Grid<Rgb8>& picture) {
 MatchField identity(int width, int height) {
   MatchField field(width, height);
   for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) field(x, y) = {0, static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y)};
+    for (int x = 0; x < width; ++x)
+      field(x, y) = {0, static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y)};
   }
   return field;
 }
 
 TEST(Quality, AnExemplarAgainstItselfIsFaultless) {
   const Exemplar exemplar = exemplar_of(dashes(120, 90, 6, 1));
-  const SynthesisQuality q = measure_quality(identity(120, 90), {exemplar}, exemplar.guides, {.repeat_samples = 20});
+  const SynthesisQuality q =
+      measure_quality(identity(120, 90), {exemplar}, exemplar.guides, {.repeat_samples = 20});
   EXPECT_EQ(q.label_agreement, 1.0);
   EXPECT_EQ(q.guide_error_mean, 0.0);
-  EXPECT_EQ(q.most_used, 1);
+  EXPECT_EQ(q.max_used, 1);
   EXPECT_EQ(q.texels_used, 1.0);
   EXPECT_EQ(q.largest_piece, 120U * 90U);
   EXPECT_EQ(q.coherence, 1.0);
@@ -88,17 +90,19 @@ TEST(Quality, CountsWhatACopyDoes) {
   GuideStack target = exemplar.guides;
   target.label(3, 3) = 1;
   MatchField field = identity(40, 30);
-  // A column shifted by 5 cuts the picture in three; one pixel has nothing; one row copies one texel throughout.
+  // A column shifted by 5 cuts the picture in three; one pixel has no match; one row copies one
+  // texel throughout.
   for (int y = 0; y < 30; ++y) field(20, y) = {0, 25, static_cast<std::uint16_t>(y)};
   field(0, 0) = Match{};
   for (int x = 21; x < 40; ++x) field(x, 29) = {0, 30, 20};
   const SynthesisQuality q = measure_quality(field, {exemplar}, target, {.repeat_samples = 0});
   EXPECT_EQ(q.without_texel, 1U);
   EXPECT_EQ(q.excluded_used, 1U);
-  EXPECT_EQ(q.most_used, 20);
+  EXPECT_EQ(q.max_used, 20);
   EXPECT_EQ(q.largest_piece, 20U * 30U - 1U);
   const std::vector<std::size_t> sizes = piece_sizes(field);
-  EXPECT_EQ(sizes.size(), 3U + 19U);  // left, column, right; each pixel of the repeated row by itself
+  EXPECT_EQ(sizes.size(),
+            3U + 19U);  // left, column, right; each pixel of the repeated row by itself
   EXPECT_NEAR(q.guide_error_mean, 19.0 * 9.0 / (40.0 * 30.0 - 1.0), 1e-12);
   EXPECT_EQ(q.label_agreement, 1.0 - 1.0 / (40.0 * 30.0 - 1.0));
   EXPECT_EQ(q.self_repeat, 0.0) << "left out";
@@ -109,13 +113,18 @@ TEST(Quality, SilhouettesCountPairsAcrossJumpsOnly) {
   GuideStack target = exemplar.guides;
   target.depth_m = Grid<float>(40, 30, 1000.0F);
   for (int y = 0; y < 30; ++y) {
-    for (int x = 10; x < 40; ++x) target.depth_m(x, y) = x < 30 ? 1100.0F : std::numeric_limits<float>::infinity();
+    for (int x = 10; x < 40; ++x)
+      target.depth_m(x, y) = x < 30 ? 1100.0F : std::numeric_limits<float>::infinity();
   }
   MatchField field = identity(40, 30);
-  EXPECT_EQ(measure_quality(field, {exemplar}, target, {.repeat_samples = 0}).across_silhouettes, 1.0);
+  EXPECT_EQ(measure_quality(field, {exemplar}, target, {.repeat_samples = 0}).across_silhouettes,
+            1.0);
   for (int y = 0; y < 15; ++y) field(10, y).x = 13;
-  EXPECT_EQ(measure_quality(field, {exemplar}, target, {.repeat_samples = 0}).across_silhouettes, 0.75);
-  EXPECT_EQ(measure_quality(field, {exemplar}, target, {.depth_ratio = 1.2F, .repeat_samples = 0}).across_silhouettes, 1.0)
+  EXPECT_EQ(measure_quality(field, {exemplar}, target, {.repeat_samples = 0}).across_silhouettes,
+            0.75);
+  EXPECT_EQ(measure_quality(field, {exemplar}, target, {.depth_ratio = 1.2F, .repeat_samples = 0})
+                .across_silhouettes,
+            1.0)
       << "only the sky";
 }
 
@@ -125,11 +134,12 @@ TEST(Quality, StrokeRunTellsLongStrokesFromShort) {
     const Grid<Rgb8> picture = dashes(200, 200, length, 3);
     return stroke_run(picture, labels, border_distance_squared(labels), 1, 3);
   };
-  // A run through a random pixel of a dash is the dash; a neighbour of the same grey is rare (about 3 of 160 each side).
+  // A run through a random pixel of a dash is the dash; a neighbour of the same grey is rare (about
+  // 3 of 160 each side).
   EXPECT_NEAR(run(8), 8.0, 0.8);
   EXPECT_NEAR(run(16), 16.0, 1.6);
   EXPECT_NEAR(run(40), 40.0, 4.0);
-  // Turned by a quarter, the same.
+  // The same rotated by 90°.
   const Grid<Rgb8> lying = dashes(200, 200, 16, 3);
   Grid<Rgb8> standing(200, 200);
   for (int y = 0; y < 200; ++y) {
@@ -149,7 +159,8 @@ TEST(Quality, ToleranceIsHalfTheLocalDeviation) {
 }
 
 TEST(Quality, ShiftAndBlurShowInTheirFigures) {
-  // The output is brighter by 7 in the whole, or the mean of neighbours: made by copying from a second layer of the exemplar.
+  // The output is brighter by 7 everywhere, or the mean of neighbours: made by copying from a
+  // second layer of the exemplar.
   const Grid<Rgb8> picture = dashes(160, 120, 6, 1);
   Exemplar exemplar = exemplar_of(picture);
   Exemplar brighter = exemplar;
@@ -171,13 +182,17 @@ TEST(Quality, ShiftAndBlurShowInTheirFigures) {
   EXPECT_LT(mean_gradient(blurred.picture, one_class, border_distance_squared(one_class), 1),
             0.8 * mean_gradient(picture, one_class, border_distance_squared(one_class), 1));
   exemplar.guides.label = blurred.guides.label = one_class;
-  EXPECT_GT(quality::clique_distances(blurred.picture, one_class, {exemplar}, {Grid<float>(160, 120, 1.0F)}, 1).distance, 0.05);
-  // Weights of nothing but the upper half: the floor is what the upper half by itself differs by.
+  EXPECT_GT(quality::clique_distances(blurred.picture, one_class, {exemplar},
+                                      {Grid<float>(160, 120, 1.0F)}, 1)
+                .distance,
+            0.05);
+  // Weights for the upper half only: the lower bound is the difference of the upper half itself.
   Grid<float> upper(160, 120, 0.0F);
   for (int y = 0; y < 60; ++y) {
     for (int x = 0; x < 160; ++x) upper(x, y) = 1.0F;
   }
-  const quality::CliqueDistances same = quality::clique_distances(picture, one_class, {exemplar}, {upper}, 1);
+  const quality::CliqueDistances same =
+      quality::clique_distances(picture, one_class, {exemplar}, {upper}, 1);
   EXPECT_EQ(same.distance, 0.0);
   EXPECT_GT(same.floor, 0.0);
   EXPECT_LT(same.floor, 0.1);
@@ -189,11 +204,14 @@ TEST(Quality, GradientOfARampIsItsSlope) {
   for (int y = 0; y < 40; ++y) {
     for (int x = 0; x < 80; ++x) ramp(x, y) = grey(3 * x);
   }
-  EXPECT_NEAR(mean_gradient(ramp, Grid<std::uint8_t>(80, 40, 1), Grid<std::uint8_t>(80, 40, 255), 1), 3.0, 1e-12);
+  EXPECT_NEAR(
+      mean_gradient(ramp, Grid<std::uint8_t>(80, 40, 1), Grid<std::uint8_t>(80, 40, 255), 1), 3.0,
+      1e-12);
 }
 
 TEST(Quality, FloorIsWhatOtherAltitudesMakeByThemselves) {
-  // Brightness is altitude. The target holds only the upper half of it, copied faultlessly: all its distance is floor.
+  // Brightness is altitude. The target contains only the upper half of it, copied without faults:
+  // all its distance is the lower bound.
   Grid<Rgb8> picture(100, 200);
   for (int y = 0; y < 200; ++y) {
     for (int x = 0; x < 100; ++x) picture(x, y) = grey(y);
@@ -221,20 +239,22 @@ TEST(Quality, FloorIsWhatOtherAltitudesMakeByThemselves) {
 TEST(Quality, BorderDistanceEqualsASearch) {
   Grid<std::uint8_t> labels(60, 50);
   for (int y = 0; y < 50; ++y) {
-    for (int x = 0; x < 60; ++x) labels(x, y) = static_cast<std::uint8_t>(random_index(2, 4, x / 23, y / 17));
+    for (int x = 0; x < 60; ++x)
+      labels(x, y) = static_cast<std::uint8_t>(random_index(2, 4, x / 23, y / 17));
   }
   const Grid<std::uint8_t> fast = border_distance_squared(labels);
   for (int y = 0; y < 50; ++y) {
     for (int x = 0; x < 60; ++x) {
-      int least = 255;
+      int min = 255;
       for (int j = 0; j < 50; ++j) {
         for (int i = 0; i < 60; ++i) {
-          const bool border = (i > 0 && labels(i, j) != labels(i - 1, j)) || (j > 0 && labels(i, j) != labels(i, j - 1));
-          if (border) least = std::min(least, (i - x) * (i - x) + (j - y) * (j - y));
+          const bool border = (i > 0 && labels(i, j) != labels(i - 1, j)) ||
+                              (j > 0 && labels(i, j) != labels(i, j - 1));
+          if (border) min = std::min(min, (i - x) * (i - x) + (j - y) * (j - y));
         }
       }
-      if (least < 225) {
-        ASSERT_EQ(fast(x, y), least) << x << ", " << y;
+      if (min < 225) {
+        ASSERT_EQ(fast(x, y), min) << x << ", " << y;
       } else {
         ASSERT_GE(fast(x, y), 225);
       }
@@ -251,12 +271,15 @@ TEST(Quality, SpecksAreSinglePixels) {
   EXPECT_NEAR(speck_shares(picture, border_distance_squared(one_class)).inside, 1.0 / 36.0, 1e-9);
   for (int y = 3; y < 60; y += 6) {
     for (int x = 3; x < 60; x += 6) {
-      for (int i = 0; i < 4; ++i) picture(x - 1 + (i & 1), y - 1 + (i >> 1)) = grey(140);   // 2 × 2: still odd ones out
-      for (int i = -2; i <= 2; ++i) picture(x + i, y) = picture(x + i, y - 1) = grey(140);  // a stroke
+      for (int i = 0; i < 4; ++i)
+        picture(x - 1 + (i & 1), y - 1 + (i >> 1)) = grey(140);  // 2 × 2: still outliers
+      for (int i = -2; i <= 2; ++i)
+        picture(x + i, y) = picture(x + i, y - 1) = grey(140);  // a stroke
     }
   }
   EXPECT_LT(speck_shares(picture, border_distance_squared(one_class)).inside, 1.0 / 36.0 * 4.0);
-  EXPECT_EQ(speck_shares(Grid<Rgb8>(60, 60, grey(9)), border_distance_squared(one_class)).inside, 0.0);
+  EXPECT_EQ(speck_shares(Grid<Rgb8>(60, 60, grey(9)), border_distance_squared(one_class)).inside,
+            0.0);
 }
 
 TEST(Quality, QuantileIsLinearBetweenNeighbours) {
@@ -267,7 +290,8 @@ TEST(Quality, QuantileIsLinearBetweenNeighbours) {
 }
 
 // A picture of two classes side by side, each of one grey.
-Exemplar two_flats(int width, int height, std::uint8_t left, int left_grey, std::uint8_t right, int right_grey) {
+Exemplar two_flats(int width, int height, std::uint8_t left, int left_grey, std::uint8_t right,
+                   int right_grey) {
   Exemplar exemplar;
   exemplar.picture = Grid<Rgb8>(width, height);
   exemplar.guides.label = Grid<std::uint8_t>(width, height);
@@ -280,7 +304,7 @@ Exemplar two_flats(int width, int height, std::uint8_t left, int left_grey, std:
   return exemplar;
 }
 
-// Left half from the first exemplar, right half from the second, all from their own places.
+// Left half from the first exemplar, right half from the second, all from their own positions.
 MatchField halves(int width, int height) {
   MatchField field = identity(width, height);
   for (int y = 0; y < height; ++y) {
@@ -290,8 +314,10 @@ MatchField halves(int width, int height) {
 }
 
 TEST(Quality, SeamsOfFlatColoursStepAsReckoned) {
-  // Class 1 of grey 40 from one painting meets class 2 of grey 70 from another: a step of 30. In themselves they step by 20 and by 30.
-  const std::vector<Exemplar> both{two_flats(20, 10, 1, 40, 2, 60), two_flats(20, 10, 1, 100, 2, 70)};
+  // Class 1 of grey 40 from one painting meets class 2 of grey 70 from another: a step of 30.
+  // Inside the paintings the steps are 20 and 30.
+  const std::vector<Exemplar> both{two_flats(20, 10, 1, 40, 2, 60),
+                                   two_flats(20, 10, 1, 100, 2, 70)};
   const SeamsOfKinds seams = seam_visibility(halves(20, 10), both, {}, 1.04F);
   EXPECT_EQ(seams.between.pairs, 10U);
   EXPECT_EQ(seams.between.compared, 10U);
@@ -300,8 +326,10 @@ TEST(Quality, SeamsOfFlatColoursStepAsReckoned) {
   EXPECT_EQ(seams.within.pairs, 0U);
   EXPECT_EQ(seams.within.visibility, 0.0);
 
-  // Class 1 beside class 3 is in neither. By chance they are 70 apart; borders step by 20 and 30 where chance makes 30 and 30.
-  std::vector<Exemplar> strangers{two_flats(20, 10, 1, 40, 2, 60), two_flats(20, 10, 2, 70, 3, 100)};
+  // Class 1 next to class 3 is in neither. By chance they are 70 apart; borders step by 20 and 30
+  // where chance makes 30 and 30.
+  std::vector<Exemplar> strangers{two_flats(20, 10, 1, 40, 2, 60),
+                                  two_flats(20, 10, 2, 70, 3, 100)};
   for (int y = 0; y < 10; ++y) {
     for (int x = 0; x < 5; ++x) strangers[0].picture(x, y) = grey(20);
   }
@@ -309,19 +337,22 @@ TEST(Quality, SeamsOfFlatColoursStepAsReckoned) {
   EXPECT_EQ(strange.compared, 10U);
   EXPECT_NEAR(strange.visibility, 60.0 / (70.0 * 50.0 / 60.0), 1e-12);
 
-  // Of one class each, or of flat colour throughout, there is nothing to compare with.
-  const std::vector<Exemplar> single{two_flats(20, 10, 1, 40, 1, 40), two_flats(20, 10, 2, 70, 2, 70)};
+  // With one class each, or flat colour throughout, there is no reference.
+  const std::vector<Exemplar> single{two_flats(20, 10, 1, 40, 1, 40),
+                                     two_flats(20, 10, 2, 70, 2, 70)};
   const SeamVisibility alone = seam_visibility(halves(20, 10), single, {}, 1.04F).between;
   EXPECT_EQ(alone.pairs, 10U);
   EXPECT_EQ(alone.compared, 0U);
   EXPECT_DOUBLE_EQ(alone.step, 30.0);
   EXPECT_EQ(alone.visibility, 0.0);
-  const std::vector<Exemplar> flat{two_flats(20, 10, 1, 40, 1, 40), two_flats(20, 10, 1, 70, 1, 70)};
+  const std::vector<Exemplar> flat{two_flats(20, 10, 1, 40, 1, 40),
+                                   two_flats(20, 10, 1, 70, 1, 70)};
   EXPECT_EQ(seam_visibility(halves(20, 10), flat, {}, 1.04F).between.visibility, 0.0);
 }
 
 TEST(Quality, SeamsAreJudgedByTheirClassAndKind) {
-  // A board of 100 and 110 and one brighter by d: across the seam steps are d + 10 and d − 10 in turn, 10 in the paintings.
+  // A board of 100 and 110 and one brighter by d: across the seam steps alternate between d + 10
+  // and d − 10, in the paintings they are 10.
   const auto board = [](int add) {
     Exemplar exemplar = two_flats(20, 10, 1, 0, 1, 0);
     for (int y = 0; y < 10; ++y) {
@@ -330,16 +361,20 @@ TEST(Quality, SeamsAreJudgedByTheirClassAndKind) {
     return exemplar;
   };
   for (const int d : {0, 10, 40}) {
-    EXPECT_DOUBLE_EQ(seam_visibility(halves(20, 10), {board(0), board(d)}, {}, 1.04F).between.visibility, std::max(d, 10) / 10.0) << d;
+    EXPECT_DOUBLE_EQ(
+        seam_visibility(halves(20, 10), {board(0), board(d)}, {}, 1.04F).between.visibility,
+        std::max(d, 10) / 10.0)
+        << d;
   }
-  // A row moved by two texels: a seam to the rows above and below, inside the painting, that steps as before.
+  // A row moved by two texels: a seam to the rows above and below, inside the painting, that steps
+  // as before.
   MatchField field = halves(20, 10);
   for (int x = 0; x < 8; ++x) field(x, 5).x = static_cast<std::uint16_t>(x + 2);
   const SeamsOfKinds moved = seam_visibility(field, {board(0), board(40)}, {}, 1.04F);
   EXPECT_EQ(moved.within.pairs, 8U + 8U + 1U);
   EXPECT_DOUBLE_EQ(moved.within.visibility, 1.0);
   EXPECT_EQ(moved.between.pairs, 10U);
-  // Pixels without a texel have no seam, silhouettes are none.
+  // Pixels without a texel have no seam; silhouettes are not seams.
   field(9, 0) = Match{};
   EXPECT_EQ(seam_visibility(field, {board(0), board(40)}, {}, 1.04F).between.pairs, 9U);
   Grid<float> depth(20, 10, 1000.0F);
@@ -354,20 +389,24 @@ TEST(Quality, SeamsBetweenCopiesOfOnePaintingAreItsNeighbours) {
   const Exemplar exemplar = exemplar_of(dashes(40, 30, 6, 1));
   MatchField field = identity(40, 30);
   for (int y = 0; y < 30; ++y) {
-    for (int x = 0; x < 40; ++x) field(x, y).exemplar = static_cast<std::uint16_t>((x + y) % 2);  // every pair is a seam
+    for (int x = 0; x < 40; ++x)
+      field(x, y).exemplar = static_cast<std::uint16_t>((x + y) % 2);  // every pair is a seam
   }
-  const SynthesisQuality q = measure_quality(field, {exemplar, exemplar}, exemplar.guides, {.repeat_samples = 0});
+  const SynthesisQuality q =
+      measure_quality(field, {exemplar, exemplar}, exemplar.guides, {.repeat_samples = 0});
   EXPECT_EQ(q.exemplars, 2U);
   EXPECT_EQ(q.seams.between.pairs, 39U * 30U + 40U * 29U);
   EXPECT_NEAR(q.seams.between.visibility, 1.0, 1e-12);
   EXPECT_EQ(q.seams.within.pairs, 0U);
-  const SynthesisQuality one = measure_quality(identity(40, 30), {exemplar}, exemplar.guides, {.repeat_samples = 0});
+  const SynthesisQuality one =
+      measure_quality(identity(40, 30), {exemplar}, exemplar.guides, {.repeat_samples = 0});
   EXPECT_EQ(one.seams.between.pairs + one.seams.within.pairs, 0U);
   EXPECT_EQ(one.seams.between.visibility, 0.0);
 }
 
 TEST(Quality, SynthesisKnitsPaintingsAndPaintingsOfAnotherToneShow) {
-  // Class 1 only in the first, class 2 only in the second, class 3 in both: classes come from different paintings.
+  // Class 1 only in the first, class 2 only in the second, class 3 in both: classes come from
+  // different paintings.
   const auto painting = [](std::uint64_t seed, std::uint8_t own, int add) {
     Exemplar exemplar = exemplar_of(dashes(96, 80, 6, seed));
     for (int y = 0; y < 80; ++y) {
@@ -382,14 +421,15 @@ TEST(Quality, SynthesisKnitsPaintingsAndPaintingsOfAnotherToneShow) {
   GuideStack target;
   target.label = Grid<std::uint8_t>(90, 70);
   for (int y = 0; y < 70; ++y) {
-    for (int x = 0; x < 90; ++x) target.label(x, y) = static_cast<std::uint8_t>(1 + (x / 15 + y / 14) % 3);
+    for (int x = 0; x < 90; ++x)
+      target.label(x, y) = static_cast<std::uint8_t>(1 + (x / 15 + y / 14) % 3);
   }
   const auto seams = [&](const std::vector<Exemplar>& exemplars, const MatchField& field) {
     return measure_quality(field, exemplars, target, {.repeat_samples = 0}).seams;
   };
   const std::vector<Exemplar> alike{painting(1, 1, 0), painting(2, 2, 0)};
-  const std::vector<Exemplar> unlike{painting(1, 1, 0), painting(2, 2, 120)};
-  // Texels of the right class by chance: every pair is a seam, as bad as can be.
+  const std::vector<Exemplar> dissimilar{painting(1, 1, 0), painting(2, 2, 120)};
+  // Random texels of the right class: every pair is a seam, the worst case.
   MatchField chance(90, 70);
   for (std::size_t i = 0; i < chance.size(); ++i) {
     for (std::uint64_t draw = 0; chance[i].exemplar == Match::none; ++draw) {
@@ -400,14 +440,17 @@ TEST(Quality, SynthesisKnitsPaintingsAndPaintingsOfAnotherToneShow) {
     }
   }
   const double worst = seams(alike, chance).between.visibility;
-  const SeamsOfKinds knit = seams(alike, synthesize(alike, target, {}, silent_progress()));
-  const SeamsOfKinds other = seams(unlike, synthesize(unlike, target, {}, silent_progress()));
-  // Measured: 1.67 by chance; 1.258 between and 1.262 within; with the second brighter by 120, 1.97 and 1.33.
-  EXPECT_NEAR(worst, 12.0 / 7.0, 0.1);  // in a painting of dashes of 6, rows are strangers, and one of six along them: 1/2 + 1/12 of pairs
-  EXPECT_GT(knit.between.pairs, 200U);
-  EXPECT_GT(knit.between.visibility, 1.0);
-  EXPECT_LT(knit.between.visibility, 0.8 * worst);
-  EXPECT_NEAR(knit.between.visibility, knit.within.visibility, 0.1);
+  const SeamsOfKinds similar = seams(alike, synthesize(alike, target, {}, silent_progress()));
+  const SeamsOfKinds other =
+      seams(dissimilar, synthesize(dissimilar, target, {}, silent_progress()));
+  // Measured: 1.67 by chance; 1.258 between and 1.262 within; with the second brighter by 120, 1.97
+  // and 1.33.
+  EXPECT_NEAR(worst, 12.0 / 7.0, 0.1);  // in a painting of dashes of 6, rows are independent, and
+                                        // one of six along them: 1/2 + 1/12 of pairs
+  EXPECT_GT(similar.between.pairs, 200U);
+  EXPECT_GT(similar.between.visibility, 1.0);
+  EXPECT_LT(similar.between.visibility, 0.8 * worst);
+  EXPECT_NEAR(similar.between.visibility, similar.within.visibility, 0.1);
   EXPECT_GT(other.between.visibility, worst);
   EXPECT_LT(other.within.visibility, 0.85 * worst);
 }

@@ -18,13 +18,16 @@ double partition_objective(const PairWeights& weights, const Partition& groups) 
   return sum;
 }
 
-// The highest objective of all partitions, by growth strings: thing i joins one of the groups before it or begins the next.
-double best_of_all(const PairWeights& weights, Partition& groups, std::size_t i, std::uint16_t used) {
+// The highest objective of all partitions, by growth strings: thing i joins one of the earlier
+// groups or begins the next.
+double best_of_all(const PairWeights& weights, Partition& groups, std::size_t i,
+                   std::uint16_t used) {
   if (i == weights.count()) return partition_objective(weights, groups);
   double best = -1e300;
   for (std::uint16_t g = 0; g <= used; ++g) {
     groups[i] = g;
-    best = std::max(best, best_of_all(weights, groups, i + 1, static_cast<std::uint16_t>(std::max<int>(used, g + 1))));
+    best = std::max(best, best_of_all(weights, groups, i + 1,
+                                      static_cast<std::uint16_t>(std::max<int>(used, g + 1))));
   }
   return best;
 }
@@ -33,7 +36,10 @@ PairWeights random_weights(std::size_t count, std::uint64_t seed) {
   PairWeights weights(count);
   for (std::size_t a = 0; a < count; ++a)
     for (std::size_t b = a + 1; b < count; ++b)
-      weights.set(a, b, static_cast<double>(random_index(2001, seed, static_cast<int>(a), static_cast<int>(b))) - 1000.0);
+      weights.set(
+          a, b,
+          static_cast<double>(random_index(2001, seed, static_cast<int>(a), static_cast<int>(b))) -
+              1000.0);
   return weights;
 }
 
@@ -52,7 +58,7 @@ TEST(CliquePartition, WithoutFriendsEachStandsAlone) {
   EXPECT_THAT(partition_cliques(weights), ElementsAre(0, 1, 2, 3));
 }
 
-// Joining alone is caught here: 0 and 1 join first, and 1 would rather go to 2 and 3.
+// Merging alone fails here: 0 and 1 merge first, although 1 fits better with 2 and 3.
 TEST(CliquePartition, MovesMendWhatJoiningDid) {
   PairWeights weights(4);
   weights.set(0, 1, 10);
@@ -65,7 +71,8 @@ TEST(CliquePartition, MovesMendWhatJoiningDid) {
   EXPECT_THAT(partition_cliques(weights), ElementsAre(0, 1, 1, 1));
 }
 
-// Of 200 random graphs of eight things: never more than the best, no move left, and within a tenth of the best in the mean.
+// For 200 random graphs of eight things: never above the best, no move left, and on average within
+// a tenth of the best.
 TEST(CliquePartition, NearTheBestOfAllPartitions) {
   double found_sum = 0.0;
   double best_sum = 0.0;
@@ -92,7 +99,7 @@ TEST(CliquePartition, NearTheBestOfAllPartitions) {
   EXPECT_GT(exact, 60);
 }
 
-// What is known beforehand: the caches of joining change nothing.
+// The caches of merging do not change the result.
 TEST(CliquePartition, JoiningTakesTheBestPairEachTime) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const PairWeights weights = random_weights(14, 500 + seed);
@@ -106,7 +113,8 @@ TEST(CliquePartition, JoiningTakesTheBestPairEachTime) {
           double sum = 0.0;
           for (const std::size_t i : groups[p])
             for (const std::size_t j : groups[q]) sum += weights(i, j);
-          if (const double mean = sum / static_cast<double>(groups[p].size() * groups[q].size()); mean > highest + 1e-9) {
+          if (const double mean = sum / static_cast<double>(groups[p].size() * groups[q].size());
+              mean > highest + 1e-9) {
             highest = mean;
             a = p;
             b = q;

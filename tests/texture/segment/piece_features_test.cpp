@@ -23,7 +23,7 @@ Bands make_bands(const std::vector<glm::vec3>& colours) {
   return out;
 }
 
-// No blur, no texture, no place: what is left is known.
+// No blur, no texture, no position: the rest is known.
 constexpr PieceDistanceParameters plain = {.colour_blur_px = 0.0,
                                            .lightness_gain = 10.0,
                                            .colour_gain = 40.0,
@@ -51,9 +51,12 @@ TEST(PieceFeatures, PlaceCountsByItsGain) {
 }
 
 TEST(PieceFeatures, TextureOfEqualColourTellsPiecesApartAndItsDirection) {
-  Bands bands = make_bands({glm::vec3(.5F, 0, 0), glm::vec3(.5F, 0, 0), glm::vec3(.5F, 0, 0), glm::vec3(.5F, 0, 0)});
+  Bands bands = make_bands(
+      {glm::vec3(.5F, 0, 0), glm::vec3(.5F, 0, 0), glm::vec3(.5F, 0, 0), glm::vec3(.5F, 0, 0)});
   for (int y = 0; y < 40; ++y)
-    for (int x = 20; x < 60; ++x) bands.picture(x, y).x += (x < 40 ? y : x) / 2 % 2 == 0 ? .1F : -.1F;  // lines along rows, then columns
+    for (int x = 20; x < 60; ++x)
+      bands.picture(x, y).x +=
+          (x < 40 ? y : x) / 2 % 2 == 0 ? .1F : -.1F;  // lines along rows, then columns
   PieceDistanceParameters parameters = plain;
   parameters.texture_gain = 1.0;
   parameters.lightness_gain = 0.0;
@@ -62,16 +65,17 @@ TEST(PieceFeatures, TextureOfEqualColourTellsPiecesApartAndItsDirection) {
   EXPECT_GT(features.distance(1, 2), 1.0);
 }
 
-// Of equal colours, one beyond a bar of another: the way over two borders.
+// Equal colours, one beyond a bar of another: the path crosses two borders.
 TEST(PieceFeatures, ContoursBetweenPartThem) {
   const Bands bands = make_bands({{.5F, 0.F, 0.F}, {.6F, 0.F, 0.F}, {.5F, 0.F, 0.F}});
   PieceDistanceParameters parameters = plain;
   parameters.way_gain = 0.5;
   parameters.way_free = 0.2;
   const PieceFeatures features = measure_pieces(bands.picture, bands.pieces, parameters);
-  // Each border is a step of 10 · .1 = 1, less what is free.
-  EXPECT_NEAR(piece_distances(bands.picture, bands.pieces, features, parameters)(0, 2), 0.5 * 2.0 * 0.8, 1e-5);
-  parameters.way_most = 1.0;
+  // Each border is a step of 10 · .1 = 1, minus the free part.
+  EXPECT_NEAR(piece_distances(bands.picture, bands.pieces, features, parameters)(0, 2),
+              0.5 * 2.0 * 0.8, 1e-5);
+  parameters.way_max = 1.0;
   EXPECT_NEAR(piece_distances(bands.picture, bands.pieces, features, parameters)(0, 2), 0.5, 1e-5);
 }
 

@@ -10,7 +10,7 @@
 namespace belvedere {
 namespace {
 
-// Sky above, dark wood to the left, meadow to the right, all with grain: what anyone would call three things.
+// Sky above, dark forest to the left, meadow to the right, all with grain: clearly three things.
 int part(int x, int y) { return y < 60 ? 0 : (x < 80 + y / 8 ? 1 : 2); }
 Grid<glm::vec3> landscape(int width, int height) {
   const glm::vec3 colours[3] = {{.8F, -.02F, -.06F}, {.35F, -.03F, .03F}, {.65F, -.08F, .1F}};
@@ -19,7 +19,8 @@ Grid<glm::vec3> landscape(int width, int height) {
     for (int x = 0; x < width; ++x) {
       const int p = part(x, y);
       out(x, y) = colours[p];
-      out(x, y).x += (p == 0 ? .0003F : .0012F) * static_cast<float>(random_index(100, 3, x / 2, y / 2));
+      out(x, y).x +=
+          (p == 0 ? .0003F : .0012F) * static_cast<float>(random_index(100, 3, x / 2, y / 2));
     }
   return out;
 }
@@ -27,7 +28,8 @@ Grid<glm::vec3> landscape(int width, int height) {
 TEST(Segment, ThreeThingsAreThreeGroups) {
   const Grid<glm::vec3> picture = landscape(200, 150);
   const Segments segments = find_segments(picture);
-  const Partition groups = cut_tree(join_pieces(segments.distance, segments.pixels, group_pieces(segments, usual_theta)), 3);
+  const Partition groups = cut_tree(
+      join_pieces(segments.distance, segments.pixels, group_pieces(segments, usual_theta)), 3);
   Grid<std::uint16_t> found(200, 150);
   Grid<std::uint8_t> truth(200, 150);
   for (int y = 0; y < 150; ++y)
@@ -53,14 +55,17 @@ TEST(Segment, SameForAnyThreads) {
   const auto made = [](int threads) {
     const ThreadLimit limit(threads);
     const Segments segments = find_segments(landscape(160, 120));
-    return std::pair(segments.pieces.of, join_pieces(segments.distance, segments.pixels, group_pieces(segments, usual_theta)).joins);
+    return std::pair(
+        segments.pieces.of,
+        join_pieces(segments.distance, segments.pixels, group_pieces(segments, usual_theta)).joins);
   };
   EXPECT_EQ(made(1), made(2));
 }
 
 TEST(Segment, OneColourIsOneGroupAndTinyPicturesAreRefused) {
   const Segments flat =
-      find_segments(Grid<glm::vec3>(64, 64, glm::vec3(.5F, 0, 0)), {.pieces = {}, .distance = {.down_gain = 0.0, .across_gain = 0.0}});
+      find_segments(Grid<glm::vec3>(64, 64, glm::vec3(.5F, 0, 0)),
+                    {.pieces = {}, .distance = {.down_gain = 0.0, .across_gain = 0.0}});
   for (const std::uint16_t group : group_pieces(flat, usual_theta)) EXPECT_EQ(group, 0);
   EXPECT_THROW(find_segments(Grid<glm::vec3>(31, 200, glm::vec3(.5F))), Error);
 }
@@ -79,7 +84,7 @@ TEST(Segment, ReducesToAboutTwoHundredThousandPixels) {
   EXPECT_FLOAT_EQ(reduced(2, 1).x, 14.F);
 }
 
-// A slanted border, found in blocks of three pixels, is where it is drawn.
+// A slanted border, found in blocks of three pixels, is at its true position.
 TEST(Segment, EnlargedBordersFollowThePicture) {
   constexpr int side = 99;
   const auto dark = [](int x, int y) { return 2 * x + y < 150; };

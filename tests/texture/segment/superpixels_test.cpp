@@ -25,7 +25,9 @@ Grid<glm::vec3> noise(int width, int height) {
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
       for (int c = 0; c < 3; ++c)
-        out(x, y)[c] = static_cast<float>(random_index(1000, static_cast<std::uint64_t>(c), x / 3, y / 3)) / 1000.F;
+        out(x, y)[c] =
+            static_cast<float>(random_index(1000, static_cast<std::uint64_t>(c), x / 3, y / 3)) /
+            1000.F;
   return out;
 }
 
@@ -53,9 +55,11 @@ TEST(Superpixels, PiecesAreConnectedCountedAndInOrder) {
       while (!open.empty()) {
         const auto [px, py] = open.back();
         open.pop_back();
-        if (!met.contains(px, py) || met(px, py) != 0 || found.of(px, py) != found.of(x, y)) continue;
+        if (!met.contains(px, py) || met(px, py) != 0 || found.of(px, py) != found.of(x, y))
+          continue;
         met(px, py) = 1;
-        for (const auto& [dx, dy] : {std::pair(1, 0), std::pair(-1, 0), std::pair(0, 1), std::pair(0, -1)})
+        for (const auto& [dx, dy] :
+             {std::pair(1, 0), std::pair(-1, 0), std::pair(0, 1), std::pair(0, -1)})
           open.emplace_back(px + dx, py + dy);
       }
     }

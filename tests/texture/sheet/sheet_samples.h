@@ -9,7 +9,8 @@
 #include "texture/sheet/synthesis_tile.h"
 #include "texture/synthesis/synthesize.h"
 
-// A made-up land, its painting, and views and windows of it: what tests of plans and tiles begin with.
+// A synthetic land, its painting, and views and windows of it: the input of tests of plans and
+// tiles.
 namespace belvedere::sheet_samples {
 
 // Smooth noise 0…255 with features of about `scale` pixels.
@@ -27,11 +28,13 @@ inline std::uint8_t smooth_noise(std::uint64_t seed, int x, int y, int scale) {
 inline GuideStack land(int width, int height, std::uint64_t seed, int guides = 1) {
   GuideStack stack;
   stack.label = Grid<std::uint8_t>(width, height);
-  for (int g = 0; g < guides; ++g) stack.guides.push_back({"guide " + std::to_string(g), Grid<std::uint8_t>(width, height)});
+  for (int g = 0; g < guides; ++g)
+    stack.guides.push_back({"guide " + std::to_string(g), Grid<std::uint8_t>(width, height)});
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       for (int g = 0; g < guides; ++g)
-        stack.guides[static_cast<std::size_t>(g)].values(x, y) = smooth_noise(seed + static_cast<std::uint64_t>(g), x, y, 40 - 5 * g);
+        stack.guides[static_cast<std::size_t>(g)].values(x, y) =
+            smooth_noise(seed + static_cast<std::uint64_t>(g), x, y, 40 - 5 * g);
       const int altitude = stack.guides[0].values(x, y);
       stack.label(x, y) = altitude < 100 ? 3 : altitude < 150 ? 7 : 9;
     }
@@ -50,7 +53,9 @@ inline Exemplar painting(int width, int height, std::uint64_t seed, int guides =
       const int streak = static_cast<int>(label == 3   ? random_index(80, seed + 20, x / 5, y)
                                           : label == 7 ? random_index(80, seed + 20, x, y / 4)
                                                        : random_index(80, seed + 20, x / 2, y / 2));
-      const auto bright = [&](int of) { return static_cast<std::uint8_t>(streak + 40 + (label == of ? 90 : 0)); };
+      const auto bright = [&](int of) {
+        return static_cast<std::uint8_t>(streak + 40 + (label == of ? 90 : 0));
+      };
       exemplar.picture(x, y) = {bright(9), bright(7), bright(3)};
     }
   }
@@ -68,7 +73,8 @@ Grid<T> cut(const Grid<T>& grid, const PixelRect& rect) {
 inline GuideStack window_of(const GuideStack& stack, const PixelRect& rect) {
   GuideStack out;
   out.label = cut(stack.label, rect);
-  for (const Guide& guide : stack.guides) out.guides.push_back({guide.name, cut(guide.values, rect)});
+  for (const Guide& guide : stack.guides)
+    out.guides.push_back({guide.name, cut(guide.values, rect)});
   if (!stack.depth_m.empty()) out.depth_m = cut(stack.depth_m, rect);
   return out;
 }
@@ -80,7 +86,8 @@ inline GuideStack small_view(const GuideStack& stack, const SynthesisSheet& shee
     auto thinned = grid;
     thinned = std::decay_t<decltype(grid)>(sheet.plan_width(), sheet.plan_height());
     for (int y = 0; y < sheet.plan_height(); ++y)
-      for (int x = 0; x < sheet.plan_width(); ++x) thinned(x, y) = grid(x << sheet.level, y << sheet.level);
+      for (int x = 0; x < sheet.plan_width(); ++x)
+        thinned(x, y) = grid(x << sheet.level, y << sheet.level);
     return thinned;
   };
   out.label = thin(stack.label);
@@ -89,16 +96,18 @@ inline GuideStack small_view(const GuideStack& stack, const SynthesisSheet& shee
   return out;
 }
 
-inline SynthesisPlan plan_of(const std::vector<Exemplar>& exemplars, const GuideStack& target, const SynthesisSheet& sheet,
+inline SynthesisPlan plan_of(const std::vector<Exemplar>& exemplars, const GuideStack& target,
+                             const SynthesisSheet& sheet,
                              const SynthesisParameters& parameters = {}) {
   return plan_synthesis(exemplars, small_view(target, sheet), sheet, parameters, silent_progress());
 }
 
 inline MatchField tile_of(SynthesisPlan& plan, const GuideStack& stack, const PixelRect& tile) {
-  return synthesize_tile(plan, window_of(stack, synthesis_window(plan.sheet(), tile)), tile, silent_progress());
+  return synthesize_tile(plan, window_of(stack, synthesis_window(plan.sheet(), tile)), tile,
+                         silent_progress());
 }
 
-// All tiles of a sheet, from the last to the first if so asked.
+// All tiles of a sheet, from the last to the first if requested.
 inline MatchField all_tiles(SynthesisPlan& plan, const GuideStack& stack, bool backwards = false) {
   const SynthesisSheet sheet = plan.sheet();
   MatchField field(sheet.width, sheet.height);

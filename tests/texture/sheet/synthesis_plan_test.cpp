@@ -25,9 +25,11 @@ TEST(SynthesisPlan, RefusesViewsAndSheetsThatDoNotFit) {
   const std::vector<Exemplar> exemplars{painting(60, 60, 1)};
   const GuideStack view = land(50, 40, 3);
   EXPECT_NO_THROW(plan_synthesis(exemplars, view, {99, 80, 1, 64}, {}, silent_progress()));
-  for (const SynthesisSheet& sheet : {SynthesisSheet{101, 80, 1, 64}, SynthesisSheet{99, 78, 1, 64}, SynthesisSheet{99, 80, 1, 24},
-                                      SynthesisSheet{50, 40, -1, 64}, SynthesisSheet{6400, 5120, 7, 1024}}) {
-    EXPECT_THROW(plan_synthesis(exemplars, view, sheet, {}, silent_progress()), Error) << sheet.width << " " << sheet.level;
+  for (const SynthesisSheet& sheet : {SynthesisSheet{101, 80, 1, 64}, SynthesisSheet{99, 78, 1, 64},
+                                      SynthesisSheet{99, 80, 1, 24}, SynthesisSheet{50, 40, -1, 64},
+                                      SynthesisSheet{6400, 5120, 7, 1024}}) {
+    EXPECT_THROW(plan_synthesis(exemplars, view, sheet, {}, silent_progress()), Error)
+        << sheet.width << " " << sheet.level;
   }
 }
 
@@ -51,18 +53,19 @@ TEST(PackedPlan, GivesTheSameTiles) {
   parameters.neighbourhood = 9;
   parameters.surroundings_of = "all";
   parameters.surroundings = 2;
-  parameters.unlikeness = {{{3, 7}, 0.25}};
+  parameters.class_dissimilarity = {{{3, 7}, 0.25}};
   parameters.fallback = {{200, 9}};
   parameters.weights = {{"guide 1", 2.0}, {"guide 2", 0.5}};
   SynthesisPlan plan = plan_of(exemplars, target, {300, 200, 2, 128}, parameters);
   const std::vector<std::uint8_t> bytes = pack_plan(plan);
   SynthesisPlan read = unpack_plan(bytes, exemplars);
   EXPECT_EQ(pack_plan(read), bytes);
-  // A label that the small view does not show, but this window does.
+  // A label that is in this window, but not in the small view.
   GuideStack finer = target;
   finer.label(131, 131) = 200;
   EXPECT_EQ(all_tiles(read, finer), all_tiles(plan, finer));
-  EXPECT_NE(tile_of(read, finer, plan.sheet().tile(1, 1))(131 - 128, 131 - 128).exemplar, Match::none);
+  EXPECT_NE(tile_of(read, finer, plan.sheet().tile(1, 1))(131 - 128, 131 - 128).exemplar,
+            Match::none);
 }
 
 TEST(PackedPlan, RefusesDamagedBytesAndOtherExemplars) {

@@ -33,7 +33,8 @@ TEST(SynthesisSheet, WindowHasTheMarginInsideTheSheet) {
   EXPECT_EQ(synthesis_margin_px(1), 18);
   EXPECT_EQ(synthesis_margin_px(3), 72);
   const SynthesisSheet sheet{3000, 2000, 3, 1024};
-  EXPECT_EQ(synthesis_window(sheet, sheet.tile(1, 1)), (PixelRect{1024 - 72, 1024 - 72, 2048 + 72, 2000}));
+  EXPECT_EQ(synthesis_window(sheet, sheet.tile(1, 1)),
+            (PixelRect{1024 - 72, 1024 - 72, 2048 + 72, 2000}));
   EXPECT_EQ(synthesis_window(sheet, sheet.tile(0, 0)), (PixelRect{0, 0, 1024 + 72, 1024 + 72}));
 }
 

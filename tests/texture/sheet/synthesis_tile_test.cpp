@@ -15,7 +15,7 @@ namespace {
 
 using namespace sheet_samples;
 
-// Depths in which a near block stands before far ground, across lines between tiles of 64 and 128.
+// Depths in which a near block is in front of far ground, across lines between tiles of 64 and 128.
 GuideStack with_silhouettes(GuideStack stack) {
   stack.depth_m = Grid<float>(stack.width(), stack.height(), 5000.0F);
   for (int y = 90; y < 150 && y < stack.height(); ++y)
@@ -37,7 +37,8 @@ TEST(SynthesisTile, SameBitsInAnyOrderForAnyThreads) {
     const ThreadLimit two(2);
     SynthesisPlan plan = plan_of(exemplars, target, sheet);
     EXPECT_EQ(all_tiles(plan, target, true), reference) << "level " << level;
-    EXPECT_EQ(tile_of(plan, target, sheet.tile(1, 0)), cut(reference, sheet.tile(1, 0))) << "the plan is as it was";
+    EXPECT_EQ(tile_of(plan, target, sheet.tile(1, 0)), cut(reference, sheet.tile(1, 0)))
+        << "the plan is as it was";
   }
 }
 
@@ -63,7 +64,8 @@ TEST(SynthesisTile, SameBitsForPatchesOfAnySizeAndAllSurroundings) {
   }
 }
 
-// The strips along a line are made by both tiles; were they not the same, pieces could not lie across it as they do inside.
+// The strips along a line are made by both tiles; if they differed, pieces could not cross the line
+// as they do elsewhere.
 TEST(SynthesisTile, PiecesLieAcrossLinesAsInside) {
   const std::vector<Exemplar> exemplars{painting(200, 200, 1)};
   const GuideStack target = land(256, 256, 40);
@@ -79,13 +81,15 @@ TEST(SynthesisTile, PiecesLieAcrossLinesAsInside) {
           const Match& before = down ? field(y, x - 1) : field(x - 1, y);
           const int across = x % 128 == 0 ? 1 : 0;
           ++pairs[across];
-          joined[across] += here.x - before.x == (down ? 0 : 1) && here.y - before.y == (down ? 1 : 0) ? 1 : 0;
+          joined[across] +=
+              here.x - before.x == (down ? 0 : 1) && here.y - before.y == (down ? 1 : 0) ? 1 : 0;
         }
       }
     }
     const double inside = joined[0] / pairs[0];
     const double across = joined[1] / pairs[1];
-    RecordProperty("coherence_across_percent_of_inside_" + std::to_string(level), static_cast<int>(100 * across / inside));
+    RecordProperty("coherence_across_percent_of_inside_" + std::to_string(level),
+                   static_cast<int>(100 * across / inside));
     EXPECT_GT(inside, 0.5);
     EXPECT_GT(across, 0.85 * inside) << "level " << level;
   }
@@ -110,7 +114,8 @@ TEST(SynthesisTile, KeepsWhatSynthesisPromises) {
         }
       }
     }
-    const SynthesisQuality quality = measure_quality(field, exemplars, target, {"guide 0", 1.04F, 0});
+    const SynthesisQuality quality =
+        measure_quality(field, exemplars, target, {"guide 0", 1.04F, 0});
     EXPECT_EQ(quality.across_silhouettes, 0.0) << "also where a line between tiles is";
     EXPECT_LE(quality.largest_piece, 100U) << "also across lines";
     EXPECT_LT(quality.guide_error_mean, 20.0);
@@ -118,13 +123,16 @@ TEST(SynthesisTile, KeepsWhatSynthesisPromises) {
 }
 
 TEST(SynthesisTile, TilesOfOnePixelAndSheetsOfOddSides) {
-  const std::vector<Exemplar> exemplars{painting(40, 50, 1)};  // on the plan's level under 16 texels high and wide
-  for (const auto& [width, height] : {std::pair{129, 65}, std::pair{1, 130}, std::pair{67, 1}, std::pair{1, 1}, std::pair{131, 193}}) {
+  const std::vector<Exemplar> exemplars{
+      painting(40, 50, 1)};  // on the plan's level under 16 texels high and wide
+  for (const auto& [width, height] : {std::pair{129, 65}, std::pair{1, 130}, std::pair{67, 1},
+                                      std::pair{1, 1}, std::pair{131, 193}}) {
     const GuideStack target = land(width, height, 40);
     for (const int level : {1, 2, 3}) {
       SynthesisPlan plan = plan_of(exemplars, target, {width, height, level, 64});
       const MatchField field = all_tiles(plan, target);
-      for (std::size_t i = 0; i < field.size(); ++i) ASSERT_EQ(exemplars[0].guides.label(field[i].x, field[i].y), target.label[i]);
+      for (std::size_t i = 0; i < field.size(); ++i)
+        ASSERT_EQ(exemplars[0].guides.label(field[i].x, field[i].y), target.label[i]);
     }
   }
 }
@@ -149,7 +157,8 @@ TEST(SynthesisTile, ReadsItsWindowAlone) {
   EXPECT_NE(tile_of(plan, other, tile), field);
 }
 
-// What lies between tiles is made by the first of them and taken by the others, where it is made of the same guides.
+// The strips between tiles are made by the first tile and reused by the others, if made from the
+// same guides.
 TEST(SynthesisTile, WhatNeighboursHaveMadeIsTaken) {
   const std::vector<Exemplar> exemplars{painting(150, 120, 1)};
   const GuideStack target = land(400, 390, 40);
@@ -176,8 +185,10 @@ TEST(SynthesisTile, RefusesOtherTilesAndWindows) {
   SynthesisPlan plan = plan_of(exemplars, target, sheet);
   const GuideStack window = window_of(target, synthesis_window(sheet, sheet.tile(0, 0)));
   EXPECT_NO_THROW(synthesize_tile(plan, window, sheet.tile(0, 0), silent_progress()));
-  EXPECT_THROW(synthesize_tile(plan, window, sheet.tile(1, 0), silent_progress()), Error) << "the window of another";
-  for (const PixelRect& tile : {PixelRect{0, 0, 63, 64}, PixelRect{2, 0, 66, 64}, PixelRect{-64, 0, 0, 64}, PixelRect{192, 0, 150, 64}})
+  EXPECT_THROW(synthesize_tile(plan, window, sheet.tile(1, 0), silent_progress()), Error)
+      << "the window of another";
+  for (const PixelRect& tile : {PixelRect{0, 0, 63, 64}, PixelRect{2, 0, 66, 64},
+                                PixelRect{-64, 0, 0, 64}, PixelRect{192, 0, 150, 64}})
     EXPECT_THROW(synthesize_tile(plan, window, tile, silent_progress()), Error) << tile.x0;
   GuideStack bare = window;
   bare.guides.clear();

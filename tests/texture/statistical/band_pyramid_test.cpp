@@ -14,7 +14,9 @@ TEST(BandPyramid, PicturesComeBackFromTheirBands) {
   const BandSpace bands = find_bands(crop, {});
   const Grid<Rgb8> back = to_picture(to_bands(crop, bands, {}), bands);
   for (std::size_t i = 0; i < crop.size(); ++i)
-    for (std::size_t c = 0; c < 3; ++c) EXPECT_LE(std::abs(crop[i][c] - back[i][c]), 1) << i;  // half a level of dither each way
+    for (std::size_t c = 0; c < 3; ++c)
+      EXPECT_LE(std::abs(crop[i][c] - back[i][c]), 1)
+          << i;  // half a level of dither in each direction
 }
 
 TEST(BandPyramid, AxesAreUnitVectorsAtRightAnglesTheWidestFirst) {
@@ -51,24 +53,28 @@ TEST(BandPyramid, OnlyWhatCountsIsLearnt) {
   const BandPyramid pyramid = make_pyramid(to_bands(crop, bands, states), 2);
   EXPECT_EQ(pyramid[1].states(5, 5), pixel_free);
   EXPECT_EQ(pyramid[1].states(30, 5), 0);
-  // A coarse pixel at the border is a mean of the meadow alone.
-  for (int b = 0; b < 3; ++b) EXPECT_LT(pyramid[1].band(b)(19, 9), bands.high[static_cast<std::size_t>(b)] + 1.F);
+  // A coarse pixel at the border is a mean of meadow pixels only.
+  for (int b = 0; b < 3; ++b)
+    EXPECT_LT(pyramid[1].band(b)(19, 9), bands.high[static_cast<std::size_t>(b)] + 1.F);
 }
 
 TEST(BandPyramid, HalvingAndEnlargingKeepARamp) {
   BandPicture fine(32, 32);
   for (int y = 0; y < 32; ++y)
-    for (int x = 0; x < 32; ++x) fine.band(0)(x, y) = 3.F * static_cast<float>(x) - 2.F * static_cast<float>(y);
+    for (int x = 0; x < 32; ++x)
+      fine.band(0)(x, y) = 3.F * static_cast<float>(x) - 2.F * static_cast<float>(y);
   BandPicture coarse(16, 16);
   halve(fine, coarse);
   for (int y = 4; y < 28; ++y)
-    for (int x = 4; x < 28; ++x) EXPECT_NEAR(enlarged(coarse.band(0), x, y), fine.band(0)(x, y), 1e-4F) << x << " " << y;
+    for (int x = 4; x < 28; ++x)
+      EXPECT_NEAR(enlarged(coarse.band(0), x, y), fine.band(0)(x, y), 1e-4F) << x << " " << y;
 }
 
 TEST(BandPyramid, ColourThatIsOneHasNoRange) {
   const BandSpace bands = find_bands(Grid<Rgb8>(48, 48, Rgb8{10, 20, 30}), {});
   EXPECT_NEAR(bands.mean[1], 20.F, 1e-4F);
-  for (std::size_t b = 0; b < 3; ++b) EXPECT_LT(bands.high[b] - bands.low[b], 3.5F);  // the dither and a level
+  for (std::size_t b = 0; b < 3; ++b)
+    EXPECT_LT(bands.high[b] - bands.low[b], 3.5F);  // the dither and a level
 }
 
 }  // namespace

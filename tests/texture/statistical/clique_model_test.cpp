@@ -32,15 +32,18 @@ TEST(CliqueModel, RangesHoldEveryDifference) {
   EXPECT_EQ(single.high, 20.F);
 }
 
-// Mu-law: small differences keep fine steps; codes are what is kept, so a second turn changes nothing.
+// Mu-law: small differences keep fine steps; codes are what is stored, so a second conversion
+// changes nothing.
 TEST(CliqueModel, CodesKeepKnotsToTheirStep) {
   const BandSpace bands = even_bands();
   const CliqueType type{0, 1, 0, 0, 0};
   CliqueKnots knots{};
-  for (int k = 0; k < clique_knots; ++k) knots[static_cast<std::size_t>(k)] = -80.F + 160.F * static_cast<float>(k) / (clique_knots - 1);
+  for (int k = 0; k < clique_knots; ++k)
+    knots[static_cast<std::size_t>(k)] = -80.F + 160.F * static_cast<float>(k) / (clique_knots - 1);
   const Clique clique{type, encode_knots(bands, type, knots)};
   const CliqueKnots back = decode_knots(bands, clique);
-  for (std::size_t k = 0; k < knots.size(); ++k) EXPECT_NEAR(back[k], knots[k], .03F * std::abs(knots[k]) + .05F) << k;
+  for (std::size_t k = 0; k < knots.size(); ++k)
+    EXPECT_NEAR(back[k], knots[k], .03F * std::abs(knots[k]) + .05F) << k;
   EXPECT_EQ(encode_knots(bands, type, back), clique.codes);
 }
 
@@ -55,7 +58,9 @@ TEST(CliqueModel, KnotsNeverFall) {
 
 TEST(CliqueModel, ShareAndValueAreInverse) {
   CliqueKnots knots{};
-  for (int k = 0; k < clique_knots; ++k) knots[static_cast<std::size_t>(k)] = 10.F * clique_knot_share(k) - 4.F;  // evenly spread over -4…6
+  for (int k = 0; k < clique_knots; ++k)
+    knots[static_cast<std::size_t>(k)] =
+        10.F * clique_knot_share(k) - 4.F;  // evenly spread over -4…6
   for (const float share : {0.F, .01F, .25F, .5F, .77F, .999F, 1.F}) {
     EXPECT_NEAR(value_at_share(knots, share), 10.F * share - 4.F, 1e-5F);
     EXPECT_NEAR(share_below(knots, 10.F * share - 4.F), share, 1e-5F);

@@ -39,7 +39,7 @@ BandPicture grey(const CliqueModel& model, int side) {
   return picture;
 }
 
-// From one flat colour, sampling alone comes to the crop's statistics.
+// From one flat colour, sampling alone reaches the crop's statistics.
 TEST(CliquePolish, ComesNearTheModelByItself) {
   const Grid<Rgb8> crop = test::meadow_crop(96, 96);
   const CliqueModel model = model_of(crop);
@@ -61,7 +61,8 @@ Grid<Rgb8> dotted_crop(int side) {
   return crop;
 }
 
-// The dots are few differences of many types: with next to no floor they are asked for until all else is off.
+// The dots are few differences of many types: with almost no floor they are requested until
+// everything else is wrong.
 TEST(CliquePolish, WhatHardlyEverOccursDoesNotTakeOver) {
   const Grid<Rgb8> crop = dotted_crop(128);
   CliqueModel model = model_of(crop);
@@ -94,7 +95,8 @@ TEST(CliquePolish, WhatMayNotChangeStays) {
   EXPECT_GT(values.size(), 100U);
 }
 
-// With tables from elsewhere a pixel far from borders hangs on its place on the endless texture, not on the window.
+// With given tables a pixel far from borders depends on its position on the unbounded texture, not
+// on the window.
 TEST(CliquePolish, RecordedTablesGiveTheSameInAnyWindow) {
   const CliqueModel model = model_of(test::meadow_crop(64, 64));
   PolishRecord record;
@@ -110,7 +112,8 @@ TEST(CliquePolish, RecordedTablesGiveTheSameInAnyWindow) {
   FlowState other{{grey(model, 200)}, {}};
   polish(other, model, 0, parameters, {-50, -47}, &record);
   for (int y = 90; y < 120; ++y)
-    for (int x = 90; x < 120; ++x) EXPECT_EQ(moved.pyramid[0].band(0)(x + 11, y + 23), other.pyramid[0].band(0)(x, y));
+    for (int x = 90; x < 120; ++x)
+      EXPECT_EQ(moved.pyramid[0].band(0)(x + 11, y + 23), other.pyramid[0].band(0)(x, y));
 }
 
 }  // namespace

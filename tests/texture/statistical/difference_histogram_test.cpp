@@ -14,7 +14,7 @@ BandSpace bands_to(float reach) {
   return bands;
 }
 
-// A ramp of 2 a column: every difference three columns apart is 6.
+// A ramp of 2 per column: every difference three columns apart is 6.
 TEST(DifferenceHistogram, RampsHaveOneDifference) {
   BandPicture picture(40, 20);
   for (int y = 0; y < 20; ++y)
@@ -23,13 +23,15 @@ TEST(DifferenceHistogram, RampsHaveOneDifference) {
   const CliqueType type{0, 3, 1, 0, 0};
   const DifferenceHistogram histogram = count_differences(picture, bands, type);
   EXPECT_EQ(histogram.total, 37U * 19U);
-  EXPECT_EQ(histogram.counts[static_cast<std::size_t>((6.F + 128.F) / 256.F * difference_bins)], 37U * 19U);
+  EXPECT_EQ(histogram.counts[static_cast<std::size_t>((6.F + 128.F) / 256.F * difference_bins)],
+            37U * 19U);
   const CliqueKnots knots = find_knots(histogram, difference_range(bands, type));
   EXPECT_NEAR(knots.front(), 6.F, .25F);
   EXPECT_NEAR(knots.back(), 6.F, .26F);
-  // To the left the difference is the other way round.
+  // To the left the difference has the opposite sign.
   const DifferenceHistogram left = count_differences(picture, bands, {0, -3, 1, 0, 0});
-  EXPECT_EQ(left.counts[static_cast<std::size_t>((-6.F + 128.F) / 256.F * difference_bins)], left.total);
+  EXPECT_EQ(left.counts[static_cast<std::size_t>((-6.F + 128.F) / 256.F * difference_bins)],
+            left.total);
 }
 
 TEST(DifferenceHistogram, EachCliqueIsCountedOnce) {
@@ -46,7 +48,7 @@ TEST(DifferenceHistogram, BothEndsCountAndOneMayChange) {
   picture.states(0, 0) = pixel_counts;  // known
   picture.states(1, 0) = pixel_counts;
   picture.states(3, 0) = 0;  // outside
-  // Of three pairs, (0, 1) is known on both ends and (2, 3) hangs outside.
+  // Of three pairs, (0, 1) is known on both ends and (2, 3) extends outside.
   EXPECT_EQ(count_differences(picture, bands_to(1.F), {0, 1, 0, 0, 0}).total, 1U);
 }
 

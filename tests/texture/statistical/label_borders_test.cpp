@@ -29,7 +29,8 @@ TEST(LabelBorders, LieOnBothSidesAndNotAtWhatIsUnknown) {
   }
   for (const int px : {1, 3, 6}) {
     const Grid<std::uint8_t> near = near_borders(labels, px);
-    for (int x = 0; x < 30; ++x) EXPECT_EQ(near(x, 5), x >= 15 - px && x < 15 + px ? 1 : 0) << px << " " << x;
+    for (int x = 0; x < 30; ++x)
+      EXPECT_EQ(near(x, 5), x >= 15 - px && x < 15 + px ? 1 : 0) << px << " " << x;
   }
 }
 

@@ -26,24 +26,29 @@ TEST(LearnBySampling, PreselectsNeighboursAndAddsUpToItsBudget) {
   EXPECT_TRUE(model.sampled);
   EXPECT_EQ(model.cliques.size(), 18U);
   for (int band = 0; band < 3; ++band)
-    for (const CliqueType& type : {CliqueType{0, 0, 0, band, band}, CliqueType{0, 1, 0, band, band}, CliqueType{0, 0, 1, band, band}})
-      EXPECT_TRUE(std::any_of(model.cliques.begin(), model.cliques.end(), [&](const Clique& c) { return c.type == type; }));
+    for (const CliqueType& type : {CliqueType{0, 0, 0, band, band}, CliqueType{0, 1, 0, band, band},
+                                   CliqueType{0, 0, 1, band, band}})
+      EXPECT_TRUE(std::any_of(model.cliques.begin(), model.cliques.end(),
+                              [&](const Clique& c) { return c.type == type; }));
   EXPECT_EQ(model_text(parse_model(model_text(model), "x.model")), model_text(model));
 }
 
-// The oracle: from noise, the sampler comes to the crop's statistics, and flow with polish comes as near, in what neither was told too.
+// The reference: from noise, the sampler reaches the crop's statistics, and flow with polish comes
+// as close, also in types that neither uses.
 TEST(LearnBySampling, FlowAndPolishComeAsNearAsTheSampler) {
   const Grid<Rgb8> crop = test::meadow_crop(64, 64);
   const LearnParameters level{.types = 18, .levels = 0};
   const Grid<Rgb8> by_sampler = make_texture(sampled(), 96, 96, {});
   const TextureFigures sampler = texture_figures(crop, {}, by_sampler, sampled(), level);
-  const TextureFigures ours =
-      texture_figures(crop, {}, make_texture(learn_texture(crop, {}, {.types = 28}).model, 96, 96, {}), sampled(), level);
+  const TextureFigures ours = texture_figures(
+      crop, {}, make_texture(learn_texture(crop, {}, {.types = 28}).model, 96, 96, {}), sampled(),
+      level);
   RecordProperty("sampler", std::to_string(sampler.held_out));
   RecordProperty("flow", std::to_string(ours.held_out));
   EXPECT_LT(sampler.selected, .35);
   EXPECT_LT(ours.held_out, 1.1 * sampler.held_out) << sampler.held_out;
-  EXPECT_EQ(make_texture(sampled(), 20, 20, {.sweeps = 2}), make_texture(sampled(), 20, 20, {.sweeps = 2}));
+  EXPECT_EQ(make_texture(sampled(), 20, 20, {.sweeps = 2}),
+            make_texture(sampled(), 20, 20, {.sweeps = 2}));
 }
 
 TEST(LearnBySampling, LargeCropsAndWindowsAreRefused) {

@@ -38,7 +38,8 @@ TEST(LearnTexture, HoldsWhatIsAlwaysInWithinItsBudget) {
   parameters.types = 26;
   const LearnedTexture learned = learn_texture(test::meadow_crop(96, 80), {}, parameters);
   const auto has = [&](CliqueType t) {
-    return std::any_of(learned.model.cliques.begin(), learned.model.cliques.end(), [&](const Clique& c) { return c.type == t; });
+    return std::any_of(learned.model.cliques.begin(), learned.model.cliques.end(),
+                       [&](const Clique& c) { return c.type == t; });
   };
   for (int band = 0; band < 3; ++band) {
     EXPECT_TRUE(has({0, 0, 0, band, band}));
@@ -53,7 +54,8 @@ TEST(LearnTexture, HoldsWhatIsAlwaysInWithinItsBudget) {
   EXPECT_EQ(learned.model.crop_hash.size(), 32U);
 }
 
-// Stripes of period 8: what is found first beyond the neighbours is a pair along the row, not down the column.
+// Stripes of period 8: the first pair found beyond the neighbours is along the row, not down the
+// column.
 TEST(LearnTexture, FindsThePairThatTellsMost) {
   LearnParameters parameters;
   parameters.levels = 0;
@@ -64,7 +66,7 @@ TEST(LearnTexture, FindsThePairThatTellsMost) {
   EXPECT_GT(std::abs(found.dx), 1);  // down a column nothing changes but the grain
 }
 
-// Two colours never mix where a mask leaves one of them out.
+// Two colours never mix where a mask excludes one of them.
 TEST(LearnTexture, KnowsNothingOfWhatIsMasked) {
   Grid<Rgb8> crop = test::meadow_crop(128, 96);
   Grid<std::uint8_t> states(128, 96, pixel_free);
@@ -77,7 +79,8 @@ TEST(LearnTexture, KnowsNothingOfWhatIsMasked) {
   const CliqueModel whole = learn_texture(crop, {}, {.types = 16, .levels = 1}).model;
   EXPECT_LT(masked.bands.mean[0], 110.F);
   EXPECT_GT(whole.bands.mean[0], 150.F);
-  // The widest axis of the meadow is that of its light and shade, green with red; with the red half it is that from green to red.
+  // The widest axis of the meadow is that of its light and shade, green with red; with the red half
+  // it is that from green to red.
   EXPECT_GT(masked.bands.axis(0, 0) * masked.bands.axis(0, 1), .1F);
   EXPECT_LT(whole.bands.axis(0, 0) * whole.bands.axis(0, 1), 0.F);
 }
@@ -93,13 +96,16 @@ TEST(LearnTexture, RefusesWhatIsNoTexture) {
     return {};
   };
   EXPECT_THAT(words(test::meadow_crop(47, 200), {}), HasSubstr("47 × 200"));
-  EXPECT_THAT(words(Grid<Rgb8>(64, 64, Rgb8{1, 2, 3}), {}), HasSubstr("one colour"));
-  EXPECT_THAT(words(test::meadow_crop(64, 64), Grid<std::uint8_t>(64, 60, pixel_free)), HasSubstr("64 × 60"));
-  EXPECT_THAT(words(test::meadow_crop(64, 64), Grid<std::uint8_t>(64, 64, 0)), HasSubstr("0 pixels that are opaque and in its mask"));
+  EXPECT_THAT(words(Grid<Rgb8>(64, 64, Rgb8{1, 2, 3}), {}), HasSubstr("single colour"));
+  EXPECT_THAT(words(test::meadow_crop(64, 64), Grid<std::uint8_t>(64, 60, pixel_free)),
+              HasSubstr("64 × 60"));
+  EXPECT_THAT(words(test::meadow_crop(64, 64), Grid<std::uint8_t>(64, 64, 0)),
+              HasSubstr("0 pixels that are opaque and in its mask"));
 }
 
 TEST(LearnTexture, CropsOverTheLimitAreRefused) {
-  const Error large = test::error_of([] { learn_texture(Grid<Rgb8>(static_cast<int>(most_texture_pixels / 48) + 1, 48), {}, {}); });
+  const Error large = test::error_of(
+      [] { learn_texture(Grid<Rgb8>(static_cast<int>(max_texture_pixels / 48) + 1, 48), {}, {}); });
   EXPECT_EQ(large.kind(), ErrorKind::limit);
   EXPECT_THAT(large.what(), HasSubstr("64 Mpixels"));
 }

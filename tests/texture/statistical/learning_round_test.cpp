@@ -13,18 +13,18 @@ TEST(LearningRound, TheCropItselfIsNoDistanceAwayAndStrangersAre) {
   const BandSpace bands = find_bands(crop, {});
   const BandPicture example = to_bands(crop, bands, {});
   std::vector<CliqueCandidate> candidates = make_candidates(example, bands, candidate_types(0, 4));
-  const LearningRound same = judge_candidates(candidates, example, bands);
+  const LearningRound same = evaluate_candidates(candidates, example, bands);
   EXPECT_EQ(same.worst, candidates.size());
   EXPECT_EQ(same.told.types, 0);
   EXPECT_EQ(same.told.held_out_l1, 0.0);
 
   const BandPicture turned = to_bands(test::meadow_crop(64, 64), bands, {});
-  const LearningRound other = judge_candidates(candidates, turned, bands);
+  const LearningRound other = evaluate_candidates(candidates, turned, bands);
   ASSERT_LT(other.worst, candidates.size());
   EXPECT_GT(other.told.worst_l2, .1);
-  // What is in is not asked again.
+  // Included types are not tested again.
   candidates[other.worst].in = true;
-  const LearningRound next = judge_candidates(candidates, turned, bands);
+  const LearningRound next = evaluate_candidates(candidates, turned, bands);
   EXPECT_NE(next.worst, other.worst);
   EXPECT_EQ(next.told.types, 1);
   EXPECT_LE(next.told.worst_l2, other.told.worst_l2);

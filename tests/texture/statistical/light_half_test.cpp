@@ -9,7 +9,8 @@
 namespace belvedere {
 namespace {
 
-// Stripes far wider than the blur: each half is one kind of them, up to a blur of their borders.
+// Stripes far wider than the blur: each half is one kind of them, except for a blur of their
+// borders.
 TEST(LightHalf, WideStripesAreOneHalfEach) {
   constexpr int period = 80;
   const Grid<Rgb8> crop = test::striped_crop(160, 64, period);
@@ -24,12 +25,13 @@ TEST(LightHalf, WideStripesAreOneHalfEach) {
     }
 }
 
-// Strokes are no light: stripes of four pixels are in both halves.
+// Strokes are not light: stripes of four pixels are in both halves.
 TEST(LightHalf, StrokesAreInBothHalves) {
   Grid<Rgb8> crop = test::striped_crop(128, 64, 4);
   for (int y = 0; y < 32; ++y)
     for (int x = 0; x < 128; ++x)
-      for (std::size_t c = 0; c < 3; ++c) crop(x, y)[c] = static_cast<std::uint8_t>(crop(x, y)[c] + 40);
+      for (std::size_t c = 0; c < 3; ++c)
+        crop(x, y)[c] = static_cast<std::uint8_t>(crop(x, y)[c] + 40);
   const Grid<std::uint8_t> lit = light_half(crop, {}, LightHalf::lit);
   for (int y = 0; y < 24; ++y)
     for (int x = 16; x < 112; ++x) ASSERT_EQ(lit(x, y), pixel_free) << x << " " << y;
@@ -37,7 +39,7 @@ TEST(LightHalf, StrokesAreInBothHalves) {
     for (int x = 16; x < 112; ++x) ASSERT_EQ(lit(x, y), 0) << x << " " << y;
 }
 
-// What a mask leaves out counts in neither half, nor in where they part.
+// Masked pixels count in neither half, nor for the threshold.
 TEST(LightHalf, LeavesOutWhatDoesNotCount) {
   Grid<Rgb8> crop = test::striped_crop(160, 64, 80);
   Grid<std::uint8_t> states(160, 64, pixel_free);

@@ -24,10 +24,12 @@ const CliqueModel& meadow_model() {
   return model;
 }
 
-// Of one level and few types: windows are made of whole tiles, and what makes a tile quickly says as much.
+// Of one level and few types: windows are made of whole tiles, and a fast model is as good a test.
 const CliqueModel& window_model() {
   static const CliqueModel model = [] {
-    return learn_texture(test::meadow_crop(80, 80), {}, {.types = 16, .levels = 1, .reach_px = 5, .coarse_reach = 3}).model;
+    return learn_texture(test::meadow_crop(80, 80), {},
+                         {.types = 16, .levels = 1, .reach_px = 5, .coarse_reach = 3})
+        .model;
   }();
   return model;
 }
@@ -49,36 +51,41 @@ TEST(MakeTexture, AnotherSeedIsAnotherTexture) {
   EXPECT_NE(one, other);
 }
 
-// Windows of a texture without end: what two of them show of one place is the same, across tiles and left of and above its origin.
+// Windows of an unbounded texture: two of them show the same at one position, across tiles and left
+// of and above its origin.
 TEST(MakeWindow, OverlappingWindowsHaveTheSamePixels) {
   const TextureParameters parameters{.rounds = 1, .sweeps = 1};
   const TextureRecord record = record_texture(window_model(), parameters);
   const PixelRect whole{-40, endless_tile_px - 60, 60, endless_tile_px + 50};
   const Grid<Rgb8> all = make_window(window_model(), record, whole, parameters);
-  for (const PixelRect rect :
-       {PixelRect{-5, endless_tile_px + 3, 20, endless_tile_px + 9}, PixelRect{0, endless_tile_px, 1, endless_tile_px + 1},
-        PixelRect{-40, endless_tile_px - 60, -1, endless_tile_px + 2}})
-    EXPECT_EQ(make_window(window_model(), record, rect, parameters), part_of(all, moved(rect, -whole.x0, -whole.y0)));
+  for (const PixelRect rect : {PixelRect{-5, endless_tile_px + 3, 20, endless_tile_px + 9},
+                               PixelRect{0, endless_tile_px, 1, endless_tile_px + 1},
+                               PixelRect{-40, endless_tile_px - 60, -1, endless_tile_px + 2}})
+    EXPECT_EQ(make_window(window_model(), record, rect, parameters),
+              part_of(all, moved(rect, -whole.x0, -whole.y0)));
 }
 
-// Two tiles in windows of two shapes and orders, on different threads, put together: one hash. The same over 8192² stands in
-// docs/textures.md.
+// Two tiles in windows of two shapes and orders, on different threads, put together: one hash. The
+// same over 8192² is in docs/textures.md.
 TEST(MakeWindow, AnyOrderOfWindowsHasOneHash) {
   const TextureParameters parameters{.rounds = 1, .sweeps = 1};
   const TextureRecord record = record_texture(window_model(), parameters);
   constexpr int across = endless_tile_px + 40;
   constexpr int down = 90;
-  const auto hash = [&](int first_x, int first_y, int width, int height, bool backwards, int threads) {
+  const auto hash = [&](int first_x, int first_y, int width, int height, bool backwards,
+                        int threads) {
     const ThreadLimit limit(threads);
     std::vector<PixelRect> windows;
     for (int y = first_y; y < down; y += height)
       for (int x = first_x; x < across; x += width)
-        windows.push_back({std::max(0, x), std::max(0, y), std::min(across, x + width), std::min(down, y + height)});
+        windows.push_back({std::max(0, x), std::max(0, y), std::min(across, x + width),
+                           std::min(down, y + height)});
     if (backwards) std::reverse(windows.begin(), windows.end());
     Grid<Rgb8> all(across, down);
     for (const PixelRect& window : windows) {
       const Grid<Rgb8> made = make_window(window_model(), record, window, parameters);
-      for (int y = 0; y < window.height(); ++y) std::copy_n(made.row(y), window.width(), all.row(window.y0 + y) + window.x0);
+      for (int y = 0; y < window.height(); ++y)
+        std::copy_n(made.row(y), window.width(), all.row(window.y0 + y) + window.x0);
     }
     ContentHash of;
     of.add(all.data(), all.size() * sizeof(Rgb8));
@@ -91,7 +98,9 @@ TEST(MakeWindow, AnyOrderOfWindowsHasOneHash) {
 TEST(MakeWindow, TilesMeetWithoutASeam) {
   const TextureParameters parameters{.rounds = 12, .sweeps = 2};
   const TextureRecord record = record_texture(window_model(), parameters);
-  const Grid<Rgb8> made = make_window(window_model(), record, {endless_tile_px - 60, 0, endless_tile_px + 60, endless_tile_px}, parameters);
+  const Grid<Rgb8> made =
+      make_window(window_model(), record,
+                  {endless_tile_px - 60, 0, endless_tile_px + 60, endless_tile_px}, parameters);
   const auto step = [&](int x) {
     double sum = 0.0;
     for (int y = 0; y < made.height(); ++y)
@@ -105,7 +114,8 @@ TEST(MakeWindow, TilesMeetWithoutASeam) {
   EXPECT_GT(step(60) / inside, .85);
 }
 
-// A hole in the crop itself: nothing else changes, and its border shows no step larger than those around it.
+// A hole in the crop itself: nothing else changes, and its border shows no larger step than its
+// surroundings.
 TEST(FillTexture, ChangesTheHoleAloneAndLeavesNoSeam) {
   const Grid<Rgb8> crop = test::meadow_crop(200, 160);
   Grid<Rgb8> picture = crop;
@@ -150,15 +160,16 @@ TEST(MakeTexture, SizesOverTheLimitAreRefused) {
   EXPECT_THROW(make_texture(meadow_model(), 0, 10, {}), Error);
 }
 
-// What a hole spans has a limit, a scan that it is in has none of its own.
+// The extent of a hole is limited, the size of the scan around it is not.
 TEST(FillTexture, HolesOverTheLimitAreRefused) {
-  const int width = static_cast<int>(most_texture_pixels / 64) + 400;
+  const int width = static_cast<int>(max_texture_pixels / 64) + 400;
   const Grid<Rgb8> scan(width, 64, Rgb8{90, 130, 60});
   Grid<std::uint8_t> hole(width, 64);
   hole(9, 9) = 1;
   EXPECT_EQ(fill_texture(scan, hole, meadow_model(), {.rounds = 1, .sweeps = 1}).width(), width);
   hole(width - 1, 9) = 1;
-  EXPECT_EQ(test::error_of([&] { fill_texture(scan, hole, meadow_model(), {}); }).kind(), ErrorKind::limit);
+  EXPECT_EQ(test::error_of([&] { fill_texture(scan, hole, meadow_model(), {}); }).kind(),
+            ErrorKind::limit);
 }
 
 }  // namespace

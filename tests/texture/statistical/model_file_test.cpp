@@ -14,7 +14,8 @@ namespace {
 using ::testing::HasSubstr;
 
 CliqueModel small_model() {
-  CliqueModel model = learn_texture(test::meadow_crop(64, 64), {}, {.types = 16, .levels = 1}).model;
+  CliqueModel model =
+      learn_texture(test::meadow_crop(64, 64), {}, {.types = 16, .levels = 1}).model;
   model.seed = TextureSeed::streaks;
   model.seed_px = 12.5F;
   model.direction_deg = 33.25F;
@@ -52,16 +53,19 @@ TEST(ModelFile, ReadsBackToTheSameBits) {
 
 TEST(ModelFile, DamageIsNamedWithItsLine) {
   const std::string text = model_text(small_model());
-  EXPECT_THAT(words("a = 1\n"), HasSubstr("no texture model"));
-  EXPECT_THAT(words(replaced(text, "belvedere_texture = 1", "belvedere_texture = 2")), HasSubstr("version 2"));
+  EXPECT_THAT(words("a = 1\n"), HasSubstr("not a texture model"));
+  EXPECT_THAT(words(replaced(text, "belvedere_texture = 1", "belvedere_texture = 2")),
+              HasSubstr("version 2"));
   EXPECT_THAT(words(replaced(text, "levels = 1", "levels = 9")), HasSubstr("9"));
   EXPECT_THAT(words(replaced(text, "levels = 1", "level = 1")), HasSubstr("level"));
   EXPECT_THAT(words(replaced(text, "streaks", "lines")), HasSubstr("lines"));
   EXPECT_THAT(words(replaced(text, "types = \"", "types = \"A")), HasSubstr("damaged"));
   EXPECT_THAT(words(replaced(text, "types = \"", "types = \"AAAA")), HasSubstr("damaged"));
   EXPECT_THAT(words(replaced(text, "types = \"", "types = \"CQAA")), HasSubstr("x.model:"));
-  EXPECT_THAT(words(replaced(text, "levels = 1", "method = \"paper\"\nlevels = 1")), HasSubstr("1 levels"));
-  EXPECT_THAT(words(replaced(text, "levels = 1", "method = \"stone\"\nlevels = 1")), HasSubstr("stone"));
+  EXPECT_THAT(words(replaced(text, "levels = 1", "method = \"paper\"\nlevels = 1")),
+              HasSubstr("1 levels"));
+  EXPECT_THAT(words(replaced(text, "levels = 1", "method = \"stone\"\nlevels = 1")),
+              HasSubstr("stone"));
   EXPECT_THROW(read_model("/nowhere/x.model"), Error);
 }
 

@@ -11,18 +11,22 @@
 namespace belvedere {
 namespace {
 
-double even(std::uint64_t seed, int x, int y) { return static_cast<double>(random_index(10001, seed, x, y)) / 10000.0; }
+double even(std::uint64_t seed, int x, int y) {
+  return static_cast<double>(random_index(10001, seed, x, y)) / 10000.0;
+}
 
 // Upper half one hue and light, lower half another and dark; saturation and value vary evenly.
 struct Look {
   double hue, saturation, value;
 };
-Grid<glm::vec3> two_halves(Look upper, Look lower, std::uint64_t seed, int width = 96, int height = 96) {
+Grid<glm::vec3> two_halves(Look upper, Look lower, std::uint64_t seed, int width = 96,
+                           int height = 96) {
   Grid<glm::vec3> out(width, height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const Look& look = y < height / 2 ? upper : lower;
-      out(x, y) = from_hsv({look.hue + .04 * (even(seed, x, y) - .5), look.saturation + .2 * (even(seed + 1, x, y) - .5),
+      out(x, y) = from_hsv({look.hue + .04 * (even(seed, x, y) - .5),
+                            look.saturation + .2 * (even(seed + 1, x, y) - .5),
                             look.value + .2 * (even(seed + 2, x, y) - .5)});
     }
   return out;
@@ -47,7 +51,7 @@ TEST(Photometric, OwnColoursStay) {
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(out[i][c], picture[i][c], .01F);
 }
 
-// Each half turns, fades and darkens by itself: no one map for both could do it.
+// Each half changes hue, saturation and value separately: no single map for both could do it.
 TEST(Photometric, RegionsTakeTheirPartnersColours) {
   const Grid<glm::vec3> source = two_halves({.60, .5, .8}, {.30, .6, .4}, 1);
   const Grid<glm::vec3> target = two_halves({.55, .3, .7}, {.20, .7, .3}, 50);
@@ -57,18 +61,20 @@ TEST(Photometric, RegionsTakeTheirPartnersColours) {
   for (int y = 0; y < 96; ++y)
     for (int x = 0; x < 96; ++x)
       if (std::abs(y - 48) > 12)
-        for (int c = 0; c < 3; ++c) off = std::max(off, static_cast<double>(std::abs(out(x, y)[c] - wanted(x, y)[c])));
+        for (int c = 0; c < 3; ++c)
+          off = std::max(off, static_cast<double>(std::abs(out(x, y)[c] - wanted(x, y)[c])));
   EXPECT_LT(off, .04);
   const auto before = colour_histogram_distance(source, target);
   const auto after = colour_histogram_distance(out, target);
   for (std::size_t c = 0; c < 3; ++c) EXPECT_LT(after[c], .4 * before[c]) << c;
 }
 
-// Grey with a breath of every hue, to be made green: no rainbow comes of it.
+// Grey with a trace of every hue, to be made green: no rainbow results.
 TEST(Photometric, GreysTurnWithoutFlecks) {
   Grid<glm::vec3> grey(80, 80);
   for (int y = 0; y < 80; ++y)
-    for (int x = 0; x < 80; ++x) grey(x, y) = from_hsv({even(1, x, y), .03 * even(2, x, y), .5 + .1 * even(3, x, y)});
+    for (int x = 0; x < 80; ++x)
+      grey(x, y) = from_hsv({even(1, x, y), .03 * even(2, x, y), .5 + .1 * even(3, x, y)});
   const Grid<glm::vec3> green = two_halves({.33, .5, .5}, {.33, .5, .6}, 4);
   const Grid<glm::vec3> out = correct_colours(grey, green, {.regions = 1});
   int flecks = 0;
@@ -79,7 +85,8 @@ TEST(Photometric, GreysTurnWithoutFlecks) {
   EXPECT_EQ(flecks, 0);
 }
 
-// Green leaves with blue gaps, to be made a narrow yellow: gaps become grey, not bright yellow, and leaves keep their colour.
+// Green leaves with blue gaps, to be made a narrow yellow: gaps become grey, not bright yellow, and
+// leaves keep their colour.
 TEST(Photometric, WhatARegionHasLittleOfMakesNoFlecks) {
   Grid<glm::vec3> leaves = two_halves({.33, .5, .5}, {.33, .5, .6}, 4);
   Grid<std::uint8_t> gap(96, 96);
@@ -99,7 +106,7 @@ TEST(Photometric, WhatARegionHasLittleOfMakesNoFlecks) {
   }
 }
 
-// Brightness of little range is spread twofold at most.
+// A small range of brightness is stretched by a factor of 2 at most.
 TEST(Photometric, GrainIsNotBlownUp) {
   Grid<glm::vec3> faint(64, 64);
   Grid<glm::vec3> strong(64, 64);
@@ -127,7 +134,8 @@ TEST(Photometric, WhatDoesNotCountIsNotMeasured) {
       framed(x, y) = {1.F, 0.F, 0.F};
       counts(x, y) = 0;
     }
-  for (const glm::vec3& rgb : correct_colours(source, framed, {.regions = 2, .blur_px = 0.0}, {}, counts))
+  for (const glm::vec3& rgb :
+       correct_colours(source, framed, {.regions = 2, .blur_px = 0.0}, {}, counts))
     EXPECT_NEAR(to_hsv(rgb).x, .55, .05);
   EXPECT_THROW(correct_colours(source, framed, {}, {}, Grid<std::uint8_t>(96, 96, 0)), Error);
   EXPECT_THROW(correct_colours(source, framed, {.regions = 6}), Error);
@@ -136,7 +144,8 @@ TEST(Photometric, WhatDoesNotCountIsNotMeasured) {
 TEST(Photometric, SameForAnyThreads) {
   const auto made = [](int threads) {
     const ThreadLimit limit(threads);
-    return correct_colours(two_halves({.60, .5, .8}, {.30, .6, .4}, 1), two_halves({.55, .3, .7}, {.20, .7, .3}, 50));
+    return correct_colours(two_halves({.60, .5, .8}, {.30, .6, .4}, 1),
+                           two_halves({.55, .3, .7}, {.20, .7, .3}, 50));
   };
   EXPECT_EQ(made(1), made(2));
 }

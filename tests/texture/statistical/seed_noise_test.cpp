@@ -7,7 +7,7 @@
 namespace belvedere {
 namespace {
 
-// Correlation of a grid with itself moved by (dx, dy).
+// Correlation of a grid with itself shifted by (dx, dy).
 double alike(const Grid<float>& v, int dx, int dy) {
   double mean = 0.0;
   for (const float one : v) mean += one / static_cast<double>(v.size());
@@ -35,8 +35,10 @@ TEST(SeedNoise, WhiteIsEvenAndNeighboursAreStrangers) {
 }
 
 TEST(SeedNoise, StreaksRunAlongTheField) {
-  const SeedNoise level{TextureSeed::streaks, 8.F, [](double, double) { return glm::vec2(1.F, 0.F); }, 1};
-  const SeedNoise upright{TextureSeed::streaks, 8.F, [](double, double) { return glm::vec2(0.F, 1.F); }, 1};
+  const SeedNoise level{TextureSeed::streaks, 8.F,
+                        [](double, double) { return glm::vec2(1.F, 0.F); }, 1};
+  const SeedNoise upright{TextureSeed::streaks, 8.F,
+                          [](double, double) { return glm::vec2(0.F, 1.F); }, 1};
   EXPECT_GT(alike(seed_noise(level, {}, 96, 96, 0, 0), 4, 0), .6);
   EXPECT_LT(alike(seed_noise(level, {}, 96, 96, 0, 0), 0, 4), .1);
   EXPECT_GT(alike(seed_noise(upright, {}, 96, 96, 0, 0), 0, 4), .6);
@@ -68,13 +70,13 @@ TEST(OwnDirections, BendAsFarAsTheCropsSpread) {
   EXPECT_NEAR(straight(10.0, 500.0).y, .5F, 1e-6F);
   model.direction_spread = 1.F;
   const DirectionField bent = own_directions(model, 1);
-  double most = 0.0;
+  double max = 0.0;
   for (int k = 0; k < 50; ++k) {
     const glm::vec2 along = bent(97.0 * k, 31.0 * k);
     EXPECT_NEAR(along.x * along.x + along.y * along.y, 1.F, 1e-5F);
-    most = std::max(most, static_cast<double>(std::abs(along.y - .5F)));
+    max = std::max(max, static_cast<double>(std::abs(along.y - .5F)));
   }
-  EXPECT_GT(most, .3);
+  EXPECT_GT(max, .3);
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ TEST(TextureFigures, ACropIsItsOwnTexture) {
   EXPECT_EQ(own.turned, 0.0);
 }
 
-// Stripes laid level are as drawn as upright ones, and run another way.
+// Horizontal stripes are as coherent as vertical ones, but have another direction.
 TEST(TextureFigures, PaintThatRunsAnotherWayIsToldWhereItIsDrawnAlike) {
   const Grid<Rgb8> crop = test::striped_crop(96, 96, 8);
   Grid<Rgb8> laid(96, 96);
@@ -33,23 +33,28 @@ TEST(TextureFigures, PaintThatRunsAnotherWayIsToldWhereItIsDrawnAlike) {
   EXPECT_GT(of.turned, 1.5);
 }
 
-// Stripes run one way everywhere, a meadow's dabs hardly.
+// Stripes have one direction everywhere, a meadow's dabs hardly any.
 TEST(TextureFigures, PaintThatRunsOneWayIsToldFromDabs) {
   const Grid<Rgb8> crop = test::meadow_crop(96, 96);
   const CliqueModel model = learn_texture(crop, {}, quick_learning).model;
-  const double stripes = texture_figures(crop, {}, test::striped_crop(96, 96, 8), model, quick_learning).drawn;
-  const double other_meadow = texture_figures(crop, {}, test::meadow_crop(96, 96, 31), model, quick_learning).drawn;
+  const double stripes =
+      texture_figures(crop, {}, test::striped_crop(96, 96, 8), model, quick_learning).drawn;
+  const double other_meadow =
+      texture_figures(crop, {}, test::meadow_crop(96, 96, 31), model, quick_learning).drawn;
   EXPECT_GT(stripes, 1.0);
   EXPECT_LT(other_meadow, .5 * stripes);
 }
 
-// What is made lies as near as two halves of the crop to each other, and far nearer than noise: also for what the model was not told.
+// The result is as close as two halves of the crop to each other, and far closer than noise: also
+// for types that the model lacks.
 TEST(TextureFigures, WhatIsMadeIsAsNearAsTheCropsHalves) {
   const Grid<Rgb8> crop = test::meadow_crop(128, 128);
   const CliqueModel model = learn_texture(crop, {}, quick_learning).model;
-  const TextureFigures made = texture_figures(crop, {}, make_texture(model, 128, 128, {}), model, quick_learning);
+  const TextureFigures made =
+      texture_figures(crop, {}, make_texture(model, 128, 128, {}), model, quick_learning);
   const TextureFigures halves = halves_figures(crop, model, quick_learning);
-  const TextureFigures other = texture_figures(crop, {}, test::striped_crop(128, 128, 8), model, quick_learning);
+  const TextureFigures other =
+      texture_figures(crop, {}, test::striped_crop(128, 128, 8), model, quick_learning);
   EXPECT_LT(made.selected, halves.selected);
   EXPECT_LT(made.held_out, 1.2 * halves.held_out);
   EXPECT_LT(made.held_out, .25 * other.held_out);
@@ -73,10 +78,12 @@ TEST(LongestCopy, IsTheSideOfTheLargestSquareInBoth) {
   EXPECT_EQ(longest_copy_px(crop, crop), 16);
 }
 
-// No verbatim copies: a model holds no patch to copy.
+// No verbatim copies: a model contains no patches to copy.
 TEST(LongestCopy, IsShortInWhatIsMade) {
   const Grid<Rgb8> crop = test::meadow_crop(96, 96);
-  EXPECT_LE(longest_copy_px(crop, make_texture(learn_texture(crop, {}, quick_learning).model, 128, 128, {})), 3);
+  EXPECT_LE(longest_copy_px(
+                crop, make_texture(learn_texture(crop, {}, quick_learning).model, 128, 128, {})),
+            3);
 }
 
 }  // namespace

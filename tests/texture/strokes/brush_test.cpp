@@ -45,7 +45,8 @@ Grid<glm::vec3> paint(const std::vector<Stroke>& strokes, const GuidanceBuffers&
 GuidanceBuffers border_guidance() {
   GuidanceBuffers g = flat_guidance();
   for (int y = 0; y < g.height(); ++y)
-    for (int x = 30; x < g.width(); ++x) g.land_cover(x, y) = y == 20 && x >= 40 ? LandCoverClass::water : LandCoverClass::rock;
+    for (int x = 30; x < g.width(); ++x)
+      g.land_cover(x, y) = y == 20 && x >= 40 ? LandCoverClass::water : LandCoverClass::rock;
   return g;
 }
 
@@ -67,7 +68,7 @@ TEST(Brush, TellsWhosePaintLiesOnAPixel) {
   EXPECT_EQ(sources(45, 20), g.depth_m.index(45, 20)) << "water keeps its shores";
 }
 
-// What is copied as water must look like water, however it was traced.
+// Paint copied as water must look like water, whatever its origin.
 TEST(Brush, TellsOfPaintOnWaterWhereItIsToBeCopied) {
   const GuidanceBuffers g = border_guidance();
   const auto painted = [&](float alpha) {
@@ -86,14 +87,16 @@ TEST(Brush, TellsOfPaintOnWaterWhereItIsToBeCopied) {
   EXPECT_EQ(thin.under_share(45, 20), 102) << ".4 of 255";
 }
 
-// Three strokes of grass on grass, .5, .6 and .2: on top lie .5 · .4 · .8 = .16, .6 · .8 = .48 and .2 of them.
+// Three strokes of grass on grass, .5, .6 and .2: their visible shares are .5 · .4 · .8 = .16, .6 ·
+// .8 = .48 and .2.
 TEST(Brush, TellsOfTheThickestStrokeOfAClassWhereItIsToBeCopied) {
   const GuidanceBuffers g = border_guidance();
   std::vector<Stroke> strokes(3, horizontal_stroke());
   const float alphas[] = {0.5F, 0.6F, 0.2F};
   for (int i = 0; i < 3; ++i) {
     strokes[static_cast<std::size_t>(i)].alpha = alphas[i];
-    strokes[static_cast<std::size_t>(i)].source = static_cast<std::uint32_t>(g.depth_m.index(10 + i, 20));
+    strokes[static_cast<std::size_t>(i)].source =
+        static_cast<std::uint32_t>(g.depth_m.index(10 + i, 20));
     strokes[static_cast<std::size_t>(i)].order = static_cast<float>(3 - i);
   }
   Painting painting = begin_painting(Grid<glm::vec3>(g.width(), g.height(), glm::vec3(0.F)));
@@ -109,7 +112,8 @@ TEST(Brush, ThinPaintDoesNotHideWhatLiesBelow) {
   grass.alpha = 0.4F;
   grass.source = static_cast<std::uint32_t>(g.depth_m.index(10, 20));
   EXPECT_EQ(sources_of({grass}, g)(35, 19), g.depth_m.index(35, 19));
-  // Two thin layers: .4 hides the rock to .6, another to .36, which is less than the grass's own .4 then.
+  // Two thin layers: .4 leaves .6 of the rock, another .36, which is less than the grass's own .4
+  // then.
   EXPECT_EQ(sources_of({grass, grass}, g)(35, 19), grass.source);
 }
 
@@ -131,12 +135,12 @@ TEST(Brush, RecordsTheClassBesideTheThickest) {
   EXPECT_EQ(thin.under(20, 19), g.depth_m.index(20, 19));
   EXPECT_EQ(thin.under_share(35, 30), 0) << "nothing painted";
   EXPECT_EQ(thin.under_share(45, 20), 0) << "water keeps its shores";
-  // Two layers leave .6² = .36 of the rock, which then lies below.
+  // Two layers leave .6² = .36 of the rock, which is then the lower class.
   const Painting thick = painted({grass, grass});
   EXPECT_EQ(thick.sources(35, 19), grass.source);
   EXPECT_EQ(thick.under(35, 19), rock_pixel);
   EXPECT_EQ(thick.under_share(35, 19), 92);
-  // A third class over both: .5 of it, .3 rock, .2 grass. The thinnest is forgotten: .3 of .8.
+  // A third class over both: .5 of it, .3 rock, .2 grass. The thinnest is dropped: .3 of .8.
   Stroke gravel = grass;
   gravel.alpha = 0.5F;
   gravel.source = static_cast<std::uint32_t>(g.depth_m.index(0, 0));
@@ -163,13 +167,15 @@ TEST(Brush, LaterStrokesBuildOnTheSharesOfEarlierOnes) {
 
 TEST(Brush, CoversTheAreaOfItsOutline) {
   // A rectangle of 40 × 4 with two half discs of radius 2.
-  EXPECT_NEAR(painted_area(paint({horizontal_stroke()}, flat_guidance())), 40.0 * 4.0 + 3.14159 * 4.0, 2.5);
+  EXPECT_NEAR(painted_area(paint({horizontal_stroke()}, flat_guidance())),
+              40.0 * 4.0 + 3.14159 * 4.0, 2.5);
 }
 
 TEST(Brush, AHairlineKeepsItsAreaNotItsWidth) {
   Stroke hair = horizontal_stroke();
   hair.start_width = hair.end_width = 0.2F;
-  // Between two rows of pixels, and along the middle of one, where its width would be seen whole.
+  // Between two rows of pixels, and along the centre of one, where its width would be fully
+  // visible.
   EXPECT_NEAR(painted_area(paint({hair}, flat_guidance())), 40.0 * 0.2, 0.4);
   for (auto& p : hair.points) p.y += 0.5F;
   EXPECT_NEAR(painted_area(paint({hair}, flat_guidance())), 40.0 * 0.2, 0.4);
@@ -225,7 +231,7 @@ TEST(Brush, StaysOnItsOwnClass) {
   EXPECT_FLOAT_EQ(canvas(35, 20).x, 0.F);
 }
 
-// A river of a map is often no wider than a stroke of its bank: it must not be painted away.
+// A river of a map is often no wider than a stroke of its bank: it must not be painted over.
 TEST(Brush, BanksKeepOffWaterThatAMapKnows) {
   const GuidanceBuffers g = border_guidance();
   Stroke grass = horizontal_stroke();
@@ -269,9 +275,12 @@ TEST(Brush, SquareStrokesEndAtTheirPoints) {
   EXPECT_FLOAT_EQ(canvas(9, 20).x, 0.F);
 }
 
-// Mean canvas over strokes of many seeds, all in one place: 40 × 6 units from x = 10, at y = 20, paint 1 on 0.
+// Mean canvas over strokes of many seeds, all at one position: 40 × 6 units from x = 10, at y = 20,
+// paint 1 on 0.
 Grid<float> mean_of_hairs(const Stroke& like, float pixels_per_unit = 1.F, int seeds = 60) {
-  const auto size = [&](int units) { return static_cast<int>(static_cast<float>(units) * pixels_per_unit); };
+  const auto size = [&](int units) {
+    return static_cast<int>(static_cast<float>(units) * pixels_per_unit);
+  };
   const GuidanceBuffers g = flat_guidance(size(60), size(40));
   Grid<float> mean(g.width(), g.height(), 0.F);
   for (int k = 1; k <= seeds; ++k) {
@@ -282,7 +291,8 @@ Grid<float> mean_of_hairs(const Stroke& like, float pixels_per_unit = 1.F, int s
     s.seed = static_cast<std::uint32_t>(k) * 2654435761U;
     Painting painting = begin_painting(Grid<glm::vec3>(g.width(), g.height(), glm::vec3(0.F)));
     paint_in_order(painting, g, {s}, static_cast<double>(pixels_per_unit), silent_progress());
-    for (std::size_t i = 0; i < mean.size(); ++i) mean[i] += painting.picture[i].x / static_cast<float>(seeds);
+    for (std::size_t i = 0; i < mean.size(); ++i)
+      mean[i] += painting.picture[i].x / static_cast<float>(seeds);
   }
   return mean;
 }
@@ -308,17 +318,18 @@ TEST(Brush, HairsLayAsMuchPaintAtAnySize) {
     const double small = sum_of(mean_of_hairs(s));
     EXPECT_NEAR(sum_of(mean_of_hairs(s, 6.F)) / 36.0, small, 0.08 * small) << bristle;
   }
-  // And as much as was asked for: the dry end and the thin side take a quarter or so.
+  // And as much as requested: the dry end and the thin side lose about a quarter.
   for (const float alpha : {0.3F, 0.6F, 0.9F}) {
     Stroke s = brush_stroke();
     s.alpha = alpha;
-    EXPECT_NEAR(sum_of(mean_of_hairs(s, 3.F, 30)) / 9.0, 0.75 * static_cast<double>(alpha) * 40.0 * 6.0,
+    EXPECT_NEAR(sum_of(mean_of_hairs(s, 3.F, 30)) / 9.0,
+                0.75 * static_cast<double>(alpha) * 40.0 * 6.0,
                 0.2 * static_cast<double>(alpha) * 40.0 * 6.0)
         << alpha;
   }
 }
 
-// One stroke of 40 × 6 units at six pixels a unit, from x = 60, along y = 120.
+// One stroke of 40 × 6 units at six pixels per unit, from x = 60, along y = 120.
 Grid<glm::vec3> large_stroke(Stroke s) {
   s.tip = StrokeTip::hairs;
   s.start_width = s.end_width = 36.F;
@@ -331,11 +342,11 @@ Grid<glm::vec3> large_stroke(Stroke s) {
 
 TEST(Brush, EndsWhereItsHairsEnd) {
   Stroke s = brush_stroke();
-  s.bristle = 0.F;  // evenly covered: what varies is where the hairs end
+  s.bristle = 0.F;  // uniform coverage: only the ends of the hairs vary
   const auto canvas = large_stroke(s);
   double sum = 0.0;
   double squares = 0.0;
-  for (int y = 112; y < 128; ++y) {  // the middle, where the curve of the end is flat
+  for (int y = 112; y < 128; ++y) {  // the centre, where the curve of the end is flat
     int last = 0;
     for (int x = 300; x < 340; ++x)
       if (canvas(x, y).x > 0.02F) last = x - 300;
@@ -351,7 +362,8 @@ TEST(Brush, PaintGathersInARidge) {
   s.bristle = s.wetness = 0.F;
   s.colour = glm::vec3(0.5F);
   const auto canvas = large_stroke(s);
-  // At .7 of the half width on its right the ridge is ± .05 from the middle, whatever the load.
+  // At .7 of the half width on its right the ridge differs by ± .05 from the centre, whatever the
+  // load.
   EXPECT_NEAR(std::abs(canvas(150, 132).x - canvas(150, 120).x) / 0.97F, 0.05F, 0.01F);
 }
 
@@ -360,7 +372,7 @@ TEST(Brush, PaintEndsWithAnEdgeOnOneSide) {
   const Grid<float> right = mean_of_hairs(s);
   s.edge = -s.edge;
   const Grid<float> left = mean_of_hairs(s);
-  // y grows to the right of a stroke that runs to the right.
+  // y increases to the right of a stroke that runs to the right.
   EXPECT_GT(right(26, 22), 1.25F * right(26, 17));
   EXPECT_GT(left(26, 17), 1.25F * left(26, 22));
 }
@@ -386,27 +398,27 @@ TEST(Brush, HairsDrawStreaksAlongTheStroke) {
       across += std::abs(canvas(x, y + 1).x - canvas(x, y).x);
     }
   EXPECT_GT(across, 10.0 * along);
-  EXPECT_GT(across / (28.0 * 60.0), 0.02);  // and they are seen
+  EXPECT_GT(across / (28.0 * 60.0), 0.02);  // and they are visible
 }
 
 TEST(Brush, LoadsOfPaintDifferAroundTheColourAskedFor) {
   const GuidanceBuffers g = flat_guidance();
-  const auto middle = [&](float load, std::uint32_t seed) {
+  const auto centre = [&](float load, std::uint32_t seed) {
     Stroke s = horizontal_stroke();
     s.tip = StrokeTip::hairs;
     s.alpha = 1.F;
     s.load = load;
     s.seed = seed;
     s.colour = glm::vec3(0.5F);
-    return paint({s}, g)(25, 20) / 0.97F;  // hairs cover that much at most
+    return paint({s}, g)(25, 20) / 0.97F;  // max coverage by hairs
   };
-  EXPECT_NEAR(middle(0.F, 5).x, 0.5F, 0.003F);
-  EXPECT_NEAR(middle(0.F, 5).x, middle(0.F, 6).x, 1e-6F);
+  EXPECT_NEAR(centre(0.F, 5).x, 0.5F, 0.003F);
+  EXPECT_NEAR(centre(0.F, 5).x, centre(0.F, 6).x, 1e-6F);
   double sum = 0.0;
   double squares = 0.0;
   double warmth = 0.0;
   for (std::uint32_t k = 1; k <= 400; ++k) {
-    const glm::vec3 c = middle(1.F, k);
+    const glm::vec3 c = centre(1.F, k);
     sum += c.y;
     squares += (c.y - 0.5) * (c.y - 0.5);
     warmth += (c.x - c.z) * (c.x - c.z);
@@ -432,7 +444,8 @@ TEST(Brush, ThreadsChangeNoBit) {
   std::vector<Stroke> strokes;
   for (int i = 0; i < 300; ++i) {
     Stroke s = horizontal_stroke();
-    for (auto& p : s.points) p += glm::vec2(static_cast<float>((i * 37) % 450), static_cast<float>((i * 53) % 380));
+    for (auto& p : s.points)
+      p += glm::vec2(static_cast<float>((i * 37) % 450), static_cast<float>((i * 53) % 380));
     s.tip = i % 2 == 0 ? StrokeTip::hairs : StrokeTip::round;
     s.bristle = s.edge = s.load = 0.5F;
     s.alpha = 0.6F;

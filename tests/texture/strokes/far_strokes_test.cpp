@@ -46,7 +46,7 @@ TEST(FarStrokes, NearOnesStayAsTheyAre) {
   for (std::size_t k = 0; k < near.size(); ++k) EXPECT_EQ(far[k].start_width, near[k].start_width);
 }
 
-// A window misses what the whole misses, and so does a print of three times the pixels.
+// A window leaves out the same as the whole, and so does a print of three times the pixels.
 TEST(FarStrokes, PlacesOnTheSheetSayWhichAreMissing) {
   BasePicture whole, window, print;
   whole.haze = Grid<float>(90, 60, 0.8F);
@@ -55,7 +55,8 @@ TEST(FarStrokes, PlacesOnTheSheetSayWhichAreMissing) {
   int missing = 0;
   for (int y = 20; y < 50; ++y)
     for (int x = 30; x < 70; ++x) {
-      const auto stays = [](const BasePicture& base, glm::ivec2 at, glm::ivec2 origin, double pixels_per_unit) {
+      const auto stays = [](const BasePicture& base, glm::ivec2 at, glm::ivec2 origin,
+                            double pixels_per_unit) {
         Stroke stroke;
         stroke.source = static_cast<std::uint32_t>(base.haze.index(at.x, at.y));
         return broaden_far({stroke}, base, origin, pixels_per_unit).size();
@@ -82,7 +83,8 @@ TEST(FarStrokes, TreesStandOrAreMissingAsAWhole) {
   for (const auto& [seed, parts] : after) EXPECT_EQ(parts, before[seed]);
 }
 
-// Air thickens with distance, up the picture; trees are as tall on the sheet far away as near, and fewer.
+// Air thickens with distance, up the picture; far trees are as tall on the sheet as near ones, and
+// fewer.
 TEST(FarStrokes, TreesAreFewerTheFartherAndAsTall) {
   constexpr int bands = 4;
   constexpr int band_px = 120;
@@ -90,7 +92,8 @@ TEST(FarStrokes, TreesAreFewerTheFartherAndAsTall) {
   p.guidance.depth_m = Grid<float>(480, bands * band_px, 8000.F);
   const std::vector<Stroke> grown = grow_strokes("forest trees", p.scene());
   for (int y = 0; y < bands * band_px; ++y)
-    for (int x = 0; x < 480; ++x) p.ground.haze(x, y) = 0.28F + 0.14F * static_cast<float>(bands - 1 - y / band_px);
+    for (int x = 0; x < 480; ++x)
+      p.ground.haze(x, y) = 0.28F + 0.14F * static_cast<float>(bands - 1 - y / band_px);
   struct Extent {
     float top = 1e9F;
     float bottom = -1e9F;
@@ -114,7 +117,8 @@ TEST(FarStrokes, TreesAreFewerTheFartherAndAsTall) {
   for (int b = bands - 2; b >= 0; --b) {
     RecordProperty("trees_" + std::to_string(b), static_cast<int>(trees[b].size()));
     EXPECT_LT(trees[b].size(), trees[b + 1].size()) << "band " << b;
-    EXPECT_NEAR(height(trees[b]), height(trees[bands - 1]), 0.06 * height(trees[bands - 1])) << "band " << b;
+    EXPECT_NEAR(height(trees[b]), height(trees[bands - 1]), 0.06 * height(trees[bands - 1]))
+        << "band " << b;
   }
   EXPECT_LT(trees[0].size(), near * 7 / 10);
 }

@@ -41,7 +41,8 @@ Picture valley(double pixels_per_unit) {
 
 std::vector<IceWay> ways_of(const IcePlan& plan, Stream stream) {
   std::vector<IceWay> ways;
-  std::copy_if(plan.ways.begin(), plan.ways.end(), std::back_inserter(ways), [&](const IceWay& way) { return way.stream == stream; });
+  std::copy_if(plan.ways.begin(), plan.ways.end(), std::back_inserter(ways),
+               [&](const IceWay& way) { return way.stream == stream; });
   return ways;
 }
 
@@ -55,26 +56,31 @@ TEST(IcePlan, OfGroundWithoutIceIsEmpty) {
 TEST(IcePlan, WaysStayOnTheirGroundAndLieDownTheFlow) {
   const Picture p = valley(1.0);
   const IcePlan plan = plan_ice(p.guidance, p.parameters);
-  for (const Stream stream : {Stream::glacier_flow_lines, Stream::glacier_moraines, Stream::glacier_crevasses}) {
+  for (const Stream stream :
+       {Stream::glacier_flow_lines, Stream::glacier_moraines, Stream::glacier_crevasses}) {
     const std::vector<IceWay> ways = ways_of(plan, stream);
     EXPECT_FALSE(ways.empty()) << static_cast<int>(stream);
     for (const IceWay& way : ways) {
-      ASSERT_EQ(way.places.size(), way.depth_m.size());
-      for (const glm::vec2 at : way.places) {
-        EXPECT_EQ(p.guidance.land_cover(static_cast<int>(at.x), static_cast<int>(at.y)), way.land_cover);
-        EXPECT_TRUE(at.x >= way.lowest.x && at.y >= way.lowest.y && at.x <= way.highest.x && at.y <= way.highest.y);
+      ASSERT_EQ(way.positions.size(), way.depth_m.size());
+      for (const glm::vec2 at : way.positions) {
+        EXPECT_EQ(p.guidance.land_cover(static_cast<int>(at.x), static_cast<int>(at.y)),
+                  way.land_cover);
+        EXPECT_TRUE(at.x >= way.lowest.x && at.y >= way.lowest.y && at.x <= way.highest.x &&
+                    at.y <= way.highest.y);
       }
       EXPECT_EQ(way.land_cover, glacier);
       if (stream == Stream::glacier_crevasses) continue;
-      for (std::size_t k = 1; k < way.places.size(); ++k) EXPECT_LT(angle_deg(way.places[k] - way.places[k - 1], {0.28F, 0.96F}), 1.0);
+      for (std::size_t k = 1; k < way.positions.size(); ++k)
+        EXPECT_LT(angle_deg(way.positions[k] - way.positions[k - 1], {0.28F, 0.96F}), 1.0);
     }
   }
   float longest = 0.F;
-  for (const IceWay& way : ways_of(plan, Stream::glacier_moraines)) longest = std::max(longest, way.highest.y - way.lowest.y);
+  for (const IceWay& way : ways_of(plan, Stream::glacier_moraines))
+    longest = std::max(longest, way.highest.y - way.lowest.y);
   EXPECT_GT(longest, 90.F) << "longer than any kind of stroke looks";
 }
 
-// A glacier between bare slopes is torn more often, and has more lines of flow, than firn that nothing but snow surrounds.
+// A glacier between bare slopes has more crevasses and flow lines than firn surrounded by snow.
 TEST(IcePlan, TonguesAreTornAndFirnIsWhole) {
   const auto count = [](LandCoverClass beside, Stream stream) {
     Picture p = plain_picture(glacier, 420, 420);
@@ -92,7 +98,7 @@ TEST(IcePlan, TonguesAreTornAndFirnIsWhole) {
     EXPECT_GT(count(scree, stream), 2 * count(snow, stream)) << static_cast<int>(stream);
 }
 
-// What a picture of three pixels a unit tells, one of a pixel a unit tells as well.
+// A picture of three pixels per unit gives the same as one of one pixel per unit.
 TEST(IcePlan, IsThatOfAPictureOfAnotherSize) {
   const Picture small = valley(1.0);
   const Picture large = valley(3.0);
@@ -102,12 +108,14 @@ TEST(IcePlan, IsThatOfAPictureOfAnotherSize) {
   for (std::size_t i = 0; i < a.ways.size(); ++i) {
     EXPECT_EQ(a.ways[i].stream, b.ways[i].stream);
     EXPECT_EQ(a.ways[i].cell, b.ways[i].cell);
-    EXPECT_LT(glm::distance(a.ways[i].places.front(), b.ways[i].places.front()), 0.01F);
-    EXPECT_NEAR(static_cast<double>(a.ways[i].places.size()), static_cast<double>(b.ways[i].places.size()), 1.0);
+    EXPECT_LT(glm::distance(a.ways[i].positions.front(), b.ways[i].positions.front()), 0.01F);
+    EXPECT_NEAR(static_cast<double>(a.ways[i].positions.size()),
+                static_cast<double>(b.ways[i].positions.size()), 1.0);
   }
 }
 
-// The plan of the small picture, handed to the large one: as many strokes as its own gives, on the same ground.
+// The plan of the small picture, used for the large one: as many strokes as with its own, on the
+// same ground.
 TEST(IcePlan, OfASmallPictureServesALargeOne) {
   const Picture small = valley(1.0);
   const Picture large = valley(3.0);
@@ -124,7 +132,7 @@ TEST(IcePlan, OfASmallPictureServesALargeOne) {
   }
 }
 
-// Where a larger picture shows a stone or a ridge in front of the ice, no stroke grows from it.
+// Where a larger picture shows a stone or a ridge in front of the ice, no stroke starts on it.
 TEST(IceWays, GrowFromTheirOwnGroundAlone) {
   Picture p = valley(1.0);
   const IcePlan plan = plan_ice(p.guidance, p.parameters);
@@ -134,10 +142,11 @@ TEST(IceWays, GrowFromTheirOwnGroundAlone) {
   const std::size_t before = kind.grow(scene, kind.stream).size();
   const IceWay way = ways_of(plan, Stream::glacier_moraines).front();
   EXPECT_TRUE(way_pixel(scene, way, 1));
-  p.guidance.land_cover[scene.pixel(way.places[1])] = rock;
-  for (const std::size_t k : {4U, 5U}) p.guidance.depth_m[scene.pixel(way.places[k])] *= 0.9F;
+  p.guidance.land_cover[scene.pixel(way.positions[1])] = rock;
+  for (const std::size_t k : {4U, 5U}) p.guidance.depth_m[scene.pixel(way.positions[k])] *= 0.9F;
   for (const std::size_t k : {1U, 4U, 5U}) EXPECT_FALSE(way_pixel(scene, way, k));
-  EXPECT_EQ(kind.grow(scene, kind.stream).size(), before - 2) << "its band and its line, where both of a stroke's inner places are hidden";
+  EXPECT_EQ(kind.grow(scene, kind.stream).size(), before - 2)
+      << "its band and its line, where both of a stroke's inner places are hidden";
 }
 
 }  // namespace

@@ -7,12 +7,14 @@
 namespace belvedere {
 namespace {
 
-// The sums are the painting: what they leave of the canvas and what they hold is what alpha blending in that order makes.
+// The sums are the painting: the remaining canvas plus the sums equals alpha blending in that
+// order.
 TEST(PaintParts, SumsMakeThePaintingInAnyOrderOfParts) {
   const PixelRect rect{5, 7, 25, 17};
   PaintParts parts(rect);
   Grid<glm::vec3> canvas(30, 20);
-  for (std::size_t i = 0; i < canvas.size(); ++i) canvas[i] = glm::vec3(static_cast<float>(random_uniform(1, static_cast<int>(i), 0, 0)));
+  for (std::size_t i = 0; i < canvas.size(); ++i)
+    canvas[i] = glm::vec3(static_cast<float>(random_uniform(1, static_cast<int>(i), 0, 0)));
   const Grid<glm::vec3> bare = canvas;
   for (int stroke = 0; stroke < 300; ++stroke) {
     const auto draw = [&](std::uint64_t n) { return random_uniform(2, stroke, 0, n); };
@@ -29,12 +31,15 @@ TEST(PaintParts, SumsMakeThePaintingInAnyOrderOfParts) {
   for (int y = rect.y0; y < rect.y1; ++y)
     for (int x = rect.x0; x < rect.x1; ++x) {
       glm::vec4 sum(0.0F);
-      for (std::size_t k = 0; k < paint_part_count; ++k) sum += parts.sum(static_cast<PaintPart>(k))(x - rect.x0, y - rect.y0);
-      for (int c = 0; c < 3; ++c) EXPECT_NEAR(sum[c] + (1.0F - sum.w) * bare(x, y)[c], canvas(x, y)[c], 1e-5F) << x << " " << y;
+      for (std::size_t k = 0; k < paint_part_count; ++k)
+        sum += parts.sum(static_cast<PaintPart>(k))(x - rect.x0, y - rect.y0);
+      for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(sum[c] + (1.0F - sum.w) * bare(x, y)[c], canvas(x, y)[c], 1e-5F)
+            << x << " " << y;
     }
 }
 
-// Thinning mixes what parts make with what they made before.
+// Thinning mixes the parts with their earlier state.
 TEST(PaintParts, PaintCanBeThinnedToWhatWasThere) {
   const PixelRect rect{5, 7, 8, 9};
   PaintParts parts(rect);

@@ -22,7 +22,7 @@ TEST(Parcels, CropsChangeOnlyAtBorders) {
     EXPECT_LE(std::abs(parcel.shade), 1.F);
     if (step > 0 && (parcel.crop != last.crop || parcel.shade != last.shade)) {
       ++changes;
-      // Within a step of 1 m both sides are about as near to the border.
+      // Within a step of 1 m both sides are at about the same distance from the border.
       EXPECT_LT(parcel.border_m, 3.F);
       EXPECT_LT(last.border_m, 3.F);
     }
@@ -60,29 +60,32 @@ TEST(Parcels, GreenDominatesAndTheMeanIsThatOfWhatIsSown) {
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(sum[c] / all, mean_crop_colour()[c], 0.015);
 }
 
-// How often two places `step` apart are parted by a border, counted over a square.
+// How often two positions `step` apart are separated by a border, counted over a square.
 double changes(glm::dvec2 step, glm::vec2 grain) {
   int changed = 0;
   for (int x = 0; x < 90; ++x)
     for (int y = 0; y < 90; ++y) {
-      const glm::dvec2 place{east + 97.0 * x, north + 97.0 * y};
-      const Parcel a = parcel_at(5, place.x, place.y, 0.F, grain);
-      const Parcel b = parcel_at(5, place.x + step.x, place.y + step.y, 0.F, grain);
+      const glm::dvec2 position{east + 97.0 * x, north + 97.0 * y};
+      const Parcel a = parcel_at(5, position.x, position.y, 0.F, grain);
+      const Parcel b = parcel_at(5, position.x + step.x, position.y + step.y, 0.F, grain);
       changed += a.shade != b.shade ? 1 : 0;
     }
   return changed / 8100.0;
 }
 
 TEST(Parcels, RunAlongTheGrain) {
-  // Long strips: across them one comes sooner to the next. Some blocks lie crosswise, so the ratio stays moderate.
+  // Long strips: the next one is closer across them. Some blocks are perpendicular, so the ratio is
+  // moderate.
   EXPECT_GT(changes({0.0, 50.0}, eastward), 1.15 * changes({50.0, 0.0}, eastward));
   EXPECT_GT(changes({50.0, 0.0}, -eastward), 1.15 * changes({0.0, 50.0}, -eastward));  // a = 90°
-  EXPECT_NEAR(changes({0.0, 50.0}, glm::vec2(0.F)) / changes({50.0, 0.0}, glm::vec2(0.F)), 1.0, 0.15);
+  EXPECT_NEAR(changes({0.0, 50.0}, glm::vec2(0.F)) / changes({50.0, 0.0}, glm::vec2(0.F)), 1.0,
+              0.15);
 }
 
 TEST(Parcels, BlocksDifferInTheirFields) {
-  // Mean distance to a border, block by block: undivided meadows have their borders far away, strips near.
-  std::map<float, float> widest;  // by shade: one number a parcel
+  // Mean distance to a border, block by block: undivided meadows have distant borders, strips near
+  // ones.
+  std::map<float, float> widest;  // by shade: one number per parcel
   for (int x = 0; x < 300; ++x)
     for (int y = 0; y < 300; ++y) {
       const Parcel parcel = parcel_at(3, east + 20.0 * x, north + 20.0 * y, 0.F, eastward);

@@ -7,13 +7,13 @@
 
 #include "tests/texture/strokes/stroke_picture.h"
 
-// What only close views show: stones and tufts.
+// Strokes for close views only: stones and tufts.
 namespace belvedere {
 namespace {
 
 using enum LandCoverClass;
 
-// Ground of one class in plan, `metres` wide, `px` pixels; a unit of the sheet shows `unit_m`.
+// Ground of one class in plan, `metres` wide, `px` pixels; a unit of the sheet covers `unit_m`.
 Picture ground_of(LandCoverClass id, double metres, int px, double unit_m) {
   Picture p = plain_picture(id, px, px);
   const double pixel_m = metres / px;
@@ -33,17 +33,21 @@ std::vector<double> stones(const Picture& p) {
   std::vector<double> sizes;
   for (const Stroke& stroke : grow_strokes("stones", p.scene()))
     if (std::abs(stroke.alpha - 0.56F) < 1e-3F)
-      sizes.push_back(static_cast<double>(glm::length(axis_of(stroke)) / 0.84F * p.guidance.footprint_m[0]));
+      sizes.push_back(
+          static_cast<double>(glm::length(axis_of(stroke)) / 0.84F * p.guidance.footprint_m[0]));
   return sizes;
 }
 double larger(const std::vector<double>& sizes, double m) {
-  return static_cast<double>(std::count_if(sizes.begin(), sizes.end(), [&](double size) { return size > m; }));
+  return static_cast<double>(
+      std::count_if(sizes.begin(), sizes.end(), [&](double size) { return size > m; }));
 }
 
 TEST(CloseViews, NothingOfThemFromAfar) {
   for (const std::string_view kind : {"stones", "tufts"}) {
-    EXPECT_GT(grow_strokes(kind, ground_of(alpine_grass, 120.0, 240, 0.5).scene()).size(), 100U) << kind;
-    EXPECT_EQ(grow_strokes(kind, ground_of(alpine_grass, 500.0, 240, 2.0).scene()).size(), 0U) << kind;
+    EXPECT_GT(grow_strokes(kind, ground_of(alpine_grass, 120.0, 240, 0.5).scene()).size(), 100U)
+        << kind;
+    EXPECT_EQ(grow_strokes(kind, ground_of(alpine_grass, 500.0, 240, 2.0).scene()).size(), 0U)
+        << kind;
   }
   for (const LandCoverClass id : {forest, water, glacier, snow, rock, settlement, valley_floor}) {
     EXPECT_TRUE(grow_strokes("stones", ground_of(id, 120.0, 240, 0.5).scene()).empty());
@@ -51,13 +55,13 @@ TEST(CloseViews, NothingOfThemFromAfar) {
   }
 }
 
-// About .05 stones of more than a metre a square metre of scree, .05 / d² of more than d (fields of stones and bare places come on top):
-// the same however near they are and however fine the pixels.
+// About .05 stones above one metre per square metre of scree, .05 / d² above d (multiplied by
+// fields of stones and bare areas): the same at any distance and resolution.
 TEST(CloseViews, SoManyStonesASquareMetreAtAnyResolution) {
   constexpr double metres = 150.0;
   std::vector<double> counts;
-  for (const auto& [px, unit_m] :
-       {std::pair{300, 0.5}, std::pair{600, 0.5}, std::pair{450, 0.5}, std::pair{450, 0.4}, std::pair{750, 0.4}}) {
+  for (const auto& [px, unit_m] : {std::pair{300, 0.5}, std::pair{600, 0.5}, std::pair{450, 0.5},
+                                   std::pair{450, 0.4}, std::pair{750, 0.4}}) {
     // Fields of stones differ from seed to seed.
     Picture ground = ground_of(scree, metres, px, unit_m);
     std::vector<double> sizes;
@@ -66,11 +70,14 @@ TEST(CloseViews, SoManyStonesASquareMetreAtAnyResolution) {
       sizes.insert(sizes.end(), more.begin(), more.end());
     });
     for (const double d : {1.0, 1.5, 2.0}) {
-      const double expected = test_seeds * 0.05 * (1.0 / (d * d) - 1.0 / (2.5 * 2.5)) * metres * metres;
-      EXPECT_NEAR(larger(sizes, d), expected, 0.2 * expected) << px << " px, " << unit_m << " m a unit, more than " << d << " m";
+      const double expected =
+          test_seeds * 0.05 * (1.0 / (d * d) - 1.0 / (2.5 * 2.5)) * metres * metres;
+      EXPECT_NEAR(larger(sizes, d), expected, 0.2 * expected)
+          << px << " px, " << unit_m << " m a unit, more than " << d << " m";
     }
     counts.push_back(larger(sizes, 1.0));
-    EXPECT_NEAR(counts.back(), counts.front(), 0.05 * counts.front()) << px << " px, " << unit_m << " m a unit";
+    EXPECT_NEAR(counts.back(), counts.front(), 0.05 * counts.front())
+        << px << " px, " << unit_m << " m a unit";
     for (const double size : sizes) {
       ASSERT_GT(size, 1.79 * unit_m) << "smaller ones are grain";
       ASSERT_LT(size, 2.51);
@@ -78,10 +85,10 @@ TEST(CloseViews, SoManyStonesASquareMetreAtAnyResolution) {
   }
 }
 
-// A slope that the eye meets at a low angle holds more ground in a pixel, and as many stones on it.
+// A slope seen at a low angle has more ground per pixel, and as many stones on it.
 TEST(CloseViews, GroundSeenAtALowAngleHoldsAsManyStones) {
   Picture p = ground_of(scree, 300.0, 600, 0.5);
-  for (glm::vec3& place : p.guidance.position_m) place.y *= 2.F;
+  for (glm::vec3& position : p.guidance.position_m) position.y *= 2.F;
   const double expected = 0.05 * (1.0 - 1.0 / 6.25) * 300.0 * 600.0;
   EXPECT_NEAR(larger(stones(p), 1.0), expected, 0.2 * expected);
 }
@@ -102,13 +109,15 @@ TEST(CloseViews, TuftsStandUpAndAreDrawnBeforeWhatLiesBehind) {
 
 TEST(CloseViews, AWindowIsPaintedAsTheWhole) {
   const Picture p = ground_of(alpine_grass, 150.0, 300, 0.4);
-  const StrokeLayers layers{.sky = false, .ground = false, .accents = false, .breaks = false, .upright = true};
-  const Painting whole = paint_strokes(p.ground.colour, p.guidance, p.ground, layers, p.parameters, silent_progress());
+  const StrokeLayers layers{
+      .sky = false, .ground = false, .accents = false, .breaks = false, .upright = true};
+  const Painting whole =
+      paint_strokes(p.ground.colour, p.guidance, p.ground, layers, p.parameters, silent_progress());
   EXPECT_FALSE(whole.picture == p.ground.colour);
   const int margin = stroke_margin_px(layers, p.parameters);
   const PixelRect wanted{150, 140, 180, 165};
-  const PixelRect held{std::max(0, wanted.x0 - margin), std::max(0, wanted.y0 - margin), std::min(300, wanted.x1 + margin),
-                       std::min(300, wanted.y1 + margin)};
+  const PixelRect held{std::max(0, wanted.x0 - margin), std::max(0, wanted.y0 - margin),
+                       std::min(300, wanted.x1 + margin), std::min(300, wanted.y1 + margin)};
   const auto cut = [&](const auto& grid) {
     std::decay_t<decltype(grid)> part(held.width(), held.height());
     for (int y = 0; y < held.height(); ++y)
@@ -132,11 +141,14 @@ TEST(CloseViews, AWindowIsPaintedAsTheWhole) {
   w.ground.accent = cut(p.ground.accent);
   w.ground.tree_density = cut(p.ground.tree_density);
   w.ground.haze = cut(p.ground.haze);
-  const PixelRect inside{wanted.x0 - held.x0, wanted.y0 - held.y0, wanted.x1 - held.x0, wanted.y1 - held.y0};
-  const Painting part = paint_strokes(w.ground.colour, w.guidance, w.ground, layers, w.parameters, silent_progress(),
-                                      {.origin_px = {held.x0, held.y0}, .sheet_px = {300, 300}, .asked = inside});
+  const PixelRect inside{wanted.x0 - held.x0, wanted.y0 - held.y0, wanted.x1 - held.x0,
+                         wanted.y1 - held.y0};
+  const Painting part =
+      paint_strokes(w.ground.colour, w.guidance, w.ground, layers, w.parameters, silent_progress(),
+                    {.origin_px = {held.x0, held.y0}, .sheet_px = {300, 300}, .asked = inside});
   for (int y = wanted.y0; y < wanted.y1; ++y)
-    for (int x = wanted.x0; x < wanted.x1; ++x) ASSERT_EQ(part.picture(x - held.x0, y - held.y0), whole.picture(x, y)) << x << ", " << y;
+    for (int x = wanted.x0; x < wanted.x1; ++x)
+      ASSERT_EQ(part.picture(x - held.x0, y - held.y0), whole.picture(x, y)) << x << ", " << y;
 }
 
 }  // namespace

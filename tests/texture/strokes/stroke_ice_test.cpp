@@ -15,14 +15,17 @@ namespace {
 
 using enum LandCoverClass;
 
-// One class over the whole picture, depth growing upwards from 20 to 22 km, ice flowing straight down, tone .6.
+// One class over the whole picture, depth increasing upwards from 20 to 22 km, ice flowing straight
+// down, tone .6.
 Picture one_class(LandCoverClass id, float slope_deg, int width = 320, int height = 240) {
   Picture p = plain_picture(id, width, height);
   p.guidance.slope_deg = Grid<float>(width, height, slope_deg);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
-      p.guidance.depth_m(x, y) = 22000.F - 2000.F * static_cast<float>(y) / static_cast<float>(height);
-      p.guidance.position_m(x, y) = glm::vec3(20.F * static_cast<float>(x), p.guidance.depth_m(x, y), 2900.F);
+      p.guidance.depth_m(x, y) =
+          22000.F - 2000.F * static_cast<float>(y) / static_cast<float>(height);
+      p.guidance.position_m(x, y) =
+          glm::vec3(20.F * static_cast<float>(x), p.guidance.depth_m(x, y), 2900.F);
     }
   p.ground.tree_density = Grid<float>(width, height, 0.F);
   return p;
@@ -37,7 +40,8 @@ void set_class(Picture& p, int x0, int y0, int x1, int y1, LandCoverClass id) {
     for (int x = x0; x < x1; ++x) p.guidance.land_cover(x, y) = id;
 }
 
-// Fall lines that turn by up to ±60° from pixel to pixel: ice over them keeps its way within a few degrees.
+// Fall lines that turn by up to ±60° from pixel to pixel: ice over them keeps its direction within
+// a few degrees.
 TEST(IceFlow, FollowsTheBroadFallOfItsBed) {
   Picture p = one_class(glacier, 12.F);
   for (int y = 0; y < 240; ++y)
@@ -66,14 +70,16 @@ TEST(IceFlow, TurnsWithTheValley) {
   Picture p = one_class(glacier, 12.F);
   for (int y = 0; y < 240; ++y)
     for (int x = 0; x < 320; ++x)
-      p.guidance.fall_line(x, y) = glm::normalize(glm::vec2(static_cast<float>(y) + 20.F, -static_cast<float>(x) - 0.5F));
+      p.guidance.fall_line(x, y) =
+          glm::normalize(glm::vec2(static_cast<float>(y) + 20.F, -static_cast<float>(x) - 0.5F));
   const StrokeParameters parameters;
   const StrokeScene scene{p.guidance, p.ground, parameters};
   const IceFlow flow = find_ice_flow(scene);
   const auto way = trace_ice(scene, flow, {100.F, 200.F}, 5.F, 40);
   ASSERT_GT(way.size(), 30U);
-  for (const glm::vec2 at : way) EXPECT_NEAR(glm::length(at + glm::vec2(0.F, 20.F)), glm::length(glm::vec2(100.F, 220.F)), 3.F);
-  // Turned round: it ends where the class does.
+  for (const glm::vec2 at : way)
+    EXPECT_NEAR(glm::length(at + glm::vec2(0.F, 20.F)), glm::length(glm::vec2(100.F, 220.F)), 3.F);
+  // Reversed: it ends where the class does.
   set_class(p, 150, 0, 320, 240, rock);
   for (const glm::vec2 at : trace_ice(scene, flow, {100.F, 200.F}, 5.F, 40)) EXPECT_LT(at.x, 151.F);
 }
@@ -102,14 +108,16 @@ TEST(Ice, CrevassesLieAcrossTheFlowAndOnlyWhereIceIsTorn) {
   EXPECT_TRUE(grow_strokes("glacier crevasses", {p.guidance, p.ground, parameters}).empty());
 }
 
-// They come in fields, with whole ice between: counts over squares vary far more than those of evenly strewn ones.
+// They come in fields, with intact ice between: counts over squares vary far more than for evenly
+// spread ones.
 TEST(Ice, CrevassesComeInFields) {
   const Picture p = one_class(glacier, 16.F, 900, 600);
   const StrokeParameters parameters;
   constexpr int cell = 60;
   Grid<int> counts(900 / cell, 600 / cell, 0);
   for (const Stroke& s : grow_strokes("glacier crevasses", {p.guidance, p.ground, parameters}))
-    if (s.points[0].x > 0.F && s.points[0].x < 900.F && s.points[0].y > 0.F && s.points[0].y < 600.F)
+    if (s.points[0].x > 0.F && s.points[0].x < 900.F && s.points[0].y > 0.F &&
+        s.points[0].y < 600.F)
       ++counts(static_cast<int>(s.points[0].x) / cell, static_cast<int>(s.points[0].y) / cell);
   int empty = 0;
   int full = 0;
@@ -123,15 +131,19 @@ TEST(Ice, CrevassesComeInFields) {
 
 TEST(Ice, CopiedIceGetsItsCrevassesToo) {
   Picture p = one_class(glacier, 22.F);
-  const StrokeLayers over_copied{.sky = true, .ground = false, .accents = true, .breaks = true, .upright = true};
-  const StrokeLayers copied_from{.sky = true, .ground = false, .accents = true, .breaks = false, .upright = true};
+  const StrokeLayers over_copied{
+      .sky = true, .ground = false, .accents = true, .breaks = true, .upright = true};
+  const StrokeLayers copied_from{
+      .sky = true, .ground = false, .accents = true, .breaks = false, .upright = true};
   const auto painted_at = [&](float slope_deg, const StrokeLayers& layers) {
     p.guidance.slope_deg = Grid<float>(320, 240, slope_deg);
-    return paint_strokes(p.ground.colour, p.guidance, p.ground, layers, {}, silent_progress()).picture;
+    return paint_strokes(p.ground.colour, p.guidance, p.ground, layers, {}, silent_progress())
+        .picture;
   };
-  // Level ice has none, so whatever else is painted over copied ground, the two differ by crevasses.
+  // Level ice has none, so with all other strokes over copied ground, the two differ by crevasses.
   EXPECT_NE(painted_at(24.F, over_copied), painted_at(3.F, over_copied));
-  EXPECT_EQ(painted_at(24.F, copied_from), painted_at(3.F, copied_from)) << "what is copied from has none";
+  EXPECT_EQ(painted_at(24.F, copied_from), painted_at(3.F, copied_from))
+      << "what is copied from has none";
 }
 
 TEST(Ice, FlowLinesAreLongAndFollowTheIce) {
@@ -147,7 +159,8 @@ TEST(Ice, FlowLinesAreLongAndFollowTheIce) {
   }
 }
 
-// A rib of rock 16 units wide that ends in the middle of the ice: lines of rubble run down from its end and from nowhere else.
+// A rib of rock 16 units wide that ends in the centre of the ice: lines of rubble run down from its
+// end and from nowhere else.
 TEST(Ice, MedialMorainesBeginBelowRibs) {
   Picture p = one_class(glacier, 10.F, 320, 400);
   const StrokeParameters parameters;

@@ -17,14 +17,17 @@ namespace {
 
 using enum LandCoverClass;
 
-// One class over the whole picture, depth growing upwards from 20 to 60 km, fall line straight down, tone .6.
+// One class over the whole picture, depth increasing upwards from 20 to 60 km, fall line straight
+// down, tone .6.
 Picture one_class(LandCoverClass id, int width = 320, int height = 240) {
   Picture p = plain_picture(id, width, height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       p.guidance.depth_m(x, y) =
-          id == sky ? std::numeric_limits<float>::infinity() : 60000.F - 40000.F * static_cast<float>(y) / static_cast<float>(height);
-      p.guidance.position_m(x, y) = glm::vec3(20.F * static_cast<float>(x), p.guidance.depth_m(x, y), 900.F);
+          id == sky ? std::numeric_limits<float>::infinity()
+                    : 60000.F - 40000.F * static_cast<float>(y) / static_cast<float>(height);
+      p.guidance.position_m(x, y) =
+          glm::vec3(20.F * static_cast<float>(x), p.guidance.depth_m(x, y), 900.F);
     }
   return p;
 }
@@ -42,7 +45,8 @@ double mean_height(const std::vector<Stroke>& strokes, float y0, float y1) {
 
 TEST(StrokePainter, TreesStandUprightWhateverTheSlope) {
   Picture p = one_class(forest);
-  for (auto& d : p.guidance.fall_line) d = glm::vec2(0.8F, 0.6F);  // a slope that falls to the right
+  for (auto& d : p.guidance.fall_line)
+    d = glm::vec2(0.8F, 0.6F);  // a slope that falls to the right
   const StrokeParameters parameters;
   const auto trees = wood_strokes({p.guidance, p.ground, parameters});
   int bodies = 0;
@@ -58,12 +62,12 @@ TEST(StrokePainter, TreesStandUprightWhateverTheSlope) {
 
 // Puts the picture's ground at an altitude: which trees grow depends on it.
 void raise(Picture& picture, float altitude_m) {
-  for (auto& place : picture.guidance.position_m) place.z = altitude_m;
+  for (auto& position : picture.guidance.position_m) position.z = altitude_m;
 }
 
 TEST(StrokePainter, TreesAreAsTallFarAsNear) {
   Picture p = one_class(forest);
-  raise(p, 1700.F);  // spruces only: where leafy trees grow varies over the ground
+  raise(p, 1700.F);  // spruces only: the occurrence of leafy trees varies over the ground
   const StrokeParameters parameters;
   const auto trees = wood_strokes({p.guidance, p.ground, parameters});
   EXPECT_NEAR(mean_height(trees, 0.F, 80.F) / mean_height(trees, 160.F, 240.F), 1.0, 0.05);
@@ -76,7 +80,8 @@ TEST(StrokePainter, TrunksStandInRowsOnSteepSlopesAndHuddledElsewhere) {
     raise(p, 1500.F);
     for (auto& d : p.guidance.fall_line) d = fall;
     for (float& slope : p.guidance.slope_deg) slope = slope_deg;
-    // Bodies are the wide upright strokes; the next in the list is the next of its group where it stands a step away.
+    // Bodies are the wide upright strokes; the next in the list belongs to the same group if it is
+    // a step away.
     std::vector<glm::vec2> feet;
     for (const Stroke& s : wood_strokes({p.guidance, p.ground, p.parameters}))
       if (s.gate == StrokeGate::upright && s.start_width > 2.5F) feet.push_back(s.points[0]);
@@ -91,7 +96,7 @@ TEST(StrokePainter, TrunksStandInRowsOnSteepSlopesAndHuddledElsewhere) {
     EXPECT_GT(steps, 300);
     return static_cast<double>(along) / steps;
   };
-  // Of strewn trees two in nine stand so by chance.
+  // For randomly spread trees this is two in nine by chance.
   EXPECT_NEAR(along_share(22.F), 2.0 / 9.0, 0.06) << "no slope is combed";
   EXPECT_GT(along_share(42.F), 0.38);
 }
@@ -103,9 +108,10 @@ TEST(StrokePainter, LowForestIsLeafyAndWarmer) {
   raise(high, 1700.F);
   const StrokeParameters parameters;
   const auto warmest = [&](const Picture& p) {
-    float most = -1.F;
-    for (const Stroke& s : wood_strokes({p.guidance, p.ground, parameters})) most = std::max(most, s.colour.x - s.colour.z);
-    return most;
+    float max = -1.F;
+    for (const Stroke& s : wood_strokes({p.guidance, p.ground, parameters}))
+      max = std::max(max, s.colour.x - s.colour.z);
+    return max;
   };
   EXPECT_GT(warmest(low), warmest(high) + 0.1F);  // yellow dots
 }
@@ -117,7 +123,8 @@ TEST(StrokePainter, TreesOfTheValleyFloorStandInGroups) {
   Grid<int> counts(600 / cell, 400 / cell, 0);
   for (const Stroke& s : grow_strokes("scattered trees", {p.guidance, p.ground, parameters}))
     if (s.gate == StrokeGate::upright && s.start_width > 1.5F)
-      ++counts(std::min(599, static_cast<int>(s.points[0].x)) / cell, std::min(399, static_cast<int>(s.points[0].y)) / cell);
+      ++counts(std::min(599, static_cast<int>(s.points[0].x)) / cell,
+               std::min(399, static_cast<int>(s.points[0].y)) / cell);
   double sum = 0.0;
   double squares = 0.0;
   for (const int n : counts) {
@@ -126,7 +133,7 @@ TEST(StrokePainter, TreesOfTheValleyFloorStandInGroups) {
   }
   const double mean = sum / static_cast<double>(counts.size());
   EXPECT_GT(mean, 0.1);
-  // Evenly strewn ones would have a variance as large as the mean.
+  // For evenly spread ones the variance would be as large as the mean.
   EXPECT_GT(squares / static_cast<double>(counts.size()) - mean * mean, 3.0 * mean);
 }
 
@@ -137,23 +144,28 @@ TEST(StrokePainter, DarkerStrokesAreMixedIn) {
     const Picture p = one_class(id);
     const auto strokes = grow_strokes(kind, {p.guidance, p.ground, parameters});
     // Half a step down from the base at .5, the darker picture at .4.
-    const auto dark = std::count_if(strokes.begin(), strokes.end(), [](const Stroke& s) { return s.colour.y < 0.455F; });
+    const auto dark = std::count_if(strokes.begin(), strokes.end(),
+                                    [](const Stroke& s) { return s.colour.y < 0.455F; });
     return static_cast<double>(dark) / static_cast<double>(strokes.size());
   };
   for (const LandCoverClass id : {pasture, alpine_grass, valley_floor, snow, glacier, scree})
-    EXPECT_THAT(darker_share(id, "wash"), testing::AllOf(testing::Gt(0.10), testing::Lt(0.30))) << class_name(id);
+    EXPECT_THAT(darker_share(id, "wash"), testing::AllOf(testing::Gt(0.10), testing::Lt(0.30)))
+        << class_name(id);
   for (const LandCoverClass id : {pasture, alpine_grass, valley_floor, shrub})
-    EXPECT_THAT(darker_share(id, "meadow"), testing::AllOf(testing::Gt(0.10), testing::Lt(0.30))) << class_name(id);
+    EXPECT_THAT(darker_share(id, "meadow"), testing::AllOf(testing::Gt(0.10), testing::Lt(0.30)))
+        << class_name(id);
   EXPECT_THAT(darker_share(scree, "scree"), testing::AllOf(testing::Gt(0.10), testing::Lt(0.30)));
   EXPECT_THAT(darker_share(snow, "snow"), testing::AllOf(testing::Gt(0.10), testing::Lt(0.30)));
 }
 
-// A round settlement of this radius on the valley floor, the denser the larger it is and the nearer to its middle.
+// A round settlement of this radius on the valley floor, denser the larger it is and towards its
+// centre.
 Picture town(float radius) {
   Picture p = one_class(valley_floor, 320, 240);
   for (int y = 0; y < 240; ++y)
     for (int x = 0; x < 320; ++x)
-      if (const float r = std::hypot(static_cast<float>(x) - 160.F, static_cast<float>(y) - 120.F); r < radius) {
+      if (const float r = std::hypot(static_cast<float>(x) - 160.F, static_cast<float>(y) - 120.F);
+          r < radius) {
         p.guidance.land_cover(x, y) = settlement;
         p.guidance.built(x, y) = std::min(1.F, radius / 80.F) * (1.F - 0.7F * r / radius);
       }
@@ -165,13 +177,14 @@ TEST(StrokePainter, TownsDifferFromVillages) {
   const StrokeParameters parameters;
   const auto widest = [&](float radius) {
     const Picture p = town(radius);
-    float most = 0.F;
+    float max = 0.F;
     for (const Stroke& s : town_strokes({p.guidance, p.ground, parameters}))
       if (s.gate == StrokeGate::surface && s.point_count == 2)
-        most = std::max(most, std::abs(s.points[1].x - s.points[0].x) + (s.tip == StrokeTip::square ? 0.F : s.start_width));
-    return most;
+        max = std::max(max, std::abs(s.points[1].x - s.points[0].x) +
+                                (s.tip == StrokeTip::square ? 0.F : s.start_width));
+    return max;
   };
-  EXPECT_GT(widest(80.F), 4.5F);  // halls and works
+  EXPECT_GT(widest(80.F), 4.5F);  // halls and factories
   EXPECT_LT(widest(9.F), 4.5F);
 }
 
@@ -192,7 +205,7 @@ TEST(StrokePainter, TownsAreDenserInTheirMiddle) {
 
 TEST(StrokePainter, TheSkyIsDrawnOutLevel) {
   Picture p = one_class(sky);
-  // A cloud in the right half: there the brush dabs, and is level all the same.
+  // A cloud in the right half: there the brush dabs, still level.
   for (int y = 80; y < 160; ++y)
     for (int x = 200; x < 280; ++x) p.ground.colour(x, y) = glm::vec3(0.9F);
   const StrokeParameters parameters;
@@ -201,9 +214,10 @@ TEST(StrokePainter, TheSkyIsDrawnOutLevel) {
   for (const Stroke& s : grow_strokes("sky", {p.guidance, p.ground, parameters})) {
     const glm::vec2 axis = s.points[3] - s.points[0];
     EXPECT_LE(std::abs(std::atan2(axis.y, axis.x)) * 57.2958F, 3.F);
-    const glm::vec2 middle = 0.5F * (s.points[0] + s.points[3]);
-    if (middle.x < 150.F) clear += std::hypot(axis.x, axis.y), ++clear_count;
-    if (middle.y > 85.F && middle.y < 155.F && std::abs(middle.x - 200.F) < 6.F) dabbed += std::hypot(axis.x, axis.y), ++dab_count;
+    const glm::vec2 centre = 0.5F * (s.points[0] + s.points[3]);
+    if (centre.x < 150.F) clear += std::hypot(axis.x, axis.y), ++clear_count;
+    if (centre.y > 85.F && centre.y < 155.F && std::abs(centre.x - 200.F) < 6.F)
+      dabbed += std::hypot(axis.x, axis.y), ++dab_count;
   }
   ASSERT_GT(clear_count, 100);
   ASSERT_GT(dab_count, 5);
@@ -218,7 +232,7 @@ TEST(StrokePainter, StrokesGrowWithTheSheet) {
   const StrokeParameters at_one;
   StrokeParameters at_two;
   at_two.pixels_per_unit = 2.0;
-  for (float& metres : large.guidance.footprint_m) metres *= 0.5F;  // a unit shows as much ground
+  for (float& metres : large.guidance.footprint_m) metres *= 0.5F;  // a unit covers as much ground
   const auto a = wood_strokes({small.guidance, small.ground, at_one});
   const auto b = wood_strokes({large.guidance, large.ground, at_two});
   EXPECT_NEAR(mean_height(b, 0.F, 400.F) / mean_height(a, 0.F, 200.F), 2.0, 0.05);
@@ -231,7 +245,7 @@ TEST(StrokePainter, LightSideFollowsTheSun) {
   from_left.sun_side = -1.0;
   const StrokeParameters from_right;
   const auto offset = [&](const StrokeParameters& parameters) {
-    // The lit stroke stands right behind its dark body in the list.
+    // The lit stroke comes directly after its dark body in the list.
     const auto trees = wood_strokes({p.guidance, p.ground, parameters});
     double sum = 0.0;
     for (std::size_t i = 1; i < trees.size(); ++i)
@@ -240,7 +254,7 @@ TEST(StrokePainter, LightSideFollowsTheSun) {
         sum += trees[i].points[0].x - trees[i - 1].points[0].x;
     return sum;
   };
-  StrokeParameters by_place;  // light from the left everywhere, said place by place
+  StrokeParameters by_place;  // light from the left everywhere, given per position
   by_place.local_side = [](glm::dvec2) { return -1.0F; };
   EXPECT_EQ(offset(by_place), offset(from_left));
   EXPECT_GT(offset(from_right), 0.0);
@@ -257,7 +271,8 @@ TEST(StrokePainter, EachClassGrowsItsOwnStrokesOnly) {
     EXPECT_EQ(grow_strokes("water", scene).empty(), info.id != water) << info.name;
     EXPECT_EQ(town_strokes(scene).empty(), info.id != settlement) << info.name;
     EXPECT_EQ(grow_strokes("sky", scene).empty(), info.id != sky) << info.name;
-    EXPECT_EQ(grow_strokes("snow", scene).empty(), info.id != snow && info.id != glacier) << info.name;
+    EXPECT_EQ(grow_strokes("snow", scene).empty(), info.id != snow && info.id != glacier)
+        << info.name;
   }
 }
 
@@ -274,7 +289,7 @@ TEST(StrokePainter, RockIsPaintedDownItsPlanes) {
     along += cosine > std::cos(0.6F) ? 1 : 0;
     ++all;
   }
-  EXPECT_NEAR(static_cast<double>(along) / all, 0.7, 0.05);  // three in ten lie across
+  EXPECT_NEAR(static_cast<double>(along) / all, 0.7, 0.05);  // three in ten are perpendicular
 }
 
 TEST(StrokePainter, BrokenColourIsSmallAndLiesEveryWay) {
@@ -296,13 +311,18 @@ TEST(StrokePainter, BrokenColourIsSmallAndLiesEveryWay) {
 TEST(StrokePainter, UprightLayerAloneLeavesBareGroundUntouched) {
   const Picture p = one_class(rock);
   const Grid<glm::vec3> canvas(320, 240, glm::vec3(0.3F));
-  const StrokeLayers upright_only{.sky = false, .ground = false, .accents = false, .breaks = false, .upright = true};
-  EXPECT_EQ(paint_strokes(canvas, p.guidance, p.ground, upright_only, {}, silent_progress()).picture, canvas);
+  const StrokeLayers upright_only{
+      .sky = false, .ground = false, .accents = false, .breaks = false, .upright = true};
+  EXPECT_EQ(
+      paint_strokes(canvas, p.guidance, p.ground, upright_only, {}, silent_progress()).picture,
+      canvas);
 }
 
 TEST(StrokePainter, MeanColourStaysNearTheBase) {
   const Picture p = one_class(pasture);
-  const auto picture = paint_strokes(p.ground.colour, p.guidance, p.ground, {.upright = false}, {}, silent_progress()).picture;
+  const auto picture = paint_strokes(p.ground.colour, p.guidance, p.ground, {.upright = false}, {},
+                                     silent_progress())
+                           .picture;
   double sum = 0.0;
   double squares = 0.0;
   for (const glm::vec3& c : picture) {
@@ -311,19 +331,24 @@ TEST(StrokePainter, MeanColourStaysNearTheBase) {
   }
   const double mean = sum / static_cast<double>(picture.size());
   EXPECT_NEAR(mean, 0.5, 0.02);
-  EXPECT_GT(squares / static_cast<double>(picture.size()) - mean * mean, 1e-4);  // and it is painted, not flat
+  EXPECT_GT(squares / static_cast<double>(picture.size()) - mean * mean,
+            1e-4);  // and it is painted, not flat
 }
 
-// All kinds, by the layer they belong to; a kind that is not painted is a class without its brush.
+// All kinds, by their layer; a kind that is not painted is a class without its brush.
 TEST(StrokePainter, EveryKindOfStrokeIsPaintedInItsLayer) {
   using Names = std::vector<std::string_view>;
-  const Names ground = {"wash",        "meadow", "rock facets", "rock dabs", "rock chips",    "rock rubble", "rock turf",
-                        "rock drifts", "scree",  "sand",        "snow",      "broken colour", "water"};
-  const Names breaks = {"wind streaks",  "river foam",       "sea surf",         "glacier flow lines",
-                        "glacier edges", "glacier moraines", "glacier crevasses"};
-  const Names upright = {"forest trees", "forest edges", "glade grass", "scattered trees", "low bushes", "rock trees",
-                         "grass flecks", "stones",       "tufts",       "houses",          "churches",   "farms"};
-  EXPECT_EQ(ground.size() + breaks.size() + upright.size() + 2, stroke_kinds().size()) << "sky and accents are the other two";
+  const Names ground = {"wash",        "meadow",        "rock facets", "rock dabs", "rock chips",
+                        "rock rubble", "rock turf",     "rock drifts", "scree",     "sand",
+                        "snow",        "broken colour", "water"};
+  const Names breaks = {"wind streaks",       "river foam",    "sea surf",
+                        "glacier flow lines", "glacier edges", "glacier moraines",
+                        "glacier crevasses"};
+  const Names upright = {"forest trees", "forest edges", "glade grass",  "scattered trees",
+                         "low bushes",   "rock trees",   "grass flecks", "stones",
+                         "tufts",        "houses",       "churches",     "farms"};
+  EXPECT_EQ(ground.size() + breaks.size() + upright.size() + 2, stroke_kinds().size())
+      << "sky and accents are the other two";
   StrokeParameters winter;
   winter.winter = true;
   for (const LandCoverClassInfo& info : land_cover_classes()) {
@@ -333,7 +358,9 @@ TEST(StrokePainter, EveryKindOfStrokeIsPaintedInItsLayer) {
     p.ground.accent = Grid<float>(160, 120, -0.8F);
     const StrokeScene scene{p.guidance, p.ground, winter};
     const auto count = [&](const StrokeLayers& layers) {
-      return static_cast<std::size_t>(paint_strokes(p.ground.colour, p.guidance, p.ground, layers, winter, silent_progress()).stroke_count);
+      return static_cast<std::size_t>(
+          paint_strokes(p.ground.colour, p.guidance, p.ground, layers, winter, silent_progress())
+              .stroke_count);
     };
     const auto sum = [&](const Names& names) {
       std::size_t all = 0;
@@ -344,14 +371,24 @@ TEST(StrokePainter, EveryKindOfStrokeIsPaintedInItsLayer) {
       layers.accents = false;
       return layers;
     };
-    EXPECT_EQ(count(only({.sky = true, .ground = false, .breaks = false, .upright = false})), grow_strokes("sky", scene).size())
+    EXPECT_EQ(count(only({.sky = true, .ground = false, .breaks = false, .upright = false})),
+              grow_strokes("sky", scene).size())
         << info.name;
-    EXPECT_EQ(count(only({.sky = false, .ground = true, .breaks = false, .upright = false})), sum(ground)) << info.name;
-    EXPECT_EQ(count(only({.sky = false, .ground = false, .breaks = true, .upright = false})), sum(breaks)) << info.name;
-    EXPECT_EQ(count(only({.sky = false, .ground = true, .breaks = true, .upright = false})), sum(ground) + sum(breaks)) << info.name;
-    EXPECT_EQ(count(only({.sky = false, .ground = false, .breaks = false, .upright = true})), sum(upright)) << info.name;
-    EXPECT_EQ(count({.sky = false, .ground = true, .accents = true, .breaks = false, .upright = false}),
-              sum(ground) + grow_strokes("accents", scene).size())
+    EXPECT_EQ(count(only({.sky = false, .ground = true, .breaks = false, .upright = false})),
+              sum(ground))
+        << info.name;
+    EXPECT_EQ(count(only({.sky = false, .ground = false, .breaks = true, .upright = false})),
+              sum(breaks))
+        << info.name;
+    EXPECT_EQ(count(only({.sky = false, .ground = true, .breaks = true, .upright = false})),
+              sum(ground) + sum(breaks))
+        << info.name;
+    EXPECT_EQ(count(only({.sky = false, .ground = false, .breaks = false, .upright = true})),
+              sum(upright))
+        << info.name;
+    EXPECT_EQ(
+        count({.sky = false, .ground = true, .accents = true, .breaks = false, .upright = false}),
+        sum(ground) + grow_strokes("accents", scene).size())
         << info.name;
   }
 }
@@ -362,10 +399,10 @@ TEST(StrokePainter, HousesInTheHazeTakeTheColourOfTheAir) {
   const StrokeParameters parameters;
   const auto farthest = [&](float haze) {
     p.ground.haze = Grid<float>(320, 240, haze);
-    float most = 0.F;
+    float max = 0.F;
     for (const Stroke& s : town_strokes({p.guidance, p.ground, parameters}))
-      if (s.tip == StrokeTip::square) most = std::max(most, std::abs(s.colour.x - 0.5F));
-    return most;
+      if (s.tip == StrokeTip::square) max = std::max(max, std::abs(s.colour.x - 0.5F));
+    return max;
   };
   EXPECT_GT(farthest(0.F), 0.2F);
   EXPECT_NEAR(farthest(1.F), 0.F, 1e-5F);
@@ -379,21 +416,26 @@ TEST(StrokePainter, StrokesCurveSlightlyAndAreEdgedOnEitherSide) {
   const auto strokes = grow_strokes("wash", {p.guidance, p.ground, parameters});
   for (const Stroke& s : strokes) {
     const glm::vec2 chord = s.points[3] - s.points[0];
-    const glm::vec2 middle = 0.5F * (s.points[1] + s.points[2]) - s.points[0];
-    bend += std::abs(chord.x * middle.y - chord.y * middle.x) / (chord.x * chord.x + chord.y * chord.y);
+    const glm::vec2 centre = 0.5F * (s.points[1] + s.points[2]) - s.points[0];
+    bend +=
+        std::abs(chord.x * centre.y - chord.y * centre.x) / (chord.x * chord.x + chord.y * chord.y);
     right += s.edge > 0.F ? 1 : 0;
   }
   const auto count = static_cast<double>(strokes.size());
-  EXPECT_THAT(bend / count, testing::AllOf(testing::Gt(0.008), testing::Lt(0.06)));  // of their length
+  EXPECT_THAT(bend / count,
+              testing::AllOf(testing::Gt(0.008), testing::Lt(0.06)));  // of their length
   EXPECT_NEAR(right / count, 0.5, 0.05);
 }
 
 TEST(StrokePainter, AirEvensOutWhatLoadsOfPaintDifferBy) {
   Picture p = one_class(pasture);
-  p.ground.darker = p.ground.lighter = p.ground.colour;  // no other differences than of loads and of jitter
+  p.ground.darker = p.ground.lighter =
+      p.ground.colour;  // no other differences than those of loads and jitter
   const auto variance = [&](float haze) {
     p.ground.haze = Grid<float>(320, 240, haze);
-    const auto picture = paint_strokes(p.ground.colour, p.guidance, p.ground, {.upright = false}, {}, silent_progress()).picture;
+    const auto picture = paint_strokes(p.ground.colour, p.guidance, p.ground, {.upright = false},
+                                       {}, silent_progress())
+                             .picture;
     double squares = 0.0;
     for (const glm::vec3& c : picture) squares += (c.y - 0.5) * (c.y - 0.5);
     return squares / static_cast<double>(picture.size());
@@ -404,7 +446,8 @@ TEST(StrokePainter, AirEvensOutWhatLoadsOfPaintDifferBy) {
 TEST(StrokePainter, ThreadsChangeNoBit) {
   Picture p = one_class(forest);
   for (int y = 0; y < p.guidance.height(); ++y)
-    for (int x = p.guidance.width() / 2; x < p.guidance.width(); ++x) p.guidance.land_cover(x, y) = rock;
+    for (int x = p.guidance.width() / 2; x < p.guidance.width(); ++x)
+      p.guidance.land_cover(x, y) = rock;
   const auto run = [&](int threads) {
     const ThreadLimit limit(threads);
     return paint_strokes(p.ground.colour, p.guidance, p.ground, {}, {}, silent_progress());
@@ -415,7 +458,9 @@ TEST(StrokePainter, ThreadsChangeNoBit) {
   EXPECT_EQ(one.sources, two.sources);
   EXPECT_EQ(one.under, two.under);
   EXPECT_EQ(one.under_share, two.under_share);
-  EXPECT_GT(std::count_if(one.under_share.begin(), one.under_share.end(), [](int share) { return share > 60; }), 50);
+  EXPECT_GT(std::count_if(one.under_share.begin(), one.under_share.end(),
+                          [](int share) { return share > 60; }),
+            50);
 }
 
 TEST(StrokePainter, RefusesGridsOfDifferentSize) {

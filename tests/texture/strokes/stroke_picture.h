@@ -17,7 +17,7 @@
 
 namespace belvedere {
 
-// What strokes are tested on.
+// The input of tests of strokes.
 struct Picture {
   GuidanceBuffers guidance;
   BasePicture ground;
@@ -25,8 +25,8 @@ struct Picture {
   StrokeScene scene() const { return {guidance, ground, parameters}; }
 };
 
-// One class all over, a slope of 25° straight down, tone .6, three greys to mix from, clear air, trees where trees grow. Depth and
-// positions are zero: each test lays its own ground.
+// One class everywhere, a slope of 25° straight down, tone .6, three greys to mix from, clear air,
+// trees where trees grow. Depth and positions are zero: each test sets its own ground.
 inline Picture plain_picture(LandCoverClass id, int width, int height) {
   Picture p;
   p.guidance.depth_m = Grid<float>(width, height, 0.F);
@@ -49,7 +49,7 @@ inline Picture plain_picture(LandCoverClass id, int width, int height) {
 
 inline float luma(glm::vec3 c) { return 0.2126F * c.x + 0.7152F * c.y + 0.0722F * c.z; }
 
-// What a kind of stroke paints by itself on the whole of a sheet.
+// The strokes of one kind alone on a whole sheet.
 inline std::vector<Stroke> grow_strokes(std::string_view name, const StrokeScene& scene) {
   const StrokeKind& kind = find_stroke_kind(name);
   if (!kind.on_ice) return kind.grow(scene, kind.stream);
@@ -59,7 +59,8 @@ inline std::vector<Stroke> grow_strokes(std::string_view name, const StrokeScene
   return kind.grow(planned, kind.stream);
 }
 
-inline std::vector<Stroke> grow_all(const std::vector<std::string_view>& names, const StrokeScene& scene) {
+inline std::vector<Stroke> grow_all(const std::vector<std::string_view>& names,
+                                    const StrokeScene& scene) {
   std::vector<Stroke> all;
   for (const std::string_view name : names) {
     const std::vector<Stroke> more = grow_strokes(name, scene);
@@ -68,13 +69,15 @@ inline std::vector<Stroke> grow_all(const std::vector<std::string_view>& names, 
   return all;
 }
 
-// A wood with its edges and glades; a town with its churches.
+// A forest with its edges and glades; a town with its churches.
 inline std::vector<Stroke> wood_strokes(const StrokeScene& scene) {
   return grow_all({"forest trees", "forest edges", "glade grass"}, scene);
 }
-inline std::vector<Stroke> town_strokes(const StrokeScene& scene) { return grow_all({"houses", "churches"}, scene); }
+inline std::vector<Stroke> town_strokes(const StrokeScene& scene) {
+  return grow_all({"houses", "churches"}, scene);
+}
 
-// Does `look` with the picture painted from several seeds, for what is true of many pictures and not of each.
+// Calls `look` with the picture painted from several seeds, for properties that hold on average.
 inline constexpr std::uint64_t test_seeds = 12;
 template <class Look>
 void over_seeds(Picture& p, Look&& look) {
@@ -83,7 +86,9 @@ void over_seeds(Picture& p, Look&& look) {
 }
 
 // From a stroke's first point to its last, px.
-inline glm::vec2 axis_of(const Stroke& s) { return s.points[static_cast<std::size_t>(s.point_count - 1)] - s.points[0]; }
+inline glm::vec2 axis_of(const Stroke& s) {
+  return s.points[static_cast<std::size_t>(s.point_count - 1)] - s.points[0];
+}
 
 // Between an axis (without sense) and a direction, 0…90.
 inline double angle_deg(glm::vec2 axis, glm::vec2 direction) {

@@ -17,7 +17,7 @@ using enum LandCoverClass;
 constexpr int rock_width = 240;
 constexpr int rock_height = 200;
 
-// A slope that falls straight down the picture, 12 m a pixel and nearer by 10 m a row, all of one class.
+// A slope straight down the picture, 12 m per pixel and nearer by 10 m per row, all of one class.
 Picture falling_slope(LandCoverClass id) {
   Picture p = plain_picture(id, rock_width, rock_height);
   GuidanceBuffers& g = p.guidance;
@@ -26,7 +26,8 @@ Picture falling_slope(LandCoverClass id) {
   for (int y = 0; y < rock_height; ++y)
     for (int x = 0; x < rock_width; ++x) {
       g.depth_m(x, y) = 30000.F - 10.F * static_cast<float>(y);
-      g.position_m(x, y) = glm::vec3(12.F * static_cast<float>(x), -10.F * static_cast<float>(y), 2600.F - 7.F * static_cast<float>(y));
+      g.position_m(x, y) = glm::vec3(12.F * static_cast<float>(x), -10.F * static_cast<float>(y),
+                                     2600.F - 7.F * static_cast<float>(y));
     }
   return p;
 }
@@ -39,7 +40,7 @@ Picture two_bands(LandCoverClass upper, LandCoverClass lower, int border = rock_
   return p;
 }
 
-// Two planes of rock beside each other, of one tone: left of the middle the one, right of it the other.
+// Two planes of rock side by side, of one tone: one left of the centre, the other right of it.
 Picture two_planes() {
   Picture p = falling_slope(rock);
   p.guidance.rock_facet = Grid<std::uint32_t>(rock_width, rock_height, 0x00010001U);
@@ -75,8 +76,10 @@ TEST(StrokeRock, PaintStaysOnItsPlane) {
 TEST(StrokeRock, TheHandRestsInPlaces) {
   Picture p = falling_slope(rock);
   const auto busy = [&](const Stroke& s) {
-    return sheet_noise(p.scene(), {static_cast<float>(s.source % rock_width), static_cast<float>(s.source / rock_width)}, Stream::rock_calm,
-                       13.0) > 0.F;
+    return sheet_noise(p.scene(),
+                       {static_cast<float>(s.source % rock_width),
+                        static_cast<float>(s.source / rock_width)},
+                       Stream::rock_calm, 13.0) > 0.F;
   };
   double in_busy = 0.0;
   double all = 0.0;
@@ -96,15 +99,18 @@ TEST(StrokeRock, TurfHangsOverTheUpperRim) {
   int hanging = 0;
   for (const Stroke& s : turf) {
     EXPECT_EQ(p.guidance.land_cover[s.source], alpine_grass);
-    const auto [low, high] = std::minmax_element(s.points.begin(), s.points.end(), [](auto a, auto b) { return a.y < b.y; });
+    const auto [low, high] = std::minmax_element(s.points.begin(), s.points.end(),
+                                                 [](auto a, auto b) { return a.y < b.y; });
     EXPECT_LT(low->y, rock_height / 2 + 30.F) << "never far from what grows";
     hanging += low->y < rock_height / 2 + 1.F && high->y > rock_height / 2 + 2.F ? 1 : 0;
   }
   EXPECT_GT(hanging, rock_width / 12);
-  // At the foot of a wall nothing hangs, and grass lies on its lowest ledges only.
+  // At the foot of a wall there is no overhanging turf, and grass lies on its lowest ledges only.
   const Picture foot = two_bands(rock, alpine_grass);
   for (const Stroke& s : grow_strokes("rock turf", {foot.guidance, foot.ground, parameters}))
-    EXPECT_NEAR(std::abs(s.points[3].x - s.points[0].x) / (std::abs(s.points[3].y - s.points[0].y) + 0.5F), 6.F, 6.01F);
+    EXPECT_NEAR(
+        std::abs(s.points[3].x - s.points[0].x) / (std::abs(s.points[3].y - s.points[0].y) + 0.5F),
+        6.F, 6.01F);
   const Picture wall = falling_slope(rock);
   EXPECT_TRUE(grow_strokes("rock turf", {wall.guidance, wall.ground, parameters}).empty());
 }
@@ -121,7 +127,7 @@ TEST(StrokeRock, SnowReachesUpIntoTheWallAndThinsOutThere) {
     EXPECT_LT(s.points[3].y, rock_height / 2 + 1.F) << "it ends on the wall";
     EXPECT_GT(s.points[3].y, rock_height / 2 - 14.F);
   }
-  // A cornice over the rim runs down.
+  // A cornice over the edge runs down.
   const Picture rim = two_bands(snow, rock);
   const auto cornices = grow_strokes("rock drifts", {rim.guidance, rim.ground, parameters});
   EXPECT_GT(cornices.size(), 10U);
@@ -150,11 +156,12 @@ TEST(StrokeRock, RubbleRunsFromTheFootIntoTheWood) {
 int trees_on_rock(const Picture& p) {
   int count = 0;
   for (const Stroke& s : grow_strokes("rock trees", {p.guidance, p.ground, {}})) {
-    EXPECT_EQ(p.guidance.land_cover[s.source], forest) << "painted in the wood's colours";
+    EXPECT_EQ(p.guidance.land_cover[s.source], forest) << "painted in the forest's colours";
     const int y = static_cast<int>(s.points[0].y);
     const int x = std::clamp(static_cast<int>(s.points[0].x), 0, rock_width - 1);
     if (s.gate != StrokeGate::upright) continue;
-    EXPECT_NEAR(s.depth_m, p.guidance.depth_m(x, std::clamp(y, 0, rock_height - 1)), 40.F) << "it stands on the rock";
+    EXPECT_NEAR(s.depth_m, p.guidance.depth_m(x, std::clamp(y, 0, rock_height - 1)), 40.F)
+        << "it is on the rock";
     count += s.alpha == 0.9F ? 1 : 0;
   }
   return count;
@@ -164,8 +171,9 @@ TEST(StrokeRock, SingleTreesStandOnRockNearTheWoodOnly) {
   EXPECT_EQ(trees_on_rock(falling_slope(rock)), 0);
   const Picture p = two_bands(rock, forest);
   EXPECT_GT(trees_on_rock(p), 15);
-  for (const Stroke& s : grow_strokes("rock trees", {p.guidance, p.ground, {}})) EXPECT_GT(s.points[0].y, rock_height / 2 - 20.F);
-  // In hollows more than on ribs.
+  for (const Stroke& s : grow_strokes("rock trees", {p.guidance, p.ground, {}}))
+    EXPECT_GT(s.points[0].y, rock_height / 2 - 20.F);
+  // More in hollows than on ribs.
   Picture gully = p;
   for (float& relief : gully.guidance.relief_s_m) relief = -20.F;
   Picture rib = p;
@@ -174,7 +182,8 @@ TEST(StrokeRock, SingleTreesStandOnRockNearTheWoodOnly) {
 }
 
 TEST(StrokeRock, PatchesTooSmallForAWallAreOvergrown) {
-  // Patches of 12 by 16 pixels, and a wall of which just as many pixels lie within reach of the wood.
+  // Patches of 12 by 16 pixels, and a wall with the same number of pixels within reach of the
+  // forest.
   Picture patches = falling_slope(forest);
   int small = 0;
   for (int y = 20; y + 16 < rock_height - 20; y += 60)
@@ -188,11 +197,13 @@ TEST(StrokeRock, PatchesTooSmallForAWallAreOvergrown) {
 }
 
 TEST(StrokeRock, TreesBeforeASlopeStayWhole) {
-  // Accents on the slope lie under the trees that rise before it.
+  // Accents on the slope are below the trees in front of it.
   Picture p = two_bands(scree, forest);
-  for (std::size_t i = 0; i < p.ground.accent.size(); ++i) p.ground.accent[i] = p.guidance.land_cover[i] == scree ? -0.9F : 0.F;
+  for (std::size_t i = 0; i < p.ground.accent.size(); ++i)
+    p.ground.accent[i] = p.guidance.land_cover[i] == scree ? -0.9F : 0.F;
   const auto paint = [&](bool accents) {
-    return paint_strokes(p.ground.colour, p.guidance, p.ground, {.sky = false, .ground = false, .accents = accents, .upright = true}, {},
+    return paint_strokes(p.ground.colour, p.guidance, p.ground,
+                         {.sky = false, .ground = false, .accents = accents, .upright = true}, {},
                          silent_progress());
   };
   const Painting plain = paint(false);
@@ -201,9 +212,13 @@ TEST(StrokeRock, TreesBeforeASlopeStayWhole) {
   int whole = 0;
   for (int y = rock_height / 2 - 8; y < rock_height / 2; ++y)
     for (int x = 0; x < rock_width; ++x) {
-      if (p.guidance.land_cover[plain.sources(x, y)] != forest || plain.under_share(x, y) > 50) continue;
+      if (p.guidance.land_cover[plain.sources(x, y)] != forest || plain.under_share(x, y) > 50)
+        continue;
       ++before_slope;
-      whole += p.guidance.land_cover[accented.sources(x, y)] == forest && accented.under_share(x, y) < 70 ? 1 : 0;
+      whole +=
+          p.guidance.land_cover[accented.sources(x, y)] == forest && accented.under_share(x, y) < 70
+              ? 1
+              : 0;
     }
   EXPECT_GT(before_slope, 40);
   EXPECT_GT(whole, before_slope * 4 / 5);

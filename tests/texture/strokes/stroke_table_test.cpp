@@ -20,8 +20,8 @@ namespace {
 constexpr int table_width = 512;
 constexpr int table_height = 384;
 
-// Blocks of all classes beside each other, on gentle ground and steep, with glades in the forest and ribs of rock in the ice: somewhere
-// each kind of stroke finds what it grows on.
+// Blocks of all classes side by side, on gentle and steep ground, with glades in the forest and
+// ribs of rock in the ice: each kind of stroke occurs somewhere.
 Picture patchwork() {
   constexpr int block = 32;
   Picture p = plain_picture(LandCoverClass::rock, table_width, table_height);
@@ -37,25 +37,34 @@ Picture patchwork() {
       const int column = x / (2 * block);
       const auto drawn = random_index(static_cast<std::uint32_t>(classes.size()), 3, column, row);
       LandCoverClass id = classes[drawn].id;
-      // What needs neighbours of its own does not wait for the draw: woods over pastures, towns large enough for a church.
-      if (column == 2) id = row % 6 == 0 ? LandCoverClass::forest : row % 6 == 1 ? LandCoverClass::pasture : LandCoverClass::settlement;
+      // Kinds that need certain neighbours do not depend on chance here: forest above pastures,
+      // towns large enough for a church.
+      if (column == 2)
+        id = row % 6 == 0   ? LandCoverClass::forest
+             : row % 6 == 1 ? LandCoverClass::pasture
+                            : LandCoverClass::settlement;
       if (column < 2) id = row % 6 < 3 ? LandCoverClass::glacier : LandCoverClass::snow;
-      if (column == 0 && row % 3 == 0 && x > 28 && x < 37) id = LandCoverClass::rock;  // a rib above a stretch of ice
+      if (column == 0 && row % 3 == 0 && x > 28 && x < 37)
+        id = LandCoverClass::rock;  // a rib above a stretch of ice
       p.guidance.land_cover(x, y) = id;
       p.guidance.slope_deg(x, y) = column == 1 ? 42.F : row % 2 == 0 ? 5.F : 20.F;
-      p.guidance.depth_m(x, y) = id == LandCoverClass::sky ? std::numeric_limits<float>::infinity() : 8000.F;
-      p.guidance.position_m(x, y) = glm::vec3(12.F * static_cast<float>(x), -12.F * static_cast<float>(y), 900.F);
-      if (id == LandCoverClass::water && row % 2 == 1) p.guidance.position_m(x, y).z -= 6.F * static_cast<float>(y % block);
-      if (row == 11) {  // the foreground, seen from close by
+      p.guidance.depth_m(x, y) =
+          id == LandCoverClass::sky ? std::numeric_limits<float>::infinity() : 8000.F;
+      p.guidance.position_m(x, y) =
+          glm::vec3(12.F * static_cast<float>(x), -12.F * static_cast<float>(y), 900.F);
+      if (id == LandCoverClass::water && row % 2 == 1)
+        p.guidance.position_m(x, y).z -= 6.F * static_cast<float>(y % block);
+      if (row == 11) {  // the foreground, in close view
         p.guidance.footprint_m(x, y) = 0.4F;
-        p.guidance.position_m(x, y) = glm::vec3(0.4F * static_cast<float>(x), -1.2F * static_cast<float>(y), 900.F);
+        p.guidance.position_m(x, y) =
+            glm::vec3(0.4F * static_cast<float>(x), -1.2F * static_cast<float>(y), 900.F);
       }
       p.ground.tree_density(x, y) = x % (2 * block) < block ? 0.95F : 0.02F;
     }
   return p;
 }
 
-// Some kinds grow in winter alone, some on what winter covers.
+// Some kinds occur in winter only, some on ground that snow covers in winter.
 TEST(StrokeTable, EveryKindPaintsInItsLayerAndInNoOther) {
   std::map<std::string_view, std::size_t> of_kind;
   for (const bool winter : {false, true}) {
@@ -67,13 +76,16 @@ TEST(StrokeTable, EveryKindPaintsInItsLayerAndInNoOther) {
     p.parameters.sea_level_m = 900.0;
     const StrokeScene scene = p.scene();
     const auto strokes_of = [&](const StrokeLayers& layers) {
-      return static_cast<std::size_t>(
-          paint_strokes(p.ground.colour, p.guidance, p.ground, layers, p.parameters, silent_progress()).stroke_count);
+      return static_cast<std::size_t>(paint_strokes(p.ground.colour, p.guidance, p.ground, layers,
+                                                    p.parameters, silent_progress())
+                                          .stroke_count);
     };
-    const StrokeLayers none{.sky = false, .ground = false, .accents = false, .breaks = false, .upright = false};
+    const StrokeLayers none{
+        .sky = false, .ground = false, .accents = false, .breaks = false, .upright = false};
     EXPECT_EQ(strokes_of(none), 0U);
     for (bool StrokeLayers::*const layer :
-         {&StrokeLayers::sky, &StrokeLayers::ground, &StrokeLayers::accents, &StrokeLayers::breaks, &StrokeLayers::upright}) {
+         {&StrokeLayers::sky, &StrokeLayers::ground, &StrokeLayers::accents, &StrokeLayers::breaks,
+          &StrokeLayers::upright}) {
       StrokeLayers one = none;
       one.*layer = true;
       std::size_t grown = 0;

@@ -12,7 +12,7 @@ namespace {
 
 using enum LandCoverClass;
 
-// Level ground seen from above at 20 m a pixel, all of one class, 900 m high.
+// Level ground seen from above at 20 m per pixel, all of one class, 900 m high.
 Picture level(LandCoverClass id, int width = 240, int height = 200) {
   Picture p = plain_picture(id, width, height);
   p.guidance.depth_m = Grid<float>(width, height, 20000.F);
@@ -23,37 +23,48 @@ Picture level(LandCoverClass id, int width = 240, int height = 200) {
   p.guidance.grain = Grid<glm::vec2>(width, height, glm::vec2(1.F, 0.F));
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
-      p.guidance.position_m(x, y) = glm::vec3(20.F * static_cast<float>(x), -20.F * static_cast<float>(y), 900.F);
+      p.guidance.position_m(x, y) =
+          glm::vec3(20.F * static_cast<float>(x), -20.F * static_cast<float>(y), 900.F);
   p.ground.darker = p.ground.lighter = p.ground.colour;
   p.ground.tree_density = Grid<float>(width, height, 0.F);
   return p;
 }
 
-bool is_wall(const Stroke& s) { return s.gate == StrokeGate::surface && s.alpha == 0.95F && s.colour.y > 0.75F && s.colour.z > 0.65F; }
-bool is_spire(const Stroke& s) { return s.gate == StrokeGate::upright && s.end_width < 0.2F * s.start_width; }
+bool is_wall(const Stroke& s) {
+  return s.gate == StrokeGate::surface && s.alpha == 0.95F && s.colour.y > 0.75F &&
+         s.colour.z > 0.65F;
+}
+bool is_spire(const Stroke& s) {
+  return s.gate == StrokeGate::upright && s.end_width < 0.2F * s.start_width;
+}
 
-// How well the houses within `around` pixels of a place keep to rows of this pitch, 0…1; nothing where there are hardly any.
-std::optional<double> rowed(const std::vector<Stroke>& strokes, bool vertical, double pitch_px, glm::vec2 place, float around) {
+// How closely the houses within `around` pixels of a position follow rows of this pitch, 0…1;
+// nothing with hardly any houses.
+std::optional<double> rowed(const std::vector<Stroke>& strokes, bool vertical, double pitch_px,
+                            glm::vec2 position, float around) {
   std::complex<double> sum = 0.0;
   int count = 0;
   for (const Stroke& s : strokes) {
     if (!is_wall(s)) continue;
-    const glm::vec2 middle = 0.5F * (s.points[0] + s.points[1]);
-    if (std::max(std::abs(middle.x - place.x), std::abs(middle.y - place.y)) > around) continue;
-    sum += std::polar(1.0, 6.283185 * static_cast<double>(vertical ? middle.x : middle.y) / pitch_px);
+    const glm::vec2 centre = 0.5F * (s.points[0] + s.points[1]);
+    if (std::max(std::abs(centre.x - position.x), std::abs(centre.y - position.y)) > around)
+      continue;
+    sum +=
+        std::polar(1.0, 6.283185 * static_cast<double>(vertical ? centre.x : centre.y) / pitch_px);
     ++count;
   }
   constexpr int enough = 8;
   return count < enough ? std::nullopt : std::optional(std::abs(sum) / count);
 }
-// The mean over the picture of places so far apart.
+// The mean over the picture, for positions with this spacing.
 double rowed_near(const std::vector<Stroke>& strokes, bool vertical, double pitch_px) {
-  constexpr float around = 9.F;  // two plots each way
+  constexpr float around = 9.F;  // two plots in each direction
   double sum = 0.0;
   int count = 0;
   for (float y = around; y < 200.F - around; y += around)
     for (float x = around; x < 240.F - around; x += around)
-      if (const std::optional<double> here = rowed(strokes, vertical, pitch_px, {x, y}, around)) sum += *here, ++count;
+      if (const std::optional<double> here = rowed(strokes, vertical, pitch_px, {x, y}, around))
+        sum += *here, ++count;
   EXPECT_GT(count, 100);
   return sum / std::max(1, count);
 }
@@ -75,7 +86,8 @@ TEST(Towns, AreNoChessboards) {
   const double pitch_px = std::exp2(6.5) / 20.0;
   const std::vector<Stroke> strokes = town_strokes({p.guidance, p.ground, parameters});
   EXPECT_LT(rowed(strokes, false, pitch_px, {120.F, 100.F}, 120.F).value(), 0.3) << "rows bend";
-  EXPECT_LT(rowed(strokes, true, pitch_px, {120.F, 100.F}, 120.F).value(), 0.3) << "houses of many rows stand in no line";
+  EXPECT_LT(rowed(strokes, true, pitch_px, {120.F, 100.F}, 120.F).value(), 0.3)
+      << "houses of many rows form no line";
   EXPECT_LT(rowed_near(strokes, true, pitch_px), 0.45) << "nor those of two streets";
 }
 
@@ -83,14 +95,16 @@ TEST(Towns, HaveNoTwoHousesOnOnePlot) {
   const StrokeParameters parameters;
   Picture p = level(settlement);
   for (int y = 0; y < 200; ++y)
-    for (int x = 0; x < 240; ++x) p.guidance.built(x, y) = 0.45F - 0.0005F * std::hypot(x - 120.F, y - 100.F);  // one church
+    for (int x = 0; x < 240; ++x)
+      p.guidance.built(x, y) = 0.45F - 0.0005F * std::hypot(x - 120.F, y - 100.F);  // one church
   std::vector<glm::vec2> feet;
   for (const Stroke& s : town_strokes({p.guidance, p.ground, parameters}))
     if (is_wall(s)) feet.push_back(0.5F * (s.points[0] + s.points[1]));
   int too_near = 0;
   for (std::size_t a = 0; a < feet.size(); ++a)
-    for (std::size_t b = 0; b < a; ++b) too_near += std::hypot(feet[a].x - feet[b].x, feet[a].y - feet[b].y) < 1.5F ? 1 : 0;
-  EXPECT_LT(too_near, 12);  // churches stand where they like
+    for (std::size_t b = 0; b < a; ++b)
+      too_near += std::hypot(feet[a].x - feet[b].x, feet[a].y - feet[b].y) < 1.5F ? 1 : 0;
+  EXPECT_LT(too_near, 12);  // for churches at random positions
 }
 
 TEST(Towns, AreDenserAndLargerInTheirMiddle) {
@@ -116,13 +130,13 @@ TEST(Towns, AreDenserAndLargerInTheirMiddle) {
 TEST(Towns, EveryVillageHasItsChurchInItsMiddle) {
   const StrokeParameters parameters;
   Picture p = level(valley_floor);
-  for (const glm::ivec2 middle : {glm::ivec2(60, 60), glm::ivec2(170, 130)})
+  for (const glm::ivec2 centre : {glm::ivec2(60, 60), glm::ivec2(170, 130)})
     for (int y = -12; y <= 12; ++y)
       for (int x = -12; x <= 12; ++x) {
         const float away = std::hypot(static_cast<float>(x), static_cast<float>(y));
         if (away > 12.F) continue;
-        p.guidance.land_cover(middle.x + x, middle.y + y) = settlement;
-        p.guidance.built(middle.x + x, middle.y + y) = 0.35F - 0.02F * away;
+        p.guidance.land_cover(centre.x + x, centre.y + y) = settlement;
+        p.guidance.built(centre.x + x, centre.y + y) = 0.35F - 0.02F * away;
       }
   std::vector<glm::vec2> spires;
   for (const Stroke& s : town_strokes({p.guidance, p.ground, parameters}))
@@ -159,7 +173,8 @@ TEST(Towns, FarmsAreFewAndOnGentleLowGround) {
   const StrokeParameters parameters;
   const auto count = [&](const Picture& p) {
     int walls = 0;
-    for (const Stroke& s : grow_strokes("farms", {p.guidance, p.ground, parameters})) walls += is_wall(s) ? 1 : 0;
+    for (const Stroke& s : grow_strokes("farms", {p.guidance, p.ground, parameters}))
+      walls += is_wall(s) ? 1 : 0;
     return walls;
   };
   Picture p = level(valley_floor, 400, 400);
@@ -169,7 +184,7 @@ TEST(Towns, FarmsAreFewAndOnGentleLowGround) {
   for (float& slope : steep.guidance.slope_deg) slope = 25.F;
   EXPECT_EQ(count(steep), 0);
   Picture high = p;
-  for (glm::vec3& place : high.guidance.position_m) place.z = 1600.F;
+  for (glm::vec3& position : high.guidance.position_m) position.z = 1600.F;
   EXPECT_EQ(count(high), 0);
   EXPECT_EQ(count(level(forest, 400, 400)), 0);
 }

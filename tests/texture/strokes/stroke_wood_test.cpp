@@ -18,14 +18,15 @@ using enum LandCoverClass;
 constexpr int wood_width = 320;
 constexpr int wood_height = 240;
 
-// One class on one plane at 1700 m, 20 km away, 20 m a unit, tone .6, sun from the right.
+// One class on one plane at 1700 m, 20 km away, 20 m per unit, tone .6, sun from the right.
 Picture level_ground(LandCoverClass id, float altitude_m = 1700.F) {
   Picture p = plain_picture(id, wood_width, wood_height);
   p.guidance.depth_m = Grid<float>(wood_width, wood_height, 20000.F);
   p.guidance.relief_s_m = Grid<float>(wood_width, wood_height, 0.F);
   for (int y = 0; y < wood_height; ++y)
     for (int x = 0; x < wood_width; ++x)
-      p.guidance.position_m(x, y) = glm::vec3(20.F * static_cast<float>(x), -20.F * static_cast<float>(y), altitude_m);
+      p.guidance.position_m(x, y) =
+          glm::vec3(20.F * static_cast<float>(x), -20.F * static_cast<float>(y), altitude_m);
   return p;
 }
 
@@ -35,7 +36,9 @@ void fill(Grid<T>& grid, int x0, int y0, int x1, int y1, T value) {
     for (int x = x0; x < x1; ++x) grid(x, y) = value;
 }
 
-bool is_body(const Stroke& s) { return s.gate == StrokeGate::upright && s.start_width > 2.4F && s.alpha > 0.85F; }
+bool is_body(const Stroke& s) {
+  return s.gate == StrokeGate::upright && s.start_width > 2.4F && s.alpha > 0.85F;
+}
 
 std::vector<Stroke> one_tree(const Picture& p, bool leafy, const TreeTone& tone = {}) {
   std::vector<Stroke> all;
@@ -61,7 +64,8 @@ double mean_luma(const std::vector<Stroke>& strokes, bool (*which)(const Stroke&
 
 bool is_lit_side(const Stroke& s) { return s.gate == StrokeGate::upright && s.start_width < 2.4F; }
 
-// What makes a single tree read: its dark body is far darker than its ground and its light side lighter.
+// What makes a single tree readable: its dark body is far darker than its ground and its light side
+// lighter.
 TEST(Trees, HaveADarkBodyAndALightSide) {
   const Picture p = level_ground(forest);
   const auto trees = one_tree(p, false);
@@ -71,7 +75,8 @@ TEST(Trees, HaveADarkBodyAndALightSide) {
   for (float& tone : shade.guidance.tone) tone = 0.1F;
   const auto dark = one_tree(shade, false);
   const double contrast = mean_luma(dark, is_lit_side) - mean_luma(dark, is_body);
-  EXPECT_LT(contrast, 0.6 * (mean_luma(trees, is_lit_side) - mean_luma(trees, is_body))) << "a shaded wood is one mass";
+  EXPECT_LT(contrast, 0.6 * (mean_luma(trees, is_lit_side) - mean_luma(trees, is_body)))
+      << "a shaded forest is one mass";
 }
 
 TEST(Trees, SpruceIsPointedLeafyCrownIsRound) {
@@ -96,12 +101,12 @@ TEST(Trees, OfTheEdgeShineTowardsTheSunAndCastShadowsOnOpenGround) {
   for (const Stroke& s : edge) {
     if (s.gate != StrokeGate::surface) continue;
     ++shadows;
-    EXPECT_LT(axis_of(s).x, -3.7F) << "the sun stands on the right";
+    EXPECT_LT(axis_of(s).x, -3.7F) << "the sun is on the right";
   }
   EXPECT_EQ(shadows, 200);
 }
 
-// In the wood the ground about a tree is dark and is painted before every tree.
+// In the forest the ground around a tree is dark and is painted before every tree.
 TEST(Trees, StandInTheDarkInsideTheWood) {
   const Picture p = level_ground(forest);
   int shades = 0;
@@ -126,10 +131,12 @@ TEST(Trees, TakeThePalettesLeaves) {
   };
   Picture plain = level_ground(forest, 500.F);
   EXPECT_GT(redness(one_tree(p, true)), redness(one_tree(plain, true)) + 0.08);
-  EXPECT_NEAR(redness(one_tree(p, false)), redness(one_tree(plain, false)), 1e-6) << "spruces stay as they are";
+  EXPECT_NEAR(redness(one_tree(p, false)), redness(one_tree(plain, false)), 1e-6)
+      << "spruces stay as they are";
   for (float& h : p.ground.haze) h = 1.F;
   for (float& h : plain.ground.haze) h = 1.F;
-  EXPECT_NEAR(redness(one_tree(p, true)), redness(one_tree(plain, true)), 0.02) << "air hides leaves";
+  EXPECT_NEAR(redness(one_tree(p, true)), redness(one_tree(plain, true)), 0.02)
+      << "air hides leaves";
 }
 
 TEST(Trees, HoldSnowInWinterWhereTheyKeepTheirNeedles) {
@@ -143,7 +150,7 @@ TEST(Trees, HoldSnowInWinterWhereTheyKeepTheirNeedles) {
   EXPECT_LT(bare, dots(one_tree(p, true))) << "no yellow dots on bare twigs";
 }
 
-// Glades: where the density falls below glade_density no tree stands, and grass is painted.
+// Glades: where the density is below glade_density there are no trees, and grass is painted.
 TEST(Wood, GladesAreGrassWithoutTrees) {
   Picture p = level_ground(forest);
   fill(p.ground.tree_density, 100, 60, 220, 180, 0.02F);
@@ -162,7 +169,7 @@ TEST(Wood, GladesAreGrassWithoutTrees) {
   EXPECT_GT(grass, 500);
 }
 
-// Where forest ends on meadow its lower edge is closed, however thin the wood behind it.
+// Where forest ends at a meadow its lower edge is closed, however thin the forest behind it.
 TEST(Wood, StandsLikeAWallBeforeMeadowButNotAtTheTreeline) {
   const auto near_edge = [](LandCoverClass beyond) {
     Picture p = level_ground(forest);
@@ -176,7 +183,7 @@ TEST(Wood, StandsLikeAWallBeforeMeadowButNotAtTheTreeline) {
   EXPECT_GT(near_edge(pasture), wood_width / 8);
 }
 
-// The border of the wood towards the sun shines, the one away from it does not.
+// The border of the forest towards the sun shines, the one away from it does not.
 TEST(Wood, LightsItsRimTowardsTheSun) {
   Picture p = level_ground(forest);
   fill(p.guidance.land_cover, 0, 0, 100, wood_height, pasture);
@@ -190,7 +197,8 @@ TEST(Wood, LightsItsRimTowardsTheSun) {
     double sum = 0.0;
     int count = 0;
     for (const Stroke& s : trees)
-      if (is_lit_side(s) && s.points[0].x >= x0 && s.points[0].x < x1) sum += luma(s.colour), ++count;
+      if (is_lit_side(s) && s.points[0].x >= x0 && s.points[0].x < x1)
+        sum += luma(s.colour), ++count;
     EXPECT_GT(count, 50);
     return sum / count;
   };
@@ -225,11 +233,12 @@ TEST(Wood, LeafyTreesStandInGroupsOfTheirOwn) {
   });
   EXPECT_GT(total / trees, 0.15);
   EXPECT_LT(total / trees, 0.60);
-  // Strewn evenly, hardly one cell in ten of some fifteen trees would be nearly pure.
+  // With an even spread, hardly one in ten cells of about fifteen trees would be nearly pure.
   EXPECT_GT(pure, cells * 2 / 5);
 }
 
-// Broadleaf below, spruce, then larch and stone pine under the treeline; where no larches grow all of the heights is spruce.
+// Broadleaf below, spruce, then larch and stone pine below the treeline; without larches all high
+// forest is spruce.
 TEST(Wood, StandsInBeltsByHeight) {
   const glm::vec3 gold(0.95F, 0.75F, 0.25F);
   const auto shares = [&](float altitude_m, double larch_share, double treeline_m) {
@@ -253,20 +262,21 @@ TEST(Wood, StandsInBeltsByHeight) {
     return counts / glm::dvec3(bodies, lit, bodies);
   };
   const glm::dvec3 low = shares(700.F, 0.8, 1820.0);
-  const glm::dvec3 middle = shares(1280.F, 0.8, 1820.0);
+  const glm::dvec3 centre = shares(1280.F, 0.8, 1820.0);
   const glm::dvec3 high = shares(1750.F, 0.8, 1820.0);
   EXPECT_GT(low.x, 0.3);
-  EXPECT_LT(middle.x, 0.25);
+  EXPECT_LT(centre.x, 0.25);
   EXPECT_EQ(high.x, 0.0);
   EXPECT_LT(low.y, 0.05) << "sunny leaves at most";
   EXPECT_GT(high.y, 0.35);
-  EXPECT_LT(middle.y, 0.5 * high.y);
+  EXPECT_LT(centre.y, 0.5 * high.y);
   EXPECT_GT(high.z, 0.1);
   EXPECT_LT(shares(1750.F, 0.0, 1820.0).y, 0.05);
-  EXPECT_LT(shares(1750.F, 0.8, 3200.0).y, 0.05) << "belts hang on the treeline";
+  EXPECT_LT(shares(1750.F, 0.8, 3200.0).y, 0.05) << "belts depend on the treeline";
 }
 
-// The side of a group that looks to the sun is lighter: turned about, the light is on the other side.
+// The side of a group that faces the sun is lighter: with the sun on the other side, so is the
+// light.
 TEST(Wood, GroupsHaveALightSideAndADarkOne) {
   const auto tone_by_side = [](double sun_side) {
     Picture p = level_ground(forest, 1500.F);
@@ -276,12 +286,15 @@ TEST(Wood, GroupsHaveALightSideAndADarkOne) {
     int count = 0;
     for (const Stroke& s : wood_strokes(scene)) {
       if (!is_body(s)) continue;
-      const glm::vec2 place = s.points[0];
-      const glm::vec2 left_of = place - glm::vec2(5.F, 0.F);
-      const glm::vec2 right_of = place + glm::vec2(5.F, 0.F);
-      if (!scene.on_canvas(left_of) || !scene.on_canvas(right_of) || !scene.on_canvas(place)) continue;
-      const float left_crowns = patch_noise(scene, scene.pixel(left_of), Stream::forest_groups, 5.0);
-      const float right_crowns = patch_noise(scene, scene.pixel(right_of), Stream::forest_groups, 5.0);
+      const glm::vec2 position = s.points[0];
+      const glm::vec2 left_of = position - glm::vec2(5.F, 0.F);
+      const glm::vec2 right_of = position + glm::vec2(5.F, 0.F);
+      if (!scene.on_canvas(left_of) || !scene.on_canvas(right_of) || !scene.on_canvas(position))
+        continue;
+      const float left_crowns =
+          patch_noise(scene, scene.pixel(left_of), Stream::forest_groups, 5.0);
+      const float right_crowns =
+          patch_noise(scene, scene.pixel(right_of), Stream::forest_groups, 5.0);
       if (std::abs(left_crowns - right_crowns) < 0.8F) continue;
       right += (left_crowns > right_crowns ? 1.0 : -1.0) * static_cast<double>(luma(s.colour));
       ++count;
@@ -361,8 +374,8 @@ TEST(Shrub, BushesAreLowDarkAndAsManyAsTheirDensity) {
     EXPECT_LT(std::abs(axis_of(s).y), 0.5F * s.start_width) << "wider than tall";
   }
   for (float& d : p.ground.tree_density) d = 0.19F;
-  EXPECT_NEAR(static_cast<double>(grow_strokes("low bushes", p.scene()).size()), 0.2 * static_cast<double>(bushes.size()),
-              0.06 * static_cast<double>(bushes.size()));
+  EXPECT_NEAR(static_cast<double>(grow_strokes("low bushes", p.scene()).size()),
+              0.2 * static_cast<double>(bushes.size()), 0.06 * static_cast<double>(bushes.size()));
   EXPECT_TRUE(grow_strokes("low bushes", level_ground(pasture).scene()).empty());
 }
 
@@ -380,11 +393,14 @@ TEST(Scree, IsSmallStonesDownTheSlope) {
   EXPECT_GT(all, 3000);
 }
 
-// No area is flat: of windows of 4 mm on every class of ground hardly one is of a single colour.
+// No area is flat: of windows of 4 mm on every class of ground hardly any has a single colour.
 TEST(Ground, NoWindowIsFlat) {
-  for (const LandCoverClass id : {valley_floor, forest, pasture, alpine_grass, shrub, scree, sand, rock, snow, glacier}) {
+  for (const LandCoverClass id :
+       {valley_floor, forest, pasture, alpine_grass, shrub, scree, sand, rock, snow, glacier}) {
     Picture p = level_ground(id);
-    const auto picture = paint_strokes(p.ground.colour, p.guidance, p.ground, {}, p.parameters, silent_progress()).picture;
+    const auto picture =
+        paint_strokes(p.ground.colour, p.guidance, p.ground, {}, p.parameters, silent_progress())
+            .picture;
     int flat = 0;
     int windows = 0;
     for (int y0 = 8; y0 + 8 <= wood_height - 8; y0 += 8)

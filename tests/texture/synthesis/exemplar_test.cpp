@@ -27,7 +27,8 @@ TEST(Exemplar, IsAPictureWithALabelForEachTexel) {
   Exemplar exemplar = exemplar_of(8, 5);
   EXPECT_NO_THROW(check_exemplar(exemplar));
   exemplar.guides.label = Grid<std::uint8_t>(8, 4);
-  EXPECT_THAT(refused_exemplar(exemplar), AllOf(HasSubstr("\"alps\""), HasSubstr("labels of 8 × 4"), HasSubstr("8 × 5")));
+  EXPECT_THAT(refused_exemplar(exemplar),
+              AllOf(HasSubstr("\"alps\""), HasSubstr("labels of 8 × 4"), HasSubstr("8 × 5")));
   exemplar.guides.label = {};
   EXPECT_THAT(refused_exemplar(exemplar), HasSubstr("no labels"));
   exemplar.picture = {};
@@ -40,12 +41,14 @@ TEST(Exemplar, ItsGuidesAreCheckedAsThoseOfATarget) {
   EXPECT_THAT(refused_exemplar(exemplar), AllOf(HasSubstr("\"alps\""), HasSubstr("\"tone\"")));
 }
 
-// Places in it are kept in two numbers of 16 bits.
+// Positions in it are stored in two numbers of 16 bits.
 TEST(Exemplar, SidesHaveALimit) {
   EXPECT_NO_THROW(check_exemplar(exemplar_of(Exemplar::largest_side, 1)));
   EXPECT_NO_THROW(check_exemplar(exemplar_of(1, Exemplar::largest_side)));
-  EXPECT_THAT(refused_exemplar(exemplar_of(Exemplar::largest_side + 1, 1), ErrorKind::limit), HasSubstr("32767"));
-  EXPECT_THAT(refused_exemplar(exemplar_of(1, Exemplar::largest_side + 1), ErrorKind::limit), HasSubstr("32767"));
+  EXPECT_THAT(refused_exemplar(exemplar_of(Exemplar::largest_side + 1, 1), ErrorKind::limit),
+              HasSubstr("32767"));
+  EXPECT_THAT(refused_exemplar(exemplar_of(1, Exemplar::largest_side + 1), ErrorKind::limit),
+              HasSubstr("32767"));
 }
 
 }  // namespace

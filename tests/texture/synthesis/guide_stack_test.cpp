@@ -16,7 +16,8 @@ using testing::HasSubstr;
 GuideStack stack_of(int width, int height) {
   GuideStack stack;
   stack.label = Grid<std::uint8_t>(width, height, 3);
-  stack.guides = {{"altitude", Grid<std::uint8_t>(width, height, 10)}, {"tone", Grid<std::uint8_t>(width, height, 20)}};
+  stack.guides = {{"altitude", Grid<std::uint8_t>(width, height, 10)},
+                  {"tone", Grid<std::uint8_t>(width, height, 20)}};
   return stack;
 }
 

@@ -47,7 +47,8 @@ TEST(LargePages, HoldATableThatIsWrittenAlready) {
   const long before = large_kib();
   prefer_large_pages(values);
   for (std::size_t i = 0; i < values.size(); i += 4099) ASSERT_EQ(values[i], i + 7U);
-  if (before < 0 || !system_takes_advice()) GTEST_SKIP() << "this system gives no large pages on advice";
+  if (before < 0 || !system_takes_advice())
+    GTEST_SKIP() << "this system gives no large pages on advice";
   EXPECT_GT(large_kib(), before) << "at least some of the 64 MiB";
 }
 

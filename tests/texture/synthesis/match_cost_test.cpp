@@ -23,7 +23,8 @@ Exemplar noise(int width, int height, std::uint64_t seed) {
   Grid<std::uint8_t> altitude(width, height);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      for (std::size_t c = 0; c < 3; ++c) exemplar.picture(x, y)[c] = static_cast<std::uint8_t>(random_index(256, seed, x, y, c));
+      for (std::size_t c = 0; c < 3; ++c)
+        exemplar.picture(x, y)[c] = static_cast<std::uint8_t>(random_index(256, seed, x, y, c));
       exemplar.guides.label(x, y) = x < width / 2 ? 3 : 200;
       altitude(x, y) = static_cast<std::uint8_t>(random_index(256, seed, x, y, 4));
     }
@@ -32,11 +33,12 @@ Exemplar noise(int width, int height, std::uint64_t seed) {
   return exemplar;
 }
 
-// Copied by one offset.
+// Copied with one offset.
 MatchField shifted(int width, int height, int dx, int dy) {
   MatchField matches(width, height);
   for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) matches(x, y) = {0, static_cast<std::uint16_t>(x + dx), static_cast<std::uint16_t>(y + dy)};
+    for (int x = 0; x < width; ++x)
+      matches(x, y) = {0, static_cast<std::uint16_t>(x + dx), static_cast<std::uint16_t>(y + dy)};
   return matches;
 }
 
@@ -57,16 +59,17 @@ TEST(MatchCost, APieceOfTheExemplarCostsNothing) {
   EXPECT_EQ(guide_error(matches, exemplars, target, "altitude"), Grid<std::uint8_t>(20, 12, 0));
 }
 
-// Against the sum written out: weights round(16 exp(-r²/8)), colour differences squared, an eighth of it, and 3000 a pixel of another
-// class.
+// Compared with the sum written out: weights round(16 exp(-r²/8)), colour differences squared, an
+// eighth of it, and 3000 per pixel of another class.
 TEST(MatchCost, SeamsAreTheSumOverThePatch) {
   const std::vector<Exemplar> exemplars{noise(31, 29, 2), noise(40, 33, 3)};
   MatchField matches(24, 21);
   Grid<std::uint8_t> labels(24, 21);
   for (std::size_t i = 0; i < matches.size(); ++i) {
     const std::size_t e = random_index(2, 5, static_cast<int>(i), 0);
-    // Away from the exemplar's rim, where the padding's colours would come in.
-    matches[i] = {static_cast<std::uint16_t>(e), static_cast<std::uint16_t>(3 + random_index(25, 5, static_cast<int>(i), 1)),
+    // Away from the exemplar's edge, where the padding's colours would enter.
+    matches[i] = {static_cast<std::uint16_t>(e),
+                  static_cast<std::uint16_t>(3 + random_index(25, 5, static_cast<int>(i), 1)),
                   static_cast<std::uint16_t>(3 + random_index(23, 5, static_cast<int>(i), 2))};
     labels[i] = exemplars[e].guides.label(matches[i].x, matches[i].y);
   }
@@ -86,8 +89,10 @@ TEST(MatchCost, SeamsAreTheSumOverThePatch) {
         const Rgb8 here = colour(x + i, y + j);
         const Rgb8 there = exemplars[m.exemplar].picture(m.x + i, m.y + j);
         const double weight = std::round(16.0 * std::exp(-(i * i + j * j) / 8.0));
-        for (std::size_t c = 0; c < 3; ++c) sum += weight * (here[c] - there[c]) * (here[c] - there[c]);
-        if (labels(x + i, y + j) != exemplars[m.exemplar].guides.label(m.x + i, m.y + j)) sum += 8.0 * 3000.0;
+        for (std::size_t c = 0; c < 3; ++c)
+          sum += weight * (here[c] - there[c]) * (here[c] - there[c]);
+        if (labels(x + i, y + j) != exemplars[m.exemplar].guides.label(m.x + i, m.y + j))
+          sum += 8.0 * 3000.0;
       }
     }
     EXPECT_EQ(found(x, y), static_cast<float>(std::floor(sum / 8.0))) << x << ", " << y;
@@ -102,9 +107,11 @@ TEST(MatchCost, BeyondASilhouetteNothingCounts) {
   const std::vector<Exemplar> exemplars{noise(60, 30, 4)};
   MatchField matches = shifted(20, 12, 2, 8);
   for (int y = 0; y < 12; ++y)
-    for (int x = 10; x < 20; ++x) matches(x, y).x = static_cast<std::uint16_t>(x + 35);  // a seam at x = 10 …
+    for (int x = 10; x < 20; ++x)
+      matches(x, y).x = static_cast<std::uint16_t>(x + 35);  // a seam at x = 10 …
   Grid<std::uint8_t> labels(20, 12);
-  for (std::size_t i = 0; i < labels.size(); ++i) labels[i] = exemplars[0].guides.label(matches[i].x, matches[i].y);
+  for (std::size_t i = 0; i < labels.size(); ++i)
+    labels[i] = exemplars[0].guides.label(matches[i].x, matches[i].y);
   Grid<float> depth(20, 12, 1000.F);
   for (int y = 0; y < 12; ++y)
     for (int x = 10; x < 20; ++x) depth(x, y) = 5000.F;  // … where the ground behind begins
@@ -119,7 +126,8 @@ TEST(MatchCost, GuidesAndUses) {
   matches(1, 1) = {};
   GuideStack target;
   target.label = Grid<std::uint8_t>(2, 2, 3);
-  target.guides = {{"altitude", Grid<std::uint8_t>(2, 2, 240)}, {"tone", Grid<std::uint8_t>(2, 2, 0)}};
+  target.guides = {{"altitude", Grid<std::uint8_t>(2, 2, 240)},
+                   {"tone", Grid<std::uint8_t>(2, 2, 0)}};
   const Grid<std::uint8_t> off = guide_error(matches, exemplars, target, "altitude");
   EXPECT_EQ(off(0, 0), 10);
   EXPECT_EQ(off(1, 1), 0);
@@ -128,9 +136,12 @@ TEST(MatchCost, GuidesAndUses) {
   EXPECT_EQ(uses[0](3, 4), 3U);
   EXPECT_EQ(uses[0](0, 0), 0U);
 
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { guide_error(matches, exemplars, target, "tone"); }), HasSubstr("tone"));
+  EXPECT_THAT(
+      test::message_of(ErrorKind::usage, [&] { guide_error(matches, exemplars, target, "tone"); }),
+      HasSubstr("tone"));
   matches(0, 0).x = 8;
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { texel_uses(matches, exemplars); }), HasSubstr("outside"));
+  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { texel_uses(matches, exemplars); }),
+              HasSubstr("outside"));
 }
 
 }  // namespace

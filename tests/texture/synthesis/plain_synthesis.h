@@ -11,22 +11,30 @@
 
 namespace belvedere::test {
 
-// Texture synthesis as Wei & Levoy (2000) and Jenny & Jenny (2013) tell it first, plain and slow, to measure synthesize against: row by row
-// each pixel copies the texel of its class whose neighbours above and to the left, an L of 7 × 7, are most like those made already,
-//   C = mean of the squared differences of R, G and B over the L + 6.2 × weight × (difference of the guide)²,
-// of all texels, ties to the first. 6.2 makes a weight count as in synthesize. A neighbour that the exemplar lacks is as far as black from
-// white. `coherent`: only what continues a neighbour's copy is looked at, and all texels where there is no such (Ashikhmin 2001).
+// Texture synthesis after Wei & Levoy (2000) and Jenny & Jenny (2013), plain and slow, as a
+// reference for synthesize: row by row each pixel copies the texel of its class whose neighbours
+// above and to the left, an L of 7 × 7, are most similar to those already made,
+//   C = mean of the squared differences of R, G and B over the L + 6.2 × weight × (difference of
+//   the guide)², of all texels, ties to the first. 6.2 gives a weight the same effect as in
+//   synthesize. A neighbour outside the exemplar counts as the difference of black and white.
+//   `coherent`: only continuations of a neighbour's copy are compared, and all texels if there are
+//   none (Ashikhmin 2001).
 class PlainSynthesis {
  public:
   PlainSynthesis(const Exemplar& exemplar, const GuideStack& target, double weight, bool coherent)
-      : exemplar_(exemplar), target_(target), weight_(weight), coherent_(coherent), made_(target.width(), target.height()) {}
+      : exemplar_(exemplar),
+        target_(target),
+        weight_(weight),
+        coherent_(coherent),
+        made_(target.width(), target.height()) {}
 
   MatchField run() {
     for (int y = 0; y < made_.height(); ++y) {
       for (int x = 0; x < made_.width(); ++x) {
         std::vector<Match> candidates;
         if (coherent_) candidates = continuing(x, y);
-        made_(x, y) = cheapest(x, y, candidates.empty() ? all_texels_of(target_.label(x, y)) : candidates);
+        made_(x, y) =
+            cheapest(x, y, candidates.empty() ? all_texels_of(target_.label(x, y)) : candidates);
       }
     }
     return made_;
@@ -43,7 +51,8 @@ class PlainSynthesis {
   }
 
   double cost(int x, int y, const Match& texel, double best) const {
-    const double off = target_.guides[0].values(x, y) - exemplar_.guides.guides[0].values(texel.x, texel.y);
+    const double off =
+        target_.guides[0].values(x, y) - exemplar_.guides.guides[0].values(texel.x, texel.y);
     double sum = 0.0;
     int count = 0;
     visit_made(x, y, [&](const Match& made, int dx, int dy) {
@@ -88,7 +97,8 @@ class PlainSynthesis {
     const Grid<std::uint8_t>& labels = exemplar_.guides.label;
     for (int v = 0; v < labels.height(); ++v)
       for (int u = 0; u < labels.width(); ++u)
-        if (labels(u, v) == label) texels.push_back({0, static_cast<std::uint16_t>(u), static_cast<std::uint16_t>(v)});
+        if (labels(u, v) == label)
+          texels.push_back({0, static_cast<std::uint16_t>(u), static_cast<std::uint16_t>(v)});
     return texels;
   }
 

@@ -10,7 +10,8 @@ namespace belvedere::synth {
 namespace {
 
 TEST(Bins, WhatStaysTooOftenGrowsDearerUpToABound) {
-  // Used twice as often as expected, as often, never: 15000, 0 and -15000 at once, a sixteenth more each round.
+  // Used twice as often as expected, as often, never: 15000, 0 and -15000 at once, a sixteenth more
+  // each round.
   const std::vector<std::int32_t> expected{9996, 996, 9996};
   const std::vector<std::int32_t> actual{19996, 996, 0};
   std::vector<std::int32_t> kept(3, 0);
@@ -24,11 +25,13 @@ TEST(Bins, WhatStaysTooOftenGrowsDearerUpToABound) {
 }
 
 TEST(Bins, ABorderOfClassesIsNoContrast) {
-  // Class 0: above, calm; below, restless; on its right a class that is far brighter.
+  // Class 0: above, calm; below, busy; on its right a class that is far brighter.
   Plane exemplars = make_plane({{40, 40}}, 0);
   for (int y = 0; y < 40; ++y) {
     for (int x = 0; x < 40; ++x) {
-      const std::uint32_t grey = x >= 20 ? 250U : y < 20 ? 100U + static_cast<std::uint32_t>((x ^ y) & 1) : 80U + 40U * ((x ^ y) & 1);
+      const std::uint32_t grey = x >= 20  ? 250U
+                                 : y < 20 ? 100U + static_cast<std::uint32_t>((x ^ y) & 1)
+                                          : 80U + 40U * ((x ^ y) & 1);
       exemplars.words[exemplars.index(0, x, y)] = grey * 0x010101U | (x >= 20 ? 1U << 24 : 0U);
     }
   }

@@ -25,41 +25,56 @@ using namespace test;
 TEST(PickLists, WindowsHoldEnoughTexelsForTheDemand) {
   const Plane exemplars = noise_plane({{60, 50}}, 2, 5, false);
   const Plane target = noise_plane({{90, 80}}, 2, 50, false);
-  for (const std::vector<GuideRole>& guides : {std::vector<GuideRole>{{2880}, {200}}, std::vector<GuideRole>{{2880}, {1000}}}) {
-    const PickLists lists(exemplars, count_demand(target, classes, guides), classes, guides, 16);
+  for (const std::vector<GuideRole>& guides :
+       {std::vector<GuideRole>{{2880}, {200}}, std::vector<GuideRole>{{2880}, {1000}}}) {
+    const PickLists lists(exemplars, count_texel_demand(target, classes, guides), classes, guides,
+                          16);
     std::map<std::uint32_t, int> pixel_counts;
     target.for_each([&](std::uint32_t at) { ++pixel_counts[class_of(target.words[at])]; });
     ASSERT_TRUE(lists.keys().sorted);
-    ASSERT_EQ(lists.keys().bucketed, guides[1].weight_q4 == 1000) << "a guide of an eighth of the strongest one's weight";
+    ASSERT_EQ(lists.keys().bucketed, guides[1].weight_q4 == 1000)
+        << "a guide of an eighth of the strongest one's weight";
     for (int n = 0; n < 200; ++n) {
-      const std::uint32_t pixel = target.index(0, static_cast<int>(random_index(90, 1, n, 0)), static_cast<int>(random_index(80, 2, n, 0)));
+      const std::uint32_t pixel = target.index(0, static_cast<int>(random_index(90, 1, n, 0)),
+                                               static_cast<int>(random_index(80, 2, n, 0)));
       const std::uint32_t c = class_of(target.words[pixel]);
       const std::uint8_t* requested = target.guides_at(pixel);
       const PickWindow window = lists.window(c, requested);
       const auto inside = [&](const std::uint8_t* guide) {
         if (std::abs(guide[0] - requested[0]) > window.slack + 1) return false;
-        return !lists.keys().bucketed || std::abs(guide[1] / 16 - requested[1] / 16) <= window.buckets;
+        return !lists.keys().bucketed ||
+               std::abs(guide[1] / 16 - requested[1] / 16) <= window.buckets;
       };
       std::int64_t texels = 0;
       std::int64_t pixels = 0;
-      exemplars.for_each(
-          [&](std::uint32_t at) { texels += class_of(exemplars.words[at]) == c && inside(exemplars.guides_at(at)) ? 1 : 0; });
-      target.for_each([&](std::uint32_t at) { pixels += class_of(target.words[at]) == c && inside(target.guides_at(at)) ? 1 : 0; });
+      exemplars.for_each([&](std::uint32_t at) {
+        texels += class_of(exemplars.words[at]) == c && inside(exemplars.guides_at(at)) ? 1 : 0;
+      });
+      target.for_each([&](std::uint32_t at) {
+        pixels += class_of(target.words[at]) == c && inside(target.guides_at(at)) ? 1 : 0;
+      });
       EXPECT_GE(texels, 16);
-      const double ratio = 1.5 * static_cast<double>(pixel_counts[c]) / static_cast<double>(lists.texel_count(c));
+      const double ratio =
+          1.5 * static_cast<double>(pixel_counts[c]) / static_cast<double>(lists.texel_count(c));
       EXPECT_LE(static_cast<double>(pixels), static_cast<double>(texels) * std::max(4.0, ratio));
-      const std::uint32_t texel = lists.entry(lists.pick(c, requested, static_cast<std::uint32_t>(random_bits(3, n, 0))).entry(0)).texel();
+      const std::uint32_t texel =
+          lists
+              .entry(lists.pick(c, requested, static_cast<std::uint32_t>(random_bits(3, n, 0)))
+                         .entry(0))
+              .texel();
       EXPECT_EQ(class_of(exemplars.words[texel]), c);
       EXPECT_TRUE(inside(exemplars.guides_at(texel)));
     }
   }
 }
 
-// Texels of one class, bucket and value stand in the order of one walk through the plane by golden steps, however many walk at once.
+// Texels of one class, bucket and value are in the order of one walk through the plane by
+// golden-ratio steps, however many walks run in parallel.
 TEST(PickLists, StandInTheOrderOfOneWalk) {
   const Plane exemplars = noise_plane({{60, 50}, {31, 77}}, 3, 5, true);
   const std::vector<GuideRole> guides{{2880}, {1000}, {200}};
-  const PickLists lists(exemplars, count_demand(exemplars, classes, guides), classes, guides, 16);
+  const PickLists lists(exemplars, count_texel_demand(exemplars, classes, guides), classes, guides,
+                        16);
   std::map<std::tuple<std::uint32_t, int, int>, std::vector<std::uint32_t>> kinds;
   const std::uint64_t count = exemplars.words.size();
   std::uint64_t step = count * 618 / 1000 | 1;
@@ -68,18 +83,20 @@ TEST(PickLists, StandInTheOrderOfOneWalk) {
     const std::uint32_t c = class_of(exemplars.words[at]);
     if (c == no_class) continue;
     const std::uint8_t* values = exemplars.guides_at(static_cast<std::uint32_t>(at));
-    kinds[{c, values[1] / ListKeys::bucket_width, values[0]}].push_back(static_cast<std::uint32_t>(at));
+    kinds[{c, values[1] / ListKeys::bucket_width, values[0]}].push_back(
+        static_cast<std::uint32_t>(at));
   }
   std::uint32_t nth = 0;
   for (const auto& [kind, texels] : kinds)
-    for (const std::uint32_t texel : texels) ASSERT_EQ(lists.entry(nth++).texel(), texel) << "entry " << nth;
+    for (const std::uint32_t texel : texels)
+      ASSERT_EQ(lists.entry(nth++).texel(), texel) << "entry " << nth;
   std::int64_t all = 0;
   for (std::uint32_t c = 0; c < classes; ++c) all += lists.texel_count(c);
   EXPECT_EQ(nth, all);
 }
 
-// A draw looks at texels that follow each other in the list: all of a window's bucket once, whatever the beginning, each with what it is
-// chosen by, and the cheapest of as many as are drawn wins.
+// A draw reads consecutive texels of the list: all of a window's bucket once, whatever the start,
+// each with its selection data, and the cheapest of those drawn wins.
 TEST(PickLists, DrawsAreTheCheapestOfTheirRun) {
   const Plane exemplars = noise_plane({{40, 30}, {25, 33}}, 5, 5, true);
   Plane target = noise_plane({{31, 29}}, 5, 50, true);
@@ -88,11 +105,14 @@ TEST(PickLists, DrawsAreTheCheapestOfTheirRun) {
   settings.draws = 4;
   settings.border_draws = 7;
   settings.fitting_draws = 7;
-  LevelState state(settings, guides, classes, exemplars, target, {}, SurroundingsPrice(40, {0, 16, 5, 16, 0, 9, 5, 9, 0}, classes));
-  const std::vector<Surroundings> around = make_surroundings(exemplars, settings.surroundings_radius, classes);
+  LevelState state(settings, guides, classes, exemplars, target, {},
+                   SurroundingsPrice(40, {0, 16, 5, 16, 0, 9, 5, 9, 0}, classes));
+  const std::vector<Surroundings> around =
+      make_surroundings(exemplars, settings.surroundings_radius, classes);
   const KernelView view = state.view(0);
   const auto grey = [](std::uint32_t word) {
-    return static_cast<std::int64_t>((word & 255U) + 2 * (word >> 8 & 255U) + (word >> 16 & 255U)) / 4;
+    return static_cast<std::int64_t>((word & 255U) + 2 * (word >> 8 & 255U) + (word >> 16 & 255U)) /
+           4;
   };
   int better_than_first = 0;
   int fitting = 0;
@@ -108,37 +128,40 @@ TEST(PickLists, DrawsAreTheCheapestOfTheirRun) {
     slack.others = nullptr;
     std::set<std::uint32_t> seen;
     std::uint32_t best = 0;
-    std::int64_t least = std::numeric_limits<std::int64_t>::max();
+    std::int64_t min = std::numeric_limits<std::int64_t>::max();
     std::uint32_t best_fit = 0;
-    std::int64_t least_fit = least;
+    std::int64_t min_fit = min;
     for (std::uint32_t i = 0; i < run.count; ++i) {
       const std::uint32_t texel = state.lists.entry(run.entry(i)).texel();
-      ASSERT_TRUE(seen.insert(texel).second) << "a texel stands twice in a run";
+      ASSERT_TRUE(seen.insert(texel).second) << "a texel occurs twice in a run";
       ASSERT_EQ(class_of(exemplars.words[texel]), c);
       const std::uint8_t* of_texel = exemplars.guides_at(texel);
       ASSERT_TRUE(std::equal(of_texel, of_texel + 5, state.lists.entry(run.entry(i)).guides()));
       ASSERT_TRUE(std::equal(of_texel, of_texel + 5, state.texels.at(texel).guides()));
       if (i >= 7) continue;
-      const std::int64_t cost = guide_cost(view, target.guides_at(pixel), of_texel, slack) +
-                                state.source->around_price(state.target_around[pixel], around[texel]);
+      const std::int64_t cost =
+          guide_cost(view, target.guides_at(pixel), of_texel, slack) +
+          state.source->around_price(state.target_around[pixel], around[texel]);
       std::int64_t squares = 0;
       for (int dy = -2; dy <= 2; ++dy) {
         for (int dx = -2; dx <= 2; ++dx) {
           if (!(std::abs(dx * dy) == 1 || (dx * dy == 0 && std::abs(dx + dy) == 2))) continue;
           const std::int64_t step_target = dx + static_cast<std::int64_t>(dy) * target.stride;
           const std::int64_t step_texel = dx + static_cast<std::int64_t>(dy) * exemplars.stride;
-          const std::uint32_t requested = target.words[static_cast<std::size_t>(pixel + step_target)];
+          const std::uint32_t requested =
+              target.words[static_cast<std::size_t>(pixel + step_target)];
           if (class_of(requested) == no_class) continue;
-          const std::int64_t off = grey(requested) - grey(exemplars.words[static_cast<std::size_t>(texel + step_texel)]);
+          const std::int64_t off =
+              grey(requested) - grey(exemplars.words[static_cast<std::size_t>(texel + step_texel)]);
           squares += off * off;
         }
       }
-      if (cost + price::grey * squares < least_fit) {
-        least_fit = cost + price::grey * squares;
+      if (cost + price::grey * squares < min_fit) {
+        min_fit = cost + price::grey * squares;
         best_fit = texel;
       }
-      if (i >= static_cast<std::uint32_t>(draws) || cost >= least) continue;
-      least = cost;
+      if (i >= static_cast<std::uint32_t>(draws) || cost >= min) continue;
+      min = cost;
       best = texel;
     }
     better_than_first += best != state.lists.entry(run.entry(0)).texel() ? 1 : 0;

@@ -19,10 +19,13 @@ TEST(Pieces, EqualAFloodFillForAnyBand) {
   const Plane exemplars = noise_plane({{150, 140}}, 0, 5, false);
   const Plane target = noise_plane({{70, 140}}, 0, 50, false);  // several bands of rows
   std::vector<std::uint32_t> match(target.words.size(), exemplars.nowhere());
-  // Blocks of constant offset that touch in all ways.
-  const auto offset = [](int x, int y) { return static_cast<int>(random_index(3, 11, x / 6, y / 9)); };
+  // Blocks of constant offset that touch in all combinations.
+  const auto offset = [](int x, int y) {
+    return static_cast<int>(random_index(3, 11, x / 6, y / 9));
+  };
   for (int y = 0; y < 140; ++y) {
-    for (int x = 0; x < 70; ++x) match[target.index(0, x, y)] = exemplars.index(0, x + 9 * offset(x, y), y);
+    for (int x = 0; x < 70; ++x)
+      match[target.index(0, x, y)] = exemplars.index(0, x + 9 * offset(x, y), y);
   }
   Pieces pieces(target);
   pieces.find(target, exemplars, match);
@@ -37,7 +40,8 @@ TEST(Pieces, EqualAFloodFillForAnyBand) {
         for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
           const int nx = open[i].first + dx;
           const int ny = open[i].second + dy;
-          if (!seen.contains(nx, ny) || seen(nx, ny) >= 0 || offset(nx, ny) != offset(x, y)) continue;
+          if (!seen.contains(nx, ny) || seen(nx, ny) >= 0 || offset(nx, ny) != offset(x, y))
+            continue;
           seen(nx, ny) = 1;
           open.emplace_back(nx, ny);
         }

@@ -22,8 +22,8 @@ TEST(Plane, StepsOutOfAPictureLandOnNoClass) {
         const std::uint32_t at = plane.index(p, x, y);
         ASSERT_EQ(class_of(plane.words[at]) != no_class, inside);
         if (!inside) continue;
-        const Plane::Place place = plane.place(at);
-        ASSERT_EQ(std::make_tuple(place.part, place.x, place.y), std::make_tuple(p, x, y));
+        const Plane::Place position = plane.position(at);
+        ASSERT_EQ(std::make_tuple(position.part, position.x, position.y), std::make_tuple(p, x, y));
       }
     }
   }
@@ -37,7 +37,7 @@ TEST(Plane, HalvesByClassAndMean) {
   });
   plane.words[plane.index(0, 0, 0)] = 0x01ffffffU;
   plane.words[plane.index(0, 1, 1)] = 0x01ffffffU;  // two of two: the lower class
-  plane.words[plane.index(0, 3, 3)] = 0xff123456U;  // excluded: its colour counts nowhere
+  plane.words[plane.index(0, 3, 3)] = 0xff123456U;  // excluded: its colour is ignored
   pad(plane);
   const Plane coarse = halve(plane);
   EXPECT_EQ(coarse.parts[0].width, 3);

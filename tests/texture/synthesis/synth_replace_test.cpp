@@ -17,17 +17,19 @@ TEST(Replacement, MovesPiecesWholeAndWithinTheirClass) {
   const Plane exemplars = noise_plane({{150, 120}}, 1, 5, false);
   Plane target = make_plane({{60, 50}}, 1);
   const LevelSettings settings = settings_for_level(0, 1, 100, 1.0);
-  // The target is a part of the exemplar, and copied from there in one.
+  // The target is a part of the exemplar, copied from there as one piece.
   for (int y = 0; y < 50; ++y) {
     for (int x = 0; x < 60; ++x) {
-      target.words[target.index(0, x, y)] = exemplars.words[exemplars.index(0, x + 40, y + 30)] & 0xff000000U;
+      target.words[target.index(0, x, y)] =
+          exemplars.words[exemplars.index(0, x + 40, y + 30)] & 0xff000000U;
       target.guides[target.index(0, x, y)] = exemplars.guides[exemplars.index(0, x + 40, y + 30)];
     }
   }
   pad(target);
   LevelState state(settings, {GuideRole{2880}}, classes, exemplars, target, {});
   for (int y = 0; y < 50; ++y) {
-    for (int x = 0; x < 60; ++x) state.match[target.index(0, x, y)] = exemplars.index(0, x + 40, y + 30);
+    for (int x = 0; x < 60; ++x)
+      state.match[target.index(0, x, y)] = exemplars.index(0, x + 40, y + 30);
   }
   recount(state);
   state.pieces.find(target, exemplars, state.match);
@@ -40,7 +42,8 @@ TEST(Replacement, MovesPiecesWholeAndWithinTheirClass) {
     ASSERT_EQ(exemplars.words[state.match[at]], target.words[at]);
     moved += state.match[at] != before[at] ? 1 : 0;
   });
-  // Half of the cells move, with the members that keep their class: a third by chance, fewer here as noise is dearer than a misfit.
+  // Half of the cells move, with the members that keep their class: a third by chance, fewer here
+  // as noise is more expensive than a misfit.
   EXPECT_GT(moved, 3000 / 16);
   EXPECT_LT(moved, 3000 * 3 / 4);
   const TexelRecords kept_along = state.texels;

@@ -49,7 +49,7 @@ TEST(Surroundings, AreTheCountsOfTheWindow) {
   }
 }
 
-// Where no more than two classes meet, the price is that of all class counts.
+// Where at most two classes meet, the price is that of all class counts.
 TEST(Surroundings, PriceIsTheSquaredDifferenceOfCounts) {
   const SurroundingsPrice price(256, std::vector<std::uint8_t>(16, 16), 4);
   const auto counts = [](Surroundings s) {
@@ -64,12 +64,13 @@ TEST(Surroundings, PriceIsTheSquaredDifferenceOfCounts) {
         const Surroundings offered{static_cast<std::uint8_t>(v), 2};
         std::int64_t sum = 0;
         for (std::size_t k = 0; k < 4; ++k)
-          sum += (counts(requested)[k] - counts(offered)[k]) * (counts(requested)[k] - counts(offered)[k]);
+          sum += (counts(requested)[k] - counts(offered)[k]) *
+                 (counts(requested)[k] - counts(offered)[k]);
         ASSERT_EQ(price(requested, offered), sum);
       }
     }
   }
-  // Classes said to be alike count as one.
+  // Classes with dissimilarity 0 count as one.
   const SurroundingsPrice alike(256, std::vector<std::uint8_t>(16, 0), 4);
   EXPECT_EQ(alike({100, 1}, {100, 2}), 0);
   EXPECT_EQ(alike({100, 1}, {90, 2}), 200);
@@ -79,7 +80,7 @@ TEST(ClassShares, AreTheSharesOfTheWindow) {
   const Plane plane = noise_plane({{150, 140}, {33, 20}}, 0, 5, true);
   for (const int radius : {2, 8}) {
     const ClassShares shares(plane, radius, classes);
-    EXPECT_LT(shares.kinds(), 3000U) << "neighbourhoods that are alike have one number";
+    EXPECT_LT(shares.kinds(), 3000U) << "equal neighbourhoods share a number";
     for (int p = 0; p < 2; ++p) {
       const Plane::Part& part = plane.parts[static_cast<std::size_t>(p)];
       for (int y = 0; y < part.height; y += 3) {
@@ -95,22 +96,26 @@ TEST(ClassShares, AreTheSharesOfTheWindow) {
           }
           const double total = counts[0] + counts[1] + counts[2];
           for (std::size_t c = 0; c < classes; ++c)
-            ASSERT_NEAR(shares.of(shares.numbers()[at])[c], 255.0 * counts[c] / total, 255.0 / 128.0 + 1.0) << x << ", " << y;
+            ASSERT_NEAR(shares.of(shares.numbers()[at])[c], 255.0 * counts[c] / total,
+                        255.0 / 128.0 + 1.0)
+                << x << ", " << y;
         }
       }
     }
     ThreadLimit one(1);
     const ClassShares again(plane, radius, classes);
     for (std::size_t i = 0; i < plane.words.size(); ++i)
-      ASSERT_TRUE(again.numbers()[i].others == shares.numbers()[i].others && again.numbers()[i].commonest == shares.numbers()[i].commonest);
+      ASSERT_TRUE(again.numbers()[i].others == shares.numbers()[i].others &&
+                  again.numbers()[i].commonest == shares.numbers()[i].commonest);
   }
 }
 
-// More kinds of neighbourhood than numbers: shares are told more coarsely.
+// More kinds of neighbourhood than numbers: shares are quantized more coarsely.
 TEST(ClassShares, OfAPictureWithoutEndAreCoarser) {
   constexpr int many = 24;
   Plane plane = make_plane({{420, 400}}, 0);
-  plane.for_each([&](std::uint32_t at) { plane.words[at] = random_index(many, 7, at / 3, 0) << 24; });
+  plane.for_each(
+      [&](std::uint32_t at) { plane.words[at] = random_index(many, 7, at / 3, 0) << 24; });
   pad(plane);
   const ClassShares shares(plane, 3, many);
   EXPECT_LE(shares.kinds(), 65536U);
@@ -121,9 +126,11 @@ TEST(ClassShares, OfAPictureWithoutEndAreCoarser) {
       std::array<int, many> counts{};
       int total = 0;
       for (int j = std::max(0, y - 3); j <= std::min(399, y + 3); ++j)
-        for (int i = x - 3; i <= x + 3; ++i, ++total) ++counts[class_of(plane.words[plane.index(0, i, j)])];
+        for (int i = x - 3; i <= x + 3; ++i, ++total)
+          ++counts[class_of(plane.words[plane.index(0, i, j)])];
       for (std::size_t c = 0; c < many; ++c, ++counted)
-        off += std::abs(shares.of(shares.numbers()[plane.index(0, x, y)])[c] - 255.0 * counts[c] / total);
+        off += std::abs(shares.of(shares.numbers()[plane.index(0, x, y)])[c] -
+                        255.0 * counts[c] / total);
     }
   }
   EXPECT_LT(off / counted, 14.0);
@@ -133,7 +140,7 @@ TEST(ClassShares, OfAPictureWithoutEndAreCoarser) {
 TEST(ClassShares, PriceIsTheQuadraticFormOfTheirDifferences) {
   const std::vector<std::uint8_t> pairs{0, 16, 5, 16, 0, 9, 5, 9, 0};
   const SurroundingsPrice price(256, pairs, 3);
-  const SurroundingsPrice unlike(256, std::vector<std::uint8_t>(9, 16), 3);
+  const SurroundingsPrice dissimilar(256, std::vector<std::uint8_t>(9, 16), 3);
   for (int i = 0; i < 300; ++i) {
     const auto shares = [i](std::uint64_t seed) {
       const std::uint8_t a = static_cast<std::uint8_t>(random_index(256, seed, i, 0));
@@ -145,11 +152,12 @@ TEST(ClassShares, PriceIsTheQuadraticFormOfTheirDifferences) {
     std::int64_t sum = 0;
     std::int64_t squares = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-      for (std::size_t l = 0; l < 3; ++l) sum += (k == l ? 16 : 16 - pairs[3 * k + l]) * (u[k] - v[k]) * (u[l] - v[l]);
+      for (std::size_t l = 0; l < 3; ++l)
+        sum += (k == l ? 16 : 16 - pairs[3 * k + l]) * (u[k] - v[k]) * (u[l] - v[l]);
       squares += (u[k] - v[k]) * (u[k] - v[k]);
     }
     EXPECT_EQ(shares_cost(u.data(), v.data(), price, 3), std::max<std::int64_t>(0, sum) >> 4);
-    EXPECT_EQ(shares_cost(u.data(), v.data(), unlike, 3), squares);
+    EXPECT_EQ(shares_cost(u.data(), v.data(), dissimilar, 3), squares);
     EXPECT_EQ(shares_cost(u.data(), u.data(), price, 3), 0);
   }
 }

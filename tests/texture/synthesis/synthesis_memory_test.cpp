@@ -13,26 +13,30 @@ namespace {
 GuideStack waves(int width, int height, int guides, bool with_depth) {
   GuideStack stack;
   stack.label = Grid<std::uint8_t>(width, height);
-  for (int g = 0; g < guides; ++g) stack.guides.push_back({"guide " + std::to_string(g), Grid<std::uint8_t>(width, height)});
+  for (int g = 0; g < guides; ++g)
+    stack.guides.push_back({"guide " + std::to_string(g), Grid<std::uint8_t>(width, height)});
   if (with_depth) stack.depth_m = Grid<float>(width, height);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       stack.label(x, y) = static_cast<std::uint8_t>((x / 40 + y / 30) % 3);
-      for (int g = 0; g < guides; ++g) stack.guides[static_cast<std::size_t>(g)].values(x, y) = static_cast<std::uint8_t>(x / (g + 1) + y);
+      for (int g = 0; g < guides; ++g)
+        stack.guides[static_cast<std::size_t>(g)].values(x, y) =
+            static_cast<std::uint8_t>(x / (g + 1) + y);
       if (with_depth) stack.depth_m(x, y) = static_cast<float>(1000 + 200 * (y / 50));
     }
   }
   return stack;
 }
 
-// Bytes that synthesis takes beyond its arguments.
+// Memory of synthesis beyond its arguments, bytes.
 std::size_t peak_of(int width, int height, int guides, bool with_depth) {
   Exemplar exemplar;
   exemplar.name = "noise";
   exemplar.guides = waves(96, 96, guides, false);
   exemplar.picture = Grid<Rgb8>(96, 96);
   for (std::size_t i = 0; i < exemplar.picture.size(); ++i) {
-    exemplar.picture[i] = {static_cast<std::uint8_t>(random_bits(1, static_cast<std::int64_t>(i), 0)), 90, 40};
+    exemplar.picture[i] = {
+        static_cast<std::uint8_t>(random_bits(1, static_cast<std::int64_t>(i), 0)), 90, 40};
   }
   const std::vector<Exemplar> exemplars{exemplar};
   const GuideStack target = waves(width, height, guides, with_depth);
@@ -51,28 +55,36 @@ TEST(SynthesisMemory, SlopeStaysUnderTheBound) {
     bool with_depth = false;
   };
   for (const Case c : {Case{1, false}, Case{6, true}}) {
-    // One thread, so that the peak is the same at each run; the first makes what stays, such as tables.
+    // One thread, so that the peak is the same in each run; the first run allocates what stays,
+    // such as tables.
     const ThreadLimit one(1);
     peak_of(64, 64, c.guides, c.with_depth);
     const double small = static_cast<double>(peak_of(192, 192, c.guides, c.with_depth));
     const double large = static_cast<double>(peak_of(448, 384, c.guides, c.with_depth));
     const double slope = (large - small) / (448.0 * 384.0 - 192.0 * 192.0);
-    RecordProperty("bytes_per_pixel_x100_" + std::to_string(c.guides), static_cast<int>(100 * slope));
-    // Promised are 32 and 40 bytes; so tight that a further array of 4 bytes a pixel shows.
+    RecordProperty("bytes_per_pixel_x100_" + std::to_string(c.guides),
+                   static_cast<int>(100 * slope));
+    // The documented bounds are 32 and 40 bytes; tight enough to detect another array of 4 bytes
+    // per pixel.
     EXPECT_LE(slope, c.guides == 1 ? 22.0 : 28.0) << c.guides << " guides";
     EXPECT_GE(slope, 12.0) << "nothing was measured";
-    const auto estimate = [&](std::size_t pixels) { return static_cast<double>(synthesis_bytes(0, pixels, c.guides, c.with_depth)); };
-    EXPECT_LE(slope, (estimate(2000000) - estimate(1000000)) / 1e6) << "synthesis_bytes says too little";
+    const auto estimate = [&](std::size_t pixels) {
+      return static_cast<double>(synthesis_bytes(0, pixels, c.guides, c.with_depth));
+    };
+    EXPECT_LE(slope, (estimate(2000000) - estimate(1000000)) / 1e6) << "synthesis_bytes is too low";
   }
 }
 
-// The largest print that is promised: 20000 × 8000 pixels from three exemplars of 4 million texels, inputs and result included.
+// The largest documented print: 20000 × 8000 pixels from three exemplars of 4 million texels,
+// inputs and result included.
 TEST(SynthesisMemory, LargestPrintFitsInto8GiB) {
   const std::size_t pixels = 20000ULL * 8000;
   const std::size_t texels = 3 * 4000000ULL;
   for (const int guides : {1, 6}) {
-    const std::size_t inputs = (1 + static_cast<std::size_t>(guides)) * pixels + (4 + static_cast<std::size_t>(guides)) * texels;
-    EXPECT_LT(synthesis_bytes(texels, pixels, guides, true) + inputs + 4 * pixels, std::size_t{8} << 30)
+    const std::size_t inputs = (1 + static_cast<std::size_t>(guides)) * pixels +
+                               (4 + static_cast<std::size_t>(guides)) * texels;
+    EXPECT_LT(synthesis_bytes(texels, pixels, guides, true) + inputs + 4 * pixels,
+              std::size_t{8} << 30)
         << guides << " guides, with depths";
   }
 }

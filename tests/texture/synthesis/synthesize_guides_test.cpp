@@ -1,4 +1,4 @@
-// What guides, levels and further paintings do to the texture, measured in the picture.
+// The effect of guides, levels and further paintings on the texture, measured in the picture.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/texture/synthesis/made_up_land.h"
+#include "tests/texture/synthesis/synthetic_land.h"
 #include "texture/quality/quality.h"
 #include "texture/synthesis/match_cost.h"
 #include "texture/synthesis/synthesize.h"
@@ -28,22 +28,26 @@ Grid<Rgb8> copied(const MatchField& field, const std::vector<Exemplar>& exemplar
   return replay(field, layers, Grid<Rgb8>());
 }
 
-// Mean step of grey from pixel to pixel along rows y0 … y1 - 1: what short strokes have much of and long ones little.
+// Mean step of grey from pixel to pixel along rows y0 … y1 - 1: large for short strokes, small for
+// long ones.
 double step_along_rows(const Grid<Rgb8>& picture, int y0, int y1) {
   double sum = 0.0;
   int count = 0;
   for (int y = y0; y < y1; ++y)
-    for (int x = 1; x < picture.width(); ++x, ++count) sum += std::abs(picture(x, y)[1] - picture(x - 1, y)[1]);
+    for (int x = 1; x < picture.width(); ++x, ++count)
+      sum += std::abs(picture(x, y)[1] - picture(x - 1, y)[1]);
   return sum / count;
 }
 
-// One class, one painter: long strokes near (below), short ones far away (above). The guide tells the distance; it runs the other way in
-// the target, whose upper half is near.
+// One class, one painter: long strokes near (below), short ones far away (above). The guide is the
+// distance; it is reversed in the target, whose upper half is near.
 TEST(SynthesizeGuides, TextureChangesWithDistance) {
   const auto distance_guide = [](int width, int height, bool near_above) {
     Grid<std::uint8_t> values(width, height);
     for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x) values(x, y) = static_cast<std::uint8_t>(255 * (near_above ? y : height - 1 - y) / (height - 1));
+      for (int x = 0; x < width; ++x)
+        values(x, y) =
+            static_cast<std::uint8_t>(255 * (near_above ? y : height - 1 - y) / (height - 1));
     return values;
   };
   Exemplar exemplar;
@@ -53,7 +57,9 @@ TEST(SynthesizeGuides, TextureChangesWithDistance) {
   exemplar.guides.guides = {{"distance", distance_guide(160, 160, false)}};
   for (int y = 0; y < 160; ++y) {
     const int length = 2 + 14 * y / 160;
-    for (int x = 0; x < 160; ++x) exemplar.picture(x, y) = grey(60 + static_cast<int>(random_index(130, 5, (x + 3 * y) / length, y)));
+    for (int x = 0; x < 160; ++x)
+      exemplar.picture(x, y) =
+          grey(60 + static_cast<int>(random_index(130, 5, (x + 3 * y) / length, y)));
   }
   GuideStack target;
   target.label = Grid<std::uint8_t>(128, 128, 3);
@@ -64,13 +70,15 @@ TEST(SynthesizeGuides, TextureChangesWithDistance) {
     const Grid<Rgb8> picture = copied(run({exemplar}, target, parameters), {exemplar});
     return step_along_rows(picture, 0, 40) / step_along_rows(picture, 88, 128);
   };
-  const double in_painting = step_along_rows(exemplar.picture, 110, 160) / step_along_rows(exemplar.picture, 0, 50);
+  const double in_painting =
+      step_along_rows(exemplar.picture, 110, 160) / step_along_rows(exemplar.picture, 0, 50);
   EXPECT_LT(in_painting, 0.5);
   EXPECT_LT(near_to_far(1.0), 0.5);
-  EXPECT_GT(near_to_far(0.0), 0.8) << "without the guide near and far are alike";
+  EXPECT_GT(near_to_far(0.0), 0.8) << "without the guide near and far are the same";
 }
 
-// Patterns larger than a patch come over from coarser levels; one level knows nothing of them, and its seams cost more.
+// Patterns larger than a patch come from coarser levels; a single level misses them, and its seams
+// cost more.
 TEST(SynthesizeGuides, CoarserLevelsSaveSeams) {
   Exemplar exemplar;
   exemplar.name = "swells";
@@ -78,13 +86,15 @@ TEST(SynthesizeGuides, CoarserLevelsSaveSeams) {
   exemplar.guides.label = Grid<std::uint8_t>(200, 200, 3);
   for (int y = 0; y < 200; ++y)
     for (int x = 0; x < 200; ++x)
-      exemplar.picture(x, y) = grey(smooth_noise(3, x, y, 24) * 3 / 4 + static_cast<int>(random_index(50, 4, x / 4, y)));
+      exemplar.picture(x, y) =
+          grey(smooth_noise(3, x, y, 24) * 3 / 4 + static_cast<int>(random_index(50, 4, x / 4, y)));
   GuideStack target;
   target.label = Grid<std::uint8_t>(128, 128, 3);
   const auto seams = [&](int levels) {
     SynthesisParameters parameters;
     parameters.levels = levels;
-    const Grid<float> cost = seam_cost(run({exemplar}, target, parameters), {exemplar}, target.label, {});
+    const Grid<float> cost =
+        seam_cost(run({exemplar}, target, parameters), {exemplar}, target.label, {});
     double sum = 0.0;
     for (const float c : cost) sum += static_cast<double>(c);
     return sum / static_cast<double>(cost.size());
@@ -96,12 +106,12 @@ TEST(SynthesizeGuides, CoarserLevelsSaveSeams) {
   EXPECT_LT(many, 0.85 * one);
 }
 
-// A second painting of the same hand halves what each texel has to serve.
+// A second painting of the same style halves the pixels per texel.
 TEST(SynthesizeGuides, ASecondPaintingLowersReuse) {
   const std::vector<Exemplar> one{painting(90, 90, 1)};
   const std::vector<Exemplar> two{one[0], painting(90, 90, 2)};
   const GuideStack target = land(160, 160, 40);
-  // How often the texel of a pixel is used, in the mean over pixels.
+  // How often the texel of a pixel is used, on average over pixels.
   const auto uses = [&](const std::vector<Exemplar>& exemplars) {
     const MatchField field = run(exemplars, target);
     const std::vector<Grid<std::uint32_t>> of = texel_uses(field, exemplars);
@@ -116,7 +126,8 @@ TEST(SynthesizeGuides, ASecondPaintingLowersReuse) {
   EXPECT_LT(shared, 0.65 * alone);
 }
 
-// The direction of strokes at a place, 0 … π, from the structure of grey around it; its certainty 0 … 1 beside it.
+// The direction of strokes at a position, 0 … π, from the structure of grey around it, and its
+// certainty 0 … 1.
 struct Direction {
   double angle = 0.0;
   double certainty = 0.0;
@@ -136,16 +147,20 @@ Direction stroke_direction(const Grid<Rgb8>& picture, int x, int y) {
   }
   const double across = 0.5 * std::atan2(2.0 * xy, xx - yy);  // of the strongest change
   const double total = xx + yy;
-  return {std::fmod(across + 1.5 * std::numbers::pi, std::numbers::pi), total > 0.0 ? std::hypot(xx - yy, 2.0 * xy) / total : 0.0};
+  return {std::fmod(across + 1.5 * std::numbers::pi, std::numbers::pi),
+          total > 0.0 ? std::hypot(xx - yy, 2.0 * xy) / total : 0.0};
 }
 
-// Strokes in sixteen directions; fall lines are told as renderer/paint/guides.h has them, as a unit vector.
+// Strokes in sixteen directions; fall lines are unit vectors as in renderer/paint/guides.h.
 void fill_direction(GuideStack& stack, int x, int y, double angle) {
-  stack.guides[0].values(x, y) = static_cast<std::uint8_t>(std::lround(127.5 + 127.5 * std::cos(angle)));
-  stack.guides[1].values(x, y) = static_cast<std::uint8_t>(std::lround(127.5 + 127.5 * std::sin(angle)));
+  stack.guides[0].values(x, y) =
+      static_cast<std::uint8_t>(std::lround(127.5 + 127.5 * std::cos(angle)));
+  stack.guides[1].values(x, y) =
+      static_cast<std::uint8_t>(std::lround(127.5 + 127.5 * std::sin(angle)));
 }
 
-// Strokes along the fall line in the painting run along the fall line in the picture, here around a round hill.
+// Strokes along the fall line in the painting run along the fall line in the picture, here around a
+// round hill.
 TEST(SynthesizeGuides, CopiedStrokesFollowTheFallLine) {
   constexpr int panel = 48;
   Exemplar exemplar;
@@ -159,14 +174,17 @@ TEST(SynthesizeGuides, CopiedStrokesFollowTheFallLine) {
       const double angle = std::numbers::pi / 8.0 * (x / panel + 8 * (y / panel));
       const double along = std::cos(angle) * x + std::sin(angle) * y;
       const double across = -std::sin(angle) * x + std::cos(angle) * y;
-      exemplar.picture(x, y) = grey(70 + static_cast<int>(random_index(120, 9, static_cast<int>(std::floor(along / 14.0)) + 5000,
-                                                                       static_cast<int>(std::floor(across / 2.0)) + 5000)));
+      exemplar.picture(x, y) =
+          grey(70 + static_cast<int>(
+                        random_index(120, 9, static_cast<int>(std::floor(along / 14.0)) + 5000,
+                                     static_cast<int>(std::floor(across / 2.0)) + 5000)));
       fill_direction(exemplar.guides, x, y, angle);
     }
   }
   GuideStack target;
   target.label = Grid<std::uint8_t>(128, 128, 3);
-  target.guides = {{"fall_line_x", Grid<std::uint8_t>(128, 128)}, {"fall_line_y", Grid<std::uint8_t>(128, 128)}};
+  target.guides = {{"fall_line_x", Grid<std::uint8_t>(128, 128)},
+                   {"fall_line_y", Grid<std::uint8_t>(128, 128)}};
   const auto fall_line = [](int x, int y) { return std::atan2(y - 63.5, x - 63.5); };
   for (int y = 0; y < 128; ++y)
     for (int x = 0; x < 128; ++x) fill_direction(target, x, y, fall_line(x, y));
@@ -178,7 +196,8 @@ TEST(SynthesizeGuides, CopiedStrokesFollowTheFallLine) {
     double weights = 0.0;
     for (int y = 8; y < 120; y += 4) {
       for (int x = 8; x < 120; x += 4) {
-        if (std::hypot(x - 63.5, y - 63.5) < 20.0) continue;  // round the top directions change from pixel to pixel
+        if (std::hypot(x - 63.5, y - 63.5) < 20.0)
+          continue;  // round the top directions change from pixel to pixel
         const Direction found = stroke_direction(picture, x, y);
         double off = std::fmod(std::abs(found.angle - fall_line(x, y)), std::numbers::pi);
         off = std::min(off, std::numbers::pi - off);
@@ -196,7 +215,7 @@ TEST(SynthesizeGuides, CopiedStrokesFollowTheFallLine) {
   EXPECT_GT(without, 30.0) << "by chance it is 45";
 }
 
-// Valleys that a painter made dark are a guide like any: dark valleys come from dark valleys.
+// Darkness of valleys is a guide like any other: dark valleys come from dark valleys.
 TEST(SynthesizeGuides, DarkValleysComeFromDarkValleys) {
   const auto valleys = [](int width, int height, std::uint64_t seed) {
     Grid<std::uint8_t> depth(width, height);
@@ -211,8 +230,8 @@ TEST(SynthesizeGuides, DarkValleysComeFromDarkValleys) {
   exemplar.guides.guides = {{"valley", valleys(180, 180, 1)}};
   for (int y = 0; y < 180; ++y)
     for (int x = 0; x < 180; ++x)
-      exemplar.picture(x, y) =
-          grey((exemplar.guides.guides[0].values(x, y) > 0 ? 60 : 150) + static_cast<int>(random_index(60, 8, x / 4, y)));
+      exemplar.picture(x, y) = grey((exemplar.guides.guides[0].values(x, y) > 0 ? 60 : 150) +
+                                    static_cast<int>(random_index(60, 8, x / 4, y)));
   GuideStack target;
   target.label = Grid<std::uint8_t>(128, 128, 3);
   target.guides = {{"valley", valleys(128, 128, 2)}};

@@ -11,7 +11,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "tests/texture/synthesis/made_up_land.h"
+#include "tests/texture/synthesis/synthetic_land.h"
 #include "texture/quality/quality.h"
 #include "texture/synthesis/synth_kernel.h"
 
@@ -90,7 +90,8 @@ TEST(Synthesize, PatchesOfAnySizeKeepWhatItPromises) {
       EXPECT_EQ(run(exemplars, target, parameters), reference) << side << ' ' << width;
     }
     synth::use_vector_target("");
-    const SynthesisQuality quality = measure_quality(reference, exemplars, target, {.repeat_samples = 0});
+    const SynthesisQuality quality =
+        measure_quality(reference, exemplars, target, {.repeat_samples = 0});
     EXPECT_EQ(quality.label_agreement, 1.0);
     EXPECT_EQ(quality.across_silhouettes, 0.0);
     EXPECT_LE(quality.largest_piece, 240U);
@@ -98,7 +99,8 @@ TEST(Synthesize, PatchesOfAnySizeKeepWhatItPromises) {
   }
 }
 
-// With guides that tell every texel apart and nothing against quotation, an exemplar's own guides give it back.
+// With guides that identify every texel and no limit on copies, an exemplar's own guides give it
+// back.
 TEST(Synthesize, OwnGuidesGiveTheExemplarBack) {
   Exemplar exemplar = painting(120, 120, 1);
   for (int y = 0; y < 120; ++y) {
@@ -112,7 +114,10 @@ TEST(Synthesize, OwnGuidesGiveTheExemplarBack) {
   const MatchField field = run({exemplar}, exemplar.guides, parameters);
   int same = 0;
   for (int y = 0; y < 120; ++y) {
-    for (int x = 0; x < 120; ++x) same += field(x, y) == Match{0, static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y)} ? 1 : 0;
+    for (int x = 0; x < 120; ++x)
+      same += field(x, y) == Match{0, static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y)}
+                  ? 1
+                  : 0;
   }
   RecordProperty("same_per_mille", same * 1000 / (120 * 120));
   EXPECT_GE(same, 120 * 120 * 95 / 100);
@@ -125,7 +130,8 @@ TEST(Synthesize, WeightRaisesAgreementOfItsGuide) {
     SynthesisParameters parameters;
     parameters.weights = {{"altitude", altitude}, {"tone", tone}};
     const MatchField field = run(exemplars, target, parameters);
-    return std::pair{mean_guide_error(field, exemplars, target, 0), mean_guide_error(field, exemplars, target, 1)};
+    return std::pair{mean_guide_error(field, exemplars, target, 0),
+                     mean_guide_error(field, exemplars, target, 1)};
   };
   const auto [altitude_off, tone_on] = errors(0, 1);
   const auto [altitude_on, tone_off] = errors(1, 0);
@@ -160,7 +166,7 @@ TEST(Synthesize, NoPieceRunsOnAcrossADepthJump) {
   const std::vector<Exemplar> exemplars{painting(160, 160, 1)};
   GuideStack target = land(120, 120, 40);
   const MatchField without = run(exemplars, target);
-  // A near hill before a far plain before the sky, and a thin near spire.
+  // A near hill in front of a far plain in front of the sky, and a thin near spire.
   target.depth_m = Grid<float>(120, 120, 5000.0F);
   for (int y = 0; y < 120; ++y) {
     for (int x = 0; x < 120; ++x) {
@@ -181,27 +187,30 @@ TEST(Synthesize, NoPieceRunsOnAcrossADepthJump) {
 }
 
 TEST(Synthesize, SurroundingsDecideWhatBordersOnWhat) {
-  // Class 3 borders on 7 in the left half and on 9 in the right half of the painting; in the target on 7 only.
+  // Class 3 borders on 7 in the left half and on 9 in the right half of the painting; in the target
+  // on 7 only.
   Exemplar exemplar = painting(160, 80, 1);
   exemplar.guides.guides.clear();
   for (int y = 0; y < 80; ++y) {
-    for (int x = 0; x < 160; ++x) exemplar.guides.label(x, y) = y / 12 % 2 == 0 ? 3 : x < 80 ? 7 : 9;
+    for (int x = 0; x < 160; ++x)
+      exemplar.guides.label(x, y) = y / 12 % 2 == 0 ? 3 : x < 80 ? 7 : 9;
   }
   GuideStack target;
   target.label = Grid<std::uint8_t>(80, 80);
   for (int y = 0; y < 80; ++y) {
     for (int x = 0; x < 80; ++x) target.label(x, y) = x / 12 % 2 == 0 ? 3 : 7;
   }
-  const auto from_the_left = [&](double weight, double unlikeness) {
+  const auto from_the_left = [&](double weight, double class_dissimilarity) {
     SynthesisParameters parameters;
     parameters.surroundings = weight;
-    parameters.unlikeness = {{{9, 7}, unlikeness}};
+    parameters.class_dissimilarity = {{{9, 7}, class_dissimilarity}};
     const MatchField field = run({exemplar}, target, parameters);
     int left = 0;
     int all = 0;
     for (int y = 0; y < 80; ++y) {
       for (int x = 0; x < 80; ++x) {
-        if (target.label(x, y) != 3 || x % 12 < 3 || x % 12 >= 9) continue;  // patches show the border by themselves
+        if (target.label(x, y) != 3 || x % 12 < 3 || x % 12 >= 9)
+          continue;  // patches show the border by themselves
         ++all;
         left += field(x, y).x < 80 ? 1 : 0;
       }
@@ -210,34 +219,36 @@ TEST(Synthesize, SurroundingsDecideWhatBordersOnWhat) {
   };
   EXPECT_LT(from_the_left(0, 1), 0.88);
   EXPECT_GT(from_the_left(100, 1), 0.95);
-  EXPECT_LT(from_the_left(100, 0), 0.9) << "7 and 9 are said to be alike";
+  EXPECT_LT(from_the_left(100, 0), 0.9) << "7 and 9 have dissimilarity 0";
 }
 
-// Bands of 3 between bands of 7, which in the left half of the painting hold specks of 9: less than there is of 7, so the commonest other
-// class is 7 everywhere, and tells nothing of them.
+// Bands of 3 between bands of 7, which in the left half of the painting contain specks of 9: fewer
+// than 7, so the most common other class is 7 everywhere, and does not show them.
 TEST(Synthesize, AllSurroundingsTellAThirdClass) {
   Exemplar exemplar = painting(160, 96, 1);
   exemplar.guides.guides.clear();
-  const auto label_at = [](int x, int y, bool third) -> std::uint8_t { return y % 24 < 12 ? 3 : third && x % 5 < 2 ? 9 : 7; };
+  const auto label_at = [](int x, int y, bool third) -> std::uint8_t {
+    return y % 24 < 12 ? 3 : third && x % 5 < 2 ? 9 : 7;
+  };
   for (int y = 0; y < 96; ++y)
     for (int x = 0; x < 160; ++x) exemplar.guides.label(x, y) = label_at(x, y, x < 80);
   GuideStack target;
   target.label = Grid<std::uint8_t>(80, 96);
   for (int y = 0; y < 96; ++y)
     for (int x = 0; x < 80; ++x) target.label(x, y) = label_at(x, y, true);
-  const auto from_the_left = [&](const std::string& which, double unlikeness) {
+  const auto from_the_left = [&](const std::string& which, double class_dissimilarity) {
     SynthesisParameters parameters;
-    parameters.levels = 1;     // patches of coarser ones reach the other classes by themselves,
-    parameters.copy_cap = 16;  // and large pieces are seen from their ends
+    parameters.levels = 1;     // patches of coarser ones reach the other classes anyway,
+    parameters.copy_cap = 16;  // and large pieces are determined by their ends
     parameters.surroundings = 100;
     parameters.surroundings_of = which;
-    parameters.unlikeness = {{{7, 9}, unlikeness}};
+    parameters.class_dissimilarity = {{{7, 9}, class_dissimilarity}};
     const MatchField field = run({exemplar}, target, parameters);
     int left = 0;
     int all = 0;
     for (int y = 0; y < 96; ++y) {
       for (int x = 0; x < 80; ++x) {
-        if (y % 24 < 4 || y % 24 > 7) continue;  // so do patches beside the border
+        if (y % 24 < 4 || y % 24 > 7) continue;  // so do patches next to the border
         ++all;
         left += field(x, y).x < 80 ? 1 : 0;
       }
@@ -252,10 +263,10 @@ TEST(Synthesize, AllSurroundingsTellAThirdClass) {
   RecordProperty("left_alike", std::to_string(alike));
   EXPECT_GT(all, 0.88);
   EXPECT_LT(commonest, 0.8);
-  EXPECT_LT(alike, all - 0.04) << "7 and 9 are said to be alike";
+  EXPECT_LT(alike, all - 0.04) << "7 and 9 have dissimilarity 0";
 }
 
-// Weak guides that no texel can meet all at once must not take from what the strongest one reaches.
+// Weak guides that no texel can meet together must not reduce the effect of the strongest one.
 TEST(Synthesize, ManyWeakGuidesLeaveTheStrongOneAlone) {
   std::vector<Exemplar> exemplars{painting(128, 128, 1)};
   GuideStack target = land(128, 128, 40);
@@ -267,7 +278,8 @@ TEST(Synthesize, ManyWeakGuidesLeaveTheStrongOneAlone) {
     const auto noise = [&](std::uint64_t seed) {
       Grid<std::uint8_t> values(128, 128);
       for (int y = 0; y < 128; ++y) {
-        for (int x = 0; x < 128; ++x) values(x, y) = smooth_noise(seed + static_cast<std::uint64_t>(g), x, y, 20);
+        for (int x = 0; x < 128; ++x)
+          values(x, y) = smooth_noise(seed + static_cast<std::uint64_t>(g), x, y, 20);
       }
       return values;
     };
@@ -276,10 +288,11 @@ TEST(Synthesize, ManyWeakGuidesLeaveTheStrongOneAlone) {
     target.guides.push_back({name, noise(200)});
     parameters.weights.emplace_back(name, 0.12);  // under an eighth: none of them orders the lists
   }
-  const double among_many = mean_guide_error(run(exemplars, target, parameters), exemplars, target, 0);
+  const double among_many =
+      mean_guide_error(run(exemplars, target, parameters), exemplars, target, 0);
   RecordProperty("many_alone_milli", static_cast<int>(1000 * alone));
   RecordProperty("many_among_milli", static_cast<int>(1000 * among_many));
-  // Measured: 1.41 times the error; 1.60 times where errors that picks leave as well are priced.
+  // Measured: 1.41 times the error; 1.60 times if the usual errors of picks are priced as well.
   EXPECT_LT(among_many, 1.5 * alone);
 }
 
@@ -313,7 +326,8 @@ TEST(Synthesize, SmallestCasesWork) {
 TEST(Synthesize, RefusesWhatItCannotUse) {
   const std::vector<Exemplar> good{painting(40, 40, 1)};
   const GuideStack target = land(40, 40, 2);
-  const auto kind = [&](const std::vector<Exemplar>& exemplars, const GuideStack& stack, const SynthesisParameters& parameters) {
+  const auto kind = [&](const std::vector<Exemplar>& exemplars, const GuideStack& stack,
+                        const SynthesisParameters& parameters) {
     try {
       run(exemplars, stack, parameters);
     } catch (const Error& error) {
@@ -365,7 +379,7 @@ TEST(Synthesize, RefusesWhatItCannotUse) {
   parameters.surroundings = -1;
   EXPECT_EQ(kind(good, target, parameters), 2);
   parameters = {};
-  parameters.unlikeness = {{{3, 7}, 1.5}};
+  parameters.class_dissimilarity = {{{3, 7}, 1.5}};
   EXPECT_EQ(kind(good, target, parameters), 2);
   EXPECT_EQ(kind(good, target, {}), 0);
 }

@@ -1,4 +1,4 @@
-// Which texels synthesis takes, and how often.
+// The texels that synthesis uses, and how often.
 #include "texture/synthesis/synthesize.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "tests/texture/synthesis/made_up_land.h"
+#include "tests/texture/synthesis/synthetic_land.h"
 #include "texture/quality/quality.h"
 
 namespace belvedere {
@@ -58,7 +58,8 @@ TEST(Synthesize, ClassesWithoutTexelsFallBackOrStayWithout) {
         ASSERT_EQ(m, Match{});
       } else {
         ASSERT_EQ(m.exemplar, 0);
-        ASSERT_EQ(exemplars[0].guides.label(m.x, m.y), target.label(x, y) == 100 ? 9 : target.label(x, y));
+        ASSERT_EQ(exemplars[0].guides.label(m.x, m.y),
+                  target.label(x, y) == 100 ? 9 : target.label(x, y));
       }
     }
   }
@@ -81,9 +82,10 @@ TEST(Synthesize, SeveralExemplarsShareTheWork) {
   }
   EXPECT_GT(second, 128 * 128 / 4);
   EXPECT_LT(second, 128 * 128 * 3 / 4);
-  EXPECT_LT(mean_guide_error(field, two, target, 0), mean_guide_error(run(one, target), one, target, 0));
+  EXPECT_LT(mean_guide_error(field, two, target, 0),
+            mean_guide_error(run(one, target), one, target, 0));
 
-  // A class that only the second painting has comes wholly from there.
+  // A class that only the second painting has comes entirely from there.
   std::vector<Exemplar> split = two;
   for (std::uint8_t& label : split[0].guides.label) label = label == 7 ? unused_label : label;
   const MatchField from_second = run(split, target);
@@ -94,17 +96,18 @@ TEST(Synthesize, SeveralExemplarsShareTheWork) {
   }
 }
 
-// A target of the exemplar's own guides tempts to copy the whole of it.
+// A target with the exemplar's own guides tempts synthesis to copy the whole of it.
 TEST(Synthesize, CapHoldsStrictlyEvenForTheExemplarsOwnGuides) {
   const Exemplar exemplar = painting(128, 128, 1);
   for (const int cap : {16, 64, 240}) {
     SynthesisParameters parameters;
     parameters.copy_cap = cap;
-    const std::vector<std::size_t> sizes = piece_sizes(run({exemplar}, exemplar.guides, parameters));
+    const std::vector<std::size_t> sizes =
+        piece_sizes(run({exemplar}, exemplar.guides, parameters));
     EXPECT_LE(sizes.front(), static_cast<std::size_t>(cap));
-    EXPECT_GE(sizes.front(), static_cast<std::size_t>(cap / 2)) << "nothing hangs together";
+    EXPECT_GE(sizes.front(), static_cast<std::size_t>(cap / 2)) << "there are no large pieces";
   }
-  // Where there is next to nothing to choose from as well.
+  // Also where there is almost nothing to choose from.
   Exemplar small = painting(18, 17, 3);
   for (std::uint8_t& label : small.guides.label) label = 3;
   GuideStack target = small.guides;
@@ -114,24 +117,28 @@ TEST(Synthesize, CapHoldsStrictlyEvenForTheExemplarsOwnGuides) {
 }
 
 TEST(Synthesize, NoTexelIsUsedTooOften) {
-  // Half of the target lies higher than all but a few texels.
+  // Half of the target is higher than all but a few texels.
   const std::vector<Exemplar> exemplars{painting(128, 128, 1)};
   GuideStack target = land(128, 128, 40);
   for (std::uint8_t& label : target.label) label = 9;
   for (int y = 0; y < 64; ++y) {
     for (int x = 0; x < 128; ++x) target.guides[0].values(x, y) = 255;
   }
-  const std::size_t texels = static_cast<std::size_t>(std::count(exemplars[0].guides.label.begin(), exemplars[0].guides.label.end(), 9));
+  const std::size_t texels = static_cast<std::size_t>(
+      std::count(exemplars[0].guides.label.begin(), exemplars[0].guides.label.end(), 9));
   const MatchField field = run(exemplars, target);
-  const int most = measure_quality(field, exemplars, target, {.repeat_samples = 0}).most_used;
-  EXPECT_LE(most, static_cast<int>(6 + 3 * target.label.size() / texels));
+  const int max = measure_quality(field, exemplars, target, {.repeat_samples = 0}).max_used;
+  EXPECT_LE(max, static_cast<int>(6 + 3 * target.label.size() / texels));
   SynthesisParameters free;
   free.reuse = 0;
-  EXPECT_GT(measure_quality(run(exemplars, target, free), exemplars, target, {.repeat_samples = 0}).most_used, 2 * most);
+  EXPECT_GT(measure_quality(run(exemplars, target, free), exemplars, target, {.repeat_samples = 0})
+                .max_used,
+            2 * max);
 }
 
-// Of an eighth of a painting's squares pixels ask for three altitudes alone, and pieces of at most 16 pixels are moved as a whole until the
-// end: the cap on uses holds all the same, because pixels take other altitudes before they repeat, and a note says so.
+// With an eighth of a painting, pixels request three altitudes only, and pieces of at most 16
+// pixels are moved as a whole until the end: the cap on uses still holds, because pixels take other
+// altitudes before they repeat, and a note reports it.
 TEST(Synthesize, TheCapOnUsesHoldsWhereAltitudeLeavesFewTexels) {
   std::vector<Exemplar> exemplars{painting(160, 160, 1)};
   exemplars[0].guides.guides.resize(1);
@@ -148,26 +155,27 @@ TEST(Synthesize, TheCapOnUsesHoldsWhereAltitudeLeavesFewTexels) {
   SynthesisNotes notes;
   const MatchField field = synthesize(exemplars, target, parameters, notes);
   for (const std::uint8_t label : {3, 7, 9}) {
-    const auto texels = std::count(exemplars[0].guides.label.begin(), exemplars[0].guides.label.end(), label);
+    const auto texels =
+        std::count(exemplars[0].guides.label.begin(), exemplars[0].guides.label.end(), label);
     const auto pixels = std::count(target.label.begin(), target.label.end(), label);
     std::map<std::pair<int, int>, int> uses;
-    int most = 0;
+    int max = 0;
     for (std::size_t i = 0; i < field.size(); ++i) {
       ASSERT_EQ(exemplars[0].guides.label(field[i].x, field[i].y), target.label[i]);
-      if (target.label[i] == label) most = std::max(most, ++uses[{field[i].x, field[i].y}]);
+      if (target.label[i] == label) max = std::max(max, ++uses[{field[i].x, field[i].y}]);
     }
-    EXPECT_LE(most, 6 + 3 * pixels / texels) << "class " << int{label};
+    EXPECT_LE(max, 6 + 3 * pixels / texels) << "class " << int{label};
   }
   ASSERT_EQ(notes.notes.size(), 1U);
   EXPECT_NE(notes.notes[0].find("altitude"), std::string::npos) << notes.notes[0];
   EXPECT_LE(piece_sizes(field).front(), 16U);
-  // Where there are enough nothing is said.
+  // With enough texels there is no note.
   SynthesisNotes quiet;
   synthesize({painting(160, 160, 1)}, land(120, 120, 40), {}, quiet);
   EXPECT_TRUE(quiet.notes.empty());
 }
 
-// The grey of a picture against itself moved by (dx, dy): 1 is the same, 0 nothing in common.
+// The grey of a picture compared with itself shifted by (dx, dy): 1 identical, 0 uncorrelated.
 double autocorrelation(const Grid<Rgb8>& picture, int dx, int dy) {
   double a_sum = 0.0, b_sum = 0.0, aa = 0.0, bb = 0.0, ab = 0.0;
   double n = 0.0;
@@ -186,8 +194,8 @@ double autocorrelation(const Grid<Rgb8>& picture, int dx, int dy) {
   return (ab - a_sum * b_sum / n) / std::sqrt((aa - a_sum * a_sum / n) * (bb - b_sum * b_sum / n));
 }
 
-// No lattice: nowhere does the picture agree with itself, moved, more than the painting does. The plain continuation of one small painting,
-// tile after tile, does.
+// No lattice: nowhere is the picture more similar to itself, shifted, than the painting is. The
+// plain repetition of one small painting as tiles is.
 TEST(Synthesize, DoesNotRepeatItself) {
   Exemplar exemplar = painting(72, 72, 1);
   for (std::uint8_t& label : exemplar.guides.label) label = 3;
@@ -200,18 +208,19 @@ TEST(Synthesize, DoesNotRepeatItself) {
   GuideStack target;
   target.label = Grid<std::uint8_t>(200, 200, 3);
   const auto strongest = [](const Grid<Rgb8>& picture) {
-    double most = 0.0;
+    double max = 0.0;
     for (int dy = 0; dy <= 96; dy += 2)
       for (int dx = -96; dx <= 96; dx += 1)
-        if (dx * dx + dy * dy > 24 * 24) most = std::max(most, autocorrelation(picture, dx, dy));
-    return most;
+        if (dx * dx + dy * dy > 24 * 24) max = std::max(max, autocorrelation(picture, dx, dy));
+    return max;
   };
   const MatchField field = run({exemplar}, target);
   const std::vector<const Grid<Rgb8>*> layers{&exemplar.picture};
   const double own = strongest(replay(field, layers, Grid<Rgb8>()));
   MatchField tiles(200, 200);
   for (int y = 0; y < 200; ++y)
-    for (int x = 0; x < 200; ++x) tiles(x, y) = {0, static_cast<std::uint16_t>(x % 72), static_cast<std::uint16_t>(y % 72)};
+    for (int x = 0; x < 200; ++x)
+      tiles(x, y) = {0, static_cast<std::uint16_t>(x % 72), static_cast<std::uint16_t>(y % 72)};
   RecordProperty("autocorrelation", std::to_string(own));
   EXPECT_LT(own, 0.12);
   EXPECT_GT(strongest(replay(tiles, layers, Grid<Rgb8>())), 0.95);
@@ -222,28 +231,30 @@ TEST(Synthesize, DoesNotRepeatItself) {
 }
 
 TEST(Synthesize, ReuseAndPiecesStayBounded) {
-  // One guide that changes slowly: nothing but the prices keeps whole passages from being quoted.
+  // One guide that changes slowly: only the prices prevent whole passages from being copied.
   std::vector<Exemplar> exemplars{painting(128, 128, 1)};
   GuideStack target = land(160, 160, 40);
   exemplars[0].guides.guides.resize(1);
   target.guides.resize(1);
-  const auto largest = [](const MatchField& field) { return static_cast<int>(piece_sizes(field).front()); };
+  const auto largest = [](const MatchField& field) {
+    return static_cast<int>(piece_sizes(field).front());
+  };
   SynthesisParameters capped;
   capped.copy_cap = 64;
   const MatchField field = run(exemplars, target, capped);
-  EXPECT_LE(most_used(field), 18);
+  EXPECT_LE(max_used(field), 18);
   EXPECT_LE(largest(field), 64);
-  EXPECT_GE(largest(field), 32) << "nothing hangs together";
+  EXPECT_GE(largest(field), 32) << "there are no large pieces";
   SynthesisParameters free;
   free.reuse = 0;
   free.copy_cap = 100000;
   const MatchField unbounded = run(exemplars, target, free);
   RecordProperty("largest", largest(field));
   RecordProperty("largest_free", largest(unbounded));
-  RecordProperty("used", most_used(field));
-  RecordProperty("used_free", most_used(unbounded));
+  RecordProperty("used", max_used(field));
+  RecordProperty("used_free", max_used(unbounded));
   EXPECT_GT(largest(unbounded), 64 * 3 / 2);
-  EXPECT_GT(most_used(unbounded), 24);
+  EXPECT_GT(max_used(unbounded), 24);
 }
 
 }  // namespace

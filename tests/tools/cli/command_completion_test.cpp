@@ -13,7 +13,8 @@ using ::testing::HasSubstr;
 
 TEST_F(Program, CompletionPrintsTheScript) {
   for (const std::string& shell : tools::completed_shells())
-    EXPECT_EQ(run({"completion", shell}).out, tools::shell_completion(tools::describe_program(), shell));
+    EXPECT_EQ(run({"completion", shell}).out,
+              tools::shell_completion(tools::describe_program(), shell));
   const Outcome other = run({"completion", "csh"});
   EXPECT_EQ(other.status, 2);
   EXPECT_THAT(other.err, HasSubstr("bash,fish,zsh"));

@@ -31,12 +31,14 @@ class GeneralizeCommand : public Program {
  protected:
   static Raster<float> hills(const std::string& crs = "EPSG:32632", double cell = 100.0) {
     Raster<float> raster;
-    raster.transform = crs == "EPSG:4326" ? GeoTransform{11.0, 47.5, cell, cell} : GeoTransform{680000.0, 5260000.0, cell, cell};
+    raster.transform = crs == "EPSG:4326" ? GeoTransform{11.0, 47.5, cell, cell}
+                                          : GeoTransform{680000.0, 5260000.0, cell, cell};
     raster.crs = normalize_crs(crs);
     raster.cells = Grid<float>(70, 53);
     for (int y = 0; y < 53; ++y)
       for (int x = 0; x < 70; ++x)
-        raster.cells(x, y) = static_cast<float>(1000.1 + 12.3 * x - 7.7 * y + 40.0 * std::sin(x * 1.7) * std::cos(y * 1.1));
+        raster.cells(x, y) = static_cast<float>(1000.1 + 12.3 * x - 7.7 * y +
+                                                40.0 * std::sin(x * 1.7) * std::cos(y * 1.1));
     return raster;
   }
   // With a void at (5, 5).
@@ -64,20 +66,27 @@ TEST_F(GeneralizeCommand, UnitWeightsKeepEveryBitPlaceAndVoid) {
     EXPECT_EQ(after.crs, before.crs);
     ASSERT_TRUE(after.cells.same_size(before.cells));
     for (std::size_t i = 0; i < after.cells.size(); ++i)
-      ASSERT_TRUE(after.cells[i] == before.cells[i] || (std::isnan(after.cells[i]) && std::isnan(before.cells[i]))) << i;
+      ASSERT_TRUE(after.cells[i] == before.cells[i] ||
+                  (std::isnan(after.cells[i]) && std::isnan(before.cells[i])))
+          << i;
     EXPECT_TRUE(std::isnan(after.cells(5, 5)));
     ASSERT_TRUE(info_of(path("out.tif")).nodata);
     const double written = *info_of(path("out.tif")).nodata;
     EXPECT_TRUE(written == nodata || (std::isnan(written) && std::isnan(nodata))) << written;
   }
   // ESRI ASCII says it as well, but for NaN, which it has no number for.
-  ASSERT_EQ(generalize_file({write_hills("in.tif", -32767.0), path("out.asc"), "--global", "1,1"}).status, 0);
+  ASSERT_EQ(
+      generalize_file({write_hills("in.tif", -32767.0), path("out.asc"), "--global", "1,1"}).status,
+      0);
   EXPECT_EQ(info_of(path("out.asc")).nodata, -32767.0);
-  ASSERT_EQ(generalize_file({write_hills("in.tif", std::nan("")), path("out.asc"), "--global", "1,1"}).status, 0);
+  ASSERT_EQ(
+      generalize_file({write_hills("in.tif", std::nan("")), path("out.asc"), "--global", "1,1"})
+          .status,
+      0);
   EXPECT_EQ(info_of(path("out.asc")).nodata, -9999.0);
 }
 
-// A void's number must not swallow land: zero is an altitude as soon as a cell has it.
+// A void's number must not coincide with land: zero is an altitude as soon as a cell has it.
 TEST_F(GeneralizeCommand, NoAltitudeBecomesAVoid) {
   Raster<float> raster = hills();
   raster.cells(5, 5) = std::nanf("");
@@ -91,14 +100,18 @@ TEST_F(GeneralizeCommand, NoAltitudeBecomesAVoid) {
 TEST_F(GeneralizeCommand, WeightsAndPresetsAreThoseOfTheLibrary) {
   write_raster(path("in.tif"), hills());
   ASSERT_EQ(generalize_file({path("in.tif"), path("preset.tif"), "--preset", "figure2"}).status, 0);
-  ASSERT_EQ(generalize_file({path("in.tif"), path("weights.tif"), "--global", "1,1,2,0.25,0"}).status, 0);
+  ASSERT_EQ(
+      generalize_file({path("in.tif"), path("weights.tif"), "--global", "1,1,2,0.25,0"}).status, 0);
   const Grid<float> preset = read_raster_file(path("preset.tif")).cells;
   EXPECT_EQ(read_raster_file(path("weights.tif")).cells, preset);
   GeneralizeParameters bands;
   bands.foreground = bands.background = {1.F, 1.F, 2.F, .25F, 0.F};
   EXPECT_EQ(preset, generalize(hills().cells, {100.0, 100.0}, {}, bands, silent_progress()));
-  // What is written beside a preset has the last word.
-  ASSERT_EQ(generalize_file({path("in.tif"), path("both.tif"), "--preset", "figure2", "--global", "1,1,1,1,1"}).status, 0);
+  // Options beside a preset have precedence.
+  ASSERT_EQ(generalize_file(
+                {path("in.tif"), path("both.tif"), "--preset", "figure2", "--global", "1,1,1,1,1"})
+                .status,
+            0);
   EXPECT_EQ(read_raster_file(path("both.tif")).cells, hills().cells);
 }
 
@@ -109,7 +122,8 @@ TEST_F(GeneralizeCommand, BreakLinesAreThoseOfTheLibrary) {
   if (std::filesystem::exists(file)) {
     const Raster<float> real = read_raster_file(file);
     ground.cells = Grid<float>(70, 53);
-    for (int y = 0; y < 53; ++y) std::copy_n(real.cells.row(300 + y) + 300, 70, ground.cells.row(y));
+    for (int y = 0; y < 53; ++y)
+      std::copy_n(real.cells.row(300 + y) + 300, 70, ground.cells.row(y));
   }
   write_raster(path("in.tif"), ground);
   GeneralizeParameters bands;
@@ -151,7 +165,10 @@ TEST_F(GeneralizeCommand, AMaskKeepsWhatItCovers) {
   for (int y = 0; y < 53; ++y)
     for (int x = 0; x < 70; ++x) mask.cells(x, y) = x < 35 ? 0.F : 255.F;
   write_raster(path("mask.tif"), mask);
-  ASSERT_EQ(generalize_file({path("in.tif"), path("masked.tif"), "--global", "1,1,0", "--mask", path("mask.tif")}).status, 0);
+  ASSERT_EQ(generalize_file({path("in.tif"), path("masked.tif"), "--global", "1,1,0", "--mask",
+                             path("mask.tif")})
+                .status,
+            0);
   ASSERT_EQ(generalize_file({path("in.tif"), path("whole.tif"), "--global", "1,1,0"}).status, 0);
   const Grid<float> masked = read_raster_file(path("masked.tif")).cells;
   const Grid<float> whole = read_raster_file(path("whole.tif")).cells;
@@ -159,15 +176,19 @@ TEST_F(GeneralizeCommand, AMaskKeepsWhatItCovers) {
     for (int x = 0; x < 20; ++x) ASSERT_EQ(masked(x, y), hills().cells(x, y));
     for (int x = 50; x < 70; ++x) ASSERT_EQ(masked(x, y), whole(x, y));
   }
-  EXPECT_GT(std::abs(whole(10, 20) - hills().cells(10, 20)) + std::abs(whole(11, 20) - hills().cells(11, 20)), 5.F);
+  EXPECT_GT(std::abs(whole(10, 20) - hills().cells(10, 20)) +
+                std::abs(whole(11, 20) - hills().cells(11, 20)),
+            5.F);
 }
 
 TEST_F(GeneralizeCommand, WhatIsWrongIsSaidByTheExitStatus) {
   const std::string in = write_hills("in.tif");
   const std::string out = path("out.tif");
-  const auto expect = [&](int status, const std::vector<std::string>& arguments, const std::string& says) {
+  const auto expect = [&](int status, const std::vector<std::string>& arguments,
+                          const std::string& says) {
     const Outcome outcome = generalize_file(arguments);
-    EXPECT_EQ(outcome.status, status) << fmt::format("{}", fmt::join(arguments, " ")) << outcome.err;
+    EXPECT_EQ(outcome.status, status)
+        << fmt::format("{}", fmt::join(arguments, " ")) << outcome.err;
     EXPECT_THAT(outcome.err, HasSubstr(says));
     EXPECT_FALSE(std::filesystem::exists(out));
   };
@@ -187,8 +208,9 @@ TEST_F(GeneralizeCommand, WhatIsWrongIsSaidByTheExitStatus) {
 TEST_F(GeneralizeCommand, HasTheSameBytesForAnyNumberOfThreads) {
   const std::string in = write_hills("in.tif");
   for (const std::string threads : {"1", "2"}) {
-    const Outcome outcome = generalize_file({in, path(threads + ".tif"), "--preset", "panorama", "--viewer", "680000,5255000",
-                                             "--distances", "1000,5000", "--threads", threads});
+    const Outcome outcome =
+        generalize_file({in, path(threads + ".tif"), "--preset", "panorama", "--viewer",
+                         "680000,5255000", "--distances", "1000,5000", "--threads", threads});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
   }
   EXPECT_EQ(read_bytes(path("1.tif")), read_bytes(path("2.tif")));
@@ -197,14 +219,17 @@ TEST_F(GeneralizeCommand, HasTheSameBytesForAnyNumberOfThreads) {
 TEST_F(GeneralizeCommand, DegreesCountAsTheGroundTheyCover) {
   const Raster<float> geographic = hills("EPSG:4326", 0.001);
   write_raster(path("in.tif"), geographic);
-  const Outcome outcome = run({"generalize", path("in.tif"), path("out.tif"), "--change-lakes", "--preset", "smooth_slopes"});
+  const Outcome outcome = run({"generalize", path("in.tif"), path("out.tif"), "--change-lakes",
+                               "--preset", "smooth_slopes"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.err, AllOf(HasSubstr("m on the ground"), HasSubstr("75")));  // 0.001° at 47.5° N: 75 × 111 m
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("m on the ground"),
+                                 HasSubstr("75")));  // 0.001° at 47.5° N: 75 × 111 m
   const Raster<float> after = read_raster_file(path("out.tif"));
   EXPECT_EQ(after.transform, geographic.transform);
   EXPECT_TRUE(info_of(path("out.tif")).geographic);
   EXPECT_NE(after.cells, geographic.cells);
-  const Outcome refused = run({"generalize", path("in.tif"), path("no.tif"), "--preset", "smooth_slopes", "--widen-valleys", "100"});
+  const Outcome refused = run({"generalize", path("in.tif"), path("no.tif"), "--preset",
+                               "smooth_slopes", "--widen-valleys", "100"});
   EXPECT_EQ(refused.status, 2);
   EXPECT_THAT(refused.err, HasSubstr("gdalwarp"));
 }

@@ -10,7 +10,8 @@ namespace belvedere {
 namespace {
 
 TEST_F(Program, ManPrintsThePage) {
-  EXPECT_EQ(run({"man"}).out, tools::man_page(tools::describe_program(), "belvedere " + program_version()));
+  EXPECT_EQ(run({"man"}).out,
+            tools::man_page(tools::describe_program(), "belvedere " + program_version()));
 }
 
 }  // namespace

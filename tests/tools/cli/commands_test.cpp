@@ -35,7 +35,7 @@ TEST(Commands, GroupsAreThoseOfTheTable) {
   EXPECT_EQ(used, known);
 }
 
-// Whoever reads the help of a command sees how it is typed.
+// The help of a command shows its usage.
 TEST(Commands, EachShowsAnExample) {
   const auto look = [](const CommandDescription& command, const auto& again) -> void {
     for (const CommandDescription& one : command.commands) again(one, again);

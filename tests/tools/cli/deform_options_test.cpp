@@ -17,7 +17,9 @@ std::string refusal(const DeformOptions& options) {
 TEST(DeformOptions, PairsAreTwoNumbersInAnyLocale) {
   EXPECT_EQ(parse_pair("692000.5,-5302000", "--viewer"), glm::dvec2(692000.5, -5302000.0));
   for (const char* text : {"", "1", "1,2,3", "1,x", "1;2", "1, 2"})
-    EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { parse_pair(text, "--viewer"); }), HasSubstr("--viewer")) << text;
+    EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { parse_pair(text, "--viewer"); }),
+                HasSubstr("--viewer"))
+        << text;
 }
 
 TEST(DeformOptions, ASceneEndsInToml) {
@@ -33,7 +35,8 @@ TEST(DeformOptions, BecomeSettingsOfTheScene) {
   DeformOptions options;  // of the demo
   options.exaggeration = "1.5";
   options.bend = "10000:25,40000:12,80000:0";
-  options.handles = {"1000,2000 radius=6000 core=2000 rotate=50 move=500,-10 scale=1.1 raise=100", "5,6 radius=100"};
+  options.handles = {"1000,2000 radius=6000 core=2000 rotate=50 move=500,-10 scale=1.1 raise=100",
+                     "5,6 radius=100"};
   options.viewer = "3000,-9000";
   options.scene.files.settings = {"deform.exaggeration=2"};
   const LoadedScene loaded = load(options);
@@ -58,7 +61,7 @@ TEST(DeformOptions, OfADemMakeASceneThatHoldsItAlone) {
   options.exaggeration = "2";
   const LoadedScene loaded = load(options);
   EXPECT_EQ(loaded.scene.deform.exaggeration, 2.0);
-  ASSERT_TRUE(loaded.scene.camera.position) << "without distances nobody need stand anywhere";
+  ASSERT_TRUE(loaded.scene.camera.position) << "without distances no viewer is needed";
   options.bend = "1000:10,9000:0";
   EXPECT_THAT(refusal(options), HasSubstr("--viewer E,N"));
   options.viewer = "1,2";

@@ -26,7 +26,9 @@ TEST(FileNames, WhatIsReadIsNotWrittenOver) {
   const std::string read = folder.write("a/crop.png", "read");
   check_not_read(folder / "a/other.png", "--out", {read, folder / "gone.png", ""});
   check_not_read("", "--page", {read});
-  const Error error = test::error_of([&] { check_not_read(folder / "a/../a/crop.png", "--out", {"", read}); });
+  const Error error = test::error_of([&] {
+    check_not_read(folder / "a/../a/crop.png", "--out", {"", read});
+  });
   EXPECT_EQ(error.kind(), ErrorKind::usage);
   EXPECT_EQ(std::string(error.what()).find("--out"), 0U) << error.what();
 }

@@ -21,8 +21,9 @@ std::string refusal(const std::string& line) {
 }
 
 TEST(GeneralizeOptions, WeightsAreListsWithCommas) {
-  const GeneralizeOptions options =
-      read_generalize_options("in.tif out.tif --global 1,1,0.5 --ridges 0,-0.5,1 --viewer 10,20 --distances 5,9 --curvature plan");
+  const GeneralizeOptions options = read_generalize_options(
+      "in.tif out.tif --global 1,1,0.5 --ridges 0,-0.5,1 --viewer 10,20 --distances 5,9 "
+      "--curvature plan");
   EXPECT_THAT(options.viewer, ElementsAre(10.0, 20.0));
   const GeneralizeParameters bands = resolve_bands(options);
   EXPECT_THAT(bands.foreground, ElementsAre(1.F, 1.F, 0.5F));
@@ -41,7 +42,8 @@ TEST(GeneralizeOptions, PresetsGiveWeightsAndMasks) {
   EXPECT_EQ(own->original_to_deg, 2.0);
   EXPECT_EQ(own->generalized_from_deg, 8.0);
   EXPECT_TRUE(masked_slopes(read_generalize_options("a b --preset figure5"))) << "the preset's own";
-  EXPECT_THAT(resolve_bands(read_generalize_options("a b --preset figure2")).foreground, ElementsAre(1.F, 1.F, 2.F, 0.25F, 0.F));
+  EXPECT_THAT(resolve_bands(read_generalize_options("a b --preset figure2")).foreground,
+              ElementsAre(1.F, 1.F, 2.F, 0.25F, 0.F));
   EXPECT_THROW(read_generalize_options("a b --preset nonsense"), Error);
 }
 
@@ -55,16 +57,22 @@ TEST(GeneralizeOptions, WhatCannotBeMeantIsRefused) {
   EXPECT_THAT(refusal("a b --global 1,1 --background-global 1,0"), HasSubstr("--viewer E,N"));
   // A page with sliders begins with weights of 1, and needs no viewer.
   EXPECT_EQ(resolve_bands(read_generalize_options("a --equalizer x.html")).foreground.size(), 6U);
-  EXPECT_EQ(resolve_bands(read_generalize_options("a --equalizer x.html --global 1,1 --background-global 1,0")).background[1], 0.F);
+  EXPECT_EQ(resolve_bands(read_generalize_options(
+                              "a --equalizer x.html --global 1,1 --background-global 1,0"))
+                .background[1],
+            0.F);
 }
 
 TEST(GeneralizeOptions, TheCommandIsToldWithoutFolders) {
   const GeneralizeOptions options = read_generalize_options(
-      "/data/in.tif /out/o.tif --global 1,0.5 --viewer 1,2 --mask /m/mask.tif --mask-slope 2,8 --automatic-mask --destripe --widen-valleys "
+      "/data/in.tif /out/o.tif --global 1,0.5 --viewer 1,2 --mask /m/mask.tif --mask-slope 2,8 "
+      "--automatic-mask --destripe --widen-valleys "
       "60 --curvature plan --full-curvature 0.4 --blur 2 --exponent 0.6 --change-lakes");
   EXPECT_EQ(describe_generalize(options, resolve_bands(options)),
-            "belvedere generalize in.tif o.tif --global 1,0.5 --background-global 1,0.5 --viewer 1,2 --mask mask.tif --mask-slope 2,8 "
-            "--automatic-mask --change-lakes --curvature plan --full-curvature 0.4 --blur 2 --exponent 0.6 --destripe --widen-valleys 60");
+            "belvedere generalize in.tif o.tif --global 1,0.5 --background-global 1,0.5 --viewer "
+            "1,2 --mask mask.tif --mask-slope 2,8 "
+            "--automatic-mask --change-lakes --curvature plan --full-curvature 0.4 --blur 2 "
+            "--exponent 0.6 --destripe --widen-valleys 60");
 }
 
 }  // namespace

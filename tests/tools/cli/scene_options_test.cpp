@@ -15,13 +15,15 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 SceneOptions read_scene_options(const std::string& line) {
-  return test::read_options<SceneOptions>([](CommandOptions& command, SceneOptions& options) { add_scene_options(command, options); },
-                                          line);
+  return test::read_options<SceneOptions>(
+      [](CommandOptions& command, SceneOptions& options) { add_scene_options(command, options); },
+      line);
 }
 
 TEST(SceneOptions, AreRead) {
-  const SceneOptions options =
-      read_scene_options("a.toml --data x --data y --set seed=3 --set palette=winter --threads 2 -q --json --memory 100");
+  const SceneOptions options = read_scene_options(
+      "a.toml --data x --data y --set seed=3 --set palette=winter --threads 2 -q --json --memory "
+      "100");
   EXPECT_EQ(options.scene, "a.toml");
   EXPECT_THAT(options.files.data_folders, ElementsAre("x", "y"));
   EXPECT_THAT(options.files.settings, ElementsAre("seed=3", "palette=winter"));

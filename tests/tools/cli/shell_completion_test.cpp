@@ -30,12 +30,16 @@ class BashCompletion : public ::testing::Test {
     folder_.write("here/dem.tif", "");
     folder_.write("here/scenes/rainier.toml", "");
   }
-  // What bash offers for the last of the words, in the folder "here". Words that bash parts, as at "=", are given apart.
+  // Completions of bash for the last of the words, in the folder "here". Words that bash splits, as
+  // at "=", are given apart.
   std::vector<std::string> completed(const std::string& words) const {
-    const std::string script = "cd '" + (folder_ / "here") + "'; . ../belvedere.bash; COMP_WORDS=(belvedere " + words +
-                               "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _belvedere; printf '%s\\n' \"${COMPREPLY[@]}\"";
+    const std::string script =
+        "cd '" + (folder_ / "here") + "'; . ../belvedere.bash; COMP_WORDS=(belvedere " + words +
+        "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _belvedere; printf '%s\\n' \"${COMPREPLY[@]}\"";
     const std::string file = folder_.write("ask.sh", script);
-    EXPECT_EQ(std::system(("bash --norc '" + file + "' > '" + (folder_ / "answer") + "' 2>&1").c_str()), 0);
+    EXPECT_EQ(
+        std::system(("bash --norc '" + file + "' > '" + (folder_ / "answer") + "' 2>&1").c_str()),
+        0);
     std::istringstream lines(test::read_bytes(folder_ / "answer"));
     std::vector<std::string> out;
     for (std::string line; std::getline(lines, line);)
@@ -45,11 +49,14 @@ class BashCompletion : public ::testing::Test {
   test::Folder folder_;
 };
 
-TEST_F(BashCompletion, IsAScript) { EXPECT_EQ(std::system(("bash -n '" + (folder_ / "belvedere.bash") + "'").c_str()), 0); }
+TEST_F(BashCompletion, IsAScript) {
+  EXPECT_EQ(std::system(("bash -n '" + (folder_ / "belvedere.bash") + "'").c_str()), 0);
+}
 
 TEST_F(BashCompletion, CompletesCommands) {
   EXPECT_THAT(completed("ren"), ElementsAre("render"));
-  EXPECT_THAT(completed("\"\""), AllOf(Contains("render"), Contains("exemplar"), Not(Contains("paint"))));
+  EXPECT_THAT(completed("\"\""),
+              AllOf(Contains("render"), Contains("exemplar"), Not(Contains("paint"))));
   EXPECT_THAT(completed("exemplar p"), ElementsAre("paint"));
   EXPECT_THAT(completed("exemplar \"\""), UnorderedElementsAre("check", "paint", "segment"));
 }
@@ -58,14 +65,17 @@ TEST_F(BashCompletion, CompletesOptionsOfTheCommandThatStandsThere) {
   EXPECT_THAT(completed("render --t"), UnorderedElementsAre("--threads", "--tile"));
   EXPECT_THAT(completed("generalize --mask"), UnorderedElementsAre("--mask", "--mask-slope"));
   // `check` and `exemplar check` are two commands.
-  EXPECT_THAT(completed("exemplar check --tar"), UnorderedElementsAre("--target", "--target-guide"));
+  EXPECT_THAT(completed("exemplar check --tar"),
+              UnorderedElementsAre("--target", "--target-guide"));
   EXPECT_THAT(completed("check --tar"), IsEmpty());
 }
 
 TEST_F(BashCompletion, CompletesValues) {
-  EXPECT_THAT(completed("synthesize --harmonize \"\""), UnorderedElementsAre("off", "common", "first", "regions"));
+  EXPECT_THAT(completed("synthesize --harmonize \"\""),
+              UnorderedElementsAre("off", "common", "first", "regions"));
   EXPECT_THAT(completed("synthesize --harmonize = c"), ElementsAre("common"));
-  EXPECT_THAT(completed("synthesize --harmonize ="), UnorderedElementsAre("off", "common", "first", "regions"));
+  EXPECT_THAT(completed("synthesize --harmonize ="),
+              UnorderedElementsAre("off", "common", "first", "regions"));
   EXPECT_THAT(completed("generalize --preset b"), ElementsAre("bold_ridges"));
   EXPECT_THAT(completed("completion z"), ElementsAre("zsh"));
   EXPECT_THAT(completed("render --threads \"\""), IsEmpty());
@@ -89,14 +99,15 @@ TEST(ShellCompletion, OfEveryShellNamesEveryCommandAndOption) {
       for (const OptionDescription& option : command.options)
         for (const std::string& name : option.names)
           if (name.starts_with("--")) {
-            EXPECT_THAT(script, HasSubstr(shell == "fish" ? "-l " + name.substr(2) : name)) << shell << " " << command.name;
+            EXPECT_THAT(script, HasSubstr(shell == "fish" ? "-l " + name.substr(2) : name))
+                << shell << " " << command.name;
           }
     };
     look(program, look);
   }
 }
 
-// zsh and fish say themselves whether they can read them.
+// zsh and fish check themselves whether they can read them.
 TEST(ShellCompletion, IsReadByItsShell) {
   const test::Folder folder;
   bool any = false;
@@ -111,7 +122,8 @@ TEST(ShellCompletion, IsReadByItsShell) {
 }
 
 TEST(ShellCompletion, RefusesOtherShells) {
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [] { shell_completion({}, "csh"); }), HasSubstr("bash, fish, zsh"));
+  EXPECT_THAT(test::message_of(ErrorKind::usage, [] { shell_completion({}, "csh"); }),
+              HasSubstr("bash, fish, zsh"));
 }
 
 }  // namespace

@@ -28,21 +28,25 @@ class SynthesisSweep : public Program {
     label_ = write_labels("style_class.tif", 90, 70, [](int x, int) { return x < 45 ? 1 : 2; });
     target_ = write_labels("target_class.tif", 64, 48, [](int x, int) { return x < 40 ? 2 : 1; });
     style_altitude_ = write_labels("style_altitude.tif", 90, 70, [](int, int y) { return 3 * y; });
-    target_altitude_ = write_labels("target_altitude.tif", 64, 48, [](int x, int y) { return 2 * x + y; });
+    target_altitude_ =
+        write_labels("target_altitude.tif", 64, 48, [](int x, int y) { return 2 * x + y; });
   }
-  Outcome sweep(const std::string& out, const std::vector<std::string>& more, const std::string& weight = "1") const {
-    std::vector<std::string> arguments = {"synthesize", "--picture",     style_,           "--label", label_,  target_,   "--guide",
-                                          "altitude",   style_altitude_, target_altitude_, weight,    "--out", path(out), "--quiet"};
+  Outcome sweep(const std::string& out, const std::vector<std::string>& more,
+                const std::string& weight = "1") const {
+    std::vector<std::string> arguments = {
+        "synthesize", "--picture",     style_,           "--label", label_,  target_,   "--guide",
+        "altitude",   style_altitude_, target_altitude_, weight,    "--out", path(out), "--quiet"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run(arguments);
   }
-  // Where a picture lies in another, or nowhere (-1).
+  // Position of one picture in another, or none (-1).
   static glm::ivec2 find(const Grid<glm::vec3>& sheet, const Grid<glm::vec3>& picture) {
     for (int y0 = 0; y0 + picture.height() <= sheet.height(); ++y0) {
       for (int x0 = 0; x0 + picture.width() <= sheet.width(); ++x0) {
         bool same = true;
         for (int y = 0; same && y < picture.height(); ++y)
-          same = std::equal(picture.row(y), picture.row(y) + picture.width(), sheet.row(y0 + y) + x0);
+          same =
+              std::equal(picture.row(y), picture.row(y) + picture.width(), sheet.row(y0 + y) + x0);
         if (same) return {x0, y0};
       }
     }
@@ -52,7 +56,8 @@ class SynthesisSweep : public Program {
 };
 
 TEST_F(SynthesisSweep, EachResultIsWhatItsValuesGiveAlone) {
-  const Outcome outcome = sweep("sweep", {"--sweep", "altitude=0,4", "--sweep", "seed=3,5,8", "--json"});
+  const Outcome outcome =
+      sweep("sweep", {"--sweep", "altitude=0,4", "--sweep", "seed=3,5,8", "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("\"syntheses\": 6"));
   ASSERT_EQ(sweep("alone.png", {"--seed", "8"}, "4").status, 0);
@@ -65,7 +70,8 @@ TEST_F(SynthesisSweep, EachResultIsWhatItsValuesGiveAlone) {
     EXPECT_EQ(cell == alone, file == std::string("2_3"));
     const glm::ivec2 at = find(sheet, cell);
     ASSERT_GE(at.x, 0) << file;
-    EXPECT_TRUE(at.y > before.y || (at.y == before.y && at.x > before.x)) << "columns are the first, rows the second";
+    EXPECT_TRUE(at.y > before.y || (at.y == before.y && at.x > before.x))
+        << "columns are the first, rows the second";
     before = at;
     // Its figures stand below.
     int ink = 0;
@@ -74,10 +80,13 @@ TEST_F(SynthesisSweep, EachResultIsWhatItsValuesGiveAlone) {
     EXPECT_GT(ink, 50);
   }
   const std::string page = read_bytes(path("sweep/index.html"));
-  EXPECT_THAT(page, AllOf(HasSubstr("sheet.png"), HasSubstr("--sweep altitude=0,4 --sweep seed=3,5,8"), HasSubstr("\"href\": \"2_3.png\""),
-                          HasSubstr("Sweep of altitude and seed"), Not(HasSubstr(path("")))));
+  EXPECT_THAT(page,
+              AllOf(HasSubstr("sheet.png"), HasSubstr("--sweep altitude=0,4 --sweep seed=3,5,8"),
+                    HasSubstr("\"href\": \"2_3.png\""), HasSubstr("Sweep of altitude and seed"),
+                    Not(HasSubstr(path("")))));
   const std::string json = read_bytes(path("sweep/report.json"));
-  EXPECT_THAT(json, AllOf(HasSubstr("\"seed\": \"8\""), HasSubstr("\"guide_error_mean\""), HasSubstr("\"clique_floor\"")));
+  EXPECT_THAT(json, AllOf(HasSubstr("\"seed\": \"8\""), HasSubstr("\"guide_error_mean\""),
+                          HasSubstr("\"clique_floor\"")));
 }
 
 TEST_F(SynthesisSweep, ValuesAreWrittenIntoTheSheet) {
@@ -99,22 +108,27 @@ TEST_F(SynthesisSweep, ValuesAreWrittenIntoTheSheet) {
 }
 
 TEST_F(SynthesisSweep, LargePicturesAreShownAtFullSizeWhereMostBordersLie) {
-  target_ = write_labels("target_class.tif", 700, 20, [](int x, int) { return x >= 500 && x % 2 == 0 ? 2 : 1; });
-  target_altitude_ = write_labels("target_altitude.tif", 700, 20, [](int x, int) { return x % 200; });
+  target_ = write_labels("target_class.tif", 700, 20,
+                         [](int x, int) { return x >= 500 && x % 2 == 0 ? 2 : 1; });
+  target_altitude_ =
+      write_labels("target_altitude.tif", 700, 20, [](int x, int) { return x % 200; });
   ASSERT_EQ(sweep("sweep", {"--sweep", "surroundings=0"}).status, 0);
   const Grid<glm::vec3> whole = read_picture(path("sweep/1_1.png"));
   EXPECT_EQ(whole.width(), 700);
   Grid<glm::vec3> view(512, 20);
   for (int y = 0; y < 20; ++y) std::copy_n(whole.row(y) + 188, 512, view.row(y));
   EXPECT_GE(find(read_picture(path("sweep/sheet.png")), view).x, 0);
-  EXPECT_THAT(read_bytes(path("sweep/index.html")), HasSubstr("The same 512 × 20 pixels of each, from 188, 0"));
+  EXPECT_THAT(read_bytes(path("sweep/index.html")),
+              HasSubstr("The same 512 × 20 pixels of each, from 188, 0"));
 }
 
 TEST_F(SynthesisSweep, HasTheSameBytesForAnyNumberOfThreads) {
-  for (const char* threads : {"1", "2"}) ASSERT_EQ(sweep(threads, {"--sweep", "levels=1,3", "--threads", threads}).status, 0);
+  for (const char* threads : {"1", "2"})
+    ASSERT_EQ(sweep(threads, {"--sweep", "levels=1,3", "--threads", threads}).status, 0);
   for (const auto& entry : fs::directory_iterator(path("1"))) {
     const std::string name = entry.path().filename().string();
-    if (name == "index.html" || name == "report.json") continue;  // they say what the folder is called
+    if (name == "index.html" || name == "report.json")
+      continue;  // they say what the folder is called
     EXPECT_EQ(read_bytes(entry.path().string()), read_bytes(path("2/" + name))) << name;
   }
 }
@@ -131,7 +145,8 @@ TEST_F(SynthesisSweep, TriesSizesOfTheNeighbourhood) {
 }
 
 TEST_F(SynthesisSweep, RefusesWhatCannotBeMeant) {
-  const auto refused = [&](const std::vector<std::string>& sweeps, const std::string& words, const std::string& out = "sweep") {
+  const auto refused = [&](const std::vector<std::string>& sweeps, const std::string& words,
+                           const std::string& out = "sweep") {
     std::vector<std::string> arguments;
     for (const std::string& s : sweeps) arguments.insert(arguments.end(), {"--sweep", s});
     const Outcome outcome = sweep(out, arguments);
@@ -139,9 +154,9 @@ TEST_F(SynthesisSweep, RefusesWhatCannotBeMeant) {
     EXPECT_THAT(outcome.err, HasSubstr(words));
     EXPECT_FALSE(fs::exists(path("sweep/sheet.png")));
   };
-  refused(
-      {"tone=1,2"},
-      "\"tone\" is nothing that can be swept\n  allowed: seed, levels, reuse, copy-cap, neighbourhood, surroundings, altitude (weight)");
+  refused({"tone=1,2"},
+          "\"tone\" cannot be swept\n  allowed: seed, levels, reuse, copy-cap, neighbourhood, "
+          "surroundings, altitude (weight)");
   refused({"neighbourhood=3,4"}, "odd numbers 3 … 11");
   refused({"neighbourhood=13"}, "odd numbers 3 … 11");
   refused({"reuse"}, "NAME=VALUE");
@@ -155,7 +170,8 @@ TEST_F(SynthesisSweep, RefusesWhatCannotBeMeant) {
   refused({"seed=1,2,1"}, "the value 1 twice");
   refused({"seed=1", "seed=2"}, "seed twice");
   refused({"seed=1", "reuse=1", "levels=1"}, "once or twice");
-  refused({"seed=1,2,3,4,5,6,7,8,9,10,11", "copy-cap=20,21,22,23,24,25,26,27,28,29"}, "110 syntheses");
+  refused({"seed=1,2,3,4,5,6,7,8,9,10,11", "copy-cap=20,21,22,23,24,25,26,27,28,29"},
+          "110 syntheses");
   refused({"reuse=1"}, "a folder", "sweep.png");
   EXPECT_EQ(sweep("sweep", {"--sweep", "reuse=1", "--match", path("match.exr")}).status, 2);
 }

@@ -1,4 +1,4 @@
-// synthesize --replay: other layers of the same paintings, laid by a stored match field.
+// synthesize --replay: other layers of the same paintings, copied by a stored match field.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -24,28 +24,41 @@ class Replay : public Program {
   // A painting of two classes, a target that has a third besides, and the matches between them.
   void SetUp() override {
     style_ = write_picture("style.png", width, height, [](int x, int y) {
-      return glm::vec3(x < 24 ? 0.9F : 0.2F, static_cast<float>((x * 7 + y * 13) % 32) / 64.F, static_cast<float>(y) / 64.F);
+      return glm::vec3(x < 24 ? 0.9F : 0.2F, static_cast<float>((x * 7 + y * 13) % 32) / 64.F,
+                       static_cast<float>(y) / 64.F);
     });
-    const std::string style_class = write_labels("style_class.tif", width, height, [](int x, int) { return x < 24 ? 1 : 2; });
-    const std::string target_class = write_labels("target_class.tif", 37, 30, [](int x, int y) { return y < 3 ? 3 : x < 20 ? 2 : 1; });
+    const std::string style_class =
+        write_labels("style_class.tif", width, height, [](int x, int) { return x < 24 ? 1 : 2; });
+    const std::string target_class = write_labels("target_class.tif", 37, 30, [](int x, int y) {
+      return y < 3 ? 3 : x < 20 ? 2 : 1;
+    });
     match_ = path("match.exr");
-    const Outcome made = run(
-        {"synthesize", "--picture", style_, "--label", style_class, target_class, "--out", path("made.tif"), "--match", match_, "--quiet"});
+    const Outcome made =
+        run({"synthesize", "--picture", style_, "--label", style_class, target_class, "--out",
+             path("made.tif"), "--match", match_, "--quiet"});
     ASSERT_EQ(made.status, 0) << made.err;
     exemplar_ = read_id_channel(match_, "exemplar");
     x_ = read_id_channel(match_, "x");
     y_ = read_id_channel(match_, "y");
   }
-  Outcome replay(const std::vector<std::string>& layers, const std::string& out, const std::string& match = "") const {
-    std::vector<std::string> arguments = {"synthesize", "--replay", match.empty() ? match_ : match, "--out", out};
+  Outcome replay(const std::vector<std::string>& layers, const std::string& out,
+                 const std::string& match = "") const {
+    std::vector<std::string> arguments = {"synthesize", "--replay", match.empty() ? match_ : match,
+                                          "--out", out};
     for (const std::string& layer : layers) arguments.insert(arguments.end(), {"--picture", layer});
     return run(arguments);
   }
   // A match field by hand, one pixel; texel as it stands in the file.
-  std::string write_match(const std::string& name, std::uint32_t exemplar, std::uint32_t x, std::uint32_t y, const FileNotes& notes,
+  std::string write_match(const std::string& name, std::uint32_t exemplar, std::uint32_t x,
+                          std::uint32_t y, const FileNotes& notes,
                           ChannelType type = ChannelType::uint32) const {
-    ExrWriter writer(path(name), 1, 1, {{"match", {{"exemplar", type}, {"x", ChannelType::uint32}, {"y", ChannelType::uint32}}}}, notes);
-    writer.write_rows(0, 0, 1, {std::bit_cast<float>(exemplar), std::bit_cast<float>(x), std::bit_cast<float>(y)});
+    ExrWriter writer(
+        path(name), 1, 1,
+        {{"match", {{"exemplar", type}, {"x", ChannelType::uint32}, {"y", ChannelType::uint32}}}},
+        notes);
+    writer.write_rows(
+        0, 0, 1,
+        {std::bit_cast<float>(exemplar), std::bit_cast<float>(x), std::bit_cast<float>(y)});
     writer.finish();
     return path(name);
   }
@@ -65,33 +78,40 @@ TEST_F(Replay, SixteenBitsComeThroughExactly) {
   Grid<glm::vec3> layer(width, height);
   std::vector<int> values;
   for (std::size_t i = 0; i < layer.size(); ++i)
-    for (int c = 0; c < 3; ++c) layer[i][c] = static_cast<float>(random_index(65536, 9, static_cast<int>(i), c)) / 65535.F;
+    for (int c = 0; c < 3; ++c)
+      layer[i][c] = static_cast<float>(random_index(65536, 9, static_cast<int>(i), c)) / 65535.F;
   write_tiff16(path("layer.tif"), layer, {});
   const Outcome outcome = replay({path("layer.tif")}, path("out.tif"));
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_EQ(read_image_info(path("out.tif")).parts.front().channels.front().type, ChannelType::uint16);
+  EXPECT_EQ(read_image_info(path("out.tif")).parts.front().channels.front().type,
+            ChannelType::uint16);
   const Grid<glm::vec3> source = read_picture(path("layer.tif"));
   const Grid<glm::vec3> out = read_picture(path("out.tif"));
   ASSERT_TRUE(out.same_size(exemplar_));
   for (std::size_t i = 0; i < out.size(); ++i) {
-    const glm::vec3 expected = exemplar_[i] == 0 ? source(static_cast<int>(x_[i]), static_cast<int>(y_[i])) : glm::vec3(0.F);
+    const glm::vec3 expected = exemplar_[i] == 0
+                                   ? source(static_cast<int>(x_[i]), static_cast<int>(y_[i]))
+                                   : glm::vec3(0.F);
     EXPECT_EQ(out[i], expected);
   }
-  // A PNG cannot hold them, and says so.
+  // A PNG cannot hold them, and reports it.
   const Outcome png = replay({path("layer.tif")}, path("out.png"));
   EXPECT_EQ(png.status, 0);
   EXPECT_THAT(png.err, HasSubstr("keeps 8"));
 }
 
 TEST_F(Replay, OpenExrKeepsEveryChannelInItsType) {
-  const std::vector<PartSpec> parts = {{"light", {{"B", ChannelType::half}, {"G", ChannelType::half}, {"R", ChannelType::half}}},
-                                       {"ground", {{"Z", ChannelType::float32}, {"landcover.id", ChannelType::uint32}}}};
+  const std::vector<PartSpec> parts = {
+      {"light", {{"B", ChannelType::half}, {"G", ChannelType::half}, {"R", ChannelType::half}}},
+      {"ground", {{"Z", ChannelType::float32}, {"landcover.id", ChannelType::uint32}}}};
   {
     ExrWriter writer(path("layer.exr"), width, height, parts, {});
     std::vector<float> light, ground;
     for (int i = 0; i < width * height; ++i) {
       light.insert(light.end(), {static_cast<float>(i), -2.5F, 60000.F});
-      ground.insert(ground.end(), {1.F / static_cast<float>(i + 3), std::bit_cast<float>(4000000000U + static_cast<std::uint32_t>(i))});
+      ground.insert(ground.end(),
+                    {1.F / static_cast<float>(i + 3),
+                     std::bit_cast<float>(4000000000U + static_cast<std::uint32_t>(i))});
     }
     writer.write_rows(0, 0, height, light);
     writer.write_rows(1, 0, height, ground);
@@ -114,30 +134,36 @@ TEST_F(Replay, OpenExrKeepsEveryChannelInItsType) {
     EXPECT_EQ(z[i], copied ? 1.F / (at + 3.F) : 0.F);
     EXPECT_EQ(id[i], copied ? 4000000000U + static_cast<std::uint32_t>(at) : 0U);
   }
-  // In a TIFF what lies outside of 0 … 1 is cut, and said to be.
+  // In a TIFF values outside 0 … 1 are clamped, with a note.
   const Outcome tiff = replay({path("layer.exr")}, path("out.tif"));
   EXPECT_EQ(tiff.status, 0);
   EXPECT_THAT(tiff.err, HasSubstr("an .exr would keep them"));
 }
 
 TEST_F(Replay, SeveralPaintingsEachTakeTheirLayer) {
-  const std::string first = write_picture("first.png", 8, 4, [](int x, int) { return glm::vec3(static_cast<float>(x) / 255.F); });
-  const std::string second = write_picture("second.png", 4, 8, [](int, int y) { return glm::vec3(static_cast<float>(100 + y) / 255.F); });
+  const std::string first = write_picture(
+      "first.png", 8, 4, [](int x, int) { return glm::vec3(static_cast<float>(x) / 255.F); });
+  const std::string second = write_picture("second.png", 4, 8, [](int, int y) {
+    return glm::vec3(static_cast<float>(100 + y) / 255.F);
+  });
   const FileNotes notes{{"belvedere:matched_pictures", "8 4 a painting.png\n4 8 another.png\n"}};
   const std::string match = write_match("two.exr", 1, 3, 7, notes);
   ASSERT_EQ(replay({first, second}, path("out.tif"), match).status, 0);
   EXPECT_EQ(read_picture(path("out.tif"))[0], glm::vec3(107.F / 255.F));
   const Outcome swapped = replay({second, first}, path("swapped.tif"), match);
   EXPECT_EQ(swapped.status, 2);
-  EXPECT_THAT(swapped.err, AllOf(HasSubstr("second.png"), HasSubstr("4 × 8"), HasSubstr("8 × 4, as a painting.png")));
+  EXPECT_THAT(swapped.err, AllOf(HasSubstr("second.png"), HasSubstr("4 × 8"),
+                                 HasSubstr("8 × 4, as a painting.png")));
   const Outcome one = replay({first}, path("one.tif"), match);
   EXPECT_EQ(one.status, 2);
   EXPECT_THAT(one.err, HasSubstr("a painting.png, another.png"));
 }
 
 TEST_F(Replay, RefusesWhatDoesNotFit) {
-  const std::string small = write_picture("small.png", width - 1, height, [](int, int) { return glm::vec3(0.5F); });
-  const auto refused = [&](int status, const std::vector<std::string>& layers, const std::string& out, const std::string& match,
+  const std::string small =
+      write_picture("small.png", width - 1, height, [](int, int) { return glm::vec3(0.5F); });
+  const auto refused = [&](int status, const std::vector<std::string>& layers,
+                           const std::string& out, const std::string& match,
                            const std::string& words) {
     const Outcome outcome = replay(layers, path(out), match);
     EXPECT_EQ(outcome.status, status) << outcome.err;
@@ -145,26 +171,35 @@ TEST_F(Replay, RefusesWhatDoesNotFit) {
     EXPECT_FALSE(fs::exists(path(out)));
   };
   refused(2, {small}, "out.tif", "", "47 × 40");
-  refused(2, {style_, style_}, "out.tif", "", "there are 2 --picture");
+  refused(2, {style_, style_}, "out.tif", "", "2 --picture are given");
   refused(2, {style_}, "out.jpg", "", ".tif (16 bit)");
   refused(2, {style_}, "out.exr", "", "linear light");
   refused(3, {path("none.png")}, "out.tif", "", "none.png");
-  refused(3, {style_}, "out.tif", style_, "is no match field but png");
+  refused(3, {style_}, "out.tif", style_, "is not a match field but png");
   refused(3, {style_}, "out.tif", path("none.exr"), "none.exr");
-  // Another program's file: no note about pictures, or what it says is not so.
-  refused(3, {style_}, "out.tif", write_match("float.exr", 0, 0, 0, {}, ChannelType::float32), "no channel exemplar of whole numbers");
-  refused(2, {style_}, "out.tif", write_match("far.exr", 0, width, 0, {}), "texel 48, 0 is wanted");
+  // Another program's file: no note about pictures, or a wrong one.
+  refused(3, {style_}, "out.tif", write_match("float.exr", 0, 0, 0, {}, ChannelType::float32),
+          "no channel exemplar of whole numbers");
+  refused(2, {style_}, "out.tif", write_match("far.exr", 0, width, 0, {}), "texel 48, 0 is needed");
   refused(2, {style_}, "out.tif", write_match("other.exr", 1, 0, 0, {}), "at least 2");
-  refused(3, {style_}, "out.tif", write_match("beyond.exr", 0, 0, height, {{"belvedere:matched_pictures", "48 40 style.png\n"}}),
+  refused(3, {style_}, "out.tif",
+          write_match("beyond.exr", 0, 0, height,
+                      {{"belvedere:matched_pictures", "48 40 style.png\n"}}),
           "copies texel 0, 40 of picture 0");
-  refused(3, {style_}, "out.tif", write_match("note.exr", 0, 0, 0, {{"belvedere:matched_pictures", "wide high\n"}}), "wide high");
+  refused(3, {style_}, "out.tif",
+          write_match("note.exr", 0, 0, 0, {{"belvedere:matched_pictures", "wide high\n"}}),
+          "wide high");
   refused(3, {style_}, "out.tif", write_match("large.exr", 70000, 0, 0, {}), "of picture 70000");
-  const Outcome both = run({"synthesize", "--replay", match_, "--picture", style_, "--label", style_, style_, "--out", path("out.tif")});
+  const Outcome both = run({"synthesize", "--replay", match_, "--picture", style_, "--label",
+                            style_, style_, "--out", path("out.tif")});
   EXPECT_EQ(both.status, 2);
   EXPECT_THAT(both.err, AllOf(HasSubstr("--replay"), HasSubstr("--label")));
-  const Outcome half = run({"synthesize", "--picture", style_, "--label", style_, "--out", path("out.tif")});
+  const Outcome half =
+      run({"synthesize", "--picture", style_, "--label", style_, "--out", path("out.tif")});
   EXPECT_EQ(half.status, 2);
-  EXPECT_THAT(half.err, HasSubstr("--label: takes two files, of the painting and of the target, and --out comes too early"));
+  EXPECT_THAT(
+      half.err,
+      HasSubstr("--label: needs two files, of the painting and of the target, but --out follows"));
   const Outcome neither = run({"synthesize", "--picture", style_, "--out", path("out.tif")});
   EXPECT_EQ(neither.status, 2);
   EXPECT_THAT(neither.err, HasSubstr("--label"));

@@ -18,7 +18,8 @@ using ::testing::IsEmpty;
 using ::testing::MatchesRegex;
 using ::testing::Not;
 
-// Signals, closed streams and full disks are tested on the program itself: they change the process (belvedere_test.cpp).
+// Signals, closed streams and full disks are tested on the program itself: they change the process
+// (belvedere_test.cpp).
 
 TEST(Terminal, SecondsAreSaidAsPeopleDo) {
   EXPECT_EQ(describe_seconds(0.4), "0 s");
@@ -49,14 +50,17 @@ void two_stages(TerminalProgress& progress) {
 }
 
 TEST(Terminal, InALogEveryStageIsALine) {
-  EXPECT_THAT(said(false, two_stages), MatchesRegex("reading \\([0-9.]+ s\\)\nnote: a void was filled\ntracing \\([0-9.]+ s\\)\n"));
+  EXPECT_THAT(
+      said(false, two_stages),
+      MatchesRegex("reading \\([0-9.]+ s\\)\nnote: a void was filled\ntracing \\([0-9.]+ s\\)\n"));
   EXPECT_THAT(said(true, two_stages), IsEmpty());
   EXPECT_THAT(said(false, [](TerminalProgress& progress) { progress.end(); }), IsEmpty());
 }
 
 TEST(Terminal, OnATerminalABarIsDrawnOver) {
   const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
-  if (terminal < 0 || grantpt(terminal) != 0 || unlockpt(terminal) != 0) GTEST_SKIP() << "no pseudo terminal here";
+  if (terminal < 0 || grantpt(terminal) != 0 || unlockpt(terminal) != 0)
+    GTEST_SKIP() << "no pseudo terminal here";
   const int screen = open(ptsname(terminal), O_RDWR | O_NOCTTY);
   ASSERT_GE(screen, 0);
   const int before = dup(STDERR_FILENO);
@@ -69,14 +73,15 @@ TEST(Terminal, OnATerminalABarIsDrawnOver) {
   dup2(before, STDERR_FILENO);
   close(before);
   close(screen);
-  // A terminal hands out what was written piece by piece, until nobody holds its other side.
+  // A terminal returns what was written piece by piece, until its other side is closed.
   std::string text;
   std::array<char, 4096> shown{};
-  for (ssize_t size = read(terminal, shown.data(), shown.size()); size > 0; size = read(terminal, shown.data(), shown.size()))
+  for (ssize_t size = read(terminal, shown.data(), shown.size()); size > 0;
+       size = read(terminal, shown.data(), shown.size()))
     text.append(shown.data(), static_cast<std::size_t>(size));
   close(terminal);
-  EXPECT_THAT(text, AllOf(HasSubstr("\r\033[Ktracing ░"), HasSubstr("  0 %"), HasSubstr("\r\033[Knote: a void was filled"),
-                          Not(HasSubstr("left"))));
+  EXPECT_THAT(text, AllOf(HasSubstr("\r\033[Ktracing ░"), HasSubstr("  0 %"),
+                          HasSubstr("\r\033[Knote: a void was filled"), Not(HasSubstr("left"))));
 }
 
 }  // namespace

@@ -14,13 +14,17 @@ namespace {
 
 using ::testing::HasSubstr;
 
-TerrainOperators read_operators(const std::string& line) { return test::read_options<TerrainOperators>(add_terrain_operators, line); }
+TerrainOperators read_operators(const std::string& line) {
+  return test::read_options<TerrainOperators>(add_terrain_operators, line);
+}
 
 // A cone with stripes of ±1 m along rows.
 Grid<float> striped_cone() {
   Grid<float> cells(60, 50);
   for (int y = 0; y < 50; ++y)
-    for (int x = 0; x < 60; ++x) cells(x, y) = static_cast<float>(900.0 - 8.0 * std::hypot(x - 30, y - 25) + (y % 2 == 0 ? 1.0 : -1.0));
+    for (int x = 0; x < 60; ++x)
+      cells(x, y) =
+          static_cast<float>(900.0 - 8.0 * std::hypot(x - 30, y - 25) + (y % 2 == 0 ? 1.0 : -1.0));
   return cells;
 }
 
@@ -34,7 +38,8 @@ TEST(TerrainOperators, AreOffUnlessAskedFor) {
 TEST(TerrainOperators, EachChangesTheGround) {
   const Grid<float> cone = striped_cone();
   Progress progress;
-  const Grid<float> plain = operate_before_bands(cone, 30.0, read_operators("--destripe"), progress);
+  const Grid<float> plain =
+      operate_before_bands(cone, 30.0, read_operators("--destripe"), progress);
   EXPECT_LT(std::abs(plain(10, 24) - plain(10, 25)), 0.5F * std::abs(cone(10, 24) - cone(10, 25)));
   EXPECT_NE(operate_before_bands(cone, 30.0, read_operators("--line-integral"), progress), cone);
   EXPECT_EQ(read_operators("--widen-valleys 60").widen_valleys_m, 60.F);
@@ -47,7 +52,8 @@ TEST(TerrainOperators, ContoursNeedAFileForTheirInterval) {
 
 TEST(TerrainOperators, ProductsLieInTheGridOfTheResult) {
   const test::Folder folder;
-  Raster<float> cone{striped_cone(), {600000.0, 5200000.0, 30.0, 30.0}, normalize_crs("EPSG:32632")};
+  Raster<float> cone{
+      striped_cone(), {600000.0, 5200000.0, 30.0, 30.0}, normalize_crs("EPSG:32632")};
   TerrainOperators operators;
   operators.hillshade = folder / "relief.tif";
   operators.contours = folder / "lines.geojson";

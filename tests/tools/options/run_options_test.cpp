@@ -11,7 +11,9 @@ namespace belvedere::tools {
 namespace {
 
 RunOptions read_run_options(const std::string& line) {
-  return test::read_options<RunOptions>([](CommandOptions& command, RunOptions& options) { add_run_options(command, options); }, line);
+  return test::read_options<RunOptions>(
+      [](CommandOptions& command, RunOptions& options) { add_run_options(command, options); },
+      line);
 }
 
 TEST(RunOptions, AreThreadsQuietAndJson) {
@@ -22,7 +24,8 @@ TEST(RunOptions, AreThreadsQuietAndJson) {
   EXPECT_EQ(all.threads, 3);
   EXPECT_TRUE(all.quiet && all.json);
   EXPECT_TRUE(read_run_options("--quiet").quiet);
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [] { read_run_options("--threads -1"); }), testing::HasSubstr("--threads"));
+  EXPECT_THAT(test::message_of(ErrorKind::usage, [] { read_run_options("--threads -1"); }),
+              testing::HasSubstr("--threads"));
 }
 
 }  // namespace

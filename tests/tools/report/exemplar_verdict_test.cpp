@@ -26,37 +26,46 @@ ClassSurvey sound() {
   return of;
 }
 
-TEST(ExemplarVerdict, ASoundClassHasNoFlaws) { EXPECT_THAT(describe_flaws(sound(), findings()), IsEmpty()); }
+TEST(ExemplarVerdict, ASoundClassHasNoFlaws) {
+  EXPECT_THAT(describe_flaws(sound(), findings()), IsEmpty());
+}
 
 TEST(ExemplarVerdict, EachFlawIsASentence) {
   ClassSurvey of = sound();
   of.texels = 2499;
-  EXPECT_THAT(describe_flaws(of, findings()), ElementsAre(HasSubstr("only 2 499 texels: at least some 2 500")));
+  EXPECT_THAT(describe_flaws(of, findings()),
+              ElementsAre(HasSubstr("only 2 499 texels: at least about 2 500")));
   of = sound();
   of.inside = 0;
-  EXPECT_THAT(describe_flaws(of, findings()), ElementsAre(HasSubstr("along borders alone")));
+  EXPECT_THAT(describe_flaws(of, findings()), ElementsAre(HasSubstr("only along borders")));
   of = sound();
   of.left_right = {.known = true, .clique = 0.3, .colour = 0.0};
   of.checkerboard = {.known = true, .clique = 0.1, .colour = 0.0};
-  EXPECT_THAT(describe_flaws(of, findings()), ElementsAre(HasSubstr("unlike each other (0.30, chance makes 0.10)")));
-  of.checkerboard.clique = 0.13;  // what chance makes is nearly as much
+  EXPECT_THAT(describe_flaws(of, findings()),
+              ElementsAre(HasSubstr("painted differently (0.30, chance gives 0.10)")));
+  of.checkerboard.clique = 0.13;  // what chance gives is nearly as much
   EXPECT_THAT(describe_flaws(of, findings()), IsEmpty());
   of = sound();
-  of.guides.push_back({.name = "altitude", .lowest = 0, .highest = 0, .low = 0, .high = 0, .gaps = {{50, 70}}});
-  of.guides.push_back({.name = "slope", .lowest = 0, .highest = 0, .low = 0, .high = 0, .gaps = {{5, 30}}});
-  EXPECT_THAT(describe_flaws(of, findings()), ElementsAre("no texels at altitudes 1000 m to 1400 m")) << "of other guides gaps do no harm";
+  of.guides.push_back(
+      {.name = "altitude", .lowest = 0, .highest = 0, .low = 0, .high = 0, .gaps = {{50, 70}}});
+  of.guides.push_back(
+      {.name = "slope", .lowest = 0, .highest = 0, .low = 0, .high = 0, .gaps = {{5, 30}}});
+  EXPECT_THAT(describe_flaws(of, findings()),
+              ElementsAre("no texels at altitudes 1000 m to 1400 m"))
+      << "of other guides gaps do no harm";
 }
 
 TEST(ExemplarVerdict, SaysWhatServesAndWhatIsEnough) {
   EXPECT_EQ(describe_service(sound()), "serves up to 800 000 pixels");
-  ClassDemand demand{.supply = {.label = 4, .texels = 100, .pixels = 400}};
-  EXPECT_EQ(describe_demand(demand), "enough: 400 pixels want it, 400 can be served");
-  demand.supply.pixels = 401;
-  EXPECT_THAT(describe_demand(demand), AllOf(HasSubstr("too few"), HasSubstr("101 texels would be needed, there are 100")));
+  NeededClassTexels demand{.available = {.label = 4, .texels = 100, .pixels = 400}};
+  EXPECT_EQ(describe_needed_texels(demand), "enough: 400 pixels need it, 400 can be served");
+  demand.available.pixels = 401;
+  EXPECT_THAT(describe_needed_texels(demand),
+              AllOf(HasSubstr("too few"), HasSubstr("101 texels would be needed, there are 100")));
   demand.altitude_covered = 0.9;
-  EXPECT_THAT(describe_demand(demand), Not(HasSubstr("altitude")));
+  EXPECT_THAT(describe_needed_texels(demand), Not(HasSubstr("altitude")));
   demand.altitude_covered = 0.89;
-  EXPECT_THAT(describe_demand(demand), HasSubstr("only 89 % of its pixels"));
+  EXPECT_THAT(describe_needed_texels(demand), HasSubstr("only 89 % of its pixels"));
 }
 
 TEST(ExemplarVerdict, TextureModelsAreNamedWithWhatTheyPaint) {
@@ -65,9 +74,11 @@ TEST(ExemplarVerdict, TextureModelsAreNamedWithWhatTheyPaint) {
   found.models.push_back({.name = "meadow.model", .labels = {10, 6}, .always = false});
   found.models.push_back({.name = "lake.model", .labels = {1}, .always = true});
   EXPECT_THAT(findings_text(found),
-              AllOf(HasSubstr("meadow.model: a texture model, without texels; paints class 10, class 6 where paintings have no texels"),
+              AllOf(HasSubstr("meadow.model: a texture model, without texels; paints class 10, "
+                              "class 6 where paintings have no texels"),
                     HasSubstr("lake.model: a texture model, without texels; paints class 1\n")));
-  EXPECT_THAT(findings_json(found).str(), AllOf(HasSubstr("\"lake.model\""), HasSubstr("\"always\": true")));
+  EXPECT_THAT(findings_json(found).str(),
+              AllOf(HasSubstr("\"lake.model\""), HasSubstr("\"always\": true")));
 }
 
 TEST(ExemplarVerdict, TextAndJsonTellTheSame) {
@@ -77,14 +88,19 @@ TEST(ExemplarVerdict, TextAndJsonTellTheSame) {
   survey.excluded = 4000;
   survey.classes = {sound()};
   all.paintings.push_back({"p.png", 800, 500, survey});
-  EXPECT_THAT(findings_text(all), AllOf(HasSubstr("p.png: 800 × 500 texels, 1.0 % of them never a source"), HasSubstr("800 000"),
-                                        Not(HasSubstr("for this picture"))));
-  EXPECT_THAT(findings_json(all).str(), AllOf(HasSubstr("\"serves_pixels\": 800000"), Not(HasSubstr("\"asked\""))));
+  EXPECT_THAT(findings_text(all),
+              AllOf(HasSubstr("p.png: 800 × 500 texels, 1.0 % of them never copied"),
+                    HasSubstr("800 000"), Not(HasSubstr("for this picture"))));
+  EXPECT_THAT(findings_json(all).str(),
+              AllOf(HasSubstr("\"serves_pixels\": 800000"), Not(HasSubstr("\"asked\""))));
   all.target_known = true;
-  all.demands.push_back({.supply = {.label = 4, .texels = 200000, .pixels = 5}});
+  all.demands.push_back({.available = {.label = 4, .texels = 200000, .pixels = 5}});
   all.missing.emplace_back(std::uint8_t{9}, 12345.0);
-  EXPECT_THAT(findings_text(all), AllOf(HasSubstr("class 4: enough"), HasSubstr("class 9: no texels at all, and 12 345 pixels want it")));
-  EXPECT_THAT(findings_json(all).str(), AllOf(HasSubstr("\"altitude_covered\": null"), HasSubstr("\"pixels\": 12345")));
+  EXPECT_THAT(findings_text(all),
+              AllOf(HasSubstr("class 4: enough"),
+                    HasSubstr("class 9: no texels at all, but 12 345 pixels need it")));
+  EXPECT_THAT(findings_json(all).str(),
+              AllOf(HasSubstr("\"altitude_covered\": null"), HasSubstr("\"pixels\": 12345")));
 }
 
 }  // namespace

@@ -26,7 +26,8 @@ Grid<float> two_patches() {
 }
 Grid<float> near_is_south(int side) {
   Grid<float> share(side, side);
-  for (int y = 0; y < side; ++y) std::fill_n(share.row(y), side, static_cast<float>(y) / static_cast<float>(side));
+  for (int y = 0; y < side; ++y)
+    std::fill_n(share.row(y), side, static_cast<float>(y) / static_cast<float>(side));
   return share;
 }
 
@@ -42,12 +43,14 @@ TEST(GeneralizeFigures, AddsTheFiveOfThePaper) {
   Report page(folder.path());
   Grid<float> ground(120, 110);
   for (int y = 0; y < 110; ++y)
-    for (int x = 0; x < 120; ++x) ground(x, y) = static_cast<float>(800.0 + 200.0 * std::abs(std::sin(x / 9.0)) + y);
+    for (int x = 0; x < 120; ++x)
+      ground(x, y) = static_cast<float>(800.0 + 200.0 * std::abs(std::sin(x / 9.0)) + y);
   const GeneralizeGrids grids;
   const GeneralizeParameters parameters;
   const GeneralizeReportInput input{"t", "c", ground, ground, {30.0, 30.0}, grids, parameters};
   const Grid<float> share(120, 110, 0.5F);
-  add_paper_figures(page, input, share, choose_windows(ground, input.cell_m, share), silent_progress());
+  add_paper_figures(page, input, share, choose_windows(ground, input.cell_m, share),
+                    silent_progress());
   const std::string text = page.page({});
   for (const char* id : {"figure1", "figure2", "figure3", "figure4", "figure5"})
     EXPECT_THAT(text, HasSubstr(std::string("\"id\": \"") + id + "\"")) << id;

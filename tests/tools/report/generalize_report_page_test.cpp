@@ -27,8 +27,10 @@ Raster<float> mountains() {
   for (int y = 0; y < 180; ++y) {
     for (int x = 0; x < 260; ++x) {
       const double ridge =
-          500.0 * std::abs(std::sin(x / 21.0)) * std::abs(std::sin((x + y) / 37.0)) + 14.0 * std::sin(x * 1.9) * std::cos(y * 2.3);
-      dem.cells(x, y) = static_cast<float>(600.0 + (x > 60 ? ridge * std::min((x - 60) / 20.0, 1.0) : 0.0));
+          500.0 * std::abs(std::sin(x / 21.0)) * std::abs(std::sin((x + y) / 37.0)) +
+          14.0 * std::sin(x * 1.9) * std::cos(y * 2.3);
+      dem.cells(x, y) =
+          static_cast<float>(600.0 + (x > 60 ? ridge * std::min((x - 60) / 20.0, 1.0) : 0.0));
     }
   }
   dem.transform = {600000.0, 5200000.0, 30.0, 30.0};
@@ -42,11 +44,12 @@ class GeneralizeReport : public Program {
 };
 
 TEST_F(GeneralizeReport, ShowsEveryFigureAndItsPicturesLieBesideThePage) {
-  const Outcome outcome = run({"generalize", path("dem.tif"), path("out.tif"), "--global", "1,1,2,0.25,0", "--report", path("report")});
+  const Outcome outcome = run({"generalize", path("dem.tif"), path("out.tif"), "--global",
+                               "1,1,2,0.25,0", "--report", path("report")});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const std::string page = read_bytes(path("report/index.html"));
-  for (const char* id :
-       {"overview", "closeup", "energy", "ridges", "pits", "change", "figure1", "figure2", "figure3", "figure4", "figure5"})
+  for (const char* id : {"overview", "closeup", "energy", "ridges", "pits", "change", "figure1",
+                         "figure2", "figure3", "figure4", "figure5"})
     EXPECT_THAT(page, HasSubstr(fmt::format("\"id\": \"{}\"", id)));
   EXPECT_THAT(page, HasSubstr("belvedere generalize dem.tif out.tif --global 1,1,2,0.25,0"));
   EXPECT_EQ(page.find("http"), std::string::npos) << "the page must need no network";
@@ -68,13 +71,20 @@ TEST_F(GeneralizeReport, ShowsEveryFigureAndItsPicturesLieBesideThePage) {
 }
 
 TEST_F(GeneralizeReport, NumbersAreAboutTheResult) {
-  // Unit weights change nothing: the report must say so.
-  ASSERT_EQ(run({"generalize", path("dem.tif"), path("same.tif"), "--global", "1,1,1", "--report", path("same")}).status, 0);
+  // Unit weights change nothing, and the report must show it.
+  ASSERT_EQ(run({"generalize", path("dem.tif"), path("same.tif"), "--global", "1,1,1", "--report",
+                 path("same")})
+                .status,
+            0);
   const std::string same = read_bytes(path("same/report.json"));
-  EXPECT_THAT(same, AllOf(HasSubstr("\"change_largest_m\": 0,"), HasSubstr("\"ridge_curvature_kept\": 1,"), HasSubstr("\"bands\": 3")));
+  EXPECT_THAT(same, AllOf(HasSubstr("\"change_largest_m\": 0,"),
+                          HasSubstr("\"ridge_curvature_kept\": 1,"), HasSubstr("\"bands\": 3")));
   EXPECT_THAT(same, HasSubstr("\"lowered_million_m3\": 0"));
   // Without its finest band the terrain is smoother.
-  ASSERT_EQ(run({"generalize", path("dem.tif"), path("less.tif"), "--global", "1,1,0", "--report", path("less")}).status, 0);
+  ASSERT_EQ(run({"generalize", path("dem.tif"), path("less.tif"), "--global", "1,1,0", "--report",
+                 path("less")})
+                .status,
+            0);
   const std::string less = read_bytes(path("less/report.json"));
   std::smatch kept;
   ASSERT_TRUE(std::regex_search(less, kept, std::regex("\"ridge_curvature_kept\": ([0-9.]+)")));
@@ -82,9 +92,12 @@ TEST_F(GeneralizeReport, NumbersAreAboutTheResult) {
   EXPECT_EQ(less.find("\"change_largest_m\": 0,"), std::string::npos);
 }
 
-// The chart and the table below it tell the same: a group a stretch of distance, a bar a band.
+// The chart and the table below it agree: a group per range of distance, a bar per band.
 TEST_F(GeneralizeReport, BarsAreTheTablesShares) {
-  ASSERT_EQ(run({"generalize", path("dem.tif"), path("out.tif"), "--preset", "smooth_slopes", "--report", path("report")}).status, 0);
+  ASSERT_EQ(run({"generalize", path("dem.tif"), path("out.tif"), "--preset", "smooth_slopes",
+                 "--report", path("report")})
+                .status,
+            0);
   const std::string json = read_bytes(path("report/report.json"));
   const std::size_t chart = json.find("\"bars\": {");
   const std::size_t table = json.find("\"table\": {", chart);
@@ -93,23 +106,29 @@ TEST_F(GeneralizeReport, BarsAreTheTablesShares) {
     const std::string part = json.substr(from, to - from);
     const std::regex wanted(pattern);
     std::vector<std::string> found;
-    for (std::sregex_iterator i(part.begin(), part.end(), wanted); i != std::sregex_iterator(); ++i) found.push_back((*i)[1].str());
+    for (std::sregex_iterator i(part.begin(), part.end(), wanted); i != std::sregex_iterator(); ++i)
+      found.push_back((*i)[1].str());
     return found;
   };
-  EXPECT_EQ(all(chart, table, "\"name\": \"([^\"]+)\""), (std::vector<std::string>{"nearest", "2 of 5", "3 of 5", "4 of 5", "farthest"}));
+  EXPECT_EQ(all(chart, table, "\"name\": \"([^\"]+)\""),
+            (std::vector<std::string>{"nearest", "2 of 5", "3 of 5", "4 of 5", "farthest"}));
   const std::vector<std::string> bars = all(chart, table, "\n +([0-9.e-]+),?(?=\n)");
   EXPECT_EQ(bars.size(), 30U);
   EXPECT_EQ(bars, all(table, end, "\"value\": ([0-9.e-]+)"));
 }
 
-// The line in the report makes the same altitudes, for every option that moves them.
+// The command line in the report makes the same altitudes, for every option that affects them.
 TEST_F(GeneralizeReport, ItsCommandMakesTheSameTerrain) {
   const std::vector<std::vector<std::string>> asked = {
-      {"--preset", "smooth_slopes", "--curvature", "plan", "--full-curvature", "0.4", "--blur", "2.5", "--exponent", "0.35"},
-      {"--preset", "panorama", "--viewer", "500000.5,4990000", "--change-lakes", "--exponent", "0.7"},
-      {"--global", "1,1.7,2,0.3", "--valleys", "0,0.2,0.4,1.1", "--mask-slope", "2.5,9", "--automatic-mask", "--widen-valleys", "60"}};
+      {"--preset", "smooth_slopes", "--curvature", "plan", "--full-curvature", "0.4", "--blur",
+       "2.5", "--exponent", "0.35"},
+      {"--preset", "panorama", "--viewer", "500000.5,4990000", "--change-lakes", "--exponent",
+       "0.7"},
+      {"--global", "1,1.7,2,0.3", "--valleys", "0,0.2,0.4,1.1", "--mask-slope", "2.5,9",
+       "--automatic-mask", "--widen-valleys", "60"}};
   for (const std::vector<std::string>& options : asked) {
-    std::vector<std::string> arguments = {"generalize", path("dem.tif"), path("out.tif"), "--report", path("report")};
+    std::vector<std::string> arguments = {"generalize", path("dem.tif"), path("out.tif"),
+                                          "--report", path("report")};
     arguments.insert(arguments.end(), options.begin(), options.end());
     ASSERT_EQ(run(arguments).status, 0);
     const std::string first = read_bytes(path("out.tif"));
@@ -118,7 +137,8 @@ TEST_F(GeneralizeReport, ItsCommandMakesTheSameTerrain) {
     ASSERT_TRUE(std::regex_search(json, line, std::regex("\"command\": \"belvedere ([^\"]*)\"")));
     std::istringstream words(line[1].str());
     arguments.clear();
-    for (std::string word; words >> word;) arguments.push_back(word == "dem.tif" || word == "out.tif" ? path(word) : word);
+    for (std::string word; words >> word;)
+      arguments.push_back(word == "dem.tif" || word == "out.tif" ? path(word) : word);
     fs::remove(path("out.tif"));
     const Outcome again = run(arguments);
     ASSERT_EQ(again.status, 0) << again.err;
@@ -128,28 +148,32 @@ TEST_F(GeneralizeReport, ItsCommandMakesTheSameTerrain) {
 
 TEST_F(GeneralizeReport, HasTheSameBytesForAnyNumberOfThreads) {
   for (const char* threads : {"1", "2"})
-    ASSERT_EQ(
-        run({"generalize", path("dem.tif"), path("out.tif"), "--preset", "bold_ridges", "--report", path(threads), "--threads", threads})
-            .status,
-        0);
+    ASSERT_EQ(run({"generalize", path("dem.tif"), path("out.tif"), "--preset", "bold_ridges",
+                   "--report", path(threads), "--threads", threads})
+                  .status,
+              0);
   for (const auto& entry : fs::directory_iterator(path("1")))
-    EXPECT_EQ(read_bytes(entry.path().string()), read_bytes(path("2/" + entry.path().filename().string()))) << entry.path();
+    EXPECT_EQ(read_bytes(entry.path().string()),
+              read_bytes(path("2/" + entry.path().filename().string())))
+        << entry.path();
 }
 
 TEST_F(GeneralizeReport, AFolderThatCannotBeMadeIsFoundBeforeTheWork) {
   const std::string file = write("file", "no folder");
-  const Outcome outcome = run({"generalize", path("dem.tif"), path("out.tif"), "--global", "1,0", "--report", file + "/report"});
+  const Outcome outcome = run({"generalize", path("dem.tif"), path("out.tif"), "--global", "1,0",
+                               "--report", file + "/report"});
   EXPECT_NE(outcome.status, 0);
   EXPECT_FALSE(fs::exists(path("out.tif")));
 }
 
 // The options that other stages take part by, into both formats.
 TEST_F(GeneralizeReport, OperatorsAndProductsGoAlong) {
-  for (const char* ending : {"tif", "asc"}) {
-    const std::string out = path(fmt::format("result.{}", ending));
+  for (const char* extension : {"tif", "asc"}) {
+    const std::string out = path(fmt::format("result.{}", extension));
     const Outcome outcome =
-        run({"generalize", path("dem.tif"), out, "--global", "1,1,0.5,0", "--destripe", "--line-integral", "--widen-valleys", "60",
-             "--hillshade", path("relief.tif"), "--contours", path("lines.geojson"), "--contour-interval", "50"});
+        run({"generalize", path("dem.tif"), out, "--global", "1,1,0.5,0", "--destripe",
+             "--line-integral", "--widen-valleys", "60", "--hillshade", path("relief.tif"),
+             "--contours", path("lines.geojson"), "--contour-interval", "50"});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     RasterSource source;
     source.path = out;

@@ -19,7 +19,9 @@ Ink ink_of(const std::string& text, int scale, int x = 0, int y = 0) {
   Ink ink;
   for (int v = 0; v < picture.height(); ++v)
     for (int u = 0; u < picture.width(); ++u)
-      if (picture(u, v).x < 0.5F) ink = {std::min(ink.left, u), std::max(ink.right, u), std::min(ink.top, v), std::max(ink.bottom, v)};
+      if (picture(u, v).x < 0.5F)
+        ink = {std::min(ink.left, u), std::max(ink.right, u), std::min(ink.top, v),
+               std::max(ink.bottom, v)};
   return ink;
 }
 

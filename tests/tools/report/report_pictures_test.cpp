@@ -29,7 +29,8 @@ TEST(ReportPictures, ReducesByMeansOfWholeCells) {
   EXPECT_EQ(half.cells.width(), 3);
   EXPECT_EQ(half.cells(0, 0), 3.F);   // 0 1 5 6
   EXPECT_EQ(half.cells(2, 0), 6.5F);  // 4 9: fewer at the rim
-  const Grid<glm::vec3> picture = reduced_picture(Grid<glm::vec3>(6, 6, glm::vec3(0.1F, 0.2F, 0.3F)), 2);
+  const Grid<glm::vec3> picture =
+      reduced_picture(Grid<glm::vec3>(6, 6, glm::vec3(0.1F, 0.2F, 0.3F)), 2);
   EXPECT_EQ(picture.width(), 2);
   EXPECT_EQ(picture(1, 1), glm::vec3(0.1F, 0.2F, 0.3F));
 }
@@ -81,7 +82,8 @@ TEST(ReportPictures, BestWindowHasMost) {
   Grid<float> score(40, 20, 0.F);
   score(33, 15) = 5.F;
   score(3, 3) = 4.F;
-  EXPECT_EQ(best_window(score, {}, 10), (PixelRect{25, 10, 35, 20}));  // the first of the two that hold it
+  EXPECT_EQ(best_window(score, {}, 10),
+            (PixelRect{25, 10, 35, 20}));  // the first of the two that hold it
   // Only where it may lie.
   Grid<float> where(40, 20, 0.F);
   for (int y = 0; y < 20; ++y) std::fill_n(where.row(y), 10, 1.F);

@@ -1,4 +1,5 @@
-// The page on which groups are merged, split and named: what it holds, and, where there is a browser, what clicks and keys do.
+// The page on which groups are merged, split and named: its content, and, if there is a browser,
+// the effect of clicks and keys.
 #include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -23,11 +24,14 @@ class SegmentPage : public Program {
   // Sky above, wood and meadow below; made in a few groups.
   std::string made_page() const {
     write_picture("painting.png", 120, 90, [](int x, int y) {
-      const glm::vec3 colour = y < 30 ? glm::vec3(.55F, .7F, .9F) : (x < 60 ? glm::vec3(.12F, .25F, .1F) : glm::vec3(.6F, .75F, .35F));
+      const glm::vec3 colour =
+          y < 30 ? glm::vec3(.55F, .7F, .9F)
+                 : (x < 60 ? glm::vec3(.12F, .25F, .1F) : glm::vec3(.6F, .75F, .35F));
       return colour + glm::vec3(static_cast<float>(random_index(20, 5, x / 2, y / 2)) / 400.F);
     });
     const Outcome outcome =
-        run({"exemplar", "segment", path("painting.png"), "--out", path("mask.png"), "--page", path("page.html"), "--most", "3", "-q"});
+        run({"exemplar", "segment", path("painting.png"), "--out", path("mask.png"), "--report",
+             path("page.html"), "--max-groups", "3", "-q"});
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     return read_bytes(path("page.html"));
   }
@@ -35,8 +39,9 @@ class SegmentPage : public Program {
 
 TEST_F(SegmentPage, HoldsPaintingPiecesTreeAndClassesAndNeedsNoNetwork) {
   const std::string page = made_page();
-  EXPECT_THAT(page, AllOf(HasSubstr("\"width\": 120"), HasSubstr("\"height\": 90"), HasSubstr("\"mask\": \"mask.png\""),
-                          HasSubstr("data:image/png;base64,"), HasSubstr("\"joins\""), HasSubstr("\"alpine_grass\"")));
+  EXPECT_THAT(page, AllOf(HasSubstr("\"width\": 120"), HasSubstr("\"height\": 90"),
+                          HasSubstr("\"mask\": \"mask.png\""), HasSubstr("data:image/png;base64,"),
+                          HasSubstr("\"joins\""), HasSubstr("\"alpine_grass\"")));
   EXPECT_EQ(page.find("http"), std::string::npos) << "the page must need no network";
 }
 
@@ -120,23 +125,27 @@ TEST_F(SegmentPage, ClicksAndKeysMergeSplitNameAndUndo) {
   const std::size_t from = page.find("<pre id=\"clicked\">");
   ASSERT_NE(from, std::string::npos) << page.substr(0, 2000);
   const std::string said = page.substr(from, page.find("</pre>", from) - from);
-  for (const char* line : {"begins with 3: sky,pasture,forest.", "click: group 3: forest, marked true, chosen row 3.",
-                           "shift: 2: sky,forest.", "undone: 3: sky,pasture,forest.", "done again: 2.", "m: 2: sky,pasture.",
-                           "split of what was merged: 3: sky,pasture,pasture.", "split of the sky: 4.", "and again: 5.", "arrow: row 2.",
-                           "named: not used,glacier,forest.", "saved mask.png blob:", "all undone: 3: sky,pasture,forest, true.", "done"})
+  for (const char* line :
+       {"begins with 3: sky,pasture,forest.", "click: group 3: forest, marked true, chosen row 3.",
+        "shift: 2: sky,forest.", "undone: 3: sky,pasture,forest.", "done again: 2.",
+        "m: 2: sky,pasture.", "split of what was merged: 3: sky,pasture,pasture.",
+        "split of the sky: 4.", "and again: 5.", "arrow: row 2.", "named: not used,glacier,forest.",
+        "saved mask.png blob:", "all undone: 3: sky,pasture,forest, true.", "done"})
     EXPECT_THAT(said, HasSubstr(line));
-  // The masks of the page, packed and stored, are read as they are.
+  // The masks of the page, packed and stored, are read back unchanged.
   for (const std::string& name : {std::string("mask:"), std::string("stored:")}) {
     const std::size_t begin = said.find(name);
     ASSERT_NE(begin, std::string::npos);
     const std::size_t letters = begin + name.size();
-    const std::optional<std::string> bytes = base64_bytes(said.substr(letters, said.find(':', letters) - letters));
+    const std::optional<std::string> bytes =
+        base64_bytes(said.substr(letters, said.find(':', letters) - letters));
     ASSERT_TRUE(bytes.has_value());
     write("saved.png", *bytes);
     const Grid<std::uint16_t> mask = read_grey(path("saved.png"));
     const Grid<std::uint16_t> before = read_grey(path("mask.png"));
     ASSERT_TRUE(mask.same_size(before));
-    for (std::size_t i = 0; i < mask.size(); ++i) EXPECT_EQ(mask[i], before[i] == 0 ? 255 : (before[i] == 10 ? 9 : 4));
+    for (std::size_t i = 0; i < mask.size(); ++i)
+      EXPECT_EQ(mask[i], before[i] == 0 ? 255 : (before[i] == 10 ? 9 : 4));
     EXPECT_EQ(read_picture(path("saved.png"))(100, 70), read_picture(path("saved.png"))(100, 71));
   }
 }

@@ -13,7 +13,8 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 const QualityFigure& figure(const std::vector<QualityFigure>& figures, const std::string& key) {
-  return *std::find_if(figures.begin(), figures.end(), [&](const QualityFigure& f) { return f.key == key; });
+  return *std::find_if(figures.begin(), figures.end(),
+                       [&](const QualityFigure& f) { return f.key == key; });
 }
 
 SynthesisQuality two_classes() {
@@ -57,11 +58,16 @@ TEST(SynthesisFigures, SeamsBetweenPaintingsNeedTwo) {
 }
 
 TEST(SynthesisFigures, ClassesHaveTheirFiguresWithTheirVerdict) {
-  const ClassSupply supply{.label = 2, .texels = 10, .pixels = 900};
+  const ClassTexels available{.label = 2, .texels = 10, .pixels = 900};
   const std::string json =
-      class_table(two_classes(), {supply}, [](std::uint8_t label) { return "class " + std::to_string(label); }).rows().str();
-  EXPECT_THAT(json, AllOf(HasSubstr("\"name\": \"class 2\""), HasSubstr("\"asked\": 900"), HasSubstr("\"asked\": null")));
-  EXPECT_THAT(json, AllOf(HasSubstr("\"value\": 0.7,\n      \"good\": false"), HasSubstr("\"value\": null,\n      \"good\": true")))
+      class_table(two_classes(), {available},
+                  [](std::uint8_t label) { return "class " + std::to_string(label); })
+          .rows()
+          .str();
+  EXPECT_THAT(json, AllOf(HasSubstr("\"name\": \"class 2\""), HasSubstr("\"asked\": 900"),
+                          HasSubstr("\"asked\": null")));
+  EXPECT_THAT(json, AllOf(HasSubstr("\"value\": 0.7,\n      \"good\": false"),
+                          HasSubstr("\"value\": null,\n      \"good\": true")))
       << "0 is not known";
 }
 

@@ -9,8 +9,9 @@
 namespace belvedere::tools {
 namespace {
 
-// A painting of 160 × 160 whose altitude is its column; a target of 128 × 128 that copies its left upper part, but for one square that
-// copies one and the same texel, and asks for altitudes that are off by 10 in its right half.
+// A painting of 160 × 160 whose altitude is its column; a target of 128 × 128 that copies its left
+// upper part, but for one square that copies one and the same texel, and asks for altitudes that
+// are off by 10 in its right half.
 class SynthesisFindingsTest : public ::testing::Test {
  protected:
   SynthesisFindingsTest() {
@@ -40,7 +41,8 @@ class SynthesisFindingsTest : public ::testing::Test {
     parameters_.weights = {{"altitude", 2.0}};
   }
   SynthesisReportInput input() const {
-    return {"t", "c", paintings_, target_, parameters_, matches_, [](std::uint8_t) { return "class"; }};
+    return {
+        "t", "c", paintings_, target_, parameters_, matches_, [](std::uint8_t) { return "class"; }};
   }
 
   std::vector<Exemplar> paintings_;
@@ -66,21 +68,23 @@ TEST_F(SynthesisFindingsTest, TexelsThatServeManyAreFoundWithTheirPlace) {
   EXPECT_EQ(found.use_counts(5, 5), 256.F);
   EXPECT_EQ(found.use_counts(50, 50), 1.F);
   bool seen = false;
-  for (const Place& place : found.places) {
-    EXPECT_GE(place.window.x0, 0);
-    EXPECT_LE(place.window.x1, 128);
-    if (place.why == "texels used often" && place.window == PixelRect{0, 0, 64, 64}) seen = true;
-    if (place.why == "altitude off") {
-      EXPECT_GE(place.window.x0, 64);
-      EXPECT_NEAR(place.source.x0, place.window.x0, 1) << "all of it by one offset";
-      EXPECT_NEAR(place.source.y0, place.window.y0, 1);
-      EXPECT_EQ(place.piece, 64U * 64U);
+  for (const Place& position : found.positions) {
+    EXPECT_GE(position.window.x0, 0);
+    EXPECT_LE(position.window.x1, 128);
+    if (position.why == "texels used often" && position.window == PixelRect{0, 0, 64, 64})
+      seen = true;
+    if (position.why == "altitude off") {
+      EXPECT_GE(position.window.x0, 64);
+      EXPECT_NEAR(position.source.x0, position.window.x0, 1) << "all of it by one offset";
+      EXPECT_NEAR(position.source.y0, position.window.y0, 1);
+      EXPECT_EQ(position.piece, 64U * 64U);
     }
   }
-  // The seams of the square take that window first: no place stands twice.
-  for (std::size_t i = 0; i < found.places.size(); ++i)
-    for (std::size_t k = 0; k < i; ++k) EXPECT_FALSE(found.places[i].window == found.places[k].window);
-  EXPECT_TRUE(seen || found.places.front().window == (PixelRect{0, 0, 64, 64}));
+  // The seams of the square take that window first: no window is listed twice.
+  for (std::size_t i = 0; i < found.positions.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      EXPECT_FALSE(found.positions[i].window == found.positions[k].window);
+  EXPECT_TRUE(seen || found.positions.front().window == (PixelRect{0, 0, 64, 64}));
 }
 
 }  // namespace

@@ -36,7 +36,8 @@ GuidanceBuffers guidance() {
     for (int x = 0; x < sheet_width; ++x) {
       out.depth_m(x, y) = static_cast<float>(100 * y);
       out.altitude_m(x, y) = static_cast<float>(1000 + x);
-      out.position_m(x, y) = {10.F * static_cast<float>(x), 10.F * static_cast<float>(sheet_height - y), 0.F};
+      out.position_m(x, y) = {10.F * static_cast<float>(x),
+                              10.F * static_cast<float>(sheet_height - y), 0.F};
       out.land_cover(x, y) = x < 40 ? LandCoverClass::forest : LandCoverClass::rock;
     }
   return out;
@@ -60,16 +61,18 @@ TEST(ReadOut, IsTheMiddleOfSquaresOfPixels) {
       if (y < 10) continue;
       ASSERT_EQ(out.distance_m(column, row), static_cast<float>(100 * y));
       ASSERT_EQ(out.altitude_m(column, row), static_cast<float>(1000 + x));
-      ASSERT_EQ(out.class_id(column, row), static_cast<float>(x < 40 ? LandCoverClass::forest : LandCoverClass::rock));
-      const glm::dvec2 place =
-          transform_point("EPSG:32632", "EPSG:4326", glm::dvec2(sheet_origin) + 10.0 * glm::dvec2(x, sheet_height - y));
-      ASSERT_NEAR(out.longitude_deg(column, row), place.x, 1e-6);
-      ASSERT_NEAR(out.latitude_deg(column, row), place.y, 1e-6);
+      ASSERT_EQ(out.class_id(column, row),
+                static_cast<float>(x < 40 ? LandCoverClass::forest : LandCoverClass::rock));
+      const glm::dvec2 position =
+          transform_point("EPSG:32632", "EPSG:4326",
+                          glm::dvec2(sheet_origin) + 10.0 * glm::dvec2(x, sheet_height - y));
+      ASSERT_NEAR(out.longitude_deg(column, row), position.x, 1e-6);
+      ASSERT_NEAR(out.latitude_deg(column, row), position.y, 1e-6);
     }
   EXPECT_THAT(read_out_script(out), HasSubstr("\"longitude\""));
 }
 
-// What stands behind a key of a script, from `from` on.
+// The value after a key of a script, from `from` on.
 std::string_view behind(std::string_view script, std::string_view key, std::size_t from = 0) {
   const std::string quoted = "\"" + std::string(key) + "\": ";
   const std::size_t at = script.find(quoted, from);
@@ -80,10 +83,11 @@ std::string bytes_behind(std::string_view script, std::string_view key, std::siz
   return text.empty() ? "" : base64_bytes(text.substr(1, text.find('"', 1) - 1)).value_or("");
 }
 int whole_of(const std::string& bytes, std::size_t i) {
-  return static_cast<unsigned char>(bytes[2 * i]) + 256 * static_cast<unsigned char>(bytes[2 * i + 1]);
+  return static_cast<unsigned char>(bytes[2 * i]) +
+         256 * static_cast<unsigned char>(bytes[2 * i + 1]);
 }
 
-// What the page tells: classes of a byte, the rest as steps of two bytes, low byte first.
+// Data of the page: classes of a byte, the rest as steps of two bytes, low byte first.
 TEST(ReadOut, TheScriptsNumbersAreThoseOfThePicture) {
   const test::Folder folder;
   write_guidance(folder / "g.exr", guidance(), {{"belvedere:crs", "EPSG:32632"}});
@@ -125,7 +129,9 @@ TEST(ReadOut, WithoutASystemThereAreNoPlaces) {
   GuidanceBuffers bare;
   bare.altitude_m = guidance().altitude_m;
   write_guidance(folder / "bare.exr", bare, {});
-  EXPECT_THAT(test::message_of(ErrorKind::input, [&] { sample_read_out(folder / "bare.exr", 800); }), HasSubstr("no distances"));
+  EXPECT_THAT(
+      test::message_of(ErrorKind::input, [&] { sample_read_out(folder / "bare.exr", 800); }),
+      HasSubstr("no distances"));
 }
 
 }  // namespace

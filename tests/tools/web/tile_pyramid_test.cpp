@@ -22,7 +22,8 @@ Grid<glm::vec3> slope(int width, int height) {
   Grid<glm::vec3> out(width, height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
-      out(x, y) = {static_cast<float>(x) / static_cast<float>(width), static_cast<float>(y) / static_cast<float>(height), 0.5F};
+      out(x, y) = {static_cast<float>(x) / static_cast<float>(width),
+                   static_cast<float>(y) / static_cast<float>(height), 0.5F};
   return out;
 }
 
@@ -31,7 +32,8 @@ TEST(TilePyramid, TilesOfEveryLevelShowThePicture) {
   const Grid<glm::vec3> picture = slope(300, 170);
   write_png8(folder / "a.png", picture, {});
   Progress progress;
-  const TilePyramid made = write_tile_pyramid(folder / "a.png", folder / "tiles", {64, 95}, progress);
+  const TilePyramid made =
+      write_tile_pyramid(folder / "a.png", folder / "tiles", {64, 95}, progress);
   EXPECT_EQ(made.width, 300);
   EXPECT_EQ(made.height, 170);
   ASSERT_EQ(made.levels, 4) << "300, 150, 75, 38 pixels";
@@ -42,7 +44,8 @@ TEST(TilePyramid, TilesOfEveryLevelShowThePicture) {
     for (int row = 0; row * 64 < height; ++row)
       for (int column = 0; column * 64 < width; ++column, ++tiles) {
         const Grid<glm::vec3> tile =
-            read_picture(folder / ("tiles/" + std::to_string(level) + "/" + std::to_string(column) + "_" + std::to_string(row) + ".jpg"));
+            read_picture(folder / ("tiles/" + std::to_string(level) + "/" + std::to_string(column) +
+                                   "_" + std::to_string(row) + ".jpg"));
         ASSERT_EQ(tile.width(), std::min(64, width - 64 * column));
         ASSERT_EQ(tile.height(), std::min(64, height - 64 * row));
         for (int y = 0; y < tile.height() - 1; y += 9)
@@ -52,7 +55,9 @@ TEST(TilePyramid, TilesOfEveryLevelShowThePicture) {
             EXPECT_NEAR(tile(x, y).z, 0.5, 0.03) << "colours are kept at half the size";
           }
       }
-    EXPECT_EQ(std::distance(fs::directory_iterator(folder / ("tiles/" + std::to_string(level))), fs::directory_iterator()), tiles);
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder / ("tiles/" + std::to_string(level))),
+                            fs::directory_iterator()),
+              tiles);
   }
 }
 
@@ -76,7 +81,8 @@ TEST(TilePyramid, ThreadsChangeNoByte) {
   const ThreadLimit one(1);
   write_tile_pyramid(folder / "a.png", folder / "one", {64, 88}, progress);
   for (const char* tile : {"/0/0_0.jpg", "/0/4_2.jpg", "/2/1_0.jpg"})
-    EXPECT_EQ(test::read_bytes(folder / "two" + tile), test::read_bytes(folder / "one" + tile)) << tile;
+    EXPECT_EQ(test::read_bytes(folder / "two" + tile), test::read_bytes(folder / "one" + tile))
+        << tile;
 }
 
 }  // namespace

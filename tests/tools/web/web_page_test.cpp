@@ -1,4 +1,5 @@
-// The page of a panorama: what it holds, and what hands, keys, GPX files and links do in a browser that opens it from the disk.
+// The page of a panorama: its content, and the effect of pointer, keys, GPX files and links in a
+// browser that opens it from the disk.
 #include "tools/web/web_page.h"
 
 #include <fmt/core.h>
@@ -25,10 +26,12 @@ constexpr int width = 1200;
 constexpr int height = 600;
 const glm::dvec2 origin(680000.0, 5240000.0);
 
-// Level ground seen from above: ten metres a pixel, north is up; row 400 to 450 hides what lies behind 300 to 350.
-glm::dvec2 place_of(double x, double y) {
+// Level ground seen from above: ten metres a pixel, north is up; row 400 to 450 hides what lies
+// behind 300 to 350.
+glm::dvec2 position_of(double x, double y) {
   const double up = y >= 400 && y < 450 ? 1000.0 : 0.0;
-  return transform_point("EPSG:32632", "EPSG:4326", origin + glm::dvec2(10.0 * x, 10.0 * (height - y) + 30.0 * up));
+  return transform_point("EPSG:32632", "EPSG:4326",
+                         origin + glm::dvec2(10.0 * x, 10.0 * (height - y) + 30.0 * up));
 }
 
 class WebPage : public testing::Test {
@@ -48,7 +51,8 @@ class WebPage : public testing::Test {
       for (int x = 0; x < width; ++x) {
         const float up = y >= 400 && y < 450 ? 30000.F : 0.F;
         guidance.depth_m(x, y) = 20000.F;
-        guidance.position_m(x, y) = {10.F * (static_cast<float>(x) + .5F), 10.F * (static_cast<float>(height - y) - .5F) + up, 1234.F};
+        guidance.position_m(x, y) = {10.F * (static_cast<float>(x) + .5F),
+                                     10.F * (static_cast<float>(height - y) - .5F) + up, 1234.F};
         guidance.land_cover(x, y) = LandCoverClass::rock;
       }
     write_guidance(out + "/guidance.exr", guidance, {{"belvedere:crs", "EPSG:32632"}});
@@ -61,7 +65,7 @@ class WebPage : public testing::Test {
     Progress progress;
     write_web_page(pictures, folder_ / "page", {.tile_px = 256}, progress);
   }
-  // What a script says when the page has been opened.
+  // Values of a script when the page has been opened.
   std::string said_by(const std::string& script) {
     std::string text = test::read_bytes(folder_ / "page/index.html");
     const std::size_t end = text.rfind("</body>");
@@ -76,7 +80,8 @@ tell("done"); } catch (error) { tell(`failed: ${error.stack}`); } })();
     test::write_bytes(folder_ / "page/test.html", text);
     const std::string page = test::opened_page(folder_ / "page/test.html", folder_ / "profile");
     const std::size_t from = page.find("<pre id=\"told\"");
-    return from == std::string::npos ? page.substr(0, 3000) : page.substr(from, page.find("</pre>", from) - from);
+    return from == std::string::npos ? page.substr(0, 3000)
+                                     : page.substr(from, page.find("</pre>", from) - from);
   }
   test::Folder folder_;
 };
@@ -86,7 +91,8 @@ TEST_F(WebPage, IsOneFolderOfFilesThatNameNoServer) {
   make_page({{folder_ / "summer", "Summer"}});
   for (const char* file : {"index.html", "panorama.js", "tiles/0/0/4_2.jpg", "tiles/0/3/0_0.jpg"})
     EXPECT_TRUE(std::filesystem::exists(folder_ / (std::string("page/") + file))) << file;
-  const std::string page = test::read_bytes(folder_ / "page/index.html") + test::read_bytes(folder_ / "page/panorama.js");
+  const std::string page = test::read_bytes(folder_ / "page/index.html") +
+                           test::read_bytes(folder_ / "page/panorama.js");
   EXPECT_EQ(page.find("http"), std::string::npos);
   EXPECT_EQ(page.find("</script> Peak"), std::string::npos);
 }
@@ -101,7 +107,11 @@ TEST_F(WebPage, FoldersThatDoNotFitAreRefused) {
                                }),
               HasSubstr("1200 × 600"));
   std::filesystem::create_directories(folder_ / "empty");
-  EXPECT_THAT(test::message_of(ErrorKind::input, [&] { make_page({{folder_ / "empty", "a"}}); }), HasSubstr("belvedere render"));
+  EXPECT_THAT(test::message_of(ErrorKind::input,
+                               [&] {
+                                 make_page({{folder_ / "empty", "a"}});
+                               }),
+              HasSubstr("belvedere render"));
 }
 
 TEST_F(WebPage, TellsShowsAndFindsInABrowser) {
@@ -109,10 +119,11 @@ TEST_F(WebPage, TellsShowsAndFindsInABrowser) {
   make_render("summer", {.2F, .5F, .2F});
   make_render("winter", {.9F, .9F, .9F}, false);
   make_page({{folder_ / "summer", "Summer"}, {folder_ / "winter", "Winter"}});
-  const glm::dvec2 seen = place_of(700.3, 520.7);
-  const glm::dvec2 hidden = place_of(700.0, 430.0) - glm::dvec2(0.0, 0.15);
-  const std::string points = fmt::format("<trkpt lon=\"{:.7f}\" lat=\"{:.7f}\"/><trkpt lon=\"{:.7f}\" lat=\"{:.7f}\"/>", seen.x, seen.y,
-                                         place_of(760, 540).x, place_of(760, 540).y);
+  const glm::dvec2 seen = position_of(700.3, 520.7);
+  const glm::dvec2 hidden = position_of(700.0, 430.0) - glm::dvec2(0.0, 0.15);
+  const std::string points =
+      fmt::format("<trkpt lon=\"{:.7f}\" lat=\"{:.7f}\"/><trkpt lon=\"{:.7f}\" lat=\"{:.7f}\"/>",
+                  seen.x, seen.y, position_of(760, 540).x, position_of(760, 540).y);
   const std::string said = said_by(fmt::format(R"(
 const {{viewer, ground, marks, addWay, wordsAt, ways}} = window.panorama;
 tell(`words: ${{wordsAt(600, 300)}}`);
@@ -167,7 +178,7 @@ tell(`tiles: ${{[...viewer.tiles].filter(([a, t]) => t.naturalWidth).map(([a]) =
     EXPECT_THAT(said, HasSubstr(line));
 }
 
-// Without guidance the page shows the picture and says what it lacks.
+// Without guidance the page shows the picture and states what it lacks.
 TEST_F(WebPage, WithoutGuidanceItStillShowsThePicture) {
   if (!std::filesystem::exists(test::browser)) GTEST_SKIP() << "no browser at " << test::browser;
   make_render("bare", {.2F, .5F, .2F}, false);
@@ -177,7 +188,8 @@ tell(document.getElementById("says").textContent);
 tell(`gpx ${document.getElementById("gpx-switch").hidden} names ${document.getElementById("names-switch").hidden}`);
 tell(window.panorama.viewer.width);
 )");
-  for (const char* line : {"without guidance.exr", "gpx true names true.", "1200.", "done."}) EXPECT_THAT(said, HasSubstr(line));
+  for (const char* line : {"without guidance.exr", "gpx true names true.", "1200.", "done."})
+    EXPECT_THAT(said, HasSubstr(line));
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ namespace belvedere::tools {
 namespace {
 
 constexpr int figure_px = 900;             // longest side of a picture on the sheet
-const glm::vec3& blank = no_class_colour;  // sky, and what is never copied from
+const glm::vec3& blank = no_class_colour;  // sky, and pixels that are never copied from
 
 struct FigureOptions {
   SceneOptions scene;
@@ -42,10 +42,10 @@ struct FigureOptions {
   bool making = false;
 };
 
-// A column of the figure: a picture with what steers copying from it or to it.
+// A column of the figure: a picture with the guides of copying from it or to it.
 struct Column {
   std::string name;  // above it
-  std::string file;  // what its files begin with
+  std::string file;  // prefix of its files
   Grid<glm::vec3> picture;
   GuideStack guides;
 };
@@ -56,17 +56,18 @@ Grid<glm::vec3> class_picture(const GuideStack& guides) {
   return out;
 }
 
-// Black at the lowest, white at the highest, alike for the painting and the picture.
+// Black at the lowest, white at the highest, the same for the painting and the picture.
 Grid<glm::vec3> altitude_picture(const GuideStack& guides) {
   const Grid<std::uint8_t>* values = guides.find("altitude");
   if (values == nullptr) return {};
   Grid<glm::vec3> out(guides.width(), guides.height(), blank);
   for (std::size_t i = 0; i < out.size(); ++i)
-    if (guides.label[i] != unused_label) out[i] = glm::vec3(static_cast<float>((*values)[i]) / 255.F);
+    if (guides.label[i] != unused_label)
+      out[i] = glm::vec3(static_cast<float>((*values)[i]) / 255.F);
   return out;
 }
 
-// The classes that any of the pictures shows, as a square of their colour and their name.
+// The classes that occur in the pictures, as a square of their colour and their name.
 Grid<glm::vec3> legend(const std::vector<Column>& columns) {
   std::array<bool, 256> shown{};
   for (const Column& column : columns)
@@ -89,34 +90,41 @@ Grid<glm::vec3> legend(const std::vector<Column>& columns) {
   return out;
 }
 
-// What the scene copies from, as its picture does.
+// What the scene copies from, in the same form as its picture.
 std::vector<Column> copied_from(const LoadedScene& loaded, Progress& progress, const Cache& cache) {
   if (!loaded.scene.synthesis.enabled) return {};
   ScenePaint paint = read_scene_paint(loaded, progress);
   const World world = make_world(loaded, progress, cache);
-  const Palette palette = palette_of_place(paint.palette, loaded, *world.dem);
+  const Palette palette = palette_for_location(paint.palette, loaded, *world.dem);
   std::vector<Column> columns;
-  for (PaintedExemplar& painted : make_exemplars(loaded, world.view, palette, std::move(paint.paintings), progress, cache)) {
+  for (PaintedExemplar& painted :
+       make_exemplars(loaded, world.view, palette, std::move(paint.paintings), progress, cache)) {
     const std::string file = fmt::format("copied_{}", columns.size() + 1);
-    columns.push_back({"copied from: " + painted.exemplar.name, file, std::move(painted.picture), std::move(painted.exemplar.guides)});
+    columns.push_back({"copied from: " + painted.exemplar.name, file, std::move(painted.picture),
+                       std::move(painted.exemplar.guides)});
   }
   return columns;
 }
 
 Column painted_picture(const LoadedScene& loaded, const Run& run) {
   const ScratchFolder folder;
-  const auto path = [&](const char* name) { return (std::filesystem::path(folder.path()) / name).string(); };
+  const auto path = [&](const char* name) {
+    return (std::filesystem::path(folder.path()) / name).string();
+  };
   SheetRequest request;
   request.channels = {"Z", "landcover.id", "altitude.V"};
   render(loaded, folder.path(), run, request);
   const GuidanceBuffers guidance = read_guidance(path("guidance.exr"));
-  return {loaded.name, "picture", read_picture(path("panorama.png")), make_guide_stack(guidance, guidance.land_cover)};
+  return {loaded.name, "picture", read_picture(path("panorama.png")),
+          make_guide_stack(guidance, guidance.land_cover)};
 }
 
 void add_making_of(Report& page, const LoadedScene& loaded, const Run& run) {
   const std::vector<MakingStep> steps = make_making_of(loaded, run);
-  for (std::size_t i = 0; i < steps.size(); ++i) page.write_picture(fmt::format("making_{}_{}", i + 1, steps[i].file), steps[i].picture);
-  page.section("making", "How it is made", "The same view at every stage, from the ground as measured to the picture.");
+  for (std::size_t i = 0; i < steps.size(); ++i)
+    page.write_picture(fmt::format("making_{}_{}", i + 1, steps[i].file), steps[i].picture);
+  page.section("making", "How it is made",
+               "The same view at every stage, from the ground as measured to the picture.");
   page.picture("making", draw_making_of(steps, figure_px), "making.png");
 }
 
@@ -136,29 +144,39 @@ int run(const FigureOptions& options) {
   for (const Column& column : columns) {
     table.columns.push_back(column.name);
     const std::array<std::pair<const char*, Grid<glm::vec3>>, 3> rows = {
-        {{"landcover", class_picture(column.guides)}, {"altitude", altitude_picture(column.guides)}, {"", column.picture}}};
+        {{"landcover", class_picture(column.guides)},
+         {"altitude", altitude_picture(column.guides)},
+         {"", column.picture}}};
     for (std::size_t r = 0; r < rows.size(); ++r) {
       const auto& [name, picture] = rows[r];
-      if (!picture.empty()) page.write_picture(column.file + (*name == 0 ? "" : "_") + name, picture);
-      table.cells[r].push_back({picture.empty() ? picture : reduced_picture(picture, figure_px), {}});
+      if (!picture.empty())
+        page.write_picture(column.file + (*name == 0 ? "" : "_") + name, picture);
+      table.cells[r].push_back(
+          {picture.empty() ? picture : reduced_picture(picture, figure_px), {}});
     }
   }
   table.foot = legend(columns);
-  page.section("sheet", "What is copied from, and the picture",
-               "The classes and altitudes of both (figure 4 of Jenny & Jenny 2013), the painting, and what is made of it (figure 5).");
+  page.section("sheet", "Paintings and the picture",
+               "The classes and altitudes of both (figure 4 of Jenny & Jenny 2013), the painting, "
+               "and the result (figure 5).");
   page.picture("sheet", draw_table(table), "sheet.png");
-  if (options.making) add_making_of(page, loaded, make_run(options.scene, Run{}.tile_px, progress, cache));
+  if (options.making)
+    add_making_of(page, loaded, make_run(options.scene, Run{}.tile_px, progress, cache));
   std::string command = "belvedere figure " + file_name(options.scene.scene);
-  for (const std::string& setting : options.scene.files.settings) command += fmt::format(" --set '{}'", setting);
+  for (const std::string& setting : options.scene.files.settings)
+    command += fmt::format(" --set '{}'", setting);
   if (options.width_px > 0) command += fmt::format(" --width {}", options.width_px);
   if (options.making) command += " --making";
   page.write({.title = "Figure of " + loaded.name,
-              .lead = fmt::format("{} × {} pixels.", loaded.scene.output.width, loaded.scene.output.height),
+              .lead = fmt::format("{} × {} pixels.", loaded.scene.output.width,
+                                  loaded.scene.output.height),
               .command = command + " --out " + file_name(options.out)});
   progress.end();
   const std::string sheet = (std::filesystem::path(options.out) / "sheet.png").string();
   print_result(options.scene,
-               Json::object().add("sheet", Json::text(sheet)).add("columns", Json::number(static_cast<double>(columns.size()))),
+               Json::object()
+                   .add("sheet", Json::text(sheet))
+                   .add("columns", Json::number(static_cast<double>(columns.size()))),
                sheet + "\n");
   return 0;
 }
@@ -168,18 +186,25 @@ int run(const FigureOptions& options) {
 std::function<int()> add_figure(CommandOptions& command) {
   const auto options = std::make_shared<FigureOptions>();
   add_scene_options(command, options->scene);
-  command.add_option("--out", options->out, "Folder for sheet.png, its pictures each for itself, and index.html")
+  command
+      .add_option("--out", options->out,
+                  "Folder for sheet.png, each of its pictures, and index.html")
       .type_name("DIR")
       .required();
-  command.add_option("--width", options->width_px, "Of the picture in pixels, its height in proportion. Default: the scene's")
+  command
+      .add_option("--width", options->width_px,
+                  "Width of the picture in pixels, its height in proportion. Default: the scene's")
       .type_name("N")
       .range(16, 20000);
   command.add_flag("--making", options->making,
-                   "Also making.png: the ground as measured, generalized and bent, land cover, light, colours, copied paint, strokes.\n"
+                   "Also writes making.png: the ground as measured, generalized and bent, land "
+                   "cover, light, colours, copied paint, strokes.\n"
                    "Paints the picture a second time");
   command.footer(
-      "Rows of land cover, altitude and the paint, a column for each painting that is copied from and one for the picture:\n"
-      "figures 4 and 5 of Jenny & Jenny 2013 for any scene.\n\n"
+      "Rows of land cover, altitude and paint, a column for each painting that is copied from and "
+      "one for the picture:\n"
+      "figures 4 and 5 of Jenny & Jenny 2013 for any scene.\n"
+      "\n"
       "  belvedere figure scenes/karwendel.toml --data ../data --width 1200 --making --out figure");
   return [options] { return run(*options); };
 }

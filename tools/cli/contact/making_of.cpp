@@ -22,19 +22,24 @@
 namespace belvedere::tools {
 namespace {
 
-constexpr std::uint64_t tile_bytes = 256ULL << 20U;  // that stages keep in memory before they use a scratch file
+constexpr std::uint64_t tile_bytes =
+    256ULL << 20U;  // that stages keep in memory before they use a scratch file
 
-// Relief of a ground as the scene's eye sees it.
-Grid<glm::vec3> relief(const BareView& bare, const Grid<float>& altitude_m, const Deformation& deformation) {
-  const DeformedSurface surface = deform(altitude_m, bare.dem.transform, glm::dvec3(bare.view.viewer_xy, 0.0), deformation);
+// Relief of a ground as seen from the scene's camera.
+Grid<glm::vec3> relief(const BareView& bare, const Grid<float>& altitude_m,
+                       const Deformation& deformation) {
+  const DeformedSurface surface =
+      deform(altitude_m, bare.dem.transform, glm::dvec3(bare.view.viewer_xy, 0.0), deformation);
   const Tracer tracer(surface);
-  return make_relief_sketch(altitude_m, bare.dem.transform, {}, deformation, tracer, *bare.camera, bare.view.sun_direction);
+  return make_relief_sketch(altitude_m, bare.dem.transform, {}, deformation, tracer, *bare.camera,
+                            bare.view.sun_direction);
 }
 
 void add_ground(std::vector<MakingStep>& steps, const LoadedScene& loaded, const Run& run) {
   const BareView bare = make_bare_view(loaded, run.progress, run.cache);
   run.progress.begin("drawing the relief", 3.0);
-  const auto add = [&](const char* file, const char* caption, const Grid<float>& altitude_m, const Deformation& deformation) {
+  const auto add = [&](const char* file, const char* caption, const Grid<float>& altitude_m,
+                       const Deformation& deformation) {
     steps.push_back({file, caption, relief(bare, altitude_m, deformation)});
     run.progress.advance(1.0);
   };
@@ -46,7 +51,8 @@ void add_ground(std::vector<MakingStep>& steps, const LoadedScene& loaded, const
 Grid<glm::vec3> class_picture(const GuidanceBuffers& guidance) {
   Grid<glm::vec3> out(guidance.width(), guidance.height(), no_class_colour);
   for (std::size_t i = 0; i < out.size(); ++i)
-    if (!guidance.is_sky(i)) out[i] = class_colour(static_cast<std::uint8_t>(guidance.land_cover[i]));
+    if (!guidance.is_sky(i))
+      out[i] = class_colour(static_cast<std::uint8_t>(guidance.land_cover[i]));
   return out;
 }
 
@@ -57,28 +63,33 @@ Grid<glm::vec3> tone_picture(const GuidanceBuffers& guidance) {
   return out;
 }
 
-// From the world on, by the stages of rendering itself.
+// From here on, by the stages of rendering itself.
 void add_paint(std::vector<MakingStep>& steps, const LoadedScene& loaded, const Run& run) {
   const ScratchFolder scratch;
   const WorkFolder work(scratch.path() + "/work", {}, WorkMode::begin);
   ScenePaint paint = read_scene_paint(loaded, run.progress);
   const World world = make_world(loaded, run.progress, run.cache);
-  paint.palette = palette_of_place(paint.palette, loaded, *world.dem);
-  TileStore::Place place{work.folder(), tile_bytes};
+  paint.palette = palette_for_location(paint.palette, loaded, *world.dem);
+  TileStore::Place position{work.folder(), tile_bytes};
   const SheetView view = view_of(world);
-  StageGraph graph(place, run.progress);
+  StageGraph graph(position, run.progress);
   const GroundStages ground =
-      add_ground_stages(graph, make_ground_inputs(world, view, paint.palette, run), choose_block_px(world.scene, view.pixels_per_unit));
+      add_ground_stages(graph, make_ground_inputs(world, view, paint.palette, run),
+                        choose_block_px(world.scene, view.pixels_per_unit));
   const PixelRect sheet = ground.lit->sheet();
   const GuidanceBuffers guidance = ground.lit->read(sheet);
-  steps.push_back({"classes", "what covers it", class_picture(guidance)});
+  steps.push_back({"classes", "land cover", class_picture(guidance)});
   steps.push_back({"tone", "light and shade", tone_picture(guidance)});
   steps.push_back({"base", "colours of the palette", ground.base->read(sheet).colour});
   const bool copied = world.scene.synthesis.enabled;
-  CopyPlan plan = copied ? make_copy_plan(loaded, world, paint, ground, place, work, run) : CopyPlan{};
-  const DrawnFeatures features = draw_scene_features(loaded, world, ground.inputs->strokes.winter, run.progress);
-  const PictureStages picture = add_picture_stages(graph, ground, copied ? &plan : nullptr, features);
-  if (copied) steps.push_back({"copied", "paint copied from paintings", picture.copied->read(sheet)});
+  CopyPlan plan =
+      copied ? make_copy_plan(loaded, world, paint, ground, position, work, run) : CopyPlan{};
+  const DrawnFeatures features =
+      draw_scene_features(loaded, world, ground.inputs->strokes.winter, run.progress);
+  const PictureStages picture =
+      add_picture_stages(graph, ground, copied ? &plan : nullptr, features);
+  if (copied)
+    steps.push_back({"copied", "paint copied from paintings", picture.copied->read(sheet)});
   steps.push_back({"strokes", "strokes over it: the picture", picture.picture->read(sheet).colour});
 }
 
@@ -104,7 +115,8 @@ Grid<glm::vec3> draw_making_of(const std::vector<MakingStep>& steps, int step_px
   table.columns = {"", ""};
   for (std::size_t i = 0; i < steps.size(); ++i) {
     if (i % 2 == 0) table.cells.emplace_back();
-    table.cells.back().push_back({reduced_picture(steps[i].picture, step_px), fmt::format("{}  {}", i + 1, steps[i].caption)});
+    table.cells.back().push_back({reduced_picture(steps[i].picture, step_px),
+                                  fmt::format("{}  {}", i + 1, steps[i].caption)});
   }
   return draw_table(table);
 }

@@ -11,20 +11,22 @@
 
 namespace belvedere::tools {
 
-// A stage of a scene's picture, the whole sheet seen by the same eye.
+// A stage of a scene's picture, the whole sheet seen from the same viewpoint.
 struct MakingStep {
-  std::string file;         // what its file is called, without ending
+  std::string file;         // file name without extension
   std::string caption;      // for people
   Grid<glm::vec3> picture;  // encoded sRGB
 };
-// The ground as measured, generalized, and raised and bent, as relief; what grows on it; light; base colours; the ground copied from
-// paintings (only where the scene copies); and the picture, the same as rendering makes. Takes memory for the whole sheet.
+// The ground as measured, generalized, and raised and bent, as relief; land cover; light; base
+// colours; the ground copied from paintings (only where the scene copies); and the picture, the
+// same as rendering makes. Takes memory for the whole sheet.
 std::vector<MakingStep> make_making_of(const LoadedScene& loaded, const Run& run);
 
-// The steps in their order, two beside each other, each reduced so that the sheet is about twice `step_px` wide.
+// The steps in their order, two side by side, each reduced so that the sheet is about twice
+// `step_px` wide.
 Grid<glm::vec3> draw_making_of(const std::vector<MakingStep>& steps, int step_px);
 
-// Of land cover in figures: the table's colour; what is no class, such as sky, is pale grey.
+// Land cover in the colours of the class table; pixels without a class, such as sky, are pale grey.
 glm::vec3 class_colour(std::uint8_t label);
 inline const glm::vec3 no_class_colour(0.93F);
 

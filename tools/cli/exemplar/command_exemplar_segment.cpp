@@ -32,19 +32,22 @@ using Colours = std::vector<std::array<std::uint8_t, 3>>;
 struct SegmentOptions : RunOptions {
   std::string painting, out, page, compare;
   std::optional<double> theta;  // none: as many groups as `most`
-  int most = 30;
+  int max = 30;
   bool numbers = false;
 };
 
 std::array<std::uint8_t, 3> bytes_of(std::uint32_t rgb) {
-  return {static_cast<std::uint8_t>(rgb >> 16), static_cast<std::uint8_t>(rgb >> 8 & 255U), static_cast<std::uint8_t>(rgb & 255U)};
+  return {static_cast<std::uint8_t>(rgb >> 16), static_cast<std::uint8_t>(rgb >> 8 & 255U),
+          static_cast<std::uint8_t>(rgb & 255U)};
 }
 
-// Classes in the colours of class maps; numbers of groups in the mean colours of their paint.
-Colours colours_of(const SegmentOptions& options, const Grid<std::uint8_t>& mask, const Grid<glm::vec3>& picture) {
+// Classes in the colours of class maps; numbers of groups in the average colours of their paint.
+Colours colours_of(const SegmentOptions& options, const Grid<std::uint8_t>& mask,
+                   const Grid<glm::vec3>& picture) {
   Colours colours(256, {0, 0, 0});
   if (!options.numbers) {
-    for (const LandCoverClassInfo& info : land_cover_classes()) colours[static_cast<std::size_t>(info.id)] = bytes_of(info.rgb);
+    for (const LandCoverClassInfo& info : land_cover_classes())
+      colours[static_cast<std::size_t>(info.id)] = bytes_of(info.rgb);
     return colours;
   }
   std::vector<glm::dvec3> sum(256, glm::dvec3(0.0));
@@ -55,22 +58,25 @@ Colours colours_of(const SegmentOptions& options, const Grid<std::uint8_t>& mask
   }
   for (std::size_t k = 0; k < unused_label; ++k)
     for (std::size_t c = 0; c < 3 && pixels[k] > 0.0; ++c)
-      colours[k][c] = static_cast<std::uint8_t>(std::clamp(255.0 * sum[k][static_cast<int>(c)] / pixels[k] + 0.5, 0.0, 255.0));
+      colours[k][c] = static_cast<std::uint8_t>(
+          std::clamp(255.0 * sum[k][static_cast<int>(c)] / pixels[k] + 0.5, 0.0, 255.0));
   return colours;
 }
 
-// How well the groups, and the classes they were taken for, agree with labels that somebody drew.
+// How well the groups, and their inferred classes, agree with labels drawn by hand.
 struct Agreement {
   SegmentAgreement groups, named;
 };
 
-Agreement agreement_with(const SegmentOptions& options, const PaintingSegments& segments, const Partition& groups,
-                         const std::vector<std::uint8_t>& classes) {
+Agreement agreement_with(const SegmentOptions& options, const PaintingSegments& segments,
+                         const Partition& groups, const std::vector<std::uint8_t>& classes) {
   const LabelImages drawn = read_label_images({options.compare});
   const Grid<std::uint8_t>& labels = drawn.labels.front();
   if (!labels.same_size(segments.pieces))
-    throw Error(ErrorKind::input, options.compare, fmt::format("{} × {} pixels", labels.width(), labels.height()),
-                fmt::format("the size of {}: {} × {}", options.painting, segments.pieces.width(), segments.pieces.height()));
+    throw Error(ErrorKind::input, options.compare,
+                fmt::format("{} × {} pixels", labels.width(), labels.height()),
+                fmt::format("the size of {}: {} × {}", options.painting, segments.pieces.width(),
+                            segments.pieces.height()));
   Grid<std::uint16_t> group(labels.width(), labels.height(), no_piece);
   Grid<std::uint16_t> named(labels.width(), labels.height(), no_piece);
   for (std::size_t i = 0; i < group.size(); ++i) {
@@ -84,25 +90,29 @@ Agreement agreement_with(const SegmentOptions& options, const PaintingSegments& 
 int run(const SegmentOptions& options) {
   for (const std::string* path : {&options.out, &options.page})
     if (!path->empty()) check_place(*path);
-  if (lower_ending(options.out) != ".png") throw Error(ErrorKind::usage, "--out", options.out, "a .png");
-  const std::string page_ending = options.page.empty() ? ".html" : lower_ending(options.page);
-  if (page_ending != ".html" && page_ending != ".htm") throw Error(ErrorKind::usage, "--page", options.page, "a .html");
+  if (lower_extension(options.out) != ".png")
+    throw Error(ErrorKind::usage, "--out", options.out, "a .png");
+  const std::string page_extension = options.page.empty() ? ".html" : lower_extension(options.page);
+  if (page_extension != ".html" && page_extension != ".htm")
+    throw Error(ErrorKind::usage, "--report", options.page, "a .html");
   check_not_read(options.out, "--out", {options.painting, options.compare});
-  check_not_read(options.page, "--page", {options.painting, options.compare});
+  check_not_read(options.page, "--report", {options.painting, options.compare});
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
   progress.begin("reading", 0.0);
   Grid<float> alpha;
   const Grid<glm::vec3> picture = read_picture(options.painting, &alpha);
   progress.begin("segmenting", 0.0);
-  const PaintingSegments segments = segment_painting(picture, alpha, options.theta.value_or(usual_theta), options.painting);
-  // Two groups of one thing are merged by a click, one group of two things is mended by none until it is split: so rather more of them than
-  // were found, where nobody says how unlike they may be.
+  const PaintingSegments segments =
+      segment_painting(picture, alpha, options.theta.value_or(usual_theta), options.painting);
+  // Merging two groups takes a click, while a group of two things must be split first. So without a
+  // given limit of dissimilarity, rather more groups are made than were found.
   const std::size_t found = options.theta ? segments.groups : segments.tree.pieces;
-  const std::size_t groups = std::min(found, static_cast<std::size_t>(options.most));
-  std::vector<std::uint8_t> classes = guesses_of(segments, groups);
+  const std::size_t groups = std::min(found, static_cast<std::size_t>(options.max));
+  std::vector<std::uint8_t> classes = inferred_class_of(segments, groups);
   std::map<std::string, int> shown;
-  for (const std::uint8_t id : classes) ++shown[std::string(class_name(static_cast<LandCoverClass>(id)))];
+  for (const std::uint8_t id : classes)
+    ++shown[std::string(class_name(static_cast<LandCoverClass>(id)))];
   const Partition partition = cut_tree(segments.tree, groups);
   std::optional<Agreement> agreement;
   if (!options.compare.empty()) agreement = agreement_with(options, segments, partition, classes);
@@ -111,29 +121,35 @@ int run(const SegmentOptions& options) {
   const Grid<std::uint8_t> mask = class_mask(segments, partition, classes);
   image_io::write_palette_png(options.out, mask, colours_of(options, mask, picture));
   if (!options.page.empty())
-    write_segment_page(options.page, file_name(options.painting), file_name(options.out), picture, segments, groups);
+    write_segment_page(options.page, file_name(options.painting), file_name(options.out), picture,
+                       segments, groups);
   progress.end();
   if (options.json) {
-    Json guesses = Json::object();
-    for (const auto& [name, count] : shown) guesses.add(name, Json::number(count));
+    Json inferred = Json::object();
+    for (const auto& [name, count] : shown) inferred.add(name, Json::number(count));
     Json told = Json::object()
                     .add("out", Json::text(options.out))
                     .add("pieces", Json::number(static_cast<double>(segments.tree.pieces)))
                     .add("groups", Json::number(static_cast<double>(groups)))
-                    .add("guesses", std::move(guesses));
+                    .add("inferred", std::move(inferred));
     if (agreement)
-      told.add("agreement", Json::object()
-                                .add("merged", Json::number(agreement->groups.merged))
-                                .add("one_to_one", Json::number(agreement->groups.one_to_one))
-                                .add("named_one_to_one", Json::number(agreement->named.one_to_one)));
+      told.add("agreement",
+               Json::object()
+                   .add("merged", Json::number(agreement->groups.merged))
+                   .add("one_to_one", Json::number(agreement->groups.one_to_one))
+                   .add("named_one_to_one", Json::number(agreement->named.one_to_one)));
     print_out(told.str() + "\n");
   } else if (!options.quiet) {
-    std::string guesses;
-    for (const auto& [name, count] : shown) guesses += fmt::format("{}{} {}", guesses.empty() ? "" : ", ", count, name);
-    print_out(fmt::format("{}: {} groups of {} pieces; at a first guess {}\n", options.out, groups, segments.tree.pieces, guesses));
+    std::string inferred;
+    for (const auto& [name, count] : shown)
+      inferred += fmt::format("{}{} {}", inferred.empty() ? "" : ", ", count, name);
+    print_out(fmt::format("{}: {} groups of {} pieces; classes inferred: {}\n", options.out, groups,
+                          segments.tree.pieces, inferred));
     if (agreement)
-      print_out(fmt::format("  intersection over union with {}: {:.2f} merged, {:.2f} one to one; {:.2f} as named\n", options.compare,
-                            agreement->groups.merged, agreement->groups.one_to_one, agreement->named.one_to_one));
+      print_out(fmt::format(
+          "  intersection over union with {}: {:.2f} merged, {:.2f} one to one; {:.2f} as named\n",
+          options.compare, agreement->groups.merged, agreement->groups.one_to_one,
+          agreement->named.one_to_one));
   }
   return 0;
 }
@@ -142,29 +158,46 @@ int run(const SegmentOptions& options) {
 
 Action add_exemplar_segment(CommandOptions& command) {
   const auto options = std::make_shared<SegmentOptions>();
-  command.add_option("PAINTING", options->painting, "A painting or a scan: PNG, TIFF or JPEG").required().type_name("PICTURE");
-  command.add_option("--out", options->out, "The mask: a .png whose numbers are classes, for `classes` of an [[exemplar]]")
+  command.add_option("PAINTING", options->painting, "A painting or a scan: PNG, TIFF or JPEG")
+      .required()
+      .type_name("PICTURE");
+  command
+      .add_option("--out", options->out,
+                  "The mask: a .png whose numbers are classes, for `classes` of an [[exemplar]]")
       .required()
       .type_name("MASK");
-  command.add_option("--page", options->page, "Also a page (.html) to merge, split and name the groups with clicks, and to save the mask")
+  command
+      .add_option("--report", options->page,
+                  "Also writes a page (.html) to merge, split and name the groups with clicks, and "
+                  "to save the mask")
       .type_name("PAGE");
   command
       .add_option("--groups", options->theta,
-                  "How unlike a group's parts may be, such as 1.1; more makes fewer groups. Default: as many groups as --most")
+                  "Limit of the dissimilarity within a group, such as 1.1; a larger value makes "
+                  "fewer groups. Default: by --max-groups")
       .type_name("X")
       .range(0.0, 10.0);
-  command.add_option("--most", options->most, "How many groups; the likest are joined. With --groups no more than these. Default: 30")
+  command
+      .add_option("--max-groups", options->max,
+                  "Number of groups; the most similar are joined. With --groups an upper limit. "
+                  "Default: 30")
       .type_name("N")
       .range(1, 254);
-  command.add_flag("--numbers", options->numbers, "Numbers of groups in the mask instead of classes, as `synthesize --label` takes them");
+  command.add_flag("--numbers", options->numbers,
+                   "Writes numbers of groups to the mask instead of classes, as `synthesize "
+                   "--label` takes them");
   command
-      .add_option("--compare", options->compare, "A mask drawn by hand, in flat colours or numbers: says how well the groups agree with it")
+      .add_option("--compare", options->compare,
+                  "A mask drawn by hand, in flat colours or numbers: reports how well the groups "
+                  "agree with it")
       .type_name("MASK");
   add_run_options(command, *options);
   command.footer(
-      "Finds what belongs together in a painting: groups to be merged and named by whoever sees what is painted. The\n"
-      "classes that the mask begins with are guesses by place, colour and strokes.\n\n"
-      "  belvedere exemplar segment painting.jpg --out mask.png --page groups.html");
+      "Finds groups of similar paint in a painting, to be merged and named by a person who "
+      "recognizes what is painted. The\n"
+      "classes that the mask begins with are inferred from position, colour and strokes.\n"
+      "\n"
+      "  belvedere exemplar segment painting.jpg --out mask.png --report groups.html");
   return [options] { return run(*options); };
 }
 

@@ -39,12 +39,17 @@ int run(const SwatchesOptions& options) {
 
 Action add_features_swatches(CommandOptions& command) {
   const auto options = std::make_shared<SwatchesOptions>();
-  command.add_option("--style", options->style, "classic, ski, or a .toml file").type_name("STYLE").show_default();
-  command.add_option("--out", options->out, "Folder for a picture of each kind; made where it is missing").required().type_name("DIR");
+  command.add_option("--style", options->style, "classic, ski, or a .toml file")
+      .type_name("STYLE")
+      .show_default();
+  command.add_option("--out", options->out, "Folder for a picture of each kind; created if missing")
+      .required()
+      .type_name("DIR");
   command.footer(
-      "Paints each kind of a style as it looks in the foreground of a sheet, summer left, winter right, at 8 pixels a mm, to see what a "
-      "style\n"
-      "file says without rendering a scene.\n\n"
+      "Paints each kind of a style as in the foreground of a sheet, summer left, winter right, at "
+      "8 pixels per mm, to check a style\n"
+      "file without rendering a scene.\n"
+      "\n"
       "  belvedere features swatches --style my_style.toml --out swatches");
   return [options] { return run(*options); };
 }

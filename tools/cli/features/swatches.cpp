@@ -24,10 +24,11 @@ constexpr int half_width_px = 200;
 constexpr int swatch_height_px = 88;
 constexpr int swatch_gap_px = 8;
 constexpr double swatch_px_per_mm = 8.0;
-constexpr double wood_from = 0.42;   // of the height: houses stand before a wood, so that white roofs in snow are seen
-constexpr double ground_m = 1000.0;  // altitude whose colours the ground has
+constexpr double wood_from = 0.42;  // of the height: houses stand in front of a wood, so that white
+                                    // roofs in snow are visible
+constexpr double ground_m = 1000.0;  // altitude that the ground's colours are taken at
 
-// A slope of 240 m across that an eye looks down on, with a few swells.
+// A slope of 240 m across, seen from above, with a few swells.
 struct Slope {
   static constexpr int cells = 161;
   static constexpr double cell_m = 4.0;
@@ -47,13 +48,16 @@ struct Slope {
     surface.vertices_m = Grid<glm::vec3>(cells, cells);
     for (int y = 0; y < cells; ++y)
       for (int x = 0; x < cells; ++x) {
-        const glm::dvec2 place = transform.to_crs(x, y);
-        surface.vertices_m(x, y) = glm::vec3(glm::dvec3(place, altitude_m(place)) - surface.origin);
+        const glm::dvec2 position = transform.to_crs(x, y);
+        surface.vertices_m(x, y) =
+            glm::vec3(glm::dvec3(position, altitude_m(position)) - surface.origin);
       }
     camera = make_camera(view);
     tracer = std::make_unique<Tracer>(surface);
   }
-  static double altitude_m(glm::dvec2 place) { return 0.12 * place.y + 3.0 * gaussian_noise(5, place.x, place.y, 45.0); }
+  static double altitude_m(glm::dvec2 position) {
+    return 0.12 * position.y + 3.0 * gaussian_noise(5, position.x, position.y, 45.0);
+  }
 };
 
 struct Ground {
@@ -62,7 +66,8 @@ struct Ground {
 };
 
 glm::vec3 colour_of(const Palette& palette, LandCoverClass id, float tone) {
-  const std::vector<ClassPalette::Stop>& stops = palette.classes[static_cast<std::size_t>(id)].stops;
+  const std::vector<ClassPalette::Stop>& stops =
+      palette.classes[static_cast<std::size_t>(id)].stops;
   const ClassPalette::Stop* stop = &stops.front();
   for (const ClassPalette::Stop& one : stops)
     if (one.altitude_m <= ground_m) stop = &one;
@@ -70,15 +75,18 @@ glm::vec3 colour_of(const Palette& palette, LandCoverClass id, float tone) {
   while (k + 2 < ramp_tones.size() && tone > static_cast<float>(ramp_tones[k + 1])) ++k;
   const auto from = static_cast<float>(ramp_tones[k]);
   const auto to = static_cast<float>(ramp_tones[k + 1]);
-  return glm::mix(stop->ramp[k], stop->ramp[k + 1], std::clamp((tone - from) / (to - from), 0.F, 1.F));
+  return glm::mix(stop->ramp[k], stop->ramp[k + 1],
+                  std::clamp((tone - from) / (to - from), 0.F, 1.F));
 }
 
-// What is seen of it, in a light from the upper left: a meadow or snow, with a wood behind where one is asked for.
+// Its view, lit from the upper left: a meadow or snow, with a wood behind where one is asked for.
 Ground look_at_slope(const Slope& slope, bool winter, bool with_wood) {
   const Palette palette = read_palette(winter ? "winter" : "summer");
   Ground ground;
   GuidanceBuffers& g = ground.guidance;
-  const auto numbers = [](float value) { return Grid<float>(half_width_px, swatch_height_px, value); };
+  const auto numbers = [](float value) {
+    return Grid<float>(half_width_px, swatch_height_px, value);
+  };
   g.depth_m = numbers(std::numeric_limits<float>::infinity());
   g.tone = numbers(0.8F);
   g.slope_deg = numbers(8.F);
@@ -87,7 +95,8 @@ Ground look_at_slope(const Slope& slope, bool winter, bool with_wood) {
   g.grain = Grid<glm::vec2>(half_width_px, swatch_height_px);
   g.fall_line = Grid<glm::vec2>(half_width_px, swatch_height_px, glm::vec2(0.F, 1.F));
   g.position_m = Grid<glm::vec3>(half_width_px, swatch_height_px);
-  g.land_cover = Grid<LandCoverClass>(half_width_px, swatch_height_px, winter ? LandCoverClass::snow : LandCoverClass::pasture);
+  g.land_cover = Grid<LandCoverClass>(half_width_px, swatch_height_px,
+                                      winter ? LandCoverClass::snow : LandCoverClass::pasture);
   BasePicture& base = ground.base;
   base.colour = base.darker = base.lighter = Grid<glm::vec3>(half_width_px, swatch_height_px);
   base.accent = base.haze = numbers(0.F);
@@ -100,10 +109,12 @@ Ground look_at_slope(const Slope& slope, bool winter, bool with_wood) {
       if (hit.found) {
         g.depth_m(x, y) = static_cast<float>(hit.distance_m);
         g.position_m(x, y) = glm::vec3(ray.origin + ray.direction * hit.distance_m);
-        const double light = glm::dot(hit.facet_normal(), glm::normalize(glm::dvec3(-0.6, 0.2, 0.75)));
+        const double light =
+            glm::dot(hit.facet_normal(), glm::normalize(glm::dvec3(-0.6, 0.2, 0.75)));
         g.tone(x, y) = static_cast<float>(std::clamp(0.78 + 2.2 * (light - 0.77), 0.0, 1.0));
       }
-      if (with_wood && y < wood_from * swatch_height_px) g.land_cover(x, y) = LandCoverClass::forest;
+      if (with_wood && y < wood_from * swatch_height_px)
+        g.land_cover(x, y) = LandCoverClass::forest;
       const float tone = g.tone(x, y);
       base.colour(x, y) = colour_of(palette, g.land_cover(x, y), tone);
       base.darker(x, y) = colour_of(palette, g.land_cover(x, y), tone - 0.17F);
@@ -121,10 +132,12 @@ std::vector<Feature> examples(const FeatureStyle& style, int kind) {
   std::vector<Feature> all;
   if (look.draw == FeatureDraw::building) {
     feature.shape = MapShape::area;
-    for (const glm::dvec2 at : {glm::dvec2(-55.0, -10.0), glm::dvec2(0.0, 12.0), glm::dvec2(52.0, -6.0)}) {
+    for (const glm::dvec2 at :
+         {glm::dvec2(-55.0, -10.0), glm::dvec2(0.0, 12.0), glm::dvec2(52.0, -6.0)}) {
       const glm::dvec2 u = glm::normalize(glm::dvec2(1.0, 0.02 * at.x));
       const glm::dvec2 v{-u.y, u.x};
-      feature.parts = {{at - 14.0 * u - 9.0 * v, at + 14.0 * u - 9.0 * v, at + 14.0 * u + 9.0 * v, at - 14.0 * u + 9.0 * v}};
+      feature.parts = {{at - 14.0 * u - 9.0 * v, at + 14.0 * u - 9.0 * v, at + 14.0 * u + 9.0 * v,
+                        at - 14.0 * u + 9.0 * v}};
       all.push_back(feature);
     }
     return all;
@@ -147,26 +160,35 @@ Grid<glm::vec3> paint_half(const FeatureStyle& style, int kind, bool winter) {
   const Slope slope;
   const Grid<glm::vec2> unmoved;
   const GroundSight sight(slope.transform, slope.surface, *slope.camera, *slope.tracer, unmoved);
-  FeatureSet set{.style = style, .features = examples(style, kind), .readings = std::vector<SourceReading>(1)};
-  const DrawnFeatures drawn = draw_features(
-      set, sight, {.winter = winter, .px_per_mm = swatch_px_per_mm, .seed = 3, .sun = glm::normalize(glm::dvec3(-0.7, -0.2, 0.7))});
-  const Ground ground = look_at_slope(slope, winter, style.kinds[static_cast<std::size_t>(kind)].draw == FeatureDraw::building);
+  FeatureSet set{
+      .style = style, .features = examples(style, kind), .readings = std::vector<SourceReading>(1)};
+  const DrawnFeatures drawn = draw_features(set, sight,
+                                            {.winter = winter,
+                                             .px_per_mm = swatch_px_per_mm,
+                                             .seed = 3,
+                                             .sun = glm::normalize(glm::dvec3(-0.7, -0.2, 0.7))});
+  const Ground ground = look_at_slope(
+      slope, winter, style.kinds[static_cast<std::size_t>(kind)].draw == FeatureDraw::building);
   StrokeParameters parameters;
   parameters.pixels_per_unit = 0.5 * swatch_px_per_mm;
   parameters.winter = winter;
   const PixelRect all{0, 0, half_width_px, swatch_height_px};
   MappedGround map;
   map.cleared = find_cleared(drawn, ground.guidance.depth_m, all);
-  // Nothing stands there but the features and the wood.
+  // Only the features and the wood.
   for (std::size_t i = 0; i < map.cleared.size(); ++i)
     if (ground.guidance.land_cover[i] != LandCoverClass::forest) map.cleared[i] = 1;
-  map.hung_m = find_hung(drawn, all);
+  map.overhead_m = find_overhead(drawn, all);
   map.besides = house_strokes(drawn, {ground.guidance, ground.base, parameters});
   SheetWindow window;
   window.mapped = &map;
-  const StrokeLayers layers{.sky = false, .ground = true, .accents = true, .breaks = false, .upright = true};
-  Painting painting = paint_strokes(ground.base.colour, ground.guidance, ground.base, layers, parameters, silent_progress(), window);
-  paint_features(painting.picture, drawn, {ground.guidance, ground.base.colour, ground.base.haze, painting.seen_ground, painting.seen_hung},
+  const StrokeLayers layers{
+      .sky = false, .ground = true, .accents = true, .breaks = false, .upright = true};
+  Painting painting = paint_strokes(ground.base.colour, ground.guidance, ground.base, layers,
+                                    parameters, silent_progress(), window);
+  paint_features(painting.picture, drawn,
+                 {ground.guidance, ground.base.colour, ground.base.haze, painting.seen_ground,
+                  painting.seen_overhead},
                  all, all);
   return painting.picture;
 }
@@ -190,7 +212,8 @@ Grid<glm::vec3> make_swatch(const FeatureStyle& style, int kind) {
   for (const bool winter : {false, true}) {
     const Grid<glm::vec3> half = paint_half(style, kind, winter);
     for (int y = 0; y < swatch_height_px; ++y)
-      std::copy_n(half.row(y), half_width_px, swatch.row(y) + (winter ? half_width_px + swatch_gap_px : 0));
+      std::copy_n(half.row(y), half_width_px,
+                  swatch.row(y) + (winter ? half_width_px + swatch_gap_px : 0));
   }
   return swatch;
 }

@@ -7,8 +7,9 @@
 
 namespace belvedere::tools {
 
-// How a kind looks on a meadow in summer and on snow in winter: a bend of a road, a lift up a slope, three houses; at 8 pixels a mm of the
-// sheet, summer left, winter right; encoded sRGB. Empty for kinds that change the ground.
+// A kind on a meadow in summer and on snow in winter: a bend of a road, a lift up a slope, three
+// houses; at 8 pixels per mm of the sheet, summer left, winter right; encoded sRGB. Empty for kinds
+// that change the ground.
 Grid<glm::vec3> make_swatch(const FeatureStyle& style, int kind);
 
 }  // namespace belvedere::tools

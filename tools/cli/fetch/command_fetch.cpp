@@ -28,27 +28,34 @@ double mib(std::uint64_t bytes) {
 
 std::size_t missing_tiles(const FetchedMap& map) {
   return static_cast<std::size_t>(
-      std::count_if(map.tiles.begin(), map.tiles.end(), [](const FetchedTile& tile) { return tile.about.missing; }));
+      std::count_if(map.tiles.begin(), map.tiles.end(),
+                    [](const FetchedTile& tile) { return tile.about.missing; }));
 }
 
 std::string as_text(const FetchCommandOptions& options, const FetchedArea& area) {
   std::string out;
   for (const FetchedMap* map : {&area.elevation, area.land_cover ? &*area.land_cover : nullptr}) {
     if (map == nullptr) continue;
-    out += fmt::format("{}/{}: {} × {} cells of {} m, {}; {}, {} tiles{}\n", options.out, map->file, map->frame.width, map->frame.height,
-                       map->frame.transform.cell_x, describe_crs(map->frame.crs), map->source.name, map->tiles.size(),
-                       missing_tiles(*map) > 0 ? fmt::format(", {} of them sea", missing_tiles(*map)) : "");
+    out += fmt::format(
+        "{}/{}: {} × {} cells of {} m, {}; {}, {} tiles{}\n", options.out, map->file,
+        map->frame.width, map->frame.height, map->frame.transform.cell_x,
+        describe_crs(map->frame.crs), map->source.name, map->tiles.size(),
+        missing_tiles(*map) > 0 ? fmt::format(", {} of them sea", missing_tiles(*map)) : "");
     out += fmt::format("  {}\n", map->source.credit);
   }
-  out += fmt::format("{}: where it comes from, and the tables for a scene\n{} questions, {:.1f} MiB\n", area.record, area.questions,
-                     mib(area.bytes));
+  out += fmt::format(
+      "{}: origin of the data, and the tables for a scene\n"
+      "{} requests, {:.1f} MiB\n",
+      area.record, area.questions, mib(area.bytes));
   return out;
 }
 
 Json map_json(const FetchCommandOptions& options, const FetchedMap& map) {
   Json tiles = Json::array();
   for (const FetchedTile& tile : map.tiles)
-    tiles.add(Json::object().add("name", Json::text(tile.name)).add("missing", Json::boolean(tile.about.missing)));
+    tiles.add(Json::object()
+                  .add("name", Json::text(tile.name))
+                  .add("missing", Json::boolean(tile.about.missing)));
   Json out = Json::object()
                  .add("file", Json::text(options.out + "/" + map.file))
                  .add("hash", Json::text(map.hash))
@@ -75,7 +82,8 @@ int run(const FetchCommandOptions& options) {
   TerminalProgress progress(options.run.quiet);
   const Cache cache = make_cache(options.run);
   const RunLimits limits(make_run(options.run, Run{}.tile_px, progress, cache));
-  const FetchedArea area = fetch_area(fetch_parameters(options.fetch), options.out, cache, progress, sources_for_scenes);
+  const FetchedArea area =
+      fetch_area(fetch_parameters(options.fetch), options.out, cache, progress, sources_for_scenes);
   progress.end();
   print_result(options.run, as_json(options, area), as_text(options, area));
   return 0;
@@ -87,16 +95,24 @@ Action add_fetch(CommandOptions& command) {
   const auto options = std::make_shared<FetchCommandOptions>();
   add_fetch_options(command, options->fetch);
   command.option("--at").required();
-  command.add_option("--out", options->out, "The folder for elevation.tif, land_cover.tif and fetched.toml; made where it is missing")
+  command
+      .add_option(
+          "--out", options->out,
+          "The folder for elevation.tif, land_cover.tif and fetched.toml; created if missing")
       .required()
       .type_name("DIR");
   add_run_options(command, options->run);
   command.footer(
-      "Asks the servers of Copernicus DEM GLO-30 and ESA WorldCover, or those of other sources, for the parts of their tiles that lie in\n"
-      "the area. What came is kept in the cache: after a failure the same command goes on where it ended, and the next time nothing is\n"
-      "asked. Whoever shows a picture of such data names the sources: fetched.toml has their words, and scenes take them along.\n\n"
+      "Requests the parts of tiles that lie in the area from the servers of Copernicus DEM GLO-30 "
+      "and ESA WorldCover, or of other sources.\n"
+      "Downloads are cached: after a failure the same command continues where it stopped, and a "
+      "second run requests nothing.\n"
+      "Pictures of such data must name the sources: fetched.toml has the attributions, and scenes "
+      "take them over.\n"
+      "\n"
       "  belvedere fetch --at 11.4,47.35 --size 60 --out karwendel_data\n"
-      "  belvedere fetch --at -121.76,46.85 --size 80x60 --source copernicus_glo90 --no-land-cover --out rainier_data");
+      "  belvedere fetch --at -121.76,46.85 --size 80x60 --source copernicus_glo90 --no-land-cover "
+      "--out rainier_data");
   return [options] { return run(*options); };
 }
 

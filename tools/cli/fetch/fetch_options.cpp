@@ -23,7 +23,9 @@ glm::dvec2 parse_size(const std::string& text) {
     } catch (const std::exception&) {
       end = std::string::npos;
     }
-    if (end != part.size()) throw Error(ErrorKind::usage, "--size", fmt::format("\"{}\"", text), "kilometres: 60, or 80x50");
+    if (end != part.size())
+      throw Error(ErrorKind::usage, "--size", fmt::format("\"{}\"", text),
+                  "kilometres: 60, or 80x50");
     return value;
   };
   if (cross == std::string::npos) return glm::dvec2(number(text));
@@ -33,40 +35,57 @@ glm::dvec2 parse_size(const std::string& text) {
 }  // namespace
 
 void add_fetch_options(CommandOptions& command, FetchOptions& options) {
-  command.add_option("--at", options.at, "The middle of the area: longitude and latitude in degrees, west and south negative")
+  command
+      .add_option(
+          "--at", options.at,
+          "The centre of the area: longitude and latitude in degrees, west and south negative")
       .type_name("LON,LAT");
   command
       .add_option("--size", options.size,
-                  "How large the area is, in km: a side of the square, or west to east x south to north; default 60")
+                  "Size of the area in km: a side of the square, or west to east x south to north. "
+                  "Default: 60")
       .type_name("KM");
   command
-      .add_option(
-          "--source", options.sources,
-          fmt::format("Another source than copernicus_glo30 or esa_worldcover: {}, or a .toml file (docs/fetch.md); may be repeated",
-                      fmt::join(built_in_map_sources(), ", ")))
+      .add_option("--source", options.sources,
+                  fmt::format("A source instead of copernicus_glo30 or esa_worldcover: {}, or a "
+                              ".toml file (docs/fetch.md); may be repeated",
+                              fmt::join(built_in_map_sources(), ", ")))
       .type_name("NAME")
       .repeated();
   command.add_flag("--no-land-cover", options.no_land_cover, "Only the elevation");
-  command.add_option("--cell", options.cell_m, "Width of the elevation's cells in m; default: the source's, 30").type_name("M");
   command
-      .add_option("--cover-cell", options.cover_cell_m, "Width of the land cover's cells in m; default: the source's, 10, up to 80 × 80 km")
+      .add_option("--cell", options.cell_m,
+                  "Cell size of the elevation in m. Default: the source's, 30")
       .type_name("M");
   command
-      .add_option("--mirror", options.mirror,
-                  "A server that has copies of the sources' files under the same paths, asked in their place; also $BELVEDERE_MIRROR")
+      .add_option("--cover-cell", options.cover_cell_m,
+                  "Cell size of the land cover in m. Default: the source's, 10, up to 80 × 80 km")
+      .type_name("M");
+  command
+      .add_option(
+          "--mirror", options.mirror,
+          "A mirror that serves the sources' files under the same paths; also $BELVEDERE_MIRROR")
       .type_name("URL")
       .environment("BELVEDERE_MIRROR");
-  command.add_flag("--refresh", options.refresh, "Asks whether files that are known have changed; else that is believed for 30 days");
-  // A command whose scene may have files on servers has this already.
+  command.add_flag(
+      "--refresh", options.refresh,
+      "Asks the server whether cached files have changed; otherwise they are used for 30 days");
+  // A command whose scene may have files on servers already has this option.
   if (!command.has_option("--http-silence"))
     command
-        .add_option("--http-silence", options.manners.silence_s, "How long a server may send nothing before it counts as lost, in seconds")
+        .add_option("--http-silence", options.http_options.silence_s,
+                    "Timeout in seconds: how long a server may send nothing before the connection "
+                    "counts as lost")
         .type_name("S")
         .show_default();
-  command.add_option("--http-time", options.manners.answer_s, "How long one answer of a server may take, in seconds")
+  command
+      .add_option("--http-time", options.http_options.answer_s,
+                  "Maximum duration of one response of a server, in seconds")
       .type_name("S")
       .show_default();
-  command.add_option("--http-retries", options.manners.retries, "How often what failed is asked for again, later each time")
+  command
+      .add_option("--http-retries", options.http_options.retries,
+                  "Number of retries of a failed request, with increasing delay")
       .type_name("N")
       .show_default();
 }
@@ -74,19 +93,21 @@ void add_fetch_options(CommandOptions& command, FetchOptions& options) {
 std::string sources_for_scenes(const FetchedArea& area) { return fetched_sources(area, ""); }
 
 FetchParameters fetch_parameters(const FetchOptions& options) {
-  if (options.at.empty()) throw Error(ErrorKind::usage, "--at", "no place is given", "--at LON,LAT");
+  if (options.at.empty())
+    throw Error(ErrorKind::usage, "--at", "no position is given", "--at LON,LAT");
   FetchParameters parameters;
   parameters.at_lonlat = parse_pair(options.at, "--at");
   parameters.size_km = parse_size(options.size);
   for (const std::string& name : options.sources)
-    (read_map_source(name).kind == MapSourceKind::elevation ? parameters.elevation : parameters.land_cover) = name;
+    (read_map_source(name).kind == MapSourceKind::elevation ? parameters.elevation
+                                                            : parameters.land_cover) = name;
   if (options.no_land_cover) parameters.land_cover.clear();
   parameters.cell_m = options.cell_m;
   parameters.cover_cell_m = options.cover_cell_m;
   parameters.mirror = options.mirror;
   parameters.refresh = options.refresh;
-  parameters.manners = options.manners;
-  parameters.manners.agent = fmt::format("Belvedere/{} (panorama maps)", program_version());
+  parameters.http_options = options.http_options;
+  parameters.http_options.agent = fmt::format("Belvedere/{} (panorama maps)", program_version());
   return parameters;
 }
 

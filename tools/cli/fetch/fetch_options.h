@@ -9,24 +9,24 @@ namespace belvedere::tools {
 
 class CommandOptions;
 
-// What commands that fetch an area have in common: place, size, sources, and how servers are asked.
+// Options shared by commands that fetch an area: position, size, sources, and server settings.
 struct FetchOptions {
   std::string at;                    // "LON,LAT"; empty: not given
   std::string size = "60";           // km: "60", or "80x50" west to east and south to north
-  std::vector<std::string> sources;  // each takes the place of the one of its kind
+  std::vector<std::string> sources;  // each replaces the source of the same kind
   bool no_land_cover = false;
   double cell_m = 0.0;
   double cover_cell_m = 0.0;
   std::string mirror;
   bool refresh = false;
-  HttpManners manners;
+  HttpOptions http_options;
 };
 
-// --http-silence only where the command has none yet: then manners.silence_s is the command's to fill.
+// --http-silence only if the command lacks it; otherwise the command fills manners.silence_s.
 void add_fetch_options(CommandOptions& command, FetchOptions& options);
-// What stands first in the record of fetched data: tables that are ready for a scene beside it.
+// The head of the record of fetched data: tables that are ready for a scene beside it.
 std::string sources_for_scenes(const FetchedArea& area);
-// Error(usage) for what cannot be understood; places and sizes out of range are told by fetch_area.
+// Error(usage) for text that cannot be parsed; fetch_area checks the range of positions and sizes.
 FetchParameters fetch_parameters(const FetchOptions& options);
 
 }  // namespace belvedere::tools

@@ -30,21 +30,24 @@ struct LabelsOptions {
   std::vector<std::string> shapes;
   std::vector<std::string> tracks;
   std::string style;
-  int summits = -1;                 // -1: the scene's; 30 where nothing else is named
-  double least_prominence_m = 0.0;  // 0: the scene's
+  int summits = -1;               // -1: the scene's; 30 where nothing else is named
+  double min_prominence_m = 0.0;  // 0: the scene's
   std::string under;
   std::string out;
 };
 
 constexpr int usual_summits = 30;
 
-// Fonts that a style names and the machine lacks: the picture then looks other than the style means.
+// Fonts of the style that are not installed: the picture then differs from the style's intention.
 void note_fonts(const LabelStyle& style, Progress& progress) {
   const TextMeasure measure;
   std::map<std::string, std::string> taken;
-  for (const LabelKindStyle& kind : style.kinds) taken[kind.family] = measure.family_of(text_style(kind, 1.0));
+  for (const LabelKindStyle& kind : style.kinds)
+    taken[kind.family] = measure.family_of(text_style(kind, 1.0));
   for (const auto& [asked, found] : taken)
-    if (!asked.starts_with(found)) progress.note(fmt::format("of the fonts \"{}\" {} is taken: the first is not installed", asked, found));
+    if (!asked.starts_with(found))
+      progress.note(
+          fmt::format("of the fonts \"{}\", {} is used: the first is not installed", asked, found));
 }
 
 int run(const LabelsOptions& options) {
@@ -55,10 +58,11 @@ int run(const LabelsOptions& options) {
   require_scene_files(scene);
   LabelJob job = label_job(scene, progress);
   for (const auto& [own, scenes] :
-       {std::pair(&options.points, &job.points), std::pair(&options.shapes, &job.shapes), std::pair(&options.tracks, &job.tracks)})
+       {std::pair(&options.points, &job.points), std::pair(&options.shapes, &job.shapes),
+        std::pair(&options.tracks, &job.tracks)})
     if (!own->empty()) *scenes = *own;
   if (!options.style.empty()) job.style = options.style;
-  if (options.least_prominence_m > 0.0) job.least_prominence_m = options.least_prominence_m;
+  if (options.min_prominence_m > 0.0) job.min_prominence_m = options.min_prominence_m;
   if (options.summits >= 0)
     job.summits = options.summits;
   else if (job.points.empty() && job.shapes.empty() && job.tracks.empty() && job.summits == 0)
@@ -69,7 +73,8 @@ int run(const LabelsOptions& options) {
 
   const BareView bare = make_bare_view(scene, progress, cache);
   const LabelSheet sheet = make_label_sheet(scene, job, bare, progress);
-  const std::string under = options.under.empty() ? "" : fs::relative(options.under, folder).generic_string();
+  const std::string under =
+      options.under.empty() ? "" : fs::relative(options.under, folder).generic_string();
   write_label_files(sheet, bare.dem.crs, folder.string(), under, progress);
   progress.end();
 
@@ -86,8 +91,10 @@ int run(const LabelsOptions& options) {
                     .add("points", Json::number(static_cast<double>(sheet.labels.size())))
                     .add("placed", Json::number(static_cast<double>(placed)))
                     .add("no_room", Json::number(static_cast<double>(seen - placed)));
-    for (const MarkState state : {MarkState::hidden, MarkState::outside_picture, MarkState::behind_eye, MarkState::outside_terrain})
-      json.add(std::string(name_of(state)), Json::number(static_cast<double>(states[static_cast<std::size_t>(state)])));
+    for (const MarkState state : {MarkState::hidden, MarkState::outside_picture,
+                                  MarkState::behind_eye, MarkState::outside_terrain})
+      json.add(std::string(name_of(state)),
+               Json::number(static_cast<double>(states[static_cast<std::size_t>(state)])));
     Json tracks = Json::array();
     for (const Track& track : sheet.tracks)
       tracks.add(Json::object()
@@ -98,15 +105,18 @@ int run(const LabelsOptions& options) {
     json.add("tracks", std::move(tracks));
     print_out(json.str() + "\n");
   } else {
-    std::string text = fmt::format("{}: {} of {} names placed", (folder / "labels.svg").string(), placed, sheet.labels.size());
+    std::string text = fmt::format("{}: {} of {} names placed", (folder / "labels.svg").string(),
+                                   placed, sheet.labels.size());
     if (seen > placed) text += fmt::format(", {} without room", seen - placed);
-    for (const MarkState state : {MarkState::hidden, MarkState::outside_picture, MarkState::behind_eye, MarkState::outside_terrain})
+    for (const MarkState state : {MarkState::hidden, MarkState::outside_picture,
+                                  MarkState::behind_eye, MarkState::outside_terrain})
       if (const std::size_t count = states[static_cast<std::size_t>(state)]; count > 0)
         text += fmt::format(", {} {}", count, name_of(state));
     text += '\n';
     for (const Track& track : sheet.tracks)
-      text += fmt::format("{}: {:.1f} km, {:.0f} m up, {:.1f} km of it seen\n", track.name.empty() ? track.where : track.name,
-                          track.length_m / 1000.0, track.climb_m, track.seen_m / 1000.0);
+      text += fmt::format("{}: {:.1f} km, {:.0f} m up, {:.1f} km of it visible\n",
+                          track.name.empty() ? track.where : track.name, track.length_m / 1000.0,
+                          track.climb_m, track.seen_m / 1000.0);
     print_out(text);
   }
   return 0;
@@ -118,32 +128,51 @@ Action add_labels(CommandOptions& command) {
   const auto options = std::make_shared<LabelsOptions>();
   add_scene_options(command, options->scene);
   command
-      .add_option(
-          "--points", options->points,
-          "Points with names, instead of those of the scene's [labels]: .csv, .gpkg, .geojson, .shp, .fgb, .gpx or .osm; may be repeated")
+      .add_option("--points", options->points,
+                  "Points with names, instead of those of the scene's [labels]: .csv, .gpkg, "
+                  ".geojson, .shp, .fgb, .gpx or .osm; may be repeated")
       .type_name("FILE");
-  command.add_option("--tracks", options->tracks, "Ways to draw, with a profile each: .gpx, .gpkg, .geojson, .shp or .fgb; may be repeated")
+  command
+      .add_option("--tracks", options->tracks,
+                  "Tracks to draw, with a profile each: .gpx, .gpkg, .geojson, .shp or .fgb; may "
+                  "be repeated")
       .type_name("FILE");
   command
       .add_option("--shapes", options->shapes,
-                  "Lines and areas whose names are bent along them, valleys and lakes: .gpkg, .geojson, .shp or .fgb; may be repeated")
+                  "Lines and areas whose names are curved along them, valleys and lakes: .gpkg, "
+                  ".geojson, .shp or .fgb; may be repeated")
       .type_name("FILE");
-  command.add_option("--style", options->style, "How names are set: classic, or a .toml file; without it the scene's").type_name("STYLE");
-  command.add_option("--summits", options->summits, "So many of the DEM's own summits as well, with their altitudes; 30 without --points")
+  command
+      .add_option("--style", options->style,
+                  "Style of the names: classic, or a .toml file. Default: the scene's")
+      .type_name("STYLE");
+  command
+      .add_option("--summits", options->summits,
+                  "Number of the DEM's own summits to label as well, with their altitudes. "
+                  "Default: 30 without --points")
       .type_name("N")
       .range(0, 10000);
   command
-      .add_option("--least-prominence", options->least_prominence_m,
-                  "What counts as a summit of the DEM: so high over the way to higher ground, in metres; without it the scene's, 150")
+      .add_option("--min-prominence", options->min_prominence_m,
+                  "Prominence from which a point of the DEM counts as a summit, in metres above "
+                  "the highest pass to higher ground. Default: the scene's, 150")
       .type_name("M")
       .range(1.0, 9000.0);
-  command.add_option("--under", options->under, "A picture of the scene that labels.svg shows beneath the names").type_name("FILE");
-  command.add_option("--out", options->out, "Folder for the results; made where it is missing").required().type_name("DIR");
+  command
+      .add_option("--under", options->under,
+                  "A picture of the scene that labels.svg shows beneath the names")
+      .type_name("FILE");
+  command.add_option("--out", options->out, "Folder for the results; created if missing")
+      .required()
+      .type_name("DIR");
   command.footer(
-      "Writes labels.svg (over the picture, text as text), labels.csv and labels.geojson: each point's pixel, distance, and whether\n"
-      "it is seen or what hides it. Summits are marked where they are drawn. Files have columns name, kind, rank (1 … 9) and ele.\n\n"
-      "  belvedere labels scenes/karwendel.toml --data ../data --points scenes/karwendel_names.csv --under out/karwendel/panorama.png "
-      "--out out/karwendel\n"
+      "Writes labels.svg (over the picture, text as text), labels.csv and labels.geojson: each "
+      "point's pixel, distance, and whether\n"
+      "it is visible or what hides it. Summits are marked where they are drawn. Files have columns "
+      "name, kind, rank (1 … 9) and ele.\n"
+      "\n"
+      "  belvedere labels scenes/karwendel.toml --data ../data --points scenes/karwendel_names.csv "
+      "--under out/karwendel/panorama.png --out out/karwendel\n"
       "  belvedere labels my_scene.toml --summits 40 --out names\n"
       "  belvedere labels my_scene.toml --tracks tour.gpx --under panorama.png --out tour");
   return [options] { return run(*options); };

@@ -14,8 +14,9 @@ namespace belvedere::tools {
 namespace {
 
 bool names_a_file(const std::string& text) {
-  constexpr std::array endings = {".csv", ".gpkg", ".geojson", ".json", ".shp", ".fgb", ".gpx", ".osm", ".pbf"};
-  return std::find(endings.begin(), endings.end(), lower_ending(text)) != endings.end();
+  constexpr std::array extensions = {".csv", ".gpkg", ".geojson", ".json", ".shp",
+                                     ".fgb", ".gpx",  ".osm",     ".pbf"};
+  return std::find(extensions.begin(), extensions.end(), lower_extension(text)) != extensions.end();
 }
 
 Json json_of(const LabelSheet& sheet, const Label& label) {
@@ -24,16 +25,17 @@ Json json_of(const LabelSheet& sheet, const Label& label) {
                    .add("name", Json::text(label.point.name))
                    .add("kind", Json::text(sheet.kind_of(label).name))
                    .add("where", Json::text(label.point.where))
-                   .add("place", pair_json(label.point.place))
+                   .add("place", pair_json(label.point.position))
                    .add("outcome", Json::text(std::string(name_of(mark.state))))
                    .add("visible", Json::boolean(mark.state == MarkState::seen));
   if (label.point.altitude_m) entry.add("altitude_file_m", Json::number(*label.point.altitude_m));
-  if (!std::isnan(mark.dem_altitude_m)) entry.add("altitude_dem_m", Json::number(mark.dem_altitude_m));
+  if (!std::isnan(mark.dem_altitude_m))
+    entry.add("altitude_dem_m", Json::number(mark.dem_altitude_m));
   if (mark.state != MarkState::outside_terrain && mark.state != MarkState::behind_eye)
     entry.add("pixel", pair_json(mark.pixel))
         .add("distance_m", Json::number(mark.distance_m))
         .add("in_picture", Json::boolean(mark.state != MarkState::outside_picture));
-  if (mark.in_front) entry.add("hiding_place", pair_json(mark.in_front->place));
+  if (mark.in_front) entry.add("hiding_place", pair_json(mark.in_front->position));
   if (!label.hidden_by.empty()) entry.add("hidden_by", Json::text(label.hidden_by));
   return entry;
 }
@@ -52,16 +54,17 @@ LocateQuestions sort_questions(const std::vector<std::string>& asked) {
     try {
       parse_pair(text, "--locate");
     } catch (const Error& error) {
-      throw Error(
-          ErrorKind::usage, "--locate", '"' + text + '"',
-          "E,N: two numbers with a comma between; or a file of points: .csv, .gpkg, .geojson, .json, .shp, .fgb, .gpx, .osm or .pbf");
+      throw Error(ErrorKind::usage, "--locate", '"' + text + '"',
+                  "E,N: two numbers separated by a comma; or a file of points: .csv, .gpkg, "
+                  ".geojson, .json, .shp, .fgb, .gpx, .osm or .pbf");
     }
-    questions.places.push_back(text);
+    questions.positions.push_back(text);
   }
   return questions;
 }
 
-LocatedTable locate_files(const BareView& bare, const std::vector<std::string>& files, Progress& progress) {
+LocatedTable locate_files(const BareView& bare, const std::vector<std::string>& files,
+                          Progress& progress) {
   const LabelSheet sheet = locate_points(files, bare, progress);
   LocatedTable table;
   table.csv = places_csv(sheet);

@@ -32,46 +32,61 @@ struct LayersApplyOptions : RunOptions {
 ByteRasterLayout class_layout(const RasterFrame& frame) {
   ByteRasterLayout layout{.frame = frame, .bands = {{.name = "class"}}, .zero_is_void = true};
   for (const LandCoverClassInfo& info : land_cover_classes())
-    if (info.id != LandCoverClass::sky) layout.codes.push_back({static_cast<std::uint8_t>(info.id), std::string(info.name), info.rgb});
+    if (info.id != LandCoverClass::sky)
+      layout.codes.push_back(
+          {static_cast<std::uint8_t>(info.id), std::string(info.name), info.rgb});
   return layout;
 }
 
 // So that a scene can read the classes as land cover.
 std::string legend_text(const std::string& name) {
-  std::string out = fmt::format("# What the codes of {} mean.\nname = {}\nnodata = [0]\n\n[codes]\n", name, json_quoted(name));
+  std::string out = fmt::format(
+      "# Legend of {}.\n"
+      "name = {}\n"
+      "nodata = [0]\n"
+      "\n"
+      "[codes]\n",
+      name, json_quoted(name));
   for (const LandCoverClassInfo& info : land_cover_classes())
     if (info.id != LandCoverClass::sky)
-      out += fmt::format("{} = {{ label = {}, class = \"{}\" }}\n", static_cast<int>(info.id), json_quoted(info.meaning), info.name);
+      out += fmt::format("{} = {{ label = {}, class = \"{}\" }}\n", static_cast<int>(info.id),
+                         json_quoted(info.meaning), info.name);
   return out;
 }
 
-// All names are different, and none is what is read.
+// All names are different, and none is an input.
 void check_names(const LayersApplyOptions& options, const std::string& legend) {
   std::set<std::string> names = {options.layers, options.dem};
   for (const std::string& path : {options.out, options.colour, options.shares, legend}) {
     if (path.empty()) continue;
     check_place(path);
-    if (!names.insert(path).second) throw Error(ErrorKind::usage, path, "the same file twice", "a file of its own for each");
+    if (!names.insert(path).second)
+      throw Error(ErrorKind::usage, path, "the same file twice", "different files");
   }
 }
 
-std::string as_text(const LayersApplyOptions& options, const SurfaceLayers& layers, const Dem& dem, const LayerApplyResult& result) {
+std::string as_text(const LayersApplyOptions& options, const SurfaceLayers& layers, const Dem& dem,
+                    const LayerApplyResult& result) {
   std::string out = fmt::format("{}: {}×{} cells\n", options.out, dem.width(), dem.height());
   for (const LandCoverClassInfo& info : land_cover_classes())
     if (const double share = result.class_share[static_cast<std::size_t>(info.id)]; share > 0.0)
-      out += fmt::format("  {:<14} {:5.1f} %\n", info.id == LandCoverClass::sky ? "(no class)" : info.name, 100.0 * share);
-  if (!layers.inputs.empty()) out += "outside the range that the layers know:\n";
+      out += fmt::format("  {:<14} {:5.1f} %\n",
+                         info.id == LandCoverClass::sky ? "(no class)" : info.name, 100.0 * share);
+  if (!layers.inputs.empty()) out += "outside the range that the layers cover:\n";
   for (std::size_t i = 0; i < layers.inputs.size(); ++i)
     out += fmt::format("  {:<14} {:5.1f} %\n", layers.inputs[i].name, 100.0 * result.outside[i]);
   return out;
 }
 
-Json as_json(const LayersApplyOptions& options, const SurfaceLayers& layers, const Dem& dem, const LayerApplyResult& result) {
+Json as_json(const LayersApplyOptions& options, const SurfaceLayers& layers, const Dem& dem,
+             const LayerApplyResult& result) {
   Json classes = Json::object();
   for (const LandCoverClassInfo& info : land_cover_classes())
-    if (info.id != LandCoverClass::sky) classes.add(info.name, Json::number(result.class_share[static_cast<std::size_t>(info.id)]));
+    if (info.id != LandCoverClass::sky)
+      classes.add(info.name, Json::number(result.class_share[static_cast<std::size_t>(info.id)]));
   Json outside = Json::object();
-  for (std::size_t i = 0; i < layers.inputs.size(); ++i) outside.add(layers.inputs[i].name, Json::number(result.outside[i]));
+  for (std::size_t i = 0; i < layers.inputs.size(); ++i)
+    outside.add(layers.inputs[i].name, Json::number(result.outside[i]));
   return Json::object()
       .add("out", Json::text(options.out))
       .add("width", Json::number(dem.width()))
@@ -82,26 +97,32 @@ Json as_json(const LayersApplyOptions& options, const SurfaceLayers& layers, con
 }
 
 int run(const LayersApplyOptions& options) {
-  const std::string legend = std::filesystem::path(options.out).replace_extension(".legend.toml").string();
+  const std::string legend =
+      std::filesystem::path(options.out).replace_extension(".legend.toml").string();
   check_names(options, legend);
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
   const SurfaceLayers layers = read_surface_layers(options.layers);
-  if (layers.layers.empty()) throw Error(ErrorKind::usage, options.layers, "no layers", "at least one [[layers]]");
+  if (layers.layers.empty())
+    throw Error(ErrorKind::usage, options.layers, "no layers", "at least one [[layers]]");
   const Dem dem = read_layer_dem(options.dem, progress);  // voids stay without a class
   const RasterFrame frame{dem.transform, dem.width(), dem.height(), dem.crs};
-  const LayerClimateGrids climate = climate_of(options.climate, dem, compile_layers(layers).inputs, progress);
+  const LayerClimateGrids climate =
+      climate_of(options.climate, dem, compile_layers(layers).inputs, progress);
 
   LayerApplyParameters apply = options.apply;
   apply.colour = !options.colour.empty();
   apply.coverage = !options.shares.empty();
   ByteRasterRows classes(options.out, class_layout(frame));
   std::optional<ByteRasterRows> colour;
-  if (apply.colour) colour.emplace(options.colour, ByteRasterLayout{.frame = frame, .bands = {{}, {}, {}}, .is_colour = true});
+  if (apply.colour)
+    colour.emplace(options.colour,
+                   ByteRasterLayout{.frame = frame, .bands = {{}, {}, {}}, .is_colour = true});
   std::optional<ByteRasterRows> shares;
   if (apply.coverage) {
     ByteRasterLayout layout{.frame = frame};
-    for (const SurfaceLayer& layer : layers.layers) layout.bands.push_back({layer.name, 1.0 / 255.0});
+    for (const SurfaceLayer& layer : layers.layers)
+      layout.bands.push_back({layer.name, 1.0 / 255.0});
     shares.emplace(options.shares, layout);
   }
   const LayerApplyResult result = apply_layers(
@@ -110,7 +131,9 @@ int run(const LayersApplyOptions& options) {
         Grid<std::uint8_t> codes(strip.classes.width(), strip.classes.height());
         for (int y = 0; y < codes.height(); ++y)
           for (int x = 0; x < codes.width(); ++x)
-            codes(x, y) = dem.filled(x, strip.y0 + y) != 0 ? std::uint8_t{0} : static_cast<std::uint8_t>(strip.classes(x, y));
+            codes(x, y) = dem.filled(x, strip.y0 + y) != 0
+                              ? std::uint8_t{0}
+                              : static_cast<std::uint8_t>(strip.classes(x, y));
         classes.write(strip.y0, {codes});
         if (colour) colour->write(strip.y0, strip.colour);
         if (shares) shares->write(strip.y0, strip.coverage);
@@ -124,9 +147,11 @@ int run(const LayersApplyOptions& options) {
   classes.commit();
   if (colour) colour->commit();
   if (shares) shares->commit();
-  for (const std::string& warning : range_warnings(layers, result)) progress.note("warning: " + warning);
+  for (const std::string& warning : range_warnings(layers, result))
+    progress.note("warning: " + warning);
   progress.end();
-  print_result(options, as_json(options, layers, dem, result), as_text(options, layers, dem, result));
+  print_result(options, as_json(options, layers, dem, result),
+               as_text(options, layers, dem, result));
   return 0;
 }
 
@@ -134,26 +159,48 @@ int run(const LayersApplyOptions& options) {
 
 Action add_layers_apply(CommandOptions& command) {
   const auto options = std::make_shared<LayersApplyOptions>();
-  command.add_option("LAYERS", options->layers, "The layers: a .toml file (docs/layers.md)").required().type_name("FILE");
-  command.add_option("--dem", options->dem, "The ground: a DEM; the results lie on its cells, in metres").required().type_name("FILE");
-  command.add_option("--out", options->out, "The classes: a GeoTIFF of bytes, and beside it a legend, so that scenes can read it")
+  command.add_option("LAYERS", options->layers, "The layers: a .toml file (docs/layers.md)")
+      .required()
+      .type_name("FILE");
+  command
+      .add_option("--dem", options->dem, "The ground: a DEM; the results have its cells, in metres")
+      .required()
+      .type_name("FILE");
+  command
+      .add_option(
+          "--out", options->out,
+          "The classes: a GeoTIFF of bytes, with a legend beside it, so that scenes can read it")
       .required()
       .type_name("TIF");
-  command.add_option("--colour", options->colour, "The colours of the layers, blended as much as they cover: a GeoTIFF").type_name("TIF");
-  command.add_option("--shares", options->shares, "How much of each cell each layer covers: a GeoTIFF with a band for each, 255 is all")
+  command
+      .add_option("--colour", options->colour,
+                  "The colours of the layers, blended by their coverage: a GeoTIFF")
+      .type_name("TIF");
+  command
+      .add_option(
+          "--shares", options->shares,
+          "How much of each cell each layer covers: a GeoTIFF with a band for each, 255 is all")
       .type_name("TIF");
   add_ground_climate(command, options->climate);
   LayerDrawingParameters& drawing = options->apply.drawing;
-  command.add_option("--sharpen", drawing.power, "How little classes mix where shares are divided: 1 as much as shares say … 4. Default: 2")
+  command
+      .add_option("--sharpen", drawing.power,
+                  "How little classes mix where shares are divided: from 1, as the shares are, to "
+                  "4. Default: 2")
       .type_name("POWER");
-  command.add_option("--patches", drawing.spectrum, "Size of patches: 0, the default, speckled, to 4, large with smooth borders")
+  command
+      .add_option("--patches", drawing.spectrum,
+                  "Size of patches: from 0, speckled, to 4, large with smooth borders. Default: 0")
       .type_name("SIZE");
-  command.add_option("--seed", options->apply.seed, "Another seed, another draw; default 1").type_name("N");
+  command.add_option("--seed", options->apply.seed, "Random seed. Default: 1").type_name("N");
   add_run_options(command, *options, "cell");
   command.footer(
-      "Says how much of the ground each class covers, and how much of it lies outside the range of altitudes, slopes … that the\n"
-      "layers know; beyond 10 % it warns, because there they guess.\n\n"
-      "  belvedere layers apply innsbruck.layers.toml --dem innsbruck.tif --out classes.tif --colour colour.tif");
+      "Reports how much of the ground each class covers, and how much of it lies outside the range "
+      "of altitudes, slopes … that the\n"
+      "layers cover. Beyond 10 % it warns, because classes are extrapolated there.\n"
+      "\n"
+      "  belvedere layers apply innsbruck.layers.toml --dem innsbruck.tif --out classes.tif "
+      "--colour colour.tif");
   return [options] { return run(*options); };
 }
 

@@ -39,19 +39,25 @@ struct LayersFitOptions {
 
 void check_options(const LayersFitOptions& options) {
   if (options.from.image.empty() == options.from.classes.empty())
-    refuse("layers fit", "what covers the ground is said by nothing or by two", "--image, or --classes with --legend");
+    refuse("layers fit", "give either a picture or a map of classes",
+           "--image, or --classes with --legend");
   if (!options.from.classes.empty() && options.from.legend.empty())
-    refuse("--classes", "no --legend says what its codes mean", "esa_worldcover, corine, nlcd, fbfm40 or a file (docs/legends.md)");
+    refuse("--classes", "--legend is missing, which gives the classes of the codes",
+           "esa_worldcover, corine, nlcd, fbfm40 or a file (docs/legends.md)");
   if (!options.from.regions.empty() && options.from.image.empty())
-    refuse("--regions", "divides the colours of a picture, and there is none", "--image");
-  if (options.functions != "fitted" && options.functions != "histogram") refuse("--functions", options.functions, "fitted, histogram");
-  if (options.model != "product" && options.model != "additive") refuse("--model", options.model, "product, additive");
+    refuse("--regions", "divides the colours of a picture, but none is given", "--image");
+  if (options.functions != "fitted" && options.functions != "histogram")
+    refuse("--functions", options.functions, "fitted, histogram");
+  if (options.model != "product" && options.model != "additive")
+    refuse("--model", options.model, "product, additive");
   if (options.functions == "histogram" && options.model != "product")
     refuse("--functions", "histograms are functions of a product", "--model product");
   std::set<std::string> read = {options.from.dem,  options.from.image,   options.from.classes,
                                 options.from.mask, options.from.regions, options.climate.stations};
-  if (read.contains(options.out)) refuse(options.out, "is read as well", "another name for the result");
-  if (!options.out.ends_with(".toml")) refuse(options.out, "is no name of a layers file", "NAME.layers.toml");
+  if (read.contains(options.out))
+    refuse(options.out, "is also an input", "another name for the result");
+  if (!options.out.ends_with(".toml"))
+    refuse(options.out, "is not the name of a layers file", "NAME.layers.toml");
   check_place(options.out);
 }
 
@@ -61,29 +67,32 @@ std::vector<std::string> inputs_of(const LayersFitOptions& options, const Dem& d
     return options.inputs;
   }
   std::vector<std::string> names = {"altitude", "slope"};
-  // What somebody measured; the climate that is computed follows from altitude and adds nothing within one region.
+  // Only inputs that somebody measured: the computed climate follows from altitude and adds nothing
+  // within one region.
   StationTable stations;
-  if (!options.climate.stations.empty()) stations = read_stations(options.climate.stations, dem.crs, silent_progress());
-  if (!options.climate.files.temperature.empty() || stations.has_temperature()) names.emplace_back("temperature");
+  if (!options.climate.stations.empty())
+    stations = read_stations(options.climate.stations, dem.crs, silent_progress());
+  if (!options.climate.files.temperature.empty() || stations.has_temperature())
+    names.emplace_back("temperature");
   if (!options.climate.files.rain.empty() || stations.has_rain()) names.emplace_back("rain");
   names.emplace_back("radiation");
   if (options.model == "product") {
-    // A product of functions up to 1 can only veto: more inputs gain nothing there.
+    // A product of functions up to 1 can only lower coverage: more inputs gain nothing there.
     names.insert(names.end(), {"north", "east"});
     if (names.size() > 5) names.resize(5);
     return names;
   }
-  names.insert(names.end(),
-               {"north", "east", "relief_180", "relief_750", "relief_1800", "relief_4000", "above_valley", "log_catchment", "sky_view"});
-  // Lakes are flat; in pictures they are what is dark and blue.
+  names.insert(names.end(), {"north", "east", "relief_180", "relief_750", "relief_1800",
+                             "relief_4000", "above_valley", "log_catchment", "sky_view"});
+  // Lakes are flat; in pictures they are dark and blue.
   if (!options.from.classes.empty()) names.insert(names.end(), {"flatness", "roughness"});
   return names;
 }
 
-// White everywhere, and no slope is lighter than another: that is cloud. Snow has the sun on its slopes.
+// White everywhere, with no slope lighter than another, is cloud. Snow is lighter on sunny slopes.
 void refuse_cloud(const LayersFitOptions& options, const KnownGround& known, const GroundFit& fit) {
   constexpr double nearly_all = 0.95;
-  constexpr double least_correlation = 0.1;
+  constexpr double min_correlation = 0.1;
   constexpr float white = 0.6F * 255.F;
   constexpr float palest = 0.25F;  // of saturation
   std::size_t whites = 0;
@@ -91,35 +100,44 @@ void refuse_cloud(const LayersFitOptions& options, const KnownGround& known, con
   for (std::size_t i = 0; i != known.labels.size(); ++i) {
     if (known.labels[i] == no_class) continue;
     const glm::vec3& rgb = known.picture->rgb[i];
-    const float most = std::max({rgb.x, rgb.y, rgb.z});
-    const float least = std::min({rgb.x, rgb.y, rgb.z});
-    whites += most > white && most - least < palest * most ? 1U : 0U;
+    const float max = std::max({rgb.x, rgb.y, rgb.z});
+    const float min = std::min({rgb.x, rgb.y, rgb.z});
+    whites += max > white && max - min < palest * max ? 1U : 0U;
     ++all;
   }
-  const double share = static_cast<double>(whites) / static_cast<double>(std::max<std::size_t>(all, 1));
-  if (share < nearly_all || fit.sun.correlation > least_correlation) return;
-  throw Error(ErrorKind::input, options.from.image,
-              fmt::format("{:.0f} % of it is white, and no slope is lighter than another: cloud everywhere", 100.0 * share),
-              "a picture that shows the ground");
+  const double share =
+      static_cast<double>(whites) / static_cast<double>(std::max<std::size_t>(all, 1));
+  if (share < nearly_all || fit.sun.correlation > min_correlation) return;
+  throw Error(
+      ErrorKind::input, options.from.image,
+      fmt::format("{:.0f} % of it is white, with no slope lighter than another: cloud everywhere",
+                  100.0 * share),
+      "a picture that shows the ground");
 }
 
 void note_fit(const KnownGround& known, const GroundFit& fit, FitFindings& findings) {
   if (known.picture)
-    findings.note(fmt::format("sun found at azimuth {:.0f}°, {:.0f}° high: its light and the picture's correlate by {:.2f}",
-                              fit.sun.azimuth_deg, fit.sun.elevation_deg, fit.sun.correlation));
-  const std::vector<std::size_t> counts = count_labels(known.labels, static_cast<int>(known.classes.size()));
+    findings.note(
+        fmt::format("sun estimated at azimuth {:.0f}°, {:.0f}° high: its light and the picture "
+                    "correlate by {:.2f}",
+                    fit.sun.azimuth_deg, fit.sun.elevation_deg, fit.sun.correlation));
+  const std::vector<std::size_t> counts =
+      count_labels(known.labels, static_cast<int>(known.classes.size()));
   std::size_t total = 0;
   for (const std::size_t c : counts) total += c;
-  const std::vector<double> predicted = mean_shares(predict_ground(known, fit).classes, known.labels);
+  const std::vector<double> predicted =
+      mean_shares(predict_ground(known, fit).classes, known.labels);
   for (const int k_int : fit.classes.order) {
     const auto k = static_cast<std::size_t>(k_int);
-    findings.note(fmt::format("{}: {:.1f} % of the ground, {:.1f} % as fitted, {} colours", known.classes[k].name,
-                              100.0 * static_cast<double>(counts[k]) / static_cast<double>(total), 100.0 * predicted[k],
-                              std::count(fit.parent.begin(), fit.parent.end(), k_int)));
+    findings.note(fmt::format(
+        "{}: {:.1f} % of the ground, {:.1f} % as fitted, {} colours", known.classes[k].name,
+        100.0 * static_cast<double>(counts[k]) / static_cast<double>(total), 100.0 * predicted[k],
+        std::count(fit.parent.begin(), fit.parent.end(), k_int)));
   }
   if (fit.classes.saturated > 0)
     findings.note(
-        fmt::format("{} of {} functions are saturated: their classes occur in less than half of the range, where a mean of 1/2 cannot be",
+        fmt::format("{} of {} functions are saturated: their classes occur in less than half of "
+                    "the range, where a mean of 1/2 cannot be",
                     fit.classes.saturated, known.classes.size() * fit.ranges.size()));
 }
 
@@ -131,13 +149,15 @@ int run(const LayersFitOptions& options) {
   const FitGround ground = read_fit_ground(options.from, findings, progress);
   KnownGround known = find_ground_classes(options.from, ground, findings, progress);
   known.input_names = inputs_of(options, ground.dem);
-  const LayerClimateGrids climate = climate_of(options.climate, ground.dem, known.input_names, progress);
+  const LayerClimateGrids climate =
+      climate_of(options.climate, ground.dem, known.input_names, progress);
   for (const std::string& source : climate.sources) findings.note(source);
   known.inputs = layer_inputs(make_layer_ground(ground.dem, climate.view(), known.input_names));
   progress.begin("fitting functions", 0.0);
   GroundFitParameters parameters;
   parameters.model = options.model == "product" ? LayerModel::product : LayerModel::additive;
-  parameters.functions = options.functions == "fitted" ? FunctionSource::fitted : FunctionSource::histogram;
+  parameters.functions =
+      options.functions == "fitted" ? FunctionSource::fitted : FunctionSource::histogram;
   const GroundFit fit = fit_ground(known, parameters);
   if (known.picture) refuse_cloud(options, known, fit);
   note_fit(known, fit, findings);
@@ -147,13 +167,16 @@ int run(const LayersFitOptions& options) {
   if (!options.report.empty())
     write_layers_fit_report(
         options.report,
-        {.title = fmt::format("{} from {}", file_name(options.out),
-                              file_name(options.from.image.empty() ? options.from.classes : options.from.image)),
-         .command = fmt::format("belvedere layers fit --dem {} {} --out {} --report {}", file_name(options.from.dem),
-                                options.from.image.empty() ? fmt::format("--classes {} --legend {}", file_name(options.from.classes),
-                                                                         file_name(options.from.legend))
-                                                           : fmt::format("--image {}", file_name(options.from.image)),
-                                file_name(options.out), file_name(options.report)),
+        {.title = fmt::format(
+             "{} from {}", file_name(options.out),
+             file_name(options.from.image.empty() ? options.from.classes : options.from.image)),
+         .command = fmt::format(
+             "belvedere layers fit --dem {} {} --out {} --report {}", file_name(options.from.dem),
+             options.from.image.empty()
+                 ? fmt::format("--classes {} --legend {}", file_name(options.from.classes),
+                               file_name(options.from.legend))
+                 : fmt::format("--image {}", file_name(options.from.image)),
+             file_name(options.out), file_name(options.report)),
          .notes = findings.notes,
          .ground = &known,
          .fit = &fit,
@@ -163,7 +186,8 @@ int run(const LayersFitOptions& options) {
   write_text_file(options.out, text);
   progress.end();
   if (!options.quiet) {
-    print_out(fmt::format("{}: {} layers, {:.1f} KB\n", options.out, layers.layers.size(), static_cast<double>(text.size()) / 1000.0));
+    print_out(fmt::format("{}: {} layers, {:.1f} KB\n", options.out, layers.layers.size(),
+                          static_cast<double>(text.size()) / 1000.0));
     for (const std::string& note : findings.notes) print_out("  " + note + "\n");
   }
   return 0;
@@ -175,41 +199,64 @@ Action add_layers_fit(CommandOptions& command) {
   const auto options = std::make_shared<LayersFitOptions>();
   command.add_option("--dem", options->from.dem, "The ground: a DEM").required().type_name("FILE");
   command
-      .add_option(
-          "--image", options->from.image,
-          "A satellite picture of it: a GeoTIFF (the DEM is brought onto its cells), or PNG or JPEG with a pixel for each cell of the DEM")
+      .add_option("--image", options->from.image,
+                  "A satellite image of it: a GeoTIFF (the DEM is resampled to its cells), or PNG "
+                  "or JPEG with one pixel per cell of the DEM")
       .type_name("FILE");
-  command.add_option("--classes", options->from.classes, "Instead of a picture: a land-cover raster").type_name("FILE");
-  command.add_option("--legend", options->from.legend, "What its codes mean: a legend's name or file (docs/legends.md)").type_name("NAME");
-  command.add_option("--out", options->out, "The layers: a .toml file of some ten KB, which needs the picture no more")
+  command
+      .add_option("--classes", options->from.classes, "Instead of a picture: a land-cover raster")
+      .type_name("FILE");
+  command
+      .add_option("--legend", options->from.legend,
+                  "Meaning of its codes: a legend's name or file (docs/legends.md)")
+      .type_name("NAME");
+  command
+      .add_option("--out", options->out,
+                  "The layers: a .toml file of about ten KB, which no longer needs the picture")
       .required()
       .type_name("TOML");
   add_ground_climate(command, options->climate);
-  command.add_option("--mask", options->from.mask, "Cells above 0 are not learned from: fields, towns").type_name("FILE");
+  command
+      .add_option("--mask", options->from.mask,
+                  "Mask: cells above 0 are not learned from (fields, towns)")
+      .type_name("FILE");
   command
       .add_option("--regions", options->from.regions,
-                  "Which colours of the picture are one class, drawn by hand: a .toml file (docs/layers_fit.md)")
+                  "Which colours of the picture form one class, drawn by hand: a .toml file "
+                  "(docs/layers_fit.md)")
       .type_name("FILE");
   command
       .add_option("--functions", options->functions,
-                  "How functions are found: fitted by likelihood (the default), or histogram, as first published")
+                  "How functions are found: fitted by likelihood (the default), or histogram, as "
+                  "first published")
       .type_name("HOW");
   command
       .add_option("--model", options->model,
-                  "product (the default): coverage is the product of functions; additive: shares by their sum, finer, larger")
+                  "product (the default): coverage is the product of functions; additive: shares "
+                  "by their sum, finer, larger")
       .type_name("NAME");
   command
-      .add_option("--inputs", options->inputs, "What functions are of, instead of what suits the model: altitude,slope,… (docs/layers.md)")
+      .add_option("--inputs", options->inputs,
+                  "Inputs of the functions, instead of those that suit the model: altitude,slope,… "
+                  "(docs/layers.md)")
       .list(',')
       .type_name("NAMES");
   command
-      .add_option("--report", options->report, "A folder for a page on what was learned and how it does on ground not seen; takes a minute")
+      .add_option("--report", options->report,
+                  "A folder for a page on the fit and how it does on ground not used for it; takes "
+                  "a minute")
       .type_name("DIR");
-  command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no bit").type_name("N");
+  command
+      .add_option("--threads", options->threads,
+                  "Processor threads; 0, the default, takes all. Changes no bit")
+      .type_name("N");
   command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
   command.footer(
-      "Finds clouds and their shadows, the sun and the classes of colours in the picture, and how each hangs on altitude, slope, sun …\n\n"
-      "  belvedere layers fit --dem ararat.tif --image autumn.tif --out ararat.layers.toml --report ararat_report");
+      "Finds clouds and their shadows, the sun and the classes of colours in the picture, and how "
+      "each depends on altitude, slope, sun …\n"
+      "\n"
+      "  belvedere layers fit --dem ararat.tif --image autumn.tif --out ararat.layers.toml "
+      "--report ararat_report");
   return [options] { return run(*options); };
 }
 

@@ -28,14 +28,15 @@ struct LayersPictureOptions : RunOptions {
 
 Grid<std::uint8_t> band(const Grid<glm::vec3>& rows, int c) {
   Grid<std::uint8_t> bytes(rows.width(), rows.height());
-  for (std::size_t i = 0; i < rows.size(); ++i) bytes[i] = static_cast<std::uint8_t>(rows[i][c] + 0.5F);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    bytes[i] = static_cast<std::uint8_t>(rows[i][c] + 0.5F);
   return bytes;
 }
 
 int run(const LayersPictureOptions& options) {
   check_place(options.out);
   if (options.out == options.dem || options.out == options.layers)
-    throw Error(ErrorKind::usage, options.out, "the same file twice", "a file of its own");
+    throw Error(ErrorKind::usage, options.out, "the same file twice", "another file name");
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
   const LayerPictureParameters& parameters = options.picture;
@@ -45,8 +46,12 @@ int run(const LayersPictureOptions& options) {
   const int finer = parameters.finer;
   const GeoTransform& cells = dem.transform;
   const RasterFrame frame{
-      {cells.origin_x, cells.origin_y, cells.cell_x / finer, cells.cell_y / finer}, dem.width() * finer, dem.height() * finer, dem.crs};
-  const LayerClimateGrids climate = climate_of(options.climate, dem, compile_layers(layers).inputs, progress);
+      {cells.origin_x, cells.origin_y, cells.cell_x / finer, cells.cell_y / finer},
+      dem.width() * finer,
+      dem.height() * finer,
+      dem.crs};
+  const LayerClimateGrids climate =
+      climate_of(options.climate, dem, compile_layers(layers).inputs, progress);
   ByteRasterRows picture(options.out, {.frame = frame, .bands = {{}, {}, {}}, .is_colour = true});
   draw_layer_picture(
       layers, dem, climate.view(), parameters,
@@ -64,7 +69,8 @@ int run(const LayersPictureOptions& options) {
                    .add("width", Json::number(frame.width))
                    .add("height", Json::number(frame.height))
                    .add("cell", Json::number(frame.transform.cell_x)),
-               fmt::format("{}: {}×{} places of {:g} m\n", options.out, frame.width, frame.height, frame.transform.cell_x));
+               fmt::format("{}: {}×{} pixels of {:g} m\n", options.out, frame.width, frame.height,
+                           frame.transform.cell_x));
   return 0;
 }
 
@@ -73,18 +79,31 @@ int run(const LayersPictureOptions& options) {
 Action add_layers_picture(CommandOptions& command) {
   const auto options = std::make_shared<LayersPictureOptions>();
   LayerPictureParameters& picture = options->picture;
-  command.add_option("LAYERS", options->layers, "The layers: a .toml file (docs/layers.md)").required().type_name("FILE");
+  command.add_option("LAYERS", options->layers, "The layers: a .toml file (docs/layers.md)")
+      .required()
+      .type_name("FILE");
   command.add_option("--dem", options->dem, "The ground: a DEM").required().type_name("FILE");
-  command.add_option("--out", options->out, "The picture: a GeoTIFF of three bands").required().type_name("TIF");
-  command.add_option("--finer", picture.finer, "Places a cell of the DEM, across and down; 1 to 16, default 4").type_name("N");
-  command.add_option("--light-from", picture.light_from, "Where the light comes from, degrees clockwise from north; default 315")
+  command.add_option("--out", options->out, "The picture: a GeoTIFF of three bands")
+      .required()
+      .type_name("TIF");
+  command
+      .add_option("--finer", picture.finer,
+                  "Pixels per cell of the DEM, across and down; 1 to 16. Default: 4")
+      .type_name("N");
+  command
+      .add_option("--light-from", picture.light_from,
+                  "Direction the light comes from, degrees clockwise from north. Default: 315")
       .type_name("DEG");
   add_ground_climate(command, options->climate);
-  command.add_option("--seed", picture.seed, "Another seed, another grain of the layers; default 1").type_name("N");
+  command.add_option("--seed", picture.seed, "Random seed of the layers' grain. Default: 1")
+      .type_name("N");
   add_run_options(command, *options);
   command.footer(
-      "The ground as seen from above, finer than the DEM: a smooth surface through its cells, the layers' colours and bumps on it.\n\n"
-      "  belvedere layers picture innsbruck.layers.toml --dem innsbruck.tif --finer 4 --out map.tif");
+      "The ground seen from above, finer than the DEM: a smooth surface through its cells, with "
+      "the layers' colours and bumps.\n"
+      "\n"
+      "  belvedere layers picture innsbruck.layers.toml --dem innsbruck.tif --finer 4 --out "
+      "map.tif");
   return [options] { return run(*options); };
 }
 

@@ -14,14 +14,14 @@
 
 namespace belvedere::tools {
 
-// What layers are fitted to: a DEM, and a picture or a map of classes with its legend, by paths.
+// Input of a fit: a DEM, and a picture or a map of classes with its legend, by paths.
 struct FitSources {
   std::string dem, image, classes, legend;
   std::string mask;     // cells that are left out; may be empty
   std::string regions;  // of a picture's colours; may be empty
 };
 
-// What was found on the way, for the terminal and for the report.
+// Findings for the terminal and for the report.
 struct FitFindings {
   std::vector<std::string> notes;
   void note(std::string text) { notes.push_back(std::move(text)); }
@@ -33,10 +33,12 @@ struct FitGround {
   std::optional<Grid<glm::vec3>> rgb;
 };
 
-// The DEM, on the picture's own cells where one has coordinates, without what is masked. Error(input) where picture and DEM do not belong
-// together.
+// The DEM, on the picture's own cells if that has coordinates, without what is masked. Error(input)
+// where picture and DEM do not belong together.
 FitGround read_fit_ground(const FitSources& from, FitFindings& findings, Progress& progress);
-// The classes that lie on it, by the picture's colours or by the map. Error(input) where the map does not overlap.
-KnownGround find_ground_classes(const FitSources& from, const FitGround& ground, FitFindings& findings, Progress& progress);
+// The classes on it, by the picture's colours or by the map. Error(input) where the map does not
+// overlap.
+KnownGround find_ground_classes(const FitSources& from, const FitGround& ground,
+                                FitFindings& findings, Progress& progress);
 
 }  // namespace belvedere::tools

@@ -11,7 +11,8 @@
 namespace belvedere::tools {
 namespace {
 
-// Takes a raster of months from the files, which are taken as they are, to the climate, which knows what months are.
+// Moves a raster of months from the files, which are used unchanged, to the climate, which handles
+// months.
 std::optional<RasterSource> monthly(std::string& file) {
   constexpr int months = 12;
   if (file.empty()) return {};
@@ -27,23 +28,31 @@ std::optional<RasterSource> monthly(std::string& file) {
 void add_ground_climate(CommandOptions& command, GroundClimateOptions& options) {
   command
       .add_option("--stations", options.stations,
-                  "Weather stations, for temperature and rain: CSV, points or netCDF (docs/climate.md); else the climate of the place")
+                  "Weather stations, for temperature and rain: CSV, points or netCDF "
+                  "(docs/climate.md). Default: the climate of the place")
       .type_name("FILE");
   command
-      .add_option("--temperature", options.files.temperature,
-                  "Or mean temperature of the year, °C: a raster of one band; of 12 bands: of months")
-      .type_name("FILE");
-  command.add_option("--rain", options.files.rain, "Or rain of the year, mm: a raster of one band; of 12 bands: of months")
+      .add_option(
+          "--temperature", options.files.temperature,
+          "Alternative: annual mean temperature, °C, a raster of one band; 12 bands: monthly means")
       .type_name("FILE");
   command
-      .add_option("--radiation", options.files.radiation,
-                  "Potential direct radiation of the year, instead of what is computed of the ground, MJ/m²: a raster")
+      .add_option("--rain", options.files.rain,
+                  "Alternative: annual precipitation, mm, a raster of one band; 12 bands: monthly")
       .type_name("FILE");
-  command.add_option("--sky-view", options.files.sky_view, "Share of the sky that is seen, 0 … 1, instead of what is computed: a raster")
+  command
+      .add_option(
+          "--radiation", options.files.radiation,
+          "Potential direct radiation of the year, instead of the computed one, MJ/m²: a raster")
+      .type_name("FILE");
+  command
+      .add_option("--sky-view", options.files.sky_view,
+                  "Sky view factor, 0 … 1, instead of the computed one: a raster")
       .type_name("FILE");
   command
       .add_option("--latitude", options.latitude_deg,
-                  "Where the ground lies, for a DEM without a coordinate system whose sun or climate is computed, degrees")
+                  "Latitude, for a DEM without a coordinate system whose sun or climate is "
+                  "computed, degrees")
       .type_name("DEG");
 }
 
@@ -52,11 +61,12 @@ Dem read_layer_dem(const std::string& path, Progress& progress) {
   parameters.max_void_share = 1.0;
   RasterSource& source = parameters.sources.emplace_back();
   source.path = path;
-  return read_raster_info(source).crs.empty() ? make_dem(read_raster(source)) : read_dem(parameters, progress);
+  return read_raster_info(source).crs.empty() ? make_dem(read_raster(source))
+                                              : read_dem(parameters, progress);
 }
 
-LayerClimateGrids climate_of(const GroundClimateOptions& options, const Dem& dem, const std::vector<std::string>& names,
-                             Progress& progress) {
+LayerClimateGrids climate_of(const GroundClimateOptions& options, const Dem& dem,
+                             const std::vector<std::string>& names, Progress& progress) {
   LayerClimateFiles files = options.files;
   ClimateParameters parameters;
   parameters.stations = options.stations;
@@ -67,11 +77,13 @@ LayerClimateGrids climate_of(const GroundClimateOptions& options, const Dem& dem
     throw Error(ErrorKind::usage, "--latitude", std::to_string(*options.latitude_deg), "-90 … 90");
   if (dem.crs.empty() && !options.latitude_deg && needs_place(names, files))
     throw Error(ErrorKind::usage, "--latitude",
-                "a DEM without coordinate system does not say how far north it lies, and sun and climate hang on that",
+                "sun and climate depend on the latitude, but the DEM has no coordinate system",
                 "its latitude, -90 … 90");
   const auto climate = [&] {
     return make_climate(
-        dem, parameters, [](glm::dvec2 lonlat_deg) { return default_climate(lonlat_deg.x, lonlat_deg.y); }, progress);
+        dem, parameters,
+        [](glm::dvec2 lonlat_deg) { return default_climate(lonlat_deg.x, lonlat_deg.y); },
+        progress);
   };
   return make_layer_climate(dem, names, files, options.latitude_deg, climate, progress);
 }

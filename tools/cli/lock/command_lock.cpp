@@ -20,7 +20,7 @@
 namespace belvedere::tools {
 namespace {
 
-constexpr int usual_width_px = 800;  // quick, and every stage has its part in it
+constexpr int usual_width_px = 800;  // quick, and every stage takes part in it
 
 struct LockOptions {
   SceneOptions scene;
@@ -29,10 +29,11 @@ struct LockOptions {
 };
 
 [[noreturn]] void refuse_change(const std::string& lock, const std::string& found) {
-  throw Error(ErrorKind::input, lock, found, "belvedere lock --update, where the new state is meant");
+  throw Error(ErrorKind::input, lock, found,
+              "belvedere lock --update, if the new state is intended");
 }
 
-// The lock that is there already. With --update a broken one counts as none.
+// The existing lock. With --update a damaged one counts as none.
 std::optional<SceneLock> old_lock(const std::string& path, bool update) {
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) return std::nullopt;
@@ -44,14 +45,16 @@ std::optional<SceneLock> old_lock(const std::string& path, bool update) {
   }
 }
 
-// All that is not as it was, pixels apart: a lock that is to be kept shows it before anything is rendered.
+// All differences but those of pixels: they are reported before anything is rendered.
 std::string describe_changes(const SceneLock& old, const SceneLock& now) {
   std::string out = describe(compare_inputs(old.inputs, now.inputs));
   const auto add = [&out](const char* what, const std::string& before, const std::string& after) {
     if (before != after) out += fmt::format("\n  {}: {} in the lock, now {}", what, before, after);
   };
-  add("size", fmt::format("{}×{}", old.width, old.height), fmt::format("{}×{}", now.width, now.height));
-  add("settings", fmt::format("[{}]", fmt::join(old.settings, ", ")), fmt::format("[{}]", fmt::join(now.settings, ", ")));
+  add("size", fmt::format("{}×{}", old.width, old.height),
+      fmt::format("{}×{}", now.width, now.height));
+  add("settings", fmt::format("[{}]", fmt::join(old.settings, ", ")),
+      fmt::format("[{}]", fmt::join(now.settings, ", ")));
   add("the scene with its defaults", old.scene, now.scene);
   add("program", old.program, now.program);
   return out;
@@ -61,10 +64,12 @@ int run_lock(LockOptions options) {
   const std::string path = lock_path(options.scene.scene);
   check_output_folder(std::filesystem::path(path).parent_path().string());
   const std::optional<SceneLock> old = old_lock(path, options.update);
-  // Locked again as it was locked before, unless the command line says otherwise.
+  // Locked with the same settings as before, unless the command line gives others.
   if (old && options.scene.files.settings.empty()) options.scene.files.settings = old->settings;
   const LoadedScene as_written = load(options.scene);
-  const int width = options.width > 0 ? options.width : old ? old->width : std::min(usual_width_px, as_written.scene.output.width);
+  const int width = options.width > 0 ? options.width
+                    : old             ? old->width
+                                      : std::min(usual_width_px, as_written.scene.output.width);
   const LoadedScene scene = at_width(as_written, width);
   SceneLock lock{.program = program_version(),
                  .scene = hash_scene(scene.scene),
@@ -75,26 +80,28 @@ int run_lock(LockOptions options) {
                  .products = {}};
   if (old && !options.update)
     if (const std::string changes = describe_changes(*old, lock); !changes.empty())
-      refuse_change(path, "the scene is not as it was locked:" + changes);
+      refuse_change(path, "the scene differs from its lock:" + changes);
 
   const ScratchFolder folder;
   TerminalProgress progress(options.scene.quiet);
-  lock.products = render_and_hash(scene, folder.path(), make_run(options.scene, Run{}.tile_px, progress));
+  lock.products =
+      render_and_hash(scene, folder.path(), make_run(options.scene, Run{}.tile_px, progress));
   progress.end();
   if (old && !options.update)
-    if (const std::string changes = describe(compare_products(old->products, lock.products)); !changes.empty())
-      refuse_change(path, "the pictures are not as they were locked:" + changes);
+    if (const std::string changes = describe(compare_products(old->products, lock.products));
+        !changes.empty())
+      refuse_change(path, "the pictures differ from their lock:" + changes);
   write_text_file(path, write_lock(lock));
 
-  print_result(
-      options.scene,
-      Json::object()
-          .add("lock", Json::text(path))
-          .add("width", Json::number(lock.width))
-          .add("height", Json::number(lock.height))
-          .add("inputs", Json::number(static_cast<double>(lock.inputs.size())))
-          .add("products", Json::number(static_cast<double>(lock.products.size()))),
-      fmt::format("{}: {} inputs; {} files of {}×{} pixels\n", path, lock.inputs.size(), lock.products.size(), lock.width, lock.height));
+  print_result(options.scene,
+               Json::object()
+                   .add("lock", Json::text(path))
+                   .add("width", Json::number(lock.width))
+                   .add("height", Json::number(lock.height))
+                   .add("inputs", Json::number(static_cast<double>(lock.inputs.size())))
+                   .add("products", Json::number(static_cast<double>(lock.products.size()))),
+               fmt::format("{}: {} inputs; {} files of {}×{} pixels\n", path, lock.inputs.size(),
+                           lock.products.size(), lock.width, lock.height));
   return 0;
 }
 
@@ -105,19 +112,22 @@ Action add_lock(CommandOptions& command) {
   add_scene_options(command, options->scene, "The scene file");
   command.option("SCENE").required();
   command
-      .add_option(
-          "--width", options->width,
-          "Width of the picture that is verified, in pixels, its height in proportion. Default: as in the lock that is there, else 800, "
-          "or the scene's where that is less")
+      .add_option("--width", options->width,
+                  "Width of the verified picture in pixels, its height in proportion. Default: as "
+                  "in the existing lock, else 800, or the scene's if that is less")
       .type_name("PX")
       .range(16, 65535);
-  command.add_flag("--update", options->update, "Write the lock anew where something differs from the one that is there");
+  command.add_flag("--update", options->update,
+                   "Rewrites the lock if something differs from the existing one");
   command.footer(
-      "Writes SCENE.lock beside SCENE.toml: size and hash of every file the scene reads, the program's version,\n"
-      "and what the pixels of the pictures hash to, channel by channel. Keep it with the scene. Then\n"
-      "  belvedere render --locked SCENE.toml   renders with those inputs or not at all\n"
-      "  belvedere verify *.toml                says whether the pictures are still the same\n"
-      "Where a lock is there and something differs, it says what (exit status 3) and leaves the lock as it is.\n\n"
+      "Writes SCENE.lock beside SCENE.toml: size and hash of every file that the scene reads, the "
+      "program's version,\n"
+      "and the hash of the pixels of each channel. Keep it with the scene. Then\n"
+      "  belvedere render --locked SCENE.toml   renders only if the inputs are unchanged\n"
+      "  belvedere verify *.toml                checks whether the pictures are unchanged\n"
+      "If a lock exists and something differs, the command lists the differences (exit status 3) "
+      "and keeps the lock.\n"
+      "\n"
       "  belvedere lock scenes/karwendel.toml --data ../data");
   return [options] { return run_lock(*options); };
 }

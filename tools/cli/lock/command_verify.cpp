@@ -28,7 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct VerifyOptions {
-  SceneOptions scene;  // what the scenes have in common
+  SceneOptions scene;  // what the scenes share
   std::vector<std::string> scenes;
   std::string out, against, junit, page;
 };
@@ -42,12 +42,15 @@ void compare(Verification& result, const VerifyOptions& options) {
   require_locked_inputs(scene, lock, result.scene);
   result.inputs = lock.inputs.size();
   if (lock.program != program_version())
-    result.notes.push_back(fmt::format("locked by version {}, this is {}", lock.program, program_version()));
+    result.notes.push_back(
+        fmt::format("locked by version {}, this is {}", lock.program, program_version()));
   if (lock.scene != hash_scene(scene.scene))
-    result.notes.emplace_back("the scene, or what it leaves to the program, has changed since it was locked");
+    result.notes.emplace_back(
+        "the scene, or a default of the program, has changed since it was locked");
 
   TerminalProgress progress(options.scene.quiet);
-  const std::vector<LockedProduct> products = render_and_hash(scene, result.folder, make_run(one, Run{}.tile_px, progress));
+  const std::vector<LockedProduct> products =
+      render_and_hash(scene, result.folder, make_run(one, Run{}.tile_px, progress));
   progress.end();
   result.width = lock.width;
   result.height = lock.height;
@@ -58,8 +61,9 @@ void compare(Verification& result, const VerifyOptions& options) {
   result.products.assign(names.begin(), names.end());
 }
 
-// A scene that cannot be compared keeps no other from it; only the user stops all.
-Verification verify(const std::string& scene, const std::string& name, const std::string& folder, const VerifyOptions& options) {
+// A scene that cannot be compared does not stop the others; only the user stops all.
+Verification verify(const std::string& scene, const std::string& name, const std::string& folder,
+                    const VerifyOptions& options) {
   const auto begun = std::chrono::steady_clock::now();
   Verification result;
   result.scene = scene;
@@ -75,15 +79,15 @@ Verification verify(const std::string& scene, const std::string& name, const std
     if (error.kind() == ErrorKind::interrupted) throw;
     fail(error.kind(), error.what());
   } catch (const std::bad_alloc&) {
-    fail(ErrorKind::limit, "there is not enough memory");
+    fail(ErrorKind::limit, "not enough memory");
   } catch (const std::exception& error) {
-    fail(ErrorKind::bug, std::string("unexpected: ") + error.what());
+    fail(ErrorKind::bug, std::string("internal error: ") + error.what());
   }
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   return result;
 }
 
-// Two scenes of one name, from two folders, get folders of their own: alps, alps-2.
+// Two scenes of one name, from two folders, get their own folders: alps, alps-2.
 std::string name_for(const std::string& scene, std::set<std::string>& used) {
   const std::string stem = fs::path(scene).stem().string();
   std::string name = stem;
@@ -115,12 +119,13 @@ std::string as_json(const std::vector<Verification>& all) {
 }
 
 int run_verify(const VerifyOptions& options) {
-  // What cannot be written is told before the work.
+  // Unwritable results are reported before the work.
   for (const std::string& file : {options.junit, options.page})
     if (!file.empty()) check_output_folder(fs::path(file).parent_path().string());
   if (!options.out.empty()) check_output_folder(options.out);
   if (!options.against.empty() && !fs::is_directory(options.against))
-    throw Error(ErrorKind::input, options.against, "there is no such folder", "one that belvedere verify --out made");
+    throw Error(ErrorKind::input, options.against, "no such folder",
+                "a folder made by belvedere verify --out");
   const ScratchFolder scratch;
   const std::string folder = options.out.empty() ? scratch.path() : options.out;
   std::set<std::string> used;
@@ -132,7 +137,8 @@ int run_verify(const VerifyOptions& options) {
   if (options.scene.json) print_out(as_json(all));
   if (!options.junit.empty()) write_text_file(options.junit, verification_junit(all));
   if (!options.page.empty())
-    write_text_file(options.page, verification_page(all, {.against = options.against, .scratch_folder = scratch.path()}));
+    write_text_file(options.page, verification_page(all, {.against = options.against,
+                                                          .scratch_folder = scratch.path()}));
   return exit_status(all);
 }
 
@@ -140,20 +146,34 @@ int run_verify(const VerifyOptions& options) {
 
 Action add_verify(CommandOptions& command) {
   const auto options = std::make_shared<VerifyOptions>();
-  command.add_option("SCENE", options->scenes, "Scene files, each with its lock file beside it").required();
+  command.add_option("SCENE", options->scenes, "Scene files, each with its lock file beside it")
+      .required();
   add_file_options(command, options->scene);
-  command.add_option("--out", options->out, "Keeps the pictures, each scene's in a folder of its name").type_name("DIR");
-  command.add_option("--against", options->against, "Pictures of an earlier run, as --out kept them: the page then shows what differs")
+  command
+      .add_option("--out", options->out, "Keeps the pictures of each scene in a folder of its name")
       .type_name("DIR");
-  command.add_option("--junit", options->junit, "Writes the results as JUnit XML, for services that show tests").type_name("FILE");
-  command.add_option("--page", options->page, "Writes a page that needs no other file: what differs, with pictures").type_name("FILE");
+  command
+      .add_option(
+          "--against", options->against,
+          "Pictures of an earlier run, as --out kept them: the page then shows the differences")
+      .type_name("DIR");
+  command.add_option("--junit", options->junit, "Writes the results as JUnit XML, for CI services")
+      .type_name("FILE");
+  command
+      .add_option("--report", options->page,
+                  "Writes a self-contained page of the differences, with pictures")
+      .type_name("FILE");
   add_run_options(command, options->scene);
   command.footer(
-      "Renders each scene at the size its lock says, with the settings it says, and compares every channel; a line a\n"
-      "scene. Exit status 0: all are the same; 1: something differs; else that of the first scene that could not be\n"
-      "compared: no lock, inputs that are not those of the lock (3), a fault in the scene (2) …. The others are\n"
-      "compared all the same.\n\n"
-      "  belvedere verify scenes/*.toml --data ../data --junit verify.xml --page verify.html");
+      "Renders each scene at the size and with the settings of its lock, and compares every "
+      "channel; one line per\n"
+      "scene. Exit status 0: all are equal; 1: something differs; else that of the first scene "
+      "that could not be\n"
+      "compared: no lock or changed inputs (3), an error in the scene (2) …. The other scenes are "
+      "compared\n"
+      "anyway.\n"
+      "\n"
+      "  belvedere verify scenes/*.toml --data ../data --junit verify.xml --report verify.html");
   return [options] { return run_verify(*options); };
 }
 

@@ -11,12 +11,14 @@ namespace belvedere::tools {
 
 ScratchFolder::ScratchFolder() {
   std::error_code problem;
-  const std::filesystem::path place = std::filesystem::temp_directory_path(problem);
-  if (problem) throw Error(ErrorKind::output, "TMPDIR", "no folder for temporary files: " + problem.message());
-  path_ = (place / "belvedere-XXXXXX").string();
+  const std::filesystem::path position = std::filesystem::temp_directory_path(problem);
+  if (problem)
+    throw Error(ErrorKind::output, "TMPDIR", "no folder for temporary files: " + problem.message());
+  path_ = (position / "belvedere-XXXXXX").string();
   if (::mkdtemp(path_.data()) == nullptr)
-    throw Error(ErrorKind::output, place.string(), "no folder can be made in it: " + std::generic_category().message(errno),
-                "another place, named by the variable TMPDIR");
+    throw Error(ErrorKind::output, position.string(),
+                "cannot create a folder in it: " + std::generic_category().message(errno),
+                "another folder, named by the variable TMPDIR");
 }
 
 ScratchFolder::~ScratchFolder() {

@@ -4,10 +4,10 @@
 
 namespace belvedere::tools {
 
-// A folder of the run's own in the system's place for such things ($TMPDIR), gone with the object.
+// A temporary folder of the run in the system's usual location ($TMPDIR), removed with the object.
 class ScratchFolder {
  public:
-  // Error(output) where none can be made.
+  // Error(output) where it cannot be created.
   ScratchFolder();
   ~ScratchFolder();
   ScratchFolder(const ScratchFolder&) = delete;

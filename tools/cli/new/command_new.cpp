@@ -34,7 +34,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A short name of the metric system that the places of the scene are in; empty where only the data's own text names it.
+// A short name of the metric CRS of the scene; empty where only the WKT of the data names it.
 std::string short_crs(const std::string& crs) {
   const std::string name = describe_crs(crs);
   if (!name.starts_with("EPSG:")) return "";
@@ -47,46 +47,51 @@ std::string title_of(const std::string& path) {
   return title;
 }
 
-ViewWishes wishes_of(const NewOptions& options, const ViewFormat& format, const CoarseGround& ground) {
-  ViewWishes out;
+ViewRequest request_of(const NewOptions& options, const ViewFormat& format,
+                       const CoarseGround& ground) {
+  ViewRequest out;
   out.format = format;
   out.plain = options.plain;
   if (!options.towards.empty()) out.towards_deg = read_direction(options.towards);
   const std::string degrees = normalize_crs("EPSG:4326");
-  const auto place = [&](const std::string& option, glm::dvec2 lonlat) {
+  const auto position = [&](const std::string& option, glm::dvec2 lonlat) {
     const glm::dvec2 at = transform_point(degrees, ground.crs, lonlat);
     const GeoTransform& t = ground.transform;
     const double width = ground.cells.width() * t.cell_x;
     const double height = ground.cells.height() * t.cell_y;
-    // The viewer may stand outside of the data, what is to be seen may not.
+    // The viewer may stand outside the data, places that must be visible may not.
     const double slack = option == "--from" ? 2.0 * ground.side_m : 0.0;
-    if (!(at.x >= t.origin_x - slack && at.x <= t.origin_x + width + slack && at.y <= t.origin_y + slack &&
-          at.y >= t.origin_y - height - slack))
-      throw Error(ErrorKind::usage, option, fmt::format("{},{} lies outside of the data", lonlat.x, lonlat.y),
-                  "longitude before latitude, a place within the region");
+    if (!(at.x >= t.origin_x - slack && at.x <= t.origin_x + width + slack &&
+          at.y <= t.origin_y + slack && at.y >= t.origin_y - height - slack))
+      throw Error(ErrorKind::usage, option,
+                  fmt::format("{},{} lies outside the data", lonlat.x, lonlat.y),
+                  "longitude before latitude, a position within the region");
     return at;
   };
-  if (!options.from.empty()) out.from = place("--from", read_lonlat("--from", options.from));
+  if (!options.from.empty()) out.from = position("--from", read_lonlat("--from", options.from));
   for (const std::string& text : options.include) {
     const NamedPlace named = read_named_place(text);
-    out.include.push_back({named.name, place("--include", named.lonlat)});
+    out.include.push_back({named.name, position("--include", named.lonlat)});
   }
   return out;
 }
 
-std::string as_json(const ViewSearch& search, const std::vector<Candidate>& proposals, const NewOptions& options,
-                    const std::string& sheet) {
+std::string as_json(const ViewSearch& search, const std::vector<Candidate>& proposals,
+                    const NewOptions& options, const std::string& sheet) {
   Json list = Json::array();
   for (const Candidate& c : proposals) {
     Json terms = Json::object();
-    for (const ScoreTerm& term : c.terms) terms.add(std::string(term.name), Json::number(term.value));
-    list.add(Json::object()
-                 .add("what", Json::text(describe_view(search, c)))
-                 .add("merit", Json::number(c.merit))
-                 .add("changes", Json::text(describe_changes(search, c)))
-                 .add("viewer", Json::array({Json::number(c.view.viewer.x), Json::number(c.view.viewer.y), Json::number(c.view.eye_m)}))
-                 .add("azimuth_deg", Json::number(c.view.azimuth_deg))
-                 .add("measures", std::move(terms)));
+    for (const ScoreTerm& term : c.terms)
+      terms.add(std::string(term.name), Json::number(term.value));
+    list.add(
+        Json::object()
+            .add("what", Json::text(describe_view(search, c)))
+            .add("merit", Json::number(c.merit))
+            .add("changes", Json::text(describe_changes(search, c)))
+            .add("viewer", Json::array({Json::number(c.view.viewer.x),
+                                        Json::number(c.view.viewer.y), Json::number(c.view.eye_m)}))
+            .add("azimuth_deg", Json::number(c.view.azimuth_deg))
+            .add("measures", std::move(terms)));
   }
   return Json::object()
              .add("scene", Json::text(options.out))
@@ -97,30 +102,34 @@ std::string as_json(const ViewSearch& search, const std::vector<Candidate>& prop
          "\n";
 }
 
-// One size of cells for all drafts, so that land cover is found once: two pixels at the nearest lower edge, and no more cells than are made
-// into a ground in half a second. 0: those of the data.
-double draft_cell_m(const CoarseGround& ground, const std::vector<Candidate>& proposals, int width_px) {
-  constexpr double pixels = 2.0, worth_it = 1.3, most_cells = 0.5e6;
-  double least = 1e9;
-  for (const Candidate& c : proposals) least = std::min(least, pixels * c.view.near_m * to_radians(c.view.field_of_view_deg) / width_px);
-  least = std::max(least, ground.side_m / std::sqrt(most_cells));
-  return least > worth_it * ground.source_cell_m ? std::floor(least) : 0.0;
+// One cell size for all drafts, so that land cover is computed once: two pixels at the nearest
+// lower edge, and no more cells than can be prepared in half a second. 0: those of the data.
+double draft_cell_m(const CoarseGround& ground, const std::vector<Candidate>& proposals,
+                    int width_px) {
+  constexpr double pixels = 2.0, worth_it = 1.3, max_cells = 0.5e6;
+  double min = 1e9;
+  for (const Candidate& c : proposals)
+    min = std::min(min, pixels * c.view.near_m * to_radians(c.view.field_of_view_deg) / width_px);
+  min = std::max(min, ground.side_m / std::sqrt(max_cells));
+  return min > worth_it * ground.source_cell_m ? std::floor(min) : 0.0;
 }
 
-void note_limits(const std::vector<RasterSource>& sources, const CoarseGround& ground, const Massifs& massifs, Progress& progress) {
+void note_limits(const std::vector<RasterSource>& sources, const CoarseGround& ground,
+                 const Massifs& massifs, Progress& progress) {
   for (const RasterSource& source : sources)
     if (const std::string doubt = doubt_of_source(source); !doubt.empty()) progress.note(doubt);
   constexpr double much_void = 0.3;
   if (ground.void_share > much_void)
-    progress.note(fmt::format("{:.0f} % of the data's frame is empty; views keep away from there", 100.0 * ground.void_share));
+    progress.note(fmt::format("{:.0f} % of the data's extent is empty; views avoid it",
+                              100.0 * ground.void_share));
   for (const Anchor& summit : massifs.at_the_rim)
     progress.note(
-        fmt::format("the mountain that stands out most, {:.0f} m, lies at the edge of the data, where a picture fades out: with data "
-                    "that reach {:.0f} km farther it could be the main one",
+        fmt::format("the most prominent mountain, {:.0f} m, lies at the edge of the data, where a "
+                    "picture fades out: with data {:.0f} km farther it could be the main one",
                     summit.altitude_m, std::ceil(0.15 * ground.side_m / 1000.0)));
 }
 
-// What of the merit is won by means beyond the usual.
+// The part of the merit that is gained by unusual means.
 double won(const Candidate& candidate) {
   double out = candidate.changes.widened.merit;
   for (const RaisedSummit& summit : candidate.changes.summits) out += summit.gain.merit;
@@ -129,12 +138,16 @@ double won(const Candidate& candidate) {
 
 int run_new(const NewOptions& options) {
   if (options.dems.empty() == options.fetch.at.empty())
-    throw Error(ErrorKind::usage, "DEM", options.dems.empty() ? "no elevation is given" : "elevation files and --at are given",
-                "one of the two: files of elevation, or --at LON,LAT to fetch it");
+    throw Error(
+        ErrorKind::usage, "DEM",
+        options.dems.empty() ? "no elevation is given" : "both elevation files and --at are given",
+        "one of the two: elevation files, or --at LON,LAT to fetch them");
   if (fs::exists(options.out) && !options.force)
-    throw Error(ErrorKind::output, options.out, "is there already", "another name, or --force to replace it");
+    throw Error(ErrorKind::output, options.out, "exists already",
+                "another name, or --force to replace it");
   if (options.cover.file.empty() != options.cover.legend.empty())
-    throw Error(ErrorKind::usage, options.cover.legend.empty() ? "--land-cover" : "--legend", "goes with the other of the two",
+    throw Error(ErrorKind::usage, options.cover.legend.empty() ? "--land-cover" : "--legend",
+                "needs the other of the two",
                 "--land-cover FILE --legend nlcd, corine, esa_worldcover, fbfm40 or a file");
   const SheetFormat format = read_format(options.format);
   check_place(options.out);
@@ -147,7 +160,9 @@ int run_new(const NewOptions& options) {
 
   SceneFileNames names(options);
   ProposedScene about;
-  about.title = options.title.empty() ? title_of(options.dems.empty() ? options.out : options.dems.front()) : options.title;
+  about.title = options.title.empty()
+                    ? title_of(options.dems.empty() ? options.out : options.dems.front())
+                    : options.title;
   about.width_px = format.width_px;
   about.sheet_width_mm = format.sheet_width_mm;
   const DemParameters dem = find_elevation(options, names, cache, progress, about);
@@ -161,26 +176,31 @@ int run_new(const NewOptions& options) {
   if (is_canyon_country(region_climate(ground))) {
     about.palette = "desert";
     about.palette_why = "the climate of the place is dry and warm";
-    // Dry mountains are of any rock; plateaus that canyons cut are of beds.
+    // Dry mountains may be of any rock; plateaus cut by canyons are of beds.
     constexpr double mostly = 0.5;
     if (ground.plateau > mostly) about.rock = "sandstone";
     about.rock_why = "of canyons in dry country; or limestone, granite, volcanic";
   }
-  const ViewSearch search{ground, massifs, wishes_of(options, format.picture, ground)};
-  const std::vector<Candidate> proposals = propose_views(search, {.most = options.most});
+  const ViewSearch search{ground, massifs, request_of(options, format.picture, ground)};
+  const std::vector<Candidate> proposals = propose_views(search, {.max = options.max});
   if (options.choose > static_cast<int>(proposals.size()))
-    throw Error(ErrorKind::usage, "--choose", fmt::format("{}, and there are {} proposals that differ", options.choose, proposals.size()),
-                fmt::format("1 … {}", proposals.size()));
+    throw Error(
+        ErrorKind::usage, "--choose",
+        fmt::format("{}, but there are {} different proposals", options.choose, proposals.size()),
+        fmt::format("1 … {}", proposals.size()));
 
   std::vector<std::string> texts;
   for (std::size_t i = 0; i < proposals.size(); ++i) {
     about.number = fmt::format("{} of {}", i + 1, proposals.size());
     texts.push_back(proposed_scene_text(search, proposals[i], about));
   }
-  // Read back as rendering will: a scene that does not parse is a fault of the program, and files that are not found are the user's.
+  // Parsed again as for rendering: a scene that does not parse is a bug of the program, and missing
+  // files are the user's error.
   SceneFileOptions files{.data_folders = names.data(), .settings = {}};
   std::vector<LoadedScene> scenes;
-  for (const std::string& text : texts) scenes.push_back(parse_scene(text, fs::path(options.out).stem().string(), names.folder(), files));
+  for (const std::string& text : texts)
+    scenes.push_back(
+        parse_scene(text, fs::path(options.out).stem().string(), names.folder(), files));
   std::string sheet;
   if (!options.pictures.empty()) {
     std::vector<LoadedScene> drafts;
@@ -190,9 +210,11 @@ int run_new(const NewOptions& options) {
     const double cell_m = draft_cell_m(ground, proposals, look.width_px);
     for (std::size_t i = 0; i < scenes.size(); ++i) {
       drafts.push_back(make_small_draft(scenes[i], look.width_px, cell_m));
-      const std::string gain = won(proposals[i]) > 0.0 ? fmt::format(", won {:.1f}", won(proposals[i])) : "";
-      captions.push_back(fmt::format("{}  merit {:.1f}{}  azimuth {:.0f}, {:.0f} km", i + 1, proposals[i].merit, gain,
-                                     proposals[i].view.azimuth_deg, proposals[i].view.far_m / 1000.0));
+      const std::string gain =
+          won(proposals[i]) > 0.0 ? fmt::format(", gained {:.1f}", won(proposals[i])) : "";
+      captions.push_back(fmt::format("{}  merit {:.1f}{}  azimuth {:.0f}, {:.0f} km", i + 1,
+                                     proposals[i].merit, gain, proposals[i].view.azimuth_deg,
+                                     proposals[i].view.far_m / 1000.0));
     }
     sheet = (fs::path(options.pictures) / "proposals.png").string();
     write_contact_sheet(sheet, drafts, captions, run, look);
@@ -206,8 +228,8 @@ int run_new(const NewOptions& options) {
   }
   if (options.common.quiet) return 0;
   for (std::size_t i = 0; i < proposals.size(); ++i)
-    print_out(
-        fmt::format("{} {}. {}\n", static_cast<int>(i) + 1 == options.choose ? "*" : " ", i + 1, describe_view(search, proposals[i])));
+    print_out(fmt::format("{} {}. {}\n", static_cast<int>(i) + 1 == options.choose ? "*" : " ",
+                          i + 1, describe_view(search, proposals[i])));
   if (!sheet.empty()) print_out(sheet + "\n");
   std::string data;
   for (const std::string& folder : names.data()) data += " --data " + folder;

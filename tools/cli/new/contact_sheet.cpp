@@ -24,14 +24,19 @@ std::string terrain_of(const LoadedScene& loaded) {
   return write_scene(terrain);
 }
 
-// Reads the ground that all drafts have in common once, into a file of theirs: bringing data into the cells of drafts takes longer than
-// reading what came of it.
+// Reads the shared ground of all drafts once, into a file: resampling data to the cells of drafts
+// takes longer than reading the result.
 void share_ground(std::vector<LoadedScene>& drafts, const std::string& folder, const Cache& cache) {
-  const auto other = [&](const LoadedScene& draft) { return terrain_of(draft) != terrain_of(drafts.front()); };
-  if (drafts.size() < 2 || drafts.front().scene.terrain.sources.empty() || std::any_of(drafts.begin(), drafts.end(), other)) return;
+  const auto other = [&](const LoadedScene& draft) {
+    return terrain_of(draft) != terrain_of(drafts.front());
+  };
+  if (drafts.size() < 2 || drafts.front().scene.terrain.sources.empty() ||
+      std::any_of(drafts.begin(), drafts.end(), other))
+    return;
   const Dem dem = make_scene_dem(drafts.front(), silent_progress(), cache);
   const std::string name = "ground_of_all_drafts.tif";
-  write_raster((std::filesystem::path(folder) / name).string(), Raster<float>{known_altitude(dem), dem.transform, dem.crs});
+  write_raster((std::filesystem::path(folder) / name).string(),
+               Raster<float>{known_altitude(dem), dem.transform, dem.crs});
   for (LoadedScene& draft : drafts) {
     draft.allowed_folders.insert(draft.allowed_folders.begin(), folder);
     SceneTerrain& terrain = draft.scene.terrain;
@@ -45,8 +50,9 @@ void share_ground(std::vector<LoadedScene>& drafts, const std::string& folder, c
 }  // namespace
 
 LoadedScene make_small_draft(LoadedScene scene, int width_px, double cell_m) {
-  const int height_px =
-      std::max(64, static_cast<int>(std::lround(static_cast<double>(width_px) * scene.scene.output.height / scene.scene.output.width)));
+  const int height_px = std::max(
+      64, static_cast<int>(std::lround(static_cast<double>(width_px) * scene.scene.output.height /
+                                       scene.scene.output.width)));
   scene.scene = make_draft(std::move(scene.scene));
   scene.scene.output.width = width_px;
   scene.scene.output.height = height_px;
@@ -55,12 +61,14 @@ LoadedScene make_small_draft(LoadedScene scene, int width_px, double cell_m) {
   return scene;
 }
 
-void write_contact_sheet(const std::string& path, std::vector<LoadedScene> drafts, const std::vector<std::string>& captions, const Run& run,
+void write_contact_sheet(const std::string& path, std::vector<LoadedScene> drafts,
+                         const std::vector<std::string>& captions, const Run& run,
                          const ContactSheetParameters& parameters) {
-  // Land cover hangs on the ground alone: the second picture finds what the first made, also where nothing is kept from run to run.
+  // Land cover depends on the ground alone: the second picture reuses what the first computed, also
+  // without a cache.
   const ScratchFolder kept;
   const Cache own({.folder = kept.path(), .limit_bytes = 0});
-  // One stage to watch, instead of all stages of every picture.
+  // One progress display, instead of all stages of every picture.
   const Run quiet{.threads = run.threads,
                   .memory_bytes = run.memory_bytes,
                   .tile_px = run.tile_px,
@@ -75,7 +83,9 @@ void write_contact_sheet(const std::string& path, std::vector<LoadedScene> draft
     render(drafts[i], folder.path(), quiet);
     run.progress.advance(1.0);
     if (i % sheet.columns.size() == 0) sheet.cells.emplace_back();
-    sheet.cells.back().push_back({read_picture((std::filesystem::path(folder.path()) / "panorama.png").string()), captions[i]});
+    sheet.cells.back().push_back(
+        {read_picture((std::filesystem::path(folder.path()) / "panorama.png").string()),
+         captions[i]});
   }
   write_png8(path, draw_table(sheet), {});
 }

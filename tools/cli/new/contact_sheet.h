@@ -15,11 +15,14 @@ struct ContactSheetParameters {
   int columns = 2;     // of the sheet
 };
 
-// The scene as a small draft: few pixels, strokes alone, ground in cells of `cell_m` (0: those of the data).
+// The scene as a small draft: few pixels, only strokes, ground in cells of `cell_m` (0: those of
+// the data).
 LoadedScene make_small_draft(LoadedScene scene, int width_px, double cell_m);
 
-// Renders each scene (drafts, as make_small_draft makes them) and writes the sheet as PNG; what each picture is called stands below it.
-void write_contact_sheet(const std::string& path, std::vector<LoadedScene> drafts, const std::vector<std::string>& captions, const Run& run,
+// Renders each scene (drafts, as make_small_draft makes them) and writes the sheet as PNG; each
+// picture's name is below it.
+void write_contact_sheet(const std::string& path, std::vector<LoadedScene> drafts,
+                         const std::vector<std::string>& captions, const Run& run,
                          const ContactSheetParameters& parameters = {});
 
 }  // namespace belvedere::tools

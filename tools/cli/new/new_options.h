@@ -9,7 +9,7 @@
 
 namespace belvedere::tools {
 
-// What the command line of `belvedere new` says.
+// Command-line options of `belvedere new`.
 struct NewOptions {
   SceneOptions common;
   FetchOptions fetch;   // --at: the data come from map services
@@ -21,7 +21,7 @@ struct NewOptions {
   std::string crs;
   std::optional<double> lowest_m;
   int choose = 1;
-  int most = 5;
+  int max = 5;
   std::string towards, from, format = "2:1";
   std::vector<std::string> include;
   struct Cover {

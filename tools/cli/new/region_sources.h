@@ -12,11 +12,11 @@
 
 namespace belvedere::tools {
 
-// How the scene names its files, which must lie beside it or in a --data folder.
+// Names of the scene's files, which must be beside it or in a --data folder.
 class SceneFileNames {
  public:
   explicit SceneFileNames(const NewOptions& options);
-  // The scene's word for a file, whose folder becomes one of data() where the scene has to be told.
+  // The scene's name for a file; its folder is added to data() if the scene needs it.
   std::string name(const std::string& path);
   // The folders that rendering needs as --data.
   const std::vector<std::string>& data() const { return data_; }
@@ -31,14 +31,16 @@ class SceneFileNames {
   std::vector<std::string> data_;
 };
 
-// The elevation of the region: the files of the command line or, with --at, what is fetched for it, with its land cover. `about` becomes
-// what the scene says of them. Throws Error(input) for files that are not there or do not say where they lie, and what fetch_area throws.
-DemParameters find_elevation(const NewOptions& options, SceneFileNames& names, const Cache& cache, Progress& progress,
-                             ProposedScene& about);
+// The elevation of the region: the files of the command line or, with --at, what is fetched for it,
+// with its land cover. `about` receives the scene's keys for them. Throws Error(input) for files
+// that do not exist or are not georeferenced, and the errors of fetch_area.
+DemParameters find_elevation(const NewOptions& options, SceneFileNames& names, const Cache& cache,
+                             Progress& progress, ProposedScene& about);
 
-// The user's own land cover: what he says of the file is held against it, so that a wrong band or place is found before anything is drawn.
-// Throws Error(input) for a file that is not there, does not say where it lies, or lies elsewhere than the ground.
-void find_land_cover(const NewOptions& options, SceneFileNames& names, const CoarseGround& ground, Progress& progress,
-                     ProposedScene& about);
+// The user's own land cover: his description of the file is checked against it, so that a wrong
+// band or position is found before rendering. Throws Error(input) for a file that does not exist,
+// is not georeferenced, or does not overlap the ground.
+void find_land_cover(const NewOptions& options, SceneFileNames& names, const CoarseGround& ground,
+                     Progress& progress, ProposedScene& about);
 
 }  // namespace belvedere::tools

@@ -26,7 +26,8 @@ std::optional<double> number(std::string_view text) {
   if (!text.empty() && text.front() == '+') text.remove_prefix(1);
   double value = 0.0;
   const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (problem != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  if (problem != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
+    return std::nullopt;
   return value;
 }
 
@@ -60,14 +61,15 @@ constexpr std::array<Direction, 16> directions = {{{"n", "north"},
                                                    {"nw", "northwest"},
                                                    {"nnw", "north-northwest"}}};
 
-// Long side of A0, mm; each further one is shorter by the root of two, rounded down as the standard does (ISO 216).
+// Long side of A0, mm; each further one is shorter by the root of two, rounded down as in ISO 216.
 constexpr std::array<int, 8> paper_long_mm = {1189, 841, 594, 420, 297, 210, 148, 105};
 
 void check_aspect(const std::string& text, double aspect) {
-  constexpr double least = 0.5, most = 12.0;
-  if (!(aspect >= least && aspect <= most))
-    throw Error(ErrorKind::usage, "--format", fmt::format("\"{}\" is {:.2f} times as wide as it is high", text, aspect),
-                "from half as wide as high to 12 times: 1:1, 2:1, 5:1");
+  constexpr double min = 0.5, max = 12.0;
+  if (!(aspect >= min && aspect <= max))
+    throw Error(ErrorKind::usage, "--format",
+                fmt::format("\"{}\" is {:.2f} times as wide as it is high", text, aspect),
+                "from 1:2 to 12:1, such as 1:1, 2:1, 5:1");
 }
 
 }  // namespace
@@ -75,26 +77,30 @@ void check_aspect(const std::string& text, double aspect) {
 double read_direction(const std::string& text) {
   const std::string word = small_letters(text);
   for (std::size_t i = 0; i < directions.size(); ++i)
-    if (word == directions[i].letters || word == directions[i].name) return 22.5 * static_cast<double>(i);
+    if (word == directions[i].letters || word == directions[i].name)
+      return 22.5 * static_cast<double>(i);
   const std::optional<double> degrees = number(word);
   if (!degrees || *degrees < -360.0 || *degrees > 360.0)
-    throw Error(ErrorKind::usage, "--towards", fmt::format("\"{}\" is no direction", text),
+    throw Error(ErrorKind::usage, "--towards", fmt::format("\"{}\" is not a direction", text),
                 "N, NE, southwest … or an azimuth in degrees, clockwise from north: 225");
   return *degrees < 0.0 ? *degrees + 360.0 : *degrees;
 }
 
 glm::dvec2 read_lonlat(const std::string& option, const std::string& text) {
-  const std::optional<glm::dvec2> place = pair_of(text, ',');
-  if (!place || std::abs(place->x) > 180.0 || std::abs(place->y) > 90.0)
-    throw Error(ErrorKind::usage, option, fmt::format("\"{}\" is no place", text), "longitude and latitude in degrees: 11.4,47.27");
-  return *place;
+  const std::optional<glm::dvec2> position = pair_of(text, ',');
+  if (!position || std::abs(position->x) > 180.0 || std::abs(position->y) > 90.0)
+    throw Error(ErrorKind::usage, option, fmt::format("\"{}\" is not a position", text),
+                "longitude and latitude in degrees: 11.4,47.27");
+  return *position;
 }
 
 NamedPlace read_named_place(const std::string& text) {
   const std::size_t bar = text.rfind('|');
-  if (bar != std::string::npos) return {text.substr(0, bar), read_lonlat("--include", text.substr(bar + 1))};
+  if (bar != std::string::npos)
+    return {text.substr(0, bar), read_lonlat("--include", text.substr(bar + 1))};
   if (!pair_of(text, ','))
-    throw Error(ErrorKind::usage, "--include", fmt::format("\"{}\" is a name, and the program knows no map of names", text),
+    throw Error(ErrorKind::usage, "--include",
+                fmt::format("\"{}\" is a name, and the program has no gazetteer", text),
                 fmt::format("the name with its longitude and latitude: \"{}|11.4,47.27\"", text));
   return {"", read_lonlat("--include", text)};
 }
@@ -111,14 +117,16 @@ SheetFormat read_format(const std::string& text) {
   }
   if (word.starts_with("cylinder ")) {
     const SheetFormat shape = read_format(word.substr(9));
-    constexpr double least = 5.0;
-    if (shape.picture.aspect < least)
-      throw Error(ErrorKind::usage, "--format", fmt::format("\"{}\" is too high for a view all around", text), "5:1 … 12:1");
+    constexpr double min = 5.0;
+    if (shape.picture.aspect < min)
+      throw Error(ErrorKind::usage, "--format",
+                  fmt::format("\"{}\" is too high for a full circle", text), "5:1 … 12:1");
     out = shape;
     out.picture.full_turn = true;
     return out;
   }
-  if (const std::optional<glm::dvec2> sides = pair_of(word, ':'); sides && sides->x > 0.0 && sides->y > 0.0) {
+  if (const std::optional<glm::dvec2> sides = pair_of(word, ':');
+      sides && sides->x > 0.0 && sides->y > 0.0) {
     out.picture.aspect = sides->x / sides->y;
     check_aspect(text, out.picture.aspect);
     return out;
@@ -130,7 +138,8 @@ SheetFormat read_format(const std::string& text) {
     out.width_px = static_cast<int>(pixels->x);
     return out;
   }
-  if (word.size() >= 2 && word[0] == 'a' && word[1] >= '0' && word[1] < '0' + static_cast<int>(paper_long_mm.size()) - 1) {
+  if (word.size() >= 2 && word[0] == 'a' && word[1] >= '0' &&
+      word[1] < '0' + static_cast<int>(paper_long_mm.size()) - 1) {
     const auto size = static_cast<std::size_t>(word[1] - '0');
     const double longer = paper_long_mm[size];
     const double shorter = paper_long_mm[size + 1];
@@ -142,8 +151,9 @@ SheetFormat read_format(const std::string& text) {
       return out;
     }
   }
-  throw Error(ErrorKind::usage, "--format", fmt::format("\"{}\" is no format", text),
-              "2:1, 3:1 …; A2, \"A2 upright\"; 2400x1200; cylinder, \"cylinder 8:1\" for all around");
+  throw Error(
+      ErrorKind::usage, "--format", fmt::format("\"{}\" is not a format", text),
+      "2:1, 3:1 …; A2, \"A2 upright\"; 2400x1200; cylinder, \"cylinder 8:1\" for a full circle");
 }
 
 }  // namespace belvedere::tools

@@ -7,7 +7,7 @@
 
 namespace belvedere::tools {
 
-// What words on the command line of `belvedere new` mean. All throw Error(usage) naming the option.
+// Parsing of command-line values of `belvedere new`. All throw Error(usage) naming the option.
 
 // "N", "northeast", "225": azimuth in degrees, 0…360.
 double read_direction(const std::string& text);
@@ -22,7 +22,8 @@ struct NamedPlace {
 };
 NamedPlace read_named_place(const std::string& text);
 
-// The shape of the sheet and its width in print: "3:1", "A2" (lying), "A2 upright", "1600x900" or "cylinder".
+// The shape of the sheet and its width in print: "3:1", "A2" (landscape), "A2 upright", "1600x900"
+// or "cylinder".
 struct SheetFormat {
   ViewFormat picture;
   double sheet_width_mm = 1200.0;

@@ -2,13 +2,13 @@
 
 #include <string>
 
-#include "renderer/image/icc/device_color.h"
+#include "renderer/image/icc/device_colour.h"
 
 namespace belvedere::tools {
 
 class CommandOptions;
 
-// What commands for printers have in common.
+// Options shared by commands for printers.
 struct PressOptions {
   std::string profile;
   std::string intent = "relative";

@@ -6,8 +6,12 @@
 namespace belvedere::tools {
 
 void add_begin_options(CommandOptions& command, BeginOptions& options, const std::string& meaning) {
-  command.add_option("--begin", options.kind, meaning).one_of({"white", "streaks", "discs"}).type_name("KIND");
-  command.add_option("--begin-px", options.px, "With --begin: half length of streaks, radius of discs. Default: 8")
+  command.add_option("--begin", options.kind, meaning)
+      .one_of({"white", "streaks", "discs"})
+      .type_name("KIND");
+  command
+      .add_option("--begin-px", options.px,
+                  "With --begin: half length of streaks, radius of discs. Default: 8")
       .range(1.0, 256.0)
       .type_name("PX");
 }
@@ -31,7 +35,8 @@ const char* name_of(TextureSeed seed) {
 }
 
 std::string describe_begin(TextureSeed seed, float px, bool polish) {
-  return fmt::format("{}{}{}", name_of(seed), px > 0.F ? fmt::format(" of {} px", px) : "", polish ? ", polished" : "");
+  return fmt::format("{}{}{}", name_of(seed), px > 0.F ? fmt::format(" of {} px", px) : "",
+                     polish ? ", polished" : "");
 }
 
 }  // namespace belvedere::tools

@@ -8,12 +8,12 @@ namespace belvedere::tools {
 
 class CommandOptions;
 
-// The noise that a texture begins with, where its user chooses: --begin, --begin-px.
+// The initial noise of a texture, if the user chooses it: --begin, --begin-px.
 struct BeginOptions {
   std::string kind;  // white, streaks, discs; empty: the program chooses
   double px = 8.0;   // half length of streaks, radius of discs, 1…256
 };
-// `meaning`: what --begin says in the help.
+// `meaning`: help text of --begin.
 void add_begin_options(CommandOptions& command, BeginOptions& options, const std::string& meaning);
 
 struct TextureBegin {
@@ -23,7 +23,7 @@ struct TextureBegin {
 TextureBegin begin_of(const BeginOptions& options);
 
 const char* name_of(TextureSeed seed);
-// Says how it is drawn: "streaks of 12 px", "white, polished".
+// Describes the noise: "streaks of 12 px", "white, polished".
 std::string describe_begin(TextureSeed seed, float px, bool polish);
 
 }  // namespace belvedere::tools

@@ -31,7 +31,7 @@ struct CompositeLearnOptions : RunOptions {
   CompositeParameters composite;
 };
 
-// What a run found, for all ways to tell it.
+// Results of a run, for all forms of output.
 struct CompositeFindings {
   CompositeModel model;
   std::size_t bytes = 0;
@@ -40,7 +40,7 @@ struct CompositeFindings {
   Grid<std::uint8_t> map;           // made, of the crop's size
   LabelMapFigures map_figures;
   Grid<Rgb8> filled;  // the crop's own map
-  Grid<Rgb8> made;    // the made one
+  Grid<Rgb8> made;    // the synthesized one
   LayoutFigures filled_figures;
   LayoutFigures made_figures;
 };
@@ -49,34 +49,43 @@ std::string border_text(const CompositeFindings& found) {
   const auto wanted = border_shares(found.model.map);
   std::string out;
   for (std::size_t s = 0; s < label_scales; ++s)
-    out += fmt::format("{}{:.4f} of {:.4f}", s == 0 ? "" : ", ", found.map_figures.borders[s], wanted[s]);
+    out += fmt::format("{}{:.4f} of {:.4f}", s == 0 ? "" : ", ", found.map_figures.borders[s],
+                       wanted[s]);
   return out;
 }
 
 std::string as_text(const CompositeLearnOptions& options, const CompositeFindings& found) {
-  std::string out = fmt::format("{}: {} labels{}, {} bytes\n", options.out, found.model.labels.size(),
-                                found.model.transition ? " and a transition" : "", found.bytes);
+  std::string out =
+      fmt::format("{}: {} labels{}, {} bytes\n", options.out, found.model.labels.size(),
+                  found.model.transition ? " and a transition" : "", found.bytes);
   for (std::size_t k = 0; k < found.names.size(); ++k)
-    out += fmt::format("  {:<10} {} pixels, {} types\n", found.names[k], found.pixels[k], found.model.labels[k].model.cliques.size());
-  out += fmt::format("  a made map     pairs {:.3f}, borders' patterns {:.3f}, by height {:.3f}\n", found.map_figures.pairs,
-                     found.map_figures.rings, found.map_figures.profile);
-  out += fmt::format("  its borders    1, 2, 4, 8, 16 px apart: {}\n", border_text(found));
+    out += fmt::format("  {:<10} {} pixels, {} types\n", found.names[k], found.pixels[k],
+                       found.model.labels[k].model.cliques.size());
   out +=
-      fmt::format("  colours by height, pairs far apart: {:.3f}, {:.3f} over the crop's map; {:.3f}, {:.3f} over the made one\n",
-                  found.filled_figures.profile, found.filled_figures.far_pairs, found.made_figures.profile, found.made_figures.far_pairs);
+      fmt::format("  a synthesized map  pairs {:.3f}, borders' patterns {:.3f}, by height {:.3f}\n",
+                  found.map_figures.pairs, found.map_figures.rings, found.map_figures.profile);
+  out += fmt::format("  its borders    1, 2, 4, 8, 16 px apart: {}\n", border_text(found));
+  out += fmt::format(
+      "  colours by height, pairs far apart: {:.3f}, {:.3f} over the crop's map; {:.3f}, {:.3f} "
+      "over the synthesized one\n",
+      found.filled_figures.profile, found.filled_figures.far_pairs, found.made_figures.profile,
+      found.made_figures.far_pairs);
   return out;
 }
 
 Json as_json(const CompositeLearnOptions& options, const CompositeFindings& found) {
   const auto layout = [](const LayoutFigures& f) {
-    return Json::object().add("profile", Json::number(f.profile)).add("far_pairs", Json::number(f.far_pairs));
+    return Json::object()
+        .add("profile", Json::number(f.profile))
+        .add("far_pairs", Json::number(f.far_pairs));
   };
   Json labels = Json::array();
   for (std::size_t k = 0; k < found.names.size(); ++k)
     labels.add(Json::object()
                    .add("name", Json::text(found.names[k]))
                    .add("pixels", Json::number(static_cast<double>(found.pixels[k])))
-                   .add("types", Json::number(static_cast<double>(found.model.labels[k].model.cliques.size()))));
+                   .add("types", Json::number(static_cast<double>(
+                                     found.model.labels[k].model.cliques.size()))));
   return Json::object()
       .add("out", Json::text(options.out))
       .add("bytes", Json::number(static_cast<double>(found.bytes)))
@@ -90,36 +99,48 @@ Json as_json(const CompositeLearnOptions& options, const CompositeFindings& foun
       .add("made", layout(found.made_figures));
 }
 
-void write_report(const CompositeLearnOptions& options, const TextureCrop& crop, const LabelPicture& labels,
-                  const CompositeFindings& found) {
+void write_report(const CompositeLearnOptions& options, const TextureCrop& crop,
+                  const LabelPicture& labels, const CompositeFindings& found) {
   Report report(options.report);
   report.section("pictures", "Crop and composite",
-                 "The crop with its labels, and what is made from the model alone: over the crop's own map, and over a made one. Look at "
-                 "borders first: are they as ragged, and do labels lie as they should?");
+                 "The crop with its labels, and what is made from the model alone: over the crop's "
+                 "own map, and over a synthesized one. Look at borders first: they should be as "
+                 "ragged, and labels should lie as in the crop.");
   report.picture("crop", to_picture(crop.picture), "the crop");
   report.picture("labels", label_colours(labels.labels, labels.names), "its labels");
   report.next_row();
   report.picture("filled", to_picture(found.filled), "made over the crop's labels");
   report.next_row();
-  report.picture("made", to_picture(found.made), "made over made labels");
-  report.picture("map", label_colours(found.map, found.names), "made labels");
+  report.picture("made", to_picture(found.made), "made over synthesized labels");
+  report.picture("map", label_colours(found.map, found.names), "synthesized labels");
   report.section("labels", "Labels");
   ReportTable table({{"label", "label"}, {"pixels", "pixels"}, {"types", "types"}});
   for (std::size_t k = 0; k < found.names.size(); ++k)
     table.row(found.names[k], found.pixels[k], found.model.labels[k].model.cliques.size());
   report.table(table);
   report.section("distances", "Distances to the crop");
-  report.table(ReportTable({{"made", ""}, {"profile", "colours by height", ".3f"}, {"far_pairs", "pairs 16–128 px apart", ".3f"}})
-                   .row("over the crop's labels", found.filled_figures.profile, found.filled_figures.far_pairs)
-                   .row("over made labels", found.made_figures.profile, found.made_figures.far_pairs));
-  report.section("map", "The made map");
-  report.table(ReportTable({{"pairs", "pairs", ".3f"}, {"rings", "borders' patterns", ".3f"}, {"profile", "labels by height", ".3f"}})
-                   .row(found.map_figures.pairs, found.map_figures.rings, found.map_figures.profile));
-  report.text("Borders, as the share of neighbours 1, 2, 4, 8, 16 pixels apart that differ, of the crop's: " + border_text(found) + ".");
+  report.table(ReportTable({{"made", ""},
+                            {"profile", "colours by height", ".3f"},
+                            {"far_pairs", "pairs 16–128 px apart", ".3f"}})
+                   .row("over the crop's labels", found.filled_figures.profile,
+                        found.filled_figures.far_pairs)
+                   .row("over synthesized labels", found.made_figures.profile,
+                        found.made_figures.far_pairs));
+  report.section("map", "The synthesized map");
+  report.table(
+      ReportTable({{"pairs", "pairs", ".3f"},
+                   {"rings", "borders' patterns", ".3f"},
+                   {"profile", "labels by height", ".3f"}})
+          .row(found.map_figures.pairs, found.map_figures.rings, found.map_figures.profile));
+  report.text(
+      "Borders, as the share of neighbours 1, 2, 4, 8, 16 pixels apart that differ, of the "
+      "crop's: " +
+      border_text(found) + ".");
   report.write({.title = "Composite texture: " + file_name(options.crop),
                 .lead = fmt::format("A model of {} bytes.", found.bytes),
-                .command = fmt::format("belvedere composite learn {} --labels {} --out {}", file_name(options.crop),
-                                       file_name(options.labels), file_name(options.out))});
+                .command = fmt::format("belvedere composite learn {} --labels {} --out {}",
+                                       file_name(options.crop), file_name(options.labels),
+                                       file_name(options.out))});
 }
 
 CompositeParameters parameters_of(const CompositeLearnOptions& options) {
@@ -138,23 +159,30 @@ int run(const CompositeLearnOptions& options) {
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
   const TextureCrop crop = read_crop(options.crop, "");
-  if (crop.transparent > 0) progress.note(fmt::format("{} transparent pixels are left out", crop.transparent));
+  if (crop.transparent > 0)
+    progress.note(fmt::format("{} transparent pixels are left out", crop.transparent));
   const LabelPicture labels = read_label_picture(options.labels);
   if (!labels.labels.same_size(crop.picture))
-    throw Error(ErrorKind::input, options.labels, fmt::format("{} × {} pixels", labels.labels.width(), labels.labels.height()),
-                fmt::format("the size of {}: {} × {}", options.crop, crop.picture.width(), crop.picture.height()));
+    throw Error(ErrorKind::input, options.labels,
+                fmt::format("{} × {} pixels", labels.labels.width(), labels.labels.height()),
+                fmt::format("the size of {}: {} × {}", options.crop, crop.picture.width(),
+                            crop.picture.height()));
   CompositeFindings found;
   found.names = labels.names;
   for (std::size_t k = 0; k < labels.names.size(); ++k)
-    found.pixels.push_back(static_cast<std::size_t>(std::count(labels.labels.begin(), labels.labels.end(), static_cast<std::uint8_t>(k))));
-  found.model = learn_composite({crop.picture, crop.states, labels.labels, labels.names}, parameters_of(options), progress);
+    found.pixels.push_back(static_cast<std::size_t>(
+        std::count(labels.labels.begin(), labels.labels.end(), static_cast<std::uint8_t>(k))));
+  found.model = learn_composite({crop.picture, crop.states, labels.labels, labels.names},
+                                parameters_of(options), progress);
   const std::string text = composite_text(found.model);
   found.bytes = text.size();
   write_text_file(options.out, text);
 
-  found.map = make_label_map(found.model.map, crop.picture.width(), crop.picture.height(), {}, progress);
+  found.map =
+      make_label_map(found.model.map, crop.picture.width(), crop.picture.height(), {}, progress);
   found.map_figures = label_map_figures(found.model.map, found.map);
-  found.filled = make_composite(found.model, read_drawn_labels(options.labels, found.names), {}, progress);
+  found.filled =
+      make_composite(found.model, read_drawn_labels(options.labels, found.names), {}, progress);
   found.made = make_composite(found.model, found.map, {}, progress);
   found.filled_figures = layout_figures(crop.picture, found.filled);
   found.made_figures = layout_figures(crop.picture, found.made);
@@ -168,27 +196,43 @@ int run(const CompositeLearnOptions& options) {
 
 Action add_composite_learn(CommandOptions& command) {
   const auto options = std::make_shared<CompositeLearnOptions>();
-  command.add_option("CROP", options->crop, "A painting, or a piece of one, that shows several textures").required().type_name("PICTURE");
   command
-      .add_option("--labels", options->labels,
-                  "What is where: a picture of its size in 2 to 16 flat colours, or of grey numbers; number 255 is left out.\n"
-                  "Each colour is one texture, 48 pixels a side or more")
+      .add_option("CROP", options->crop,
+                  "A painting, or a part of one, that shows several textures")
       .required()
       .type_name("PICTURE");
-  command.add_option("--out", options->out, "The model: a text of some 15 000 letters").required().type_name("COMPOSITE");
-  command.add_option("--types", options->composite.learn.types, "How many statistics each texture holds at most, 16 to 200. Default: 40")
+  command
+      .add_option("--labels", options->labels,
+                  "Label image of its size in 2 to 16 flat colours, or of grey numbers; number 255 "
+                  "is left out.\n"
+                  "Each colour is one texture, 48 pixels per side or more")
+      .required()
+      .type_name("PICTURE");
+  command.add_option("--out", options->out, "The model: a text file of about 15 KB")
+      .required()
+      .type_name("COMPOSITE");
+  command
+      .add_option("--types", options->composite.learn.types,
+                  "Maximum number of statistics per texture, 16 to 200. Default: 40")
       .range(16, 200)
       .type_name("N");
   add_begin_options(command, options->begin,
-                    "The noise that all textures begin with, which decides the shape of their dabs: white, streaks or discs.\n"
-                    "Default: for each what comes nearest to the crop");
+                    "Initial noise of all textures, which determines the shape of their dabs: "
+                    "white, streaks or discs.\n"
+                    "Default: for each the noise that comes closest to the crop");
   add_run_options(command, *options, "bit");
-  command.add_option("--report", options->report, "A page with crop beside composite, and all figures").type_name("FOLDER");
+  command
+      .add_option("--report", options->report,
+                  "Writes a page with the crop beside the composite, and all figures")
+      .type_name("FOLDER");
   command.footer(
-      "Where a picture holds sky above water beside rock, one texture of all would be camouflage. A composite learns each by itself, what "
-      "lies\n"
-      "along their borders, and how the labels themselves lie: beside each other, above each other, with what borders.\n\n"
-      "  belvedere composite learn coast.png --labels coast_labels.png --out coast.composite --report coast_report");
+      "One texture model of a picture with sky above water beside rock would mix them all. A "
+      "composite learns each texture by itself, the paint\n"
+      "along their borders, and the arrangement of the labels: what lies side by side, what above "
+      "what, and the shape of borders.\n"
+      "\n"
+      "  belvedere composite learn coast.png --labels coast_labels.png --out coast.composite "
+      "--report coast_report");
   return [options] { return run(*options); };
 }
 

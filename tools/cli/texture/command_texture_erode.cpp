@@ -34,39 +34,45 @@ Grid<std::uint8_t> read_labels(const TextureErodeOptions& options) {
   Grid<std::uint8_t> labels(grey.width(), grey.height());
   for (std::size_t i = 0; i < grey.size(); ++i) {
     if (options.label >= 0 && grey[i] > 255)
-      throw Error(ErrorKind::input, options.mask, fmt::format("a pixel of {}", grey[i]), "numbers up to 255 with --label");
+      throw Error(ErrorKind::input, options.mask, fmt::format("a pixel of {}", grey[i]),
+                  "numbers up to 255 with --label");
     labels[i] = static_cast<std::uint8_t>(options.label >= 0 ? grey[i] : grey[i] != 0 ? 255 : 0);
   }
   return labels;
 }
 
-// A mask by the step that took each place: white stands, grey went, the darker the earlier.
-Grid<glm::vec3> steps_picture(const Grid<std::uint8_t>& labels, std::uint8_t label, const Erosion& eroded, int steps) {
+// A mask by the step that eroded each pixel: white remains, grey was eroded, the darker the
+// earlier.
+Grid<glm::vec3> steps_picture(const Grid<std::uint8_t>& labels, std::uint8_t label,
+                              const Erosion& eroded, int steps) {
   Grid<glm::vec3> out(labels.width(), labels.height(), glm::vec3(.1F, .12F, .15F));
   for (std::size_t i = 0; i < out.size(); ++i) {
     if (labels[i] != label) continue;
     const int level = eroded.level[i];
-    out[i] = glm::vec3(level == 0 ? 1.F : .25F + .55F * static_cast<float>(level) / static_cast<float>(steps));
+    out[i] = glm::vec3(
+        level == 0 ? 1.F : .25F + .55F * static_cast<float>(level) / static_cast<float>(steps));
   }
   return out;
 }
 
-void write_report(const TextureErodeOptions& options, const Grid<std::uint8_t>& labels, std::uint8_t label, const Erosion& eroded,
-                  const ReportTable& table) {
+void write_report(const TextureErodeOptions& options, const Grid<std::uint8_t>& labels,
+                  std::uint8_t label, const Erosion& eroded, const ReportTable& table) {
   const int steps = options.erosion.levels;
   const Grid<std::uint8_t> none(labels.width(), labels.height());
   Report report(options.report);
   report.section("pictures", "Pictures",
-                 "Left the mask, right what each step takes, the darker the earlier; white is left. Look whether borders are as ragged as "
-                 "melting snow's.");
+                 "The mask on the left, the steps on the right, the darker the earlier; white "
+                 "remains. Borders should be as ragged as those of melting snow.");
   report.picture("mask", steps_picture(labels, label, {{}, none}, steps), "before");
   report.picture("steps", steps_picture(labels, label, eroded, steps), "step by step");
   report.section("figures", "Figures");
   report.table(table);
-  report.write({.title = "Mask taken back: " + file_name(options.mask),
+  report.write({.title = "Eroded mask: " + file_name(options.mask),
                 .lead = fmt::format("{} steps of {} pixels.", steps, options.erosion.step),
-                .command = fmt::format("belvedere texture erode {} --steps {} --step-px {} --seed {} --out {}", file_name(options.mask),
-                                       steps, options.erosion.step, options.erosion.seed, file_name(options.out))});
+                .command = fmt::format(
+                    "belvedere texture erode {} --steps {} --step-px {} --seed {} --out {}",
+                    file_name(options.mask), steps, options.erosion.step, options.erosion.seed,
+                    file_name(options.out))});
 }
 
 int run(const TextureErodeOptions& options) {
@@ -82,8 +88,9 @@ int run(const TextureErodeOptions& options) {
 
   const auto standing = std::count(labels.begin(), labels.end(), label);
   if (standing == 0)
-    progress.note(options.label >= 0 ? fmt::format("warning: no pixel has the number {}", options.label)
-                                     : std::string("warning: the mask marks nothing"));
+    progress.note(options.label >= 0
+                      ? fmt::format("warning: no pixel has the number {}", options.label)
+                      : std::string("warning: the mask marks nothing"));
   ReportTable table({{"file", "file"}, {"left", "pixels left"}, {"share", "of all", ".1%"}});
   Json told = Json::array();
   std::string lines;
@@ -94,11 +101,15 @@ int run(const TextureErodeOptions& options) {
       if (eroded.level[i] == level) now[i] = eroded.labels[i];
       left += now[i] == label ? 1 : 0;
     }
-    const std::string name = fmt::format("{}_{:02}.png", std::filesystem::path(options.mask).stem().string(), level);
+    const std::string name =
+        fmt::format("{}_{:02}.png", std::filesystem::path(options.mask).stem().string(), level);
     image_io::write_grey_png((std::filesystem::path(options.out) / name).string(), now);
     lines += fmt::format("  {}  {} of {} pixels left\n", name, left, standing);
-    table.row(name, left, static_cast<double>(left) / std::max<double>(1.0, static_cast<double>(standing)));
-    told.add(Json::object().add("file", Json::text(name)).add("left", Json::number(static_cast<double>(left))));
+    table.row(name, left,
+              static_cast<double>(left) / std::max<double>(1.0, static_cast<double>(standing)));
+    told.add(Json::object()
+                 .add("file", Json::text(name))
+                 .add("left", Json::number(static_cast<double>(left))));
   }
   if (!options.report.empty()) write_report(options, labels, label, eroded, table);
   progress.end();
@@ -115,24 +126,39 @@ int run(const TextureErodeOptions& options) {
 
 Action add_texture_erode(CommandOptions& command) {
   const auto options = std::make_shared<TextureErodeOptions>();
-  command.add_option("MASK", options->mask, "A grey picture: what is not 0 is taken back").required().type_name("PICTURE");
-  command.add_option("--out", options->out, "Folder of the series: MASK_01.png, MASK_02.png …").required().type_name("FOLDER");
-  command.add_option("--steps", options->erosion.levels, "How many masks. Default: 8").range(1, 99).type_name("N");
-  command.add_option("--step-px", options->erosion.step, "How far a straight border goes back from one to the next. Default: 8")
+  command.add_option("MASK", options->mask, "A grey picture: pixels other than 0 are eroded")
+      .required()
+      .type_name("PICTURE");
+  command.add_option("--out", options->out, "Folder of the series: MASK_01.png, MASK_02.png …")
+      .required()
+      .type_name("FOLDER");
+  command.add_option("--steps", options->erosion.levels, "Number of masks. Default: 8")
+      .range(1, 99)
+      .type_name("N");
+  command
+      .add_option("--step-px", options->erosion.step,
+                  "How far a straight border retreats per step, in pixels. Default: 8")
       .range(0.5, 1000.0)
       .type_name("PX");
   command
       .add_option("--label", options->label,
-                  "Of a map of classes: the number that draws back; each pixel it leaves goes to the number that came there first")
+                  "For a map of classes: the number of the class that retreats; each pixel it "
+                  "leaves takes the number that reached it first")
       .range(0, 255)
       .type_name("NUMBER");
-  command.add_option("--keep", options->keep, "Numbers that take nothing: shores of water stay").range(0, 255).type_name("NUMBER");
-  command.add_option("--seed", options->erosion.seed, "Another seed, other borders. Default: 1").type_name("N");
-  command.add_option("--report", options->report, "A page with the mask beside what each step takes").type_name("FOLDER");
+  command.add_option("--keep", options->keep, "Numbers that do not advance, such as water")
+      .range(0, 255)
+      .type_name("NUMBER");
+  command.add_option("--seed", options->erosion.seed, "Random seed of the borders. Default: 1")
+      .type_name("N");
+  command.add_option("--report", options->report, "Writes a page with the mask beside the steps")
+      .type_name("FOLDER");
   command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
-  command.add_flag("--json", options->json, "Say what came out as JSON");
+  command.add_flag("--json", options->json, "Print the result as JSON");
   command.footer(
-      "Snow that melts back, forest that retreats: every mask lies within the one before. In scenes: land_cover.erode.\n\n"
+      "For melting snow or retreating forest: every mask lies within the one before. In scenes: "
+      "land_cover.erode.\n"
+      "\n"
       "  belvedere texture erode snow.png --steps 5 --step-px 12 --out spring\n"
       "  belvedere texture erode classes.png --label 4 --keep 1 --out clearing");
   return [options] { return run(*options); };

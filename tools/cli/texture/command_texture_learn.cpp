@@ -34,7 +34,7 @@ struct TextureLearnOptions : RunOptions {
   LearnParameters learn;
 };
 
-// What a run found, for all ways to tell it.
+// Results of a run, for all forms of output.
 struct TextureFindings {
   LearnedTexture learned;
   std::vector<SeedTrial> trials;
@@ -47,20 +47,27 @@ struct TextureFindings {
 bool is_uneven(const TextureFindings& found) { return found.halves.held_out > uneven_halves; }
 
 std::string warning_of(const TextureFindings& found) {
-  return fmt::format("warning: the crop's halves are as far apart as {:.2f}: it is not one texture, or too small (over {:.2f})",
-                     found.halves.held_out, uneven_halves);
+  return fmt::format(
+      "warning: the crop's halves differ by {:.2f}: it is not one texture, or too small (above "
+      "{:.2f})",
+      found.halves.held_out, uneven_halves);
 }
 
 std::string as_text(const TextureLearnOptions& options, const TextureFindings& found) {
   const CliqueModel& model = found.learned.model;
-  std::string out = fmt::format("{}: {} types, {} bytes, begins with {}\n", options.out, model.cliques.size(), model_bytes(model),
-                                describe_begin(model.seed, model.seed_px, model.polish));
-  out +=
-      fmt::format("  distance to the crop  {:.3f} of the types it holds, {:.3f} of all others; the crop's own halves {:.3f} and {:.3f}\n",
-                  found.figures.selected, found.figures.held_out, found.halves.selected, found.halves.held_out);
-  out += fmt::format("  beyond pairs          {:.3f}; halves {:.3f}\n", found.figures.beyond, found.halves.beyond);
-  out += fmt::format("  drawn one way         {:.3f}; halves {:.3f}\n", found.figures.drawn, found.halves.drawn);
-  out += fmt::format("  which way             {:.3f}; halves {:.3f}\n", found.figures.turned, found.halves.turned);
+  std::string out =
+      fmt::format("{}: {} types, {} bytes, begins with {}\n", options.out, model.cliques.size(),
+                  model_bytes(model), describe_begin(model.seed, model.seed_px, model.polish));
+  out += fmt::format(
+      "  distance to the crop  {:.3f} of its own types, {:.3f} of all others; the crop's own "
+      "halves {:.3f} and {:.3f}\n",
+      found.figures.selected, found.figures.held_out, found.halves.selected, found.halves.held_out);
+  out += fmt::format("  beyond pairs          {:.3f}; halves {:.3f}\n", found.figures.beyond,
+                     found.halves.beyond);
+  out += fmt::format("  directionality        {:.3f}; halves {:.3f}\n", found.figures.drawn,
+                     found.halves.drawn);
+  out += fmt::format("  direction             {:.3f}; halves {:.3f}\n", found.figures.turned,
+                     found.halves.turned);
   out += fmt::format("  longest exact copy    {} px\n", found.copy_px);
   return out;
 }
@@ -89,21 +96,24 @@ Json as_json(const TextureLearnOptions& options, const TextureFindings& found) {
       .add("trials", std::move(trials));
 }
 
-void write_report(const TextureLearnOptions& options, const TextureCrop& crop, const TextureFindings& found) {
+void write_report(const TextureLearnOptions& options, const TextureCrop& crop,
+                  const TextureFindings& found) {
   Report report(options.report);
-  report.section("pictures", "Crop and texture",
-                 "Left the crop, right what is made from the model alone. Look at single dabs, then from afar: an even busyness without "
-                 "accents is what such a model gives.");
+  report.section(
+      "pictures", "Crop and texture",
+      "The crop on the left, a texture made from the model alone on the right. Look at single "
+      "dabs, then from afar: such a model gives an even texture without accents.");
   report.picture("crop", to_picture(crop.picture), "the crop");
-  report.picture("texture", to_picture(found.made), fmt::format("made, {} × {} pixels", found.made.width(), found.made.height()));
+  report.picture("texture", to_picture(found.made),
+                 fmt::format("made, {} × {} pixels", found.made.width(), found.made.height()));
   report.section("distances", "Distances");
   ReportTable distances({{"of", ""},
-                         {"selected", "types it holds", ".3f"},
+                         {"selected", "own types", ".3f"},
                          {"held_out", "all others", ".3f"},
                          {"worst", "worst", ".2f"},
                          {"beyond", "beyond pairs", ".3f"},
-                         {"drawn", "drawn one way", ".3f"},
-                         {"turned", "which way", ".3f"}});
+                         {"drawn", "directionality", ".3f"},
+                         {"turned", "direction", ".3f"}});
   const auto row = [&](const char* name, const TextureFigures& f) {
     distances.row(name, f.selected, f.held_out, f.worst, f.beyond, f.drawn, f.turned);
   };
@@ -111,21 +121,28 @@ void write_report(const TextureLearnOptions& options, const TextureCrop& crop, c
   row("halves of the crop", found.halves);
   report.table(distances);
   report.section("levels", "Levels");
-  ReportTable levels(
-      {{"pixels", "pixels a side"}, {"types", "types"}, {"held_out", "others, mean", ".3f"}, {"worst", "others, worst", ".3f"}});
-  for (const LearnedLevel& level : found.learned.levels) levels.row(1 << level.level, level.types, level.held_out_l1, level.worst_l2);
+  ReportTable levels({{"pixels", "pixels per side"},
+                      {"types", "types"},
+                      {"held_out", "others, mean", ".3f"},
+                      {"worst", "others, worst", ".3f"}});
+  for (const LearnedLevel& level : found.learned.levels)
+    levels.row(1 << level.level, level.types, level.held_out_l1, level.worst_l2);
   report.table(levels);
   if (!found.trials.empty()) {
-    report.section("begins", "How it begins");
-    ReportTable trials(
-        {{"noise", "noise"}, {"beyond", "beyond pairs", ".3f"}, {"drawn", "drawn one way", ".3f"}, {"turned", "which way", ".3f"}});
-    for (const SeedTrial& t : found.trials) trials.row(describe_begin(t.seed, t.px, t.polish), t.beyond, t.drawn, t.turned);
+    report.section("begins", "Initial noise");
+    ReportTable trials({{"noise", "noise"},
+                        {"beyond", "beyond pairs", ".3f"},
+                        {"drawn", "directionality", ".3f"},
+                        {"turned", "direction", ".3f"}});
+    for (const SeedTrial& t : found.trials)
+      trials.row(describe_begin(t.seed, t.px, t.polish), t.beyond, t.drawn, t.turned);
     report.table(trials);
   }
   if (is_uneven(found)) report.text(warning_of(found));
   report.write({.title = "Texture model: " + file_name(options.crop),
                 .lead = fmt::format("A model of {} bytes.", model_bytes(found.learned.model)),
-                .command = fmt::format("belvedere texture learn {} --out {}", file_name(options.crop), file_name(options.out))});
+                .command = fmt::format("belvedere texture learn {} --out {}",
+                                       file_name(options.crop), file_name(options.out))});
 }
 
 int run(const TextureLearnOptions& options) {
@@ -136,16 +153,20 @@ int run(const TextureLearnOptions& options) {
   TerminalProgress progress(options.quiet);
   TextureCrop crop = read_crop(options.crop, options.mask);
   if (!options.light.empty())
-    crop.states = light_half(crop.picture, crop.states, options.light == "lit" ? LightHalf::lit : LightHalf::shaded);
-  if (crop.transparent > 0) progress.note(fmt::format("{} transparent pixels are left out", crop.transparent));
+    crop.states = light_half(crop.picture, crop.states,
+                             options.light == "lit" ? LightHalf::lit : LightHalf::shaded);
+  if (crop.transparent > 0)
+    progress.note(fmt::format("{} transparent pixels are left out", crop.transparent));
   TextureFindings found;
   const bool sampled = options.method == "paper";
   if (sampled && !options.begin.kind.empty())
-    throw Error(ErrorKind::usage, "--begin", options.begin.kind, "nothing with --method paper, which begins with white noise");
+    throw Error(ErrorKind::usage, "--begin", options.begin.kind,
+                "none with --method paper, which begins with white noise");
   found.learned = sampled ? learn_by_sampling(crop.picture, crop.states, options.learn, progress)
                           : learn_texture(crop.picture, crop.states, options.learn, progress);
   CliqueModel& model = found.learned.model;
-  if (!sampled) found.trials = choose_seed(model, crop.picture, crop.states, options.learn, progress);
+  if (!sampled)
+    found.trials = choose_seed(model, crop.picture, crop.states, options.learn, progress);
   if (!options.begin.kind.empty()) {
     const TextureBegin begin = begin_of(options.begin);
     model.seed = begin.seed;
@@ -169,36 +190,53 @@ int run(const TextureLearnOptions& options) {
 
 Action add_texture_learn(CommandOptions& command) {
   const auto options = std::make_shared<TextureLearnOptions>();
-  command.add_option("CROP", options->crop, "A piece of a painting that shows one texture, 48 pixels a side or more")
+  command
+      .add_option("CROP", options->crop,
+                  "A piece of a painting that shows one texture, 48 pixels per side or more")
       .required()
       .type_name("PICTURE");
-  command.add_option("--out", options->out, "The model: a text of some 1500 letters").required().type_name("MODEL");
-  command.add_option("--mask", options->mask, "What of the crop is that texture: a grey picture of its size, 0 is left out")
+  command.add_option("--out", options->out, "The model: a text file of about 1.5 KB")
+      .required()
+      .type_name("MODEL");
+  command
+      .add_option("--mask", options->mask,
+                  "Mask of the texture in the crop: a grey picture of its size, 0 is left out")
       .type_name("PICTURE");
-  command.add_option("--types", options->learn.types, "How many statistics the model holds at most, 16 to 200. Default: 40")
+  command
+      .add_option("--types", options->learn.types,
+                  "Maximum number of statistics in the model, 16 to 200. Default: 40")
       .range(16, 200)
       .type_name("N");
   command
       .add_option("--light", options->light,
-                  "Learn only what of the crop lies in the light (lit) or in the shade (shaded), its lighter or its darker\n"
-                  "half: rock and snow faces are light and shade, and want a model for each. Default: all of it")
+                  "Learns only the lighter half of the crop (lit) or the darker half (shaded): "
+                  "faces of rock and snow are light and shade, and\n"
+                  "need a model for each. Default: all of it")
       .one_of({"lit", "shaded"})
       .type_name("HALF");
-  add_begin_options(command, options->begin,
-                    "The noise it begins with, which decides the shape of its dabs: white, streaks (strokes along a\n"
-                    "direction) or discs (crowns). Default: what comes nearest to the crop");
+  add_begin_options(
+      command, options->begin,
+      "Initial noise, which determines the shape of the dabs: white, streaks (strokes along a\n"
+      "direction) or discs (crowns). Default: the noise that comes closest to the crop");
   command
       .add_option("--method", options->method,
-                  "flow, or paper: the published method, which samples one level pixel by pixel. To compare with, on\n"
-                  "crops up to 256 pixels a side; it takes minutes and knows nothing farther than 12 pixels. Default: flow")
+                  "flow, or paper: the published method, which samples one level pixel by pixel. "
+                  "For comparison, on\n"
+                  "crops up to 256 pixels per side; it takes minutes and ignores pairs farther "
+                  "apart than 12 pixels. Default: flow")
       .one_of({"flow", "paper"})
       .type_name("METHOD");
   add_run_options(command, *options, "bit");
-  command.add_option("--report", options->report, "A page with crop beside texture, and all figures").type_name("FOLDER");
+  command
+      .add_option("--report", options->report,
+                  "Writes a page with the crop beside the texture, and all figures")
+      .type_name("FOLDER");
   command.footer(
-      "The model says how neighbouring pixels differ, near and far, and nothing more: meadow, forest from afar, scree, water and sky come "
-      "out\n"
-      "well, rock and whatever has form does not. Cut crops that hold nothing else: a house in them comes back as red specks.\n\n"
+      "The model describes only how neighbouring pixels differ, near and far: meadow, distant "
+      "forest, scree, water and sky come out\n"
+      "well, rock and anything with shapes does not. Crops must contain nothing else: a house in "
+      "them returns as red specks.\n"
+      "\n"
       "  belvedere texture learn meadow.png --out meadow.model --report meadow_report");
   return [options] { return run(*options); };
 }

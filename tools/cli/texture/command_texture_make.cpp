@@ -33,28 +33,33 @@ std::string asked_for(const TextureMakeOptions& options) {
                               : fmt::format("--size {}", fmt::join(options.size, "x"));
 }
 
-void write_report(const TextureMakeOptions& options, const CliqueModel& model, const Grid<Rgb8>& made) {
+void write_report(const TextureMakeOptions& options, const CliqueModel& model,
+                  const Grid<Rgb8>& made) {
   const std::string file = file_name(options.model);
   Report report(options.report);
   report.section("pictures", "Pictures",
-                 "Look at single dabs, then from afar: an even busyness without accents is what such a model gives. The page of texture "
-                 "learn has the crop beside it.");
+                 "Look at single dabs, then from afar: such a model gives an even texture without "
+                 "accents. The page of texture learn shows the crop beside it.");
   report.picture("texture", to_picture(made), fmt::format("made with seed {}", options.seed));
   report.section("figures", "Figures");
-  report.table(ReportTable({{"what", "model"}, {"value", ""}})
-                   .row("types of pairs", model.cliques.size())
-                   .row("begins with", describe_begin(model.seed, model.seed_px, model.polish))
-                   .row("learnt from, pixels", fmt::format("{} × {}", model.crop_width, model.crop_height))
-                   .row("hash of the crop", model.crop_hash));
+  report.table(
+      ReportTable({{"what", "model"}, {"value", ""}})
+          .row("types of pairs", model.cliques.size())
+          .row("begins with", describe_begin(model.seed, model.seed_px, model.polish))
+          .row("learned from, pixels", fmt::format("{} × {}", model.crop_width, model.crop_height))
+          .row("hash of the crop", model.crop_hash));
   report.write({.title = "Texture: " + file,
-                .lead = fmt::format("{} × {} pixels from a model of {} bytes.", made.width(), made.height(), model_bytes(model)),
-                .command = fmt::format("belvedere texture make {} {} --seed {} --out {}", file, asked_for(options), options.seed,
-                                       file_name(options.out))});
+                .lead = fmt::format("{} × {} pixels from a model of {} bytes.", made.width(),
+                                    made.height(), model_bytes(model)),
+                .command = fmt::format("belvedere texture make {} {} --seed {} --out {}", file,
+                                       asked_for(options), options.seed, file_name(options.out))});
 }
 
 int run(const TextureMakeOptions& options) {
   if (options.size.empty() == options.window.empty())
-    throw Error(ErrorKind::usage, "command line", options.size.empty() ? "neither --size nor --window" : "both --size and --window",
+    throw Error(ErrorKind::usage, "command line",
+                options.size.empty() ? "neither --size nor --window is given"
+                                     : "both --size and --window are given",
                 "one of them");
   check_texture_name(options.out);
   check_not_read(options.out, "--out", {options.model});
@@ -69,16 +74,19 @@ int run(const TextureMakeOptions& options) {
     made = make_texture(model, options.size[0], options.size[1], parameters, progress);
   } else {
     const std::vector<int>& w = options.window;
-    made = make_window(model, record_texture(model, parameters), {w[0], w[1], w[0] + w[2], w[1] + w[3]}, parameters, progress);
+    made = make_window(model, record_texture(model, parameters),
+                       {w[0], w[1], w[0] + w[2], w[1] + w[3]}, parameters, progress);
   }
-  write_texture(options.out, made, fmt::format("{} seed {}", file_name(options.model), options.seed));
+  write_texture(options.out, made,
+                fmt::format("{} seed {}", file_name(options.model), options.seed));
   if (!options.report.empty()) write_report(options, model, made);
   progress.end();
   const Json told = Json::object()
                         .add("out", Json::text(options.out))
                         .add("width", Json::number(made.width()))
                         .add("height", Json::number(made.height()));
-  print_result(options, told, fmt::format("{}: {}×{} pixels\n", options.out, made.width(), made.height()));
+  print_result(options, told,
+               fmt::format("{}: {}×{} pixels\n", options.out, made.width(), made.height()));
   return 0;
 }
 
@@ -86,21 +94,32 @@ int run(const TextureMakeOptions& options) {
 
 Action add_texture_make(CommandOptions& command) {
   const auto options = std::make_shared<TextureMakeOptions>();
-  command.add_option("MODEL", options->model, "What `belvedere texture learn` wrote").required().type_name("MODEL");
-  command.add_option("--out", options->out, "The picture: .png or .tif").required().type_name("PICTURE");
-  command.add_option("--size", options->size, "Width and height, in pixels").list('x', 2).range(1, 1 << 20).type_name("WxH");
+  command.add_option("MODEL", options->model, "A model written by `belvedere texture learn`")
+      .required()
+      .type_name("MODEL");
+  command.add_option("--out", options->out, "The picture: .png or .tif")
+      .required()
+      .type_name("PICTURE");
+  command.add_option("--size", options->size, "Width and height, in pixels")
+      .list('x', 2)
+      .range(1, 1 << 20)
+      .type_name("WxH");
   command
-      .add_option(
-          "--window", options->window,
-          "Instead: left, top, width and height of a window of a texture without end. Windows that overlap have the same pixels there")
+      .add_option("--window", options->window,
+                  "Instead: left, top, width and height of a window of an unbounded texture. "
+                  "Overlapping windows have the same pixels")
       .list(',', 4)
       .range(-(1 << 28), 1 << 28)
       .type_name("X,Y,W,H");
-  command.add_option("--seed", options->seed, "Another seed, another texture of the same look. Default: 1").type_name("N");
+  command.add_option("--seed", options->seed, "Random seed. Default: 1").type_name("N");
   add_run_options(command, *options);
-  command.add_option("--report", options->report, "A page with the texture and what its model is").type_name("FOLDER");
+  command
+      .add_option("--report", options->report,
+                  "Writes a page with the texture and a description of its model")
+      .type_name("FOLDER");
   command.footer(
-      "Nothing is copied and nothing repeats, at any size.\n\n"
+      "Nothing is copied and nothing repeats, at any size.\n"
+      "\n"
       "  belvedere texture make meadow.model --size 1200x800 --out meadow.png\n"
       "  belvedere texture make meadow.model --window 8192,4096,2048,2048 --out piece.tif");
   return [options] { return run(*options); };

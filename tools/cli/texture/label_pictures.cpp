@@ -22,8 +22,11 @@ Rgb8 colour_of(const std::string& name) {
   const bool hex = name.starts_with('#');
   unsigned value = 0;
   std::from_chars(name.data() + (hex ? 1 : 0), name.data() + name.size(), value, hex ? 16 : 10);
-  if (!hex) return {static_cast<std::uint8_t>(value), static_cast<std::uint8_t>(value), static_cast<std::uint8_t>(value)};
-  return {static_cast<std::uint8_t>(value >> 16), static_cast<std::uint8_t>(value >> 8 & 255U), static_cast<std::uint8_t>(value & 255U)};
+  if (!hex)
+    return {static_cast<std::uint8_t>(value), static_cast<std::uint8_t>(value),
+            static_cast<std::uint8_t>(value)};
+  return {static_cast<std::uint8_t>(value >> 16), static_cast<std::uint8_t>(value >> 8 & 255U),
+          static_cast<std::uint8_t>(value & 255U)};
 }
 
 std::string hex_of(const Rgb8& c) { return fmt::format("#{:02x}{:02x}{:02x}", c[0], c[1], c[2]); }
@@ -35,37 +38,45 @@ LabelPicture read_label_picture(const std::string& path) {
   std::array<std::size_t, 256> pixels{};
   for (const std::uint8_t label : read.labels.front()) ++pixels[label];
   LabelPicture out{read.labels.front(), {}};
-  std::array<std::uint8_t, 256> place{};
-  place.fill(no_label);
+  std::array<std::uint8_t, 256> position{};
+  position.fill(no_label);
   for (std::size_t label = 0; label < no_label; ++label) {
     if (pixels[label] == 0) continue;
-    place[label] = static_cast<std::uint8_t>(out.names.size());
-    out.names.push_back(read.colours.empty() ? fmt::format("{}", label) : hex_of(read.colours[label]));
+    position[label] = static_cast<std::uint8_t>(out.names.size());
+    out.names.push_back(read.colours.empty() ? fmt::format("{}", label)
+                                             : hex_of(read.colours[label]));
   }
-  for (std::uint8_t& label : out.labels) label = place[label];
+  for (std::uint8_t& label : out.labels) label = position[label];
   return out;
 }
 
-Grid<std::uint8_t> read_drawn_labels(const std::string& path, const std::vector<std::string>& names) {
+Grid<std::uint8_t> read_drawn_labels(const std::string& path,
+                                     const std::vector<std::string>& names) {
   const LabelPicture drawn = read_label_picture(path);
-  std::vector<std::uint8_t> place;
+  std::vector<std::uint8_t> position;
   for (const std::string& name : drawn.names) {
-    const auto is = [&](const std::string& known) { return known == name || hex_of(colour_of(known)) == name; };
+    const auto is = [&](const std::string& known) {
+      return known == name || hex_of(colour_of(known)) == name;
+    };
     const auto found = std::find_if(names.begin(), names.end(), is);
     if (found == names.end())
-      throw Error(ErrorKind::input, path, "has a label " + name, fmt::format("those of the composite: {}", fmt::join(names, ", ")));
-    place.push_back(static_cast<std::uint8_t>(found - names.begin()));
+      throw Error(ErrorKind::input, path, "has a label " + name,
+                  fmt::format("those of the composite: {}", fmt::join(names, ", ")));
+    position.push_back(static_cast<std::uint8_t>(found - names.begin()));
   }
   Grid<std::uint8_t> known(drawn.labels.width(), drawn.labels.height());
   for (std::size_t i = 0; i < known.size(); ++i) known[i] = drawn.labels[i] != no_label ? 1 : 0;
-  if (place.empty()) throw Error(ErrorKind::input, path, "has no label", "those of the composite");
+  if (position.empty())
+    throw Error(ErrorKind::input, path, "has no label", "those of the composite");
   const Grid<std::int32_t> nearest = nearest_marked(known);
   Grid<std::uint8_t> out(known.width(), known.height());
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = place[drawn.labels[static_cast<std::size_t>(nearest[i])]];
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = position[drawn.labels[static_cast<std::size_t>(nearest[i])]];
   return out;
 }
 
-Grid<glm::vec3> label_colours(const Grid<std::uint8_t>& labels, const std::vector<std::string>& names) {
+Grid<glm::vec3> label_colours(const Grid<std::uint8_t>& labels,
+                              const std::vector<std::string>& names) {
   std::vector<glm::vec3> colours;
   for (const std::string& name : names) {
     const Rgb8 c = colour_of(name);
@@ -77,7 +88,8 @@ Grid<glm::vec3> label_colours(const Grid<std::uint8_t>& labels, const std::vecto
   return out;
 }
 
-void write_label_picture(const std::string& path, const Grid<std::uint8_t>& labels, const std::vector<std::string>& names) {
+void write_label_picture(const std::string& path, const Grid<std::uint8_t>& labels,
+                         const std::vector<std::string>& names) {
   write_png8(path, label_colours(labels, names), {});
 }
 

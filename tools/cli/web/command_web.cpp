@@ -25,9 +25,11 @@ struct WebOptions {
   bool quiet = false;
 };
 
-std::string name_of(const std::string& folder) { return fs::weakly_canonical(folder).filename().string(); }
+std::string name_of(const std::string& folder) {
+  return fs::weakly_canonical(folder).filename().string();
+}
 
-// DIR or DIR=NAME; a folder whose name has an = is one.
+// DIR or DIR=NAME; an existing folder whose name contains = is a folder.
 WebPicture picture_of(const std::string& text) {
   const std::size_t mark = text.rfind('=');
   if (mark == std::string::npos || fs::exists(text)) return {text, name_of(text)};
@@ -38,34 +40,48 @@ WebPicture picture_of(const std::string& text) {
 
 Action add_web(CommandOptions& command) {
   const auto options = std::make_shared<WebOptions>();
-  command.add_option("DIR", options->from, "The folder that belvedere render wrote").required();
-  command.add_option("--out", options->out, "Folder of the page. Default: DIR/web").type_name("DIR");
-  command.add_option("--name", options->name, "What the picture is called beside others, such as Summer. Default: its folder's name");
+  command.add_option("DIR", options->from, "A folder written by belvedere render").required();
+  command.add_option("--out", options->out, "Folder of the page. Default: DIR/web")
+      .type_name("DIR");
+  command.add_option(
+      "--name", options->name,
+      "Name of the picture beside others, such as Summer. Default: its folder's name");
   command
       .add_option("--also", options->also,
-                  "Another picture of the same view, to be compared by a border that is moved; may be repeated: --also winter=Winter")
+                  "Another picture of the same view, compared by a movable divider; may be "
+                  "repeated: --also winter=Winter")
       .type_name("DIR[=NAME]")
       .repeated();
-  command.add_option("--cells", options->page.ground_cells, "How many places of the picture the page knows; 9 bytes each")
+  command
+      .add_option("--cells", options->page.ground_cells,
+                  "Number of positions of the picture with coordinates in the page; 9 bytes each")
       .type_name("N")
       .show_default()
       .range(100, 20000000);
-  command.add_option("--threads", options->threads, "How many at once; 0: all").type_name("N").range(0, 1024);
+  command.add_option("--threads", options->threads, "Number of threads; 0: all")
+      .type_name("N")
+      .range(0, 1024);
   command.add_flag("-q,--quiet", options->quiet, "No progress and no notes");
   command.footer(
-      "A panorama to click: one folder that needs no server. Open index.html, or put the folder on any web space. Pointing tells place,\n"
-      "altitude, distance and class (guidance.exr), names are those of [labels]; a GPX file dropped on it is drawn as the picture lies.\n\n"
+      "Writes an interactive panorama: one folder that needs no server. Open index.html, or copy "
+      "the folder to any web space. The page shows\n"
+      "position, altitude, distance and class under the pointer (from guidance.exr) and the names "
+      "of [labels]; a GPX file dropped on it is drawn.\n"
+      "\n"
       "  belvedere render scenes/karwendel_features.toml --data ../data --out karwendel\n"
       "  belvedere web karwendel\n"
       "  belvedere web karwendel --name Summer --also karwendel_winter=Winter --out page");
   return [options] {
     const ThreadLimit threads(options->threads);
-    const std::string out = options->out.empty() ? (fs::path(options->from) / "web").string() : options->out;
-    std::vector<WebPicture> pictures = {{options->from, options->name.empty() ? name_of(options->from) : options->name}};
+    const std::string out =
+        options->out.empty() ? (fs::path(options->from) / "web").string() : options->out;
+    std::vector<WebPicture> pictures = {
+        {options->from, options->name.empty() ? name_of(options->from) : options->name}};
     for (const std::string& text : options->also) pictures.push_back(picture_of(text));
     for (const WebPicture& picture : pictures)
       if (!fs::is_directory(picture.folder))
-        throw Error(ErrorKind::input, picture.folder, "is no folder", "the folder that belvedere render wrote");
+        throw Error(ErrorKind::input, picture.folder, "is not a folder",
+                    "a folder written by belvedere render");
     TerminalProgress progress(options->quiet);
     write_web_page(pictures, out, options->page, progress);
     progress.end();

@@ -29,7 +29,8 @@ using test::z_value;
 
 TEST(ExrWriter, RoundTripOfMixedChannels) {
   const Folder folder("exr");
-  for (const auto& [width, height] : {std::pair{130, 200}, std::pair{64, 64}, std::pair{1, 1}, std::pair{65, 63}}) {
+  for (const auto& [width, height] :
+       {std::pair{130, 200}, std::pair{64, 64}, std::pair{1, 1}, std::pair{65, 63}}) {
     const std::string path = folder / "a.exr";
     write_mixed(path, width, height);
     const Grid<float> z = read_channel(path, "Z");
@@ -74,8 +75,9 @@ TEST(ExrWriter, SameBytesForAnyThreadsAndBands) {
     write_mixed(folder / "whole.exr", 300, 200, 256);
   }
   EXPECT_EQ(test::read_bytes(folder / "one.exr"), test::read_bytes(folder / "two.exr"));
-  // Bands of another height change the order of tiles in the file, so only the values must agree.
-  EXPECT_EQ(read_channel(folder / "one.exr", "tone.V"), read_channel(folder / "whole.exr", "tone.V"));
+  // Bands of another height change the order of tiles in the file, so only the values must match.
+  EXPECT_EQ(read_channel(folder / "one.exr", "tone.V"),
+            read_channel(folder / "whole.exr", "tone.V"));
 }
 
 TEST(ExrWriter, LargeNumbersStayFinite) {
@@ -95,7 +97,10 @@ TEST(ExrWriter, RefusesRowsOutOfPlace) {
   EXPECT_EQ(kind_of([&] { writer.write_rows(1, 0, 64, band); }), ErrorKind::bug);
   writer.write_rows(0, 0, 64, band);
   EXPECT_EQ(kind_of([&] { writer.finish(); }), ErrorKind::bug);
-  EXPECT_EQ(kind_of([&] { ExrWriter(folder / "b.exr", 10, 10, {mixed_parts[0]}, {{"channels", "x"}}); }), ErrorKind::bug);
+  EXPECT_EQ(kind_of([&] {
+              ExrWriter(folder / "b.exr", 10, 10, {mixed_parts[0]}, {{"channels", "x"}});
+            }),
+            ErrorKind::bug);
 }
 
 TEST(ExrWriter, WithoutFinishTheOldFileStays) {
@@ -119,7 +124,8 @@ TEST(ExrReader, MissingChannelIsNamedWithThoseThatAreThere) {
     FAIL();
   } catch (const Error& e) {
     EXPECT_EQ(e.kind(), ErrorKind::input);
-    EXPECT_THAT(e.what(), testing::AllOf(testing::HasSubstr("a.exr"), testing::HasSubstr("ridge.V"), testing::HasSubstr("landcover.id")));
+    EXPECT_THAT(e.what(), testing::AllOf(testing::HasSubstr("a.exr"), testing::HasSubstr("ridge.V"),
+                                         testing::HasSubstr("landcover.id")));
   }
 }
 
@@ -129,7 +135,8 @@ TEST(ExrReader, AnyCutIsFound) {
   const std::string whole = test::read_bytes(folder / "a.exr");
   for (const double part : {0.001, 0.01, 0.1, 0.5, 0.9, 0.999}) {
     test::write_bytes(folder / "b.exr",
-                      std::string_view(whole).substr(0, static_cast<std::size_t>(part * static_cast<double>(whole.size()))));
+                      std::string_view(whole).substr(
+                          0, static_cast<std::size_t>(part * static_cast<double>(whole.size()))));
     EXPECT_EQ(kind_of([&] {
                 read_channel(folder / "b.exr", "Z");
                 read_id_channel(folder / "b.exr", "landcover.id");

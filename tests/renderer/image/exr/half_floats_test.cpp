@@ -22,7 +22,8 @@ TEST(HalfFloats, EveryHalfComesBack) {
 }
 
 TEST(HalfFloats, NumbersAreRoundedToTheNearestAndNeverBecomeInfinite) {
-  const std::array<float, 8> numbers = {1.F, 9.F, 1.F + 0x1p-12F, 9.F, 1e6F, 9.F, std::numeric_limits<float>::infinity(), 9.F};
+  const std::array<float, 8> numbers = {
+      1.F, 9.F, 1.F + 0x1p-12F, 9.F, 1e6F, 9.F, std::numeric_limits<float>::infinity(), 9.F};
   std::array<std::uint16_t, 4> halves{};
   to_halves(numbers.data(), 2, 4, halves.data());
   std::array<float, 4> back{};

@@ -1,4 +1,4 @@
-// Layers in linear light, read by OpenImageIO and laid over each other as compositors do.
+// Layers in linear light, read by OpenImageIO and composited as compositors do.
 #include "renderer/image/exr/layered_exr.h"
 
 #include <OpenImageIO/imageio.h>
@@ -27,7 +27,8 @@ Grid<LayerPixel> layer(int number) {
       const double kind = random_uniform(5, x, y, static_cast<std::uint64_t>(10 * number));
       if (number > 0 && kind < 0.3) continue;
       for (std::uint64_t c = 0; c < 4; ++c)
-        out(x, y)[c] = static_cast<std::uint16_t>(65535.0 * random_uniform(5, x, y, static_cast<std::uint64_t>(10 * number) + 1 + c));
+        out(x, y)[c] = static_cast<std::uint16_t>(
+            65535.0 * random_uniform(5, x, y, static_cast<std::uint64_t>(10 * number) + 1 + c));
       if (number == 0 || kind > 0.8) out(x, y)[3] = 65535;
     }
   return out;
@@ -43,11 +44,13 @@ struct Stack {
       merged[i][3] = 65535;
       for (std::size_t c = 0; c < 3; ++c) {
         double flat = 0.0;
-        for (std::size_t k = 0; k < 4; ++k) flat += layers[k][i][3] / 65535.0 * (layers[k][i][c] - flat);
+        for (std::size_t k = 0; k < 4; ++k)
+          flat += layers[k][i][3] / 65535.0 * (layers[k][i][c] - flat);
         merged[i][c] = static_cast<std::uint16_t>(std::lround(flat));
       }
     }
-    for (std::size_t k = 0; k < 5; ++k) sheet.layers.push_back({"layer" + std::to_string(k), "Layer", k == 4, rows_of(layers[k])});
+    for (std::size_t k = 0; k < 5; ++k)
+      sheet.layers.push_back({"layer" + std::to_string(k), "Layer", k == 4, rows_of(layers[k])});
     sheet.merged = rows_of(merged);
   }
   static LayerRows rows_of(const Grid<LayerPixel>& from) {
@@ -92,9 +95,12 @@ TEST(LayeredExr, LayersOverEachOtherInLinearLightAreThePanorama) {
       ASSERT_NEAR(panorama[3 * i + c], wanted, 1e-7 + wanted / 2048.0) << i;
       // The last of the layers is rounded to a half, and merged to a step of 65535.
       ASSERT_NEAR(flat[3 * i + c], wanted, 2e-5 + 1.0 / 4096.0) << i;
-      ASSERT_NEAR(srgb_encoded(std::max(0.0, flat[3 * i + c])) * 255.0, stack.merged[i][c] / 257.0, 0.5) << i;
+      ASSERT_NEAR(srgb_encoded(std::max(0.0, flat[3 * i + c])) * 255.0, stack.merged[i][c] / 257.0,
+                  0.5)
+          << i;
     }
-  EXPECT_LT(negative, -1e-3) << "what mixing in encoded sRGB needs where paint is darker than its ground";
+  EXPECT_LT(negative, -1e-3)
+      << "what mixing in encoded sRGB needs where paint is darker than its ground";
 }
 
 TEST(LayeredExr, PartsHaveNamesAndHiddenOnesTheirOwnColours) {

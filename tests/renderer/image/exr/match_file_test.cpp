@@ -21,7 +21,8 @@ TEST(MatchFile, HoldsEveryMatchAndThePictures) {
   for (int y = 0; y < 100; ++y)
     for (int x = 0; x < 37; ++x)
       if ((x + y) % 5 != 0)
-        matches(x, y) = {static_cast<std::uint16_t>(x % 2), static_cast<std::uint16_t>(30000 + x), static_cast<std::uint16_t>(7 * y)};
+        matches(x, y) = {static_cast<std::uint16_t>(x % 2), static_cast<std::uint16_t>(30000 + x),
+                         static_cast<std::uint16_t>(7 * y)};
   const std::string note = to_note({{"a painting.jpg", 32000, 900}, {"b.png", 31000, 700}});
   MatchWriter writer(folder / "m.exr", 37, 100, note, {{"other", "kept"}});
   for (int y0 = 0; y0 < 100; y0 += ExrWriter::band_rows) {
@@ -42,11 +43,14 @@ TEST(MatchFile, HoldsEveryMatchAndThePictures) {
   }
   const FileNotes notes = read_image_info(folder / "m.exr").notes;
   EXPECT_EQ(notes.at("other"), "kept");
-  const std::vector<MatchedPicture> pictures = parse_matched_pictures("m.exr", notes.at(matched_pictures_note));
+  const std::vector<MatchedPicture> pictures =
+      parse_matched_pictures("m.exr", notes.at(matched_pictures_note));
   ASSERT_EQ(pictures.size(), 2U);
   EXPECT_EQ(pictures[0].name, "a painting.jpg");
   EXPECT_EQ(pictures[1].width, 31000);
-  EXPECT_THAT(test::message_of(ErrorKind::input, [] { parse_matched_pictures("m.exr", "0 5 x\n"); }), testing::HasSubstr("m.exr"));
+  EXPECT_THAT(
+      test::message_of(ErrorKind::input, [] { parse_matched_pictures("m.exr", "0 5 x\n"); }),
+      testing::HasSubstr("m.exr"));
 }
 
 }  // namespace

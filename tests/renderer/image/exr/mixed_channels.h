@@ -19,16 +19,20 @@ inline const std::vector<PartSpec> mixed_parts = {
 };
 
 inline float z_value(int x, int y) {
-  return y == 3 ? std::numeric_limits<float>::infinity() : static_cast<float>(1000.0 + x * 0.125 + y * 3.7);
+  return y == 3 ? std::numeric_limits<float>::infinity()
+                : static_cast<float>(1000.0 + x * 0.125 + y * 3.7);
 }
 inline float tone_value(int x, int y) { return static_cast<float>(random_uniform(5, x, y)); }
 // Bits of signalling NaNs among them: an id may have any.
 inline std::uint32_t id_value(int x, int y) {
-  return x == 2 ? 0x7f800001u + static_cast<std::uint32_t>(y) : static_cast<std::uint32_t>(x * 100000 + y);
+  return x == 2 ? 0x7f800001u + static_cast<std::uint32_t>(y)
+                : static_cast<std::uint32_t>(x * 100000 + y);
 }
 
-inline void write_mixed(const std::string& path, int width, int height, int step = ExrWriter::band_rows) {
-  ExrWriter writer(path, width, height, mixed_parts, {{"camera", "perspective"}, {"scene", "a = 1\nb = \"é\"\n"}});
+inline void write_mixed(const std::string& path, int width, int height,
+                        int step = ExrWriter::band_rows) {
+  ExrWriter writer(path, width, height, mixed_parts,
+                   {{"camera", "perspective"}, {"scene", "a = 1\nb = \"é\"\n"}});
   for (int y0 = 0; y0 < height; y0 += step) {
     const int rows = std::min(step, height - y0);
     std::vector<float> values, ids;

@@ -7,8 +7,8 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/random.h"
-#include "renderer/image/color.h"
-#include "renderer/image/icc/press_color.h"
+#include "renderer/image/display_conversion.h"
+#include "renderer/image/icc/press_colour.h"
 #include "renderer/image/image_io.h"
 #include "tests/renderer/image/picture_bytes.h"
 #include "tests/renderer/image/random_picture.h"
@@ -21,7 +21,8 @@ using test::random_picture;
 
 std::string as_text(const std::vector<std::uint8_t>& bytes) { return {bytes.begin(), bytes.end()}; }
 
-// The profile with red and green taking each other's place: the names in the table of tags are exchanged.
+// The profile with red and green taking each other's place: the names in the table of tags are
+// exchanged.
 std::vector<std::uint8_t> swapped_profile() {
   std::string text = as_text(srgb_profile());
   const std::size_t red = text.find("rXYZ");
@@ -87,12 +88,15 @@ TEST(Icc, EmbeddedAndReadAgain) {
 TEST(Icc, FaultsAreNamed) {
   const Folder folder("icc");
   const std::string good = as_text(srgb_profile());
-  const auto changed = [&](std::size_t at, const std::string& with) { return std::string(good).replace(at, with.size(), with); };
-  const std::vector<std::pair<std::string, std::string>> files = {{"text.icc", "this is no profile"},
-                                                                  {"empty.icc", ""},
-                                                                  {"cut.icc", good.substr(0, 200)},
-                                                                  {"grey.icc", changed(16, "GRAY")},
-                                                                  {"link.icc", changed(12, "link")}};
+  const auto changed = [&](std::size_t at, const std::string& with) {
+    return std::string(good).replace(at, with.size(), with);
+  };
+  const std::vector<std::pair<std::string, std::string>> files = {
+      {"text.icc", "this is no profile"},
+      {"empty.icc", ""},
+      {"cut.icc", good.substr(0, 200)},
+      {"grey.icc", changed(16, "GRAY")},
+      {"link.icc", changed(12, "link")}};
   for (const auto& [name, bytes] : files) {
     test::write_bytes(folder / name, bytes);
     try {

@@ -1,5 +1,5 @@
-// Files of layers, read by programs of other people: Python's zipfile, OpenImageIO, ImageMagick (OpenImageIO finds no layers of 16 bits in
-// PSD).
+// Files of layers, read by programs of other people: Python's zipfile, OpenImageIO, ImageMagick
+// (OpenImageIO finds no layers of 16 bits in PSD).
 #include "renderer/image/layers/layer_file.h"
 
 #include <OpenImageIO/imageio.h>
@@ -25,8 +25,10 @@ Grid<LayerPixel> random_layer(int width, int height, int number) {
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
       for (std::uint64_t c = 0; c < 4; ++c) {
-        // Runs of equal bytes, noise, and nothing: all that PackBits has to tell apart.
-        const double v = y % 3 == 0 ? random_uniform(3, x + 1000 * number, y, c) : y % 3 == 1 ? 0.25 * number : 0.0;
+        // Runs of equal bytes, noise, and nothing: all cases of PackBits.
+        const double v = y % 3 == 0   ? random_uniform(3, x + 1000 * number, y, c)
+                         : y % 3 == 1 ? 0.25 * number
+                                      : 0.0;
         out(x, y)[c] = static_cast<std::uint16_t>(v * 65535.0);
       }
   return out;
@@ -65,14 +67,16 @@ std::vector<std::uint16_t> numbers(const std::string& file, int subimage, int ch
   EXPECT_EQ(spec.nchannels, channels);
   EXPECT_EQ(spec.format, OIIO::TypeDesc::UINT16);
   std::vector<std::uint16_t> out(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels));
-  EXPECT_TRUE(input->read_image(subimage, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT16, out.data()));
+  EXPECT_TRUE(
+      input->read_image(subimage, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT16, out.data()));
   return out;
 }
 
 // The same of a layer, by ImageMagick.
-std::vector<std::uint16_t> magick_numbers(const test::Folder& folder, const std::string& file, int scene) {
-  const std::string command =
-      "cd " + folder.path() + " && convert '" + file + "[" + std::to_string(scene) + "]' -depth 16 -endian LSB rgba:numbers";
+std::vector<std::uint16_t> magick_numbers(const test::Folder& folder, const std::string& file,
+                                          int scene) {
+  const std::string command = "cd " + folder.path() + " && convert '" + file + "[" +
+                              std::to_string(scene) + "]' -depth 16 -endian LSB rgba:numbers";
   EXPECT_EQ(std::system(command.c_str()), 0);
   const std::string bytes = test::read_bytes(folder / "numbers");
   std::vector<std::uint16_t> out(bytes.size() / 2);
@@ -80,10 +84,12 @@ std::vector<std::uint16_t> magick_numbers(const test::Folder& folder, const std:
   return out;
 }
 
-void expect_same(const std::vector<std::uint16_t>& found, const Grid<LayerPixel>& layer, std::size_t channels) {
+void expect_same(const std::vector<std::uint16_t>& found, const Grid<LayerPixel>& layer,
+                 std::size_t channels) {
   ASSERT_EQ(found.size(), layer.size() * channels);
   for (std::size_t i = 0; i < layer.size(); ++i)
-    for (std::size_t c = 0; c < channels; ++c) ASSERT_EQ(found[i * channels + c], layer[i][c]) << i << " " << c;
+    for (std::size_t c = 0; c < channels; ++c)
+      ASSERT_EQ(found[i * channels + c], layer[i][c]) << i << " " << c;
 }
 
 TEST(LayerFile, OpenRasterHoldsItsLayers) {
@@ -92,13 +98,18 @@ TEST(LayerFile, OpenRasterHoldsItsLayers) {
   Progress progress;
   layer_format("ora").write(folder / "a.ora", s.sheet, progress);
   EXPECT_EQ(folder.count(), 1U) << "nothing else is left";
-  EXPECT_EQ(test::read_bytes(folder / "a.ora").substr(30, 24), "mimetypeimage/openraster") << "first, and not packed";
+  EXPECT_EQ(test::read_bytes(folder / "a.ora").substr(30, 24), "mimetypeimage/openraster")
+      << "first, and not packed";
   ASSERT_EQ(std::system(("cd " + folder.path() + " && python3 -m zipfile -e a.ora x").c_str()), 0);
   const std::string stack = test::read_bytes(folder / "x/stack.xml");
   EXPECT_THAT(stack, HasSubstr("name=\"Ground &amp; so\""));
   EXPECT_LT(stack.find("three.png"), stack.find("one.png")) << "from the top down";
-  EXPECT_THAT(stack, HasSubstr("src=\"data/three.png\" x=\"0\" y=\"0\" opacity=\"1.0\" visibility=\"hidden\""));
-  for (std::size_t k = 0; k < 3; ++k) expect_same(numbers(folder / ("x/data/" + s.sheet.layers[k].name + ".png"), 0, 4), s.layers[k], 4);
+  EXPECT_THAT(
+      stack,
+      HasSubstr("src=\"data/three.png\" x=\"0\" y=\"0\" opacity=\"1.0\" visibility=\"hidden\""));
+  for (std::size_t k = 0; k < 3; ++k)
+    expect_same(numbers(folder / ("x/data/" + s.sheet.layers[k].name + ".png"), 0, 4), s.layers[k],
+                4);
   expect_same(numbers(folder / "x/mergedimage.png", 0, 3), s.merged, 3);
   EXPECT_LE(read_picture(folder / "x/Thumbnails/thumbnail.png").height(), 256);
   EXPECT_NEAR(read_image_info(folder / "x/data/one.png").dots_per_inch, 300.0, 0.1);
@@ -111,7 +122,8 @@ TEST(LayerFile, PhotoshopHoldsItsLayers) {
   layer_format("psd").write(folder / "a.psd", s.sheet, progress);
   EXPECT_EQ(test::read_bytes(folder / "a.psd").substr(0, 6), std::string("8BPS\0\1", 6));
   expect_same(numbers(folder / "a.psd", 0, 3), s.merged, 3);
-  for (int k = 0; k < 3; ++k) expect_same(magick_numbers(folder, "a.psd", k + 1), s.layers[static_cast<std::size_t>(k)], 4);
+  for (int k = 0; k < 3; ++k)
+    expect_same(magick_numbers(folder, "a.psd", k + 1), s.layers[static_cast<std::size_t>(k)], 4);
 }
 
 TEST(LayerFile, LargePicturesAreTheLargeForm) {
@@ -125,7 +137,8 @@ TEST(LayerFile, LargePicturesAreTheLargeForm) {
   expect_same(magick_numbers(folder, "a.psd", 2), s.layers[1], 4);
   const Sheet wide(30001, 2);
   layer_format("psd").write(folder / "b.psd", wide.sheet, progress);
-  EXPECT_EQ(test::read_bytes(folder / "b.psd").substr(0, 6), std::string("8BPS\0\2", 6)) << "PSD has 30000 pixels a side";
+  EXPECT_EQ(test::read_bytes(folder / "b.psd").substr(0, 6), std::string("8BPS\0\2", 6))
+      << "PSD has 30000 pixels a side";
 }
 
 TEST(LayerFile, SameBytesAndFaults) {
@@ -138,7 +151,8 @@ TEST(LayerFile, SameBytesAndFaults) {
     EXPECT_EQ(test::read_bytes(folder / "a"), test::read_bytes(folder / "b")) << format.title;
     test::message_of(ErrorKind::output, [&] { format.write("/dev/full/a", s.sheet, progress); });
   }
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [] { layer_format("xcf"); }), HasSubstr("ora, psd, exr"));
+  EXPECT_THAT(test::message_of(ErrorKind::usage, [] { layer_format("xcf"); }),
+              HasSubstr("ora, psd, exr"));
 }
 
 }  // namespace

@@ -46,40 +46,46 @@ std::vector<std::uint8_t> printer_profile() {
 
 std::set<std::string> names_in(const std::string& folder) {
   std::set<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) names.insert(entry.path().filename().string());
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    names.insert(entry.path().filename().string());
   return names;
 }
 
 // The files of a folder by name, with their bytes.
 std::map<std::string, std::string> contents_of(const Folder& folder) {
   std::map<std::string, std::string> out;
-  for (const std::string& name : names_in(folder.path())) out[name] = test::read_bytes(folder / name);
+  for (const std::string& name : names_in(folder.path()))
+    out[name] = test::read_bytes(folder / name);
   return out;
 }
 
-void write_in_rows(const std::string& stem, const std::vector<std::string>& endings, const Image& linear, const PictureColors& colors,
-                   int step) {
-  PictureFiles files(stem, endings, linear.width(), linear.height(), colors, 300.0, {{"scene", "a = 1"}});
-  for (int y = 0; y < linear.height(); y += step) files.write_rows(rows_of(linear, y, std::min(step, linear.height() - y)));
+void write_in_rows(const std::string& stem, const std::vector<std::string>& extensions,
+                   const Image& linear, const PictureColours& colours, int step) {
+  PictureFiles files(stem, extensions, linear.width(), linear.height(), colours, 300.0,
+                     {{"scene", "a = 1"}});
+  for (int y = 0; y < linear.height(); y += step)
+    files.write_rows(rows_of(linear, y, std::min(step, linear.height() - y)));
   files.finish();
 }
 
 TEST(PictureFiles, HowTheRowsComeChangesNoByte) {
-  const PictureColors colors{.display = {}, .device_profile = printer_profile()};
+  const PictureColours colours{.display = {}, .device_profile = printer_profile()};
   struct Case {
     int width, height;
-    std::vector<std::string> endings;
+    std::vector<std::string> extensions;
   };
-  // Tiles, bands and groups of each format, the last ones cut; and a picture whose PNG is reduced by 2.
-  for (const Case& c : {Case{300, 333, picture_endings()}, Case{9001, 75, {"png"}}}) {
+  // Tiles, bands and groups of each format, the last ones cut; and a picture whose PNG is reduced
+  // by 2.
+  for (const Case& c : {Case{300, 333, picture_extensions()}, Case{9001, 75, {"png"}}}) {
     const Image linear = random_picture(c.width, c.height);
     const Folder whole("whole");
-    write_in_rows(whole / "p", c.endings, linear, colors, c.height);
-    EXPECT_EQ(names_in(whole.path()).size(), c.endings.size());
+    write_in_rows(whole / "p", c.extensions, linear, colours, c.height);
+    EXPECT_EQ(names_in(whole.path()).size(), c.extensions.size());
     for (const int step : {1, 7, 64}) {
       const Folder parts("parts");
-      write_in_rows(parts / "p", c.endings, linear, colors, step);
-      EXPECT_TRUE(contents_of(parts) == contents_of(whole)) << step << " rows at a time of " << c.width << " pixels";
+      write_in_rows(parts / "p", c.extensions, linear, colours, step);
+      EXPECT_TRUE(contents_of(parts) == contents_of(whole))
+          << step << " rows at a time of " << c.width << " pixels";
     }
   }
 }
@@ -88,13 +94,16 @@ TEST(PictureFiles, APngAboveItsLongestSideIsReducedInLinearLight) {
   const Folder folder("reduced");
   for (const auto& [width, height, factor] : {std::tuple{8001, 7, 2}, std::tuple{3, 16001, 3}}) {
     Image linear = random_picture(width, height);
-    linear(0, 0) = glm::vec3(4.0F, 0.0F, 0.0F);  // brighter than white: its share of the mean is of light, not of what is shown
+    linear(0, 0) = glm::vec3(4.0F, 0.0F,
+                             0.0F);  // brighter than white: its share of the mean is of light, not
+                                     // of the displayed value
     test::write_pictures(folder / "p", {"png", "tif"}, linear);
     EXPECT_EQ(read_picture(folder / "p.tif").width(), width) << "of full size";
     const ImageInfo info = read_image_info(folder / "p.png");
     EXPECT_NEAR(info.dots_per_inch, 300.0 / factor, 0.02);
-    EXPECT_EQ(info.notes.at("belvedere:reduced"),
-              "by " + std::to_string(factor) + ", from " + std::to_string(width) + " × " + std::to_string(height) + " pixels");
+    EXPECT_EQ(info.notes.at("belvedere:reduced"), "by " + std::to_string(factor) + ", from " +
+                                                      std::to_string(width) + " × " +
+                                                      std::to_string(height) + " pixels");
     const Grid<glm::vec3> png = read_picture(folder / "p.png");
     ASSERT_EQ(png.width(), (width + factor - 1) / factor);
     ASSERT_EQ(png.height(), (height + factor - 1) / factor);
@@ -104,15 +113,18 @@ TEST(PictureFiles, APngAboveItsLongestSideIsReducedInLinearLight) {
         glm::dvec3 sum(0.0);
         int count = 0;
         for (int v = y * factor; v < std::min(height, (y + 1) * factor); ++v)
-          for (int u = x * factor; u < std::min(width, (x + 1) * factor); ++u, ++count) sum += glm::dvec3(linear(u, v));
+          for (int u = x * factor; u < std::min(width, (x + 1) * factor); ++u, ++count)
+            sum += glm::dvec3(linear(u, v));
         mean(x, y) = glm::vec3(sum / static_cast<double>(count));
       }
     const Grid<glm::vec3> shown = to_display(mean, {});
     for (std::size_t i = 0; i < png.size(); ++i)
-      for (int c = 0; c < 3; ++c) ASSERT_NEAR(png[i][c] * 255.0, std::min(1.0F, shown[i][c]) * 255.0, 0.501) << i;
+      for (int c = 0; c < 3; ++c)
+        ASSERT_NEAR(png[i][c] * 255.0, std::min(1.0F, shown[i][c]) * 255.0, 0.501) << i;
   }
-  EXPECT_EQ(reduction_notes("panorama", {"tif", "png"}, 20000, 8000),
-            (std::vector<std::string>{"panorama.png is 6667 × 2667 pixels, the picture reduced by 3"}));
+  EXPECT_EQ(
+      reduction_notes("panorama", {"tif", "png"}, 20000, 8000),
+      (std::vector<std::string>{"panorama.png is 6667 × 2667 pixels, the picture reduced by 3"}));
   EXPECT_TRUE(reduction_notes("panorama", {"tif", "png"}, 8000, 8000).empty());
 }
 
@@ -127,9 +139,11 @@ TEST(PictureFiles, OnlyTheFormatsAskedForAreWritten) {
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::usage);
     EXPECT_THAT(error.found(), testing::HasSubstr("gif"));
-    for (const std::string& ending : picture_endings()) EXPECT_THAT(error.allowed(), testing::HasSubstr(ending));
+    for (const std::string& extension : picture_extensions())
+      EXPECT_THAT(error.allowed(), testing::HasSubstr(extension));
   }
-  EXPECT_EQ(names_in(folder.path()), (std::set<std::string>{"p.png"})) << "refused before anything is written";
+  EXPECT_EQ(names_in(folder.path()), (std::set<std::string>{"p.png"}))
+      << "refused before anything is written";
 }
 
 TEST(PictureFiles, ThePrintersProfileIsForDeviceFormatsAlone) {
@@ -137,17 +151,20 @@ TEST(PictureFiles, ThePrintersProfileIsForDeviceFormatsAlone) {
   const Image linear = random_picture(20, 10);
   const Grid<glm::vec3> display = to_display(linear, {});
   const std::vector<std::uint8_t> printer = printer_profile();
-  test::write_pictures(folder / "p", picture_endings(), linear, {.display = {}, .device_profile = printer});
+  test::write_pictures(folder / "p", picture_extensions(), linear,
+                       {.display = {}, .device_profile = printer});
   const Grid<glm::vec3> printed = ProfileConversion(printer).convert(display);
   for (const PictureFormat& format : picture_formats()) {
     if (format.open == nullptr) continue;
     SCOPED_TRACE(format.title);
-    const std::string path = folder / ("p." + std::string(format.ending));
+    const std::string path = folder / ("p." + std::string(format.extension));
     const Grid<glm::vec3> again = read_picture(path);
     const Grid<glm::vec3>& expected = format.linear ? linear : format.device ? printed : display;
     for (std::size_t i = 0; i < again.size(); ++i)
       for (int c = 0; c < 3; ++c) ASSERT_NEAR(again[i][c], expected[i][c], 0.003);
-    const std::vector<std::uint8_t> profile = format.device ? printer : format.profile ? srgb_profile() : std::vector<std::uint8_t>{};
+    const std::vector<std::uint8_t> profile = format.device    ? printer
+                                              : format.profile ? srgb_profile()
+                                                               : std::vector<std::uint8_t>{};
     EXPECT_EQ(read_image_info(path).icc_profile, profile);
   }
 }
@@ -155,15 +172,15 @@ TEST(PictureFiles, ThePrintersProfileIsForDeviceFormatsAlone) {
 TEST(PictureFiles, AFullDiskForOneKeepsTheOldFilesOfAll) {
   const Folder folder("full");
   const Image linear = random_picture(200, 150);
-  const std::vector<std::string> endings = picture_endings();
-  test::write_pictures(folder / "whole", endings, linear);
+  const std::vector<std::string> extensions = picture_extensions();
+  test::write_pictures(folder / "whole", extensions, linear);
   std::uintmax_t largest = 0;
   std::uintmax_t smallest = ~std::uintmax_t{0};
-  for (const std::string& ending : endings) {
-    const std::uintmax_t size = std::filesystem::file_size(folder / ("whole." + ending));
+  for (const std::string& extension : extensions) {
+    const std::uintmax_t size = std::filesystem::file_size(folder / ("whole." + extension));
     largest = std::max(largest, size);
     smallest = std::min(smallest, size);
-    folder.write("p." + ending, "old");
+    folder.write("p." + extension, "old");
   }
   EXPECT_LT(smallest, largest) << "else no limit lets some pass and others not";
   const std::map<std::string, std::string> before = contents_of(folder);
@@ -172,12 +189,13 @@ TEST(PictureFiles, AFullDiskForOneKeepsTheOldFilesOfAll) {
   for (const std::uintmax_t limit : limits) {
     {
       const test::SmallDisk disk(static_cast<rlim_t>(limit));
-      test::message_of(ErrorKind::output, [&] { write_in_rows(folder / "p", endings, linear, {}, 7); });
+      test::message_of(ErrorKind::output,
+                       [&] { write_in_rows(folder / "p", extensions, linear, {}, 7); });
     }
     EXPECT_TRUE(contents_of(folder) == before) << limit;
   }
   const test::SmallDisk disk(static_cast<rlim_t>(largest));
-  EXPECT_NO_THROW(test::write_pictures(folder / "p", endings, linear)) << "just large enough";
+  EXPECT_NO_THROW(test::write_pictures(folder / "p", extensions, linear)) << "just large enough";
 }
 
 TEST(PictureFiles, NothingIsReplacedBeforeAllCanBe) {
@@ -198,17 +216,21 @@ TEST(PictureFiles, NothingIsReplacedBeforeAllCanBe) {
   }
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << "the library never prints";
   EXPECT_EQ(test::read_bytes(folder / "p.tif"), "old");
-  EXPECT_EQ(names_in(folder.path()), (std::set<std::string>{"p.exr", "p.tif"})) << "no temporary file stays";
+  EXPECT_EQ(names_in(folder.path()), (std::set<std::string>{"p.exr", "p.tif"}))
+      << "no temporary file stays";
 }
 
 TEST(PictureFiles, RefusesRowsThatDoNotFit) {
   const Folder folder("rows");
-  for (const std::string& ending : picture_endings()) {
-    PictureFiles files(folder / "p", {ending}, 20, 10, {}, 300.0, {});
+  for (const std::string& extension : picture_extensions()) {
+    PictureFiles files(folder / "p", {extension}, 20, 10, {}, 300.0, {});
     files.write_rows(Image(20, 6));
-    EXPECT_THAT(test::message_of(ErrorKind::bug, [&] { files.write_rows(Image(19, 1)); }), testing::HasSubstr("19 × 1"));
-    EXPECT_THAT(test::message_of(ErrorKind::bug, [&] { files.write_rows(Image(20, 5)); }), testing::HasSubstr("after row 6"));
-    EXPECT_THAT(test::message_of(ErrorKind::bug, [&] { files.finish(); }), testing::HasSubstr("row 6 of 10"));
+    EXPECT_THAT(test::message_of(ErrorKind::bug, [&] { files.write_rows(Image(19, 1)); }),
+                testing::HasSubstr("19 × 1"));
+    EXPECT_THAT(test::message_of(ErrorKind::bug, [&] { files.write_rows(Image(20, 5)); }),
+                testing::HasSubstr("after row 6"));
+    EXPECT_THAT(test::message_of(ErrorKind::bug, [&] { files.finish(); }),
+                testing::HasSubstr("row 6 of 10"));
   }
   EXPECT_EQ(folder.count(), 0U);
 }
@@ -216,7 +238,9 @@ TEST(PictureFiles, RefusesRowsThatDoNotFit) {
 TEST(PictureFiles, WhatIsPackedWholeIsRefusedOverTheBudget) {
   const Folder folder("budget");
   const MemoryLimit limit(std::uint64_t{8} << 20);
-  test::message_of(ErrorKind::limit, [&] { PictureFiles(folder / "p", {"exr", "jxl"}, 400, 300, {}, 300.0, {}); });
+  test::message_of(ErrorKind::limit, [&] {
+    PictureFiles(folder / "p", {"exr", "jxl"}, 400, 300, {}, 300.0, {});
+  });
   EXPECT_EQ(folder.count(), 0U);
   EXPECT_NO_THROW(PictureFiles(folder / "p", {"exr", "jxl"}, 200, 300, {}, 300.0, {}));
 }
@@ -233,9 +257,10 @@ double peak_of(const std::string& stem, int height) {
   constexpr int width = 600;
   constexpr int step = 50;
   Image rows(width, step);
-  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = glm::vec3(static_cast<float>(i % 97) / 97.0F);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    rows[i] = glm::vec3(static_cast<float>(i % 97) / 97.0F);
   malloc_trim(0);
-  std::ofstream("/proc/self/clear_refs") << 5;  // the peak begins anew
+  std::ofstream("/proc/self/clear_refs") << 5;  // resets the peak
   const double before = status("VmRSS");
   PictureFiles files(stem, {"tif", "png", "exr"}, width, height, {}, 300.0, {});
   for (int y = 0; y < height; y += step) files.write_rows(rows);
@@ -247,13 +272,15 @@ TEST(PictureFiles, MemoryDoesNotGrowWithTheHeight) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "sanitizers keep freed memory";
 #endif
-  if (status("VmHWM") == 0.0 || !std::ofstream("/proc/self/clear_refs")) GTEST_SKIP() << "no /proc/self to ask";
+  if (status("VmHWM") == 0.0 || !std::ofstream("/proc/self/clear_refs"))
+    GTEST_SKIP() << "no /proc/self to ask";
   const Folder folder("memory");
   mallopt(M_MMAP_THRESHOLD, 1 << 16);  // freed arrays go back to the system at once
   peak_of(folder / "first", 1000);     // what libraries keep once they have it
   const double small = peak_of(folder / "p", 1000);
   const double large = peak_of(folder / "p", 13000);
-  // The PNG, reduced to 8 bits and a quarter of the pixels, would be the least that anything could hold: .75 bytes a pixel.
+  // The PNG, reduced to 8 bits and a quarter of the pixels, would be the minimum that anything
+  // could hold: .75 bytes per pixel.
   EXPECT_LT((large - small) / (600.0 * 12000.0), 0.4) << small << " " << large;
   EXPECT_GT(large, 1e6) << "nothing was measured";
 }

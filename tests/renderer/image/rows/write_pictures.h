@@ -8,9 +8,9 @@
 namespace belvedere::test {
 
 // A whole picture at once.
-inline void write_pictures(const std::string& stem, const std::vector<std::string>& endings, const Image& linear,
-                           const PictureColors& colors = {}) {
-  PictureFiles files(stem, endings, linear.width(), linear.height(), colors, 300.0, {});
+inline void write_pictures(const std::string& stem, const std::vector<std::string>& extensions,
+                           const Image& linear, const PictureColours& colours = {}) {
+  PictureFiles files(stem, extensions, linear.width(), linear.height(), colours, 300.0, {});
   files.write_rows(linear);
   files.finish();
 }

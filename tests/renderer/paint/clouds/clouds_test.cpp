@@ -21,8 +21,10 @@ SkyParameters sky_of(SkyKind kind, std::uint64_t seed = 1) {
 
 TEST(Clouds, SeedsHaveEveryKindOfSky) {
   std::set<SkyKind> kinds;
-  for (std::uint64_t seed = 1; seed <= 24; ++seed) kinds.insert(look_of_sky(sky_of(SkyKind::any, seed)).kind);
-  EXPECT_EQ(kinds, (std::set<SkyKind>{SkyKind::fair, SkyKind::rows, SkyKind::streaks, SkyKind::banks}));
+  for (std::uint64_t seed = 1; seed <= 24; ++seed)
+    kinds.insert(look_of_sky(sky_of(SkyKind::any, seed)).kind);
+  EXPECT_EQ(kinds,
+            (std::set<SkyKind>{SkyKind::fair, SkyKind::rows, SkyKind::streaks, SkyKind::banks}));
 }
 
 TEST(Clouds, KindsAreFoundByName) {
@@ -33,17 +35,19 @@ TEST(Clouds, KindsAreFoundByName) {
 }
 
 TEST(Clouds, AKindThatIsAskedForIsTaken) {
-  for (std::uint64_t seed = 1; seed < 9; ++seed) EXPECT_EQ(look_of_sky(sky_of(SkyKind::banks, seed)).kind, SkyKind::banks);
+  for (std::uint64_t seed = 1; seed < 9; ++seed)
+    EXPECT_EQ(look_of_sky(sky_of(SkyKind::banks, seed)).kind, SkyKind::banks);
 }
 
-// A wall behind the ranges stands low; heaps here and there stand at every height.
+// A wall behind the ranges is low; scattered heaps are at every height.
 TEST(Clouds, BanksStandLow) {
   double low = 0.0, fair = 0.0;
   for (std::uint64_t seed = 1; seed < 9; ++seed) {
     const auto share = [&](SkyKind kind) {
       const std::vector<Cloud> clouds = make_clouds(sky_of(kind, seed));
       EXPECT_GT(clouds.size(), 4U);
-      const auto below = std::count_if(clouds.begin(), clouds.end(), [](const Cloud& c) { return c.base_px > 198.0F * 0.80F; });
+      const auto below = std::count_if(clouds.begin(), clouds.end(),
+                                       [](const Cloud& c) { return c.base_px > 198.0F * 0.80F; });
       return static_cast<double>(below) / static_cast<double>(clouds.size());
     };
     low += share(SkyKind::banks) / 8.0;
@@ -52,7 +56,8 @@ TEST(Clouds, BanksStandLow) {
   EXPECT_GT(low, fair + 0.1);
 }
 
-// The slopes of ways from the vanishing point to clouds gather in rows: neighbours in order of slope lie closer than clouds strewn evenly.
+// The slopes of lines from the vanishing point to clouds form clusters: neighbours in order of
+// slope are closer than for evenly spread clouds.
 TEST(Clouds, RowsComeFromTheVanishingPoint) {
   const auto gathered = [](SkyKind kind, std::uint64_t seed) {
     const SkyParameters p = sky_of(kind, seed);
@@ -61,15 +66,17 @@ TEST(Clouds, RowsComeFromTheVanishingPoint) {
     std::vector<double> slopes;
     for (const Cloud& cloud : make_clouds(p)) {
       const double x = 0.5 * static_cast<double>(cloud.from.x + cloud.to.x);
-      slopes.push_back((x - look.vanishing_px.x) / (look.vanishing_px.y - static_cast<double>(cloud.base_px)));
+      slopes.push_back((x - look.vanishing_px.x) /
+                       (look.vanishing_px.y - static_cast<double>(cloud.base_px)));
     }
     std::sort(slopes.begin(), slopes.end());
     std::vector<double> gaps;
     for (std::size_t k = 1; k < slopes.size(); ++k) gaps.push_back(slopes[k] - slopes[k - 1]);
     double mean = 0.0, squares = 0.0;
     for (const double gap : gaps) mean += gap / static_cast<double>(gaps.size());
-    for (const double gap : gaps) squares += (gap - mean) * (gap - mean) / static_cast<double>(gaps.size());
-    return std::sqrt(squares) / mean;  // 1 for places by chance, more where they gather
+    for (const double gap : gaps)
+      squares += (gap - mean) * (gap - mean) / static_cast<double>(gaps.size());
+    return std::sqrt(squares) / mean;  // 1 for random positions, more for clusters
   };
   double rows = 0.0;
   for (std::uint64_t seed = 1; seed < 9; ++seed) rows += gathered(SkyKind::rows, seed) / 8.0;
@@ -82,7 +89,8 @@ TEST(Clouds, NoneAreAskedFor) {
   EXPECT_TRUE(make_clouds(p).empty());
 }
 
-// Heaps of fair weather: the lower they stand the smaller, all over level bases, and fewer and lower ones in winter.
+// Fair-weather heaps: smaller towards the horizon, all over level bases, and fewer and lower in
+// winter.
 TEST(Clouds, CumulusStandsHighAndShrinksTowardsTheHorizon) {
   double winter_tall = 0.0, tall = 0.0;
   std::size_t winter_count = 0, count = 0;
@@ -92,7 +100,8 @@ TEST(Clouds, CumulusStandsHighAndShrinksTowardsTheHorizon) {
     int nears = 0, fars = 0;
     for (const Cloud& cloud : make_clouds(p)) {
       const double width = cloud.to.x - cloud.from.x;
-      for (const CloudHead& head : cloud.heads) EXPECT_LE(head.centre.y, cloud.base_px + 0.2F * head.radius.y);
+      for (const CloudHead& head : cloud.heads)
+        EXPECT_LE(head.centre.y, cloud.base_px + 0.2F * head.radius.y);
       if (cloud.base_px < 0.75F * p.horizon_px) near += width, ++nears;
       if (cloud.base_px > 0.90F * p.horizon_px) far += width, ++fars;
       tall += (cloud.base_px - cloud.from.y) / width;
@@ -108,7 +117,8 @@ TEST(Clouds, CumulusStandsHighAndShrinksTowardsTheHorizon) {
     }
   }
   EXPECT_LT(winter_count, count);
-  EXPECT_LT(winter_tall / static_cast<double>(winter_count), 0.85 * tall / static_cast<double>(count));
+  EXPECT_LT(winter_tall / static_cast<double>(winter_count),
+            0.85 * tall / static_cast<double>(count));
 }
 
 TEST(Clouds, EveningBarsAreLongAndLitFromBelow) {

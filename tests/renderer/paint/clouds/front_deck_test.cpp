@@ -55,7 +55,8 @@ TEST(FrontDeck, ItsEdgeIsBrighterThanItsBody) {
     for (double y = 2.0; y < 0.7 * p.horizon_px; y += 3.0)
       for (double x = 0.0; x < p.picture_size.x; x += 7.0) {
         const FrontDeck::Look look = deck.at(x, y);
-        if (look.cover > 0.2F && look.cover < 0.6F) edge += static_cast<double>(look.light), ++edges;
+        if (look.cover > 0.2F && look.cover < 0.6F)
+          edge += static_cast<double>(look.light), ++edges;
         if (look.cover > 0.98F) body += static_cast<double>(look.light), ++bodies;
       }
   }

@@ -23,11 +23,12 @@ GuidanceBuffers fan(int width = 120, int height = 120) {
 TEST(ScreeFans, KnowTheirPlaceBetweenWallAndFoot) {
   const GuidanceBuffers g = fan();
   const ScreeFans fans = make_scree_fans(g, {g}, {}, {0, 0});
-  EXPECT_LT(fans.place(60, 41), 0.1F);
-  EXPECT_NEAR(fans.place(60, 60), 0.5F, 0.06F);
-  EXPECT_GT(fans.place(60, 78), 0.9F);
-  EXPECT_EQ(fans.place(60, 20), 0.0F) << "no scree";
-  for (int y = 41; y < 79; ++y) EXPECT_GE(fans.place(60, y), fans.place(60, y - 1) - 1e-6F) << y;
+  EXPECT_LT(fans.position(60, 41), 0.1F);
+  EXPECT_NEAR(fans.position(60, 60), 0.5F, 0.06F);
+  EXPECT_GT(fans.position(60, 78), 0.9F);
+  EXPECT_EQ(fans.position(60, 20), 0.0F) << "no scree";
+  for (int y = 41; y < 79; ++y)
+    EXPECT_GE(fans.position(60, y), fans.position(60, y - 1) - 1e-6F) << y;
 }
 
 TEST(ScreeFans, StreaksRunDownTheSlopeAndHaveDeviationOne) {
@@ -50,13 +51,13 @@ TEST(ScreeFans, StreaksRunDownTheSlopeAndHaveDeviationOne) {
 
 TEST(ScreeFans, AreGreyAtTheWallAndGrownOverAtTheFoot) {
   const ScreeTurn wall = scree_turn(0.0F, 0.0F, 0.0F, 1.0F);
-  const ScreeTurn middle = scree_turn(0.6F, 0.0F, 0.0F, 1.0F);
+  const ScreeTurn centre = scree_turn(0.6F, 0.0F, 0.0F, 1.0F);
   const ScreeTurn foot = scree_turn(1.0F, 0.0F, 0.0F, 1.0F);
   EXPECT_GT(wall.factor.b - wall.factor.r, 0.1F);
-  EXPECT_LT(middle.factor.b, middle.factor.r);
-  EXPECT_GT(middle.tone, wall.tone + 0.05F);
+  EXPECT_LT(centre.factor.b, centre.factor.r);
+  EXPECT_GT(centre.tone, wall.tone + 0.05F);
   EXPECT_EQ(wall.grown, 0.0F);
-  EXPECT_EQ(middle.grown, 0.0F);
+  EXPECT_EQ(centre.grown, 0.0F);
   EXPECT_NEAR(foot.grown, 0.75F, 1e-6F);
   const ScreeTurn off = scree_turn(1.0F, 1.0F, 8.0F, 0.0F);
   EXPECT_EQ(off.tone, 0.0F);
@@ -72,10 +73,11 @@ TEST(ScreeFans, PartEqualsWhole) {
   const PixelRect part = test::with_margin(kept, scree_fans_margin_px(1.0), 300, 120);
   ASSERT_GT(part.x0, 0);
   const GuidanceBuffers held = test::cut(g, part);
-  const ScreeFans fans = make_scree_fans(held, {held, 1, {part.x0, part.y0}}, {}, {part.x0, part.y0});
+  const ScreeFans fans =
+      make_scree_fans(held, {held, 1, {part.x0, part.y0}}, {}, {part.x0, part.y0});
   for (int y = kept.y0; y < kept.y1; ++y)
     for (int x = kept.x0; x < kept.x1; ++x) {
-      ASSERT_EQ(fans.place(x - part.x0, y - part.y0), whole.place(x, y));
+      ASSERT_EQ(fans.position(x - part.x0, y - part.y0), whole.position(x, y));
       ASSERT_EQ(fans.streak(x - part.x0, y - part.y0), whole.streak(x, y));
     }
 }

@@ -11,10 +11,10 @@ namespace {
 constexpr glm::dvec2 east{1.0, 0.0};
 constexpr double metres_per_unit = 21.4;  // swells of exactly one octave, 256 m
 
-// What is added to the ground is a slope: walked along a way it gives the same rise as along another.
+// The offset is the gradient of a surface: two paths between the same points give the same rise.
 TEST(SnowRelief, SlopesAreThoseOfASurface) {
   SnowRelief snow(7, east);
-  // A small closed square: the sum of rises around it is next to nothing against the rises themselves.
+  // A small closed square: the sum of rises around it is negligible against the rises themselves.
   const double side_m = 160.0;
   const int steps = 400;
   double around = 0.0, up_and_down = 0.0;
@@ -23,9 +23,9 @@ TEST(SnowRelief, SlopesAreThoseOfASurface) {
       const double t = (k + 0.5) / steps * side_m;
       const glm::dvec2 corner[4] = {{0, 0}, {side_m, 0}, {side_m, side_m}, {0, side_m}};
       const glm::dvec2 way[4] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
-      const glm::dvec2 place = corner[edge] + way[edge] * t;
-      const glm::dvec2 slope(
-          snow.at(glm::dvec2(4300.0, 1900.0) + place, metres_per_unit, 0.2).slope);  // swells alone: too small for drifts
+      const glm::dvec2 position = corner[edge] + way[edge] * t;
+      const glm::dvec2 slope(snow.at(glm::dvec2(4300.0, 1900.0) + position, metres_per_unit, 0.2)
+                                 .slope);  // swells alone: too small for drifts
       const double rise = glm::dot(slope, way[edge]) * side_m / steps;
       around += rise;
       up_and_down += std::abs(rise);
@@ -39,15 +39,15 @@ TEST(SnowRelief, IsAsSteepNearAsFarAndSharpAtCrests) {
     SnowRelief snow(3, east);
     double squares = 0.0, sharpest = 0.0, mean_change = 0.0;
     glm::vec2 before(0.0F);
-    const int places = 6000;
-    for (int k = 0; k < places; ++k) {
+    const int positions = 6000;
+    for (int k = 0; k < positions; ++k) {
       const SnowForm form = snow.at({1000.0 + k * metres * 0.5, 777.0 * metres}, metres, 2.0);
       squares += static_cast<double>(glm::dot(form.slope, form.slope));
       const auto change = static_cast<double>(glm::length(form.slope - before));
-      if (k > 0) sharpest = std::max(sharpest, change), mean_change += change / places;
+      if (k > 0) sharpest = std::max(sharpest, change), mean_change += change / positions;
       before = form.slope;
     }
-    const double slope = std::sqrt(squares / places);
+    const double slope = std::sqrt(squares / positions);
     EXPECT_GT(slope, 0.08) << metres;
     EXPECT_LT(slope, 0.45) << metres;
     EXPECT_GT(sharpest, 5.0 * mean_change) << "flanks are planes, crests are edges";
@@ -66,8 +66,9 @@ TEST(SnowRelief, DriftsLieAcrossTheWind) {
   EXPECT_GT(along, 2.0 * across);
 }
 
-// Swells are the lower of two forms of deviation 1 of which the second stands r = .35 higher: the mean of min(X, Y + r) is
-// r (1 - Φ(r / √2)) - √2 φ(r / √2) = -.406. Were the second only half as high it would be -.481, as high as the first -.564.
+// Swells are the lower of two forms of deviation 1, the second of which is r = .35 higher: the mean
+// of min(X, Y + r) is r (1 - Φ(r / √2)) - √2 φ(r / √2) = -.406. With half of r it would be -.481,
+// with r = 0 -.564.
 TEST(SnowRelief, TheSecondFormStandsHigher) {
   SnowRelief snow(11, east);
   double sum = 0.0;
@@ -80,13 +81,14 @@ TEST(SnowRelief, TheSecondFormStandsHigher) {
 
 TEST(SnowRelief, IsAFunctionOfPlaceAlone) {
   SnowRelief one(9, east), other(9, east), another_seed(10, east);
-  const glm::dvec2 place(690123.0, 5249456.0);
-  for (int k = 0; k < 500; ++k) one.at({690000.0 + 17.0 * k, 5249000.0 - 31.0 * k}, 10.0 + 0.1 * k, 1.0);
-  const SnowForm a = one.at(place, 22.0, 1.0);
-  const SnowForm b = other.at(place, 22.0, 1.0);
+  const glm::dvec2 position(690123.0, 5249456.0);
+  for (int k = 0; k < 500; ++k)
+    one.at({690000.0 + 17.0 * k, 5249000.0 - 31.0 * k}, 10.0 + 0.1 * k, 1.0);
+  const SnowForm a = one.at(position, 22.0, 1.0);
+  const SnowForm b = other.at(position, 22.0, 1.0);
   EXPECT_EQ(a.slope, b.slope);
   EXPECT_EQ(a.height, b.height);
-  EXPECT_NE(another_seed.at(place, 22.0, 1.0).slope, a.slope);
+  EXPECT_NE(another_seed.at(position, 22.0, 1.0).slope, a.slope);
 }
 
 }  // namespace

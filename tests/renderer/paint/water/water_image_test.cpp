@@ -16,9 +16,10 @@ namespace {
 TEST(WaterImage, FresnelHasItsKnownValues) {
   EXPECT_NEAR(water_fresnel(1.0), std::pow(0.333 / 2.333, 2.0), 1e-12);
   EXPECT_NEAR(water_fresnel(0.0), 1.0, 1e-12);
-  // At Brewster's angle only the light across is thrown back: half of ((n² - 1) / (n² + 1))².
+  // At Brewster's angle only one polarization is reflected: half of ((n² - 1) / (n² + 1))².
   const double n2 = 1.333 * 1.333;
-  EXPECT_NEAR(water_fresnel(1.0 / std::sqrt(1.0 + n2)), 0.5 * std::pow((n2 - 1.0) / (n2 + 1.0), 2.0), 1e-12);
+  EXPECT_NEAR(water_fresnel(1.0 / std::sqrt(1.0 + n2)),
+              0.5 * std::pow((n2 - 1.0) / (n2 + 1.0), 2.0), 1e-12);
   EXPECT_NEAR(water_fresnel(0.5), 0.0597, 5e-4);  // 60° from the normal
   for (double c = 0.0; c < 1.0; c += 0.02) EXPECT_GT(painted_mirror(c), painted_mirror(c + 0.02));
   EXPECT_NEAR(painted_mirror(0.5), std::pow(water_fresnel(0.5), 0.4), 1e-9);
@@ -27,7 +28,8 @@ TEST(WaterImage, FresnelHasItsKnownValues) {
 constexpr int width = 12;
 constexpr int height = 160;
 
-// Water all over, 20 km off, seen at 60° from its normal; the upper half mirrors a lit forest, the lower the sky.
+// Water everywhere, 20 km away, seen at 60° from its normal; the upper half reflects a lit forest,
+// the lower the sky.
 struct FarLake {
   GuidanceBuffers guidance;
   MirrorSight sight;
@@ -66,9 +68,11 @@ TEST(WaterImage, MirrorsLandDarkAndSkyByItsHeight) {
   const glm::vec3 sky = sky_gradient(lake.palette, 1.0 - 0.5 / 0.8) * 0.93F;  // of its blue
   EXPECT_NEAR(image.colour(4, height - 10).b, sky.b, 1e-5F);
   EXPECT_NEAR(image.sky(4, 10).b, sky.b, 1e-6F) << "what ruffled water shows in the land's image";
-  // Lit wood, darker and bluer than itself: within what its ramp holds.
-  EXPECT_LT(image.colour(4, 10).r, 0.67F * palette_colour(lake.palette, LandCoverClass::forest, 1000.0, 1.0).r);
-  EXPECT_GT(image.colour(4, 10).r, 0.65F * palette_colour(lake.palette, LandCoverClass::forest, 1000.0, 0.3).r);
+  // Lit forest, darker and bluer than itself: within its ramp.
+  EXPECT_LT(image.colour(4, 10).r,
+            0.67F * palette_colour(lake.palette, LandCoverClass::forest, 1000.0, 1.0).r);
+  EXPECT_GT(image.colour(4, 10).r,
+            0.65F * palette_colour(lake.palette, LandCoverClass::forest, 1000.0, 0.3).r);
 }
 
 TEST(WaterImage, TheImageOfAShadyBankIsDarker) {
@@ -86,7 +90,8 @@ TEST(WaterImage, FarThingsStandInTheAirOfTheWholeWay) {
   EXPECT_GT(far_wood.b, near_wood.b + 0.1F);
 }
 
-// Waves turn rays by some .06 rad: over 400 m of 20400 by .0012 rad, 2500 pixels a rad, so by some 3 px.
+// Waves turn rays by about .06 rad: over 400 m of 20400 by .0012 rad, with 2500 pixels per rad, so
+// by about 3 px.
 TEST(WaterImage, IsDrawnOutDownwardsByWhatLiesFarFromTheWater) {
   FarLake lake;
   const auto border_rows = [&](float path_m) {
@@ -123,13 +128,16 @@ TEST(WaterImage, APartIsThatOfTheWhole) {
   part.altitude_m = part_of(lake.sight.altitude_m, rect);
   part.normal = part_of(lake.sight.normal, rect);
   part.shadow = part_of(lake.sight.shadow, rect);
-  const WaterImage some = paint_water_image(part, rect, lake.guidance, lake.palette, lake.parameters, wanted);
+  const WaterImage some =
+      paint_water_image(part, rect, lake.guidance, lake.palette, lake.parameters, wanted);
   EXPECT_TRUE(some.colour == part_of(whole.colour, wanted));
   EXPECT_TRUE(some.share == part_of(whole.share, wanted));
   EXPECT_TRUE(some.land == part_of(whole.land, wanted));
   EXPECT_TRUE(some.sky == part_of(whole.sky, wanted));
   EXPECT_EQ(whole.share(3, 63), 0.0F) << "land mirrors nothing";
-  EXPECT_THROW(paint_water_image(part, rect, lake.guidance, lake.palette, lake.parameters, {0, 0, width, 9}), Error);
+  EXPECT_THROW(
+      paint_water_image(part, rect, lake.guidance, lake.palette, lake.parameters, {0, 0, width, 9}),
+      Error);
 }
 
 TEST(WaterImage, StrengthIsTheScenes) {

@@ -14,8 +14,10 @@ using test::no_noise;
 
 // One pixel of water far from its shores.
 struct OpenWater {
-  GuidanceBuffers guidance = test::make_slope(1, 1, LandCoverClass::water, {0.0F, 0.0F, 1.0F}, 0.0F);
-  Mirrored mirrored{Grid<std::int32_t>(1, 1, -1), Grid<float>(1, 1, 0.0F), Grid<float>(1, 1, 30.0F), Grid<float>(1, 1, 30.0F)};
+  GuidanceBuffers guidance =
+      test::make_slope(1, 1, LandCoverClass::water, {0.0F, 0.0F, 1.0F}, 0.0F);
+  Mirrored mirrored{Grid<std::int32_t>(1, 1, -1), Grid<float>(1, 1, 0.0F), Grid<float>(1, 1, 30.0F),
+                    Grid<float>(1, 1, 30.0F)};
   Palette palette = read_palette("summer");
   WaterParameters parameters;
   WaterGround::Place ground;
@@ -24,7 +26,7 @@ struct OpenWater {
   WaterSources sources() const { return {guidance, palette, parameters}; }
   WaterPixel pixel() const {
     return {.index = 0,
-            .place_m = {700.0, 900.0, 1200.0},
+            .position_m = {700.0, 900.0, 1200.0},
             .metres_per_unit = 5.0F,
             .ground = ground,
             .mirrored = mirrored,
@@ -40,7 +42,9 @@ TEST(WaterSurface, WithoutABedIsItsLook) {
   const WaterSurface surface = lake.surface();
   EXPECT_EQ(surface.bed.depth_m, 0.0F);
   EXPECT_EQ(surface.frozen, 0.0F);
-  EXPECT_EQ(surface.look.tone_shift, water_look(lake.guidance, lake.palette, lake.mirrored, 0, 1.0F, 0.0F, no_noise).tone_shift);
+  EXPECT_EQ(
+      surface.look.tone_shift,
+      water_look(lake.guidance, lake.palette, lake.mirrored, 0, 1.0F, 0.0F, no_noise).tone_shift);
 }
 
 TEST(WaterSurface, LakesAreDarkByTheirDepthWhateverLightFallsOnThem) {
@@ -78,8 +82,11 @@ TEST(WaterSurface, FrozenLakesLieUnderIceAndRiversRunOpen) {
   lake.palette.lakes_freeze_from_m = -std::numeric_limits<double>::infinity();
   lake.ground = {20.0F, 1.0F};
   const glm::vec3 water(0.1F, 0.2F, 0.3F);
-  const auto over = [&] { return frozen_over(water, lake.sources(), lake.noises, lake.pixel(), lake.surface(), 0.6); };
-  EXPECT_EQ(over(), lake.noises.ice.colour(lake.palette, lake.guidance.altitude_m[0], 0.6, lake.pixel().place_m, 20.0F, 5.0F));
+  const auto over = [&] {
+    return frozen_over(water, lake.sources(), lake.noises, lake.pixel(), lake.surface(), 0.6);
+  };
+  EXPECT_EQ(over(), lake.noises.ice.colour(lake.palette, lake.guidance.altitude_m[0], 0.6,
+                                           lake.pixel().position_m, 20.0F, 5.0F));
   lake.ground.lake = 0.0F;
   EXPECT_EQ(over(), water);
   lake.ground.lake = 1.0F;

@@ -11,11 +11,14 @@ namespace belvedere {
 namespace {
 
 TEST(ClassView, IsTheClassThatOneSampleSees) {
-  // Valleys are widened, so that ground lies elsewhere than its classes; a width that is no multiple of a bundle.
+  // Valleys are widened, so that ground is drawn elsewhere than its classes; a width that is not a
+  // multiple of a bundle.
   for (const char* setting : {"generalize.widen_valleys_m=0", "generalize.widen_valleys_m=900"}) {
-    const World world = make_world(test::small_scene({setting, "output.width=93"}), silent_progress());
-    const GuidanceBuffers guidance = trace_guidance(world.terrain, *world.surface, world.tracer, *world.camera,
-                                                    {.sampling = world.scene.sampling}, {0, 0, 93, 80}, silent_progress());
+    const World world =
+        make_world(test::small_scene({setting, "output.width=93"}), silent_progress());
+    const GuidanceBuffers guidance =
+        trace_guidance(world.terrain, *world.surface, world.tracer, *world.camera,
+                       {.sampling = world.scene.sampling}, {0, 0, 93, 80}, silent_progress());
     TerrainModel bare;
     bare.dem = world.dem;
     bare.generalized_m = world.terrain.generalized_m;

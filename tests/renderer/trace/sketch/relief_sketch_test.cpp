@@ -11,7 +11,8 @@ const GeoTransform sketch_frame{0.0, 0.0, 100.0, 100.0};
 const glm::dvec3 overhead{0.0, 0.0, 1.0};
 const glm::dvec2 sketch_viewer{3000.0, -6000.0};
 
-// Ground of 6 km as a camera sees it from 3 km above its southern rim, looking north and a little down: half sky, half land.
+// Ground of 6 km from a camera 3 km above its southern edge, looking north and slightly down: half
+// sky, half land.
 struct Sketch {
   explicit Sketch(Grid<float> ground) : altitude_m(std::move(ground)) {
     surface = deform(altitude_m, sketch_frame, glm::dvec3(sketch_viewer, 0.0), deformation);

@@ -9,42 +9,48 @@
 #include "base/error.h"
 #include "base/grid_part.h"
 #include "renderer/trace/water/water_ground.h"
-#include "tests/renderer/trace/made_up_ground.h"
+#include "tests/renderer/trace/synthetic_ground.h"
 
 namespace belvedere {
 namespace {
 
 using test::all_meadow;
 using test::cell;
-using test::MadeUpWorld;
 using test::make_world;
 using test::southward;
+using test::SyntheticWorld;
 
 constexpr double level_m = 500.0;
 constexpr double shore_m = 5000.0;  // metres south of the first row, where the bank begins
 constexpr double above_m = MirrorParameters{}.bias_m;
-constexpr double foot_m = shore_m + 0.5 * cell;  // of the bank: posts are the middles of cells
+constexpr double foot_m = shore_m + 0.5 * cell;  // of the bank: posts are the centres of cells
 constexpr double steep = 0.7;                    // rise over run of the bank
 
-LandCoverClass lake_or_wood(double, double y) { return y <= shore_m ? LandCoverClass::water : LandCoverClass::forest; }
-
-// A lake before a bank that rises evenly to the south, seen from the north.
-MadeUpWorld lake_before_bank(DeformParameters deform = {}) {
-  return make_world(220, 330, [](double, double y) { return y <= shore_m ? level_m : level_m + steep * (y - shore_m); }, lake_or_wood,
-                    deform, {653000.0, 5323000.0});
+LandCoverClass lake_or_wood(double, double y) {
+  return y <= shore_m ? LandCoverClass::water : LandCoverClass::forest;
 }
 
-MirrorSight mirror(const MadeUpWorld& world, const Camera& camera, PixelRect region, int tile_size = 64) {
+// A lake in front of a bank that rises evenly to the south, seen from the north.
+SyntheticWorld lake_before_bank(DeformParameters deform = {}) {
+  return make_world(
+      220, 330,
+      [](double, double y) { return y <= shore_m ? level_m : level_m + steep * (y - shore_m); },
+      lake_or_wood, deform, {653000.0, 5323000.0});
+}
+
+MirrorSight mirror(const SyntheticWorld& world, const Camera& camera, PixelRect region,
+                   int tile_size = 64) {
   MirrorParameters p;
   p.tile_size = tile_size;
   p.sun_direction = glm::normalize(glm::dvec3(0.0, 1.0, 1.0));
-  return trace_mirror(world.terrain, world.surface, Deformation(world.deform_parameters, world.viewer), *world.tracer, camera, p,
+  return trace_mirror(world.terrain, world.surface,
+                      Deformation(world.deform_parameters, world.viewer), *world.tracer, camera, p,
                       Grid<std::uint8_t>(region.width(), region.height(), 1), region);
 }
 
 // The mirrored ray is the ray of an eye as far below the water as the eye is above it.
 TEST(WaterMirror, AnEvenBankIsSeenAsFromBelowTheWater) {
-  const MadeUpWorld world = lake_before_bank();
+  const SyntheticWorld world = lake_before_bank();
   const auto camera = make_camera(southward(64, 160, -18.0));
   const MirrorSight sight = mirror(world, *camera, {0, 0, 64, 160});
   int seen = 0;
@@ -69,17 +75,17 @@ TEST(WaterMirror, AnEvenBankIsSeenAsFromBelowTheWater) {
       const double path = (steep * (foot_m - south) + above_m) / (steep * runs - rises);
       const double altitude = level_m + above_m + rises * path;
       if (std::abs(water.x + ray.direction.x * path - 653300.0) > 3200.0) continue;
-      // Beyond the ground, and at the foot, which cells of water share.
+      // Beyond the ground, and at the foot, which shares cells with the water.
       if (south + runs * path > 9000.0 || south + runs * path < shore_m + 60.0) continue;
       ++seen;
       ASSERT_EQ(sight.land_cover(x, y), LandCoverClass::forest) << y;
       EXPECT_NEAR(sight.path_m(x, y), path, 0.01 * path + 3.0);
       EXPECT_NEAR(sight.altitude_m(x, y), altitude, 3.0);
       EXPECT_EQ(sight.shadow(x, y), 1.0F);
-      // Upside down: farther down in the picture stands what lies higher.
+      // Upside down: higher ground is farther down in the picture.
       EXPECT_GT(sight.altitude_m(x, y), above);
       above = sight.altitude_m(x, y);
-      // As light sees it: of the bank where the smoothing over 120 m does not reach its foot.
+      // Normals for lighting: of the bank where the smoothing over 120 m does not reach its foot.
       if (altitude > level_m + 300.0) {
         EXPECT_NEAR(sight.normal(x, y).y, steep / std::sqrt(1.0 + steep * steep), 0.01);
       }
@@ -89,8 +95,9 @@ TEST(WaterMirror, AnEvenBankIsSeenAsFromBelowTheWater) {
 }
 
 TEST(WaterMirror, ShowsTheSkyWhereNothingStands) {
-  const MadeUpWorld world = make_world(
-      200, 200, [](double, double) { return level_m; }, [](double, double) { return LandCoverClass::water; });
+  const SyntheticWorld world = make_world(
+      200, 200, [](double, double) { return level_m; },
+      [](double, double) { return LandCoverClass::water; });
   const auto camera = make_camera(southward(48, 48));
   const MirrorSight sight = mirror(world, *camera, {0, 0, 48, 48});
   int waters = 0;
@@ -110,24 +117,27 @@ TEST(WaterMirror, WaterIsTiltedAsTheGroundIsBent) {
   const Deformation deformation(d, viewer);
   for (const double away : {2000.0, 6000.0, 20000.0}) {
     const glm::dvec3 normal = water_normal(deformation, {viewer.x, viewer.y - away, 700.0});
-    const double slope = (deformation.drop_m(away + 1.0) - deformation.drop_m(away - 1.0)) / 2.0;  // sinks away from the viewer
+    const double slope = (deformation.drop_m(away + 1.0) - deformation.drop_m(away - 1.0)) /
+                         2.0;  // sinks away from the viewer
     EXPECT_NEAR(normal.x, 0.0, 1e-9);
     EXPECT_NEAR(normal.y / normal.z, -slope, 1e-5) << away;
   }
-  // Without a bend it is upright, whatever is exaggerated.
+  // Without bending it is vertical, whatever the exaggeration.
   DeformParameters flat;
   flat.exaggeration = 1.6;
-  EXPECT_NEAR(water_normal(Deformation(flat, viewer), {viewer.x + 5000.0, viewer.y, 700.0}).z, 1.0, 1e-12);
+  EXPECT_NEAR(water_normal(Deformation(flat, viewer), {viewer.x + 5000.0, viewer.y, 700.0}).z, 1.0,
+              1e-12);
 }
 
 TEST(WaterMirror, AnyRegionAndAnyTilesGiveTheSameBits) {
   DeformParameters d;
   d.exaggeration = 1.4;
   d.bend = {60000.0, 9000.0, 8000.0, 1e-5};
-  const MadeUpWorld world = lake_before_bank(d);
+  const SyntheticWorld world = lake_before_bank(d);
   const auto camera = make_camera(southward(96, 120));
   const MirrorSight whole = mirror(world, *camera, {0, 0, 96, 120});
-  for (const PixelRect rect : {PixelRect{5, 30, 23, 71}, PixelRect{60, 47, 61, 48}, PixelRect{0, 0, 96, 120}}) {
+  for (const PixelRect rect :
+       {PixelRect{5, 30, 23, 71}, PixelRect{60, 47, 61, 48}, PixelRect{0, 0, 96, 120}}) {
     const MirrorSight part = mirror(world, *camera, rect, 8);
     EXPECT_TRUE(part.cosine == part_of(whole.cosine, rect));
     EXPECT_TRUE(part.path_m == part_of(whole.path_m, rect));
@@ -140,26 +150,27 @@ TEST(WaterMirror, AnyRegionAndAnyTilesGiveTheSameBits) {
 }
 
 TEST(WaterMirror, NothingIsTracedWhereNothingIsWanted) {
-  const MadeUpWorld world = lake_before_bank();
+  const SyntheticWorld world = lake_before_bank();
   const auto camera = make_camera(southward(64, 64));
-  const MirrorSight none = trace_mirror(world.terrain, world.surface, Deformation(world.deform_parameters, world.viewer), *world.tracer,
-                                        *camera, {}, Grid<std::uint8_t>(64, 64, 0), {0, 0, 64, 64});
+  const MirrorSight none =
+      trace_mirror(world.terrain, world.surface, Deformation(world.deform_parameters, world.viewer),
+                   *world.tracer, *camera, {}, Grid<std::uint8_t>(64, 64, 0), {0, 0, 64, 64});
   for (const float cosine : none.cosine) ASSERT_EQ(cosine, 0.0F);
-  EXPECT_THROW(
-      trace_mirror(world.terrain, world.surface, Deformation(), *world.tracer, *camera, {}, Grid<std::uint8_t>(3, 3, 0), {0, 0, 64, 64}),
-      Error);
+  EXPECT_THROW(trace_mirror(world.terrain, world.surface, Deformation(), *world.tracer, *camera, {},
+                            Grid<std::uint8_t>(3, 3, 0), {0, 0, 64, 64}),
+               Error);
 }
 
 TEST(WaterGround, KnowsLakesByTheirPlace) {
-  const MadeUpWorld world = lake_before_bank();
+  const SyntheticWorld world = lake_before_bank();
   const auto ground = find_water_ground(world.terrain);
   ASSERT_NE(ground, nullptr);
   const WaterGround::Place off = ground->at({653000.0, 5320000.0 - shore_m + 300.0});
   EXPECT_EQ(off.lake, 1.0F);
-  // The bank's .7 is steeper than beds are taken for.
+  // The bank's slope of .7 is above the limit for beds.
   EXPECT_NEAR(off.depth_m, 60.0 * (1.0 - std::exp(-0.6 * 300.0 / 60.0)), 1.0);
   EXPECT_EQ(ground->at({653000.0, 5320000.0 - shore_m - 300.0}).depth_m, 0.0F);
-  const MadeUpWorld dry = make_world(
+  const SyntheticWorld dry = make_world(
       30, 30, [](double, double) { return level_m; }, all_meadow);
   EXPECT_EQ(find_water_ground(dry.terrain), nullptr);
 }

@@ -18,11 +18,15 @@ namespace {
 using test::small_scene_text;
 using testing::HasSubstr;
 
-LoadedScene with(const std::string& blocks) { return parse_scene(small_scene_text + blocks, "small.toml", ".", {}); }
+LoadedScene with(const std::string& blocks) {
+  return parse_scene(small_scene_text + blocks, "small.toml", ".", {});
+}
 
 constexpr const char* turned =
-    "[[light.regions]]\nposition = [6000, 6000]\nradius_m = 2500\nblend_m = 1500\nturn_deg = 120\nwarmth = 0.6\n";
-constexpr const char* cloud = "[[light.clouds]]\nposition = [3000, 7000]\nradius_m = 1500\nstrength = 0.8\n";
+    "[[light.regions]]\nposition = [6000, 6000]\nradius_m = 2500\nblend_m = 1500\nturn_deg = "
+    "120\nwarmth = 0.6\n";
+constexpr const char* cloud =
+    "[[light.clouds]]\nposition = [3000, 7000]\nradius_m = 1500\nstrength = 0.8\n";
 
 LitPicture lit(const LoadedScene& scene, PixelRect part, int tile_px = 32) {
   const World world = make_world(scene, silent_progress());
@@ -38,7 +42,8 @@ TEST(SceneLight, SaysNothingWhereTheSceneSaysNothing) {
 
 TEST(SceneLight, RegionsTurnTheScenesSunOrHaveTheirOwn) {
   const std::string blocks = std::string(turned) +
-                             "[[light.regions]]\npoints = [[0, 0], [2000, 0], [1000, 2000]]\nazimuth_deg = 90\naltitude_deg = 50\n"
+                             "[[light.regions]]\npoints = [[0, 0], [2000, 0], [1000, "
+                             "2000]]\nazimuth_deg = 90\naltitude_deg = 50\n"
                              "strength = 1.5\nblend_m = 0\n";
   const World world = make_world(with(blocks), silent_progress());
   ASSERT_NE(world.light_field, nullptr);
@@ -59,17 +64,20 @@ TEST(SceneLight, ReadsTheAreasOfAFile) {
                R"({"type":"FeatureCollection","features":[
 {"type":"Feature","properties":{"name":"a"},"geometry":{"type":"Polygon","coordinates":[[[11.0,47.0],[11.1,47.0],[11.1,47.1],[11.0,47.1],[11.0,47.0]]]}},
 {"type":"Feature","properties":{"name":"b"},"geometry":{"type":"Polygon","coordinates":[[[11.3,47.0],[11.4,47.0],[11.4,47.1],[11.3,47.1],[11.3,47.0]]]}}]})");
-  const Dem dem = make_dem({Grid<float>(10, 10, 0.F), {650000.0, 5220000.0, 1000.0, 1000.0}, normalize_crs("EPSG:32632")});
+  const Dem dem = make_dem({Grid<float>(10, 10, 0.F),
+                            {650000.0, 5220000.0, 1000.0, 1000.0},
+                            normalize_crs("EPSG:32632")});
   View view;
   view.sun = {315.0, 30.0};
   view.sun_direction = sun_direction(view.sun);
   const auto field = [&](const std::string& more) {
-    return make_light_field(parse_scene(small_scene_text +
-                                            std::string("[[light.regions]]\nfile = \"ranges.geojson\"\nstrength = 0.5\n"
-                                                        "blend_m = 0\n") +
-                                            more,
-                                        "small.toml", folder.path(), {}),
-                            dem, view);
+    return make_light_field(
+        parse_scene(small_scene_text +
+                        std::string("[[light.regions]]\nfile = \"ranges.geojson\"\nstrength = 0.5\n"
+                                    "blend_m = 0\n") +
+                        more,
+                    "small.toml", folder.path(), {}),
+        dem, view);
   };
   const glm::dvec2 in_a = transform_point(normalize_crs("EPSG:4326"), dem.crs, {11.05, 47.05});
   const glm::dvec2 in_b = transform_point(normalize_crs("EPSG:4326"), dem.crs, {11.35, 47.05});
@@ -87,29 +95,40 @@ TEST(SceneLight, NotesAnOptionalFileThatIsMissing) {
     void note(std::string_view text) override { notes.emplace_back(text); }
     std::vector<std::string> notes;
   } progress;
-  const std::string block = "[[light.regions]]\nfile = \"nowhere.gpkg\"\nget_from = \"the club\"\nturn_deg = 40\n";
+  const std::string block =
+      "[[light.regions]]\nfile = \"nowhere.gpkg\"\nget_from = \"the club\"\nturn_deg = 40\n";
   const World world = make_world(with(block + "optional = true\n"), progress);
   EXPECT_EQ(world.light_field, nullptr);
-  EXPECT_THAT(progress.notes, testing::Contains("light.regions.0 is left out: there is no nowhere.gpkg; the club"));
+  EXPECT_THAT(progress.notes,
+              testing::Contains("light.regions.0 is left out: nowhere.gpkg is missing; the club"));
   const World beside = make_world(with(block + "optional = true\n" + cloud), silent_progress());
   ASSERT_NE(beside.light_field, nullptr) << "the cloud stays";
-  EXPECT_THAT(test::message_of(ErrorKind::input, [&] { make_world(with(block), silent_progress()); }), HasSubstr("nowhere.gpkg"));
+  EXPECT_THAT(
+      test::message_of(ErrorKind::input, [&] { make_world(with(block), silent_progress()); }),
+      HasSubstr("nowhere.gpkg"));
 }
 
 TEST(SceneLight, RefusesWhatCannotBe) {
   const auto refused = [](const std::string& blocks) {
     return test::message_of(ErrorKind::usage, [&] { make_world(with(blocks), silent_progress()); });
   };
-  EXPECT_THAT(refused("[[light.regions]]\nturn_deg = 90\n"), HasSubstr("light.regions.0 has no place"));
+  EXPECT_THAT(refused("[[light.regions]]\nturn_deg = 90\n"),
+              HasSubstr("light.regions.0 has no position"));
   EXPECT_THAT(refused("[[light.regions]]\nposition = [1, 1]\n"), HasSubstr("without a radius"));
-  EXPECT_THAT(refused("[[light.regions]]\npoints = [[1, 1], [2, 2]]\n"), HasSubstr("three places or more"));
-  EXPECT_THAT(refused("[[light.regions]]\npoints = [[1, 1], [2, 2], [3]]\n"), HasSubstr("three places or more"));
-  EXPECT_THAT(refused("[[light.regions]]\nposition = [1, 1]\nradius_m = 9\nazimuth_deg = 1\nturn_deg = 1\n"),
-              HasSubstr("exclude each other"));
-  EXPECT_THAT(refused("[[light.clouds]]\nradius_m = 100\n"), HasSubstr("light.clouds.0 has no position"));
+  EXPECT_THAT(refused("[[light.regions]]\npoints = [[1, 1], [2, 2]]\n"),
+              HasSubstr("three positions or more"));
+  EXPECT_THAT(refused("[[light.regions]]\npoints = [[1, 1], [2, 2], [3]]\n"),
+              HasSubstr("three positions or more"));
+  EXPECT_THAT(
+      refused(
+          "[[light.regions]]\nposition = [1, 1]\nradius_m = 9\nazimuth_deg = 1\nturn_deg = 1\n"),
+      HasSubstr("exclude each other"));
+  EXPECT_THAT(refused("[[light.clouds]]\nradius_m = 100\n"),
+              HasSubstr("light.clouds.0 has no position"));
   LoadedScene night = with(turned);
   night.scene.sun.altitude_deg = -2.0;
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { make_world(night, silent_progress()); }), HasSubstr("below the horizon"));
+  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { make_world(night, silent_progress()); }),
+              HasSubstr("below the horizon"));
 }
 
 TEST(SceneLight, TurnsWhatLiesInTheRegionAndNothingElse) {
@@ -121,9 +140,11 @@ TEST(SceneLight, TurnsWhatLiesInTheRegionAndNothingElse) {
   int far = 0;
   for (std::size_t i = 0; i < plain.guidance.tone.size(); ++i) {
     if (plain.guidance.is_sky(i)) continue;
-    const glm::dvec2 place = glm::dvec2(plain.guidance.position_m[i]) + glm::dvec2(plain.guidance.origin_m);
-    const double from = glm::length(place - glm::dvec2(6000.0, 6000.0));
-    if (from < 2500.0 && std::abs(plain.guidance.tone[i] - local.guidance.tone[i]) > 0.1F) ++changed;
+    const glm::dvec2 position =
+        glm::dvec2(plain.guidance.position_m[i]) + glm::dvec2(plain.guidance.origin_m);
+    const double from = glm::length(position - glm::dvec2(6000.0, 6000.0));
+    if (from < 2500.0 && std::abs(plain.guidance.tone[i] - local.guidance.tone[i]) > 0.1F)
+      ++changed;
     if (from > 4000.0) {
       ++far;
       ASSERT_EQ(plain.guidance.shadow[i], local.guidance.shadow[i]);
@@ -139,16 +160,18 @@ TEST(SceneLight, PartsAndTilesHaveTheBitsOfTheWhole) {
   const LitPicture tiles = lit(scene, {0, 0, 96, 80}, 8);
   EXPECT_TRUE(tiles.base.colour == whole.base.colour);
   EXPECT_TRUE(tiles.guidance.tone == whole.guidance.tone);
-  // The lower part needs what lies above it, no more than half of the picture here.
+  // The lower part needs what is above it, no more than half of the picture here.
   const PixelRect part{0, 8, 96, 80};
   const LitPicture lower = lit(scene, part);
   for (int y = 72; y < 80; ++y)
-    for (int x = 0; x < 96; ++x) ASSERT_EQ(lower.guidance.shadow(x, y - part.y0), whole.guidance.shadow(x, y));
+    for (int x = 0; x < 96; ++x)
+      ASSERT_EQ(lower.guidance.shadow(x, y - part.y0), whole.guidance.shadow(x, y));
 }
 
 TEST(SceneLight, WrittenScenesReadBackTheSame) {
   const LoadedScene scene =
-      with(std::string(turned) + cloud + "[[light.regions]]\npoints_lonlat = [[11, 47], [11.5, 47], [11.2, 47.25]]\n");
+      with(std::string(turned) + cloud +
+           "[[light.regions]]\npoints_lonlat = [[11, 47], [11.5, 47], [11.2, 47.25]]\n");
   const std::string text = write_scene(scene.scene);
   EXPECT_THAT(text, HasSubstr("points_lonlat = [[11, 47], [11.5, 47], [11.2, 47.25]]"));
   EXPECT_EQ(write_scene(parse_scene(text, "again.toml", ".", {}).scene), text);

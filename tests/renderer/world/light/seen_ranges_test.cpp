@@ -8,27 +8,29 @@
 #include <string>
 
 #include "renderer/trace/sun.h"
-#include "tests/renderer/trace/made_up_ground.h"
+#include "tests/renderer/trace/synthetic_ground.h"
 #include "tests/scenes.h"
 
 namespace belvedere {
 namespace {
 
 using test::all_meadow;
-using test::MadeUpWorld;
 using test::make_world;
 using test::small_scene;
 using test::small_scene_text;
+using test::SyntheticWorld;
 using testing::HasSubstr;
 
-// Two cones of 1500 m on a plain, 9 km apart from west to east; the camera stands north of them and looks south, so that it sees the sides
-// that a sun in the south leaves dark.
+// Two cones of 1500 m on a plain, 9 km apart from west to east; the camera is north of them and
+// looks south, so that it sees the sides that a sun in the south leaves dark.
 class TwoCones : public testing::Test {
  protected:
-  MadeUpWorld world_ = make_world(
+  SyntheticWorld world_ = make_world(
       600, 400,
       [](double x, double y) {
-        const auto cone = [&](double cx) { return std::max(0.0, 1500.0 - 0.6 * std::hypot(x - cx, y - 5000.0)); };
+        const auto cone = [&](double cx) {
+          return std::max(0.0, 1500.0 - 0.6 * std::hypot(x - cx, y - 5000.0));
+        };
         return std::max(cone(4500.0), cone(13500.0));
       },
       all_meadow);
@@ -51,7 +53,9 @@ class TwoCones : public testing::Test {
     view_.sun = {azimuth_deg, altitude_deg};
     view_.sun_direction = sun_direction(view_.sun);
   }
-  std::vector<SeenSlope> slopes() const { return see_slopes(world_.terrain, 1.0, *world_.tracer, *camera_, 1); }
+  std::vector<SeenSlope> slopes() const {
+    return see_slopes(world_.terrain, 1.0, *world_.tracer, *camera_, 1);
+  }
   std::vector<SeenRange> lit_ranges() const {
     const std::vector<SeenSlope> seen = slopes();
     std::vector<SeenRange> ranges = find_ranges(seen);
@@ -67,7 +71,7 @@ TEST_F(TwoCones, EachIsARange) {
     const double cone = range.summit.x < 659000.0 ? 654500.0 : 663500.0;
     EXPECT_LT(glm::length(range.summit - glm::dvec2(cone, 5315000.0)), 400.0);
     EXPECT_NEAR(range.altitude_m, 1500.0, 150.0);
-    EXPECT_GT(range.middle.y, 5315000.0) << "the side that is seen";
+    EXPECT_GT(range.centre.y, 5315000.0) << "the side that is seen";
     EXPECT_NEAR(range.lit + range.cast + range.away, 1.0, 1e-12);
   }
   EXPECT_NEAR(ranges[0].share + ranges[1].share, 1.0, 1e-12);
@@ -88,7 +92,8 @@ TEST_F(TwoCones, StandInShadeWithTheSunBehindThem) {
 TEST_F(TwoCones, TheProposalTurnsThemToTheLightAndLoads) {
   const LoadedScene scene = small_scene();
   const std::vector<SeenSlope> seen = slopes();
-  const std::vector<ProposedLight> proposed = propose_light(scene, *world_.terrain.dem, view_, seen, *world_.tracer);
+  const std::vector<ProposedLight> proposed =
+      propose_light(scene, *world_.terrain.dem, view_, seen, *world_.tracer);
   ASSERT_EQ(proposed.size(), 2U);
   for (const ProposedLight& one : proposed) {
     EXPECT_LT(one.lit_before, 0.4);
@@ -100,19 +105,23 @@ TEST_F(TwoCones, TheProposalTurnsThemToTheLightAndLoads) {
   EXPECT_EQ(again.scene.light_regions[0].turn_deg, proposed[0].region.turn_deg);
   EXPECT_EQ(again.scene.light_regions[1].position, proposed[1].region.position);
   EXPECT_EQ(again.scene.light_regions[1].radius_m, proposed[1].region.radius_m);
-  // What is turned already asks for no more.
+  // A turned region needs no further one.
   EXPECT_TRUE(propose_light(again, *world_.terrain.dem, view_, seen, *world_.tracer).empty());
-  EXPECT_EQ(proposed_light_text(propose_light(scene, *world_.terrain.dem, view_, seen, *world_.tracer)), text) << "each time the same";
+  EXPECT_EQ(
+      proposed_light_text(propose_light(scene, *world_.terrain.dem, view_, seen, *world_.tracer)),
+      text)
+      << "each time the same";
 }
 
 TEST_F(TwoCones, NothingIsProposedWhereTheLightIsGood) {
   set_sun(320.0, 35.0);
-  const std::vector<ProposedLight> none = propose_light(small_scene(), *world_.terrain.dem, view_, slopes(), *world_.tracer);
+  const std::vector<ProposedLight> none =
+      propose_light(small_scene(), *world_.terrain.dem, view_, slopes(), *world_.tracer);
   EXPECT_TRUE(none.empty());
   EXPECT_THAT(proposed_light_text(none), HasSubstr("# No range"));
 }
 
-// A high wall north of a cone, out of the picture, throws its shadow over it.
+// A high wall north of a cone, outside the picture, casts its shadow on it.
 TEST(SeenRanges, ToldFromTurnedAwayIsWhatLiesInCastShadow) {
   const auto cone_behind_wall = [](double wall) {
     return make_world(
@@ -131,7 +140,7 @@ TEST(SeenRanges, ToldFromTurnedAwayIsWhatLiesInCastShadow) {
   p.pitch_deg = -70.0;
   const auto camera = make_camera(p);
   const auto shares = [&](double wall) {
-    const MadeUpWorld world = cone_behind_wall(wall);
+    const SyntheticWorld world = cone_behind_wall(wall);
     const std::vector<SeenSlope> seen = see_slopes(world.terrain, 1.0, *world.tracer, *camera, 1);
     std::vector<SeenRange> ranges = find_ranges(seen);
     light_ranges(ranges, seen, *world.tracer, sun_direction({0.0, 30.0}), nullptr);

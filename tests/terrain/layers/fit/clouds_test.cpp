@@ -9,13 +9,15 @@
 namespace belvedere {
 namespace {
 
-// Brown ground with round clouds, each with a dark shadow at one offset; and a white field without one.
+// Brown ground with round clouds, each with a dark shadow at one offset; and a white field without
+// one.
 Grid<glm::vec3> clouded(int shadow_x, int shadow_y, bool shadows) {
   Grid<glm::vec3> picture(240, 200, glm::vec3(140.0F, 110.0F, 80.0F));
   const auto disc = [&](int cx, int cy, int radius, float value) {
     for (int y = cy - radius; y <= cy + radius; ++y)
       for (int x = cx - radius; x <= cx + radius; ++x)
-        if (picture.contains(x, y) && (x - cx) * (x - cx) + (y - cy) * (y - cy) <= radius * radius) picture(x, y) = glm::vec3(value);
+        if (picture.contains(x, y) && (x - cx) * (x - cx) + (y - cy) * (y - cy) <= radius * radius)
+          picture(x, y) = glm::vec3(value);
   };
   for (int i = 0; i != 9; ++i) {
     const int x = 50 + static_cast<int>(random_index(150, 3, i, 0));
@@ -32,8 +34,9 @@ TEST(FindClouds, OffsetAndSunAreThoseOfTheShadows) {
   ASSERT_TRUE(clouds.found);
   EXPECT_EQ(clouds.shadow_x, -24);
   EXPECT_EQ(clouds.shadow_y, -32);
-  // Shadows to the north-west: the sun stands in the south-east, atan2(24, -32) from north.
-  EXPECT_NEAR(clouds.sun_azimuth_deg, 180.0 - std::atan2(24.0, 32.0) * 180.0 / 3.14159265358979, 1e-9);
+  // Shadows to the north-west: the sun is in the south-east, atan2(24, -32) from north.
+  EXPECT_NEAR(clouds.sun_azimuth_deg, 180.0 - std::atan2(24.0, 32.0) * 180.0 / 3.14159265358979,
+              1e-9);
   const Grid<glm::vec3> picture = clouded(-24, -32, true);
   for (std::size_t i = 0; i != clouds.cloud.size(); ++i) {
     if (picture[i].x == 235.0F) {
@@ -48,7 +51,7 @@ TEST(FindClouds, OffsetAndSunAreThoseOfTheShadows) {
   }
 }
 
-// Snow throws no shadow a kilometre away.
+// Snow casts no shadow a kilometre away.
 TEST(FindClouds, WhiteWithoutShadowsIsNoCloud) {
   const Clouds clouds = find_clouds(clouded(-24, -32, false), 30.0);
   EXPECT_FALSE(clouds.found);

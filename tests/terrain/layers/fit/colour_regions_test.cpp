@@ -41,7 +41,8 @@ grey = true
   EXPECT_FALSE(holds(regions[3], {300.0, 0.4, 0.5, false}, 0.0));
 }
 
-// The right half of the plane is painted red, the upper left quarter green; a soft edge between, and paper.
+// The right half of the plane is painted red, the upper left quarter green; a soft edge between,
+// and paper.
 TEST(ColourRegions, MayBePaintedOverAPictureOfThePlane) {
   Grid<glm::vec3> plane(100, 100, glm::vec3(1.F));
   for (int y = 0; y < 100; ++y)
@@ -55,7 +56,8 @@ TEST(ColourRegions, MayBePaintedOverAPictureOfThePlane) {
     return plane;
   };
   const std::vector<ColourRegion> regions = parse_colour_regions(
-      "image = \"plane.png\"\n[[region]]\nname = \"rock\"\ncolour = \"#ff0000\"\n[[region]]\nname = \"wood\"\ncolour = \"#00ff00\"\n"
+      "image = \"plane.png\"\n[[region]]\nname = \"rock\"\ncolour = \"#ff0000\"\n[[region]]\nname "
+      "= \"wood\"\ncolour = \"#00ff00\"\n"
       "lowest_m = 500\n",
       "some/folder/regions.toml", read);
   EXPECT_EQ(asked, "some/folder/plane.png");
@@ -69,7 +71,8 @@ TEST(ColourRegions, MayBePaintedOverAPictureOfThePlane) {
     EXPECT_TRUE(holds(regions[1], {hue, 0.6, 0.5, false}, 1000.0)) << hue;
     EXPECT_FALSE(holds(regions[1], {hue, 0.6, 0.5, false}, 400.0)) << "altitude counts as well";
   }
-  for (const ColourRegion& region : regions) EXPECT_FALSE(holds(region, {220.0, 0.6, 0.5, false}, 1000.0)) << "paper";
+  for (const ColourRegion& region : regions)
+    EXPECT_FALSE(holds(region, {220.0, 0.6, 0.5, false}, 1000.0)) << "paper";
   const auto refused = [&](const char* text) -> std::string {
     try {
       parse_colour_regions(text, "r.toml", read);
@@ -78,8 +81,11 @@ TEST(ColourRegions, MayBePaintedOverAPictureOfThePlane) {
     }
     return "";
   };
-  EXPECT_NE(refused("image = \"p.png\"\n[[region]]\nname = \"a\"\ncolour = \"#0000ff\"").find("r.toml:4"), std::string::npos);
-  EXPECT_NE(refused("[[region]]\nname = \"a\"\ncolour = \"#0000ff\"").find("no picture"), std::string::npos);
+  EXPECT_NE(
+      refused("image = \"p.png\"\n[[region]]\nname = \"a\"\ncolour = \"#0000ff\"").find("r.toml:4"),
+      std::string::npos);
+  EXPECT_NE(refused("[[region]]\nname = \"a\"\ncolour = \"#0000ff\"").find("without a picture"),
+            std::string::npos);
 }
 
 TEST(ColourRegions, FaultsNameTheirPlace) {
@@ -91,8 +97,10 @@ TEST(ColourRegions, FaultsNameTheirPlace) {
     }
     return std::string();
   };
-  EXPECT_NE(message("[[region]]\nname = \"a\"\nclass = \"glacer\"").find("r.toml:3"), std::string::npos);
-  EXPECT_NE(message("[[region]]\nname = \"a\"\npolygon = [[1, 1], [2, 1]]").find("2 corners"), std::string::npos);
+  EXPECT_NE(message("[[region]]\nname = \"a\"\nclass = \"glacer\"").find("r.toml:3"),
+            std::string::npos);
+  EXPECT_NE(message("[[region]]\nname = \"a\"\npolygon = [[1, 1], [2, 1]]").find("2 corners"),
+            std::string::npos);
   EXPECT_NE(message("[[region]]\nhue_deg = [1, 2]").find("name"), std::string::npos);
   EXPECT_NE(message("[[region]]\nname = \"a\"\nhue_deg = [1, 400]").find("400"), std::string::npos);
   EXPECT_NE(message("").find("no region"), std::string::npos);

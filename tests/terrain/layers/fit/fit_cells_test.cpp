@@ -14,9 +14,11 @@ TEST(DrawLabelled, TakesExactlyAsManyAndOnlyLabelled) {
   EXPECT_EQ(drawn.size(), 1'000U);
   EXPECT_TRUE(std::is_sorted(drawn.begin(), drawn.end()));
   for (const std::uint32_t i : drawn) EXPECT_NE(labels[i], no_class);
-  // Evenly: each tenth of the cells gives its tenth, within four deviations.
+  // Uniformly: each tenth of the cells gives its tenth, within four standard deviations.
   for (std::uint32_t t = 0; t != 10; ++t)
-    EXPECT_NEAR(std::count_if(drawn.begin(), drawn.end(), [t](std::uint32_t i) { return i / 1'000 == t; }), 100, 38);
+    EXPECT_NEAR(
+        std::count_if(drawn.begin(), drawn.end(), [t](std::uint32_t i) { return i / 1'000 == t; }),
+        100, 38);
   EXPECT_NE(drawn, draw_labelled(labels, 1'000, 1));
   EXPECT_EQ(draw_labelled(labels, 100'000).size(), 6'666U);
 }

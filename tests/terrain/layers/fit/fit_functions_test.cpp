@@ -10,19 +10,20 @@
 #include "base/parallel.h"
 #include "terrain/layers/fit/fit_measures.h"
 #include "terrain/layers/layer_coverage.h"
-#include "tests/terrain/layers/fit/made_up.h"
+#include "tests/terrain/layers/fit/synthetic.h"
 
 namespace belvedere {
 namespace {
 
-using made_up::two_classes;
+using synthetic::two_classes;
 
 double mean_of(const LayerSamples& function) {
   return std::accumulate(function.samples.begin(), function.samples.end(), 0.0) / (256.0 * 255.0);
 }
 
-// The share of each class in each cell, as a file of the functions gives it.
-ClassShares shares_of(const ClassFunctions& functions, const std::vector<std::vector<std::uint8_t>>& inputs) {
+// The share of each class in each cell, by the functions as stored in a file.
+ClassShares shares_of(const ClassFunctions& functions,
+                      const std::vector<std::vector<std::uint8_t>>& inputs) {
   SurfaceLayers layers;
   layers.model = functions.model;
   const std::vector<std::string> names = layer_input_names();
@@ -31,7 +32,8 @@ ClassShares shares_of(const ClassFunctions& functions, const std::vector<std::ve
   for (std::size_t a = 0; a != inputs.size(); ++a) {
     layers.inputs.push_back({names[a], 0.0, 256.0});
     values.emplace_back(cells, 1);
-    for (std::size_t i = 0; i != inputs[a].size(); ++i) values[a][i] = static_cast<float>(inputs[a][i]) + 0.5F;  // where that sample stands
+    for (std::size_t i = 0; i != inputs[a].size(); ++i)
+      values[a][i] = static_cast<float>(inputs[a][i]) + 0.5F;  // where that sample stands
   }
   for (const int k : functions.order) {
     SurfaceLayer& layer = layers.layers.emplace_back();
@@ -39,11 +41,15 @@ ClassShares shares_of(const ClassFunctions& functions, const std::vector<std::ve
     set_functions(layer, functions, static_cast<std::size_t>(k));
   }
   const LayerProgram program = compile_layers(layers);
-  const std::vector<Grid<float>> seen = layer_shares(program, layer_coverage(program, values, {}, {0, 0, cells, 1}, 0));
-  ClassShares shares{static_cast<int>(functions.order.size()), std::vector<float>(inputs[0].size() * functions.order.size(), 0.0F)};
+  const std::vector<Grid<float>> seen =
+      layer_shares(program, layer_coverage(program, values, {}, {0, 0, cells, 1}, 0));
+  ClassShares shares{static_cast<int>(functions.order.size()),
+                     std::vector<float>(inputs[0].size() * functions.order.size(), 0.0F)};
   for (std::size_t of = 0; of != seen.size(); ++of) {
-    const auto k = static_cast<std::size_t>(functions.order[of == 0 ? 0 : of - 1]);  // bare ground is that of the first
-    for (std::size_t i = 0; i != inputs[0].size(); ++i) shares.values[i * functions.order.size() + k] += seen[of][i];
+    const auto k = static_cast<std::size_t>(
+        functions.order[of == 0 ? 0 : of - 1]);  // bare ground is that of the first
+    for (std::size_t i = 0; i != inputs[0].size(); ++i)
+      shares.values[i * functions.order.size() + k] += seen[of][i];
   }
   return shares;
 }
@@ -53,22 +59,28 @@ TEST(FitProduct, RecoversKnownFunctions) {
   ASSERT_EQ(fitted.order, (std::vector<int>{0, 1}));
   for (const int s : {40, 100, 128, 150, 200, 240}) {
     const auto sample = static_cast<std::uint8_t>(s);
-    // b and the functions share one constant: the product at a place where the other function is nearly 1.
-    const double low = fitted.bias[1] * fitted.functions[1][0].samples[sample] / 255.0 * fitted.functions[1][1].samples[60] / 255.0 *
+    // b and the functions share one constant: the product at a position where the other function is
+    // nearly 1.
+    const double low = fitted.bias[1] * fitted.functions[1][0].samples[sample] / 255.0 *
+                       fitted.functions[1][1].samples[60] / 255.0 *
                        fitted.functions[1][2].samples[128] / 255.0;
-    EXPECT_NEAR(low, made_up::rising(sample) * made_up::falling(60), 0.05) << s;
-    const double other = fitted.bias[1] * fitted.functions[1][0].samples[220] / 255.0 * fitted.functions[1][1].samples[sample] / 255.0 *
+    EXPECT_NEAR(low, synthetic::rising(sample) * synthetic::falling(60), 0.05) << s;
+    const double other = fitted.bias[1] * fitted.functions[1][0].samples[220] / 255.0 *
+                         fitted.functions[1][1].samples[sample] / 255.0 *
                          fitted.functions[1][2].samples[128] / 255.0;
-    EXPECT_NEAR(other, made_up::rising(220) * made_up::falling(sample), 0.05) << s;
+    EXPECT_NEAR(other, synthetic::rising(220) * synthetic::falling(sample), 0.05) << s;
   }
-  // What says nothing gets a level function.
+  // An input without information gets a constant function.
   for (int s = 16; s < 240; ++s)
-    EXPECT_NEAR(fitted.functions[1][2].samples[static_cast<std::size_t>(s)], fitted.functions[1][2].samples[128], 12) << s;
+    EXPECT_NEAR(fitted.functions[1][2].samples[static_cast<std::size_t>(s)],
+                fitted.functions[1][2].samples[128], 12)
+        << s;
 }
 
 TEST(FitProduct, SharesAreAsOftenAsTheClass) {
   const FitCells cells = two_classes(40'000);
-  const std::vector<double> mean = mean_shares(shares_of(fit_product(cells), cells.inputs), cells.labels);
+  const std::vector<double> mean =
+      mean_shares(shares_of(fit_product(cells), cells.inputs), cells.labels);
   const double truth = static_cast<double>(count_labels(cells.labels, 2)[1]) / 40'000.0;
   EXPECT_NEAR(mean[1], truth, 0.01);
   EXPECT_NEAR(mean[0] + mean[1], 1.0, 1e-5);
@@ -76,14 +88,16 @@ TEST(FitProduct, SharesAreAsOftenAsTheClass) {
 
 TEST(FitAdditive, RecoversSharesAndBeatsChance) {
   const FitCells cells = two_classes(60'000);
-  const FitCells judged = two_classes(20'000, 8);
-  const ClassShares shares = shares_of(fit_additive(cells), judged.inputs);
+  const FitCells evaluated = two_classes(20'000, 8);
+  const ClassShares shares = shares_of(fit_additive(cells), evaluated.inputs);
   double off = 0.0;
-  for (std::size_t i = 0; i != judged.size(); ++i)
-    off += std::abs(static_cast<double>(shares.of(i)[1]) - made_up::rising(judged.inputs[0][i]) * made_up::falling(judged.inputs[1][i]));
-  // A sum of logits is no product: .03 is what the form itself is off.
+  for (std::size_t i = 0; i != evaluated.size(); ++i)
+    off += std::abs(static_cast<double>(shares.of(i)[1]) -
+                    synthetic::rising(evaluated.inputs[0][i]) *
+                        synthetic::falling(evaluated.inputs[1][i]));
+  // A sum of logits is not a product: the form itself is off by .03.
   EXPECT_LT(off / 20'000.0, 0.04);
-  EXPECT_GT(measure_classes(shares, judged.labels).mean_auc, 0.85);
+  EXPECT_GT(measure_classes(shares, evaluated.labels).mean_auc, 0.85);
 }
 
 TEST(FitFunctions, ClassesWithoutCellsCoverNothing) {
@@ -116,9 +130,11 @@ TEST(HistogramFunctions, MeanIsOneHalfOrSaturated) {
   const ClassFunctions wide = histogram_functions(cells);
   EXPECT_EQ(wide.saturated, 0);
   for (std::size_t k = 0; k != 2; ++k)
-    for (const LayerSamples& function : wide.functions[k]) EXPECT_NEAR(mean_of(function), 0.5, 0.003);
-  // Class 1 in less than half of the first input's range: no scale brings its mean to 1/2.
-  for (std::size_t i = 0; i != cells.size(); ++i) cells.labels[i] = cells.inputs[0][i] >= 200 ? 1 : 0;
+    for (const LayerSamples& function : wide.functions[k])
+      EXPECT_NEAR(mean_of(function), 0.5, 0.003);
+  // Class 1 in less than half of the first input's range: no scale gives a mean of 1/2.
+  for (std::size_t i = 0; i != cells.size(); ++i)
+    cells.labels[i] = cells.inputs[0][i] >= 200 ? 1 : 0;
   const ClassFunctions narrow = histogram_functions(cells);
   EXPECT_EQ(narrow.saturated, 1);
   EXPECT_EQ(narrow.functions[1][0].samples[220], 255);
@@ -135,7 +151,7 @@ TEST(SetFunctions, WhatSaysNothingIsLeftOut) {
   EXPECT_EQ(layer.noise.bias, 0.5);
   EXPECT_TRUE(std::holds_alternative<std::monostate>(layer.functions[0]));
   EXPECT_TRUE(std::holds_alternative<LayerSamples>(layer.functions[1]));
-  // Of a sum a level function is a number, which the bias takes.
+  // In a sum a constant function is a number, which the bias absorbs.
   all.at_255 = 3.0;
   set_functions(layer, {LayerModel::additive, {0}, {0.5}, {{all, half}}, 0}, 0);
   EXPECT_EQ(layer.noise.bias, 3.5);

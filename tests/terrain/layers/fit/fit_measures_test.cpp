@@ -20,7 +20,8 @@ TEST(ColourDifference, PublishedPairs) {
   EXPECT_NEAR(colour_difference({50.0, 2.6772, -79.7751}, {50.0, 0.0, -82.7485}), 2.0425, 1e-4);
   EXPECT_NEAR(colour_difference({50.0, 0.0, 0.0}, {50.0, -1.0, 2.0}), 2.3669, 1e-4);
   EXPECT_NEAR(colour_difference({50.0, 2.5, 0.0}, {73.0, 25.0, -18.0}), 27.1492, 1e-4);
-  EXPECT_NEAR(colour_difference({60.2574, -34.0099, 36.2677}, {60.4626, -34.1751, 39.4387}), 1.2644, 1e-4);
+  EXPECT_NEAR(colour_difference({60.2574, -34.0099, 36.2677}, {60.4626, -34.1751, 39.4387}), 1.2644,
+              1e-4);
 }
 
 TEST(MeasureClasses, ConfusionByHand) {

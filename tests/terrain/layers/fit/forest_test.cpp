@@ -4,14 +4,15 @@
 
 #include "base/parallel.h"
 #include "terrain/layers/fit/fit_measures.h"
-#include "tests/terrain/layers/fit/made_up.h"
+#include "tests/terrain/layers/fit/synthetic.h"
 
 namespace belvedere {
 namespace {
 
-// A class of a square in the middle: no sum of functions of one input each says so exactly, trees do.
+// A class of a square at the centre: no sum of functions of one input each represents it exactly,
+// trees do.
 FitCells square(std::size_t count, std::uint64_t seed) {
-  FitCells cells = made_up::two_classes(count, seed);
+  FitCells cells = synthetic::two_classes(count, seed);
   for (std::size_t i = 0; i != count; ++i) {
     const bool in = cells.inputs[0][i] >= 64 && cells.inputs[0][i] < 192;
     const bool too = cells.inputs[1][i] >= 64 && cells.inputs[1][i] < 192;
@@ -21,9 +22,9 @@ FitCells square(std::size_t count, std::uint64_t seed) {
 }
 
 TEST(Forest, LearnsWhatHangsOnTwoInputsTogether) {
-  const FitCells judged = square(5'000, 12);
-  const ClassShares shares = predict_shares(fit_forest(square(20'000, 11)), judged.inputs);
-  EXPECT_GT(measure_classes(shares, judged.labels).accuracy, 0.97);
+  const FitCells evaluated = square(5'000, 12);
+  const ClassShares shares = predict_shares(fit_forest(square(20'000, 11)), evaluated.inputs);
+  EXPECT_GT(measure_classes(shares, evaluated.labels).accuracy, 0.97);
 }
 
 TEST(Forest, LeavesAreNoSmallerThanAsked) {

@@ -12,21 +12,22 @@
 #include "terrain/layers/fit/held_out.h"
 #include "terrain/layers/layer_coverage.h"
 #include "terrain/layers/layers_file.h"
-#include "tests/terrain/layers/fit/made_up_picture.h"
+#include "tests/terrain/layers/fit/synthetic_picture.h"
 
 namespace belvedere {
 namespace {
 
-// Made-up ground whose seven classes lie by altitude and patches, and a picture of it.
+// Synthetic ground whose seven classes depend on altitude and patches, and a picture of it.
 KnownGround known_ground(int size = 160) {
   KnownGround ground;
   ground.cell_m = 30.0;
-  ground.altitude_m = made_up::hills(size, size);
-  made_up::Picture picture = made_up::seven_classes(ground.altitude_m, {140.0, 40.0}, 4.0);
-  Grid<float> patches = made_up::hills(size, size, 77, 1.0);
+  ground.altitude_m = synthetic::hills(size, size);
+  synthetic::Picture picture = synthetic::seven_classes(ground.altitude_m, {140.0, 40.0}, 4.0);
+  Grid<float> patches = synthetic::hills(size, size, 77, 1.0);
   ground.input_names = {"altitude", "slope"};
   ground.inputs = {ground.altitude_m, patches};  // the second stands for whatever tells patches
-  for (int k = 0; k != 7; ++k) ground.classes.push_back({"class " + std::to_string(k), std::nullopt, 0x808080});
+  for (int k = 0; k != 7; ++k)
+    ground.classes.push_back({"class " + std::to_string(k), std::nullopt, 0x808080});
   ground.labels = picture.classes;
   ground.picture = FitPicture{picture.rgb, 140.0};
   return ground;
@@ -35,7 +36,7 @@ KnownGround known_ground(int size = 160) {
 TEST(FitGround, ReproducesColoursOfGroundNotSeen) {
   const KnownGround ground = known_ground();
   const HoldOut tiles = chessboard(160, 160, 16);
-  const HeldOutResult fitted = judge_held_out(ground, {.model = LayerModel::additive}, tiles);
+  const HeldOutResult fitted = evaluate_held_out(ground, {.model = LayerModel::additive}, tiles);
   const HeldOutResult bands = judge_bands(ground, tiles);
   EXPECT_GT(fitted.measures.accuracy, bands.measures.accuracy + 0.1);
   EXPECT_GT(fitted.measures.mean_auc, 0.9);
@@ -43,34 +44,41 @@ TEST(FitGround, ReproducesColoursOfGroundNotSeen) {
   EXPECT_LT(fitted.differences[2].mean, 4.0);  // of 32 × 32 cells
 }
 
-// What is said of a fit is what its file gives, whatever the functions are.
+// The reported quality is that of the file, whatever the functions are.
 TEST(FitGround, FileEvaluatesToWhatIsPredicted) {
   const KnownGround ground = known_ground(96);
-  const std::vector<GroundFitParameters> ways = {
-      {.model = LayerModel::product}, {.model = LayerModel::additive}, {.functions = FunctionSource::histogram}};
+  const std::vector<GroundFitParameters> ways = {{.model = LayerModel::product},
+                                                 {.model = LayerModel::additive},
+                                                 {.functions = FunctionSource::histogram}};
   for (const GroundFitParameters& way : ways) {
     const GroundFit fit = fit_ground(ground, way);
     const GroundPrediction prediction = predict_ground(ground, fit);
-    const SurfaceLayers layers = parse_surface_layers(surface_layers_text(surface_layers_of(ground, fit, "test")), "test.toml");
+    const SurfaceLayers layers = parse_surface_layers(
+        surface_layers_text(surface_layers_of(ground, fit, "test")), "test.toml");
     const LayerProgram program = compile_layers(layers);
-    const std::vector<Grid<float>> coverage = layer_coverage(program, ground.inputs, {}, {0, 0, 96, 96}, 1);
+    const std::vector<Grid<float>> coverage =
+        layer_coverage(program, ground.inputs, {}, {0, 0, 96, 96}, 1);
     const Grid<glm::vec3> colour = layer_colour(program, coverage);
     float off = 0.0F;
-    for (std::size_t i = 0; i != colour.size(); ++i) off = std::max(off, std::abs(colour[i].x - prediction.even[i].x));
+    for (std::size_t i = 0; i != colour.size(); ++i)
+      off = std::max(off, std::abs(colour[i].x - prediction.even[i].x));
     EXPECT_LT(off, 0.6F) << "colours of a file are whole numbers; way " << &way - ways.data();
     // Classes are the layers without a parent, each with those under it.
     std::vector<double> share(7, 0.0);
     const std::vector<Grid<float>> seen = layer_shares(program, coverage);
     for (std::size_t of = 0, k = 0; of != seen.size(); ++of) {
-      if (of == 0 || layers.layers[of - 1].parent < 0) k = std::stoul(layers.layers[of == 0 ? 0 : of - 1].name.substr(6));
-      for (const float s : seen[of]) share[k] += static_cast<double>(s) / static_cast<double>(colour.size());
+      if (of == 0 || layers.layers[of - 1].parent < 0)
+        k = std::stoul(layers.layers[of == 0 ? 0 : of - 1].name.substr(6));
+      for (const float s : seen[of])
+        share[k] += static_cast<double>(s) / static_cast<double>(colour.size());
     }
-    const std::vector<double> mean = mean_shares(prediction.classes, std::vector<std::uint8_t>(colour.size(), 0));
+    const std::vector<double> mean =
+        mean_shares(prediction.classes, std::vector<std::uint8_t>(colour.size(), 0));
     for (std::size_t k = 0; k != 7; ++k) EXPECT_NEAR(share[k], mean[k], 1e-5) << k;
   }
 }
 
-// Children and all, each class covers what it did where it was learned from: where the sun reaches.
+// Including children, each class covers its own area of the training ground, in sunlight.
 TEST(FitGround, ClassesCoverWhatTheyDid) {
   const KnownGround ground = known_ground(96);
   const GroundFit fit = fit_ground(ground, {});
@@ -80,8 +88,10 @@ TEST(FitGround, ClassesCoverWhatTheyDid) {
     if (!(light[i] > 0.05F)) labels[i] = no_class;
   const std::vector<double> mean = mean_shares(predict_ground(ground, fit).classes, labels);
   const std::vector<std::size_t> counts = count_labels(labels, 7);
-  const double all = static_cast<double>(std::accumulate(counts.begin(), counts.end(), std::size_t{0}));
-  for (std::size_t k = 0; k != 7; ++k) EXPECT_NEAR(mean[k], static_cast<double>(counts[k]) / all, 0.002) << k;
+  const double all =
+      static_cast<double>(std::accumulate(counts.begin(), counts.end(), std::size_t{0}));
+  for (std::size_t k = 0; k != 7; ++k)
+    EXPECT_NEAR(mean[k], static_cast<double>(counts[k]) / all, 0.002) << k;
 }
 
 TEST(FitGround, WhatIsNotLearnedFromDoesNotCount) {

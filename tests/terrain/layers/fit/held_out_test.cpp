@@ -35,16 +35,20 @@ TEST(HoldOuts, CoverAllInTwoParts) {
 TEST(JudgeHeldOut, IsAsGoodAsLabelsAllow) {
   const KnownGround ground = slope_ground();
   const HoldOut tiles = chessboard(128, 128, 16);
-  EXPECT_NEAR(judge_held_out(ground, {.model = LayerModel::additive}, tiles).measures.accuracy, 0.8, 0.02);
+  EXPECT_NEAR(evaluate_held_out(ground, {.model = LayerModel::additive}, tiles).measures.accuracy,
+              0.8, 0.02);
   EXPECT_NEAR(judge_bands(ground, tiles).measures.accuracy, 0.8, 0.03);
 }
 
-// Labels that hang on nothing: whoever learned from what it is judged on would be better than chance.
+// Labels that depend on nothing: a fit evaluated on its own training cells would be better than
+// chance.
 TEST(JudgeHeldOut, NoiseIsNotLearned) {
   KnownGround ground = slope_ground();
   for (std::size_t i = 0; i != ground.labels.size(); ++i)
     ground.labels[i] = random_uniform(9, static_cast<std::int64_t>(i), 0) < 0.5 ? 1 : 0;
-  EXPECT_NEAR(judge_held_out(ground, {.model = LayerModel::additive, .forest_share = 0.65}, chessboard(128, 128, 16)).measures.mean_auc,
+  EXPECT_NEAR(evaluate_held_out(ground, {.model = LayerModel::additive, .forest_share = 0.65},
+                                chessboard(128, 128, 16))
+                  .measures.mean_auc,
               0.5, 0.02);
 }
 

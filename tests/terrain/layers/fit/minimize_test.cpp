@@ -11,7 +11,8 @@ namespace belvedere {
 namespace {
 
 TEST(Minimize, RosenbrocksValleyEndsAtItsFloor) {
-  // f = Σ 100 (x_{i+1} - x_i²)² + (1 - x_i)²: 0 at (1, 1, …), a valley whose walls are a thousand times steeper than its floor.
+  // f = Σ 100 (x_{i+1} - x_i²)² + (1 - x_i)²: 0 at (1, 1, …), a valley whose walls are a thousand
+  // times steeper than its floor.
   const ValueAndGradient rosenbrock = [](std::span<const double> x, std::span<double> gradient) {
     double value = 0.0;
     for (double& g : gradient) g = 0.0;
@@ -23,7 +24,8 @@ TEST(Minimize, RosenbrocksValleyEndsAtItsFloor) {
     }
     return value;
   };
-  const MinimizeResult result = minimize({-1.2, 1.0, -0.7, 2.0}, rosenbrock, {.steps = 300, .tolerance = 0.0});
+  const MinimizeResult result =
+      minimize({-1.2, 1.0, -0.7, 2.0}, rosenbrock, {.steps = 300, .tolerance = 0.0});
   EXPECT_LT(result.value, 1e-18);
   for (const double x : result.at) EXPECT_NEAR(x, 1.0, 1e-8);
   EXPECT_LT(result.evaluations, 200);  // of plain steepest descent it takes tens of thousands
@@ -41,8 +43,10 @@ TEST(Minimize, QuadraticOfKnownSolution) {
     }
     return value;
   };
-  const MinimizeResult result = minimize(std::vector<double>(20, 0.0), bowl, {.steps = 200, .tolerance = 0.0});
-  for (std::size_t i = 0; i != result.at.size(); ++i) EXPECT_NEAR(result.at[i], static_cast<double>(i), 1e-7);
+  const MinimizeResult result =
+      minimize(std::vector<double>(20, 0.0), bowl, {.steps = 200, .tolerance = 0.0});
+  for (std::size_t i = 0; i != result.at.size(); ++i)
+    EXPECT_NEAR(result.at[i], static_cast<double>(i), 1e-7);
 }
 
 TEST(Minimize, StaysWhereThereIsNothingToGain) {

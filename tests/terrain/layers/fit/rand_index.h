@@ -8,8 +8,10 @@
 
 namespace belvedere::test {
 
-// How alike two divisions of the same things are, corrected for chance: 1 alike, 0 as by chance (Hubert and Arabie 1985).
-inline double adjusted_rand_index(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b) {
+// Similarity of two divisions of the same things, corrected for chance: 1 equal, 0 as by chance
+// (Hubert and Arabie 1985).
+inline double adjusted_rand_index(std::span<const std::uint8_t> a,
+                                  std::span<const std::uint8_t> b) {
   std::map<std::pair<int, int>, double> both;
   std::map<int, double> of_a;
   std::map<int, double> of_b;
@@ -28,8 +30,8 @@ inline double adjusted_rand_index(std::span<const std::uint8_t> a, std::span<con
   const double in_a = pairs(of_a);
   const double in_b = pairs(of_b);
   const double expected = in_a * in_b / std::max(all, 1.0);
-  const double most = 0.5 * (in_a + in_b);
-  return most == expected ? 1.0 : (together - expected) / (most - expected);
+  const double max = 0.5 * (in_a + in_b);
+  return max == expected ? 1.0 : (together - expected) / (max - expected);
 }
 
 }  // namespace belvedere::test

@@ -10,7 +10,7 @@ namespace {
 constexpr int lake_width = 400;
 constexpr int lake_height = 240;
 
-// Level water at an altitude, of which a pixel shows so many metres; land in the rows above 60.
+// Level water at an altitude, with so many metres per pixel; land in the rows above 60.
 Picture lake_picture(float altitude_m = 900.F, float footprint_m = 14.F) {
   Picture p = plain_picture(LandCoverClass::water, lake_width, lake_height);
   p.guidance.depth_m = Grid<float>(lake_width, lake_height, 9000.F);
@@ -18,7 +18,9 @@ Picture lake_picture(float altitude_m = 900.F, float footprint_m = 14.F) {
   p.guidance.slope_deg = Grid<float>(lake_width, lake_height, 0.F);
   for (int y = 0; y < lake_height; ++y)
     for (int x = 0; x < lake_width; ++x) {
-      p.guidance.position_m(x, y) = glm::vec3(footprint_m * static_cast<float>(x), -3.F * footprint_m * static_cast<float>(y), altitude_m);
+      p.guidance.position_m(x, y) =
+          glm::vec3(footprint_m * static_cast<float>(x), -3.F * footprint_m * static_cast<float>(y),
+                    altitude_m);
       if (y < 60) p.guidance.land_cover(x, y) = LandCoverClass::pasture;
     }
   p.parameters.wind = 1.0;
@@ -41,9 +43,11 @@ TEST(WaterStrokes, StreaksLieLevelAndLightOnOpenWaterAlone) {
 
 TEST(WaterStrokes, StreaksAreShorterFarAway) {
   const auto mean_length = [](float footprint_m) {
-    const std::vector<Stroke> streaks = grow_strokes("wind streaks", lake_picture(900.F, footprint_m).scene());
+    const std::vector<Stroke> streaks =
+        grow_strokes("wind streaks", lake_picture(900.F, footprint_m).scene());
     double sum = 0.0;
-    for (const Stroke& s : streaks) sum += static_cast<double>(glm::length(axis_of(s))) / static_cast<double>(streaks.size());
+    for (const Stroke& s : streaks)
+      sum += static_cast<double>(glm::length(axis_of(s))) / static_cast<double>(streaks.size());
     return sum;
   };
   EXPECT_NEAR(mean_length(56.F) / mean_length(14.F), 0.5, 0.1);
@@ -68,7 +72,7 @@ TEST(WaterStrokes, FallsAreWhiteAndRunDown) {
   EXPECT_TRUE(grow_strokes("river foam", p.scene()).empty()) << "level water";
   for (float& slope : p.guidance.slope_deg) slope = 30.F;
   EXPECT_TRUE(grow_strokes("river foam", p.scene()).empty()) << "a lake below steep banks";
-  for (glm::vec3& place : p.guidance.position_m) place.z += 0.6F * place.y;
+  for (glm::vec3& position : p.guidance.position_m) position.z += 0.6F * position.y;
   const std::vector<Stroke> foam = grow_strokes("river foam", p.scene());
   ASSERT_GT(foam.size(), 1000U);
   for (const Stroke& s : foam) {
@@ -79,32 +83,35 @@ TEST(WaterStrokes, FallsAreWhiteAndRunDown) {
   EXPECT_TRUE(grow_strokes("river foam", p.scene()).empty());
 }
 
-// Coarse cells draw a lake some way up its bank: rows 60 to 70 here, over level water.
+// Coarse cells extend a lake up its bank: rows 60 to 70 here, over level water.
 TEST(WaterStrokes, TheBankOfALakeIsNoFall) {
   Picture lake = lake_picture();
   for (int y = 60; y < 70; ++y)
-    for (int x = 0; x < lake_width; ++x) lake.guidance.position_m(x, y).z += 25.F * static_cast<float>(70 - y);
+    for (int x = 0; x < lake_width; ++x)
+      lake.guidance.position_m(x, y).z += 25.F * static_cast<float>(70 - y);
   EXPECT_TRUE(grow_strokes("river foam", lake.scene()).empty());
-  // The same water as a river's, which goes on falling.
+  // The same water as a river, which continues to fall.
   for (int y = 70; y < lake_height; ++y)
-    for (int x = 0; x < lake_width; ++x) lake.guidance.position_m(x, y).z -= 25.F * static_cast<float>(y - 70);
+    for (int x = 0; x < lake_width; ++x)
+      lake.guidance.position_m(x, y).z -= 25.F * static_cast<float>(y - 70);
   EXPECT_GT(grow_strokes("river foam", lake.scene()).size(), 1000U);
 }
 
-// Water is swept, ice is dabbed.
+// Water has long strokes, ice is dabbed.
 TEST(WaterStrokes, IceIsPaintedInShorterStrokesThanWater) {
   const auto mean_length = [](double frozen_from_m) {
     Picture p = lake_picture();
     p.parameters.frozen_from_m = frozen_from_m;
     const std::vector<Stroke> strokes = grow_strokes("water", p.scene());
     double sum = 0.0;
-    for (const Stroke& s : strokes) sum += static_cast<double>(glm::length(axis_of(s))) / static_cast<double>(strokes.size());
+    for (const Stroke& s : strokes)
+      sum += static_cast<double>(glm::length(axis_of(s))) / static_cast<double>(strokes.size());
     return sum;
   };
   EXPECT_LT(mean_length(900.0), 0.5 * mean_length(901.0));
 }
 
-// A brook runs over a wall aslant, not down the wall's fall line.
+// A brook runs diagonally over a wall, not down the wall's fall line.
 TEST(WaterStrokes, ABrookIsWhiteAlongItsOwnWayOverAWall) {
   Picture p = lake_picture();
   std::size_t wet = 0;
@@ -112,7 +119,8 @@ TEST(WaterStrokes, ABrookIsWhiteAlongItsOwnWayOverAWall) {
     for (int x = 0; x < lake_width; ++x) {
       const bool brook = std::abs(x - y - 40) < 2;
       p.guidance.land_cover(x, y) = brook ? LandCoverClass::water : LandCoverClass::rock;
-      p.guidance.position_m(x, y) = {14.F * static_cast<float>(x), -14.F * static_cast<float>(y), 900.F - 14.F * static_cast<float>(y)};
+      p.guidance.position_m(x, y) = {14.F * static_cast<float>(x), -14.F * static_cast<float>(y),
+                                     900.F - 14.F * static_cast<float>(y)};
       wet += brook ? 1 : 0;
     }
   const std::vector<Stroke> foam = grow_strokes("river foam", p.scene());
@@ -146,11 +154,12 @@ TEST(WaterStrokes, SurfRunsAlongTheSeaInABrokenLine) {
   for (const std::uint8_t is : white) covered += is;
   EXPECT_GT(covered, lake_width / 5);
   EXPECT_LT(covered, 9 * lake_width / 10) << "broken";
-  // A farther shore has a thinner line: no more than 120 m of ground.
-  for (const Stroke& s : grow_strokes("sea surf", lake_picture(0.4F, 400.F).scene())) EXPECT_LE(s.start_width, 0.8F * 0.3F + 1e-4F);
+  // A farther shore has a thinner line: at most 120 m of ground.
+  for (const Stroke& s : grow_strokes("sea surf", lake_picture(0.4F, 400.F).scene()))
+    EXPECT_LE(s.start_width, 0.8F * 0.3F + 1e-4F);
 }
 
-// A hill that stands before the sea and is nearer has no surf along its crest.
+// A hill in front of the sea has no surf along its crest.
 TEST(WaterStrokes, WhatStandsBeforeTheSeaIsNoShore) {
   Picture p = lake_picture(0.4F);
   for (int y = 0; y < 60; ++y)

@@ -15,7 +15,9 @@ using ::testing::Not;
 
 class CacheProgram : public Program {
  protected:
-  Outcome run_with_cache(const std::vector<std::string>& arguments) const { return run(arguments, {"BELVEDERE_CACHE=" + path("cache")}); }
+  Outcome run_with_cache(const std::vector<std::string>& arguments) const {
+    return run(arguments, {"BELVEDERE_CACHE=" + path("cache")});
+  }
 };
 
 TEST_F(CacheProgram, SecondRunsAreTheSameWithoutTheSlowStages) {
@@ -29,8 +31,9 @@ TEST_F(CacheProgram, SecondRunsAreTheSameWithoutTheSlowStages) {
   EXPECT_THAT(warm.err, Not(HasSubstr("class rules")));
   for (const char* name : {"cold/guidance.exr", "warm/guidance.exr"})
     EXPECT_EQ(read_bytes(path(name)), read_bytes(path("none/guidance.exr"))) << name;
-  // What a check made, rendering has, and the other way round.
-  EXPECT_THAT(run_with_cache({"check", scene}).err, AllOf(Not(HasSubstr("class rules")), Not(HasSubstr("generalize"))));
+  // A check fills the cache for rendering, and vice versa.
+  EXPECT_THAT(run_with_cache({"check", scene}).err,
+              AllOf(Not(HasSubstr("class rules")), Not(HasSubstr("generalize"))));
   EXPECT_THAT(run_with_cache({"check", scene, "--no-cache"}).err, HasSubstr("class rules"));
 }
 
@@ -39,11 +42,13 @@ TEST_F(CacheProgram, IsListedAndCleared) {
   ASSERT_EQ(run_with_cache({"check", scene}).status, 0);
   const Outcome list = run_with_cache({"cache", "list"});
   EXPECT_EQ(list.status, 0);
-  EXPECT_THAT(list.out, AllOf(HasSubstr("land cover by rules"), HasSubstr("generalized ground"), HasSubstr("Test hills"),
-                              HasSubstr("3 entries"), HasSubstr(path("cache"))));
+  EXPECT_THAT(list.out,
+              AllOf(HasSubstr("land cover by rules"), HasSubstr("generalized ground"),
+                    HasSubstr("Test hills"), HasSubstr("3 entries"), HasSubstr(path("cache"))));
   EXPECT_THAT(run_with_cache({"cache", "list", "--json"}).out,
               AllOf(HasSubstr("\"product\": \"synthetic terrain\""), HasSubstr("\"unused_s\": ")));
-  EXPECT_THAT(run_with_cache({"cache", "clear", "--older-than", "1"}).out, HasSubstr("removed 0 entries"));
+  EXPECT_THAT(run_with_cache({"cache", "clear", "--older-than", "1"}).out,
+              HasSubstr("removed 0 entries"));
   EXPECT_THAT(run_with_cache({"cache", "clear"}).out, HasSubstr("removed 3 entries"));
   EXPECT_THAT(run_with_cache({"cache", "list"}).out, HasSubstr("0 entries"));
   EXPECT_EQ(run_with_cache({"cache", "clear", "--older-than", "-1"}).status, 2);
@@ -51,7 +56,8 @@ TEST_F(CacheProgram, IsListedAndCleared) {
 
 TEST_F(CacheProgram, WithoutAFolderWorkGoesOn) {
   const std::string scene = write_scene_file();
-  const Outcome blocked = run({"check", scene}, {"BELVEDERE_CACHE=" + write("file", "") + "/cache"});
+  const Outcome blocked =
+      run({"check", scene}, {"BELVEDERE_CACHE=" + write("file", "") + "/cache"});
   EXPECT_EQ(blocked.status, 0);
   EXPECT_THAT(blocked.err, HasSubstr("not used"));
   const Outcome off = run({"check", scene}, without_cache());
@@ -64,7 +70,8 @@ TEST_F(CacheProgram, WithoutAFolderWorkGoesOn) {
 TEST_F(CacheProgram, LiesWhereCachesLie) {
   const std::string home = path("home");
   const auto folder = [&](const std::string& xdg) {
-    return run({"cache", "list"}, {"BELVEDERE_CACHE", "HOME=" + home, "XDG_CACHE_HOME=" + xdg}).out;  // the first one is taken away
+    return run({"cache", "list"}, {"BELVEDERE_CACHE", "HOME=" + home, "XDG_CACHE_HOME=" + xdg})
+        .out;  // the first one is taken away
   };
   EXPECT_THAT(folder(path("xdg")), HasSubstr(path("xdg/belvedere")));
   EXPECT_THAT(folder("relative"), HasSubstr(home + "/.cache/belvedere"));

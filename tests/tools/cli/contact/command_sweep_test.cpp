@@ -24,11 +24,11 @@ class Sweep : public Program {};
 
 TEST_F(Sweep, EachPictureIsTheRenderOfItsValues) {
   const std::string file = write("s.toml", sweep_scene);
-  const Outcome outcome =
-      run({"sweep", file, "--quiet", "--set", "sun.azimuth_deg=200,320", "--set", "air.haze=0.1", "--out", path("out")});
+  const Outcome outcome = run({"sweep", file, "--quiet", "--set", "sun.azimuth_deg=200,320",
+                               "--set", "air.haze=0.1", "--out", path("out")});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  const Outcome one =
-      run({"render", file, "--quiet", "--set", "sun.azimuth_deg=320", "--set", "air.haze=0.1", "--channels", "none", "--out", path("one")});
+  const Outcome one = run({"render", file, "--quiet", "--set", "sun.azimuth_deg=320", "--set",
+                           "air.haze=0.1", "--channels", "none", "--out", path("one")});
   ASSERT_EQ(one.status, 0) << one.err;
   EXPECT_FALSE(std::filesystem::exists(path("one/guidance.exr")));
   const Grid<glm::vec3> second = read_picture(path("out/2_1.png"));
@@ -37,26 +37,30 @@ TEST_F(Sweep, EachPictureIsTheRenderOfItsValues) {
   // Small pictures stand on the sheet pixel by pixel, side by side.
   const Grid<glm::vec3> first = read_picture(path("out/1_1.png"));
   const Grid<glm::vec3> sheet = read_picture(path("out/sheet.png"));
-  const auto place = [&](const Grid<glm::vec3>& picture) {
+  const auto position = [&](const Grid<glm::vec3>& picture) {
     const int y = picture.height() / 2;
     for (int v = 0; v < sheet.height(); ++v)
       for (int u = 0; u + picture.width() <= sheet.width(); ++u)
-        if (std::equal(picture.row(y), picture.row(y) + picture.width(), sheet.row(v) + u)) return glm::ivec2(u, v);
+        if (std::equal(picture.row(y), picture.row(y) + picture.width(), sheet.row(v) + u))
+          return glm::ivec2(u, v);
     return glm::ivec2(-1);
   };
-  EXPECT_GE(place(first).x, 0);
-  EXPECT_EQ(place(first).y, place(second).y);
-  EXPECT_GE(place(second).x, place(first).x + 120);
-  EXPECT_THAT(read_bytes(path("out/report.json")), AllOf(HasSubstr("\"sun.azimuth_deg\": \"320\""), HasSubstr("2_1.png")));
+  EXPECT_GE(position(first).x, 0);
+  EXPECT_EQ(position(first).y, position(second).y);
+  EXPECT_GE(position(second).x, position(first).x + 120);
+  EXPECT_THAT(read_bytes(path("out/report.json")),
+              AllOf(HasSubstr("\"sun.azimuth_deg\": \"320\""), HasSubstr("2_1.png")));
 }
 
 TEST_F(Sweep, WrongValuesAreRefusedBeforeTheFirstPicture) {
   const std::string file = write("s.toml", sweep_scene);
-  const Outcome outcome = run({"sweep", file, "--quiet", "--set", "air.haze=0.1,7", "--out", path("out")});
+  const Outcome outcome =
+      run({"sweep", file, "--quiet", "--set", "air.haze=0.1,7", "--out", path("out")});
   EXPECT_EQ(outcome.status, 2);
   EXPECT_THAT(outcome.err, HasSubstr("haze"));
   EXPECT_FALSE(std::filesystem::exists(path("out")));
-  EXPECT_EQ(run({"sweep", file, "--quiet", "--set", "air.haze=0.1", "--out", path("out")}).status, 2);
+  EXPECT_EQ(run({"sweep", file, "--quiet", "--set", "air.haze=0.1", "--out", path("out")}).status,
+            2);
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 namespace belvedere::test {
 
-// A scene that is rendered in a second, for tests of sheets of pictures; tests append what they look at.
+// A scene that renders in a second, for tests of sheets of pictures; tests append what they need.
 constexpr const char* contact_scene = R"(
 version = 1
 [terrain.synthetic]

@@ -46,24 +46,32 @@ height = 180
 }
 
 TEST_F(MakingOf, LeavesOutCopyingWhereNothingIsCopiedAndTakesAWidth) {
-  const std::string file = write("s.toml", std::string(test::contact_scene) + "[synthesis]\nenabled = false\n");
-  ASSERT_EQ(run({"figure", file, "--quiet", "--making", "--width", "60", "--out", path("out")}).status, 0);
+  const std::string file =
+      write("s.toml", std::string(test::contact_scene) + "[synthesis]\nenabled = false\n");
+  ASSERT_EQ(
+      run({"figure", file, "--quiet", "--making", "--width", "60", "--out", path("out")}).status,
+      0);
   EXPECT_EQ(read_picture(path("out/making_7_strokes.png")).width(), 60);
   EXPECT_EQ(read_picture(path("out/picture.png")), read_picture(path("out/making_7_strokes.png")));
   EXPECT_FALSE(std::filesystem::exists(path("out/making_8_strokes.png")));
 }
 
-// Of ground that is larger than memory the first stages show the whole at a coarse level, the last what rendering makes of its windows.
+// For ground larger than memory the first stages show the whole at a coarse level, the last the
+// result of its windows.
 TEST_F(MakingOf, ShowsGroundLargerThanMemory) {
-  Raster<float> raster{Grid<float>(400, 400), {600000.0, 5200000.0, 30.0, 30.0}, normalize_crs("EPSG:32632")};
+  Raster<float> raster{
+      Grid<float>(400, 400), {600000.0, 5200000.0, 30.0, 30.0}, normalize_crs("EPSG:32632")};
   for (int y = 0; y < 400; ++y)
     for (int x = 0; x < 400; ++x)
-      raster.cells(x, y) = 900.F + static_cast<float>((x / 20 + y / 25) % 2) * 300.F + static_cast<float>(400 - y);
+      raster.cells(x, y) =
+          900.F + static_cast<float>((x / 20 + y / 25) % 2) * 300.F + static_cast<float>(400 - y);
   write_raster(path("dem.tif"), raster);
-  const std::string file = write("s.toml",
-                                 "version = 1\n[[terrain.sources]]\nfile = \"dem.tif\"\n[terrain]\nmost_mcells = 0.06\n"
-                                 "[camera]\nposition = [606000, 5185000]\nheight_m = 4000\npitch_deg = -24\n[synthesis]\nenabled = false\n"
-                                 "[output]\nwidth = 100\nheight = 60\nsheet_width_mm = 100\n");
+  const std::string file =
+      write("s.toml",
+            "version = 1\n[[terrain.sources]]\nfile = \"dem.tif\"\n[terrain]\nmost_mcells = 0.06\n"
+            "[camera]\nposition = [606000, 5185000]\nheight_m = 4000\npitch_deg = "
+            "-24\n[synthesis]\nenabled = false\n"
+            "[output]\nwidth = 100\nheight = 60\nsheet_width_mm = 100\n");
   EXPECT_NE(run({"check", file}).out.find("more than memory holds"), std::string::npos);
   ASSERT_EQ(run({"render", file, "--quiet", "--out", path("one")}).status, 0);
   const Outcome made = run({"figure", file, "--quiet", "--making", "--out", path("out")});
@@ -80,10 +88,12 @@ TEST_F(MakingOf, ShowsGroundLargerThanMemory) {
   EXPECT_GT(high - low, 0.3F);
 }
 
-// Two beside each other, in their order from left to right and down.
+// Two side by side, in their order from left to right and down.
 TEST(DrawMakingOf, LaysStepsOutInPairs) {
   std::vector<MakingStep> steps;
-  for (int i = 0; i < 3; ++i) steps.push_back({"s", "s", Grid<glm::vec3>(40, 20, glm::vec3(0.25F * static_cast<float>(i), 0.F, 1.F))});
+  for (int i = 0; i < 3; ++i)
+    steps.push_back(
+        {"s", "s", Grid<glm::vec3>(40, 20, glm::vec3(0.25F * static_cast<float>(i), 0.F, 1.F))});
   const Grid<glm::vec3> sheet = tools::draw_making_of(steps, 40);
   std::vector<glm::ivec2> first(3, glm::ivec2(-1));
   for (int y = 0; y < sheet.height(); ++y)
@@ -98,7 +108,8 @@ TEST(DrawMakingOf, LaysStepsOutInPairs) {
 
 TEST(ClassColour, IsThatOfTheTableAndPaleForWhatIsNoClass) {
   EXPECT_EQ(tools::class_colour(250), tools::no_class_colour);
-  EXPECT_NE(tools::class_colour(static_cast<std::uint8_t>(LandCoverClass::water)), tools::no_class_colour);
+  EXPECT_NE(tools::class_colour(static_cast<std::uint8_t>(LandCoverClass::water)),
+            tools::no_class_colour);
 }
 
 }  // namespace

@@ -10,11 +10,14 @@ namespace belvedere::tools {
 namespace {
 
 TEST(PictureTable, HoldsEveryPictureInItsColumnAndRow) {
-  const auto plain = [](int width, int height, float v) { return Grid<glm::vec3>(width, height, glm::vec3(v, 0.F, 1.F)); };
+  const auto plain = [](int width, int height, float v) {
+    return Grid<glm::vec3>(width, height, glm::vec3(v, 0.F, 1.F));
+  };
   PictureTable table;
   table.columns = {"a", "b"};
   table.rows = {"one", "two"};
-  table.cells = {{{plain(120, 40, 0.1F), ""}, {plain(100, 60, 0.2F), "words"}}, {{plain(100, 50, 0.3F), ""}, {{}, ""}}};
+  table.cells = {{{plain(120, 40, 0.1F), ""}, {plain(100, 60, 0.2F), "words"}},
+                 {{plain(100, 50, 0.3F), ""}, {{}, ""}}};
   const Grid<glm::vec3> sheet = draw_table(table);
   // Where each picture lies: its pixels form a rectangle of its size.
   const auto found = [&](float v) {
@@ -23,7 +26,8 @@ TEST(PictureTable, HoldsEveryPictureInItsColumnAndRow) {
     for (int y = 0; y < sheet.height(); ++y)
       for (int x = 0; x < sheet.width(); ++x)
         if (sheet(x, y) == glm::vec3(v, 0.F, 1.F)) {
-          box = {std::min(box.x0, x), std::min(box.y0, y), std::max(box.x1, x + 1), std::max(box.y1, y + 1)};
+          box = {std::min(box.x0, x), std::min(box.y0, y), std::max(box.x1, x + 1),
+                 std::max(box.y1, y + 1)};
           ++count;
         }
     EXPECT_EQ(count, box.width() * box.height()) << v;
@@ -47,19 +51,23 @@ TEST(PictureTable, CaptionsBreakAtThePicturesWidth) {
   const auto sheet_of = [](const std::string& caption) {
     PictureTable table;
     table.columns = {"", ""};
-    table.cells = {{{Grid<glm::vec3>(100, 20, glm::vec3(0.5F)), caption}, {Grid<glm::vec3>(100, 20, glm::vec3(0.5F)), caption}}};
+    table.cells = {{{Grid<glm::vec3>(100, 20, glm::vec3(0.5F)), caption},
+                    {Grid<glm::vec3>(100, 20, glm::vec3(0.5F)), caption}}};
     return draw_table(table);
   };
   const Grid<glm::vec3> words = sheet_of("one two three four five");
   EXPECT_EQ(words.width(), sheet_of("").width());
   EXPECT_EQ(words.width(), sheet_of("one").width());
-  // Nothing is lost: as much ink as the words have where each stands alone.
-  const auto ink = [](const Grid<glm::vec3>& sheet) { return std::count(sheet.begin(), sheet.end(), glm::vec3(0.1F)); };
+  // Nothing is lost: the total ink equals that of the captions alone.
+  const auto ink = [](const Grid<glm::vec3>& sheet) {
+    return std::count(sheet.begin(), sheet.end(), glm::vec3(0.1F));
+  };
   std::ptrdiff_t each = 0;
   for (const char* word : {"one", "two", "three", "four", "five"}) each += ink(sheet_of(word));
   EXPECT_EQ(ink(words), each);
   EXPECT_GT(words.height(), sheet_of("one").height());
-  EXPECT_GT(sheet_of("unbreakable-word").width(), words.width()) << "a long word has the room it needs";
+  EXPECT_GT(sheet_of("unbreakable-word").width(), words.width())
+      << "a long word has the room it needs";
 }
 
 }  // namespace

@@ -12,14 +12,15 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 TEST(SceneSweep, CommasSeparateValuesOutsideOfBracketsAndQuotes) {
-  const SceneSweep sweep =
-      split_sweep({"output.width=600", "generalize.foreground=[1,1],[1.5,0.5]", "title='a, b'", "palette=\"summer\",'winter'"});
+  const SceneSweep sweep = split_sweep({"output.width=600", "generalize.foreground=[1,1],[1.5,0.5]",
+                                        "title='a, b'", "palette=\"summer\",'winter'"});
   EXPECT_THAT(sweep.settings, ElementsAre("output.width=600", "title='a, b'"));
   ASSERT_EQ(sweep.axes.size(), 2U);
   EXPECT_EQ(sweep.axes[0].key, "generalize.foreground");
   EXPECT_THAT(sweep.axes[0].values, ElementsAre("[1,1]", "[1.5,0.5]"));
   EXPECT_THAT(sweep.axes[1].values, ElementsAre("\"summer\"", "'winter'"));
-  EXPECT_THAT(split_sweep({"a={ x = 1, y = 2 },{ x = 2 }"}).axes[0].values, ElementsAre("{ x = 1, y = 2 }", "{ x = 2 }"));
+  EXPECT_THAT(split_sweep({"a={ x = 1, y = 2 },{ x = 2 }"}).axes[0].values,
+              ElementsAre("{ x = 1, y = 2 }", "{ x = 2 }"));
 }
 
 TEST(SceneSweep, WhatIsNoSweepIsRefused) {

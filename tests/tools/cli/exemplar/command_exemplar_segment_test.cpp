@@ -19,47 +19,60 @@ class ExemplarSegment : public Program {
   // Sky, wood and meadow.
   std::string write_painting(const std::string& name = "painting.png") const {
     return write_picture(name, 120, 90, [](int x, int y) {
-      const glm::vec3 colour = y < 30 ? glm::vec3(.55F, .7F, .9F) : (x < 60 ? glm::vec3(.12F, .25F, .1F) : glm::vec3(.6F, .75F, .35F));
+      const glm::vec3 colour =
+          y < 30 ? glm::vec3(.55F, .7F, .9F)
+                 : (x < 60 ? glm::vec3(.12F, .25F, .1F) : glm::vec3(.6F, .75F, .35F));
       return colour + glm::vec3(static_cast<float>(random_index(20, 5, x / 2, y / 2)) / 400.F);
     });
   }
 };
 
 TEST_F(ExemplarSegment, WritesAMaskOfClassesThatAnExemplarTakes) {
-  const Outcome outcome = run({"exemplar", "segment", write_painting(), "--out", path("mask.png"), "--json", "-q"});
+  const Outcome outcome =
+      run({"exemplar", "segment", write_painting(), "--out", path("mask.png"), "--json", "-q"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, AllOf(HasSubstr("\"groups\""), HasSubstr("\"sky\""), HasSubstr("\"forest\""), HasSubstr("\"pasture\"")));
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("\"groups\""), HasSubstr("\"sky\""),
+                                 HasSubstr("\"forest\""), HasSubstr("\"pasture\"")));
   const Grid<std::uint16_t> mask = read_grey(path("mask.png"));
   EXPECT_EQ(mask(60, 10), 0);
   EXPECT_EQ(mask(20, 70), 4);
   EXPECT_EQ(mask(100, 70), 10);
   // In a scene.
-  const std::string scene = write("scene.toml", "version = 1\n[[exemplar]]\npicture = \"painting.png\"\nclasses = \"mask.png\"\n" +
-                                                    test::small_mountains + "[output]\nwidth = 96\nheight = 64\n");
+  const std::string scene =
+      write("scene.toml",
+            "version = 1\n[[exemplar]]\npicture = \"painting.png\"\nclasses = \"mask.png\"\n" +
+                test::small_mountains + "[output]\nwidth = 96\nheight = 64\n");
   const Outcome checked = run({"exemplar", "check", scene});
   ASSERT_EQ(checked.status, 0) << checked.err;
-  EXPECT_THAT(checked.out, AllOf(HasSubstr("forest"), HasSubstr("pasture"), Not(HasSubstr("class 255"))));
+  EXPECT_THAT(checked.out,
+              AllOf(HasSubstr("forest"), HasSubstr("pasture"), Not(HasSubstr("class 255"))));
 }
 
 TEST_F(ExemplarSegment, NumbersOfGroupsAreAtMostThoseAskedFor) {
-  ASSERT_EQ(run({"exemplar", "segment", write_painting(), "--out", path("m.png"), "--numbers", "--most", "3", "-q"}).status, 0);
+  ASSERT_EQ(run({"exemplar", "segment", write_painting(), "--out", path("m.png"), "--numbers",
+                 "--max-groups", "3", "-q"})
+                .status,
+            0);
   const Grid<std::uint16_t> mask = read_grey(path("m.png"));
   EXPECT_EQ(std::set<std::uint16_t>(mask.begin(), mask.end()), (std::set<std::uint16_t>{0, 1, 2}));
-  // Anyone who looks at it sees the paint: group 0 is the sky.
+  // The page shows the paint: group 0 is the sky.
   EXPECT_NEAR(read_picture(path("m.png"))(60, 10).z, .92, .03);
 }
 
 TEST_F(ExemplarSegment, SaysHowWellItAgreesWithAMaskDrawnByHand) {
   const std::string painting = write_painting();
   const auto drawn = [&](const std::string& name, int horizon) {
-    return write_labels(name, 120, 90, [&](int x, int y) { return y < horizon ? 7 : x < 60 ? 8 : 9; });
+    return write_labels(name, 120, 90, [&](int x, int y) {
+      return y < horizon ? 7 : x < 60 ? 8 : 9;
+    });
   };
   const auto number = [](const Outcome& outcome, const std::string& key) {
     const std::size_t at = outcome.out.find("\"" + key + "\":");
     return at == std::string::npos ? -1.0 : std::stod(outcome.out.substr(at + key.size() + 3));
   };
-  const std::vector<std::string> segment = {"exemplar", "segment", painting, "--out", path("m.png"),
-                                            "--most",   "3",       "--json", "-q",    "--compare"};
+  const std::vector<std::string> segment = {"exemplar",    "segment",      painting, "--out",
+                                            path("m.png"), "--max-groups", "3",      "--json",
+                                            "-q",          "--compare"};
   const auto compared = [&](const std::string& mask) {
     std::vector<std::string> arguments = segment;
     arguments.push_back(mask);
@@ -67,25 +80,29 @@ TEST_F(ExemplarSegment, SaysHowWellItAgreesWithAMaskDrawnByHand) {
   };
   const Outcome right = compared(drawn("right.tif", 30));
   ASSERT_EQ(right.status, 0) << right.err;
-  for (const char* key : {"merged", "one_to_one", "named_one_to_one"}) EXPECT_GT(number(right, key), .94) << key;
+  for (const char* key : {"merged", "one_to_one", "named_one_to_one"})
+    EXPECT_GT(number(right, key), .94) << key;
   const Outcome wrong = compared(drawn("wrong.tif", 50));
   EXPECT_NEAR(number(wrong, "merged"), (.6 + 2. / 3. + 2. / 3.) / 3., .03);
-  const Outcome other = compared(write_labels("size.tif", 60, 90, [](int x, int) { return x / 20; }));
+  const Outcome other =
+      compared(write_labels("size.tif", 60, 90, [](int x, int) { return x / 20; }));
   EXPECT_EQ(other.status, 3);
   EXPECT_THAT(other.err, HasSubstr("60 × 90"));
 }
 
-// Groups of one thing are merged by clicks, a group of two things must be split first: there are as many as were asked for.
+// Groups of one thing are merged by clicks, a group of two things must be split first: there are as
+// many as were asked for.
 TEST_F(ExemplarSegment, ThereAreAsManyGroupsAsTheMostUnlessToldHowUnlike) {
   const auto groups = [&](const std::vector<std::string>& options) {
-    std::vector<std::string> arguments = {"exemplar", "segment", write_painting(), "--out", path("m.png"), "--numbers", "-q"};
+    std::vector<std::string> arguments = {
+        "exemplar", "segment", write_painting(), "--out", path("m.png"), "--numbers", "-q"};
     arguments.insert(arguments.end(), options.begin(), options.end());
     EXPECT_EQ(run(arguments).status, 0);
     const Grid<std::uint16_t> mask = read_grey(path("m.png"));
     return std::set<std::uint16_t>(mask.begin(), mask.end()).size();
   };
   EXPECT_EQ(groups({}), 30U);
-  EXPECT_EQ(groups({"--most", "7"}), 7U);
+  EXPECT_EQ(groups({"--max-groups", "7"}), 7U);
   EXPECT_LT(groups({"--groups", "3"}), 7U);
 }
 
@@ -93,8 +110,8 @@ TEST_F(ExemplarSegment, ThereAreAsManyGroupsAsTheMostUnlessToldHowUnlike) {
 TEST_F(ExemplarSegment, TheGroupsOfMonetsCoastAreMergedToItsMask) {
   const std::string monet = test::data_folder() + "/paintings/monet_etretat";
   if (!std::filesystem::exists(monet + ".jpg")) GTEST_SKIP() << monet << ".jpg is missing";
-  const Outcome outcome =
-      run({"exemplar", "segment", monet + ".jpg", "--out", path("m.png"), "--compare", monet + "_labels.png", "--json", "-q"});
+  const Outcome outcome = run({"exemplar", "segment", monet + ".jpg", "--out", path("m.png"),
+                               "--compare", monet + "_labels.png", "--json", "-q"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const std::size_t at = outcome.out.find("\"merged\":");
   ASSERT_NE(at, std::string::npos);
@@ -104,15 +121,16 @@ TEST_F(ExemplarSegment, TheGroupsOfMonetsCoastAreMergedToItsMask) {
 TEST_F(ExemplarSegment, SameBytesForAnyThreads) {
   const std::string painting = write_painting();
   for (const char* threads : {"1", "2"})
-    ASSERT_EQ(run({"exemplar", "segment", painting, "--out", path(std::string(threads) + ".png"), "--page",
-                   path(std::string(threads) + ".html"), "--threads", threads, "-q"})
+    ASSERT_EQ(run({"exemplar", "segment", painting, "--out", path(std::string(threads) + ".png"),
+                   "--report", path(std::string(threads) + ".html"), "--threads", threads, "-q"})
                   .status,
               0);
   EXPECT_EQ(read_bytes(path("1.png")), read_bytes(path("2.png")));
 }
 
 TEST_F(ExemplarSegment, BadInputIsNamed) {
-  const auto refused = [&](const std::vector<std::string>& arguments, int status, const std::string& word) {
+  const auto refused = [&](const std::vector<std::string>& arguments, int status,
+                           const std::string& word) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.status, status) << outcome.err;
     EXPECT_THAT(outcome.err, HasSubstr(word));
@@ -120,12 +138,16 @@ TEST_F(ExemplarSegment, BadInputIsNamed) {
   const std::string painting = write_painting();
   refused({"exemplar", "segment", path("gone.png"), "--out", path("m.png")}, 3, "gone.png");
   refused({"exemplar", "segment", painting, "--out", path("m.tif")}, 2, ".png");
-  refused({"exemplar", "segment", painting, "--out", path("m.png"), "--page", path("p.txt")}, 2, ".html");
-  refused({"exemplar", "segment", painting, "--out", path("m.png"), "--most", "255"}, 2, "--most");
-  refused({"exemplar", "segment", painting, "--out", painting}, 2, "what is read");
-  const std::string flat = write_picture("flat.png", 64, 64, [](int, int) { return glm::vec3(.5F); });
-  refused({"exemplar", "segment", flat, "--out", path("m.png")}, 3, "one colour");
-  const std::string tiny = write_picture("tiny.png", 64, 16, [](int x, int) { return glm::vec3(static_cast<float>(x) / 64.F); });
+  refused({"exemplar", "segment", painting, "--out", path("m.png"), "--report", path("p.txt")}, 2,
+          ".html");
+  refused({"exemplar", "segment", painting, "--out", path("m.png"), "--max-groups", "255"}, 2,
+          "--max-groups");
+  refused({"exemplar", "segment", painting, "--out", painting}, 2, "is also an input");
+  const std::string flat =
+      write_picture("flat.png", 64, 64, [](int, int) { return glm::vec3(.5F); });
+  refused({"exemplar", "segment", flat, "--out", path("m.png")}, 3, "single colour");
+  const std::string tiny = write_picture(
+      "tiny.png", 64, 16, [](int x, int) { return glm::vec3(static_cast<float>(x) / 64.F); });
   refused({"exemplar", "segment", tiny, "--out", path("m.png")}, 3, "64 × 16");
   EXPECT_FALSE(std::filesystem::exists(path("m.png")));
 }

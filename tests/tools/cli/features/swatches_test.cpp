@@ -11,7 +11,8 @@
 namespace belvedere::tools {
 namespace {
 
-// Every kind of the built-in styles that is painted shows something of itself in both seasons, and the documentation shows it.
+// Every painted kind of the built-in styles is visible in both seasons, and is in the
+// documentation.
 TEST(Swatches, EveryKindThatIsPaintedIsSeenAndDocumented) {
   std::ifstream file(test::source_folder() + "/docs/features.md");
   std::stringstream text;
@@ -21,7 +22,7 @@ TEST(Swatches, EveryKindThatIsPaintedIsSeenAndDocumented) {
     FeatureStyle none = style;
     const int bare = style.find("path");
     none.kinds[static_cast<std::size_t>(bare)].width_mm = 0.0;
-    none.kinds[static_cast<std::size_t>(bare)].least_px = 0.0;
+    none.kinds[static_cast<std::size_t>(bare)].min_px = 0.0;
     const Grid<glm::vec3> ground = make_swatch(none, bare);
     for (std::size_t k = 0; k < style.kinds.size(); ++k) {
       const Grid<glm::vec3> swatch = make_swatch(style, static_cast<int>(k));
@@ -30,7 +31,8 @@ TEST(Swatches, EveryKindThatIsPaintedIsSeenAndDocumented) {
         EXPECT_TRUE(style.kinds[k].ground) << style.kinds[k].name;
         continue;
       }
-      EXPECT_THAT(text.str(), testing::HasSubstr("images/features/" + style.kinds[k].name + ".jpg"));
+      EXPECT_THAT(text.str(),
+                  testing::HasSubstr("images/features/" + style.kinds[k].name + ".jpg"));
       int summer = 0;
       int winter = 0;
       for (int y = 0; y < swatch.height(); ++y)

@@ -20,12 +20,16 @@ using ::testing::Not;
 class LabelsCommand : public Program {
  protected:
   void SetUp() override {
-    Raster<float> raster{Grid<float>(120, 160), {680000.0, 5266000.0, 100.0, 100.0}, normalize_crs("EPSG:32632")};
+    Raster<float> raster{
+        Grid<float>(120, 160), {680000.0, 5266000.0, 100.0, 100.0}, normalize_crs("EPSG:32632")};
     for (int y = 0; y < 160; ++y)
       for (int x = 0; x < 120; ++x) {
-        const auto cone = [&](int cx, int cy, double top, double down) { return top - down * std::hypot(x - cx, y - cy); };
+        const auto cone = [&](int cx, int cy, double top, double down) {
+          return top - down * std::hypot(x - cx, y - cy);
+        };
         raster.cells(x, y) =
-            static_cast<float>(std::max({500.0, cone(60, 60, 2000.0, 40.0), cone(30, 100, 1200.0, 40.0), cone(60, 25, 1300.0, 60.0)}));
+            static_cast<float>(std::max({500.0, cone(60, 60, 2000.0, 40.0),
+                                         cone(30, 100, 1200.0, 40.0), cone(60, 25, 1300.0, 60.0)}));
       }
     write_raster(path("cones.tif"), raster);
     write("scene.toml", R"(version = 1
@@ -47,10 +51,13 @@ height = 800
 sheet_width_mm = 400
 )");
     write("points.csv",
-          "name,kind,rank,ele,east,north\nMittelkogel,summit,1,2000,686150,5259900\nHinterkogel,summit,2,1300,686050,5263450\n");
+          "name,kind,rank,ele,east,north\nMittelkogel,summit,1,2000,686150,5259900\nHinterkogel,"
+          "summit,2,1300,686050,5263450\n");
   }
-  Outcome name(const std::vector<std::string>& more, const std::vector<std::string>& environment = {}) const {
-    std::vector<std::string> arguments = {"labels", path("scene.toml"), "--quiet", "--out", path("names")};
+  Outcome name(const std::vector<std::string>& more,
+               const std::vector<std::string>& environment = {}) const {
+    std::vector<std::string> arguments = {"labels", path("scene.toml"), "--quiet", "--out",
+                                          path("names")};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run(arguments, environment);
   }
@@ -59,20 +66,26 @@ sheet_width_mm = 400
 TEST_F(LabelsCommand, NamesWhatIsSeenAndSaysWhatHidesTheRest) {
   const Outcome outcome = name({"--points", path("points.csv"), "--under", path("panorama.png")});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, AllOf(HasSubstr("1 of 2 names placed"), HasSubstr("1 hidden behind ground")));
+  EXPECT_THAT(outcome.out,
+              AllOf(HasSubstr("1 of 2 names placed"), HasSubstr("1 hidden behind ground")));
   const std::string svg = read_bytes(path("names/labels.svg"));
-  EXPECT_THAT(svg, AllOf(HasSubstr(">Mittelkogel"), Not(HasSubstr("Hinterkogel")), HasSubstr("xlink:href=\"../panorama.png\"")));
-  EXPECT_THAT(read_bytes(path("names/labels.csv")),
-              AllOf(HasSubstr("Hinterkogel,summit,2,hidden behind ground"), HasSubstr(",Mittelkogel,")));
+  EXPECT_THAT(svg, AllOf(HasSubstr(">Mittelkogel"), Not(HasSubstr("Hinterkogel")),
+                         HasSubstr("xlink:href=\"../panorama.png\"")));
+  EXPECT_THAT(
+      read_bytes(path("names/labels.csv")),
+      AllOf(HasSubstr("Hinterkogel,summit,2,hidden behind ground"), HasSubstr(",Mittelkogel,")));
   EXPECT_THAT(read_bytes(path("names/labels.geojson")), HasSubstr("\"FeatureCollection\""));
 }
 
 TEST_F(LabelsCommand, TheDemsOwnSummitsGoWithoutNames) {
   const Outcome outcome = name({"--json"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, AllOf(HasSubstr("\"points\": 2"), HasSubstr("\"placed\": 2"))) << "the third is hidden";
-  EXPECT_THAT(read_bytes(path("names/labels.svg")), AllOf(HasSubstr(">2000"), HasSubstr(">1200"), Not(HasSubstr(">1300"))));
-  EXPECT_THAT(name({"--points", path("points.csv"), "--summits", "5", "--json"}).out, HasSubstr("\"points\": 3"))
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("\"points\": 2"), HasSubstr("\"placed\": 2")))
+      << "the third is hidden";
+  EXPECT_THAT(read_bytes(path("names/labels.svg")),
+              AllOf(HasSubstr(">2000"), HasSubstr(">1200"), Not(HasSubstr(">1300"))));
+  EXPECT_THAT(name({"--points", path("points.csv"), "--summits", "5", "--json"}).out,
+              HasSubstr("\"points\": 3"))
       << "those that the file does not name";
 }
 
@@ -104,9 +117,12 @@ TEST_F(LabelsCommand, WaysAreDrawnWithTheirProfiles) {
 }
 
 TEST_F(LabelsCommand, AWayElsewhereIsSaidWithBothExtents) {
-  write("zero.geojson", R"({"type": "Feature", "properties": {}, "geometry": {"type": "LineString", "coordinates": [[0, 0], [0.1, 0]]}})");
-  EXPECT_THAT(name({"--tracks", path("zero.geojson")}).err,
-              AllOf(HasSubstr("none of 1 ways lies on the terrain"), HasSubstr("longitude 0.00 … 0.10")));
+  write(
+      "zero.geojson",
+      R"({"type": "Feature", "properties": {}, "geometry": {"type": "LineString", "coordinates": [[0, 0], [0.1, 0]]}})");
+  EXPECT_THAT(
+      name({"--tracks", path("zero.geojson")}).err,
+      AllOf(HasSubstr("none of 1 ways lies on the terrain"), HasSubstr("longitude 0.00 … 0.10")));
   EXPECT_FALSE(std::filesystem::exists(path("names/labels.svg")));
 }
 
@@ -114,9 +130,9 @@ TEST_F(LabelsCommand, PointsElsewhereAreSaidWithBothExtents) {
   write("zero.csv", "name,lon,lat\nNull Island,0,0\n");
   const Outcome outcome = name({"--points", path("zero.csv")});
   EXPECT_EQ(outcome.status, 2);
-  EXPECT_THAT(outcome.err,
-              AllOf(HasSubstr("none of 1 points lies on the terrain"), HasSubstr("longitude 0.00 … 0.00, latitude 0.00 … 0.00"),
-                    HasSubstr("E 680000 … 692000"), HasSubstr("latitude 47.")));
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("none of 1 points lies on the terrain"),
+                                 HasSubstr("longitude 0.00 … 0.00, latitude 0.00 … 0.00"),
+                                 HasSubstr("E 680000 … 692000"), HasSubstr("latitude 47.")));
   EXPECT_FALSE(std::filesystem::exists(path("names/labels.svg")));
 }
 

@@ -34,7 +34,8 @@ class LayersFitCommand : public Program {
     classes.cells = Grid<std::uint8_t>(size, size);
     for (int y = 0; y != size; ++y)
       for (int x = 0; x != size; ++x) {
-        dem.cells(x, y) = static_cast<float>(2500.0 - 12.0 * std::hypot(x - 40.3, y - 39.7) + 3.0 * random_normal(1, x, y));
+        dem.cells(x, y) = static_cast<float>(2500.0 - 12.0 * std::hypot(x - 40.3, y - 39.7) +
+                                             3.0 * random_normal(1, x, y));
         classes.cells(x, y) = dem.cells(x, y) > 2150.0F ? 2 : 1;
       }
     write_raster(path("dem.tif"), dem);
@@ -42,16 +43,21 @@ class LayersFitCommand : public Program {
     write("legend.toml", "name = \"test\"\n[codes]\n1 = \"pasture\"\n2 = \"rock\"\n");
     write_picture("picture.png", size, size, [&](int x, int y) {
       const float n = 0.01F * static_cast<float>(random_normal(2, x, y));
-      return classes.cells(x, y) == 2 ? glm::vec3(0.55F + n, 0.40F + n, 0.28F + n) : glm::vec3(0.25F + n, 0.48F + n, 0.20F + n);
+      return classes.cells(x, y) == 2 ? glm::vec3(0.55F + n, 0.40F + n, 0.28F + n)
+                                      : glm::vec3(0.25F + n, 0.48F + n, 0.20F + n);
     });
   }
-  Outcome fit(const std::vector<std::string>& more, const std::vector<std::string>& environment = {}) const {
-    std::vector<std::string> arguments = {"layers", "fit", "--dem", path("dem.tif"), "--out", path("out.layers.toml")};
+  Outcome fit(const std::vector<std::string>& more,
+              const std::vector<std::string>& environment = {}) const {
+    std::vector<std::string> arguments = {"layers",        "fit",   "--dem",
+                                          path("dem.tif"), "--out", path("out.layers.toml")};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run(arguments, environment);
   }
   bool nothing_written() const { return !std::filesystem::exists(path("out.layers.toml")); }
-  std::vector<std::string> by_map() const { return {"--classes", path("classes.tif"), "--legend", path("legend.toml")}; }
+  std::vector<std::string> by_map() const {
+    return {"--classes", path("classes.tif"), "--legend", path("legend.toml")};
+  }
 };
 
 TEST_F(LayersFitCommand, LearnsALandCoverMap) {
@@ -63,16 +69,21 @@ TEST_F(LayersFitCommand, LearnsALandCoverMap) {
   EXPECT_EQ(layers.ground_painted_as, LandCoverClass::pasture);
   EXPECT_EQ(layers.layers[1].painted_as, LandCoverClass::rock);
   // Rock's function of altitude is open at the top and shut at the foot.
-  EXPECT_GT(layer_function_value(layers.layers[1].functions[0], layers.inputs[0], layers.model, 2400.0), 0.8);
-  EXPECT_LT(layer_function_value(layers.layers[1].functions[0], layers.inputs[0], layers.model, 1950.0), 0.2);
+  EXPECT_GT(
+      layer_function_value(layers.layers[1].functions[0], layers.inputs[0], layers.model, 2400.0),
+      0.8);
+  EXPECT_LT(
+      layer_function_value(layers.layers[1].functions[0], layers.inputs[0], layers.model, 1950.0),
+      0.2);
   EXPECT_LT(std::filesystem::file_size(path("out.layers.toml")), 20'000U);
 }
 
 TEST_F(LayersFitCommand, LearnsAPictureAndSaysWhatItFound) {
   const Outcome outcome = fit({"--image", path("picture.png"), "--model", "additive"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, AllOf(HasSubstr("lies on the cells of the DEM"), HasSubstr("no clouds"), HasSubstr("green"), HasSubstr("brown"),
-                                 HasSubstr("sun found")));
+  EXPECT_THAT(outcome.out,
+              AllOf(HasSubstr("lies on the cells of the DEM"), HasSubstr("no clouds"),
+                    HasSubstr("green"), HasSubstr("brown"), HasSubstr("sun estimated")));
   EXPECT_EQ(read_surface_layers(path("out.layers.toml")).model, LayerModel::additive);
 }
 
@@ -90,14 +101,16 @@ TEST_F(LayersFitCommand, ReportHoldsItsPage) {
   arguments.insert(arguments.end(), {"--report", path("report")});
   ASSERT_EQ(fit(arguments).status, 0);
   const std::string page = read_bytes(path("report/index.html"));
-  for (const char* part : {"judgement", "functions", "trace", "inputs", "reproduction", "\"slider\": ["})
+  for (const char* part :
+       {"judgement", "functions", "trace", "inputs", "reproduction", "\"slider\": ["})
     EXPECT_THAT(page, HasSubstr(part));
   EXPECT_THAT(page, Not(HasSubstr(path(""))));
   EXPECT_TRUE(std::filesystem::exists(path("report/original.png")));
 }
 
 TEST_F(LayersFitCommand, FaultsAreSaidAndNothingIsWritten) {
-  const auto fails = [&](const std::vector<std::string>& arguments, int status, const std::string& words) {
+  const auto fails = [&](const std::vector<std::string>& arguments, int status,
+                         const std::string& words) {
     const Outcome outcome = fit(arguments);
     EXPECT_EQ(outcome.status, status) << words;
     EXPECT_THAT(outcome.err, HasSubstr(words));
@@ -110,7 +123,7 @@ TEST_F(LayersFitCommand, FaultsAreSaidAndNothingIsWritten) {
   write_picture("small.png", 20, 20, [](int, int) { return glm::vec3(0.5F); });
   fails({"--image", path("small.png")}, 3, "20×20 pixels");
   write_picture("one.png", size, size, [](int, int) { return glm::vec3(0.5F, 0.4F, 0.2F); });
-  fails({"--image", path("one.png")}, 3, "one class only");
+  fails({"--image", path("one.png")}, 3, "only one class");
   write_picture("cloud.png", size, size, [](int x, int y) {
     const float n = 0.02F * static_cast<float>(random_normal(3, x, y));
     return glm::vec3(0.92F + n, 0.92F + 0.9F * n, 0.93F + n);
@@ -139,8 +152,8 @@ TEST_F(LayersFitCommand, MaskedCellsAreNotLearnedFrom) {
   EXPECT_THAT(outcome.out, HasSubstr("50.0 % of the cells are masked"));
 }
 
-// Sun and climate of fitting and applying are the same numbers: what was learned of sun alone gives its classes back, and ranges, which
-// leave out a thousandth at each end, fit to the cell.
+// Sun and climate of fitting and applying are the same numbers: layers learned from sun alone
+// reproduce its classes, and ranges, which leave out a thousandth at each end, match to the cell.
 TEST_F(LayersFitCommand, AppliedToItsOwnGroundItFindsItsClasses) {
   Raster<std::uint8_t> sides;
   sides.transform = {680000.0, 5260000.0, 30.0, 30.0};
@@ -150,12 +163,13 @@ TEST_F(LayersFitCommand, AppliedToItsOwnGroundItFindsItsClasses) {
     for (int x = 0; x != size; ++x) sides.cells(x, y) = 2;
   write_raster(path("classes.tif"), sides);
   std::vector<std::string> arguments = by_map();
-  arguments.insert(arguments.end(), {"--inputs", "radiation,temperature,rain,sky_view", "--model", "additive"});
+  arguments.insert(arguments.end(),
+                   {"--inputs", "radiation,temperature,rain,sky_view", "--model", "additive"});
   const Outcome fitted = fit(arguments);
   ASSERT_EQ(fitted.status, 0) << fitted.err;
-  EXPECT_THAT(fitted.out, HasSubstr("rain: by latitude"));
-  const Outcome applied =
-      run({"layers", "apply", path("out.layers.toml"), "--dem", path("dem.tif"), "--out", path("c.tif"), "--shares", path("s.tif")});
+  EXPECT_THAT(fitted.out, HasSubstr("rain: from latitude"));
+  const Outcome applied = run({"layers", "apply", path("out.layers.toml"), "--dem", path("dem.tif"),
+                               "--out", path("c.tif"), "--shares", path("s.tif")});
   ASSERT_EQ(applied.status, 0) << applied.err;
   for (const char* name : {"radiation", "temperature", "rain", "sky_view"}) {
     const std::size_t at = applied.out.find(std::string("  ") + name, applied.out.find("outside"));
@@ -168,7 +182,10 @@ TEST_F(LayersFitCommand, AppliedToItsOwnGroundItFindsItsClasses) {
   const Grid<std::int32_t> classes = read_codes(source).cells;
   int right = 0;
   for (std::size_t i = 0; i != classes.size(); ++i)
-    right += classes[i] == static_cast<int>(sides.cells[i] == 1 ? LandCoverClass::pasture : LandCoverClass::rock) ? 1 : 0;
+    right += classes[i] == static_cast<int>(sides.cells[i] == 1 ? LandCoverClass::pasture
+                                                                : LandCoverClass::rock)
+                 ? 1
+                 : 0;
   EXPECT_GT(right, 0.9 * size * size);
 }
 
@@ -177,14 +194,15 @@ TEST_F(LayersFitCommand, GroundWithoutCoordinateSystemNeedsItsLatitude) {
   dem.transform = {0.0, 0.0, 30.0, 30.0};
   dem.cells = Grid<float>(size, size);
   for (int y = 0; y != size; ++y)
-    for (int x = 0; x != size; ++x) dem.cells(x, y) = static_cast<float>(2500.0 - 12.0 * std::hypot(x - 40.3, y - 39.7));
+    for (int x = 0; x != size; ++x)
+      dem.cells(x, y) = static_cast<float>(2500.0 - 12.0 * std::hypot(x - 40.3, y - 39.7));
   write_raster(path("dem.tif"), dem);
   const Outcome outcome = fit({"--image", path("picture.png")});
   EXPECT_EQ(outcome.status, 2);
   EXPECT_THAT(outcome.err, HasSubstr("--latitude"));
   EXPECT_TRUE(nothing_written());
   EXPECT_EQ(fit({"--image", path("picture.png"), "--latitude", "47"}).status, 0);
-  // Nothing is computed that nobody asks for.
+  // Inputs that are not used are not computed.
   EXPECT_EQ(fit({"--image", path("picture.png"), "--inputs", "altitude,slope"}).status, 0);
 }
 

@@ -17,7 +17,8 @@ using ::testing::HasSubstr;
 class LayersPicture : public Program {
  protected:
   void SetUp() override {
-    Raster<float> raster{Grid<float>(60, 40), {680000.0, 5260000.0, 100.0, 100.0}, normalize_crs("EPSG:32632")};
+    Raster<float> raster{
+        Grid<float>(60, 40), {680000.0, 5260000.0, 100.0, 100.0}, normalize_crs("EPSG:32632")};
     for (int y = 0; y < 40; ++y)
       for (int x = 0; x < 60; ++x) raster.cells(x, y) = 100.F + 20.F * static_cast<float>(x);
     write_raster(path("dem.tif"), raster);
@@ -25,10 +26,13 @@ class LayersPicture : public Program {
         path("one.layers.toml"),
         "version = 1\nname = \"one\"\nground = { class = \"rock\", colour = \"#804020\" }\n"
         "[[inputs]]\nname = \"altitude\"\nlow = 0\nhigh = 1200\n"
-        "[[layers]]\nname = \"snow\"\nclass = \"snow\"\ncolour = \"#ffffff\"\n[layers.functions]\naltitude = { low = 2000 }\n");
+        "[[layers]]\nname = \"snow\"\nclass = \"snow\"\ncolour = "
+        "\"#ffffff\"\n[layers.functions]\naltitude = { low = 2000 }\n");
   }
   Outcome draw(const std::vector<std::string>& more) const {
-    std::vector<std::string> arguments = {"layers", "picture", path("one.layers.toml"), "--dem", path("dem.tif"), "--out", path("map.tif")};
+    std::vector<std::string> arguments = {"layers",       "picture",       path("one.layers.toml"),
+                                          "--dem",        path("dem.tif"), "--out",
+                                          path("map.tif")};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run(arguments);
   }
@@ -37,7 +41,7 @@ class LayersPicture : public Program {
 TEST_F(LayersPicture, LiesOnTheGroundOfTheDem) {
   const Outcome result = draw({"--finer", "3", "--light-from", "90"});
   ASSERT_EQ(result.status, 0) << result.err;
-  EXPECT_THAT(result.out, HasSubstr("180×120 places of 33.3333 m"));
+  EXPECT_THAT(result.out, HasSubstr("180×120 pixels of 33.3333 m"));
   RasterSource source;
   source.path = path("map.tif");
   const RasterInfo info = read_raster_info(source);

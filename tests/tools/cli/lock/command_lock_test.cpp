@@ -21,21 +21,27 @@ class Lock : public Program {
  protected:
   // Hills of a file, in a folder of data; painted in strokes alone.
   void SetUp() override {
-    Raster<float> raster{Grid<float>(48, 48), {500000.0, 5200000.0, 100.0, 100.0}, normalize_crs("EPSG:32632")};
+    Raster<float> raster{
+        Grid<float>(48, 48), {500000.0, 5200000.0, 100.0, 100.0}, normalize_crs("EPSG:32632")};
     for (int y = 0; y < 48; ++y)
-      for (int x = 0; x < 48; ++x) raster.cells(x, y) = static_cast<float>(1000 + (x * 37 + y * 53) % 200);
+      for (int x = 0; x < 48; ++x)
+        raster.cells(x, y) = static_cast<float>(1000 + (x * 37 + y * 53) % 200);
     fs::create_directories(path("data"));
     write_raster(path("data/dem.tif"), raster);
     write_hills("alps");
   }
   std::string write_hills(const std::string& name, const std::string& more = "") const {
-    return write(name + ".toml",
-                 "version = 1\n[[terrain.sources]]\nfile = \"dem.tif\"\n[camera]\nposition = [502400, 5194000]\nheight_m = 4000\n"
-                 "pitch_deg = -20\n[sampling]\npixel_samples = 1\nshadow_rays = 1\nsky_directions = 0\n[synthesis]\nenabled = false\n"
-                 "[output]\nwidth = 96\nheight = 64\nsheet_width_mm = 100\nformats = [\"png\", \"tif\"]\n" +
-                     more);
+    return write(
+        name + ".toml",
+        "version = 1\n[[terrain.sources]]\nfile = \"dem.tif\"\n[camera]\nposition = [502400, "
+        "5194000]\nheight_m = 4000\n"
+        "pitch_deg = -20\n[sampling]\npixel_samples = 1\nshadow_rays = 1\nsky_directions = "
+        "0\n[synthesis]\nenabled = false\n"
+        "[output]\nwidth = 96\nheight = 64\nsheet_width_mm = 100\nformats = [\"png\", \"tif\"]\n" +
+            more);
   }
-  Outcome with_data(std::vector<std::string> arguments, const std::vector<std::string>& environment = {}) const {
+  Outcome with_data(std::vector<std::string> arguments,
+                    const std::vector<std::string>& environment = {}) const {
     arguments.insert(arguments.end(), {"--data", path("data")});
     return run(arguments, environment);
   }
@@ -54,10 +60,12 @@ TEST_F(Lock, SaysWhatTheSceneWasMadeOfAndVerifyFindsItTheSame) {
   ASSERT_EQ(made.status, 0) << made.err;
   const std::string text = lock_text();
   EXPECT_THAT(
-      text, AllOf(HasSubstr("width = 48\nheight = 32\nsettings = [\"seed=5\"]"), HasSubstr("file = \"dem.tif\"\nbytes = "),
-                  HasSubstr("[products.\"guidance.exr\"]"), HasSubstr("\"landcover.id\" = "),
-                  HasSubstr("[products.\"panorama.png\"]\n\"R\" = "), HasSubstr("[products.\"panorama.tif\"]"), Not(HasSubstr(path("")))));
-  // The same again, for any number of threads, where it lies there already and anew.
+      text,
+      AllOf(HasSubstr("width = 48\nheight = 32\nsettings = [\"seed=5\"]"),
+            HasSubstr("file = \"dem.tif\"\nbytes = "), HasSubstr("[products.\"guidance.exr\"]"),
+            HasSubstr("\"landcover.id\" = "), HasSubstr("[products.\"panorama.png\"]\n\"R\" = "),
+            HasSubstr("[products.\"panorama.tif\"]"), Not(HasSubstr(path("")))));
+  // The same again, for any number of threads, with and without an existing lock.
   EXPECT_EQ(with_data({"lock", alps(), "--threads", "1"}, without_cache()).status, 0);
   EXPECT_EQ(lock_text(), text);
   fs::remove(path("alps.lock"));
@@ -82,17 +90,19 @@ TEST_F(Lock, ChangedInputsAreRefusedByAllThatAreHeldToTheLock) {
   change_the_dem();
   for (const char* command : {"render", "guidance", "check"}) {
     std::vector<std::string> arguments = {command, alps(), "--locked"};
-    if (command != std::string("check")) arguments.insert(arguments.end(), {"--out", path("result")});
+    if (command != std::string("check"))
+      arguments.insert(arguments.end(), {"--out", path("result")});
     const Outcome refused = with_data(arguments);
     EXPECT_EQ(refused.status, 3) << command;
-    EXPECT_THAT(refused.err,
-                AllOf(HasSubstr("dem.tif: "), HasSubstr(" in the lock, now "), HasSubstr("belvedere lock --update " + alps())));
+    EXPECT_THAT(refused.err, AllOf(HasSubstr("dem.tif: "), HasSubstr(" in the lock, now "),
+                                   HasSubstr("belvedere lock --update " + alps())));
     EXPECT_FALSE(fs::exists(path("result")));
   }
   EXPECT_EQ(with_data({"verify", alps()}).status, 3);
   const Outcome again = with_data({"lock", alps()});
   EXPECT_EQ(again.status, 3);
-  EXPECT_THAT(again.err, AllOf(HasSubstr("dem.tif: "), HasSubstr("--update"), Not(HasSubstr(" s)"))));
+  EXPECT_THAT(again.err,
+              AllOf(HasSubstr("dem.tif: "), HasSubstr("--update"), Not(HasSubstr(" s)"))));
   EXPECT_EQ(lock_text(), text);
   ASSERT_EQ(with_data({"lock", alps(), "--update"}).status, 0);
   EXPECT_NE(lock_text(), text);
@@ -104,7 +114,8 @@ TEST_F(Lock, WithoutALockOrWithABrokenOneNothingIsHeldToIt) {
        std::vector<std::vector<std::string>>{{"check", alps(), "--locked"}, {"verify", alps()}}) {
     const Outcome outcome = with_data(arguments);
     EXPECT_EQ(outcome.status, 3);
-    EXPECT_THAT(outcome.out + outcome.err, AllOf(HasSubstr("alps.lock"), HasSubstr("belvedere lock")));
+    EXPECT_THAT(outcome.out + outcome.err,
+                AllOf(HasSubstr("alps.lock"), HasSubstr("belvedere lock")));
   }
   EXPECT_EQ(run({"check", "--locked"}).status, 2);  // the demo
   EXPECT_EQ(run({"lock"}).status, 2);
@@ -120,8 +131,9 @@ TEST_F(Lock, AChangedSceneAndOtherPixelsAreDifferences) {
   write_hills("alps", "[sun]\nazimuth_deg = 90\n");
   const Outcome verified = with_data({"verify", alps()});
   EXPECT_EQ(verified.status, 1) << verified.err;
-  EXPECT_THAT(verified.out, AllOf(HasSubstr("guidance.exr ("), HasSubstr("shadow.V"), HasSubstr("panorama.tif (R G B)"),
-                                  HasSubstr("the scene, or"), Not(HasSubstr("altitude.V")), Not(HasSubstr("landcover.id"))));
+  EXPECT_THAT(verified.out, AllOf(HasSubstr("guidance.exr ("), HasSubstr("shadow.V"),
+                                  HasSubstr("panorama.tif (R G B)"), HasSubstr("the scene, or"),
+                                  Not(HasSubstr("altitude.V")), Not(HasSubstr("landcover.id"))));
   EXPECT_EQ(with_data({"check", alps(), "--locked"}).status, 0);  // inputs are the same
   EXPECT_THAT(with_data({"lock", alps()}).err, HasSubstr("the scene with its defaults"));
   write_hills("alps");
@@ -150,17 +162,19 @@ TEST_F(Lock, ABrokenSceneKeepsNoOtherFromBeingVerified) {
   fs::copy_file(path("alps.lock"), path("more/alps.lock"));
   fs::copy_file(path("alps.lock"), path("bad.lock"));
   const std::string bad = write("bad.toml", "version = 1\nnonsense = 3\n");
-  const Outcome verified = with_data({"verify", bad, alps(), path("more/alps.toml"), "--junit", path("junit.xml"), "--page",
-                                      path("page.html"), "--out", path("kept"), "-q"});
+  const Outcome verified =
+      with_data({"verify", bad, alps(), path("more/alps.toml"), "--junit", path("junit.xml"),
+                 "--report", path("page.html"), "--out", path("kept"), "-q"});
   EXPECT_EQ(verified.status, 2) << verified.err;
   EXPECT_EQ(std::count(verified.out.begin(), verified.out.end(), '\n') >= 3, true);
-  EXPECT_THAT(verified.out, AllOf(HasSubstr(bad + ": not compared: "), HasSubstr("bad.toml:2:1"), HasSubstr(alps() + ": 96×64: the same"),
+  EXPECT_THAT(verified.out, AllOf(HasSubstr(bad + ": not compared: "), HasSubstr("bad.toml:2:1"),
+                                  HasSubstr(alps() + ": 96×64: the same"),
                                   HasSubstr(path("more/alps.toml") + ": 96×64: the same")));
   EXPECT_THAT(read_bytes(path("junit.xml")), HasSubstr("failures=\"0\" errors=\"1\""));
   EXPECT_THAT(read_bytes(path("page.html")), HasSubstr("2 of 3 scenes"));
   EXPECT_TRUE(fs::exists(path("kept/alps/panorama.tif")));
   EXPECT_TRUE(fs::exists(path("kept/alps-2/panorama.tif")));
-  // What cannot be written is said before the work.
+  // Unwritable results are reported before the work.
   const Outcome nowhere = with_data({"verify", alps(), "--junit", "/proc/self/none/junit.xml"});
   EXPECT_EQ(nowhere.status, 4);
   EXPECT_THAT(nowhere.out, IsEmpty());

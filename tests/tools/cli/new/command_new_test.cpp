@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "terrain/io/raster_io.h"
-#include "tests/renderer/compose/made_up_region.h"
+#include "tests/renderer/compose/synthetic_region.h"
 #include "tests/tools/cli/new/two_bands.h"
 #include "tests/tools/program.h"
 
@@ -20,8 +20,9 @@ using testing::Not;
 class New : public Program {
  protected:
   std::string write_dem(const std::string& name = "my_dem.tif", double side_km = 60.0) const {
-    write_raster(path(name),
-                 test::made_up_raster(side_km, [&](double e, double n) { return test::chain(e * 60.0 / side_km, n * 60.0 / side_km); }));
+    write_raster(path(name), test::synthetic_raster(side_km, [&](double e, double n) {
+                   return test::chain(e * 60.0 / side_km, n * 60.0 / side_km);
+                 }));
     return path(name);
   }
 };
@@ -29,20 +30,24 @@ class New : public Program {
 TEST_F(New, WritesASceneThatIsInOrderAndRenders) {
   const Outcome made = run({"new", write_dem(), "--out", path("scene.toml")});
   ASSERT_EQ(made.status, 0) << made.err;
-  EXPECT_THAT(made.out, AllOf(HasSubstr("* 1. "), HasSubstr("  2. "), HasSubstr("merit"), HasSubstr("next: belvedere render")));
+  EXPECT_THAT(made.out, AllOf(HasSubstr("* 1. "), HasSubstr("  2. "), HasSubstr("merit"),
+                              HasSubstr("next: belvedere render")));
   const std::string text = read_bytes(path("scene.toml"));
-  EXPECT_THAT(text, AllOf(HasSubstr("file = \"my_dem.tif\""), HasSubstr("title = \"my dem\""), HasSubstr("crs = \"EPSG:32632\"")));
+  EXPECT_THAT(text, AllOf(HasSubstr("file = \"my_dem.tif\""), HasSubstr("title = \"my dem\""),
+                          HasSubstr("crs = \"EPSG:32632\"")));
   const Outcome check = run({"check", path("scene.toml"), "--set", "synthesis.enabled=false"});
   ASSERT_EQ(check.status, 0) << check.err;
-  EXPECT_THAT(check.out, AllOf(HasSubstr("composition: merit"), HasSubstr("valley floor seen"), Not(HasSubstr("much sky"))));
-  const Outcome render =
-      run({"render", path("scene.toml"), "--draft", "--out", path("out"), "--set", "output.width=192", "--set", "output.height=96"});
+  EXPECT_THAT(check.out, AllOf(HasSubstr("composition: merit"), HasSubstr("valley floor seen"),
+                               Not(HasSubstr("much sky"))));
+  const Outcome render = run({"render", path("scene.toml"), "--draft", "--out", path("out"),
+                              "--set", "output.width=192", "--set", "output.height=96"});
   EXPECT_EQ(render.status, 0) << render.err;
 }
 
 TEST_F(New, IsTheSameForAnyThreadsAndChoosesByNumber) {
   const std::string dem = write_dem();
-  ASSERT_EQ(run({"new", dem, "--out", path("one.toml"), "--threads", "1"}, without_cache()).status, 0);
+  ASSERT_EQ(run({"new", dem, "--out", path("one.toml"), "--threads", "1"}, without_cache()).status,
+            0);
   ASSERT_EQ(run({"new", dem, "--out", path("two.toml"), "--threads", "3"}).status, 0);
   EXPECT_EQ(read_bytes(path("one.toml")), read_bytes(path("two.toml")));
   ASSERT_EQ(run({"new", dem, "--out", path("other.toml"), "--choose", "2"}).status, 0);
@@ -63,10 +68,13 @@ TEST_F(New, KeepsAFileThatIsThere) {
   EXPECT_THAT(read_bytes(path("mine.toml")), HasSubstr("version = 1"));
 }
 
-// Coordinates of one system said to be of another: the scene is written, and its climate is that of a place far away.
+// Coordinates of one system labelled as another: the scene is written, and its climate is that of a
+// place far away.
 TEST_F(New, APlaceFarFromWhereItsSystemIsUsedIsDoubted) {
-  Raster<float> raster = test::made_up_raster(60.0, [](double e, double n) { return test::chain(e, n); });
-  EXPECT_THAT(run({"new", write_dem(), "--out", path("right.toml")}).err, Not(HasSubstr("coordinate system")));
+  Raster<float> raster =
+      test::synthetic_raster(60.0, [](double e, double n) { return test::chain(e, n); });
+  EXPECT_THAT(run({"new", write_dem(), "--out", path("right.toml")}).err,
+              Not(HasSubstr("coordinate system")));
   raster.transform.origin_x = -1620000.0;
   raster.transform.origin_y = 438000.0;
   write_raster(path("wrong.tif"), raster);
@@ -78,13 +86,13 @@ TEST_F(New, APlaceFarFromWhereItsSystemIsUsedIsDoubted) {
 TEST_F(New, WishesAreHeldOrRefused) {
   const std::string dem = write_dem();
   // Peaks of the chain lie at N 5230 km: 47.2° N, 10.7° E.
-  const Outcome wished =
-      run({"new", dem, "--out", path("a.toml"), "--towards", "north", "--format", "3:1", "--include", "the peak|10.71,47.2"});
-  ASSERT_EQ(wished.status, 0) << wished.err;
+  const Outcome requested = run({"new", dem, "--out", path("a.toml"), "--towards", "north",
+                                 "--format", "3:1", "--include", "the peak|10.71,47.2"});
+  ASSERT_EQ(requested.status, 0) << requested.err;
   EXPECT_THAT(read_bytes(path("a.toml")), HasSubstr("height = 800"));
   const Outcome off = run({"new", dem, "--out", path("b.toml"), "--include", "Rome|12.5,41.9"});
   EXPECT_EQ(off.status, 2);
-  EXPECT_THAT(off.err, AllOf(HasSubstr("--include"), HasSubstr("outside of the data")));
+  EXPECT_THAT(off.err, AllOf(HasSubstr("--include"), HasSubstr("outside the data")));
   EXPECT_EQ(run({"new", dem, "--out", path("c.toml"), "--towards", "up"}).status, 2);
   EXPECT_FALSE(std::filesystem::exists(path("c.toml")));
 }
@@ -93,23 +101,24 @@ TEST_F(New, RegionsThatCannotDoAreRefusedInWords) {
   const Outcome small = run({"new", write_dem("small.tif", 5.0), "--out", path("a.toml")});
   EXPECT_EQ(small.status, 3);
   EXPECT_THAT(small.err, AllOf(HasSubstr("small.tif"), HasSubstr("8 km")));
-  Raster<float> nowhere = test::made_up_raster(60.0, test::chain);
+  Raster<float> nowhere = test::synthetic_raster(60.0, test::chain);
   nowhere.crs.clear();
   write_raster(path("nowhere.asc"), nowhere);
   const Outcome lost = run({"new", path("nowhere.asc"), "--out", path("a.toml")});
   EXPECT_EQ(lost.status, 3);
   EXPECT_THAT(lost.err, HasSubstr("--crs"));
-  const Outcome given = run({"new", path("nowhere.asc"), "--out", path("a.toml"), "--crs", "EPSG:32632"});
+  const Outcome given =
+      run({"new", path("nowhere.asc"), "--out", path("a.toml"), "--crs", "EPSG:32632"});
   EXPECT_EQ(given.status, 0) << given.err;
-  EXPECT_THAT(read_bytes(path("a.toml")), HasSubstr("# the file does not say it"));
+  EXPECT_THAT(read_bytes(path("a.toml")), HasSubstr("# the file does not state it"));
   const Outcome missing = run({"new", path("missing.tif"), "--out", path("b.toml")});
   EXPECT_EQ(missing.status, 3);
   EXPECT_THAT(missing.err, HasSubstr("missing.tif"));
 }
 
-// Codes of FBFM40 in the second band of a file, and the same codes in a file that does not say where it lies.
+// Codes of FBFM40 in the second band of a file, and the same codes in a file without coordinates.
 TEST_F(New, LandCoverMayBeABandOfAFileThatSaysLittle) {
-  const Raster<float> dem = test::made_up_raster(60.0, test::chain);
+  const Raster<float> dem = test::synthetic_raster(60.0, test::chain);
   Raster<float> codes = dem;
   for (float& code : codes.cells) code = code > 1500.F ? 99.F : 161.F;  // bare ground, timber
   write_raster(path("dem.tif"), dem);
@@ -117,13 +126,17 @@ TEST_F(New, LandCoverMayBeABandOfAFileThatSaysLittle) {
   codes.crs.clear();
   write_raster(path("codes.asc"), codes);
   const auto propose = [&](std::vector<std::string> cover) {
-    std::vector<std::string> arguments = {"new", path("dem.tif"), "--out", path("a.toml"), "--force", "--legend", "fbfm40"};
+    std::vector<std::string> arguments = {"new",     path("dem.tif"), "--out", path("a.toml"),
+                                          "--force", "--legend",      "fbfm40"};
     arguments.insert(arguments.end(), cover.begin(), cover.end());
     return run(arguments);
   };
-  const auto check = [&] { return run({"check", path("a.toml"), "--set", "synthesis.enabled=false"}); };
+  const auto check = [&] {
+    return run({"check", path("a.toml"), "--set", "synthesis.enabled=false"});
+  };
   ASSERT_EQ(propose({"--land-cover", path("bands.tif"), "--land-cover-band", "2"}).status, 0);
-  EXPECT_THAT(read_bytes(path("a.toml")), AllOf(HasSubstr("file = \"bands.tif\"\nband = 2"), HasSubstr("legend = \"fbfm40\"")));
+  EXPECT_THAT(read_bytes(path("a.toml")),
+              AllOf(HasSubstr("file = \"bands.tif\"\nband = 2"), HasSubstr("legend = \"fbfm40\"")));
   EXPECT_EQ(check().status, 0) << "the codes are those of the legend";
   const Outcome third = propose({"--land-cover", path("bands.tif"), "--land-cover-band", "3"});
   EXPECT_EQ(third.status, 3);
@@ -132,19 +145,28 @@ TEST_F(New, LandCoverMayBeABandOfAFileThatSaysLittle) {
   const Outcome lost = propose({"--land-cover", path("codes.asc")});
   EXPECT_EQ(lost.status, 3);
   EXPECT_THAT(lost.err, AllOf(HasSubstr("codes.asc"), HasSubstr("--land-cover-crs")));
-  const Outcome elsewhere = propose({"--land-cover", path("codes.asc"), "--land-cover-crs", "EPSG:32611"});
+  const Outcome elsewhere =
+      propose({"--land-cover", path("codes.asc"), "--land-cover-crs", "EPSG:32611"});
   EXPECT_EQ(elsewhere.status, 3);
-  EXPECT_THAT(elsewhere.err, HasSubstr("lies elsewhere"));
-  ASSERT_EQ(propose({"--land-cover", path("codes.asc"), "--land-cover-crs", "EPSG:32632", "--land-cover-unknown", "shrub"}).status, 0);
-  EXPECT_THAT(read_bytes(path("a.toml")), AllOf(HasSubstr("crs = \"EPSG:32632\""), HasSubstr("unknown = \"shrub\"")));
+  EXPECT_THAT(elsewhere.err, HasSubstr("does not overlap"));
+  ASSERT_EQ(propose({"--land-cover", path("codes.asc"), "--land-cover-crs", "EPSG:32632",
+                     "--land-cover-unknown", "shrub"})
+                .status,
+            0);
+  EXPECT_THAT(read_bytes(path("a.toml")),
+              AllOf(HasSubstr("crs = \"EPSG:32632\""), HasSubstr("unknown = \"shrub\"")));
   EXPECT_EQ(check().status, 0);
-  EXPECT_EQ(run({"new", path("dem.tif"), "--out", path("b.toml"), "--land-cover-band", "2"}).status, 2) << "of which file?";
+  EXPECT_EQ(run({"new", path("dem.tif"), "--out", path("b.toml"), "--land-cover-band", "2"}).status,
+            2)
+      << "of which file?";
 }
 
 TEST_F(New, PicturesAreOneNumberedSheet) {
-  const Outcome made = run({"new", write_dem(), "--out", path("a.toml"), "--pictures", path("views"), "--proposals", "2", "--json"});
+  const Outcome made = run({"new", write_dem(), "--out", path("a.toml"), "--pictures",
+                            path("views"), "--proposals", "2", "--json"});
   ASSERT_EQ(made.status, 0) << made.err;
-  EXPECT_THAT(made.out, AllOf(HasSubstr("\"proposals\": ["), HasSubstr("proposals.png"), HasSubstr("\"merit\": ")));
+  EXPECT_THAT(made.out, AllOf(HasSubstr("\"proposals\": ["), HasSubstr("proposals.png"),
+                              HasSubstr("\"merit\": ")));
   const Grid<glm::vec3> sheet = read_picture(path("views/proposals.png"));
   EXPECT_EQ(sheet.width(), 2 * 520 + 3 * 12);
 }
@@ -153,10 +175,14 @@ TEST_F(New, FilesElsewhereAreNamedByTheirDataFolder) {
   std::filesystem::create_directories(path("data"));
   std::filesystem::create_directories(path("scenes"));
   write_dem("data/far.tif");
-  const Outcome made = run({"new", "far.tif", "--data", path("data"), "--out", path("scenes/a.toml")});
+  const Outcome made =
+      run({"new", "far.tif", "--data", path("data"), "--out", path("scenes/a.toml")});
   ASSERT_EQ(made.status, 0) << made.err;
   EXPECT_THAT(made.out, HasSubstr("--data " + path("data")));
-  EXPECT_EQ(run({"check", path("scenes/a.toml"), "--data", path("data"), "--set", "synthesis.enabled=false"}).status, 0);
+  EXPECT_EQ(run({"check", path("scenes/a.toml"), "--data", path("data"), "--set",
+                 "synthesis.enabled=false"})
+                .status,
+            0);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include "renderer/image/image_io.h"
 #include "terrain/io/raster_io.h"
 #include "tests/files.h"
-#include "tests/renderer/compose/made_up_region.h"
+#include "tests/renderer/compose/synthetic_region.h"
 #include "tests/scenes.h"
 
 namespace belvedere::tools {
@@ -28,12 +28,14 @@ TEST(ContactSheet, DraftsAreSmallAndOfCoarserGround) {
 TEST(ContactSheet, HoldsEveryPictureInItsPlace) {
   const test::Folder folder;
   const LoadedScene first = make_small_draft(test::small_scene(), 96, 0.0);
-  const LoadedScene second = make_small_draft(test::small_scene({"camera.azimuth_deg=30"}), 96, 0.0);
+  const LoadedScene second =
+      make_small_draft(test::small_scene({"camera.azimuth_deg=30"}), 96, 0.0);
   write_contact_sheet(folder / "both.png", {first, second, first}, {"1", "2", "3"}, {});
   const Grid<glm::vec3> sheet = read_picture(folder / "both.png");
   EXPECT_EQ(sheet.width(), 2 * 96 + 3 * 12);
   EXPECT_GT(sheet.height(), 2 * 80);
-  // The third picture is the first again, below it; the second is another. Their numbers stand below them.
+  // The third picture is the first again, below it; the second is another. Their numbers stand
+  // below them.
   int rows = 0;
   while (rows < 80 && sheet(12 + 48, 12 + rows) != sheet(0, 0)) ++rows;
   EXPECT_GE(rows, 64);
@@ -51,19 +53,22 @@ TEST(ContactSheet, HoldsEveryPictureInItsPlace) {
   EXPECT_GT(dark, 10);
 }
 
-// Several drafts share their ground, which is read once: each looks as it does alone, voids and coarser cells included.
+// Several drafts share their ground, which is read once: each equals the same draft alone, voids
+// and coarser cells included.
 TEST(ContactSheet, SharedGroundIsTheGround) {
   const test::Folder folder;
-  Raster<float> hills = test::made_up_raster(20.0, test::chain, 120);
+  Raster<float> hills = test::synthetic_raster(20.0, test::chain, 120);
   for (int y = 40; y < 48; ++y)
     for (int x = 50; x < 60; ++x) hills.cells(x, y) = std::numeric_limits<float>::quiet_NaN();
   write_raster(folder / "hills.tif", hills);
   const auto draft = [&](const std::string& azimuth) {
-    return make_small_draft(parse_scene("version = 1\n[[terrain.sources]]\nfile = \"hills.tif\"\n[camera]\nposition = [610000, 5198000]\n"
-                                        "height_m = 6000\nazimuth_deg = " +
-                                            azimuth + "\n[output]\nwidth = 480\nheight = 240\nsheet_width_mm = 480\n",
-                                        "hills.toml", folder.path(), {}),
-                            96, 250.0);
+    return make_small_draft(
+        parse_scene("version = 1\n[[terrain.sources]]\nfile = \"hills.tif\"\n[camera]\nposition = "
+                    "[610000, 5198000]\n"
+                    "height_m = 6000\nazimuth_deg = " +
+                        azimuth + "\n[output]\nwidth = 480\nheight = 240\nsheet_width_mm = 480\n",
+                    "hills.toml", folder.path(), {}),
+        96, 250.0);
   };
   write_contact_sheet(folder / "alone.png", {draft("0")}, {"1"}, {});
   write_contact_sheet(folder / "both.png", {draft("0"), draft("20")}, {"1", "2"}, {});

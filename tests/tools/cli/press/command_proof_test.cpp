@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "renderer/image/color.h"
+#include "renderer/image/display_conversion.h"
 #include "tests/renderer/image/icc/press_profile.h"
 #include "tests/tools/program.h"
 
@@ -14,18 +14,21 @@ using testing::HasSubstr;
 class PressCommands : public Program {
  protected:
   void picture() const {
-    write_png8(path("a.png"), Grid<glm::vec3>(30, 20, glm::vec3(0.5F)), {.dots_per_inch = 300.0, .icc_profile = {}, .notes = {}});
+    write_png8(path("a.png"), Grid<glm::vec3>(30, 20, glm::vec3(0.5F)),
+               {.dots_per_inch = 300.0, .icc_profile = {}, .notes = {}});
   }
 };
 
 TEST_F(PressCommands, ProofsAPicture) {
   picture();
-  const Outcome outcome = run({"proof", path("a.png"), "--profile", test::press_file, "--out", path("out"), "--quiet"});
+  const Outcome outcome =
+      run({"proof", path("a.png"), "--profile", test::press_file, "--out", path("out"), "--quiet"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("cannot print: 0.00 % of the pixels"));
+  EXPECT_THAT(outcome.out, HasSubstr("unprintable colours: 0.00 % of the pixels"));
   EXPECT_EQ(read_picture(path("out/a_proof.png")).width(), 30);
   EXPECT_EQ(read_picture(path("out/a_outside.png")).height(), 20);
-  const Outcome json = run({"proof", path("a.png"), "--profile", test::press_file, "--out", path("out"), "--quiet", "--json"});
+  const Outcome json = run({"proof", path("a.png"), "--profile", test::press_file, "--out",
+                            path("out"), "--quiet", "--json"});
   EXPECT_THAT(json.out, HasSubstr("\"outside_share\": 0"));
 }
 
@@ -37,21 +40,26 @@ TEST_F(PressCommands, FaultsHaveTheirStatusAndWord) {
   };
   const Outcome text = run_with("a.png", path("text.icc"));
   EXPECT_EQ(text.status, 3);
-  EXPECT_THAT(text.err, HasSubstr("is no ICC profile"));
+  EXPECT_THAT(text.err, HasSubstr("is not an ICC profile"));
   const Outcome absent = run_with("absent.png", test::press_file);
   EXPECT_EQ(absent.status, 3);
   EXPECT_THAT(absent.err, HasSubstr("absent.png"));
   const std::vector<std::uint8_t> rgb = srgb_profile();
   write("rgb.icc", std::string(rgb.begin(), rgb.end()));
   EXPECT_THAT(run_with("a.png", path("rgb.icc")).err, HasSubstr("colours in RGB"));
-  EXPECT_EQ(run({"proof", path("a.png"), "--profile", test::press_file, "--intent", "nice", "--out", path("out")}).status, 2);
+  EXPECT_EQ(run({"proof", path("a.png"), "--profile", test::press_file, "--intent", "nice", "--out",
+                 path("out")})
+                .status,
+            2);
 }
 
 TEST_F(PressCommands, PalettesAreChecked) {
-  const Outcome all = run({"palette", "check", "summer", "winter", "--profile", test::press_file, "--outside", "50"});
+  const Outcome all = run(
+      {"palette", "check", "summer", "winter", "--profile", test::press_file, "--outside", "50"});
   EXPECT_EQ(all.status, 0) << all.out << all.err;
   EXPECT_THAT(all.out, HasSubstr("winter: 0 of "));
-  const Outcome few = run({"palette", "check", "summer", "--profile", test::press_file, "--outside", "0.1", "--json"});
+  const Outcome few = run(
+      {"palette", "check", "summer", "--profile", test::press_file, "--outside", "0.1", "--json"});
   EXPECT_EQ(few.status, 1);
   EXPECT_THAT(few.out, HasSubstr("\"delta_e\""));
   EXPECT_EQ(run({"palette", "check", "spring?", "--profile", test::press_file}).status, 2);

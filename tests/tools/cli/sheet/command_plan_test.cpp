@@ -20,18 +20,22 @@ TEST_F(Program, APlannedSheetIsThatOfOneRun) {
   const Outcome early = run({"join", path("many"), "-q"});
   EXPECT_EQ(early.status, 3);
   EXPECT_THAT(early.err, HasSubstr("missing"));
-  EXPECT_THAT(early.err, HasSubstr("belvedere part " + path("many") + " 2")) << "which makes its one piece";
+  EXPECT_THAT(early.err, HasSubstr("belvedere part " + path("many") + " 2"))
+      << "which makes its one piece";
   // Another machine of a cluster has no cache.
-  for (const char* part : {"2", "1", "1"}) ASSERT_EQ(run({"part", path("many"), part, "-q"}, without_cache()).status, 0);
+  for (const char* part : {"2", "1", "1"})
+    ASSERT_EQ(run({"part", path("many"), part, "-q"}, without_cache()).status, 0);
   ASSERT_EQ(run({"join", path("many"), "-q", "--out", path("joined")}).status, 0);
   for (const char* file : {"/panorama.tif", "/panorama.png", "/panorama.exr", "/guidance.exr"})
     EXPECT_TRUE(read_bytes(path("one") + file) == read_bytes(path("joined") + file)) << file;
 }
 
-// Said once: parts and the join of a plan know which layers it has.
+// Given once: parts and the join of a plan take the layers from it.
 TEST_F(Program, APlanKnowsItsLayers) {
   const std::string scene = write_scene_file();
-  ASSERT_EQ(run({"plan", scene, "--out", path("many"), "--parts", "1", "-q", "--layers", "ora,exr"}).status, 0);
+  ASSERT_EQ(run({"plan", scene, "--out", path("many"), "--parts", "1", "-q", "--layers", "ora,exr"})
+                .status,
+            0);
   ASSERT_EQ(run({"part", path("many"), "1", "-q"}).status, 0);
   ASSERT_EQ(run({"join", path("many"), "-q"}).status, 0);
   EXPECT_TRUE(fs::exists(path("many/panorama.ora")));
@@ -52,10 +56,12 @@ TEST_F(Program, PartsNeedAPlan) {
 
 TEST_F(Program, APartIsGivenAsFourNumbers) {
   const std::string scene = write_scene_file();
-  EXPECT_EQ(run({"guidance", scene, "-q", "--part", "10,20,30,8", "--out", path("part")}).status, 0);
+  EXPECT_EQ(run({"guidance", scene, "-q", "--part", "10,20,30,8", "--out", path("part")}).status,
+            0);
   EXPECT_THAT(run({"info", path("part/guidance.exr")}).out, HasSubstr("30 × 8 pixels"));
   EXPECT_EQ(run({"guidance", scene, "-q", "--part", "10,20,30", "--out", path("part")}).status, 2);
-  EXPECT_EQ(run({"guidance", scene, "-q", "--part", "90,20,30,8", "--out", path("part")}).status, 2);
+  EXPECT_EQ(run({"guidance", scene, "-q", "--part", "90,20,30,8", "--out", path("part")}).status,
+            2);
 }
 
 TEST_F(Program, AStoppedRunGoesOn) {
@@ -63,7 +69,8 @@ TEST_F(Program, AStoppedRunGoesOn) {
   fs::create_directories(path("out/.belvedere"));
   const Outcome outcome = run({"guidance", scene, "-q", "--resume", "--out", path("out")});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_FALSE(fs::exists(path("out/.belvedere"))) << "nothing is left of a run that came to its end";
+  EXPECT_FALSE(fs::exists(path("out/.belvedere")))
+      << "nothing is left of a run that came to its end";
 }
 
 }  // namespace

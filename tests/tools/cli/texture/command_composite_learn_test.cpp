@@ -22,9 +22,11 @@ class Composite : public Program {
     });
   }
   // Blue above, yellow below.
-  std::string write_drawing(const std::string& name, const Grid<std::uint8_t>& labels, glm::vec3 second = {1.F, 1.F, 0.F}) const {
-    return write_picture(name, labels.width(), labels.height(),
-                         [&](int x, int y) { return labels(x, y) == 0 ? glm::vec3(0.F, 0.F, 1.F) : second; });
+  std::string write_drawing(const std::string& name, const Grid<std::uint8_t>& labels,
+                            glm::vec3 second = {1.F, 1.F, 0.F}) const {
+    return write_picture(name, labels.width(), labels.height(), [&](int x, int y) {
+      return labels(x, y) == 0 ? glm::vec3(0.F, 0.F, 1.F) : second;
+    });
   }
 };
 
@@ -32,32 +34,40 @@ TEST_F(Composite, IsLearntMadeAndDrawn) {
   const test::Composite two = test::two_textures(120, 120);
   const std::string crop = write_crop(two);
   const std::string labels = write_drawing("labels.png", two.labels);
-  const Outcome learnt = run({"composite", "learn", crop, "--labels", labels, "--types", "16", "--begin", "white", "--out",
-                              path("c.composite"), "--report", path("page"), "-q", "--json"});
+  const Outcome learnt =
+      run({"composite", "learn", crop, "--labels", labels, "--types", "16", "--begin", "white",
+           "--out", path("c.composite"), "--report", path("page"), "-q", "--json"});
   ASSERT_EQ(learnt.status, 0) << learnt.err;
-  EXPECT_THAT(learnt.out, AllOf(HasSubstr("\"#0000ff\""), HasSubstr("\"#ffff00\""), HasSubstr("\"profile\"")));
-  EXPECT_THAT(read_bytes(path("page/index.html")), AllOf(HasSubstr("made.png"), HasSubstr("#ffff00")));
+  EXPECT_THAT(learnt.out,
+              AllOf(HasSubstr("\"#0000ff\""), HasSubstr("\"#ffff00\""), HasSubstr("\"profile\"")));
+  EXPECT_THAT(read_bytes(path("page/index.html")),
+              AllOf(HasSubstr("made.png"), HasSubstr("#ffff00")));
 
   const auto make = [&](const std::string& name, std::vector<std::string> options) {
-    options.insert(options.begin(), {"composite", "make", path("c.composite"), "--out", path(name), "-q"});
+    options.insert(options.begin(),
+                   {"composite", "make", path("c.composite"), "--out", path(name), "-q"});
     const Outcome made = run(options);
     EXPECT_EQ(made.status, 0) << made.err;
     return read_picture(path(name));
   };
-  const Grid<glm::vec3> one = make("one.png", {"--size", "90x70", "--threads", "1", "--map", path("map.png"), "--report", path("made")});
+  const Grid<glm::vec3> one = make("one.png", {"--size", "90x70", "--threads", "1", "--map",
+                                               path("map.png"), "--report", path("made")});
   EXPECT_EQ(one.width(), 90);
   EXPECT_EQ(one, make("two.png", {"--size", "90", "70", "--threads", "2"}));
   EXPECT_NE(one, make("other.png", {"--size", "90", "70", "--seed", "4"}));
   // The map that was written is a drawing that gives the same picture.
   EXPECT_EQ(one, make("drawn.png", {"--labels", path("map.png")}));
-  // Windows are parts of what a window of everything is.
-  const Grid<glm::vec3> all = make("all.png", {"--labels", path("map.png"), "--window", "0", "0", "90", "70"});
+  // Windows are parts of the window of the whole.
+  const Grid<glm::vec3> all =
+      make("all.png", {"--labels", path("map.png"), "--window", "0", "0", "90", "70"});
   const Grid<glm::vec3> part =
-      make("part.png", {"--labels", path("map.png"), "--window", "20,30,40,25", "--threads", "2", "--report", path("window")});
+      make("part.png", {"--labels", path("map.png"), "--window", "20,30,40,25", "--threads", "2",
+                        "--report", path("window")});
   ASSERT_EQ(part.width(), 40);
   EXPECT_EQ(read_picture(path("made/made.png")), one);
   EXPECT_EQ(read_picture(path("made/labels.png")), read_picture(path("map.png")));
-  EXPECT_THAT(read_bytes(path("made/index.html")), AllOf(HasSubstr("#0000ff"), HasSubstr("--size 90x70")));
+  EXPECT_THAT(read_bytes(path("made/index.html")),
+              AllOf(HasSubstr("#0000ff"), HasSubstr("--size 90x70")));
   EXPECT_EQ(read_picture(path("window/labels.png")).width(), 40) << "the window's part of the map";
   for (int y = 0; y < 25; ++y)
     for (int x = 0; x < 40; ++x) ASSERT_EQ(part(x, y), all(20 + x, 30 + y));
@@ -65,7 +75,8 @@ TEST_F(Composite, IsLearntMadeAndDrawn) {
   EXPECT_EQ(map(45, 2), glm::vec3(0.F, 0.F, 1.F));
   EXPECT_EQ(map(45, 67), glm::vec3(1.F, 1.F, 0.F));
 
-  const auto refused = [&](std::vector<std::string> arguments, int status, const std::string& word) {
+  const auto refused = [&](std::vector<std::string> arguments, int status,
+                           const std::string& word) {
     arguments.insert(arguments.begin(), {"composite", "make"});
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.status, status) << outcome.err;
@@ -74,11 +85,18 @@ TEST_F(Composite, IsLearntMadeAndDrawn) {
   const std::string red = write_drawing("red.png", two.labels, {1.F, 0.F, 0.F});
   refused({path("c.composite"), "--labels", red, "--out", path("x.png")}, 3, "#ff0000");
   refused({path("c.composite"), "--out", path("x.png")}, 2, "neither --size nor --labels");
-  refused({path("c.composite"), "--size", "9", "9", "--labels", red, "--out", path("x.png")}, 2, "both");
-  refused({path("c.composite"), "--size", "9", "9", "--map", path("m.tif"), "--out", path("x.png")}, 2, ".png");
-  refused({path("c.composite"), "--size", "90", "70", "--window", "80", "0", "20", "9", "--out", path("x.png")}, 2, "90 × 70");
-  refused({path("gone.composite"), "--size", "9", "9", "--out", path("x.png")}, 3, "gone.composite");
-  refused({write("m.composite", "belvedere_texture = 1\n"), "--size", "9", "9", "--out", path("x.png")}, 2, "no composite");
+  refused({path("c.composite"), "--size", "9", "9", "--labels", red, "--out", path("x.png")}, 2,
+          "both");
+  refused({path("c.composite"), "--size", "9", "9", "--map", path("m.tif"), "--out", path("x.png")},
+          2, ".png");
+  refused({path("c.composite"), "--size", "90", "70", "--window", "80", "0", "20", "9", "--out",
+           path("x.png")},
+          2, "90 × 70");
+  refused({path("gone.composite"), "--size", "9", "9", "--out", path("x.png")}, 3,
+          "gone.composite");
+  refused(
+      {write("m.composite", "belvedere_texture = 1\n"), "--size", "9", "9", "--out", path("x.png")},
+      2, "not a composite");
 }
 
 TEST_F(Composite, NumbersAreLabelsToo) {
@@ -87,15 +105,21 @@ TEST_F(Composite, NumbersAreLabelsToo) {
   const std::string labels = write_labels("labels.tif", 120, 120, [&](int x, int y) {
     return x < 4 ? 255 : two.labels(x, y) == 0 ? 3 : 40;
   });
-  ASSERT_EQ(
-      run({"composite", "learn", crop, "--labels", labels, "--types", "16", "--begin", "discs", "--out", path("c.composite"), "-q"}).status,
-      0);
-  EXPECT_THAT(read_bytes(path("c.composite")),
-              AllOf(HasSubstr("name = \"3\""), HasSubstr("name = \"40\""), HasSubstr("seed = \"discs\""), HasSubstr("seed_px = 8")));
-  ASSERT_EQ(run({"composite", "make", path("c.composite"), "--size", "60", "60", "--map", path("map.png"), "--out", path("one.png"), "-q"})
+  ASSERT_EQ(run({"composite", "learn", crop, "--labels", labels, "--types", "16", "--begin",
+                 "discs", "--out", path("c.composite"), "-q"})
                 .status,
             0);
-  ASSERT_EQ(run({"composite", "make", path("c.composite"), "--labels", path("map.png"), "--out", path("two.png"), "-q"}).status, 0);
+  EXPECT_THAT(read_bytes(path("c.composite")),
+              AllOf(HasSubstr("name = \"3\""), HasSubstr("name = \"40\""),
+                    HasSubstr("seed = \"discs\""), HasSubstr("seed_px = 8")));
+  ASSERT_EQ(run({"composite", "make", path("c.composite"), "--size", "60", "60", "--map",
+                 path("map.png"), "--out", path("one.png"), "-q"})
+                .status,
+            0);
+  ASSERT_EQ(run({"composite", "make", path("c.composite"), "--labels", path("map.png"), "--out",
+                 path("two.png"), "-q"})
+                .status,
+            0);
   EXPECT_EQ(read_picture(path("one.png")), read_picture(path("two.png")));
 }
 
@@ -103,15 +127,18 @@ TEST_F(Composite, BadLabelsAreNamed) {
   const test::Composite two = test::two_textures(120, 120);
   const std::string crop = write_crop(two);
   const auto refused = [&](const std::string& labels, const std::string& word) {
-    const Outcome outcome = run({"composite", "learn", crop, "--labels", labels, "--out", path("c.composite")});
+    const Outcome outcome =
+        run({"composite", "learn", crop, "--labels", labels, "--out", path("c.composite")});
     EXPECT_EQ(outcome.status, 3) << outcome.err;
     EXPECT_THAT(outcome.err, HasSubstr(word));
     EXPECT_FALSE(std::filesystem::exists(path("c.composite")));
   };
   refused(write_labels("size.tif", 119, 120, [](int x, int) { return x / 60; }), "119 × 120");
   refused(write_labels("one.tif", 120, 120, [](int, int) { return 3; }), "1 label");
-  refused(write_labels("many.tif", 120, 120, [](int x, int y) { return x / 30 + 4 * (y / 20); }), "24 labels");
-  refused(write_labels("narrow.tif", 120, 120, [](int x, int) { return x < 40 ? 5 : 6; }), "the label 5");
+  refused(write_labels("many.tif", 120, 120, [](int x, int y) { return x / 30 + 4 * (y / 20); }),
+          "24 labels");
+  refused(write_labels("narrow.tif", 120, 120, [](int x, int) { return x < 40 ? 5 : 6; }),
+          "the label 5");
   EXPECT_EQ(run({"composite", "learn", crop, "--labels", crop, "--out", crop}).status, 2);
 }
 

@@ -26,23 +26,28 @@ class Texture : public Program {
 };
 
 TEST_F(Texture, IsLearntAndMadeWithoutEnd) {
-  const Outcome learnt =
-      run({"texture", "learn", write_crop(), "--types", "20", "--out", path("m.model"), "--report", path("page"), "-q", "--json"});
+  const Outcome learnt = run({"texture", "learn", write_crop(), "--types", "20", "--out",
+                              path("m.model"), "--report", path("page"), "-q", "--json"});
   ASSERT_EQ(learnt.status, 0) << learnt.err;
-  EXPECT_THAT(learnt.out, AllOf(HasSubstr("\"held_out\""), HasSubstr("\"halves\""), HasSubstr("\"trials\"")));
+  EXPECT_THAT(learnt.out,
+              AllOf(HasSubstr("\"held_out\""), HasSubstr("\"halves\""), HasSubstr("\"trials\"")));
   EXPECT_LT(read_bytes(path("m.model")).size(), 1700U);
-  EXPECT_THAT(read_bytes(path("page/index.html")), AllOf(HasSubstr("texture.png"), HasSubstr("halves of the crop")));
+  EXPECT_THAT(read_bytes(path("page/index.html")),
+              AllOf(HasSubstr("texture.png"), HasSubstr("halves of the crop")));
 
   const auto make = [&](const std::string& name, std::vector<std::string> options) {
-    options.insert(options.begin(), {"texture", "make", path("m.model"), "--out", path(name), "-q"});
+    options.insert(options.begin(),
+                   {"texture", "make", path("m.model"), "--out", path(name), "-q"});
     const Outcome made = run(options);
     EXPECT_EQ(made.status, 0) << made.err;
     return read_picture(path(name));
   };
-  const Grid<glm::vec3> one = make("one.png", {"--size", "50x40", "--threads", "1", "--report", path("made")});
+  const Grid<glm::vec3> one =
+      make("one.png", {"--size", "50x40", "--threads", "1", "--report", path("made")});
   EXPECT_EQ(one.width(), 50);
   EXPECT_EQ(read_picture(path("made/texture.png")), one);
-  EXPECT_THAT(read_bytes(path("made/index.html")), AllOf(HasSubstr("--size 50x40 --seed 1"), HasSubstr("72 × 64")));
+  EXPECT_THAT(read_bytes(path("made/index.html")),
+              AllOf(HasSubstr("--size 50x40 --seed 1"), HasSubstr("72 × 64")));
   EXPECT_EQ(one, make("two.png", {"--size", "50", "40", "--threads", "2"}));
   EXPECT_NE(one, make("other.png", {"--size", "50", "40", "--seed", "9"}));
   // Overlapping windows.
@@ -52,9 +57,12 @@ TEST_F(Texture, IsLearntAndMadeWithoutEnd) {
     for (int x = 0; x < 20; ++x) EXPECT_EQ(right(x, y), left(x + 40, y + 5));
 
   // A hole in the crop: what is around it stays to the bit.
-  const std::string hole = write_labels("hole.tif", 72, 64, [](int x, int y) { return x > 20 && x < 40 && y > 20 && y < 44 ? 1 : 0; });
-  const Outcome filled = run({"texture", "fill", path("crop.png"), "--hole", hole, "--model", path("m.model"), "--out", path("filled.png"),
-                              "--report", path("page")});
+  const std::string hole = write_labels("hole.tif", 72, 64, [](int x, int y) {
+    return x > 20 && x < 40 && y > 20 && y < 44 ? 1 : 0;
+  });
+  const Outcome filled =
+      run({"texture", "fill", path("crop.png"), "--hole", hole, "--model", path("m.model"), "--out",
+           path("filled.png"), "--report", path("page")});
   ASSERT_EQ(filled.status, 0) << filled.err;
   EXPECT_THAT(filled.out, HasSubstr("437 of 4608"));
   const Grid<glm::vec3> before = read_picture(path("crop.png"));
@@ -69,7 +77,8 @@ TEST_F(Texture, IsLearntAndMadeWithoutEnd) {
       changed += after(x, y) != before(x, y) ? 1 : 0;
     }
   EXPECT_GT(changed, 300);
-  EXPECT_THAT(read_bytes(path("page/index.html")), AllOf(HasSubstr("437 of 4608"), HasSubstr("before.png"), HasSubstr("after.png")));
+  EXPECT_THAT(read_bytes(path("page/index.html")),
+              AllOf(HasSubstr("437 of 4608"), HasSubstr("before.png"), HasSubstr("after.png")));
   EXPECT_EQ(read_picture(path("page/before.png")), before) << "all of it lies around the hole";
 }
 
@@ -78,16 +87,19 @@ TEST_F(Texture, JoinsPicturesAndNothingElse) {
   const auto bluish = [](const Rgb8& c) { return glm::vec3(c[2], c[1], c[0]) / 255.F; };
   const Grid<Rgb8> meadow = test::meadow_crop(72, 64);
   const Grid<Rgb8> other = test::meadow_crop(60, 64, 3);
-  const std::string left = write_picture("left.png", 72, 64, [&](int x, int y) { return colour(meadow(x, y)); });
-  const std::string right = write_picture("right.png", 60, 64, [&](int x, int y) { return bluish(other(x, y)); });
-  const Outcome knitted =
-      run({"texture", "knit", left, right, "--out", path("knit.png"), "--band-px", "12", "--report", path("page"), "-q", "--json"});
-  ASSERT_EQ(knitted.status, 0) << knitted.err;
-  EXPECT_THAT(knitted.out, AllOf(HasSubstr("\"at_px\""), HasSubstr("\"before\"")));
-  const Grid<glm::vec3> joined = read_picture(path("knit.png"));
+  const std::string left =
+      write_picture("left.png", 72, 64, [&](int x, int y) { return colour(meadow(x, y)); });
+  const std::string right =
+      write_picture("right.png", 60, 64, [&](int x, int y) { return bluish(other(x, y)); });
+  const Outcome with_seam = run({"texture", "seam", left, right, "--out", path("seam.png"),
+                                 "--band-px", "12", "--report", path("page"), "-q", "--json"});
+  ASSERT_EQ(with_seam.status, 0) << with_seam.err;
+  EXPECT_THAT(with_seam.out, AllOf(HasSubstr("\"at_px\""), HasSubstr("\"before\"")));
+  const Grid<glm::vec3> joined = read_picture(path("seam.png"));
   ASSERT_EQ(joined.width(), 132);
-  EXPECT_THAT(read_bytes(path("page/index.html")), AllOf(HasSubstr("cut.png"), HasSubstr("\"at_px\": 72"), HasSubstr("--band-px 12")));
-  EXPECT_EQ(read_picture(path("page/knitted.png")), joined);
+  EXPECT_THAT(read_bytes(path("page/index.html")),
+              AllOf(HasSubstr("cut.png"), HasSubstr("\"at_px\": 72"), HasSubstr("--band-px 12")));
+  EXPECT_EQ(read_picture(path("page/after.png")), joined);
   const Grid<glm::vec3> a = read_picture(left);
   const Grid<glm::vec3> b = read_picture(right);
   for (int y = 0; y < 64; ++y) {
@@ -95,57 +107,80 @@ TEST_F(Texture, JoinsPicturesAndNothingElse) {
     for (int x = 12; x < 60; ++x) ASSERT_EQ(joined(72 + x, y), b(x, y));
   }
   // The same turned by a quarter.
-  const std::string top = write_picture("top.png", 64, 72, [&](int x, int y) { return colour(meadow(y, x)); });
-  const std::string below = write_picture("below.png", 64, 60, [&](int x, int y) { return bluish(other(y, x)); });
-  ASSERT_EQ(run({"texture", "knit", top, below, "--down", "--out", path("down.png"), "--band-px", "12", "-q"}).status, 0);
+  const std::string top =
+      write_picture("top.png", 64, 72, [&](int x, int y) { return colour(meadow(y, x)); });
+  const std::string below =
+      write_picture("below.png", 64, 60, [&](int x, int y) { return bluish(other(y, x)); });
+  ASSERT_EQ(run({"texture", "seam", top, below, "--down", "--out", path("down.png"), "--band-px",
+                 "12", "-q"})
+                .status,
+            0);
   const Grid<glm::vec3> down = read_picture(path("down.png"));
   for (int y = 0; y < 64; ++y)
     for (int x = 0; x < 132; ++x) ASSERT_EQ(down(y, x), joined(x, y));
-  EXPECT_EQ(run({"texture", "knit", left, "--out", path("knit.png")}).status, 2);
-  EXPECT_EQ(run({"texture", "knit", left, below, "--out", path("knit.png")}).status, 2);
+  EXPECT_EQ(run({"texture", "seam", left, "--out", path("seam.png")}).status, 2);
+  EXPECT_EQ(run({"texture", "seam", left, below, "--out", path("seam.png")}).status, 2);
 }
 
 TEST_F(Texture, CorrectedPicturesHaveTheColoursOfTheOther) {
   const auto plain = [&](const std::string& name, glm::vec3 colour) {
-    return write_picture(name, 60, 50, [&](int x, int y) { return colour * (.8F + .01F * static_cast<float>((3 * x + 5 * y) % 20)); });
+    return write_picture(name, 60, 50, [&](int x, int y) {
+      return colour * (.8F + .01F * static_cast<float>((3 * x + 5 * y) % 20));
+    });
   };
   const std::string red = plain("red.png", {.8F, .4F, .3F});
   const std::string blue = plain("blue.png", {.3F, .4F, .7F});
-  const Outcome outcome =
-      run({"texture", "correct", red, "--to", blue, "--out", path("out.png"), "--regions", "1", "--report", path("page"), "--json", "-q"});
+  const Outcome outcome = run({"texture", "correct", red, "--to", blue, "--out", path("out.png"),
+                               "--regions", "1", "--report", path("page"), "--json", "-q"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("\"before\""), HasSubstr("\"after\"")));
-  EXPECT_THAT(read_bytes(path("page/index.html")), AllOf(HasSubstr("source.png"), HasSubstr("target.png"), HasSubstr("saturation")));
+  EXPECT_THAT(read_bytes(path("page/index.html")),
+              AllOf(HasSubstr("source.png"), HasSubstr("target.png"), HasSubstr("saturation")));
   EXPECT_EQ(read_picture(path("page/corrected.png")), read_picture(path("out.png")));
   const glm::vec3 out = read_picture(path("out.png"))(30, 25);
   const glm::vec3 wanted = read_picture(blue)(30, 25);
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(out[c], wanted[c], .03F);
-  EXPECT_EQ(run({"texture", "correct", red, "--to", blue, "--out", path("x.png"), "--regions", "6"}).status, 2);
-  EXPECT_EQ(run({"texture", "correct", red, "--to", path("gone.png"), "--out", path("x.png")}).status, 3);
+  EXPECT_EQ(run({"texture", "correct", red, "--to", blue, "--out", path("x.png"), "--regions", "6"})
+                .status,
+            2);
+  EXPECT_EQ(
+      run({"texture", "correct", red, "--to", path("gone.png"), "--out", path("x.png")}).status, 3);
   EXPECT_EQ(run({"texture", "correct", red, "--to", blue, "--out", red}).status, 2);
 }
 
 TEST_F(Texture, BadInputIsNamed) {
-  const auto refused = [&](const std::vector<std::string>& arguments, int status, const std::string& word) {
+  const auto refused = [&](const std::vector<std::string>& arguments, int status,
+                           const std::string& word) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.status, status) << outcome.err;
     EXPECT_THAT(outcome.err, HasSubstr(word));
   };
   const std::string crop = write_crop();
-  const std::string tiny = write_picture("tiny.png", 40, 90, [](int x, int) { return glm::vec3(static_cast<float>(x % 7) / 7.F); });
+  const std::string tiny = write_picture(
+      "tiny.png", 40, 90, [](int x, int) { return glm::vec3(static_cast<float>(x % 7) / 7.F); });
   refused({"texture", "learn", tiny, "--out", path("m.model")}, 3, "40 × 90");
-  refused({"texture", "learn", crop, "--mask", write_labels("mask.tif", 10, 10, [](int, int) { return 1; }), "--out", path("m.model")}, 3,
-          "10 × 10");
-  refused({"texture", "learn", crop, "--mask", write_labels("none.tif", 72, 64, [](int, int) { return 0; }), "--out", path("m.model")}, 3,
-          "0 pixels");
-  refused({"texture", "learn", crop, "--out", crop}, 2, "what is read");
-  refused({"texture", "learn", crop, "--method", "paper", "--begin", "discs", "--out", path("m.model")}, 2, "--method paper");
-  refused({"texture", "fill", crop, "--hole", path("mask.tif"), "--model", path("m.model"), "--out", path("x.png")}, 3, "m.model");
+  refused({"texture", "learn", crop, "--mask",
+           write_labels("mask.tif", 10, 10, [](int, int) { return 1; }), "--out", path("m.model")},
+          3, "10 × 10");
+  refused({"texture", "learn", crop, "--mask",
+           write_labels("none.tif", 72, 64, [](int, int) { return 0; }), "--out", path("m.model")},
+          3, "0 pixels");
+  refused({"texture", "learn", crop, "--out", crop}, 2, "is also an input");
+  refused(
+      {"texture", "learn", crop, "--method", "paper", "--begin", "discs", "--out", path("m.model")},
+      2, "--method paper");
+  refused({"texture", "fill", crop, "--hole", path("mask.tif"), "--model", path("m.model"), "--out",
+           path("x.png")},
+          3, "m.model");
   EXPECT_FALSE(std::filesystem::exists(path("m.model")));
-  refused({"texture", "make", write("m.model", "belvedere_texture = 7\n"), "--size", "9", "9", "--out", path("x.png")}, 2, "version 7");
-  refused({"texture", "make", path("gone.model"), "--size", "9", "9", "--out", path("x.png")}, 3, "gone.model");
+  refused({"texture", "make", write("m.model", "belvedere_texture = 7\n"), "--size", "9", "9",
+           "--out", path("x.png")},
+          2, "version 7");
+  refused({"texture", "make", path("gone.model"), "--size", "9", "9", "--out", path("x.png")}, 3,
+          "gone.model");
   refused({"texture", "make", path("m.model"), "--out", path("x.png")}, 2, "--size");
-  refused({"texture", "make", path("m.model"), "--size", "9", "9", "--out", path("x.exr")}, 2, ".png");
+  refused({"texture", "make", path("m.model"), "--size", "9", "9", "--out", path("x.exr")}, 2,
+          ".png");
 }
 
 }  // namespace

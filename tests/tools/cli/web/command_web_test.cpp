@@ -20,7 +20,8 @@ TEST_F(Program, ARenderedFolderBecomesAPage) {
   EXPECT_THAT(made.out, HasSubstr("out/web/index.html"));
   EXPECT_THAT(read_bytes(path("out/web/panorama.js")), HasSubstr("\"distances\""));
   EXPECT_THAT(read_bytes(path("out/web/index.html")), HasSubstr("Belvedere"));
-  const Outcome again = run({"web", path("out"), "--name", "Summer", "--also", path("out") + "=Winter", "--out", path("page"), "-q"});
+  const Outcome again = run({"web", path("out"), "--name", "Summer", "--also",
+                             path("out") + "=Winter", "--out", path("page"), "-q"});
   ASSERT_EQ(again.status, 0) << again.err;
   EXPECT_THAT(read_bytes(path("page/panorama.js")), HasSubstr("\"Winter\""));
 }
@@ -30,7 +31,7 @@ TEST_F(Program, APageOfNothingIsRefused) {
   EXPECT_EQ(run({"web", path("empty")}).status, 3);
   const Outcome none = run({"web", path("none")});
   EXPECT_EQ(none.status, 3);
-  EXPECT_THAT(none.err, HasSubstr("the folder that belvedere render wrote"));
+  EXPECT_THAT(none.err, HasSubstr("a folder written by belvedere render"));
 }
 
 }  // namespace

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "base/land_cover_class.h"
+#include "base/pixel_rect.h"
+#include "renderer/paint/composite.h"
+#include "renderer/stages/model_ground.h"
+#include "texture/composite/synthesize_seam.h"
+
+namespace belvedere {
+
+// Paint of several paintings on one sheet, with synthesized seams (docs/textures.md): the pixels
+// along a seam are made again by a model of the paint on both sides. All in even light
+// (composite.h), so that a seam is where paint changes and not where light does; the light of the
+// position is applied afterwards, as for all paint.
+
+// What seams are learnt from: paint of each class of each source, exemplars first, then texture
+// models; empty where a source has too little of a class.
+struct SeamSources {
+  std::vector<std::array<SeamSample, land_cover_class_count>> of;
+  std::uint64_t seed = 1;
+};
+// For each class of an exemplar the square of seam_sample_px that contains most of it. To be called
+// before the exemplars discard their classes.
+SeamSources find_seam_sources(const std::vector<PaintedExemplar>& exemplars, double residual,
+                              std::uint64_t seed);
+// Adds the paint of each model for its classes. To be called after the exemplars'.
+void add_model_sources(SeamSources& sources, const GroundModels& models, double residual);
+
+// Models of seams by the paint on their two sides; each is learnt on first use, from the sources
+// alone.
+class SeamModels {
+ public:
+  explicit SeamModels(const SeamSources* sources) : sources_(sources) {}
+  // Of the paint of two sources, each as source_of; null where there is too little to learn from.
+  const CliqueModel* find(std::uint16_t one, std::uint16_t other);
+
+ private:
+  const SeamSample& sample_of(std::uint16_t source) const;
+
+  const SeamSources* sources_;
+  std::map<std::pair<std::uint16_t, std::uint16_t>, std::optional<CliqueModel>> models_;
+};
+
+// The source of a pixel's paint and the class that it shows.
+inline constexpr std::uint16_t no_source = 0xffff;
+constexpr std::uint16_t source_of(std::size_t source, LandCoverClass shown) {
+  return static_cast<std::uint16_t>(source << 8U | static_cast<unsigned>(shown));
+}
+
+// A window of the sheet's paint, before its seams are synthesized.
+struct PaintBeforeSeams {
+  Grid<glm::vec3> even;        // encoded sRGB, in even light
+  Grid<std::uint16_t> source;  // source_of; no_source: no paint
+  Grid<float> depth_m;         // surfaces that hide each other have no seam
+};
+// The synthesized pixels of a tile. `paint` covers the tile and seam_margin_px around it, clipped
+// to the sheet, at `window`. A function of these alone: with tiles of one lattice pixels are the
+// same in every request.
+SeamPaint synthesize_ground_seams(SeamModels& models, const PaintBeforeSeams& paint, PixelRect tile,
+                                  PixelRect window, std::uint64_t seed);
+inline constexpr int seam_margin_px = 32;
+
+}  // namespace belvedere

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <optional>
+#include <vector>
+
+#include "renderer/compose/coarse_ground.h"
+#include "renderer/scene/scene.h"
+#include "renderer/trace/camera.h"
+#include "renderer/trace/sun.h"
+#include "renderer/world/derived_values.h"
+#include "renderer/world/lazy_value.h"
+#include "terrain/deform/deform.h"
+#include "terrain/io/dem.h"
+
+namespace belvedere {
+
+// Values that a scene leaves open are derived from its region, by the rules that propose views
+// (renderer/compose). Given values are unchanged, and derived ones are rounded to what one would
+// write: a scene that writes them has the same picture. Each step adds what it found to `derived`.
+// Where nothing can be found (no ground in view), the ground is neither raised nor bent and
+// distances are those of the Alps.
+
+// The ground in coarse cells, computed when it is first needed; nothing where no altitude is known.
+std::optional<CoarseGround> region_of(const CoarseAltitudes& altitudes);
+using LazyRegion = LazyValue<std::optional<CoarseGround>>;
+
+// The look_at point of a scene.
+struct ViewTarget {
+  glm::dvec2 position{0.0};
+  double altitude_m = 0.0;
+};
+struct ViewPosition {
+  glm::dvec2 viewer{0.0};
+  std::optional<double> ground_m;    // below the viewer, if known
+  std::optional<ViewTarget> target;  // without it the view is given by azimuth and pitch
+};
+
+struct ResolvedView {
+  SceneCamera camera;               // with its height; without a target with azimuth and pitch
+  SceneDeform deform;               // with exaggeration and bend
+  std::optional<double> pitch_deg;  // found for a view with a target, whose tilt produces it …
+  double max_tilt_deg = 0.0;        // … as far as the target stays in the picture
+};
+ResolvedView resolve_view(const Scene& scene, const ViewPosition& position,
+                          const LazyRegion& region, std::vector<DerivedValue>& derived);
+
+// The tilt of a view whose pitch without it is `pitch_deg`.
+double resolve_tilt(const SceneCamera& camera, const ResolvedView& resolved, double pitch_deg,
+                    std::vector<DerivedValue>& derived);
+
+SunPosition resolve_sun(const SceneSun& sun, double view_azimuth_deg,
+                        std::vector<DerivedValue>& derived);
+
+// Air and distances of generalization, from the horizon of the view.
+ViewDistances resolve_distances(const Scene& scene, const Deformation& deformation,
+                                const CameraParameters& camera, const LazyRegion& region,
+                                std::vector<DerivedValue>& derived);
+
+}  // namespace belvedere
