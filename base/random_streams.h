@@ -147,6 +147,13 @@ enum class Stream : std::uint16_t {
   lee_clouds,
   front_decks,
   cloud_shadows,
+  style_fit,         // which strokes of a painting a style keeps
+  style_sky,         // a painting's sky over the render
+  style_directions,  // how its sky's strokes run
+  style_strokes,     // a layer each
+  style_contrasts,   // where it contrasts more than elsewhere
+  style_weave,
+  style_contours,  // dark strokes along silhouettes
 
   count  // not a stream: their number
 };

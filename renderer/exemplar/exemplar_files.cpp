@@ -19,6 +19,7 @@
 #include "renderer/image/output_file.h"
 #include "renderer/image/provenance.h"
 #include "renderer/world/scene_season.h"
+#include "renderer/world/style/scene_style.h"
 #include "renderer/world/world_notes.h"
 
 namespace belvedere {
@@ -79,7 +80,7 @@ AvailableTexels write_scene_exemplar(const LoadedScene& loaded, const std::strin
   check_memory("output", paint_bytes_per_pixel * output.width * output.height);
   check_output_folder(out_folder);
 
-  const Palette named = read_palette(find_named_file(loaded, "palettes", loaded.scene.palette));
+  const Palette named = named_palette(loaded);
   const World world = make_world(loaded, progress, run.cache);
   const Palette palette = palette_for_location(named, loaded, *world.dem);
   const FileNotes notes = make_world_notes(loaded, world);

@@ -10,6 +10,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
+#include "base/colour/symmetric_matrix.h"
 #include "base/error.h"
 #include "base/filter.h"
 #include "base/parallel.h"
@@ -37,56 +38,6 @@ struct ColourMap {
   glm::dmat3 matrix{1.0};
   glm::dvec3 shift{0.0};
 };
-
-// Eigenvalues and eigenvectors (columns) of a symmetric matrix, by Jacobi rotations.
-struct Eigen {
-  glm::dvec3 values;
-  glm::dmat3 vectors{1.0};
-};
-
-Eigen decompose(glm::dmat3 a) {
-  Eigen out;
-  for (int sweep = 0; sweep < 12; ++sweep)
-    for (int p = 0; p < 2; ++p)
-      for (int q = p + 1; q < 3; ++q) {
-        if (std::abs(a[q][p]) < 1e-18) continue;
-        const double theta = (a[q][q] - a[p][p]) / (2.0 * a[q][p]);
-        const double t =
-            (theta >= 0.0 ? 1.0 : -1.0) / (std::abs(theta) + std::sqrt(theta * theta + 1.0));
-        const double c = 1.0 / std::sqrt(t * t + 1.0);
-        glm::dmat3 turn(1.0);
-        turn[p][p] = turn[q][q] = c;
-        turn[q][p] = c * t;
-        turn[p][q] = -c * t;
-        a = glm::transpose(turn) * a * turn;
-        out.vectors = out.vectors * turn;
-      }
-  out.values = {a[0][0], a[1][1], a[2][2]};
-  return out;
-}
-
-// f of a symmetric matrix: f of its eigenvalues.
-template <class F>
-glm::dmat3 spectral(const glm::dmat3& a, F f) {
-  const Eigen eigen = decompose(a);
-  glm::dmat3 scale(0.0);
-  for (int k = 0; k < 3; ++k) scale[k][k] = f(eigen.values[k]);
-  return eigen.vectors * scale * glm::transpose(eigen.vectors);
-}
-
-glm::dmat3 root(const glm::dmat3& a) {
-  return spectral(a, [](double v) { return std::sqrt(std::max(v, 0.0)); });
-}
-
-// The map of one spread to another that changes colours least: A^-½ (A^½ B A^½)^½ A^-½, symmetric
-// and positive.
-glm::dmat3 spread_map(const glm::dmat3& from, const glm::dmat3& to) {
-  const glm::dmat3 floor = glm::dmat3(min_deviation * min_deviation);
-  const glm::dmat3 half = root(from + floor);
-  const glm::dmat3 inverse = glm::inverse(half);
-  const glm::dmat3 map = inverse * root(half * (to + floor) * half) * inverse;
-  return spectral(map, [](double v) { return std::clamp(v, 1.0 / largest_gain, largest_gain); });
-}
 
 using LabelStatistics = std::array<Statistics, 256>;
 
@@ -158,7 +109,9 @@ std::array<ColourMap, 256> find_maps(const LabelStatistics& own,
   for (std::size_t label = 0; label < unused_label; ++label) {
     if (!shared(label)) continue;
     const Statistics& goal = goals[label].look;
-    maps[label].matrix = spread_map(own[label].covariance, goal.covariance);
+    maps[label].matrix =
+        least_moving_map(own[label].covariance, goal.covariance, min_deviation * min_deviation,
+                         {1.0 / largest_gain, largest_gain});
     maps[label].shift = goal.mean - maps[label].matrix * own[label].mean;
     shift += static_cast<double>(own[label].count) * (goal.mean - own[label].mean);
     count += static_cast<double>(own[label].count);

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
+#include "base/masks/label_blur.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
-#include "renderer/exemplar/painting_tone.h"
 #include "renderer/image/oklab.h"
 #include "texture/synthesis/guide_stack.h"
 

@@ -7,11 +7,6 @@
 
 namespace belvedere {
 
-// Gaussian mean of `values` over the surrounding texels with the same label: nothing passes from
-// one class to another. Texels of unused_label get 0. sigma in texels, > 0.
-Grid<float> blur_within_labels(const Grid<float>& values, const Grid<std::uint8_t>& labels,
-                               double sigma);
-
 // The light of a painting of which only picture (encoded sRGB) and labels are known, 0…1: lightness
 // (OKLab) of structures larger than strokes (sigma stroke_px, never across a border of labels),
 // ranked within each label and mapped to the distribution of tone in a target (quartiles .43 .64

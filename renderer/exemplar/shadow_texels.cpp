@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/masks/label_blur.h"
 #include "base/parallel.h"
 #include "renderer/exemplar/painting_tone.h"
 #include "renderer/image/oklab.h"

@@ -175,8 +175,7 @@ bool is_built_in(const std::string& name) {
 
 Palette build_palette(const ConfigValue& root, const std::string& name) {
   const ConfigTable& table = as_table(root, name);
-  allow_only(table, {"name", "based_on", "winter", "classes", "sky", "air", "growth", "strength"},
-             name);
+  allow_only(table, palette_keys(), name);
   Palette palette;
   const ConfigValue* base = find(table, "based_on");
   if (base != nullptr) {
@@ -219,6 +218,16 @@ glm::vec3 ramp_colour(const ToneRamp& ramp, double tone) {
 }
 
 }  // namespace
+
+const std::vector<std::string>& palette_keys() {
+  static const std::vector<std::string> keys = {"name", "based_on", "winter", "classes",
+                                                "sky",  "air",      "growth", "strength"};
+  return keys;
+}
+
+Palette parse_palette(const ConfigValue& root, const std::string& name) {
+  return build_palette(root, name);
+}
 
 Palette parse_palette(std::string_view text, const std::string& name) {
   return build_palette(parse_config(text, name), name);

@@ -13,6 +13,8 @@
 
 namespace belvedere {
 
+struct ConfigValue;
+
 // The tones whose colours a ramp holds; between them colour is interpolated linearly in encoded
 // sRGB.
 inline constexpr std::array<double, 4> ramp_tones = {0.0, 0.34, 0.66, 1.0};
@@ -71,6 +73,11 @@ struct Palette {
 Palette read_palette(const std::string& name_or_path);
 // The same from a text; `name` is used in messages.
 Palette parse_palette(std::string_view text, const std::string& name);
+// The same from the root table of a text that is parsed already, as of a style, whose file reads
+// like a palette and more: keys that are none of a palette's must have been taken out.
+Palette parse_palette(const ConfigValue& root, const std::string& name);
+// The root's keys of a palette.
+const std::vector<std::string>& palette_keys();
 // Encoded sRGB of a class at an altitude and tone (tone clamped to 0…1). Not for sky.
 glm::vec3 palette_colour(const Palette& palette, LandCoverClass id, double altitude_m, double tone);
 

@@ -1,5 +1,7 @@
 #include "renderer/pipeline/scene_paint.h"
 
+#include "renderer/world/style/scene_style.h"
+
 namespace belvedere {
 namespace {
 
@@ -7,14 +9,11 @@ bool takes_colours(const Scene& scene) { return scene.synthesis.colours == "pain
 // Colours may be taken from a painting even if its strokes are not used.
 bool reads_paintings(const Scene& scene) { return scene.synthesis.enabled || takes_colours(scene); }
 
-Palette named_palette(const LoadedScene& loaded) {
-  return read_palette(find_named_file(loaded, "palettes", loaded.scene.palette));
-}
-
 }  // namespace
 
 ScenePaint read_scene_paint(const LoadedScene& loaded, Progress& progress) {
   ScenePaint paint;
+  paint.style = named_style(loaded);
   paint.palette = named_palette(loaded);
   if (reads_paintings(loaded.scene)) paint.paintings = read_scans(loaded, progress);
   if (takes_colours(loaded.scene))

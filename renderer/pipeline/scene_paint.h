@@ -1,11 +1,13 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "base/progress.h"
 #include "renderer/exemplar/scan.h"
 #include "renderer/paint/palette.h"
 #include "renderer/scene/scene_file.h"
+#include "renderer/style/style.h"
 
 namespace belvedere {
 
@@ -14,6 +16,7 @@ struct ScenePaint {
   std::vector<ScannedPainting> paintings;  // one for each exemplar block; empty where the scene
                                            // copies neither strokes nor colours
   Palette palette;                         // the scene's, or the paintings' colours in it
+  std::optional<Style> style = {};         // a painter's, over everything
 };
 ScenePaint read_scene_paint(const LoadedScene& scene, Progress& progress);
 // The palette alone, for parts that are never copied. Reads paintings only if the colours are taken

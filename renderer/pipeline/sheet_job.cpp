@@ -21,9 +21,11 @@
 #include "renderer/sheet/guidance_pack.h"
 #include "renderer/sheet/piece_writer.h"
 #include "renderer/stages/lit_picture.h"
+#include "renderer/stages/sheet_style.h"
 #include "renderer/stages/stages.h"
 #include "renderer/world/scene_features.h"
 #include "renderer/world/scene_season.h"
+#include "renderer/world/style/scene_style.h"
 #include "renderer/world/world_notes.h"
 
 namespace belvedere {
@@ -105,10 +107,20 @@ int block_px_for(const World& world, const ScenePaint& paint, const SheetView& v
   const Scene& scene = world.scene;
   StandingBytes standing{.ground = ground_bytes(world), .besides = piece_bytes_of(scene, request)};
   if (is_copied(scene, request)) standing.besides += copying_bytes(scene, paint.paintings);
-  return choose_block_px(scene, view.pixels_per_unit, standing, min_block_px_of(request));
+  return choose_block_px(scene, view.pixels_per_unit, standing, min_block_px_of(request),
+                         paint.style ? &*paint.style : nullptr);
 }
 
 bool has_legend(const Scene& scene) { return scene.margin && scene.margin->legend; }
+
+GroundInputs styled_inputs(GroundInputs inputs, const ScenePaint& paint, const World& world,
+                           const SheetView& view, const Run& run) {
+  if (paint.style)
+    inputs.style = make_sheet_style(
+        *paint.style, to_style_parameters(world.scene, view.pixels_per_unit, view.camera.size()),
+        world, view.camera, run);
+  return inputs;
+}
 
 SheetWork::SheetWork(const LoadedScene& loaded, const SheetRequest& request, const WorkFolder& work,
                      const Run& run, const Run& stage_run)
@@ -120,8 +132,10 @@ SheetWork::SheetWork(const LoadedScene& loaded, const SheetRequest& request, con
       graph(position, stage_run.progress),
       ground(add_ground_stages(
           graph,
-          make_ground_inputs(world, view, adapt_palette_to_location(paint.palette, loaded, world),
-                             stage_run),
+          styled_inputs(
+              make_ground_inputs(
+                  world, view, adapt_palette_to_location(paint.palette, loaded, world), stage_run),
+              paint, world, view, stage_run),
           choose_tile_px(block_px, region_of(world.scene, request)))) {
   if (request.panorama) check_names(loaded, *world.dem);
   keep_notes(loaded, world, work);

@@ -65,15 +65,15 @@ std::uint64_t kept_tile_bytes() {
 }
 
 int choose_block_px(const Scene& scene, double pixels_per_unit, const StandingBytes& standing,
-                    int min_px) {
+                    int min_px, const Style* style) {
   const double without_ground =
       (1.0 - share_of_tiles) * static_cast<double>(memory_budget_bytes()) - standing.besides;
   const double available =
       std::max(without_ground - standing.ground, min_share_of_windows * without_ground);
   TileStore::Place nowhere;
   StageGraph graph(nowhere, silent_progress());
-  const GroundStages ground =
-      add_ground_stages(graph, estimate_ground_inputs(scene, pixels_per_unit), largest_block_px);
+  const GroundStages ground = add_ground_stages(
+      graph, estimate_ground_inputs(scene, pixels_per_unit, style), largest_block_px);
   const PictureStages picture = add_picture_stages(graph, ground, nullptr);
   const auto bytes = [&](int side) { return graph.bytes_to_make(*picture.picture, side); };
   int block = largest_block_px;

@@ -35,7 +35,7 @@ std::uint64_t kept_tile_bytes();
 // Side of the largest square of the sheet that memory allows to paint at once, px: the larger, the
 // less is computed twice at margins. Error(limit) where even `min_px` does not fit.
 int choose_block_px(const Scene& scene, double pixels_per_unit, const StandingBytes& standing = {},
-                    int min_px = min_block_px);
+                    int min_px = min_block_px, const Style* style = nullptr);
 // Side of the tiles of the stages of a sheet, px: no larger than a block. region: the part of the
 // sheet that is made.
 int choose_tile_px(int block_px, PixelRect region);

@@ -257,6 +257,17 @@ struct SceneExemplar {
   std::uint64_t seed = 7;
 };
 
+struct SceneStyle {  // of a painting: see renderer/style
+  std::string file;  // built-in name or file; empty: none
+  double palette = 1.0;
+  double brushwork = 1.0;
+  double sky = 1.0;
+  std::optional<double> scale;  // absent: the style's own
+  double contour_lines = 0.0;
+  double relief = 1.0;
+  double canvas = 1.0;
+};
+
 struct SceneSynthesis {
   bool enabled = true;              // off: everything is painted as strokes
   std::string colours = "palette";  // whose colours the picture takes: "palette" or "painting"
@@ -356,6 +367,7 @@ struct Scene {
   std::string sky = "any";               // a kind of clouds.h
   std::string palette = "summer";        // built-in name or file
   std::vector<SceneExemplar> exemplars;  // empty: one painted by the program
+  SceneStyle style;
   SceneSynthesis synthesis;
   std::string features_style = "classic";  // built-in name or file
   std::vector<SceneFeatures> features;

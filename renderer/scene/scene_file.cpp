@@ -389,8 +389,10 @@ LoadedScene load(ConfigValue root, const std::string& name, const std::string& f
                                 options.data_folders.end());
   const SceneOrigin origin{.file = name, .settings = options.settings};
   loaded.notes = rename_former_keys(root);
+  spread_style(root);
   SceneOrigin present = origin;
-  for (std::string& setting : present.settings) setting = with_present_key(setting, loaded.notes);
+  for (std::string& setting : present.settings)
+    setting = with_style_file(with_present_key(setting, loaded.notes));
   apply_settings(root, present);
   SceneReader(loaded, origin).read(root);
   apply_scene_rules(loaded.scene, root, origin);

@@ -20,6 +20,17 @@ class Rules {
   Rules(Scene& scene, const ConfigValue& root, const SceneOrigin& origin)
       : scene_(scene), root_(root), origin_(origin) {}
 
+  // A style brings its palette, and no texels beside its strokes, unless the scene says so.
+  void style() {
+    const bool in_style = !scene_.style.file.empty();
+    if (in_style && written("palette") == nullptr) scene_.palette.clear();
+    if (in_style && scene_.exemplars.empty() && written("synthesis.enabled") == nullptr)
+      scene_.synthesis.enabled = false;
+    if (!in_style && scene_.palette.empty())
+      refuse("palette", "palette is empty, and there is no style whose palette it could be",
+             "a palette, or style = \"NAME\"");
+  }
+
   void synthesis() {
     for (const auto& [pair, value] : scene_.synthesis.class_dissimilarity)
       if (!find_class_pair(pair))
@@ -403,6 +414,7 @@ void apply_scene_rules(Scene& scene, const ConfigValue& root, const SceneOrigin&
   rules.exemplars();
   rules.erosion();
   rules.labels();
+  rules.style();
   rules.synthesis();
   rules.features();
 }

@@ -43,11 +43,12 @@ std::vector<SceneSection> make_top_sections() {
 
 // In the order of the reference.
 constexpr std::array makers = {
-    make_top_sections,      make_terrain_sections,    make_land_cover_sections,
-    make_climate_sections,  make_generalize_sections, make_deform_sections,
-    make_camera_sections,   make_sampling_sections,   make_light_sections,
-    make_air_sections,      make_exemplar_sections,   make_synthesis_sections,
-    make_features_sections, make_labels_sections,     make_output_sections};
+    make_top_sections,       make_terrain_sections,    make_land_cover_sections,
+    make_climate_sections,   make_generalize_sections, make_deform_sections,
+    make_camera_sections,    make_sampling_sections,   make_light_sections,
+    make_air_sections,       make_style_sections,      make_exemplar_sections,
+    make_synthesis_sections, make_features_sections,   make_labels_sections,
+    make_output_sections};
 
 }  // namespace
 

@@ -28,6 +28,7 @@ std::vector<SceneSection> make_sampling_sections();
 std::vector<SceneSection> make_light_sections();
 std::vector<SceneSection> make_air_sections();
 std::vector<SceneSection> make_exemplar_sections();
+std::vector<SceneSection> make_style_sections();
 std::vector<SceneSection> make_synthesis_sections();
 std::vector<SceneSection> make_features_sections();
 std::vector<SceneSection> make_labels_sections();  // and the margin

@@ -3,6 +3,56 @@
 
 namespace belvedere {
 
+std::vector<SceneSection> make_style_sections() {
+  std::vector<SceneSection> sections;
+  sections.push_back(
+      {.name = "style",
+       .meaning = "The look of a painting, laid over the finished picture: its colours, its "
+                  "strokes and its sky. style = \"NAME\" on top of the file is file = \"NAME\" "
+                  "here. Nothing is copied then unless an [[exemplar]] is named.",
+       .keys = {
+           {.name = "file",
+            .field = AT(style.file),
+            .meaning = "A built-in name or a .toml file, as belvedere style fit writes it; empty: "
+                       "the program's own look.",
+            .text = TextKind::built_in,
+            .choices_from = "styles"},
+           {.name = "palette",
+            .field = AT(style.palette),
+            .range = {0, 1},
+            .meaning = "How far what distance does to the painting's colours is taken over. Its "
+                       "palette is the scene's unless that names one."},
+           {.name = "brushwork",
+            .field = AT(style.brushwork),
+            .range = {0, 1},
+            .meaning = "Share of the painting's strokes; 0 leaves the program's own."},
+           {.name = "sky",
+            .field = AT(style.sky),
+            .range = {0, 1},
+            .meaning = "Share of the painting's sky, in place of the program's sky and clouds."},
+           {.name = "scale",
+            .field = AT(style.scale),
+            .range = {0.2, 8},
+            .unit = "units of 0.5 mm",
+            .meaning = "What a pixel of the painting covers of the sheet: larger gives larger "
+                       "strokes.",
+            .derived = "by the painting's size"},
+           {.name = "contour_lines",
+            .field = AT(style.contour_lines),
+            .range = {0, 1},
+            .meaning = "How dark silhouettes are drawn, as van Gogh and Bruegel draw them."},
+           {.name = "relief",
+            .field = AT(style.relief),
+            .range = {0, 3},
+            .meaning = "How strongly light falls on the ridges of the paint."},
+           {.name = "canvas",
+            .field = AT(style.canvas),
+            .range = {0, 3},
+            .meaning = "How far the weave of the canvas shows."},
+       }});
+  return sections;
+}
+
 std::vector<SceneSection> make_synthesis_sections() {
   std::vector<SceneSection> sections;
   sections.push_back(

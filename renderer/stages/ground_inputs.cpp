@@ -1,5 +1,8 @@
 #include "renderer/stages/ground_inputs.h"
 
+#include "renderer/stages/sheet_style.h"
+#include "renderer/world/style/scene_style.h"
+
 namespace belvedere {
 
 GroundInputs make_unlit_inputs(const World& world, const SheetView& view, const Palette& palette,
@@ -18,13 +21,17 @@ GroundInputs make_unlit_inputs(const World& world, const SheetView& view, const 
           .strokes = to_stroke_parameters(world, palette, view)};
 }
 
-GroundInputs estimate_ground_inputs(const Scene& scene, double pixels_per_unit) {
+GroundInputs estimate_ground_inputs(const Scene& scene, double pixels_per_unit,
+                                    const Style* style) {
   GroundInputs inputs{.size_px = {scene.output.width, scene.output.height},
                       .pixels_per_unit = pixels_per_unit};
   inputs.tone.pixels_per_unit = inputs.base.pixels_per_unit = inputs.strokes.pixels_per_unit =
       pixels_per_unit;
   inputs.rock.light.pixels_per_unit = pixels_per_unit;
   inputs.rock.kind = inputs.base.rock = &find_rock_kind(scene.land_cover.rock);
+  if (style != nullptr)
+    inputs.style = std::make_shared<const SheetStyle>(
+        SheetStyle{*style, to_style_parameters(scene, pixels_per_unit, inputs.size_px)});
   return inputs;
 }
 

@@ -1,16 +1,20 @@
 #pragma once
 
 #include <glm/vec2.hpp>
+#include <memory>
 
 #include "base/run.h"
 #include "renderer/paint/base_picture.h"
 #include "renderer/paint/light.h"
 #include "renderer/paint/palette.h"
 #include "renderer/rock/rock_relief.h"
+#include "renderer/style/style.h"
 #include "renderer/world/picture_parameters.h"
 #include "renderer/world/world.h"
 
 namespace belvedere {
+
+struct SheetStyle;  // renderer/stages/sheet_style.h
 
 // Inputs and parameters of the ground stages.
 struct GroundInputs {
@@ -31,6 +35,7 @@ struct GroundInputs {
   ToneParameters tone = {};
   BaseParameters base = {};
   StrokeParameters strokes = {};
+  std::shared_ptr<const SheetStyle> style = nullptr;  // null: painted in none
 };
 // All arguments must outlive the inputs.
 // Does not set BaseParameters::mean_light, whose measurement needs these inputs: see
@@ -38,6 +43,7 @@ struct GroundInputs {
 GroundInputs make_unlit_inputs(const World& world, const SheetView& view, const Palette& palette,
                                const Run& run);
 // For a scene whose world is not made yet: to compute the memory of its stages.
-GroundInputs estimate_ground_inputs(const Scene& scene, double pixels_per_unit);
+GroundInputs estimate_ground_inputs(const Scene& scene, double pixels_per_unit,
+                                    const Style* style = nullptr);
 
 }  // namespace belvedere

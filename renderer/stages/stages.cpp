@@ -13,6 +13,8 @@
 #include "renderer/stages/finishing_paint.h"
 #include "renderer/stages/guidance_windows.h"
 #include "renderer/stages/sheet_ice.h"
+#include "renderer/stages/sheet_style.h"
+#include "renderer/style/paint_style.h"
 #include "renderer/trace/camera_reduced.h"
 #include "renderer/trace/wide_view.h"
 #include "texture/sheet/synthesis_tile.h"
@@ -28,6 +30,7 @@ constexpr int seam_tile_px = 512;
 // Measured, per pixel of a window while a stage works on it.
 constexpr double light_work_bytes = 80.0;
 constexpr double stroke_work_bytes = 67.0;
+constexpr double style_work_bytes = 130.0;
 
 template <class... Inputs>
 std::tuple<Inputs...> inputs(Inputs... input) {
@@ -401,17 +404,57 @@ PictureStages add_picture_stages(StageGraph& graph, const GroundStages& ground, 
                            in->run.progress);
       });
 
+  // A painter's style over everything: its colours first, then its strokes.
+  if (in->style != nullptr) {
+    const SheetStyle& style = *in->style;
+    const auto styled = [&](const char* name) {
+      return StageNode::Declaration{.name = name,
+                                    .size_px = in->size_px,
+                                    .tile_px = ground.base->declaration().tile_px,
+                                    .work_bytes_per_pixel = style_work_bytes};
+    };
+    const Reach around_ground = around(style_preparation_margin_px(style.style, style.parameters));
+    picture.style_ground = graph.add_tiles<StyleGround>(
+        styled("style's ground"),
+        grids_of(&StyleGround::colour, &StyleGround::calm, &StyleGround::along),
+        inputs(reads(picture.finished, around_ground),
+               reads(ground.lit, around_ground,
+                     some({&B::depth_m, &B::land_cover, &B::fall_line, &B::valley_height_m})),
+               reads(picture.mist_sight, around_ground, with_grids(&MistSight::share))),
+        [in](const Tile& tile, const auto& finished, const auto& lit, const auto& veil) {
+          return prepare_style(in->style->style, lit.value, finished.value.picture,
+                               veil.value.share, in->style->seen(), lit.origin_px(),
+                               lit.inside(tile.rect));
+        });
+    const Reach around_strokes = around(style_laying_margin_px(style.style, style.parameters));
+    picture.styled = graph.add_tiles<Grid<glm::vec3>>(
+        styled("style"), one_grid<Grid<glm::vec3>>(),
+        inputs(reads(picture.style_ground, around_strokes),
+               reads(ground.lit, around_strokes, some({&B::depth_m, &B::land_cover, &B::tone}))),
+        [in](const Tile& tile, const auto& prepared, const auto& lit) {
+          return lay_style(in->style->style, lit.value, prepared.value, in->style->seen(),
+                           lit.origin_px(), lit.inside(tile.rect));
+        });
+  }
+
   // Depth edges are softened, and layers are split.
   picture.picture = graph.add_view<SheetPicture>(
       view("panorama"), untiled<SheetPicture>(),
       inputs(reads_in_pieces(picture.finished, around(blend_margin_px)),
-             reads_in_pieces(ground.lit, around(blend_margin_px))),
-      [some](const Tile& tile, SheetPicture& out, const auto& finished, const auto& lit) {
+             reads_in_pieces(ground.lit, around(blend_margin_px)),
+             reads_in_pieces(picture.styled, around(blend_margin_px))),
+      [some](const Tile& tile, SheetPicture& out, const auto& finished, const auto& lit,
+             const auto& styled) {
         const PixelRect window = finished.rect();
+        const bool in_style = !styled.rect().empty();
         const PixelRect wanted = moved(tile.rect, -window.x0, -window.y0);
         FinishedPaint paint;
         paint.in_parts = out.layers.has_value();
-        finished.read_into(window, paint);
+        if (!in_style || paint.in_parts) finished.read_into(window, paint);
+        if (in_style) {
+          paint.picture = Grid<glm::vec3>(window.width(), window.height());
+          styled.read_into(window, paint.picture);
+        }
         GuidanceBuffers edges = some({&B::depth_m, &B::front})(window.width(), window.height());
         lit.read_into(window, edges);
         out.colour = part_of(blend_edges(paint.picture, edges), wanted);

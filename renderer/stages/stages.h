@@ -21,6 +21,7 @@ struct DrawnFeatures;
 const DrawnFeatures& no_features();  // renderer/features/drawn_features.h
 struct FinishedPaint;
 struct MistSight;
+struct StyleGround;
 
 // Everything that needs no exemplar.
 struct GroundStages {
@@ -58,6 +59,8 @@ struct PictureStages {
   Stage<MistSight>* mist_sight = nullptr;  // null: no mist
   Stage<MistPaint>* mist_paint = nullptr;
   Stage<FinishedPaint>* finished = nullptr;
+  Stage<StyleGround>* style_ground = nullptr;  // null: the picture is in no painter's style
+  Stage<Grid<glm::vec3>>* styled = nullptr;    // encoded sRGB
   Stage<SheetPicture>* picture = nullptr;
 };
 // plan: null: everything is painted as strokes. Arguments must outlive the graph.

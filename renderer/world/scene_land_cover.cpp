@@ -18,6 +18,7 @@
 #include "renderer/world/scene_dem.h"
 #include "renderer/world/scene_season.h"
 #include "renderer/world/scene_towns.h"
+#include "renderer/world/style/scene_style.h"
 #include "terrain/climate/map_climate.h"
 #include "terrain/cover/ground_image.h"
 #include "terrain/cover/land_cover_erosion.h"
@@ -160,7 +161,7 @@ ClassRuleParameters rule_parameters(const LoadedScene& loaded, const ClassRules&
   const auto is_winter = [](const auto& setting) { return setting.first == winter_setting; };
   if (std::none_of(settings.begin(), settings.end(), is_winter) &&
       std::any_of(rules.parameters.begin(), rules.parameters.end(), is_winter) &&
-      read_palette(find_named_file(loaded, "palettes", loaded.scene.palette)).winter)
+      named_palette(loaded).winter)
     settings.emplace_back(winter_setting, 1.0);
   // A map's towns and rivers instead of inferred ones.
   GroundMap map = read_ground_map(loaded, dem, silent_progress(), cache);

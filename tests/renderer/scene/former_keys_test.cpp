@@ -45,5 +45,35 @@ TEST(FormerKeys, PresentNamesGiveNoNoteAndBothNamesAreRefused) {
                Error);
 }
 
+TEST(StyleKey, ANameAloneIsItsFile) {
+  const LoadedScene scene =
+      parse_scene("version = 1\nstyle = \"mine.toml\"\n", "scene.toml", ".", {});
+  EXPECT_EQ(scene.scene.style.file, "mine.toml");
+  EXPECT_EQ(scene.scene.style.brushwork, 1.0);
+  EXPECT_EQ(parse_scene("version = 1\n", "scene.toml", ".",
+                        {.data_folders = {}, .settings = {"style = mine.toml"}})
+                .scene.style.file,
+            "mine.toml");
+  const LoadedScene table =
+      parse_scene("version = 1\n[style]\nfile = \"a.toml\"\nsky = 0.5\n", "scene.toml", ".",
+                  {.data_folders = {}, .settings = {"style=b.toml", "style.contour_lines=0.7"}});
+  EXPECT_EQ(table.scene.style.file, "b.toml");
+  EXPECT_EQ(table.scene.style.sky, 0.5);
+  EXPECT_EQ(table.scene.style.contour_lines, 0.7);
+}
+
+TEST(StyleKey, BringsItsPaletteAndNoTexelsUnlessTheSceneSaysSo) {
+  const auto read = [](const std::string& text) {
+    return parse_scene("version = 1\n" + text, "scene.toml", ".", {}).scene;
+  };
+  EXPECT_EQ(read("style = \"a.toml\"\n").palette, "");
+  EXPECT_FALSE(read("style = \"a.toml\"\n").synthesis.enabled);
+  EXPECT_EQ(read("style = \"a.toml\"\npalette = \"winter\"\n").palette, "winter");
+  EXPECT_TRUE(read("style = \"a.toml\"\n[synthesis]\nenabled = true\n").synthesis.enabled);
+  EXPECT_TRUE(read("style = \"a.toml\"\n[[exemplar]]\nwidth = 400\n").synthesis.enabled);
+  EXPECT_TRUE(read("").synthesis.enabled);
+  EXPECT_THROW(read("palette = \"\"\n"), Error);
+}
+
 }  // namespace
 }  // namespace belvedere

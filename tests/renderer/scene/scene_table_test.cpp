@@ -120,7 +120,7 @@ TEST(SceneTable, DerivedKeysAreAutoWhereNotWritten) {
       EXPECT_NE(with("auto"), with(key.unit == "m" || key.name == "rim_fade_m" ? "1000" : "2"))
           << name;
     }
-  EXPECT_EQ(derived, 15);
+  EXPECT_EQ(derived, 16);
   EXPECT_THAT(scene_reference(),
               HasSubstr("| `exaggeration` | a number or \"auto\"; 0.1 … 10 | `\"auto\"` |"));
 }

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <array>
+#include <glm/vec3.hpp>
+#include <optional>
+
+#include "renderer/style/fit/style_painting.h"
+#include "renderer/style/style.h"
+
+namespace belvedere {
+
+// What air and leaves take from a painting (recipe A8); OKLab.
+struct StyleAir {
+  glm::dvec3 near{0.0};  // where haze begins
+  glm::dvec3 far{0.0};
+  glm::dvec3 mist{0.0};                // between ranges
+  double haze = 1.0;                   // share of the haze asked for, .7…1.25
+  bool far_seen = false;               // the mask says what is far
+  std::array<glm::dvec3, 4> leaves{};  // by hue
+  glm::dvec3 larch{0.0};
+};
+// `horizon`: the colour of the sky's lowest row; none: a painting without sky.
+StyleAir fit_air(const StylePainting& painting, const std::optional<glm::dvec3>& horizon);
+
+// Numbers that set painters apart (A9).
+struct PaintFigures {
+  double broken = 0.0;
+  double vapour = 0.0;
+  double form_deviation = 0.0;  // of L between sigma 2 and 12 px, on the ground
+  glm::dvec3 trend{0.0};        // of L, a, b, from the ground's foot to its top
+};
+PaintFigures measure_paint(const StylePainting& painting);
+
+}  // namespace belvedere

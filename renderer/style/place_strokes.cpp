@@ -1,0 +1,309 @@
+// Where strokes of a style begin, how they run and what colour they have.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "base/math.h"
+#include "base/math_exact.h"
+#include "base/parallel.h"
+#include "base/random_streams.h"
+#include "renderer/image/oklab.h"
+#include "renderer/style/stroke_direction.h"
+#include "renderer/style/style_strokes.h"
+
+namespace belvedere {
+namespace {
+
+constexpr float lightness_jitter = 0.9F;
+constexpr float hue_jitter = 1.6F;
+constexpr float sky_hue_jitter = 0.6F;  // of that
+constexpr double whorl_strength = 1.6;  // a sky has no form that strong strokes could drown
+constexpr double sky_length = 1.6;
+constexpr double tree_length = 0.7;
+constexpr double tree_width = 0.9;
+constexpr double least_length_px = 2.5;
+constexpr double least_width_px = 0.9;
+constexpr double least_spacing_px = 1.6;   // denser than this nobody tells strokes apart
+constexpr double most_length_share = 1.4;  // of the mean: 0.6 … 1.4
+constexpr double most_width_share = 1.35;  // 0.65 … 1.35
+// The whole class's tones between which residuals of shade, middle and light are drawn.
+constexpr std::array<double, 2> tone_thirds = {0.43, 0.75};
+constexpr double third_softness = 0.08;
+constexpr float accent_hue = 0.75F;
+constexpr float accent_lightness = 0.3F;
+constexpr float accent_nearness = 0.16F;
+constexpr double gate_at_rest = 0.075;
+// Hairs across a stroke a px of the painting.
+constexpr double hairs_per_px = 1.9;
+
+// Draw numbers of a stroke's cell.
+enum Draw : std::uint64_t {
+  at_x,
+  at_y,
+  kept,
+  long_by,
+  wide_by,
+  turned,
+  third,
+  residual,
+  accented,
+  accent,
+  ordered,
+  first_hair
+};
+
+// A class as a layer paints it, lengths in px of the sheet.
+struct ClassHand {
+  StyleBrushwork brushwork;
+  double length_px = 0.0;
+  double width_px = 0.0;
+  double wander_rad = 0.0;
+  double spacing_px = 1.0;
+  float hair_count = 1.0F;
+  glm::vec3 jitter{0.0F};
+};
+
+double fitted_length_px(const Style& style, const StylePaintParameters& parameters,
+                        LandCoverClass id, const StyleBrushwork& brushwork) {
+  const double px = brushwork.length_px * sheet_px_per_painting_px(style, parameters);
+  const double share = id == LandCoverClass::sky      ? sky_length
+                       : id == LandCoverClass::forest ? tree_length
+                                                      : 1.0;
+  return std::max(px, least_length_px) * share;
+}
+
+double fitted_width_px(const Style& style, const StylePaintParameters& parameters,
+                       LandCoverClass id, const StyleBrushwork& brushwork) {
+  const double px = brushwork.width_px * sheet_px_per_painting_px(style, parameters);
+  return std::max(px, 1.1) * (id == LandCoverClass::forest ? tree_width : 1.0);
+}
+
+using Hands = std::array<ClassHand, land_cover_class_count>;
+
+Hands hands_of(const Style& style, const StylePaintParameters& parameters,
+               const StyleLayer& layer) {
+  const double most = std::clamp(0.018 + 0.03 * style.broken, 0.018, 0.05);
+  Hands hands;
+  for (const LandCoverClassInfo& row : land_cover_classes()) {
+    ClassHand& hand = hands[static_cast<std::size_t>(row.id)];
+    hand.brushwork = brushwork_of(style, row.id);
+    const StyleBrushwork& b = hand.brushwork;
+    if (!(b.length_px > 0.0)) continue;
+    const double length = fitted_length_px(style, parameters, row.id, b);
+    const double width = fitted_width_px(style, parameters, row.id, b);
+    hand.length_px = layer.length * length;
+    hand.width_px = std::max(layer.width * width, least_width_px);
+    hand.spacing_px = std::max(layer.spacing * std::sqrt(0.5 * length * width), least_spacing_px);
+    hand.wander_rad = 0.10 + 0.35 * (1.0 - std::min(1.0, b.coherence / 0.7));
+    hand.hair_count = static_cast<float>(
+        std::clamp(layer.width * b.width_px * hairs_per_px, 1.0, StyleStroke::hairs - 1.0));
+    const bool sky = row.id == LandCoverClass::sky;
+    const bool whorls = sky && has_whorls(b);
+    const double held = std::min(1.0, (whorls ? whorl_strength : 1.0) * most /
+                                          std::max(b.lightness_deviation, 1e-4)) *
+                        (sky && !whorls ? 0.7 : 1.0);
+    const auto share = static_cast<float>(held * layer.jitter);
+    const float hue = hue_jitter * (sky && !whorls ? sky_hue_jitter : 1.0F);
+    hand.jitter = share * glm::vec3(lightness_jitter, hue, hue);
+  }
+  return hands;
+}
+
+// Side of the cells that seeds lie in: dense enough for the smallest strokes, but not much denser
+// than for most; classes of longer strokes use a part of them.
+double cell_px_of(const Hands& hands) {
+  double least = 0.0;
+  double sum = 0.0;
+  int count = 0;
+  for (const ClassHand& hand : hands) {
+    if (!(hand.length_px > 0.0)) continue;
+    least = count == 0 ? hand.spacing_px : std::min(least, hand.spacing_px);
+    sum += hand.spacing_px;
+    ++count;
+  }
+  return count == 0 ? 0.0 : std::max({least, 0.6 * sum / count, least_spacing_px});
+}
+
+glm::vec2 turned_by(glm::vec2 v, glm::vec2 turn) {
+  return {v.x * turn.x - v.y * turn.y, v.x * turn.y + v.y * turn.x};
+}
+
+// Everything that placing needs of a window.
+struct Placer {
+  const StyleWindow& window;
+  const StyleLayer& layer;
+  Hands hands;
+  double cell_px;
+  std::uint64_t seed;
+  float gate;
+
+  bool at(glm::ivec2 sheet_px, std::size_t& index) const {
+    const glm::ivec2 in = sheet_px - window.origin_px;
+    if (!window.guidance.depth_m.contains(in.x, in.y)) return false;
+    index = window.guidance.depth_m.index(in.x, in.y);
+    return true;
+  }
+
+  // From the seed both ways along the direction of strokes.
+  void trace(StyleStroke& stroke, glm::vec2 seed_at, float length_px, float turn_rad) const {
+    const int steps = std::clamp(static_cast<int>(length_px / 5.0F) + 1, 1, 4);
+    const float step = length_px / static_cast<float>(2 * steps);
+    const exact::Turn exactly = exact::turn(turn_rad);
+    const glm::vec2 turn(static_cast<float>(exactly.cosine), static_cast<float>(exactly.sine));
+    std::array<glm::vec2, StyleStroke::most_points> path{};
+    int low = steps;
+    int high = steps;
+    path[static_cast<std::size_t>(steps)] = seed_at;
+    for (const int way : {-1, 1}) {
+      glm::vec2 place = seed_at;
+      std::size_t i = 0;
+      at(stroke.pixel_px, i);
+      glm::vec2 heading = static_cast<float>(way) * turned_by(window.ground.along[i], turn);
+      for (int k = 0; k < steps; ++k) {
+        place += step * heading;
+        const glm::ivec2 here = stroke.pixel_px + glm::ivec2(static_cast<int>(std::floor(place.x)),
+                                                             static_cast<int>(std::floor(place.y)));
+        if (!at(here, i)) break;
+        const int next = way > 0 ? ++high : --low;
+        path[static_cast<std::size_t>(next)] = place;
+        glm::vec2 field = turned_by(window.ground.along[i], turn);
+        if (glm::dot(field, heading) < 0.0F) field = -field;
+        heading = 0.35F * heading + 0.65F * field;
+        heading /= std::max(std::sqrt(glm::dot(heading, heading)), 1e-6F);
+      }
+    }
+    stroke.count = high - low + 1;
+    for (int k = 0; k < stroke.count; ++k)
+      stroke.points[static_cast<std::size_t>(k)] = path[static_cast<std::size_t>(low + k)];
+  }
+
+  glm::vec3 colour(const ClassHand& hand, std::size_t i, std::int64_t x, std::int64_t y) const {
+    const auto draw = [&](Draw which) { return random_uniform(seed, x, y, which); };
+    const glm::vec3 ground = window.ground.calm[i];
+    const double tone = window.guidance.tone.empty() ? ground.x : window.guidance.tone[i];
+    const double shifted = tone + third_softness * (2.0 * draw(third) - 1.0);
+    const std::size_t part = shifted < tone_thirds[0] ? 0 : shifted < tone_thirds[1] ? 1 : 2;
+    glm::vec3 colour = ground;
+    if (const auto& drawn = hand.brushwork.residuals[part]; !drawn.empty())
+      colour += hand.jitter *
+                drawn[random_index(static_cast<std::uint32_t>(drawn.size()), seed, x, y, residual)];
+    const auto& accents = hand.brushwork.accents;
+    if (accents.empty() || draw(accented) >= layer.accents) return colour;
+    const glm::vec3 strong =
+        accents[random_index(static_cast<std::uint32_t>(accents.size()), seed, x, y, accent)];
+    if (std::abs(strong.x - ground.x) >= accent_nearness) return colour;
+    return colour + glm::vec3(accent_lightness, accent_hue, accent_hue) * (strong - colour);
+  }
+
+  // The stroke of a cell, if it has one whose seed lies in `rect`.
+  bool place(std::int64_t x, std::int64_t y, PixelRect rect, StyleStroke& stroke) const {
+    const auto draw = [&](std::uint64_t which) { return random_uniform(seed, x, y, which); };
+    const double seed_x = (static_cast<double>(x) + draw(at_x)) * cell_px;
+    const double seed_y = (static_cast<double>(y) + draw(at_y)) * cell_px;
+    const double pixel_x = std::floor(seed_x);
+    const double pixel_y = std::floor(seed_y);
+    stroke.pixel_px = {static_cast<int>(pixel_x), static_cast<int>(pixel_y)};
+    if (stroke.pixel_px.x < rect.x0 || stroke.pixel_px.y < rect.y0 ||
+        stroke.pixel_px.x >= rect.x1 || stroke.pixel_px.y >= rect.y1)
+      return false;
+    std::size_t i = 0;
+    if (!at(stroke.pixel_px, i)) return false;
+    stroke.id = window.guidance.is_sky(i) ? LandCoverClass::sky : window.guidance.land_cover[i];
+    const ClassHand& hand = hands[static_cast<std::size_t>(stroke.id)];
+    if (!(hand.length_px > 0.0) || draw(kept) >= square(cell_px / hand.spacing_px)) return false;
+    const double length = hand.length_px * (0.6 + (most_length_share - 0.6) * draw(long_by));
+    const double width = hand.width_px * (0.65 + (most_width_share - 0.65) * draw(wide_by));
+    const double wander = hand.wander_rad * random_normal(seed, x, y, turned);
+    trace(stroke, {static_cast<float>(seed_x - pixel_x), static_cast<float>(seed_y - pixel_y)},
+          static_cast<float>(length), static_cast<float>(wander));
+    if (stroke.count < 2) return false;
+    stroke.half_width_px = static_cast<float>(0.5 * width);
+    stroke.alpha = static_cast<float>(layer.alpha);
+    stroke.hair_count = hand.hair_count;
+    for (int k = 0; k < StyleStroke::hairs; ++k)
+      stroke.hair[static_cast<std::size_t>(k)] =
+          static_cast<float>(draw(first_hair + static_cast<std::uint64_t>(k)));
+    stroke.ground = window.ground.calm[i];
+    stroke.colour = colour(hand, i, x, y);
+    stroke.gate = gate;
+    stroke.depth_m = window.guidance.depth_m[i];
+    stroke.order = random_bits(seed, x, y, ordered);
+    return true;
+  }
+};
+
+}  // namespace
+
+const std::vector<StyleLayer>& style_layers() {
+  static const std::vector<StyleLayer> layers = {
+      {1.4, 1.4, 0.85, 1.3, 0.6, 1.0, 0.0},   // a broad ground
+      {1.5, 0.6, 0.80, 0.8, 1.4, 1.2, 0.05},  // and filaments over it, which carry the look
+      {1.3, 0.5, 0.75, 0.8, 1.8, 1.2, 0.05},
+  };
+  return layers;
+}
+
+std::vector<StyleStroke> place_style_strokes(const Style& style, const StyleWindow& window,
+                                             const StylePaintParameters& parameters, int layer,
+                                             PixelRect rect) {
+  const StyleLayer& of = style_layers()[static_cast<std::size_t>(layer)];
+  const Placer placer{
+      .window = window,
+      .layer = of,
+      .hands = hands_of(style, parameters, of),
+      .cell_px = cell_px_of(hands_of(style, parameters, of)),
+      .seed =
+          stream_seed(parameters.seed, Stream::style_strokes, static_cast<std::uint64_t>(layer)),
+      .gate = static_cast<float>(of.gate * gate_at_rest * (1.0 + 0.25 * style.vapour))};
+  if (!(placer.cell_px > 0.0)) return {};
+  rect = intersection(grown(rect, style_seed_reach_px(style, parameters)),
+                      {0, 0, parameters.sheet_px.x, parameters.sheet_px.y});
+  if (rect.empty()) return {};
+  const auto cell = [&](int px) { return static_cast<int>(std::floor(px / placer.cell_px)); };
+  const int first = cell(rect.y0);
+  std::vector<std::vector<StyleStroke>> rows(
+      static_cast<std::size_t>(cell(rect.y1 - 1) - first + 1));
+  parallel_rows(static_cast<int>(rows.size()), [&](int j) {
+    StyleStroke stroke;
+    for (int x = cell(rect.x0); x <= cell(rect.x1 - 1); ++x)
+      if (placer.place(x, first + j, rect, stroke))
+        rows[static_cast<std::size_t>(j)].push_back(stroke);
+  });
+  return in_order(rows);
+}
+
+std::vector<StyleStroke> in_order(const std::vector<std::vector<StyleStroke>>& rows) {
+  std::size_t count = 0;
+  for (const auto& row : rows) count += row.size();
+  std::vector<StyleStroke> strokes;
+  strokes.reserve(count);
+  for (const auto& row : rows) strokes.insert(strokes.end(), row.begin(), row.end());
+  std::sort(strokes.begin(), strokes.end(), [](const StyleStroke& a, const StyleStroke& b) {
+    if (a.order != b.order) return a.order < b.order;
+    return a.pixel_px.y != b.pixel_px.y ? a.pixel_px.y < b.pixel_px.y : a.pixel_px.x < b.pixel_px.x;
+  });
+  return strokes;
+}
+
+int style_seed_reach_px(const Style& style, const StylePaintParameters& parameters) {
+  double reach = 0.0;
+  for (const StyleLayer& layer : style_layers())
+    for (const LandCoverClassInfo& row : land_cover_classes()) {
+      const StyleBrushwork b = brushwork_of(style, row.id);
+      if (!(b.length_px > 0.0)) continue;
+      const double length = layer.length * fitted_length_px(style, parameters, row.id, b);
+      const double width =
+          std::max(layer.width * fitted_width_px(style, parameters, row.id, b), least_width_px);
+      reach = std::max(reach, 0.5 * most_length_share * length + 0.5 * most_width_share * width);
+    }
+  return static_cast<int>(std::ceil(reach)) + 2 + contour_look_px(parameters);
+}
+
+int style_stroke_margin_px(const Style& style, const StylePaintParameters& parameters) {
+  // A stroke may lie away from its seed as far as towards what it paints.
+  return 2 * style_seed_reach_px(style, parameters) + contour_look_px(parameters) + 1;
+}
+
+}  // namespace belvedere

@@ -1,0 +1,249 @@
+#include "renderer/style/stroke_direction.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <initializer_list>
+
+#include "base/math.h"
+#include "base/math_exact.h"
+#include "base/parallel.h"
+#include "base/random_streams.h"
+#include "renderer/paint/picture_filter.h"
+#include "renderer/paint/picture_noise.h"
+
+namespace belvedere {
+namespace {
+
+using enum LandCoverClass;
+
+// In units of the sheet.
+constexpr double fine_sigma_units = 1.6;  // details smaller than this have no direction
+constexpr double form_sigma_units = 4.0;  // over which a form's direction is one
+constexpr double turn_sigma_units = 1.2;  // directions turn no more abruptly than this
+constexpr double swirl_sigma_x_units = 72.0;
+constexpr double swirl_sigma_y_units = 48.0;
+constexpr int swirl_octaves = 2;
+// Strokes of a sky that agree with their neighbours and are not level run in whorls: van Gogh's do,
+// none of the other painters' fitted so far.
+constexpr double most_level_of_whorls = 0.4;
+constexpr double least_coherence_of_whorls = 0.5;
+
+constexpr double form_share = 1.4;
+constexpr double level_on_slopes = 0.35;  // a painter's level strokes are those of plains
+constexpr double upright_trees = 0.6;
+// Longest and widest strokes, px of the painting: more is a class too small to be measured.
+constexpr double most_length_px = 20.0;
+constexpr double most_width_px = 5.0;
+
+// What stands in for a class without strokes, the nearest relative first.
+std::initializer_list<LandCoverClass> painted_relatives(LandCoverClass id) {
+  static constexpr std::initializer_list<LandCoverClass> none = {};
+  static constexpr std::initializer_list<LandCoverClass> of_water = {sky, valley_floor, pasture};
+  static constexpr std::initializer_list<LandCoverClass> of_plains = {pasture, alpine_grass, shrub,
+                                                                      valley_floor, forest};
+  static constexpr std::initializer_list<LandCoverClass> of_trees = {shrub, forest, pasture,
+                                                                     alpine_grass};
+  static constexpr std::initializer_list<LandCoverClass> of_stone = {rock, scree, sand, snow};
+  static constexpr std::initializer_list<LandCoverClass> of_snow = {snow, glacier, rock, scree};
+  switch (id) {
+    case water:
+      return of_water;
+    case valley_floor:
+    case settlement:
+    case alpine_grass:
+    case pasture:
+      return of_plains;
+    case forest:
+    case shrub:
+      return of_trees;
+    case scree:
+    case rock:
+    case sand:
+      return of_stone;
+    case snow:
+    case glacier:
+      return of_snow;
+    case sky:
+      return none;
+  }
+  return none;
+}
+
+// How strokes of a class mix their directions.
+struct ClassDirection {
+  float level = 0.0F;
+  float form = 0.0F;
+  float fall = 0.0F;
+  float upright = 0.0F;
+};
+
+ClassDirection direction_of(const StyleBrushwork& brushwork, LandCoverClass id) {
+  const bool plain = id == water || id == valley_floor || id == pasture;
+  const bool steep = !plain && id != settlement && id != sand;
+  ClassDirection of;
+  of.level = static_cast<float>(std::max(brushwork.level, 0.0) * (plain ? 1.0 : level_on_slopes));
+  of.form = static_cast<float>(form_share * std::max(brushwork.form, 0.1));
+  of.fall = steep ? 0.8F : 0.3F;
+  if (id == forest) of.upright = static_cast<float>(upright_trees);
+  return of;
+}
+
+// Direction of forms of light and dark as a doubled angle, as long as they are of one mind, 0…1.
+std::array<Grid<float>, 2> form_direction(const Grid<glm::vec3>& lab, double ppu,
+                                          glm::ivec2 origin_px) {
+  Grid<float> light(lab.width(), lab.height());
+  for (std::size_t i = 0; i < lab.size(); ++i) light[i] = lab[i].x;
+  light = blur_in_picture(light, std::max(fine_sigma_units * ppu, 0.8), origin_px);
+  Grid<float> xx_yy(lab.width(), lab.height());
+  Grid<float> xy2(lab.width(), lab.height());
+  Grid<float> both(lab.width(), lab.height());
+  parallel_rows(lab.height(), [&](int y) {
+    for (int x = 0; x < lab.width(); ++x) {
+      const float gx = light.clamped(x + 1, y) - light.clamped(x - 1, y);
+      const float gy = light.clamped(x, y + 1) - light.clamped(x, y - 1);
+      const std::size_t i = light.index(x, y);
+      xx_yy[i] = gx * gx - gy * gy;
+      xy2[i] = 2.0F * gx * gy;
+      both[i] = gx * gx + gy * gy;
+    }
+  });
+  for (Grid<float>* grid : {&xx_yy, &xy2, &both})
+    *grid = blur_in_picture(*grid, form_sigma_units * ppu, origin_px);
+  // Across the steepest change: a quarter turn, which the doubled angle takes twice.
+  for (std::size_t i = 0; i < both.size(); ++i) {
+    const float even = -1.0F / std::max(both[i], 1e-9F);
+    xx_yy[i] *= even;
+    xy2[i] *= even;
+  }
+  return {std::move(xx_yy), std::move(xy2)};
+}
+
+// Doubled angles of the sky's strokes: about level, or around the hills of a noise, which makes
+// whorls; empty where the window has no sky.
+std::array<Grid<float>, 2> sky_direction(const StyleBrushwork& brushwork,
+                                         const GuidanceBuffers& guidance,
+                                         const StylePaintParameters& parameters,
+                                         glm::ivec2 origin_px) {
+  bool seen = false;
+  for (std::size_t i = 0; i < guidance.depth_m.size() && !seen; ++i) seen = guidance.is_sky(i);
+  if (!seen) return {};
+  const int width = guidance.width();
+  const int height = guidance.height();
+  Grid<float> hills(width + 2, height + 2, 0.0F);  // and a pixel around
+  for (int octave = 0; octave < swirl_octaves; ++octave) {
+    const double finer = 1.0 / (1 << octave);
+    const Grid<float> noise = make_image_noise(
+        stream_seed(parameters.seed, Stream::style_directions, static_cast<std::uint64_t>(octave)),
+        origin_px - 1, width + 2, height + 2, parameters.pixels_per_unit,
+        finer * swirl_sigma_x_units, finer * swirl_sigma_y_units);
+    const float share = octave == 0 ? 0.95F : 0.3F;
+    for (std::size_t i = 0; i < hills.size(); ++i) hills[i] += share * noise[i];
+  }
+  const bool swirls = has_whorls(brushwork);
+  const auto level = static_cast<float>(0.5 * std::max(brushwork.level, 0.0));
+  const double most = 0.12 * (1.0 - std::clamp(brushwork.level, 0.0, 1.0)) + 0.02;
+  std::array<Grid<float>, 2> of = {Grid<float>(width, height), Grid<float>(width, height)};
+  parallel_ranges(height, 16, [&](int begin, int end) {
+    for (int y = begin; y != end; ++y)
+      for (int x = 0; x < width; ++x) {
+        const std::size_t i = guidance.depth_m.index(x, y);
+        if (!guidance.is_sky(i)) continue;
+        if (swirls) {  // along the contour: the gradient turned by a quarter
+          const float down = hills(x + 1, y + 2) - hills(x + 1, y);
+          const float right = hills(x + 2, y + 1) - hills(x, y + 1);
+          const float even = 1.0F / std::max(down * down + right * right, 1e-12F);
+          of[0][i] = (down * down - right * right) * even + level;
+          of[1][i] = -2.0F * down * right * even;
+        } else {
+          const exact::Turn turn = exact::turn(2.0 * most * hills(x + 1, y + 1));
+          of[0][i] = static_cast<float>(turn.cosine);
+          of[1][i] = static_cast<float>(turn.sine);
+        }
+      }
+  });
+  return of;
+}
+
+// Half of a doubled angle, by square roots alone.
+glm::vec2 half_turn(float cosine, float sine) {
+  const float length = std::sqrt(cosine * cosine + sine * sine);
+  if (!(length > 1e-6F)) return {1.0F, 0.0F};
+  const float c = std::sqrt(std::max(0.0F, 0.5F * (1.0F + cosine / length)));
+  const float s = std::sqrt(std::max(0.0F, 0.5F * (1.0F - cosine / length)));
+  return {c, sine < 0.0F ? -s : s};
+}
+
+}  // namespace
+
+bool has_whorls(const StyleBrushwork& sky) {
+  return sky.level < most_level_of_whorls && sky.coherence > least_coherence_of_whorls;
+}
+
+StyleBrushwork brushwork_of(const Style& style, LandCoverClass id) {
+  const auto own = [&](LandCoverClass of) -> const StyleBrushwork& {
+    return style.brushwork[static_cast<std::size_t>(of)];
+  };
+  const StyleBrushwork* found = &own(id);
+  if (!(found->length_px > 0.0))
+    for (const LandCoverClass relative : painted_relatives(id))
+      if (own(relative).length_px > 0.0) {
+        found = &own(relative);
+        break;
+      }
+  for (std::size_t k = 0; k < style.brushwork.size() && !(found->length_px > 0.0); ++k)
+    found = &style.brushwork[style.brushwork.size() - 1 - k];
+  StyleBrushwork brushwork = *found;
+  brushwork.length_px = std::min(brushwork.length_px, most_length_px);
+  brushwork.width_px = std::min(brushwork.width_px, most_width_px);
+  return brushwork;
+}
+
+Grid<glm::vec2> make_stroke_direction(const Style& style, const GuidanceBuffers& guidance,
+                                      const Grid<glm::vec3>& lab,
+                                      const StylePaintParameters& parameters,
+                                      glm::ivec2 origin_px) {
+  const double ppu = parameters.pixels_per_unit;
+  const auto [form_cos, form_sin] = form_direction(lab, ppu, origin_px);
+  std::array<ClassDirection, land_cover_class_count> mixes;
+  for (const LandCoverClassInfo& row : land_cover_classes())
+    mixes[static_cast<std::size_t>(row.id)] = direction_of(brushwork_of(style, row.id), row.id);
+  const auto [sky_cos, sky_sin] =
+      sky_direction(brushwork_of(style, sky), guidance, parameters, origin_px);
+
+  Grid<float> cosine(lab.width(), lab.height());
+  Grid<float> sine(lab.width(), lab.height());
+  parallel_ranges(lab.height(), 16, [&](int begin, int end) {
+    for (std::size_t i = lab.index(0, begin); i < lab.index(0, end); ++i) {
+      if (guidance.is_sky(i)) {
+        cosine[i] = sky_cos[i];
+        sine[i] = sky_sin[i];
+        continue;
+      }
+      const ClassDirection& of = mixes[static_cast<std::size_t>(guidance.land_cover[i])];
+      const glm::vec2 fall = guidance.fall_line[i];
+      const float c =
+          of.level + of.form * form_cos[i] + of.fall * (square(fall.x) - square(fall.y));
+      const float s = of.form * form_sin[i] + of.fall * 2.0F * fall.x * fall.y;
+      const float rest = 1.0F - of.upright * (2.0F / 3.0F);
+      cosine[i] = rest * c - of.upright;
+      sine[i] = rest * s;
+    }
+  });
+  cosine = blur_in_picture(cosine, turn_sigma_units * ppu, origin_px);
+  sine = blur_in_picture(sine, turn_sigma_units * ppu, origin_px);
+  Grid<glm::vec2> along(lab.width(), lab.height());
+  parallel_ranges(lab.height(), 16, [&](int begin, int end) {
+    for (std::size_t i = along.index(0, begin); i < along.index(0, end); ++i)
+      along[i] = half_turn(cosine[i], sine[i]);
+  });
+  return along;
+}
+
+int stroke_direction_margin_px(const StylePaintParameters& parameters) {
+  const double ppu = parameters.pixels_per_unit;
+  return blur_reach_px(std::max(fine_sigma_units * ppu, 0.8)) + 1 +
+         blur_reach_px(form_sigma_units * ppu) + blur_reach_px(turn_sigma_units * ppu);
+}
+
+}  // namespace belvedere

@@ -1,0 +1,199 @@
+#include "renderer/style/style_file.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+
+#include "base/config.h"
+#include "base/error.h"
+#include "base/text/config_reader.h"
+#include "base/text/embedded.h"
+#include "base/text/hex_colour.h"
+#include "renderer/image/oklab.h"
+
+namespace belvedere {
+namespace {
+
+constexpr double thousandth = 0.001;
+constexpr std::size_t max_residuals = 4096;  // of a third
+constexpr std::size_t max_accents = 256;
+constexpr int max_sky_side = 32;
+const std::array<const char*, 3> third_keys = {"dark", "middle", "light"};
+
+glm::vec3 three_numbers(const ConfigValue& value, const std::string& name, double min, double max) {
+  const ConfigArray& array = as_array(value, name);
+  const auto refuse = [&](const ConfigValue& at) {
+    refuse_value(at, name, describe(at), fmt::format("three numbers, {:g} … {:g}", min, max));
+  };
+  if (array.size() != 3) refuse(value);
+  glm::vec3 out(0.0F);
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double number = as_number(array[c], name);
+    if (!(number >= min && number <= max)) refuse(array[c]);
+    out[static_cast<int>(c)] = static_cast<float>(number);
+  }
+  return out;
+}
+
+// "#rrggbb", as OKLab.
+glm::vec3 lab_colour(const ConfigValue& value, const std::string& name) {
+  const std::optional<glm::vec3> colour = colour_of_hex(as_string(value, name));
+  if (!colour)
+    refuse_value(value, name, describe(value), "\"#rrggbb\" in encoded sRGB, as \"#7aa3cc\"");
+  return glm::vec3(to_oklab(*colour));
+}
+
+template <class Read>
+auto read_list(const ConfigValue& value, const std::string& name, std::size_t most, Read read) {
+  const ConfigArray& array = as_array(value, name);
+  if (array.size() > most)
+    refuse_value(value, name, fmt::format("{} values", array.size()),
+                 fmt::format("at most {}", most));
+  std::vector<glm::vec3> out;
+  for (const ConfigValue& each : array) out.push_back(read(each));
+  return out;
+}
+
+StyleBrushwork read_brushwork(const ConfigValue& value, const std::string& name) {
+  StyleBrushwork out;
+  ConfigReader reader(value, name);
+  reader.number("length_px", out.length_px, 1.0, 20.0);
+  if (out.length_px == 0.0)
+    refuse_value(value, name, "no length_px", "length_px and width_px of a class's strokes");
+  out.width_px = 0.0;
+  reader.number("width_px", out.width_px, 0.5, 5.0);
+  if (out.width_px == 0.0)
+    refuse_value(value, name, "no width_px", "length_px and width_px of a class's strokes");
+  reader.number("level", out.level, -1.0, 1.0);
+  reader.number("form", out.form, -1.0, 1.0);
+  reader.number("coherence", out.coherence, 0.0, 1.0);
+  reader.number("lightness_deviation", out.lightness_deviation, 0.0, 1.0);
+  if (const ConfigValue* accents = reader.known("accents"))
+    out.accents = read_list(*accents, name, max_accents,
+                            [&](const ConfigValue& v) { return lab_colour(v, name); });
+  for (std::size_t third = 0; third < 3; ++third)
+    if (const ConfigValue* residuals = reader.known(third_keys[third]))
+      out.residuals[third] = read_list(*residuals, name, max_residuals, [&](const ConfigValue& v) {
+        return static_cast<float>(thousandth) * three_numbers(v, name, -1000.0, 1000.0);
+      });
+  reader.end();
+  return out;
+}
+
+void read_sky_grid(const ConfigValue& value, const std::string& name, StyleSky& sky) {
+  ConfigReader reader(value, name);
+  if (const ConfigValue* medians = reader.known("medians")) {
+    const ConfigArray& rows = as_array(*medians, name);
+    const std::size_t columns = rows.empty() ? 0 : as_array(rows.front(), name).size();
+    if (columns == 0 || columns > max_sky_side || rows.size() > max_sky_side)
+      refuse_value(*medians, name, fmt::format("{} rows of {} colours", rows.size(), columns),
+                   fmt::format("1 … {} rows of as many colours each", max_sky_side));
+    sky.medians = Grid<glm::vec3>(static_cast<int>(columns), static_cast<int>(rows.size()));
+    for (std::size_t j = 0; j < rows.size(); ++j) {
+      const ConfigArray& row = as_array(rows[j], name);
+      if (row.size() != columns)
+        refuse_value(rows[j], name, fmt::format("a row of {} colours", row.size()),
+                     fmt::format("{}, as in the first row", columns));
+      for (std::size_t i = 0; i < columns; ++i)
+        sky.medians(static_cast<int>(i), static_cast<int>(j)) = lab_colour(row[i], name);
+    }
+  }
+  if (const ConfigValue* changes = reader.known("changes")) {
+    const ConfigArray& array = as_array(*changes, name);
+    if (array.size() > 2)
+      refuse_value(*changes, name, fmt::format("{} changes", array.size()), "at most two");
+    for (const ConfigValue& entry : array) {
+      StyleSkyChange change;
+      ConfigReader each(entry, name);
+      if (const ConfigValue* axis = each.known("axis"))
+        change.axis = three_numbers(*axis, name, -1.0, 1.0);
+      each.number("length_x", change.length_x, 0.001, 4.0);
+      each.number("length_y", change.length_y, 0.001, 4.0);
+      if (const ConfigValue* quantiles = each.known("quantiles")) {
+        const ConfigArray& numbers = as_array(*quantiles, name);
+        if (numbers.size() != change.quantiles.size())
+          refuse_value(*quantiles, name, fmt::format("{} quantiles", numbers.size()),
+                       "seven: at shares .02 .1 .25 .5 .75 .9 .98");
+        for (std::size_t q = 0; q < numbers.size(); ++q) {
+          change.quantiles[q] = as_number(numbers[q], name);
+          if (!(std::abs(change.quantiles[q]) <= 100.0) ||
+              (q > 0 && change.quantiles[q] < change.quantiles[q - 1]))
+            refuse_value(numbers[q], name, describe(numbers[q]), "rising quantiles, -100 … 100");
+        }
+      }
+      each.end();
+      sky.changes.push_back(change);
+    }
+  }
+  reader.end();
+}
+
+Style build_style(const ConfigValue& root, const std::string& name) {
+  const std::vector<std::string>& of_palette = palette_keys();
+  ConfigTable palette;
+  ConfigTable rest;
+  for (const ConfigEntry& entry : as_table(root, name)) {
+    const bool shared =
+        std::find(of_palette.begin(), of_palette.end(), entry.key) != of_palette.end();
+    (shared ? palette : rest).push_back(entry);
+  }
+  Style style;
+  const ConfigValue own{std::move(rest), root.position};
+  ConfigReader reader(own, name);
+  reader.text("origin", style.origin);
+  reader.text("licence", style.licence);
+  reader.texts("notes", style.notes);
+  reader.number("units_per_px", style.units_per_px, 0.1, 10.0);
+  reader.number("broken", style.broken, 0.0, 2.0);
+  reader.number("vapour", style.vapour, 0.0, 1.0);
+  reader.number("form_deviation", style.form_deviation, 0.0, 1.0);
+  if (const ConfigValue* trend = reader.known("trend"))
+    style.trend = three_numbers(*trend, name, -1.0, 1.0);
+  reader.number("hue_by_light", style.hue_by_light, 0.0, 1.0);
+  if (const ConfigValue* brushwork = reader.known("brushwork")) {
+    const ConfigTable& classes = as_table(*brushwork, name);
+    std::vector<std::string> names;
+    for (const LandCoverClassInfo& info : land_cover_classes()) names.emplace_back(info.name);
+    allow_only(classes, names, name);
+    for (const ConfigEntry& entry : classes)
+      style.brushwork[static_cast<std::size_t>(*find_class(entry.key))] =
+          read_brushwork(entry.value, name);
+  }
+  if (const ConfigValue* grid = reader.known("sky_grid")) read_sky_grid(*grid, name, style.sky);
+  std::vector<std::string> keys = of_palette;  // for a misspelt key all that may stand here
+  for (const char* key : {"origin", "licence", "notes", "units_per_px", "broken", "vapour",
+                          "form_deviation", "trend", "hue_by_light", "brushwork", "sky_grid"})
+    keys.emplace_back(key);
+  allow_only(as_table(root, name), keys, name);
+  style.palette = parse_palette(ConfigValue{std::move(palette), root.position}, name);
+  style.name = style.palette.name;
+  return style;
+}
+
+bool is_built_in_style(const std::string& name) {
+  const std::vector<std::string> names = embedded_names("styles");
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+}  // namespace
+
+Style parse_style(std::string_view text, const std::string& name) {
+  return build_style(parse_config(text, name), name);
+}
+
+Style read_style(const std::string& name_or_path) {
+  if (is_built_in_style(name_or_path)) {
+    const std::string file = "styles/" + name_or_path + ".toml";
+    return parse_style(embedded_file(file), file);
+  }
+  if (name_or_path.find('/') == std::string::npos && !name_or_path.ends_with(".toml")) {
+    std::string allowed = "a .toml file or one of:";
+    for (const std::string& each : embedded_names("styles")) allowed += " " + each;
+    throw Error(ErrorKind::usage, "style", "\"" + name_or_path + "\"", allowed);
+  }
+  return build_style(read_config(name_or_path), name_or_path);
+}
+
+}  // namespace belvedere

@@ -1,0 +1,103 @@
+#include "renderer/stages/sheet_style.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "base/grid_part.h"
+#include "base/parallel.h"
+#include "renderer/stages/lit_picture.h"
+#include "renderer/stages/stages.h"
+#include "renderer/style/style_ground.h"
+#include "tests/files.h"
+#include "tests/renderer/style/styled_sheet.h"
+#include "tests/scenes.h"
+
+namespace belvedere {
+namespace {
+
+constexpr PixelRect styled_rect{0, 0, 140, 120};
+
+// A small scene painted in a style, in the stages of a sheet.
+struct StyledScene {
+  struct Stages {
+    Stages(StyledScene& scene, const Style* style, int tile_px)
+        : graph(scene.position, silent_progress()),
+          ground(add_ground_stages(graph, inputs_of(scene, style), tile_px)),
+          picture(add_picture_stages(graph, ground, nullptr)) {}
+    static GroundInputs inputs_of(StyledScene& scene, const Style* style) {
+      const SheetView view = view_of(scene.world);
+      GroundInputs inputs = make_ground_inputs(scene.world, view, scene.palette, {});
+      StylePaintParameters parameters;
+      parameters.pixels_per_unit = view.pixels_per_unit;
+      parameters.sheet_px = view.camera.size();
+      parameters.contour_lines = 0.7;
+      if (style != nullptr)
+        inputs.style = make_sheet_style(*style, parameters, scene.world, view.camera, {});
+      return inputs;
+    }
+    StageGraph graph;
+    GroundStages ground;
+    PictureStages picture;
+  };
+  Grid<glm::vec3> make(PixelRect rect, const Style* style, int tile_px = 96) {
+    return Stages(*this, style, tile_px).picture.picture->read(rect).colour;
+  }
+  const Palette palette = read_palette("summer");
+  const World world = make_world(
+      test::small_scene({"output.width=140", "output.height=120", "output.sheet_width_mm=112",
+                         "air.mist.0={ kind = \"sea\", to_m = 1100 }"}),
+      silent_progress());
+  const test::Folder folder;
+  TileStore::Place position{folder.path(), 1U << 24U};
+};
+
+TEST(SheetStyle, SightHasTheLowestSkyAndMostOfTheDistances) {
+  constexpr float sky = std::numeric_limits<float>::infinity();
+  Grid<float> depth_m(100, 4, sky);
+  for (int y = 2; y < 4; ++y)
+    for (int x = 0; x < 100; ++x) depth_m(x, y) = static_cast<float>(1000 + x);
+  depth_m(7, 2) = sky;
+  const StyleSight sight = style_sight_of(depth_m, 5);
+  EXPECT_EQ(sight.sky_rows, 15);
+  EXPECT_NEAR(sight.near_m, 1003.0, 1.0);
+  EXPECT_NEAR(sight.far_m, 1096.0, 1.0);
+  EXPECT_EQ(style_sight_of(Grid<float>(3, 3, sky), 1).near_m, StylePaintParameters{}.near_m);
+}
+
+TEST(SheetStyle, AnyRectangleTilesAndThreadsGiveThePictureOfTheWhole) {
+  StyledScene scene;
+  const Style style = test::make_style();
+  const Grid<glm::vec3> whole = scene.make(styled_rect, &style);
+  const ThreadLimit one(1);
+  EXPECT_TRUE(scene.make({70, 40, 120, 80}, &style, 64) == part_of(whole, {70, 40, 120, 80}));
+}
+
+TEST(SheetStyle, AStyleChangesThePictureAndNoneAddsNoStage) {
+  StyledScene scene;
+  const Style style = test::make_style();
+  const PixelRect rect{60, 60, 80, 80};
+  EXPECT_FALSE(scene.make(rect, &style) == scene.make(rect, nullptr));
+  EXPECT_EQ(StyledScene::Stages(scene, nullptr, 96).picture.styled, nullptr);
+}
+
+TEST(SheetStyle, LayersMakeThePictureInStyleAgain) {
+  StyledScene scene;
+  const Style style = test::make_style();
+  const PixelRect rect{60, 30, 80, 60};
+  StyledScene::Stages stages(scene, &style, 96);
+  const SheetPicture picture = stages.picture.picture->read(rect, with_layers);
+  EXPECT_TRUE(picture.colour == scene.make(rect, &style));
+  double most = 0.0;
+  for (std::size_t i = 0; i < picture.colour.size(); ++i) {
+    glm::dvec3 flat(0.0);
+    for (std::size_t k = 0; k + 1 < layer_plane_count; ++k)
+      lay_over(flat, picture.layers->planes[k][i]);
+    for (int c = 0; c < 3; ++c)
+      most = std::max(most, std::abs(flat[c] - static_cast<double>(picture.colour[i][c])));
+  }
+  EXPECT_LT(most, (flatten_steps + 1.0) / 65535.0);
+}
+
+}  // namespace
+}  // namespace belvedere

@@ -1,0 +1,94 @@
+#include "renderer/style/fit/class_ramps.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "tests/renderer/style/synthetic_painting.h"
+
+namespace belvedere {
+namespace {
+
+// Lightness evenly from .3 to .8; hue of one chroma that turns with it.
+std::vector<glm::vec3> ramp_texels() {
+  std::vector<glm::vec3> texels;
+  for (int i = 0; i < 5000; ++i) {
+    const double share = (i * 1237 % 5000) / 5000.0;
+    const double hue = 1.0 + 0.4 * share;
+    texels.emplace_back(0.3 + 0.5 * share, 0.08 * std::cos(hue), 0.08 * std::sin(hue));
+  }
+  return texels;
+}
+
+TEST(QuantileRamp, GivesBackTheColoursAtItsQuantiles) {
+  const ClassRampParameters parameters;
+  const LabRamp ramp = quantile_ramp(ramp_texels());
+  for (std::size_t k = 0; k < 4; ++k) {
+    const double q = parameters.quantiles[k];
+    EXPECT_NEAR(ramp[k].x, 0.3 + 0.5 * q, 2e-3) << k;
+    // Hue is the mean over the ranks around, as far as there are some.
+    const double middle = 0.5 * (std::max(0.0, q - 0.1) + std::min(1.0, q + 0.1));
+    EXPECT_NEAR(ramp[k].y, 0.08 * std::cos(1.0 + 0.4 * middle), 2e-3) << k;
+    EXPECT_NEAR(ramp[k].z, 0.08 * std::sin(1.0 + 0.4 * middle), 2e-3) << k;
+  }
+}
+
+// Half of it is grey, half of it red: the eye sees red, the median is mud.
+TEST(QuantileRamp, ColourCountsMoreThanGrey) {
+  std::vector<glm::vec3> texels;
+  for (int i = 0; i < 1000; ++i)
+    texels.emplace_back(0.4 + 0.0002 * i, i % 2 == 0 ? 0.10 : 0.005, 0.0);
+  const LabRamp ramp = quantile_ramp(texels);
+  EXPECT_GT(ramp[2].y, 0.09);
+}
+
+TEST(QuantileRamp, OneColourIsEnough) {
+  const LabRamp ramp = quantile_ramp({glm::vec3(0.5F, 0.1F, 0.0F)});
+  for (const glm::dvec3& colour : ramp) EXPECT_NEAR(colour.x, 0.5, 1e-6);
+}
+
+LabRamp grey_ramp(std::array<double, 4> lightness) {
+  LabRamp ramp{};
+  for (std::size_t k = 0; k < 4; ++k) ramp[k] = {lightness[k], 0.02, 0.03};
+  return ramp;
+}
+
+TEST(StretchRamp, HasTheRangeOfTheReferenceMostlyInShade) {
+  const LabRamp reference = grey_ramp({0.2, 0.4, 0.6, 0.8});
+  const LabRamp ramp = grey_ramp({0.5, 0.55, 0.6, 0.7});
+  const LabRamp out = stretch_ramp(ramp, reference, {0.05, 0.98}, LightLaw{});
+  EXPECT_NEAR(out[3].x - out[0].x, 0.85 * 0.6, 1e-9);
+  // The painter's light end, .02 and a quarter of half of what was added.
+  const double added = 0.85 * 0.6 - 0.2;
+  EXPECT_NEAR(out[3].x, 0.7 + 0.02 + 0.25 * 0.5 * added, 1e-9);
+  // What has range enough stays.
+  const LabRamp same = stretch_ramp(reference, reference, {0.05, 0.98}, LightLaw{});
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(same[k].x, reference[k].x, 1e-9);
+}
+
+TEST(StretchRamp, StaysWithinTheLightnessOfThePainting) {
+  const LabRamp out = stretch_ramp(grey_ramp({0.30, 0.32, 0.34, 0.36}),
+                                   grey_ramp({0.1, 0.4, 0.6, 0.9}), {0.28, 0.37}, LightLaw{});
+  EXPECT_GE(out[0].x, 0.28);
+  EXPECT_LE(out[3].x, 0.37 + 1e-9);
+}
+
+TEST(FitClassRamps, SeesTheClassesOfTheMaskInTheirHues) {
+  const test::Landscape landscape = test::make_landscape();
+  const StylePainting painting = prepare_painting(landscape.picture, landscape.mask);
+  const ClassRamps reference = palette_ramps(read_palette("summer"));
+  const SeenRamps seen = fit_class_ramps(painting, fit_light_law(painting), reference);
+  using enum LandCoverClass;
+  for (const LandCoverClass id : {snow, rock, forest, pasture})
+    EXPECT_TRUE(seen.seen[index_of(id)]);
+  for (const LandCoverClass id : {sky, water, scree}) EXPECT_FALSE(seen.seen[index_of(id)]);
+  const LabRamp& green = seen.ramps[index_of(pasture)];
+  for (const glm::dvec3& colour : green) {
+    EXPECT_LT(colour.y, -0.02);
+    EXPECT_GT(colour.z, 0.03);
+  }
+  for (std::size_t k = 1; k < 4; ++k) EXPECT_GT(green[k].x, green[k - 1].x);
+}
+
+}  // namespace
+}  // namespace belvedere

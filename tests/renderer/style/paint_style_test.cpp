@@ -1,0 +1,103 @@
+#include "renderer/style/paint_style.h"
+
+#include <gtest/gtest.h>
+
+#include "base/parallel.h"
+#include "tests/renderer/style/styled_sheet.h"
+
+namespace belvedere {
+namespace {
+
+constexpr PixelRect whole{0, 0, test::sheet_width, test::sheet_height};
+
+Grid<glm::vec3> paint(const test::StyledSheet& sheet, const Style& style,
+                      const StylePaintParameters& parameters, glm::ivec2 origin_px,
+                      PixelRect wanted) {
+  return paint_style(style, sheet.guidance, sheet.render, {}, parameters, origin_px, wanted);
+}
+
+// What a rectangle gets from a window that reaches `margin` around it.
+Grid<glm::vec3> paint_part(const test::StyledSheet& sheet, const Style& style,
+                           const StylePaintParameters& parameters, PixelRect rect, int margin) {
+  const PixelRect window = intersection(whole, grown(rect, margin));
+  return paint(test::cut(sheet, window), style, parameters, {window.x0, window.y0},
+               moved(rect, -window.x0, -window.y0));
+}
+
+int differing(const Grid<glm::vec3>& a, const Grid<glm::vec3>& b) {
+  int count = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) count += a[i] != b[i] ? 1 : 0;
+  return count;
+}
+
+TEST(PaintStyle, AnyRectangleEqualsTheWhole) {
+  const test::StyledSheet sheet = test::make_styled_sheet();
+  const Style style = test::make_style();
+  StylePaintParameters parameters = test::make_style_parameters();
+  parameters.pixels_per_unit = 0.6;
+  parameters.contour_lines = 1.0;
+  const Grid<glm::vec3> all = paint(sheet, style, parameters, {0, 0}, whole);
+  const int margin = style_margin_px(style, parameters);
+  ASSERT_LT(margin, 110);
+  for (const PixelRect rect :
+       {PixelRect{140, 40, 171, 80}, PixelRect{170, 140, 190, 160}, PixelRect{290, 250, 300, 260}})
+    EXPECT_EQ(differing(paint_part(sheet, style, parameters, rect, margin), part_of(all, rect)), 0)
+        << "at " << rect.x0 << " " << rect.y0;
+}
+
+TEST(PaintStyle, AQuarterOfTheMarginIsTooLittle) {
+  const test::StyledSheet sheet = test::make_styled_sheet();
+  const Style style = test::make_style();
+  const StylePaintParameters parameters = test::make_style_parameters();
+  const Grid<glm::vec3> all = paint(sheet, style, parameters, {0, 0}, whole);
+  const PixelRect rect{140, 90, 171, 130};
+  const int margin = style_margin_px(style, parameters) / 4;
+  EXPECT_GT(differing(paint_part(sheet, style, parameters, rect, margin), part_of(all, rect)), 0);
+}
+
+TEST(PaintStyle, ThreadsChangeNothing) {
+  const test::StyledSheet sheet = test::make_styled_sheet();
+  const Style style = test::make_style();
+  const StylePaintParameters parameters = test::make_style_parameters();
+  const Grid<glm::vec3> many = paint(sheet, style, parameters, {0, 0}, whole);
+  const ThreadLimit limit(1);
+  EXPECT_EQ(differing(paint(sheet, style, parameters, {0, 0}, whole), many), 0);
+}
+
+TEST(PaintStyle, WithoutSharesTheRenderStays) {
+  const test::StyledSheet sheet = test::make_styled_sheet();
+  Style style = test::make_style();
+  StylePaintParameters parameters = test::make_style_parameters();
+  parameters.brushwork = 0.0;
+  parameters.sky = 0.0;
+  parameters.palette = 0.0;
+  parameters.form_contrast = 1.0;
+  parameters.unevenness = 0.0;
+  const Grid<glm::vec3> out = paint(sheet, style, parameters, {0, 0}, whole);
+  for (std::size_t i = 0; i < out.size(); ++i)
+    for (int c = 0; c < 3; ++c) ASSERT_NEAR(out[i][c], sheet.render[i][c], 2e-4);
+}
+
+TEST(PaintStyle, SeedsPaintOtherStrokes) {
+  const test::StyledSheet sheet = test::make_styled_sheet();
+  const Style style = test::make_style();
+  StylePaintParameters parameters = test::make_style_parameters();
+  const Grid<glm::vec3> one = paint(sheet, style, parameters, {0, 0}, whole);
+  parameters.seed = 12;
+  EXPECT_GT(differing(paint(sheet, style, parameters, {0, 0}, whole), one),
+            static_cast<int>(one.size()) / 2);
+}
+
+TEST(PaintStyle, MistKeepsTheRendersSky) {
+  const test::StyledSheet sheet = test::make_styled_sheet();
+  const Style style = test::make_style();
+  const StylePaintParameters parameters = test::make_style_parameters();
+  const Grid<float> veil(test::sheet_width, test::sheet_height, 1.0F);
+  const StyleGround ground =
+      prepare_style(style, sheet.guidance, sheet.render, veil, parameters, {0, 0}, whole);
+  EXPECT_LT(glm::length(ground.colour(150, 20) - glm::vec3(to_oklab(sheet.render(150, 20)))),
+            1e-6F);
+}
+
+}  // namespace
+}  // namespace belvedere

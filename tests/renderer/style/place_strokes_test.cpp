@@ -1,0 +1,114 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "renderer/style/paint_style.h"
+#include "renderer/style/style_strokes.h"
+#include "tests/renderer/style/styled_sheet.h"
+
+namespace belvedere {
+namespace {
+
+constexpr PixelRect all_of_it{0, 0, test::sheet_width, test::sheet_height};
+
+struct Placed {
+  test::StyledSheet sheet = test::make_styled_sheet();
+  Style style = test::make_style();
+  StylePaintParameters parameters = test::make_style_parameters();
+  StyleGround ground =
+      prepare_style(style, sheet.guidance, sheet.render, {}, parameters, {0, 0}, all_of_it);
+  StyleWindow window{sheet.guidance, ground, {0, 0}};
+
+  std::vector<StyleStroke> of(int layer) const {
+    return place_style_strokes(style, window, parameters, layer, all_of_it);
+  }
+};
+
+double length_of(const StyleStroke& stroke) {
+  double sum = 0.0;
+  for (int k = 0; k + 1 < stroke.count; ++k)
+    sum += glm::length(stroke.points[static_cast<std::size_t>(k) + 1] -
+                       stroke.points[static_cast<std::size_t>(k)]);
+  return sum;
+}
+
+TEST(PlaceStrokes, LengthsAndWidthsAreThePaintings) {
+  const Placed placed;
+  double length = 0.0;
+  double width = 0.0;
+  int count = 0;
+  for (const StyleStroke& stroke : placed.of(0)) {
+    if (stroke.id != LandCoverClass::pasture) continue;
+    length += length_of(stroke);
+    width += 2.0 * stroke.half_width_px;
+    ++count;
+  }
+  ASSERT_GT(count, 300);
+  // 6 and 2.5 px of the painting, a unit and so a pixel each, 1.4 times in the first layer.
+  EXPECT_NEAR(length / count, 8.4, 0.4);
+  EXPECT_NEAR(width / count, 3.5, 0.1);
+}
+
+TEST(PlaceStrokes, TheirOrderIsTheirCellsNotTheirPlaces) {
+  const std::vector<StyleStroke> strokes = Placed().of(1);
+  double sum = 0.0;
+  for (std::size_t k = 0; k + 1 < strokes.size(); ++k) {
+    ASSERT_LE(strokes[k].order, strokes[k + 1].order);
+    sum += std::abs(strokes[k + 1].pixel_px.y - strokes[k].pixel_px.y);
+  }
+  EXPECT_GT(sum / static_cast<double>(strokes.size()), 60.0);
+}
+
+TEST(PlaceStrokes, ColoursScatterAroundTheGround) {
+  const Placed placed;
+  glm::dvec3 sum(0.0);
+  double squares = 0.0;
+  int count = 0;
+  for (const StyleStroke& stroke : placed.of(0)) {
+    const glm::dvec3 apart(stroke.colour - stroke.ground);
+    sum += apart;
+    squares += apart.x * apart.x;
+    ++count;
+  }
+  EXPECT_LT(glm::length(sum / static_cast<double>(count)), 0.01);
+  // .9 of the residuals' .03, a quarter kept of what drowns the form, .6 in the first layer.
+  EXPECT_GT(std::sqrt(squares / count), 0.008);
+  EXPECT_LT(std::sqrt(squares / count), 0.030);
+}
+
+TEST(PlaceStrokes, ShadeTakesResidualsOfShade) {
+  Placed placed;
+  for (StyleBrushwork& b : placed.style.brushwork) {
+    b.residuals = {std::vector<glm::vec3>{{0.0F, -0.02F, 0.0F}},
+                   std::vector<glm::vec3>{{0.0F, 0.0F, 0.0F}},
+                   std::vector<glm::vec3>{{0.0F, 0.02F, 0.0F}}};
+  }
+  for (const StyleStroke& stroke : placed.of(0)) {
+    if (stroke.id == LandCoverClass::sky) continue;
+    const float tone = placed.sheet.guidance.tone(stroke.pixel_px.x, stroke.pixel_px.y);
+    const float hue = stroke.colour.y - stroke.ground.y;
+    ASSERT_TRUE(tone > 0.34F || hue < -0.005F) << tone << " " << hue;
+    ASSERT_TRUE(tone < 0.84F || hue > 0.005F) << tone << " " << hue;
+  }
+}
+
+TEST(PlaceStrokes, AStyleWithoutBrushworkHasNone) {
+  Placed placed;
+  placed.style.brushwork = {};
+  EXPECT_TRUE(placed.of(0).empty());
+}
+
+TEST(PlaceStrokes, SeedsLieWithinReach) {
+  const Placed placed;
+  const PixelRect rect{100, 100, 140, 140};
+  const int reach = style_seed_reach_px(placed.style, placed.parameters);
+  for (const StyleStroke& stroke :
+       place_style_strokes(placed.style, placed.window, placed.parameters, 1, rect)) {
+    ASSERT_TRUE(stroke.pixel_px.x >= rect.x0 - reach && stroke.pixel_px.x < rect.x1 + reach);
+    ASSERT_LE(length_of(stroke) / 2.0 + stroke.half_width_px, reach);
+  }
+}
+
+}  // namespace
+}  // namespace belvedere

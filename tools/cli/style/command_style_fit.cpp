@@ -1,0 +1,148 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "base/text/json.h"
+#include "base/text/letters.h"
+#include "renderer/exemplar/painting_segments.h"
+#include "renderer/image/image_io.h"
+#include "renderer/style/fit_style.h"
+#include "renderer/style/style_file.h"
+#include "texture/synthesis/guide_stack.h"
+#include "tools/cli/commands.h"
+#include "tools/cli/file_names.h"
+#include "tools/cli/terminal.h"
+#include "tools/options/options.h"
+#include "tools/options/run_options.h"
+#include "tools/report/style_page.h"
+
+namespace belvedere::tools {
+namespace {
+
+constexpr std::size_t inferred_groups = 30;  // as `exemplar segment` makes, where nothing is said
+
+struct StyleFitOptions : RunOptions {
+  std::string painting, classes, out, report, name, origin, licence;
+};
+
+Grid<std::uint8_t> read_classes(const StyleFitOptions& options) {
+  const Grid<std::uint16_t> numbers = read_grey(options.classes);
+  Grid<std::uint8_t> mask(numbers.width(), numbers.height());
+  for (std::size_t i = 0; i < mask.size(); ++i)
+    mask[i] = static_cast<std::uint8_t>(std::min<std::uint16_t>(numbers[i], unused_label));
+  return mask;
+}
+
+// The classes that `exemplar segment` begins with.
+Grid<std::uint8_t> inferred_classes(const StyleFitOptions& options, const Grid<glm::vec3>& picture,
+                                    const Grid<float>& alpha) {
+  const PaintingSegments segments = segment_painting(picture, alpha, usual_theta, options.painting);
+  const std::size_t groups = std::min(segments.tree.pieces, inferred_groups);
+  return class_mask(segments, cut_tree(segments.tree, groups), inferred_class_of(segments, groups));
+}
+
+std::string as_text(const StyleFitOptions& options, const Style& style, std::size_t bytes) {
+  std::string out = fmt::format("{}: {} bytes\n", options.out, bytes);
+  for (const std::string& note : style.notes) out += "  " + note + "\n";
+  out += fmt::format(
+      "  broken paint {:.2f}, vapour {:.2f}, hue by light {:.2f}, {:.1f} units a pixel\n",
+      style.broken, style.vapour, style.hue_by_light, style.units_per_px);
+  return out;
+}
+
+Json as_json(const StyleFitOptions& options, const Style& style, std::size_t bytes) {
+  return Json::object()
+      .add("out", Json::text(options.out))
+      .add("bytes", Json::number(static_cast<double>(bytes)))
+      .add("notes", Json::texts(style.notes))
+      .add("broken", Json::number(style.broken))
+      .add("vapour", Json::number(style.vapour))
+      .add("hue_by_light", Json::number(style.hue_by_light))
+      .add("units_per_px", Json::number(style.units_per_px));
+}
+
+int run(const StyleFitOptions& options) {
+  check_place(options.out);
+  if (lower_extension(options.out) != ".toml")
+    throw Error(ErrorKind::usage, "--out", options.out, "a .toml");
+  check_not_read(options.out, "--out", {options.painting, options.classes});
+  if (!options.report.empty()) check_output_folder(options.report);
+  const ThreadLimit threads(options.threads);
+  TerminalProgress progress(options.quiet);
+  progress.begin("reading", 0.0);
+  Grid<float> alpha;
+  const Grid<glm::vec3> picture = read_picture(options.painting, &alpha);
+  if (options.classes.empty()) progress.begin("segmenting", 0.0);
+  Grid<std::uint8_t> mask =
+      options.classes.empty() ? inferred_classes(options, picture, alpha) : read_classes(options);
+  for (std::size_t i = 0; i < alpha.size() && alpha.same_size(mask); ++i)
+    if (alpha[i] < 1.0F) mask[i] = unused_label;
+  StyleFitParameters parameters;
+  parameters.name =
+      options.name.empty() ? std::filesystem::path(options.out).stem().string() : options.name;
+  parameters.origin = options.origin;
+  parameters.licence = options.licence;
+  const Palette reference = read_palette("summer");
+  Style style = fit_style(picture, mask, reference, parameters, progress);
+  if (options.classes.empty())
+    style.notes.insert(style.notes.begin(),
+                       "no mask was given: classes are guesses by place, colour and strokes");
+  const std::string text = style_text(style);
+  write_text_file(options.out, text);
+  if (!options.report.empty()) {
+    progress.begin("writing the report", 0.0);
+    write_style_page(
+        options.report, file_name(options.painting), picture, mask, style, reference,
+        fmt::format("belvedere style fit {}{} --out {}", file_name(options.painting),
+                    options.classes.empty() ? "" : " --classes " + file_name(options.classes),
+                    file_name(options.out)));
+  }
+  progress.end();
+  print_result(options, as_json(options, style, text.size()), as_text(options, style, text.size()));
+  return 0;
+}
+
+}  // namespace
+
+Action add_style_fit(CommandOptions& command) {
+  const auto options = std::make_shared<StyleFitOptions>();
+  command
+      .add_option("PAINTING", options->painting,
+                  "A scan of a landscape: PNG, TIFF or JPEG, 500 pixels wide or more")
+      .required()
+      .type_name("PICTURE");
+  command
+      .add_option("--classes", options->classes,
+                  "Its classes: a mask of their numbers (`exemplar segment`), 200 for ranges so "
+                  "far that they show the air's colour, 255 for what is not used. Default: guesses")
+      .type_name("MASK");
+  command.add_option("--out", options->out, "The style: a .toml of some 20 kB")
+      .required()
+      .type_name("STYLE");
+  command
+      .add_option("--report", options->report,
+                  "Also a page: colours, strokes at scale, what was derived and from what")
+      .type_name("DIR");
+  command.add_option("--name", options->name, "Of the style. Default: that of the file")
+      .type_name("NAME");
+  command
+      .add_option("--origin", options->origin,
+                  "Painter, title, year and where the picture comes from, for the file")
+      .type_name("TEXT");
+  command.add_option("--licence", options->licence, "Of the picture, for the file")
+      .type_name("TEXT");
+  add_run_options(command, *options, "byte");
+  command.footer(
+      "Colours by class and light, air, strokes and sky of a painting, as a file that the painting "
+      "is not needed for\n"
+      "afterwards and that may be edited. Rough masks are enough: polygons well inside of rock, "
+      "forest, meadow, sky.\n\n"
+      "  belvedere style fit painting.jpg --classes mask.png --out painting.toml --report report");
+  return [options] { return run(*options); };
+}
+
+}  // namespace belvedere::tools
