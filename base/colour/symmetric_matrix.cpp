@@ -43,8 +43,8 @@ SymmetricEigen symmetric_eigen(glm::dmat3 a) {
   return out;
 }
 
-glm::dmat3 least_moving_map(const glm::dmat3& from, const glm::dmat3& to, double floor,
-                            GainLimits gain) {
+glm::dmat3 linear_transport_map(const glm::dmat3& from, const glm::dmat3& to, double floor,
+                                GainLimits gain) {
   const glm::dmat3 least(floor);
   const glm::dmat3 half = root(from + least);
   const glm::dmat3 inverse = glm::inverse(half);

@@ -21,7 +21,7 @@ struct GainLimits {
 // The linear map of colours of one covariance to colours of another that moves them least:
 // A^-½ (A^½ B A^½)^½ A^-½, symmetric and positive (Pitié & Kokaram 2007), its eigenvalues held
 // within the limits. `floor` is added to all variances, so that noise is not blown up.
-glm::dmat3 least_moving_map(const glm::dmat3& from, const glm::dmat3& to, double floor,
-                            GainLimits gain);
+glm::dmat3 linear_transport_map(const glm::dmat3& from, const glm::dmat3& to, double floor,
+                                GainLimits gain);
 
 }  // namespace belvedere

@@ -110,8 +110,8 @@ std::array<ColourMap, 256> find_maps(const LabelStatistics& own,
     if (!shared(label)) continue;
     const Statistics& goal = goals[label].look;
     maps[label].matrix =
-        least_moving_map(own[label].covariance, goal.covariance, min_deviation * min_deviation,
-                         {1.0 / largest_gain, largest_gain});
+        linear_transport_map(own[label].covariance, goal.covariance, min_deviation * min_deviation,
+                             {1.0 / largest_gain, largest_gain});
     maps[label].shift = goal.mean - maps[label].matrix * own[label].mean;
     shift += static_cast<double>(own[label].count) * (goal.mean - own[label].mean);
     count += static_cast<double>(own[label].count);

@@ -89,7 +89,7 @@ std::string listed_classes(const std::vector<LandCoverClass>& ids) {
   return list;
 }
 
-// Classes whose mask lost a good part: the drawing or the guess was wrong there.
+// Classes whose mask lost a good part: the drawing or the inferred class was wrong there.
 void note_cleaned(const StylePainting& painting, std::vector<std::string>& notes) {
   for (const LandCoverClass id : painting.classes) {
     const auto label = static_cast<std::uint8_t>(id);

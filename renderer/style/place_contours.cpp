@@ -16,12 +16,12 @@ namespace {
 
 // What lies farther by less than the first share is the same slope; from the second on a line has
 // its full strength.
-constexpr float least_step = 0.010F;
+constexpr float min_step = 0.010F;
 constexpr float full_step = 0.05F;
 constexpr float along_ridge = 0.05F;  // how much nearer than where it begins a line may run
 constexpr double width_share = 0.8;   // of the class's strokes
 constexpr double length_share = 1.3;
-constexpr double least_contour_px = 1.1;
+constexpr double min_contour_px = 1.1;
 constexpr int steps_each_way = 3;
 constexpr double look_units = 1.6;
 constexpr float dark_share = 0.75F;  // of the style's darkest paint that a line takes
@@ -67,7 +67,7 @@ struct ContourPlacer {
     for (const glm::ivec2 to :
          {glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1), glm::ivec2(0, -1)})
       farthest = std::max(farthest, depth(at + to));
-    return smoothstep(least_step, full_step, std::isinf(farthest) ? 1.0F : farthest / own - 1.0F);
+    return smoothstep(min_step, full_step, std::isinf(farthest) ? 1.0F : farthest / own - 1.0F);
   }
 
   // Direction of the silhouette of what lies at `own` around a pixel: across the mean way to what
@@ -77,7 +77,7 @@ struct ContourPlacer {
     for (int y = -look_px; y <= look_px; ++y)
       for (int x = -look_px; x <= look_px; ++x)
         if (x * x + y * y <= look_px * look_px &&
-            depth(at + glm::ivec2(x, y)) > own * (1.0F + least_step))
+            depth(at + glm::ivec2(x, y)) > own * (1.0F + min_step))
           away += glm::vec2(static_cast<float>(x), static_cast<float>(y));
     const float length = std::sqrt(glm::dot(away, away));
     return length > 0.0F ? glm::vec2(-away.y, away.x) / length : glm::vec2(0.0F);
@@ -117,10 +117,10 @@ struct ContourPlacer {
     if (!(brushwork.length_px > 0.0)) return false;
     const double px = sheet_px_per_painting_px(style, parameters);
     const double length = length_share * brushwork.length_px * px * (0.6 + 0.8 * long_by);
-    const double width = std::max(width_share * brushwork.width_px * px, least_contour_px) *
+    const double width = std::max(width_share * brushwork.width_px * px, min_contour_px) *
                          (0.65 + 0.7 * wide_by) * (0.5 + 0.5 * strength_here);
     const float step = static_cast<float>(length / (2 * steps_each_way));
-    std::array<glm::vec2, StyleStroke::most_points> path{};
+    std::array<glm::vec2, StyleStroke::max_points> path{};
     int low = steps_each_way;
     int high = steps_each_way;
     path[static_cast<std::size_t>(low)] = glm::vec2(0.5F);
@@ -153,7 +153,7 @@ struct ContourPlacer {
     stroke.colour = stroke.ground + share * (dark - stroke.ground);
     stroke.alpha = line_alpha * strength_here * (0.4F + 0.6F * share);
     stroke.gate = open_gate;
-    stroke.farther = least_step;
+    stroke.farther = min_step;
     stroke.nearer = along_ridge;
     stroke.order = random_bits(seed, x, y, line_order);
     return true;

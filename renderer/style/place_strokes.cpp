@@ -23,11 +23,11 @@ constexpr double whorl_strength = 1.6;  // a sky has no form that strong strokes
 constexpr double sky_length = 1.6;
 constexpr double tree_length = 0.7;
 constexpr double tree_width = 0.9;
-constexpr double least_length_px = 2.5;
-constexpr double least_width_px = 0.9;
-constexpr double least_spacing_px = 1.6;   // denser than this nobody tells strokes apart
-constexpr double most_length_share = 1.4;  // of the mean: 0.6 … 1.4
-constexpr double most_width_share = 1.35;  // 0.65 … 1.35
+constexpr double min_length_px = 2.5;
+constexpr double min_width_px = 0.9;
+constexpr double min_spacing_px = 1.6;    // denser than this nobody tells strokes apart
+constexpr double max_length_share = 1.4;  // of the mean: 0.6 … 1.4
+constexpr double max_width_share = 1.35;  // 0.65 … 1.35
 // The whole class's tones between which residuals of shade, middle and light are drawn.
 constexpr std::array<double, 2> tone_thirds = {0.43, 0.75};
 constexpr double third_softness = 0.08;
@@ -71,7 +71,7 @@ double fitted_length_px(const Style& style, const StylePaintParameters& paramete
   const double share = id == LandCoverClass::sky      ? sky_length
                        : id == LandCoverClass::forest ? tree_length
                                                       : 1.0;
-  return std::max(px, least_length_px) * share;
+  return std::max(px, min_length_px) * share;
 }
 
 double fitted_width_px(const Style& style, const StylePaintParameters& parameters,
@@ -94,8 +94,8 @@ Hands hands_of(const Style& style, const StylePaintParameters& parameters,
     const double length = fitted_length_px(style, parameters, row.id, b);
     const double width = fitted_width_px(style, parameters, row.id, b);
     hand.length_px = layer.length * length;
-    hand.width_px = std::max(layer.width * width, least_width_px);
-    hand.spacing_px = std::max(layer.spacing * std::sqrt(0.5 * length * width), least_spacing_px);
+    hand.width_px = std::max(layer.width * width, min_width_px);
+    hand.spacing_px = std::max(layer.spacing * std::sqrt(0.5 * length * width), min_spacing_px);
     hand.wander_rad = 0.10 + 0.35 * (1.0 - std::min(1.0, b.coherence / 0.7));
     hand.hair_count = static_cast<float>(
         std::clamp(layer.width * b.width_px * hairs_per_px, 1.0, StyleStroke::hairs - 1.0));
@@ -123,7 +123,7 @@ double cell_px_of(const Hands& hands) {
     sum += hand.spacing_px;
     ++count;
   }
-  return count == 0 ? 0.0 : std::max({least, 0.6 * sum / count, least_spacing_px});
+  return count == 0 ? 0.0 : std::max({least, 0.6 * sum / count, min_spacing_px});
 }
 
 glm::vec2 turned_by(glm::vec2 v, glm::vec2 turn) {
@@ -152,7 +152,7 @@ struct Placer {
     const float step = length_px / static_cast<float>(2 * steps);
     const exact::Turn exactly = exact::turn(turn_rad);
     const glm::vec2 turn(static_cast<float>(exactly.cosine), static_cast<float>(exactly.sine));
-    std::array<glm::vec2, StyleStroke::most_points> path{};
+    std::array<glm::vec2, StyleStroke::max_points> path{};
     int low = steps;
     int high = steps;
     path[static_cast<std::size_t>(steps)] = seed_at;
@@ -213,8 +213,8 @@ struct Placer {
     stroke.id = window.guidance.is_sky(i) ? LandCoverClass::sky : window.guidance.land_cover[i];
     const ClassHand& hand = hands[static_cast<std::size_t>(stroke.id)];
     if (!(hand.length_px > 0.0) || draw(kept) >= square(cell_px / hand.spacing_px)) return false;
-    const double length = hand.length_px * (0.6 + (most_length_share - 0.6) * draw(long_by));
-    const double width = hand.width_px * (0.65 + (most_width_share - 0.65) * draw(wide_by));
+    const double length = hand.length_px * (0.6 + (max_length_share - 0.6) * draw(long_by));
+    const double width = hand.width_px * (0.65 + (max_width_share - 0.65) * draw(wide_by));
     const double wander = hand.wander_rad * random_normal(seed, x, y, turned);
     trace(stroke, {static_cast<float>(seed_x - pixel_x), static_cast<float>(seed_y - pixel_y)},
           static_cast<float>(length), static_cast<float>(wander));
@@ -295,8 +295,8 @@ int style_seed_reach_px(const Style& style, const StylePaintParameters& paramete
       if (!(b.length_px > 0.0)) continue;
       const double length = layer.length * fitted_length_px(style, parameters, row.id, b);
       const double width =
-          std::max(layer.width * fitted_width_px(style, parameters, row.id, b), least_width_px);
-      reach = std::max(reach, 0.5 * most_length_share * length + 0.5 * most_width_share * width);
+          std::max(layer.width * fitted_width_px(style, parameters, row.id, b), min_width_px);
+      reach = std::max(reach, 0.5 * max_length_share * length + 0.5 * max_width_share * width);
     }
   return static_cast<int>(std::ceil(reach)) + 2 + contour_look_px(parameters);
 }

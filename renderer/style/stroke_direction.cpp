@@ -26,15 +26,15 @@ constexpr double swirl_sigma_y_units = 48.0;
 constexpr int swirl_octaves = 2;
 // Strokes of a sky that agree with their neighbours and are not level run in whorls: van Gogh's do,
 // none of the other painters' fitted so far.
-constexpr double most_level_of_whorls = 0.4;
-constexpr double least_coherence_of_whorls = 0.5;
+constexpr double max_level_of_whorls = 0.4;
+constexpr double min_coherence_of_whorls = 0.5;
 
 constexpr double form_share = 1.4;
 constexpr double level_on_slopes = 0.35;  // a painter's level strokes are those of plains
 constexpr double upright_trees = 0.6;
 // Longest and widest strokes, px of the painting: more is a class too small to be measured.
-constexpr double most_length_px = 20.0;
-constexpr double most_width_px = 5.0;
+constexpr double max_length_px = 20.0;
+constexpr double max_width_px = 5.0;
 
 // What stands in for a class without strokes, the nearest relative first.
 std::initializer_list<LandCoverClass> painted_relatives(LandCoverClass id) {
@@ -177,7 +177,7 @@ glm::vec2 half_turn(float cosine, float sine) {
 }  // namespace
 
 bool has_whorls(const StyleBrushwork& sky) {
-  return sky.level < most_level_of_whorls && sky.coherence > least_coherence_of_whorls;
+  return sky.level < max_level_of_whorls && sky.coherence > min_coherence_of_whorls;
 }
 
 StyleBrushwork brushwork_of(const Style& style, LandCoverClass id) {
@@ -194,8 +194,8 @@ StyleBrushwork brushwork_of(const Style& style, LandCoverClass id) {
   for (std::size_t k = 0; k < style.brushwork.size() && !(found->length_px > 0.0); ++k)
     found = &style.brushwork[style.brushwork.size() - 1 - k];
   StyleBrushwork brushwork = *found;
-  brushwork.length_px = std::min(brushwork.length_px, most_length_px);
-  brushwork.width_px = std::min(brushwork.width_px, most_width_px);
+  brushwork.length_px = std::min(brushwork.length_px, max_length_px);
+  brushwork.width_px = std::min(brushwork.width_px, max_width_px);
   return brushwork;
 }
 

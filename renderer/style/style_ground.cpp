@@ -31,11 +31,11 @@ constexpr float calm_tolerance = 0.07F;
 // Shares of the painting's trend that are laid on: its haze has some of it already.
 constexpr glm::vec3 trend_share{0.6F, 0.35F, 0.35F};
 // Vapour: less of it looked like no air at all, more of it hid ranges. Far away, and in valleys.
-constexpr double least_vapour = 0.1;
+constexpr double min_vapour = 0.1;
 constexpr double far_vapour = 0.22;
 constexpr double valley_vapour = 0.16;
 constexpr double valley_depth_m = 250.0;  // above the lowest ground within 900 m it thins by e
-constexpr double most_vapour = 0.6;
+constexpr double max_vapour = 0.6;
 
 float vapour_on(LandCoverClass id) {
   switch (id) {
@@ -64,7 +64,7 @@ glm::vec3 in_air(glm::vec3 lab, const Style& style, const Air& air,
   const double far = style_distance(parameters, guidance.depth_m[i]);
   const auto share = static_cast<float>(parameters.palette);
   lab += share * static_cast<float>(far - 0.5) * trend_share * style.trend;
-  if (style.vapour <= least_vapour) return lab;
+  if (style.vapour <= min_vapour) return lab;
   const double low =
       guidance.valley_height_m.empty()
           ? 0.0
@@ -73,7 +73,7 @@ glm::vec3 in_air(glm::vec3 lab, const Style& style, const Air& air,
   const double thick = style.vapour * (far_vapour * far * std::sqrt(far) +
                                        valley_vapour * low * std::min(1.0, 0.25 + far));
   const float vapour =
-      share * static_cast<float>(std::min(thick, most_vapour)) * vapour_on(guidance.land_cover[i]);
+      share * static_cast<float>(std::min(thick, max_vapour)) * vapour_on(guidance.land_cover[i]);
   const glm::vec3 colour = glm::mix(air.middle, air.horizon, 0.6F * static_cast<float>(far));
   return glm::mix(lab, colour, vapour);
 }

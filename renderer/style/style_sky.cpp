@@ -26,7 +26,7 @@ constexpr double sigma_per_length = 1.28;
 // The second change is what the first leaves, and smaller.
 constexpr double second_length = 0.7;
 // Clouds lie: never more upright than this, and as streaks where the painting's strokes lie level.
-constexpr double least_flatness = 1.5;
+constexpr double min_flatness = 1.5;
 constexpr double level_flatness = 3.0;
 // Normal deviates at the shares of StyleSkyChange::quantiles.
 constexpr std::array<double, 7> normal_deviates = {-2.054, -1.282, -0.674, 0.0,
@@ -123,7 +123,7 @@ void paint_style_sky(Grid<glm::vec3>& lab, const Style& style, const GuidanceBuf
   const SkyWindow window{{origin_px.x, origin_px.y + first}, lab.width(), end - first};
   const std::array<Grid<float>, 3> medians = spline_of(sky.medians);
   const double level = style.brushwork[static_cast<std::size_t>(LandCoverClass::sky)].level;
-  const double flatness = least_flatness + level_flatness * std::clamp(level, 0.0, 1.0);
+  const double flatness = min_flatness + level_flatness * std::clamp(level, 0.0, 1.0);
   std::vector<Grid<float>> noises;
   for (std::size_t i = 0; i < sky.changes.size(); ++i)
     noises.push_back(

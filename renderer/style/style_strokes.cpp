@@ -29,7 +29,7 @@ struct Piece {
 
 // A stroke made ready to be painted.
 struct Ready {
-  std::array<Piece, StyleStroke::most_points - 1> pieces;
+  std::array<Piece, StyleStroke::max_points - 1> pieces;
   int count = 0;
   float total = 0.0F;
   glm::vec2 low{1e9F};

@@ -30,11 +30,11 @@ const std::vector<StyleLayer>& style_layers();
 // One stroke. Places are px from the middle of its own pixel's top-left corner, so that they have
 // the same bits in every window.
 struct StyleStroke {
-  static constexpr int most_points = 9;
+  static constexpr int max_points = 9;
   static constexpr int hairs = 8;
   std::uint64_t order = 0;  // hash of its cell: lower is painted first
   glm::ivec2 pixel_px{0};   // of the sheet, where its seed lies
-  std::array<glm::vec2, most_points> points{};
+  std::array<glm::vec2, max_points> points{};
   int count = 0;  // of points, at least 2
   float half_width_px = 0.5F;
   float alpha = 0.8F;

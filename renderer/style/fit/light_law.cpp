@@ -13,7 +13,7 @@ namespace {
 constexpr double knot_width = 0.05;  // sigma of lightness around a knot
 constexpr std::size_t max_class_texels = 20'000;
 constexpr int bins = 20;  // of lightness, within which hue is averaged
-constexpr double least_chroma = 0.75;
+constexpr double min_chroma = 0.75;
 
 // Gaussian of one knot's width, ends repeated.
 std::array<glm::dvec2, LightLaw::knot_count> smoothed(
@@ -114,7 +114,7 @@ LightLaw fit_light_law(const StylePainting& painting) {
 LabRamp keep_chroma(LabRamp ramp, const LabRamp& before) {
   for (std::size_t k = 0; k < ramp.size(); ++k) {
     const double now = chroma(ramp[k]);
-    const double least = least_chroma * chroma(before[k]);
+    const double least = min_chroma * chroma(before[k]);
     if (now >= least) continue;
     // What is nearly grey has no hue to strengthen.
     const double gain = least / std::max(now, 0.35 * least + 1e-6);

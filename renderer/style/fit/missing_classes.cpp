@@ -78,7 +78,8 @@ ColourRelation fit_relation(const StylePainting& painting, const ClassRamps& ref
   for (const glm::vec3& texel : painting.ground) to.add(texel, 1.0);
   const ColourSpread a = from.spread();
   const ColourSpread b = to.spread();
-  return {a.mean, b.mean, least_moving_map(a.covariance, b.covariance, variance_floor, {0.45, 1.8}),
+  return {a.mean, b.mean,
+          linear_transport_map(a.covariance, b.covariance, variance_floor, {0.45, 1.8}),
           std::clamp(b.hue() / std::max(a.hue(), 1e-6), 0.55, 1.15)};
 }
 

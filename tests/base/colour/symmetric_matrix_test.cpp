@@ -36,7 +36,7 @@ TEST(SymmetricEigen, KnownValues) {
 TEST(LeastMovingMap, TakesOneCovarianceToTheOther) {
   const glm::dmat3 from = symmetric(0.04, 0.01, 0.0, 0.02, 0.003, 0.01);
   const glm::dmat3 to = symmetric(0.02, -0.004, 0.001, 0.03, 0.0, 0.02);
-  const glm::dmat3 map = least_moving_map(from, to, 0.0, {0.01, 100.0});
+  const glm::dmat3 map = linear_transport_map(from, to, 0.0, {0.01, 100.0});
   const glm::dmat3 got = map * from * glm::transpose(map);
   for (int c = 0; c < 3; ++c)
     for (int r = 0; r < 3; ++r) {
@@ -46,8 +46,8 @@ TEST(LeastMovingMap, TakesOneCovarianceToTheOther) {
 }
 
 TEST(LeastMovingMap, KeepsItsGainsWithinTheLimits) {
-  const glm::dmat3 map = least_moving_map(symmetric(1, 0, 0, 1, 0, 1),
-                                          symmetric(100, 0, 0, 1, 0, 0.01), 0.0, {0.5, 2.0});
+  const glm::dmat3 map = linear_transport_map(symmetric(1, 0, 0, 1, 0, 1),
+                                              symmetric(100, 0, 0, 1, 0, 0.01), 0.0, {0.5, 2.0});
   EXPECT_NEAR(map[0][0], 2.0, 1e-9);
   EXPECT_NEAR(map[1][1], 1.0, 1e-9);
   EXPECT_NEAR(map[2][2], 0.5, 1e-9);

@@ -90,7 +90,7 @@ int run(const StyleFitOptions& options) {
   Style style = fit_style(picture, mask, reference, parameters, progress);
   if (options.classes.empty())
     style.notes.insert(style.notes.begin(),
-                       "no mask was given: classes are guesses by place, colour and strokes");
+                       "no mask was given: classes are inferred from position, colour and strokes");
   const std::string text = style_text(style);
   write_text_file(options.out, text);
   if (!options.report.empty()) {
@@ -118,7 +118,8 @@ Action add_style_fit(CommandOptions& command) {
   command
       .add_option("--classes", options->classes,
                   "Its classes: a mask of their numbers (`exemplar segment`), 200 for ranges so "
-                  "far that they show the air's colour, 255 for what is not used. Default: guesses")
+                  "far that they show the air's colour, 255 for what is not used. Default: "
+                  "inferred classes")
       .type_name("MASK");
   command.add_option("--out", options->out, "The style: a .toml of some 20 kB")
       .required()

@@ -70,9 +70,9 @@ TEST(MeasurePaint, BrokenPaintAndVapourAreRatiosOfSpreads) {
 
 TEST(FitAir, FarAirOfTheMaskGoesBeforeGuesses) {
   test::Landscape landscape = test::make_landscape();
-  const StylePainting guessed = prepare_painting(landscape.picture, landscape.mask);
+  const StylePainting inferred = prepare_painting(landscape.picture, landscape.mask);
   const glm::dvec3 horizon(0.85, -0.01, -0.02);
-  const StyleAir without = fit_air(guessed, horizon);
+  const StyleAir without = fit_air(inferred, horizon);
   EXPECT_FALSE(without.far_seen);
   EXPECT_NEAR(without.mist.y, 0.5 * (without.far.y + horizon.y), 1e-12);
   for (int y = 24; y < 34; ++y)

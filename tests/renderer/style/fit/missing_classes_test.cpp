@@ -73,7 +73,7 @@ TEST_F(MissingClasses, ARelativeThatWasSeenServes) {
               0.9 * ((*reference_)[s][1].x - (*reference_)[r][1].x), 0.05);
 }
 
-// Without snow and ice the lightest thing is made up; without any green, the painter's green
+// Without snow and ice the lightest class is derived; without any green, the painter's green
 // serves.
 TEST_F(MissingClasses, WithoutARelativeTheWholeGroundServes) {
   SeenRamps rock_only = *seen_;

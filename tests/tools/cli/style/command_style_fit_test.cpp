@@ -50,11 +50,11 @@ TEST_F(StyleFit, WritesAStyleAndItsPage) {
 
 TEST_F(StyleFit, GuessesClassesWithoutAMask) {
   const Outcome outcome =
-      run({"style", "fit", write_painting(), "--out", path("bands.toml"), "--name", "guessed"});
+      run({"style", "fit", write_painting(), "--out", path("bands.toml"), "--name", "inferred"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("no mask was given"));
   const Style style = read_style(path("bands.toml"));
-  EXPECT_EQ(style.name, "guessed");
+  EXPECT_EQ(style.name, "inferred");
   EXPECT_GT(style.brushwork[4].length_px, 0.0);
 }
 
