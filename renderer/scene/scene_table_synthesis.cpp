@@ -7,25 +7,25 @@ std::vector<SceneSection> make_style_sections() {
   std::vector<SceneSection> sections;
   sections.push_back(
       {.name = "style",
-       .meaning = "The look of a painting, laid over the finished picture: its colours, its "
-                  "strokes and its sky. style = \"NAME\" on top of the file is file = \"NAME\" "
-                  "here. Nothing is copied then unless an [[exemplar]] is named.",
+       .meaning = "The look of a painting over the finished picture: its colours, strokes and "
+                  "sky. style = \"NAME\" at the top of the file sets file = \"NAME\" here. With "
+                  "a style texture is copied only if an [[exemplar]] is named. See style.md.",
        .keys = {
            {.name = "file",
             .field = AT(style.file),
-            .meaning = "A built-in name or a .toml file, as belvedere style fit writes it; empty: "
+            .meaning = "A built-in name, or a .toml file written by belvedere style fit. Empty: "
                        "the program's own look.",
             .text = TextKind::built_in,
             .choices_from = "styles"},
            {.name = "palette",
             .field = AT(style.palette),
             .range = {0, 1},
-            .meaning = "How far what distance does to the painting's colours is taken over. Its "
-                       "palette is the scene's unless that names one."},
+            .meaning = "Share of the painting's change of colour with distance. Its palette is "
+                       "used unless `palette` names another."},
            {.name = "brushwork",
             .field = AT(style.brushwork),
             .range = {0, 1},
-            .meaning = "Share of the painting's strokes; 0 leaves the program's own."},
+            .meaning = "Share of the painting's strokes. 0: the program's own strokes only."},
            {.name = "sky",
             .field = AT(style.sky),
             .range = {0, 1},
@@ -34,21 +34,21 @@ std::vector<SceneSection> make_style_sections() {
             .field = AT(style.scale),
             .range = {0.2, 8},
             .unit = "units of 0.5 mm",
-            .meaning = "What a pixel of the painting covers of the sheet: larger gives larger "
+            .meaning = "Size of a pixel of the painting on the sheet; larger values give larger "
                        "strokes.",
             .derived = "by the painting's size"},
            {.name = "contour_lines",
             .field = AT(style.contour_lines),
             .range = {0, 1},
-            .meaning = "How dark silhouettes are drawn, as van Gogh and Bruegel draw them."},
+            .meaning = "Strength of dark lines on silhouettes, as van Gogh and Bruegel drew them."},
            {.name = "relief",
             .field = AT(style.relief),
             .range = {0, 3},
-            .meaning = "How strongly light falls on the ridges of the paint."},
+            .meaning = "Strength of light on the relief of the paint."},
            {.name = "canvas",
             .field = AT(style.canvas),
             .range = {0, 3},
-            .meaning = "How far the weave of the canvas shows."},
+            .meaning = "Strength of the weave of the canvas."},
        }});
   return sections;
 }
