@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/text/archive_kind.h"
 #include "renderer/image/exr/exr_reader.h"
 #include "renderer/image/exr/exr_writer.h"
 #include "renderer/image/image_file_parts.h"
@@ -117,6 +118,8 @@ std::vector<std::string> picture_extensions() {
 
 const PictureFormat& format_of_file(const std::string& path) {
   const std::string bytes = image_io::first_bytes(path);
+  if (const std::string archive = archive_kind(path); !archive.empty())
+    throw Error(ErrorKind::input, path, "is " + archive, unpack_advice);
   std::vector<std::string_view> titles;
   for (const PictureFormat& format : picture_formats()) {
     if (format.is(bytes)) return format;

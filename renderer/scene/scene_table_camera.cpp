@@ -35,7 +35,7 @@ std::vector<SceneSection> make_camera_sections() {
             .lonlat = true},
            {.name = "height_m",
             .field = AT(camera.height_m),
-            .range = {-1000, 1e6},
+            .range = {-12000, 1e6},
             .unit = "m",
             .meaning =
                 "Altitude of the viewpoint above sea level; exaggeration does not change it.",

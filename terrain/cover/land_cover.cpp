@@ -12,6 +12,7 @@
 #include "base/filter.h"
 #include "base/parallel.h"
 #include "terrain/cover/map_cover.h"
+#include "terrain/io/crs.h"
 #include "terrain/shape/mask_pieces.h"
 
 namespace belvedere {
@@ -101,6 +102,29 @@ void fill_unknown(Grid<LandCoverClass>& classes, const LandCoverParameters& para
   const Grid<std::int32_t> nearest = nearest_marked(known);
   for (std::size_t i = 0; i < classes.size(); ++i)
     if (known[i] == 0) classes[i] = classes[static_cast<std::size_t>(nearest[i])];
+}
+
+std::string describe_position(const std::string& crs, glm::dvec2 position) {
+  const glm::dvec2 at = transform_point(crs, "EPSG:4326", position);
+  return fmt::format("{:.2f}° {} {:.2f}° {}", std::abs(at.y), at.y < 0.0 ? "S" : "N",
+                     std::abs(at.x), at.x < 0.0 ? "W" : "E");
+}
+
+// Land cover of another region is the error of a file, which is named with both positions.
+void require_overlap(const std::vector<RasterSource>& sources, const RasterFrame& terrain,
+                     const std::array<double, 4>& extent) {
+  const RasterFrame all = choose_frame(sources, terrain.crs, 0.0, std::nullopt);
+  const GeoTransform& t = all.transform;
+  const double east = t.origin_x + t.cell_x * all.width;
+  const double south = t.origin_y - t.cell_y * all.height;
+  if (extent[0] < east && extent[2] > t.origin_x && extent[1] < t.origin_y && extent[3] > south)
+    return;
+  throw Error(ErrorKind::input, sources[0].path,
+              fmt::format("the land cover lies elsewhere, around {}; the terrain around {}",
+                          describe_position(terrain.crs, t.to_crs(.5 * all.width, .5 * all.height)),
+                          describe_position(terrain.crs, {.5 * (extent[0] + extent[2]),
+                                                          .5 * (extent[1] + extent[3])})),
+              "land cover of the same region; if it is, its coordinate system is wrong (`crs`)");
 }
 
 // Bodies of water (cells connected by sides) that touch a known lake become the nearest land.
@@ -231,6 +255,7 @@ LandCover read_land_cover(const LandCoverParameters& parameters, const RasterFra
   const GeoTransform& t = frame.transform;
   const std::array<double, 4> extent = {t.origin_x, t.origin_y - t.cell_y * frame.height,
                                         t.origin_x + t.cell_x * frame.width, t.origin_y};
+  require_overlap(parameters.sources, frame, extent);
   RasterFrame own = choose_frame(parameters.sources, frame.crs, 0.0, extent);
   if (own.transform.cell_x < parameters.finest_cell_m)
     own = choose_frame(parameters.sources, frame.crs, parameters.finest_cell_m, extent);

@@ -37,6 +37,20 @@ char find_separator(std::string_view text) {
   return best;
 }
 
+// The separator of a first line "sep=;", which tells spreadsheets what follows, and skips the line;
+// 0 if there is none.
+char skip_separator_line(std::string_view& text, int& line) {
+  const std::size_t end = text.find('\n');
+  std::string first = trimmed(text.substr(0, end));
+  if (first.size() > 1 && first.front() == '"' && first.back() == '"')
+    first = first.substr(1, first.size() - 2);
+  const bool tab = equal_letters(first, "sep=");  // a tab was trimmed
+  if (!tab && (first.size() != 5 || !equal_letters(first.substr(0, 4), "sep="))) return '\0';
+  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  ++line;
+  return tab ? '\t' : first.back();
+}
+
 // One record from `at` on, which is advanced behind it; `line` counts its lines.
 std::vector<std::string> read_record(std::string_view text, std::size_t& at, int& line,
                                      char separator, const std::string& name) {
@@ -96,11 +110,14 @@ int CsvTable::find_any(const std::vector<std::string_view>& names) const {
 CsvTable parse_csv(std::string_view text, const std::string& name) {
   constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
   if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
-  const char separator = find_separator(text);
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
+    throw Error(ErrorKind::usage, name, "is text in UTF-16", "a file that is saved as UTF-8");
   CsvTable table;
   table.name = name;
-  std::size_t at = 0;
   int line = 1;
+  char separator = skip_separator_line(text, line);
+  if (separator == '\0') separator = find_separator(text);
+  std::size_t at = 0;
   while (at < text.size()) {
     const int first_line = line;
     std::vector<std::string> fields = read_record(text, at, line, separator, name);

@@ -32,6 +32,16 @@ bool take_row(OGRGeometryH geometry, Row& row) {
   return true;
 }
 
+// Loggers write each point as a segment of its own: consecutive ones are the positions of one line.
+Row joined_points(OGRGeometryH lines) {
+  Row row;
+  for (int i = 0; i < OGR_G_GetGeometryCount(lines); ++i) {
+    OGRGeometryH part = OGR_G_GetGeometryRef(lines, i);
+    if (OGR_G_GetPointCount(part) != 1 || !take_row(part, row)) return {};
+  }
+  return row;
+}
+
 // Converts one geometry of a feature, or the parts of a collection; false if that is impossible.
 bool add_shapes(OGRGeometryH geometry, std::vector<MapFeature>& to) {
   if (geometry == nullptr || OGR_G_IsEmpty(geometry) != 0) return false;
@@ -61,8 +71,13 @@ bool add_shapes(OGRGeometryH geometry, std::vector<MapFeature>& to) {
       if (feature.parts.empty()) return false;
       break;
     }
-    case wkbMultiPoint:
     case wkbMultiLineString:
+      if (Row row = joined_points(geometry); row.size() > 1) {
+        feature.parts.push_back(std::move(row));
+        break;
+      }
+      [[fallthrough]];
+    case wkbMultiPoint:
     case wkbMultiPolygon:
     case wkbGeometryCollection: {
       bool all = true;
@@ -253,9 +268,7 @@ class Reader {
       found[i].where = fmt::format("{}, {} {}", path_, OGR_L_GetName(layer), OGR_F_GetFID(feature));
       for (const Row& row : found[i].parts) pending.positions += row.size();
       for (const int column : pending.columns)
-        found[i].values.emplace_back(column >= 0 && OGR_F_IsFieldSetAndNotNull(feature, column) != 0
-                                         ? OGR_F_GetFieldAsString(feature, column)
-                                         : "");
+        found[i].values.push_back(field_text(feature, column, path_, found[i].where));
     }
     if (pending.positions > places_at_once) bring(layer, pending);
   }

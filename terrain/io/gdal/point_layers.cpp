@@ -84,9 +84,7 @@ PointTable read_point_layer(const std::string& path, const std::string& crs) {
     point.where = fmt::format("{}, feature {}", path, OGR_F_GetFID(feature.get()));
     positions.push_back(position_of(feature.get(), point.where));
     for (int i = 0; i < count; ++i)
-      point.values.emplace_back(OGR_F_IsFieldSetAndNotNull(feature.get(), i) != 0
-                                    ? OGR_F_GetFieldAsString(feature.get(), i)
-                                    : "");
+      point.values.push_back(field_text(feature.get(), i, path, point.where));
   }
   if (errors.failed())
     throw Error(ErrorKind::input, path, errors.say("cannot read the whole file"));

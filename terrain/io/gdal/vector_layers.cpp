@@ -1,6 +1,7 @@
 #include "terrain/io/gdal/vector_layers.h"
 
 #include <cpl_conv.h>
+#include <cpl_string.h>
 #include <fmt/core.h>
 #include <gdal.h>
 #include <ogr_srs_api.h>
@@ -10,6 +11,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/text/archive_kind.h"
 #include "base/text/letters.h"
 
 namespace belvedere {
@@ -37,9 +39,12 @@ Dataset open_vector_layers(const std::string& path, const std::vector<std::strin
     if (extension == format.extension &&
         std::find(extensions.begin(), extensions.end(), format.extension) != extensions.end())
       driver = format.driver;
-  if (driver == nullptr) throw Error(ErrorKind::usage, path, found, allowed);
   std::error_code ignored;
-  if (!fs::is_regular_file(path, ignored)) throw Error(ErrorKind::input, path, "file not found");
+  const bool exists = fs::is_regular_file(path, ignored);
+  if (const std::string archive = exists ? archive_kind(path) : ""; !archive.empty())
+    throw Error(ErrorKind::input, path, "is " + archive, unpack_advice);
+  if (driver == nullptr) throw Error(ErrorKind::usage, path, found, allowed);
+  if (!exists) throw Error(ErrorKind::input, path, "file not found");
   register_gdal();
   const GdalErrors errors;
   const char* const drivers[] = {driver, nullptr};
@@ -48,6 +53,19 @@ Dataset open_vector_layers(const std::string& path, const std::vector<std::strin
   if (file == nullptr)
     throw Error(ErrorKind::input, path, errors.say(fmt::format("not a readable {} file", driver)));
   return file;
+}
+
+std::string field_text(OGRFeatureH feature, int column, const std::string& path,
+                       const std::string& where) {
+  if (column < 0 || OGR_F_IsFieldSetAndNotNull(feature, column) == 0) return {};
+  std::string text = OGR_F_GetFieldAsString(feature, column);
+  if (CPLIsUTF8(text.c_str(), -1) != 0 || lower_extension(path) != ".shp") return text;
+  throw Error(ErrorKind::input, where,
+              fmt::format("{} is not UTF-8, and the shapefile does not name its encoding",
+                          OGR_Fld_GetNameRef(OGR_F_GetFieldDefnRef(feature, column))),
+              fmt::format("a text file {}.cpg beside it with the name of the encoding, such as "
+                          "ISO-8859-1 or windows-1251",
+                          fs::path(path).stem().string()));
 }
 
 std::string layer_crs(OGRLayerH layer, const std::string& path) {

@@ -22,6 +22,11 @@ using VectorFeature = std::unique_ptr<void, void (*)(OGRFeatureH)>;
 Dataset open_vector_layers(const std::string& path, const std::vector<std::string_view>& extensions,
                            const std::string& found, const std::string& allowed);
 
+// A field as text; empty if it is not set. Error(input) for texts of a shapefile that are not
+// UTF-8: GDAL converts those whose encoding the file names.
+std::string field_text(OGRFeatureH feature, int column, const std::string& path,
+                       const std::string& where);
+
 // WKT; empty if the layer has none.
 std::string layer_crs(OGRLayerH layer, const std::string& path);
 

@@ -187,8 +187,13 @@ TEST_F(LandCoverFiles, OutsideOfTheDataIsAnError) {
   parameters.sources[0].crs = "EPSG:32632";
   RasterFrame far = frame_of(file);
   far.transform.origin_x += 1e5;
-  EXPECT_EQ(error_of([&] { read_land_cover(parameters, far, silent_progress()); }).kind(),
-            ErrorKind::input);
+  const Error elsewhere = error_of([&] { read_land_cover(parameters, far, silent_progress()); });
+  EXPECT_EQ(elsewhere.kind(), ErrorKind::input);
+  EXPECT_THAT(elsewhere.what(), HasSubstr("c.asc"));
+  EXPECT_THAT(elsewhere.found(), HasSubstr("land cover lies elsewhere"));
+  EXPECT_THAT(elsewhere.found(),
+              HasSubstr("46.96° N 9.01° E; the terrain around 46.95° N 10.32° E"));
+  EXPECT_THAT(elsewhere.allowed(), HasSubstr("`crs`"));
 }
 
 double share(const LandCover& cover, LandCoverClass id) {

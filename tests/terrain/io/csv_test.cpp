@@ -48,6 +48,30 @@ TEST(Csv, AsSpreadsheetsOfAnyMachineWriteIt) {
   EXPECT_THAT(parse_csv("", "t.csv").columns, IsEmpty());
 }
 
+// Some programs tell spreadsheets the separator in a line of its own.
+TEST(Csv, ALineThatNamesTheSeparatorIsNoHeader) {
+  for (const char* first : {"sep=;\r\n", "\"sep=;\"\n", "\xef\xbb\xbfSEP=;\n"}) {
+    const CsvTable table = parse_csv(std::string(first) + "name;a,b,c,d\nHall;7\n", "t.csv");
+    EXPECT_THAT(table.columns, ElementsAre("name", "a,b,c,d")) << first;
+    ASSERT_EQ(table.rows.size(), 1U);
+    EXPECT_THAT(table.rows[0].fields, ElementsAre("Hall", "7"));
+    EXPECT_EQ(table.rows[0].line, 3) << "as editors count";
+  }
+  EXPECT_THAT(parse_csv("sep=\t\na\tb\n1\t2\n", "t.csv").columns, ElementsAre("a", "b"));
+  EXPECT_THAT(parse_csv("sep,x\n1,2\n", "t.csv").columns, ElementsAre("sep", "x"));
+}
+
+TEST(Csv, Utf16IsRefusedWithTheRemedy) {
+  EXPECT_THAT(test::message_of(ErrorKind::usage,
+                               [] {
+                                 parse_csv(std::string("\xff\xfe"
+                                                       "a\0,\0",
+                                                       6),
+                                           "t.csv");
+                               }),
+              testing::AllOf(testing::HasSubstr("UTF-16"), testing::HasSubstr("UTF-8")));
+}
+
 TEST(Csv, RowsKnowTheLineTheyBeginAt) {
   const CsvTable table = parse_csv("a,b\n\n\"two\nlines\",1\nx,2\n", "t.csv");
   ASSERT_EQ(table.rows.size(), 2U);

@@ -77,6 +77,36 @@ TEST_F(MapFeatureFiles, TracksOfGpxAndNotTheirPlacesOnceMore) {
       << "where asked for";
 }
 
+// Loggers that open a segment for each point still describe one track.
+TEST_F(MapFeatureFiles, SegmentsOfOnePointAreOneLine) {
+  std::string segments;
+  for (int i = 0; i < 5; ++i)
+    segments += "<trkseg><trkpt lat=\"47." + std::to_string(i) + "\" lon=\"11.0\"/></trkseg>";
+  const std::string head =
+      R"(<?xml version="1.0"?><gpx version="1.1" creator="t" xmlns="http://www.topografix.com/GPX/1/1"><trk>)";
+  const MapFeatures read =
+      read_map_features(write_text("log.gpx", head + segments + "</trk></gpx>"), {}, utm_);
+  ASSERT_EQ(read.features.size(), 1U);
+  EXPECT_EQ(read.features[0].shape, MapShape::line);
+  ASSERT_EQ(read.features[0].parts.size(), 1U);
+  EXPECT_EQ(read.features[0].parts[0].size(), 5U);
+  EXPECT_NEAR(glm::length(read.features[0].parts[0].front() - read.features[0].parts[0].back()),
+              44480.0, 60.0)
+      << "0.4 degrees of latitude";
+  // One point alone is no line.
+  EXPECT_TRUE(read_map_features(
+                  write_text("one.gpx", head + segments.substr(0, segments.find("<trkseg>", 1)) +
+                                            "</trk></gpx>"),
+                  {}, utm_)
+                  .features.empty());
+}
+
+TEST_F(MapFeatureFiles, ArchivesAreToBeUnpacked) {
+  EXPECT_THAT(message_of(ErrorKind::input,
+                         [&] { read_map_features(write_text("a.zip", "PK\x03\x04"), {}, utm_); }),
+              AllOf(HasSubstr("zip archive"), HasSubstr("unpack")));
+}
+
 TEST_F(MapFeatureFiles, PlacesThatTheSystemDoesNotHaveAreCountedAndTheirFeaturesLeftOutWhole) {
   const std::string file =
       write_text("poles.geojson", R"({"type": "FeatureCollection", "features": [

@@ -91,6 +91,28 @@ TEST_F(Points, OfSeveralLayersTheOneNamedTowns) {
   EXPECT_EQ(read_points(path("two.gpkg"), utm_).points.size(), 1U);
 }
 
+// Without a .cpg file GDAL passes bytes on; with one it converts them.
+TEST_F(Points, ShapefilesInAnotherEncodingNeedItsName) {
+  if (!has_ogr2ogr()) GTEST_SKIP() << "needs GDAL's program ogr2ogr";
+  const std::string csv = write_text("p.csv", "name,lon,lat\nW\xc3\xb6rner,11.3,47.4\n");
+  const std::string file = path("p.shp");
+  ASSERT_EQ(std::system(("ogr2ogr -f 'ESRI Shapefile' -lco ENCODING=ISO-8859-1 -a_srs EPSG:4326 "
+                         "-oo X_POSSIBLE_NAMES=lon -oo Y_POSSIBLE_NAMES=lat " +
+                         file + " " + csv)
+                            .c_str()),
+            0);
+  write_text("p.cpg", "ISO-8859-1");
+  const PointTable named = read_points(file, utm_);
+  EXPECT_EQ(named.points.at(0).values.at(0), "W\xc3\xb6rner");
+  // No .cpg, and no code page in the table's own header (byte 29).
+  std::filesystem::remove(path("p.cpg"));
+  std::string table = read_text("p.dbf");
+  table.at(29) = '\0';
+  write_text("p.dbf", table);
+  EXPECT_THAT(message_of(ErrorKind::input, [&] { read_points(file, utm_); }),
+              AllOf(HasSubstr("feature 0"), HasSubstr("p.cpg"), HasSubstr("ISO-8859-1")));
+}
+
 TEST_F(Points, RefuseWhatGivesNoPlace) {
   const auto refused = [&](const std::string& name, const std::string& text,
                            ErrorKind kind = ErrorKind::usage) {
