@@ -12,6 +12,7 @@
 #include "base/math_exact.h"
 #include "base/parallel.h"
 #include "base/statistics.h"
+#include "terrain/io/height_doubts.h"
 #include "terrain/io/raster_io.h"
 #include "terrain/io/raster_thinned.h"
 #include "terrain/io/surface_raster.h"
@@ -312,7 +313,14 @@ std::optional<Raster<float>> look_at_files(const DemParameters& dem, const Raste
 
 CoarseGround read_coarse_ground(const DemParameters& dem, Progress& progress,
                                 const CoarseGroundParameters& parameters) {
+  check_height_sources(dem.sources, progress);
   RasterFrame frame = choose_frame(dem.sources, dem.crs, dem.cell_m, dem.extent);
+  const auto checked = [&](Raster<float> raster, double cell_m) {
+    CoarseGround ground = make_coarse_ground(std::move(raster), cell_m);
+    note_height_range(dem.sources[0].path, static_cast<float>(ground.lowest_m),
+                      static_cast<float>(ground.highest_m), progress);
+    return ground;
+  };
   const double source_cell_m = frame.transform.cell_x;
   const bool look = !dem.extent && static_cast<double>(frame.width) * frame.height > max_read_cells;
   const double width_m = frame.width * frame.transform.cell_x;
@@ -325,8 +333,8 @@ CoarseGround read_coarse_ground(const DemParameters& dem, Progress& progress,
   if (look)
     if (std::optional<Raster<float>> seen =
             look_at_files(dem, frame, looks_per_cell * parameters.max_cells))
-      return make_coarse_ground(std::move(*seen), source_cell_m);
-  return make_coarse_ground(warp_rasters(dem.sources, frame, progress), source_cell_m);
+      return checked(std::move(*seen), source_cell_m);
+  return checked(warp_rasters(dem.sources, frame, progress), source_cell_m);
 }
 
 CoarseAltitudes coarse_altitudes_of(const Dem& dem, const CoarseGroundParameters& parameters) {

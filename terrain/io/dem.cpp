@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "base/memory_limit.h"
 #include "base/parallel.h"
-#include "terrain/io/source_place.h"
+#include "terrain/io/height_doubts.h"
 
 namespace belvedere {
 namespace {
@@ -116,6 +116,7 @@ Dem read_dem(const DemParameters& parameters, Progress& progress) {
     throw Error(ErrorKind::usage, "max_void_share", fmt::format("{}", max), "0…1");
   const RasterFrame frame =
       choose_frame(parameters.sources, parameters.crs, cell_m, parameters.extent);
+  check_height_sources(parameters.sources, progress);
   // Altitudes, the mask of filled cells, and a third of both for the coarser levels of the fill.
   check_memory(fmt::format("terrain of {} × {} cells", frame.width, frame.height),
                8.0 * frame.width * frame.height);
@@ -139,15 +140,7 @@ Dem read_dem(const DemParameters& parameters, Progress& progress) {
                               100.0 * share));
   Dem dem = make_dem(std::move(raster));
   const auto [low, high] = std::minmax_element(dem.altitude_m.begin(), dem.altitude_m.end());
-  constexpr float highest_m = 9000.0F;
-  if (*high > highest_m) {
-    progress.note(
-        fmt::format("{}: altitudes from {:.0f} to {:.0f} m exceed the highest mountain; check "
-                    "whether the unit is feet (`unit`)",
-                    where, *low, *high));
-  }
-  for (const RasterSource& source : parameters.sources)
-    if (const std::string doubt = doubt_of_source(source); !doubt.empty()) progress.note(doubt);
+  note_height_range(where, *low, *high, progress);
   return dem;
 }
 

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/filter.h"
 #include "base/parallel.h"
+#include "terrain/io/height_doubts.h"
 
 namespace belvedere {
 namespace {
@@ -199,12 +200,19 @@ DemLevels::DemLevels(const DemParameters& parameters, const RasterFrame& frame, 
   for (int level = first_kept_; level <= coarsest; ++level)
     kept_.emplace_back(level_cells(frame.width, level), level_cells(frame.height, level));
 
+  check_height_sources(parameters.sources, progress);
   progress.begin("read terrain", frame.height);
   double voids = 0.0;
+  float lowest_m = std::numeric_limits<float>::infinity();
+  float highest_m = -lowest_m;
   for (int y = 0; y < frame.height; y += strip_rows) {
     Grid<float> rows = windows_.read({0, y, frame.width, std::min(y + strip_rows, frame.height)});
     voids += static_cast<double>(
         std::count_if(rows.begin(), rows.end(), [](float z) { return std::isnan(z); }));
+    for (const float z : rows) {
+      lowest_m = z < lowest_m ? z : lowest_m;
+      highest_m = z > highest_m ? z : highest_m;
+    }
     const int read = rows.height();
     blocks_.push(rows);
     for (int level = 1; level <= coarsest && !rows.empty(); ++level) {
@@ -227,6 +235,7 @@ DemLevels::DemLevels(const DemParameters& parameters, const RasterFrame& frame, 
   if (voids > 0.0)
     progress.note(fmt::format("{:.2f} % of the terrain is void and was filled by interpolation",
                               100.0 * share));
+  note_height_range(parameters.sources[0].path, lowest_m, highest_m, progress);
 }
 
 Dem DemLevels::whole() const {

@@ -26,10 +26,6 @@ struct Box {
   }
 };
 
-glm::dvec2 centre_of(const RasterFile& file) {
-  return file.affine().to_crs({0.5 * file.width(), 0.5 * file.height()});
-}
-
 // The file's outline in another CRS; sides are sampled, because they become curves.
 Box box_in(const RasterFile& file, const std::string& crs) {
   constexpr int steps = 32;

@@ -35,6 +35,14 @@ struct CellAffine {
   bool axis_aligned() const { return x_row == 0.0 && y_column == 0.0; }
 };
 
+// What the file says of the band: heights or colours.
+struct BandMeaning {
+  bool palette = false;  // numbers of a table of colours
+  bool colour = false;   // red, green or blue of a picture of 8 bits
+  bool bytes = false;    // 0…255, without a scale
+  std::string name;      // "red", for messages
+};
+
 // A rectangle of cells of a file: 0 <= x0, x0 + width <= the file's.
 struct CellWindow {
   int x0 = 0, y0 = 0, width = 0, height = 0;
@@ -61,6 +69,12 @@ class RasterFile {
   const std::string& required_crs() const;
   std::optional<double> nodata() const;  // the scene's, else the file's
   std::string driver() const;
+  BandMeaning meaning() const;
+  // Metres per foot if the file's CRS counts in feet and nothing says what its heights count in;
+  // else 0.
+  double undeclared_foot_m() const;
+  // Values that were read so far and taken as void although neither header nor scene says so.
+  std::vector<float> undeclared_voids() const;
 
   // Metres, voids NaN; the window's own size.
   Grid<float> read_values(const CellWindow& window) const;
@@ -74,5 +88,10 @@ class RasterFile {
   struct State;
   std::unique_ptr<State> state_;
 };
+
+// In the file's CRS.
+inline glm::dvec2 centre_of(const RasterFile& file) {
+  return file.affine().to_crs({0.5 * file.width(), 0.5 * file.height()});
+}
 
 }  // namespace belvedere

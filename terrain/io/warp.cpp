@@ -194,6 +194,15 @@ void warp_tile(const Layer& layer, const LatticeMap& map, const PixelRect& tile,
   });
 }
 
+void note_undeclared(const std::vector<Layer>& layers, Progress& progress) {
+  for (const Layer& layer : layers)
+    for (const Layer::Part& part : layer.parts)
+      for (const float value : part.file.undeclared_voids())
+        progress.note(fmt::format(
+            "{}: cells of {:.0f} are taken as void, though its header does not say so (`nodata`)",
+            part.file.source().path, value));
+}
+
 void check_frame(const RasterFrame& frame, double bytes_per_cell) {
   constexpr int longest = 1 << 20;
   const GeoTransform& t = frame.transform;
@@ -240,7 +249,9 @@ Raster<T> warp(const std::vector<RasterSource>& sources, const RasterFrame& fram
     for (const Layer::Part& part : layer.parts) part.file.required_crs();
   progress.begin(
       stage, static_cast<double>(frame.width) * frame.height * static_cast<double>(layers.size()));
-  return warp_layers<T>(layers, frame, progress);
+  Raster<T> out = warp_layers<T>(layers, frame, progress);
+  if constexpr (std::is_floating_point_v<T>) note_undeclared(layers, progress);
+  return out;
 }
 
 // The frame of one file in its own CRS: its own cells, or upright cells of the same area over its

@@ -4,6 +4,7 @@
 #include <cpl_minixml.h>
 #include <cpl_string.h>
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 #include <ogr_spatialref.h>
 
 #include <algorithm>
@@ -15,6 +16,7 @@
 
 #include "base/error.h"
 #include "base/memory_limit.h"
+#include "base/text/archive_kind.h"
 #include "base/text/letters.h"
 #include "terrain/io/crs.h"
 #include "terrain/io/gdal/gdal_files.h"
@@ -32,11 +34,11 @@ constexpr float nan_value = std::numeric_limits<float>::quiet_NaN();
 // Formats that describe one raster and nothing else. A VRT can refer to any file or address, so it
 // is only accepted with the extension .vrt, and each of its sources is first checked by the same
 // rules.
-constexpr const char* drivers[] = {"GTiff", "AAIGrid", "SRTMHGT", "HFA",  "ENVI", "EHdr", "netCDF",
-                                   "PNG",   "USGSDEM", "DTED",    "GSAG", "GSBG", "GS7BG"};
+constexpr const char* drivers[] = {"GTiff", "AAIGrid", "SRTMHGT", "HFA",  "ENVI", "EHdr",  "netCDF",
+                                   "PNG",   "USGSDEM", "DTED",    "GSAG", "GSBG", "GS7BG", "GPKG"};
 constexpr const char* driver_names =
     "GeoTIFF, ESRI ASCII grid, SRTM .hgt, Erdas Imagine, ENVI, EHdr .bil, netCDF, PNG, USGS DEM, "
-    "DTED, Surfer grid, or VRT named .vrt";
+    "DTED, Surfer grid, GeoPackage, or VRT named .vrt";
 
 // Settings of this thread that make reads strict: damaged blocks and short raw files are errors; no
 // threads of its own.
@@ -147,6 +149,13 @@ Dataset open_checked(const std::string& path, int nesting) {
                              GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
                              allowed.List(), nullptr, nullptr));
   if (dataset) return dataset;
+  if (const std::string archive = archive_kind(path); !archive.empty())
+    throw Error(ErrorKind::input, path, "is " + archive, unpack_advice);
+  if (lower_extension(path) == ".hgt")
+    throw Error(ErrorKind::input, path,
+                errors.say("an .hgt file says its position by its name alone, and this is no such "
+                           "name, or the file is not whole"),
+                "the name of the tile's south-west corner, such as N47E011.hgt");
   // Identification reads only the first bytes and opens nothing else.
   GDALDriverH looks_like = nullptr;
   {
@@ -159,6 +168,23 @@ Dataset open_checked(const std::string& path, int nesting) {
                 fmt::format("{} files with this name are not allowed", format), driver_names);
   }
   throw Error(ErrorKind::input, path, errors.say("not a readable raster"), driver_names);
+}
+
+// A file of several rasters (netCDF, GeoPackage; GDAL's subdatasets) is refused with their names.
+void refuse_several(GDALDatasetH file, const std::string& path) {
+  if (GDALGetRasterCount(file) != 0) return;
+  const CPLStringList parts(GDALGetMetadata(file, "SUBDATASETS"), FALSE);
+  std::vector<std::string> names;
+  for (int i = 0; i < parts.Count(); ++i) {
+    const std::string_view part = parts[i];
+    const std::size_t equals = part.find('=');
+    if (equals == std::string_view::npos || !part.substr(0, equals).ends_with("_NAME")) continue;
+    names.emplace_back(part.substr(part.rfind(':') + 1));
+  }
+  if (names.empty()) throw Error(ErrorKind::input, path, "contains no raster");
+  throw Error(ErrorKind::input, path,
+              fmt::format("contains {} rasters: {}", names.size(), fmt::join(names, ", ")),
+              "a file with one raster; extract the one with heights, as with gdal_translate");
 }
 
 // Metres per unit by a unit's name; 0 if unknown.
@@ -193,6 +219,8 @@ struct RasterFile::State {
   double scale = 1.0;  // of the band's numbers to its unit
   double offset = 0.0;
   double vertical_unit_m = 1.0;  // from the file's vertical CRS
+  bool has_vertical_crs = false;
+  mutable std::set<float> undeclared;  // values without a height that were found
 
   void find_position();
   void find_crs();
@@ -228,7 +256,8 @@ void RasterFile::State::find_crs() {
   if (!source.crs.empty()) crs = normalize_crs(source.crs);
   const auto* own = static_cast<const OGRSpatialReference*>(GDALGetSpatialRef(dataset.get()));
   if (own == nullptr) return;
-  if (own->IsCompound() != 0) vertical_unit_m = own->GetTargetLinearUnits("COMPD_CS|VERT_CS");
+  has_vertical_crs = own->IsCompound() != 0;
+  if (has_vertical_crs) vertical_unit_m = own->GetTargetLinearUnits("COMPD_CS|VERT_CS");
   if (!(vertical_unit_m > 0.0)) vertical_unit_m = 1.0;
   if (!crs.empty()) return;
   // A local system ("Unknown") gives no information.
@@ -252,13 +281,10 @@ RasterFile::RasterFile(const RasterSource& source) : state_(std::make_unique<Sta
   State& s = *state_;
   s.source = source;
   s.dataset = open_checked(source.path, 0);
+  refuse_several(s.dataset.get(), source.path);
   s.width = GDALGetRasterXSize(s.dataset.get());
   s.height = GDALGetRasterYSize(s.dataset.get());
   const int count = GDALGetRasterCount(s.dataset.get());
-  if (count == 0) {
-    throw Error(ErrorKind::input, source.path, "contains no raster or several rasters",
-                "a file with one raster; extract it first");
-  }
   if (source.band < 1 || source.band > count) {
     throw Error(ErrorKind::input, source.path, fmt::format("has no band {}", source.band),
                 fmt::format("bands 1…{}", count));
@@ -291,6 +317,35 @@ int RasterFile::bands() const { return GDALGetRasterCount(state_->dataset.get())
 const CellAffine& RasterFile::affine() const { return state_->affine; }
 const std::string& RasterFile::crs() const { return state_->crs; }
 std::optional<double> RasterFile::nodata() const { return state_->nodata; }
+std::vector<float> RasterFile::undeclared_voids() const {
+  return {state_->undeclared.begin(), state_->undeclared.end()};
+}
+
+BandMeaning RasterFile::meaning() const {
+  const State& s = *state_;
+  const GDALColorInterp means = GDALGetRasterColorInterpretation(s.band);
+  const bool byte = GDALGetRasterDataType(s.band) == GDT_Byte;
+  BandMeaning out;
+  out.palette = means == GCI_PaletteIndex || GDALGetRasterColorTable(s.band) != nullptr;
+  out.colour = byte && bands() >= 3 &&
+               (means == GCI_RedBand || means == GCI_GreenBand || means == GCI_BlueBand);
+  out.bytes = byte && s.scale == 1.0 && s.offset == 0.0;
+  out.name = lower_case(GDALGetColorInterpretationName(means));
+  return out;
+}
+
+double RasterFile::undeclared_foot_m() const {
+  const State& s = *state_;
+  if (s.source.unit_to_m != 0.0 || s.has_vertical_crs || s.crs.empty() ||
+      *GDALGetRasterUnitType(s.band) != '\0')
+    return 0.0;
+  OGRSpatialReference map;
+  const GdalErrors errors;
+  if (map.SetFromUserInput(s.crs.c_str()) != OGRERR_NONE || map.IsProjected() == 0) return 0.0;
+  const double unit = map.GetLinearUnits();
+  return std::abs(unit - 0.3048) < 1e-4 ? (std::abs(unit - 0.3048) < 1e-9 ? 0.3048 : unit) : 0.0;
+}
+
 std::string RasterFile::driver() const {
   return GDALGetDriverShortName(GDALGetDatasetDriver(state_->dataset.get()));
 }
@@ -344,8 +399,14 @@ double RasterFile::State::unit_to_m() const {
 bool RasterFile::State::is_void(float raw) const {
   if (!std::isfinite(raw) || std::abs(raw) >= 1e30F) return true;
   // Compared as floats: a declared -3.4028234663852886e38 or -9999.9 was also rounded in the cells.
-  if (nodata) return raw == static_cast<float>(*nodata) || raw == -32768.0F;
-  return raw == -9999.0F || raw == -32768.0F || raw == 32767.0F;
+  if (nodata && raw == static_cast<float>(*nodata)) return true;
+  if (raw == -32768.0F || (!nodata && raw == -9999.0F)) return true;
+  // Numbers that programs write for an unknown height, and that no ground has.
+  constexpr float known[] = {-32767.0F, 32767.0F, 65535.0F, -99999.0F, -999999.0F, 99999.0F};
+  const bool is_known = std::find(std::begin(known), std::end(known), raw) != std::end(known);
+  if (!is_known || (nodata && std::abs(raw) < 65535.0F)) return false;
+  undeclared.insert(raw);
+  return true;
 }
 
 Grid<std::uint8_t> RasterFile::State::read_mask(const CellWindow& window, int columns,

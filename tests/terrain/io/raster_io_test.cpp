@@ -410,6 +410,16 @@ TEST_F(RasterIo, TilesJoinWithoutSeamAndTheFirstWins) {
   EXPECT_EQ(both.cells(90, 10), whole.cells(90, 10));
 }
 
+TEST_F(RasterIo, FilesNameWhatHelpsTheirUsers) {
+  const auto message = [&](const std::string& file) {
+    return test::message_of(ErrorKind::input, [&] { read_raster_info(source_of(file)); });
+  };
+  EXPECT_THAT(message(write_text("a.tif", "PK\x03\x04")),
+              testing::AllOf(HasSubstr("zip archive"), HasSubstr("unpack it")));
+  EXPECT_THAT(message(write_text("karwendel.hgt", std::string(2 * 1201 * 1201, '\0'))),
+              HasSubstr("N47E011.hgt"));
+}
+
 TEST_F(RasterIo, TilesOfDifferentCrsMeet) {
   // The same plane z = northing of zone 32, in two zones that overlap.
   const auto plane = [&](const std::string& name, const std::string& crs, glm::dvec2 origin) {

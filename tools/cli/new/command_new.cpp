@@ -18,7 +18,6 @@
 #include "renderer/image/output_file.h"
 #include "terrain/io/crs.h"
 #include "terrain/io/raster_io.h"
-#include "terrain/io/source_place.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/file_names.h"
 #include "tools/cli/new/contact_sheet.h"
@@ -114,10 +113,7 @@ double draft_cell_m(const CoarseGround& ground, const std::vector<Candidate>& pr
   return min > worth_it * ground.source_cell_m ? std::floor(min) : 0.0;
 }
 
-void note_limits(const std::vector<RasterSource>& sources, const CoarseGround& ground,
-                 const Massifs& massifs, Progress& progress) {
-  for (const RasterSource& source : sources)
-    if (const std::string doubt = doubt_of_source(source); !doubt.empty()) progress.note(doubt);
+void note_limits(const CoarseGround& ground, const Massifs& massifs, Progress& progress) {
   constexpr double much_void = 0.3;
   if (ground.void_share > much_void)
     progress.note(fmt::format("{:.0f} % of the data's extent is empty; views avoid it",
@@ -172,7 +168,7 @@ int run_new(const NewOptions& options) {
   progress.begin("looking for views", 0.0);
   const Massifs massifs = find_massifs(ground);
   require_region(ground, massifs, dem.sources.front().path);
-  note_limits(dem.sources, ground, massifs, progress);
+  note_limits(ground, massifs, progress);
   if (is_canyon_country(region_climate(ground))) {
     about.palette = "desert";
     about.palette_why = "the climate of the place is dry and warm";
