@@ -73,17 +73,22 @@ bool true_to_scale(const std::string& crs, glm::dvec2 point) {
   return scale < max_stretch && scale > 1.0 / max_stretch;
 }
 
-// The centre of all files, longitude and latitude; of the first only if they lie around the date
-// line.
+// The centre of all files, longitude and latitude. Files are taken in the turn nearest to the
+// first: those on both sides of the date line are neighbours.
 glm::dvec2 centre_of(const std::vector<RasterFile>& files) {
   Box box;
+  double first = std::numeric_limits<double>::quiet_NaN();
   for (const RasterFile& file : files) {
-    const Box part = box_in(file, "EPSG:4326");
-    box.add(part.low);
-    box.add(part.high);
+    Box part = box_in(file, "EPSG:4326");
+    // A file that crosses the date line itself: from its centre.
+    const glm::dvec2 middle = PointTransform(file.crs(), "EPSG:4326").apply(centre_of(file));
+    if (part.high.x - part.low.x > 180.0) part.low.x = part.high.x = middle.x;
+    if (!std::isfinite(first)) first = middle.x;
+    const double turns = 360.0 * std::round((first - middle.x) / 360.0);
+    box.add({part.low.x + turns, part.low.y});
+    box.add({part.high.x + turns, part.high.y});
   }
-  if (box.high.x - box.low.x <= 180.0) return 0.5 * (box.low + box.high);
-  return PointTransform(files[0].crs(), "EPSG:4326").apply(centre_of(files[0]));
+  return 0.5 * (box.low + box.high);
 }
 
 std::string choose_crs(const std::vector<RasterFile>& files, const std::string& requested) {

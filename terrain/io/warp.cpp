@@ -42,6 +42,10 @@ std::optional<glm::ivec2> place_on(const Layer& layer, const RasterFile& file) {
   const auto near = [](double p, double q, double tolerance) {
     return std::abs(p - q) <= tolerance;
   };
+  // Tiles on both sides of the date line are neighbours: whole turns are taken off.
+  glm::dvec2 corner{b.x0, b.y0};
+  if (!layer.crs.empty() && crs_traits(layer.crs).geographic)
+    corner.x += 360.0 * std::round((layer.centre().x - centre_of(file).x) / 360.0);
   const double cell = std::sqrt(std::abs(a.determinant()));
   // Steps must agree so well that the far end of the file is still on the lattice.
   const double steps = 0.01 * cell / std::max(file.width(), file.height());
@@ -49,7 +53,7 @@ std::optional<glm::ivec2> place_on(const Layer& layer, const RasterFile& file) {
       !near(a.y_column, b.y_column, steps) || !near(a.y_row, b.y_row, steps)) {
     return std::nullopt;
   }
-  const glm::dvec2 at = a.to_cell({b.x0, b.y0});
+  const glm::dvec2 at = a.to_cell(corner);
   const glm::dvec2 whole = glm::round(at);
   if (!near(at.x, whole.x, 0.01) || !near(at.y, whole.y, 0.01) || std::abs(whole.x) > 1e8 ||
       std::abs(whole.y) > 1e8)

@@ -410,6 +410,41 @@ TEST_F(RasterIo, TilesJoinWithoutSeamAndTheFirstWins) {
   EXPECT_EQ(both.cells(90, 10), whole.cells(90, 10));
 }
 
+// Two tiles of degrees on both sides of 180°, in either order, and one that goes on beyond 180.
+TEST_F(RasterIo, TilesMeetAtTheDateLine) {
+  const auto tile = [&](const std::string& name, double west) {
+    return source_of(
+        write_ascii(name, 60, 50, west, -17.0, 0.001,
+                    [&](int x, int y) {
+                      const double east = west < 0.0 ? west + 360.0 : west;
+                      return std::to_string(1000.0 + 5e3 * (east + 0.001 * x - 180.0) + 2.0 * y);
+                    }),
+        "EPSG:4326");
+  };
+  const RasterSource west = tile("w.asc", 179.94);
+  const RasterSource east = tile("e.asc", -180.0);
+  for (const std::vector<RasterSource>& sources :
+       {std::vector{west, east}, {east, west}, {west, tile("b.asc", 180.0)}}) {
+    const RasterFrame frame = choose_frame(sources, "", 0.0, {});
+    EXPECT_LT(frame.width, 160);
+    EXPECT_LT(frame.height, 160);
+    const Raster<float> raster = warp_rasters(sources, frame, silent_progress());
+    const PointTransform to_degrees(frame.crs, "EPSG:4326");
+    int known = 0;
+    for (int y = 10; y < frame.height - 10; y += 7)
+      for (int x = 10; x < frame.width - 10; x += 3) {
+        const glm::dvec2 at = to_degrees.apply(frame.transform.to_crs(x, y));
+        const double lon = at.x < 0.0 ? at.x + 360.0 : at.x;
+        if (!(std::abs(lon - 180.0) < 0.055 && at.y > -16.995 && at.y < -16.955)) continue;
+        ++known;
+        const double row = (-16.95 - at.y) / 0.001 - 0.5;
+        EXPECT_NEAR(raster.cells(x, y), 1000.0 + 5e3 * (lon - 180.0005) + 2.0 * row, 0.5)
+            << lon << ' ' << at.y;
+      }
+    EXPECT_GT(known, 100);
+  }
+}
+
 TEST_F(RasterIo, FilesNameWhatHelpsTheirUsers) {
   const auto message = [&](const std::string& file) {
     return test::message_of(ErrorKind::input, [&] { read_raster_info(source_of(file)); });
