@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "base/filter.h"
 #include "base/parallel.h"
 
 namespace belvedere {
@@ -63,8 +64,9 @@ LabelMark find_mark(const DrawnGround& ground, const LabelPoint& point,
   if (!ground.map.on_surface(position)) return mark;
   mark.drawn_position = position;
   const glm::dvec2 cell = ground.transform.to_cell(position.x, position.y);
-  mark.dem_altitude_m = static_cast<double>(ground.altitude_m.clamped(
-      static_cast<int>(std::lround(cell.x)), static_cast<int>(std::lround(cell.y))));
+  // Between cells as in the profiles of tracks; at the centre of a cell, as of a top, its own
+  // value.
+  mark.dem_altitude_m = static_cast<double>(sample_bilinear(ground.altitude_m, cell.x, cell.y));
   std::optional<ImagePosition> at = ground.map.drawn_to_image(*drawn);
   if (!at) {
     mark.state = MarkState::behind_eye;

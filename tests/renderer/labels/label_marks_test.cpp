@@ -98,6 +98,22 @@ TEST_F(LabelMarks, StandOnTheEdgeThatIsSeenFromAbove) {
   EXPECT_GE(moved, 1U);
 }
 
+// As profiles of tracks have it: bilinear, exactly the cell's own value at its centre.
+TEST_F(LabelMarks, AltitudesBetweenCellsAreInterpolated) {
+  const Grid<float>& z = bare_.dem.altitude_m;
+  for (int y = z.height() / 4; y < 3 * z.height() / 4; y += 13)
+    for (int x = z.width() / 4; x < 3 * z.width() / 4; x += 11) {
+      const auto altitude = [&](double column, double row) {
+        return marks_of({point(bare_.dem.transform.to_crs(column, row), "town")})[0].dem_altitude_m;
+      };
+      EXPECT_NEAR(altitude(x, y), z(x, y), 1e-3);
+      EXPECT_NEAR(altitude(x + .5, y), .5 * (z(x, y) + z(x + 1, y)), 1e-2);
+      EXPECT_NEAR(altitude(x + .25, y + .5),
+                  .5 * (.75 * (z(x, y) + z(x, y + 1)) + .25 * (z(x + 1, y) + z(x + 1, y + 1))),
+                  1e-2);
+    }
+}
+
 TEST_F(LabelMarks, ClimbFromNearbyAndNotFromAfar) {
   const std::vector<Summit> found = summits();
   ASSERT_FALSE(found.empty());
