@@ -21,6 +21,7 @@
 #include "renderer/exemplar/texture_models.h"
 #include "renderer/image/guidance_io.h"
 #include "renderer/image/image_io.h"
+#include "renderer/image/label_image.h"
 #include "renderer/image/oklab.h"
 #include "renderer/paint/composite.h"
 #include "renderer/paint/guides.h"
@@ -62,14 +63,13 @@ Grid<float> read_share(const std::string& path, const Grid<glm::vec3>& picture) 
 
 void read_masks(const SceneExemplar& settings, const LoadedScene& scene, Raw& raw) {
   const std::string path = find_scene_file(scene, settings.classes);
-  const Grid<std::uint16_t> ids = read_grey(path);
+  const Grid<std::uint8_t> ids = read_class_mask(path);
   check_same_size(path, ids.width(), ids.height(), raw.picture);
   GuidanceBuffers& guidance = raw.guidance;
   guidance.depth_m = Grid<float>(ids.width(), ids.height(), 1.F);
   guidance.land_cover = Grid<LandCoverClass>(ids.width(), ids.height());
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    guidance.land_cover[i] =
-        static_cast<LandCoverClass>(std::min<std::uint16_t>(ids[i], unused_label));
+    guidance.land_cover[i] = static_cast<LandCoverClass>(ids[i]);
     if (guidance.land_cover[i] == LandCoverClass::sky)
       guidance.depth_m[i] = std::numeric_limits<float>::infinity();
   }
@@ -354,7 +354,10 @@ void check_paintings(const LoadedScene& scene) {
       const std::string guide = find_scene_file(scene, *file);
       const ImageInfo info = read_image_info(guide);
       check_same_size(guide, info.width, info.height, picture);
-      if (file != &settings.guidance) read_grey(guide);
+      if (file == &settings.classes)
+        read_class_mask(guide);
+      else if (file != &settings.guidance)
+        read_grey(guide);
     }
   }
 }

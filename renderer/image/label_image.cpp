@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/filter.h"
+#include "base/land_cover_class.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/png_check.h"
 #include "texture/synthesis/guide_stack.h"
@@ -71,6 +72,37 @@ Grid<std::uint8_t> name_colours(const Grid<std::uint32_t>& colours,
 }
 
 }  // namespace
+
+Grid<std::uint8_t> read_class_mask(const std::string& path) {
+  const Grid<std::uint16_t> ids = read_grey(path);
+  struct Odd {
+    std::size_t pixels = 0;
+    std::size_t first = 0;
+  };
+  std::map<int, Odd> odd;
+  Grid<std::uint8_t> out(ids.width(), ids.height());
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    out[i] = static_cast<std::uint8_t>(std::min<std::uint16_t>(ids[i], unused_label));
+    if (ids[i] < land_cover_class_count || ids[i] == unused_label) continue;
+    Odd& found = odd[ids[i]];
+    if (found.pixels++ == 0) found.first = i;
+  }
+  if (odd.empty()) return out;
+  constexpr std::size_t max_named = 8;
+  std::string list;
+  std::size_t named = 0;
+  for (const auto& [number, found] : odd) {
+    if (named++ == max_named) break;
+    const auto width = static_cast<std::size_t>(ids.width());
+    list += fmt::format("{}{} ({} pixels, the first at {}, {})", list.empty() ? "" : ", ", number,
+                        found.pixels, found.first % width, found.first / width);
+  }
+  if (odd.size() > max_named) list += fmt::format(" and {} more", odd.size() - max_named);
+  throw Error(ErrorKind::input, path, "has numbers that are no class: " + list,
+              fmt::format("0 … {} and 255 for unused pixels; save masks without soft edges, "
+                          "gradients and compression with losses",
+                          land_cover_class_count - 1));
+}
 
 LabelImages read_label_images(const std::vector<std::string>& paths) {
   LabelImages out;

@@ -57,6 +57,18 @@ TEST_F(LabelImage, NumbersStayAsTheyAre) {
   EXPECT_EQ(images.labels[0](7, 0), unused_label);
 }
 
+TEST_F(LabelImage, NumbersThatAreNoClassAreNamedWithTheirPosition) {
+  std::string rows(20 * 16, '\3');
+  rows[7] = '\xff';
+  EXPECT_EQ(read_class_mask(write("a.png", 0, rows))(7, 0), unused_label);
+  rows[20 * 2 + 5] = rows[20 * 2 + 6] = '\xc8';
+  rows[20 * 9 + 1] = '\x64';
+  const std::string path = write("b.png", 0, rows);
+  const std::string message = test::message_of(ErrorKind::input, [&] { read_class_mask(path); });
+  EXPECT_NE(message.find("100 (1 pixels, the first at 1, 9)"), std::string::npos) << message;
+  EXPECT_NE(message.find("200 (2 pixels, the first at 5, 2)"), std::string::npos) << message;
+}
+
 TEST_F(LabelImage, RefusesWhatTellsNoLabels) {
   const std::string drawn = draw("a.png", std::string("\0\xff\0", 3));
   const std::string numbers = write("n.png", 0, std::string(20 * 16, '\3'));

@@ -10,9 +10,9 @@
 #include "base/text/letters.h"
 #include "renderer/exemplar/painting_segments.h"
 #include "renderer/image/image_io.h"
+#include "renderer/image/label_image.h"
 #include "renderer/style/fit_style.h"
 #include "renderer/style/style_file.h"
-#include "texture/synthesis/guide_stack.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/file_names.h"
 #include "tools/cli/terminal.h"
@@ -30,11 +30,7 @@ struct StyleFitOptions : RunOptions {
 };
 
 Grid<std::uint8_t> read_classes(const StyleFitOptions& options) {
-  const Grid<std::uint16_t> numbers = read_grey(options.classes);
-  Grid<std::uint8_t> mask(numbers.width(), numbers.height());
-  for (std::size_t i = 0; i < mask.size(); ++i)
-    mask[i] = static_cast<std::uint8_t>(std::min<std::uint16_t>(numbers[i], unused_label));
-  return mask;
+  return read_class_mask(options.classes);
 }
 
 // The classes that `exemplar segment` begins with.
