@@ -20,6 +20,7 @@
 #include "renderer/exemplar/shadow_texels.h"
 #include "renderer/exemplar/texture_models.h"
 #include "renderer/image/guidance_io.h"
+#include "renderer/image/icc/painting_file.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/label_image.h"
 #include "renderer/image/oklab.h"
@@ -143,7 +144,7 @@ void exclude(const SceneExemplar& settings, const LoadedScene& scene, Raw& raw,
 
 Raw read_raw(const SceneExemplar& settings, const LoadedScene& scene, Progress& progress) {
   Raw raw;
-  raw.picture = read_picture(find_scene_file(scene, settings.picture));
+  raw.picture = read_painting(find_scene_file(scene, settings.picture), progress);
   if (!settings.guidance.empty()) {
     const std::string path = find_scene_file(scene, settings.guidance);
     raw.guidance = read_guidance(path);
@@ -347,7 +348,7 @@ void check_paintings(const LoadedScene& scene) {
     const std::string path =
         settings.picture.empty() ? std::string() : find_scene_file(scene, settings.picture);
     if (path.empty()) continue;
-    const Grid<glm::vec3> picture = read_picture(path);
+    const Grid<glm::vec3> picture = read_painting(path, silent_progress());
     for (const std::string* file : {&settings.guidance, &settings.classes, &settings.altitude,
                                     &settings.shadow, &settings.exclude}) {
       if (file->empty()) continue;

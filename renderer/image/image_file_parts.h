@@ -11,6 +11,9 @@
 // Shared by the files of the formats.
 namespace belvedere::image_io {
 
+// In ImageInfo::notes: Exif orientation 2…8 of a picture that readers turn upright.
+inline constexpr const char* orientation_note = "Orientation";
+
 // The first bytes of a file, at most 16, which identify its format. Error(input) where it cannot be
 // opened.
 std::string first_bytes(const std::string& path);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "renderer/image/image_file_parts.h"
 #include "renderer/image/output_file.h"
 #include "renderer/image/png_check.h"
@@ -103,6 +104,35 @@ ChannelType channel_type(const OIIO::TypeDesc& type) {
   }
 }
 
+// Exif orientation: 1 upright, 2…8 mirrored or turned; 5 and more swap width and height.
+int orientation_of(const OIIO::ImageSpec& spec) {
+  const int found = spec.get_int_attribute("Orientation", 1);
+  return found >= 1 && found <= 8 ? found : 1;
+}
+
+// The picture as its camera or scanner meant it to be seen: pixel (x, y) is taken from the stored
+// one that the orientation of Exif 2.32, 4.6.4 A, names.
+template <class T>
+Grid<T> upright(Grid<T> stored, int orientation) {
+  if (orientation == 1) return stored;
+  const bool swaps = orientation >= 5;
+  const int w = stored.width();
+  const int h = stored.height();
+  Grid<T> out(swaps ? h : w, swaps ? w : h);
+  parallel_rows(out.height(), [&](int y) {
+    for (int x = 0; x < out.width(); ++x) {
+      int u = swaps ? y : x;
+      int v = swaps ? x : y;
+      if (orientation == 2 || orientation == 3 || orientation == 7 || orientation == 8)
+        u = w - 1 - u;
+      if (orientation == 3 || orientation == 4 || orientation == 6 || orientation == 7)
+        v = h - 1 - v;
+      out(x, y) = stored(u, v);
+    }
+  });
+  return out;
+}
+
 double dots_per_inch(const OIIO::ImageSpec& spec) {
   const double resolution = spec.get_float_attribute("XResolution");
   const std::string unit = spec.get_string_attribute("ResolutionUnit");
@@ -121,6 +151,7 @@ ImageInfo read_oiio_info(const std::string& path, const std::string& format) {
   info.format = format;
   info.width = spec.width;
   info.height = spec.height;
+  if (orientation_of(spec) >= 5) std::swap(info.width, info.height);
   PartSpec part;
   for (int c = 0; c < spec.nchannels; ++c)
     part.channels.push_back({spec.channel_name(c), channel_type(spec.channelformat(c))});
@@ -130,6 +161,8 @@ ImageInfo read_oiio_info(const std::string& path, const std::string& format) {
     if (const std::string value = spec.get_string_attribute(key); !value.empty())
       info.notes.emplace(key, value);
   }
+  if (const int orientation = orientation_of(spec); orientation != 1)
+    info.notes.emplace(image_io::orientation_note, std::to_string(orientation));
   info.dots_per_inch = dots_per_inch(spec);
   if (const OIIO::ParamValue* icc = spec.find_attribute("ICCProfile");
       icc != nullptr && icc->type().elementsize() == 1) {
@@ -153,11 +186,17 @@ Grid<glm::vec3> read_oiio_picture(const std::string& path, const std::string& fo
       if (alpha != nullptr && alpha_channel >= 0) (*alpha)[i] = from[alpha_channel];
     }
   });
-  return picture;
+  const int orientation = orientation_of(reader.spec());
+  if (alpha != nullptr) *alpha = upright(std::move(*alpha), orientation);
+  return upright(std::move(picture), orientation);
 }
 
 void read_oiio_rows(const std::string& path, const std::string& format, const UsePictureRows& use) {
   OiioReader reader(path, format);
+  if (orientation_of(reader.spec()) != 1) {
+    use(0, read_oiio_picture(path, format, nullptr));
+    return;
+  }
   const int channels = reader.spec().nchannels;
   reader.read_bands<float>(OIIO::TypeDesc::FLOAT, [&](int y0, int y1, const float* from) {
     Grid<glm::vec3> rows(reader.spec().width, y1 - y0);
@@ -202,7 +241,7 @@ Grid<std::uint16_t> read_oiio_grey(const std::string& path, const std::string& f
   } else {
     reader.read_bands<std::uint8_t>(OIIO::TypeDesc::UINT8, use);
   }
-  return out;
+  return upright(std::move(out), orientation_of(spec));
 }
 
 namespace {

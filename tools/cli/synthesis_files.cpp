@@ -10,6 +10,8 @@
 
 #include "base/error.h"
 #include "renderer/exemplar/harmonize.h"
+#include "renderer/image/display_conversion.h"
+#include "renderer/image/icc/painting_file.h"
 #include "renderer/image/label_image.h"
 #include "tools/cli/file_names.h"
 
@@ -73,14 +75,20 @@ SynthesisInputs read_synthesis(const SynthesisFiles& files) {
     refuse(fmt::format("{} --exclude but {} --picture are given", files.exclusions.size(),
                        files.pictures.size()),
            "one --exclude for each --picture, or fewer");
+  // Pictures in one colour space stay in it, and so does the result; several meet in sRGB.
   inputs.profile = read_image_info(files.pictures.front()).icc_profile;
+  const bool mixed = std::any_of(
+      files.pictures.begin(), files.pictures.end(),
+      [&](const std::string& file) { return read_image_info(file).icc_profile != inputs.profile; });
+  if (mixed) inputs.profile = srgb_profile();
   for (std::size_t i = 0; i < files.pictures.size(); ++i) {
     if (files.labels[i].second != target_file)
       refuse(fmt::format("the labels name two targets, {} and {}", target_file,
                          files.labels[i].second),
              "the same target for every picture");
     Grid<float> alpha;
-    inputs.pictures.push_back(read_picture(files.pictures[i], &alpha));
+    inputs.pictures.push_back(mixed ? read_painting(files.pictures[i], silent_progress(), &alpha)
+                                    : read_picture(files.pictures[i], &alpha));
     const Grid<glm::vec3>& picture = inputs.pictures.back();
     Grid<std::uint8_t>& own = labels.labels[i];
     require_size(own, files.labels[i].first, picture.width(), picture.height(), files.pictures[i]);

@@ -84,6 +84,16 @@ std::vector<std::uint8_t> save_dated(const Context& context, Profile profile, co
   return save_profile(dated);
 }
 
+std::string name_of(const Profile& profile) {
+  std::string name(256, '\0');
+  const cmsUInt32Number size =
+      cmsGetProfileInfoASCII(profile.get(), cmsInfoDescription, "en", "US", name.data(),
+                             static_cast<cmsUInt32Number>(name.size()));
+  name.resize(std::min<std::size_t>(size, name.size()));
+  name.resize(std::min(name.find('\0'), name.size()));
+  return name.empty() ? "without a name" : name;
+}
+
 std::vector<std::uint8_t> read_profile_bytes(const std::string& path) {
   std::error_code code;
   const std::uintmax_t size = std::filesystem::file_size(path, code);

@@ -5,9 +5,11 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <functional>
+#include <glm/vec2.hpp>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -264,6 +266,44 @@ TEST(ReadPicture, JpegIsReadWhole) {
   for (int y = 0; y < 32; ++y) {
     for (int x = 0; x < 32; ++x)
       ASSERT_NEAR(picture(x, y).x * 255.0, (4 * y + 3 * x) % 256, 8.0) << x << " " << y;
+  }
+}
+
+// Exif 2.32, 4.6.4 A: where the stored first row and column belong.
+TEST(ReadPicture, ExifOrientationIsApplied) {
+  const Folder folder("exif");
+  std::string bytes(std::begin(jpeg_bytes), std::end(jpeg_bytes));
+  const auto turned = [&](int orientation) {
+    std::string exif =
+        "\xff\xe1\0\x22"
+        "Exif\0\0"
+        "II*\0\x08\0\0\0\x01\0\x12\x01\x03\0\x01\0\0\0"s;
+    exif += static_cast<char>(orientation);
+    exif += std::string(7, '\0');
+    const std::string path = folder / (std::to_string(orientation) + ".jpg");
+    test::write_bytes(path, bytes.substr(0, 2) + exif + bytes.substr(2));
+    return path;
+  };
+  test::write_bytes(folder / "0.jpg", bytes);
+  const Grid<glm::vec3> stored = read_picture(folder / "0.jpg");
+  const int last = stored.width() - 1;
+  const std::array<glm::ivec2, 8> first = {glm::ivec2{0, 0}, {last, 0}, {last, last}, {0, last},
+                                           {0, 0},           {0, last}, {last, last}, {last, 0}};
+  for (int o = 1; o <= 8; ++o) {
+    const std::string path = turned(o);
+    EXPECT_EQ(read_image_info(path).notes.contains("Orientation"), o != 1);
+    const Grid<glm::vec3> picture = read_picture(path);
+    const glm::ivec2 at = first[static_cast<std::size_t>(o - 1)];
+    EXPECT_EQ(picture(0, 0), stored(at.x, at.y)) << o;
+    // One pixel to the right is one along the row, or along the column where sides are exchanged.
+    const glm::ivec2 step =
+        o < 5 ? glm::ivec2(at.x == 0 ? 1 : -1, 0) : glm::ivec2(0, at.y == 0 ? 1 : -1);
+    EXPECT_EQ(picture(3, 0), stored(at.x + 3 * step.x, at.y + 3 * step.y)) << o;
+    Grid<glm::vec3> rows;
+    read_picture_rows(path, [&](int y0, const Grid<glm::vec3>& band) {
+      if (y0 == 0) rows = band;
+    });
+    EXPECT_EQ(rows(3, 0), picture(3, 0)) << o;
   }
 }
 

@@ -12,6 +12,7 @@
 #include "base/text/json.h"
 #include "base/text/letters.h"
 #include "renderer/exemplar/painting_segments.h"
+#include "renderer/image/icc/painting_file.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/label_image.h"
 #include "renderer/image/png_palette.h"
@@ -101,7 +102,7 @@ int run(const SegmentOptions& options) {
   TerminalProgress progress(options.quiet);
   progress.begin("reading", 0.0);
   Grid<float> alpha;
-  const Grid<glm::vec3> picture = read_picture(options.painting, &alpha);
+  const Grid<glm::vec3> picture = read_painting(options.painting, progress, &alpha);
   progress.begin("segmenting", 0.0);
   const PaintingSegments segments =
       segment_painting(picture, alpha, options.theta.value_or(usual_theta), options.painting);

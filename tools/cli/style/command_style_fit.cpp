@@ -9,6 +9,7 @@
 #include "base/text/json.h"
 #include "base/text/letters.h"
 #include "renderer/exemplar/painting_segments.h"
+#include "renderer/image/icc/painting_file.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/label_image.h"
 #include "renderer/style/fit_style.h"
@@ -71,7 +72,7 @@ int run(const StyleFitOptions& options) {
   TerminalProgress progress(options.quiet);
   progress.begin("reading", 0.0);
   Grid<float> alpha;
-  const Grid<glm::vec3> picture = read_picture(options.painting, &alpha);
+  const Grid<glm::vec3> picture = read_painting(options.painting, progress, &alpha);
   if (options.classes.empty()) progress.begin("segmenting", 0.0);
   Grid<std::uint8_t> mask =
       options.classes.empty() ? inferred_classes(options, picture, alpha) : read_classes(options);
