@@ -1,6 +1,6 @@
 #include "renderer/image/label_image.h"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -73,7 +73,8 @@ Grid<std::uint8_t> name_colours(const Grid<std::uint32_t>& colours,
 
 }  // namespace
 
-Grid<std::uint8_t> read_class_mask(const std::string& path) {
+Grid<std::uint8_t> read_class_mask(const std::string& path,
+                                   const std::vector<std::uint8_t>& others) {
   const Grid<std::uint16_t> ids = read_grey(path);
   struct Odd {
     std::size_t pixels = 0;
@@ -83,7 +84,9 @@ Grid<std::uint8_t> read_class_mask(const std::string& path) {
   Grid<std::uint8_t> out(ids.width(), ids.height());
   for (std::size_t i = 0; i < ids.size(); ++i) {
     out[i] = static_cast<std::uint8_t>(std::min<std::uint16_t>(ids[i], unused_label));
-    if (ids[i] < land_cover_class_count || ids[i] == unused_label) continue;
+    if (ids[i] < land_cover_class_count || ids[i] == unused_label ||
+        std::find(others.begin(), others.end(), ids[i]) != others.end())
+      continue;
     Odd& found = odd[ids[i]];
     if (found.pixels++ == 0) found.first = i;
   }
@@ -99,9 +102,10 @@ Grid<std::uint8_t> read_class_mask(const std::string& path) {
   }
   if (odd.size() > max_named) list += fmt::format(" and {} more", odd.size() - max_named);
   throw Error(ErrorKind::input, path, "has numbers that are no class: " + list,
-              fmt::format("0 … {} and 255 for unused pixels; save masks without soft edges, "
+              fmt::format("0 … {}{} and 255 for unused pixels; save masks without soft edges, "
                           "gradients and compression with losses",
-                          land_cover_class_count - 1));
+                          land_cover_class_count - 1,
+                          others.empty() ? "" : fmt::format(", {}", fmt::join(others, ", "))));
 }
 
 LabelImages read_label_images(const std::vector<std::string>& paths) {

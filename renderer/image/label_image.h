@@ -22,8 +22,10 @@ struct LabelImages {
 // together, numbers over 255, drawings without flat colours (JPEG has none) or with more than 64.
 LabelImages read_label_images(const std::vector<std::string>& paths);
 
-// A mask of classes by their numbers (read_grey), 255 unused. Error(input) for numbers that are no
-// class, with how many pixels have them and where the first lies.
-Grid<std::uint8_t> read_class_mask(const std::string& path);
+// A mask of classes by their numbers (read_grey), 255 unused; `others` are numbers that the reader
+// allows as well. Error(input) for further numbers, with how many pixels have them and where the
+// first is.
+Grid<std::uint8_t> read_class_mask(const std::string& path,
+                                   const std::vector<std::uint8_t>& others = {});
 
 }  // namespace belvedere

@@ -98,8 +98,8 @@ constexpr const char* strokes_only = "[synthesis]\nenabled = false\n";
 
 TEST_F(Faults, NumbersOutOfRangeNameKeyAndRange) {
   for (const auto& [setting, range] : std::vector<std::pair<std::string, std::string>>{
-           {"camera.height_m=nan", "-1000 … 1000000"},
-           {"camera.height_m=inf", "-1000 … 1000000"},
+           {"camera.height_m=nan", "-12000 … 1000000"},
+           {"camera.height_m=inf", "-12000 … 1000000"},
            {"output.width=-5", "16 … 65535"},
            {"output.height=1000000000", "16 … 65535"},
            {"output.width=1e9", "whole number"},

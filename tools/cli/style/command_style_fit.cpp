@@ -12,6 +12,7 @@
 #include "renderer/image/icc/painting_file.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/label_image.h"
+#include "renderer/style/fit/clean_mask.h"
 #include "renderer/style/fit_style.h"
 #include "renderer/style/style_file.h"
 #include "tools/cli/commands.h"
@@ -31,7 +32,7 @@ struct StyleFitOptions : RunOptions {
 };
 
 Grid<std::uint8_t> read_classes(const StyleFitOptions& options) {
-  return read_class_mask(options.classes);
+  return read_class_mask(options.classes, {far_air_label});
 }
 
 // The classes that `exemplar segment` begins with.

@@ -22,7 +22,7 @@ TEST(ReadPainting, ComesInSrgbWithANoteOnWhatWasChanged) {
     void note(std::string_view line) override { text += line; }
   } notes;
   const Grid<glm::vec3> picture = random_picture(40, 30);
-  write_tiff16(folder / "s.tif", picture, {.icc_profile = srgb_profile()});
+  write_tiff16(folder / "s.tif", picture, {.icc_profile = srgb_profile(), .notes = {}});
   EXPECT_EQ(read_painting(folder / "s.tif", notes), read_picture(folder / "s.tif"));
   EXPECT_EQ(notes.text, "");
   // Red and green exchanged in the profile's table of tags: so are the colours.
@@ -30,7 +30,7 @@ TEST(ReadPainting, ComesInSrgbWithANoteOnWhatWasChanged) {
   const std::string text(profile.begin(), profile.end());
   profile[text.find("rXYZ")] = 'g';
   profile[text.find("gXYZ")] = 'r';
-  write_tiff16(folder / "p.tif", picture, {.icc_profile = profile});
+  write_tiff16(folder / "p.tif", picture, {.icc_profile = profile, .notes = {}});
   const Grid<glm::vec3> painting = read_painting(folder / "p.tif", notes);
   EXPECT_THAT(notes.text, testing::HasSubstr("converted to sRGB"));
   for (std::size_t i = 0; i < picture.size(); ++i) {
@@ -38,7 +38,7 @@ TEST(ReadPainting, ComesInSrgbWithANoteOnWhatWasChanged) {
     EXPECT_NEAR(painting[i].y, picture[i].x, 1e-3);
     EXPECT_NEAR(painting[i].z, picture[i].z, 1e-3);
   }
-  write_tiff16(folder / "d.tif", picture, {.icc_profile = {1, 2, 3}});
+  write_tiff16(folder / "d.tif", picture, {.icc_profile = {1, 2, 3}, .notes = {}});
   EXPECT_EQ(kind_of([&] { read_painting(folder / "d.tif", notes); }), ErrorKind::input);
   EXPECT_NO_THROW(read_picture(folder / "d.tif"));
 }

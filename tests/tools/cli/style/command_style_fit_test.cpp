@@ -48,7 +48,15 @@ TEST_F(StyleFit, WritesAStyleAndItsPage) {
   EXPECT_TRUE(std::filesystem::exists(path("report/ramp_rock.png")));
 }
 
-TEST_F(StyleFit, GuessesClassesWithoutAMask) {
+TEST_F(StyleFit, TakesFarAirFromTheMask) {
+  const Outcome outcome = run({"style", "fit", write_painting(), "--classes", write_mask(200),
+                               "--out", path("bands.toml"), "-q"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  for (const std::string& note : read_style(path("bands.toml")).notes)
+    EXPECT_THAT(note, testing::Not(HasSubstr("no far air")));
+}
+
+TEST_F(StyleFit, InfersClassesWithoutAMask) {
   const Outcome outcome =
       run({"style", "fit", write_painting(), "--out", path("bands.toml"), "--name", "inferred"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
@@ -64,7 +72,7 @@ TEST_F(StyleFit, MistakesAreToldBeforeAnythingIsWritten) {
   const Outcome number = run(
       {"style", "fit", painting, "--classes", write_mask(77), "--out", path("style.toml"), "-q"});
   EXPECT_EQ(number.status, 3);
-  EXPECT_THAT(number.err, HasSubstr("the number 77"));
+  EXPECT_THAT(number.err, HasSubstr("77 (3600 pixels"));
   EXPECT_FALSE(std::filesystem::exists(path("style.toml")));
 }
 
