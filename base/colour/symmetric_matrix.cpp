@@ -7,7 +7,7 @@
 namespace belvedere {
 namespace {
 
-// f of a symmetric matrix: f of its eigenvalues.
+// Applies f to the eigenvalues of a symmetric matrix.
 template <class F>
 glm::dmat3 spectral(const glm::dmat3& a, F f) {
   const SymmetricEigen eigen = symmetric_eigen(a);

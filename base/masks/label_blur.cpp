@@ -32,8 +32,8 @@ Grid<float> blur_within_labels(const Grid<float>& values, const Grid<std::uint8_
   for (std::size_t label = 0; label < no_label; ++label) {
     const Box& box = boxes[label];
     if (box.x1 < box.x0) continue;
-    // Beyond the box there is nothing of the label, but the blur repeats what stands at its border:
-    // one empty cell around stops that.
+    // The blur repeats the values at the border of its grid: a border of one empty cell around the
+    // box makes them 0, as they are beyond the box.
     const int width = box.x1 - box.x0 + 3;
     const int height = box.y1 - box.y0 + 3;
     Grid<float> sum(width, height, 0.F);

@@ -53,11 +53,11 @@ FeatureKind read_kind(const ConfigEntry& entry, const std::string& name) {
   read.number("rank", kind.rank, 0.0, 100.0);
   read.number("width_mm", kind.width_mm, 0.0, 50.0);
   read.number("min_px", kind.min_px, 0.0, 100.0);
-  read.number("least_px", kind.min_px, 0.0, 100.0);  // its name in version 0.1
+  read.number("least_px", kind.min_px, 0.0, 100.0);  // renamed in version 0.2
   read.number("real_m", kind.real_m, 0.0, 10000.0);
   read.number("shrink", kind.shrink, 0.0, 1.0);
   read.number("min_share", kind.min_share, 0.0, 1.0);
-  read.number("least_share", kind.min_share, 0.0, 1.0);  // its name in version 0.1
+  read.number("least_share", kind.min_share, 0.0, 1.0);  // renamed in version 0.2
   read.number("casing_mm", kind.casing_mm, 0.0, 10.0);
   read.number("bed_mm", kind.bed_mm, 0.0, 50.0);
   read.number("soft_mm", kind.soft_mm, 0.0, 20.0);

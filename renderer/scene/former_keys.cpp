@@ -16,7 +16,7 @@ struct FormerKey {
   std::string_view present;
 };
 
-// Keys of version 0.1. A row is removed in the version after the one that renamed the key.
+// Keys renamed in version 0.2. A row is removed in the next version.
 constexpr FormerKey former_keys[] = {
     {"terrain", "most_mcells", "max_mcells"},
     {"air.mist", "sight_m", "visibility_m"},

@@ -15,10 +15,10 @@ std::vector<std::string> rename_former_keys(ConfigValue& root);
 // name.
 std::string with_present_key(const std::string& setting, std::vector<std::string>& notes);
 
-// Short for a table: `style = "NAME"` on top of a parsed scene, written out as `[style]` with
+// Expands the short form `style = "NAME"` at the top of a parsed scene to the table `[style]` with
 // `file = "NAME"`.
 void spread_style(ConfigValue& root);
-// The same of the "key=value" of a --set.
+// The same for the "key=value" of a --set.
 std::string with_style_file(const std::string& setting);
 
 }  // namespace belvedere

@@ -11,7 +11,7 @@ namespace belvedere {
 namespace {
 
 constexpr int look_width_px = 400;
-constexpr double left_out = 0.03;  // of the ground, at both ends of its distances
+constexpr double left_out = 0.03;  // share of the ground ignored at both ends of its distances
 
 StyleSight look_at_sheet(const World& world, const Camera& camera, const Run& run) {
   const int factor = std::max(1, camera.size().x / look_width_px);

@@ -9,23 +9,24 @@
 
 namespace belvedere {
 
-// What a style asks of the whole sheet: how far down its sky reaches, and between which distances
-// its ground lies.
+// What a style needs from the whole sheet: the extent of its sky and the range of distances of its
+// ground.
 struct StyleSight {
   int sky_rows = 0;  // from the sheet's top down to its lowest sky, px; 0: none
-  double near_m = StylePaintParameters{}.near_m;  // nearer than this lie 3 % of the ground,
-  double far_m = StylePaintParameters{}.far_m;    // farther than this as much
+  double near_m = StylePaintParameters{}.near_m;  // 3 % of the ground are nearer,
+  double far_m = StylePaintParameters{}.far_m;    // and 3 % are farther than this
 };
-// Of distances of a view of the sheet in pixels `scale` times as large.
+// From the distances of a view of the sheet reduced by the factor `scale`.
 StyleSight style_sight_of(const Grid<float>& depth_m, int scale);
 
-// A style as a sheet is painted in it.
+// A style with its parameters for one sheet.
 struct SheetStyle {
   Style style;
-  StylePaintParameters parameters;  // without what only a look at the sheet tells
+  StylePaintParameters parameters;  // without those of `sight`
   std::shared_ptr<const LazyValue<StyleSight>> sight = nullptr;
-  // With it: from one look at the whole sheet, a ray a pixel, of some 400 columns, so that every
-  // part of it is painted alike. Made when a stage first asks.
+  // The parameters with those of `sight`, from a reduced view of the whole sheet with one ray per
+  // pixel and about 400 columns, so that all parts of a sheet use the same values. Computed on
+  // first use.
   StylePaintParameters seen() const;
 };
 // `world` and `camera` must outlive it.

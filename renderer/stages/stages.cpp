@@ -416,7 +416,7 @@ PictureStages add_picture_stages(StageGraph& graph, const GroundStages& ground, 
     const Reach around_ground = around(style_preparation_margin_px(style.style, style.parameters));
     picture.style_ground = graph.add_tiles<StyleGround>(
         styled("style's ground"),
-        grids_of(&StyleGround::colour, &StyleGround::calm, &StyleGround::along),
+        grids_of(&StyleGround::colour, &StyleGround::smoothed, &StyleGround::along),
         inputs(reads(picture.finished, around_ground),
                reads(ground.lit, around_ground,
                      some({&B::depth_m, &B::land_cover, &B::fall_line, &B::valley_height_m})),

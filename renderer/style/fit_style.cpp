@@ -15,8 +15,8 @@
 namespace belvedere {
 namespace {
 
-// Shares of what scenes ask for that suit all paintings (A8): the palette carries the painter's own
-// warmth and drift.
+// Shares of the scene's warmth and drift that suit all paintings (A8): the fitted palette already
+// contains the painting's own.
 constexpr double warm_share = 0.25;
 constexpr double drift_share = 0.6;
 constexpr double rock_drift_share = 0.4;
@@ -38,7 +38,7 @@ ClassRamps fit_ramps_of(const StylePainting& painting, const LightLaw& law,
   const ClassRamps strong =
       strengthen_chroma(light.ramps, reference, painting, parameters.separate);
   const ClassRamps apart = separate_classes(strong, seen.seen, reference, parameters.separate);
-  // Told apart, the ground may have become darker.
+  // Separating the classes may have darkened the ground.
   const LightenedRamps again = lighten_ramps(apart, goal, painting.max_lightness, law);
   if (const double power = light.power * again.power; power < 0.995)
     notes.push_back(fmt::format("darker than a map may be: lightened by the power {:.2f}", power));
@@ -57,7 +57,7 @@ Palette make_palette(const ClassRamps& ramps, const FittedSky& sky, const StyleA
   palette.name = name;
   for (std::size_t c = 1; c < ramps.size(); ++c)
     palette.classes[c].stops = {{0.0, encoded_ramp(ramps[c])}};
-  // Without a sky of its own, a pale one.
+  // A painting without sky gets a pale one.
   const std::vector<glm::dvec3> gradient =
       sky.gradient.empty() ? std::vector<glm::dvec3>{{0.72, -0.02, -0.06}, {0.90, 0.0, 0.02}}
                            : sky.gradient;
@@ -89,7 +89,7 @@ std::string listed_classes(const std::vector<LandCoverClass>& ids) {
   return list;
 }
 
-// Classes whose mask lost a good part: the drawing or the inferred class was wrong there.
+// Notes classes that lost much of their mask: the drawn or inferred class was wrong there.
 void note_cleaned(const StylePainting& painting, std::vector<std::string>& notes) {
   for (const LandCoverClass id : painting.classes) {
     const auto label = static_cast<std::uint8_t>(id);
@@ -130,7 +130,7 @@ Style fit_style(const Grid<glm::vec3>& painting, const Grid<std::uint8_t>& mask,
   style.sky = sky.sky;
   progress.begin("measuring strokes", 0.0);
   style.brushwork = fit_brushwork(prepared.colours, prepared.clean, parameters.brushwork);
-  // Half way, in octaves, between a pixel a unit and the whole painting on the whole sheet (B2).
+  // Geometric mean of one unit per pixel and the whole painting on the whole sheet (B2).
   style.units_per_px = std::clamp(1.2 * std::sqrt(2400.0 / painting.width()), 1.0, 2.6);
   style.broken = figures.broken;
   style.vapour = figures.vapour;

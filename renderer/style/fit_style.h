@@ -24,14 +24,14 @@ struct StyleFitParameters {
   SeparateParameters separate;
   BrushworkParameters brushwork;
   SkyParameters sky;
-  // Of the ground of a usual panorama; a darker painting is lightened as by cleaning.
+  // Of the ground of a typical panorama; darker paintings are lightened (A6).
   double min_ground_lightness = 0.56;
 };
 
-// The look of a painting (encoded sRGB, 0…1) by its mask: ids of classes, 200 for far air, 255 for
-// what is not used. `reference` is a palette whose light and dark are those of maps (summer): hue
-// is the painter's, lightness the map's. Error(usage) where sizes differ, Error(input) for masks
-// with other numbers or too little ground.
+// Fits the style of a painting (encoded sRGB, 0…1). The mask holds class ids, 200 for distant haze
+// and 255 for unused pixels. `reference` is a palette with the lightness of maps (summer): hues
+// come from the painting, the order of lightness from the reference. Error(usage) where sizes
+// differ, Error(input) for masks with other numbers or too little ground.
 Style fit_style(const Grid<glm::vec3>& painting, const Grid<std::uint8_t>& mask,
                 const Palette& reference, const StyleFitParameters& parameters, Progress& progress);
 

@@ -17,7 +17,7 @@ StyleGround prepare_style(const Style& style, const GuidanceBuffers& guidance,
       make_style_ground(style, guidance, render, veil, parameters, origin_px);
   const Grid<glm::vec2> along =
       make_stroke_direction(style, guidance, ground.colour, parameters, origin_px);
-  return {part_of(ground.colour, wanted), part_of(ground.calm, wanted), part_of(along, wanted)};
+  return {part_of(ground.colour, wanted), part_of(ground.smoothed, wanted), part_of(along, wanted)};
 }
 
 int style_preparation_margin_px(const Style& style, const StylePaintParameters& parameters) {

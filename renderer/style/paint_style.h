@@ -5,28 +5,26 @@
 
 namespace belvedere {
 
-// A finished picture in a painter's style, in two steps, so that what strokes read around them is
-// made once: the ground and the direction of strokes; then strokes and all that lies on them.
+// Renders a finished picture in a style, in two steps: the ground and the stroke directions, then
+// the strokes and the finish. Strokes read the first result around them, so it is computed once.
 
-// Brings the colours of a window near the style, and finds how its strokes run. Of the pixels
-// `wanted` of the window. The guidance has depth_m, land_cover, fall_line and, for vapour,
-// valley_height_m; `render` is encoded sRGB, `veil` the share of mist before each pixel (empty:
-// there is none).
+// Computes ground colours and stroke directions for the pixels `wanted` of a window. The guidance
+// needs depth_m, land_cover, fall_line and, for vapour, valley_height_m. `render` is encoded sRGB;
+// `veil` is the share of mist in front of each pixel (empty: none).
 StyleGround prepare_style(const Style& style, const GuidanceBuffers& guidance,
                           const Grid<glm::vec3>& render, const Grid<float>& veil,
                           const StylePaintParameters& parameters, glm::ivec2 origin_px,
                           PixelRect wanted);
 int style_preparation_margin_px(const Style& style, const StylePaintParameters& parameters);
 
-// Strokes, detail, relief and weave. Encoded sRGB of `wanted` of the window. The guidance has
-// depth_m, land_cover and tone.
+// Adds strokes, detail, relief and weave. Returns encoded sRGB of the pixels `wanted` of the
+// window. The guidance needs depth_m, land_cover and tone.
 Grid<glm::vec3> lay_style(const Style& style, const GuidanceBuffers& guidance,
                           const StyleGround& ground, const StylePaintParameters& parameters,
                           glm::ivec2 origin_px, PixelRect wanted);
 int style_laying_margin_px(const Style& style, const StylePaintParameters& parameters);
 
-// Both. `render` is encoded sRGB, and so is the result, of the size of `wanted`; `veil` the share
-// of mist before each pixel, empty where there is none.
+// Both steps. The result is encoded sRGB of the size of `wanted`.
 Grid<glm::vec3> paint_style(const Style& style, const GuidanceBuffers& guidance,
                             const Grid<glm::vec3>& render, const Grid<float>& veil,
                             const StylePaintParameters& parameters, glm::ivec2 origin_px,

@@ -1,4 +1,4 @@
-// Dark strokes along silhouettes, as painters draw them who separate things by line.
+// Dark strokes along silhouettes.
 
 #include <algorithm>
 #include <cmath>
@@ -14,31 +14,31 @@
 namespace belvedere {
 namespace {
 
-// What lies farther by less than the first share is the same slope; from the second on a line has
-// its full strength.
+// Relative steps of distance: below the first there is no silhouette; from the second on a line has
+// full strength.
 constexpr float min_step = 0.010F;
 constexpr float full_step = 0.05F;
-constexpr float along_ridge = 0.05F;  // how much nearer than where it begins a line may run
+constexpr float along_ridge = 0.05F;  // a line may run nearer than its start by this share
 constexpr double width_share = 0.8;   // of the class's strokes
 constexpr double length_share = 1.3;
 constexpr double min_contour_px = 1.1;
 constexpr int steps_each_way = 3;
 constexpr double look_units = 1.6;
-constexpr float dark_share = 0.75F;  // of the style's darkest paint that a line takes
+constexpr float dark_share = 0.75F;  // share of the style's darkest colour in a line's colour
 constexpr float line_alpha = 0.85F;
-constexpr float open_gate = 1e3F;  // no colour stops a line
+constexpr float open_gate = 1e3F;  // lines do not end at changes of colour
 
 enum ContourDraw : std::uint64_t { cell_x, cell_y, length_by, width_by, line_order, line_hair };
 
 // The darkest colour of the style's ground, OKLab.
 glm::vec3 darkest_paint(const Style& style) {
   glm::vec3 darkest(0.25F, 0.0F, -0.02F);
-  float least = 1.0F;
+  float min_lightness = 1.0F;
   for (const ClassPalette& of : style.palette.classes)
     for (const ClassPalette::Stop& stop : of.stops) {
       const glm::vec3 lab(to_oklab(stop.ramp[0]));
-      if (lab.x >= least) continue;
-      least = lab.x;
+      if (lab.x >= min_lightness) continue;
+      min_lightness = lab.x;
       darkest = lab;
     }
   return darkest;
@@ -49,7 +49,7 @@ struct ContourPlacer {
   const StyleWindow& window;
   const StylePaintParameters& parameters;
   std::uint64_t seed;
-  int look_px;  // within which a seed looks for a silhouette, and it for its direction
+  int look_px;  // search radius for a silhouette and for its direction
   glm::vec3 dark;
 
   // Distance at a pixel of the sheet; infinite for sky, below 0 beyond the window.
@@ -59,7 +59,7 @@ struct ContourPlacer {
                                                         : -1.0F;
   }
 
-  // How much farther than a pixel its farthest neighbour lies, 0…1 as a line's strength.
+  // Strength of a line, 0…1, from the relative step of distance to the farthest neighbour.
   float strength(glm::ivec2 at) const {
     const float own = depth(at);
     if (!(own > 0.0F) || std::isinf(own)) return 0.0F;
@@ -70,8 +70,8 @@ struct ContourPlacer {
     return smoothstep(min_step, full_step, std::isinf(farthest) ? 1.0F : farthest / own - 1.0F);
   }
 
-  // Direction of the silhouette of what lies at `own` around a pixel: across the mean way to what
-  // is farther. 0 where there is none.
+  // Direction of the silhouette of a surface at distance `own`: perpendicular to the mean offset of
+  // the farther pixels around. 0 where there are none.
   glm::vec2 tangent(glm::ivec2 at, float own) const {
     glm::vec2 away(0.0F);
     for (int y = -look_px; y <= look_px; ++y)
@@ -91,20 +91,20 @@ struct ContourPlacer {
         static_cast<int>(std::floor((static_cast<double>(y) + draw(cell_y)) * cell_px)));
     if (middle.x < rect.x0 || middle.y < rect.y0 || middle.x >= rect.x1 || middle.y >= rect.y1)
       return false;
-    // The strongest silhouette nearby, the nearest of equal ones.
-    float most = 0.0F;
+    // The strongest silhouette nearby; among equal ones the nearest.
+    float strongest = 0.0F;
     int nearest = 0;
     for (int v = -look_px; v <= look_px; ++v)
       for (int u = -look_px; u <= look_px; ++u) {
         const float found = strength(middle + glm::ivec2(u, v));
         const int away = u * u + v * v;
-        if (found < most || found <= 0.0F || (found == most && away >= nearest)) continue;
-        most = found;
+        if (found < strongest || found <= 0.0F || (found == strongest && away >= nearest)) continue;
+        strongest = found;
         nearest = away;
         stroke.pixel_px = middle + glm::ivec2(u, v);
       }
-    if (most <= 0.0F) return false;
-    return trace(stroke, most, draw(length_by), draw(width_by), x, y);
+    if (strongest <= 0.0F) return false;
+    return trace(stroke, strongest, draw(length_by), draw(width_by), x, y);
   }
 
   bool trace(StyleStroke& stroke, float strength_here, double long_by, double wide_by,
@@ -148,7 +148,7 @@ struct ContourPlacer {
     for (int k = 0; k < StyleStroke::hairs; ++k)
       stroke.hair[static_cast<std::size_t>(k)] =
           static_cast<float>(random_uniform(seed, x, y, line_hair + static_cast<std::uint64_t>(k)));
-    stroke.ground = window.ground.calm[i];
+    stroke.ground = window.ground.smoothed[i];
     const float share = dark_share * static_cast<float>(std::min(parameters.contour_lines, 1.0));
     stroke.colour = stroke.ground + share * (dark - stroke.ground);
     stroke.alpha = line_alpha * strength_here * (0.4F + 0.6F * share);

@@ -1,4 +1,4 @@
-// Where strokes of a style begin, how they run and what colour they have.
+// Position, path and colour of the strokes of a style.
 
 #include <algorithm>
 #include <array>
@@ -19,23 +19,23 @@ namespace {
 constexpr float lightness_jitter = 0.9F;
 constexpr float hue_jitter = 1.6F;
 constexpr float sky_hue_jitter = 0.6F;  // of that
-constexpr double whorl_strength = 1.6;  // a sky has no form that strong strokes could drown
+constexpr double swirl_strength = 1.6;  // a sky has no forms that strong strokes could hide
 constexpr double sky_length = 1.6;
 constexpr double tree_length = 0.7;
 constexpr double tree_width = 0.9;
 constexpr double min_length_px = 2.5;
 constexpr double min_width_px = 0.9;
-constexpr double min_spacing_px = 1.6;    // denser than this nobody tells strokes apart
+constexpr double min_spacing_px = 1.6;    // denser strokes cannot be distinguished
 constexpr double max_length_share = 1.4;  // of the mean: 0.6 … 1.4
 constexpr double max_width_share = 1.35;  // 0.65 … 1.35
-// The whole class's tones between which residuals of shade, middle and light are drawn.
+// Tones that separate shade, middle and light, each with residuals of its own.
 constexpr std::array<double, 2> tone_thirds = {0.43, 0.75};
 constexpr double third_softness = 0.08;
 constexpr float accent_hue = 0.75F;
 constexpr float accent_lightness = 0.3F;
 constexpr float accent_nearness = 0.16F;
 constexpr double gate_at_rest = 0.075;
-// Hairs across a stroke a px of the painting.
+// Hairs across a stroke per px of the painting.
 constexpr double hairs_per_px = 1.9;
 
 // Draw numbers of a stroke's cell.
@@ -54,8 +54,8 @@ enum Draw : std::uint64_t {
   first_hair
 };
 
-// A class as a layer paints it, lengths in px of the sheet.
-struct ClassHand {
+// The brush of a layer for one class; lengths in px of the sheet.
+struct LayerBrush {
   StyleBrushwork brushwork;
   double length_px = 0.0;
   double width_px = 0.0;
@@ -80,61 +80,61 @@ double fitted_width_px(const Style& style, const StylePaintParameters& parameter
   return std::max(px, 1.1) * (id == LandCoverClass::forest ? tree_width : 1.0);
 }
 
-using Hands = std::array<ClassHand, land_cover_class_count>;
+using LayerBrushes = std::array<LayerBrush, land_cover_class_count>;
 
-Hands hands_of(const Style& style, const StylePaintParameters& parameters,
-               const StyleLayer& layer) {
-  const double most = std::clamp(0.018 + 0.03 * style.broken, 0.018, 0.05);
-  Hands hands;
+LayerBrushes layer_brushes(const Style& style, const StylePaintParameters& parameters,
+                           const StyleLayer& layer) {
+  const double max_deviation = std::clamp(0.018 + 0.03 * style.broken, 0.018, 0.05);
+  LayerBrushes brushes;
   for (const LandCoverClassInfo& row : land_cover_classes()) {
-    ClassHand& hand = hands[static_cast<std::size_t>(row.id)];
-    hand.brushwork = brushwork_of(style, row.id);
-    const StyleBrushwork& b = hand.brushwork;
+    LayerBrush& brush = brushes[static_cast<std::size_t>(row.id)];
+    brush.brushwork = brushwork_of(style, row.id);
+    const StyleBrushwork& b = brush.brushwork;
     if (!(b.length_px > 0.0)) continue;
     const double length = fitted_length_px(style, parameters, row.id, b);
     const double width = fitted_width_px(style, parameters, row.id, b);
-    hand.length_px = layer.length * length;
-    hand.width_px = std::max(layer.width * width, min_width_px);
-    hand.spacing_px = std::max(layer.spacing * std::sqrt(0.5 * length * width), min_spacing_px);
-    hand.wander_rad = 0.10 + 0.35 * (1.0 - std::min(1.0, b.coherence / 0.7));
-    hand.hair_count = static_cast<float>(
+    brush.length_px = layer.length * length;
+    brush.width_px = std::max(layer.width * width, min_width_px);
+    brush.spacing_px = std::max(layer.spacing * std::sqrt(0.5 * length * width), min_spacing_px);
+    brush.wander_rad = 0.10 + 0.35 * (1.0 - std::min(1.0, b.coherence / 0.7));
+    brush.hair_count = static_cast<float>(
         std::clamp(layer.width * b.width_px * hairs_per_px, 1.0, StyleStroke::hairs - 1.0));
     const bool sky = row.id == LandCoverClass::sky;
-    const bool whorls = sky && has_whorls(b);
-    const double held = std::min(1.0, (whorls ? whorl_strength : 1.0) * most /
+    const bool swirls = sky && has_swirls(b);
+    const double held = std::min(1.0, (swirls ? swirl_strength : 1.0) * max_deviation /
                                           std::max(b.lightness_deviation, 1e-4)) *
-                        (sky && !whorls ? 0.7 : 1.0);
+                        (sky && !swirls ? 0.7 : 1.0);
     const auto share = static_cast<float>(held * layer.jitter);
-    const float hue = hue_jitter * (sky && !whorls ? sky_hue_jitter : 1.0F);
-    hand.jitter = share * glm::vec3(lightness_jitter, hue, hue);
+    const float hue = hue_jitter * (sky && !swirls ? sky_hue_jitter : 1.0F);
+    brush.jitter = share * glm::vec3(lightness_jitter, hue, hue);
   }
-  return hands;
+  return brushes;
 }
 
-// Side of the cells that seeds lie in: dense enough for the smallest strokes, but not much denser
-// than for most; classes of longer strokes use a part of them.
-double cell_px_of(const Hands& hands) {
-  double least = 0.0;
+// Side of the cells, px, each with one seed: small enough for the densest strokes, but at least 0.6
+// of the mean spacing. Classes with longer strokes use only part of the cells.
+double cell_px_of(const LayerBrushes& brushes) {
+  double min_spacing = 0.0;
   double sum = 0.0;
   int count = 0;
-  for (const ClassHand& hand : hands) {
-    if (!(hand.length_px > 0.0)) continue;
-    least = count == 0 ? hand.spacing_px : std::min(least, hand.spacing_px);
-    sum += hand.spacing_px;
+  for (const LayerBrush& brush : brushes) {
+    if (!(brush.length_px > 0.0)) continue;
+    min_spacing = count == 0 ? brush.spacing_px : std::min(min_spacing, brush.spacing_px);
+    sum += brush.spacing_px;
     ++count;
   }
-  return count == 0 ? 0.0 : std::max({least, 0.6 * sum / count, min_spacing_px});
+  return count == 0 ? 0.0 : std::max({min_spacing, 0.6 * sum / count, min_spacing_px});
 }
 
 glm::vec2 turned_by(glm::vec2 v, glm::vec2 turn) {
   return {v.x * turn.x - v.y * turn.y, v.x * turn.y + v.y * turn.x};
 }
 
-// Everything that placing needs of a window.
+// Places the strokes of one layer in a window.
 struct Placer {
   const StyleWindow& window;
   const StyleLayer& layer;
-  Hands hands;
+  LayerBrushes brushes;
   double cell_px;
   std::uint64_t seed;
   float gate;
@@ -146,7 +146,7 @@ struct Placer {
     return true;
   }
 
-  // From the seed both ways along the direction of strokes.
+  // Traces the path from the seed in both directions along the field of stroke directions.
   void trace(StyleStroke& stroke, glm::vec2 seed_at, float length_px, float turn_rad) const {
     const int steps = std::clamp(static_cast<int>(length_px / 5.0F) + 1, 1, 4);
     const float step = length_px / static_cast<float>(2 * steps);
@@ -179,17 +179,17 @@ struct Placer {
       stroke.points[static_cast<std::size_t>(k)] = path[static_cast<std::size_t>(low + k)];
   }
 
-  glm::vec3 colour(const ClassHand& hand, std::size_t i, std::int64_t x, std::int64_t y) const {
+  glm::vec3 colour(const LayerBrush& brush, std::size_t i, std::int64_t x, std::int64_t y) const {
     const auto draw = [&](Draw which) { return random_uniform(seed, x, y, which); };
-    const glm::vec3 ground = window.ground.calm[i];
+    const glm::vec3 ground = window.ground.smoothed[i];
     const double tone = window.guidance.tone.empty() ? ground.x : window.guidance.tone[i];
     const double shifted = tone + third_softness * (2.0 * draw(third) - 1.0);
     const std::size_t part = shifted < tone_thirds[0] ? 0 : shifted < tone_thirds[1] ? 1 : 2;
     glm::vec3 colour = ground;
-    if (const auto& drawn = hand.brushwork.residuals[part]; !drawn.empty())
-      colour += hand.jitter *
+    if (const auto& drawn = brush.brushwork.residuals[part]; !drawn.empty())
+      colour += brush.jitter *
                 drawn[random_index(static_cast<std::uint32_t>(drawn.size()), seed, x, y, residual)];
-    const auto& accents = hand.brushwork.accents;
+    const auto& accents = brush.brushwork.accents;
     if (accents.empty() || draw(accented) >= layer.accents) return colour;
     const glm::vec3 strong =
         accents[random_index(static_cast<std::uint32_t>(accents.size()), seed, x, y, accent)];
@@ -211,22 +211,22 @@ struct Placer {
     std::size_t i = 0;
     if (!at(stroke.pixel_px, i)) return false;
     stroke.id = window.guidance.is_sky(i) ? LandCoverClass::sky : window.guidance.land_cover[i];
-    const ClassHand& hand = hands[static_cast<std::size_t>(stroke.id)];
-    if (!(hand.length_px > 0.0) || draw(kept) >= square(cell_px / hand.spacing_px)) return false;
-    const double length = hand.length_px * (0.6 + (max_length_share - 0.6) * draw(long_by));
-    const double width = hand.width_px * (0.65 + (max_width_share - 0.65) * draw(wide_by));
-    const double wander = hand.wander_rad * random_normal(seed, x, y, turned);
+    const LayerBrush& brush = brushes[static_cast<std::size_t>(stroke.id)];
+    if (!(brush.length_px > 0.0) || draw(kept) >= square(cell_px / brush.spacing_px)) return false;
+    const double length = brush.length_px * (0.6 + (max_length_share - 0.6) * draw(long_by));
+    const double width = brush.width_px * (0.65 + (max_width_share - 0.65) * draw(wide_by));
+    const double wander = brush.wander_rad * random_normal(seed, x, y, turned);
     trace(stroke, {static_cast<float>(seed_x - pixel_x), static_cast<float>(seed_y - pixel_y)},
           static_cast<float>(length), static_cast<float>(wander));
     if (stroke.count < 2) return false;
     stroke.half_width_px = static_cast<float>(0.5 * width);
     stroke.alpha = static_cast<float>(layer.alpha);
-    stroke.hair_count = hand.hair_count;
+    stroke.hair_count = brush.hair_count;
     for (int k = 0; k < StyleStroke::hairs; ++k)
       stroke.hair[static_cast<std::size_t>(k)] =
           static_cast<float>(draw(first_hair + static_cast<std::uint64_t>(k)));
-    stroke.ground = window.ground.calm[i];
-    stroke.colour = colour(hand, i, x, y);
+    stroke.ground = window.ground.smoothed[i];
+    stroke.colour = colour(brush, i, x, y);
     stroke.gate = gate;
     stroke.depth_m = window.guidance.depth_m[i];
     stroke.order = random_bits(seed, x, y, ordered);
@@ -238,8 +238,8 @@ struct Placer {
 
 const std::vector<StyleLayer>& style_layers() {
   static const std::vector<StyleLayer> layers = {
-      {1.4, 1.4, 0.85, 1.3, 0.6, 1.0, 0.0},   // a broad ground
-      {1.5, 0.6, 0.80, 0.8, 1.4, 1.2, 0.05},  // and filaments over it, which carry the look
+      {1.4, 1.4, 0.85, 1.3, 0.6, 1.0, 0.0},   // broad ground layer
+      {1.5, 0.6, 0.80, 0.8, 1.4, 1.2, 0.05},  // filament layers, which dominate the look
       {1.3, 0.5, 0.75, 0.8, 1.8, 1.2, 0.05},
   };
   return layers;
@@ -252,8 +252,8 @@ std::vector<StyleStroke> place_style_strokes(const Style& style, const StyleWind
   const Placer placer{
       .window = window,
       .layer = of,
-      .hands = hands_of(style, parameters, of),
-      .cell_px = cell_px_of(hands_of(style, parameters, of)),
+      .brushes = layer_brushes(style, parameters, of),
+      .cell_px = cell_px_of(layer_brushes(style, parameters, of)),
       .seed =
           stream_seed(parameters.seed, Stream::style_strokes, static_cast<std::uint64_t>(layer)),
       .gate = static_cast<float>(of.gate * gate_at_rest * (1.0 + 0.25 * style.vapour))};
@@ -302,7 +302,7 @@ int style_seed_reach_px(const Style& style, const StylePaintParameters& paramete
 }
 
 int style_stroke_margin_px(const Style& style, const StylePaintParameters& parameters) {
-  // A stroke may lie away from its seed as far as towards what it paints.
+  // The seed lies up to one reach from a painted pixel; the stroke may extend as far beyond it.
   return 2 * style_seed_reach_px(style, parameters) + contour_look_px(parameters) + 1;
 }
 

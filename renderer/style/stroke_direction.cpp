@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <initializer_list>
 
 #include "base/math.h"
 #include "base/math_exact.h"
@@ -11,6 +10,7 @@
 #include "base/random_streams.h"
 #include "renderer/paint/picture_filter.h"
 #include "renderer/paint/picture_noise.h"
+#include "renderer/style/fit/missing_classes.h"
 
 namespace belvedere {
 namespace {
@@ -19,58 +19,21 @@ using enum LandCoverClass;
 
 // In units of the sheet.
 constexpr double fine_sigma_units = 1.6;  // details smaller than this have no direction
-constexpr double form_sigma_units = 4.0;  // over which a form's direction is one
-constexpr double turn_sigma_units = 1.2;  // directions turn no more abruptly than this
+constexpr double form_sigma_units = 4.0;  // window of the structure tensor
+constexpr double turn_sigma_units = 1.2;  // smoothing of directions
 constexpr double swirl_sigma_x_units = 72.0;
 constexpr double swirl_sigma_y_units = 48.0;
 constexpr int swirl_octaves = 2;
-// Strokes of a sky that agree with their neighbours and are not level run in whorls: van Gogh's do,
-// none of the other painters' fitted so far.
-constexpr double max_level_of_whorls = 0.4;
-constexpr double min_coherence_of_whorls = 0.5;
+// Sky strokes that are coherent but not level run in swirls. Of the paintings fitted so far only
+// van Gogh's have them.
+constexpr double max_level_of_swirls = 0.4;
+constexpr double min_coherence_of_swirls = 0.5;
 
 constexpr double form_share = 1.4;
-constexpr double level_on_slopes = 0.35;  // a painter's level strokes are those of plains
+constexpr double level_on_slopes = 0.35;  // level strokes occur mostly on plains
 constexpr double upright_trees = 0.6;
-// Longest and widest strokes, px of the painting: more is a class too small to be measured.
-constexpr double max_length_px = 20.0;
-constexpr double max_width_px = 5.0;
 
-// What stands in for a class without strokes, the nearest relative first.
-std::initializer_list<LandCoverClass> painted_relatives(LandCoverClass id) {
-  static constexpr std::initializer_list<LandCoverClass> none = {};
-  static constexpr std::initializer_list<LandCoverClass> of_water = {sky, valley_floor, pasture};
-  static constexpr std::initializer_list<LandCoverClass> of_plains = {pasture, alpine_grass, shrub,
-                                                                      valley_floor, forest};
-  static constexpr std::initializer_list<LandCoverClass> of_trees = {shrub, forest, pasture,
-                                                                     alpine_grass};
-  static constexpr std::initializer_list<LandCoverClass> of_stone = {rock, scree, sand, snow};
-  static constexpr std::initializer_list<LandCoverClass> of_snow = {snow, glacier, rock, scree};
-  switch (id) {
-    case water:
-      return of_water;
-    case valley_floor:
-    case settlement:
-    case alpine_grass:
-    case pasture:
-      return of_plains;
-    case forest:
-    case shrub:
-      return of_trees;
-    case scree:
-    case rock:
-    case sand:
-      return of_stone;
-    case snow:
-    case glacier:
-      return of_snow;
-    case sky:
-      return none;
-  }
-  return none;
-}
-
-// How strokes of a class mix their directions.
+// Weights of the directions that the strokes of a class mix.
 struct ClassDirection {
   float level = 0.0F;
   float form = 0.0F;
@@ -89,7 +52,8 @@ ClassDirection direction_of(const StyleBrushwork& brushwork, LandCoverClass id) 
   return of;
 }
 
-// Direction of forms of light and dark as a doubled angle, as long as they are of one mind, 0…1.
+// Direction of light and dark forms by the structure tensor: the vector of the doubled angle, whose
+// length is the coherence, 0…1.
 std::array<Grid<float>, 2> form_direction(const Grid<glm::vec3>& lab, double ppu,
                                           glm::ivec2 origin_px) {
   Grid<float> light(lab.width(), lab.height());
@@ -110,7 +74,7 @@ std::array<Grid<float>, 2> form_direction(const Grid<glm::vec3>& lab, double ppu
   });
   for (Grid<float>* grid : {&xx_yy, &xy2, &both})
     *grid = blur_in_picture(*grid, form_sigma_units * ppu, origin_px);
-  // Across the steepest change: a quarter turn, which the doubled angle takes twice.
+  // Forms run perpendicular to the gradient, which negates the doubled angle's vector.
   for (std::size_t i = 0; i < both.size(); ++i) {
     const float even = -1.0F / std::max(both[i], 1e-9F);
     xx_yy[i] *= even;
@@ -119,8 +83,8 @@ std::array<Grid<float>, 2> form_direction(const Grid<glm::vec3>& lab, double ppu
   return {std::move(xx_yy), std::move(xy2)};
 }
 
-// Doubled angles of the sky's strokes: about level, or around the hills of a noise, which makes
-// whorls; empty where the window has no sky.
+// Doubled angles of the sky's strokes: nearly level, or along the contours of a noise, which gives
+// swirls. Empty where the window has no sky.
 std::array<Grid<float>, 2> sky_direction(const StyleBrushwork& brushwork,
                                          const GuidanceBuffers& guidance,
                                          const StylePaintParameters& parameters,
@@ -130,7 +94,7 @@ std::array<Grid<float>, 2> sky_direction(const StyleBrushwork& brushwork,
   if (!seen) return {};
   const int width = guidance.width();
   const int height = guidance.height();
-  Grid<float> hills(width + 2, height + 2, 0.0F);  // and a pixel around
+  Grid<float> hills(width + 2, height + 2, 0.0F);  // with a border of one pixel
   for (int octave = 0; octave < swirl_octaves; ++octave) {
     const double finer = 1.0 / (1 << octave);
     const Grid<float> noise = make_image_noise(
@@ -140,23 +104,23 @@ std::array<Grid<float>, 2> sky_direction(const StyleBrushwork& brushwork,
     const float share = octave == 0 ? 0.95F : 0.3F;
     for (std::size_t i = 0; i < hills.size(); ++i) hills[i] += share * noise[i];
   }
-  const bool swirls = has_whorls(brushwork);
+  const bool swirls = has_swirls(brushwork);
   const auto level = static_cast<float>(0.5 * std::max(brushwork.level, 0.0));
-  const double most = 0.12 * (1.0 - std::clamp(brushwork.level, 0.0, 1.0)) + 0.02;
+  const double max_angle = 0.12 * (1.0 - std::clamp(brushwork.level, 0.0, 1.0)) + 0.02;
   std::array<Grid<float>, 2> of = {Grid<float>(width, height), Grid<float>(width, height)};
   parallel_ranges(height, 16, [&](int begin, int end) {
     for (int y = begin; y != end; ++y)
       for (int x = 0; x < width; ++x) {
         const std::size_t i = guidance.depth_m.index(x, y);
         if (!guidance.is_sky(i)) continue;
-        if (swirls) {  // along the contour: the gradient turned by a quarter
+        if (swirls) {  // along the contour: perpendicular to the gradient
           const float down = hills(x + 1, y + 2) - hills(x + 1, y);
           const float right = hills(x + 2, y + 1) - hills(x, y + 1);
           const float even = 1.0F / std::max(down * down + right * right, 1e-12F);
           of[0][i] = (down * down - right * right) * even + level;
           of[1][i] = -2.0F * down * right * even;
         } else {
-          const exact::Turn turn = exact::turn(2.0 * most * hills(x + 1, y + 1));
+          const exact::Turn turn = exact::turn(2.0 * max_angle * hills(x + 1, y + 1));
           of[0][i] = static_cast<float>(turn.cosine);
           of[1][i] = static_cast<float>(turn.sine);
         }
@@ -165,7 +129,7 @@ std::array<Grid<float>, 2> sky_direction(const StyleBrushwork& brushwork,
   return of;
 }
 
-// Half of a doubled angle, by square roots alone.
+// Unit vector of half of a doubled angle, by square roots alone.
 glm::vec2 half_turn(float cosine, float sine) {
   const float length = std::sqrt(cosine * cosine + sine * sine);
   if (!(length > 1e-6F)) return {1.0F, 0.0F};
@@ -176,27 +140,21 @@ glm::vec2 half_turn(float cosine, float sine) {
 
 }  // namespace
 
-bool has_whorls(const StyleBrushwork& sky) {
-  return sky.level < max_level_of_whorls && sky.coherence > min_coherence_of_whorls;
+bool has_swirls(const StyleBrushwork& sky) {
+  return sky.level < max_level_of_swirls && sky.coherence > min_coherence_of_swirls;
 }
 
-StyleBrushwork brushwork_of(const Style& style, LandCoverClass id) {
+const StyleBrushwork& brushwork_of(const Style& style, LandCoverClass id) {
   const auto own = [&](LandCoverClass of) -> const StyleBrushwork& {
     return style.brushwork[static_cast<std::size_t>(of)];
   };
-  const StyleBrushwork* found = &own(id);
-  if (!(found->length_px > 0.0))
-    for (const LandCoverClass relative : painted_relatives(id))
-      if (own(relative).length_px > 0.0) {
-        found = &own(relative);
-        break;
-      }
-  for (std::size_t k = 0; k < style.brushwork.size() && !(found->length_px > 0.0); ++k)
-    found = &style.brushwork[style.brushwork.size() - 1 - k];
-  StyleBrushwork brushwork = *found;
-  brushwork.length_px = std::min(brushwork.length_px, max_length_px);
-  brushwork.width_px = std::min(brushwork.width_px, max_width_px);
-  return brushwork;
+  if (own(id).length_px > 0.0) return own(id);
+  if (id == water && own(sky).length_px > 0.0) return own(sky);  // as for its colours
+  for (const LandCoverClass relative : relatives_of(id))
+    if (own(relative).length_px > 0.0) return own(relative);
+  for (std::size_t k = style.brushwork.size(); k-- > 0;)
+    if (style.brushwork[k].length_px > 0.0) return style.brushwork[k];
+  return own(id);
 }
 
 Grid<glm::vec2> make_stroke_direction(const Style& style, const GuidanceBuffers& guidance,

@@ -4,21 +4,22 @@
 
 namespace belvedere {
 
-// Where strokes of a style run: level as far as the painting's are, along the forms of light and
-// dark, down the fall line; trees stand. In the sky level, or in swirls where the painting's are
-// neither level nor at random. Doubled angles are summed, so that opposite directions are one.
-// Reads fall_line, land_cover and depth_m, and ground.colour. Right beyond
-// stroke_direction_margin_px from the window's edges that are not the sheet's.
+// Unit directions of the strokes: a mix of level (as far as in the painting), along light and dark
+// forms and down the fall line; forests have upright strokes. Sky strokes are level, or swirls
+// where the painting's are coherent but not level. Doubled angles are summed, so that opposite
+// directions count as equal. Reads fall_line, land_cover, depth_m and `lab`, which is
+// StyleGround::colour. Exact from stroke_direction_margin_px inside those edges of the window that
+// are not the sheet's.
 Grid<glm::vec2> make_stroke_direction(const Style& style, const GuidanceBuffers& guidance,
                                       const Grid<glm::vec3>& lab,
                                       const StylePaintParameters& parameters, glm::ivec2 origin_px);
 int stroke_direction_margin_px(const StylePaintParameters& parameters);
 
-// Whether the strokes of a sky run in whorls.
-bool has_whorls(const StyleBrushwork& sky);
+// Whether the strokes of a sky run in swirls.
+bool has_swirls(const StyleBrushwork& sky);
 
-// The brushwork a class is painted with: its own, or that of the nearest relative that the painting
-// shows; lengths and widths capped. length_px 0: the style has none at all.
-StyleBrushwork brushwork_of(const Style& style, LandCoverClass id);
+// The brushwork of a class: its own, or that of the most closely related class that the painting
+// shows. length_px 0: the style has no brushwork.
+const StyleBrushwork& brushwork_of(const Style& style, LandCoverClass id);
 
 }  // namespace belvedere

@@ -41,16 +41,17 @@ glm::vec3 three_numbers(const ConfigValue& value, const std::string& name, doubl
 glm::vec3 lab_colour(const ConfigValue& value, const std::string& name) {
   const std::optional<glm::vec3> colour = colour_of_hex(as_string(value, name));
   if (!colour)
-    refuse_value(value, name, describe(value), "\"#rrggbb\" in encoded sRGB, as \"#7aa3cc\"");
+    refuse_value(value, name, describe(value), "\"#rrggbb\" in encoded sRGB, such as \"#7aa3cc\"");
   return glm::vec3(to_oklab(*colour));
 }
 
 template <class Read>
-auto read_list(const ConfigValue& value, const std::string& name, std::size_t most, Read read) {
+auto read_list(const ConfigValue& value, const std::string& name, std::size_t max_count,
+               Read read) {
   const ConfigArray& array = as_array(value, name);
-  if (array.size() > most)
+  if (array.size() > max_count)
     refuse_value(value, name, fmt::format("{} values", array.size()),
-                 fmt::format("at most {}", most));
+                 fmt::format("at most {}", max_count));
   std::vector<glm::vec3> out;
   for (const ConfigValue& each : array) out.push_back(read(each));
   return out;
@@ -89,7 +90,7 @@ void read_sky_grid(const ConfigValue& value, const std::string& name, StyleSky& 
     const std::size_t columns = rows.empty() ? 0 : as_array(rows.front(), name).size();
     if (columns == 0 || columns > max_sky_side || rows.size() > max_sky_side)
       refuse_value(*medians, name, fmt::format("{} rows of {} colours", rows.size(), columns),
-                   fmt::format("1 … {} rows of as many colours each", max_sky_side));
+                   fmt::format("1 … {0} rows of 1 … {0} colours", max_sky_side));
     sky.medians = Grid<glm::vec3>(static_cast<int>(columns), static_cast<int>(rows.size()));
     for (std::size_t j = 0; j < rows.size(); ++j) {
       const ConfigArray& row = as_array(rows[j], name);
@@ -115,12 +116,13 @@ void read_sky_grid(const ConfigValue& value, const std::string& name, StyleSky& 
         const ConfigArray& numbers = as_array(*quantiles, name);
         if (numbers.size() != change.quantiles.size())
           refuse_value(*quantiles, name, fmt::format("{} quantiles", numbers.size()),
-                       "seven: at shares .02 .1 .25 .5 .75 .9 .98");
+                       "seven, at shares .02 .1 .25 .5 .75 .9 .98");
         for (std::size_t q = 0; q < numbers.size(); ++q) {
           change.quantiles[q] = as_number(numbers[q], name);
           if (!(std::abs(change.quantiles[q]) <= 100.0) ||
               (q > 0 && change.quantiles[q] < change.quantiles[q - 1]))
-            refuse_value(numbers[q], name, describe(numbers[q]), "rising quantiles, -100 … 100");
+            refuse_value(numbers[q], name, describe(numbers[q]),
+                         "quantiles in ascending order, -100 … 100");
         }
       }
       each.end();
@@ -162,7 +164,7 @@ Style build_style(const ConfigValue& root, const std::string& name) {
           read_brushwork(entry.value, name);
   }
   if (const ConfigValue* grid = reader.known("sky_grid")) read_sky_grid(*grid, name, style.sky);
-  std::vector<std::string> keys = of_palette;  // for a misspelt key all that may stand here
+  std::vector<std::string> keys = of_palette;  // all allowed keys, for messages on misspelt ones
   for (const char* key : {"origin", "licence", "notes", "units_per_px", "broken", "vapour",
                           "form_deviation", "trend", "hue_by_light", "brushwork", "sky_grid"})
     keys.emplace_back(key);

@@ -15,8 +15,8 @@ namespace belvedere {
 namespace {
 
 constexpr double detail_share = 0.5;
-constexpr double relief_sigma_px = 0.45;  // so that single pixels of paint do not glitter
-// Of the threads of a canvas, units: along and across.
+constexpr double relief_sigma_px = 0.45;  // avoids glitter of single pixels
+// Size of the canvas threads, units: along and across.
 constexpr double thread_units = 3.2;
 constexpr double thread_width_units = 1.0;
 
@@ -24,7 +24,7 @@ double detail_sigma_px(const StylePaintParameters& parameters) {
   return 1.6 * parameters.pixels_per_unit + 0.6;
 }
 
-// Light on a slope is measured over this far each way: a unit and a half of the sheet.
+// Distance each way over which the slope of the paint is measured: about 1.2 units of the sheet.
 int relief_step_px(const StylePaintParameters& parameters) {
   return std::max(1, static_cast<int>(1.2 * parameters.pixels_per_unit + 0.5));
 }
@@ -56,7 +56,7 @@ Grid<glm::vec3> finish_style(const Style& style, const StyleWindow& window,
   for (int y = around.y0; y < around.y1; ++y)
     for (int x = around.x0; x < around.x1; ++x)
       light(x - around.x0, y - around.y0) = window.ground.colour(x - origin.x, y - origin.y).x;
-  const Grid<float> calm =
+  const Grid<float> smoothed =
       blur_in_picture(light, detail_sigma_px(parameters), {around.x0, around.y0});
   const Grid<float> height =
       blur_in_picture(canvas.height, relief_sigma_px, {canvas_rect.x0, canvas_rect.y0});
@@ -75,11 +75,11 @@ Grid<glm::vec3> finish_style(const Style& style, const StyleWindow& window,
         glm::vec3 paint = canvas.colour(u, v);
         if (!guidance.is_sky(i)) {
           const std::size_t k = light.index(x - around.x0, y - around.y0);
-          paint.x += detail * (light[k] - calm[k]);
+          paint.x += detail * (light[k] - smoothed[k]);
         }
         const float slope = height.clamped(u - step, v) - height.clamped(u + step, v) +
                             height.clamped(u, v - step) - height.clamped(u, v + step);
-        // A ridge is lit where it rises from the upper left.
+        // Light from the upper left brightens slopes that face it.
         paint.x -= static_cast<float>(parameters.paint_relief) * std::clamp(slope, -0.8F, 0.8F) *
                    (0.5F + paint.x);
         if (!weave.empty())

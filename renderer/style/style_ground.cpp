@@ -21,20 +21,21 @@ namespace {
 
 // Sizes in units of the sheet.
 constexpr double contrast_sigma_units = 14.0;
-constexpr double calm_sigma_units = 2.0;      // … and once more that with all vapour
-constexpr double region_sigma_units = 110.0;  // of more or less contrast
+constexpr double bilateral_sigma_units = 2.0;  // doubled at vapour 1
+constexpr double region_sigma_units = 110.0;   // of regional variation of contrast
 constexpr double usual_contrast = 1.1;
-// Deviation of L between 2 and 12 px of a painting, measured on renders of the program's scenes.
+// Standard deviation of L between sigma 2 and 12 px, measured on renders of the program's scenes.
 constexpr double program_form_deviation = 0.058;
-// Colours that differ by this are different things.
-constexpr float calm_tolerance = 0.07F;
-// Shares of the painting's trend that are laid on: its haze has some of it already.
+// Range sigma of the bilateral filter, OKLab.
+constexpr float bilateral_tolerance = 0.07F;
+// Shares of the painting's trend that are applied; haze already contains some of it.
 constexpr glm::vec3 trend_share{0.6F, 0.35F, 0.35F};
-// Vapour: less of it looked like no air at all, more of it hid ranges. Far away, and in valleys.
+// Strength of vapour far away and in valleys. Set by eye: with less, air was invisible; with more,
+// ranges disappeared.
 constexpr double min_vapour = 0.1;
 constexpr double far_vapour = 0.22;
 constexpr double valley_vapour = 0.16;
-constexpr double valley_depth_m = 250.0;  // above the lowest ground within 900 m it thins by e
+constexpr double valley_depth_m = 250.0;  // e-folding height above the lowest ground within 900 m
 constexpr double max_vapour = 0.6;
 
 float vapour_on(LandCoverClass id) {
@@ -49,7 +50,7 @@ float vapour_on(LandCoverClass id) {
   }
 }
 
-// The air of a style, near to far, as it stands before ground.
+// Colours of a style's air in front of ground, at medium distance and at the horizon.
 struct Air {
   explicit Air(const Palette& palette)
       : middle(glm::vec3(0.3 * to_oklab(palette.haze_near) + 0.7 * to_oklab(palette.haze_far))),
@@ -78,18 +79,18 @@ glm::vec3 in_air(glm::vec3 lab, const Style& style, const Air& air,
   return glm::mix(lab, colour, vapour);
 }
 
-// The painting's middle forms beside the program's: strokes mix them, so a little more of them is
-// laid below.
+// Factor on the contrast of medium-scale forms: the painting's relative to the program's. Strokes
+// reduce this contrast, so the usual factor is above 1.
 double form_contrast_of(const Style& style, const StylePaintParameters& parameters) {
   if (parameters.form_contrast > 0.0) return parameters.form_contrast;
   if (!(style.form_deviation > 0.0)) return usual_contrast;
   return std::clamp(usual_contrast * style.form_deviation / program_form_deviation, 0.92, 1.4);
 }
 
-// Light and dark of the size of mountains' sides, of ground alone, made a little stronger, here
-// more and there less.
-void raise_forms(Grid<glm::vec3>& lab, const Style& style, const GuidanceBuffers& guidance,
-                 const StylePaintParameters& parameters, glm::ivec2 origin_px) {
+// Strengthens the contrast of forms as large as mountain sides, on the ground only, with regional
+// variation.
+void strengthen_forms(Grid<glm::vec3>& lab, const Style& style, const GuidanceBuffers& guidance,
+                      const StylePaintParameters& parameters, glm::ivec2 origin_px) {
   const double contrast_of_all = form_contrast_of(style, parameters);
   const double ppu = parameters.pixels_per_unit;
   Grid<float> light(lab.width(), lab.height());
@@ -115,9 +116,9 @@ void raise_forms(Grid<glm::vec3>& lab, const Style& style, const GuidanceBuffers
   });
 }
 
-// Neighbours that the bilateral filter looks at: a disc of few of them, so that a pixel costs the
-// same at every size of print. The same number whatever the spacing.
-struct CalmKernel {
+// Taps of the bilateral filter: a sparse disc with a fixed number of taps, so that the cost per
+// pixel does not depend on the size of the print.
+struct BilateralKernel {
   struct Neighbour {
     int x, y;
     float weight;
@@ -126,14 +127,14 @@ struct CalmKernel {
   int reach_px = 0;
 };
 
-double calm_sigma_px(const Style& style, const StylePaintParameters& parameters) {
-  return calm_sigma_units * (1.0 + style.vapour) * parameters.pixels_per_unit;
+double bilateral_sigma_px(const Style& style, const StylePaintParameters& parameters) {
+  return bilateral_sigma_units * (1.0 + style.vapour) * parameters.pixels_per_unit;
 }
 
-CalmKernel calm_kernel(double sigma_px) {
+BilateralKernel bilateral_kernel(double sigma_px) {
   constexpr int rings = 3;
   const int step = std::max(1, static_cast<int>(sigma_px * 1.5 / rings + 0.5));
-  CalmKernel kernel;
+  BilateralKernel kernel;
   kernel.reach_px = rings * step;
   for (int y = -rings; y <= rings; ++y)
     for (int x = -rings; x <= rings; ++x) {
@@ -146,9 +147,9 @@ CalmKernel calm_kernel(double sigma_px) {
   return kernel;
 }
 
-Grid<glm::vec3> calmed(const Grid<glm::vec3>& lab, const CalmKernel& kernel) {
+Grid<glm::vec3> bilateral_filter(const Grid<glm::vec3>& lab, const BilateralKernel& kernel) {
   Grid<glm::vec3> out(lab.width(), lab.height());
-  constexpr float narrow = 1.0F / (16.0F * calm_tolerance * calm_tolerance);
+  constexpr float narrow = 1.0F / (16.0F * bilateral_tolerance * bilateral_tolerance);
   parallel_rows(lab.height(), [&](int y) {
     for (int x = 0; x < lab.width(); ++x) {
       const glm::vec3 own = lab(x, y);
@@ -157,7 +158,7 @@ Grid<glm::vec3> calmed(const Grid<glm::vec3>& lab, const CalmKernel& kernel) {
       for (const auto& at : kernel.neighbours) {
         const glm::vec3& other = lab.clamped(x + at.x, y + at.y);
         const glm::vec3 apart = other - own;
-        // exp(-d²/2t²) as (1 - d²/16t²)^8: the same bits everywhere, and cheap.
+        // exp(-d²/2t²) approximated by (1 - d²/16t²)^8: cheap, with the same bits on all machines.
         float like = std::max(0.0F, 1.0F - narrow * glm::dot(apart, apart));
         like *= like;
         like *= like;
@@ -194,16 +195,16 @@ StyleGround make_style_ground(const Style& style, const GuidanceBuffers& guidanc
   paint_style_sky(lab, style, guidance, parameters, origin_px);
   for (std::size_t i = 0; i < before_sky.size(); ++i)
     lab[i] = glm::mix(lab[i], before_sky[i], veil[i]);
-  raise_forms(lab, style, guidance, parameters, origin_px);
+  strengthen_forms(lab, style, guidance, parameters, origin_px);
   StyleGround ground;
-  ground.calm = calmed(lab, calm_kernel(calm_sigma_px(style, parameters)));
+  ground.smoothed = bilateral_filter(lab, bilateral_kernel(bilateral_sigma_px(style, parameters)));
   ground.colour = std::move(lab);
   return ground;
 }
 
 int style_ground_margin_px(const Style& style, const StylePaintParameters& parameters) {
   return blur_reach_px(contrast_sigma_units * parameters.pixels_per_unit) +
-         calm_kernel(calm_sigma_px(style, parameters)).reach_px;
+         bilateral_kernel(bilateral_sigma_px(style, parameters)).reach_px;
 }
 
 }  // namespace belvedere

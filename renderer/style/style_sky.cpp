@@ -16,23 +16,22 @@
 namespace belvedere {
 namespace {
 
-// The medians cover the upper part of the sky: below it, among summits, the last row goes on.
+// The medians cover the upper part of the sky; below it, among summits, the last row continues.
 constexpr double covered_rows = 0.8;
 constexpr int octaves = 4;
 constexpr double octave_share = 0.55;
-// Deviation of the first octave's kernel to the half-correlation length of the sum of all: a
-// Gaussian alone has .6, shorter octaves make the sum's shorter.
+// Sigma of the first octave's kernel over the half-correlation length of the sum of octaves. A
+// single Gaussian has .6; finer octaves shorten the correlation of the sum.
 constexpr double sigma_per_length = 1.28;
-// The second change is what the first leaves, and smaller.
-constexpr double second_length = 0.7;
-// Clouds lie: never more upright than this, and as streaks where the painting's strokes lie level.
+// Min ratio of a cloud's width to its height; level strokes of the painting add up to
+// level_flatness.
 constexpr double min_flatness = 1.5;
 constexpr double level_flatness = 3.0;
 // Normal deviates at the shares of StyleSkyChange::quantiles.
 constexpr std::array<double, 7> normal_deviates = {-2.054, -1.282, -0.674, 0.0,
                                                    0.674,  1.282,  2.054};
 
-// Rows of the window that hold sky; none: empty.
+// The range of rows of the window that contain sky; nothing where there is none.
 std::optional<std::pair<int, int>> rows_of_sky(const GuidanceBuffers& guidance) {
   int first = guidance.height();
   int end = 0;
@@ -47,8 +46,8 @@ std::optional<std::pair<int, int>> rows_of_sky(const GuidanceBuffers& guidance) 
   return std::pair(first, end);
 }
 
-// Coefficients of B-splines, L, a, b, that come near the colours: a spline of the colours
-// themselves would lose too much of their differences.
+// B-spline coefficients of L, a and b that approximately interpolate the colours. The colours
+// themselves as coefficients would be smoothed too much.
 std::array<Grid<float>, 3> spline_of(const Grid<glm::vec3>& colours) {
   std::array<Grid<float>, 3> planes;
   for (int c = 0; c < 3; ++c) {
@@ -75,10 +74,10 @@ struct SkyWindow {
 Grid<float> change_noise(const StyleSkyChange& change, int which, double flatness,
                          const SkyWindow& window, const StylePaintParameters& parameters) {
   const double ppu = parameters.pixels_per_unit;
-  const double shorter = which == 0 ? 1.0 : second_length;
-  double length_x = shorter * change.length_x * parameters.sheet_px.x / ppu;
-  double length_y = shorter * change.length_y * parameters.sky_rows / ppu;
-  // A sky much higher than the painting's would stand its clouds on end: they keep their size.
+  double length_x = change.length_x * parameters.sheet_px.x / ppu;
+  double length_y = change.length_y * parameters.sky_rows / ppu;
+  // In a sky much taller than the painting's, clouds would become upright: flatten, keeping the
+  // area.
   if (const double flatter = flatness * length_y / length_x; flatter > 1.0) {
     length_x *= std::sqrt(flatter);
     length_y /= std::sqrt(flatter);

@@ -5,16 +5,16 @@
 
 namespace belvedere {
 
-// The painting's sky: a grid of its colours, softened, and on it the two ways in which its colour
-// mostly changes, as noise with the painting's lengths and its distribution. Everything is a
-// function of the place on the sheet.
+// The painting's sky: a smoothed grid of its colours plus its two principal components of colour,
+// as noise with the painting's correlation lengths and distribution. Everything is a function of
+// the position on the sheet.
 
-// Lays it, in OKLab, over the sky pixels of a window whose top-left pixel is `origin_px`.
+// Blends it, in OKLab, into the sky pixels of a window whose top-left pixel is `origin_px`.
 void paint_style_sky(Grid<glm::vec3>& lab, const Style& style, const GuidanceBuffers& guidance,
                      const StylePaintParameters& parameters, glm::ivec2 origin_px);
 
-// Amount of a change whose normal deviate is `normal`, by its quantiles (of normal deviates at
-// shares .02 … .98), straight between and level beyond them.
+// Maps a normal deviate to the amount of a change by its quantiles (at shares .02 … .98): linear
+// between them, constant beyond.
 double shaped_amount(const StyleSkyChange& change, double normal);
 
 }  // namespace belvedere

@@ -12,8 +12,8 @@ namespace belvedere {
 namespace {
 
 constexpr int tile_px = 64;
-constexpr float taper = 0.55F;   // a stroke grows this much narrower towards its end
-constexpr float bristle = 0.5F;  // how unevenly its hairs give paint
+constexpr float taper = 0.55F;   // share of its width that a stroke loses towards its end
+constexpr float bristle = 0.5F;  // variation of paint between its hairs
 constexpr float hair_light = 0.02F;
 constexpr float gate_hue_weight = 2.5F;
 constexpr float bare_height = 0.4F;
@@ -24,10 +24,10 @@ struct Piece {
   glm::vec2 way;
   float per_square;  // 1 / length²
   float length;
-  float along;  // of the stroke before it
+  float along;  // length of the stroke before this piece
 };
 
-// A stroke made ready to be painted.
+// A stroke prepared for painting.
 struct Ready {
   std::array<Piece, StyleStroke::max_points - 1> pieces;
   int count = 0;
@@ -51,11 +51,11 @@ struct Ready {
   }
 };
 
-// Where a place lies on a stroke.
+// A position relative to a stroke.
 struct OnStroke {
-  float square = 1e9F;  // of the distance to its middle line, px²
+  float square = 1e9F;  // squared distance to its centreline, px²
   float along = 0.0F;   // px
-  float across = 0.0F;  // px, to the right positive
+  float across = 0.0F;  // px, positive to the right
 };
 
 inline OnStroke find_on(const Ready& ready, glm::vec2 place) {
@@ -75,7 +75,7 @@ inline OnStroke find_on(const Ready& ready, glm::vec2 place) {
   return best;
 }
 
-// How much paint the hairs give at `across` of -1…1 of the half width.
+// Amount of paint of the hairs at `across`, -1…1 in half widths.
 inline float hair_at(const StyleStroke& stroke, float across) {
   const float at = std::clamp(0.5F + 0.5F * across, 0.0F, 0.999F) * stroke.hair_count;
   const int k = static_cast<int>(at);
@@ -85,7 +85,7 @@ inline float hair_at(const StyleStroke& stroke, float across) {
          stroke.hair[static_cast<std::size_t>(k) + 1] * t;
 }
 
-// Columns of a row that the stroke may touch, from the middle of pixels at `y`.
+// Columns that the stroke may touch in the row of pixel centres at `y`.
 inline bool columns_of(const Ready& ready, float y, float reach, float& x0, float& x1) {
   x0 = 1e9F;
   x1 = -1e9F;
@@ -111,7 +111,7 @@ inline bool columns_of(const Ready& ready, float y, float reach, float& x0, floa
   return x0 <= x1;
 }
 
-// No stroke crosses the border of sky or water, nor leaves its surface.
+// Strokes do not cross borders of sky or water, nor jumps of distance.
 inline bool may_paint(const StyleStroke& stroke, LandCoverClass id, float depth_m) {
   using enum LandCoverClass;
   if (id != stroke.id && (id == sky || stroke.id == sky || id == water || stroke.id == water))
@@ -120,7 +120,7 @@ inline bool may_paint(const StyleStroke& stroke, LandCoverClass id, float depth_
                               depth_m >= stroke.depth_m * (1.0F - stroke.nearer));
 }
 
-// 1 where the ground has the colour at the seed, 0 where it is another: exp(-x⁴).
+// 1 where the ground has the colour at the seed, 0 where it differs: about exp(-x⁴).
 inline float gate_at(const StyleStroke& stroke, const glm::vec3& ground) {
   const glm::vec3 apart = ground - stroke.ground;
   const float x2 = (apart.x * apart.x + gate_hue_weight * (apart.y * apart.y + apart.z * apart.z)) /
@@ -164,7 +164,7 @@ void paint_stroke(const StyleStroke& stroke, const StyleWindow& window, PixelRec
       if (!may_paint(stroke, id, depth_m)) continue;
       const float hair = hair_at(stroke, on.across / stroke.half_width_px);
       const float alpha =
-          std::min(0.97F, stroke.alpha * cover * gate_at(stroke, window.ground.calm[i]) *
+          std::min(0.97F, stroke.alpha * cover * gate_at(stroke, window.ground.smoothed[i]) *
                               (1.0F + bristle * (hair - 0.7F) * (0.5F + gone)));
       if (alpha <= 0.01F) continue;
       const std::size_t to = canvas.colour.index(x - canvas_px.x, y - canvas_px.y);
@@ -179,7 +179,7 @@ void paint_stroke(const StyleStroke& stroke, const StyleWindow& window, PixelRec
   }
 }
 
-// Which strokes touch each tile of a rectangle, in their order.
+// The strokes that touch each tile of a rectangle, in painting order.
 class Bins {
  public:
   Bins(const std::vector<StyleStroke>& strokes, PixelRect rect)

@@ -9,42 +9,42 @@
 
 namespace belvedere {
 
-// A painting's strokes over a ground, as values: placed and coloured, then painted by tiles.
+// The strokes of a style: placed and coloured as values, then painted by tiles.
 //
-// They are not strokes of texture/strokes: those are colours in sRGB without a gate of colour for
-// every pixel, sorted by distance, and sized for trees and houses; these are a hundred times as
-// many, blend in OKLab and know only the ground.
+// They differ from those of texture/strokes, which are sRGB colours sorted by distance, sized for
+// trees and houses and without a colour gate at each pixel. These are a hundred times as many,
+// blend in OKLab and depend only on the ground.
 
-// What a layer does with the brushwork of a class.
+// Factors of a layer on the brushwork of a class.
 struct StyleLayer {
-  double length;  // of the painting's, as all of these
+  double length;  // factor on the painting's, like width, spacing, jitter and gate
   double width;
   double alpha;    // 0…1
-  double spacing;  // of the distance at which strokes of its own size cover twice
+  double spacing;  // of the distance at which strokes of the fitted size cover the ground twice
   double jitter;   // of the residuals
-  double gate;     // of the tolerance of colour
-  double accents;  // share of strokes that take one, 0…1
+  double gate;     // of the colour tolerance
+  double accents;  // share of strokes with an accent colour, 0…1
 };
 const std::vector<StyleLayer>& style_layers();
 
-// One stroke. Places are px from the middle of its own pixel's top-left corner, so that they have
+// One stroke. Points are px relative to the top-left corner of its seed's pixel, so that they have
 // the same bits in every window.
 struct StyleStroke {
   static constexpr int max_points = 9;
   static constexpr int hairs = 8;
   std::uint64_t order = 0;  // hash of its cell: lower is painted first
-  glm::ivec2 pixel_px{0};   // of the sheet, where its seed lies
+  glm::ivec2 pixel_px{0};   // pixel of the sheet with its seed
   std::array<glm::vec2, max_points> points{};
   int count = 0;  // of points, at least 2
   float half_width_px = 0.5F;
   float alpha = 0.8F;
   float hair_count = 1.0F;          // across, at most `hairs` - 1
-  std::array<float, hairs> hair{};  // how much paint each gives, 0…1
+  std::array<float, hairs> hair{};  // amount of paint of each, 0…1
   glm::vec3 colour{0.0F};           // OKLab
-  glm::vec3 ground{0.0F};  // the ground's where it begins: beyond the gate around it it ends
+  glm::vec3 ground{0.0F};  // colour at the seed; a stroke ends where the ground differs by `gate`
   float gate = 0.075F;
   float depth_m = 0.0F;
-  float farther = 0.02F;  // it ends where the ground lies farther than that by this share …
+  float farther = 0.02F;  // it ends where the ground is farther than depth_m by this share …
   float nearer = 0.02F;   // … or nearer
   LandCoverClass id = LandCoverClass::sky;
 };
@@ -61,26 +61,27 @@ struct StyleWindow {
 std::vector<StyleStroke> place_style_strokes(const Style& style, const StyleWindow& window,
                                              const StylePaintParameters& parameters, int layer,
                                              PixelRect rect);
-// Dark strokes along silhouettes, on the nearer side, as far as `contour_lines` asks for them; in
-// their order. Reads depth_m.
+// Dark strokes along silhouettes, on the nearer side, with the strength `contour_lines`, in
+// painting order. Reads depth_m.
 std::vector<StyleStroke> place_contour_strokes(const Style& style, const StyleWindow& window,
                                                const StylePaintParameters& parameters,
                                                PixelRect rect);
-// How far a contour stroke looks for a silhouette, and for its direction; 0: there are none.
+// Search radius for silhouettes and their directions, px; 0: no contour strokes.
 int contour_look_px(const StylePaintParameters& parameters);
-// Strokes of rows of cells, in the order in which they are painted.
+// The strokes of all rows of cells in painting order.
 std::vector<StyleStroke> in_order(const std::vector<std::vector<StyleStroke>>& rows);
-// How far from its seed a stroke paints, and how far it looks from what it paints.
+// Max distance, px, between a stroke's seed and what it paints; and between a painted pixel and
+// what its strokes read.
 int style_seed_reach_px(const Style& style, const StylePaintParameters& parameters);
 int style_stroke_margin_px(const Style& style, const StylePaintParameters& parameters);
 
-// OKLab, and how high the paint stands, 0…1.
+// Colour in OKLab, and thickness of the paint, 0…1.
 struct StyleCanvas {
   Grid<glm::vec3> colour;
   Grid<float> height;
 };
-// All layers over a rectangle of the sheet, which must lie style_stroke_margin_px inside the window
-// or at the sheet's edge.
+// Paints all layers over a rectangle of the sheet, which must lie style_stroke_margin_px inside the
+// window or at the sheet's edge.
 StyleCanvas paint_style_strokes(const Style& style, const StyleWindow& window,
                                 const StylePaintParameters& parameters, PixelRect rect);
 

@@ -34,14 +34,14 @@ std::string quoted(const std::string& text) {
 std::string quoted_colour(const glm::vec3& rgb) { return '"' + hex_colour(rgb) + '"'; }
 std::string quoted_lab(const glm::vec3& lab) { return quoted_colour(from_oklab(lab)); }
 
-// Three digits, without a zero's sign and without zeros at the end.
+// Three decimals, without negative zero and without trailing zeros.
 std::string number(double value) {
   std::string text = fmt::format("{:.3f}", value);
   if (text == "-0.000") text = "0.000";
   while (text.ends_with('0') && !text.ends_with(".0")) text.pop_back();
   return text;
 }
-std::string finer_number(double value) {  // small ones: axes of a sky
+std::string finer_number(double value) {  // for axes of a sky
   return fmt::format("{:.4f}", std::abs(value) < 0.00005 ? 0.0 : value);
 }
 
@@ -50,7 +50,7 @@ std::string thousandths(const glm::vec3& v) {
   return fmt::format("[{},{},{}]", whole(v.x), whole(v.y), whole(v.z));
 }
 
-// key = [a, b, …], broken into lines.
+// key = [a, b, …], wrapped at max_line.
 std::string list(const std::string& key, const std::vector<std::string>& values) {
   std::string joined;
   for (const std::string& value : values) joined += (joined.empty() ? "" : ", ") + value;

@@ -17,15 +17,15 @@ std::string doubt_of_position(const RasterFile& file) {
                                      file.source().path, doubt);
 }
 
-// A band that holds colours: what a user took for a DEM is a picture of it.
+// Refuses a band of colours: a picture of the terrain instead of a DEM.
 void refuse_colours(const RasterFile& file) {
   const BandMeaning meaning = file.meaning();
   if (!meaning.palette && !meaning.colour) return;
   throw Error(ErrorKind::input, file.source().path,
               meaning.palette
-                  ? fmt::format("band {} holds numbers of a colour palette, not heights",
+                  ? fmt::format("band {} contains indices of a colour palette, not heights",
                                 file.source().band)
-                  : fmt::format("is a picture in colours (band {} of {} is {}), not heights",
+                  : fmt::format("is a colour picture (band {} of {} is {}), not heights",
                                 file.source().band, file.bands(), meaning.name),
               "the elevation model itself, with heights as numbers; tiles whose colours encode "
               "heights (Terrarium, Mapbox) must be decoded first");
@@ -38,13 +38,14 @@ void check_height_sources(const std::vector<RasterSource>& sources, Progress& pr
     const RasterFile file(source);
     refuse_colours(file);
     if (file.meaning().bytes)
-      progress.note(fmt::format(
-          "{}: has 8 bits, thus heights of 0…255 only; check that it is not a shaded relief or "
-          "another picture",
-          source.path));
+      progress.note(
+          fmt::format("{}: has 8 bits, so heights are limited to 0…255; check that it is not a "
+                      "shaded relief or "
+                      "another picture",
+                      source.path));
     if (const double feet = file.undeclared_foot_m(); feet > 0.0)
       progress.note(fmt::format(
-          "{}: its coordinate system counts in feet, but its heights have no unit and are taken as "
+          "{}: its coordinate system is in feet, but its heights have no unit and are read as "
           "metres; if they are feet too, set `unit = \"{}\"`",
           source.path, feet == 0.3048 ? "ft" : "us-ft"));
     if (const std::string doubt = doubt_of_position(file); !doubt.empty()) progress.note(doubt);

@@ -14,8 +14,8 @@ struct FormerOption {
   std::string_view present;
 };
 
-// Names of version 0.1. A row is removed in the version after the one that renamed it. Without
-// dashes: a command of the group.
+// Names changed in version 0.2. A row is removed in the next version. Names without dashes are
+// commands of the group.
 const std::vector<FormerOption>& former_options() {
   static const std::vector<FormerOption> rows = {
       {{"texture"}, "knit", "seam"},

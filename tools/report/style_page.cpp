@@ -15,7 +15,7 @@ namespace belvedere::tools {
 namespace {
 
 constexpr int style_painting_px = 720;  // longest side of a painting on the page
-// Pieces of paint, in pixels of the painting, and how much larger they are shown.
+// Size of pieces of the painting, in its pixels, and their enlargement.
 constexpr int piece_width_px = 110;
 constexpr int piece_height_px = 60;
 constexpr int piece_zoom = 3;
@@ -32,9 +32,9 @@ using ClassCounts = std::array<std::size_t, land_cover_class_count>;
 void add_ramps(Report& page, const Style& style, const Palette& reference,
                const ClassCounts& counts) {
   page.section("ramps", "Colours by class and light",
-               "Of each class its colours from shadow to full light, and below them those of the "
-               "palette summer. Hue is the painter's; which class is lighter than which is the "
-               "map's.");
+               "The colours of each class from shadow to full light, above those of the palette "
+               "summer. Hues come from the painting, the order of lightness among classes from the "
+               "palette.");
   ReportTable table({{"class", "class"},
                      {"from", "from"},
                      {"dark", "shadow"},
@@ -59,17 +59,18 @@ void add_ramps(Report& page, const Style& style, const Palette& reference,
 
 void add_strokes(Report& page, const Grid<glm::vec3>& painting, const Grid<std::uint8_t>& mask,
                  const Style& style) {
-  page.section("strokes", "Strokes at scale",
-               fmt::format("Of each class a piece of the painting, {} times as large, and strokes "
-                           "as the style says them, thrown at random over its colours.",
+  page.section("strokes", "Strokes to scale",
+               fmt::format("For each class a piece of the painting, enlarged {} times, and strokes "
+                           "with the style's measurements at random positions over its colours.",
                            piece_zoom));
-  ReportTable table({{"class", "class"},
-                     {"length", "length, px", ".1f"},
-                     {"width", "width, px", ".1f"},
-                     {"level", "level", "+.2f", "1: all strokes lie level, -1: upright"},
-                     {"form", "form", "+.2f", "1: along larger forms, -1: across"},
-                     {"coherence", "coherence", ".2f", "how far neighbours agree in direction"},
-                     {"deviation", "lightness", ".3f", "deviation between strokes, OKLab"}});
+  ReportTable table(
+      {{"class", "class"},
+       {"length", "length, px", ".1f"},
+       {"width", "width, px", ".1f"},
+       {"level", "level", "+.2f", "1: all strokes are level, -1: upright"},
+       {"form", "form", "+.2f", "1: along larger forms, -1: across"},
+       {"coherence", "coherence", ".2f", "agreement in direction of neighbouring strokes"},
+       {"deviation", "lightness", ".3f", "standard deviation of the residuals, OKLab"}});
   for (const LandCoverClassInfo& info : land_cover_classes()) {
     const StyleBrushwork& b = style.brushwork[static_cast<std::size_t>(info.id)];
     if (b.length_px <= 0.0) continue;
@@ -82,12 +83,12 @@ void add_strokes(Report& page, const Grid<glm::vec3>& painting, const Grid<std::
       page.picture("crop_" + std::string(info.name), *crop, words_of(info.id) + ", painted");
     page.picture("strokes_" + std::string(info.name),
                  stroke_swatch(style, info.id, piece_width_px, piece_height_px, piece_zoom),
-                 words_of(info.id) + ", by the style");
+                 words_of(info.id) + ", in the style");
   }
   page.table(table);
 }
 
-// Of the sky's height to its width, in the painting.
+// Ratio of the sky's height to its width in the painting.
 double sky_shape(const Grid<std::uint8_t>& mask) {
   int x0 = mask.width(), x1 = 0, y0 = mask.height(), y1 = 0;
   for (int y = 0; y < mask.height(); ++y)
@@ -107,7 +108,7 @@ void add_air(Report& page, const Grid<std::uint8_t>& mask, const Style& style) {
     page.picture("sky",
                  sky_swatch(style.sky, sky_width_px,
                             std::clamp(static_cast<int>(sky_width_px * sky_shape(mask)), 40, 600)),
-                 "a sky by the style: medians and the two main changes around them");
+                 "a sky in the style: medians and the two principal components of colour");
   ReportTable table({{"what", ""}, {"colour", "colour"}});
   const Palette& p = style.palette;
   table.row("haze, near", swatch(p.haze_near))
@@ -121,13 +122,13 @@ void add_air(Report& page, const Grid<std::uint8_t>& mask, const Style& style) {
   ReportTable figures({{"what", ""}, {"value", "value", ".3f"}});
   figures.row("broken paint", style.broken)
       .row("vapour", style.vapour)
-      .row("hue by light", style.hue_by_light)
-      .row("trend of lightness, foot to top", style.trend.x)
+      .row("share of hue variance by lightness", style.hue_by_light)
+      .row("trend of lightness, bottom to top", style.trend.x)
       .row("trend of a (green to red)", style.trend.y)
       .row("trend of b (blue to yellow)", style.trend.z)
-      .row("middle forms", style.form_deviation)
+      .row("contrast of medium-scale forms", style.form_deviation)
       .row("share of haze", p.haze_share)
-      .row("units a pixel", style.units_per_px);
+      .row("units per pixel of the painting", style.units_per_px);
   page.table(figures);
 }
 
@@ -138,8 +139,8 @@ void write_style_page(const std::string& folder, const std::string& painting_nam
                       const Style& style, const Palette& reference, const std::string& command) {
   Report page(folder);
   page.section("painting", painting_name,
-               "The painting and its classes in the colours of class maps; what counts nowhere is "
-               "near black.");
+               "The painting and its classes in the colours of class maps; unused pixels are near "
+               "black.");
   page.picture("painting", reduced_picture(painting, style_painting_px), "painting");
   page.picture("classes", reduced_picture(class_picture(mask), style_painting_px), "classes");
   page.section("notes", "What was derived, and from what");

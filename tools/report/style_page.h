@@ -9,9 +9,10 @@
 
 namespace belvedere::tools {
 
-// What `style fit` found, with pictures, in a folder that can be moved and read without a network:
-// the painting and its classes, of each class its colours beside the reference's and its strokes
-// beside the painter's, sky, air, what was derived and from what. Throws Error(output).
+// Writes the result of `style fit` as a page with pictures, in a folder that can be moved and read
+// offline: the painting and its classes, the colours of each class compared with the reference's
+// and its strokes with the painting's, sky, air, what was derived and from what. Throws
+// Error(output).
 void write_style_page(const std::string& folder, const std::string& painting_name,
                       const Grid<glm::vec3>& painting, const Grid<std::uint8_t>& mask,
                       const Style& style, const Palette& reference, const std::string& command);

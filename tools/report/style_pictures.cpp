@@ -17,7 +17,7 @@
 namespace belvedere::tools {
 namespace {
 
-constexpr double covering = 3.0;  // how many strokes lie over each place
+constexpr double covering = 3.0;  // mean number of strokes over a point
 constexpr std::size_t min_crop_texels = 600;
 
 glm::vec3 unpacked_rgb(std::uint32_t rgb) {
@@ -34,7 +34,8 @@ glm::vec3 sky_gradient(const Palette& palette, double at) {
   return glm::mix(from, to, static_cast<float>((at - a) / (b - a)));
 }
 
-// Directions within ± this have the mean `level` of cos 2θ: sin(2r) / 2r, by bisection.
+// The r for which directions uniform within ± r have the mean `level` of cos 2θ, which is
+// sin(2r) / 2r; by bisection.
 double direction_reach(double level) {
   double low = 1e-3;
   double high = 0.5 * std::numbers::pi;
@@ -109,7 +110,7 @@ Grid<glm::vec3> ramp_swatch(const Palette& palette, const Palette& reference, La
   Grid<glm::vec3> out(width_px, height_px);
   const std::vector<ClassPalette::Stop>& stops =
       reference.classes[static_cast<std::size_t>(id)].stops;
-  const double middle_m = stops[stops.size() / 2].altitude_m;  // as the fit takes it
+  const double middle_m = stops[stops.size() / 2].altitude_m;  // as in the fit
   for (int y = 0; y < height_px; ++y)
     for (int x = 0; x < width_px; ++x) {
       const double tone = (x + 0.5) / width_px;

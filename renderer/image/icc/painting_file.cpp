@@ -17,8 +17,8 @@ namespace belvedere {
 namespace {
 
 // Converts colours 0…1 of a profile embedded in a picture (RGB or grey; empty: sRGB) to sRGB:
-// relative colorimetric with black point compensation, clamped. Returns the profile's name; empty,
-// and not a bit changed, where the profile is sRGB to half a step of 8 bits.
+// relative colorimetric with black point compensation, clamped. Returns the profile's name. If the
+// profile equals sRGB within half an 8-bit step, returns an empty name and changes nothing.
 std::string to_srgb(Grid<glm::vec3>& encoded, const std::vector<std::uint8_t>& profile) {
   if (profile.empty() || encoded.empty() || profile == srgb_profile()) return {};
   const icc::Context context;
@@ -26,7 +26,7 @@ std::string to_srgb(Grid<glm::vec3>& encoded, const std::vector<std::uint8_t>& p
   const icc::Profile to = icc::open_profile(context, srgb_profile());
   const bool grey = from != nullptr && cmsGetColorSpace(from.get()) == cmsSigGrayData;
   if (from == nullptr || (!grey && cmsGetColorSpace(from.get()) != cmsSigRgbData))
-    throw Error(ErrorKind::input, "ICC profile", "is not one of RGB or grey");
+    throw Error(ErrorKind::input, "ICC profile", "is neither RGB nor grey");
   const DeviceParameters parameters{.intent = RenderingIntent::relative, .black_point = true};
   const icc::Transform transform = icc::make_transform(
       context, from, grey ? TYPE_GRAY_FLT : TYPE_RGB_FLT, to, TYPE_RGB_FLT, parameters);
@@ -38,7 +38,7 @@ std::string to_srgb(Grid<glm::vec3>& encoded, const std::vector<std::uint8_t>& p
                    static_cast<cmsUInt32Number>(width));
     for (int x = 0; x < width; ++x) out[x] = glm::clamp(out[x], 0.F, 1.F);
   };
-  // Many files carry sRGB of another maker, with rounded tables.
+  // Many files embed another vendor's sRGB profile with rounded tables.
   constexpr int steps = 9;
   constexpr float half_step = 0.5F / 255.F;
   std::vector<glm::vec3> lattice;
@@ -67,8 +67,8 @@ Grid<glm::vec3> read_painting(const std::string& path, Progress& progress, Grid<
   if (info.format == "openexr") return picture;
   if (info.notes.contains(image_io::orientation_note))
     progress.note(
-        fmt::format("{}: turned upright, as its Exif orientation asks; masks and guides "
-                    "must fit the upright picture of {} × {} pixels",
+        fmt::format("{}: turned upright according to its Exif orientation; masks and guides "
+                    "must match the upright picture of {} × {} pixels",
                     path, picture.width(), picture.height()));
   try {
     if (const std::string from = to_srgb(picture, info.icc_profile); !from.empty())

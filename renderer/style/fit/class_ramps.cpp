@@ -21,13 +21,13 @@ std::vector<glm::vec3> lighter_texels(std::vector<glm::vec3> texels, double with
   std::vector<float> lightness;
   lightness.reserve(texels.size());
   for (const glm::vec3& texel : texels) lightness.push_back(texel.x);
-  const float least = value_at_share(std::move(lightness), without);
-  std::erase_if(texels, [&](const glm::vec3& texel) { return texel.x < least; });
+  const float darkest = value_at_share(std::move(lightness), without);
+  std::erase_if(texels, [&](const glm::vec3& texel) { return texel.x < darkest; });
   return texels;
 }
 
-// A class that was seen in one light only (A3): its lightness beside the others is brought a share
-// of the way to what it is in the reference.
+// Usual light (A3), for classes seen in one light only: moves the lightness of a class relative to
+// the ground part of the way to its relative lightness in the reference.
 LabRamp usual_light(const LabRamp& ramp, const LabRamp& reference, double reference_ground,
                     double median, LightnessLimits limits, const LightLaw& law,
                     const ClassRampParameters& parameters) {
@@ -79,7 +79,7 @@ LabRamp stretch_ramp(const LabRamp& ramp, const LabRamp& reference, LightnessLim
   const double middle = 0.5 * (ramp[1].x + ramp[2].x);
   LabRamp out = ramp;
   for (glm::dvec3& colour : out) colour.x = middle + stretch * (colour.x - middle);
-  // More of it goes into shade than above the painter's own lights.
+  // Most of the added range goes into shade; the light end rises only a little.
   const double lightest =
       std::min(limits.max, ramp[3].x + 0.25 * std::max(0.0, 0.5 * (stretch - 1.0) * range) + 0.02);
   const double too_light = std::max(0.0, out[3].x - lightest);
@@ -110,7 +110,7 @@ SeenRamps fit_class_ramps(const StylePainting& painting, const LightLaw& law,
     const double median = median_lightness(texels);
     LabRamp ramp = usual_light(quantile_ramp(std::move(texels), parameters), reference[c],
                                reference_ground, median, limits, law, parameters);
-    for (glm::dvec3& colour : ramp) {  // hue that is light's own is no class's (A2)
+    for (glm::dvec3& colour : ramp) {  // remove hue that depends on lightness alone (A2)
       const glm::dvec2 hue = law.at(colour.x);
       colour.y += law.mix() * (hue.x - colour.y);
       colour.z += law.mix() * (hue.y - colour.z);

@@ -11,14 +11,14 @@
 namespace belvedere {
 
 struct ClassRampParameters {
-  // Of lightness within a class: where ramp_tones lie in the program's pictures.
+  // Quantiles of lightness within a class, at which ramp_tones lie in the program's pictures.
   std::array<double, 4> quantiles = {0.03, 0.19, 0.54, 0.97};
-  double span = 0.10;          // of rank, whose hues a colour is the mean of, each way
-  double strengthen = 1.15;    // of a mean's chroma, at most, toward the median chroma
-  double darkest_snow = 0.25;  // share of snow that is left out: rock shines through it
-  double own_light = 0.04;     // how far a class may be from its usual lightness among the others,
-  double to_usual = 0.6;       // and the share of the way beyond it that it is moved
-  double min_range = 0.85;     // of the reference's range of lightness, that a ramp must have
+  double span = 0.10;          // hues are averaged over ranks within ± this share
+  double strengthen = 1.15;    // max gain of a mean's chroma, towards the median chroma
+  double darkest_snow = 0.25;  // share of snow that is ignored: rock shows through
+  double own_light = 0.04;     // tolerated difference from the usual relative lightness,
+  double to_usual = 0.6;       // and the share of the excess by which a class is moved
+  double min_range = 0.85;     // min share of the reference's range of lightness
   double max_stretch = 2.6;
 };
 
@@ -27,16 +27,16 @@ struct SeenRamps {
   ClassFlags seen{};
 };
 
-// The ramp of the colours of a class (recipe A1): lightness at the quantiles, hue by means weighted
-// with chroma, which is the colour the eye takes away; medians are mud. At least one colour.
+// The ramp of a class from its colours (recipe A1): lightness at the quantiles, hue as a mean
+// weighted with chroma, because medians of mixed hues are nearly grey. Needs at least one colour.
 LabRamp quantile_ramp(std::vector<glm::vec3> texels, const ClassRampParameters& parameters = {});
 
 struct LightnessLimits {
   double min;
   double max;
 };
-// Light and shade must carry form (A4): at least `min_range` of the reference's range of lightness,
-// inside the painting's own. What is added takes its hue from the law of light.
+// Stretches a ramp to at least `min_range` of the reference's range of lightness, within the
+// limits, so that light and shade show form (A4). Added range takes its hue from the law of light.
 LabRamp stretch_ramp(const LabRamp& ramp, const LabRamp& reference, LightnessLimits limits,
                      const LightLaw& law, const ClassRampParameters& parameters = {});
 

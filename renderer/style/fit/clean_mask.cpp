@@ -17,8 +17,8 @@ namespace belvedere {
 namespace {
 
 constexpr std::uint8_t sky_label = static_cast<std::uint8_t>(LandCoverClass::sky);
-constexpr double hue_weight = 1.6;  // of a and b against L: steps of hue tell classes apart better
-constexpr std::size_t max_grouped = 20'000;  // texels that groups are found from
+constexpr double hue_weight = 1.6;  // of a and b relative to L: hue separates classes better
+constexpr std::size_t max_grouped = 20'000;  // max texels for clustering
 
 ClusterPlace cluster_place(const glm::vec3& lab) {
   return {static_cast<double>(lab.x), hue_weight * static_cast<double>(lab.y),
@@ -41,7 +41,7 @@ ClusterPlace median_place(const std::vector<ClusterPlace>& places) {
   return out;
 }
 
-// Snow is what is light in it: rock shines through the rest.
+// For snow: rock shows through the darker half.
 std::vector<ClusterPlace> lighter_half(std::vector<ClusterPlace> places) {
   const double middle = median_place(places)[0];
   std::erase_if(places, [&](const ClusterPlace& place) { return place[0] < middle; });

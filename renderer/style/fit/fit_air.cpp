@@ -17,8 +17,8 @@ namespace {
 using enum LandCoverClass;
 
 constexpr std::size_t min_far_texels = 500;
-constexpr int figure_width_px = 1200;  // at which broken paint and vapour are measured
-// Sigmas, in px of that width, of strokes, of middle forms and of large ones.
+constexpr int figure_width_px = 1200;  // picture width for measuring broken paint and vapour
+// Sigmas of strokes, medium-scale forms and large forms, px at that width.
 constexpr double stroke_px = 1.5;
 constexpr double form_px = 6.0;
 constexpr double large_px = 24.0;
@@ -37,7 +37,7 @@ glm::dvec3 median_colour(const std::vector<glm::vec3>& texels) {
   return median_colour(texels, 0, texels.size());
 }
 
-// The ground's coolest seventh.
+// Median colour of the coolest seventh of the ground (lowest b).
 glm::dvec3 coolest(std::vector<glm::vec3> ground) {
   std::stable_sort(ground.begin(), ground.end(),
                    [](const glm::vec3& a, const glm::vec3& b) { return a.z < b.z; });
@@ -56,7 +56,7 @@ Grid<float> difference(const Grid<float>& a, const Grid<float>& b) {
   return out;
 }
 
-// Standard deviation where `wanted(x, y)`; 0 where that is nowhere.
+// Standard deviation over pixels with `wanted(x, y)`; 0 if there are none.
 template <class F>
 double deviation(const Grid<float>& values, F wanted) {
   double count = 0.0;
@@ -78,13 +78,13 @@ bool is_ground(std::uint8_t label) {
   return label != unused_label && label != static_cast<std::uint8_t>(sky);
 }
 
-// Light and shade of middle size: what strokes and hills are made of.
+// Medium-scale forms: lightness between sigma 2 and 12 px.
 Grid<float> middle_forms(const StylePainting& painting) {
   const Grid<float> lightness = lightness_of(painting);
   return difference(gaussian_blur(lightness, 2.0), gaussian_blur(lightness, 12.0));
 }
 
-// Rows that have a share of the ground above them.
+// The row with a given share of the ground above it.
 int ground_row(const Grid<std::uint8_t>& mask, double share) {
   std::vector<std::size_t> count(static_cast<std::size_t>(mask.height()), 0);
   std::size_t total = 0;
@@ -101,7 +101,7 @@ int ground_row(const Grid<std::uint8_t>& mask, double share) {
   return y;
 }
 
-// Less where far ranges show their forms.
+// Factor on haze: smaller where far ranges show more contrast of forms.
 double fit_haze(const StylePainting& painting) {
   const Grid<float> forms = middle_forms(painting);
   const int upper = ground_row(painting.drawn, 0.33);
@@ -144,7 +144,8 @@ void fit_leaves(const StylePainting& painting, StyleAir& air) {
   air.larch = median_colour(by_hue, 0, std::max<std::size_t>(1, by_hue.size() / 12));
 }
 
-// Change of colour with height, classes apart: what distance does.
+// Change of colour with height in the painting, within classes: an estimate of the effect of
+// distance.
 glm::dvec3 fit_trend(const StylePainting& painting) {
   const Grid<std::uint8_t>& clean = painting.clean;
   int top = clean.height();
@@ -175,7 +176,7 @@ glm::dvec3 fit_trend(const StylePainting& painting) {
     double variance = 0.0;
     for (const auto& [h, c] : texels) variance += (h - height) * (h - height) / count;
     if (variance < 0.04 * 0.04) continue;
-    // A large class counts no more than one of this many texels.
+    // Limits the weight of large classes.
     const double weight = std::min(1.0, 8000.0 / count);
     for (const auto& [h, c] : texels) product += weight * (h - height) * (c - colour);
     squares += weight * count * variance;
@@ -190,7 +191,7 @@ glm::dvec3 fit_trend(const StylePainting& painting) {
 StyleAir fit_air(const StylePainting& painting, const std::optional<glm::dvec3>& horizon) {
   StyleAir air;
   const glm::dvec3 cool = coolest(painting.ground);
-  // Without a sky, air of a clear day.
+  // Without a sky: the horizon of a clear day.
   const glm::dvec3 low_sky = horizon.value_or(glm::dvec3(0.90, 0.0, 0.02));
   std::vector<glm::vec3> far;
   for (std::size_t i = 0; i < painting.drawn.size(); ++i)
@@ -215,7 +216,7 @@ StyleAir fit_air(const StylePainting& painting, const std::optional<glm::dvec3>&
 PaintFigures measure_paint(const StylePainting& painting) {
   PaintFigures out;
   const Grid<std::uint8_t>& drawn = painting.drawn;
-  // Classes that have texels enough, and far air.
+  // Classes with enough texels, and distant haze.
   const auto counts = [&](std::uint8_t label) {
     return label == far_air_label || (label < land_cover_class_count &&
                                       has_class(painting, static_cast<LandCoverClass>(label)));

@@ -9,25 +9,25 @@
 
 namespace belvedere {
 
-// What air and leaves take from a painting (recipe A8); OKLab.
+// Colours of air and leaves of a painting (recipe A8); OKLab.
 struct StyleAir {
   glm::dvec3 near{0.0};  // where haze begins
   glm::dvec3 far{0.0};
   glm::dvec3 mist{0.0};                // between ranges
-  double haze = 1.0;                   // share of the haze asked for, .7…1.25
-  bool far_seen = false;               // the mask says what is far
+  double haze = 1.0;                   // factor on the scene's haze, .7…1.25
+  bool far_seen = false;               // the mask contains distant haze
   std::array<glm::dvec3, 4> leaves{};  // by hue
   glm::dvec3 larch{0.0};
 };
 // `horizon`: the colour of the sky's lowest row; none: a painting without sky.
 StyleAir fit_air(const StylePainting& painting, const std::optional<glm::dvec3>& horizon);
 
-// Numbers that set painters apart (A9).
+// Figures that distinguish painters (A9), as in Style.
 struct PaintFigures {
   double broken = 0.0;
   double vapour = 0.0;
   double form_deviation = 0.0;  // of L between sigma 2 and 12 px, on the ground
-  glm::dvec3 trend{0.0};        // of L, a, b, from the ground's foot to its top
+  glm::dvec3 trend{0.0};        // change of L, a, b from the bottom to the top of the ground
 };
 PaintFigures measure_paint(const StylePainting& painting);
 

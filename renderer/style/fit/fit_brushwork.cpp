@@ -18,9 +18,9 @@
 namespace belvedere {
 namespace {
 
-constexpr double local_px = 10.0;       // sigma within which lightness is normalized
-constexpr double min_contrast = 0.004;  // of it, added
-constexpr double fine_px = 0.35;        // sigma of the blur that takes grain off strokes
+constexpr double local_px = 10.0;       // sigma of the local normalization of lightness
+constexpr double min_contrast = 0.004;  // added to the local contrast
+constexpr double fine_px = 0.35;        // sigma of the blur that removes grain
 constexpr double form_fine_px = 4.0;    // sigmas of larger forms
 constexpr double form_around_px = 8.0;
 constexpr double lag_step_px = 0.5;
@@ -36,7 +36,7 @@ Tensor structure_tensor(const Grid<float>& lightness, double fine_sigma, double 
   Tensor t{Grid<float>(soft.width(), soft.height()), Grid<float>(soft.width(), soft.height()),
            Grid<float>(soft.width(), soft.height())};
   parallel_rows(soft.height(), [&](int y) {
-    for (int x = 0; x < soft.width(); ++x) {  // Sobel's weights
+    for (int x = 0; x < soft.width(); ++x) {  // Sobel weights
       const auto at = [&](int u, int v) { return soft.clamped(x + u, y + v); };
       const float gx =
           (at(1, -1) - at(-1, -1) + 2.0F * (at(1, 0) - at(-1, 0)) + at(1, 1) - at(-1, 1)) / 8.0F;
@@ -53,12 +53,12 @@ Tensor structure_tensor(const Grid<float>& lightness, double fine_sigma, double 
   return t;
 }
 
-// Direction along the paint as a double angle, and 0…1 how sure it is.
+// Direction along the paint as a doubled angle, and its coherence, 0…1.
 struct PaintDirection {
   double cos2 = -1.0;
   double sin2 = 0.0;
   double coherence = 0.0;
-  // Halved: within ±90° of the x axis.
+  // Of the halved angle: within ±90° of the x axis.
   double cosine() const { return std::sqrt(std::max(0.0, 0.5 * (1.0 + cos2))); }
   double sine() const { return std::copysign(std::sqrt(std::max(0.0, 0.5 * (1.0 - cos2))), sin2); }
 };
@@ -68,12 +68,12 @@ PaintDirection direction_at(const Tensor& t, std::size_t i) {
   const double twice = 2.0 * static_cast<double>(t.xy[i]);
   const double size = exact::hypot(difference, twice);
   if (size < 1e-12) return {};
-  // Lightness changes most across the paint.
+  // Along the paint is perpendicular to the strongest gradient.
   const double energy = static_cast<double>(t.xx[i]) + static_cast<double>(t.yy[i]);
   return {-difference / size, -twice / size, size / std::max(energy, 1e-9)};
 }
 
-// Lightness less its mean nearby, in units of its contrast there.
+// Lightness minus the local mean, over the local contrast.
 Grid<float> normalized(const Grid<float>& lightness) {
   const Grid<float> mean = gaussian_blur(lightness, local_px);
   Grid<float> off(lightness.width(), lightness.height());
@@ -101,7 +101,7 @@ struct Sample {
   PaintDirection form;
 };
 
-// The distance at which correlation has fallen to one half, along the paint or across it.
+// The lag, px, at which autocorrelation has fallen to one half, along the paint or across it.
 double half_distance(const Grid<float>& values, const std::vector<Sample>& samples, bool along) {
   double base = 0.0;
   for (const Sample& s : samples) {
@@ -130,7 +130,8 @@ double half_distance(const Grid<float>& values, const std::vector<Sample>& sampl
   return max_lag_px;
 }
 
-// `count` of 0…size - 1 in rising order: one of each equal part, or all where there are no more.
+// Stratified choice of `count` of 0…size - 1, ascending: one of each equal part; all if no more
+// exist.
 std::vector<std::size_t> spread_choice(std::size_t size, std::size_t count, std::uint64_t seed) {
   std::vector<std::size_t> chosen;
   if (size <= count) {
@@ -153,7 +154,7 @@ struct Difference {
   glm::vec3 residual;
 };
 
-// 64 residuals of each third of lightness, their own mean taken off, none beyond ± 2.2 deviations.
+// Residuals of each third of lightness, minus their mean, clamped to ± max_deviations.
 void fit_residuals(std::vector<Difference> differences, const BrushworkParameters& parameters,
                    std::uint64_t seed, StyleBrushwork& out) {
   std::stable_sort(differences.begin(), differences.end(), [](const auto& a, const auto& b) {
@@ -177,10 +178,10 @@ void fit_residuals(std::vector<Difference> differences, const BrushworkParameter
          spread_choice(own.size(), static_cast<std::size_t>(parameters.residuals), seed + third)) {
       glm::vec3 residual(0.0F);
       for (int c = 0; c < 3; ++c) {
-        const double most = parameters.max_deviations *
-                            std::sqrt(std::max(0.0, squares[c] / count - mean[c] * mean[c]));
+        const double limit = parameters.max_deviations *
+                             std::sqrt(std::max(0.0, squares[c] / count - mean[c] * mean[c]));
         residual[c] =
-            static_cast<float>(std::clamp(static_cast<double>(own[i][c]) - mean[c], -most, most));
+            static_cast<float>(std::clamp(static_cast<double>(own[i][c]) - mean[c], -limit, limit));
       }
       out.residuals[third].push_back(residual);
     }
@@ -201,7 +202,7 @@ void fit_accents(std::vector<glm::vec3> texels, const BrushworkParameters& param
     out.accents.push_back(texels[i]);
 }
 
-// What all classes are measured on.
+// Fields on which all classes are measured.
 struct PaintFields {
   Grid<float> normal;
   Tensor strokes;
@@ -209,7 +210,7 @@ struct PaintFields {
   Grid<glm::vec3> fine;
 };
 
-// The pixels of a class in the order of rows, and the rectangle around them.
+// The pixels of a class by rows, and their bounding box.
 struct ClassPlaces {
   std::vector<std::array<int, 2>> places;
   PixelRect box{std::numeric_limits<int>::max(), std::numeric_limits<int>::max(), 0, 0};
@@ -227,7 +228,7 @@ ClassPlaces find_places(const Grid<std::uint8_t>& mask, std::uint8_t label) {
   return out;
 }
 
-// The mean colour around each pixel of a class, of its own pixels alone; over the box.
+// Local mean colour of a class from its own pixels only, over its box.
 Grid<glm::vec3> class_means(const Grid<glm::vec3>& colours, const ClassPlaces& own,
                             double sigma_px) {
   Grid<glm::vec3> part(own.box.width(), own.box.height(), glm::vec3(0.0F));

@@ -14,9 +14,9 @@ namespace belvedere {
 namespace {
 
 constexpr std::uint8_t sky_label_number = static_cast<std::uint8_t>(LandCoverClass::sky);
-constexpr double cloud_share = 1.0 / 90.0;  // sigma of clouds, of the sky's longer side
+constexpr double cloud_share = 1.0 / 90.0;  // sigma of clouds as a share of the sky's longer side
 constexpr std::array<double, 7> amount_shares = {0.02, 0.1, 0.25, 0.5, 0.75, 0.9, 0.98};
-// Skies, in shares of lightness: lights of clouds, and their shade.
+// Ranks of lightness within a sky: light of clouds, and their shade.
 constexpr double clouds_light_share = 11.0 / 12.0;
 constexpr std::array<double, 2> shade_shares = {0.25, 1.0 / 3.0};
 
@@ -53,7 +53,8 @@ glm::dvec3 grid_colour(const Grid<glm::vec3>& grid, double u, double v) {
   return (1.0 - (y - j)) * upper + (y - j) * lower;
 }
 
-// What the grid leaves, at the size of clouds, every few pixels: colours, and 1 where there is sky.
+// Sky minus the grid, blurred to the size of clouds and subsampled; `there` is 1 where there is
+// sky.
 struct SkyRest {
   std::array<Grid<float>, 3> colour;
   Grid<std::uint8_t> there;

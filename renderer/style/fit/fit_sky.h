@@ -13,7 +13,7 @@ struct SkyParameters {
   int columns = 3;  // of the grid of medians
   int rows = 5;
   std::size_t min_texels = 600;      // of a sky
-  std::size_t min_cell_texels = 60;  // cells of fewer take their row's median
+  std::size_t min_cell_texels = 60;  // cells with fewer take their row's median
 };
 
 struct FittedSky {
@@ -23,10 +23,10 @@ struct FittedSky {
   glm::dvec3 cloud_shade{0.0};
 };
 
-// The sky of a painting (recipe B7): medians over a grid, and what is left of it at the size of
-// clouds: its two principal changes of colour, the distances along and down at which the first and
-// second have lost half of their correlation, and the quantiles of their amounts. Axes are of one
-// deviation each and point to the light.
+// Fits the sky of a painting (recipe B7): medians over a grid; of the remainder at the size of
+// clouds the two principal components of colour, the horizontal and vertical lags at which their
+// autocorrelation has fallen to one half, and the quantiles of their amounts. An axis has the
+// length of one standard deviation and points towards light.
 FittedSky fit_sky(const Grid<glm::vec3>& colours, const Grid<std::uint8_t>& mask,
                   const SkyParameters& parameters = {});
 

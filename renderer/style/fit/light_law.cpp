@@ -15,7 +15,7 @@ constexpr std::size_t max_class_texels = 20'000;
 constexpr int bins = 20;  // of lightness, within which hue is averaged
 constexpr double min_chroma = 0.75;
 
-// Gaussian of one knot's width, ends repeated.
+// Gaussian with a sigma of one knot; end values are repeated.
 std::array<glm::dvec2, LightLaw::knot_count> smoothed(
     const std::array<glm::dvec2, LightLaw::knot_count>& values) {
   std::array<glm::dvec2, LightLaw::knot_count> out{};
@@ -37,7 +37,7 @@ struct LightShare {
   double lightness = 0.0;
 };
 
-// Variance of hue between bins of lightness over all of it, each class with the same weight.
+// Share of the variance of hue that lies between bins of lightness; classes have equal weight.
 LightShare light_share(const StylePainting& painting) {
   struct Sum {
     double weight = 0.0;
@@ -116,7 +116,7 @@ LabRamp keep_chroma(LabRamp ramp, const LabRamp& before) {
     const double now = chroma(ramp[k]);
     const double least = min_chroma * chroma(before[k]);
     if (now >= least) continue;
-    // What is nearly grey has no hue to strengthen.
+    // Limits the gain of nearly grey colours, whose hue is unreliable.
     const double gain = least / std::max(now, 0.35 * least + 1e-6);
     ramp[k].y *= gain;
     ramp[k].z *= gain;

@@ -16,14 +16,14 @@ namespace {
 using enum LandCoverClass;
 
 constexpr std::size_t min_sky_texels = 600;
-constexpr std::size_t max_paint = 8'000;  // texels that stand for the painter's paint
-constexpr double to_paint = 0.6;          // of the way to paint that the painter used
-constexpr double paint_lightness = 0.06;  // sigma of L, and of a and b, of paint that is alike
+constexpr std::size_t max_paint = 8'000;  // texels that sample the painting's colours
+constexpr double to_paint = 0.6;          // share of the shift towards colours of the painting
+constexpr double paint_lightness = 0.06;  // sigmas of L, and of a and b, of similar colours
 constexpr double paint_hue = 0.045;
-constexpr double to_green = 0.75;  // of the way to the painter's own green
+constexpr double to_green = 0.75;  // share of the shift towards the painting's green
 constexpr double green_lightness = 0.14;
 constexpr double green_reach_cos = 0.766;  // cosine of ±40° of hue
-constexpr double variance_floor = 1e-5;    // of OKLab, so that noise is not blown up
+constexpr double variance_floor = 1e-5;    // OKLab², limits the amplification of noise
 
 bool is_green(LandCoverClass id) {
   return id == pasture || id == alpine_grass || id == valley_floor || id == forest || id == shrub;
@@ -61,7 +61,7 @@ class SpreadSum {
   glm::dmat3 products_{0.0};
 };
 
-// Colours as the least-moving map of the reference's spread to the ground's takes them.
+// Optimal linear transport (Monge–Kantorovich) of the reference's colours to the ground's.
 struct ColourRelation {
   glm::dvec3 from{0.0};
   glm::dvec3 to{0.0};
@@ -83,15 +83,15 @@ ColourRelation fit_relation(const StylePainting& painting, const ClassRamps& ref
           std::clamp(b.hue() / std::max(a.hue(), 1e-6), 0.55, 1.15)};
 }
 
-// The bluest 30 % of the sky, which water mirrors, dark to light.
+// Ramp of water from the bluest 30 % of the sky, which it reflects; dark to light.
 std::optional<LabRamp> water_from_sky(const StylePainting& painting) {
   std::vector<glm::vec3> texels = class_texels(painting.colours, painting.drawn, sky, 200'000);
   if (texels.size() <= min_sky_texels) return std::nullopt;
   std::vector<float> yellow;
   yellow.reserve(texels.size());
   for (const glm::vec3& texel : texels) yellow.push_back(texel.z);
-  const float most = value_at_share(std::move(yellow), 0.30);
-  std::erase_if(texels, [&](const glm::vec3& texel) { return texel.z > most; });
+  const float bluest = value_at_share(std::move(yellow), 0.30);
+  std::erase_if(texels, [&](const glm::vec3& texel) { return texel.z > bluest; });
   std::stable_sort(texels.begin(), texels.end(),
                    [](const glm::vec3& a, const glm::vec3& b) { return a.x < b.x; });
   constexpr std::array<std::array<double, 2>, 4> shares = {
@@ -112,7 +112,7 @@ std::optional<LabRamp> water_from_sky(const StylePainting& painting) {
   return ramp;
 }
 
-// Towards paint that the painter used at that lightness, the coloured before the grey.
+// Moves hues towards similar colours of the painting, weighted with their chroma.
 LabRamp toward_paint(LabRamp ramp, const std::vector<glm::dvec3>& paint) {
   for (glm::dvec3& colour : ramp) {
     std::vector<double> distances;
@@ -137,8 +137,8 @@ LabRamp toward_paint(LabRamp ramp, const std::vector<glm::dvec3>& paint) {
   return ramp;
 }
 
-// The painter's own green wherever he used it, sky and sea too: paint of the reference's hue at
-// about that lightness, with his chroma, no stronger than the reference's.
+// Moves a ramp towards the painting's green wherever it occurs, sky and sea included: colours of
+// the reference's hue and of similar lightness, with their chroma but at most the reference's.
 LabRamp toward_own_green(LabRamp ramp, const LabRamp& reference,
                          const std::vector<glm::dvec3>& paint) {
   double mean_chroma = 0.0;
@@ -159,7 +159,7 @@ LabRamp toward_own_green(LabRamp ramp, const LabRamp& reference,
       chromas += w * c;
       weight += w;
     }
-    // So many texels of mean chroma; the recipe counts among 6000 of the painting.
+    // Equivalent number of texels of mean chroma among 6000 of the painting, as the recipe counts.
     const double count = weight / mean_chroma * 6000.0 / static_cast<double>(paint.size());
     if (count < 12.0) continue;
     glm::dvec2 own = sum / weight;
@@ -220,7 +220,7 @@ DerivedRamps derive_missing_classes(const SeenRamps& seen, const StylePainting& 
     } else {
       for (std::size_t k = 0; k < ramp.size(); ++k) ramp[k] = relation(reference[c][k]);
       from = "the colours of all its ground";
-      if (info.id == snow || info.id == glacier) {  // the lightest thing in the picture
+      if (info.id == snow || info.id == glacier) {  // must be the lightest classes
         constexpr std::array<double, 4> least = {0.60, 0.76, 0.90, 0.965};
         for (std::size_t k = 0; k < ramp.size(); ++k) {
           ramp[k].x = std::max(ramp[k].x, least[k] + limits.max - 0.97);

@@ -11,14 +11,14 @@
 namespace belvedere {
 
 struct DerivedRamps {
-  ClassRamps ramps{};              // of all classes: those seen as they were
-  std::vector<std::string> notes;  // of each class that was not seen, where its colours are from
+  ClassRamps ramps{};              // of all classes; those seen are unchanged
+  std::vector<std::string> notes;  // of each class that was not seen, the source of its colours
 };
 
-// The ramps of classes that the painting does not show (recipe A5): water from the bluest of the
-// sky; others from a relative that was seen, by the difference that the reference has between the
-// two; the rest by the least-moving map of the reference's colours to the ground's. Then all are
-// drawn towards paint that the painter used.
+// Ramps of the classes that the painting does not show (recipe A5): water from the bluest part of
+// the sky; others from a related class that was seen plus the reference's difference between the
+// two; the rest by optimal linear transport (Monge–Kantorovich) of the reference's colours to the
+// ground's. All are then moved towards colours of the painting.
 DerivedRamps derive_missing_classes(const SeenRamps& seen, const StylePainting& painting,
                                     const LightLaw& law, const ClassRamps& reference);
 

@@ -15,7 +15,7 @@ constexpr double min_power = 0.45;
 LightenedRamps lighten_ramps(const ClassRamps& ramps, double goal, double max_lightness,
                              const LightLaw& law) {
   LightenedRamps out{ramps, 1.0};
-  // Step by step, for hue follows light along a bent way.
+  // In small steps, because hue follows the law of light along a curve.
   while (ground_lightness(out.ramps) < goal && out.power > min_power) {
     const double next = out.power - power_step;
     for (std::size_t c = 1; c < out.ramps.size(); ++c) {

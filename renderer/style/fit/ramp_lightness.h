@@ -10,9 +10,9 @@ struct LightenedRamps {
   double power = 1.0;  // of lightness: 1 where nothing was done
 };
 
-// Dark paintings are lightened as by cleaning their varnish (recipe A6): all ramps by one power of
-// lightness, the lightest end kept, until the ground of a usual panorama has the mean lightness
-// `goal` (or the power .45).
+// Lightens the ramps of dark paintings, as if their varnish were cleaned (recipe A6): one power of
+// lightness for all ramps, with max_lightness unchanged, until the ground of a typical panorama has
+// the mean lightness `goal` (or the power is .45).
 LightenedRamps lighten_ramps(const ClassRamps& ramps, double goal, double max_lightness,
                              const LightLaw& law);
 

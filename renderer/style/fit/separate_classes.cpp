@@ -33,11 +33,11 @@ constexpr std::array<ClassPair, 18> pairs = {{{forest, pasture, 0.13},
                                               {pasture, alpine_grass, 0.03},
                                               {pasture, valley_floor, 0.03},
                                               {water, forest, 0.12}}};
-constexpr std::array<std::size_t, 2> told_at = {1, 2};  // of ramp_tones
+constexpr std::array<std::size_t, 2> told_at = {1, 2};  // indices of ramp_tones
 
 constexpr double strength_step = 0.05;
-constexpr double strong_share = 0.93;     // quantile of chroma that is strong at a lightness
-constexpr double over_strong = 0.2;       // of what is above it that stays
+constexpr double strong_share = 0.93;     // quantile of chroma that counts as strong at a lightness
+constexpr double over_strong = 0.2;       // share of the excess above it that is kept
 constexpr double colourful_share = 0.80;  // quantile of the ground's chroma
 
 double wanted_distance(const ClassPair& pair, std::size_t k, const ClassRamps& reference,
@@ -56,7 +56,7 @@ ClassRamps with_chroma(ClassRamps ramps, double gain) {
   return ramps;
 }
 
-// Of a usual panorama in middle light.
+// Of a typical panorama at the middle tones.
 double mean_chroma(const ClassRamps& ramps) {
   double sum = 0.0;
   for (std::size_t c = 1; c < ramps.size(); ++c)
@@ -64,7 +64,7 @@ double mean_chroma(const ClassRamps& ramps) {
   return sum;
 }
 
-// The chroma of the painter's strong colours by lightness, at the knots of the law of light.
+// Chroma of the painting's strong colours by lightness, at the knots of the law of light.
 class StrongChroma {
  public:
   explicit StrongChroma(const std::vector<glm::vec3>& every) {
@@ -94,7 +94,7 @@ class StrongChroma {
   LightLaw law_;
 };
 
-// One pass; whether anything moved.
+// One pass; returns whether anything moved.
 bool give_way(ClassRamps& ramps, const ClassFlags& seen, const ClassRamps& reference,
               const SeparateParameters& parameters) {
   bool moved = false;
@@ -110,7 +110,7 @@ bool give_way(ClassRamps& ramps, const ClassFlags& seen, const ClassRamps& refer
       const glm::dvec3 usual = reference[a][k] - reference[b][k];
       glm::dvec3 way = usual / std::max(glm::length(usual), 1e-9);
       if (distance > 0.012) way = 0.5 * way + between / distance;
-      // Which of two is lighter is a convention of maps; what hue they have is the painter's.
+      // The order of lightness is a convention of maps; hues are the painting's.
       if (std::abs(usual.x) >= 0.03) way.x = std::copysign(std::max(std::abs(way.x), 0.3), usual.x);
       way.x *= 3.0;
       way /= std::max(glm::length(way), 1e-9);
@@ -118,7 +118,7 @@ bool give_way(ClassRamps& ramps, const ClassFlags& seen, const ClassRamps& refer
                              : seen[a]          ? 1.0 - parameters.derived_share
                                                 : parameters.derived_share;
       const double step = parameters.step * (wanted - distance);
-      // The tones beside it go along.
+      // The neighbouring tones move by 0.6 of it.
       for (const auto& [j, part] :
            {std::pair{k - 1, 0.6}, std::pair{k, 1.0}, std::pair{k + 1, 0.6}}) {
         ramps[a][j] += share_a * step * part * way;
@@ -128,7 +128,7 @@ bool give_way(ClassRamps& ramps, const ClassFlags& seen, const ClassRamps& refer
   return moved;
 }
 
-// A colour that was `before`, with its hue and chroma held within the limits.
+// Limits the change of a colour's hue and chroma from `before`.
 glm::dvec3 hold_hue(glm::dvec3 colour, const glm::dvec3& before, double turn_rad,
                     const SeparateParameters& parameters) {
   const double had = chroma(before);

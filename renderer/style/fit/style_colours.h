@@ -10,31 +10,31 @@
 
 namespace belvedere {
 
-// What the steps of fitting a style have in common. Colours are OKLab (L, a, b); sections are those
-// of the recipe that docs/style.md tells.
+// Common to the steps of fitting a style. Colours are OKLab (L, a, b); sections (A0…B7) are those
+// of the recipe in docs/style.md.
 
 using LabRamp = std::array<glm::dvec3, 4>;                       // at ramp_tones
 using ClassRamps = std::array<LabRamp, land_cover_class_count>;  // [sky] unused
 using ClassFlags = std::array<bool, land_cover_class_count>;
 
-// How much of a panorama's ground lies near each of ramp_tones.
+// Share of a panorama's ground near each of ramp_tones.
 inline constexpr std::array<double, 4> tone_shares = {0.06, 0.30, 0.44, 0.20};
-// How much of a usual panorama's ground each class covers, by id.
+// Share of a typical panorama's ground that each class covers, by id.
 inline constexpr std::array<double, land_cover_class_count> area_shares = {
     0.0, 0.02, 0.06, 0.01, 0.34, 0.14, 0.06, 0.18, 0.06, 0.03, 0.08, 0.02, 0.0};
 
 double chroma(const glm::dvec3& lab);
-// Mean over tone_shares; of all classes, over area_shares.
+// Mean weighted with tone_shares; of all classes, also with area_shares.
 double mean_lightness(const LabRamp& ramp);
 double ground_lightness(const ClassRamps& ramps);
 
-// Colours outside of sRGB are cut to it.
+// Colours outside sRGB are clamped.
 ToneRamp encoded_ramp(const LabRamp& ramp);
-// Of classes with several altitudes the middle one.
+// Of classes with ramps at several altitudes the middle one.
 ClassRamps palette_ramps(const Palette& palette);
 
 constexpr std::size_t index_of(LandCoverClass id) { return static_cast<std::size_t>(id); }
-// "alpine grass": a class in words.
+// The name of a class in words, such as "alpine grass".
 std::string class_words(LandCoverClass id);
 
 }  // namespace belvedere

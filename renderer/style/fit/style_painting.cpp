@@ -16,7 +16,7 @@ namespace {
 
 constexpr double soft_px = 0.8;
 constexpr std::size_t max_texels = 200'000;  // of a list
-constexpr int frame_px = 8;                  // edges of scans are often of something else
+constexpr int frame_px = 8;                  // ignored: edges of scans often show something else
 
 void check_labels(const Grid<glm::vec3>& painting, const Grid<std::uint8_t>& mask) {
   if (!painting.same_size(mask))
@@ -26,11 +26,11 @@ void check_labels(const Grid<glm::vec3>& painting, const Grid<std::uint8_t>& mas
   for (const std::uint8_t label : mask)
     if (label >= land_cover_class_count && label != far_air_label && label != unused_label)
       throw Error(ErrorKind::input, "mask", fmt::format("the number {}", label),
-                  fmt::format("classes 0 … {}, {} for far air, {} for what is not used",
+                  fmt::format("classes 0 … {}, {} (distant haze) or {} (unused)",
                               land_cover_class_count - 1, far_air_label, unused_label));
 }
 
-// Every n-th of the texels that `wanted` says, n the smallest that leaves no more than `most`.
+// Every n-th texel with `wanted(x, y)`; n is the smallest that leaves at most `most`.
 template <class F>
 std::vector<glm::vec3> some_texels(const Grid<glm::vec3>& colours, std::size_t most, F wanted) {
   std::vector<glm::vec3> all;
@@ -83,7 +83,7 @@ StylePainting prepare_painting(const Grid<glm::vec3>& painting, const Grid<std::
     throw Error(
         ErrorKind::input, "mask",
         fmt::format("no class of the ground with more than {} pixels", parameters.min_texels),
-        "a painting of a landscape and a mask of its classes");
+        "a landscape painting and a mask of its classes");
   const int frame = std::min({frame_px, painting.width() / 4, painting.height() / 4});
   out.every = some_texels(out.colours, max_texels, [&](int x, int y) {
     return x >= frame && y >= frame && x < painting.width() - frame &&
@@ -93,8 +93,8 @@ StylePainting prepare_painting(const Grid<glm::vec3>& painting, const Grid<std::
     return mask(x, y) != unused_label &&
            mask(x, y) != static_cast<std::uint8_t>(LandCoverClass::sky);
   });
-  // A4: no darker and no lighter than the painting's own, a little beyond so that light and shade
-  // of a class that shows little of them find room.
+  // A4: the painting's range of lightness, slightly extended for classes that it shows in a small
+  // range of light and shade.
   out.min_lightness = std::max(lightness_at(out.ground, 0.004) - 0.03, 0.12);
   out.max_lightness = std::min(std::max(lightness_at(out.every, 0.995), 0.90) + 0.01, 0.985);
   return out;

@@ -8,14 +8,15 @@
 
 namespace belvedere {
 
-// A painter's style in a scene: `[style]` with its file and shares, or `style = "NAME"` alone.
+// The style of a scene: `[style]` with its file and shares, or `style = "NAME"` alone.
 
-// The style that a scene names, read; nothing where it names none.
+// Reads the style that a scene names; nothing where it names none.
 std::optional<Style> named_style(const LoadedScene& loaded);
-// The palette that a scene names; where it names none, its style's.
+// Reads the palette that a scene names; where it names none, that of its style.
 Palette named_palette(const LoadedScene& loaded);
 
-// How it is painted on a sheet of that size, but for what only a look at the sheet tells.
+// Parameters for a sheet of that size, without those that depend on a view of the sheet
+// (StyleSight).
 StylePaintParameters to_style_parameters(const Scene& scene, double pixels_per_unit,
                                          glm::ivec2 sheet_px);
 

@@ -18,7 +18,7 @@ namespace {
 
 constexpr PixelRect styled_rect{0, 0, 140, 120};
 
-// A small scene painted in a style, in the stages of a sheet.
+// A small scene painted in a style by the stages of a sheet.
 struct StyledScene {
   struct Stages {
     Stages(StyledScene& scene, const Style* style, int tile_px)

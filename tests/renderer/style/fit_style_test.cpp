@@ -52,7 +52,7 @@ TEST(FitStyle, GivesAllThatASceneNeeds) {
   EXPECT_GT(style.brushwork[0].length_px, 0.0);
   EXPECT_GT(style.brushwork[static_cast<std::size_t>(LandCoverClass::rock)].length_px, 0.0);
   EXPECT_EQ(style.brushwork[static_cast<std::size_t>(LandCoverClass::water)].length_px, 0.0);
-  EXPECT_EQ(style.units_per_px, 2.6);  // so small a painting is enlarged as far as allowed
+  EXPECT_EQ(style.units_per_px, 2.6);  // a small painting is enlarged to the limit
   EXPECT_THAT(style.notes, Contains("classes seen: forest, rock, snow, pasture"));
   EXPECT_THAT(style.notes, Contains(HasSubstr("no far air")));
 }
@@ -64,7 +64,7 @@ TEST(FitStyle, IsTheSameForAnyNumberOfThreads) {
   EXPECT_EQ(style_text(fitted(landscape)), text);
 }
 
-// Painted at half the light, the ramps are as light as a map needs; hues stay.
+// A painting at half the lightness gives ramps as light as a map needs; hues are unchanged.
 TEST(FitStyle, DarkPaintingsAreCleaned) {
   test::Landscape dark = test::make_landscape();
   for (std::size_t i = 0; i < dark.picture.size(); ++i)

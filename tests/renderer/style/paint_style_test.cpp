@@ -16,7 +16,7 @@ Grid<glm::vec3> paint(const test::StyledSheet& sheet, const Style& style,
   return paint_style(style, sheet.guidance, sheet.render, {}, parameters, origin_px, wanted);
 }
 
-// What a rectangle gets from a window that reaches `margin` around it.
+// The result for a rectangle from a window that extends it by `margin`.
 Grid<glm::vec3> paint_part(const test::StyledSheet& sheet, const Style& style,
                            const StylePaintParameters& parameters, PixelRect rect, int margin) {
   const PixelRect window = intersection(whole, grown(rect, margin));

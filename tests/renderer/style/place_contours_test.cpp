@@ -26,7 +26,7 @@ TEST(PlaceContours, LinesRunAlongSilhouettesOnTheNearerSide) {
   const std::vector<StyleStroke> lines =
       place_contour_strokes(of.style, of.window, of.parameters, contour_sheet);
   ASSERT_GT(lines.size(), 100U);
-  // Silhouettes of the sheet: against the sky, and of the slope against the far range.
+  // Silhouettes of the sheet: ground against sky, and the slope against the distant range.
   int against_sky = 0;
   for (const StyleStroke& line : lines) {
     ASSERT_TRUE(line.pixel_px.y == test::sky_end || line.pixel_px.y == 110) << line.pixel_px.y;

@@ -45,7 +45,7 @@ TEST(PlaceStrokes, LengthsAndWidthsAreThePaintings) {
     ++count;
   }
   ASSERT_GT(count, 300);
-  // 6 and 2.5 px of the painting, a unit and so a pixel each, 1.4 times in the first layer.
+  // 6 and 2.5 px of the painting, one unit and thus one pixel each, times 1.4 in the first layer.
   EXPECT_NEAR(length / count, 8.4, 0.4);
   EXPECT_NEAR(width / count, 3.5, 0.1);
 }
@@ -72,7 +72,7 @@ TEST(PlaceStrokes, ColoursScatterAroundTheGround) {
     ++count;
   }
   EXPECT_LT(glm::length(sum / static_cast<double>(count)), 0.01);
-  // .9 of the residuals' .03, a quarter kept of what drowns the form, .6 in the first layer.
+  // .9 of the residuals' .03, times the limit of a quarter, times .6 in the first layer.
   EXPECT_GT(std::sqrt(squares / count), 0.008);
   EXPECT_LT(std::sqrt(squares / count), 0.030);
 }

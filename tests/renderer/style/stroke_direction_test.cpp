@@ -9,7 +9,7 @@
 namespace belvedere {
 namespace {
 
-// A sheet of one class whose fall line is `fall`, and its colour in OKLab.
+// A sheet of one class with the fall line `fall`, and its colour in OKLab.
 struct Slope {
   GuidanceBuffers guidance;
   Grid<glm::vec3> lab;
@@ -76,8 +76,8 @@ TEST(StrokeDirection, SkyIsLevelOrWhorls) {
     return sum / static_cast<double>(along.size());
   };
   EXPECT_GT(mean_level(direction(sky, style_of(0.95, 0.5))), 0.99);
-  const double whorls = mean_level(direction(sky, style_of(-0.2, 0.5, 0.7)));
-  EXPECT_LT(std::abs(whorls), 0.8);
+  const double swirls = mean_level(direction(sky, style_of(-0.2, 0.5, 0.7)));
+  EXPECT_LT(std::abs(swirls), 0.8);
 }
 
 TEST(StrokeDirection, IsAUnitVectorEverywhere) {
@@ -88,14 +88,14 @@ TEST(StrokeDirection, IsAUnitVectorEverywhere) {
     ASSERT_NEAR(glm::dot(along[i], along[i]), 1.0F, 1e-5F);
 }
 
-TEST(StrokeDirection, ClassesWithoutStrokesTakeThoseOfARelativeCapped) {
+TEST(StrokeDirection, ClassesWithoutStrokesTakeThoseOfARelative) {
   Style style;
   StyleBrushwork& rock = style.brushwork[static_cast<std::size_t>(LandCoverClass::rock)];
-  rock.length_px = 120.0;
-  rock.width_px = 30.0;
+  rock.length_px = 12.0;
+  rock.width_px = 3.0;
   style.brushwork[static_cast<std::size_t>(LandCoverClass::pasture)].length_px = 7.0;
-  EXPECT_EQ(brushwork_of(style, LandCoverClass::scree).length_px, 20.0);
-  EXPECT_EQ(brushwork_of(style, LandCoverClass::scree).width_px, 5.0);
+  EXPECT_EQ(brushwork_of(style, LandCoverClass::scree).length_px, 12.0);
+  EXPECT_EQ(brushwork_of(style, LandCoverClass::scree).width_px, 3.0);
   EXPECT_EQ(brushwork_of(style, LandCoverClass::forest).length_px, 7.0);
   EXPECT_EQ(brushwork_of(Style(), LandCoverClass::forest).length_px, 0.0);
 }

@@ -153,7 +153,7 @@ TEST(ReadStyle, ReadsFilesAndKnowsNames) {
   EXPECT_THROW(read_style("/nowhere/style.toml"), Error);
 }
 
-// What ships with the program.
+// The built-in styles.
 TEST(ReadStyle, BuiltInStylesAreCompleteAndNameTheirPainting) {
   for (const std::string& name : embedded_names("styles")) {
     const Style style = read_style(name);

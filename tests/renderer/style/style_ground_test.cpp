@@ -71,7 +71,7 @@ TEST(StyleGround, FormContrastKeepsAnEvenColour) {
   const auto grey = static_cast<float>(to_oklab(glm::vec3(0.4F)).x);
   for (int y = test::sky_end; y < test::sheet_height; ++y) {
     ASSERT_NEAR(ground.colour(100, y).x, grey, 2e-5);
-    ASSERT_NEAR(ground.calm(100, y).x, grey, 0.02) << y;
+    ASSERT_NEAR(ground.smoothed(100, y).x, grey, 0.02) << y;
   }
 }
 
@@ -86,9 +86,9 @@ TEST(StyleGround, CalmLosesGrainAndKeepsBorders) {
       for (int x = 140; x < 290; ++x) sum += std::abs(lab(x + 1, y).x - lab(x, y).x);
     return sum;
   };
-  EXPECT_LT(grain(ground.calm), 0.5 * grain(ground.colour));
+  EXPECT_LT(grain(ground.smoothed), 0.5 * grain(ground.colour));
   // The shore of the lake: water is bluer.
-  EXPECT_GT(ground.calm(178, 175).z - ground.calm(183, 175).z, 0.08F);
+  EXPECT_GT(ground.smoothed(178, 175).z - ground.smoothed(183, 175).z, 0.08F);
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ StyleCanvas canvas_of(const test::StyledSheet& sheet, const Style& style,
   return paint_style_strokes(style, {sheet.guidance, ground, {0, 0}}, parameters, every_pixel);
 }
 
-// One colour for each class, exactly.
+// One exact colour for each class.
 test::StyledSheet flat_sheet() {
   test::StyledSheet sheet = test::make_styled_sheet();
   for (std::size_t i = 0; i < sheet.render.size(); ++i)
@@ -30,7 +30,7 @@ test::StyledSheet flat_sheet() {
   return sheet;
 }
 
-// Without anything that changes the ground before strokes.
+// Nothing changes the ground before strokes.
 Style bare_style() {
   Style style = test::make_style();
   style.vapour = 0.0;
@@ -41,7 +41,7 @@ Style bare_style() {
 
 TEST(StyleStrokes, NoneCrossesTheBordersOfSkyAndWater) {
   test::StyledSheet sheet = flat_sheet();
-  // The same colour everywhere, so that the gate of colour stops nothing.
+  // The same colour everywhere, so that the colour gate ends no stroke.
   sheet.render = Grid<glm::vec3>(test::sheet_width, test::sheet_height, glm::vec3(0.5F));
   Style style = bare_style();
   for (StyleBrushwork& b : style.brushwork) {
@@ -95,7 +95,7 @@ TEST(StyleStrokes, CoverNearlyEverything) {
 
 TEST(StyleStrokes, StopWhereTheGroundChangesColour) {
   test::StyledSheet sheet = flat_sheet();
-  // Black and white meadow, a border of no class.
+  // Black and white meadow: a border of colour within one class.
   for (int y = 110; y < test::sheet_height; ++y)
     for (int x = 130; x < test::sheet_width; ++x)
       if (sheet.guidance.land_cover(x, y) == LandCoverClass::pasture)

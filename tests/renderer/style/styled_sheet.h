@@ -16,7 +16,7 @@ inline constexpr int sheet_width = 300;
 inline constexpr int sheet_height = 260;
 inline constexpr int sky_end = 60;  // first row of ground
 
-// A sheet with everything that strokes ask for: sky, a far range of rock, a slope of forest and
+// A sheet with all inputs of strokes: sky, a distant range of rock, a slope of forest and
 // meadow, a lake.
 struct StyledSheet {
   GuidanceBuffers guidance;

@@ -16,8 +16,8 @@ namespace belvedere::test {
 
 constexpr std::uint8_t label_of(LandCoverClass id) { return static_cast<std::uint8_t>(id); }
 
-// Opaque strokes of one length and width thrown at random over a lightness of `middle`, each with
-// its own lightness within ± `contrast`; ends and sides are sharp.
+// Opaque strokes of one length and width at random positions over a lightness of `middle`, each
+// with a random lightness within ± `contrast`; ends and sides are sharp.
 inline Grid<glm::vec3> thrown_strokes(int width, int height, double length_px, double width_px,
                                       double angle_rad, double middle = 0.6,
                                       double contrast = 0.15) {
@@ -43,7 +43,7 @@ inline Grid<glm::vec3> thrown_strokes(int width, int height, double length_px, d
   return lab;
 }
 
-// A landscape of bands, each of a colour of its own (OKLab) and noise of lightness: sky, snow,
+// A landscape of bands, each with its own colour (OKLab) and noise of lightness: sky, snow,
 // rock, forest, pasture.
 struct Landscape {
   Grid<glm::vec3> lab;

@@ -50,7 +50,7 @@ class HeightDoubts : public RasterFiles {
   }
 };
 
-// Numbers that programs write for an unknown height are voids although no header says so.
+// Common placeholder numbers for unknown heights are voids even if no header declares them.
 TEST_F(HeightDoubts, NumbersOfUnknownHeightsAreVoids) {
   for (const char* value : {"-99999", "-999999", "65535", "99999", "-32767"}) {
     write_ascii("f.asc", 40, 40, 500000, 5200000, 30, [&](int x, int y) {
@@ -99,7 +99,7 @@ TEST_F(HeightDoubts, FeetAreAskedForWhereTheMapCountsInFeet) {
     return notes.text;
   };
   DemParameters parameters = dem_of("f.asc", "EPSG:2232");  // Colorado Central, survey feet
-  EXPECT_THAT(notes_of(parameters), AllOf(HasSubstr("counts in feet"), HasSubstr("\"us-ft\"")));
+  EXPECT_THAT(notes_of(parameters), AllOf(HasSubstr("is in feet"), HasSubstr("\"us-ft\"")));
   parameters.sources[0].unit_to_m = 1.0;
   EXPECT_EQ(notes_of(parameters), "") << "said";
   EXPECT_EQ(notes_of(dem_of("f.asc", "EPSG:32613")).find("feet"), std::string::npos);
@@ -111,7 +111,7 @@ TEST_F(HeightDoubts, ColoursAreNoHeights) {
   };
   const Error picture = refused(colours({"Red", "Green", "Blue"}, {120, 120, 120}));
   EXPECT_EQ(picture.kind(), ErrorKind::input);
-  EXPECT_THAT(picture.what(), AllOf(HasSubstr("picture in colours"), HasSubstr("Terrarium")));
+  EXPECT_THAT(picture.what(), AllOf(HasSubstr("colour picture"), HasSubstr("Terrarium")));
   EXPECT_THAT(refused(colours({"Palette"}, {7})).what(), HasSubstr("palette"));
   KeptNotes notes;
   read_dem(colours({"Gray"}, {120}), notes);

@@ -25,7 +25,7 @@
 namespace belvedere::tools {
 namespace {
 
-constexpr std::size_t inferred_groups = 30;  // as `exemplar segment` makes, where nothing is said
+constexpr std::size_t inferred_groups = 30;  // the default of `exemplar segment`
 
 struct StyleFitOptions : RunOptions {
   std::string painting, classes, out, report, name, origin, licence;
@@ -35,7 +35,7 @@ Grid<std::uint8_t> read_classes(const StyleFitOptions& options) {
   return read_class_mask(options.classes, {far_air_label});
 }
 
-// The classes that `exemplar segment` begins with.
+// The classes that `exemplar segment` infers.
 Grid<std::uint8_t> inferred_classes(const StyleFitOptions& options, const Grid<glm::vec3>& picture,
                                     const Grid<float>& alpha) {
   const PaintingSegments segments = segment_painting(picture, alpha, usual_theta, options.painting);
@@ -47,7 +47,7 @@ std::string as_text(const StyleFitOptions& options, const Style& style, std::siz
   std::string out = fmt::format("{}: {} bytes\n", options.out, bytes);
   for (const std::string& note : style.notes) out += "  " + note + "\n";
   out += fmt::format(
-      "  broken paint {:.2f}, vapour {:.2f}, hue by light {:.2f}, {:.1f} units a pixel\n",
+      "  broken paint {:.2f}, vapour {:.2f}, hue by light {:.2f}, {:.1f} units per pixel\n",
       style.broken, style.vapour, style.hue_by_light, style.units_per_px);
   return out;
 }
@@ -66,7 +66,7 @@ Json as_json(const StyleFitOptions& options, const Style& style, std::size_t byt
 int run(const StyleFitOptions& options) {
   check_place(options.out);
   if (lower_extension(options.out) != ".toml")
-    throw Error(ErrorKind::usage, "--out", options.out, "a .toml");
+    throw Error(ErrorKind::usage, "--out", options.out, "a .toml file");
   check_not_read(options.out, "--out", {options.painting, options.classes});
   if (!options.report.empty()) check_output_folder(options.report);
   const ThreadLimit threads(options.threads);
@@ -110,36 +110,35 @@ Action add_style_fit(CommandOptions& command) {
   const auto options = std::make_shared<StyleFitOptions>();
   command
       .add_option("PAINTING", options->painting,
-                  "A scan of a landscape: PNG, TIFF or JPEG, 500 pixels wide or more")
+                  "Scan of a landscape painting: PNG, TIFF or JPEG, at least 500 pixels wide")
       .required()
       .type_name("PICTURE");
   command
       .add_option("--classes", options->classes,
-                  "Its classes: a mask of their numbers (`exemplar segment`), 200 for ranges so "
-                  "far that they show the air's colour, 255 for what is not used. Default: "
-                  "inferred classes")
+                  "Mask of class numbers (see `exemplar segment`), 200 for distant ranges in haze "
+                  "colour, 255 for unused pixels. Default: inferred classes")
       .type_name("MASK");
-  command.add_option("--out", options->out, "The style: a .toml of some 20 kB")
+  command.add_option("--out", options->out, "Style file to write: .toml, about 20 kB")
       .required()
       .type_name("STYLE");
   command
       .add_option("--report", options->report,
-                  "Also a page: colours, strokes at scale, what was derived and from what")
+                  "Also write a page: colours, strokes to scale, what was derived and from what")
       .type_name("DIR");
-  command.add_option("--name", options->name, "Of the style. Default: that of the file")
+  command.add_option("--name", options->name, "Name of the style. Default: the name of the file")
       .type_name("NAME");
   command
       .add_option("--origin", options->origin,
-                  "Painter, title, year and where the picture comes from, for the file")
+                  "Painter, title, year and source of the picture, stored in the file")
       .type_name("TEXT");
-  command.add_option("--licence", options->licence, "Of the picture, for the file")
+  command.add_option("--licence", options->licence, "Licence of the picture, stored in the file")
       .type_name("TEXT");
   add_run_options(command, *options, "byte");
   command.footer(
-      "Colours by class and light, air, strokes and sky of a painting, as a file that the painting "
-      "is not needed for\n"
-      "afterwards and that may be edited. Rough masks are enough: polygons well inside of rock, "
-      "forest, meadow, sky.\n\n"
+      "Fits colours by class and light, air, strokes and sky of a painting and writes them to a "
+      "file, which may be\n"
+      "edited. The painting is not needed afterwards. Rough masks are enough: polygons well inside "
+      "rock, forest, meadow, sky.\n\n"
       "  belvedere style fit painting.jpg --classes mask.png --out painting.toml --report report");
   return [options] { return run(*options); };
 }

@@ -25,7 +25,7 @@ TEST(ReadPainting, ComesInSrgbWithANoteOnWhatWasChanged) {
   write_tiff16(folder / "s.tif", picture, {.icc_profile = srgb_profile(), .notes = {}});
   EXPECT_EQ(read_painting(folder / "s.tif", notes), read_picture(folder / "s.tif"));
   EXPECT_EQ(notes.text, "");
-  // Red and green exchanged in the profile's table of tags: so are the colours.
+  // Swapping red and green in the profile's tag table swaps them in the colours.
   std::vector<std::uint8_t> profile = srgb_profile();
   const std::string text(profile.begin(), profile.end());
   profile[text.find("rXYZ")] = 'g';

@@ -9,7 +9,7 @@
 namespace belvedere {
 namespace {
 
-// Lightness evenly from .3 to .8; hue of one chroma that turns with it.
+// Lightness uniform from .3 to .8; hue of constant chroma that rotates with it.
 std::vector<glm::vec3> ramp_texels() {
   std::vector<glm::vec3> texels;
   for (int i = 0; i < 5000; ++i) {
@@ -26,14 +26,14 @@ TEST(QuantileRamp, GivesBackTheColoursAtItsQuantiles) {
   for (std::size_t k = 0; k < 4; ++k) {
     const double q = parameters.quantiles[k];
     EXPECT_NEAR(ramp[k].x, 0.3 + 0.5 * q, 2e-3) << k;
-    // Hue is the mean over the ranks around, as far as there are some.
+    // Hue is the mean over the neighbouring ranks that exist.
     const double middle = 0.5 * (std::max(0.0, q - 0.1) + std::min(1.0, q + 0.1));
     EXPECT_NEAR(ramp[k].y, 0.08 * std::cos(1.0 + 0.4 * middle), 2e-3) << k;
     EXPECT_NEAR(ramp[k].z, 0.08 * std::sin(1.0 + 0.4 * middle), 2e-3) << k;
   }
 }
 
-// Half of it is grey, half of it red: the eye sees red, the median is mud.
+// Half of it is grey, half of it red: it looks red, but the median is nearly grey.
 TEST(QuantileRamp, ColourCountsMoreThanGrey) {
   std::vector<glm::vec3> texels;
   for (int i = 0; i < 1000; ++i)
@@ -58,10 +58,10 @@ TEST(StretchRamp, HasTheRangeOfTheReferenceMostlyInShade) {
   const LabRamp ramp = grey_ramp({0.5, 0.55, 0.6, 0.7});
   const LabRamp out = stretch_ramp(ramp, reference, {0.05, 0.98}, LightLaw{});
   EXPECT_NEAR(out[3].x - out[0].x, 0.85 * 0.6, 1e-9);
-  // The painter's light end, .02 and a quarter of half of what was added.
+  // The painting's light end plus .02 and a quarter of half of the added range.
   const double added = 0.85 * 0.6 - 0.2;
   EXPECT_NEAR(out[3].x, 0.7 + 0.02 + 0.25 * 0.5 * added, 1e-9);
-  // What has range enough stays.
+  // A ramp with enough range is unchanged.
   const LabRamp same = stretch_ramp(reference, reference, {0.05, 0.98}, LightLaw{});
   for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(same[k].x, reference[k].x, 1e-9);
 }

@@ -11,7 +11,7 @@ namespace {
 using enum LandCoverClass;
 using test::label_of;
 
-// Rock and snow side by side; a tenth of what is drawn as rock is painted as snow is.
+// Rock and snow side by side; a tenth of the pixels drawn as rock has the colour of snow.
 TEST(CleanMask, LeavesOutWhatLooksLikeAnotherClass) {
   Grid<glm::vec3> lab(120, 80);
   Grid<std::uint8_t> drawn(120, 80);
@@ -28,7 +28,7 @@ TEST(CleanMask, LeavesOutWhatLooksLikeAnotherClass) {
   EXPECT_EQ(clean(100, 40), label_of(snow));
 }
 
-// The grey half of a rock that is yellow elsewhere is rock too, where no other class is grey.
+// Rock that is half yellow, half grey is kept whole if no other class is grey.
 TEST(CleanMask, KeepsWhatIsOnlyUnlikeTheRestOfItsClass) {
   Grid<glm::vec3> lab(120, 80);
   Grid<std::uint8_t> drawn(120, 80);

@@ -18,7 +18,7 @@ Grid<glm::vec3> encoded(const Grid<glm::vec3>& lab) {
   return out;
 }
 
-// Rock all over, its colour by f.
+// A picture of rock only, coloured by f.
 template <class F>
 StylePainting all_rock(int width, int height, F f) {
   Grid<glm::vec3> lab(width, height);
@@ -44,8 +44,8 @@ TEST(MeasurePaint, TrendKeepsWithinItsLimits) {
   EXPECT_EQ(figures.trend.x, 0.16);
 }
 
-// Waves of 200 px under grain of one pixel, nothing between: broken paint is the ratio of what a
-// blur of 1.5 px takes off the grain to what one of 24 px leaves of the waves; vapour is full.
+// Waves of 200 px and grain of one pixel, no sizes between: broken paint is the ratio of the grain
+// that a blur of 1.5 px removes to the waves that one of 24 px leaves; vapour is 1.
 TEST(MeasurePaint, BrokenPaintAndVapourAreRatiosOfSpreads) {
   constexpr double pi = std::numbers::pi;
   const auto painting = [](double grain, double middle) {

@@ -19,7 +19,8 @@ StyleBrushwork rock_brushwork(const Grid<glm::vec3>& lab) {
                                                label_of(LandCoverClass::rock)))[rock_index];
 }
 
-// Two places s apart lie in one stroke with probability (l - s) / (l + s): half at a third of l.
+// Two points at distance s lie in one stroke with probability (l - s) / (l + s): half at a third of
+// l.
 TEST(FitBrushwork, MeasuresTheLengthAndWidthOfThrownStrokes) {
   for (const double angle : {0.0, 0.5 * std::numbers::pi, 0.4}) {
     const StyleBrushwork b = rock_brushwork(test::thrown_strokes(240, 200, 15.0, 4.0, angle));
@@ -39,7 +40,7 @@ TEST(FitBrushwork, LongerStrokesMeasureLongerUpToTheLimit) {
   EXPECT_EQ(hairs.width_px, 5.0);
 }
 
-// Ridges of sigma 8 px that run up and down, strokes along them.
+// Vertical ridges of sigma 8 px with strokes along them.
 TEST(FitBrushwork, FormIsTheAgreementWithLargerForms) {
   Grid<glm::vec3> along =
       test::thrown_strokes(240, 200, 12.0, 3.0, 0.5 * std::numbers::pi, 0.6, 0.06);
@@ -55,7 +56,7 @@ TEST(FitBrushwork, FormIsTheAgreementWithLargerForms) {
 TEST(FitBrushwork, ResidualsHaveTheSpreadOfTheStrokesAndNoMean) {
   const StyleBrushwork b =
       rock_brushwork(test::thrown_strokes(240, 200, 12.0, 4.0, 0.0, 0.6, 0.12));
-  // Uniform within ± .12, less what the mean around follows and the blur takes.
+  // Uniform within ± .12, reduced by the local mean and the blur.
   EXPECT_NEAR(b.lightness_deviation, 0.12 / std::sqrt(3.0), 0.02);
   for (const std::vector<glm::vec3>& third : b.residuals) {
     ASSERT_EQ(third.size(), 64U);

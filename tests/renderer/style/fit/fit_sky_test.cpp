@@ -13,7 +13,7 @@ namespace {
 const glm::vec3 first_axis(0.06F, 0.0F, 0.02F);
 const glm::vec3 second_axis(0.0F, 0.02F, 0.0F);
 
-// A gradient of lightness and two noises along axes of their own.
+// A gradient of lightness and two noises along different axes.
 Grid<glm::vec3> noisy_sky(int width, int height, double sigma_x, double sigma_y) {
   Grid<glm::vec3> lab(width, height);
   for (int y = 0; y < height; ++y)
@@ -34,11 +34,11 @@ TEST(FitSky, FindsTheAxesOfTwoNoisesTheirSpreadAndLengths) {
   for (std::size_t k = 0; k < 2; ++k) {
     const StyleSkyChange& change = fitted.sky.changes[k];
     EXPECT_GT(std::abs(glm::dot(glm::normalize(change.axis), glm::normalize(axes[k]))), 0.98F) << k;
-    // Clouds are looked at blurred by 1/90 of the width, 6.7 px, which takes some of the spread.
+    // The fit blurs clouds by 1/90 of the width, 6.7 px, which reduces the deviation.
     const double kept =
         std::sqrt(16.0 * 8.0 / std::sqrt((256.0 + 2 * 22.2 / 2) * (64.0 + 2 * 22.2 / 2)));
     EXPECT_NEAR(glm::length(change.axis) / glm::length(axes[k]), kept, 0.2) << k;
-    // Of Gaussian noise half of the correlation is lost at 2 √ln 2 sigmas.
+    // The autocorrelation of Gaussian noise has fallen to one half at 2 √ln 2 sigmas.
     EXPECT_NEAR(change.length_x * 600.0, 1.665 * std::sqrt(256.0 + 44.4), 7.0) << k;
     EXPECT_NEAR(change.length_y * 400.0, 1.665 * std::sqrt(64.0 + 44.4), 6.0) << k;
     EXPECT_NEAR(change.quantiles[3], 0.0, 0.25);
@@ -67,7 +67,7 @@ TEST(FitSky, MediansAreThoseOfTheCells) {
   EXPECT_GT(fitted.cloud_light.x, fitted.cloud_shade.x);
 }
 
-// Ground cuts into the sky: cells without sky take their row's colour.
+// Cells of the grid without sky take the colour of their row.
 TEST(FitSky, CellsBehindMountainsTakeTheirRow) {
   Grid<glm::vec3> lab(90, 100, glm::vec3(0.7F, 0.0F, -0.05F));
   Grid<std::uint8_t> mask(90, 100, 0);

@@ -9,8 +9,8 @@ namespace {
 
 using enum LandCoverClass;
 
-// Two classes of all lightnesses, rows of 6 px alike so that the blur within classes does little;
-// a of a colour by its lightness, or by its class.
+// Two classes of all lightnesses, in uniform rows of 6 px so that the blur within classes has
+// little effect; `a` of a colour depends on its lightness, or on its class.
 StylePainting two_classes(bool by_light) {
   Grid<glm::vec3> picture(128, 120);
   Grid<std::uint8_t> mask(128, 120);
@@ -22,7 +22,7 @@ StylePainting two_classes(bool by_light) {
       picture(x, y) = from_oklab({light, a, 0.0});
     }
   CleanMaskParameters parameters;
-  parameters.nearer = 0.0;  // both classes are kept whole
+  parameters.nearer = 0.0;  // keeps both classes whole
   return prepare_painting(picture, mask, parameters);
 }
 
@@ -40,7 +40,7 @@ TEST(LightLaw, KnowsHueThatLightExplainsFromHueOfClasses) {
 
 TEST(LightLaw, IsTheMeanHueAtThatLightness) {
   const LightLaw law = fit_light_law(two_classes(true));
-  // Weighed with chroma and smoothed: about.
+  // Approximate, because weighted with chroma and smoothed.
   EXPECT_NEAR(law.at(0.45).x, 0.2 * (0.45 - 0.55), 0.008);
   EXPECT_NEAR(law.at(0.70).x, 0.2 * (0.70 - 0.55), 0.008);
   EXPECT_EQ(law.at(-1.0), law.at(0.0));

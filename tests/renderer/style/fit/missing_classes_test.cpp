@@ -62,7 +62,7 @@ TEST_F(MissingClasses, WaterIsTheBlueOfTheSkyAndDarker) {
   EXPECT_LT(water_ramp[1].x, 0.75);
 }
 
-// Scree is to rock what it is in the reference, about.
+// Scree differs from rock about as in the reference.
 TEST_F(MissingClasses, ARelativeThatWasSeenServes) {
   const DerivedRamps out = derived(*seen_);
   EXPECT_THAT(out.notes, Contains(AllOf(HasSubstr("no scree"), HasSubstr("from rock"))));
@@ -73,8 +73,8 @@ TEST_F(MissingClasses, ARelativeThatWasSeenServes) {
               0.9 * ((*reference_)[s][1].x - (*reference_)[r][1].x), 0.05);
 }
 
-// Without snow and ice the lightest class is derived; without any green, the painter's green
-// serves.
+// Without snow and ice they are derived as the lightest classes; without a green class, the
+// painting's green is used.
 TEST_F(MissingClasses, WithoutARelativeTheWholeGroundServes) {
   SeenRamps rock_only = *seen_;
   for (std::size_t c = 0; c < rock_only.seen.size(); ++c) rock_only.seen[c] = c == index_of(rock);

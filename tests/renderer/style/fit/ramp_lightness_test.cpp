@@ -20,7 +20,7 @@ TEST(LightenRamps, ADarkPaintingReachesTheGoal) {
   EXPECT_GE(ground_lightness(out.ramps), 0.56);
   EXPECT_LT(ground_lightness(out.ramps), 0.58);
   EXPECT_LT(out.power, 1.0);
-  // One power of lightness: what was darker stays darker.
+  // One power of lightness keeps the order of lightness.
   for (std::size_t c = 1; c < dark.size(); ++c)
     for (std::size_t k = 0; k < 4; ++k)
       EXPECT_NEAR(out.ramps[c][k].x, 0.97 * std::pow(dark[c][k].x / 0.97, out.power), 1e-6);

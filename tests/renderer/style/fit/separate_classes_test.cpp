@@ -65,7 +65,7 @@ TEST(SeparateClasses, HuesStayThePaintersWithinTheirBounds) {
     }
 }
 
-// A reference whose rock and grass differ in hue alone pushes hues: as far as they may go.
+// A reference whose rock and grass differ only in hue rotates hues up to the limits.
 TEST(SeparateClasses, HuesThatArePushedStopAtTheirBounds) {
   ClassRamps reference = summer();
   ClassRamps before = reference;

@@ -12,7 +12,7 @@ LoadedScene scene_beside(const test::Folder& folder, const std::string& text) {
   return parse_scene("version = 1\n" + text, "scene.toml", folder.path(), {});
 }
 
-// A style file whose palette is the winter's.
+// A style file with the winter palette.
 void write_mine(const test::Folder& folder) {
   Style style;
   style.name = "mine";

@@ -1,4 +1,4 @@
-// `belvedere style fit` as users meet it.
+// `belvedere style fit` from the command line.
 #include <gmock/gmock.h>
 
 #include <filesystem>
@@ -15,7 +15,7 @@ using ::testing::HasSubstr;
 
 class StyleFit : public Program {
  protected:
-  // Sky, wood and meadow.
+  // Sky, forest and meadow.
   std::string write_painting() const {
     return write_picture("painting.png", 120, 90, [](int x, int y) {
       const glm::vec3 colour =
@@ -24,7 +24,7 @@ class StyleFit : public Program {
       return colour + glm::vec3(static_cast<float>(random_index(20, 5, x / 2, y / 2)) / 400.F);
     });
   }
-  // The same in numbers of classes.
+  // The same as class numbers.
   std::string write_mask(int pasture = 10) const {
     return write_labels("mask.png", 120, 90, [&](int x, int y) {
       return y < 30 ? 0 : x < 60 ? 4 : pasture;
