@@ -122,6 +122,7 @@ std::string proposed_scene_text(const ViewSearch& search, const Candidate& candi
                   km(search.ground.side_m), km(v.far_m)));
   text.value("version", "1");
   text.value("title", json_quoted(about.title));
+  if (!about.style.empty()) text.value("style", json_quoted(about.style));
   if (!about.palette.empty()) text.value("palette", json_quoted(about.palette), about.palette_why);
   text.line();
   if (!about.crs.empty() || search.ground.void_share > 0.2) {

@@ -28,7 +28,8 @@ struct ProposedScene {
   std::string unknown;  // class of codes that the legend lacks; empty: they are errors
   std::string palette;  // empty: the default
   std::string palette_why;
-  std::string rock;  // kind of rock; empty: the default
+  std::string style;  // built-in name or file; empty: the program's own look
+  std::string rock;   // kind of rock; empty: the default
   std::string rock_why;
   int width_px = 2400;
   double sheet_width_mm = 1200.0;

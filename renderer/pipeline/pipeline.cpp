@@ -13,6 +13,7 @@
 #include "renderer/pipeline/scene_paint.h"
 #include "renderer/pipeline/sheet_job.h"
 #include "renderer/pipeline/sheet_memory.h"
+#include "renderer/world/style/scene_style.h"
 
 namespace belvedere {
 
@@ -37,10 +38,13 @@ void check_request(const Scene& scene, const SheetRequest& request) {
 }
 
 // Before the work; the size of ground and scanned paintings is not known yet.
-void refuse_beyond_memory(const Scene& scene, const SheetRequest& request) {
+void refuse_beyond_memory(const LoadedScene& loaded, const SheetRequest& request) {
+  const Scene& scene = loaded.scene;
   StandingBytes standing{.besides = piece_bytes_of(scene, request)};
   if (request.panorama && scene.synthesis.enabled) standing.besides += copying_bytes(scene, {});
-  choose_block_px(scene, scene.pixels_per_unit(), standing, min_block_px_of(request));
+  const std::optional<Style> style = request.panorama ? named_style(loaded) : std::nullopt;
+  choose_block_px(scene, scene.pixels_per_unit(), standing, min_block_px_of(request),
+                  style ? &*style : nullptr);
 }
 
 }  // namespace
@@ -49,7 +53,7 @@ void render(const LoadedScene& loaded, const std::string& out_folder, const Run&
             const SheetRequest& request) {
   const RunLimits limits(run);
   check_request(loaded.scene, request);
-  refuse_beyond_memory(loaded.scene, request);
+  refuse_beyond_memory(loaded, request);
   require_inputs(loaded);
   read_output_colour(loaded);
   const std::vector<PixelRect> pieces = pieces_of(region_of(loaded.scene, request), request);

@@ -40,7 +40,7 @@ std::vector<SceneSection> make_style_sections() {
            {.name = "contour_lines",
             .field = AT(style.contour_lines),
             .range = {0, 1},
-            .meaning = "Strength of dark lines on silhouettes, as van Gogh and Bruegel drew them."},
+            .meaning = "Share of the painting's dark lines on silhouettes, as van Gogh drew them."},
            {.name = "relief",
             .field = AT(style.relief),
             .range = {0, 3},

@@ -10,6 +10,7 @@
 #include "renderer/style/fit/fit_air.h"
 #include "renderer/style/fit/light_law.h"
 #include "renderer/style/fit/missing_classes.h"
+#include "renderer/style/fit/paint_figures.h"
 #include "renderer/style/fit/ramp_lightness.h"
 
 namespace belvedere {
@@ -28,6 +29,7 @@ ClassRamps fit_ramps_of(const StylePainting& painting, const LightLaw& law,
                         const PaintFigures& figures, const ClassRamps& reference,
                         const StyleFitParameters& parameters, std::vector<std::string>& notes) {
   const SeenRamps seen = fit_class_ramps(painting, law, reference, parameters.ramps);
+  notes.insert(notes.end(), seen.notes.begin(), seen.notes.end());
   const DerivedRamps all = derive_missing_classes(seen, painting, law, reference);
   notes.insert(notes.end(), all.notes.begin(), all.notes.end());
   double lightness = 0.0;
@@ -135,6 +137,8 @@ Style fit_style(const Grid<glm::vec3>& painting, const Grid<std::uint8_t>& mask,
   style.broken = figures.broken;
   style.vapour = figures.vapour;
   style.form_deviation = figures.form_deviation;
+  style.unevenness = figures.unevenness;
+  style.contour_lines = figures.contour_lines;
   style.trend = glm::vec3(figures.trend);
   style.hue_by_light = law.hue_by_light;
   if (sky.gradient.empty())

@@ -149,7 +149,7 @@ struct ContourPlacer {
       stroke.hair[static_cast<std::size_t>(k)] =
           static_cast<float>(random_uniform(seed, x, y, line_hair + static_cast<std::uint64_t>(k)));
     stroke.ground = window.ground.smoothed[i];
-    const float share = dark_share * static_cast<float>(std::min(parameters.contour_lines, 1.0));
+    const float share = dark_share * static_cast<float>(contour_strength(style, parameters));
     stroke.colour = stroke.ground + share * (dark - stroke.ground);
     stroke.alpha = line_alpha * strength_here * (0.4F + 0.6F * share);
     stroke.gate = open_gate;
@@ -162,8 +162,8 @@ struct ContourPlacer {
 
 }  // namespace
 
-int contour_look_px(const StylePaintParameters& parameters) {
-  return parameters.contour_lines > 0.0
+int contour_look_px(const Style& style, const StylePaintParameters& parameters) {
+  return contour_strength(style, parameters) > 0.0
              ? std::max(2, static_cast<int>(look_units * parameters.pixels_per_unit + 0.5))
              : 0;
 }
@@ -172,7 +172,7 @@ std::vector<StyleStroke> place_contour_strokes(const Style& style, const StyleWi
                                                const StylePaintParameters& parameters,
                                                PixelRect rect) {
   const double px = sheet_px_per_painting_px(style, parameters);
-  const int look_px = contour_look_px(parameters);
+  const int look_px = contour_look_px(style, parameters);
   const ContourPlacer placer{style,      window,
                              parameters, stream_seed(parameters.seed, Stream::style_contours),
                              look_px,    darkest_paint(style)};

@@ -4,9 +4,11 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 #include "base/math.h"
 #include "base/math_exact.h"
+#include "base/noise.h"
 #include "base/parallel.h"
 #include "base/random_streams.h"
 #include "renderer/image/oklab.h"
@@ -23,6 +25,7 @@ constexpr double swirl_strength = 1.6;  // a sky has no forms that strong stroke
 constexpr double sky_length = 1.6;
 constexpr double tree_length = 0.7;
 constexpr double tree_width = 0.9;
+constexpr double far_shortening = 0.4;  // of strokes on the most distant ground
 constexpr double min_length_px = 2.5;
 constexpr double min_width_px = 0.9;
 constexpr double min_spacing_px = 1.6;    // denser strokes cannot be distinguished
@@ -133,11 +136,24 @@ glm::vec2 turned_by(glm::vec2 v, glm::vec2 turn) {
 // Places the strokes of one layer in a window.
 struct Placer {
   const StyleWindow& window;
+  const StylePaintParameters& parameters;
   const StyleLayer& layer;
   LayerBrushes brushes;
   double cell_px;
   std::uint64_t seed;
   float gate;
+  double uneven;  // deviation of log2 of the jitter between regions of the ground
+  std::uint64_t region_seed;
+
+  // Factor on the jitter at a pixel of the sheet.
+  float region_factor(glm::ivec2 sheet_px) const {
+    if (uneven == 0.0) return 1.0F;
+    const double noise =
+        gaussian_noise(region_seed, (sheet_px.x + 0.5) / parameters.pixels_per_unit,
+                       (sheet_px.y + 0.5) / parameters.pixels_per_unit, style_region_units);
+    return static_cast<float>(
+        exact::exp(std::numbers::ln2 * uneven * std::clamp(noise, -1.5, 1.5)));
+  }
 
   bool at(glm::ivec2 sheet_px, std::size_t& index) const {
     const glm::ivec2 in = sheet_px - window.origin_px;
@@ -179,15 +195,17 @@ struct Placer {
       stroke.points[static_cast<std::size_t>(k)] = path[static_cast<std::size_t>(low + k)];
   }
 
-  glm::vec3 colour(const LayerBrush& brush, std::size_t i, std::int64_t x, std::int64_t y) const {
+  glm::vec3 colour(const StyleStroke& stroke, const LayerBrush& brush, std::size_t i,
+                   std::int64_t x, std::int64_t y) const {
     const auto draw = [&](Draw which) { return random_uniform(seed, x, y, which); };
     const glm::vec3 ground = window.ground.smoothed[i];
     const double tone = window.guidance.tone.empty() ? ground.x : window.guidance.tone[i];
     const double shifted = tone + third_softness * (2.0 * draw(third) - 1.0);
     const std::size_t part = shifted < tone_thirds[0] ? 0 : shifted < tone_thirds[1] ? 1 : 2;
+    const float region = stroke.id == LandCoverClass::sky ? 1.0F : region_factor(stroke.pixel_px);
     glm::vec3 colour = ground;
     if (const auto& drawn = brush.brushwork.residuals[part]; !drawn.empty())
-      colour += brush.jitter *
+      colour += region * brush.jitter *
                 drawn[random_index(static_cast<std::uint32_t>(drawn.size()), seed, x, y, residual)];
     const auto& accents = brush.brushwork.accents;
     if (accents.empty() || draw(accented) >= layer.accents) return colour;
@@ -213,7 +231,11 @@ struct Placer {
     stroke.id = window.guidance.is_sky(i) ? LandCoverClass::sky : window.guidance.land_cover[i];
     const LayerBrush& brush = brushes[static_cast<std::size_t>(stroke.id)];
     if (!(brush.length_px > 0.0) || draw(kept) >= square(cell_px / brush.spacing_px)) return false;
-    const double length = brush.length_px * (0.6 + (max_length_share - 0.6) * draw(long_by));
+    const double far = stroke.id == LandCoverClass::sky
+                           ? 0.0
+                           : style_distance(parameters, window.guidance.depth_m[i]);
+    const double length = brush.length_px * (1.0 - far_shortening * far) *
+                          (0.6 + (max_length_share - 0.6) * draw(long_by));
     const double width = brush.width_px * (0.65 + (max_width_share - 0.65) * draw(wide_by));
     const double wander = brush.wander_rad * random_normal(seed, x, y, turned);
     trace(stroke, {static_cast<float>(seed_x - pixel_x), static_cast<float>(seed_y - pixel_y)},
@@ -226,7 +248,7 @@ struct Placer {
       stroke.hair[static_cast<std::size_t>(k)] =
           static_cast<float>(draw(first_hair + static_cast<std::uint64_t>(k)));
     stroke.ground = window.ground.smoothed[i];
-    stroke.colour = colour(brush, i, x, y);
+    stroke.colour = colour(stroke, brush, i, x, y);
     stroke.gate = gate;
     stroke.depth_m = window.guidance.depth_m[i];
     stroke.order = random_bits(seed, x, y, ordered);
@@ -251,12 +273,15 @@ std::vector<StyleStroke> place_style_strokes(const Style& style, const StyleWind
   const StyleLayer& of = style_layers()[static_cast<std::size_t>(layer)];
   const Placer placer{
       .window = window,
+      .parameters = parameters,
       .layer = of,
       .brushes = layer_brushes(style, parameters, of),
       .cell_px = cell_px_of(layer_brushes(style, parameters, of)),
       .seed =
           stream_seed(parameters.seed, Stream::style_strokes, static_cast<std::uint64_t>(layer)),
-      .gate = static_cast<float>(of.gate * gate_at_rest * (1.0 + 0.25 * style.vapour))};
+      .gate = static_cast<float>(of.gate * gate_at_rest * (1.0 + 0.25 * style.vapour)),
+      .uneven = missing_unevenness(style, parameters),
+      .region_seed = stream_seed(parameters.seed, Stream::style_contrasts)};
   if (!(placer.cell_px > 0.0)) return {};
   rect = intersection(grown(rect, style_seed_reach_px(style, parameters)),
                       {0, 0, parameters.sheet_px.x, parameters.sheet_px.y});
@@ -298,12 +323,12 @@ int style_seed_reach_px(const Style& style, const StylePaintParameters& paramete
           std::max(layer.width * fitted_width_px(style, parameters, row.id, b), min_width_px);
       reach = std::max(reach, 0.5 * max_length_share * length + 0.5 * max_width_share * width);
     }
-  return static_cast<int>(std::ceil(reach)) + 2 + contour_look_px(parameters);
+  return static_cast<int>(std::ceil(reach)) + 2 + contour_look_px(style, parameters);
 }
 
 int style_stroke_margin_px(const Style& style, const StylePaintParameters& parameters) {
   // The seed lies up to one reach from a painted pixel; the stroke may extend as far beyond it.
-  return 2 * style_seed_reach_px(style, parameters) + contour_look_px(parameters) + 1;
+  return 2 * style_seed_reach_px(style, parameters) + contour_look_px(style, parameters) + 1;
 }
 
 }  // namespace belvedere

@@ -57,8 +57,11 @@ struct Style {
   double vapour = 0.0;          // 0…1: how far air removes medium-scale forms
   double form_deviation = 0.0;  // of lightness between sigma 2 and 12 px, on the ground: contrast
                                 // of medium-scale forms
-  glm::vec3 trend{0.0F};        // change of colour from the bottom to the top of the ground
-  double hue_by_light = 0.0;    // 0…1: share of the hue's variance that lightness alone explains
+  // Deviation of log2 of the contrast of strokes between regions of the ground, 0…2.
+  double unevenness = 0.0;
+  double contour_lines = 0.0;  // 0…1: strength of dark lines along borders
+  glm::vec3 trend{0.0F};       // change of colour from the bottom to the top of the ground
+  double hue_by_light = 0.0;   // 0…1: share of the hue's variance that lightness alone explains
   std::vector<std::string> notes;  // what was derived and from what
 };
 

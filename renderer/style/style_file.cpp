@@ -151,6 +151,8 @@ Style build_style(const ConfigValue& root, const std::string& name) {
   reader.number("broken", style.broken, 0.0, 2.0);
   reader.number("vapour", style.vapour, 0.0, 1.0);
   reader.number("form_deviation", style.form_deviation, 0.0, 1.0);
+  reader.number("unevenness", style.unevenness, 0.0, 2.0);
+  reader.number("contour_lines", style.contour_lines, 0.0, 1.0);
   if (const ConfigValue* trend = reader.known("trend"))
     style.trend = three_numbers(*trend, name, -1.0, 1.0);
   reader.number("hue_by_light", style.hue_by_light, 0.0, 1.0);
@@ -165,8 +167,9 @@ Style build_style(const ConfigValue& root, const std::string& name) {
   }
   if (const ConfigValue* grid = reader.known("sky_grid")) read_sky_grid(*grid, name, style.sky);
   std::vector<std::string> keys = of_palette;  // all allowed keys, for messages on misspelt ones
-  for (const char* key : {"origin", "licence", "notes", "units_per_px", "broken", "vapour",
-                          "form_deviation", "trend", "hue_by_light", "brushwork", "sky_grid"})
+  for (const char* key :
+       {"origin", "licence", "notes", "units_per_px", "broken", "vapour", "form_deviation",
+        "unevenness", "contour_lines", "trend", "hue_by_light", "brushwork", "sky_grid"})
     keys.emplace_back(key);
   allow_only(as_table(root, name), keys, name);
   style.palette = parse_palette(ConfigValue{std::move(palette), root.position}, name);

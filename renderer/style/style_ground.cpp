@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <numbers>
 #include <vector>
 
 #include "base/math.h"
@@ -22,8 +23,11 @@ namespace {
 // Sizes in units of the sheet.
 constexpr double contrast_sigma_units = 14.0;
 constexpr double bilateral_sigma_units = 2.0;  // doubled at vapour 1
-constexpr double region_sigma_units = 110.0;   // of regional variation of contrast
 constexpr double usual_contrast = 1.1;
+constexpr double unevenness_of_forms = 0.5;  // of that of strokes
+// Deviation between regions of log2 of the fine contrast of the program's pictures.
+constexpr double program_unevenness = 0.38;
+constexpr double max_missing_unevenness = 0.6;
 // Standard deviation of L between sigma 2 and 12 px, measured on renders of the program's scenes.
 constexpr double program_form_deviation = 0.058;
 // Range sigma of the bilateral filter, OKLab.
@@ -103,13 +107,14 @@ void strengthen_forms(Grid<glm::vec3>& lab, const Style& style, const GuidanceBu
   ground = blur_in_picture(ground, contrast_sigma_units * ppu, origin_px);
   const Grid<float> region =
       make_image_noise(stream_seed(parameters.seed, Stream::style_contrasts), origin_px,
-                       lab.width(), lab.height(), ppu, region_sigma_units, region_sigma_units);
+                       lab.width(), lab.height(), ppu, style_region_units, style_region_units);
+  const double uneven = unevenness_of_forms * missing_unevenness(style, parameters);
   parallel_ranges(lab.height(), 16, [&](int begin, int end) {
     for (std::size_t i = lab.index(0, begin); i < lab.index(0, end); ++i) {
       if (guidance.is_sky(i)) continue;
-      const float more =
-          static_cast<float>(parameters.unevenness) * std::clamp(region[i], -1.5F, 1.5F);
-      const float contrast = static_cast<float>(contrast_of_all) + more;
+      const double more = std::clamp(static_cast<double>(region[i]), -1.5, 1.5);
+      const auto contrast =
+          static_cast<float>(contrast_of_all * exact::exp(std::numbers::ln2 * uneven * more));
       const float mean = light[i] / ground[i];
       lab[i].x = mean + contrast * (lab[i].x - mean);
     }
@@ -173,6 +178,13 @@ Grid<glm::vec3> bilateral_filter(const Grid<glm::vec3>& lab, const BilateralKern
 }
 
 }  // namespace
+
+double missing_unevenness(const Style& style, const StylePaintParameters& parameters) {
+  const double square = style.unevenness * style.unevenness;
+  const double own = program_unevenness * program_unevenness;
+  return parameters.unevenness *
+         std::min(std::sqrt(std::max(0.0, square - own)), max_missing_unevenness);
+}
 
 double style_distance(const StylePaintParameters& parameters, double depth_m) {
   const double low = exact::log(parameters.near_m);

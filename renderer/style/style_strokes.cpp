@@ -233,7 +233,8 @@ StyleCanvas paint_style_strokes(const Style& style, const StyleWindow& window,
   };
   for (int layer = 0; layer < static_cast<int>(style_layers().size()); ++layer)
     lay(place_style_strokes(style, window, parameters, layer, rect));
-  if (parameters.contour_lines > 0.0) lay(place_contour_strokes(style, window, parameters, rect));
+  if (contour_strength(style, parameters) > 0.0)
+    lay(place_contour_strokes(style, window, parameters, rect));
   return canvas;
 }
 

@@ -67,7 +67,7 @@ std::vector<StyleStroke> place_contour_strokes(const Style& style, const StyleWi
                                                const StylePaintParameters& parameters,
                                                PixelRect rect);
 // Search radius for silhouettes and their directions, px; 0: no contour strokes.
-int contour_look_px(const StylePaintParameters& parameters);
+int contour_look_px(const Style& style, const StylePaintParameters& parameters);
 // The strokes of all rows of cells in painting order.
 std::vector<StyleStroke> in_order(const std::vector<std::vector<StyleStroke>>& rows);
 // Max distance, px, between a stroke's seed and what it paints; and between a painted pixel and

@@ -172,20 +172,23 @@ std::string style_text(const Style& style) {
   out += "]\n";
   out += fmt::format(
       "# Units (0.5 mm of the sheet) that a pixel of the painting covers.\nunits_per_px = {}\n"
-      "# How much paint shows, how much of the middle forms air dissolves, how strong they are.\n"
-      "broken = {}\nvapour = {}\nform_deviation = {}\n"
-      "# Change of L, a and b (OKLab) from the ground's foot to its top.\ntrend = [{}, {}, {}]\n"
+      "# Contrast of strokes over that of large forms; loss of medium-scale forms in air; their\n"
+      "# deviation of lightness; variation of contrast between regions; dark lines on borders.\n"
+      "broken = {}\nvapour = {}\nform_deviation = {}\nunevenness = {}\ncontour_lines = {}\n"
+      "# Change of L, a and b (OKLab) from the bottom to the top of the ground.\ntrend = [{}, {}, "
+      "{}]\n"
       "# Share of the hue's variance that light alone explains.\nhue_by_light = {}\n",
       number(style.units_per_px), number(style.broken), number(style.vapour),
-      number(style.form_deviation), number(static_cast<double>(style.trend.x)),
-      number(static_cast<double>(style.trend.y)), number(static_cast<double>(style.trend.z)),
-      number(style.hue_by_light));
+      number(style.form_deviation), number(style.unevenness), number(style.contour_lines),
+      number(static_cast<double>(style.trend.x)), number(static_cast<double>(style.trend.y)),
+      number(static_cast<double>(style.trend.z)), number(style.hue_by_light));
   add_palette(style.palette, out);
   out +=
-      "\n# Strokes of each class: lengths in pixels of the painting; level: 1 level, -1 upright; "
-      "form: 1 along\n# larger forms; coherence: how much neighbours agree; the most colourful "
-      "strokes; and what strokes\n# differ by from the colour around them (L, a, b in "
-      "thousandths), a list for each third of lightness.\n";
+      "\n# Strokes of each class. Lengths: pixels of the painting. level: 1 level, -1 upright. "
+      "form: "
+      "1 along\n# larger forms. coherence: how much neighbours agree in direction. accents: the "
+      "most colourful strokes.\n# dark, middle, light: colours of strokes minus the colour around "
+      "them (L, a, b in thousandths), by\n# thirds of lightness.\n";
   for (const LandCoverClassInfo& info : land_cover_classes())
     if (const StyleBrushwork& b = style.brushwork[static_cast<std::size_t>(info.id)];
         b.length_px > 0.0)

@@ -127,6 +127,8 @@ void add_air(Report& page, const Grid<std::uint8_t>& mask, const Style& style) {
       .row("trend of a (green to red)", style.trend.y)
       .row("trend of b (blue to yellow)", style.trend.z)
       .row("contrast of medium-scale forms", style.form_deviation)
+      .row("unevenness of contrast", style.unevenness)
+      .row("dark lines on borders", style.contour_lines)
       .row("share of haze", p.haze_share)
       .row("units per pixel of the painting", style.units_per_px);
   page.table(figures);

@@ -40,6 +40,31 @@ LabRamp usual_light(const LabRamp& ramp, const LabRamp& reference, double refere
   return move_lightness(ramp, lightness, law);
 }
 
+// Maps show water cooler than land. Warm water, under a warm sky, takes most of the hue of the
+// coolest paint of its lightness.
+bool cool_water(LabRamp& ramp, const std::vector<glm::vec3>& paint,
+                const ClassRampParameters& parameters) {
+  bool cooled = false;
+  for (glm::dvec3& colour : ramp) {
+    if (colour.z <= 0.0) continue;
+    std::vector<glm::vec3> alike;
+    for (const glm::vec3& p : paint)
+      if (std::abs(static_cast<double>(p.x) - colour.x) < 0.1) alike.push_back(p);
+    const std::size_t coolest = alike.size() / 7;
+    if (coolest < 20) continue;
+    std::stable_sort(alike.begin(), alike.end(),
+                     [](const glm::vec3& a, const glm::vec3& b) { return a.z < b.z; });
+    glm::dvec2 sum(0.0);
+    for (std::size_t i = 0; i < coolest; ++i) sum += glm::dvec2(alike[i].y, alike[i].z);
+    const glm::dvec2 hue = sum / static_cast<double>(coolest);
+    if (hue.y >= colour.z) continue;
+    colour.y += parameters.to_cool * (hue.x - colour.y);
+    colour.z += parameters.to_cool * (hue.y - colour.z);
+    cooled = true;
+  }
+  return cooled;
+}
+
 }  // namespace
 
 LabRamp quantile_ramp(std::vector<glm::vec3> texels, const ClassRampParameters& parameters) {
@@ -48,7 +73,7 @@ LabRamp quantile_ramp(std::vector<glm::vec3> texels, const ClassRampParameters& 
   const auto count = static_cast<double>(texels.size());
   LabRamp ramp{};
   for (std::size_t k = 0; k < ramp.size(); ++k) {
-    const double q = parameters.quantiles[k];
+    const double q = ramp_quantiles[k];
     const auto begin = static_cast<std::size_t>(std::max(0.0, q - parameters.span) * count);
     const auto end =
         std::clamp(static_cast<std::size_t>(std::min(1.0, q + parameters.span) * count), begin + 1,
@@ -108,14 +133,21 @@ SeenRamps fit_class_ramps(const StylePainting& painting, const LightLaw& law,
     if (id == LandCoverClass::snow)
       texels = lighter_texels(std::move(texels), parameters.darkest_snow);
     const double median = median_lightness(texels);
+    const LightLaw own = law_of(id, law);
     LabRamp ramp = usual_light(quantile_ramp(std::move(texels), parameters), reference[c],
-                               reference_ground, median, limits, law, parameters);
-    for (glm::dvec3& colour : ramp) {  // remove hue that depends on lightness alone (A2)
-      const glm::dvec2 hue = law.at(colour.x);
-      colour.y += law.mix() * (hue.x - colour.y);
-      colour.z += law.mix() * (hue.y - colour.z);
+                               reference_ground, median, limits, own, parameters);
+    // Remove hue that depends on lightness alone (A2).
+    const double by_tone = own.by_tone(id);
+    const double mix = std::lerp(own.mix(), 1.0, by_tone);
+    for (std::size_t k = 0; k < ramp.size(); ++k) {
+      const glm::dvec2 hue = own.at(std::lerp(ramp[k].x, own.tone_lightness[k], by_tone));
+      ramp[k].y += mix * (hue.x - ramp[k].y);
+      ramp[k].z += mix * (hue.y - ramp[k].z);
     }
-    out.ramps[c] = stretch_ramp(ramp, reference[c], limits, law, parameters);
+    ramp = stretch_ramp(ramp, reference[c], limits, own, parameters);
+    if (id == LandCoverClass::water && cool_water(ramp, painting.every, parameters))
+      out.notes.emplace_back("water is warm: moved towards the coolest paint of its lightness");
+    out.ramps[c] = ramp;
     out.seen[c] = true;
   }
   return out;

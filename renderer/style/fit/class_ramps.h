@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "renderer/style/fit/light_law.h"
@@ -11,8 +12,6 @@
 namespace belvedere {
 
 struct ClassRampParameters {
-  // Quantiles of lightness within a class, at which ramp_tones lie in the program's pictures.
-  std::array<double, 4> quantiles = {0.03, 0.19, 0.54, 0.97};
   double span = 0.10;          // hues are averaged over ranks within ± this share
   double strengthen = 1.15;    // max gain of a mean's chroma, towards the median chroma
   double darkest_snow = 0.25;  // share of snow that is ignored: rock shows through
@@ -20,11 +19,13 @@ struct ClassRampParameters {
   double to_usual = 0.6;       // and the share of the excess by which a class is moved
   double min_range = 0.85;     // min share of the reference's range of lightness
   double max_stretch = 2.6;
+  double to_cool = 0.7;  // share by which warm water is moved to cool hues
 };
 
 struct SeenRamps {
   ClassRamps ramps{};
   ClassFlags seen{};
+  std::vector<std::string> notes;  // what is not as in the painting
 };
 
 // The ramp of a class from its colours (recipe A1): lightness at the quantiles, hue as a mean

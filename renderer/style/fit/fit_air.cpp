@@ -4,10 +4,9 @@
 #include <cmath>
 #include <vector>
 
-#include "base/filter.h"
 #include "base/math_exact.h"
-#include "base/parallel.h"
 #include "base/statistics.h"
+#include "renderer/style/fit/paint_figures.h"
 #include "renderer/style/fit/style_colours.h"
 #include "texture/synthesis/guide_stack.h"
 
@@ -17,12 +16,6 @@ namespace {
 using enum LandCoverClass;
 
 constexpr std::size_t min_far_texels = 500;
-constexpr int figure_width_px = 1200;  // picture width for measuring broken paint and vapour
-// Sigmas of strokes, medium-scale forms and large forms, px at that width.
-constexpr double stroke_px = 1.5;
-constexpr double form_px = 6.0;
-constexpr double large_px = 24.0;
-
 glm::dvec3 median_colour(const std::vector<glm::vec3>& texels, std::size_t begin, std::size_t end) {
   glm::dvec3 out(0.0);
   for (int channel = 0; channel < 3; ++channel) {
@@ -44,53 +37,13 @@ glm::dvec3 coolest(std::vector<glm::vec3> ground) {
   return median_colour(ground, 0, std::max<std::size_t>(1, ground.size() / 7));
 }
 
-Grid<float> lightness_of(const StylePainting& painting) {
-  Grid<float> lightness(painting.colours.width(), painting.colours.height());
-  for (std::size_t i = 0; i < lightness.size(); ++i) lightness[i] = painting.colours[i].x;
-  return lightness;
-}
-
-Grid<float> difference(const Grid<float>& a, const Grid<float>& b) {
-  Grid<float> out(a.width(), a.height());
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = a[i] - b[i];
-  return out;
-}
-
-// Standard deviation over pixels with `wanted(x, y)`; 0 if there are none.
-template <class F>
-double deviation(const Grid<float>& values, F wanted) {
-  double count = 0.0;
-  double sum = 0.0;
-  double squares = 0.0;
-  for (int y = 0; y < values.height(); ++y)
-    for (int x = 0; x < values.width(); ++x) {
-      if (!wanted(x, y)) continue;
-      const double v = static_cast<double>(values(x, y));
-      count += 1.0;
-      sum += v;
-      squares += v * v;
-    }
-  if (count == 0.0) return 0.0;
-  return std::sqrt(std::max(0.0, squares / count - sum / count * (sum / count)));
-}
-
-bool is_ground(std::uint8_t label) {
-  return label != unused_label && label != static_cast<std::uint8_t>(sky);
-}
-
-// Medium-scale forms: lightness between sigma 2 and 12 px.
-Grid<float> middle_forms(const StylePainting& painting) {
-  const Grid<float> lightness = lightness_of(painting);
-  return difference(gaussian_blur(lightness, 2.0), gaussian_blur(lightness, 12.0));
-}
-
 // The row with a given share of the ground above it.
 int ground_row(const Grid<std::uint8_t>& mask, double share) {
   std::vector<std::size_t> count(static_cast<std::size_t>(mask.height()), 0);
   std::size_t total = 0;
   for (int y = 0; y < mask.height(); ++y) {
     for (int x = 0; x < mask.width(); ++x)
-      count[static_cast<std::size_t>(y)] += is_ground(mask(x, y)) ? 1 : 0;
+      count[static_cast<std::size_t>(y)] += is_ground_label(mask(x, y)) ? 1 : 0;
     total += count[static_cast<std::size_t>(y)];
   }
   std::size_t above = 0;
@@ -106,9 +59,11 @@ double fit_haze(const StylePainting& painting) {
   const Grid<float> forms = middle_forms(painting);
   const int upper = ground_row(painting.drawn, 0.33);
   const int lower = ground_row(painting.drawn, 0.67);
-  const auto ground = [&](int x, int y) { return is_ground(painting.drawn(x, y)); };
-  const double far = deviation(forms, [&](int x, int y) { return y < upper && ground(x, y); });
-  const double close = deviation(forms, [&](int x, int y) { return y > lower && ground(x, y); });
+  const auto ground = [&](int x, int y) { return is_ground_label(painting.drawn(x, y)); };
+  const double far =
+      deviation_where(forms, [&](int x, int y) { return y < upper && ground(x, y); });
+  const double close =
+      deviation_where(forms, [&](int x, int y) { return y > lower && ground(x, y); });
   return std::clamp(1.3 - 0.5 * far / std::max(close, 1e-3), 0.70, 1.25);
 }
 
@@ -144,48 +99,6 @@ void fit_leaves(const StylePainting& painting, StyleAir& air) {
   air.larch = median_colour(by_hue, 0, std::max<std::size_t>(1, by_hue.size() / 12));
 }
 
-// Change of colour with height in the painting, within classes: an estimate of the effect of
-// distance.
-glm::dvec3 fit_trend(const StylePainting& painting) {
-  const Grid<std::uint8_t>& clean = painting.clean;
-  int top = clean.height();
-  int bottom = 0;
-  for (int y = 0; y < clean.height(); ++y)
-    for (int x = 0; x < clean.width(); ++x)
-      if (is_ground(painting.drawn(x, y))) {
-        top = std::min(top, y);
-        bottom = std::max(bottom, y);
-      }
-  glm::dvec3 product(0.0);
-  double squares = 0.0;
-  for (const LandCoverClass id : painting.classes) {
-    std::vector<std::pair<double, glm::dvec3>> texels;  // height 0…1, colour
-    glm::dvec3 colour(0.0);
-    double height = 0.0;
-    for (int y = 0; y < clean.height(); ++y)
-      for (int x = 0; x < clean.width(); ++x) {
-        if (clean(x, y) != static_cast<std::uint8_t>(id)) continue;
-        texels.emplace_back(static_cast<double>(bottom - y) / std::max(bottom - top, 1),
-                            painting.soft(x, y));
-        height += texels.back().first;
-        colour += texels.back().second;
-      }
-    const auto count = static_cast<double>(texels.size());
-    height /= count;
-    colour /= count;
-    double variance = 0.0;
-    for (const auto& [h, c] : texels) variance += (h - height) * (h - height) / count;
-    if (variance < 0.04 * 0.04) continue;
-    // Limits the weight of large classes.
-    const double weight = std::min(1.0, 8000.0 / count);
-    for (const auto& [h, c] : texels) product += weight * (h - height) * (c - colour);
-    squares += weight * count * variance;
-  }
-  const glm::dvec3 slope = product / std::max(squares, 1e-9);
-  return {std::clamp(slope.x, -0.16, 0.16), std::clamp(slope.y, -0.04, 0.04),
-          std::clamp(slope.z, -0.06, 0.06)};
-}
-
 }  // namespace
 
 StyleAir fit_air(const StylePainting& painting, const std::optional<glm::dvec3>& horizon) {
@@ -211,47 +124,6 @@ StyleAir fit_air(const StylePainting& painting, const std::optional<glm::dvec3>&
   air.haze = fit_haze(painting);
   fit_leaves(painting, air);
   return air;
-}
-
-PaintFigures measure_paint(const StylePainting& painting) {
-  PaintFigures out;
-  const Grid<std::uint8_t>& drawn = painting.drawn;
-  // Classes with enough texels, and distant haze.
-  const auto counts = [&](std::uint8_t label) {
-    return label == far_air_label || (label < land_cover_class_count &&
-                                      has_class(painting, static_cast<LandCoverClass>(label)));
-  };
-  out.form_deviation = deviation(middle_forms(painting), [&](int x, int y) {
-    return drawn(x, y) != far_air_label && counts(drawn(x, y));
-  });
-  Grid<float> lightness = lightness_of(painting);
-  Grid<std::uint8_t> mask = drawn;
-  const double scale = static_cast<double>(figure_width_px) / lightness.width();
-  if (scale < 1.0) {
-    const Grid<float> soft = gaussian_blur(lightness, std::max(0.3, 0.4 / scale));
-    const int width = figure_width_px;
-    const int height = std::max(1, static_cast<int>(std::lround(scale * lightness.height())));
-    lightness = Grid<float>(width, height);
-    mask = Grid<std::uint8_t>(width, height);
-    parallel_rows(height, [&](int y) {
-      for (int x = 0; x < width; ++x) {
-        const double u = (x + 0.5) / scale - 0.5;
-        const double v = (y + 0.5) / scale - 0.5;
-        lightness(x, y) = sample_bilinear(soft, u, v);
-        mask(x, y) =
-            drawn.clamped(static_cast<int>(std::lround(u)), static_cast<int>(std::lround(v)));
-      }
-    });
-  }
-  const auto ground = [&](int x, int y) { return counts(mask(x, y)); };
-  const Grid<float> stroke = gaussian_blur(lightness, stroke_px);
-  const Grid<float> form = gaussian_blur(lightness, form_px);
-  const double large = std::max(deviation(gaussian_blur(lightness, large_px), ground), 1e-6);
-  out.broken = std::min(2.0, deviation(difference(lightness, stroke), ground) / large);
-  out.vapour =
-      std::clamp((0.35 - deviation(difference(stroke, form), ground) / large) / 0.25, 0.0, 1.0);
-  out.trend = fit_trend(painting);
-  return out;
 }
 
 }  // namespace belvedere

@@ -22,13 +22,4 @@ struct StyleAir {
 // `horizon`: the colour of the sky's lowest row; none: a painting without sky.
 StyleAir fit_air(const StylePainting& painting, const std::optional<glm::dvec3>& horizon);
 
-// Figures that distinguish painters (A9), as in Style.
-struct PaintFigures {
-  double broken = 0.0;
-  double vapour = 0.0;
-  double form_deviation = 0.0;  // of L between sigma 2 and 12 px, on the ground
-  glm::dvec3 trend{0.0};        // change of L, a, b from the bottom to the top of the ground
-};
-PaintFigures measure_paint(const StylePainting& painting);
-
 }  // namespace belvedere

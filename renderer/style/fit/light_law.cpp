@@ -35,7 +35,22 @@ std::array<glm::dvec2, LightLaw::knot_count> smoothed(
 struct LightShare {
   double hue_by_light = 0.0;
   double lightness = 0.0;
+  std::array<double, 4> quantiles{};
 };
+
+std::array<double, 4> weighted_quantiles(std::vector<std::pair<double, double>> values,
+                                         double total) {
+  std::stable_sort(values.begin(), values.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::array<double, 4> out{};
+  std::size_t k = 0;
+  double sum = 0.0;
+  for (const auto& [value, weight] : values) {
+    sum += weight;
+    while (k < out.size() && sum >= ramp_quantiles[k] * total) out[k++] = value;
+  }
+  return out;
+}
 
 // Share of the variance of hue that lies between bins of lightness; classes have equal weight.
 LightShare light_share(const StylePainting& painting) {
@@ -44,6 +59,7 @@ LightShare light_share(const StylePainting& painting) {
     glm::dvec2 hue{0.0};
   };
   std::array<Sum, bins> binned;
+  std::vector<std::pair<double, double>> lights;  // lightness, weight
   Sum total;
   double squares = 0.0;
   double lightness = 0.0;
@@ -61,6 +77,7 @@ LightShare light_share(const StylePainting& painting) {
       total.hue += w * hue;
       squares += w * (hue.x * hue.x + hue.y * hue.y);
       lightness += w * light;
+      lights.emplace_back(light, w);
     }
   }
   const glm::dvec2 mean = total.hue / total.weight;
@@ -72,7 +89,7 @@ LightShare light_share(const StylePainting& painting) {
     between += bin.weight * (off.x * off.x + off.y * off.y);
   }
   return {std::clamp(between / total.weight / std::max(variance, 1e-9), 0.0, 1.0),
-          lightness / total.weight};
+          lightness / total.weight, weighted_quantiles(std::move(lights), total.weight)};
 }
 
 }  // namespace
@@ -88,12 +105,24 @@ glm::dvec2 LightLaw::at(double lightness) const {
 
 double LightLaw::follow() const { return std::clamp(1.2 * hue_by_light, 0.3, 1.0); }
 double LightLaw::mix() const { return std::clamp(2.3 * (hue_by_light - 0.25), 0.0, 0.65); }
+double LightLaw::by_tone(LandCoverClass id) const {
+  const bool bare = id == LandCoverClass::rock || id == LandCoverClass::scree;
+  return bare ? std::clamp(10.0 * (hue_by_light - 0.4), 0.0, 1.0) : 0.0;
+}
+
+LightLaw law_of(LandCoverClass id, const LightLaw& law) {
+  if (id != LandCoverClass::water) return law;
+  LightLaw none;
+  none.ground_lightness = law.ground_lightness;
+  return none;
+}
 
 LightLaw fit_light_law(const StylePainting& painting) {
   LightLaw law;
   const LightShare share = light_share(painting);
   law.hue_by_light = share.hue_by_light;
   law.ground_lightness = share.lightness;
+  law.tone_lightness = share.quantiles;
   std::array<glm::dvec2, LightLaw::knot_count> means{};
   parallel_rows(LightLaw::knot_count, [&](int i) {
     glm::dvec2 sum(0.0);

@@ -15,18 +15,26 @@ struct LightLaw {
   static constexpr double first_lightness = 0.05;  // the last is 1
 
   std::array<glm::dvec2, knot_count> hue{};  // mean (a, b) of all ground of that lightness
-  double hue_by_light = 0.0;      // η: share of the hue's variance that lightness alone explains
-  double ground_lightness = 0.0;  // mean L of the ground, classes weighted equally
+  double hue_by_light = 0.0;  // η: share of the hue's variance that lightness alone explains
+  // L of the ground, classes weighted equally: mean, and quantiles at ramp_quantiles.
+  double ground_lightness = 0.0;
+  std::array<double, 4> tone_lightness{};
 
   static double knot(int i) {
     return first_lightness + (1.0 - first_lightness) * i / (knot_count - 1);
   }
   glm::dvec2 at(double lightness) const;  // linear between knots, constant beyond
-  // Share by which hue follows a change of lightness, and share by which the hue of classes is
-  // replaced by that of the law: clip(1.2 η, .3, 1) and clip(2.3 (η - .25), 0, .65).
+  // Share by which hue follows a change of lightness: clip(1.2 η, .3, 1).
   double follow() const;
+  // Share by which the hue of a class is replaced by that of the law: clip(2.3 (η - .25), 0, .65).
   double mix() const;
+  // Share by which the hue of bare ground depends on its tone alone, 0 up to η = .4, 1 from .5:
+  // painters of light give rock no hue of its own, and may show all of it in shade.
+  double by_tone(LandCoverClass id) const;
 };
+
+// The law that holds for a class: none for water, which reflects the sky.
+LightLaw law_of(LandCoverClass id, const LightLaw& law);
 
 LightLaw fit_light_law(const StylePainting& painting);
 

@@ -20,10 +20,12 @@ constexpr std::size_t max_paint = 8'000;  // texels that sample the painting's c
 constexpr double to_paint = 0.6;          // share of the shift towards colours of the painting
 constexpr double paint_lightness = 0.06;  // sigmas of L, and of a and b, of similar colours
 constexpr double paint_hue = 0.045;
+constexpr double bare_chroma = 0.6;       // of bare ground, over that of the ground
 constexpr double to_green = 0.75;  // share of the shift towards the painting's green
 constexpr double green_lightness = 0.14;
-constexpr double green_reach_cos = 0.766;  // cosine of ±40° of hue
-constexpr double variance_floor = 1e-5;    // OKLab², limits the amplification of noise
+constexpr double green_reach_cos = 0.766;            // cosine of ±40° of hue
+constexpr double max_turn = std::numbers::pi / 6.0;  // of hue, between related classes
+constexpr double variance_floor = 1e-5;              // OKLab², limits the amplification of noise
 
 bool is_green(LandCoverClass id) {
   return id == pasture || id == alpine_grass || id == valley_floor || id == forest || id == shrub;
@@ -112,6 +114,28 @@ std::optional<LabRamp> water_from_sky(const StylePainting& painting) {
   return ramp;
 }
 
+// The ramp of a class from that of a related class: they differ as in the reference, in lightness
+// and as a ratio of chroma and a turn of hue. (The difference of a and b would turn gold into pink
+// where the reference only turns yellow into grey.)
+LabRamp ramp_from_relative(const LabRamp& relative, const LabRamp& reference,
+                           const LabRamp& relative_reference, double hue_gain) {
+  constexpr double grey = 0.02;  // chroma below which a hue is unreliable
+  LabRamp ramp{};
+  for (std::size_t k = 0; k < ramp.size(); ++k) {
+    const glm::dvec3& to = reference[k];
+    const glm::dvec3& from = relative_reference[k];
+    const double ratio = std::clamp((chroma(to) + grey) / (chroma(from) + grey), 0.5, 1.5);
+    double turn = exact::atan2(to.z, to.y) - exact::atan2(from.z, from.y);
+    turn -= 2.0 * std::numbers::pi * std::round(turn / (2.0 * std::numbers::pi));
+    const double sure = std::min(1.0, std::min(chroma(to), chroma(from)) / (2.0 * grey));
+    const exact::Turn at = exact::turn(hue_gain * sure * std::clamp(turn, -max_turn, max_turn));
+    const glm::dvec3& own = relative[k];
+    ramp[k] = {own.x + 0.9 * (to.x - from.x), ratio * (at.cosine * own.y - at.sine * own.z),
+               ratio * (at.sine * own.y + at.cosine * own.z)};
+  }
+  return ramp;
+}
+
 // Moves hues towards similar colours of the painting, weighted with their chroma.
 LabRamp toward_paint(LabRamp ramp, const std::vector<glm::dvec3>& paint) {
   for (glm::dvec3& colour : ramp) {
@@ -133,6 +157,16 @@ LabRamp toward_paint(LabRamp ramp, const std::vector<glm::dvec3>& paint) {
     }
     colour.y += to_paint * (sum.x / weight - colour.y);
     colour.z += to_paint * (sum.y / weight - colour.z);
+  }
+  return ramp;
+}
+
+// Moves bare ground towards the hue of its tone, greyer than the ground.
+LabRamp toward_tone(LabRamp ramp, const LightLaw& law, double share) {
+  for (glm::dvec3& colour : ramp) {
+    const glm::dvec2 hue = bare_chroma * law.at(colour.x);
+    colour.y += share * (hue.x - colour.y);
+    colour.z += share * (hue.y - colour.z);
   }
   return ramp;
 }
@@ -213,9 +247,7 @@ DerivedRamps derive_missing_classes(const SeenRamps& seen, const StylePainting& 
       from = "the bluest of the sky";
     } else if (relative != all.end()) {
       const std::size_t r = index_of(*relative);
-      const glm::dvec3 gain(0.9, relation.hue_gain, relation.hue_gain);
-      for (std::size_t k = 0; k < ramp.size(); ++k)
-        ramp[k] = seen.ramps[r][k] + gain * (reference[c][k] - reference[r][k]);
+      ramp = ramp_from_relative(seen.ramps[r], reference[c], reference[r], relation.hue_gain);
       from = class_words(*relative);
     } else {
       for (std::size_t k = 0; k < ramp.size(); ++k) ramp[k] = relation(reference[c][k]);
@@ -230,12 +262,13 @@ DerivedRamps derive_missing_classes(const SeenRamps& seen, const StylePainting& 
         from += ", as the lightest thing in the picture";
       }
     }
-    ramp = toward_paint(ramp, paint);
+    if (!mirrored) ramp = toward_paint(ramp, paint);
+    ramp = toward_tone(ramp, law, law.by_tone(info.id));
     if (is_green(info.id) && relative == all.end()) {
       ramp = toward_own_green(ramp, reference[c], paint);
       from += " and the painter's green wherever there is some";
     }
-    out.ramps[c] = stretch_ramp(ramp, reference[c], limits, law);
+    out.ramps[c] = stretch_ramp(ramp, reference[c], limits, law_of(info.id, law));
     out.notes.push_back("no " + class_words(info.id) + " in the painting: its colours are from " +
                         from);
   }

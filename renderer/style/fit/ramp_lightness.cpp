@@ -23,7 +23,8 @@ LightenedRamps lighten_ramps(const ClassRamps& ramps, double goal, double max_li
       for (std::size_t k = 0; k < lightness.size(); ++k)
         lightness[k] = max_lightness * exact::pow(std::max(out.ramps[c][k].x, 0.02) / max_lightness,
                                                   next / out.power);
-      out.ramps[c] = move_lightness(out.ramps[c], lightness, law);
+      out.ramps[c] =
+          move_lightness(out.ramps[c], lightness, law_of(static_cast<LandCoverClass>(c), law));
     }
     out.power = next;
   }

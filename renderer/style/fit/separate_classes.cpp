@@ -129,8 +129,11 @@ bool give_way(ClassRamps& ramps, const ClassFlags& seen, const ClassRamps& refer
 }
 
 // Limits the change of a colour's hue and chroma from `before`.
-glm::dvec3 hold_hue(glm::dvec3 colour, const glm::dvec3& before, double turn_rad,
+glm::dvec3 hold_hue(glm::dvec3 colour, const glm::dvec3& before, LandCoverClass id, bool seen,
                     const SeparateParameters& parameters) {
+  const bool may_turn = !seen && id != LandCoverClass::rock && id != LandCoverClass::scree;
+  const double turn_rad = (may_turn ? parameters.turn_derived_deg : parameters.turn_seen_deg) *
+                          std::numbers::pi / 180.0;
   const double had = chroma(before);
   double now = chroma(colour);
   const double most = std::max(parameters.max_chroma * had, had + 0.010);
@@ -139,7 +142,7 @@ glm::dvec3 hold_hue(glm::dvec3 colour, const glm::dvec3& before, double turn_rad
     colour.z *= most / now;
     now = most;
   }
-  now = std::max(now, parameters.min_chroma * had);
+  now = std::max(now, (seen ? parameters.min_chroma : parameters.min_chroma_derived) * had);
   if (had <= 0.012) return colour;  // too grey to have a hue
   const double hue = exact::atan2(before.z, before.y);
   double turn = exact::atan2(colour.z, colour.y) - hue;
@@ -193,10 +196,9 @@ ClassRamps separate_classes(const ClassRamps& ramps, const ClassFlags& seen,
   for (int pass = 0; pass < parameters.passes; ++pass) {
     const bool moved = give_way(out, seen, reference, parameters);
     for (std::size_t c = 1; c < out.size(); ++c) {
-      const double turn_rad = (seen[c] ? parameters.turn_seen_deg : parameters.turn_derived_deg) *
-                              std::numbers::pi / 180.0;
       for (std::size_t k = 0; k < out[c].size(); ++k)
-        out[c][k] = hold_hue(out[c][k], ramps[c][k], turn_rad, parameters);
+        out[c][k] =
+            hold_hue(out[c][k], ramps[c][k], static_cast<LandCoverClass>(c), seen[c], parameters);
       for (std::size_t k = 1; k < out[c].size(); ++k)
         out[c][k].x = std::max(out[c][k].x, out[c][k - 1].x + 0.035);
       for (glm::dvec3& colour : out[c]) colour.x = std::clamp(colour.x, 0.10, 0.985);

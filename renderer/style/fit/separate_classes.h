@@ -23,10 +23,12 @@ struct SeparateParameters {
   double reference_share = 0.85;   // of the reference's distance, which always suffices
   int passes = 40;
   double step = 0.3;  // share of the shortfall corrected in one pass
-  // Limits of change: rotation of hue, for classes that were seen and derived; factors on chroma.
+  // Limits of change: rotation of hue, for classes that were seen and derived (rock and scree turn
+  // as if seen: they become greyer instead); factors on chroma.
   double turn_seen_deg = 8.0;
   double turn_derived_deg = 22.0;
   double min_chroma = 0.9;
+  double min_chroma_derived = 0.6;
   double max_chroma = 1.2;
   // Share of a pair's shift that a derived class takes if the other was seen.
   double derived_share = 0.8;

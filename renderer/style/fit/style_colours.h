@@ -17,6 +17,8 @@ using LabRamp = std::array<glm::dvec3, 4>;                       // at ramp_tone
 using ClassRamps = std::array<LabRamp, land_cover_class_count>;  // [sky] unused
 using ClassFlags = std::array<bool, land_cover_class_count>;
 
+// Quantiles of lightness at which ramp_tones lie in the program's pictures.
+inline constexpr std::array<double, 4> ramp_quantiles = {0.03, 0.19, 0.54, 0.97};
 // Share of a panorama's ground near each of ramp_tones.
 inline constexpr std::array<double, 4> tone_shares = {0.06, 0.30, 0.44, 0.20};
 // Share of a typical panorama's ground that each class covers, by id.

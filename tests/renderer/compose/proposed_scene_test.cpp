@@ -77,6 +77,7 @@ TEST_F(ProposedScenes, SaysWhyAndWhatElseWasAsked) {
   about_.land_cover = ProposedFile{.file = "cover.tif"};
   about_.legend = "nlcd";
   about_.rock = "sandstone";
+  about_.style = "gogh";
   about_.sources[0].lowest_m = -5.0;
   const std::string text = proposed_scene_text(search_, best_, about_);
   EXPECT_THAT(text, HasSubstr("palette = \"desert\""));
@@ -85,6 +86,7 @@ TEST_F(ProposedScenes, SaysWhyAndWhatElseWasAsked) {
   EXPECT_THAT(text, HasSubstr("% of the picture is sky"));
   EXPECT_EQ(parsed().scene.land_cover.legend, "nlcd");
   EXPECT_EQ(parsed().scene.land_cover.rock, "sandstone");
+  EXPECT_EQ(parsed().scene.style.file, "gogh");
 }
 
 TEST_F(ProposedScenes, SaysWhatIsDoneToTheLandAndWhatItWins) {

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -33,21 +34,54 @@ double length_of(const StyleStroke& stroke) {
   return sum;
 }
 
-TEST(PlaceStrokes, LengthsAndWidthsAreThePaintings) {
-  const Placed placed;
-  double length = 0.0;
-  double width = 0.0;
-  int count = 0;
-  for (const StyleStroke& stroke : placed.of(0)) {
-    if (stroke.id != LandCoverClass::pasture) continue;
-    length += length_of(stroke);
-    width += 2.0 * stroke.half_width_px;
-    ++count;
+// 6 and 2.5 px of the painting, one unit and thus one pixel each, times 1.4 in the first layer.
+TEST(PlaceStrokes, LengthsAndWidthsAreThePaintingsAndShorterFarAway) {
+  Placed placed;
+  const auto means = [&placed] {
+    double length = 0.0;
+    double width = 0.0;
+    int count = 0;
+    for (const StyleStroke& stroke : placed.of(0)) {
+      if (stroke.id != LandCoverClass::pasture) continue;
+      length += length_of(stroke);
+      width += 2.0 * stroke.half_width_px;
+      ++count;
+    }
+    EXPECT_GT(count, 300);
+    return glm::dvec2(length, width) / static_cast<double>(count);
+  };
+  placed.parameters.near_m = 50'000.0;  // beyond the pasture
+  const glm::dvec2 near = means();
+  EXPECT_NEAR(near.x, 8.4, 0.4);
+  EXPECT_NEAR(near.y, 3.5, 0.1);
+  placed.parameters.near_m = 100.0;
+  placed.parameters.far_m = 200.0;
+  EXPECT_NEAR(means().x, 0.6 * near.x, 0.2);
+}
+
+// Regions of 110 units: the spread of colours differs between the ends of the sheet's noise.
+TEST(PlaceStrokes, ContrastVariesBetweenRegions) {
+  Placed placed;
+  const auto jitters = [&placed](double share) {
+    placed.parameters.unevenness = share;
+    std::vector<double> of;
+    for (const StyleStroke& stroke : placed.of(1))
+      if (stroke.id == LandCoverClass::pasture)
+        of.push_back(glm::length(glm::dvec3(stroke.colour - stroke.ground)));
+    return of;
+  };
+  const std::vector<double> even = jitters(0.0);
+  const std::vector<double> uneven = jitters(1.0);
+  ASSERT_EQ(even.size(), uneven.size());
+  double min_ratio = 10.0;
+  double max_ratio = 0.0;
+  for (std::size_t i = 0; i < even.size(); ++i) {
+    if (even[i] < 0.01) continue;
+    min_ratio = std::min(min_ratio, uneven[i] / even[i]);
+    max_ratio = std::max(max_ratio, uneven[i] / even[i]);
   }
-  ASSERT_GT(count, 300);
-  // 6 and 2.5 px of the painting, one unit and thus one pixel each, times 1.4 in the first layer.
-  EXPECT_NEAR(length / count, 8.4, 0.4);
-  EXPECT_NEAR(width / count, 3.5, 0.1);
+  EXPECT_GT(max_ratio / min_ratio, 1.3);
+  EXPECT_LT(max_ratio, 1.9);
 }
 
 TEST(PlaceStrokes, TheirOrderIsTheirCellsNotTheirPlaces) {

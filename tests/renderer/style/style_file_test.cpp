@@ -65,6 +65,8 @@ TEST(StyleFile, ReadsWhatItWritesToThePrintedDigits) {
   EXPECT_NEAR(read.broken, style.broken, digit);
   EXPECT_NEAR(read.vapour, style.vapour, digit);
   EXPECT_NEAR(read.form_deviation, style.form_deviation, digit);
+  EXPECT_NEAR(read.unevenness, style.unevenness, digit);
+  EXPECT_NEAR(read.contour_lines, style.contour_lines, digit);
   EXPECT_NEAR(read.hue_by_light, style.hue_by_light, digit);
   EXPECT_NEAR(read.units_per_px, style.units_per_px, digit);
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(read.trend[c], style.trend[c], digit);

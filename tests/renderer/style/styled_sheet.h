@@ -69,6 +69,8 @@ inline Style make_style() {
   style.units_per_px = 1.0;
   style.broken = 0.8;
   style.vapour = 0.5;
+  style.unevenness = 0.7;
+  style.contour_lines = 1.0;
   style.trend = glm::vec3(0.08F, 0.0F, -0.03F);
   for (StyleBrushwork& b : style.brushwork) {
     b.length_px = 6.0;
@@ -96,6 +98,7 @@ inline StylePaintParameters make_style_parameters(int width = sheet_width,
                                                   int height = sheet_height) {
   StylePaintParameters parameters;
   parameters.sheet_px = {width, height};
+  parameters.contour_lines = 0.0;
   parameters.sky_rows = sky_end;
   parameters.seed = 11;
   return parameters;

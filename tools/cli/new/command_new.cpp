@@ -159,6 +159,7 @@ int run_new(const NewOptions& options) {
   about.title = options.title.empty()
                     ? title_of(options.dems.empty() ? options.out : options.dems.front())
                     : options.title;
+  about.style = options.style.ends_with(".toml") ? names.name(options.style) : options.style;
   about.width_px = format.width_px;
   about.sheet_width_mm = format.sheet_width_mm;
   const DemParameters dem = find_elevation(options, names, cache, progress, about);
@@ -170,8 +171,10 @@ int run_new(const NewOptions& options) {
   require_region(ground, massifs, dem.sources.front().path);
   note_limits(ground, massifs, progress);
   if (is_canyon_country(region_climate(ground))) {
-    about.palette = "desert";
-    about.palette_why = "the climate of the place is dry and warm";
+    if (about.style.empty()) {  // a style has its own palette
+      about.palette = "desert";
+      about.palette_why = "the climate here is dry and warm";
+    }
     // Dry mountains may be of any rock; plateaus cut by canyons are of beds.
     constexpr double mostly = 0.5;
     if (ground.plateau > mostly) about.rock = "sandstone";

@@ -47,6 +47,11 @@ void add_new_options(CommandOptions& command, NewOptions& options) {
   command.add_option("--title", options.title, "Title of the scene. Default: the file's name")
       .type_name("TEXT");
   command
+      .add_option("--style", options.style,
+                  "The look of a painting: segantini, gogh, monet, turner, rubens, bruegel, or a "
+                  "file of belvedere style fit")
+      .type_name("STYLE");
+  command
       .add_option("--crs", options.crs,
                   "Coordinate system of files that do not state it: EPSG:32632, or its definition")
       .type_name("CRS");

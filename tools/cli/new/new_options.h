@@ -18,6 +18,7 @@ struct NewOptions {
   std::string out;
   std::string pictures;
   std::string title;
+  std::string style;
   std::string crs;
   std::optional<double> lowest_m;
   int choose = 1;

@@ -1,5 +1,6 @@
 #include "renderer/style/fit/class_ramps.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -8,6 +9,8 @@
 
 namespace belvedere {
 namespace {
+
+using enum LandCoverClass;
 
 // Lightness uniform from .3 to .8; hue of constant chroma that rotates with it.
 std::vector<glm::vec3> ramp_texels() {
@@ -24,7 +27,7 @@ TEST(QuantileRamp, GivesBackTheColoursAtItsQuantiles) {
   const ClassRampParameters parameters;
   const LabRamp ramp = quantile_ramp(ramp_texels());
   for (std::size_t k = 0; k < 4; ++k) {
-    const double q = parameters.quantiles[k];
+    const double q = ramp_quantiles[k];
     EXPECT_NEAR(ramp[k].x, 0.3 + 0.5 * q, 2e-3) << k;
     // Hue is the mean over the neighbouring ranks that exist.
     const double middle = 0.5 * (std::max(0.0, q - 0.1) + std::min(1.0, q + 0.1));
@@ -88,6 +91,47 @@ TEST(FitClassRamps, SeesTheClassesOfTheMaskInTheirHues) {
     EXPECT_GT(colour.z, 0.03);
   }
   for (std::size_t k = 1; k < 4; ++k) EXPECT_GT(green[k].x, green[k - 1].x);
+}
+
+// A warm lake under a warm sky, and blue paint elsewhere: water takes most of the blue's hue.
+TEST(FitClassRamps, WarmWaterIsCooled) {
+  Grid<glm::vec3> picture(120, 90);
+  Grid<std::uint8_t> mask(120, 90);
+  for (int y = 0; y < 90; ++y)
+    for (int x = 0; x < 120; ++x) {
+      const bool lake = y < 30;
+      const bool blue = y >= 55;
+      mask(x, y) = blue ? std::uint8_t{255} : test::label_of(lake ? water : pasture);
+      const double light = 0.45 + 0.2 * (x % 40) / 39.0;
+      picture(x, y) = lake   ? from_oklab({light, 0.01, 0.04})
+                      : blue ? from_oklab({light, -0.02, -0.07})
+                             : from_oklab({light, 0.0, 0.09});
+    }
+  const StylePainting painting = prepare_painting(picture, mask);
+  const SeenRamps seen =
+      fit_class_ramps(painting, fit_light_law(painting), palette_ramps(read_palette("summer")));
+  EXPECT_THAT(seen.notes, testing::ElementsAre(testing::HasSubstr("water is warm")));
+  EXPECT_NEAR(seen.ramps[index_of(water)][1].z, 0.3 * 0.04 + 0.7 * -0.07, 0.012);
+}
+
+// All rock lies in blue shade, meadows in golden light: rock in light is golden too.
+TEST(FitClassRamps, RockInLightHasTheHueOfLightWhereLightRulesHue) {
+  Grid<glm::vec3> picture(120, 90);
+  Grid<std::uint8_t> mask(120, 90);
+  for (int y = 0; y < 90; ++y)
+    for (int x = 0; x < 120; ++x) {
+      const bool shade = y < 45;
+      mask(x, y) = test::label_of(shade ? rock : pasture);
+      const double light = (shade ? 0.40 : 0.65) + 0.2 * (x % 40) / 39.0;
+      picture(x, y) = from_oklab({light, 0.01, shade ? -0.06 : 0.07});
+    }
+  const StylePainting painting = prepare_painting(picture, mask);
+  const LightLaw law = fit_light_law(painting);
+  ASSERT_EQ(law.by_tone(rock), 1.0);
+  const LabRamp ramp =
+      fit_class_ramps(painting, law, palette_ramps(read_palette("summer"))).ramps[index_of(rock)];
+  EXPECT_LT(ramp[0].z, -0.03);
+  EXPECT_GT(ramp[3].z, 0.03);
 }
 
 }  // namespace

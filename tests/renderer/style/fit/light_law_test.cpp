@@ -47,6 +47,21 @@ TEST(LightLaw, IsTheMeanHueAtThatLightness) {
   EXPECT_EQ(law.at(2.0), law.at(1.0));
 }
 
+TEST(LightLaw, BareGroundHasTheHueOfItsToneWhereLightRulesHue) {
+  const LightLaw light = fit_light_law(two_classes(true));
+  EXPECT_EQ(light.by_tone(rock), 1.0);
+  EXPECT_EQ(light.by_tone(pasture), 0.0);
+  for (std::size_t k = 0; k < 4; ++k)  // lightness is uniform from 0.3 to 0.8
+    EXPECT_NEAR(light.tone_lightness[k], 0.3 + 0.5 * ramp_quantiles[k], 0.012);
+  EXPECT_EQ(fit_light_law(two_classes(false)).by_tone(rock), 0.0);
+}
+
+TEST(LightLaw, WaterDoesNotFollowIt) {
+  const LightLaw none = law_of(water, fit_light_law(two_classes(true)));
+  EXPECT_EQ(none.at(0.3), none.at(0.8));
+  EXPECT_EQ(none.mix(), 0.0);
+}
+
 TEST(MoveLightness, TurnsHueAsThePaintingDoes) {
   const LightLaw law = fit_light_law(two_classes(true));
   LabRamp ramp{};

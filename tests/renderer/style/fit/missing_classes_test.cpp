@@ -60,6 +60,8 @@ TEST_F(MissingClasses, WaterIsTheBlueOfTheSkyAndDarker) {
   const LabRamp& water_ramp = out.ramps[index_of(water)];
   for (const glm::dvec3& colour : water_ramp) EXPECT_LT(colour.z, 0.0);
   EXPECT_LT(water_ramp[1].x, 0.75);
+  EXPECT_NEAR(water_ramp[2].y, -0.02, 0.005);  // the sky's hue, whatever the ground's light does
+  EXPECT_NEAR(water_ramp[2].z, -0.06, 0.005);
 }
 
 // Scree differs from rock about as in the reference.
