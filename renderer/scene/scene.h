@@ -263,6 +263,7 @@ struct SceneStyle {  // of a painting: see renderer/style
   double brushwork = 1.0;
   double sky = 1.0;
   std::optional<double> scale;  // absent: the style's own
+  bool winter = false;          // open ground under the style's snow
   double contour_lines = 1.0;
   double relief = 1.0;
   double canvas = 1.0;

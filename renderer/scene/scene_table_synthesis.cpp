@@ -37,6 +37,9 @@ std::vector<SceneSection> make_style_sections() {
             .meaning = "Size of a pixel of the painting on the sheet; larger values give larger "
                        "strokes.",
             .derived = "by the painting's size"},
+           {.name = "winter",
+            .field = AT(style.winter),
+            .meaning = "Covers open ground with the style's snow, as the palette \"winter\" does."},
            {.name = "contour_lines",
             .field = AT(style.contour_lines),
             .range = {0, 1},

@@ -89,11 +89,12 @@ ColourRelation fit_relation(const StylePainting& painting, const ClassRamps& ref
 std::optional<LabRamp> water_from_sky(const StylePainting& painting) {
   std::vector<glm::vec3> texels = class_texels(painting.colours, painting.drawn, sky, 200'000);
   if (texels.size() <= min_sky_texels) return std::nullopt;
-  std::vector<float> yellow;
-  yellow.reserve(texels.size());
-  for (const glm::vec3& texel : texels) yellow.push_back(texel.z);
-  const float bluest = value_at_share(std::move(yellow), 0.30);
-  std::erase_if(texels, [&](const glm::vec3& texel) { return texel.z > bluest; });
+  // Low a + b: blue rather than violet.
+  std::vector<float> warmth;
+  warmth.reserve(texels.size());
+  for (const glm::vec3& texel : texels) warmth.push_back(texel.y + texel.z);
+  const float bluest = value_at_share(std::move(warmth), 0.30);
+  std::erase_if(texels, [&](const glm::vec3& texel) { return texel.y + texel.z > bluest; });
   std::stable_sort(texels.begin(), texels.end(),
                    [](const glm::vec3& a, const glm::vec3& b) { return a.x < b.x; });
   constexpr std::array<std::array<double, 2>, 4> shares = {

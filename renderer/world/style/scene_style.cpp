@@ -1,12 +1,14 @@
 #include "renderer/world/style/scene_style.h"
 
 #include "renderer/style/style_file.h"
+#include "renderer/style/winter_style.h"
 
 namespace belvedere {
 
 std::optional<Style> named_style(const LoadedScene& loaded) {
   if (loaded.scene.style.file.empty()) return std::nullopt;
-  return read_style(find_named_file(loaded, "styles", loaded.scene.style.file));
+  Style style = read_style(find_named_file(loaded, "styles", loaded.scene.style.file));
+  return loaded.scene.style.winter ? winter_style(std::move(style)) : style;
 }
 
 Palette named_palette(const LoadedScene& loaded) {
