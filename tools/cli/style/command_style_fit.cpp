@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "base/text/json.h"
 #include "base/text/letters.h"
+#include "renderer/exemplar/complete_sky.h"
 #include "renderer/exemplar/painting_segments.h"
 #include "renderer/image/icc/painting_file.h"
 #include "renderer/image/image_io.h"
@@ -40,7 +41,8 @@ Grid<std::uint8_t> inferred_classes(const StyleFitOptions& options, const Grid<g
                                     const Grid<float>& alpha) {
   const PaintingSegments segments = segment_painting(picture, alpha, usual_theta, options.painting);
   const std::size_t groups = std::min(segments.tree.pieces, inferred_groups);
-  return class_mask(segments, cut_tree(segments.tree, groups), inferred_class_of(segments, groups));
+  return complete_sky(
+      class_mask(segments, cut_tree(segments.tree, groups), inferred_class_of(segments, groups)));
 }
 
 std::string as_text(const StyleFitOptions& options, const Style& style, std::size_t bytes) {
