@@ -21,6 +21,7 @@ namespace {
 constexpr float lightness_jitter = 0.9F;
 constexpr float hue_jitter = 1.6F;
 constexpr float sky_hue_jitter = 0.6F;  // of that
+constexpr float swirl_hue_jitter = 0.8F;
 constexpr double swirl_strength = 1.6;  // a sky has no forms that strong strokes could hide
 constexpr double sky_length = 1.6;
 constexpr double tree_length = 0.7;
@@ -105,10 +106,9 @@ LayerBrushes layer_brushes(const Style& style, const StylePaintParameters& param
     const bool sky = row.id == LandCoverClass::sky;
     const bool swirls = sky && has_swirls(b);
     const double held = std::min(1.0, (swirls ? swirl_strength : 1.0) * max_deviation /
-                                          std::max(b.lightness_deviation, 1e-4)) *
-                        (sky && !swirls ? 0.7 : 1.0);
+                                          std::max(b.lightness_deviation, 1e-4));
     const auto share = static_cast<float>(held * layer.jitter);
-    const float hue = hue_jitter * (sky && !swirls ? sky_hue_jitter : 1.0F);
+    const float hue = hue_jitter * (swirls ? swirl_hue_jitter : sky ? sky_hue_jitter : 1.0F);
     brush.jitter = share * glm::vec3(lightness_jitter, hue, hue);
   }
   return brushes;

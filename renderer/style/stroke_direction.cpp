@@ -11,6 +11,7 @@
 #include "renderer/paint/picture_filter.h"
 #include "renderer/paint/picture_noise.h"
 #include "renderer/style/fit/missing_classes.h"
+#include "renderer/style/style_heaps.h"
 
 namespace belvedere {
 namespace {
@@ -18,12 +19,21 @@ namespace {
 using enum LandCoverClass;
 
 // In units of the sheet.
-constexpr double fine_sigma_units = 1.6;  // details smaller than this have no direction
-constexpr double form_sigma_units = 4.0;  // window of the structure tensor
-constexpr double turn_sigma_units = 1.2;  // smoothing of directions
-constexpr double swirl_sigma_x_units = 72.0;
-constexpr double swirl_sigma_y_units = 48.0;
-constexpr int swirl_octaves = 2;
+constexpr double fine_sigma_units = 1.6;     // details smaller than this have no direction
+constexpr double form_sigma_units = 4.0;     // window of the structure tensor
+constexpr double turn_sigma_units = 1.2;     // smoothing of directions
+constexpr double wave_sigma_x_units = 72.0;  // of nearly level strokes
+constexpr double wave_sigma_y_units = 48.0;
+// Swirls of the scales between which StyleBrushwork::steadiness is measured, px of the painting.
+// With these sigmas and this flow a sky rendered in van Gogh's style has the painting's steadiness
+// within 0.06.
+constexpr std::array<double, 3> swirl_sigmas_px = {14.0, 28.0, 56.0};
+constexpr double flow_share = 1.8;
+constexpr double swirl_width = 1.25;
+constexpr std::array<double, 4> usual_steadiness = {0.8, 0.65, 0.45, 0.35};
+// Small swirls come in groups: a gentle share everywhere, the rest where another noise is high.
+constexpr float even_share = 0.25F;
+constexpr float group_share = 1.6F;
 // Sky strokes that are coherent but not level run in swirls. Of the paintings fitted so far only
 // van Gogh's have them.
 constexpr double max_level_of_swirls = 0.4;
@@ -83,47 +93,85 @@ std::array<Grid<float>, 2> form_direction(const Grid<glm::vec3>& lab, double ppu
   return {std::move(xx_yy), std::move(xy2)};
 }
 
-// Doubled angles of the sky's strokes: nearly level, or along the contours of a noise, which gives
-// swirls. Empty where the window has no sky.
-std::array<Grid<float>, 2> sky_direction(const StyleBrushwork& brushwork,
-                                         const GuidanceBuffers& guidance,
-                                         const StylePaintParameters& parameters,
-                                         glm::ivec2 origin_px) {
-  bool seen = false;
-  for (std::size_t i = 0; i < guidance.depth_m.size() && !seen; ++i) seen = guidance.is_sky(i);
-  if (!seen) return {};
+bool shows_sky(const GuidanceBuffers& guidance) {
+  for (std::size_t i = 0; i < guidance.depth_m.size(); ++i)
+    if (guidance.is_sky(i)) return true;
+  return false;
+}
+
+// Nearly level: doubled angles. Empty where the window has no sky.
+std::array<Grid<float>, 2> level_direction(const StyleBrushwork& brushwork,
+                                           const GuidanceBuffers& guidance,
+                                           const StylePaintParameters& parameters,
+                                           glm::ivec2 origin_px) {
+  if (!shows_sky(guidance)) return {};
   const int width = guidance.width();
   const int height = guidance.height();
-  Grid<float> hills(width + 2, height + 2, 0.0F);  // with a border of one pixel
-  for (int octave = 0; octave < swirl_octaves; ++octave) {
+  Grid<float> waves(width, height, 0.0F);
+  for (int octave = 0; octave < 2; ++octave) {
     const double finer = 1.0 / (1 << octave);
     const Grid<float> noise = make_image_noise(
         stream_seed(parameters.seed, Stream::style_directions, static_cast<std::uint64_t>(octave)),
-        origin_px - 1, width + 2, height + 2, parameters.pixels_per_unit,
-        finer * swirl_sigma_x_units, finer * swirl_sigma_y_units);
+        origin_px, width, height, parameters.pixels_per_unit, finer * wave_sigma_x_units,
+        finer * wave_sigma_y_units);
     const float share = octave == 0 ? 0.95F : 0.3F;
-    for (std::size_t i = 0; i < hills.size(); ++i) hills[i] += share * noise[i];
+    for (std::size_t i = 0; i < waves.size(); ++i) waves[i] += share * noise[i];
   }
-  const bool swirls = has_swirls(brushwork);
-  const auto level = static_cast<float>(0.5 * std::max(brushwork.level, 0.0));
   const double max_angle = 0.12 * (1.0 - std::clamp(brushwork.level, 0.0, 1.0)) + 0.02;
+  std::array<Grid<float>, 2> of = {Grid<float>(width, height), Grid<float>(width, height)};
+  parallel_ranges(height, 16, [&](int begin, int end) {
+    for (std::size_t i = waves.index(0, begin); i < waves.index(0, end); ++i) {
+      const exact::Turn turn = exact::turn(2.0 * max_angle * waves[i]);
+      of[0][i] = static_cast<float>(turn.cosine);
+      of[1][i] = static_cast<float>(turn.sine);
+    }
+  });
+  return of;
+}
+
+// Swirls of several sizes in a level flow: along the contours of a stream function. Each size turns
+// as much of the flow as the painting's strokes turn on that scale. Doubled angles; empty where the
+// window has no sky.
+std::array<Grid<float>, 2> swirl_direction(const Style& style, const GuidanceBuffers& guidance,
+                                           const StylePaintParameters& parameters,
+                                           glm::ivec2 origin_px) {
+  if (!shows_sky(guidance)) return {};
+  const StyleBrushwork& brushwork = brushwork_of(style, sky);
+  const auto& kept = brushwork.steadiness.front() > 0.0 ? brushwork.steadiness : usual_steadiness;
+  const double ppu = parameters.pixels_per_unit;
+  const double px = sheet_px_per_painting_px(style, parameters);
+  const int width = guidance.width();
+  const int height = guidance.height();
+  Grid<float> stream(width + 2, height + 2, 0.0F);  // with a border of one pixel
+  const auto noise_of = [&](std::size_t which, double sigma_units) {
+    return make_image_noise(stream_seed(parameters.seed, Stream::style_directions,
+                                        2 + static_cast<std::uint64_t>(which)),
+                            origin_px - 1, width + 2, height + 2, ppu, swirl_width * sigma_units,
+                            sigma_units);
+  };
+  for (std::size_t k = 0; k < swirl_sigmas_px.size(); ++k) {
+    const double sigma_px = swirl_sigmas_px[k] * px;
+    // A noise's slope has the deviation 1 / (√2 sigma).
+    const auto height_px = static_cast<float>(
+        std::sqrt(2.0 * std::max(0.0, square(kept[k]) - square(kept[k + 1]))) * sigma_px);
+    const Grid<float> noise = noise_of(2 * k, sigma_px / ppu);
+    const bool largest = k + 1 == swirl_sigmas_px.size();
+    const Grid<float> groups = largest ? Grid<float>() : noise_of(2 * k + 1, 3.0 * sigma_px / ppu);
+    for (std::size_t i = 0; i < stream.size(); ++i)
+      stream[i] += height_px * noise[i] *
+                   (largest ? 1.0F : even_share + group_share * std::max(0.0F, groups[i]));
+  }
+  const auto flow = static_cast<float>(2.0 * flow_share * kept.back());  // over two pixels
   std::array<Grid<float>, 2> of = {Grid<float>(width, height), Grid<float>(width, height)};
   parallel_ranges(height, 16, [&](int begin, int end) {
     for (int y = begin; y != end; ++y)
       for (int x = 0; x < width; ++x) {
-        const std::size_t i = guidance.depth_m.index(x, y);
-        if (!guidance.is_sky(i)) continue;
-        if (swirls) {  // along the contour: perpendicular to the gradient
-          const float down = hills(x + 1, y + 2) - hills(x + 1, y);
-          const float right = hills(x + 2, y + 1) - hills(x, y + 1);
-          const float even = 1.0F / std::max(down * down + right * right, 1e-12F);
-          of[0][i] = (down * down - right * right) * even + level;
-          of[1][i] = -2.0F * down * right * even;
-        } else {
-          const exact::Turn turn = exact::turn(2.0 * max_angle * hills(x + 1, y + 1));
-          of[0][i] = static_cast<float>(turn.cosine);
-          of[1][i] = static_cast<float>(turn.sine);
-        }
+        // Along the contour: perpendicular to the gradient.
+        const float down = stream(x + 1, y + 2) - stream(x + 1, y) + flow;
+        const float right = stream(x + 2, y + 1) - stream(x, y + 1);
+        const float even = 1.0F / std::max(down * down + right * right, 1e-12F);
+        of[0](x, y) = (down * down - right * right) * even;
+        of[1](x, y) = -2.0F * down * right * even;
       }
   });
   return of;
@@ -166,16 +214,21 @@ Grid<glm::vec2> make_stroke_direction(const Style& style, const GuidanceBuffers&
   std::array<ClassDirection, land_cover_class_count> mixes;
   for (const LandCoverClassInfo& row : land_cover_classes())
     mixes[static_cast<std::size_t>(row.id)] = direction_of(brushwork_of(style, row.id), row.id);
+  const StyleBrushwork& sky_brushwork = brushwork_of(style, sky);
   const auto [sky_cos, sky_sin] =
-      sky_direction(brushwork_of(style, sky), guidance, parameters, origin_px);
+      has_swirls(sky_brushwork) ? swirl_direction(style, guidance, parameters, origin_px)
+                                : level_direction(sky_brushwork, guidance, parameters, origin_px);
+  // Strokes follow the forms of heaped clouds.
+  const auto heaps =
+      static_cast<float>(heaped_share(style.sky) * form_share * std::max(sky_brushwork.form, 0.0));
 
   Grid<float> cosine(lab.width(), lab.height());
   Grid<float> sine(lab.width(), lab.height());
   parallel_ranges(lab.height(), 16, [&](int begin, int end) {
     for (std::size_t i = lab.index(0, begin); i < lab.index(0, end); ++i) {
       if (guidance.is_sky(i)) {
-        cosine[i] = sky_cos[i];
-        sine[i] = sky_sin[i];
+        cosine[i] = sky_cos[i] + heaps * form_cos[i];
+        sine[i] = sky_sin[i] + heaps * form_sin[i];
         continue;
       }
       const ClassDirection& of = mixes[static_cast<std::size_t>(guidance.land_cover[i])];

@@ -23,6 +23,10 @@ struct StyleBrushwork {
   double form = 0.0;                 // mean of cos 2(θ - direction of larger forms): 1 along them
   double coherence = 0.0;            // 0…1: how much neighbouring strokes agree in direction
   double lightness_deviation = 0.0;  // of the residuals' L
+  // Of the sky: share of the strokes' direction left in its mean within Gaussians of sigma 8, 16,
+  // 32 and 64 px of the painting, 0…1, descending: what is lost from one to the next turns on that
+  // scale, what is left at the last is a steady flow. Zeros: not measured.
+  std::array<double, 4> steadiness{};
   // Colour of a stroke minus the local mean: a list for each third of lightness, dark to light.
   std::array<std::vector<glm::vec3>, 3> residuals;
   std::vector<glm::vec3> accents;  // colours of the most colourful strokes
@@ -35,6 +39,9 @@ struct StyleSkyChange {
   glm::vec3 axis{0.0F};
   double length_x = 0.3;  // shares of the sky's width and height, > 0
   double length_y = 0.3;
+  // Deviations of the amount, whose own is 1, between Gaussians of sigma 1/90 and 1/45, 1/45 and
+  // 2/45, 2/45 and 4/45 of the root of the sky's area: its streaks. 0…1.
+  std::array<double, 3> streaks{};
   std::array<double, 7>
       quantiles{};  // of the change's amount, at shares 0.02 0.1 0.25 0.5 0.75 0.9 0.98
 };
@@ -43,6 +50,13 @@ struct StyleSky {
   // 5 rows from the top to the horizon, of 3 from left to right; empty: the painting has no sky.
   Grid<glm::vec3> medians;
   std::vector<StyleSkyChange> changes;  // at most 2
+  double aspect = 3.0;                  // width of the painting's sky over its height, 0.1…20
+  // How much steeper the first change is on the upper side of light than below, -1…1: skewness of
+  // its vertical gradient in the sky's upper half. Heaped clouds have about 0.35, calm skies
+  // -0.05…0.12.
+  double upper_edges = 0.0;
+  glm::vec3 clear{0.0F};     // clear sky between heaps, minus the medians, OKLab …
+  double clear_share = 0.0;  // … and its share of the sky's upper half, 0…1
 };
 
 struct Style {

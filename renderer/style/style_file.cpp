@@ -57,6 +57,20 @@ auto read_list(const ConfigValue& value, const std::string& name, std::size_t ma
   return out;
 }
 
+std::array<double, 4> read_steadiness(const ConfigValue& value, const std::string& name) {
+  std::array<double, 4> out{};
+  const ConfigArray& numbers = as_array(value, name);
+  if (numbers.size() != out.size())
+    refuse_value(value, name, fmt::format("{} shares", numbers.size()),
+                 "four, at sigmas of 8, 16, 32 and 64 px");
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    out[i] = as_number(numbers[i], name);
+    if (!(out[i] >= 0.0 && out[i] <= (i == 0 ? 1.0 : out[i - 1])))
+      refuse_value(numbers[i], name, describe(numbers[i]), "shares in descending order, 0 … 1");
+  }
+  return out;
+}
+
 StyleBrushwork read_brushwork(const ConfigValue& value, const std::string& name) {
   StyleBrushwork out;
   ConfigReader reader(value, name);
@@ -71,6 +85,8 @@ StyleBrushwork read_brushwork(const ConfigValue& value, const std::string& name)
   reader.number("form", out.form, -1.0, 1.0);
   reader.number("coherence", out.coherence, 0.0, 1.0);
   reader.number("lightness_deviation", out.lightness_deviation, 0.0, 1.0);
+  if (const ConfigValue* steadiness = reader.known("steadiness"))
+    out.steadiness = read_steadiness(*steadiness, name);
   if (const ConfigValue* accents = reader.known("accents"))
     out.accents = read_list(*accents, name, max_accents,
                             [&](const ConfigValue& v) { return lab_colour(v, name); });
@@ -101,6 +117,11 @@ void read_sky_grid(const ConfigValue& value, const std::string& name, StyleSky& 
         sky.medians(static_cast<int>(i), static_cast<int>(j)) = lab_colour(row[i], name);
     }
   }
+  reader.number("aspect", sky.aspect, 0.1, 20.0);
+  reader.number("upper_edges", sky.upper_edges, -1.0, 1.0);
+  if (const ConfigValue* clear = reader.known("clear"))
+    sky.clear = three_numbers(*clear, name, -1.0, 1.0);
+  reader.number("clear_share", sky.clear_share, 0.0, 1.0);
   if (const ConfigValue* changes = reader.known("changes")) {
     const ConfigArray& array = as_array(*changes, name);
     if (array.size() > 2)
@@ -112,6 +133,11 @@ void read_sky_grid(const ConfigValue& value, const std::string& name, StyleSky& 
         change.axis = three_numbers(*axis, name, -1.0, 1.0);
       each.number("length_x", change.length_x, 0.001, 4.0);
       each.number("length_y", change.length_y, 0.001, 4.0);
+      if (const ConfigValue* streaks = each.known("streaks")) {
+        const glm::vec3 numbers = three_numbers(*streaks, name, 0.0, 1.0);
+        for (int s = 0; s < 3; ++s)
+          change.streaks[static_cast<std::size_t>(s)] = static_cast<double>(numbers[s]);
+      }
       if (const ConfigValue* quantiles = each.known("quantiles")) {
         const ConfigArray& numbers = as_array(*quantiles, name);
         if (numbers.size() != change.quantiles.size())

@@ -12,6 +12,7 @@
 #include "base/parallel.h"
 #include "base/random_streams.h"
 #include "renderer/paint/picture_noise.h"
+#include "renderer/style/style_heaps.h"
 
 namespace belvedere {
 namespace {
@@ -20,16 +21,18 @@ namespace {
 constexpr double covered_rows = 0.8;
 constexpr int octaves = 4;
 constexpr double octave_share = 0.55;
-// Sigma of the first octave's kernel over the half-correlation length of the sum of octaves. A
-// single Gaussian has .6; finer octaves shorten the correlation of the sum.
-constexpr double sigma_per_length = 1.28;
+// Streaks: noises whose kernels are streak_sigma times the finer sigma of their band, whose size is
+// streak_size of the root of the sky's area. About streak_share of the variance of one of a row of
+// such noises, each twice as large as the one before, lies in its band.
+constexpr double streak_sigma = 1.4;
+constexpr double streak_size = 1.0 / 90.0;
+constexpr double streak_share = 0.3;
+constexpr double max_streak_variance = 0.8;
+constexpr int first_streak = 16;  // numbers of random streams: octaves, heaps from 8, streaks
 // Min ratio of a cloud's width to its height; level strokes of the painting add up to
 // level_flatness.
 constexpr double min_flatness = 1.5;
 constexpr double level_flatness = 3.0;
-// Normal deviates at the shares of StyleSkyChange::quantiles.
-constexpr std::array<double, 7> normal_deviates = {-2.054, -1.282, -0.674, 0.0,
-                                                   0.674,  1.282,  2.054};
 
 // The range of rows of the window that contain sky; nothing where there is none.
 std::optional<std::pair<int, int>> rows_of_sky(const GuidanceBuffers& guidance) {
@@ -65,12 +68,6 @@ std::array<Grid<float>, 3> spline_of(const Grid<glm::vec3>& colours) {
   return planes;
 }
 
-struct SkyWindow {
-  glm::ivec2 origin_px;
-  int width;
-  int height;
-};
-
 Grid<float> change_noise(const StyleSkyChange& change, int which, double flatness,
                          const SkyWindow& window, const StylePaintParameters& parameters) {
   const double ppu = parameters.pixels_per_unit;
@@ -86,7 +83,7 @@ Grid<float> change_noise(const StyleSkyChange& change, int which, double flatnes
   double squares = 0.0;
   double share = 1.0;
   for (int octave = 0; octave < octaves; ++octave, share *= octave_share) {
-    const double finer = sigma_per_length / (1 << octave);
+    const double finer = sky_sigma_per_length / (1 << octave);
     const Grid<float> noise =
         make_image_noise(stream_seed(parameters.seed, Stream::style_sky,
                                      static_cast<std::uint64_t>(which * octaves + octave)),
@@ -95,15 +92,37 @@ Grid<float> change_noise(const StyleSkyChange& change, int which, double flatnes
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += static_cast<float>(share) * noise[i];
     squares += share * share;
   }
-  const float even = static_cast<float>(1.0 / std::sqrt(squares));
+  // The finer scales of a painting contrast more than such octaves do.
+  std::array<double, 3> variances{};
+  double finer = 0.0;
+  for (std::size_t k = 0; k < variances.size(); ++k) {
+    variances[k] = change.streaks[k] * change.streaks[k] / streak_share;
+    finer += variances[k];
+  }
+  const double fits = std::min(1.0, max_streak_variance / std::max(finer, 1e-9));
+  const auto even = static_cast<float>(std::sqrt((1.0 - fits * finer) / squares));
   for (float& value : sum) value *= even;
+  const double sigma = streak_sigma * streak_size *
+                       std::sqrt(static_cast<double>(parameters.sheet_px.x) * parameters.sky_rows) /
+                       ppu;
+  for (std::size_t k = 0; k < variances.size(); ++k) {
+    if (!(variances[k] > 0.0)) continue;
+    const double own = sigma * (1 << k);
+    const Grid<float> noise = make_image_noise(
+        stream_seed(parameters.seed, Stream::style_sky,
+                    static_cast<std::uint64_t>(first_streak + 3 * which) + k),
+        window.origin_px, window.width, window.height, ppu,
+        std::max(own * std::sqrt(flatness), 0.4), std::max(own / std::sqrt(flatness), 0.4));
+    const auto strength = static_cast<float>(std::sqrt(fits * variances[k]));
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += strength * noise[i];
+  }
   return sum;
 }
 
 }  // namespace
 
 double shaped_amount(const StyleSkyChange& change, double normal) {
-  const auto& at = normal_deviates;
+  const auto& at = sky_quantile_deviates;
   if (normal <= at.front()) return change.quantiles.front();
   if (normal >= at.back()) return change.quantiles.back();
   std::size_t i = 0;
@@ -127,22 +146,30 @@ void paint_style_sky(Grid<glm::vec3>& lab, const Style& style, const GuidanceBuf
   for (std::size_t i = 0; i < sky.changes.size(); ++i)
     noises.push_back(
         change_noise(sky.changes[i], static_cast<int>(i), flatness, window, parameters));
+  const StyleHeaps heaps(sky, window, parameters);
   const double down = sky.medians.height() / (covered_rows * parameters.sky_rows);
   const double across = sky.medians.width() / static_cast<double>(parameters.sheet_px.x);
   const float share = static_cast<float>(parameters.sky);
   parallel_ranges(window.height, 8, [&](int begin, int last) {
     for (int row = begin; row != last; ++row) {
       const double v = (window.origin_px.y + row + 0.5) * down - 0.5;
+      const float heaped = heaps.share(row);
       for (int x = 0; x < window.width; ++x) {
         const std::size_t i = lab.index(x, first + row);
         if (!guidance.is_sky(i)) continue;
         const double u = (origin_px.x + x + 0.5) * across - 0.5;
         glm::vec3 colour;
         for (int c = 0; c < 3; ++c) colour[c] = sample_bspline(medians[c], u, v);
-        for (std::size_t k = 0; k < noises.size(); ++k)
-          colour += sky.changes[k].axis *
-                    static_cast<float>(shaped_amount(sky.changes[k], noises[k](x, row)));
-        lab[i] = glm::mix(lab[i], colour, share);
+        glm::vec3 change(0.0F);
+        for (std::size_t k = 0; k < noises.size(); ++k) {
+          double deviate = noises[k](x, row);
+          if (k == 0 && heaped > 0.0F) deviate += heaped * (heaps.deviate(x, row) - deviate);
+          change +=
+              sky.changes[k].axis * static_cast<float>(shaped_amount(sky.changes[k], deviate));
+        }
+        if (heaped > 0.0F)
+          change = glm::mix(change, sky.clear, heaped * (1.0F - heaps.cover(x, row)));
+        lab[i] = glm::mix(lab[i], colour + change, share);
       }
     }
   });

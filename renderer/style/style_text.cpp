@@ -117,6 +117,9 @@ void add_brushwork(std::string_view name, const StyleBrushwork& b, std::string& 
       "coherence = {}\nlightness_deviation = {}\n",
       name, number(b.length_px), number(b.width_px), number(b.level), number(b.form),
       number(b.coherence), number(b.lightness_deviation));
+  if (b.steadiness.front() > 0.0)
+    out += fmt::format("steadiness = [{}, {}, {}, {}]\n", number(b.steadiness[0]),
+                       number(b.steadiness[1]), number(b.steadiness[2]), number(b.steadiness[3]));
   std::vector<std::string> accents;
   for (const glm::vec3& accent : b.accents) accents.push_back(quoted_lab(accent));
   out += list("accents", accents);
@@ -134,25 +137,34 @@ void add_sky(const StyleSky& sky, std::string& out) {
       "\n# Colours of the sky from the top to the horizon, each row from left to right; and how "
       "it changes\n# around them: an axis in OKLab for one deviation of a noise, the distances "
       "(shares of the sky's\n# width and height) at which it has lost half of its correlation, "
-      "and quantiles of its amount.\n[sky_grid]\nmedians = [\n";
+      "deviations of\n# its finer scales, and quantiles of its amount.\n# aspect: width over "
+      "height of the painting's sky; "
+      "upper_edges: how much steeper light is on its upper\n# side, about 0.35 where clouds are "
+      "heaps; clear: the sky between them minus the medians, and its share.\n[sky_grid]\nmedians = "
+      "[\n";
   for (int j = 0; j < sky.medians.height(); ++j) {
     std::string row;
     for (int i = 0; i < sky.medians.width(); ++i)
       row += (i == 0 ? "" : ", ") + quoted_lab(sky.medians(i, j));
     out += "  [" + row + "],\n";
   }
-  out += "]\nchanges = [\n";
+  out += fmt::format(
+      "]\naspect = {}\nupper_edges = {}\nclear = [{}, {}, {}]\nclear_share = {}\nchanges = [\n",
+      number(sky.aspect), number(sky.upper_edges), number(static_cast<double>(sky.clear.x)),
+      number(static_cast<double>(sky.clear.y)), number(static_cast<double>(sky.clear.z)),
+      number(sky.clear_share));
   for (const StyleSkyChange& change : sky.changes) {
     std::string quantiles;
     for (const double q : change.quantiles)
       quantiles += (quantiles.empty() ? "" : ", ") + number(q);
     out += fmt::format(
-        "  {{ axis = [{}, {}, {}], length_x = {}, length_y = {}, quantiles = [{}] "
-        "}},\n",
+        "  {{ axis = [{}, {}, {}], length_x = {}, length_y = {}, streaks = [{}, {}, {}], "
+        "quantiles = [{}] }},\n",
         finer_number(static_cast<double>(change.axis.x)),
         finer_number(static_cast<double>(change.axis.y)),
         finer_number(static_cast<double>(change.axis.z)), number(change.length_x),
-        number(change.length_y), quantiles);
+        number(change.length_y), number(change.streaks[0]), number(change.streaks[1]),
+        number(change.streaks[2]), quantiles);
   }
   out += "]\n";
 }

@@ -240,6 +240,42 @@ Grid<glm::vec3> class_means(const Grid<glm::vec3>& colours, const ClassPlaces& o
   return blur_within_classes(part, labels, sigma_px);
 }
 
+// Length of the mean direction of strokes within Gaussians of growing sigma, over that of the
+// directions themselves (quadratic means).
+std::array<double, 4> fit_steadiness(const Tensor& strokes, const ClassPlaces& own) {
+  Grid<float> cosines(own.box.width(), own.box.height(), 0.0F);
+  Grid<float> sines = cosines;
+  Grid<float> weight = cosines;
+  const int stride = strokes.xx.width();
+  double squares = 0.0;
+  for (const auto& [x, y] : own.places) {
+    const PaintDirection direction =
+        direction_at(strokes, static_cast<std::size_t>(y) * static_cast<std::size_t>(stride) +
+                                  static_cast<std::size_t>(x));
+    const std::size_t i = weight.index(x - own.box.x0, y - own.box.y0);
+    cosines[i] = static_cast<float>(direction.coherence * direction.cos2);
+    sines[i] = static_cast<float>(direction.coherence * direction.sin2);
+    weight[i] = 1.0F;
+    squares += direction.coherence * direction.coherence;
+  }
+  std::array<double, 4> out{};
+  double before = 1.0;
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    const double sigma_px = 8.0 * (1 << k);
+    const Grid<float> c = gaussian_blur(cosines, sigma_px);
+    const Grid<float> s = gaussian_blur(sines, sigma_px);
+    const Grid<float> w = gaussian_blur(weight, sigma_px);
+    double left = 0.0;
+    for (std::size_t i = 0; i < w.size(); ++i)
+      if (weight[i] > 0.0F)
+        left += static_cast<double>(c[i] * c[i] + s[i] * s[i]) /
+                std::max(static_cast<double>(w[i] * w[i]), 1e-6);
+    before = std::min(before, std::sqrt(left / std::max(squares, 1e-9)));
+    out[k] = before;
+  }
+  return out;
+}
+
 StyleBrushwork fit_class(const Grid<glm::vec3>& colours, const Grid<std::uint8_t>& mask,
                          std::uint8_t label, const PaintFields& fields,
                          const BrushworkParameters& parameters) {
@@ -269,6 +305,8 @@ StyleBrushwork fit_class(const Grid<glm::vec3>& colours, const Grid<std::uint8_t
       std::clamp(3.0 * half_distance(fields.normal, samples, true), 1.0, parameters.max_length_px);
   out.width_px =
       std::clamp(3.0 * half_distance(fields.normal, samples, false), 0.5, parameters.max_width_px);
+  if (label == static_cast<std::uint8_t>(LandCoverClass::sky))
+    out.steadiness = fit_steadiness(fields.strokes, own);
   const Grid<glm::vec3> means = class_means(colours, own, std::max(3.0, 1.2 * out.length_px));
   std::vector<Difference> differences;
   double sum = 0.0;

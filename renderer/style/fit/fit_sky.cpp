@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "base/colour/symmetric_matrix.h"
 #include "base/filter.h"
@@ -14,7 +15,13 @@ namespace belvedere {
 namespace {
 
 constexpr std::uint8_t sky_label_number = static_cast<std::uint8_t>(LandCoverClass::sky);
-constexpr double cloud_share = 1.0 / 90.0;  // sigma of clouds as a share of the sky's longer side
+// Sigma of the smallest changes that count as clouds, and of the clouds whose edges are measured,
+// as shares of the root of the sky's area.
+constexpr double cloud_share = 1.0 / 90.0;
+constexpr double edge_share = 1.0 / 40.0;
+constexpr double edge_quantile = 0.05;
+constexpr std::size_t min_edge_cells = 200;
+constexpr double clear_part = 0.05;  // of the sky's upper half that shows clear sky at its purest
 constexpr std::array<double, 7> amount_shares = {0.02, 0.1, 0.25, 0.5, 0.75, 0.9, 0.98};
 // Ranks of lightness within a sky: light of clouds, and their shade.
 constexpr double clouds_light_share = 11.0 / 12.0;
@@ -58,13 +65,14 @@ glm::dvec3 grid_colour(const Grid<glm::vec3>& grid, double u, double v) {
 struct SkyRest {
   std::array<Grid<float>, 3> colour;
   Grid<std::uint8_t> there;
+  double sigma_cells = 1.0;  // of the blur
 };
 
 SkyRest sky_rest(const Grid<glm::vec3>& colours, const Grid<std::uint8_t>& mask,
                  const PixelRect& box, const Grid<glm::vec3>& medians) {
   const int width = box.x1 - box.x0;
   const int height = box.y1 - box.y0;
-  const double sigma = cloud_share * std::max(width, height);
+  const double sigma = cloud_share * std::sqrt(static_cast<double>(width) * height);
   std::array<Grid<float>, 3> rest;
   for (Grid<float>& channel : rest) channel = Grid<float>(width, height, 0.0F);
   Grid<float> weight(width, height, 0.0F);
@@ -81,6 +89,7 @@ SkyRest sky_rest(const Grid<glm::vec3>& colours, const Grid<std::uint8_t>& mask,
   const Grid<float> soft_weight = gaussian_blur(weight, sigma);
   const int step = std::max(1, static_cast<int>(sigma / 3.0));
   SkyRest out;
+  out.sigma_cells = sigma / step;
   out.there = Grid<std::uint8_t>((width - 1) / step + 1, (height - 1) / step + 1);
   for (std::size_t c = 0; c < 3; ++c) {
     const Grid<float> soft = gaussian_blur(rest[c], sigma);
@@ -123,7 +132,95 @@ double half_correlation(const Grid<float>& values, const Grid<std::uint8_t>& the
   return extent / 4.0;
 }
 
-std::vector<StyleSkyChange> principal_changes(const SkyRest& rest) {
+// An amount blurred within the sky, and the share of sky under the kernel.
+struct SoftAmount {
+  Grid<float> amount;
+  Grid<float> weight;
+};
+
+SoftAmount soften(const Grid<float>& amount, const Grid<std::uint8_t>& there, double sigma) {
+  SoftAmount soft{Grid<float>(amount.width(), amount.height(), 0.0F), {}};
+  soft.weight = soft.amount;
+  for (std::size_t i = 0; i < amount.size(); ++i)
+    if (there[i] != 0) {
+      soft.amount[i] = amount[i];
+      soft.weight[i] = 1.0F;
+    }
+  soft.amount = gaussian_blur(soft.amount, sigma);
+  soft.weight = gaussian_blur(soft.weight, sigma);
+  for (std::size_t i = 0; i < amount.size(); ++i) soft.amount[i] /= std::max(soft.weight[i], 0.05F);
+  return soft;
+}
+
+// Deviations between Gaussians of 1, 2, 4 and 8 `sigma`, with the first of which `amount` is
+// already blurred.
+std::array<double, 3> streaks_of(const Grid<float>& amount, const Grid<std::uint8_t>& there,
+                                 double sigma) {
+  std::array<double, 3> streaks{};
+  Grid<float> finer = amount;
+  for (std::size_t k = 0; k < streaks.size(); ++k) {
+    const double wide = static_cast<double>(2 << k);
+    Grid<float> coarser = soften(amount, there, sigma * std::sqrt(wide * wide - 1.0)).amount;
+    double squares = 0.0;
+    double count = 0.0;
+    for (std::size_t i = 0; i < finer.size(); ++i) {
+      if (there[i] == 0) continue;
+      const double off = static_cast<double>(finer[i]) - static_cast<double>(coarser[i]);
+      squares += off * off;
+      count += 1.0;
+    }
+    streaks[k] = std::min(1.0, std::sqrt(squares / std::max(count, 1.0)));
+    finer = std::move(coarser);
+  }
+  return streaks;
+}
+
+// Skewness of the vertical gradient of `amount` in the upper half, from quantiles, so that a branch
+// or bird in the mask does not decide it.
+double upper_edges(const Grid<float>& amount, const Grid<std::uint8_t>& there, double sigma) {
+  const SoftAmount softened = soften(amount, there, sigma);
+  const Grid<float>& soft = softened.amount;
+  const Grid<float>& weight = softened.weight;
+  constexpr float well_inside = 0.9F;
+  std::vector<double> gradients;
+  for (int y = 1; y < amount.height() / 2; ++y)
+    for (int x = 0; x < amount.width(); ++x)
+      if (weight(x, y - 1) > well_inside && weight(x, y + 1) > well_inside)
+        gradients.push_back(static_cast<double>(soft(x, y + 1) - soft(x, y - 1)));
+  if (gradients.size() < min_edge_cells) return 0.0;
+  const double low = value_at_share(gradients, edge_quantile);
+  const double high = value_at_share(gradients, 1.0 - edge_quantile);
+  return high > low ? std::clamp((high + low) / (high - low), -1.0, 1.0) : 0.0;
+}
+
+// The bluest part of the upper half, and the share of texels that are nearer to it than to the
+// medians.
+void fit_clear(const SkyRest& rest, StyleSky& sky) {
+  std::vector<glm::vec3> texels;
+  std::vector<float> blues;
+  for (int y = 0; y < rest.there.height() / 2; ++y)
+    for (int x = 0; x < rest.there.width(); ++x) {
+      if (rest.there(x, y) == 0) continue;
+      texels.emplace_back(rest.colour[0](x, y), rest.colour[1](x, y), rest.colour[2](x, y));
+      blues.push_back(texels.back().z);
+    }
+  if (texels.size() < min_edge_cells) return;
+  const float limit = value_at_share(blues, clear_part);
+  glm::dvec3 sum(0.0);
+  double count = 0.0;
+  for (const glm::vec3& texel : texels)
+    if (texel.z <= limit) {
+      sum += glm::dvec3(texel);
+      count += 1.0;
+    }
+  sky.clear = glm::vec3(sum / count);
+  double nearer = 0.0;
+  for (const glm::vec3& texel : texels)
+    if (glm::dot(texel - 0.5F * sky.clear, sky.clear) > 0.0F) nearer += 1.0;
+  sky.clear_share = nearer / static_cast<double>(texels.size());
+}
+
+void fit_changes(const SkyRest& rest, StyleSky& sky) {
   glm::dvec3 mean(0.0);
   glm::dmat3 products(0.0);
   double count = 0.0;
@@ -141,7 +238,6 @@ std::vector<StyleSkyChange> principal_changes(const SkyRest& rest) {
   std::array<int, 3> order = {0, 1, 2};
   std::sort(order.begin(), order.end(),
             [&](int a, int b) { return eigen.values[a] > eigen.values[b]; });
-  std::vector<StyleSkyChange> changes;
   for (int k = 0; k < 2; ++k) {
     const double deviation =
         std::sqrt(std::max(eigen.values[order[static_cast<std::size_t>(k)]], 0.0));
@@ -157,13 +253,16 @@ std::vector<StyleSkyChange> principal_changes(const SkyRest& rest) {
     }
     StyleSkyChange change;
     change.axis = glm::vec3(deviation * way);
+    change.streaks = streaks_of(amount, rest.there, rest.sigma_cells);
     change.length_x = half_correlation(amount, rest.there, true) / amount.width();
     change.length_y = half_correlation(amount, rest.there, false) / amount.height();
     for (std::size_t q = 0; q < amount_shares.size(); ++q)
       change.quantiles[q] = value_at_share(amounts, amount_shares[q]);
-    changes.push_back(change);
+    if (k == 0)
+      sky.upper_edges =
+          upper_edges(amount, rest.there, rest.sigma_cells * edge_share / cloud_share);
+    sky.changes.push_back(change);
   }
-  return changes;
 }
 
 }  // namespace
@@ -198,7 +297,11 @@ FittedSky fit_sky(const Grid<glm::vec3>& colours, const Grid<std::uint8_t>& mask
                                                                          : out.gradient.back());
     }
   }
-  out.sky.changes = principal_changes(sky_rest(colours, mask, box, medians));
+  out.sky.aspect =
+      std::clamp(static_cast<double>(box.width()) / static_cast<double>(box.height()), 0.1, 20.0);
+  const SkyRest rest = sky_rest(colours, mask, box, medians);
+  fit_changes(rest, out.sky);
+  fit_clear(rest, out.sky);
   out.sky.medians = std::move(medians);
   std::stable_sort(all.begin(), all.end(),
                    [](const glm::vec3& a, const glm::vec3& b) { return a.x < b.x; });

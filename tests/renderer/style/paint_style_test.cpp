@@ -45,6 +45,22 @@ TEST(PaintStyle, AnyRectangleEqualsTheWhole) {
         << "at " << rect.x0 << " " << rect.y0;
 }
 
+// Swirls are in the test above; heaped clouds, whose forms turn the strokes, here.
+TEST(PaintStyle, AnyRectangleOfHeapedCloudsEqualsTheWhole) {
+  const test::StyledSheet sheet = test::make_styled_sheet();
+  Style style = test::make_style();
+  style.brushwork[static_cast<std::size_t>(LandCoverClass::sky)].level = 0.8;
+  style.sky.upper_edges = 0.35;
+  style.sky.clear = glm::vec3(-0.08F, 0.0F, -0.05F);
+  style.sky.clear_share = 0.3;
+  style.sky.changes.front().streaks = {0.3, 0.3, 0.3};
+  const StylePaintParameters parameters = test::make_style_parameters();
+  const Grid<glm::vec3> all = paint(sheet, style, parameters, {0, 0}, whole);
+  const int margin = style_margin_px(style, parameters);
+  const PixelRect rect{130, 5, 170, 45};
+  EXPECT_EQ(differing(paint_part(sheet, style, parameters, rect, margin), part_of(all, rect)), 0);
+}
+
 TEST(PaintStyle, AQuarterOfTheMarginIsTooLittle) {
   const test::StyledSheet sheet = test::make_styled_sheet();
   const Style style = test::make_style();

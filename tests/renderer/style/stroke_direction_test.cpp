@@ -80,6 +80,61 @@ TEST(StrokeDirection, SkyIsLevelOrWhorls) {
   EXPECT_LT(std::abs(swirls), 0.8);
 }
 
+// Length of the mean doubled angle, and of the means of squares of 16 px.
+struct Steadiness {
+  double whole;
+  double near;
+};
+
+Steadiness steadiness_of(const Grid<glm::vec2>& along) {
+  constexpr int side = 16;
+  double whole_c = 0.0;
+  double whole_s = 0.0;
+  double near = 0.0;
+  int squares = 0;
+  for (int v = 0; v + side <= along.height(); v += side)
+    for (int u = 0; u + side <= along.width(); u += side) {
+      double c = 0.0;
+      double s = 0.0;
+      for (int y = v; y < v + side; ++y)
+        for (int x = u; x < u + side; ++x) {
+          c += along(x, y).x * along(x, y).x - along(x, y).y * along(x, y).y;
+          s += 2.0 * along(x, y).x * along(x, y).y;
+        }
+      whole_c += c;
+      whole_s += s;
+      near += std::hypot(c, s) / (side * side);
+      ++squares;
+    }
+  return {std::hypot(whole_c, whole_s) / (side * side * squares), near / squares};
+}
+
+TEST(StrokeDirection, SwirlsHaveTheSizesOfThePaintingInASteadyFlow) {
+  const Slope sky = make_slope(LandCoverClass::sky, glm::vec2(0.0F), 320);
+  Style style = style_of(-0.2, 0.5, 0.7);
+  StyleBrushwork& brushwork = style.brushwork[static_cast<std::size_t>(LandCoverClass::sky)];
+  brushwork.steadiness = {0.9, 0.9, 0.9, 0.9};  // nothing turns: the flow alone
+  EXPECT_GT(steadiness_of(direction(sky, style)).whole, 0.999);
+  brushwork.steadiness = {0.9, 0.9, 0.9, 0.1};  // large swirls in hardly any flow
+  const Steadiness large = steadiness_of(direction(sky, style));
+  EXPECT_LT(large.whole, 0.6);
+  EXPECT_GT(large.near, 0.9);
+  brushwork.steadiness = {0.9, 0.3, 0.3, 0.3};  // small ones
+  const Steadiness small = steadiness_of(direction(sky, style));
+  EXPECT_LT(small.near, large.near - 0.03);
+}
+
+TEST(StrokeDirection, StrokesFollowTheFormsOfHeapedClouds) {
+  Slope sky = make_slope(LandCoverClass::sky, glm::vec2(0.0F));
+  for (int y = 0; y < 80; ++y)
+    for (int x = 0; x < 80; ++x)
+      sky.lab(x, y).x = 0.5F + 0.2F * static_cast<float>(std::sin(0.3 * x));  // upright bands
+  Style style = style_of(0.9, 0.8);
+  EXPECT_GT(std::abs(direction(sky, style)(40, 40).x), 0.99);
+  style.sky.upper_edges = 0.35;
+  EXPECT_GT(std::abs(direction(sky, style)(40, 40).y), 0.9);
+}
+
 TEST(StrokeDirection, IsAUnitVectorEverywhere) {
   const test::StyledSheet sheet = test::make_styled_sheet();
   const Grid<glm::vec2> along = make_stroke_direction(

@@ -87,6 +87,7 @@ TEST(StyleFile, ReadsWhatItWritesToThePrintedDigits) {
     EXPECT_NEAR(a.form, b.form, digit);
     EXPECT_NEAR(a.coherence, b.coherence, digit);
     EXPECT_NEAR(a.lightness_deviation, b.lightness_deviation, digit);
+    for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(a.steadiness[k], b.steadiness[k], digit);
     ASSERT_EQ(a.accents.size(), b.accents.size());
     for (std::size_t i = 0; i < a.accents.size(); ++i)
       expect_near_colours(a.accents[i], b.accents[i], 0.006F);
@@ -99,10 +100,16 @@ TEST(StyleFile, ReadsWhatItWritesToThePrintedDigits) {
   ASSERT_TRUE(read.sky.medians.same_size(style.sky.medians));
   for (std::size_t i = 0; i < read.sky.medians.size(); ++i)
     expect_near_colours(read.sky.medians[i], style.sky.medians[i], 0.006F);
+  EXPECT_NEAR(read.sky.aspect, style.sky.aspect, digit);
+  EXPECT_NEAR(read.sky.upper_edges, style.sky.upper_edges, digit);
+  EXPECT_NEAR(read.sky.clear_share, style.sky.clear_share, digit);
+  expect_near_colours(read.sky.clear, style.sky.clear, 0.0009F);
   ASSERT_EQ(read.sky.changes.size(), style.sky.changes.size());
   for (std::size_t k = 0; k < read.sky.changes.size(); ++k) {
     expect_near_colours(read.sky.changes[k].axis, style.sky.changes[k].axis, 1e-4F);
     EXPECT_NEAR(read.sky.changes[k].length_x, style.sky.changes[k].length_x, digit);
+    for (std::size_t s = 0; s < 3; ++s)
+      EXPECT_NEAR(read.sky.changes[k].streaks[s], style.sky.changes[k].streaks[s], digit);
     for (std::size_t q = 0; q < 7; ++q)
       EXPECT_NEAR(read.sky.changes[k].quantiles[q], style.sky.changes[k].quantiles[q], digit);
   }
@@ -140,6 +147,11 @@ TEST(StyleFile, RefusesValuesOutOfRange) {
   EXPECT_THAT(error_of(changed("dark = [\n  [", "dark = [\n  [9000,")), HasSubstr("three numbers"));
   EXPECT_THAT(error_of(changed("accents = [\n  \"#", "accents = [\n  \"x")), HasSubstr("#rrggbb"));
   EXPECT_THAT(error_of(changed("quantiles = [", "quantiles = [1, ")), HasSubstr("8 quantiles"));
+  EXPECT_THAT(error_of(changed("steadiness = [", "steadiness = [0.1, ")), HasSubstr("5 shares"));
+  EXPECT_THAT(error_of(changed("steadiness = [", "steadiness = [0.001, 0.5, 0.4, 0.3] # [")),
+              HasSubstr("descending"));
+  EXPECT_THAT(error_of(changed("upper_edges = ", "upper_edges = 9")), HasSubstr("-1 … 1"));
+  EXPECT_THAT(error_of(changed("streaks = [", "streaks = [7, ")), HasSubstr("three numbers"));
   EXPECT_THAT(error_of(changed("medians = [\n  [", "medians = [\n  [\"#112233\", ")),
               HasSubstr("a row of 3 colours"));
   EXPECT_THAT(error_of("based_on = \"summer\"\n[brushwork.rock]\nwidth_px = 2\n"),

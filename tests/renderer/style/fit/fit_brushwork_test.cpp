@@ -31,6 +31,26 @@ TEST(FitBrushwork, MeasuresTheLengthAndWidthOfThrownStrokes) {
   }
 }
 
+TEST(FitBrushwork, SteadinessTellsOnWhatScaleStrokesOfASkyTurn) {
+  const auto sky_of = [](const Grid<glm::vec3>& lab) {
+    return fit_brushwork(
+               lab, Grid<std::uint8_t>(lab.width(), lab.height(), label_of(LandCoverClass::sky)))
+        .at(static_cast<std::size_t>(LandCoverClass::sky));
+  };
+  const StyleBrushwork steady = sky_of(test::thrown_strokes(240, 200, 15.0, 4.0, 0.4));
+  for (const double share : steady.steadiness) EXPECT_GT(share, 0.85);
+  // Squares of 40 px, alternately level and upright.
+  const Grid<glm::vec3> level = test::thrown_strokes(240, 200, 15.0, 4.0, 0.0);
+  Grid<glm::vec3> turning = test::thrown_strokes(240, 200, 15.0, 4.0, 0.5 * std::numbers::pi);
+  for (int y = 0; y < 200; ++y)
+    for (int x = 0; x < 240; ++x)
+      if ((x / 40 + y / 40) % 2 == 0) turning(x, y) = level(x, y);
+  const StyleBrushwork swirls = sky_of(turning);
+  EXPECT_GT(swirls.steadiness[0], 0.6);
+  EXPECT_LT(swirls.steadiness[2], 0.25);
+  EXPECT_EQ(rock_brushwork(level).steadiness[0], 0.0);
+}
+
 TEST(FitBrushwork, LongerStrokesMeasureLongerUpToTheLimit) {
   const StyleBrushwork shorter = rock_brushwork(test::thrown_strokes(200, 160, 9.0, 3.0, 0.0));
   const StyleBrushwork longer = rock_brushwork(test::thrown_strokes(200, 160, 13.0, 3.0, 0.0));

@@ -67,6 +67,51 @@ TEST(FitSky, MediansAreThoseOfTheCells) {
   EXPECT_GT(fitted.cloud_light.x, fitted.cloud_shade.x);
 }
 
+TEST(FitSky, StreaksAreTheDeviationsOfTheFinerScales) {
+  // Noise of sigma 40 px has nothing at 1/90 of the root of the area, 5.4 px; noise of 8 px has.
+  const std::array<double, 2> sigmas = {40.0, 8.0};
+  std::array<double, 2> finest{};
+  for (std::size_t k = 0; k < 2; ++k)
+    finest[k] = fit_sky(noisy_sky(600, 400, sigmas[k], sigmas[k]), Grid<std::uint8_t>(600, 400, 0))
+                    .sky.changes.front()
+                    .streaks[0];
+  EXPECT_LT(finest[0], 0.1);
+  EXPECT_GT(finest[1], 0.25);
+}
+
+// Saw teeth of lightness: steep on one side.
+Grid<glm::vec3> saw_sky(bool steep_above) {
+  Grid<glm::vec3> lab(400, 200);
+  for (int y = 0; y < 200; ++y)
+    for (int x = 0; x < 400; ++x) {
+      const double place = (y + 20.0 * gaussian_noise(4, x, 0, 30.0, 30.0)) / 50.0;
+      const double t = place - std::floor(place);  // grows downwards
+      lab(x, y) = {0.6F + 0.2F * static_cast<float>(steep_above ? 1.0 - t : t), 0.0F, 0.0F};
+    }
+  return lab;
+}
+
+TEST(FitSky, UpperEdgesTellOnWhichSideCloudsAreSteep) {
+  const Grid<std::uint8_t> mask(400, 200, 0);
+  EXPECT_GT(fit_sky(saw_sky(true), mask).sky.upper_edges, 0.12);
+  EXPECT_LT(fit_sky(saw_sky(false), mask).sky.upper_edges, -0.12);
+  EXPECT_NEAR(
+      fit_sky(noisy_sky(600, 400, 16.0, 8.0), Grid<std::uint8_t>(600, 400, 0)).sky.upper_edges, 0.0,
+      0.1);
+}
+
+TEST(FitSky, TheClearSkyIsTheBluestPartAndItsShare) {
+  Grid<glm::vec3> lab(400, 200, glm::vec3(0.8F, 0.0F, 0.0F));
+  for (int y = 0; y < 200; ++y)
+    for (int x = 0; x < 400; ++x)
+      if (x % 100 < 20) lab(x, y) = {0.7F, 0.0F, -0.08F};  // a fifth
+  const StyleSky sky = fit_sky(lab, Grid<std::uint8_t>(400, 200, 0)).sky;
+  EXPECT_NEAR(sky.clear.x, -0.1, 0.01);
+  EXPECT_NEAR(sky.clear.z, -0.08, 0.01);
+  EXPECT_NEAR(sky.clear_share, 0.2, 0.02);
+  EXPECT_NEAR(sky.aspect, 2.0, 1e-9);
+}
+
 // Cells of the grid without sky take the colour of their row.
 TEST(FitSky, CellsBehindMountainsTakeTheirRow) {
   Grid<glm::vec3> lab(90, 100, glm::vec3(0.7F, 0.0F, -0.05F));
