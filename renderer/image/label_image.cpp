@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <map>
+#include <set>
+#include <utility>
 
 #include "base/error.h"
 #include "base/filter.h"
@@ -71,6 +74,91 @@ Grid<std::uint8_t> name_colours(const Grid<std::uint32_t>& colours,
   return labels;
 }
 
+// Pixels of a colour within flat squares, and the first of them.
+struct FlatColour {
+  std::size_t pixels = 0;
+  int x = 0, y = 0;
+};
+
+// Adds the flat colours of a drawing. Whether it has so many other colours that it was compressed
+// with losses, or scaled.
+bool find_flat_colours(const Grid<std::uint32_t>& drawing,
+                       std::map<std::uint32_t, FlatColour>& flat) {
+  for (int y = 0; y < drawing.height(); ++y)
+    for (int x = 0; x < drawing.width(); ++x) {
+      if (!is_flat(drawing, x, y)) continue;
+      FlatColour& found = flat[drawing(x, y)];
+      if (found.pixels++ == 0) found.x = x, found.y = y;
+    }
+  const std::set<std::uint32_t> all(drawing.begin(), drawing.end());
+  return all.size() > 2 * flat.size();
+}
+
+// The largest difference of a channel.
+int steps_between(std::uint32_t a, std::uint32_t b) {
+  int steps = 0;
+  for (unsigned shift = 0; shift < 24; shift += 8)
+    steps = std::max(
+        steps, std::abs(static_cast<int>(a >> shift & 255U) - static_cast<int>(b >> shift & 255U)));
+  return steps;
+}
+
+// Each flat colour, and the one that it is taken as: itself, or where the drawing is lossy the
+// nearest one that is four times as frequent and within max_lossy_steps.
+std::map<std::uint32_t, std::uint32_t> frequent_colours(
+    const std::map<std::uint32_t, FlatColour>& flat, bool lossy) {
+  std::vector<std::pair<std::size_t, std::uint32_t>> by_pixels;
+  for (const auto& [colour, found] : flat) by_pixels.emplace_back(found.pixels, colour);
+  std::sort(by_pixels.rbegin(), by_pixels.rend());
+  std::map<std::uint32_t, std::uint32_t> kept;
+  std::vector<std::pair<std::size_t, std::uint32_t>> frequent;
+  for (const auto& [pixels, colour] : by_pixels) {
+    std::uint32_t as = colour;
+    int nearest = max_lossy_steps + 1;
+    for (const auto& [others, other] : frequent)
+      if (const int steps = steps_between(colour, other);
+          lossy && others >= 4 * pixels && steps < nearest) {
+        nearest = steps;
+        as = other;
+      }
+    kept[colour] = as;
+    if (as == colour) frequent.emplace_back(pixels, colour);
+  }
+  return kept;
+}
+
+// The rarest flat colours, with their positions.
+std::string odd_ones(const std::map<std::uint32_t, FlatColour>& flat) {
+  std::vector<std::pair<std::size_t, std::uint32_t>> by_pixels;
+  for (const auto& [colour, found] : flat) by_pixels.emplace_back(found.pixels, colour);
+  std::sort(by_pixels.begin(), by_pixels.end());
+  constexpr std::size_t max_named = 3;
+  by_pixels.resize(std::min(by_pixels.size(), max_named));
+  std::string list;
+  for (const auto& [pixels, colour] : by_pixels)
+    list += fmt::format("{}#{:06x} at {}, {}", list.empty() ? "" : "; ", colour, flat.at(colour).x,
+                        flat.at(colour).y);
+  return list;
+}
+
+void note_repaired(const std::string& path, const std::vector<Grid<std::uint32_t>>& drawings,
+                   const std::map<std::uint32_t, std::uint32_t>& kept, std::size_t labels,
+                   Progress& progress) {
+  if (kept.size() == labels) return;
+  std::size_t all = 0, moved = 0;
+  for (const Grid<std::uint32_t>& drawing : drawings)
+    for (const std::uint32_t colour : drawing) {
+      ++all;
+      const auto found = kept.find(colour);
+      if (found != kept.end() && found->second != colour) ++moved;
+    }
+  progress.note(fmt::format(
+      "{}: compressed with losses; {} flat colours are within {} steps of {} frequent ones and are "
+      "taken as these: {:.2f} % of the pixels",
+      path, kept.size() - labels, max_lossy_steps, labels,
+      100.0 * static_cast<double>(moved) / static_cast<double>(all)));
+}
+
 }  // namespace
 
 Grid<std::uint8_t> read_class_mask(const std::string& path,
@@ -108,10 +196,11 @@ Grid<std::uint8_t> read_class_mask(const std::string& path,
                           others.empty() ? "" : fmt::format(", {}", fmt::join(others, ", "))));
 }
 
-LabelImages read_label_images(const std::vector<std::string>& paths) {
+LabelImages read_label_images(const std::vector<std::string>& paths, Progress& progress) {
   LabelImages out;
   std::vector<Grid<std::uint32_t>> drawings;
-  std::map<std::uint32_t, std::uint8_t> names;
+  std::map<std::uint32_t, FlatColour> flat;
+  bool lossy = false;
   for (const std::string& path : paths) {
     if (!is_drawn_in_colours(path)) {
       if (!drawings.empty())
@@ -126,30 +215,32 @@ LabelImages read_label_images(const std::vector<std::string>& paths) {
                   fmt::format("is drawn in colours, but {} contains numbers", paths.front()),
                   "masks that all hold numbers, or are all drawn in the same colours");
     drawings.push_back(read_colours(path));
-    const Grid<std::uint32_t>& drawing = drawings.back();
-    bool any = false;
-    for (int y = 0; y < drawing.height() && names.size() <= max_colours; ++y)
-      for (int x = 0; x < drawing.width(); ++x)
-        if (is_flat(drawing, x, y)) {
-          any = true;
-          names.emplace(drawing(x, y), std::uint8_t{0});
-        }
-    if (!any || names.size() > max_colours)
+    lossy = find_flat_colours(drawings.back(), flat) || lossy;
+    const std::map<std::uint32_t, std::uint32_t> kept = frequent_colours(flat, lossy);
+    std::set<std::uint32_t> labels;
+    for (const auto& [colour, as] : kept) labels.insert(as);
+    if (labels.empty() || labels.size() > max_colours)
       throw Error(
           ErrorKind::input, path,
-          any ? fmt::format("has more than {} flat colours", max_colours)
-              : std::string("has no flat colour"),
+          labels.empty()
+              ? std::string("has no flat colour")
+              : fmt::format("has {} flat colours, among them {}", labels.size(), odd_ones(flat)),
           fmt::format(
               "a mask as PNG or TIFF, grey with numbers, or drawn in at most {} flat colours",
               max_colours));
   }
   if (drawings.empty()) return out;
-  for (auto& [colour, label] : names) {
-    label = static_cast<std::uint8_t>(out.colours.size());
+  std::map<std::uint32_t, std::uint8_t> names;
+  const std::map<std::uint32_t, std::uint32_t> kept = frequent_colours(flat, lossy);
+  for (const auto& [colour, as] : kept) {
+    if (colour != as) continue;
+    names[colour] = static_cast<std::uint8_t>(out.colours.size());
     out.colours.push_back({static_cast<std::uint8_t>(colour >> 16),
                            static_cast<std::uint8_t>(colour >> 8 & 255U),
                            static_cast<std::uint8_t>(colour & 255U)});
   }
+  for (const auto& [colour, as] : kept) names[colour] = names.at(as);
+  note_repaired(paths.front(), drawings, kept, out.colours.size(), progress);
   for (const Grid<std::uint32_t>& drawing : drawings)
     out.labels.push_back(name_colours(drawing, names));
   return out;

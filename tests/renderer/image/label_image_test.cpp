@@ -79,5 +79,45 @@ TEST_F(LabelImage, RefusesWhatTellsNoLabels) {
   EXPECT_THROW(read_label_images({write("noise.png", 2, noise)}), Error);
 }
 
+// JPEG leaves blocks of other colours beside edges: here squares 5 steps off, in a drawing with
+// hundreds of mixed colours.
+TEST_F(LabelImage, ColoursOffByLossesAreTheFrequentOnes) {
+  const auto rows = [](int off) {
+    std::string out;
+    for (int y = 0; y < 16; ++y)
+      for (int x = 0; x < 20; ++x) {
+        const int red = x < 10 ? 200 : 40;
+        if (x >= 2 && x < 5 && y >= 2 && y < 5)
+          out += {static_cast<char>(red - off), '\x30', '\x30'};
+        else if (x == 9 || x == 10)
+          out += {static_cast<char>(90 + y), static_cast<char>(x), '\x50'};
+        else
+          out += {static_cast<char>(red), '\x30', '\x30'};
+      }
+    return out;
+  };
+  struct Notes : Progress {
+    std::string text;
+    void note(std::string_view line) override { text += line; }
+  } notes;
+  const LabelImages images = read_label_images({write("a.png", 2, rows(5))}, notes);
+  ASSERT_EQ(images.colours.size(), 2U);
+  EXPECT_EQ(images.colours[1], (Rgb8{200, 0x30, 0x30}));
+  EXPECT_EQ(images.labels[0](3, 3), 1);
+  EXPECT_NE(notes.text.find("1 flat colours are within 12 steps of 2"), std::string::npos)
+      << notes.text;
+  EXPECT_NE(notes.text.find("2.81 %"), std::string::npos) << "9 of 320 pixels: " << notes.text;
+  // Farther away it is a label of its own.
+  EXPECT_EQ(read_label_images({write("b.png", 2, rows(40))}).colours.size(), 3U);
+}
+
+// Numbers saved as RGB lie one step apart and are different labels.
+TEST_F(LabelImage, NeighbouringColoursOfALosslessDrawingStayApart) {
+  std::string rows;
+  for (int y = 0; y < 16; ++y)
+    for (int x = 0; x < 20; ++x) rows += std::string(3, x < 4 && y < 4 ? '\2' : '\1');
+  EXPECT_EQ(read_label_images({write("a.png", 2, rows)}).colours.size(), 2U);
+}
+
 }  // namespace
 }  // namespace belvedere
