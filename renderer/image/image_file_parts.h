@@ -13,6 +13,8 @@ namespace belvedere::image_io {
 
 // In ImageInfo::notes: Exif orientation 2…8 of a picture that readers turn upright.
 inline constexpr const char* orientation_note = "Orientation";
+// The same for a TIFF of CIE L*a*b*, which is read in sRGB.
+inline constexpr const char* lab_note = "CIE Lab";
 
 // The first bytes of a file, at most 16, which identify its format. Error(input) where it cannot be
 // opened.

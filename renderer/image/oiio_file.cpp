@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "renderer/image/cielab.h"
 #include "renderer/image/image_file_parts.h"
 #include "renderer/image/output_file.h"
 #include "renderer/image/png_check.h"
@@ -34,7 +35,7 @@ class OiioReader {
     OIIO::ImageSpec settings;
     settings.attribute("oiio:UnassociatedAlpha",
                        1);  // colours as in the file, not multiplied by alpha
-    if (!input_->open(path, spec_, settings)) image_io::throw_damaged(path, input_->geterror());
+    open(settings);
     image_io::check_memory(path, spec_.width, spec_.height, 0.0);
     const std::string coding = spec_.get_string_attribute("jpeg:ColorSpace");
     const bool separated = spec_.get_int_attribute("tiff:PhotometricInterpretation") == 5;
@@ -51,6 +52,17 @@ class OiioReader {
   }
 
   const OIIO::ImageSpec& spec() const { return spec_; }
+  // The picture's colours are CIE L*a*b*, as stored.
+  bool is_lab() const { return photometric() == cie_lab || photometric() == icc_lab; }
+  // A pixel as it is read in floats, in encoded sRGB.
+  glm::vec3 colour(const float* from) const {
+    const glm::vec3 as_read =
+        spec_.nchannels >= 3 ? glm::vec3(from[0], from[1], from[2]) : glm::vec3(from[0]);
+    if (!is_lab()) return as_read;
+    const int bits = spec_.format == OIIO::TypeDesc::UINT16 ? 16 : 8;
+    return srgb_from_lab(lab_of_tiff(glm::round(glm::dvec3(as_read) * ((1 << bits) - 1.0)), bits,
+                                     photometric() == icc_lab));
+  }
 
   void check_memory(double bytes_a_pixel) const {
     const double pixels = static_cast<double>(spec_.width) * static_cast<double>(spec_.height);
@@ -83,6 +95,28 @@ class OiioReader {
   }
 
  private:
+  static constexpr int cie_lab = 8, icc_lab = 9, itu_lab = 10;  // TIFF 6, tag 262
+
+  int photometric() const { return spec_.get_int_attribute("tiff:PhotometricInterpretation"); }
+
+  // OpenImageIO would convert Lab without its white point, and 8 bits only: it is read as stored.
+  void open(OIIO::ImageSpec& settings) {
+    const bool plain = input_->open(path_, spec_, settings);
+    const std::string problem = plain ? std::string() : input_->geterror();
+    if (format_ == "tiff" && (!plain || (photometric() >= cie_lab && photometric() <= itu_lab))) {
+      settings.attribute("oiio:RawColor", 1);
+      input_->close();
+      const bool raw = input_->open(path_, spec_, settings);
+      const bool whole_steps =
+          spec_.format == OIIO::TypeDesc::UINT8 || spec_.format == OIIO::TypeDesc::UINT16;
+      if (raw && (photometric() == itu_lab || (is_lab() && !whole_steps)))
+        throw Error(ErrorKind::input, path_, "is a picture in CIE Lab of a kind that is not read",
+                    "a picture in RGB: convert it to sRGB in a picture editor");
+      if (raw && is_lab() && spec_.nchannels >= 3) return;
+    }
+    if (!plain) image_io::throw_damaged(path_, problem);
+  }
+
   std::string path_;
   std::string format_;
   OIIO::ImageSpec spec_;
@@ -164,8 +198,9 @@ ImageInfo read_oiio_info(const std::string& path, const std::string& format) {
   if (const int orientation = orientation_of(spec); orientation != 1)
     info.notes.emplace(image_io::orientation_note, std::to_string(orientation));
   info.dots_per_inch = dots_per_inch(spec);
+  if (reader.is_lab()) info.notes.emplace(image_io::lab_note, "read in sRGB");
   if (const OIIO::ParamValue* icc = spec.find_attribute("ICCProfile");
-      icc != nullptr && icc->type().elementsize() == 1) {
+      icc != nullptr && icc->type().elementsize() == 1 && !reader.is_lab()) {
     const auto* bytes = static_cast<const std::uint8_t*>(icc->data());
     info.icc_profile.assign(bytes, bytes + icc->datasize());
   }
@@ -182,7 +217,7 @@ Grid<glm::vec3> read_oiio_picture(const std::string& path, const std::string& fo
   if (alpha != nullptr) *alpha = Grid<float>(picture.width(), picture.height(), 1.0f);
   reader.read_bands<float>(OIIO::TypeDesc::FLOAT, [&](int y0, int y1, const float* from) {
     for (std::size_t i = picture.index(0, y0); i < picture.index(0, y1); ++i, from += channels) {
-      picture[i] = channels >= 3 ? glm::vec3(from[0], from[1], from[2]) : glm::vec3(from[0]);
+      picture[i] = reader.colour(from);
       if (alpha != nullptr && alpha_channel >= 0) (*alpha)[i] = from[alpha_channel];
     }
   });
@@ -201,7 +236,7 @@ void read_oiio_rows(const std::string& path, const std::string& format, const Us
   reader.read_bands<float>(OIIO::TypeDesc::FLOAT, [&](int y0, int y1, const float* from) {
     Grid<glm::vec3> rows(reader.spec().width, y1 - y0);
     for (glm::vec3& pixel : rows) {
-      pixel = channels >= 3 ? glm::vec3(from[0], from[1], from[2]) : glm::vec3(from[0]);
+      pixel = reader.colour(from);
       from += channels;
     }
     use(y0, rows);

@@ -70,6 +70,8 @@ Grid<glm::vec3> read_painting(const std::string& path, Progress& progress, Grid<
         fmt::format("{}: turned upright according to its Exif orientation; masks and guides "
                     "must match the upright picture of {} × {} pixels",
                     path, picture.width(), picture.height()));
+  if (info.notes.contains(image_io::lab_note))
+    progress.note(fmt::format("{}: converted to sRGB from CIE Lab", path));
   try {
     if (const std::string from = to_srgb(picture, info.icc_profile); !from.empty())
       progress.note(fmt::format("{}: converted to sRGB from its colour profile {}", path, from));
