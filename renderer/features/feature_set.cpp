@@ -66,9 +66,9 @@ void add_source(FeatureSet& set, const FeatureSource& source, int number, const 
   const std::size_t width_at = column_of(source.width_of);
   const std::size_t level_at = column_of(source.level_of);
   const std::size_t people_at = column_of(source.population_of);
-  MapFeatures found = read_map_features(source.path, query, crs);
+  MapFeatures found = read_map_features(source.file, query, crs);
   SourceReading& reading = set.readings.emplace_back();
-  reading.file = source.path;
+  reading.file = source.file.path;
   reading.read = found.read;
   reading.without_shape = found.without_shape;
   reading.unplaceable = found.unplaceable;

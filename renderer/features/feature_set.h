@@ -15,7 +15,7 @@ namespace belvedere {
 
 // One file of features and its settings in a scene.
 struct FeatureSource {
-  std::string path = {};
+  VectorSource file = {};
   std::string layer = {};  // empty: all
   std::string where = {};  // empty: all
   std::string kind =

@@ -38,9 +38,10 @@ std::vector<FeatureSource> feature_sources(const LoadedScene& loaded) {
   std::vector<FeatureSource> sources;
   for (std::size_t i = 0; i < loaded.scene.features.size(); ++i) {
     const SceneFeatures& block = loaded.scene.features[i];
-    const std::string path = find_scene_file(loaded, block.source);
-    if (path.empty()) continue;
-    sources.push_back({.path = path,
+    VectorSource file = block.file;
+    file.path = find_scene_file(loaded, block.source);
+    if (file.path.empty()) continue;
+    sources.push_back({.file = std::move(file),
                        .layer = block.layer,
                        .where = block.where,
                        .kind = block.kind,

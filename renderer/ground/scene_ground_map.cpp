@@ -96,11 +96,12 @@ std::string hash_with_companions(const std::string& path) {
 CacheKey features_key(const LoadedScene& loaded, const Dem& dem) {
   CacheKeyText key;
   for (const SceneFeatures& block : loaded.scene.features) {
-    const auto& [source, layer, where, kind, kind_of, width_mm, width_of, level_of, population_of,
-                 snap_m, keep_inferred, origin, licence, get_from, optional] = block;
+    const auto& [source, file, layer, where, kind, kind_of, width_mm, width_of, level_of,
+                 population_of, snap_m, keep_inferred, origin, licence, get_from, optional] = block;
     const std::string path = find_scene_file(loaded, source);
     key.add("file", source)
         .add("content", path.empty() ? std::string("none") : hash_with_companions(path));
+    key.add("file_crs", file.crs).add("encoding", file.encoding);
     key.add("layer", layer).add("where", where).add("kind", kind).add("kind_of", kind_of);
     key.add("width_of", width_of).add("level_of", level_of).add("population_of", population_of);
   }

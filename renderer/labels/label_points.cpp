@@ -86,15 +86,16 @@ constexpr std::array kind_columns{"kind", "type", "natural", "place", "tourism"}
 constexpr std::array altitude_columns{"ele", "altitude_m", "altitude", "elevation", "height"};
 
 // The points of a file of any format, for vector files those of all its layers.
-PointTable read_table(const std::string& path, const std::string& crs, NamesAre names,
+PointTable read_table(const VectorSource& source, const std::string& crs, NamesAre names,
                       Progress& progress) {
-  if (lower_extension(path) == ".csv" || crs.empty()) return read_points(path, crs);
+  const std::string& path = source.path;
+  if (lower_extension(path) == ".csv" || crs.empty()) return read_points(source, crs);
   MapQuery query;
   (names == NamesAre::needed ? query.columns : query.also).emplace_back("name");
   query.also.insert(query.also.end(), kind_columns.begin(), kind_columns.end());
   query.also.emplace_back("rank");
   query.also.insert(query.also.end(), altitude_columns.begin(), altitude_columns.end());
-  MapFeatures file = read_map_features(path, query, crs);
+  MapFeatures file = read_map_features(source, query, crs);
   PointTable table{.file = path, .columns = {"name"}, .points = {}};
   table.columns.insert(table.columns.end(), kind_columns.begin(), kind_columns.end());
   table.columns.emplace_back("rank");
@@ -121,11 +122,12 @@ std::size_t letters_of(const std::string& text) {
       std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
-std::vector<LabelPoint> read_label_points(const std::string& path, const std::string& crs,
+std::vector<LabelPoint> read_label_points(const VectorSource& source, const std::string& crs,
                                           const LabelStyle& style, Progress& progress,
                                           NamesAre names) {
+  const std::string& path = source.path;
   const bool all = names == NamesAre::optional;
-  const PointTable table = read_table(path, crs, names, progress);
+  const PointTable table = read_table(source, crs, names, progress);
   const int name = table.find("name");
   if (name < 0 && !all)
     throw Error(ErrorKind::usage, path,

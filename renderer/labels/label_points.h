@@ -9,6 +9,7 @@
 #include "base/progress.h"
 #include "renderer/labels/label_style.h"
 #include "terrain/io/raster.h"
+#include "terrain/io/vector_source.h"
 #include "terrain/shape/summits.h"
 
 namespace belvedere {
@@ -40,7 +41,7 @@ std::size_t letters_of(const std::string& text);
 // is no column of names, no usable name, or a number that is invalid, and Error(input) for names
 // that are not UTF-8.
 enum class NamesAre { needed, optional };
-std::vector<LabelPoint> read_label_points(const std::string& path, const std::string& crs,
+std::vector<LabelPoint> read_label_points(const VectorSource& source, const std::string& crs,
                                           const LabelStyle& style, Progress& progress,
                                           NamesAre names = NamesAre::needed);
 

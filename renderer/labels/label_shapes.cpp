@@ -226,12 +226,13 @@ std::vector<glm::dvec2> arc_along(const std::vector<glm::dvec2>& positions, doub
 
 }  // namespace
 
-std::vector<LabelShape> read_label_shapes(const std::string& path, const std::string& crs,
+std::vector<LabelShape> read_label_shapes(const VectorSource& source, const std::string& crs,
                                           const LabelStyle& style, Progress& progress) {
+  const std::string& path = source.path;
   // The kind: the first of the columns between name and rank that is not empty.
   const MapFeatures file = read_map_features(
-      path, {.columns = {"name"}, .also = {"kind", "type", "natural", "place", "waterway", "rank"}},
-      crs);
+      source,
+      {.columns = {"name"}, .also = {"kind", "type", "natural", "place", "waterway", "rank"}}, crs);
   std::vector<LabelShape> shapes;
   std::map<std::pair<std::string, int>, std::size_t> known;
   std::size_t nameless = 0, strange = 0;

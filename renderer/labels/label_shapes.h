@@ -8,6 +8,7 @@
 #include "renderer/labels/label_marks.h"
 #include "renderer/labels/label_points.h"
 #include "renderer/labels/label_style.h"
+#include "terrain/io/vector_source.h"
 
 namespace belvedere {
 
@@ -22,7 +23,7 @@ struct LabelShape {
 // read_label_points; those without a kind are valleys. Several lines of one name and kind are one
 // shape. Features without a name are left out with a note. Throws the errors of read_map_features,
 // and Error(usage) for a rank outside 1 … 9 and where nothing has a name.
-std::vector<LabelShape> read_label_shapes(const std::string& path, const std::string& crs,
+std::vector<LabelShape> read_label_shapes(const VectorSource& source, const std::string& crs,
                                           const LabelStyle& style, Progress& progress);
 
 // Position of a shape in the picture: its mark (the centre of its visible part) and the line that

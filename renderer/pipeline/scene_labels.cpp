@@ -104,11 +104,11 @@ void require_points_on_terrain(const std::vector<LabelPoint>& points, const Dem&
 NamesRead read_names(const LabelJob& job, const LabelStyle& style, const Dem& dem,
                      Progress& progress) {
   NamesRead names;
-  for (const std::string& file : job.points)
+  for (const VectorSource& file : job.points)
     append(names.points, read_label_points(file, dem.crs, style, progress));
-  for (const std::string& file : job.shapes)
+  for (const VectorSource& file : job.shapes)
     append(names.shapes, read_label_shapes(file, dem.crs, style, progress));
-  for (const std::string& file : job.tracks) append(names.ways, read_lines(file, dem.crs));
+  for (const VectorSource& file : job.tracks) append(names.ways, read_lines(file, dem.crs));
   require_points_on_terrain(names.points, dem);
   std::vector<glm::dvec2> positions;
   for (const LabelShape& shape : names.shapes)
@@ -125,20 +125,21 @@ NamesRead read_names(const LabelJob& job, const LabelStyle& style, const Dem& de
   return names;
 }
 
-std::vector<std::string> paths_of(const LoadedScene& scene,
-                                  const std::vector<SceneLabelFile>& files, Progress& progress) {
-  std::vector<std::string> paths;
+std::vector<VectorSource> sources_of(const LoadedScene& scene,
+                                     const std::vector<SceneLabelFile>& files, Progress& progress) {
+  std::vector<VectorSource> sources;
   for (const SceneLabelFile& file : files) {
-    std::string path = find_scene_file(scene, file.file);
-    if (!path.empty())
-      paths.push_back(std::move(path));
+    VectorSource source = file.source;
+    source.path = find_scene_file(scene, file.file);
+    if (!source.path.empty())
+      sources.push_back(std::move(source));
     else if (file.optional)
       progress.note(file.file + " is missing: its names are left out");
     else
       throw Error(ErrorKind::input, file.file, "no such file",
                   "a file beside the scene, or in a folder given with --data");
   }
-  return paths;
+  return sources;
 }
 
 // The same drawing as SVG and PNG, on white, because slide and text programs take PNG.
@@ -158,9 +159,9 @@ void write_profile(const LabelSheet& sheet, std::size_t track,
 
 LabelJob label_job(const LoadedScene& scene, Progress& progress) {
   const SceneLabels& labels = scene.scene.labels;
-  return {.points = paths_of(scene, labels.points, progress),
-          .shapes = paths_of(scene, labels.shapes, progress),
-          .tracks = paths_of(scene, labels.tracks, progress),
+  return {.points = sources_of(scene, labels.points, progress),
+          .shapes = sources_of(scene, labels.shapes, progress),
+          .tracks = sources_of(scene, labels.tracks, progress),
           .summits = labels.summits,
           .min_prominence_m = labels.min_prominence_m,
           .style = find_named_file(scene, "labels", labels.style)};

@@ -9,12 +9,13 @@
 #include "renderer/labels/labels.h"
 #include "renderer/scene/scene_file.h"
 #include "renderer/world/valley_view.h"
+#include "terrain/io/vector_source.h"
 
 namespace belvedere {
 
 // Files and settings of the labels of a picture, by paths.
 struct LabelJob {
-  std::vector<std::string> points, shapes, tracks;
+  std::vector<VectorSource> points, shapes, tracks;
   int summits = 0;  // of the DEM
   double min_prominence_m = 150.0;
   std::string style = "classic";  // built-in name or file

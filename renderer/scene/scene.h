@@ -24,6 +24,7 @@
 #include "terrain/generalize/generalize.h"
 #include "terrain/generalize/widen_valleys.h"
 #include "terrain/io/dem.h"
+#include "terrain/io/vector_source.h"
 #include "terrain/synthetic/synthetic.h"
 #include "texture/synthesis/synthesize.h"
 
@@ -77,6 +78,7 @@ struct SceneLandCover {
   std::string sea = "auto";           // "auto" or "none"
   std::optional<double> sea_level_m;  // where the scene gives it
   std::string towns_file;             // … and a table of further ones; empty: none
+  VectorSource towns_source;          // of that file, without path
   // What a raster does not distinguish: {glacier, rock} turns the raster's rock into glacier where
   // the rules find a glacier.
   std::vector<std::pair<LandCoverClass, LandCoverClass>> refine;
@@ -213,6 +215,7 @@ struct SceneLightRegion {  // a part of the map with its own light: see renderer
   std::optional<double> radius_m;
   std::vector<glm::dvec2> points, points_lonlat;  // or the corners of an outline
   std::string file, layer, where;                 // or the areas of a vector file
+  VectorSource source;                            // of the file, without path
   std::string origin, licence, get_from;
   bool optional = false;  // a missing file is a note instead of an error
   std::optional<double> azimuth_deg, altitude_deg, turn_deg;  // of its sun; absent: the scene's
@@ -289,6 +292,7 @@ struct SceneSynthesis {
 // Features of one vector file, drawn by the table of kinds (renderer/features/feature_style.h).
 struct SceneFeatures {
   std::string source;  // file
+  VectorSource file;   // without path
   std::string layer;   // of the file; empty: all that have such features
   std::string where;   // filter by attributes; empty: all
   std::string
@@ -306,6 +310,7 @@ struct SceneFeatures {
 
 struct SceneLabelFile {  // a file of named things, or of ways
   std::string file;
+  VectorSource source;  // without path
   std::string origin, licence, get_from;
   bool optional = false;  // a missing file is a note instead of an error
 };

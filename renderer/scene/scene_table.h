@@ -36,5 +36,10 @@ std::vector<SceneSection> make_output_sections();
 
 // Keys of a raster file: of heights, or of land cover. Only heights have a unit and bounds.
 std::vector<SceneKey> make_source_keys(bool heights);
+// Keys of a vector file besides its path.
+SceneKey make_vector_crs_key(SceneField (*field)(Scene&, std::size_t),
+                             std::string_view name = "crs");
+SceneKey make_encoding_key(SceneField (*field)(Scene&, std::size_t),
+                           std::string_view name = "encoding");
 
 }  // namespace belvedere

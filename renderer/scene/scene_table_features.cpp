@@ -18,6 +18,8 @@ std::vector<SceneSection> make_features_sections() {
                            "coordinate system that it states.",
                 .text = TextKind::file,
                 .required = true},
+               make_vector_crs_key(AT(features[i].file.crs)),
+               make_encoding_key(AT(features[i].file.encoding)),
                {.name = "layer",
                 .field = AT(features[i].layer),
                 .meaning = "The layer of the file. Default: all layers."},

@@ -5,7 +5,7 @@ namespace {
 
 using Field = SceneField (*)(Scene&, std::size_t);
 struct FileFields {
-  Field file, origin, licence, get_from, optional;
+  Field file, crs, encoding, origin, licence, get_from, optional;
 };
 
 // The three lists of files share these keys.
@@ -20,6 +20,8 @@ SceneSection file_section(std::string_view name, std::string_view meaning, std::
                .meaning = file,
                .text = TextKind::file,
                .required = true},
+              make_vector_crs_key(fields.crs),
+              make_encoding_key(fields.encoding),
               {.name = "origin",
                .field = fields.origin,
                .meaning = "Who made the data; written to the headers, and named in the margin."},
@@ -68,8 +70,10 @@ std::vector<SceneSection> make_labels_sections() {
       "labels.points", "One block for each file of points with names.",
       "A .csv, .gpkg, .geojson, .shp, .fgb, .gpx, .osm or .pbf file with columns name, kind, rank "
       "(1 … 9) and ele.",
-      {AT(labels.points[i].file), AT(labels.points[i].origin), AT(labels.points[i].licence),
-       AT(labels.points[i].get_from), AT(labels.points[i].optional)}));
+      {AT(labels.points[i].file), AT(labels.points[i].source.crs),
+       AT(labels.points[i].source.encoding), AT(labels.points[i].origin),
+       AT(labels.points[i].licence), AT(labels.points[i].get_from),
+       AT(labels.points[i].optional)}));
   sections.back().count = [](const Scene& s) { return s.labels.points.size(); };
   sections.back().resize = [](Scene& s, std::size_t n) { s.labels.points.resize(n); };
   sections.push_back(file_section(
@@ -77,16 +81,20 @@ std::vector<SceneSection> make_labels_sections() {
       "One block for each file of lines and areas whose names are curved along them: valleys, "
       "lakes, rivers, glaciers.",
       "A .gpkg, .geojson, .shp or .fgb file with columns name, kind and rank.",
-      {AT(labels.shapes[i].file), AT(labels.shapes[i].origin), AT(labels.shapes[i].licence),
-       AT(labels.shapes[i].get_from), AT(labels.shapes[i].optional)}));
+      {AT(labels.shapes[i].file), AT(labels.shapes[i].source.crs),
+       AT(labels.shapes[i].source.encoding), AT(labels.shapes[i].origin),
+       AT(labels.shapes[i].licence), AT(labels.shapes[i].get_from),
+       AT(labels.shapes[i].optional)}));
   sections.back().count = [](const Scene& s) { return s.labels.shapes.size(); };
   sections.back().resize = [](Scene& s, std::size_t n) { s.labels.shapes.resize(n); };
   sections.push_back(file_section(
       "labels.tracks",
       "One block for each file of ways that are drawn over the picture, hidden parts dashed.",
       "A .gpx, .gpkg, .geojson, .shp or .fgb file.",
-      {AT(labels.tracks[i].file), AT(labels.tracks[i].origin), AT(labels.tracks[i].licence),
-       AT(labels.tracks[i].get_from), AT(labels.tracks[i].optional)}));
+      {AT(labels.tracks[i].file), AT(labels.tracks[i].source.crs),
+       AT(labels.tracks[i].source.encoding), AT(labels.tracks[i].origin),
+       AT(labels.tracks[i].licence), AT(labels.tracks[i].get_from),
+       AT(labels.tracks[i].optional)}));
   sections.back().count = [](const Scene& s) { return s.labels.tracks.size(); };
   sections.back().resize = [](Scene& s, std::size_t n) { s.labels.tracks.resize(n); };
   sections.push_back(

@@ -90,6 +90,8 @@ std::vector<SceneSection> make_land_cover_sections() {
                        "of points (.gpkg, .geojson, .shp, .fgb) with columns name, radius_m or "
                        "population; see class_rules.md.",
             .text = TextKind::file},
+           make_vector_crs_key(AT(land_cover.towns_source.crs), "towns_crs"),
+           make_encoding_key(AT(land_cover.towns_source.encoding), "towns_encoding"),
            {.name = "rock",
             .field = AT(land_cover.rock),
             .meaning = "How rock is drawn. limestone: towers and buttresses, pale. granite (also "

@@ -45,6 +45,8 @@ SceneSection make_light_region_section() {
                .meaning = "A .gpkg, .geojson, .shp or .fgb file whose areas all have this light; "
                           "instead of a circle.",
                .text = TextKind::file},
+              make_vector_crs_key(AT(light_regions[i].source.crs)),
+              make_encoding_key(AT(light_regions[i].source.encoding)),
               {.name = "layer",
                .field = AT(light_regions[i].layer),
                .meaning = "The layer of the file. Default: all layers."},

@@ -17,6 +17,11 @@ std::vector<SceneKey> make_source_keys(bool heights) {
        .field = source(AT(terrain.sources[i].raster.band), AT(land_cover.sources[i].raster.band)),
        .range = {1, 65535},
        .meaning = "Band of the file, counted from 1."},
+      {.name = "variable",
+       .field = source(AT(terrain.sources[i].raster.variable),
+                       AT(land_cover.sources[i].raster.variable)),
+       .meaning = "Name of the raster in a file that contains several (netCDF, GeoPackage); "
+                  "without it an error lists them."},
       {.name = "crs",
        .field = source(AT(terrain.sources[i].raster.crs), AT(land_cover.sources[i].raster.crs)),
        .meaning =
@@ -38,20 +43,28 @@ std::vector<SceneKey> make_source_keys(bool heights) {
        .meaning = "Where to get it; shown when the file is missing."},
   };
   if (heights) {
+    keys.insert(keys.begin() + 3,
+                {.name = "encoding",
+                 .field = AT(terrain.sources[i].raster.encoding),
+                 .meaning = "How the red, green and blue of map tiles encode heights. terrarium: "
+                            "256 R + G + B / 256 - 32768; mapbox: Terrain-RGB, 0.1 (65536 R + 256 "
+                            "G + B) - 10000. Default: the values are heights.",
+                 .text = TextKind::choice,
+                 .choices = {"", "terrarium", "mapbox"}});
     keys.insert(
-        keys.begin() + 3,
+        keys.begin() + 4,
         {.name = "unit",
          .field = AT(terrain.sources[i].unit),
          .meaning = "Unit of the heights, if the file does not give it; us-ft is the survey foot.",
          .text = TextKind::choice,
          .choices = {"", "m", "ft", "us-ft"}});
-    keys.insert(keys.begin() + 5,
+    keys.insert(keys.begin() + 7,
                 {.name = "lowest_m",
                  .field = AT(terrain.sources[i].raster.lowest_m),
                  .range = {-12000, 9000},
                  .unit = "m",
                  .meaning = "Lower heights are errors of the data and count as voids."});
-    keys.insert(keys.begin() + 6,
+    keys.insert(keys.begin() + 8,
                 {.name = "highest_m",
                  .field = AT(terrain.sources[i].raster.highest_m),
                  .range = {-12000, 9000},
@@ -59,6 +72,23 @@ std::vector<SceneKey> make_source_keys(bool heights) {
                  .meaning = "Higher heights are errors of the data and count as voids."});
   }
   return keys;
+}
+
+SceneKey make_vector_crs_key(SceneField (*field)(Scene&, std::size_t), std::string_view name) {
+  return {.name = name,
+          .field = field,
+          .meaning =
+              "Coordinate reference system of the file, if it has none or a wrong one: "
+              "\"EPSG:26911\"; of a .csv that of its columns east and north.",
+          .text = TextKind::crs};
+}
+
+SceneKey make_encoding_key(SceneField (*field)(Scene&, std::size_t), std::string_view name) {
+  return {.name = name,
+          .field = field,
+          .meaning =
+              "Encoding of the texts of a .shp or .csv file, such as \"windows-1252\". "
+              "Default: as the .cpg file says, else UTF-8."};
 }
 
 }  // namespace belvedere

@@ -47,8 +47,9 @@ std::vector<KnownTown> make_scene_towns(const LoadedScene& loaded, const Dem& de
                      .name = town.name});
   }
   if (!cover.towns_file.empty()) {
-    const std::vector<KnownTown> read =
-        read_towns(find_scene_file(loaded, cover.towns_file), dem.crs, progress);
+    VectorSource source = cover.towns_source;
+    source.path = find_scene_file(loaded, cover.towns_file);
+    const std::vector<KnownTown> read = read_towns(source, dem.crs, progress);
     towns.insert(towns.end(), read.begin(), read.end());
   }
 

@@ -35,9 +35,10 @@ double town_radius_m(double population) {
   return std::sqrt(population * m2_a_head / std::numbers::pi);
 }
 
-std::vector<KnownTown> read_towns(const std::string& path, const std::string& crs,
+std::vector<KnownTown> read_towns(const VectorSource& source, const std::string& crs,
                                   Progress& progress) {
-  const PointTable table = read_points(path, crs);
+  const std::string& path = source.path;
+  const PointTable table = read_points(source, crs);
   const int name = table.find("name");
   const int radius = table.find("radius_m");
   const int population = table.find("population");

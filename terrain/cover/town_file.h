@@ -5,6 +5,7 @@
 
 #include "base/progress.h"
 #include "terrain/cover/towns.h"
+#include "terrain/io/vector_source.h"
 
 namespace belvedere {
 
@@ -17,7 +18,7 @@ double town_radius_m(double population);
 // radius_m takes precedence. `crs`: the scene's. Rows with neither, or 0, are left out, with a note
 // of their number. Throws Error(usage) if both columns are missing, and for sizes that are not
 // numbers or beyond largest_town_radius_m; else as read_points does.
-std::vector<KnownTown> read_towns(const std::string& path, const std::string& crs,
+std::vector<KnownTown> read_towns(const VectorSource& source, const std::string& crs,
                                   Progress& progress);
 
 }  // namespace belvedere

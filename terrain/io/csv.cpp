@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "base/text/text_encoding.h"
 
 namespace belvedere {
 namespace {
@@ -111,7 +112,8 @@ CsvTable parse_csv(std::string_view text, const std::string& name) {
   constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
   if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
   if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
-    throw Error(ErrorKind::usage, name, "is text in UTF-16", "a file that is saved as UTF-8");
+    throw Error(ErrorKind::usage, name, "is text in UTF-16",
+                "a file that is saved as UTF-8, or `encoding = \"UTF-16\"` in the scene");
   CsvTable table;
   table.name = name;
   int line = 1;
@@ -140,7 +142,7 @@ CsvTable parse_csv(std::string_view text, const std::string& name) {
   return table;
 }
 
-CsvTable read_csv(const std::string& path) {
+CsvTable read_csv(const std::string& path, const std::string& encoding) {
   constexpr std::uintmax_t max_bytes = 16U << 20;
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored))
@@ -152,7 +154,7 @@ CsvTable read_csv(const std::string& path) {
   std::ostringstream text;
   text << file.rdbuf();
   if (file.bad()) throw Error(ErrorKind::input, path, "cannot read the file");
-  return parse_csv(text.str(), path);
+  return parse_csv(encoding.empty() ? text.str() : text_to_utf8(text.str(), encoding, path), path);
 }
 
 }  // namespace belvedere

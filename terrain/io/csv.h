@@ -28,6 +28,7 @@ struct CsvTable {
 // row's end are empty.
 CsvTable parse_csv(std::string_view text, const std::string& name);
 // Error(input) if the file is missing, Error(limit) above 16 MiB.
-CsvTable read_csv(const std::string& path);
+// `encoding`: of its text; empty: UTF-8.
+CsvTable read_csv(const std::string& path, const std::string& encoding = {});
 
 }  // namespace belvedere

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "terrain/io/vector_source.h"
+
 namespace belvedere {
 
 enum class MapShape : int { point, line, area };
@@ -54,7 +56,7 @@ struct MapFeatures {
 // they contain what an odd number of their rings encloses. Throws Error(usage) for another
 // extension or an invalid layer, column or filter; Error(input) for a file that is missing, damaged
 // or without a CRS; Error(limit) for more than 2 · 10⁶ features or 3 · 10⁷ positions that are kept.
-MapFeatures read_map_features(const std::string& path, const MapQuery& query,
+MapFeatures read_map_features(const VectorSource& source, const MapQuery& query,
                               const std::string& crs);
 
 }  // namespace belvedere

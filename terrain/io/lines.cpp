@@ -10,8 +10,9 @@
 
 namespace belvedere {
 
-std::vector<MapLine> read_lines(const std::string& path, const std::string& crs) {
-  MapFeatures file = read_map_features(path, {.also = {"name"}}, crs);
+std::vector<MapLine> read_lines(const VectorSource& source, const std::string& crs) {
+  const std::string& path = source.path;
+  MapFeatures file = read_map_features(source, {.also = {"name"}}, crs);
   if (file.unplaceable > 0)
     throw Error(ErrorKind::input, path,
                 fmt::format("{} of its features have positions outside the valid area of {}",

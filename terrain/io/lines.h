@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "terrain/io/vector_source.h"
+
 namespace belvedere {
 
 // A line on the map: a track, a road.
@@ -17,6 +19,6 @@ struct MapLine {
 // tracks and routes of GPX; parts of a multi-line are separate lines. Throws Error as
 // read_map_features does, and Error(input) for a file without a line and for positions outside the
 // valid area of `crs`.
-std::vector<MapLine> read_lines(const std::string& path, const std::string& crs);
+std::vector<MapLine> read_lines(const VectorSource& source, const std::string& crs);
 
 }  // namespace belvedere

@@ -28,8 +28,9 @@ double number_of(const std::string& text, const std::string& where, const std::s
   return value;
 }
 
-PointTable read_csv_points(const std::string& path, const std::string& crs) {
-  const CsvTable csv = read_csv(path);
+PointTable read_csv_points(const VectorSource& source, const std::string& crs) {
+  const std::string& path = source.path;
+  const CsvTable csv = read_csv(path, source.encoding);
   const int longitude = csv.find_any({"lon", "longitude"});
   const int latitude = csv.find_any({"lat", "latitude"});
   const int east = csv.find_any({"east", "easting"});
@@ -56,7 +57,11 @@ PointTable read_csv_points(const std::string& path, const std::string& crs) {
     positions.emplace_back(x, y);
     table.points.push_back({.where = where, .position = {}, .values = row.fields});
   }
-  if (degrees) PointTransform(longitude_latitude, crs).apply(positions);
+  if (!degrees && !source.crs.empty() && crs.empty())
+    throw Error(ErrorKind::usage, path, "has a `crs`, but the terrain has none",
+                "columns east and north of the terrain, without `crs`");
+  const std::string own = degrees ? longitude_latitude : source.crs;
+  if (!own.empty()) PointTransform(own, crs).apply(positions);
   for (std::size_t i = 0; i < positions.size(); ++i) {
     if (!std::isfinite(positions[i].x))
       throw Error(ErrorKind::input, table.points[i].where,
@@ -75,8 +80,9 @@ int PointTable::find(std::string_view column) const {
   return found == columns.end() ? -1 : static_cast<int>(found - columns.begin());
 }
 
-PointTable read_points(const std::string& path, const std::string& crs) {
-  return lower_extension(path) == ".csv" ? read_csv_points(path, crs) : read_point_layer(path, crs);
+PointTable read_points(const VectorSource& source, const std::string& crs) {
+  return lower_extension(source.path) == ".csv" ? read_csv_points(source, crs)
+                                                : read_point_layer(source, crs);
 }
 
 }  // namespace belvedere

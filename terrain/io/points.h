@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "terrain/io/vector_source.h"
+
 namespace belvedere {
 
 // Points with their attributes as text: towns, names of summits.
@@ -29,9 +31,9 @@ struct PointTable {
 // missing coordinate columns and for malformed numbers in a CSV; Error(input) for a file that is
 // missing, damaged or without a CRS, for features that are not points, and for positions outside
 // the valid area of `crs`; Error(limit) above 100000 points.
-PointTable read_points(const std::string& path, const std::string& crs);
+PointTable read_points(const VectorSource& source, const std::string& crs);
 
 // The same, only for a layer.
-PointTable read_point_layer(const std::string& path, const std::string& crs);
+PointTable read_point_layer(const VectorSource& source, const std::string& crs);
 
 }  // namespace belvedere

@@ -30,8 +30,9 @@ std::vector<std::vector<std::vector<glm::dvec2>>> areas_of(const LoadedScene& lo
                                                            const SceneLightRegion& given,
                                                            const Dem& dem, const std::string& key,
                                                            Progress& progress) {
-  const std::string path = find_scene_file(loaded, given.file);
-  if (path.empty()) {
+  VectorSource source = given.source;
+  source.path = find_scene_file(loaded, given.file);
+  if (source.path.empty()) {
     if (!given.optional)
       throw Error(ErrorKind::input, given.file, "no such file",
                   "a file beside the scene or in a --data folder");
@@ -45,7 +46,7 @@ std::vector<std::vector<std::vector<glm::dvec2>>> areas_of(const LoadedScene& lo
   std::vector<std::vector<std::vector<glm::dvec2>>> areas;
   std::size_t corners = 0;
   for (MapFeature& feature :
-       read_map_features(path, {.layer = given.layer, .where = given.where}, dem.crs).features) {
+       read_map_features(source, {.layer = given.layer, .where = given.where}, dem.crs).features) {
     if (feature.shape != MapShape::area) continue;
     for (const auto& ring : feature.parts) corners += ring.size();
     areas.push_back(std::move(feature.parts));

@@ -153,8 +153,8 @@ std::vector<int> columns_of(OGRLayerH layer, const MapQuery& query) {
 
 class Reader {
  public:
-  Reader(const std::string& path, const MapQuery& query, const std::string& crs)
-      : path_(path), query_(query), crs_(crs) {}
+  Reader(const VectorSource& source, const MapQuery& query, const std::string& crs)
+      : source_(source), path_(source.path), query_(query), crs_(crs) {}
 
   MapFeatures read(GDALDatasetH file) {
     std::vector<OGRLayerH> layers;
@@ -276,9 +276,9 @@ class Reader {
   void bring(OGRLayerH layer, Pending& pending) {
     if (pending.found.empty()) return;
     if (!pending.transform) {
-      const std::string own_crs = layer_crs(layer, path_);
+      const std::string own_crs = layer_crs(layer, source_);
       if (own_crs.empty())
-        throw Error(ErrorKind::input, path_, "its layer has no CRS", "a layer with a CRS");
+        throw Error(ErrorKind::input, path_, "its layer has no CRS", missing_crs_advice);
       pending.transform.emplace(own_crs, crs_);
     }
     const std::size_t before = all_.features.size();
@@ -294,6 +294,7 @@ class Reader {
                   fmt::format("features with more than {} positions", max_positions));
   }
 
+  const VectorSource& source_;
   const std::string& path_;
   const MapQuery& query_;
   const std::string& crs_;
@@ -303,14 +304,15 @@ class Reader {
 
 }  // namespace
 
-MapFeatures read_map_features(const std::string& path, const MapQuery& query,
+MapFeatures read_map_features(const VectorSource& source, const MapQuery& query,
                               const std::string& crs) {
+  const std::string& path = source.path;
   if (crs.empty())
     throw Error(ErrorKind::usage, path, "the terrain has no CRS", "terrain with a CRS");
   const Dataset file = open_vector_layers(
-      path, {".gpx", ".gpkg", ".geojson", ".json", ".shp", ".fgb", ".osm", ".pbf"},
+      source, {".gpx", ".gpkg", ".geojson", ".json", ".shp", ".fgb", ".osm", ".pbf"},
       "not a vector file", ".gpkg, .geojson, .json, .shp, .fgb, .gpx, .osm or .pbf");
-  return Reader(path, query, crs).read(file.get());
+  return Reader(source, query, crs).read(file.get());
 }
 
 }  // namespace belvedere

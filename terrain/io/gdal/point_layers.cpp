@@ -54,17 +54,18 @@ glm::dvec2 position_of(OGRFeatureH feature, const std::string& where) {
 
 }  // namespace
 
-PointTable read_point_layer(const std::string& path, const std::string& crs) {
+PointTable read_point_layer(const VectorSource& source, const std::string& crs) {
+  const std::string& path = source.path;
   const Dataset file =
-      open_vector_layers(path, {".gpkg", ".geojson", ".json", ".shp", ".fgb"}, "not a point table",
-                         ".csv, .gpkg, .geojson, .json, .shp or .fgb");
+      open_vector_layers(source, {".gpkg", ".geojson", ".json", ".shp", ".fgb"},
+                         "not a point table", ".csv, .gpkg, .geojson, .json, .shp or .fgb");
   OGRLayerH layer = choose_layer(file.get(), path);
-  const std::string own_crs = layer_crs(layer, path);
+  const std::string own_crs = layer_crs(layer, source);
   if (own_crs.empty() != crs.empty())
     throw Error(
         ErrorKind::input, path,
         own_crs.empty() ? "its layer has no CRS" : "its layer has a CRS and the terrain has none",
-        own_crs.empty() ? "a layer with a CRS" : "a .csv file with columns east and north");
+        own_crs.empty() ? missing_crs_advice : "a .csv file with columns east and north");
 
   PointTable table{.file = path, .columns = {}, .points = {}};
   OGRFeatureDefnH fields = OGR_L_GetLayerDefn(layer);

@@ -13,6 +13,8 @@
 #include "base/error.h"
 #include "base/text/archive_kind.h"
 #include "base/text/letters.h"
+#include "base/text/text_encoding.h"
+#include "terrain/io/crs.h"
 
 namespace belvedere {
 namespace {
@@ -31,8 +33,10 @@ constexpr std::array formats = {
 
 }  // namespace
 
-Dataset open_vector_layers(const std::string& path, const std::vector<std::string_view>& extensions,
+Dataset open_vector_layers(const VectorSource& source,
+                           const std::vector<std::string_view>& extensions,
                            const std::string& found, const std::string& allowed) {
+  const std::string& path = source.path;
   const std::string extension = lower_extension(path);
   const char* driver = nullptr;
   for (const VectorFormat& format : formats)
@@ -48,8 +52,18 @@ Dataset open_vector_layers(const std::string& path, const std::vector<std::strin
   register_gdal();
   const GdalErrors errors;
   const char* const drivers[] = {driver, nullptr};
+  CPLStringList options;
+  if (!source.encoding.empty()) {
+    check_text_encoding(source.encoding, path);
+    if (extension != ".shp")
+      throw Error(ErrorKind::usage, path,
+                  fmt::format("has the encoding {}, but {} files are always UTF-8", source.encoding,
+                              driver),
+                  "`encoding` for .shp and .csv files only");
+    options.SetNameValue("ENCODING", source.encoding.c_str());
+  }
   Dataset file(GDALOpenEx(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
-                          drivers, nullptr, nullptr));
+                          drivers, options.List(), nullptr));
   if (file == nullptr)
     throw Error(ErrorKind::input, path, errors.say(fmt::format("not a readable {} file", driver)));
   return file;
@@ -63,12 +77,14 @@ std::string field_text(OGRFeatureH feature, int column, const std::string& path,
   throw Error(ErrorKind::input, where,
               fmt::format("{} is not UTF-8, and the shapefile does not name its encoding",
                           OGR_Fld_GetNameRef(OGR_F_GetFieldDefnRef(feature, column))),
-              fmt::format("a text file {}.cpg beside it with the name of the encoding, such as "
-                          "ISO-8859-1 or windows-1251",
+              fmt::format("its key `encoding` in the scene, or a text file {}.cpg beside it, with "
+                          "the name of the encoding, such as ISO-8859-1 or windows-1251",
                           fs::path(path).stem().string()));
 }
 
-std::string layer_crs(OGRLayerH layer, const std::string& path) {
+std::string layer_crs(OGRLayerH layer, const VectorSource& source) {
+  if (!source.crs.empty()) return normalize_crs(source.crs);
+  const std::string& path = source.path;
   OGRSpatialReferenceH reference = OGR_L_GetSpatialRef(layer);
   if (reference == nullptr) return {};
   const GdalErrors errors;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "terrain/io/gdal/gdal_files.h"
+#include "terrain/io/vector_source.h"
 
 namespace belvedere {
 
@@ -19,15 +20,20 @@ using VectorFeature = std::unique_ptr<void, void (*)(OGRFeatureH)>;
 // GDAL open others. `endings`: the extensions that the caller reads, as ".gpkg". Throws
 // Error(usage) with `found` and `allowed` for another one; Error(input) if the file is missing or
 // of another format.
-Dataset open_vector_layers(const std::string& path, const std::vector<std::string_view>& extensions,
+Dataset open_vector_layers(const VectorSource& source,
+                           const std::vector<std::string_view>& extensions,
                            const std::string& found, const std::string& allowed);
+
+// For messages: where a layer has no CRS.
+constexpr const char* missing_crs_advice =
+    "its key `crs` in the scene, such as crs = \"EPSG:32632\", or its .prj file beside a .shp";
 
 // A field as text; empty if it is not set. Error(input) for texts of a shapefile that are not
 // UTF-8: GDAL converts those whose encoding the file names.
 std::string field_text(OGRFeatureH feature, int column, const std::string& path,
                        const std::string& where);
 
-// WKT; empty if the layer has none.
-std::string layer_crs(OGRLayerH layer, const std::string& path);
+// The source's, else the layer's, as WKT; empty if it has none.
+std::string layer_crs(OGRLayerH layer, const VectorSource& source);
 
 }  // namespace belvedere

@@ -38,7 +38,7 @@ TEST_F(Sources, KindsComeFromAColumn) {
             line("\"highway\": \"Footway\", \"w\": \"wide\"") + "," +
             line("\"highway\": \"elevator\"") + "," + line("\"highway\": \"house\""));
   const FeatureSet set =
-      read({.path = file, .kind_of = "highway", .width_of = "w", .key = "features.0"});
+      read({.file = file, .kind_of = "highway", .width_of = "w", .key = "features.0"});
   ASSERT_EQ(set.features.size(), 2U);
   EXPECT_EQ(kind_of(set, 0).name, "main_road");
   EXPECT_FLOAT_EQ(set.features[0].real_m, 7.5F);
@@ -57,13 +57,13 @@ TEST_F(Sources, KindsComeFromAColumn) {
 TEST_F(Sources, OrAreSaid) {
   const std::string file = write(line("\"highway\": \"elevator\""));
   const FeatureSet set =
-      read({.path = file, .kind = "railway", .width_mm = 1.25, .key = "features.0"});
+      read({.file = file, .kind = "railway", .width_mm = 1.25, .key = "features.0"});
   ASSERT_EQ(set.features.size(), 1U);
   EXPECT_EQ(kind_of(set, 0).name, "railway");
   EXPECT_FLOAT_EQ(set.features[0].width_mm, 1.25F);
   // With a column, the features whose kind is unknown.
   const FeatureSet rest =
-      read({.path = file, .kind = "track", .kind_of = "highway", .key = "features.0"});
+      read({.file = file, .kind = "track", .kind_of = "highway", .key = "features.0"});
   EXPECT_EQ(kind_of(rest, 0).name, "track");
   EXPECT_FLOAT_EQ(rest.features[0].width_mm, static_cast<float>(kind_of(rest, 0).width_mm));
 }
@@ -71,7 +71,7 @@ TEST_F(Sources, OrAreSaid) {
 TEST_F(Sources, AWordThatTheStyleDoesNotKnowIsSaidWithThoseItKnows) {
   const std::string file = write(line(""));
   EXPECT_THAT(test::message_of(ErrorKind::usage,
-                               [&] { read({.path = file, .kind = "raod", .key = "features.3"}); }),
+                               [&] { read({.file = file, .kind = "raod", .key = "features.3"}); }),
               AllOf(HasSubstr("features.3.kind"), HasSubstr("did you mean \"road\""),
                     HasSubstr("motorway")));
 }

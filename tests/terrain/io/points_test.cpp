@@ -152,5 +152,50 @@ TEST_F(Points, OnlyTheFormatThatTheEndingNames) {
   }
 }
 
+// A scene's keys say what a file does not.
+TEST_F(Points, ASourceStatesCrsAndEncoding) {
+  const std::string csv =
+      write_text("a.csv", "name,east,north\nW\xf6rner,4445000,5265000\n");  // Gauss-Krüger
+  VectorSource source = csv;
+  source.crs = "EPSG:31468";
+  source.encoding = "windows-1252";
+  const PointTable table = read_points(source, utm_);
+  EXPECT_EQ(table.points.at(0).values.at(0), "Wörner");
+  EXPECT_LT(glm::length(table.points[0].position -
+                        transform_point("EPSG:31468", utm_, {4445000, 5265000})),
+            1e-3);
+  source.encoding = "latin-nine";
+  EXPECT_THAT(message_of(ErrorKind::usage, [&] { read_points(source, utm_); }),
+              HasSubstr("latin-nine"));
+  if (!has_ogr2ogr()) GTEST_SKIP() << "needs GDAL's program ogr2ogr";
+  write_text("umlaut.geojson",
+             R"({"type": "FeatureCollection", "features": [{"type": "Feature",
+  "properties": {"name": "Wörner"}, "geometry": {"type": "Point", "coordinates": [11.4, 47.3]}}]})");
+  ASSERT_EQ(std::system(("ogr2ogr -lco ENCODING=ISO-8859-1 '" + path("p.shp") + "' '" +
+                         path("umlaut.geojson") + "' > /dev/null 2>&1")
+                            .c_str()),
+            0);
+  // The .dbf names its code page as well.
+  std::string dbf = read_text("p.dbf");
+  dbf[29] = '\0';
+  write_text("p.dbf", dbf);
+  std::filesystem::remove(path("p.cpg"));
+  std::filesystem::remove(path("p.prj"));
+  VectorSource bare = path("p.shp");
+  EXPECT_THAT(message_of(ErrorKind::input, [&] { read_points(bare, utm_); }), HasSubstr("`crs`"));
+  bare.crs = "EPSG:4326";
+  EXPECT_THAT(message_of(ErrorKind::input, [&] { read_points(bare, utm_); }),
+              HasSubstr("`encoding`"));
+  bare.encoding = "ISO-8859-1";
+  const PointTable read = read_points(bare, utm_);
+  EXPECT_EQ(read.points.at(0).values.at(0), "Wörner");
+  EXPECT_LT(glm::length(read.points[0].position - transform_point("EPSG:4326", utm_, {11.4, 47.3})),
+            1e-3);
+  VectorSource utf8 = path("umlaut.geojson");
+  utf8.encoding = "ISO-8859-1";
+  EXPECT_THAT(message_of(ErrorKind::usage, [&] { read_points(utf8, utm_); }),
+              HasSubstr("always UTF-8"));
+}
+
 }  // namespace
 }  // namespace belvedere

@@ -60,7 +60,7 @@ int run(const LabelsOptions& options) {
   for (const auto& [own, scenes] :
        {std::pair(&options.points, &job.points), std::pair(&options.shapes, &job.shapes),
         std::pair(&options.tracks, &job.tracks)})
-    if (!own->empty()) *scenes = *own;
+    if (!own->empty()) scenes->assign(own->begin(), own->end());
   if (!options.style.empty()) job.style = options.style;
   if (options.min_prominence_m > 0.0) job.min_prominence_m = options.min_prominence_m;
   if (options.summits >= 0)
