@@ -264,11 +264,11 @@ constexpr int looks_per_cell = 4;  // samples per side of a coarse cell
 // Means of the samples in each coarse cell, of the first source with data there. Empty where a file
 // cannot be sampled.
 std::optional<Raster<float>> look_at_files(const DemParameters& dem, const RasterFrame& frame,
-                                           int longest) {
+                                           int longest, Progress& progress) {
   Raster<float> out{Grid<float>(frame.width, frame.height, std::numeric_limits<float>::quiet_NaN()),
                     frame.transform, frame.crs};
   for (const RasterSource& source : dem.sources) {
-    const std::optional<Raster<float>> thin = read_thinned(source, longest);
+    const std::optional<Raster<float>> thin = read_thinned(source, longest, progress);
     if (!thin) return std::nullopt;
     const PointTransform transform(frame.crs, thin->crs);
     std::vector<glm::dvec2> centres;
@@ -311,9 +311,10 @@ std::optional<Raster<float>> look_at_files(const DemParameters& dem, const Raste
 
 }  // namespace
 
-CoarseGround read_coarse_ground(const DemParameters& dem, Progress& progress,
+CoarseGround read_coarse_ground(const DemParameters& given, Progress& progress,
                                 const CoarseGroundParameters& parameters) {
-  check_height_sources(dem.sources, progress);
+  DemParameters dem = given;
+  dem.sources = check_height_sources(given.sources, progress);
   RasterFrame frame = choose_frame(dem.sources, dem.crs, dem.cell_m, dem.extent);
   const auto checked = [&](Raster<float> raster, double cell_m) {
     CoarseGround ground = make_coarse_ground(std::move(raster), cell_m);
@@ -332,7 +333,7 @@ CoarseGround read_coarse_ground(const DemParameters& dem, Progress& progress,
   frame.height = std::max(2, static_cast<int>(std::ceil(height_m / cell_m - 1e-6)));
   if (look)
     if (std::optional<Raster<float>> seen =
-            look_at_files(dem, frame, looks_per_cell * parameters.max_cells))
+            look_at_files(dem, frame, looks_per_cell * parameters.max_cells, progress))
       return checked(std::move(*seen), source_cell_m);
   return checked(warp_rasters(dem.sources, frame, progress), source_cell_m);
 }

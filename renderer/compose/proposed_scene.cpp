@@ -46,6 +46,9 @@ std::string position(glm::dvec2 p) { return fmt::format("[{:.0f}, {:.0f}]", p.x,
 void write_source(Text& text, const ProposedFile& source) {
   text.value("file", json_quoted(source.file));
   if (source.band != 1) text.value("band", fmt::format("{}", source.band), "of the file's bands");
+  if (!source.variable.empty()) text.value("variable", json_quoted(source.variable));
+  if (!source.encoding.empty())
+    text.value("encoding", json_quoted(source.encoding), "of heights as colours");
   if (!source.crs.empty()) text.value("crs", json_quoted(source.crs), "the file does not state it");
   if (source.lowest_m)
     text.value("lowest_m", fmt::format("{:.0f}", *source.lowest_m),

@@ -17,7 +17,9 @@ struct ProposedFile {
   std::string origin = {};
   std::string licence = {};
   std::string get_from = {};
-  int band = 1;  // of the file
+  int band = 1;               // of the file
+  std::string variable = {};  // of a file of several rasters
+  std::string encoding = {};  // of colours that hold heights
 };
 struct ProposedScene {
   std::string title;

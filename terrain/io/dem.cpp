@@ -116,11 +116,11 @@ Dem read_dem(const DemParameters& parameters, Progress& progress) {
     throw Error(ErrorKind::usage, "max_void_share", fmt::format("{}", max), "0…1");
   const RasterFrame frame =
       choose_frame(parameters.sources, parameters.crs, cell_m, parameters.extent);
-  check_height_sources(parameters.sources, progress);
+  const std::vector<RasterSource> sources = check_height_sources(parameters.sources, progress);
   // Altitudes, the mask of filled cells, and a third of both for the coarser levels of the fill.
   check_memory(fmt::format("terrain of {} × {} cells", frame.width, frame.height),
                8.0 * frame.width * frame.height);
-  Raster<float> raster = warp_rasters(parameters.sources, frame, progress);
+  Raster<float> raster = warp_rasters(sources, frame, progress);
   const std::size_t voids = count_voids(raster.cells);
   const double share = static_cast<double>(voids) / static_cast<double>(raster.cells.size());
   const std::string where = parameters.sources.size() == 1
@@ -141,6 +141,13 @@ Dem read_dem(const DemParameters& parameters, Progress& progress) {
   Dem dem = make_dem(std::move(raster));
   const auto [low, high] = std::minmax_element(dem.altitude_m.begin(), dem.altitude_m.end());
   note_height_range(where, *low, *high, progress);
+  return dem;
+}
+
+Dem read_own_dem(const RasterSource& source, Progress& progress) {
+  Dem dem = make_dem(read_raster(check_height_sources({source}, progress)[0], progress));
+  const auto [low, high] = std::minmax_element(dem.altitude_m.begin(), dem.altitude_m.end());
+  note_height_range(source.path, *low, *high, progress);
   return dem;
 }
 

@@ -47,6 +47,9 @@ struct DemParameters {
 // coarse to fine) and masks them. Throws Error(input) for unusable data, Error(limit) if it exceeds
 // memory.
 Dem read_dem(const DemParameters& parameters, Progress& progress);
+// The cells of one file as they are, in its own CRS or none; judged and filled like read_dem's, of
+// any share of voids.
+Dem read_own_dem(const RasterSource& source, Progress& progress);
 // Fills NaN cells and marks them; shared by read_dem and synthetic or in-memory terrain.
 Dem make_dem(Raster<float> raster);
 

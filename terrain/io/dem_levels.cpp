@@ -181,7 +181,7 @@ Grid<float> DemRowReducer::push(const Grid<float>& rows) {
 
 DemLevels::DemLevels(const DemParameters& parameters, const RasterFrame& frame, int coarsest,
                      double kept_cells, Progress& progress)
-    : windows_(parameters.sources, frame),
+    : windows_(check_height_sources(parameters.sources, progress), frame),
       coarsest_(coarsest),
       first_kept_(coarsest),
       blocks_(frame.width, frame.height) {
@@ -200,7 +200,6 @@ DemLevels::DemLevels(const DemParameters& parameters, const RasterFrame& frame, 
   for (int level = first_kept_; level <= coarsest; ++level)
     kept_.emplace_back(level_cells(frame.width, level), level_cells(frame.height, level));
 
-  check_height_sources(parameters.sources, progress);
   progress.begin("read terrain", frame.height);
   double voids = 0.0;
   float lowest_m = std::numeric_limits<float>::infinity();
@@ -235,6 +234,7 @@ DemLevels::DemLevels(const DemParameters& parameters, const RasterFrame& frame, 
   if (voids > 0.0)
     progress.note(fmt::format("{:.2f} % of the terrain is void and was filled by interpolation",
                               100.0 * share));
+  windows_.note_dropped(progress);
   note_height_range(parameters.sources[0].path, lowest_m, highest_m, progress);
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/progress.h"
+#include "terrain/io/raster_file.h"
 #include "terrain/io/raster_source.h"
 
 namespace belvedere {
@@ -18,8 +19,15 @@ constexpr float highest_ground_m = 9000.F;
 // Before the cells are read. Throws Error(input) for a band of colours instead of heights: a shaded
 // relief, a rendered map, a palette. Notes on files of 8 bits, on heights without a unit
 // under a coordinate system in feet, and on files whose centre lies far outside the area of use of
-// their coordinate system (doubt_of_place).
-void check_height_sources(const std::vector<RasterSource>& sources, Progress& progress);
+// their coordinate system (doubt_of_place). Returns the sources as their cells are to be read:
+// - 0 is void where it lies outside an outline: the ground beside it begins at other altitudes, by
+//   the median of its steps farther than a coast does. Noted.
+// - Spikes of single cells are void: RasterSource::max_spike_m.
+std::vector<RasterSource> check_height_sources(const std::vector<RasterSource>& sources,
+                                               Progress& progress);
+
+// After reading: notes on the cells that were taken as void though no header says so.
+void note_dropped_cells(const RasterFile& file, Progress& progress);
 
 // After reading: notes on heights below the lowest or above the highest ground, with the keys that
 // help.

@@ -75,6 +75,14 @@ class RasterFile {
   double undeclared_foot_m() const;
   // Values that were read so far and taken as void although neither header nor scene says so.
   std::vector<float> undeclared_voids() const;
+  // The cells that were read so far and taken as void by max_spike_m.
+  struct Spikes {
+    std::size_t count = 0;
+    bool more = false;  // than are counted
+    int first_x = 0, first_y = 0;
+    float first_m = 0.F;
+  };
+  Spikes spikes() const;
 
   // Metres, voids NaN; the window's own size.
   Grid<float> read_values(const CellWindow& window) const;

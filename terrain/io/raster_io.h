@@ -42,7 +42,7 @@ RasterInfo read_raster_info(const RasterSource& source);
 // Cells as floats in metres. NaN for nodata, for -9999, -32768 and 32767 if the file declares none,
 // and always for -32768. No reprojection; a south-up raster is flipped, a rotated one resampled
 // upright in its own CRS.
-Raster<float> read_raster(const RasterSource& source);
+Raster<float> read_raster(const RasterSource& source, Progress& progress = silent_progress());
 // Integer codes; nodata becomes -1.
 Raster<std::int32_t> read_codes(const RasterSource& source);
 

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 
+#include "terrain/io/height_doubts.h"
 #include "terrain/io/raster_file.h"
 
 namespace belvedere {
 
-std::optional<Raster<float>> read_thinned(const RasterSource& source, int longest) {
+std::optional<Raster<float>> read_thinned(const RasterSource& source, int longest,
+                                          Progress& progress) {
   const RasterFile file(source);
   const CellAffine& a = file.affine();
   if (!a.axis_aligned() || a.x_column <= 0.0 || a.y_row >= 0.0) return std::nullopt;
@@ -15,6 +17,7 @@ std::optional<Raster<float>> read_thinned(const RasterSource& source, int longes
   const int height = std::max(1, file.height() / factor);
   Raster<float> out;
   out.cells = file.read_values({0, 0, file.width(), file.height()}, width, height);
+  note_dropped_cells(file, progress);
   out.crs = file.required_crs();
   out.transform = {a.x0, a.y0, a.x_column * file.width() / width,
                    -a.y_row * file.height() / height};

@@ -22,6 +22,8 @@ class RasterWindows {
   const RasterFrame& frame() const { return frame_; }
   // Values in metres, voids NaN. The window must lie inside the frame.
   Grid<float> read(const PixelRect& window);
+  // Notes on the cells that were taken as void so far though no header says so.
+  void note_dropped(Progress& progress) const;
 
  private:
   struct State;

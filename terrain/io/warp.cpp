@@ -10,6 +10,7 @@
 #include "base/memory_limit.h"
 #include "base/parallel.h"
 #include "terrain/io/crs.h"
+#include "terrain/io/height_doubts.h"
 #include "terrain/io/lattice_map.h"
 #include "terrain/io/raster_file.h"
 #include "terrain/io/raster_io.h"
@@ -198,13 +199,9 @@ void warp_tile(const Layer& layer, const LatticeMap& map, const PixelRect& tile,
   });
 }
 
-void note_undeclared(const std::vector<Layer>& layers, Progress& progress) {
+void note_dropped(const std::vector<Layer>& layers, Progress& progress) {
   for (const Layer& layer : layers)
-    for (const Layer::Part& part : layer.parts)
-      for (const float value : part.file.undeclared_voids())
-        progress.note(fmt::format(
-            "{}: cells of {:.0f} are taken as void, though its header does not say so (`nodata`)",
-            part.file.source().path, value));
+    for (const Layer::Part& part : layer.parts) note_dropped_cells(part.file, progress);
 }
 
 void check_frame(const RasterFrame& frame, double bytes_per_cell) {
@@ -254,7 +251,7 @@ Raster<T> warp(const std::vector<RasterSource>& sources, const RasterFrame& fram
   progress.begin(
       stage, static_cast<double>(frame.width) * frame.height * static_cast<double>(layers.size()));
   Raster<T> out = warp_layers<T>(layers, frame, progress);
-  if constexpr (std::is_floating_point_v<T>) note_undeclared(layers, progress);
+  if constexpr (std::is_floating_point_v<T>) note_dropped(layers, progress);
   return out;
 }
 
@@ -285,10 +282,12 @@ RasterFrame own_frame(const RasterFile& file) {
 }
 
 template <class T>
-Raster<T> read_upright(const RasterSource& source) {
+Raster<T> read_upright(const RasterSource& source, Progress& progress) {
   std::vector<Layer> layers = make_layers({source});
   const RasterFrame frame = own_frame(layers[0].parts[0].file);
-  return warp_layers<T>(layers, frame, silent_progress());
+  Raster<T> out = warp_layers<T>(layers, frame, silent_progress());
+  if constexpr (std::is_floating_point_v<T>) note_dropped(layers, progress);
+  return out;
 }
 
 }  // namespace
@@ -308,10 +307,12 @@ RasterInfo read_raster_info(const RasterSource& source) {
   return info;
 }
 
-Raster<float> read_raster(const RasterSource& source) { return read_upright<float>(source); }
+Raster<float> read_raster(const RasterSource& source, Progress& progress) {
+  return read_upright<float>(source, progress);
+}
 
 Raster<std::int32_t> read_codes(const RasterSource& source) {
-  return read_upright<std::int32_t>(source);
+  return read_upright<std::int32_t>(source, silent_progress());
 }
 
 Raster<float> warp_rasters(const std::vector<RasterSource>& sources, const RasterFrame& frame,
@@ -340,6 +341,10 @@ RasterWindows::RasterWindows(const std::vector<RasterSource>& sources, const Ras
 }
 
 RasterWindows::~RasterWindows() = default;
+
+void RasterWindows::note_dropped(Progress& progress) const {
+  belvedere::note_dropped(state_->layers, progress);
+}
 
 Grid<float> RasterWindows::read(const PixelRect& window) {
   if (window.empty() || intersection(window, {0, 0, frame_.width, frame_.height}) != window)

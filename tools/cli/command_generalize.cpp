@@ -144,11 +144,10 @@ int run(const GeneralizeOptions& options) {
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
   progress.begin("reading", 0.0);
-  RasterSource source;
-  source.path = options.in;
+  const RasterSource source = elevation_source(options.in, options.elevation);
   const std::optional<double> nodata =
       read_raster_info(source).nodata;  // voids keep their nodata value
-  Dem dem = make_dem(read_raster(source));
+  Dem dem = read_own_dem(source, progress);
   const glm::dvec2 cell_m = ground_cell_m(dem.transform, dem.crs, dem.width(), dem.height());
   const bool true_cells = cell_m == glm::dvec2(dem.transform.cell_x, dem.transform.cell_y);
   if (!true_cells) {

@@ -44,6 +44,7 @@ void add_generalize_options(CommandOptions& command, GeneralizeOptions& options)
       .required();
   command.add_option("OUT", options.out,
                      "The result, altitudes in metres: .tif or .asc. Optional with --equalizer");
+  add_elevation_options(command, options.elevation);
   std::vector<std::string> names;
   for (const GeneralizePreset& preset : generalize_presets()) names.emplace_back(preset.name);
   command
@@ -215,6 +216,8 @@ std::string describe_generalize(const GeneralizeOptions& options,
   const auto set = [&out](const char* option, const Weights& weights) {
     if (!weights.empty()) out += fmt::format(" {} {}", option, fmt::join(weights, ","));
   };
+  if (!options.elevation.encoding.empty()) out += " --encoding " + options.elevation.encoding;
+  if (!options.elevation.variable.empty()) out += " --variable " + options.elevation.variable;
   if (!options.preset.empty()) out += " --preset " + options.preset;
   set("--global", bands.foreground);
   set("--ridges", bands.foreground_ridges);

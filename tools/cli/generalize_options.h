@@ -6,6 +6,7 @@
 
 #include "terrain/generalize/generalize.h"
 #include "terrain/generalize/mask.h"
+#include "tools/cli/elevation_options.h"
 #include "tools/cli/terrain_operators.h"
 #include "tools/options/run_options.h"
 
@@ -17,6 +18,7 @@ class CommandOptions;
 // empty: not given.
 struct GeneralizeOptions : RunOptions {
   std::string in;
+  ElevationOptions elevation;  // of `in`
   std::string out;
   std::string preset;
   std::vector<float> global, ridges, valleys;

@@ -1,191 +1,31 @@
 #include "terrain/io/raster_file.h"
 
 #include <cpl_conv.h>
-#include <cpl_minixml.h>
-#include <cpl_string.h>
 #include <fmt/core.h>
-#include <fmt/ranges.h>
 #include <ogr_spatialref.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <filesystem>
 #include <limits>
+#include <map>
 #include <set>
 #include <string_view>
+#include <utility>
 
 #include "base/error.h"
 #include "base/memory_limit.h"
-#include "base/text/archive_kind.h"
 #include "base/text/letters.h"
 #include "terrain/io/crs.h"
 #include "terrain/io/gdal/gdal_files.h"
+#include "terrain/io/gdal/raster_open.h"
+#include "terrain/io/height_encoding.h"
 #include "terrain/io/http_access.h"
-#include "terrain/io/raster_parts.h"
-#include "terrain/io/stream_file.h"
 
 namespace belvedere {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr float nan_value = std::numeric_limits<float>::quiet_NaN();
-
-// Formats that describe one raster and nothing else. A VRT can refer to any file or address, so it
-// is only accepted with the extension .vrt, and each of its sources is first checked by the same
-// rules.
-constexpr const char* drivers[] = {"GTiff", "AAIGrid", "SRTMHGT", "HFA",  "ENVI", "EHdr",  "netCDF",
-                                   "PNG",   "USGSDEM", "DTED",    "GSAG", "GSBG", "GS7BG", "GPKG"};
-constexpr const char* driver_names =
-    "GeoTIFF, ESRI ASCII grid, SRTM .hgt, Erdas Imagine, ENVI, EHdr .bil, netCDF, PNG, USGS DEM, "
-    "DTED, Surfer grid, GeoPackage, or VRT named .vrt";
-
-// Settings of this thread that make reads strict: damaged blocks and short raw files are errors; no
-// threads of its own.
-void make_strict() {
-  register_gdal();
-  CPLSetThreadLocalConfigOption("GTIFF_IGNORE_READ_ERRORS", "NO");
-  CPLSetThreadLocalConfigOption("RAW_CHECK_FILE_SIZE", "YES");
-  CPLSetThreadLocalConfigOption("GDAL_NUM_THREADS", "1");
-  CPLSetThreadLocalConfigOption("GDAL_VRT_ENABLE_PYTHON", "NO");
-  CPLSetThreadLocalConfigOption("GDAL_NETCDF_VERIFY_DIMS", "STRICT");
-  set_http_of_thread();
-}
-
-Dataset open_checked(const std::string& path, int nesting);
-
-// Every file that a VRT refers to, by element: it must exist and be readable. GDAL would read a
-// missing one as nodata.
-void check_vrt_node(const CPLXMLNode* node, const std::string& path, int nesting) {
-  for (; node != nullptr; node = node->psNext) {
-    if (node->eType != CXT_Element) continue;
-    const std::string_view name = node->pszValue;
-    if (name == "PixelFunctionCode" || name == "PixelFunctionLanguage") {
-      throw Error(ErrorKind::input, path, "the VRT contains program code",
-                  "VRTs that only refer to rasters");
-    }
-    if (name == "SourceFilename" || name == "SourceDataset") {
-      const bool relative = std::string_view(CPLGetXMLValue(node, "relativeToVRT", "0")) == "1";
-      const fs::path file = CPLGetXMLValue(node, nullptr, "");
-      try {
-        const std::string address = address_from_gdal(file.string());
-        const bool beside = relative && address.empty();
-        open_checked(!address.empty() ? address
-                     : beside         ? (fs::path(path).parent_path() / file).string()
-                                      : file.string(),
-                     nesting + 1);
-      } catch (const Error& error) {
-        throw Error(error.kind(), path,
-                    fmt::format("its source \"{}\": {}", error.where(), error.found()),
-                    error.allowed());
-      }
-    }
-    check_vrt_node(node->psChild, path, nesting);
-  }
-}
-
-void check_vrt(const std::string& path, int nesting) {
-  constexpr std::uintmax_t max_bytes = 64U << 20;
-  if (nesting > 8) throw Error(ErrorKind::input, path, "VRTs are nested more than 8 levels deep");
-  if (fs::file_size(path) > max_bytes)
-    throw Error(ErrorKind::limit, path, "VRT larger than 64 MiB");
-  const GdalErrors errors;
-  const std::unique_ptr<CPLXMLNode, decltype(&CPLDestroyXMLNode)> root(
-      CPLParseXMLFile(path.c_str()), &CPLDestroyXMLNode);
-  if (!root) throw Error(ErrorKind::input, path, errors.say("not a valid VRT"));
-  check_vrt_node(root.get(), path, nesting);
-}
-
-// A raster on a server. VRTs are not accepted, because they may refer to anything.
-Dataset open_address(const std::string& address) {
-  check_address(address);
-  if (!http_allowed())
-    throw Error(ErrorKind::input, address, "network access is not enabled",
-                "--allow-http, or a local copy of the file");
-  make_strict();
-  // Only the file itself: no listing of its folder, no sidecar files.
-  const CPLConfigOptionSetter alone("GDAL_DISABLE_READDIR_ON_OPEN", "EMPTY_DIR", false);
-  CPLStringList allowed;
-  for (const char* driver : drivers) allowed.AddString(driver);
-  const GdalErrors errors;
-  Dataset dataset(GDALOpenEx(address_to_gdal(address).c_str(),
-                             GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
-                             allowed.List(), nullptr, nullptr));
-  if (!dataset)
-    throw Error(ErrorKind::input, address,
-                explain_http(errors.say("the server response is not a readable raster")),
-                driver_names);
-  return dataset;
-}
-
-// A GeoTIFF whose bytes come from a StreamFile; it has no sidecar files.
-Dataset open_stream(const std::string& path) {
-  make_strict();
-  const CPLConfigOptionSetter alone("GDAL_DISABLE_READDIR_ON_OPEN", "EMPTY_DIR", false);
-  CPLStringList allowed;
-  allowed.AddString("GTiff");
-  const GdalErrors errors;
-  Dataset dataset(GDALOpenEx(path.c_str(),
-                             GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
-                             allowed.List(), nullptr, nullptr));
-  if (!dataset) throw Error(ErrorKind::input, path, errors.say("not a readable raster"), "GeoTIFF");
-  return dataset;
-}
-
-Dataset open_checked(const std::string& path, int nesting) {
-  if (is_address(path)) return open_address(path);
-  if (is_stream(path)) return open_stream(path);
-  std::error_code ignored;
-  if (!fs::is_regular_file(path, ignored))
-    throw Error(ErrorKind::input, path, "file not found", driver_names);
-  make_strict();
-  const bool vrt = lower_extension(path) == ".vrt";
-  if (vrt) check_vrt(path, nesting);
-  CPLStringList allowed;
-  for (const char* driver : drivers) allowed.AddString(driver);
-  if (vrt) allowed.AddString("VRT");
-  const GdalErrors errors;
-  Dataset dataset(GDALOpenEx(path.c_str(),
-                             GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
-                             allowed.List(), nullptr, nullptr));
-  if (dataset) return dataset;
-  if (const std::string archive = archive_kind(path); !archive.empty())
-    throw Error(ErrorKind::input, path, "is " + archive, unpack_advice);
-  if (lower_extension(path) == ".hgt")
-    throw Error(ErrorKind::input, path,
-                errors.say("an .hgt file says its position by its name alone, and this is no such "
-                           "name, or the file is not whole"),
-                "the name of the tile's south-west corner, such as N47E011.hgt");
-  // Identification reads only the first bytes and opens nothing else.
-  GDALDriverH looks_like = nullptr;
-  {
-    const GdalErrors quiet;
-    looks_like = GDALIdentifyDriverEx(path.c_str(), GDAL_OF_RASTER, nullptr, nullptr);
-  }
-  const std::string format = looks_like != nullptr ? GDALGetDriverShortName(looks_like) : "";
-  if (!format.empty() && allowed.FindString(format.c_str()) < 0) {
-    throw Error(ErrorKind::input, path,
-                fmt::format("{} files with this name are not allowed", format), driver_names);
-  }
-  throw Error(ErrorKind::input, path, errors.say("not a readable raster"), driver_names);
-}
-
-// A file of several rasters (netCDF, GeoPackage; GDAL's subdatasets) is refused with their names.
-void refuse_several(GDALDatasetH file, const std::string& path) {
-  if (GDALGetRasterCount(file) != 0) return;
-  const CPLStringList parts(GDALGetMetadata(file, "SUBDATASETS"), FALSE);
-  std::vector<std::string> names;
-  for (int i = 0; i < parts.Count(); ++i) {
-    const std::string_view part = parts[i];
-    const std::size_t equals = part.find('=');
-    if (equals == std::string_view::npos || !part.substr(0, equals).ends_with("_NAME")) continue;
-    names.emplace_back(part.substr(part.rfind(':') + 1));
-  }
-  if (names.empty()) throw Error(ErrorKind::input, path, "contains no raster");
-  throw Error(ErrorKind::input, path,
-              fmt::format("contains {} rasters: {}", names.size(), fmt::join(names, ", ")),
-              "a file with one raster; extract the one with heights, as with gdal_translate");
-}
 
 // Metres per unit by a unit's name; 0 if unknown.
 double metres_per_unit(std::string_view unit) {
@@ -211,6 +51,8 @@ struct RasterFile::State {
   RasterSource source;
   Dataset dataset;
   GDALRasterBandH band = nullptr;
+  std::optional<HeightEncoding> encoding;
+  std::array<GDALRasterBandH, 3> colours{};  // with an encoding: red, green, blue
   int width = 0;
   int height = 0;
   CellAffine affine;
@@ -221,16 +63,24 @@ struct RasterFile::State {
   double vertical_unit_m = 1.0;  // from the file's vertical CRS
   bool has_vertical_crs = false;
   mutable std::set<float> undeclared;  // values without a height that were found
+  // Dropped cells by row and column: windows overlap, and each cell counts once.
+  mutable std::map<std::pair<int, int>, float> spikes;
 
   void find_position();
   void find_crs();
+  void find_encoding();
+  void find_numbers();
   void check_window(const CellWindow& window) const;
   template <class T>
   // In columns × rows cells, if these are fewer than the window's.
   Grid<T> read(GDALRasterBandH from, const CellWindow& window, GDALDataType type, int columns,
                int rows) const;
+  // Heights that colours encode, in columns × rows cells, each one of those under it.
+  Grid<float> read_decoded(const CellWindow& window, int columns, int rows) const;
   double unit_to_m() const;
   bool is_void(float raw) const;
+  Grid<float> read_heights(const CellWindow& window, int columns, int rows) const;
+  Grid<float> without_spikes(const CellWindow& window) const;
   // 0 where the file's own mask hides a cell; empty if it has none besides nodata.
   Grid<std::uint8_t> read_mask(const CellWindow& window, int columns, int rows) const;
 };
@@ -277,11 +127,51 @@ void RasterFile::State::find_crs() {
   }
 }
 
+// Of a band of numbers.
+void RasterFile::State::find_numbers() {
+  int found = 0;
+  const double own_nodata = GDALGetRasterNoDataValue(band, &found);
+  if (source.nodata)
+    nodata = source.nodata;
+  else if (found != 0)
+    nodata = own_nodata;
+  const double own_scale = GDALGetRasterScale(band, &found);
+  if (found != 0 && std::isfinite(own_scale) && own_scale != 0.0) scale = own_scale;
+  const double own_offset = GDALGetRasterOffset(band, &found);
+  if (found != 0 && std::isfinite(own_offset)) offset = own_offset;
+}
+
+void RasterFile::State::find_encoding() {
+  encoding = height_encoding(source.encoding);
+  if (!encoding)
+    throw Error(ErrorKind::usage, source.path, fmt::format("encoding \"{}\"", source.encoding),
+                "\"terrarium\" or \"mapbox\"");
+  const char* compression = GDALGetMetadataItem(dataset.get(), "COMPRESSION", "IMAGE_STRUCTURE");
+  if (compression != nullptr &&
+      std::string_view(compression).find("JPEG") != std::string_view::npos)
+    throw Error(ErrorKind::input, source.path,
+                "its colours are compressed with losses (JPEG), which change heights by hundreds "
+                "of metres",
+                "the tiles as they were served, or a lossless copy of them");
+  for (int i = 0; i < 3; ++i) {
+    colours[static_cast<std::size_t>(i)] = source.band + i <= GDALGetRasterCount(dataset.get())
+                                               ? GDALGetRasterBand(dataset.get(), source.band + i)
+                                               : nullptr;
+    GDALRasterBandH colour = colours[static_cast<std::size_t>(i)];
+    if (colour == nullptr || GDALGetRasterDataType(colour) != GDT_Byte ||
+        GDALGetRasterColorTable(colour) != nullptr)
+      throw Error(ErrorKind::input, source.path,
+                  fmt::format("does not encode heights as {} does", source.encoding),
+                  "three bands of 8 bits: red, green and blue; no palette (gdal_translate -expand "
+                  "rgb)");
+  }
+  nodata = source.nodata;
+}
+
 RasterFile::RasterFile(const RasterSource& source) : state_(std::make_unique<State>()) {
   State& s = *state_;
   s.source = source;
-  s.dataset = open_checked(source.path, 0);
-  refuse_several(s.dataset.get(), source.path);
+  s.dataset = open_raster(source);
   s.width = GDALGetRasterXSize(s.dataset.get());
   s.height = GDALGetRasterYSize(s.dataset.get());
   const int count = GDALGetRasterCount(s.dataset.get());
@@ -294,16 +184,7 @@ RasterFile::RasterFile(const RasterSource& source) : state_(std::make_unique<Sta
     throw Error(ErrorKind::input, source.path, "contains complex numbers");
   s.find_position();
   s.find_crs();
-  int found = 0;
-  const double own_nodata = GDALGetRasterNoDataValue(s.band, &found);
-  if (source.nodata)
-    s.nodata = source.nodata;
-  else if (found != 0)
-    s.nodata = own_nodata;
-  const double scale = GDALGetRasterScale(s.band, &found);
-  if (found != 0 && std::isfinite(scale) && scale != 0.0) s.scale = scale;
-  const double offset = GDALGetRasterOffset(s.band, &found);
-  if (found != 0 && std::isfinite(offset)) s.offset = offset;
+  source.encoding.empty() ? s.find_numbers() : s.find_encoding();
 }
 
 RasterFile::~RasterFile() = default;
@@ -326,6 +207,7 @@ BandMeaning RasterFile::meaning() const {
   const GDALColorInterp means = GDALGetRasterColorInterpretation(s.band);
   const bool byte = GDALGetRasterDataType(s.band) == GDT_Byte;
   BandMeaning out;
+  if (s.encoding) return out;
   out.palette = means == GCI_PaletteIndex || GDALGetRasterColorTable(s.band) != nullptr;
   out.colour = byte && bands() >= 3 &&
                (means == GCI_RedBand || means == GCI_GreenBand || means == GCI_BlueBand);
@@ -382,7 +264,32 @@ Grid<T> RasterFile::State::read(GDALRasterBandH from, const CellWindow& window, 
   return cells;
 }
 
+Grid<float> RasterFile::State::read_decoded(const CellWindow& window, int columns, int rows) const {
+  check_memory(source.path, static_cast<double>(columns) * rows * sizeof(float));
+  Grid<float> heights(columns, rows);
+  // By rows of the file itself: overviews are means of colours, not of heights.
+  const auto cell = [](int i, int of, int from) {
+    return static_cast<int>((i + 0.5) * static_cast<double>(from) / of);
+  };
+  const bool whole = columns == window.width && rows == window.height;
+  const int at_once = whole ? rows : 1;
+  for (int y = 0; y < rows; y += at_once) {
+    const CellWindow part{window.x0, window.y0 + cell(y, rows, window.height), window.width,
+                          at_once};
+    std::array<Grid<std::uint8_t>, 3> parts;
+    for (std::size_t i = 0; i < 3; ++i)
+      parts[i] = read<std::uint8_t>(colours[i], part, GDT_Byte, part.width, part.height);
+    for (int v = 0; v < at_once; ++v)
+      for (int x = 0; x < columns; ++x) {
+        const int u = cell(x, columns, window.width);
+        heights(x, y + v) = encoding->metres(parts[0](u, v), parts[1](u, v), parts[2](u, v));
+      }
+  }
+  return heights;
+}
+
 double RasterFile::State::unit_to_m() const {
+  if (encoding) return 1.0;
   if (source.unit_to_m != 0.0) {
     if (source.unit_to_m > 0.0 && std::isfinite(source.unit_to_m)) return source.unit_to_m;
     throw Error(ErrorKind::usage, source.path, fmt::format("{} metres per unit", source.unit_to_m),
@@ -400,6 +307,8 @@ bool RasterFile::State::is_void(float raw) const {
   if (!std::isfinite(raw) || std::abs(raw) >= 1e30F) return true;
   // Compared as floats: a declared -3.4028234663852886e38 or -9999.9 was also rounded in the cells.
   if (nodata && raw == static_cast<float>(*nodata)) return true;
+  // Black, which tiles have where nothing is known.
+  if (encoding && raw == encoding->metres(0, 0, 0)) return true;
   if (raw == -32768.0F || (!nodata && raw == -9999.0F)) return true;
   // Numbers that programs write for an unknown height, and that no ground has.
   constexpr float known[] = {-32767.0F, 32767.0F, 65535.0F, -99999.0F, -999999.0F, 99999.0F};
@@ -422,23 +331,69 @@ Grid<float> RasterFile::read_values(const CellWindow& window) const {
 
 Grid<float> RasterFile::read_values(const CellWindow& window, int width, int height) const {
   const State& s = *state_;
-  const double unit = s.unit_to_m();
-  Grid<float> values = s.read<float>(s.band, window, GDT_Float32, width, height);
-  const Grid<std::uint8_t> mask = s.read_mask(window, width, height);
-  const double gain = s.scale * unit;
-  const double shift = s.offset * unit;
+  const bool thinned = width != window.width || height != window.height;
+  return s.source.max_spike_m > 0.0 && !thinned ? s.without_spikes(window)
+                                                : s.read_heights(window, width, height);
+}
+
+Grid<float> RasterFile::State::read_heights(const CellWindow& window, int columns, int rows) const {
+  const double unit = unit_to_m();
+  Grid<float> values = encoding ? read_decoded(window, columns, rows)
+                                : read<float>(band, window, GDT_Float32, columns, rows);
+  const Grid<std::uint8_t> mask = read_mask(window, columns, rows);
+  const double gain = scale * unit;
+  const double shift = offset * unit;
   const bool plain = gain == 1.0 && shift == 0.0;
   for (std::size_t i = 0; i < values.size(); ++i) {
     float& value = values[i];
-    if (s.is_void(value) || (!mask.empty() && mask[i] == 0))
+    if (is_void(value) || (!mask.empty() && mask[i] == 0))
       value = nan_value;
     else if (!plain)
       value = static_cast<float>(value * gain + shift);
-    if ((s.source.lowest_m && value < *s.source.lowest_m) ||
-        (s.source.highest_m && value > *s.source.highest_m))
+    if ((source.lowest_m && value < *source.lowest_m) ||
+        (source.highest_m && value > *source.highest_m))
       value = nan_value;
   }
   return values;
+}
+
+// Each cell is judged by the cells of the file around it, so that windows agree.
+Grid<float> RasterFile::State::without_spikes(const CellWindow& window) const {
+  check_window(window);
+  CellWindow around{std::max(window.x0 - 1, 0), std::max(window.y0 - 1, 0), 0, 0};
+  around.width = std::min(window.x0 + window.width + 1, width) - around.x0;
+  around.height = std::min(window.y0 + window.height + 1, height) - around.y0;
+  const Grid<float> read = read_heights(around, around.width, around.height);
+  Grid<float> out(window.width, window.height);
+  const auto limit = static_cast<float>(source.max_spike_m);
+  const auto is_spike = [&](int x, int y) {
+    if (x == 0 || y == 0 || x + 1 == read.width() || y + 1 == read.height()) return false;
+    const float z = read(x, y);
+    const float sign = z > read(x - 1, y) ? 1.F : -1.F;
+    for (int v = -1; v <= 1; ++v)
+      for (int u = -1; u <= 1; ++u)
+        if ((u != 0 || v != 0) && !(sign * (z - read(x + u, y + v)) > limit)) return false;
+    return true;
+  };
+  constexpr std::size_t max_counted = 10000;
+  for (int y = 0; y < out.height(); ++y)
+    for (int x = 0; x < out.width(); ++x) {
+      const int u = x + window.x0 - around.x0;
+      const int v = y + window.y0 - around.y0;
+      out(x, y) = read(u, v);
+      if (!is_spike(u, v)) continue;
+      if (spikes.size() < max_counted)
+        spikes.try_emplace({window.y0 + y, window.x0 + x}, out(x, y));
+      out(x, y) = nan_value;
+    }
+  return out;
+}
+
+RasterFile::Spikes RasterFile::spikes() const {
+  const auto& found = state_->spikes;
+  if (found.empty()) return {};
+  const auto& [place, height_m] = *found.begin();
+  return {found.size(), found.size() >= 10000, place.second, place.first, height_m};
 }
 
 Grid<std::int32_t> RasterFile::read_codes(const CellWindow& window) const {
@@ -450,35 +405,6 @@ Grid<std::int32_t> RasterFile::read_codes(const CellWindow& window) const {
   for (std::size_t i = 0; i < codes.size(); ++i)
     if (s.is_void(raw[i]) || (!mask.empty() && mask[i] == 0) || codes[i] < 0) codes[i] = -1;
   return codes;
-}
-
-namespace {
-
-void gather_parts(const std::string& path, int nesting, std::set<std::string>& parts) {
-  if (!parts.insert(path).second || is_address(path)) return;
-  const Dataset dataset = open_checked(path, nesting);
-  const GdalErrors errors;
-  const CPLStringList files(GDALGetFileList(dataset.get()));
-  for (int i = 0; i < files.Count(); ++i) {
-    const std::string address = address_from_gdal(files[i]);
-    const std::string part = address.empty() ? files[i] : address;
-    // Sources of a VRT are files of their own; x.vrt.ovr and the like belong to it.
-    if (lower_extension(path) == ".vrt" && !part.starts_with(path) && !parts.contains(part))
-      gather_parts(part, nesting + 1, parts);
-    else
-      parts.insert(part);
-  }
-}
-
-}  // namespace
-
-std::vector<std::string> raster_parts(const std::string& path) {
-  std::set<std::string> parts;
-  gather_parts(path, 0, parts);
-  parts.erase(path);
-  std::vector<std::string> all = {path};
-  all.insert(all.end(), parts.begin(), parts.end());
-  return all;
 }
 
 std::uint64_t raster_cache_bytes() {

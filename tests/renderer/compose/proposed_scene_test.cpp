@@ -79,12 +79,16 @@ TEST_F(ProposedScenes, SaysWhyAndWhatElseWasAsked) {
   about_.rock = "sandstone";
   about_.style = "gogh";
   about_.sources[0].lowest_m = -5.0;
+  about_.sources[0].encoding = "mapbox";
+  about_.land_cover->variable = "classes";
   const std::string text = proposed_scene_text(search_, best_, about_);
   EXPECT_THAT(text, HasSubstr("palette = \"desert\""));
   EXPECT_THAT(text, HasSubstr("legend = \"nlcd\""));
   EXPECT_THAT(text, HasSubstr("lowest_m = -5"));
   EXPECT_THAT(text, HasSubstr("% of the picture is sky"));
   EXPECT_EQ(parsed().scene.land_cover.legend, "nlcd");
+  EXPECT_EQ(parsed().scene.terrain.sources[0].raster.encoding, "mapbox");
+  EXPECT_EQ(parsed().scene.land_cover.sources[0].raster.variable, "classes");
   EXPECT_EQ(parsed().scene.land_cover.rock, "sandstone");
   EXPECT_EQ(parsed().scene.style.file, "gogh");
 }

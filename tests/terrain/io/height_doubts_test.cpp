@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "terrain/io/dem.h"
+#include "terrain/io/dem_levels.h"
 #include "terrain/io/raster_io.h"
 #include "tests/terrain/io/raster_files.h"
 
@@ -79,7 +80,7 @@ TEST_F(HeightDoubts, NumbersOfUnknownHeightsAreVoids) {
 TEST_F(HeightDoubts, HeightsOfNoGroundAreNotedWithTheKeysThatHelp) {
   const auto notes_of = [&](const std::string& odd) {
     write_ascii("f.asc", 20, 20, 500000, 5200000, 30,
-                [&](int x, int y) { return x == 3 && y == 4 ? odd : "1200"; });
+                [&](int x, int y) { return x / 3 == 1 && y / 3 == 2 ? odd : "1200"; });
     KeptNotes notes;
     read_dem(dem_of("f.asc"), notes);
     return notes.text;
@@ -111,11 +112,106 @@ TEST_F(HeightDoubts, ColoursAreNoHeights) {
   };
   const Error picture = refused(colours({"Red", "Green", "Blue"}, {120, 120, 120}));
   EXPECT_EQ(picture.kind(), ErrorKind::input);
-  EXPECT_THAT(picture.what(), AllOf(HasSubstr("colour picture"), HasSubstr("Terrarium")));
+  EXPECT_THAT(picture.what(), AllOf(HasSubstr("colour picture"), HasSubstr("terrarium")));
   EXPECT_THAT(refused(colours({"Palette"}, {7})).what(), HasSubstr("palette"));
   KeptNotes notes;
   read_dem(colours({"Gray"}, {120}), notes);
   EXPECT_THAT(notes.text, HasSubstr("8 bits"));
+}
+
+// A clipped DEM: 0 outside a circle, slopes of 900…1500 m inside.
+TEST_F(HeightDoubts, ZeroOutsideAnOutlineIsVoid) {
+  const auto height = [](int x, int y) { return 900 + 10 * x + 5 * y; };
+  const auto inside = [](int x, int y) { return std::hypot(x - 20, y - 20) < 18; };
+  write_ascii("f.asc", 40, 40, 500000, 5200000, 30,
+              [&](int x, int y) { return std::to_string(inside(x, y) ? height(x, y) : 0); });
+  DemParameters parameters = dem_of("f.asc");
+  parameters.max_void_share = 0.9;
+  KeptNotes notes;
+  const Dem dem = read_dem(parameters, notes);
+  for (int y = 0; y < 40; ++y)
+    for (int x = 0; x < 40; ++x) {
+      ASSERT_EQ(dem.filled(x, y) != 0, !inside(x, y)) << x << ' ' << y;
+      ASSERT_GT(dem.altitude_m(x, y), 900.F) << x << ' ' << y;
+    }
+  EXPECT_THAT(notes.text, AllOf(HasSubstr("cells of 0 are taken as void"), HasSubstr("`nodata`")));
+  // Said: they are heights.
+  parameters.sources[0].nodata = -1.0;
+  EXPECT_EQ(read_dem(parameters, silent_progress()).altitude_m(0, 0), 0.F);
+}
+
+// The sea is 0 too, but a coast begins near it, also where some of it is cliff.
+TEST_F(HeightDoubts, ZeroBesideACoastIsSea) {
+  write_ascii("f.asc", 60, 40, 500000, 5200000, 30, [](int x, int y) {
+    return std::to_string(x < 20 ? 0 : y % 3 == 0 ? 120 + x : (x - 19) * 12);
+  });
+  KeptNotes notes;
+  const Dem dem = read_dem(dem_of("f.asc"), notes);
+  EXPECT_EQ(notes.text, "");
+  EXPECT_EQ(dem.filled(3, 3), 0);
+  EXPECT_EQ(dem.altitude_m(3, 3), 0.F);
+}
+
+TEST_F(HeightDoubts, SpikesOfSingleCellsAreVoid) {
+  const auto height = [](int x, int y) { return 1000.0 + 20.0 * x + 10.0 * y; };
+  const auto write = [&](double spike, int size) {
+    write_ascii("f.asc", 40, 30, 500000, 5200000, 30, [&](int x, int y) {
+      const bool odd = x >= 12 && x < 12 + size && y >= 7 && y < 7 + size;
+      return std::to_string(height(x, y) + (odd ? spike : 0.0));
+    });
+  };
+  for (const double spike : {700.0, -700.0}) {
+    write(spike, 1);
+    KeptNotes notes;
+    const Dem dem = read_dem(dem_of("f.asc"), notes);
+    EXPECT_EQ(dem.filled(12, 7), 1);
+    EXPECT_EQ(dem.filled(13, 7), 0);
+    EXPECT_NEAR(dem.altitude_m(12, 7), height(12, 7), 1.0);
+    EXPECT_THAT(notes.text, AllOf(HasSubstr("1 single cells"), HasSubstr("column 12, row 7")));
+  }
+  // A mesa is no spike, and neither is what mountains have.
+  write(700.0, 3);
+  EXPECT_EQ(read_dem(dem_of("f.asc"), silent_progress()).filled(13, 8), 0);
+  write(140.0, 1);
+  EXPECT_EQ(read_dem(dem_of("f.asc"), silent_progress()).filled(12, 7), 0);
+}
+
+// Ground that is read in windows is judged like ground that is read whole, and says the same.
+TEST_F(HeightDoubts, LargeGroundIsJudgedAlike) {
+  write_ascii("f.asc", 80, 60, 500000, 5200000, 30, [](int x, int y) {
+    return std::string(x < 20              ? "0"
+                       : x == 50 && y == 9 ? "2400"
+                       : x > 60 && y > 50  ? "-99999"
+                                           : "1200");
+  });
+  DemParameters parameters = dem_of("f.asc");
+  parameters.max_void_share = 0.9;
+  KeptNotes whole_notes, notes;
+  const Dem dem = read_dem(parameters, whole_notes);
+  const RasterFrame frame = choose_frame(parameters.sources, "", 0.0, {});
+  DemLevels levels(parameters, frame, 1, 0.0, notes);
+  for (const char* said : {"cells of 0 are", "1 single cells", "cells of -99999"}) {
+    EXPECT_THAT(whole_notes.text, HasSubstr(said));
+    EXPECT_THAT(notes.text, HasSubstr(said));
+  }
+  const Dem whole = levels.whole();
+  for (const float z : whole.altitude_m) ASSERT_NEAR(z, 1200.F, 0.5F);
+  const Dem window = levels.window(0, {45, 5, 55, 15}, whole);
+  EXPECT_EQ(window.filled(5, 4), 1);
+  EXPECT_EQ(dem.filled(50, 9), 1);
+}
+
+TEST_F(HeightDoubts, AFileReadAloneIsJudgedAlike) {
+  write_ascii("f.asc", 30, 30, 500000, 5200000, 30,
+              [](int x, int y) { return std::string(x == 9 && y == 9 ? "5000" : "1200"); });
+  RasterSource source;
+  source.path = path("f.asc");
+  KeptNotes notes;
+  const Dem dem = read_own_dem(source, notes);
+  EXPECT_EQ(dem.crs, "");
+  EXPECT_EQ(dem.filled(9, 9), 1);
+  EXPECT_EQ(dem.altitude_m(9, 9), 1200.F);
+  EXPECT_THAT(notes.text, HasSubstr("1 single cells"));
 }
 
 }  // namespace

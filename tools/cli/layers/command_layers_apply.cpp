@@ -25,6 +25,7 @@ namespace {
 
 struct LayersApplyOptions : RunOptions {
   std::string layers, dem, out, colour, shares;
+  ElevationOptions elevation;
   GroundClimateOptions climate;
   LayerApplyParameters apply;
 };
@@ -105,7 +106,8 @@ int run(const LayersApplyOptions& options) {
   const SurfaceLayers layers = read_surface_layers(options.layers);
   if (layers.layers.empty())
     throw Error(ErrorKind::usage, options.layers, "no layers", "at least one [[layers]]");
-  const Dem dem = read_layer_dem(options.dem, progress);  // voids stay without a class
+  const Dem dem =
+      read_layer_dem(options.dem, options.elevation, progress);  // voids stay without a class
   const RasterFrame frame{dem.transform, dem.width(), dem.height(), dem.crs};
   const LayerClimateGrids climate =
       climate_of(options.climate, dem, compile_layers(layers).inputs, progress);
@@ -166,6 +168,7 @@ Action add_layers_apply(CommandOptions& command) {
       .add_option("--dem", options->dem, "The ground: a DEM; the results have its cells, in metres")
       .required()
       .type_name("FILE");
+  add_elevation_options(command, options->elevation);
   command
       .add_option(
           "--out", options->out,

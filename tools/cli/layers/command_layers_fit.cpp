@@ -198,6 +198,7 @@ int run(const LayersFitOptions& options) {
 Action add_layers_fit(CommandOptions& command) {
   const auto options = std::make_shared<LayersFitOptions>();
   command.add_option("--dem", options->from.dem, "The ground: a DEM").required().type_name("FILE");
+  add_elevation_options(command, options->from.elevation);
   command
       .add_option("--image", options->from.image,
                   "A satellite image of it: a GeoTIFF (the DEM is resampled to its cells), or PNG "

@@ -22,6 +22,7 @@ namespace {
 
 struct LayersPictureOptions : RunOptions {
   std::string layers, dem, out;
+  ElevationOptions elevation;
   GroundClimateOptions climate;
   LayerPictureParameters picture;
 };
@@ -42,7 +43,7 @@ int run(const LayersPictureOptions& options) {
   const LayerPictureParameters& parameters = options.picture;
   check_layer_picture(parameters);
   const SurfaceLayers layers = read_surface_layers(options.layers);
-  const Dem dem = read_layer_dem(options.dem, progress);
+  const Dem dem = read_layer_dem(options.dem, options.elevation, progress);
   const int finer = parameters.finer;
   const GeoTransform& cells = dem.transform;
   const RasterFrame frame{
@@ -83,6 +84,7 @@ Action add_layers_picture(CommandOptions& command) {
       .required()
       .type_name("FILE");
   command.add_option("--dem", options->dem, "The ground: a DEM").required().type_name("FILE");
+  add_elevation_options(command, options->elevation);
   command.add_option("--out", options->out, "The picture: a GeoTIFF of three bands")
       .required()
       .type_name("TIF");

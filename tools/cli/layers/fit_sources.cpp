@@ -40,7 +40,7 @@ RasterFrame frame_of(const Dem& dem) { return {dem.transform, dem.width(), dem.h
 FitGround read_picture_ground(const FitSources& from, FitFindings& findings, Progress& progress) {
   FitGround ground;
   if (!has_geography(from.image)) {
-    ground.dem = read_layer_dem(from.dem, progress);
+    ground.dem = read_layer_dem(from.dem, from.elevation, progress);
     const Grid<glm::vec3> picture = read_picture(from.image);
     if (picture.width() != ground.dem.width() || picture.height() != ground.dem.height())
       throw Error(
@@ -207,7 +207,7 @@ FitGround read_fit_ground(const FitSources& from, FitFindings& findings, Progres
   if (!from.image.empty()) {
     ground = read_picture_ground(from, findings, progress);
   } else {
-    ground.dem = read_layer_dem(from.dem, progress);
+    ground.dem = read_layer_dem(from.dem, from.elevation, progress);
     ground.use = Grid<std::uint8_t>(ground.dem.width(), ground.dem.height());
     for (std::size_t i = 0; i != ground.use.size(); ++i)
       ground.use[i] = ground.dem.filled[i] == 0 ? 1 : 0;

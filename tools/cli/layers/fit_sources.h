@@ -11,11 +11,13 @@
 #include "terrain/io/dem.h"
 #include "terrain/layers/fit/ground_fit.h"
 #include "terrain/layers/fit/picture_classes.h"
+#include "tools/cli/elevation_options.h"
 
 namespace belvedere::tools {
 
 // Input of a fit: a DEM, and a picture or a map of classes with its legend, by paths.
 struct FitSources {
+  ElevationOptions elevation;  // of `dem`
   std::string dem, image, classes, legend;
   std::string mask;     // cells that are left out; may be empty
   std::string regions;  // of a picture's colours; may be empty

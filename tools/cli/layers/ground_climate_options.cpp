@@ -56,12 +56,12 @@ void add_ground_climate(CommandOptions& command, GroundClimateOptions& options) 
       .type_name("DEG");
 }
 
-Dem read_layer_dem(const std::string& path, Progress& progress) {
+Dem read_layer_dem(const std::string& path, const ElevationOptions& options, Progress& progress) {
   DemParameters parameters;
   parameters.max_void_share = 1.0;
-  RasterSource& source = parameters.sources.emplace_back();
-  source.path = path;
-  return read_raster_info(source).crs.empty() ? make_dem(read_raster(source))
+  const RasterSource source = elevation_source(path, options);
+  parameters.sources = {source};
+  return read_raster_info(source).crs.empty() ? read_own_dem(source, progress)
                                               : read_dem(parameters, progress);
 }
 

@@ -7,6 +7,7 @@
 #include "base/progress.h"
 #include "terrain/io/dem.h"
 #include "terrain/layers/layer_climate.h"
+#include "tools/cli/elevation_options.h"
 
 namespace belvedere::tools {
 
@@ -29,6 +30,6 @@ LayerClimateGrids climate_of(const GroundClimateOptions& options, const Dem& dem
 
 // The DEM that layers are fitted to or applied to, voids filled and marked. One without a
 // coordinate system is used as it is, its cells in metres; all others like a scene's.
-Dem read_layer_dem(const std::string& path, Progress& progress);
+Dem read_layer_dem(const std::string& path, const ElevationOptions& options, Progress& progress);
 
 }  // namespace belvedere::tools

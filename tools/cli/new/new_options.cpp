@@ -55,6 +55,7 @@ void add_new_options(CommandOptions& command, NewOptions& options) {
       .add_option("--crs", options.crs,
                   "Coordinate system of files that do not state it: EPSG:32632, or its definition")
       .type_name("CRS");
+  add_elevation_options(command, options.elevation);
   command
       .add_option("--lowest", options.lowest_m,
                   "Altitudes below this are errors of the data, in metres")
@@ -73,6 +74,11 @@ void add_new_options(CommandOptions& command, NewOptions& options) {
                   "Band of that file that holds the codes, if not the first")
       .type_name("N")
       .range(1, 65535)
+      .needs(cover);
+  command
+      .add_option("--land-cover-variable", options.cover.variable,
+                  "Name of the raster of codes in a file that contains several")
+      .type_name("NAME")
       .needs(cover);
   command
       .add_option("--land-cover-crs", options.cover.crs,

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/cli/elevation_options.h"
 #include "tools/cli/fetch/fetch_options.h"
 #include "tools/cli/scene_options.h"
 
@@ -20,13 +21,14 @@ struct NewOptions {
   std::string title;
   std::string style;
   std::string crs;
+  ElevationOptions elevation;  // of the files of `dems`
   std::optional<double> lowest_m;
   int choose = 1;
   int max = 5;
   std::string towards, from, format = "2:1";
   std::vector<std::string> include;
   struct Cover {
-    std::string file, legend, crs, unknown;
+    std::string file, legend, crs, unknown, variable;
     int band = 1;
   } cover;
   bool plain = false;

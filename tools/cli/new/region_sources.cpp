@@ -132,12 +132,14 @@ DemParameters find_elevation(const NewOptions& options, SceneFileNames& names, c
                              Progress& progress, ProposedScene& about) {
   DemParameters dem;
   for (const std::string& file : options.dems) {
-    RasterSource source;
-    source.path = find_file(options, file).string();
+    RasterSource source = elevation_source(find_file(options, file).string(), options.elevation);
     source.crs = options.crs;
     source.lowest_m = options.lowest_m;
-    about.sources.push_back(
-        {.file = names.name(source.path), .crs = options.crs, .lowest_m = options.lowest_m});
+    about.sources.push_back({.file = names.name(source.path),
+                             .crs = options.crs,
+                             .lowest_m = options.lowest_m,
+                             .variable = source.variable,
+                             .encoding = source.encoding});
     dem.sources.push_back(std::move(source));
   }
   if (!options.fetch.at.empty()) fetch_data(options, names, cache, progress, about, dem);
@@ -151,6 +153,7 @@ void find_land_cover(const NewOptions& options, SceneFileNames& names, const Coa
   RasterSource source;
   source.path = find_file(options, cover.file).string();
   source.band = cover.band;
+  source.variable = cover.variable;
   const RasterInfo info = read_raster_info(source);
   std::string crs = cover.crs;
   if (crs.empty() && info.crs.empty()) crs = options.crs;
@@ -165,7 +168,8 @@ void find_land_cover(const NewOptions& options, SceneFileNames& names, const Coa
   constexpr double nearly_all = 0.95;
   if (share < nearly_all)
     progress.note(fmt::format("{} covers only {:.0f} % of the region", source.path, 100.0 * share));
-  about.land_cover = ProposedFile{.file = names.name(source.path), .crs = crs, .band = cover.band};
+  about.land_cover = ProposedFile{
+      .file = names.name(source.path), .crs = crs, .band = cover.band, .variable = cover.variable};
   // A legend is the name of a built-in one, or a file, which the scene must find as well.
   about.legend = fs::path(cover.legend).has_extension()
                      ? names.name(find_file(options, cover.legend))
