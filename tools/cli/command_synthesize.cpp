@@ -216,7 +216,7 @@ int run(SynthesizeOptions& options) {
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
   progress.begin("reading", 0.0);
-  SynthesisInputs inputs = read_synthesis(options.files);
+  SynthesisInputs inputs = read_synthesis(options.files, progress);
   options.parameters.weights = inputs.weights;
   note_colours(inputs.label_colours, progress);
   const FileNotes notes = make_notes(options);

@@ -53,7 +53,7 @@ void leave_out(const std::string& mask_file, const std::string& picture_file,
 
 }  // namespace
 
-SynthesisInputs read_synthesis(const SynthesisFiles& files) {
+SynthesisInputs read_synthesis(const SynthesisFiles& files, Progress& progress) {
   const auto refuse = [](const std::string& found, const std::string& allowed) {
     throw Error(ErrorKind::usage, "command line", found, allowed);
   };
@@ -68,7 +68,7 @@ SynthesisInputs read_synthesis(const SynthesisFiles& files) {
   std::vector<std::string> label_files;
   for (const auto& [source, target] : files.labels) label_files.push_back(source);
   if (!target_file.empty()) label_files.push_back(target_file);
-  LabelImages labels = read_label_images(label_files);
+  LabelImages labels = read_label_images(label_files, progress);
   inputs.label_colours = std::move(labels.colours);
   if (!target_file.empty()) inputs.target.label = std::move(labels.labels.back());
   if (files.exclusions.size() > files.pictures.size())

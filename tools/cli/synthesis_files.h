@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/progress.h"
 #include "renderer/image/exr/match_file.h"
 #include "renderer/image/image_io.h"
 #include "texture/synthesis/exemplar.h"
@@ -46,7 +47,7 @@ struct SynthesisInputs {
 
 // Error(usage) where files do not pair up or sizes disagree, Error(input) for files that cannot be
 // read or labels over 255.
-SynthesisInputs read_synthesis(const SynthesisFiles& files);
+SynthesisInputs read_synthesis(const SynthesisFiles& files, Progress& progress = silent_progress());
 
 // Content of a file written by --match.
 struct StoredMatches {

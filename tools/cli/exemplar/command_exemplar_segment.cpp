@@ -70,8 +70,9 @@ struct Agreement {
 };
 
 Agreement agreement_with(const SegmentOptions& options, const PaintingSegments& segments,
-                         const Partition& groups, const std::vector<std::uint8_t>& classes) {
-  const LabelImages drawn = read_label_images({options.compare});
+                         const Partition& groups, const std::vector<std::uint8_t>& classes,
+                         Progress& progress) {
+  const LabelImages drawn = read_label_images({options.compare}, progress);
   const Grid<std::uint8_t>& labels = drawn.labels.front();
   if (!labels.same_size(segments.pieces))
     throw Error(ErrorKind::input, options.compare,
@@ -116,7 +117,8 @@ int run(const SegmentOptions& options) {
     ++shown[std::string(class_name(static_cast<LandCoverClass>(id)))];
   const Partition partition = cut_tree(segments.tree, groups);
   std::optional<Agreement> agreement;
-  if (!options.compare.empty()) agreement = agreement_with(options, segments, partition, classes);
+  if (!options.compare.empty())
+    agreement = agreement_with(options, segments, partition, classes, progress);
   if (options.numbers)
     for (std::size_t k = 0; k < classes.size(); ++k) classes[k] = static_cast<std::uint8_t>(k);
   const Grid<std::uint8_t> mask = class_mask(segments, partition, classes);

@@ -161,7 +161,7 @@ int run(const CompositeLearnOptions& options) {
   const TextureCrop crop = read_crop(options.crop, "");
   if (crop.transparent > 0)
     progress.note(fmt::format("{} transparent pixels are left out", crop.transparent));
-  const LabelPicture labels = read_label_picture(options.labels);
+  const LabelPicture labels = read_label_picture(options.labels, progress);
   if (!labels.labels.same_size(crop.picture))
     throw Error(ErrorKind::input, options.labels,
                 fmt::format("{} × {} pixels", labels.labels.width(), labels.labels.height()),

@@ -98,7 +98,7 @@ int run(const CompositeMakeOptions& options) {
   const Grid<std::uint8_t> labels =
       options.labels.empty() ? make_label_map(model.map, options.size[0], options.size[1],
                                               {.seed = options.seed}, progress)
-                             : read_drawn_labels(options.labels, names);
+                             : read_drawn_labels(options.labels, names, progress);
   const bool whole = options.window.empty();
   const PixelRect window = whole ? PixelRect{} : window_of(options.window, labels);
   const Grid<Rgb8> made =

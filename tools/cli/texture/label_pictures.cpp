@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 #include <cstddef>
+#include <cstdlib>
 
 #include "base/error.h"
 #include "base/filter.h"
@@ -29,12 +30,19 @@ Rgb8 colour_of(const std::string& name) {
           static_cast<std::uint8_t>(value & 255U)};
 }
 
+// The largest difference of a channel.
+int steps_between(const Rgb8& a, const Rgb8& b) {
+  int steps = 0;
+  for (std::size_t c = 0; c < 3; ++c) steps = std::max(steps, std::abs(a[c] - b[c]));
+  return steps;
+}
+
 std::string hex_of(const Rgb8& c) { return fmt::format("#{:02x}{:02x}{:02x}", c[0], c[1], c[2]); }
 
 }  // namespace
 
-LabelPicture read_label_picture(const std::string& path) {
-  const LabelImages read = read_label_images({path});
+LabelPicture read_label_picture(const std::string& path, Progress& progress) {
+  const LabelImages read = read_label_images({path}, progress);
   std::array<std::size_t, 256> pixels{};
   for (const std::uint8_t label : read.labels.front()) ++pixels[label];
   LabelPicture out{read.labels.front(), {}};
@@ -50,15 +58,31 @@ LabelPicture read_label_picture(const std::string& path) {
   return out;
 }
 
-Grid<std::uint8_t> read_drawn_labels(const std::string& path,
-                                     const std::vector<std::string>& names) {
-  const LabelPicture drawn = read_label_picture(path);
+Grid<std::uint8_t> read_drawn_labels(const std::string& path, const std::vector<std::string>& names,
+                                     Progress& progress) {
+  const LabelPicture drawn = read_label_picture(path, progress);
   std::vector<std::uint8_t> position;
   for (const std::string& name : drawn.names) {
     const auto is = [&](const std::string& known) {
       return known == name || hex_of(colour_of(known)) == name;
     };
-    const auto found = std::find_if(names.begin(), names.end(), is);
+    auto found = std::find_if(names.begin(), names.end(), is);
+    // The nearest one of a drawing that was compressed with losses.
+    if (found == names.end() && name.starts_with('#')) {
+      const auto nearer = [&](const std::string& a, const std::string& b) {
+        return steps_between(colour_of(a), colour_of(name)) <
+               steps_between(colour_of(b), colour_of(name));
+      };
+      found = std::min_element(names.begin(), names.end(), nearer);
+      if (found != names.end()) {
+        const int steps = steps_between(colour_of(*found), colour_of(name));
+        if (steps > max_lossy_steps)
+          found = names.end();
+        else
+          progress.note(fmt::format("{}: the colour {} is taken as {}, {} steps away", path, name,
+                                    *found, steps));
+      }
+    }
     if (found == names.end())
       throw Error(ErrorKind::input, path, "has a label " + name,
                   fmt::format("those of the composite: {}", fmt::join(names, ", ")));

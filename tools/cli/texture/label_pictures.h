@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/grid.h"
+#include "base/progress.h"
 
 namespace belvedere::tools {
 
@@ -19,12 +20,12 @@ struct LabelPicture {
 
 // Drawn in flat colours or as numbers (renderer/image/label_image.h). Names that occur, in
 // ascending order.
-LabelPicture read_label_picture(const std::string& path);
+LabelPicture read_label_picture(const std::string& path, Progress& progress = silent_progress());
 
 // The labels of a drawing by the names of a composite: Error(input) for a name that the composite
-// lacks. Unknown pixels take the nearest label.
-Grid<std::uint8_t> read_drawn_labels(const std::string& path,
-                                     const std::vector<std::string>& names);
+// lacks, by more than max_lossy_steps. Unknown pixels take the nearest label.
+Grid<std::uint8_t> read_drawn_labels(const std::string& path, const std::vector<std::string>& names,
+                                     Progress& progress = silent_progress());
 
 // A PNG that reads back as these labels.
 void write_label_picture(const std::string& path, const Grid<std::uint8_t>& labels,
