@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -122,6 +123,34 @@ TEST(Guides, FlowChoosesAmongTexelsByTheWaterTheySee) {
   EXPECT_GT(unasked, 0.2);
   EXPECT_LT(unasked, 0.8);
   EXPECT_EQ(unasked, copied_from_the_brook(3.0F, 0.0)) << "off by default";
+}
+
+// The same for two halves whose slopes fall to the left and to the right.
+TEST(Guides, FallLinesChooseStrokesOfTheirDirection) {
+  const auto copied_from_the_right = [](glm::vec2 falls, double weight) {
+    GuidanceBuffers g = make_slope(96, 64, LandCoverClass::rock, {0.0F, 0.0F, 1.0F}, 40.0F);
+    for (int y = 0; y < 64; ++y)
+      for (int x = 0; x < 96; ++x) g.fall_line(x, y) = glm::vec2(x < 48 ? -1.0F : 1.0F, 0.0F);
+    Exemplar exemplar{"face", Grid<Rgb8>(96, 64), make_guide_stack(g, g.land_cover)};
+    for (int y = 0; y < 64; ++y)
+      for (int x = 0; x < 96; ++x) {
+        const auto grey = static_cast<std::uint8_t>(100.0 + 50.0 * random_uniform(9, x, y));
+        exemplar.picture(x, y) = {grey, grey, grey};
+      }
+    GuidanceBuffers target = make_slope(48, 48, LandCoverClass::rock, {0.0F, 0.0F, 1.0F}, 40.0F);
+    target.fall_line = Grid<glm::vec2>(48, 48, falls);
+    SynthesisParameters parameters;
+    for (const std::string& name : guide_names())
+      parameters.weights.emplace_back(name, name.starts_with("fall_line") ? weight : 0.0);
+    const MatchField matches = synthesize({exemplar}, make_guide_stack(target, target.land_cover),
+                                          parameters, silent_progress());
+    const auto right =
+        std::count_if(matches.begin(), matches.end(), [](const Match& m) { return m.x >= 48; });
+    return static_cast<double>(right) / static_cast<double>(matches.size());
+  };
+  EXPECT_GT(copied_from_the_right({1.0F, 0.0F}, 1.0), 0.98);
+  EXPECT_LT(copied_from_the_right({-1.0F, 0.0F}, 1.0), 0.02);
+  EXPECT_EQ(copied_from_the_right({1.0F, 0.0F}, 0.0), copied_from_the_right({-1.0F, 0.0F}, 0.0));
 }
 
 // Rock painted from a neighbour of the same class whose base differs by .05, .10 and nothing: a

@@ -171,13 +171,50 @@ TEST(LayerCoverage, TablesAndHatsEqualTheirDefinition) {
     slope(x, 0) = static_cast<float>(0.13 * x);
   }
   const auto c = coverage_of(layers, {altitude, slope}, {0, 0, 500, 1});
-  for (int x = 0; x < 500; ++x) {
-    const double expected = layer_function_value(made.functions[0], layers.inputs[0], layers.model,
-                                                 static_cast<double>(altitude(x, 0))) *
-                            layer_function_value(made.functions[1], layers.inputs[1], layers.model,
-                                                 static_cast<double>(slope(x, 0)));
-    EXPECT_NEAR(c[0](x, 0), expected, 2e-5) << x;
-  }
+  // Sample i lies at -100 + 3100 (i + 1/2) / 256 m.
+  const auto table = [&](double altitude_m) {
+    const double at = std::clamp((altitude_m + 100.0) * 256.0 / 3100.0 - 0.5, 0.0, 255.0);
+    const auto below = static_cast<std::size_t>(at);
+    const std::size_t above = std::min<std::size_t>(below + 1, 255);
+    const double part = at - static_cast<double>(below);
+    return ((1.0 - part) * samples.samples[below] + part * samples.samples[above]) / 255.0;
+  };
+  // 0 up to 7.5°, 1 from 12.5° to 34°, 0 from 46°.
+  const auto hat = [](double slope_deg) {
+    if (slope_deg < 12.5) return std::max(0.0, (slope_deg - 7.5) / 5.0);
+    return slope_deg <= 34.0 ? 1.0 : std::max(0.0, (46.0 - slope_deg) / 12.0);
+  };
+  for (int x = 0; x < 500; ++x)
+    EXPECT_NEAR(c[0](x, 0), table(altitude(x, 0)) * hat(slope(x, 0)), 2e-5) << x;
+}
+
+TEST(LayerFunction, AHatHasTheValuesOfItsLines) {
+  const LayerInput slope{"slope", 0.0, 60.0};
+  const auto value = [&](const LayerHat& hat, double x) {
+    return layer_function_value(hat, slope, LayerModel::product, x);
+  };
+  const LayerHat wide{10.0, 40.0, 5.0, 12.0};
+  for (const auto& [x, expected] : {std::pair{7.0, 0.0},
+                                    {7.5, 0.0},
+                                    {9.0, 0.3},
+                                    {10.0, 0.5},
+                                    {12.0, 0.9},
+                                    {12.5, 1.0},
+                                    {25.0, 1.0},
+                                    {34.0, 1.0},
+                                    {37.0, 0.75},
+                                    {40.0, 0.5},
+                                    {43.0, 0.25},
+                                    {46.0, 0.0}})
+    EXPECT_NEAR(value(wide, x), expected, 1e-12) << x;
+  // Sides that overlap: the smaller of both, 1/2 + (12 - x) / 10 against 1/2 + (x - 10) / 10.
+  const LayerHat narrow{10.0, 12.0, 10.0, 10.0};
+  for (const auto& [x, expected] : {std::pair{5.0, 0.0}, {8.0, 0.3}, {11.0, 0.6}, {14.0, 0.3}})
+    EXPECT_NEAR(value(narrow, x), expected, 1e-12) << x;
+  // Steps, which hold at the bounds.
+  const LayerHat step{10.0, 12.0, 0.0, 0.0};
+  for (const auto& [x, expected] : {std::pair{9.999, 0.0}, {10.0, 1.0}, {12.0, 1.0}, {12.001, 0.0}})
+    EXPECT_EQ(value(step, x), expected) << x;
 }
 
 // Shares of an additive file are the softmax of siblings times the parent's, whatever the order of

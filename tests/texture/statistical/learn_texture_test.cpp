@@ -66,6 +66,32 @@ TEST(LearnTexture, FindsThePairThatTellsMost) {
   EXPECT_GT(std::abs(found.dx), 1);  // down a column nothing changes but the grain
 }
 
+// The farthest type left out comes closer with each type that is added; learning stops where it is
+// close enough, or where the budget is used up.
+TEST(LearnTexture, ComesCloserAndStopsAtTheThreshold) {
+  const Grid<Rgb8> crop = test::striped_crop(64, 64, 8);
+  const auto learn = [&](int types, double enough) {
+    LearnParameters parameters;
+    parameters.levels = 0;
+    parameters.types = types;
+    parameters.reach_px = 5;
+    parameters.enough = enough;
+    const LearnedTexture learned = learn_texture(crop, {}, parameters);
+    EXPECT_EQ(learned.levels.size(), 1U);
+    return std::pair(learned.model.cliques.size(), learned.levels.back().worst_l2);
+  };
+  const auto [none, first] = learn(40, 10.0);
+  EXPECT_EQ(none, 12U) << "three plain histograms, three pairs of bands, six neighbours";
+  const auto [some, closer] = learn(16, 0.0);
+  EXPECT_EQ(some, 16U);
+  EXPECT_LT(closer, 0.9 * first);
+  const double between = 0.5 * (first + closer);
+  const auto [enough, at_end] = learn(40, between);
+  EXPECT_GT(enough, 12U);
+  EXPECT_LE(enough, 16U);
+  EXPECT_LT(at_end, between);
+}
+
 // Two colours never mix where a mask excludes one of them.
 TEST(LearnTexture, KnowsNothingOfWhatIsMasked) {
   Grid<Rgb8> crop = test::meadow_crop(128, 96);

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/vec2.hpp>
+#include <set>
+#include <string>
 
 #include "base/cache/content_hash.h"
 #include "base/error.h"
@@ -63,6 +66,30 @@ TEST(MakeWindow, OverlappingWindowsHaveTheSamePixels) {
                                PixelRect{-40, endless_tile_px - 60, -1, endless_tile_px + 2}})
     EXPECT_EQ(make_window(window_model(), record, rect, parameters),
               part_of(all, moved(rect, -whole.x0, -whole.y0)));
+}
+
+// However far it is made: no piece of 4 × 4 pixels occurs twice where four tiles meet, and tiles a
+// thousand tiles away have another beginning.
+TEST(MakeWindow, NeverRepeats) {
+  const TextureParameters parameters{.rounds = 1, .sweeps = 1};
+  const TextureRecord record = record_texture(window_model(), parameters);
+  constexpr int tile = endless_tile_px;
+  std::vector<Grid<Rgb8>> windows;
+  for (const glm::ivec2 at : {glm::ivec2(tile - 60, tile - 60), glm::ivec2(1000 * tile, 0)})
+    windows.push_back(
+        make_window(window_model(), record, {at.x, at.y, at.x + 120, at.y + 120}, parameters));
+  std::set<std::string> pieces;
+  std::size_t count = 0;
+  for (const Grid<Rgb8>& window : windows)
+    for (int y = 0; y + 4 <= window.height(); ++y)
+      for (int x = 0; x + 4 <= window.width(); ++x) {
+        std::string piece;
+        for (int j = 0; j < 4; ++j)
+          piece.append(reinterpret_cast<const char*>(window.row(y + j) + x), 4 * sizeof(Rgb8));
+        pieces.insert(std::move(piece));
+        ++count;
+      }
+  EXPECT_EQ(pieces.size(), count);
 }
 
 // Two tiles in windows of two shapes and orders, on different threads, put together: one hash. The

@@ -125,6 +125,32 @@ TEST(FitFunctions, OneThreadOrTwoGiveTheSameBits) {
   }
 }
 
+// Class 1 once at each value of the input up to 127 and three times above: v and 3 v with a mean of
+// 1/2 is 63.75 and 191.25 of 255.
+TEST(HistogramFunctions, AreTheHistogramScaledToItsMean) {
+  const auto function = [](int times) {
+    FitCells cells;
+    cells.classes = 2;
+    cells.inputs = {{}};
+    for (int value = 0; value != 256; ++value)
+      for (int i = 0; i != (value < 128 ? 1 : times); ++i) {
+        cells.inputs[0].push_back(static_cast<std::uint8_t>(value));
+        cells.labels.push_back(1);
+      }
+    cells.inputs[0].push_back(0);
+    cells.labels.push_back(0);
+    return histogram_functions(cells, {.smoothing = 0.0}).functions[1][0];
+  };
+  const LayerSamples three = function(3);
+  EXPECT_NEAR(three.samples[10], 64, 1);
+  EXPECT_NEAR(three.samples[127], 64, 1);
+  EXPECT_NEAR(three.samples[128], 191, 1);
+  EXPECT_NEAR(mean_of(three), 0.5, 0.003);
+  const LayerSamples hundred = function(100);
+  EXPECT_EQ(hundred.samples[200], 252);  // 100 / 101 of 255
+  EXPECT_EQ(hundred.samples[100], 3);
+}
+
 TEST(HistogramFunctions, MeanIsOneHalfOrSaturated) {
   FitCells cells = two_classes(30'000);
   const ClassFunctions wide = histogram_functions(cells);

@@ -20,6 +20,18 @@ height = 180
 
 class Figure : public Program {};
 
+// Where a picture lies in a sheet; -1 where it does not.
+glm::ivec2 found_in(const Grid<glm::vec3>& sheet, const Grid<glm::vec3>& picture) {
+  for (int y0 = 0; y0 + picture.height() <= sheet.height(); ++y0)
+    for (int x0 = 0; x0 + picture.width() <= sheet.width(); ++x0) {
+      bool same = true;
+      for (int y = 0; same && y < picture.height(); ++y)
+        same = std::equal(picture.row(y), picture.row(y) + picture.width(), sheet.row(y0 + y) + x0);
+      if (same) return {x0, y0};
+    }
+  return glm::ivec2(-1);
+}
+
 TEST_F(Figure, ShowsClassesAndAltitudesOfThePictureAndOfWhatItCopiesFrom) {
   const std::string file = write("s.toml", figure_scene);
   const Outcome outcome = run({"figure", file, "--quiet", "--out", path("out")});
@@ -56,6 +68,53 @@ TEST_F(Figure, ShowsClassesAndAltitudesOfThePictureAndOfWhatItCopiesFrom) {
   const Grid<glm::vec3> sheet = read_picture(path("out/sheet.png"));
   EXPECT_GT(sheet.width(), 360);
   EXPECT_GT(sheet.height(), 3 * 180);
+  // Land cover above altitude above paint, what is copied from at the left of the picture.
+  const auto corner = [&](const std::string& name) {
+    return found_in(sheet, read_picture(path("out/" + name + ".png")));
+  };
+  for (const std::string column : {"copied_1", "picture"}) {
+    const glm::ivec2 cover = corner(column + "_landcover");
+    const glm::ivec2 heights = corner(column + "_altitude");
+    const glm::ivec2 paint = corner(column);
+    ASSERT_TRUE(cover.x >= 0 && heights.x >= 0 && paint.x >= 0) << column;
+    EXPECT_EQ(cover.x, heights.x) << column;
+    EXPECT_EQ(cover.x, paint.x) << column;
+    EXPECT_LT(cover.y, heights.y) << column;
+    EXPECT_LT(heights.y, paint.y) << column;
+  }
+  EXPECT_GE(corner("picture").x, corner("copied_1").x + 240);
+  // The example sheet's own: classes in their colours, altitudes in grey, paint in neither.
+  const auto kinds = [&](const std::string& name) {
+    std::size_t grey = 0;
+    std::size_t flat = 0;
+    const Grid<glm::vec3> picture = read_picture(path("out/" + name + ".png"));
+    for (const glm::vec3& colour : picture) {
+      grey += colour.r == colour.g && colour.g == colour.b ? 1 : 0;
+      flat += std::any_of(land_cover_classes().begin(), land_cover_classes().end(),
+                          [&](const LandCoverClassInfo& info) {
+                            const auto byte = [](float v) {
+                              return static_cast<std::uint32_t>(std::lround(255.F * v));
+                            };
+                            return info.rgb ==
+                                   (byte(colour.r) << 16U | byte(colour.g) << 8U | byte(colour.b));
+                          })
+                  ? 1
+                  : 0;
+    }
+    const auto share = [&](std::size_t count) {
+      return static_cast<double>(count) / static_cast<double>(picture.size());
+    };
+    return std::pair(share(grey), share(flat));
+  };
+  const auto [cover_grey, cover_flat] = kinds("copied_1_landcover");
+  const auto [heights_grey, heights_flat] = kinds("copied_1_altitude");
+  const auto [paint_grey, paint_flat] = kinds("copied_1");
+  EXPECT_GT(cover_flat, 0.5);
+  EXPECT_LT(paint_flat, 0.1);
+  EXPECT_LT(cover_grey, 0.6);
+  EXPECT_GT(heights_grey, 0.7);
+  EXPECT_LT(paint_grey, 0.5);
+  EXPECT_LT(heights_flat, 0.6);
 }
 
 }  // namespace

@@ -150,6 +150,22 @@ TEST_F(LayersFitCommand, MaskedCellsAreNotLearnedFrom) {
   const Outcome outcome = fit(arguments);
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("50.0 % of the cells are masked"));
+  const std::string layers = read_bytes(path("out.layers.toml"));
+  // Fields of rock at the foot and meadows on the summit, below the mask: not one byte changes.
+  RasterSource map;
+  map.path = path("classes.tif");
+  const Raster<std::int32_t> classes = read_codes(map);
+  Raster<std::uint8_t> other{Grid<std::uint8_t>(size, size), classes.transform, classes.crs};
+  for (int y = 0; y != size; ++y)
+    for (int x = 0; x != size; ++x)
+      other.cells(x, y) =
+          static_cast<std::uint8_t>(x < size / 2 ? 3 - classes.cells(x, y) : classes.cells(x, y));
+  write_raster(path("classes.tif"), other);
+  ASSERT_EQ(fit(arguments).status, 0);
+  EXPECT_EQ(read_bytes(path("out.layers.toml")), layers);
+  arguments.resize(arguments.size() - 2);
+  ASSERT_EQ(fit(arguments).status, 0);
+  EXPECT_NE(read_bytes(path("out.layers.toml")), layers) << "without the mask they count";
 }
 
 // Sun and climate of fitting and applying are the same numbers: layers learned from sun alone
