@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <fstream>
 #include <map>
 #include <optional>
 #include <string>
@@ -32,15 +31,6 @@ constexpr double kept_bytes_per_pixel =
 
 std::string join(const std::string& folder, const char* file) { return folder + "/" + file; }
 
-void write_text(const std::string& path, const std::string& text) {
-  OutputFile file(path);
-  std::ofstream out(file.temporary(), std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) file.fail("cannot write the file");
-  file.commit();
-}
-
 // 16 bit for copying, 8 bit for viewing. An exemplar is in sRGB, whatever the colour space of a
 // scene's prints.
 void write_layers(const ExamplePainting& example, double dots_per_inch, const FileNotes& notes,
@@ -65,8 +55,8 @@ void count(AvailableTexels& available, const GuidanceBuffers& guidance, std::uin
 }
 
 void write_available(const AvailableTexels& available, const std::string& folder) {
-  write_text(join(folder, "coverage.json"),
-             available_json(available, find_gaps(available, built_in_needed_texels(), {})));
+  write_text_file(join(folder, "coverage.json"),
+                  available_json(available, find_gaps(available, built_in_needed_texels(), {})));
 }
 
 }  // namespace
@@ -91,7 +81,7 @@ AvailableTexels write_scene_exemplar(const LoadedScene& loaded, const std::strin
   write_layers(example, output.width / output.sheet_width_mm * 25.4, notes, out_folder, progress);
   progress.begin("writing guidance", 0.0);
   write_guidance(join(out_folder, "guidance.exr"), example.guidance, notes);
-  write_text(join(out_folder, "scene.toml"), write_scene(loaded.scene));
+  write_text_file(join(out_folder, "scene.toml"), write_scene(loaded.scene));
   write_available(available, out_folder);
   return available;
 }
@@ -137,7 +127,7 @@ AvailableTexels write_example_sheet(const ExampleSheetPlan& plan, const std::str
   }
   writer->finish();
   write_layers(whole, plan.dots_per_inch, notes, out_folder, progress);
-  write_text(join(out_folder, "sheet.toml"), text);
+  write_text_file(join(out_folder, "sheet.toml"), text);
   write_available(available, out_folder);
   return available;
 }

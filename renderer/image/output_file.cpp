@@ -1,6 +1,8 @@
 #include "renderer/image/output_file.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -41,13 +43,34 @@ OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
   std::filesystem::path extension = name.extension();
   temporary_ = name.replace_extension().string() + ".tmp" + extension.string();
   // Checked at once: the reason is then known before an image library hides it.
-  const int file = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (file < 0) throw_system(path_, "cannot be created", errno);
-  ::close(file);
+  while (lock_ < 0) {
+    const int file = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+    if (file < 0) throw_system(path_, "cannot be created", errno);
+    // Where a file system has no locks, two runs that write one file are not told apart.
+    if (::flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+      ::close(file);
+      throw Error(ErrorKind::output, path_, "another run is writing this file",
+                  "another name, or wait until it has ended");
+    }
+    // The run that held the lock before may have renamed or removed the file since.
+    struct ::stat held {};
+    struct ::stat named {};
+    if (::fstat(file, &held) == 0 && ::stat(temporary_.c_str(), &named) == 0 &&
+        held.st_ino == named.st_ino)
+      lock_ = file;
+    else
+      ::close(file);
+  }
+  if (::ftruncate(lock_, 0) != 0) {
+    const int code = errno;
+    ::close(lock_);
+    throw_system(path_, "cannot be created", code);
+  }
 }
 
 OutputFile::~OutputFile() {
   if (!committed_) ::unlink(temporary_.c_str());
+  ::close(lock_);
 }
 
 void OutputFile::prepare() {

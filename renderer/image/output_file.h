@@ -7,7 +7,8 @@ namespace belvedere {
 // A file that appears complete or not at all: written under a temporary name in the same folder
 // (`x.tif` as `x.tmp.tif`, because image libraries go by the extension), then renamed. Until
 // commit() an older file of that name is unchanged; without it the temporary file is removed.
-// Throws Error(output) with the system's reason.
+// While it lives, another run that writes the same file is refused. Throws Error(output) with the
+// system's reason.
 class OutputFile {
  public:
   explicit OutputFile(std::string path);
@@ -29,6 +30,7 @@ class OutputFile {
  private:
   std::string path_;
   std::string temporary_;
+  int lock_ = -1;  // the temporary file, locked
   bool prepared_ = false;
   bool committed_ = false;
 };

@@ -126,9 +126,16 @@ void read_piece_rows(const std::string& path, const PieceKey& key, int y0, int y
   const OpenFile file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (file.descriptor < 0)
     throw Error(ErrorKind::input, path, "this finished piece cannot be opened");
-  if (layout.value_bytes.size() != to.size())
-    throw Error(ErrorKind::bug, path, "planes other than requested");
   const auto width = static_cast<std::size_t>(key.rect.width());
+  // It was whole when it was found; since then another program may have changed it.
+  std::uint64_t bytes = 0;
+  for (const Plane& plane : to)
+    bytes += width * static_cast<std::uint64_t>(key.rect.height()) * plane.value_bytes;
+  if (layout.bytes != bytes ||
+      !std::equal(to.begin(), to.end(), layout.value_bytes.begin(), layout.value_bytes.end(),
+                  [](const Plane& plane, std::size_t size) { return plane.value_bytes == size; }))
+    throw Error(ErrorKind::input, path, "this finished piece was changed by another program",
+                "the same command again, which makes this piece again");
   std::uint64_t start = layout.begin;
   std::vector<std::byte> rows;
   for (std::size_t i = 0; i < to.size(); ++i) {

@@ -85,15 +85,17 @@ void make_folder(const std::string& folder) {
 void write_identity(const std::string& folder, const JobIdentity& identity) {
   const std::string path = (fs::path(folder) / identity_file).string();
   const std::string temporary = fmt::format("{}.{}.tmp", path, static_cast<long>(::getpid()));
-  {
-    std::ofstream file(temporary, std::ios::binary);
-    file << to_text(identity);
-    file.flush();
-    if (!file) throw Error(ErrorKind::output, path, "cannot be written");
-  }
+  std::ofstream file(temporary, std::ios::binary);
+  file << to_text(identity);
+  file.close();
   std::error_code code;
-  fs::rename(temporary, path, code);
-  if (code) throw Error(ErrorKind::output, path, "cannot be renamed: " + code.message());
+  if (file) fs::rename(temporary, path, code);
+  if (file && !code) return;
+  std::error_code ignored;
+  fs::remove(temporary, ignored);
+  throw Error(ErrorKind::output, path,
+              "cannot be written" + (code ? ": " + code.message() : std::string()),
+              "free space on this disk");
 }
 
 void remove_all_but_lock(const std::string& folder) {

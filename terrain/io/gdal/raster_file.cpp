@@ -171,6 +171,7 @@ void RasterFile::State::find_encoding() {
 RasterFile::RasterFile(const RasterSource& source) : state_(std::make_unique<State>()) {
   State& s = *state_;
   s.source = source;
+  const GdalErrors quiet;  // GDAL reads some tags only when it is asked for them
   s.dataset = open_raster(source);
   s.width = GDALGetRasterXSize(s.dataset.get());
   s.height = GDALGetRasterYSize(s.dataset.get());

@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "tests/files.h"
 #include "tests/notes.h"
+#include "tests/small_disk.h"
 
 namespace belvedere {
 namespace {
@@ -131,6 +132,32 @@ TEST_F(CacheTest, AFolderThatCannotBeUsedIsNotedOnce) {
   blocked.store(key("b"), bytes_of("forest"), notes_);
   EXPECT_FALSE(blocked.find(key("a"), notes_));
   EXPECT_THAT(notes_.all, ElementsAre(AllOf(HasSubstr("file/cache"), HasSubstr("not used"))));
+}
+
+TEST_F(CacheTest, AFullDiskIsNotedOnceAndLeavesNothingHalfWritten) {
+  for (const rlim_t room : {0, 10, 100}) {
+    const test::SmallDisk disk(room);
+    store("a", "forest");
+    EXPECT_FALSE(find("a")) << room;
+    EXPECT_EQ(folder_.count(), 0U) << room;
+  }
+  EXPECT_THAT(notes_.all, SizeIs(1));
+  store("a", "forest");
+  EXPECT_EQ(find("a"), bytes_of("forest"));
+}
+
+// Entries and temporary files of tomorrow: nothing is lost, and ages are not negative.
+TEST_F(CacheTest, AClockThatGoesBackwardsLosesNothing) {
+  store("a", "forest");
+  make_older("a", -24);
+  folder_.write(std::string(32, '0') + "-1-1.cache-tmp", "another run's");
+  fs::last_write_time(folder_ / (std::string(32, '0') + "-1-1.cache-tmp"),
+                      fs::file_time_type::clock::now() + std::chrono::hours(24));
+  EXPECT_EQ(cache_entries(folder_.path()).at(0).age_s, 0);
+  EXPECT_THAT(clear_cache(folder_.path(), 1), IsEmpty());
+  store("b", "");
+  EXPECT_EQ(folder_.count(), 3U);
+  EXPECT_EQ(find("a"), bytes_of("forest"));
 }
 
 TEST_F(CacheTest, WithoutAFolderNothingIsKept) {

@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "tests/files.h"
+#include "tests/small_disk.h"
 
 namespace belvedere {
 namespace {
@@ -59,6 +60,32 @@ TEST_F(OutputFiles, AreTriedAtOnce) {
   EXPECT_THAT(refused([&] { OutputFile file(folder_.path() + "/"); }), HasSubstr("is a folder"));
 }
 
+TEST_F(OutputFiles, ASecondWriterIsRefusedAndLeavesTheFirstAlone) {
+  const std::string path = folder_.write("a.tif", "old");
+  {
+    OutputFile first(path);
+    test::write_bytes(first.temporary(), "first");
+    EXPECT_THAT(refused([&] { OutputFile second(path); }),
+                AllOf(HasSubstr("a.tif"), HasSubstr("another run is writing")));
+    first.commit();
+  }
+  EXPECT_EQ(test::read_bytes(path), "first");
+  // What a killed run left is no lock.
+  folder_.write("a.tmp.tif", "half of a file of a run that was killed");
+  OutputFile third(path);
+  EXPECT_EQ(test::read_bytes(third.temporary()), "");
+  third.commit();
+  EXPECT_EQ(folder_.count(), 1U);
+}
+
+TEST_F(OutputFiles, AFolderThatDisappearsIsNamed) {
+  const std::string path = folder_.write("below/a.tif", "old");
+  OutputFile file(path);
+  fs::remove_all(folder_ / "below");
+  EXPECT_THAT(refused([&] { file.commit(); }),
+              AllOf(HasSubstr("below/a.tif"), HasSubstr("No such")));
+}
+
 TEST_F(OutputFiles, AFolderOfTheNameIsNotReplaced) {
   fs::create_directories(folder_ / "a.tif");
   {
@@ -98,6 +125,12 @@ TEST(TextFile, IsThereWholeOrNotAtAll) {
   EXPECT_EQ(read.str(), text);
   EXPECT_EQ(folder.count(), 1U);
   EXPECT_THROW(write_text_file(folder / "missing/a.txt", text), Error);
+  for (const rlim_t room : {0, 1, 19}) {
+    const test::SmallDisk disk(room);
+    EXPECT_THROW(write_text_file(path, text), Error) << room;
+    EXPECT_EQ(test::read_bytes(path), text);
+    EXPECT_EQ(folder.count(), 1U);
+  }
 }
 
 }  // namespace

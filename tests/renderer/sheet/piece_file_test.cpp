@@ -1,5 +1,6 @@
 #include "renderer/sheet/piece_file.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -49,6 +50,30 @@ TEST_F(PieceFile, OnlyTheRightPieceIsWhole) {
   EXPECT_FALSE(is_whole_piece(path_, {key.job, "guidance", key.rect}));
   EXPECT_FALSE(is_whole_piece(path_, {key.job, key.product, {10, 20, 17, 26}}));
   EXPECT_FALSE(is_whole_piece(folder_ / "none", key));
+}
+
+// Another program may change or cut a piece after it was found to be whole.
+TEST_F(PieceFile, APieceThatChangesWhileItIsReadIsNotTaken) {
+  Grid<float> light(7, 5);
+  Grid<std::uint8_t> id(7, 5);
+  const auto read = [&] {
+    return test::message_of(ErrorKind::input, [&] {
+      read_piece_rows(path_, key, 20, 25, 10, {plane_of(light), plane_of(id)});
+    });
+  };
+  const std::string whole = test::read_bytes(path_);
+  for (std::size_t size = 0; size < whole.size(); size += 5) {
+    test::write_bytes(path_, whole.substr(0, size));
+    read();
+  }
+  for (const char* planes : {"planes 1 4", "planes 4", "planes 4 1 1", "planes 4 9999999999999"}) {
+    std::string other = whole;
+    other.replace(other.find("planes 4 1"), 10, planes);
+    test::write_bytes(path_, other);
+    EXPECT_THAT(read(), testing::HasSubstr("changed by another program")) << planes;
+  }
+  std::filesystem::remove(path_);
+  read();
 }
 
 // Whatever byte is lost or turned, and wherever the file ends.

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "tests/files.h"
+#include "tests/small_disk.h"
 
 namespace belvedere {
 namespace {
@@ -62,6 +63,64 @@ TEST_F(WorkFolderTest, AnotherJobsPiecesAreRefusedByName) {
   EXPECT_THAT(test::message_of(ErrorKind::usage, resume), HasSubstr("dem.tif differs"));
   EXPECT_TRUE(WorkFolder(position_, job, WorkMode::resume).has("panorama", small_rect))
       << "and are left alone";
+}
+
+// Of a version whose jobs had other entries and whose pieces had another form.
+TEST_F(WorkFolderTest, WorkOfAnOlderVersionIsRefusedOrBegunAnew) {
+  std::filesystem::create_directories(position_);
+  test::write_bytes(position_ + "/job.txt", "belvedere job 0\nscene\ta\nprogram\t0.1.0\n");
+  const std::string piece = position_ + "/panorama_0_0.piece";
+  test::write_bytes(piece, "belvedere piece 0\nof another form");
+  EXPECT_THAT(
+      test::message_of(ErrorKind::usage, [&] { WorkFolder(position_, job, WorkMode::resume); }),
+      testing::AllOf(HasSubstr("dem.tif"), HasSubstr("program"), HasSubstr("without --resume")));
+  EXPECT_TRUE(std::filesystem::exists(piece)) << "and is left alone";
+  const WorkFolder work(position_, job, WorkMode::begin);
+  EXPECT_FALSE(std::filesystem::exists(piece));
+  keep(work, 1);
+  EXPECT_TRUE(work.has("panorama", small_rect));
+}
+
+// An empty or cut list of what the job was made from, as a full disk leaves it, is another job's.
+TEST_F(WorkFolderTest, ACutListOfEntriesIsAnotherJobs) {
+  keep(WorkFolder(position_, job, WorkMode::begin), 1);
+  const std::string whole = test::read_bytes(position_ + "/job.txt");
+  for (std::size_t size = 0; size + 1 < whole.size(); ++size) {
+    test::write_bytes(position_ + "/job.txt", whole.substr(0, size));
+    test::message_of(ErrorKind::usage, [&] { WorkFolder(position_, job, WorkMode::resume); });
+  }
+}
+
+TEST_F(WorkFolderTest, AFullDiskLeavesNothingHalfWritten) {
+  for (const rlim_t room : {0, 1, 20}) {
+    const test::SmallDisk disk(room);
+    EXPECT_THAT(test::message_of(ErrorKind::output, [&] { begin_shared_work(position_, job); }),
+                HasSubstr("job.txt"));
+    EXPECT_TRUE(std::filesystem::is_empty(position_)) << room;
+  }
+  begin_shared_work(position_, job);
+  const WorkFolder work(position_, job, WorkMode::join);
+  for (const rlim_t room : {0, 1, 100}) {
+    const test::SmallDisk disk(room);
+    EXPECT_THAT(test::message_of(ErrorKind::output, [&] { keep(work, 1); }),
+                HasSubstr("panorama_0_0.piece"));
+    EXPECT_FALSE(work.has("panorama", small_rect));
+  }
+  keep(work, 2);
+  EXPECT_TRUE(work.has("panorama", small_rect));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(position_),
+                          std::filesystem::directory_iterator()),
+            2)
+      << "the job and one piece";
+}
+
+TEST_F(WorkFolderTest, AFolderThatDisappearsIsNamed) {
+  const WorkFolder work(position_, job, WorkMode::begin);
+  keep(work, 1);
+  std::filesystem::remove_all(position_);
+  EXPECT_FALSE(work.has("panorama", small_rect));
+  EXPECT_THAT(test::message_of(ErrorKind::output, [&] { keep(work, 2); }), HasSubstr("No such"));
+  test::message_of(ErrorKind::input, [&] { work.read_bytes("plan"); });
 }
 
 TEST_F(WorkFolderTest, TheSecondRunIntoAFolderIsRefused) {

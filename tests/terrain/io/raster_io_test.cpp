@@ -3,11 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
+#include <filesystem>
 #include <thread>
 
 #include "base/parallel.h"
 #include "terrain/io/raster_file.h"
+#include "tests/small_disk.h"
 #include "tests/terrain/io/raster_files.h"
 
 namespace belvedere {
@@ -90,6 +93,64 @@ TEST_F(RasterIo, WritingLeavesNothingHalfDone) {
   EXPECT_EQ(folder_.count(), 1U);
   write_raster(path("old.tif"), raster);
   EXPECT_EQ(folder_.count(), 2U);
+}
+
+TEST_F(RasterIo, AFullDiskKeepsTheOldFile) {
+  const Raster<float> raster = make_hills(60, 50, {0.0, 0.0, 30.0, 30.0}, "EPSG:32632");
+  for (const char* name : {"a.tif", "a.asc"}) {
+    const std::string whole = path(std::string("whole-") + name);
+    write_raster(whole, raster);
+    write_text(name, "the old file");
+    const std::size_t files = folder_.count();
+    const auto size = static_cast<rlim_t>(std::filesystem::file_size(whole));
+    for (const rlim_t room : {rlim_t{0}, rlim_t{100}, size / 2, size - 1}) {
+      const test::SmallDisk disk(room);
+      EXPECT_EQ(error_of([&] { write_raster(path(name), raster); }).kind(), ErrorKind::output)
+          << name << " " << room;
+      EXPECT_EQ(read_text(name), "the old file") << name << " " << room;
+      EXPECT_EQ(folder_.count(), files) << name << " " << room;
+    }
+  }
+}
+
+// GDAL's own words belong into the Error, or nowhere.
+TEST_F(RasterIo, DamagedTagsAreNotPrintedAbout) {
+  write_raster(path("a.tif"), make_hills(20, 10, {652000.0, 5320000.0, 30.0, 30.0}, "EPSG:32632"));
+  std::string bytes = read_text("a.tif");
+  const std::size_t name = bytes.find("UTM zone");
+  ASSERT_NE(name, std::string::npos);
+  for (const std::size_t from : {name, name - 9}) {
+    bytes.replace(from, 5, 5, '\0');
+    write_text("a.tif", bytes);
+    testing::internal::CaptureStderr();
+    try {
+      read_raster(source_of(path("a.tif")));
+    } catch (const Error&) {
+    }
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  }
+}
+
+// Another program writes the file while it is read: every outcome but an error or one of both files
+// would be wrong.
+TEST_F(RasterIo, AFileThatIsReplacedWhileItIsReadIsOneOfTheTwo) {
+  const Raster<float> first = make_hills(200, 150, {0.0, 0.0, 30.0, 30.0}, "EPSG:32632");
+  Raster<float> second = first;
+  for (float& v : second.cells) v += 500.0F;
+  write_raster(path("a.tif"), first);
+  std::atomic<bool> done = false;
+  std::thread writer([&] {
+    for (int i = 0; i < 12; ++i) write_raster(path("a.tif"), i % 2 == 0 ? second : first);
+    done = true;
+  });
+  int read = 0;
+  while (!done) {
+    const Raster<float> back = read_raster(source_of(path("a.tif")));
+    EXPECT_TRUE(back.cells == first.cells || back.cells == second.cells);
+    ++read;
+  }
+  writer.join();
+  EXPECT_GT(read, 0);
 }
 
 TEST_F(RasterIo, MissingFilesAndFoldersAreErrors) {
