@@ -74,6 +74,21 @@ TEST(Config, BrokenHeadersAreSyntaxErrors) {
   EXPECT_EQ(as_string(parse_config_value("=a", "--set"), "--set"), "=a");
 }
 
+// Letters beyond ASCII outside of quotation marks, and after a line that goes on: the library's
+// undefined behaviour, which sanitizers find.
+TEST(Config, LettersBeyondAsciiBelongIntoQuotationMarks) {
+  for (const char* text : {"h\u00f6he = 3", "a = [1, \u00a9 2]", "[[regio\u01e2\n]]",
+                           "a = 1 \u00e9", "\u3001 = 1", "a = \uff01"}) {
+    const Error error = test::error_of([&] { parse_config(text, "x.toml"); });
+    EXPECT_EQ(error.kind(), ErrorKind::usage) << text;
+    EXPECT_EQ(error.where().substr(0, 8), "x.toml:1") << text;
+  }
+  const ConfigValue root =
+      parse_config("\"h\u00f6he\" = \"\"\"a\\\n   \u00f6\u3000\u0416\"\"\"", "x.toml");
+  EXPECT_EQ(as_string(*find(as_table(root, "x.toml"), "h\u00f6he"), "x.toml"),
+            "a\u00f6\u3000\u0416");
+}
+
 TEST(Config, BrokenUtf8NamesThePlace) {
   EXPECT_THAT(usage_of([] { parse_config("a = 1\nb = \"\xff\xfe\"\n", "s.toml"); }),
               StartsWith("s.toml:2:"));

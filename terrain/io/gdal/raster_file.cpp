@@ -321,6 +321,7 @@ bool RasterFile::State::is_void(float raw) const {
 
 Grid<std::uint8_t> RasterFile::State::read_mask(const CellWindow& window, int columns,
                                                 int rows) const {
+  const GdalErrors quiet;
   const int flags = GDALGetMaskFlags(band);
   if ((flags & (GMF_ALL_VALID | GMF_NODATA)) != 0) return {};
   return read<std::uint8_t>(GDALGetMaskBand(band), window, GDT_Byte, columns, rows);
