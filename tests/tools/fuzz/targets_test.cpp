@@ -142,8 +142,8 @@ TEST_P(Readers, ReadAnExampleAndReadOrRefuseWhatIsDamaged) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Readers, testing::Range<std::size_t>(0, fuzz_targets().size()),
-                         [](const auto& info) {
-                           return std::string(fuzz_targets()[info.param].name);
+                         [](const auto& each) {
+                           return std::string(fuzz_targets()[each.param].name);
                          });
 
 }  // namespace
