@@ -27,8 +27,8 @@ struct BrokenAssertion {};
     if (!(expression)) belvedere::break_assertion(); \
   } while (false)
 #define TOML_EXCEPTIONS 1
-// Its functions that ask whether a letter beyond ASCII is white space promise the compiler that most
-// letters do not occur. They do: false is right.
+// Its functions that ask whether a letter beyond ASCII is white space promise the compiler that
+// most letters do not occur. They do: false is right.
 #include <toml++/impl/preprocessor.h>
 #undef TOML_UNREACHABLE
 #define TOML_UNREACHABLE return false
