@@ -18,6 +18,7 @@
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <utility>
 
@@ -60,6 +61,25 @@ std::uint32_t read_word(Imf::IStream& stream) {
   return word;
 }
 
+// The library takes the memory that an attribute claims before it reads it: sizes beyond the end of
+// the file are refused first. Leaves the stream where it was.
+void check_attributes(const std::string& path, Imf::StdIFStream& stream, std::uint64_t file_bytes) {
+  const std::uint64_t begin = stream.tellg();
+  const auto text_length = [&] {
+    std::size_t length = 0;
+    for (char c = 1; c != 0 && length <= 256; ++length) stream.read(&c, 1);
+    return length - 1;
+  };
+  while (text_length() > 0) {  // its name; an empty one ends the header
+    text_length();             // its type
+    const auto bytes = static_cast<std::uint64_t>(static_cast<std::uint32_t>(read_word(stream)));
+    const std::uint64_t at = stream.tellg();
+    if (at + bytes > file_bytes) throw_damaged(path, "an attribute is longer than the file");
+    stream.seekg(at + bytes);
+  }
+  stream.seekg(begin);
+}
+
 // The headers of all parts; nothing beyond them is read.
 std::vector<PartHeader> read_headers(const std::string& path) {
   if (!image_io::first_bytes(path).starts_with("\x76\x2f\x31\x01"))
@@ -74,6 +94,7 @@ std::vector<PartHeader> read_headers(const std::string& path) {
     }
     if (Imf::isNonImage(version))
       throw Error(ErrorKind::input, path, "is a deep OpenEXR file", "a flat one");
+    const std::uint64_t bytes = std::filesystem::file_size(path);
     std::vector<PartHeader> parts;
     while (true) {
       if (Imf::isMultiPart(version)) {
@@ -85,6 +106,7 @@ std::vector<PartHeader> read_headers(const std::string& path) {
         stream.seekg(at);
       }
       PartHeader part;
+      check_attributes(path, stream, bytes);
       part.header.readFrom(stream, version);
       part.name = part.header.hasName() ? part.header.name() : "";
       const Imath::Box2i window = part.header.dataWindow();

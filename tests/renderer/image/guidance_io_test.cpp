@@ -14,6 +14,8 @@
 #include "base/error.h"
 #include "base/guidance_channels.h"
 #include "base/random.h"
+#include "tests/files.h"
+#include "tests/paths.h"
 #include "tests/renderer/image/picture_bytes.h"
 
 namespace belvedere {
@@ -184,6 +186,26 @@ TEST(GuidanceIo, RefusesWhatIsNone) {
                      std::bit_cast<float>(static_cast<std::uint32_t>(land_cover_class_count))});
   writer.finish();
   EXPECT_EQ(kind("id.exr"), ErrorKind::input);
+}
+
+// A header may claim a text of 2 GiB in a file of some kB: no memory is taken for it.
+TEST(GuidanceIo, TextsLongerThanTheFileAreRefused) {
+  const Folder folder;
+  const std::string good =
+      test::read_bytes(std::string(test::source_folder()) + "/tests/fuzz/guidance/small.exr");
+  const std::string path = folder.write("a.exr", good);
+  EXPECT_NO_THROW(read_guidance(path));
+  const std::string type("\0string\0", 8);
+  int texts = 0;
+  for (std::size_t at = good.find(type); at != std::string::npos; at = good.find(type, at + 1)) {
+    std::string bad = good;
+    bad.replace(at + type.size(), 4, "\xff\xff\xff\x7f");
+    test::write_bytes(path, bad);
+    EXPECT_THAT(test::message_of(ErrorKind::input, [&] { read_guidance(path); }),
+                testing::HasSubstr("longer than the file"));
+    ++texts;
+  }
+  EXPECT_GT(texts, 3);
 }
 
 TEST(GuidanceIo, ChannelsMustNotComeAndGo) {
