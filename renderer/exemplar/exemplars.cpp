@@ -31,29 +31,33 @@ ExemplarClasses look_at_classes(const LoadedScene& loaded, const View& view, con
                                 const Cache& cache) {
   const Scene& scene = loaded.scene;
   ExemplarClasses found;
-  std::vector<std::string> models;
-  for (const SceneTextureModel& model : read_texture_models(loaded)) {
-    models.push_back(model.name);
-    for (const LandCoverClass id : model.serves) found.offered[static_cast<std::size_t>(id)] = true;
-  }
+  const auto add = [&found](std::string name) -> ExemplarClasses::Flags& {
+    found.names.push_back(std::move(name));
+    return found.offered_by.emplace_back();
+  };
   const auto add_sheet = [&](const SceneExemplar& settings) {
-    found.names.emplace_back(example_sheet_name);
+    ExemplarClasses::Flags& offered = add(std::string(example_sheet_name));
     for (const LandCoverClass id :
          classes_of_example_sheet(settings, scene, view, palette, progress, cache))
-      found.offered[static_cast<std::size_t>(id)] = true;
+      offered[static_cast<std::size_t>(id)] = true;
   };
   for (std::size_t i = 0; i < scene.exemplars.size(); ++i) {
     if (!scene.exemplars[i].model.empty()) continue;
     if (scene.exemplars[i].picture.empty()) {
       add_sheet(scene.exemplars[i]);
     } else if (i < scans.size() && !scans[i].painted.picture.empty()) {
-      found.names.push_back(scans[i].painted.exemplar.name);
+      ExemplarClasses::Flags& offered = add(scans[i].painted.exemplar.name);
       for (const std::uint8_t label : scans[i].painted.exemplar.guides.label)
-        if (label < found.offered.size()) found.offered[label] = true;
+        if (label < offered.size()) offered[label] = true;
     }
   }
   if (found.names.empty()) add_sheet({});
-  found.names.insert(found.names.end(), models.begin(), models.end());
+  for (const SceneTextureModel& model : read_texture_models(loaded)) {
+    ExemplarClasses::Flags& offered = add(model.name);
+    for (const LandCoverClass id : model.serves) offered[static_cast<std::size_t>(id)] = true;
+  }
+  for (const ExemplarClasses::Flags& one : found.offered_by)
+    for (std::size_t c = 0; c < one.size(); ++c) found.offered[c] = found.offered[c] || one[c];
   return found;
 }
 

@@ -26,8 +26,10 @@ std::vector<PaintedExemplar> make_exemplars(const LoadedScene& scene, const View
 // Names of those exemplars and of texture models, and the classes of which they have texels,
 // without painting the sheets.
 struct ExemplarClasses {
+  using Flags = std::array<bool, land_cover_class_count>;
   std::vector<std::string> names;
-  std::array<bool, land_cover_class_count> offered{};
+  std::vector<Flags> offered_by;  // by each of `names`
+  Flags offered{};                // by any
 };
 ExemplarClasses look_at_classes(const LoadedScene& scene, const View& view, const Palette& palette,
                                 const std::vector<ScannedPainting>& scans, Progress& progress,

@@ -153,6 +153,11 @@ SceneReport check_scene(const LoadedScene& scene, Progress& progress, const Cach
   const ExemplarClasses exemplars =
       look_at_classes(scene, sight.view, paint.palette, paint.paintings, progress, cache);
   report.exemplars = exemplars.names;
+  for (const ExemplarClasses::Flags& offered : exemplars.offered_by) {
+    std::vector<LandCoverClass>& own = report.exemplar_classes.emplace_back();
+    for (const auto& [id, share] : report.classes)
+      if (offered[static_cast<std::size_t>(id)]) own.push_back(id);
+  }
   std::vector<std::string> missing;
   for (const auto& [id, share] : report.classes) {
     if (id == LandCoverClass::sky || exemplars.offered[static_cast<std::size_t>(id)]) continue;

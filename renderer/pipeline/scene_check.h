@@ -32,7 +32,8 @@ struct SceneReport {
   std::vector<ClassArea>
       land_cover;  // where small patches are removed: each class before and after
   std::vector<std::string> exemplars;
-  ViewEvaluation evaluation;      // evaluation of the composition
+  std::vector<std::vector<LandCoverClass>> exemplar_classes;  // visible ones, of each exemplar
+  ViewEvaluation evaluation;                                  // evaluation of the composition
   std::vector<SeenRange> ranges;  // light on its ranges, by falling share; without their slopes
   std::vector<ProposedLight> proposed;  // regions of light that would help, if requested
 };

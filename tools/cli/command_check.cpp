@@ -189,7 +189,12 @@ std::string as_text(const LoadedScene& scene, const SceneReport& report) {
   for (const auto& [id, share] : report.classes)
     out += fmt::format(" {} {:.1f} %,", class_name(id), 100.0 * share);
   out.back() = '\n';
-  for (const std::string& exemplar : report.exemplars) out += "copied from: " + exemplar + "\n";
+  for (std::size_t i = 0; i < report.exemplars.size(); ++i) {
+    out += "copied from: " + report.exemplars[i] + ":";
+    for (const LandCoverClass id : report.exemplar_classes[i])
+      out += fmt::format(" {},", class_name(id));
+    out.back() = '\n';
+  }
   return out + composition_text(report.evaluation) + light_text(report) + scene.name +
          " is valid\n";
 }

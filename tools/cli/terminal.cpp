@@ -93,6 +93,10 @@ void TerminalProgress::begin(std::string_view stage, double total) {
   if (interrupted()) throw Error(ErrorKind::interrupted, "", "stopped");
   const std::lock_guard lock(mutex_);
   close_stage();
+  if (std::find(seen_.begin(), seen_.end(), stage) == seen_.end()) {
+    print_closed();
+    seen_.emplace_back(stage);
+  }
   stage_ = stage;
   total_ = total;
   done_ = 0.0;
@@ -121,16 +125,30 @@ void TerminalProgress::note(std::string_view text) {
 void TerminalProgress::end() {
   const std::lock_guard lock(mutex_);
   close_stage();
+  print_closed();
 }
 
-// A finished stage leaves one line with its duration, on a terminal and in a log alike.
+// Tiles of a picture pass through the same stages again and again: their times are added up.
 void TerminalProgress::close_stage() {
   if (stage_.empty()) return;
-  if (!quiet_) {
-    const double seconds = std::chrono::duration<double>(Clock::now() - begun_).count();
-    print_error(fmt::format("{}{} ({:.1f} s)\n", drawn_ ? "\r\033[K" : "", stage_, seconds));
-  }
+  const double seconds = std::chrono::duration<double>(Clock::now() - begun_).count();
+  const auto same = std::find_if(closed_.begin(), closed_.end(),
+                                 [this](const auto& closed) { return closed.first == stage_; });
+  if (same != closed_.end())
+    same->second += seconds;
+  else
+    closed_.emplace_back(stage_, seconds);
   stage_.clear();
+}
+
+// Finished stages leave one line each with their duration, on a terminal and in a log alike.
+void TerminalProgress::print_closed() {
+  if (!quiet_) {
+    if (drawn_) print_error("\r\033[K");
+    for (const auto& [stage, seconds] : closed_)
+      print_error(fmt::format("{} ({:.1f} s)\n", stage, seconds));
+  }
+  closed_.clear();
   drawn_ = false;
 }
 

@@ -5,6 +5,8 @@
 #include <mutex>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "base/progress.h"
 
@@ -50,6 +52,7 @@ class TerminalProgress : public Progress {
  private:
   using Clock = std::chrono::steady_clock;
   void close_stage();
+  void print_closed();
   void draw(Clock::time_point now);
 
   std::mutex mutex_;
@@ -57,6 +60,8 @@ class TerminalProgress : public Progress {
   bool terminal_;
   bool drawn_ = false;  // a bar is on the current line
   std::string stage_;
+  std::vector<std::string> seen_;                       // stages that began so far
+  std::vector<std::pair<std::string, double>> closed_;  // without a line yet; seconds
   double total_ = 0.0;
   double done_ = 0.0;
   Clock::time_point begun_;

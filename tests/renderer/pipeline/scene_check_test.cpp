@@ -100,6 +100,11 @@ TEST_F(PaintedSceneCheck, AClassOfThePictureNeedsTexelsOrAFallback) {
   test::write_painting(folder_);
   const SceneReport whole = check_scene(test::painted_scene(folder_), silent_progress());
   EXPECT_THAT(whole.exemplars, SizeIs(1));
+  ASSERT_THAT(whole.exemplar_classes, SizeIs(1));
+  for (const auto& [id, share] : whole.classes) {  // the painting has all classes of the ground
+    if (id == LandCoverClass::sky) continue;
+    EXPECT_THAT(whole.exemplar_classes[0], testing::Contains(id));
+  }
   EXPECT_THAT(whole.inputs, SizeIs(2));
   // Water (1) and fields only: other classes of the hills must not be painted.
   test::write_painting(folder_, 2);

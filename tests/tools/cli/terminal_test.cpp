@@ -57,6 +57,19 @@ TEST(Terminal, InALogEveryStageIsALine) {
   EXPECT_THAT(said(false, [](TerminalProgress& progress) { progress.end(); }), IsEmpty());
 }
 
+// Tiles pass through the same stages: one line for each stage, not for each tile.
+TEST(Terminal, RepeatedStagesAreAddedUp) {
+  const std::string log = said(false, [](TerminalProgress& progress) {
+    for (int tile = 0; tile < 3; ++tile) {
+      progress.begin("tracing", 0.0);
+      progress.begin("light", 0.0);
+    }
+    progress.begin("writing", 0.0);
+  });
+  EXPECT_THAT(log, MatchesRegex("tracing \\([0-9.]+ s\\)\ntracing \\([0-9.]+ s\\)\nlight "
+                                "\\([0-9.]+ s\\)\nwriting \\([0-9.]+ s\\)\n"));
+}
+
 TEST(Terminal, OnATerminalABarIsDrawnOver) {
   const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
   if (terminal < 0 || grantpt(terminal) != 0 || unlockpt(terminal) != 0)
