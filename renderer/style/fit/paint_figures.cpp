@@ -215,7 +215,9 @@ PaintFigures measure_paint(const StylePainting& painting) {
   out.form_deviation = deviation_where(middle_forms(painting), [&](int x, int y) {
     return drawn(x, y) != far_air_label && counts(drawn(x, y));
   });
-  const auto [lightness, mask] = figure_picture(painting);
+  const FigurePicture figure = figure_picture(painting);
+  const Grid<float>& lightness = figure.lightness;
+  const Grid<std::uint8_t>& mask = figure.mask;
   const auto ground = [&](int x, int y) { return counts(mask(x, y)); };
   const Grid<float> stroke = gaussian_blur(lightness, stroke_px);
   const Grid<float> form = gaussian_blur(lightness, form_px);
