@@ -210,12 +210,13 @@ Grid<glm::vec2> make_stroke_direction(const Style& style, const GuidanceBuffers&
                                       const StylePaintParameters& parameters,
                                       glm::ivec2 origin_px) {
   const double ppu = parameters.pixels_per_unit;
-  const auto [form_cos, form_sin] = form_direction(lab, ppu, origin_px);
+  // Cosines and sines of doubled angles.
+  const std::array<Grid<float>, 2> forms = form_direction(lab, ppu, origin_px);
   std::array<ClassDirection, land_cover_class_count> mixes;
   for (const LandCoverClassInfo& row : land_cover_classes())
     mixes[static_cast<std::size_t>(row.id)] = direction_of(brushwork_of(style, row.id), row.id);
   const StyleBrushwork& sky_brushwork = brushwork_of(style, sky);
-  const auto [sky_cos, sky_sin] =
+  const std::array<Grid<float>, 2> skies =
       has_swirls(sky_brushwork) ? swirl_direction(style, guidance, parameters, origin_px)
                                 : level_direction(sky_brushwork, guidance, parameters, origin_px);
   // Strokes follow the forms of heaped clouds.
@@ -227,15 +228,15 @@ Grid<glm::vec2> make_stroke_direction(const Style& style, const GuidanceBuffers&
   parallel_ranges(lab.height(), 16, [&](int begin, int end) {
     for (std::size_t i = lab.index(0, begin); i < lab.index(0, end); ++i) {
       if (guidance.is_sky(i)) {
-        cosine[i] = sky_cos[i] + heaps * form_cos[i];
-        sine[i] = sky_sin[i] + heaps * form_sin[i];
+        cosine[i] = skies[0][i] + heaps * forms[0][i];
+        sine[i] = skies[1][i] + heaps * forms[1][i];
         continue;
       }
       const ClassDirection& of = mixes[static_cast<std::size_t>(guidance.land_cover[i])];
       const glm::vec2 fall = guidance.fall_line[i];
       const float c =
-          of.level + of.form * form_cos[i] + of.fall * (square(fall.x) - square(fall.y));
-      const float s = of.form * form_sin[i] + of.fall * 2.0F * fall.x * fall.y;
+          of.level + of.form * forms[0][i] + of.fall * (square(fall.x) - square(fall.y));
+      const float s = of.form * forms[1][i] + of.fall * 2.0F * fall.x * fall.y;
       const float rest = 1.0F - of.upright * (2.0F / 3.0F);
       cosine[i] = rest * c - of.upright;
       sine[i] = rest * s;

@@ -137,7 +137,8 @@ void paint_style_sky(Grid<glm::vec3>& lab, const Style& style, const GuidanceBuf
   if (sky.medians.empty() || parameters.sky_rows <= 0 || parameters.sky <= 0.0) return;
   const auto rows = rows_of_sky(guidance);
   if (!rows) return;
-  const auto [first, end] = *rows;
+  const int first = rows->first;
+  const int end = rows->second;
   const SkyWindow window{{origin_px.x, origin_px.y + first}, lab.width(), end - first};
   const std::array<Grid<float>, 3> medians = spline_of(sky.medians);
   const double level = style.brushwork[static_cast<std::size_t>(LandCoverClass::sky)].level;
