@@ -44,6 +44,12 @@ TEST(RockView, SizesChangeByCellsNotByPixels) {
   EXPECT_EQ(band(895, 30), 3);
   int changes = 0;
   for (int x = 1; x < 900; ++x) changes += band(x, 30) != band(x - 1, 30) ? 1 : 0;
+  for (const BandCell& cell :
+       view.bands.cells) {  // each has the distance of the ground at its seed
+    const glm::vec2 at = cell.position;
+    if (at.x < 0.0F || at.x >= 900.0F || at.y < 0.0F || at.y >= 60.0F) continue;
+    ASSERT_NEAR(cell.depth_m, 40000.0F + 30.0F * at.x, 31.0F);
+  }
   EXPECT_GE(changes, 3);
   EXPECT_LE(changes, 9);
 }
