@@ -44,14 +44,6 @@ constexpr float snow_hollow = 0.055F;  // how much darker the hollows of swells 
 constexpr float cornice_units = 5.0F;  // height of the overhanging edge drawn below a crest
 constexpr float lip_units = 1.3F;      // of that, the lit lip; the rest is its shade
 
-// White ground: snow and ice, and in winter all open ground.
-bool is_white(LandCoverClass id, bool winter) {
-  using enum LandCoverClass;
-  if (has_trait(id, ClassTrait::icy)) return true;
-  return winter &&
-         (id == valley_floor || id == pasture || id == alpine_grass || id == scree || id == sand);
-}
-
 // Share of the ribs that a slope shows: none on flat ground, all where it is steep.
 float steepness(float slope_deg) { return std::clamp((slope_deg - 18.0F) / 20.0F, 0.0F, 1.0F); }
 
@@ -245,6 +237,13 @@ Grid<float> woods_around(const WideView& wide, double pixels_per_unit, PixelRect
 }
 
 }  // namespace
+
+bool is_white(LandCoverClass id, bool winter) {
+  using enum LandCoverClass;
+  if (has_trait(id, ClassTrait::icy)) return true;
+  return winter &&
+         (id == valley_floor || id == pasture || id == alpine_grass || id == scree || id == sand);
+}
 
 glm::vec3 times_light(const glm::vec3& colour, float light) {
   glm::vec3 out;

@@ -58,6 +58,9 @@ struct ToneParameters {
 // The sunlight on the ground at a position.
 GroundLight ground_light(const ToneParameters& parameters, glm::dvec2 position_m);
 
+// White ground: snow and ice, and in winter all open ground.
+bool is_white(LandCoverClass id, bool winter);
+
 // Tone of every terrain pixel; that of rock comes from its relief (rock_tone) where there is one.
 // Range 0…1.02 (above 1 colours stay those of full light, strokes change); sky 0. Reads depth,
 // position, the three normals, altitude, land cover, shadow, sky view, slope, fall line and relief,

@@ -11,7 +11,7 @@
 #include "renderer/paint/picture_filter.h"
 #include "renderer/paint/picture_noise.h"
 #include "renderer/style/fit/missing_classes.h"
-#include "renderer/style/style_heaps.h"
+#include "renderer/style/style_cumulus.h"
 
 namespace belvedere {
 namespace {
@@ -219,17 +219,17 @@ Grid<glm::vec2> make_stroke_direction(const Style& style, const GuidanceBuffers&
   const std::array<Grid<float>, 2> skies =
       has_swirls(sky_brushwork) ? swirl_direction(style, guidance, parameters, origin_px)
                                 : level_direction(sky_brushwork, guidance, parameters, origin_px);
-  // Strokes follow the forms of heaped clouds.
-  const auto heaps =
-      static_cast<float>(heaped_share(style.sky) * form_share * std::max(sky_brushwork.form, 0.0));
+  // Strokes follow the forms of cumulus clouds.
+  const auto cumulus =
+      static_cast<float>(cumulus_share(style.sky) * form_share * std::max(sky_brushwork.form, 0.0));
 
   Grid<float> cosine(lab.width(), lab.height());
   Grid<float> sine(lab.width(), lab.height());
   parallel_ranges(lab.height(), 16, [&](int begin, int end) {
     for (std::size_t i = lab.index(0, begin); i < lab.index(0, end); ++i) {
       if (guidance.is_sky(i)) {
-        cosine[i] = skies[0][i] + heaps * forms[0][i];
-        sine[i] = skies[1][i] + heaps * forms[1][i];
+        cosine[i] = skies[0][i] + cumulus * forms[0][i];
+        sine[i] = skies[1][i] + cumulus * forms[1][i];
         continue;
       }
       const ClassDirection& of = mixes[static_cast<std::size_t>(guidance.land_cover[i])];

@@ -52,10 +52,10 @@ struct StyleSky {
   std::vector<StyleSkyChange> changes;  // at most 2
   double aspect = 3.0;                  // width of the painting's sky over its height, 0.1…20
   // How much steeper the first change is on the upper side of light than below, -1…1: skewness of
-  // its vertical gradient in the sky's upper half. Heaped clouds have about 0.35, calm skies
+  // its vertical gradient in the sky's upper half. Cumulus clouds have about 0.35, calm skies
   // -0.05…0.12.
   double upper_edges = 0.0;
-  glm::vec3 clear{0.0F};     // clear sky between heaps, minus the medians, OKLab …
+  glm::vec3 clear{0.0F};     // clear sky between the clouds, minus the medians, OKLab …
   double clear_share = 0.0;  // … and its share of the sky's upper half, 0…1
 };
 

@@ -12,7 +12,7 @@
 #include "base/parallel.h"
 #include "base/random_streams.h"
 #include "renderer/paint/picture_noise.h"
-#include "renderer/style/style_heaps.h"
+#include "renderer/style/style_cumulus.h"
 
 namespace belvedere {
 namespace {
@@ -28,7 +28,7 @@ constexpr double streak_sigma = 1.4;
 constexpr double streak_size = 1.0 / 90.0;
 constexpr double streak_share = 0.3;
 constexpr double max_streak_variance = 0.8;
-constexpr int first_streak = 16;  // numbers of random streams: octaves, heaps from 8, streaks
+constexpr int first_streak = 16;  // numbers of random streams: octaves, cumulus from 8, streaks
 // Min ratio of a cloud's width to its height; level strokes of the painting add up to
 // level_flatness.
 constexpr double min_flatness = 1.5;
@@ -147,14 +147,14 @@ void paint_style_sky(Grid<glm::vec3>& lab, const Style& style, const GuidanceBuf
   for (std::size_t i = 0; i < sky.changes.size(); ++i)
     noises.push_back(
         change_noise(sky.changes[i], static_cast<int>(i), flatness, window, parameters));
-  const StyleHeaps heaps(sky, window, parameters);
+  const StyleCumulus cumulus(sky, window, parameters);
   const double down = sky.medians.height() / (covered_rows * parameters.sky_rows);
   const double across = sky.medians.width() / static_cast<double>(parameters.sheet_px.x);
   const float share = static_cast<float>(parameters.sky);
   parallel_ranges(window.height, 8, [&](int begin, int last) {
     for (int row = begin; row != last; ++row) {
       const double v = (window.origin_px.y + row + 0.5) * down - 0.5;
-      const float heaped = heaps.share(row);
+      const float in_row = cumulus.share(row);
       for (int x = 0; x < window.width; ++x) {
         const std::size_t i = lab.index(x, first + row);
         if (!guidance.is_sky(i)) continue;
@@ -164,12 +164,12 @@ void paint_style_sky(Grid<glm::vec3>& lab, const Style& style, const GuidanceBuf
         glm::vec3 change(0.0F);
         for (std::size_t k = 0; k < noises.size(); ++k) {
           double deviate = noises[k](x, row);
-          if (k == 0 && heaped > 0.0F) deviate += heaped * (heaps.deviate(x, row) - deviate);
+          if (k == 0 && in_row > 0.0F) deviate += in_row * (cumulus.deviate(x, row) - deviate);
           change +=
               sky.changes[k].axis * static_cast<float>(shaped_amount(sky.changes[k], deviate));
         }
-        if (heaped > 0.0F)
-          change = glm::mix(change, sky.clear, heaped * (1.0F - heaps.cover(x, row)));
+        if (in_row > 0.0F)
+          change = glm::mix(change, sky.clear, in_row * (1.0F - cumulus.cover(x, row)));
         lab[i] = glm::mix(lab[i], colour + change, share);
       }
     }

@@ -1,6 +1,7 @@
 #include "renderer/style/winter_style.h"
 
 #include "renderer/image/oklab.h"
+#include "renderer/paint/light.h"
 #include "renderer/style/fit/style_colours.h"
 #include "renderer/style/stroke_direction.h"
 
@@ -11,11 +12,6 @@ using enum LandCoverClass;
 
 constexpr double snow_difference = 0.8;  // share of the palette's difference between white classes
 constexpr double forest_hue = 0.4;       // share of its change of hue of forest from summer
-
-bool under_snow(LandCoverClass id) {
-  return id == pasture || id == alpine_grass || id == valley_floor || id == scree || id == sand ||
-         id == shrub;
-}
 
 }  // namespace
 
@@ -28,7 +24,8 @@ Style winter_style(Style style) {
   const std::size_t s = index_of(snow);
   for (const LandCoverClassInfo& info : land_cover_classes()) {
     const std::size_t c = index_of(info.id);
-    if (!under_snow(info.id) && info.id != forest) continue;
+    const bool white = is_white(info.id, true) && !is_white(info.id, false);
+    if (!white && info.id != forest && info.id != shrub) continue;
     LabRamp ramp = own[c];
     for (std::size_t k = 0; k < ramp.size(); ++k)
       if (info.id == forest) {
@@ -38,7 +35,7 @@ Style winter_style(Style style) {
         ramp[k] = own[s][k] + snow_difference * (in_winter[c][k] - in_winter[s][k]);
       }
     style.palette.classes[c].stops = {{0.0, encoded_ramp(ramp)}};
-    if (info.id == forest || info.id == shrub) continue;
+    if (!white) continue;
     const double level = style.brushwork[c].level;
     style.brushwork[c] = on_snow;
     if (style.brushwork[c].length_px > 0.0) style.brushwork[c].level = level;

@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <utility>
 
 #include "base/filter.h"
+#include "base/masks/label_patches.h"
 
 namespace belvedere {
 namespace {
@@ -16,50 +16,7 @@ constexpr int max_rings = 3;  // by which a kept patch may grow
 
 using Cells = Grid<LandCoverClass>;
 
-struct Patches {
-  Grid<std::uint32_t> of_cell;
-  std::vector<std::size_t> sizes;  // cells
-  std::vector<LandCoverClass> classes;
-};
-
-// Patches of one class, connected by sides, those of kept classes also by corners. Numbered in the
-// order of their first cells.
-Patches find_patches(const Cells& cells, const std::array<bool, land_cover_class_count>& kept) {
-  std::vector<std::uint32_t> parent(cells.size());
-  std::iota(parent.begin(), parent.end(), 0U);
-  const auto root = [&](std::uint32_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
-  const auto join = [&](std::size_t a, std::size_t b) {
-    if (cells[a] != cells[b]) return;
-    const std::uint32_t ra = root(static_cast<std::uint32_t>(a));
-    const std::uint32_t rb = root(static_cast<std::uint32_t>(b));
-    parent[std::max(ra, rb)] = std::min(ra, rb);
-  };
-  for (int y = 0; y < cells.height(); ++y)
-    for (int x = 0; x < cells.width(); ++x) {
-      const std::size_t i = cells.index(x, y);
-      if (x > 0) join(i, cells.index(x - 1, y));
-      if (y > 0) join(i, cells.index(x, y - 1));
-      if (y == 0 || !kept[static_cast<std::size_t>(cells[i])]) continue;
-      if (x > 0) join(i, cells.index(x - 1, y - 1));
-      if (x + 1 < cells.width()) join(i, cells.index(x + 1, y - 1));
-    }
-  Patches patches{Grid<std::uint32_t>(cells.width(), cells.height()), {}, {}};
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const std::uint32_t first = root(static_cast<std::uint32_t>(i));
-    if (first == i) {
-      patches.of_cell[i] = static_cast<std::uint32_t>(patches.sizes.size());
-      patches.sizes.push_back(0);
-      patches.classes.push_back(cells[i]);
-    } else {
-      patches.of_cell[i] = patches.of_cell[first];
-    }
-    ++patches.sizes[patches.of_cell[i]];
-  }
-  return patches;
-}
+using Patches = LabelPatches<LandCoverClass>;
 
 // Ring after ring around each small patch of a kept class.
 void grow(Cells& cells, const Patches& patches,
@@ -67,7 +24,7 @@ void grow(Cells& cells, const Patches& patches,
   std::vector<std::vector<std::size_t>> small(patches.sizes.size());
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const std::uint32_t p = patches.of_cell[i];
-    if (kept[static_cast<std::size_t>(patches.classes[p])] &&
+    if (kept[static_cast<std::size_t>(patches.labels[p])] &&
         static_cast<double>(patches.sizes[p]) < min_cells)
       small[p].push_back(i);
   }
@@ -84,7 +41,7 @@ void grow(Cells& cells, const Patches& patches,
           if (static_cast<double>(count) >= min_cells || !cells.contains(u, v) ||
               kept[static_cast<std::size_t>(cells(u, v))])
             continue;
-          cells(u, v) = patches.classes[p];
+          cells(u, v) = patches.labels[p];
           next.push_back(cells.index(u, v));
           ++count;
         }
@@ -98,7 +55,7 @@ void count_areas(const Cells& cells, const Patches& patches, double cell_m2,
                  std::array<ClassArea, land_cover_class_count>& areas, double ClassArea::*area,
                  int ClassArea::*count) {
   for (const LandCoverClass id : cells) areas[static_cast<std::size_t>(id)].*area += cell_m2;
-  for (const LandCoverClass id : patches.classes) ++(areas[static_cast<std::size_t>(id)].*count);
+  for (const LandCoverClass id : patches.labels) ++(areas[static_cast<std::size_t>(id)].*count);
 }
 
 }  // namespace
@@ -114,7 +71,8 @@ PatchResult remove_small_patches(LandCover cover, const PatchParameters& paramet
   for (const LandCoverClass id : parameters.keep) kept[static_cast<std::size_t>(id)] = true;
 
   std::array<ClassArea, land_cover_class_count> areas{};
-  const Patches before = find_patches(cells, kept);
+  const auto is_kept = [&](LandCoverClass id) { return kept[static_cast<std::size_t>(id)]; };
+  const Patches before = find_patches(cells, is_kept);
   count_areas(cells, before, cell_m2, areas, &ClassArea::before_m2, &ClassArea::patches_before);
 
   // Cells that keep their own class may also spread; kept classes stay but do not spread into
@@ -132,7 +90,7 @@ PatchResult remove_small_patches(LandCover cover, const PatchParameters& paramet
     if (goes[i] != 0 && nearest[i] >= 0) cells[i] = old[static_cast<std::size_t>(nearest[i])];
   grow(cells, before, kept, min_cells);
 
-  count_areas(cells, find_patches(cells, kept), cell_m2, areas, &ClassArea::after_m2,
+  count_areas(cells, find_patches(cells, is_kept), cell_m2, areas, &ClassArea::after_m2,
               &ClassArea::patches_after);
   for (std::size_t id = 0; id < areas.size(); ++id) {
     areas[id].id = static_cast<LandCoverClass>(id);

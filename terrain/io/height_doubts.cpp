@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/statistics.h"
 #include "terrain/io/crs.h"
 #include "terrain/io/height_encoding.h"
 #include "terrain/io/http_access.h"
@@ -42,20 +43,18 @@ double cell_on_ground_m(const RasterFile& file) {
 }
 
 // A coast rises by less than 45° over its first cell, except where it is a cliff.
-double farthest_coast_m(const RasterFile& file) {
+double max_coast_step_m(const RasterFile& file) {
   return std::clamp(cell_on_ground_m(file), 20.0, 300.0);
 }
 
 // Steeper than 79° on all sides, and higher than nearly every tower.
-double farthest_spike_m(const RasterFile& file) {
-  return std::max(5.0 * cell_on_ground_m(file), 150.0);
-}
+double min_spike_m(const RasterFile& file) { return std::max(5.0 * cell_on_ground_m(file), 150.0); }
 
 // The median of |altitude| of the cells beside one of exactly 0, m; 0 if there are few. Of all rows
 // of a small file, else of some pairs of rows.
 double step_beside_zero(const RasterFile& file) {
   constexpr int all_rows = 2048, pairs = 24;
-  constexpr std::size_t fewest = 8;
+  constexpr std::size_t min_steps = 8;
   const bool all = file.height() <= all_rows;
   if (!all && is_address(file.source().path)) return 0.0;  // too much to fetch
   const int step = all ? 1 : file.height() / pairs;
@@ -71,25 +70,21 @@ double step_beside_zero(const RasterFile& file) {
       if (x > 0) add(rows(x - 1, 0), rows(x, 0));
     }
   }
-  if (beside.size() < fewest) return 0.0;
-  const auto middle = beside.begin() + static_cast<std::ptrdiff_t>(beside.size() / 2);
-  std::nth_element(beside.begin(), middle, beside.end());
-  return static_cast<double>(*middle);
+  return beside.size() < min_steps ? 0.0 : static_cast<double>(middle_value(std::move(beside)));
 }
 
 }  // namespace
 
 std::vector<RasterSource> check_height_sources(const std::vector<RasterSource>& sources,
                                                Progress& progress) {
-  std::vector<RasterSource> judged = sources;
-  for (RasterSource& source : judged) {
+  std::vector<RasterSource> checked = sources;
+  for (RasterSource& source : checked) {
     const RasterFile file(source);
     refuse_colours(file);
     if (file.meaning().bytes)
       progress.note(
           fmt::format("{}: has 8 bits, so heights are limited to 0…255; check that it is not a "
-                      "shaded relief or "
-                      "another picture",
+                      "shaded relief or another picture",
                       source.path));
     if (const double feet = file.undeclared_foot_m(); feet > 0.0)
       progress.note(fmt::format(
@@ -98,16 +93,16 @@ std::vector<RasterSource> check_height_sources(const std::vector<RasterSource>& 
           source.path, feet == 0.3048 ? "ft" : "us-ft"));
     if (const std::string doubt = doubt_of_position(file); !doubt.empty()) progress.note(doubt);
     if (const double step_m = source.nodata ? 0.0 : step_beside_zero(file);
-        step_m > farthest_coast_m(file)) {
+        step_m > max_coast_step_m(file)) {
       progress.note(fmt::format(
           "{}: cells of 0 are taken as void, because the ground beside them is {:.0f} m "
           "away from 0; if they are sea, set `nodata` to a value that the file lacks",
           source.path, step_m));
       source.nodata = 0.0;
     }
-    if (source.max_spike_m == 0.0) source.max_spike_m = farthest_spike_m(file);
+    if (source.max_spike_m == 0.0) source.max_spike_m = min_spike_m(file);
   }
-  return judged;
+  return checked;
 }
 
 void note_dropped_cells(const RasterFile& file, Progress& progress) {

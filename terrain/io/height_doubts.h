@@ -20,8 +20,8 @@ constexpr float highest_ground_m = 9000.F;
 // relief, a rendered map, a palette. Notes on files of 8 bits, on heights without a unit
 // under a coordinate system in feet, and on files whose centre lies far outside the area of use of
 // their coordinate system (doubt_of_place). Returns the sources as their cells are to be read:
-// - 0 is void where it lies outside an outline: the ground beside it begins at other altitudes, by
-//   the median of its steps farther than a coast does. Noted.
+// - 0 is void where it marks cells outside an outline: the median step to the ground beside it is
+//   larger than at a coast. Noted.
 // - Spikes of single cells are void: RasterSource::max_spike_m.
 std::vector<RasterSource> check_height_sources(const std::vector<RasterSource>& sources,
                                                Progress& progress);

@@ -70,38 +70,6 @@ FigurePicture figure_picture(const StylePainting& painting) {
   return {std::move(lightness), std::move(mask)};
 }
 
-// Standard deviation of log2 of the fine contrast of windows: how unevenly paint is worked out.
-template <class F>
-double measure_unevenness(const Grid<float>& lightness, F ground) {
-  const Grid<float> fine = difference(lightness, gaussian_blur(lightness, fine_paint_px));
-  std::vector<double> contrasts;
-  for (int v = 0; v + window_px <= fine.height(); v += window_px)
-    for (int u = 0; u + window_px <= fine.width(); u += window_px) {
-      double count = 0.0;
-      double sum = 0.0;
-      double squares = 0.0;
-      for (int y = v; y < v + window_px; ++y)
-        for (int x = u; x < u + window_px; ++x) {
-          if (!ground(x, y)) continue;
-          const double value = static_cast<double>(fine(x, y));
-          count += 1.0;
-          sum += value;
-          squares += value * value;
-        }
-      if (count < 0.8 * window_px * window_px) continue;
-      const double mean = sum / count;
-      contrasts.push_back(exact::log2(std::sqrt(std::max(0.0, squares / count - mean * mean)) +
-                                      min_window_contrast));
-    }
-  if (contrasts.size() < 4) return 0.0;
-  double mean = 0.0;
-  for (const double c : contrasts) mean += c / static_cast<double>(contrasts.size());
-  double variance = 0.0;
-  for (const double c : contrasts)
-    variance += (c - mean) * (c - mean) / static_cast<double>(contrasts.size());
-  return std::sqrt(variance);
-}
-
 // Strength of dark lines along borders: across the steepest gradients, how much darker the darkest
 // paint is than both sides, minus how much lighter the lightest is.
 template <class F>
@@ -204,6 +172,36 @@ Grid<float> middle_forms(const StylePainting& painting) {
   return difference(gaussian_blur(lightness, 2.0), gaussian_blur(lightness, 12.0));
 }
 
+double measure_unevenness(const Grid<float>& lightness, const Grid<std::uint8_t>& ground) {
+  const Grid<float> fine = difference(lightness, gaussian_blur(lightness, fine_paint_px));
+  std::vector<double> contrasts;
+  for (int v = 0; v + window_px <= fine.height(); v += window_px)
+    for (int u = 0; u + window_px <= fine.width(); u += window_px) {
+      double count = 0.0;
+      double sum = 0.0;
+      double squares = 0.0;
+      for (int y = v; y < v + window_px; ++y)
+        for (int x = u; x < u + window_px; ++x) {
+          if (ground(x, y) == 0) continue;
+          const double value = static_cast<double>(fine(x, y));
+          count += 1.0;
+          sum += value;
+          squares += value * value;
+        }
+      if (count < 0.8 * window_px * window_px) continue;
+      const double mean = sum / count;
+      contrasts.push_back(exact::log2(std::sqrt(std::max(0.0, squares / count - mean * mean)) +
+                                      min_window_contrast));
+    }
+  if (contrasts.size() < 4) return 0.0;
+  double mean = 0.0;
+  for (const double c : contrasts) mean += c / static_cast<double>(contrasts.size());
+  double variance = 0.0;
+  for (const double c : contrasts)
+    variance += (c - mean) * (c - mean) / static_cast<double>(contrasts.size());
+  return std::sqrt(variance);
+}
+
 PaintFigures measure_paint(const StylePainting& painting) {
   PaintFigures out;
   const Grid<std::uint8_t>& drawn = painting.drawn;
@@ -225,7 +223,9 @@ PaintFigures measure_paint(const StylePainting& painting) {
   out.broken = std::min(2.0, deviation_where(difference(lightness, stroke), ground) / large);
   out.vapour = std::clamp((0.35 - deviation_where(difference(stroke, form), ground) / large) / 0.25,
                           0.0, 1.0);
-  out.unevenness = measure_unevenness(lightness, ground);
+  Grid<std::uint8_t> is_ground(mask.width(), mask.height());
+  for (std::size_t i = 0; i < mask.size(); ++i) is_ground[i] = counts(mask[i]) ? 1 : 0;
+  out.unevenness = measure_unevenness(lightness, is_ground);
   out.contour_lines = measure_contour_lines(lightness, ground);
   out.trend = fit_trend(painting);
   return out;

@@ -19,6 +19,11 @@ struct PaintFigures {
 };
 PaintFigures measure_paint(const StylePainting& painting);
 
+// Standard deviation, over windows of 32 × 32 pixels, of log2 of the contrast in them (of
+// structures finer than 4 px; contrast counts from one in a thousand): how unevenly paint is worked
+// out. Of windows with at least 80 % ground (not 0); 0 if these are fewer than four.
+double measure_unevenness(const Grid<float>& lightness, const Grid<std::uint8_t>& ground);
+
 // Medium-scale forms: lightness between sigma 2 and 12 px.
 Grid<float> middle_forms(const StylePainting& painting);
 

@@ -167,10 +167,10 @@ Dataset open_checked(const std::string& path, int nesting) {
   if (const std::string archive = archive_kind(path); !archive.empty())
     throw Error(ErrorKind::input, path, "is " + archive, unpack_advice);
   if (lower_extension(path) == ".hgt")
-    throw Error(ErrorKind::input, path,
-                errors.say("an .hgt file says its position by its name alone, and this is no such "
-                           "name, or the file is not whole"),
-                "the name of the tile's south-west corner, such as N47E011.hgt");
+    throw Error(
+        ErrorKind::input, path,
+        errors.say("its name does not give the position of the tile, or the file is truncated"),
+        "the name of the tile's south-west corner, such as N47E011.hgt");
   // Identification reads only the first bytes and opens nothing else.
   GDALDriverH looks_like = nullptr;
   {
@@ -184,8 +184,8 @@ Dataset open_checked(const std::string& path, int nesting) {
                 advice_to_convert(path, format));
   }
   if (format == "XYZ")
-    throw Error(ErrorKind::input, path, errors.say("is no grid of x, y, z"),
-                fmt::format("points of a whole grid, row by row; scattered points become one by "
+    throw Error(ErrorKind::input, path, errors.say("is not a regular grid of x, y, z"),
+                fmt::format("all points of a grid, row by row; scattered points are gridded by "
                             "`gdal_grid -zfield z -oo X_POSSIBLE_NAMES=x -oo Y_POSSIBLE_NAMES=y "
                             "{} heights.tif`, with a first line x,y,z",
                             fs::path(path).filename().string()));
@@ -243,7 +243,7 @@ Dataset open_raster(const RasterSource& source) {
   }
   for (const Part& part : parts)
     if (part.name == source.variable) return open_part(part, source.path);
-  // A netCDF file of one variable is opened as it; only the band has its name.
+  // A netCDF file with one variable is opened as that variable; only the band has its name.
   GDALRasterBandH band = GDALGetRasterBand(file.get(), 1);
   const char* own = GDALGetMetadataItem(band, "NETCDF_VARNAME", nullptr);
   if (own != nullptr && own == source.variable) return file;

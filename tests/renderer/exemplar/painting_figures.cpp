@@ -14,6 +14,7 @@
 #include "base/parallel.h"
 #include "renderer/image/oklab.h"
 #include "renderer/image/srgb.h"
+#include "renderer/style/fit/paint_figures.h"
 
 namespace belvedere {
 namespace {
@@ -27,7 +28,6 @@ constexpr int lags_per_px = 2;     // positions per pixel at which the correlati
 constexpr int sample_step = 3;     // px between the sampled positions
 constexpr int max_walk = 64;       // px, in one direction
 constexpr double turned = 0.8660;  // cosine of 30°
-constexpr int window = 32;
 constexpr double flat_deviation = 0.006;
 
 struct Moments {
@@ -239,28 +239,6 @@ void measure_strokes(const Grid<float>& lightness, const Direction& direction,
   out.direction_run_px = all.walked / all.walks;
 }
 
-double measure_unevenness(const Grid<float>& lightness) {
-  Grid<float> fine = gaussian_blur(lightness, 4.0);
-  for (std::size_t i = 0; i < fine.size(); ++i) fine[i] = lightness[i] - fine[i];
-  Grid<float> contrasts(lightness.width() / window, lightness.height() / window);
-  parallel_rows(contrasts.height(), [&](int j) {
-    for (int i = 0; i < contrasts.width(); ++i) {
-      double sum = 0.0;
-      double squares = 0.0;
-      for (int y = j * window; y < (j + 1) * window; ++y)
-        for (int x = i * window; x < (i + 1) * window; ++x) {
-          const auto v = static_cast<double>(fine(x, y));
-          sum += v;
-          squares += v * v;
-        }
-      constexpr double n = window * window;
-      contrasts(i, j) = static_cast<float>(
-          exact::log2(std::sqrt(std::max(0.0, squares / n - sum * sum / (n * n))) + 0.001));
-    }
-  });
-  return moments_of(contrasts).spread;
-}
-
 double measure_flat_share(const Grid<float>& lightness) {
   const int inner_width = lightness.width() - 4;
   std::vector<int> flat(static_cast<std::size_t>(lightness.height() - 4), 0);
@@ -318,7 +296,8 @@ PaintingFigures measure_painting(const Grid<glm::vec3>& picture) {
                                       }) /
                     energy;
   measure_strokes(lightness, direction, out);
-  out.unevenness = measure_unevenness(lightness);
+  out.unevenness =
+      measure_unevenness(lightness, Grid<std::uint8_t>(lightness.width(), lightness.height(), 1));
   out.flat_share = measure_flat_share(lightness);
   return out;
 }

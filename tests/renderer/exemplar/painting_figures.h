@@ -44,9 +44,7 @@ struct PaintingFigures {
   // one direction.
   double coherence = 0.0;
 
-  // Standard deviation, over windows of 32 × 32 pixels, of log2 of the contrast in them (of
-  // structures finer than 4 px): computed pictures are too uniform. Contrast counts from one in a
-  // thousand.
+  // measure_unevenness of the whole picture: computed pictures are too uniform.
   double unevenness = 0.0;
   double flat_share = 0.0;  // of pixels around which (5 × 5) lightness deviates by less than .006
 };

@@ -45,8 +45,8 @@ TEST(PaintStyle, AnyRectangleEqualsTheWhole) {
         << "at " << rect.x0 << " " << rect.y0;
 }
 
-// Swirls are in the test above; heaped clouds, whose forms turn the strokes, here.
-TEST(PaintStyle, AnyRectangleOfHeapedCloudsEqualsTheWhole) {
+// Swirls are in the test above; cumulus clouds, whose forms turn the strokes, here.
+TEST(PaintStyle, AnyRectangleOfCumulusCloudsEqualsTheWhole) {
   const test::StyledSheet sheet = test::make_styled_sheet();
   Style style = test::make_style();
   style.brushwork[static_cast<std::size_t>(LandCoverClass::sky)].level = 0.8;

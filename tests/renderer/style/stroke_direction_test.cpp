@@ -124,7 +124,7 @@ TEST(StrokeDirection, SwirlsHaveTheSizesOfThePaintingInASteadyFlow) {
   EXPECT_LT(small.near, large.near - 0.03);
 }
 
-TEST(StrokeDirection, StrokesFollowTheFormsOfHeapedClouds) {
+TEST(StrokeDirection, StrokesFollowTheFormsOfCumulusClouds) {
   Slope sky = make_slope(LandCoverClass::sky, glm::vec2(0.0F));
   for (int y = 0; y < 80; ++y)
     for (int x = 0; x < 80; ++x)

@@ -106,7 +106,7 @@ TEST(StyleSky, StreaksHaveTheirDeviations) {
     EXPECT_NEAR(band_deviation(streaky.lab, scale * sigma), 0.2 * 0.04, 0.2 * 0.04 * 0.35) << scale;
 }
 
-TEST(StyleSky, HeapsLeaveTheClearSkyBetweenThem) {
+TEST(StyleSky, CumulusLeaveTheClearSkyBetweenThem) {
   Style style = test::make_style();
   style.sky.changes[0].axis = glm::vec3(0.001F, 0.0F, 0.0F);
   style.sky.upper_edges = 0.35;
@@ -115,7 +115,7 @@ TEST(StyleSky, HeapsLeaveTheClearSkyBetweenThem) {
   WideSky sky;
   paint_style_sky(sky.lab, style, sky.guidance, sky.parameters, {0, 0});
   int clear = 0;
-  for (int y = 0; y < 150; ++y)  // the upper half, where all clouds are heaps
+  for (int y = 0; y < 150; ++y)  // the upper half, where all clouds are cumulus
     for (int x = 0; x < 600; ++x) clear += sky.lab(x, y).x < 0.70F ? 1 : 0;
   EXPECT_NEAR(clear / (600.0 * 150.0), 0.25, 0.12);
   EXPECT_GT(sky.lab(300, 299).x, 0.74F);  // none at the horizon

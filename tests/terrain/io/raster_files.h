@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
@@ -9,7 +10,9 @@
 #include <sstream>
 #include <string>
 
+#include "terrain/io/crs.h"
 #include "terrain/io/raster.h"
+#include "terrain/io/raster_source.h"
 #include "tests/files.h"
 
 namespace belvedere {
@@ -17,6 +20,27 @@ namespace belvedere {
 // Rasters in a folder of the test's own.
 class RasterFiles : public testing::Test {
  protected:
+  static RasterSource source_of(const std::string& path, const std::string& crs = {}) {
+    RasterSource source;
+    source.path = path;
+    source.crs = crs;
+    return source;
+  }
+  // Hills of a few hundred metres over a kilometre, in metres of any CRS.
+  static float hills(double x, double y) {
+    return static_cast<float>(1000.0 + 200.0 * std::sin(x / 300.0) * std::cos(y / 400.0) +
+                              0.01 * x);
+  }
+  static Raster<float> make_hills(int width, int height, GeoTransform transform,
+                                  const std::string& crs) {
+    Raster<float> raster{Grid<float>(width, height), transform, normalize_crs(crs)};
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        const glm::dvec2 p = transform.to_crs(x, y);
+        raster.cells(x, y) = hills(p.x, p.y);
+      }
+    return raster;
+  }
   void TearDown() override { unsetenv("BELVEDERE_MEMORY_MIB"); }
   std::string path(const std::string& name) const { return folder_ / name; }
   std::string write_text(const std::string& name, const std::string& text) const {

@@ -1,4 +1,4 @@
-#include "renderer/style/style_heaps.h"
+#include "renderer/style/style_cumulus.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,14 +12,14 @@
 namespace belvedere {
 namespace {
 
-// Skies whose upper_edges exceed those of calm skies have heaps, fully from heaped_edges on. They
+// Skies whose upper_edges exceed those of calm skies have cumulus, fully from cumulus_edges on. They
 // lie in the sky's upper part, where they are measured; towards the horizon clouds lie level.
 constexpr double calm_edges = 0.15;
-constexpr double heaped_edges = 0.30;
-constexpr double heaps_to_row = 0.5;  // shares of the sky's height
+constexpr double cumulus_edges = 0.30;
+constexpr double cumulus_to_row = 0.5;  // shares of the sky's height
 constexpr double level_from_row = 0.9;
-constexpr double max_heap_flatness = 4.0;
-// A heap is a body with round puffs, each octave half the size of the one before.
+constexpr double max_cumulus_flatness = 4.0;
+// A cumulus is a body with round puffs, each octave half the size of the one before.
 constexpr int body_octaves = 2;
 constexpr int puff_octaves = 4;
 constexpr float puff_share = 0.62F;
@@ -30,23 +30,23 @@ constexpr float upper_softness = 0.2F;
 constexpr float lower_softness = 0.9F;
 constexpr float max_rise = 1.2F;
 constexpr float thickness_light = 0.15F;
-constexpr int first_heap = 8;        // number of a random stream of Stream::style_sky
+constexpr int first_cumulus = 8;        // number of a random stream of Stream::style_sky
 constexpr int sample_columns = 640;  // of the small sky on which their distribution is measured
 
 // Thickness of clouds, and by how much it exceeds that at the height of a rim above.
-struct HeapFields {
+struct CumulusFields {
   Grid<float> thickness;
   Grid<float> rise;
 };
 
-HeapFields make_heaps(const SkyWindow& window, double ppu, double length_x, double length_y,
+CumulusFields make_cumulus(const SkyWindow& window, double ppu, double length_x, double length_y,
                       std::uint64_t seed) {
   const int rim_px = std::max(1, static_cast<int>(std::lround(rim_share * length_y * ppu)));
   const glm::ivec2 origin{window.origin_px.x, window.origin_px.y - rim_px};
   Grid<float> all(window.width, window.height + rim_px, 0.0F);
   const auto add = [&](int octave, double sigma_x, double sigma_y, const auto& change) {
     const Grid<float> noise = make_image_noise(
-        stream_seed(seed, Stream::style_sky, static_cast<std::uint64_t>(first_heap + octave)),
+        stream_seed(seed, Stream::style_sky, static_cast<std::uint64_t>(first_cumulus + octave)),
         origin, all.width(), all.height(), ppu, std::max(sigma_x, 0.4), std::max(sigma_y, 0.4));
     for (std::size_t i = 0; i < all.size(); ++i) all[i] += change(noise[i]);
   };
@@ -62,14 +62,14 @@ HeapFields make_heaps(const SkyWindow& window, double ppu, double length_x, doub
     add(body_octaves + octave, round, round,
         [&](float n) { return share * (std::abs(n) - puff_mean); });
   }
-  HeapFields heaps{Grid<float>(window.width, window.height),
+  CumulusFields cumulus{Grid<float>(window.width, window.height),
                    Grid<float>(window.width, window.height)};
   for (int y = 0; y < window.height; ++y)
     for (int x = 0; x < window.width; ++x) {
-      heaps.thickness(x, y) = all(x, y + rim_px);
-      heaps.rise(x, y) = std::clamp(all(x, y + rim_px) - all(x, y), -max_rise, max_rise);
+      cumulus.thickness(x, y) = all(x, y + rim_px);
+      cumulus.rise(x, y) = std::clamp(all(x, y + rim_px) - all(x, y), -max_rise, max_rise);
     }
-  return heaps;
+  return cumulus;
 }
 
 // Light on a cloud before it gets the painting's distribution.
@@ -77,14 +77,14 @@ float light_on(float thickness, float rise) { return rise + thickness_light * th
 
 }  // namespace
 
-double heaped_share(const StyleSky& sky) {
+double cumulus_share(const StyleSky& sky) {
   if (sky.changes.empty()) return 0.0;
-  return std::clamp((sky.upper_edges - calm_edges) / (heaped_edges - calm_edges), 0.0, 1.0);
+  return std::clamp((sky.upper_edges - calm_edges) / (cumulus_edges - calm_edges), 0.0, 1.0);
 }
 
-StyleHeaps::StyleHeaps(const StyleSky& sky, const SkyWindow& window,
+StyleCumulus::StyleCumulus(const StyleSky& sky, const SkyWindow& window,
                        const StylePaintParameters& parameters)
-    : window_(window), sky_rows_(parameters.sky_rows), share_(heaped_share(sky)) {
+    : window_(window), sky_rows_(parameters.sky_rows), share_(cumulus_share(sky)) {
   if (share_ <= 0.0) return;
   const StyleSkyChange& change = sky.changes.front();
   const double ppu = parameters.pixels_per_unit;
@@ -93,16 +93,16 @@ StyleHeaps::StyleHeaps(const StyleSky& sky, const SkyWindow& window,
       std::sqrt(change.length_x * parameters.sheet_px.x * change.length_y * parameters.sky_rows) /
       ppu;
   const double flatness =
-      std::sqrt(std::clamp(sky.aspect * change.length_x / change.length_y, 1.0, max_heap_flatness));
+      std::sqrt(std::clamp(sky.aspect * change.length_x / change.length_y, 1.0, max_cumulus_flatness));
   const auto make = [&](const SkyWindow& part, double scale) {
-    return make_heaps(part, scale * ppu, size * flatness, size / flatness, parameters.seed);
+    return make_cumulus(part, scale * ppu, size * flatness, size / flatness, parameters.seed);
   };
   // Distributions on the whole sheet, from a small picture of it.
   const double scale = std::min(1.0, static_cast<double>(sample_columns) / parameters.sheet_px.x);
   const auto scaled = [&](int px) {
     return std::max(1, static_cast<int>(std::lround(scale * px)));
   };
-  const HeapFields small =
+  const CumulusFields small =
       make({{0, 0}, scaled(parameters.sheet_px.x), scaled(parameters.sky_rows)}, scale);
   const std::vector<float> thickness(small.thickness.begin(), small.thickness.end());
   bare_ = value_at_share(thickness, sky.clear_share);
@@ -111,23 +111,23 @@ StyleHeaps::StyleHeaps(const StyleSky& sky, const SkyWindow& window,
     if (thickness[i] >= bare_) lights.push_back(light_on(thickness[i], small.rise[i]));
   for (std::size_t q = 0; q < lights_.size(); ++q)
     lights_[q] = value_at_share(lights, sky_quantile_shares[q]);
-  HeapFields heaps = make(window, 1.0);
-  thickness_ = std::move(heaps.thickness);
-  rise_ = std::move(heaps.rise);
+  CumulusFields cumulus = make(window, 1.0);
+  thickness_ = std::move(cumulus.thickness);
+  rise_ = std::move(cumulus.rise);
 }
 
-float StyleHeaps::share(int row) const {
+float StyleCumulus::share(int row) const {
   const double at = (window_.origin_px.y + row + 0.5) / sky_rows_;
-  return static_cast<float>(share_ * (1.0 - smoothstep(heaps_to_row, level_from_row, at)));
+  return static_cast<float>(share_ * (1.0 - smoothstep(cumulus_to_row, level_from_row, at)));
 }
 
-float StyleHeaps::cover(int x, int row) const {
+float StyleCumulus::cover(int x, int row) const {
   const float softness =
       upper_softness + (lower_softness - upper_softness) * smoothstep(0.5F - rise_(x, row));
   return smoothstep(0.5F + 0.5F * (thickness_(x, row) - bare_) / softness);
 }
 
-double StyleHeaps::deviate(int x, int row) const {
+double StyleCumulus::deviate(int x, int row) const {
   const float light = light_on(thickness_(x, row), rise_(x, row));
   std::size_t i = 0;
   while (i + 2 < lights_.size() && light > lights_[i + 1]) ++i;

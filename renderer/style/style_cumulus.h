@@ -23,17 +23,17 @@ struct SkyWindow {
   int height;
 };
 
-// How far the clouds of a sky are heaps, 0…1.
-double heaped_share(const StyleSky& sky);
+// How far the clouds of a sky are cumulus, 0…1.
+double cumulus_share(const StyleSky& sky);
 
-// Heaped clouds in a window of the sheet: bodies with round puffs, sharp and lit on their upper
+// Cumulus clouds in a window of the sheet: bodies with round puffs, sharp and lit on their upper
 // side, soft and shaded below, with the painting's share of clear sky between them. A function of
 // the position on the sheet.
-class StyleHeaps {
+class StyleCumulus {
  public:
-  StyleHeaps(const StyleSky& sky, const SkyWindow& window, const StylePaintParameters& parameters);
+  StyleCumulus(const StyleSky& sky, const SkyWindow& window, const StylePaintParameters& parameters);
 
-  // Share of heaps in a row of the window, 0…1; towards the horizon clouds lie level. The other
+  // Share of cumulus in a row of the window, 0…1; towards the horizon clouds lie level. The other
   // members may be called where it is above 0.
   float share(int row) const;
   // How far a cloud hides the clear sky, 0…1.
