@@ -12,8 +12,8 @@
 namespace belvedere {
 namespace {
 
-// Skies whose upper_edges exceed those of calm skies have cumulus, fully from cumulus_edges on. They
-// lie in the sky's upper part, where they are measured; towards the horizon clouds lie level.
+// Skies whose upper_edges exceed those of calm skies have cumulus, fully from cumulus_edges on.
+// They lie in the sky's upper part, where they are measured; towards the horizon clouds lie level.
 constexpr double calm_edges = 0.15;
 constexpr double cumulus_edges = 0.30;
 constexpr double cumulus_to_row = 0.5;  // shares of the sky's height
@@ -30,7 +30,7 @@ constexpr float upper_softness = 0.2F;
 constexpr float lower_softness = 0.9F;
 constexpr float max_rise = 1.2F;
 constexpr float thickness_light = 0.15F;
-constexpr int first_cumulus = 8;        // number of a random stream of Stream::style_sky
+constexpr int first_cumulus = 8;     // number of a random stream of Stream::style_sky
 constexpr int sample_columns = 640;  // of the small sky on which their distribution is measured
 
 // Thickness of clouds, and by how much it exceeds that at the height of a rim above.
@@ -40,7 +40,7 @@ struct CumulusFields {
 };
 
 CumulusFields make_cumulus(const SkyWindow& window, double ppu, double length_x, double length_y,
-                      std::uint64_t seed) {
+                           std::uint64_t seed) {
   const int rim_px = std::max(1, static_cast<int>(std::lround(rim_share * length_y * ppu)));
   const glm::ivec2 origin{window.origin_px.x, window.origin_px.y - rim_px};
   Grid<float> all(window.width, window.height + rim_px, 0.0F);
@@ -63,7 +63,7 @@ CumulusFields make_cumulus(const SkyWindow& window, double ppu, double length_x,
         [&](float n) { return share * (std::abs(n) - puff_mean); });
   }
   CumulusFields cumulus{Grid<float>(window.width, window.height),
-                   Grid<float>(window.width, window.height)};
+                        Grid<float>(window.width, window.height)};
   for (int y = 0; y < window.height; ++y)
     for (int x = 0; x < window.width; ++x) {
       cumulus.thickness(x, y) = all(x, y + rim_px);
@@ -83,7 +83,7 @@ double cumulus_share(const StyleSky& sky) {
 }
 
 StyleCumulus::StyleCumulus(const StyleSky& sky, const SkyWindow& window,
-                       const StylePaintParameters& parameters)
+                           const StylePaintParameters& parameters)
     : window_(window), sky_rows_(parameters.sky_rows), share_(cumulus_share(sky)) {
   if (share_ <= 0.0) return;
   const StyleSkyChange& change = sky.changes.front();
@@ -92,8 +92,8 @@ StyleCumulus::StyleCumulus(const StyleSky& sky, const SkyWindow& window,
   const double size =
       std::sqrt(change.length_x * parameters.sheet_px.x * change.length_y * parameters.sky_rows) /
       ppu;
-  const double flatness =
-      std::sqrt(std::clamp(sky.aspect * change.length_x / change.length_y, 1.0, max_cumulus_flatness));
+  const double flatness = std::sqrt(
+      std::clamp(sky.aspect * change.length_x / change.length_y, 1.0, max_cumulus_flatness));
   const auto make = [&](const SkyWindow& part, double scale) {
     return make_cumulus(part, scale * ppu, size * flatness, size / flatness, parameters.seed);
   };

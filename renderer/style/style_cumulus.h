@@ -31,7 +31,8 @@ double cumulus_share(const StyleSky& sky);
 // the position on the sheet.
 class StyleCumulus {
  public:
-  StyleCumulus(const StyleSky& sky, const SkyWindow& window, const StylePaintParameters& parameters);
+  StyleCumulus(const StyleSky& sky, const SkyWindow& window,
+               const StylePaintParameters& parameters);
 
   // Share of cumulus in a row of the window, 0…1; towards the horizon clouds lie level. The other
   // members may be called where it is above 0.

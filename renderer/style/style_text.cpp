@@ -140,7 +140,8 @@ void add_sky(const StyleSky& sky, std::string& out) {
       "deviations of\n# its finer scales, and quantiles of its amount.\n# aspect: width over "
       "height of the painting's sky; "
       "upper_edges: how much steeper light is on its upper\n# side, about 0.35 where clouds are "
-      "cumulus; clear: the sky between them minus the medians, and its share.\n[sky_grid]\nmedians = "
+      "cumulus; clear: the sky between them minus the medians, and its share.\n[sky_grid]\nmedians "
+      "= "
       "[\n";
   for (int j = 0; j < sky.medians.height(); ++j) {
     std::string row;
