@@ -16,16 +16,12 @@
 #include "renderer/pipeline/named_picture.h"
 #include "renderer/pipeline/picture_legend.h"
 #include "renderer/pipeline/scene_labels.h"
-#include "renderer/pipeline/scene_paint.h"
 #include "renderer/pipeline/sheet_memory.h"
+#include "renderer/pipeline/sheet_work.h"
 #include "renderer/sheet/guidance_pack.h"
 #include "renderer/sheet/piece_writer.h"
-#include "renderer/stages/lit_picture.h"
-#include "renderer/stages/sheet_style.h"
 #include "renderer/stages/stages.h"
 #include "renderer/world/scene_features.h"
-#include "renderer/world/scene_season.h"
-#include "renderer/world/style/scene_style.h"
 #include "renderer/world/world_notes.h"
 
 namespace belvedere {
@@ -71,76 +67,14 @@ bool lacks_layers(const WorkFolder& work, PixelRect piece) {
                      [&](std::string_view name) { return !work.has(std::string(name), piece); });
 }
 
-// Input of every piece. Its members refer to each other by address.
-struct SheetWork {
-  SheetWork(const LoadedScene& loaded, const SheetRequest& request, const WorkFolder& work,
-            const Run& run, const Run& stage_run);
-  ScenePaint paint;
-  World world;
-  TileStore::Place position;
-  SheetView view;
-  int block_px;  // what is painted at once
-  StageGraph graph;
-  GroundStages ground;
-};
-
-ScenePaint paint_for(const LoadedScene& loaded, const SheetRequest& request, Progress& progress) {
-  return request.panorama ? read_scene_paint(loaded, progress)
-                          : ScenePaint{{}, read_scene_palette(loaded, progress)};
-}
-
-// Paint is read before the world, so that wrong files are refused early; the dependencies of its
-// colours are known after it.
-const Palette& adapt_palette_to_location(Palette& palette, const LoadedScene& loaded,
-                                         const World& world) {
-  palette = palette_for_location(palette, loaded, *world.dem);
-  return palette;
-}
-
-bool is_copied(const Scene& scene, const SheetRequest& request) {
-  return request.panorama && scene.synthesis.enabled;
-}
-
-int block_px_for(const World& world, const ScenePaint& paint, const SheetView& view,
-                 const SheetRequest& request) {
-  if (request.block_px > 0) return request.block_px;
-  const Scene& scene = world.scene;
-  StandingBytes standing{.ground = ground_bytes(world), .besides = piece_bytes_of(scene, request)};
-  if (is_copied(scene, request)) standing.besides += copying_bytes(scene, paint.paintings);
-  return choose_block_px(scene, view.pixels_per_unit, standing, min_block_px_of(request),
-                         paint.style ? &*paint.style : nullptr);
-}
-
-bool has_legend(const Scene& scene) { return scene.margin && scene.margin->legend; }
-
-GroundInputs styled_inputs(GroundInputs inputs, const ScenePaint& paint, const World& world,
-                           const SheetView& view, const Run& run) {
-  if (paint.style)
-    inputs.style = make_sheet_style(
-        *paint.style, to_style_parameters(world.scene, view.pixels_per_unit, view.camera.size()),
-        world, view.camera, run);
-  return inputs;
-}
-
-SheetWork::SheetWork(const LoadedScene& loaded, const SheetRequest& request, const WorkFolder& work,
-                     const Run& run, const Run& stage_run)
-    : paint(paint_for(loaded, request, run.progress)),
-      world(make_world(loaded, run.progress, run.cache)),
-      position{work.folder(), kept_tile_bytes()},
-      view(view_of(world)),
-      block_px(block_px_for(world, paint, view, request)),
-      graph(position, stage_run.progress),
-      ground(add_ground_stages(
-          graph,
-          styled_inputs(
-              make_ground_inputs(
-                  world, view, adapt_palette_to_location(paint.palette, loaded, world), stage_run),
-              paint, world, view, stage_run),
-          choose_tile_px(block_px, region_of(world.scene, request)))) {
-  if (request.panorama) check_names(loaded, *world.dem);
-  keep_notes(loaded, world, work);
-  if (has_legend(world.scene) && !work.has_bytes(legend_bytes))
-    work.keep_bytes(legend_bytes, legend_to_text(find_legend(world, paint.palette)));
+// What every piece needs besides the stages: names that can be placed, notes, and the legend.
+void prepare_work(const LoadedScene& loaded, const SheetRequest& request, const SheetWork& sheet,
+                  const WorkFolder& work) {
+  if (request.panorama) check_names(loaded, *sheet.world.dem);
+  keep_notes(loaded, sheet.world, work);
+  const std::optional<SceneMargin>& margin = sheet.world.scene.margin;
+  if (margin && margin->legend && !work.has_bytes(legend_bytes))
+    work.keep_bytes(legend_bytes, legend_to_text(find_legend(sheet.world, sheet.paint.palette)));
 }
 
 std::vector<MatchedPicture> pictures_of(const CopyPlan& plan) {
@@ -182,14 +116,16 @@ void make_pieces(const LoadedScene& loaded, const SheetRequest& request,
   const bool few = pieces.size() <= 4;
   RepeatedStages progress(run.progress, few);
   const Run stage_run{run.threads, run.memory_bytes, run.tile_px, progress, run.cache};
-  SheetWork sheet(loaded, request, work, run, stage_run);
+  SheetWork sheet(loaded, request, {.scratch_folder = work.folder()}, run, stage_run);
+  prepare_work(loaded, request, sheet, work);
   const bool copied = is_copied(sheet.world.scene, request);
   CopyPlan plan = copied ? plan_copies(loaded, sheet, work, run, few) : CopyPlan{};
   const DrawnFeatures features =
       request.panorama ? draw_scene_features(loaded, sheet.world,
                                              sheet.ground.inputs->strokes.winter, run.progress)
                        : DrawnFeatures{};
-  if (has_legend(sheet.world.scene) && !features.empty() && !work.has_bytes(feature_legend_bytes))
+  const std::optional<SceneMargin>& margin = sheet.world.scene.margin;
+  if (margin && margin->legend && !features.empty() && !work.has_bytes(feature_legend_bytes))
     work.keep_bytes(feature_legend_bytes,
                     swatches_to_text(find_feature_legend(features, sheet.paint.palette)));
   const PictureStages picture =
@@ -242,7 +178,8 @@ void make_pieces(const LoadedScene& loaded, const SheetRequest& request,
 
 void make_plan(const LoadedScene& loaded, const SheetRequest& request, const WorkFolder& work,
                const Run& run) {
-  SheetWork sheet(loaded, request, work, run, run);
+  SheetWork sheet(loaded, request, {.scratch_folder = work.folder()}, run, run);
+  prepare_work(loaded, request, sheet, work);
   if (is_copied(sheet.world.scene, request)) plan_copies(loaded, sheet, work, run, true);
 }
 

@@ -31,6 +31,8 @@ struct GroundInputs {
   // are finer.
   bool wide_views = true;
   bool has_mist = false;
+  // Whether crests and rock get the relief that a DEM does not contain; previews leave it out.
+  bool rock_relief = true;
   RockParameters rock = {};
   ToneParameters tone = {};
   BaseParameters base = {};

@@ -133,54 +133,64 @@ GroundStages add_ground_stages(StageGraph& graph, GroundInputs given, int tile_p
   ground.wide = from_afar("wide view", wide_factor(ppu), wide_channels);
   ground.far = from_afar("far view", rock_factor(ppu), far_channels);
 
-  // Crests of rock get pinnacles and notches: each column is shifted up or down.
-  ground.crests = graph.add_tiles<CrestShift>(
-      tiles("crests", light_work_bytes), grids_of(&CrestShift::rows, &CrestShift::front),
-      inputs(reads(ground.far, around(crest_view_margin_px(in->rock)), some(far_channels)),
-             reads(ground.traced, rows_around(crest_margin_px(ppu)),
-                   some({&B::depth_m, &B::front, &B::land_cover, &B::footprint_m}))),
-      [in](const Tile& tile, const auto& far, const auto& near) {
-        return shift_crests(near.value, as_wide_view(far), in->rock, near.origin_px(),
-                            near.inside(tile.rect));
-      });
-  ground.crested = graph.add_view<GuidanceBuffers>(
-      view("crested"), channels(channels_of(ChannelMaker::trace)),
-      inputs(reads(ground.crests),
-             reads_in_pieces(ground.traced, rows_around(crest_reach_px(ppu)))),
-      [](const Tile& tile, GuidanceBuffers& out, const auto& crests, const auto& traced) {
-        gather_shifted(traced, crests.value, tile.rect, out);
-      });
-
-  // Relief of rock that a DEM does not contain, and the borders of rock that follow it.
-  ground.relief = graph.add_tiles<RockRelief>(
-      tiles("rock relief", light_work_bytes),
-      grids_of(&RockRelief::land_cover, &RockRelief::fall_line, &RockRelief::height,
-               &RockRelief::facet, &RockRelief::tone, &RockRelief::cover),
-      inputs(reads(ground.far, around(rock_margin_px(in->rock)), some(far_channels)),
-             reads(ground.crested, around(rock_near_margin_px(in->rock)), some(rock_channels()))),
-      [in](const Tile& tile, const auto& far, const auto& near) {
-        return make_rock_relief(near.value, as_wide_view(far), in->rock, near.origin_px(),
-                                in->run.progress, near.inside(tile.rect));
-      });
+  const Channels traced_channels = channels_of(ChannelMaker::trace);
   const Channels raised_channels =
-      joined(channels_of(ChannelMaker::trace), channels_of(ChannelMaker::relief));
-  ground.raised = graph.add_view<GuidanceBuffers>(
-      view("raised"), channels(raised_channels),
-      inputs(reads_in_pieces(ground.crested), reads_in_pieces(ground.relief)),
-      [](const Tile& tile, GuidanceBuffers& out, const auto& crested, const auto& relief) {
-        crested.read_into(tile.rect, out);
-        lay_relief(relief, tile.rect, out);
-      });
+      in->rock_relief ? joined(traced_channels, channels_of(ChannelMaker::relief))
+                      : traced_channels;
+  ground.crested = ground.raised = ground.traced;
+  if (in->rock_relief) {
+    // Crests of rock get pinnacles and notches: each column is shifted up or down.
+    ground.crests = graph.add_tiles<CrestShift>(
+        tiles("crests", light_work_bytes), grids_of(&CrestShift::rows, &CrestShift::front),
+        inputs(reads(ground.far, around(crest_view_margin_px(in->rock)), some(far_channels)),
+               reads(ground.traced, rows_around(crest_margin_px(ppu)),
+                     some({&B::depth_m, &B::front, &B::land_cover, &B::footprint_m}))),
+        [in](const Tile& tile, const auto& far, const auto& near) {
+          return shift_crests(near.value, as_wide_view(far), in->rock, near.origin_px(),
+                              near.inside(tile.rect));
+        });
+    ground.crested = graph.add_view<GuidanceBuffers>(
+        view("crested"), channels(traced_channels),
+        inputs(reads(ground.crests),
+               reads_in_pieces(ground.traced, rows_around(crest_reach_px(ppu)))),
+        [](const Tile& tile, GuidanceBuffers& out, const auto& crests, const auto& traced) {
+          gather_shifted(traced, crests.value, tile.rect, out);
+        });
+
+    // Relief of rock that a DEM does not contain, and the borders of rock that follow it.
+    ground.relief = graph.add_tiles<RockRelief>(
+        tiles("rock relief", light_work_bytes),
+        grids_of(&RockRelief::land_cover, &RockRelief::fall_line, &RockRelief::height,
+                 &RockRelief::facet, &RockRelief::tone, &RockRelief::cover),
+        inputs(reads(ground.far, around(rock_margin_px(in->rock)), some(far_channels)),
+               reads(ground.crested, around(rock_near_margin_px(in->rock)), some(rock_channels()))),
+        [in](const Tile& tile, const auto& far, const auto& near) {
+          return make_rock_relief(near.value, as_wide_view(far), in->rock, near.origin_px(),
+                                  in->run.progress, near.inside(tile.rect));
+        });
+    ground.raised = graph.add_view<GuidanceBuffers>(
+        view("raised"), channels(raised_channels),
+        inputs(reads_in_pieces(ground.crested), reads_in_pieces(ground.relief)),
+        [](const Tile& tile, GuidanceBuffers& out, const auto& crested, const auto& relief) {
+          crested.read_into(tile.rect, out);
+          lay_relief(relief, tile.rect, out);
+        });
+  }
+
+  const auto with_rock = [&](Channels of, const Channels& rock) {
+    return some(in->rock_relief ? joined(std::move(of), rock) : std::move(of));
+  };
 
   // Light as one number: sun with cast shadows, sky view, relief at several scales.
   ground.tone = graph.add_tiles<Grid<float>>(
       tiles("tone", light_work_bytes), one_grid<Grid<float>>(),
       inputs(reads(ground.wide, around(tone_margin_px(in->tone)), some(wide_channels)),
              reads(ground.raised, around(tone_near_margin_px(in->tone)),
-                   some({&B::depth_m, &B::position_m, &B::normal, &B::normal_detail,
-                         &B::normal_smooth, &B::altitude_m, &B::land_cover, &B::shadow,
-                         &B::sky_view, &B::slope_deg, &B::fall_line, &B::footprint_m,
-                         &B::relief_s_m, &B::relief_m_m, &B::relief_l_m, &B::rock_tone}))),
+                   with_rock({&B::depth_m, &B::position_m, &B::normal, &B::normal_detail,
+                              &B::normal_smooth, &B::altitude_m, &B::land_cover, &B::shadow,
+                              &B::sky_view, &B::slope_deg, &B::fall_line, &B::footprint_m,
+                              &B::relief_s_m, &B::relief_m_m, &B::relief_l_m},
+                             {&B::rock_tone}))),
       [in](const Tile& tile, const auto& wide, const auto& near) {
         return make_tone(near.value, as_wide_view(wide), in->tone, near.origin_px(),
                          in->run.progress, near.inside(tile.rect));
@@ -208,11 +218,12 @@ GroundStages add_ground_stages(StageGraph& graph, GroundInputs given, int tile_p
              Reads<GuidanceBuffers>{
                  .stage = ground.lit,
                  .reach = base_reach(false, in->base),
-                 .wanted = some({&B::depth_m, &B::position_m, &B::altitude_m, &B::land_cover,
-                                 &B::fall_line, &B::slope_deg, &B::footprint_m, &B::normal_smooth,
-                                 &B::relief_s_m, &B::relief_m_m, &B::relief_l_m,
-                                 &B::valley_height_m, &B::rim_m, &B::built, &B::grain,
-                                 &B::rock_facet, &B::rock_cover, &B::tone}),
+                 .wanted = with_rock(
+                     {&B::depth_m, &B::position_m, &B::altitude_m, &B::land_cover, &B::fall_line,
+                      &B::slope_deg, &B::footprint_m, &B::normal_smooth, &B::relief_s_m,
+                      &B::relief_m_m, &B::relief_l_m, &B::valley_height_m, &B::rim_m, &B::built,
+                      &B::grain, &B::tone},
+                     {&B::rock_facet, &B::rock_cover}),
                  .wide_reach = base_reach(true, in->base)}),
       [in](const Tile& tile, const auto& wide, const auto& near) {
         const PixelRect wanted = near.inside(tile.rect);

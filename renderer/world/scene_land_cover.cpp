@@ -398,11 +398,16 @@ LandCover make_scene_land_cover(const LoadedScene& loaded, const Dem& dem, Progr
   return make_scene_patches(loaded, dem, progress, cache, catchments, seen).cover;
 }
 
-PatchResult make_scene_patches(const LoadedScene& loaded, const Dem& dem, Progress& progress,
-                               const Cache& cache, Catchments* catchments, const SeenFrom* seen) {
-  PatchResult result = remove_small_patches(
+PatchResult make_bare_patches(const LoadedScene& loaded, const Dem& dem, Progress& progress,
+                              const Cache& cache, Catchments* catchments) {
+  return remove_small_patches(
       make_full_cover(loaded, dem, {.catchments = catchments}, progress, cache),
       loaded.scene.land_cover.patches);
+}
+
+PatchResult make_scene_patches(const LoadedScene& loaded, const Dem& dem, Progress& progress,
+                               const Cache& cache, Catchments* catchments, const SeenFrom* seen) {
+  PatchResult result = make_bare_patches(loaded, dem, progress, cache, catchments);
   lay_ground_map(result.cover, loaded, dem, progress, cache, catchments, seen);
   return result;
 }

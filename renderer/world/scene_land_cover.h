@@ -72,5 +72,8 @@ LandCover make_scene_land_cover(const LoadedScene& scene, const Dem& dem, Progre
 PatchResult make_scene_patches(const LoadedScene& scene, const Dem& dem, Progress& progress,
                                const Cache& cache = no_cache(), Catchments* catchments = nullptr,
                                const SeenFrom* seen = nullptr);
+// … and before the scene's map and rivers are laid over it (lay_ground_map).
+PatchResult make_bare_patches(const LoadedScene& loaded, const Dem& dem, Progress& progress,
+                              const Cache& cache = no_cache(), Catchments* catchments = nullptr);
 
 }  // namespace belvedere

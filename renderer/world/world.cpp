@@ -5,6 +5,7 @@
 #include "base/cache/cache.h"
 #include "base/instruction_set.h"
 #include "renderer/ground/cached_products.h"
+#include "renderer/ground/scene_ground_map.h"
 #include "renderer/paint/sky.h"
 #include "renderer/scene/scene_error.h"
 #include "renderer/trace/ground_surroundings.h"
@@ -12,6 +13,7 @@
 #include "renderer/world/generalize_view.h"
 #include "renderer/world/ground_plan.h"
 #include "renderer/world/ground_windows.h"
+#include "renderer/world/kept_world.h"
 #include "renderer/world/light/scene_light.h"
 #include "renderer/world/scene_dem.h"
 #include "renderer/world/scene_land_cover.h"
@@ -50,22 +52,53 @@ CacheKey surroundings_key(const LoadedScene& loaded, const Dem& dem, const LandC
   return make_cache_key(CachedProduct::ground_surroundings, key, subject_of(loaded));
 }
 
+// The cells of the cover do not depend on the camera; how wide rivers are drawn does.
+std::shared_ptr<const LandCover> make_cover(const LoadedScene& loaded, const Dem& dem,
+                                            const View& view, const SeenFrom& seen,
+                                            Catchments& catchments, Progress& progress,
+                                            const Cache& cache, KeptWorld* kept,
+                                            const std::string& key) {
+  if (kept == nullptr)
+    return std::make_shared<const LandCover>(
+        make_scene_land_cover(loaded, dem, progress, cache, &catchments, &seen));
+  const std::shared_ptr<const LandCover> bare = keep_or_make(&kept->bare_cover, key, [&] {
+    return make_bare_patches(loaded, dem, progress, cache, &catchments).cover;
+  });
+  const bool has_lines = !loaded.scene.features.empty() || !bare->inferred_rivers.empty();
+  const std::string seen_as = has_lines ? camera_key(loaded, view) + deform_key(view) : "";
+  return keep_or_make(&kept->land_cover, key + seen_as, [&] {
+    LandCover cover = *bare;
+    lay_ground_map(cover, loaded, dem, progress, cache, &catchments, &seen);
+    return cover;
+  });
+}
+
 }  // namespace
 
 World make_world(const LoadedScene& loaded, Progress& progress, const Cache& cache,
-                 KnownTerrain known) {
+                 KnownTerrain known, KeptWorld* kept) {
   const Scene& scene = loaded.scene;
   // Missing instruction sets are reported before the work.
   in_section("sampling", [&] { return choose_instruction_set(scene.tracing.instruction_set); });
+  const auto slot = [kept](auto KeptWorld::*value) {
+    return kept == nullptr ? nullptr : &(kept->*value);
+  };
+  std::string key = kept == nullptr ? "" : dem_key(loaded);
+  const auto add_key = [&](auto&& make_key) {
+    if (kept != nullptr) key += make_key();
+  };
 
   // The ground as measured; the levels of a DEM larger than memory stay for its windows.
-  SceneDem opened = known.dem ? SceneDem() : open_scene_dem(loaded, progress, cache);
-  std::shared_ptr<const Dem> dem =
-      known.dem ? std::move(known.dem)
-                : std::make_shared<const Dem>(opened.levels ? opened.dem : std::move(opened.dem));
+  const std::shared_ptr<SceneDem> opened =
+      known.dem ? std::make_shared<SceneDem>()
+                : keep_or_make(slot(&KeptWorld::dem), key,
+                               [&] { return open_scene_dem(loaded, progress, cache); });
+  const std::shared_ptr<const Dem> dem =
+      known.dem ? std::move(known.dem) : std::shared_ptr<const Dem>(opened, &opened->dem);
 
   // Viewer and light.
-  const View view = make_view(scene, *dem, progress, ground_altitude_of(opened), region_of(opened));
+  const View view =
+      make_view(scene, *dem, progress, ground_altitude_of(*opened), region_of(*opened));
   std::unique_ptr<const Camera> camera = make_camera(view.camera);
   std::shared_ptr<const LightField> light_field = make_light_field(loaded, *dem, view, progress);
   const Deformation deformation(view.deform, view.viewer_xy);
@@ -74,50 +107,75 @@ World make_world(const LoadedScene& loaded, Progress& progress, const Cache& cac
   // Land cover. Class rules and the terrain's model both need the drainage: it is computed once.
   std::unique_ptr<Catchments> catchments = std::move(known.catchments);
   if (!known.land_cover && !catchments) catchments = std::make_unique<Catchments>(*dem);
-  std::shared_ptr<const LandCover> land_cover = std::move(known.land_cover);
-  if (!land_cover)
-    land_cover = std::make_shared<const LandCover>(
-        make_scene_land_cover(loaded, *dem, progress, cache, catchments.get(), &seen));
+  add_key([&] { return cover_key(loaded); });
+  const std::shared_ptr<const LandCover> land_cover =
+      known.land_cover ? std::move(known.land_cover)
+                       : make_cover(loaded, *dem, view, seen, *catchments, progress, cache, kept, key);
 
   // The ground for this view: generalized, with finer windows where the DEM is larger than memory.
-  GeneralizedTerrain generalized =
-      generalize_for_view(loaded, *dem, land_cover.get(), view, progress, cache);
-  GroundSurroundings surroundings = cached<GroundSurroundings>(
-      cache, [&] { return surroundings_key(loaded, *dem, *land_cover); }, progress,
-      [&](Progress&) { return find_surroundings(*dem, *land_cover, catchments.get()); });
-  TerrainModel terrain = make_terrain_model(dem, std::move(generalized.altitude_m), land_cover,
-                                            view.deform.exaggeration, std::move(surroundings));
-  terrain.came_from = std::move(generalized.came_from);
-  terrain.goes_to = std::move(generalized.goes_to);
-  if (deformation.is_local()) terrain.local = deformation;
-  if (opened.levels) {
-    const RasterFrame& frame = opened.levels->frame();
-    const GroundPlan plan = plan_ground(frame, *dem, view, opened.max_cells);
-    progress.note(describe(plan, frame));
-    add_ground_windows(
-        terrain, plan,
-        {loaded, view, deformation, opened.sea, *opened.levels, progress, cache, seen});
-    opened = {};  // the levels are no longer needed
-  }
+  const std::string of_surroundings = key;
+  const std::optional<Deformation> local =
+      deformation.is_local() ? std::optional(deformation) : std::nullopt;
+  add_key([&] { return generalize_key(loaded, view); });
+  if (opened->levels) add_key([&] { return camera_key(loaded, view) + deform_key(view); });
+  const std::shared_ptr<TerrainModel> terrain =
+      keep_or_make(slot(&KeptWorld::terrain), key, [&] {
+        GeneralizedTerrain generalized =
+            generalize_for_view(loaded, *dem, land_cover.get(), view, progress, cache);
+        const std::shared_ptr<GroundSurroundings> surroundings =
+            keep_or_make(slot(&KeptWorld::surroundings), of_surroundings, [&] {
+              return cached<GroundSurroundings>(
+                  cache, [&] { return surroundings_key(loaded, *dem, *land_cover); }, progress,
+                  [&](Progress&) { return find_surroundings(*dem, *land_cover, catchments.get()); });
+            });
+        TerrainModel made = make_terrain_model(
+            dem, std::move(generalized.altitude_m), land_cover, view.deform.exaggeration,
+            kept == nullptr ? std::move(*surroundings) : *surroundings);
+        made.came_from = std::move(generalized.came_from);
+        made.goes_to = std::move(generalized.goes_to);
+        made.local = local;
+        if (opened->levels) {
+          const RasterFrame& frame = opened->levels->frame();
+          const GroundPlan plan = plan_ground(frame, *dem, view, opened->max_cells);
+          progress.note(describe(plan, frame));
+          add_ground_windows(
+              made, plan,
+              {loaded, view, deformation, opened->sea, *opened->levels, progress, cache, seen});
+          if (kept == nullptr) opened->levels.reset();  // no longer needed
+        }
+        return made;
+      });
+  // What differs between views of one ground.
+  terrain->land_cover = land_cover;
+  terrain->exaggeration = view.deform.exaggeration;
+  terrain->local = local;
 
   // Bent, with its ray-tracing structure. Folded ground is refused before the tracer is built.
-  auto surface = std::make_unique<const DeformedSurface>(
-      deform_ground(terrain, glm::dvec3(view.viewer_xy, 0.0), deformation));
-  check_folds(scene.deform, terrain, deformation, *camera, progress);
-  progress.begin("building the ray tracer", 0.0);
-  Tracer tracer(*surface, scene.tracing);
-  const double horizon_px = skyline_row_px(*camera, tracer, usual_horizon * scene.output.height);
-  MistAir mist = make_scene_mist(scene, view, terrain, deformation, *camera);
+  add_key([&] { return deform_key(view); });
+  const std::shared_ptr<const DeformedSurface> surface =
+      keep_or_make(slot(&KeptWorld::surface), key, [&] {
+        if (kept != nullptr) kept->tracer = {};  // reads the one before
+        return deform_ground(*terrain, glm::dvec3(view.viewer_xy, 0.0), deformation);
+      });
+  check_folds(scene.deform, *terrain, deformation, *camera, progress);
+  add_key([&] { return scene.tracing.instruction_set; });
+  const std::shared_ptr<const Tracer> tracer = keep_or_make(slot(&KeptWorld::tracer), key, [&] {
+    progress.begin("building the ray tracer", 0.0);
+    return Tracer(*surface, scene.tracing);
+  });
+  const double horizon_px = skyline_row_px(*camera, *tracer, usual_horizon * scene.output.height);
+  MistAir mist = make_scene_mist(scene, view, *terrain, deformation, *camera);
   return {scene,
-          std::move(dem),
+          dem,
           view,
           std::move(camera),
           std::move(light_field),
-          std::move(land_cover),
+          land_cover,
           deformation,
-          std::move(terrain),
-          std::move(surface),
-          std::move(tracer),
+          {terrain, surface, tracer},
+          *terrain,
+          surface,
+          *tracer,
           horizon_px,
           std::move(mist)};
 }

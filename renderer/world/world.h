@@ -18,6 +18,15 @@
 
 namespace belvedere {
 
+// The ground that rays hit.
+struct TracedGround {
+  // Generalized for a view, and all that a pixel may need of the ground.
+  std::shared_ptr<const TerrainModel> terrain;
+  // Exaggerated and bent; its origin is the viewer's position at altitude 0.
+  std::shared_ptr<const DeformedSurface> surface;
+  std::shared_ptr<const Tracer> tracer;  // reads the surface
+};
+
 // A scene prepared for its first pixel, each value made from those above it. Kept together because
 // any part of the picture needs all of it; constant after it is made (make_world).
 struct World {
@@ -29,12 +38,10 @@ struct World {
   const std::shared_ptr<const LightField> light_field;  // null: uniform light
   const std::shared_ptr<const LandCover> land_cover;
   const Deformation deformation;
-  const TerrainModel
-      terrain;  // generalized for this view, and all that a pixel may need of the ground
-  // The traced ground: generalized, exaggerated, bent; its origin is the viewer's position at
-  // altitude 0.
-  const std::unique_ptr<const DeformedSurface> surface;
-  const Tracer tracer;
+  const TracedGround ground;
+  const TerrainModel& terrain;  // of `ground`, as the next two
+  const std::shared_ptr<const DeformedSurface> surface;
+  const Tracer& tracer;
   const double horizon_px;  // row of the skyline's median
   const MistAir mist;
 };
@@ -46,10 +53,13 @@ struct KnownTerrain {
   std::unique_ptr<Catchments> catchments = nullptr;  // drainage of the DEM
 };
 
+struct KeptWorld;  // kept_world.h
+
 // Reads, generalizes and bends the terrain, sets up camera and sun, builds the acceleration
 // structure. Throws Error for any problem of scene or data as early as possible: the machine's
-// instruction set first, the camera's position before land cover is made.
+// instruction set first, the camera's position before land cover is made. `kept`: values of the
+// world before, and then of this one; null: none are.
 World make_world(const LoadedScene& loaded, Progress& progress, const Cache& cache = no_cache(),
-                 KnownTerrain known = {});
+                 KnownTerrain known = {}, KeptWorld* kept = nullptr);
 
 }  // namespace belvedere

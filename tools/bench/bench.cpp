@@ -23,6 +23,7 @@ std::vector<Measurement> bench_generalize(const Options&);
 std::vector<Measurement> bench_guidance(const Options&);
 std::vector<Measurement> bench_layers(const Options&);
 std::vector<Measurement> bench_rock(const Options&);
+std::vector<Measurement> bench_studio(const Options&);
 std::vector<Measurement> bench_synthesis(const Options&);
 std::vector<Measurement> bench_texture(const Options&);
 std::vector<Measurement> bench_trace(const Options&);
@@ -44,6 +45,7 @@ const std::vector<Section>& sections() {
       {"rock", "relief of rock, its crests, and the blur that stays on a surface", &bench_rock},
       {"synthesis", "painting by example, with one guide and with seven", &bench_synthesis},
       {"texture", "texture models: learning, the flow and the polish", &bench_texture},
+      {"studio", "from a change of --scene to its live picture", &bench_studio},
       {"files", "writing and reading TIFF, PNG and OpenEXR", &bench_files},
   };
   return all;
@@ -132,6 +134,8 @@ int run(int argc, char** argv) {
       .range(1, 100)
       .show_default();
   command.add_option("--threads", threads, "Threads; 0: all").range(0, 1024);
+  command.add_option("--scene", options.scene, "A scene, for the section studio");
+  command.add_option("--data", options.data_folders, "Folder of its data");
   command.add_option("section", only, "The section to run. Default: all");
   if (const std::string help = line.read({argv + (argc > 0 ? 1 : 0), argv + argc}); !help.empty()) {
     fmt::print("{}", help);

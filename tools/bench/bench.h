@@ -10,6 +10,8 @@ namespace belvedere::bench {
 struct Options {
   std::vector<int> sizes = {1024, 4096};  // cells per side of the synthetic terrain
   int repeats = 3;                        // of each measurement; the fastest counts
+  std::string scene;                      // of the section studio
+  std::vector<std::string> data_folders;  // with its data
 };
 
 // One figure of the report.

@@ -1,0 +1,128 @@
+#include "renderer/live/live_view.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+#include "base/error.h"
+#include "base/grid_part.h"
+#include "renderer/pipeline/copy_plan.h"
+#include "renderer/pipeline/sheet_work.h"
+#include "renderer/stages/guidance_windows.h"
+#include "renderer/world/scene_features.h"
+
+namespace belvedere {
+namespace {
+
+using B = GuidanceBuffers;
+
+constexpr int live_tile_px = 256;
+
+// The tiles of a picture, those nearest to its middle first.
+std::vector<PixelRect> tiles_from_middle(PixelRect sheet) {
+  std::vector<PixelRect> tiles;
+  for (int y = sheet.y0; y < sheet.y1; y += live_tile_px)
+    for (int x = sheet.x0; x < sheet.x1; x += live_tile_px)
+      tiles.push_back(intersection(sheet, {x, y, x + live_tile_px, y + live_tile_px}));
+  const auto distance = [&](const PixelRect& tile) {
+    const int dx = tile.x0 + tile.x1 - sheet.x1;
+    const int dy = tile.y0 + tile.y1 - sheet.y1;
+    return dx * dx + dy * dy;
+  };
+  std::stable_sort(tiles.begin(), tiles.end(), [&](const PixelRect& a, const PixelRect& b) {
+    return distance(a) < distance(b);
+  });
+  return tiles;
+}
+
+// A folder for the plan of copies, removed at the end.
+class ScratchFolder {
+ public:
+  ScratchFolder()
+      : path_((std::filesystem::temp_directory_path() / "belvedere-live-XXXXXX").string()) {
+    if (mkdtemp(path_.data()) == nullptr)
+      throw Error(ErrorKind::output, path_, "a folder cannot be made there",
+                  "space in the folder for temporary files");
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  ~ScratchFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+template <class Read>
+Grid<glm::vec3> read_tiles(PixelRect sheet, const Read& read, const LiveView::UseTile& use_tile) {
+  if (!use_tile) return read(sheet);
+  Grid<glm::vec3> whole(sheet.width(), sheet.height());
+  for (const PixelRect& tile : tiles_from_middle(sheet)) {
+    const Grid<glm::vec3> part = read(tile);
+    copy_part(whole, part, tile.x0, tile.y0);
+    use_tile(tile, part);
+  }
+  return whole;
+}
+
+}  // namespace
+
+const GroundSize& LiveView::size_of(const LoadedScene& loaded) {
+  return *keep_or_make(&size_, dem_key(loaded), [&] { return ground_size_of(loaded); });
+}
+
+LivePicture LiveView::paint(const LoadedScene& given, const Rung& rung, const Run& run,
+                            const UseTile& use_tile) {
+  const RunLimits limits(run);
+  const LoadedScene loaded = scene_of_rung(given, rung, size_of(given));
+  SheetRequest request{.panorama = rung.strokes, .block_px = 1024};
+  const PixelRect sheet = region_of(loaded.scene, request);
+  if (use_tile) request.block_px = live_tile_px;
+  if (rung.is_last() && rung.strokes) require_inputs(loaded);
+
+  const SheetWorkParameters parameters{.scratch_folder = {},
+                                       .rock_relief = rung.rock_relief,
+                                       .kept = rung.max_mcells > 0.0 ? &coarse_ : &fine_};
+  SheetWork work(loaded, request, parameters, run, run);
+  LivePicture picture;
+  if (rung.strokes) {
+    const ScratchFolder scratch;
+    std::optional<WorkFolder> plan_folder;
+    CopyPlan plan;
+    const bool copied = is_copied(loaded.scene, request);
+    if (copied) {
+      plan_folder.emplace(scratch.path(), identify(loaded, request), WorkMode::begin);
+      plan = make_copy_plan(loaded, work.world, work.paint, work.ground, work.position,
+                            *plan_folder, run);
+    }
+    const DrawnFeatures features =
+        draw_scene_features(loaded, work.world, work.ground.inputs->strokes.winter, run.progress);
+    const PictureStages stages =
+        add_picture_stages(work.graph, work.ground, copied ? &plan : nullptr, features);
+    picture.colour = read_tiles(
+        sheet, [&](PixelRect tile) { return stages.picture->read(tile).colour; }, use_tile);
+  } else {
+    picture.colour = read_tiles(
+        sheet, [&](PixelRect tile) { return work.ground.base->read(tile).colour; }, use_tile);
+  }
+  picture.seen = work.ground.raised->read(
+      sheet, with_channels({&B::depth_m, &B::position_m, &B::altitude_m, &B::land_cover},
+                           work.world.surface->origin));
+  picture.view = work.world.view;
+  picture.crs = work.world.dem->crs;
+  if (rung.is_last()) fine_.surroundings = {}, fine_.bare_cover = {};  // the largest, seldom needed
+  return picture;
+}
+
+LiveView::Ground LiveView::ground(const LoadedScene& given, const Run& run) {
+  const RunLimits limits(run);
+  const LoadedScene loaded = scene_of_rung(given, rungs().front(), size_of(given));
+  const World world = make_world(loaded, run.progress, run.cache, {}, &coarse_);
+  return {world.dem, world.land_cover, world.ground.terrain, world.view};
+}
+
+}  // namespace belvedere

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <functional>
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+#include "base/grid.h"
+#include "base/guidance_buffers.h"
+#include "base/pixel_rect.h"
+#include "base/run.h"
+#include "renderer/live/rungs.h"
+#include "renderer/scene/scene_file.h"
+#include "renderer/world/derived_values.h"
+#include "renderer/world/kept_world.h"
+#include "renderer/world/view.h"
+
+namespace belvedere {
+
+struct LivePicture {
+  Grid<glm::vec3> colour;  // encoded sRGB
+  // What is seen in each pixel: depth_m, position_m, altitude_m, land_cover.
+  GuidanceBuffers seen;
+  View view;
+  std::string crs;  // of the ground, WKT2
+};
+
+// Makes pictures of a scene that changes, one after the other. Values of the world stay in memory,
+// and only what a change touches is made again; pictures are the same as without.
+// Not thread-safe.
+class LiveView {
+ public:
+  // A finished rectangle of the picture.
+  using UseTile = std::function<void(PixelRect rect, const Grid<glm::vec3>& colour)>;
+
+  // `run.progress` is asked between tiles whether to go on. With `use_tile` the picture is made in
+  // tiles, from its middle outwards, and each is passed on at once.
+  LivePicture paint(const LoadedScene& loaded, const Rung& rung, const Run& run,
+                    const UseTile& use_tile = {});
+  // The ground of the quickest rung, for maps; made if it is missing.
+  struct Ground {
+    std::shared_ptr<const Dem> dem;
+    std::shared_ptr<const LandCover> land_cover;
+    std::shared_ptr<const TerrainModel> terrain;
+    View view;
+  };
+  Ground ground(const LoadedScene& loaded, const Run& run);
+
+ private:
+  const GroundSize& size_of(const LoadedScene& loaded);
+
+  Kept<const GroundSize> size_;
+  KeptWorld coarse_;
+  KeptWorld fine_;  // of the last rung
+};
+
+}  // namespace belvedere

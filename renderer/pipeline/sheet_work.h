@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string>
+
+#include "base/run.h"
+#include "renderer/pipeline/scene_paint.h"
+#include "renderer/pipeline/sheet_pieces.h"
+#include "renderer/scene/scene_file.h"
+#include "renderer/sheet/work_folder.h"
+#include "renderer/stages/stages.h"
+#include "renderer/world/kept_world.h"
+#include "renderer/world/world.h"
+
+namespace belvedere {
+
+struct SheetWorkParameters {
+  std::string scratch_folder;  // for tiles beyond kept_tile_bytes(); empty: temporary files
+  bool rock_relief = true;     // false, for previews: rock as smooth as the DEM
+  KeptWorld* kept = nullptr;   // values of the world before
+};
+
+// What the stages of a sheet are made of, and the ground stages. The members refer to each other by
+// address. `run` reports the preparation, `stage_run` the stages. Error as read_scene_paint and
+// make_world.
+struct SheetWork {
+  SheetWork(const LoadedScene& loaded, const SheetRequest& request,
+            const SheetWorkParameters& parameters, const Run& run, const Run& stage_run);
+  SheetWork(const SheetWork&) = delete;
+  SheetWork& operator=(const SheetWork&) = delete;
+
+  ScenePaint paint;
+  World world;
+  TileStore::Place position;
+  SheetView view;
+  int block_px;  // what is painted at once
+  StageGraph graph;
+  GroundStages ground;
+};
+
+// Whether the ground of a request is copied from paintings.
+bool is_copied(const Scene& scene, const SheetRequest& request);
+
+}  // namespace belvedere

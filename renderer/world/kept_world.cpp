@@ -1,0 +1,117 @@
+#include "renderer/world/kept_world.h"
+
+#include <filesystem>
+
+#include "base/cache/cache_key.h"
+
+namespace belvedere {
+namespace {
+
+// All keys of some sections, as written by a scene with nothing else in it, so that none can be
+// forgotten.
+template <class Take>
+std::string written(const Take& take) {
+  Scene settings;
+  take(settings);
+  return write_scene(settings);
+}
+
+// Files may be replaced while a program runs.
+void add_files(CacheKeyText& key, const LoadedScene& loaded) {
+  for (const SceneInput& input : scene_inputs(loaded)) {
+    std::error_code none;
+    key.add("file", input.path)
+        .add("bytes", static_cast<std::uint64_t>(std::filesystem::file_size(input.path, none)))
+        .add("time", static_cast<std::int64_t>(std::filesystem::last_write_time(input.path, none)
+                                                   .time_since_epoch()
+                                                   .count()));
+  }
+}
+
+}  // namespace
+
+std::string dem_key(const LoadedScene& loaded) {
+  CacheKeyText key;
+  key.add("settings", written([&](Scene& scene) {
+            scene.seed = loaded.scene.seed;
+            scene.terrain = loaded.scene.terrain;
+            scene.land_cover.sea = loaded.scene.land_cover.sea;
+            scene.land_cover.sea_level_m = loaded.scene.land_cover.sea_level_m;
+            scene.generalize.destripe = loaded.scene.generalize.destripe;
+            scene.features_style = loaded.scene.features_style;
+            scene.features = loaded.scene.features;
+          }));
+  add_files(key, loaded);
+  return key.str();
+}
+
+std::string cover_key(const LoadedScene& loaded) {
+  return written([&](Scene& scene) {
+    scene.seed = loaded.scene.seed;
+    scene.land_cover = loaded.scene.land_cover;
+    scene.season = loaded.scene.season;
+    scene.climate = loaded.scene.climate;
+    scene.features_style = loaded.scene.features_style;
+    scene.features = loaded.scene.features;
+  });
+}
+
+std::string camera_key(const LoadedScene& loaded, const View& view) {
+  const auto& [projection, width, height, eye, azimuth_deg, pitch_deg, field_of_view_deg,
+               view_width_m] = view.camera;
+  CacheKeyText key;
+  key.add("projection", projection).add("width", width).add("height", height).add("eye", eye);
+  key.add("azimuth_deg", azimuth_deg)
+      .add("pitch_deg", pitch_deg)
+      .add("field_of_view_deg", field_of_view_deg)
+      .add("view_width_m", view_width_m)
+      .add("sheet_width_mm", loaded.scene.output.sheet_width_mm);
+  return key.str();
+}
+
+std::string generalize_key(const LoadedScene& loaded, const View& view) {
+  CacheKeyText key;
+  key.add("settings",
+          written([&](Scene& scene) { scene.generalize = loaded.scene.generalize; }))
+      .add("viewer", view.viewer_xy)
+      .add("foreground_to_m", view.generalize.foreground_to_m)
+      .add("background_from_m", view.generalize.background_from_m);
+  if (loaded.scene.generalize.print_detail_px > 0.0)
+    key.add("camera", camera_key(loaded, view)).add("bend", deform_key(view));
+  return key.str();
+}
+
+std::string deform_key(const View& view) {
+  const auto& [exaggeration, bend, earth_curvature, refraction, background_exaggeration,
+               foreground_to_m, background_from_m, base_m, summits, handles] = view.deform;
+  const auto& [radius_m, crest_m, far_from_m, far_amount_per_m, points] = bend;
+  CacheKeyText key;
+  key.add("viewer", view.viewer_xy)
+      .add("exaggeration", exaggeration)
+      .add("earth_curvature", earth_curvature)
+      .add("refraction", refraction)
+      .add("background", background_exaggeration)
+      .add("foreground_to_m", foreground_to_m)
+      .add("background_from_m", background_from_m)
+      .add("base_m", base_m);
+  key.add("radius_m", radius_m)
+      .add("crest_m", crest_m)
+      .add("far_from_m", far_from_m)
+      .add("far_amount_per_m", far_amount_per_m);
+  for (const auto& [distance_m, drop_m, inclination_deg] : points)
+    key.add("point", distance_m).add("drop_m", drop_m).add("inclination_deg", inclination_deg);
+  for (const auto& [centre, radius, factor, base] : summits)
+    key.add("summit", centre).add("radius_m", radius).add("factor", factor).add("base_m", base);
+  for (const auto& [centre, move_m, rotate_deg, scale, raise_m, radius, core_m, pin] : handles)
+    key.add("handle", centre)
+        .add("move_m", move_m)
+        .add("rotate_deg", rotate_deg)
+        .add("scale", scale)
+        .add("raise_m", raise_m)
+        .add("radius_m", radius)
+        .add("core_m", core_m)
+        .add("pin", pin);
+  return key.str();
+}
+
+}  // namespace belvedere

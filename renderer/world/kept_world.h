@@ -1,0 +1,56 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "renderer/scene/scene_file.h"
+#include "renderer/trace/ground_surroundings.h"
+#include "renderer/trace/terrain_model.h"
+#include "renderer/trace/tracer.h"
+#include "renderer/world/scene_dem.h"
+#include "renderer/world/view.h"
+#include "terrain/cover/land_cover.h"
+#include "terrain/deform/deform.h"
+
+namespace belvedere {
+
+// A value with the text of everything that it was made from.
+template <class T>
+struct Kept {
+  std::string key;
+  std::shared_ptr<T> value;
+};
+
+// Values of a world that the next one takes over if what they are made from has not changed, for
+// programs that make many pictures of one scene. Results never depend on it. The world must be
+// destroyed before the next is made, because values are changed in place. Not thread-safe.
+struct KeptWorld {
+  Kept<SceneDem> dem;
+  Kept<LandCover> bare_cover;  // before a map and rivers are laid over it for a camera
+  Kept<LandCover> land_cover;
+  Kept<GroundSurroundings> surroundings;
+  Kept<TerrainModel> terrain;
+  Kept<const DeformedSurface> surface;
+  Kept<const Tracer> tracer;
+};
+
+// What has this key, or what `make` returns, which is then kept. Without a place nothing is.
+template <class T, class Make>
+std::shared_ptr<T> keep_or_make(Kept<T>* kept, const std::string& key, const Make& make) {
+  if (kept == nullptr) return std::make_shared<T>(make());
+  if (kept->value == nullptr || kept->key != key) {
+    *kept = {};  // before memory is taken for the next
+    *kept = {key, std::make_shared<T>(make())};
+  }
+  return kept->value;
+}
+
+// The keys: texts that are equal only if the values are.
+std::string dem_key(const LoadedScene& loaded);         // settings, and the files' sizes and times
+std::string cover_key(const LoadedScene& loaded);       // of the land cover on a DEM of that key
+std::string generalize_key(const LoadedScene& loaded, const View& view);
+std::string camera_key(const LoadedScene& loaded, const View& view);
+std::string deform_key(const View& view);
+
+}  // namespace belvedere
