@@ -266,4 +266,18 @@ double merit(const std::vector<ScoreTerm>& terms, const ScoreContext& context) {
   return std::clamp(10.0 * total(terms) / max, 0.0, 10.0);
 }
 
+std::string measure_text(const ScoreTerm& term) {
+  switch (term.unit) {
+    case TermUnit::share:
+      return fmt::format("{:.0f} %", 100.0 * term.value);
+    case TermUnit::degrees:
+      return fmt::format("{:.0f}°", term.value);
+    case TermUnit::pixels:
+      return fmt::format("{:.0f} px", term.value);
+    case TermUnit::number:
+      break;
+  }
+  return fmt::format("{:.1f}", term.value);
+}
+
 }  // namespace belvedere

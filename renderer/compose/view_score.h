@@ -47,6 +47,9 @@ struct ScoreTerm {
   double max() const { return kind == TermKind::plateau ? weight : 0.0; }
 };
 
+// The measure in a readable unit: "18 %", "12°".
+std::string measure_text(const ScoreTerm& term);
+
 // The table, filled in for a view.
 std::vector<ScoreTerm> score_terms(const ViewMeasures& measures, const ScoreContext& context);
 double total(const std::vector<ScoreTerm>& terms);

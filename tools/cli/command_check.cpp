@@ -13,21 +13,6 @@
 namespace belvedere::tools {
 namespace {
 
-// A measure in a readable unit.
-std::string in_words(TermUnit unit, double value) {
-  switch (unit) {
-    case TermUnit::share:
-      return fmt::format("{:.0f} %", 100.0 * value);
-    case TermUnit::degrees:
-      return fmt::format("{:.0f}°", value);
-    case TermUnit::pixels:
-      return fmt::format("{:.0f} px", value);
-    case TermUnit::number:
-      break;
-  }
-  return fmt::format("{:.1f}", value);
-}
-
 Json composition_json(const ViewEvaluation& evaluation) {
   Json terms = Json::object();
   for (const ScoreTerm& term : evaluation.terms)
@@ -52,7 +37,7 @@ std::string composition_text(const ViewEvaluation& evaluation) {
       evaluation.merit, evaluation.subject, evaluation.near_m / 1000.0, evaluation.far_m / 1000.0);
   const auto value = [&](std::string_view name) {
     for (const ScoreTerm& term : evaluation.terms)
-      if (term.name == name) return in_words(term.unit, term.value);
+      if (term.name == name) return measure_text(term);
     return std::string();
   };
   out += fmt::format(
@@ -61,7 +46,7 @@ std::string composition_text(const ViewEvaluation& evaluation) {
       value("sky"), value("rim"), value("floor"), value("ranges"), value("cut"), value("haze"));
   for (const ScoreTerm& term : evaluation.terms)
     if (!term.advice().empty())
-      out += fmt::format("  {} ({} {})\n", term.advice(), in_words(term.unit, term.value),
+      out += fmt::format("  {} ({} {})\n", term.advice(), measure_text(term),
                          term.meaning);
   return out;
 }

@@ -10,6 +10,7 @@ const std::vector<Command>& all_commands() {
   static const std::vector<Command> commands = {
       {"", "new", "Proposes views of a region from its elevation alone, and writes a scene",
        add_new},
+      {"", "studio", "Composes a scene live, on a page of this machine", add_studio},
       {"", "render",
        "Renders a scene: panorama.tif for print, .png for screens, .exr for further work",
        add_render},

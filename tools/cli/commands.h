@@ -56,6 +56,7 @@ Action add_part(CommandOptions& command);
 Action add_plan(CommandOptions& command);
 Action add_render(CommandOptions& command);
 Action add_schema(CommandOptions& command);
+Action add_studio(CommandOptions& command);
 Action add_style_fit(CommandOptions& command);
 Action add_synthesize(CommandOptions& command);
 Action add_texture_erode(CommandOptions& command);

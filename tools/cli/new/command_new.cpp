@@ -22,6 +22,7 @@
 #include "tools/cli/file_names.h"
 #include "tools/cli/new/contact_sheet.h"
 #include "tools/cli/new/new_options.h"
+#include "tools/cli/new/new_scene.h"
 #include "tools/cli/new/region_sources.h"
 #include "tools/cli/new/view_options.h"
 #include "tools/cli/scene_options.h"
@@ -132,7 +133,9 @@ double won(const Candidate& candidate) {
   return out;
 }
 
-int run_new(const NewOptions& options) {
+}  // namespace
+
+int make_new_scene(const NewOptions& options) {
   if (options.dems.empty() == options.fetch.at.empty())
     throw Error(
         ErrorKind::usage, "DEM",
@@ -236,12 +239,10 @@ int run_new(const NewOptions& options) {
   return 0;
 }
 
-}  // namespace
-
 Action add_new(CommandOptions& command) {
   const auto options = std::make_shared<NewOptions>();
   add_new_options(command, *options);
-  return [options] { return run_new(*options); };
+  return [options] { return make_new_scene(*options); };
 }
 
 }  // namespace belvedere::tools

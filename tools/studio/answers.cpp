@@ -1,0 +1,273 @@
+#include "tools/studio/answers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+
+#include "base/text/embedded.h"
+#include "renderer/compose/proposals.h"
+#include "renderer/compose/proposed_scene.h"
+#include "renderer/scene/edit/scene_values.h"
+#include "renderer/scene/edit/toml_layout.h"
+#include "terrain/io/crs.h"
+#include "terrain/shape/hillshade.h"
+
+namespace belvedere::tools {
+namespace {
+
+Json numbers(glm::dvec2 position) { return Json::numbers(std::vector{position.x, position.y}); }
+
+Json error_members(const Error& error) {
+  Json out = Json::object()
+                 .add("message", Json::text(error.found().empty() ? error.what() : error.found()))
+                 .add("where", Json::text(error.where()))
+                 .add("allowed", Json::text(error.allowed()));
+  // "karwendel.toml:12:3", "sun.azimuth_deg" or "karwendel.toml:12:3: sun.azimuth_deg"
+  const std::string& where = error.where();
+  int line = 0;
+  int column = 0;
+  for (std::size_t at = where.find(':'); at != std::string::npos; at = where.find(':', at + 1)) {
+    const char* end = where.data() + where.size();
+    const auto [after, bad] = std::from_chars(where.data() + at + 1, end, line);
+    if (bad != std::errc() || after == end || *after != ':') continue;
+    std::from_chars(after + 1, end, column);
+    break;
+  }
+  if (line > 0)
+    out.add("line", Json::number(line)).add("column", Json::number(column));
+  const auto key = std::find_if(where.begin(), where.end(), [](char c) { return c == ' '; });
+  const std::string last(key == where.end() ? where.begin() : key + 1, where.end());
+  if (last.find('.') != std::string::npos && last.find_first_of("/: ") == std::string::npos &&
+      !last.ends_with(".toml"))
+    out.add("key", Json::text(last));
+  return out;
+}
+
+// Leaves of a table as edits: "camera.height_m" and "22000".
+void add_edits(const ConfigValue& value, const std::string& key, std::vector<SceneEdit>& edits) {
+  if (const auto* table = std::get_if<ConfigTable>(&value.value))
+    for (const ConfigEntry& entry : *table) add_edits(entry.value, key + "." + entry.key, edits);
+  else
+    edits.push_back({.key = key, .value = toml_text(value)});
+}
+
+}  // namespace
+
+Json error_json(const Error& error) { return Json::object().add("error", error_members(error)); }
+
+Json scene_json(const SceneSession& session, const std::vector<DerivedValue>& derived,
+                const std::vector<std::string>& notes) {
+  Json values = Json::object();
+  for (const auto& [key, text] : scene_values(session.scene().scene))
+    values.add(key, Json::raw(text));
+  Json open = Json::array();
+  for (const DerivedValue& value : derived)
+    open.add(Json::object()
+                 .add("key", Json::text(value.key))
+                 .add("value", Json::text(value.value))
+                 .add("why", Json::text(value.why)));
+  return Json::object()
+      .add("revision", Json::number(static_cast<double>(session.revision())))
+      .add("file", Json::text(session.path()))
+      .add("name", Json::text(session.scene().name))
+      .add("title", Json::text(session.scene().scene.title))
+      .add("saved", Json::boolean(session.is_saved()))
+      .add("can_undo", Json::boolean(session.can_undo()))
+      .add("can_redo", Json::boolean(session.can_redo()))
+      .add("text", Json::text(session.text()))
+      .add("values", std::move(values))
+      .add("derived", std::move(open))
+      .add("error", Json::raw("null"))
+      .add("notes", Json::texts(notes))
+      .add("outside", Json::boolean(session.is_changed_outside()));
+}
+
+Json rungs_json(const LoadedScene& scene) {
+  Json out = Json::array();
+  for (std::size_t i = 0; i < rungs().size(); ++i) {
+    const Rung& rung = rungs()[i];
+    const SceneOutput& size = scene_of_rung(scene, rung, {}).scene.output;
+    out.add(Json::object()
+                .add("rung", Json::number(static_cast<double>(i)))
+                .add("name", Json::text(rung.name))
+                .add("width", Json::number(size.width))
+                .add("height", Json::number(size.height))
+                .add("without", Json::texts(rung.without)));
+  }
+  return out;
+}
+
+Json pointer_json(const LivePicture& picture, glm::dvec2 share) {
+  const GuidanceBuffers& seen = picture.seen;
+  const auto pixel = [](double part, int size) {
+    return std::clamp(static_cast<int>(part * size), 0, size - 1);
+  };
+  const std::size_t i = static_cast<std::size_t>(pixel(share.y, seen.height())) *
+                            static_cast<std::size_t>(seen.width()) +
+                        static_cast<std::size_t>(pixel(share.x, seen.width()));
+  if (std::isinf(seen.depth_m[i])) return Json::object().add("sky", Json::boolean(true));
+  const glm::dvec2 position = glm::dvec2(seen.position_m[i]) + glm::dvec2(seen.origin_m);
+  Json out = Json::object()
+                 .add("sky", Json::boolean(false))
+                 .add("position", numbers(position))
+                 .add("altitude_m", Json::number(std::round(seen.altitude_m[i])))
+                 .add("distance_m", Json::number(std::round(seen.depth_m[i])))
+                 .add("class", Json::text(class_name(seen.land_cover[i])));
+  if (!picture.crs.empty())
+    out.add("lonlat",
+            numbers(transform_point(picture.crs, normalize_crs("EPSG:4326"), position)));
+  return out;
+}
+
+MapSize map_size(const Dem& dem) {
+  constexpr int max_px = 600;
+  const int step = std::max(1, (std::max(dem.width(), dem.height()) + max_px - 1) / max_px);
+  return {step, dem.width() / step, dem.height() / step};
+}
+
+Json map_json(const LiveView::Ground& ground, const LoadedScene& loaded) {
+  const Dem& dem = *ground.dem;
+  const GeoTransform& t = dem.transform;
+  const MapSize size = map_size(dem);
+  const CameraParameters& camera = ground.view.camera;
+  Json handles = Json::array();
+  for (const DeformHandle& handle : ground.view.deform.handles)
+    handles.add(Json::object()
+                    .add("position", numbers(handle.centre))
+                    .add("radius_m", Json::number(handle.radius_m)));
+  Json out =
+      Json::object()
+          .add("extent", Json::numbers(std::vector{
+                             t.origin_x, t.origin_y - size.height * size.step * t.cell_y,
+                             t.origin_x + size.width * size.step * t.cell_x, t.origin_y}))
+          .add("width", Json::number(size.width))
+          .add("height", Json::number(size.height))
+          .add("crs", Json::text(dem.crs.empty() ? "" : describe_crs(dem.crs)))
+          .add("viewer", numbers(ground.view.viewer_xy))
+          .add("height_m", Json::number(camera.eye.z))
+          .add("azimuth_deg", Json::number(camera.azimuth_deg))
+          .add("pitch_deg", Json::number(camera.pitch_deg))
+          .add("field_of_view_deg", Json::number(camera.field_of_view_deg))
+          .add("handles", std::move(handles));
+  if (loaded.scene.camera.look_at) out.add("target", numbers(*loaded.scene.camera.look_at));
+  return out;
+}
+
+Grid<glm::vec3> map_picture(const LiveView::Ground& ground) {
+  const Dem& dem = *ground.dem;
+  const MapSize size = map_size(dem);
+  Grid<float> altitude_m(size.width, size.height);
+  for (int y = 0; y < size.height; ++y)
+    for (int x = 0; x < size.width; ++x)
+      altitude_m(x, y) = ground.terrain->generalized_m(x * size.step, y * size.step);
+  const Grid<std::uint8_t> shade =
+      hillshade(altitude_m, size.step * dem.transform.cell_x, size.step * dem.transform.cell_y, {});
+  Grid<glm::vec3> picture(size.width, size.height);
+  constexpr glm::vec3 no_data{0.16F};
+  for (int y = 0; y < size.height; ++y)
+    for (int x = 0; x < size.width; ++x) {
+      if (dem.filled(x * size.step, y * size.step) != 0) {
+        picture(x, y) = no_data;
+        continue;
+      }
+      const glm::dvec2 at = dem.transform.to_crs(x * size.step, y * size.step);
+      const LandCoverClass id = ground.land_cover->at(at.x, at.y);
+      const glm::vec3 own = id == LandCoverClass::water     ? glm::vec3(0.55F, 0.68F, 0.78F)
+                            : id == LandCoverClass::glacier ? glm::vec3(0.90F, 0.95F, 1.0F)
+                            : id == LandCoverClass::snow    ? glm::vec3(1.0F)
+                            : id == LandCoverClass::forest  ? glm::vec3(0.66F, 0.74F, 0.60F)
+                                                            : glm::vec3(0.82F, 0.80F, 0.74F);
+      picture(x, y) = own * (0.35F + 0.65F * static_cast<float>(shade(x, y)) / 255.0F);
+    }
+  return picture;
+}
+
+Json check_json(const ViewEvaluation& evaluation) {
+  Json items = Json::array();
+  for (const ScoreTerm& term : evaluation.terms) {
+    const std::string_view advice = term.advice();
+    items.add(Json::object()
+                  .add("name", Json::text(term.name))
+                  .add("value", Json::text(measure_text(term) + " " + std::string(term.meaning)))
+                  .add("verdict", Json::text(advice.empty() ? "good" : "note"))
+                  .add("advice", Json::text(advice)));
+  }
+  return Json::object()
+      .add("merit", Json::number(std::round(10.0 * evaluation.merit) / 10.0))
+      .add("subject", Json::text(evaluation.subject))
+      .add("why_not", Json::text(evaluation.why_not))
+      .add("items", std::move(items));
+}
+
+std::vector<Proposal> find_proposals(const LiveView::Ground& ground) {
+  const CoarseGround coarse = coarse_ground_of(coarse_altitudes_of(*ground.dem));
+  const Massifs massifs = find_massifs(coarse);
+  require_region(coarse, massifs, "the terrain");
+  const ViewSearch search{coarse, massifs, {}};
+  std::vector<Proposal> out;
+  for (const Candidate& candidate : propose_views(search)) {
+    Proposal& proposal = out.emplace_back();
+    proposal.name = describe_view(search, candidate);
+    proposal.why = fmt::format("merit {:.1f} of 10", candidate.merit);
+    // The view as a whole is replaced, so that no key of the view before remains.
+    proposal.edits = {{.key = "camera", .value = {}}, {.key = "deform", .value = {}}};
+    const ConfigValue text = parse_config(proposed_scene_text(search, candidate, {}), "proposal");
+    for (const ConfigEntry& entry : std::get<ConfigTable>(text.value))
+      if (entry.key == "camera" || entry.key == "deform" || entry.key == "air")
+        add_edits(entry.value, entry.key, proposal.edits);
+  }
+  return out;
+}
+
+Json proposals_json(const std::vector<Proposal>& proposals) {
+  Json list = Json::array();
+  for (const Proposal& proposal : proposals) {
+    Json changes = Json::array();
+    for (const SceneEdit& edit : proposal.edits) {
+      Json change = Json::object().add("key", Json::text(edit.key));
+      if (edit.value)
+        change.add("value", Json::raw(*edit.value));
+      else
+        change.add("remove", Json::boolean(true));
+      changes.add(std::move(change));
+    }
+    list.add(Json::object()
+                 .add("name", Json::text(proposal.name))
+                 .add("why", Json::text(proposal.why))
+                 .add("changes", std::move(changes)));
+  }
+  return Json::object().add("proposals", std::move(list));
+}
+
+Json job_json(const RenderJob::Report& report) {
+  Json out = Json::object()
+                 .add("state", Json::text(describe(report.state)))
+                 .add("stage", Json::text(report.stage))
+                 .add("done", Json::number(report.done))
+                 .add("elapsed_s", Json::number(std::round(report.elapsed_s)))
+                 .add("folder", Json::text(report.folder))
+                 .add("error", report.error.empty()
+                                   ? Json::raw("null")
+                                   : Json::object().add("message", Json::text(report.error)));
+  constexpr double soon = 0.02;
+  if (report.state == RenderJob::State::running && report.done > soon)
+    out.add("left_s",
+            Json::number(std::round(report.elapsed_s * (1.0 - report.done) / report.done)));
+  if (report.state == RenderJob::State::done) out.add("page", Json::text("render/index.html"));
+  return out;
+}
+
+Json choices_json() {
+  Json projections_list = Json::array();
+  for (const Projection& projection : projections())
+    projections_list.add(Json::text(projection.name));
+  return Json::object()
+      .add("styles", Json::texts(embedded_names("styles")))
+      .add("palettes", Json::texts(embedded_names("palettes")))
+      .add("projections", std::move(projections_list));
+}
+
+}  // namespace belvedere::tools

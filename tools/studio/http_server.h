@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace belvedere::tools {
+
+struct HttpRequest {
+  std::string method;                        // GET or POST
+  std::string path;                          // below the token, without it: "api/scene"
+  std::map<std::string, std::string> query;  // decoded
+  std::string body;
+
+  // A value of the query; empty: not given.
+  std::string value(const std::string& name) const;
+};
+
+// Sends a part of a streamed answer; false once the reader is gone.
+using SendPart = std::function<bool(std::string_view bytes)>;
+
+struct HttpAnswer {
+  int status = 200;
+  std::string type = "application/json";
+  std::string body = {};
+  std::map<std::string, std::string> headers = {};
+  std::function<void(const SendPart& send)> stream = {};  // instead of a body
+};
+
+struct HttpParameters {
+  int port = 0;                                  // of 127.0.0.1; 0: any that is free
+  std::string token;                             // first part of every address
+  std::uint64_t max_body_bytes = 1ULL << 30U;    // larger requests are refused
+};
+
+// A server for programs of this machine alone: it listens on 127.0.0.1, and answers only requests
+// whose address begins with the token, whose Host is this machine, and whose Origin, if they have
+// one, is the server itself. Everything else gets status 403. The only code that uses cpp-httplib.
+// `answer` is called from several threads; what it throws becomes status 500 without details.
+class HttpServer {
+ public:
+  // Error(usage) where the port is in use.
+  HttpServer(const HttpParameters& parameters,
+             std::function<HttpAnswer(const HttpRequest&)> answer);
+  ~HttpServer();
+  HttpServer(const HttpServer&) = delete;
+  HttpServer& operator=(const HttpServer&) = delete;
+
+  int port() const;
+  // "http://127.0.0.1:PORT/TOKEN/"
+  std::string address() const;
+  // Answers until stop() is called, from another thread or by `answer`.
+  void run();
+  void stop();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+// 32 hexadecimal digits from the system's source of randomness.
+std::string random_token();
+
+}  // namespace belvedere::tools

@@ -1,0 +1,85 @@
+#include "tools/studio/request_body.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/text/json.h"
+
+namespace belvedere::tools {
+namespace {
+
+using Value = nlohmann::json;
+
+Error not_understood(const std::string& found) {
+  return {ErrorKind::usage, "request", found, "JSON as in docs/studio.md"};
+}
+
+Value parse_body(const std::string& body) {
+  if (body.empty()) return Value::object();
+  Value value = Value::parse(body, nullptr, false);
+  if (!value.is_object()) throw not_understood("the body is not a JSON object");
+  return value;
+}
+
+// JSON as TOML: only objects are written differently.
+std::string toml_of(const Value& value) {
+  if (value.is_null()) throw not_understood("null is no value of a scene");
+  if (value.is_array()) {
+    std::string list;
+    for (const Value& element : value) list += (list.empty() ? "" : ", ") + toml_of(element);
+    return "[" + list + "]";
+  }
+  if (value.is_object()) {
+    std::string list;
+    for (const auto& [name, member] : value.items())
+      list += fmt::format("{}{} = {}", list.empty() ? "" : ", ", json_quoted(name), toml_of(member));
+    return "{ " + list + " }";
+  }
+  if (value.is_string()) return json_quoted(value.get<std::string>());
+  return value.dump();
+}
+
+}  // namespace
+
+SetBody read_set_body(const std::string& body) {
+  const Value read = parse_body(body);
+  const auto changes = read.find("changes");
+  if (changes == read.end() || !changes->is_array()) throw not_understood("no list of changes");
+  SetBody out;
+  out.step = read_text_member(body, "step");
+  for (const Value& change : *changes) {
+    if (!change.is_object() || !change.contains("key") || !change["key"].is_string())
+      throw not_understood("a change without a key");
+    SceneEdit& edit = out.edits.emplace_back();
+    edit.key = change["key"].get<std::string>();
+    edit.append = change.contains("append");
+    if (edit.append)
+      edit.value = toml_of(change["append"]);
+    else if (change.contains("value"))
+      edit.value = toml_of(change["value"]);
+    else if (!change.contains("remove"))
+      throw not_understood(edit.key + " has neither value nor append nor remove");
+  }
+  return out;
+}
+
+std::string read_text_member(const std::string& body, const std::string& name,
+                             const std::string& otherwise) {
+  const Value read = parse_body(body);
+  const auto member = read.find(name);
+  if (member == read.end()) return otherwise;
+  if (!member->is_string()) throw not_understood(name + " is not a text");
+  return member->get<std::string>();
+}
+
+int read_number_member(const std::string& body, const std::string& name, int otherwise) {
+  const Value read = parse_body(body);
+  const auto member = read.find(name);
+  if (member == read.end()) return otherwise;
+  if (!member->is_number_integer()) throw not_understood(name + " is not a whole number");
+  return member->get<int>();
+}
+
+}  // namespace belvedere::tools

@@ -1,0 +1,103 @@
+#include "tools/studio/scene_session.h"
+
+#include <fstream>
+#include <iterator>
+#include <utility>
+
+#include "base/error.h"
+#include "renderer/image/output_file.h"
+
+namespace belvedere::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t max_steps = 1000;  // of undo; texts of some kilobytes
+
+}  // namespace
+
+SceneSession::SceneSession(std::string path, SceneFileOptions options)
+    : path_(std::move(path)), options_(std::move(options)), scene_(read_scene(path_, options_)) {
+  text_ = saved_ = read_file();
+}
+
+std::string SceneSession::read_file() const {
+  std::ifstream file(path_, std::ios::binary);
+  if (!file)
+    throw Error(ErrorKind::input, path_, "cannot be read", "the scene file where it was opened");
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+LoadedScene SceneSession::parse(const std::string& text) const {
+  const fs::path path(path_);
+  return parse_scene(text, path.stem().string(), path.parent_path().string(), options_);
+}
+
+void SceneSession::change_to(const std::string& text) {
+  if (text == text_) return;
+  scene_ = parse(text);
+  text_ = text;
+  ++revision_;
+}
+
+LoadedScene SceneSession::edited(std::span<const SceneEdit> edits) const {
+  return parse(edit_scene_text(text_, fs::path(path_).filename().string(), edits));
+}
+
+void SceneSession::edit(std::span<const SceneEdit> edits, const std::string& step) {
+  const std::string before = text_;
+  change_to(edit_scene_text(text_, fs::path(path_).filename().string(), edits));
+  if (text_ == before) return;
+  if (step.empty() || step != last_step_) undo_.push_back(before);
+  if (undo_.size() > max_steps) undo_.erase(undo_.begin());
+  redo_.clear();
+  last_step_ = step;
+}
+
+void SceneSession::replace(const std::string& text) {
+  const std::string before = text_;
+  change_to(text);
+  if (text_ == before) return;
+  undo_.push_back(before);
+  redo_.clear();
+  last_step_.clear();
+}
+
+void SceneSession::undo() {
+  if (undo_.empty()) return;
+  std::string now = text_;
+  change_to(undo_.back());
+  undo_.pop_back();
+  redo_.push_back(std::move(now));
+  last_step_.clear();
+}
+
+void SceneSession::redo() {
+  if (redo_.empty()) return;
+  std::string now = text_;
+  change_to(redo_.back());
+  redo_.pop_back();
+  undo_.push_back(std::move(now));
+  last_step_.clear();
+}
+
+bool SceneSession::is_changed_outside() const {
+  std::ifstream file(path_, std::ios::binary);
+  return file && std::string(std::istreambuf_iterator<char>(file), {}) != saved_;
+}
+
+void SceneSession::save(bool over) {
+  if (!over && is_changed_outside())
+    throw Error(ErrorKind::output, path_, "another program changed the file",
+                "reload it, or save over it");
+  write_text_file(path_, text_);
+  saved_ = text_;
+}
+
+void SceneSession::reload() {
+  const std::string text = read_file();
+  replace(text);
+  saved_ = text;
+}
+
+}  // namespace belvedere::tools

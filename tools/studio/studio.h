@@ -1,0 +1,41 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "base/run.h"
+#include "renderer/scene/scene_file.h"
+#include "tools/studio/http_server.h"
+
+namespace belvedere::tools {
+
+struct StudioParameters {
+  std::string scene;  // path
+  SceneFileOptions files;
+  int port = 0;  // 0: any that is free
+};
+
+// Composes a scene live: answers the requests of docs/studio.md, about one scene, until it is
+// stopped.
+class Studio {
+ public:
+  // Error as read_scene, and Error(usage) where the port is in use or another studio has the scene
+  // open. `run` must outlive it.
+  Studio(const StudioParameters& parameters, const Run& run);
+  ~Studio();
+  Studio(const Studio&) = delete;
+  Studio& operator=(const Studio&) = delete;
+
+  std::string address() const;
+  // Until stop(), from another thread.
+  void run();
+  void stop();
+  // The answer to one request; for tests. Errors become answers.
+  HttpAnswer answer(const HttpRequest& request);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace belvedere::tools
