@@ -5,117 +5,14 @@
 
 #include "base/text/json.h"
 #include "renderer/image/picture_formats.h"
+#include "renderer/scene/edit/scene_values.h"
 #include "renderer/scene/scene_file.h"
 #include "renderer/scene/scene_schema.h"
 #include "renderer/trace/camera.h"
 
-// What is derived from the table of scene_sections(): a scene as TOML, the JSON Schema, the
-// reference.
+// What is derived from the table of scene_sections(): the JSON Schema, the reference.
 namespace belvedere {
 namespace {
-
-std::string bare_key(std::string_view key) {
-  const bool bare = !key.empty() && std::all_of(key.begin(), key.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
-           c == '-';
-  });
-  return bare ? std::string(key) : json_quoted(key);
-}
-
-template <class List>
-std::string bracketed(const List& list) {
-  return fmt::format("[{}]", fmt::join(list, ", "));
-}
-
-// The value as TOML, which for all but tables is JSON too; empty where nothing is set.
-struct ValueWriter {
-  std::string operator()(const bool* field) const { return *field ? "true" : "false"; }
-  std::string operator()(const int* field) const { return fmt::format("{}", *field); }
-  std::string operator()(const std::uint64_t* field) const { return fmt::format("{}", *field); }
-  std::string operator()(const double* field) const {
-    return fmt::format("{}", *field);
-  }  // shortest that reads back the same
-  std::string operator()(const float* field) const { return fmt::format("{}", *field); }
-  std::string operator()(const std::optional<double>* field) const {
-    return *field ? fmt::format("{}", **field) : "";
-  }
-  std::string operator()(const std::string* field) const {
-    return field->empty() ? "" : json_quoted(*field);
-  }
-  std::string operator()(const std::optional<glm::dvec2>* field) const {
-    return *field ? bracketed(std::array{(*field)->x, (*field)->y}) : "";
-  }
-  std::string operator()(const std::array<double, 2>* field) const { return bracketed(*field); }
-  std::string operator()(const std::optional<std::array<double, 4>>* field) const {
-    return *field ? bracketed(**field) : "";
-  }
-  std::string operator()(const std::vector<glm::dvec2>* field) const {
-    std::vector<std::string> positions;
-    for (const glm::dvec2 position : *field)
-      positions.push_back(bracketed(std::array{position.x, position.y}));
-    return positions.empty() ? "" : bracketed(positions);
-  }
-  // An empty set of weights is not written.
-  std::string operator()(const std::vector<float>* field) const {
-    return field->empty() ? "" : bracketed(*field);
-  }
-  std::string operator()(const std::optional<LandCoverClass>* field) const {
-    return *field ? json_quoted(class_name(**field)) : "";
-  }
-  std::string operator()(const std::vector<LandCoverClass>* field) const {
-    std::vector<std::string> entries;
-    for (const LandCoverClass id : *field) entries.push_back(json_quoted(class_name(id)));
-    return bracketed(entries);
-  }
-  std::string operator()(const std::vector<std::string>* field) const {
-    std::vector<std::string> entries;
-    for (const std::string& name : *field) entries.push_back(json_quoted(name));
-    return bracketed(entries);
-  }
-  std::string operator()(const std::vector<std::pair<std::string, double>>* field) const {
-    std::vector<std::string> entries;
-    for (const auto& [name, number] : *field)
-      entries.push_back(fmt::format("{} = {}", bare_key(name), number));
-    return entries.empty() ? "" : fmt::format("{{ {} }}", fmt::join(entries, ", "));
-  }
-  std::string operator()(
-      const std::vector<std::pair<LandCoverClass, LandCoverClass>>* field) const {
-    std::vector<std::string> entries;
-    for (const auto& [from, to] : *field)
-      entries.push_back(fmt::format("{} = {}", class_name(from), json_quoted(class_name(to))));
-    return entries.empty() ? "" : fmt::format("{{ {} }}", fmt::join(entries, ", "));
-  }
-};
-
-std::string value_text(const SceneKey& key, Scene& scene, std::size_t i) {
-  return std::visit(ValueWriter{}, key.field(scene, i));
-}
-
-// Keys whose defaults would contradict what is set, such as an azimuth with a point to look at.
-bool is_excluded(const SceneSection& section, const SceneKey& key, Scene& scene, std::size_t i) {
-  for (const SceneExclusion& exclusion : scene_exclusions()) {
-    if (exclusion.section != section.name ||
-        std::find(exclusion.those.begin(), exclusion.those.end(), key.name) ==
-            exclusion.those.end())
-      continue;
-    for (const std::string_view rival : exclusion.these)
-      if (!value_text(*find_key(section, rival), scene, i).empty()) return true;
-  }
-  if (section.name != "exemplar") return false;
-  // Keys that cannot be set for an exemplar without a picture, for a model, or for neither.
-  static constexpr std::array<std::string_view, 8> of_pictures = {
-      "altitude_range_m", "optional", "found_shadow", "excluded",
-      "stroke_px",        "serves",   "prefer",       "light"};
-  static constexpr std::array<std::string_view, 6> of_no_model = {
-      "altitude_range_m", "found_shadow", "excluded", "width", "height", "seed"};
-  const auto names_it = [&](const auto& keys) {
-    return std::find(keys.begin(), keys.end(), key.name) != keys.end();
-  };
-  if (!scene.exemplars[i].model.empty()) return names_it(of_no_model);
-  if (key.name == "excluded" && scene.exemplars[i].exclude.empty()) return true;
-  return scene.exemplars[i].picture.empty() ? names_it(of_pictures)
-                                            : key.name == "prefer" || key.name == "light";
-}
 
 // A scene in which every section exists, to read defaults from.
 Scene full_scene() {
@@ -241,7 +138,7 @@ Json section_schema(const SceneSection& section, Scene& defaults) {
     Json schema = std::visit(SchemaOfField{key}, field);
     const std::string unit = key.unit.empty() ? "" : fmt::format(" Unit: {}.", key.unit);
     schema.add("description", Json::text(full_meaning(key) + unit));
-    const std::string value = std::visit(ValueWriter{}, field);
+    const std::string value = value_text(field);
     if (!value.empty() && !key.required && has_json_default(field))
       schema.add("default", Json::raw(value));
     properties.add(key.name, std::move(schema));
@@ -279,26 +176,6 @@ std::string table_cell(std::string_view text) {
 }
 
 }  // namespace
-
-std::string write_scene(const Scene& scene) {
-  Scene values = scene;  // the accessors need one to write to
-  std::string out;
-  for (const SceneSection& section : scene_sections()) {
-    const std::size_t count = section.count == nullptr ? 1 : section.count(values);
-    for (std::size_t i = 0; i < count; ++i) {
-      if (!section.name.empty())
-        out +=
-            fmt::format(fmt::runtime(section.kind == SectionKind::list ? "\n[[{}]]\n" : "\n[{}]\n"),
-                        section.name);
-      for (const SceneKey& key : section.keys) {
-        const std::string text =
-            is_excluded(section, key, values, i) ? "" : value_text(key, values, i);
-        if (!text.empty()) out += fmt::format("{} = {}\n", key.name, text);
-      }
-    }
-  }
-  return out;
-}
 
 std::string scene_json_schema() {
   Scene defaults = full_scene();
@@ -352,7 +229,7 @@ std::string scene_reference() {
     out += "| key | value | default | meaning |\n|---|---|---|---|\n";
     for (const SceneKey& key : section.keys) {
       const std::string range = describe_range(key);
-      const std::string value = key.required ? "**required**" : value_text(key, defaults, 0);
+      const std::string value = key.required ? "**required**" : value_text(key.field(defaults, 0));
       out += fmt::format("| `{}` | {}{} | {} | {} |\n", key.name, table_cell(describe_type(key)),
                          range.empty() ? "" : "; " + range,
                          key.required || value.empty()
