@@ -96,6 +96,13 @@ std::string with_present_key(const std::string& setting, std::vector<std::string
   return setting;
 }
 
+std::string former_name(const std::string& key) {
+  const std::string key_path = without_indices(key);
+  for (const FormerKey& row : former_keys)
+    if (key_path == fmt::format("{}.{}", row.section, row.present)) return std::string(row.former);
+  return {};
+}
+
 void spread_style(ConfigValue& root) {
   auto* table = std::get_if<ConfigTable>(&root.value);
   if (table == nullptr) return;

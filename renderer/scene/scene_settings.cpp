@@ -70,13 +70,8 @@ bool holds_text(const std::string& section, const std::string& name) {
 // One --set on its way down the tables.
 class Setting {
  public:
-  Setting(const std::string& text, ConfigPosition position)
-      : where_("--set " + text), position_(position) {
-    const std::size_t equals = text.find('=');
-    if (equals == std::string::npos || trimmed(std::string_view(text).substr(0, equals)).empty())
-      throw Error(ErrorKind::usage, where_, "no \"=\"",
-                  "key=value, such as --set output.width=1200");
-    std::string_view keys = std::string_view(text).substr(0, equals);
+  Setting(std::string_view keys, ConfigPosition position, std::string where)
+      : where_(std::move(where)), position_(position) {
     while (true) {
       const std::size_t dot = keys.find('.');
       path_.push_back(trimmed(keys.substr(0, dot)));
@@ -90,10 +85,11 @@ class Setting {
     if (path_.size() > deepest)
       throw Error(ErrorKind::usage, where_, "the key has too many parts",
                   fmt::format("at most {}", deepest));
-    value_ = trimmed(std::string_view(text).substr(equals + 1));
   }
 
-  void apply(ConfigValue& root) {
+  // `make_value` gets the section and the name of the key.
+  template <class MakeValue>
+  void apply(ConfigValue& root, MakeValue&& make_value) {
     ConfigValue* node = &root;
     std::string section;  // dotted name of the table `node`, without list indices
     for (std::size_t i = 0; i + 1 < path_.size(); ++i) {
@@ -105,10 +101,7 @@ class Setting {
       }
     }
     const std::string& last = path_.back();
-    const bool quoted = !value_.empty() && (value_.front() == '"' || value_.front() == '\'');
-    const bool is_word = holds_text(section, last) || value_ == "auto";
-    ConfigValue value = is_word && !quoted ? ConfigValue{.value = value_, .position = position_}
-                                           : parse_config_value(value_, where_);
+    ConfigValue value = make_value(section, last);
     mark(value, position_);
     if (node->is_array()) {
       element(*node, last, false) = std::move(value);
@@ -175,7 +168,6 @@ class Setting {
   std::string where_;
   ConfigPosition position_;
   std::vector<std::string> path_;
-  std::string value_;
 };
 
 }  // namespace
@@ -191,8 +183,28 @@ std::string SceneOrigin::where(ConfigPosition position) const {
 }
 
 void apply_settings(ConfigValue& root, const SceneOrigin& origin) {
-  for (std::size_t i = 0; i < origin.settings.size(); ++i)
-    Setting(origin.settings[i], place_of_setting(i)).apply(root);
+  for (std::size_t i = 0; i < origin.settings.size(); ++i) {
+    const std::string_view setting = origin.settings[i];
+    const std::string where = "--set " + origin.settings[i];
+    const std::size_t equals = setting.find('=');
+    if (equals == std::string_view::npos || trimmed(setting.substr(0, equals)).empty())
+      throw Error(ErrorKind::usage, where, "no \"=\"",
+                  "key=value, such as --set output.width=1200");
+    const std::string value = trimmed(setting.substr(equals + 1));
+    const bool quoted = !value.empty() && (value.front() == '"' || value.front() == '\'');
+    Setting(setting.substr(0, equals), place_of_setting(i), where)
+        .apply(root, [&](const std::string& section, const std::string& name) {
+          const bool is_word = holds_text(section, name) || value == "auto";
+          return is_word && !quoted ? ConfigValue{.value = value, .position = place_of_setting(i)}
+                                    : parse_config_value(value, where);
+        });
+  }
+}
+
+void set_scene_value(ConfigValue& root, const std::string& key, ConfigValue value) {
+  Setting(key, place_of_setting(0), key).apply(root, [&](const std::string&, const std::string&) {
+    return std::move(value);
+  });
 }
 
 }  // namespace belvedere

@@ -25,5 +25,7 @@ bool is_setting(ConfigPosition position);
 // sun.time). Values are checked later, with the file's. Error(usage) for a setting without a key or
 // with an invalid path.
 void apply_settings(ConfigValue& root, const SceneOrigin& origin);
+// The same for one value that is already parsed. Errors name its key, "deform.handles.0.move_m".
+void set_scene_value(ConfigValue& root, const std::string& key, ConfigValue value);
 
 }  // namespace belvedere
