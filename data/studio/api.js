@@ -1,0 +1,102 @@
+// The JSON interface of the program. Addresses are relative: they begin with the page's own token.
+
+// What the program refuses; `fault` is its message with the place: {message, where, line, column, key, allowed}.
+export class Refused extends Error {
+  constructor(status, fault) {
+    super(fault.message);
+    this.status = status;
+    this.fault = fault;
+  }
+}
+
+async function answered(address, options) {
+  let response;
+  try {
+    response = await fetch(address, { cache: "no-store", ...options });
+  } catch (error) {
+    if (error.name === "AbortError") throw error;
+    throw new Refused(0, { message: "The program does not answer. Is belvedere studio still running?" });
+  }
+  if (response.ok) return response;
+  let fault = null;
+  try {
+    fault = (await response.json()).error;
+  } catch {
+    // Not JSON: the status says what there is to say.
+  }
+  if (typeof fault === "string") fault = { message: fault };
+  throw new Refused(response.status, fault ?? { message: `The program answered ${response.status} to ${address.split("?")[0]}.` });
+}
+
+const get = async (address, signal) => (await answered(address, { signal })).json();
+const post = async (address, body = {}) =>
+  (await answered(address, { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(body) })).json();
+
+export const api = {
+  scene: () => get("api/scene"),
+  schema: () => get("api/schema"),
+  choices: () => get("api/choices"),
+  rungs: () => get("api/rungs"),
+  map: () => get("api/map"),
+  check: (signal) => get("api/check", signal),
+  proposals: () => get("api/proposals"),
+  set: (changes, step) => post("api/set", { changes, step }),
+  text: (text) => post("api/text", { text }),
+  act: (name) => post(`api/${name}`),  // undo, redo, save, reload
+  render: (width) => post("api/render", { width }),
+  render_state: () => get("api/render"),
+  render_cancel: () => post("api/render/cancel"),
+  pointer: (x, y, revision, signal) => get(`api/pointer?x=${x.toFixed(5)}&y=${y.toFixed(5)}&revision=${revision}`, signal),
+  map_picture: (revision) => `api/map.png?revision=${revision}`,
+  thumbnail: (index, turn) => `api/proposals/${index}.jpg?turn=${turn}`,
+
+  async picture(rung, revision, signal) {
+    const response = await answered(`api/picture?rung=${rung}&revision=${revision}`, { signal });
+    return { blob: await response.blob(), milliseconds: Number(response.headers.get("X-Belvedere-Milliseconds")) };
+  },
+
+  // Records of the last rung as they come: {x, y, width, height, done, stage, blob}.
+  async *tiles(revision, signal) {
+    const response = await answered(`api/tiles?revision=${revision}`, { signal });
+    const read = reader(response.body.getReader());
+    for (;;) {
+      const size = await read(4);
+      if (!size) return;
+      const header = JSON.parse(new TextDecoder().decode(await read(new DataView(size.buffer).getUint32(0))));
+      yield { ...header, blob: header.bytes > 0 ? new Blob([await read(header.bytes)], { type: "image/png" }) : null };
+    }
+  },
+
+  async upload(file) {
+    const headers = { "Content-Type": "application/octet-stream" };
+    return (await answered(`api/files?name=${encodeURIComponent(file.name)}`, { method: "POST", headers, body: file })).json();
+  },
+};
+
+// A function that takes exactly so many bytes from a stream; null at its end.
+function reader(stream) {
+  let rest = new Uint8Array(0);
+  return async (bytes) => {
+    const parts = [];
+    let have = 0;
+    while (have < bytes) {
+      if (rest.length === 0) {
+        const { done, value } = await stream.read();
+        if (done) return null;
+        rest = value;
+        continue;
+      }
+      const part = rest.subarray(0, bytes - have);
+      rest = rest.subarray(part.length);
+      parts.push(part);
+      have += part.length;
+    }
+    const whole = new Uint8Array(bytes);
+    let at = 0;
+    for (const part of parts) {
+      whole.set(part, at);
+      at += part.length;
+    }
+    return whole;
+  };
+}

@@ -1,0 +1,233 @@
+// Controls for single keys. Each is a row: label, "auto" where the program can choose, number field with unit, slider, the way back to the
+// default, and a place for the error that names its key. What a key means and may be comes from the schema.
+import { clamp, element, rounded } from "./dom.js";
+import { alone, new_step } from "./store.js";
+
+let ids = 0;
+
+// What the schema says of a key in the words that a control needs.
+export function kind_of(store, key) {
+  const part = store.describe(key);
+  if (!part) return null;
+  const either = part.anyOf ?? [part];
+  const number = either.find((each) => each.type === "number" || each.type === "integer");
+  const words = either.find((each) => each.enum)?.enum;
+  const auto = words?.includes("auto") ?? false;
+  const out = { help: (part.description ?? "").replace(/ Unit: [^.]*\.$/, ""), default: part.default, auto, optional: part.default === undefined };
+  if (number) return { ...out, kind: "number", min: number.minimum ?? number.exclusiveMinimum, max: number.maximum, whole: number.type === "integer" };
+  if (part.type === "boolean") return { ...out, kind: "switch" };
+  if (part.type === "array" && part.items?.enum) return { ...out, kind: "set", words: part.items.enum };
+  if (part.type === "array" && (part.maxItems === 2 || Array.isArray(part.items))) return { ...out, kind: "pair" };
+  if (words && !auto) return { ...out, kind: "choice", words, open: either.some((each) => each.pattern) };
+  return { ...out, kind: "text" };
+}
+
+// A row for {key, label, unit, min, max, step, log, kind, words}: min, max and step are the slider's; the number field takes all that the
+// schema allows.
+export function row(store, spec) {
+  const about = kind_of(store, spec.key);
+  if (!about) return null;
+  const made = { number: number_row, switch: switch_row, choice: choice_row, pair: pair_row, set: set_row, text: text_row }[spec.kind ?? about.kind](store, spec, about);
+  made.element.dataset.key = spec.key;
+  made.fault = element("p", { class: "fault", id: `fault-${++ids}`, hidden: true });
+  made.element.append(made.fault);
+  const shown = made.update;
+  made.update = () => {
+    made.element.hidden = spec.when ? !spec.when(store) : false;
+    if (!made.element.hidden) shown();
+  };
+  return made;
+}
+
+// Shows an error at a row, or takes it away.
+export function show_fault(made, fault) {
+  made.fault.hidden = !fault;
+  made.fault.textContent = fault ? fault.message : "";
+  for (const input of made.element.querySelectorAll("input, select")) {
+    if (fault) {
+      input.setAttribute("aria-invalid", "true");
+      input.setAttribute("aria-describedby", made.fault.id);
+    } else {
+      input.removeAttribute("aria-invalid");
+      input.removeAttribute("aria-describedby");
+    }
+  }
+}
+
+const set = (store, key, value, step) => store.edit(alone(store, [{ key, value }]), step ?? new_step());
+
+function label_of(spec, about, input) { return element("label", { for: input.id, title: about.help }, spec.label); }
+
+// The way back to the default: the key leaves the scene.
+function reset_button(store, spec) {
+  return element("button", {
+    type: "button", class: "reset", title: "Back to the default", "aria-label": `${spec.label}: back to the default`,
+    click: () => store.edit([{ key: spec.key, remove: true }], new_step()),
+  }, "↺");
+}
+function show_reset(store, spec, about, button) {
+  button.hidden = about.auto || about.default === undefined || !store.given(spec.key);
+}
+
+function number_row(store, spec, about) {
+  const min = spec.min ?? about.min;
+  const max = spec.max ?? about.max;
+  const step = spec.step ?? (about.whole ? 1 : 0.01);
+  const id = `control-${++ids}`;
+  // Distances by ratio: slider 0 … 1000 for min … max.
+  const low = Math.max(min, spec.log ?? 0);
+  const to_slider = (value) => (spec.log ? (value < low ? 0 : 1 + 999 * Math.log(value / low) / Math.log(max / low)) : value);
+  const from_slider = (at) => (spec.log ? (at < 1 ? min : Number((low * (max / low) ** ((at - 1) / 999)).toPrecision(3))) : at);
+  const slider = element("input", {
+    type: "range", min: spec.log ? 0 : min, max: spec.log ? 1000 : max, step: spec.log ? 1 : step, "aria-label": `${spec.label}, ${spec.unit ?? ""}`, id: `${id}-slider`,
+  });
+  const field = element("input", { type: "number", id, min: about.min, max: about.max, step: "any" });
+  const can_auto = spec.auto !== false && (about.auto || about.optional);
+  const auto = can_auto ? element("button", { type: "button", class: "auto", title: "The program chooses" }, spec.auto ?? "auto") : null;
+  auto?.setAttribute("aria-label", `${spec.label}: the program chooses`);
+  const reset = reset_button(store, spec);
+  const current = () => (spec.get ? spec.get(store) : store.number(spec.key));
+  const change = (value, at) => (spec.set ? store.edit(spec.set(store, value), at) : set(store, spec.key, value, at));
+
+  let moving = null;
+  slider.addEventListener("input", () => {
+    moving ??= new_step();
+    const value = rounded(from_slider(Number(slider.value)), spec.log ? 1e-6 : step);
+    field.value = value;
+    change(value, moving);
+  });
+  slider.addEventListener("change", () => { moving = null; });
+  field.addEventListener("change", () => {
+    if (field.value.trim() === "" || !Number.isFinite(Number(field.value))) return update();
+    change(Number(field.value), new_step());
+  });
+  // Arrow keys step by what is sensible for the key: ten of them with Shift, a tenth with Alt.
+  field.addEventListener("keydown", (event) => {
+    if (event.key !== "ArrowUp" && event.key !== "ArrowDown") return;
+    event.preventDefault();
+    const by = (event.key === "ArrowUp" ? 1 : -1) * (event.shiftKey ? 10 : event.altKey ? 0.1 : 1);
+    const size = spec.log ? 10 ** Math.floor(Math.log10(Math.max(1, Math.abs(Number(field.value)) / 10))) : step;
+    moving ??= new_step();
+    field.value = clamp(rounded(Number(field.value) + by * size, size * 0.1), about.min ?? -Infinity, about.max ?? Infinity);
+    change(Number(field.value), moving);
+  });
+  field.addEventListener("blur", () => { moving = null; });
+  auto?.addEventListener("click", () => {
+    if (!spec.set && auto.getAttribute("aria-pressed") === "true") {
+      const value = store.number(spec.key) ?? min;
+      return set(store, spec.key, rounded(value, step));
+    }
+    store.edit([about.auto ? { key: spec.key, value: "auto" } : { key: spec.key, remove: true }], new_step());
+  });
+
+  function update() {
+    const value = current();
+    const itself = store.value(spec.key);
+    const is_auto = can_auto && (itself === undefined || itself === "auto");
+    // What is being typed stays.
+    if (document.activeElement !== field || moving || Number(field.value) !== value)
+      if (!(document.activeElement === field && field.matches(":user-invalid"))) field.value = value === undefined ? "" : rounded(value, Math.min(step, spec.log ? 0.1 : step) / 10);
+    slider.value = value === undefined ? slider.min : to_slider(clamp(value, min, max));
+    slider.setAttribute("aria-valuetext", `${field.value} ${spec.unit ?? ""}`);
+    slider.style.setProperty("--at", `${100 * (slider.value - slider.min) / (slider.max - slider.min)}%`);
+    auto?.setAttribute("aria-pressed", String(is_auto));
+    made.classList.toggle("is-auto", is_auto);
+    const why = store.derived(spec.key)?.why;
+    if (auto) auto.title = why ? `The program chooses: ${why}` : "The program chooses";
+    show_reset(store, spec, about, reset);
+  }
+  const made = element("div", { class: "row number" }, label_of(spec, about, field), element("span", { class: "tools" }, auto, reset),
+    element("span", { class: "value" }, field, element("span", { class: "unit" }, spec.unit ?? "")), slider);
+  return { element: made, update, focus: () => field.focus() };
+}
+
+function switch_row(store, spec, about) {
+  const input = element("input", { type: "checkbox", role: "switch", id: `control-${++ids}` });
+  input.addEventListener("change", () => set(store, spec.key, input.checked));
+  return {
+    element: element("div", { class: "row switch" }, label_of(spec, about, input), input),
+    update: () => { input.checked = store.value(spec.key) === true; },
+    focus: () => input.focus(),
+  };
+}
+
+function choice_row(store, spec, about) {
+  const input = element("select", { id: `control-${++ids}` });
+  const words = spec.words?.(store) ?? about.words;
+  const none = spec.none ?? (about.optional ? "none" : null);
+  if (none !== null && !words.includes("")) input.append(element("option", { value: "" }, none));
+  for (const word of words) input.append(element("option", { value: word }, word === "" ? (spec.none ?? "none") : word.replaceAll("_", " ")));
+  input.addEventListener("change", () => {
+    if (input.value === "" && about.optional && !words.includes("")) store.edit([{ key: spec.key, remove: true }], new_step());
+    else set(store, spec.key, input.value);
+  });
+  const reset = reset_button(store, spec);
+  return {
+    element: element("div", { class: "row choice" }, label_of(spec, about, input), element("span", { class: "tools" }, reset), input),
+    update: () => {
+      const value = store.value(spec.key) ?? "";
+      if (!Array.from(input.options).some((option) => option.value === value)) input.append(element("option", { value }, value));
+      input.value = value;
+      show_reset(store, spec, about, reset);
+    },
+    focus: () => input.focus(),
+  };
+}
+
+function pair_row(store, spec, about) {
+  const names = spec.names ?? ["E", "N"];
+  const step = spec.step ?? 1;
+  const fields = names.map((name) => element("input", { type: "number", id: `control-${++ids}`, step: "any", "aria-label": `${spec.label} ${name}` }));
+  const current = () => (spec.get ? spec.get(store) : store.value(spec.key));
+  const send = (at) => {
+    const value = fields.map((field) => Number(field.value));
+    if (value.every(Number.isFinite)) set(store, spec.key, value, at);
+  };
+  for (const field of fields) {
+    let moving = null;
+    field.addEventListener("change", () => send());
+    field.addEventListener("keydown", (event) => {
+      if (event.key !== "ArrowUp" && event.key !== "ArrowDown") return;
+      event.preventDefault();
+      moving ??= new_step();
+      field.value = rounded(Number(field.value) + (event.key === "ArrowUp" ? 1 : -1) * step * (event.shiftKey ? 10 : event.altKey ? 0.1 : 1), step / 10);
+      send(moving);
+    });
+    field.addEventListener("blur", () => { moving = null; });
+  }
+  const reset = reset_button(store, spec);
+  return {
+    element: element("div", { class: "row pair" }, label_of(spec, about, fields[0]), element("span", { class: "tools" }, reset),
+      element("span", { class: "fields" }, ...fields.flatMap((field, k) => [element("span", { class: "unit", "aria-hidden": "true" }, names[k]), field]), element("span", { class: "unit" }, spec.unit ?? ""))),
+    update: () => {
+      const value = current() ?? about.default;
+      fields.forEach((field, k) => { if (document.activeElement !== field || Number(field.value) !== value?.[k]) field.value = value === undefined ? "" : rounded(value[k], step / 10); });
+      show_reset(store, spec, about, reset);
+    },
+    focus: () => fields[0].focus(),
+  };
+}
+
+function set_row(store, spec, about) {
+  const boxes = about.words.map((word) => element("input", { type: "checkbox", value: word, id: `control-${++ids}` }));
+  for (const box of boxes) box.addEventListener("change", () => set(store, spec.key, boxes.filter((each) => each.checked).map((each) => each.value)));
+  return {
+    element: element("div", { class: "row set", role: "group", "aria-label": spec.label }, element("span", { class: "label", title: about.help }, spec.label),
+      element("span", { class: "boxes" }, ...boxes.map((box) => element("label", {}, box, box.value)))),
+    update: () => { for (const box of boxes) box.checked = (store.value(spec.key) ?? []).includes(box.value); },
+    focus: () => boxes[0].focus(),
+  };
+}
+
+function text_row(store, spec, about) {
+  const input = element("input", { type: "text", id: `control-${++ids}`, placeholder: spec.hint ?? "", spellcheck: "false", autocomplete: "off" });
+  input.addEventListener("change", () => {
+    if (input.value === "" && about.optional) store.edit([{ key: spec.key, remove: true }], new_step());
+    else set(store, spec.key, input.value);
+  });
+  return {
+    element: element("div", { class: "row text" }, label_of(spec, about, input), input),
+    update: () => { if (document.activeElement !== input) input.value = store.value(spec.key) ?? ""; },
+    focus: () => input.focus(),
+  };
+}

@@ -1,0 +1,95 @@
+// The ladder of pictures: the first rung while the hand moves, finer ones when it rests, the last one tile by tile. A new change aborts
+// all that is finer than the first rung; the first one is quick and always arrives, so that the picture follows the hand.
+import { api } from "./api.js";
+
+const rest_ms = 250;  // the hand rests when nothing has changed for so long
+
+export class Ladder {
+  constructor(picture, tell) {
+    this.picture = picture;
+    this.tell = tell;  // {rung, rungs, milliseconds, without, done, stage, fault}
+    this.rungs = [];
+    this.abort = new AbortController();
+    this.timer = 0;
+    this.first = false;  // the first rung is being drawn
+    this.idle = () => {};  // called when the hand rests and the quick rungs are there
+  }
+
+  async read_rungs() {
+    this.rungs = await api.rungs();
+    this.picture.resize(this.rungs.at(-1));
+  }
+
+  stop() {
+    clearTimeout(this.timer);
+    this.abort.abort();
+    this.abort = new AbortController();
+  }
+
+  // A change is on its way: what is finer than the first rung is out of date.
+  stop_finer() {
+    if (!this.first) this.stop();
+  }
+
+  // The first rung of a revision; the finer ones follow when the hand rests.
+  async start(revision) {
+    this.stop();
+    const { signal } = this.abort;
+    this.first = true;
+    if (this.rungs.length > 1) await this.rung(0, revision, signal);
+    this.first = false;
+    if (signal.aborted) return;
+    this.timer = setTimeout(() => this.climb(revision, signal), rest_ms);
+  }
+
+  async climb(revision, signal) {
+    try {
+      for (let rung = 1; rung + 1 < this.rungs.length; ++rung) {
+        if (!(await this.rung(rung, revision, signal))) return;
+        if (rung === 1) this.idle(revision, signal);
+      }
+      if (this.rungs.length < 3) this.idle(revision, signal);
+      await this.tiles(revision, signal);
+    } catch (error) {
+      this.failed(error, signal);
+    }
+  }
+
+  async rung(rung, revision, signal) {
+    try {
+      this.tell({ ...this.about(rung), working: true });
+      const started = performance.now();
+      const { blob, milliseconds } = await api.picture(rung, revision, signal);
+      await this.picture.show(blob);
+      this.tell({ ...this.about(rung), milliseconds: milliseconds || performance.now() - started });
+      return true;
+    } catch (error) {
+      this.failed(error, signal);
+      return false;
+    }
+  }
+
+  async tiles(revision, signal) {
+    const last = this.rungs.length - 1;
+    const started = performance.now();
+    this.tell({ ...this.about(last), working: true, done: 0 });
+    let complete = false;
+    for await (const record of api.tiles(revision, signal)) {
+      if (signal.aborted) return;
+      if (record.blob) await this.picture.tile(record, this.rungs[last]);
+      complete = record.done >= 1;
+      this.tell({ ...this.about(last), working: !complete, done: record.done, stage: record.stage, milliseconds: performance.now() - started });
+    }
+    if (!complete && !signal.aborted) this.tell({ fault: { message: "The last rung ended early. Change anything, or press U, to draw again." } });
+  }
+
+  about(rung) {
+    return { rung, rungs: this.rungs.length, name: this.rungs[rung].name, without: this.rungs[rung].without ?? [] };
+  }
+
+  failed(error, signal) {
+    // 409: a newer request has taken its place.
+    if (signal.aborted || error.name === "AbortError" || error.status === 409) return;
+    this.tell({ fault: error.fault ?? { message: error.message } });
+  }
+}

@@ -1,0 +1,109 @@
+// The studio: puts the parts of the page together.
+import { api } from "./api.js";
+import { Check } from "./check.js";
+import { by_id } from "./dom.js";
+import { Files } from "./files.js";
+import { Hands } from "./hands.js";
+import { History } from "./history.js";
+import { Jobs } from "./jobs.js";
+import { fill_help, listen_keys } from "./keys.js";
+import { Ladder } from "./ladder.js";
+import { Map_view } from "./map.js";
+import { Panels } from "./panels.js";
+import { panels as table } from "./panels_table.js";
+import { Picture } from "./picture.js";
+import { Proposals } from "./proposals.js";
+import { Status } from "./status.js";
+import { Store } from "./store.js";
+import { Text } from "./text.js";
+
+async function start() {
+  const [schema, choices, state] = await Promise.all([api.schema(), api.choices(), api.scene()]);
+  const store = new Store(schema, choices);
+  store.state = state;
+  const status = new Status(store);
+  const picture = new Picture(store);
+  const hands = new Hands(store, picture);
+  const ladder = new Ladder(picture, (told) => status.drawn(told));
+  const map = new Map_view(store);
+  const check = new Check(store);
+  const panels = new Panels(store, hands);
+  const history = new History(store, status);
+  const text = new Text(store);
+  const proposals = new Proposals(store, status);
+  const jobs = new Jobs(store, status);
+  new Files(store);
+  panels.tab("text", "Text");
+  status.go = (key) => panels.go(key);
+
+  store.after = (revision) => ladder.start(revision);
+  store.on("pending", () => ladder.stop_finer());
+  store.on("changed", async ({ before, state: now }) => {
+    if (["output.width", "output.height", "camera.projection"].some((key) => before.values[key] !== now.values[key])) await ladder.read_rungs();
+  });
+  ladder.idle = (_, signal) => {
+    map.read();
+    check.read(signal);
+  };
+
+  const compare = (on) => {
+    const shows = picture.compare(on);
+    by_id("compare").setAttribute("aria-pressed", String(shows));
+    if (shows) picture.border.focus();
+  };
+  const keep = () => {
+    picture.keep();
+    by_id("compare").disabled = by_id("to-kept").disabled = false;
+    status.say("Kept. C compares with it.");
+  };
+  by_id("keep").addEventListener("click", keep);
+  by_id("compare").addEventListener("click", () => compare(!picture.comparing()));
+  const to_kept = () => picture.kept_text !== null && store.act(() => api.text(picture.kept_text));
+  by_id("to-kept").addEventListener("click", to_kept);
+  const alone = () => document.body.classList.toggle("alone");
+  by_id("alone").addEventListener("click", alone);
+  const help = () => by_id("help-dialog").showModal();
+  by_id("help").addEventListener("click", help);
+
+  const actions = {
+    "Ctrl-Z": ["undo", () => history.undo()],
+    "Ctrl-Shift-Z": ["redo", () => history.redo()],
+    "Ctrl-Y": ["", () => history.redo()],
+    "Ctrl-S": ["save", () => history.save()],
+    p: ["to the picture", () => picture.canvas.focus()],
+    m: ["to the map", () => by_id("signs").querySelector(".viewer")?.focus()],
+    k: ["keep this version", keep],
+    c: ["compare with the kept version", () => picture.kept_text !== null && compare(!picture.comparing())],
+    f: ["the picture alone, and back", alone],
+    t: ["text of the scene", () => { panels.show("text"); text.area.focus(); }],
+    r: ["render", () => jobs.open()],
+    u: ["draw again", () => store.act(() => api.scene())],
+    v: ["propose views", () => proposals.read()],
+    "?": ["this list", help],
+  };
+  table.forEach(({ id }, index) => {
+    actions[String((index + 1) % 10)] = ["", () => {
+      panels.show(id);
+      by_id(`tab-${id}`).focus();
+    }];
+  });
+  listen_keys(actions);
+  fill_help({ ...actions, "1 … 9, 0": ["panels", null], Esc: ["leave what is open", null] });
+  document.addEventListener("keydown", (event) => {
+    if (event.key !== "Escape" || document.querySelector("dialog[open]")) return;
+    hands.leave();
+    document.body.classList.remove("alone");
+  });
+
+  panels.show("camera");
+  await ladder.read_rungs();
+  store.take(state);
+  await store.act(async () => state);
+  document.body.dataset.ready = "true";
+}
+
+start().catch((error) => {
+  by_id("message").hidden = false;
+  by_id("message").textContent = error.message;
+  console.error(error);
+});

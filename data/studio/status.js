@@ -1,0 +1,51 @@
+// The line below the picture: what is drawn, what it lacks, how long it took, and what is wrong where no control shows it.
+import { by_id, element } from "./dom.js";
+
+export class Status {
+  constructor(store) {
+    this.store = store;
+    this.rung = by_id("rung");
+    this.message = by_id("message");
+    this.bar = by_id("progress");
+    this.go = () => false;  // shows the control of a key
+    store.on("fault", (fault) => this.fault(fault));
+  }
+
+  // What the ladder tells.
+  drawn({ rung, rungs, name, without, milliseconds, working, done, stage, fault }) {
+    if (fault) return this.fault(fault);
+    const last = rung === rungs - 1;
+    document.body.dataset.rung = working ? String(Math.max(0, rung - 1)) : String(rung);
+    document.body.dataset.working = String(Boolean(working) || !last);
+    this.bar.hidden = !(working && last);
+    if (working && last) this.bar.value = done ?? 0;
+    // While a rung is being drawn the line says what is there.
+    if (working && !last) return;
+    const lacks = without.length > 0 ? `without ${without.join(", ")}` : "all of it";
+    const time = milliseconds >= 2000 ? `${(milliseconds / 1000).toFixed(1)} s` : `${Math.round(milliseconds ?? 0)} ms`;
+    const state = working ? `${name}: ${Math.round(100 * (done ?? 0))} %${stage ? `, ${stage}` : ""}` : `${name}, ${lacks}, ${time}`;
+    this.rung.textContent = state;
+    this.rung.dataset.lacks = String(without.length);
+    by_id("steps").replaceChildren(...Array.from({ length: rungs }, (_, k) => element("i", { class: k < rung || (k === rung && !working) ? "done" : "" })));
+  }
+
+  fault(fault) {
+    this.message.replaceChildren();
+    this.message.hidden = !fault;
+    if (!fault) return;
+    const where = fault.where && !fault.message.includes(fault.where) ? `${fault.where}: ` : "";
+    this.message.append(element("span", {}, `${where}${fault.message}`));
+    if (fault.panel) this.message.append(element("button", { type: "button", click: () => this.go(fault.key) }, "Show"));
+    else if (fault.line) this.message.append(element("button", { type: "button", click: () => by_id("tab-text").click() }, "Show the line"));
+    this.message.append(element("button", { type: "button", "aria-label": "Close the message", click: () => this.fault(null) }, "×"));
+  }
+
+  // A short word that goes away by itself.
+  say(text) {
+    const said = by_id("said");
+    said.textContent = text;
+    said.hidden = false;
+    clearTimeout(this.timer);
+    this.timer = setTimeout(() => { said.hidden = true; }, 3500);
+  }
+}
