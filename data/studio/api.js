@@ -52,7 +52,12 @@ export const api = {
 
   async picture(rung, revision, signal) {
     const response = await answered(`api/picture?rung=${rung}&revision=${revision}`, { signal });
-    return { blob: await response.blob(), milliseconds: Number(response.headers.get("X-Belvedere-Milliseconds")) };
+    const without = response.headers.get("X-Belvedere-Without");
+    return {
+      blob: await response.blob(),
+      milliseconds: Number(response.headers.get("X-Belvedere-Milliseconds")),
+      without: without === null ? null : without.split(",").map((each) => each.trim()).filter(Boolean),
+    };
   },
 
   // Records of the last rung as they come: {x, y, width, height, done, stage, blob}.

@@ -90,9 +90,9 @@ export class Equalizer {
         all[band] = value;
         changes.push({ key: this.key(id), value: all });
       }
-    // The far weights follow the near ones until they are their own: one side moved must leave the other.
-    if (side === "foreground" && !this.linked && this.store.value(this.key("background")) === undefined)
-      changes.push({ key: this.key("background"), value: this.weights("background") });
+    // Far weights that the scene does not give follow the near ones: what is moved on one side must leave the other.
+    const [near, far] = sides.map(({ id }) => this.weights(id));
+    if (side === "foreground" && !this.linked && near.join() === far.join()) changes.push({ key: this.key("background"), value: far });
     this.store.edit(changes, step);
   }
   // Each set that the scene has gets the new number of bands; large forms stay what they are.

@@ -59,9 +59,10 @@ export class Ladder {
     try {
       this.tell({ ...this.about(rung), working: true });
       const started = performance.now();
-      const { blob, milliseconds } = await api.picture(rung, revision, signal);
+      const { blob, milliseconds, without } = await api.picture(rung, revision, signal);
       await this.picture.show(blob);
-      this.tell({ ...this.about(rung), milliseconds: milliseconds || performance.now() - started });
+      const about = this.about(rung);
+      this.tell({ ...about, without: without ?? about.without, milliseconds: milliseconds || performance.now() - started });
       return true;
     } catch (error) {
       this.failed(error, signal);

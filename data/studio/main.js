@@ -35,6 +35,7 @@ async function start() {
   new Files(store);
   panels.tab("text", "Text");
   status.go = (key) => panels.go(key);
+  store.on("fault", (fault) => status.fault(fault));  // after the panels, which know whose error it is
 
   store.after = (revision) => ladder.start(revision);
   store.on("pending", () => ladder.stop_finer());
@@ -62,6 +63,8 @@ async function start() {
   by_id("to-kept").addEventListener("click", to_kept);
   const alone = () => document.body.classList.toggle("alone");
   by_id("alone").addEventListener("click", alone);
+  const guides = () => by_id("guides").toggleAttribute("hidden");
+  by_id("show-guides").addEventListener("click", guides);
   const help = () => by_id("help-dialog").showModal();
   by_id("help").addEventListener("click", help);
 
@@ -75,6 +78,7 @@ async function start() {
     k: ["keep this version", keep],
     c: ["compare with the kept version", () => picture.kept_text !== null && compare(!picture.comparing())],
     f: ["the picture alone, and back", alone],
+    g: ["guides: thirds, and an eighth of sky", guides],
     t: ["text of the scene", () => { panels.show("text"); text.area.focus(); }],
     r: ["render", () => jobs.open()],
     u: ["draw again", () => store.act(() => api.scene())],

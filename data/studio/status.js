@@ -8,7 +8,6 @@ export class Status {
     this.message = by_id("message");
     this.bar = by_id("progress");
     this.go = () => false;  // shows the control of a key
-    store.on("fault", (fault) => this.fault(fault));
   }
 
   // What the ladder tells.
@@ -29,10 +28,13 @@ export class Status {
     by_id("steps").replaceChildren(...Array.from({ length: rungs }, (_, k) => element("i", { class: k < rung || (k === rung && !working) ? "done" : "" })));
   }
 
+  // An error that is shown where it belongs, at a control or a line in sight, is not told here again.
   fault(fault) {
+    const panel = document.body.dataset.panel;
+    const seen = Boolean(fault) && (fault.panel === panel || (fault.line > 0 && panel === "text"));
     this.message.replaceChildren();
-    this.message.hidden = !fault;
-    if (!fault) return;
+    this.message.hidden = !fault || seen;
+    if (this.message.hidden) return;
     const where = fault.where && !fault.message.includes(fault.where) ? `${fault.where}: ` : "";
     this.message.append(element("span", {}, `${where}${fault.message}`));
     if (fault.panel) this.message.append(element("button", { type: "button", click: () => this.go(fault.key) }, "Show"));

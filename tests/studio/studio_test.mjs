@@ -1,0 +1,359 @@
+// What a user does on the page of the studio, in headless Chromium: against the mock server, or against a running program by its address:
+//   npm --prefix tests/studio ci && node --test tests/studio/studio_test.mjs
+//   BELVEDERE_STUDIO=http://127.0.0.1:PORT/TOKEN/ node --test tests/studio/studio_test.mjs
+// The scene of that program needs a camera with look_at; it is saved by the test: give it a copy.
+import assert from "node:assert/strict";
+import { mkdtemp, writeFile } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { setTimeout as sleep } from "node:timers/promises";
+import puppeteer from "puppeteer-core";
+import { serve } from "./mock_server.mjs";
+
+const patience = { timeout: Number(process.env.BELVEDERE_PATIENCE_MS ?? 15000) };
+let server, browser, page, address;
+const errors = [];
+
+before(async () => {
+  server = process.env.BELVEDERE_STUDIO ? null : await serve();
+  address = process.env.BELVEDERE_STUDIO ?? server.address;
+  browser = await puppeteer.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ["--no-sandbox"] });
+  page = await browser.newPage();
+  await page.setViewport({ width: 1280, height: 720 });
+  page.on("pageerror", (error) => errors.push(error.message));
+  page.on("console", (message) => message.type() === "error" && errors.push(message.text()));
+  page.on("dialog", (dialog) => dialog.accept());
+  await page.goto(address);
+  await finished();
+});
+after(async () => {
+  await browser?.close();
+  server?.close();
+});
+
+const scene = () => page.evaluate(async () => (await fetch("api/scene")).json());
+const value = async (key) => (await scene()).values[key];
+const text_of = (selector) => page.$eval(selector, (found) => found.textContent);
+// The ladder has reached its last rung, for the newest revision.
+async function finished() {
+  await sleep(150);
+  await page.waitForFunction(() => document.body.dataset.working === "false", patience);
+}
+// A number that changes when the picture does.
+const picture = () => page.evaluate(() => {
+  const canvas = document.getElementById("picture");
+  const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+  let sum = 0;
+  for (let k = 0; k < data.length; k += 4) sum = (sum * 31 + data[k] + 3 * data[k + 1] + 7 * data[k + 2]) % 2147483647;
+  return sum;
+});
+async function middle(selector) {
+  const box = await (await page.$(selector)).boundingBox();
+  return [box.x + box.width / 2, box.y + box.height / 2];
+}
+async function drag(selector, dx, dy, steps = 12) {
+  const [x, y] = await middle(selector);
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x + dx, y + dy, { steps });
+  await page.mouse.up();
+}
+async function panel(id) { await page.click(`#tab-${id}`); }
+async function changed(key, from) {
+  const start = Date.now();
+  for (;;) {
+    const now = await value(key);
+    if (JSON.stringify(now) !== JSON.stringify(from)) return now;
+    assert.ok(Date.now() - start < patience.timeout, `${key} has not changed from ${JSON.stringify(from)}`);
+    await sleep(50);
+  }
+}
+async function becomes(key, wanted) {
+  const start = Date.now();
+  while (JSON.stringify(await value(key)) !== JSON.stringify(wanted)) {
+    assert.ok(Date.now() - start < patience.timeout, `${key} is ${JSON.stringify(await value(key))}, not ${JSON.stringify(wanted)}`);
+    await sleep(50);
+  }
+}
+async function keys(...names) {
+  for (const name of names.slice(0, -1)) await page.keyboard.down(name);
+  await page.keyboard.press(names.at(-1));
+  for (const name of names.slice(0, -1).reverse()) await page.keyboard.up(name);
+}
+const undo = async () => {
+  const { revision } = await scene();
+  await page.click("#undo");
+  await page.waitForFunction((before) => Number(document.body.dataset.revision) > before, patience, revision);
+};
+
+test("opens with the whole ladder drawn, a map and a critique", async () => {
+  assert.match(await text_of("#rung"), /all of it/);
+  await page.waitForFunction(() => document.querySelector("#relief").complete && document.querySelectorAll("#critique .sign").length > 0, patience);
+  assert.ok(await page.$("#signs .viewer"));
+});
+
+test("dragging the picture looks around, in one step of undo", async () => {
+  const [before, drawn] = [await value("camera.look_at"), await picture()];
+  await drag("#picture", 160, 30);
+  await finished();
+  const after_drag = await value("camera.look_at");
+  assert.notDeepEqual(after_drag, before);
+  assert.notEqual(await picture(), drawn);
+  await undo();
+  assert.deepEqual(await value("camera.look_at"), before);
+  await finished();
+  assert.equal(await picture(), drawn, "undo draws the same pixels again");
+});
+
+test("the wheel moves forwards, shift drag moves sideways", async () => {
+  const before = await value("camera.position");
+  await page.mouse.move(...await middle("#picture"));
+  await page.mouse.wheel({ deltaY: -120 });
+  const nearer = await changed("camera.position", before);
+  const target = await value("camera.look_at");
+  const far = (at) => Math.hypot(at[0] - target[0], at[1] - target[1]);
+  assert.ok(far(nearer) < far(before));
+  await sleep(800);
+  await page.keyboard.down("Shift");
+  await drag("#picture", 80, 0);
+  await page.keyboard.up("Shift");
+  await changed("camera.position", nearer);
+  await finished();
+  await undo();
+  assert.deepEqual(await value("camera.position"), nearer);
+  await undo();
+  assert.deepEqual(await value("camera.position"), before);
+});
+
+test("a slider, an upright slider of the equalizer and a number field", async () => {
+  const bands = await value("generalize.foreground");
+  await panel("equalizer");
+  await drag(".band input[type=range]", 0, -30);
+  const pulled = await changed("generalize.foreground", bands);
+  assert.ok(pulled[0] > bands[0]);
+  assert.deepEqual(pulled.slice(1), bands.slice(1));
+
+  await panel("camera");
+  const row = "[data-key='camera.field_of_view_deg']";
+  const field = await value("camera.field_of_view_deg");
+  await drag(`${row} input[type=range]`, 40, 0);
+  const wider = await changed("camera.field_of_view_deg", field);
+  await page.$eval(`${row} input[type=number]`, (input) => input.select());
+  await page.type(`${row} input[type=number]`, "44");
+  await page.keyboard.press("Enter");
+  await changed("camera.field_of_view_deg", wider);
+  assert.equal(await value("camera.field_of_view_deg"), 44);
+  await undo();
+  await undo();
+  assert.equal(await value("camera.field_of_view_deg"), field);
+  await undo();
+  assert.deepEqual(await value("generalize.foreground"), bands);
+});
+
+test("a value out of range is told at its control and changes nothing", async () => {
+  await panel("camera");
+  const row = "[data-key='camera.field_of_view_deg']";
+  const before = await scene();
+  await page.$eval(`${row} input[type=number]`, (input) => input.select());
+  await page.type(`${row} input[type=number]`, "900");
+  await page.keyboard.press("Enter");
+  await page.waitForSelector(`${row} .fault:not([hidden])`, patience);
+  assert.equal(await page.$eval(`${row} input[type=number]`, (input) => input.getAttribute("aria-invalid")), "true");
+  assert.equal((await scene()).revision, before.revision);
+  // In another panel the status line tells it, and leads back.
+  assert.ok(await page.$("#message[hidden]"));
+});
+
+test("the sun turns on its dial", async () => {
+  await panel("sun");
+  const before = await value("sun.azimuth_deg");
+  const [x, y] = await middle(".dial");
+  await page.mouse.move(x + 45, y);
+  await page.mouse.down();
+  await page.mouse.move(x, y + 45, { steps: 8 });
+  await page.mouse.up();
+  await changed("sun.azimuth_deg", before);
+  await finished();
+  assert.ok(Math.abs(await value("sun.azimuth_deg") - 180) < 3);
+  await page.click("#sun-timed");
+  assert.match(await changed("sun.time", undefined), /T09:00:00/);
+  await undo();
+  await undo();
+  assert.equal(await value("sun.azimuth_deg"), before);
+});
+
+test("a summit is pulled up in one step", async () => {
+  await panel("ground");
+  await page.click("#pull");
+  await drag("#picture", 0, -60);
+  await changed("deform.handles.0.raise_m", undefined);
+  await finished();
+  assert.ok(await value("deform.handles.0.raise_m") > 0);
+  await undo();
+  assert.equal(await value("deform.handles.0.raise_m"), undefined);
+});
+
+test("the viewer moves on the map", async () => {
+  const before = await value("camera.position");
+  await drag("#signs .viewer", 12, 8, 4);
+  await changed("camera.position", before);
+  await finished();
+  await undo();
+  assert.deepEqual(await value("camera.position"), before);
+});
+
+test("a text with an error is told at its line, and mended", async () => {
+  await panel("text");
+  const { text } = await scene();
+  const type = (what) => page.$eval("#text", (area, now) => {
+    area.value = now;
+    area.dispatchEvent(new Event("input", { bubbles: true }));
+  }, what);
+  await type(`${text}\nnonsense\n`);
+  await page.waitForSelector("#text-fault:not([hidden])", patience);
+  assert.equal(await page.$eval("#lines .faulty", (line) => line.textContent), String(text.split("\n").length + 1));
+  assert.equal((await scene()).text, text);
+  await type(`${text}# a remark\n`);
+  await page.waitForFunction((before) => Number(document.body.dataset.revision) > before, patience, (await scene()).revision - 1);
+  const start = Date.now();
+  while (!(await scene()).text.endsWith("# a remark\n")) {
+    assert.ok(Date.now() - start < patience.timeout);
+    await sleep(50);
+  }
+  await page.waitForSelector("#text-fault[hidden]", patience);
+  await page.click("#undo");
+  await page.waitForFunction((was) => document.getElementById("text").value === was, patience, text);
+});
+
+test("a version is kept and compared by a border", async () => {
+  await page.click("#keep");
+  await panel("camera");
+  const before = await value("camera.look_at");
+  await drag("#picture", 120, 0);
+  await changed("camera.look_at", before);
+  await finished();
+  await page.click("#compare");
+  await page.waitForSelector("#border:not([hidden])", patience);
+  const share = () => page.$eval("#border", (border) => Number(border.getAttribute("aria-valuenow")));
+  assert.equal(await share(), 50);
+  await drag("#border", -100, 0);
+  assert.ok(await share() < 45);
+  await page.focus("#border");
+  await page.keyboard.press("End");
+  assert.equal(await share(), 100);
+  await page.click("#to-kept");
+  await becomes("camera.look_at", before);
+  await finished();
+  await page.click("#compare");
+});
+
+test("all by keyboard: look, move, a panel, a slider, undo, save, help", async () => {
+  await page.focus("#picture");
+  const before = await value("camera.look_at");
+  await page.keyboard.press("ArrowRight");
+  await changed("camera.look_at", before);
+  const position = await value("camera.position");
+  await page.keyboard.press("+");
+  await changed("camera.position", position);
+  await page.keyboard.press("5");
+  assert.equal(await page.evaluate(() => document.activeElement.id), "tab-air");
+  const haze = await value("air.haze");
+  for (let k = 0; k < 40 && !(await page.evaluate(() => document.activeElement.closest("[data-key='air.haze']") && document.activeElement.type === "range")); ++k) await page.keyboard.press("Tab");
+  await page.keyboard.press("ArrowLeft");
+  await changed("air.haze", haze);
+  const less = await value("air.haze");
+  await keys("Control", "z");
+  await becomes("air.haze", haze);
+  await keys("Control", "Shift", "z");
+  await becomes("air.haze", less);
+  await keys("Control", "s");
+  const start = Date.now();
+  while (!(await scene()).saved) {
+    assert.ok(Date.now() - start < patience.timeout);
+    await sleep(50);
+  }
+  await page.evaluate(() => document.activeElement.blur());
+  await page.keyboard.press("?");
+  await page.waitForSelector("#help-dialog[open]", patience);
+  await page.keyboard.press("Escape");
+  await page.waitForSelector("#help-dialog:not([open])", patience);
+});
+
+test("proposals are shown, and taken in one step", async () => {
+  await page.click("#propose");
+  await page.waitForSelector(".proposal", { timeout: 4 * patience.timeout });
+  const { text, revision } = await scene();
+  await page.evaluate(() => document.querySelectorAll(".proposal")[1].click());
+  await page.waitForFunction((before) => Number(document.body.dataset.revision) > before, patience, revision);
+  assert.notEqual((await scene()).text, text);
+  await finished();
+  await undo();
+  assert.equal((await scene()).text, text);
+});
+
+test("a file is sent and offered for what it is", async () => {
+  const file = join(await mkdtemp(join(tmpdir(), "studio-")), `tour ${Date.now()}.gpx`);
+  await writeFile(file, `<gpx version="1.1" creator="test" xmlns="http://www.topografix.com/GPX/1/1"><trk><name>Tour</name><trkseg>
+    <trkpt lat="47.30" lon="11.40"/><trkpt lat="47.35" lon="11.45"/></trkseg></trk></gpx>`);
+  const input = await page.$("#choose-files");
+  await input.uploadFile(file);
+  await page.waitForSelector("#files-list .buttons button", patience);
+  assert.equal(await text_of("#files-list .buttons button"), "Draw it as a track");
+  await page.click("#files-list .buttons button");
+  assert.match(await changed("labels.tracks.0.file", undefined), /^tour.*gpx$/);
+  await finished();
+  await undo();
+});
+
+test("the picture is rendered, and the rendering cancelled", async () => {
+  await page.click("#render");
+  await page.$eval("#render-width", (field) => field.select());
+  await page.type("#render-width", "160");
+  await page.click("#render-start");
+  await page.waitForSelector("#render-page:not([hidden])", { timeout: 8 * patience.timeout });
+  await page.click("#render-start");
+  await page.waitForSelector("#render-cancel:not([hidden])", patience);
+  await page.click("#render-cancel");
+  await page.waitForFunction(() => /Cancelled/.test(document.getElementById("render-says").textContent), patience);
+  await page.keyboard.press("Escape");
+});
+
+test("every control has a name", async () => {
+  const nameless = await page.evaluate(() => Array.from(document.querySelectorAll("button, input, select, textarea, [role=slider], [tabindex='0']"))
+    .filter((each) => !each.getAttribute("aria-label") && !each.getAttribute("aria-labelledby") && !each.labels?.length && !each.textContent.trim())
+    .map((each) => each.outerHTML.slice(0, 120)));
+  assert.deepEqual(nameless, []);
+});
+
+test("a hundred drags leave nothing behind", async () => {
+  const size = async () => {
+    const client = await page.createCDPSession();
+    await client.send("HeapProfiler.collectGarbage");
+    const { usedSize } = await client.send("Runtime.getHeapUsage");
+    const { nodes } = await client.send("Memory.getDOMCounters");
+    return { usedSize, nodes };
+  };
+  const turns = async (count) => {
+    for (let k = 0; k < count; ++k) await drag("#picture", k % 2 ? 60 : -60, k % 3 ? 6 : -12, 3);
+    await finished();
+  };
+  await turns(15);
+  const first = await size();
+  await turns(Number(process.env.BELVEDERE_DRAGS ?? 40));
+  const last = await size();
+  assert.ok(last.usedSize < first.usedSize + 3e6, `${first.usedSize} bytes, then ${last.usedSize}`);
+  assert.ok(last.nodes < first.nodes + 400, `${first.nodes} nodes, then ${last.nodes}`);
+});
+
+test("a file changed outside is told", { skip: Boolean(process.env.BELVEDERE_STUDIO) }, async () => {
+  await page.evaluate(() => fetch("mock/outside", { method: "POST" }));
+  await page.waitForSelector("#outside:not([hidden])", patience);
+  await page.click("#keep-mine");
+  await page.waitForSelector("#outside[hidden]", patience);
+});
+
+test("nothing was wrong on the way", () => {
+  // Refused requests are shown by Chromium as errors of the network: these were asked for.
+  assert.deepEqual(errors.filter((each) => !/status of (409|422)|ERR_ABORTED/.test(each)), []);
+});
