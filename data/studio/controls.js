@@ -97,7 +97,10 @@ function number_row(store, spec, about) {
     change(value, moving);
   });
   slider.addEventListener("change", () => { moving = null; });
+  let typing = false;
+  field.addEventListener("input", () => { typing = true; });
   field.addEventListener("change", () => {
+    typing = false;
     if (field.value.trim() === "" || !Number.isFinite(Number(field.value))) return update();
     change(Number(field.value), new_step());
   });
@@ -111,7 +114,10 @@ function number_row(store, spec, about) {
     field.value = clamp(rounded(Number(field.value) + by * size, size * 0.1), about.min ?? -Infinity, about.max ?? Infinity);
     change(Number(field.value), moving);
   });
-  field.addEventListener("blur", () => { moving = null; });
+  field.addEventListener("blur", () => {
+    moving = null;
+    typing = false;
+  });
   auto?.addEventListener("click", () => {
     if (!spec.set && auto.getAttribute("aria-pressed") === "true") {
       const value = store.number(spec.key) ?? min;
@@ -125,8 +131,7 @@ function number_row(store, spec, about) {
     const itself = store.value(spec.key);
     const is_auto = can_auto && (itself === undefined || itself === "auto");
     // What is being typed stays.
-    if (document.activeElement !== field || moving || Number(field.value) !== value)
-      if (!(document.activeElement === field && field.matches(":user-invalid"))) field.value = value === undefined ? "" : rounded(value, Math.min(step, spec.log ? 0.1 : step) / 10);
+    if (!typing) field.value = value === undefined ? "" : rounded(value, Math.min(step, spec.log ? 0.1 : step) / 10);
     slider.value = value === undefined ? slider.min : to_slider(clamp(value, min, max));
     slider.setAttribute("aria-valuetext", `${field.value} ${spec.unit ?? ""}`);
     slider.style.setProperty("--at", `${100 * (slider.value - slider.min) / (slider.max - slider.min)}%`);
@@ -146,7 +151,7 @@ function switch_row(store, spec, about) {
   input.addEventListener("change", () => set(store, spec.key, input.checked));
   return {
     element: element("div", { class: "row switch" }, label_of(spec, about, input), input),
-    update: () => { input.checked = store.value(spec.key) === true; },
+    update: () => { input.checked = (store.value(spec.key) ?? about.default) === true; },
     focus: () => input.focus(),
   };
 }
@@ -165,7 +170,7 @@ function choice_row(store, spec, about) {
   return {
     element: element("div", { class: "row choice" }, label_of(spec, about, input), element("span", { class: "tools" }, reset), input),
     update: () => {
-      const value = store.value(spec.key) ?? "";
+      const value = store.value(spec.key) ?? about.default ?? "";
       if (!Array.from(input.options).some((option) => option.value === value)) input.append(element("option", { value }, value));
       input.value = value;
       show_reset(store, spec, about, reset);
@@ -183,9 +188,14 @@ function pair_row(store, spec, about) {
     const value = fields.map((field) => Number(field.value));
     if (value.every(Number.isFinite)) set(store, spec.key, value, at);
   };
+  let typing = false;
   for (const field of fields) {
     let moving = null;
-    field.addEventListener("change", () => send());
+    field.addEventListener("input", () => { typing = true; });
+    field.addEventListener("change", () => {
+      typing = false;
+      send();
+    });
     field.addEventListener("keydown", (event) => {
       if (event.key !== "ArrowUp" && event.key !== "ArrowDown") return;
       event.preventDefault();
@@ -193,7 +203,10 @@ function pair_row(store, spec, about) {
       field.value = rounded(Number(field.value) + (event.key === "ArrowUp" ? 1 : -1) * step * (event.shiftKey ? 10 : event.altKey ? 0.1 : 1), step / 10);
       send(moving);
     });
-    field.addEventListener("blur", () => { moving = null; });
+    field.addEventListener("blur", () => {
+      moving = null;
+      typing = false;
+    });
   }
   const reset = reset_button(store, spec);
   return {
@@ -201,7 +214,7 @@ function pair_row(store, spec, about) {
       element("span", { class: "fields" }, ...fields.flatMap((field, k) => [element("span", { class: "unit", "aria-hidden": "true" }, names[k]), field]), element("span", { class: "unit" }, spec.unit ?? ""))),
     update: () => {
       const value = current() ?? about.default;
-      fields.forEach((field, k) => { if (document.activeElement !== field || Number(field.value) !== value?.[k]) field.value = value === undefined ? "" : rounded(value[k], step / 10); });
+      if (!typing) fields.forEach((field, k) => { field.value = value === undefined ? "" : rounded(value[k], step / 10); });
       show_reset(store, spec, about, reset);
     },
     focus: () => fields[0].focus(),
@@ -214,7 +227,7 @@ function set_row(store, spec, about) {
   return {
     element: element("div", { class: "row set", role: "group", "aria-label": spec.label }, element("span", { class: "label", title: about.help }, spec.label),
       element("span", { class: "boxes" }, ...boxes.map((box) => element("label", {}, box, box.value)))),
-    update: () => { for (const box of boxes) box.checked = (store.value(spec.key) ?? []).includes(box.value); },
+    update: () => { for (const box of boxes) box.checked = (store.value(spec.key) ?? about.default ?? []).includes(box.value); },
     focus: () => boxes[0].focus(),
   };
 }

@@ -14,7 +14,7 @@ const by_hand = [
   ["Shift drag", "move sideways, up and down"],
   ["Ctrl wheel", "narrower, wider"],
   ["point, tap", "what is there"],
-  ["double click on an equalizer slider", "back to neutral"],
+  ["double click a band", "back to neutral"],
 ];
 const in_fields = [["↑ ↓", "one step; ten with Shift, a tenth with Alt"], ["Tab", "the next control"]];
 
@@ -38,5 +38,5 @@ export function fill_help(actions) {
   const table = (title, rows) => element("section", {}, element("h3", {}, title),
     element("dl", {}, ...rows.flatMap(([keys, what]) => [element("dt", {}, element("kbd", {}, keys)), element("dd", {}, what)])));
   const pages = Object.entries(actions).filter(([, [what]]) => what).map(([key, [what]]) => [key.length === 1 ? key.toUpperCase() : key, what]);
-  by_id("help-keys").replaceChildren(table("By hand, on the picture", by_hand), table("By keys, on the picture", on_picture), table("Everywhere", pages), table("In fields", in_fields));
+  by_id("help-keys").replaceChildren(table("Everywhere", pages), table("By hand, on the picture", by_hand), table("By keys, on the picture", on_picture), table("In fields", in_fields));
 }

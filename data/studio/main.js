@@ -20,11 +20,14 @@ import { Text } from "./text.js";
 async function start() {
   const [schema, choices, state] = await Promise.all([api.schema(), api.choices(), api.scene()]);
   const store = new Store(schema, choices);
-  store.state = state;
+  store.take(state);
   const status = new Status(store);
   const picture = new Picture(store);
   const hands = new Hands(store, picture);
-  const ladder = new Ladder(picture, (told) => status.drawn(told));
+  const ladder = new Ladder(picture, (told) => {
+    status.drawn(told);
+    if (told.fault) store.tell("fault", told.fault);
+  });
   const map = new Map_view(store);
   const check = new Check(store);
   const panels = new Panels(store, hands);
@@ -37,11 +40,16 @@ async function start() {
   status.go = (key) => panels.go(key);
   store.on("fault", (fault) => status.fault(fault));  // after the panels, which know whose error it is
 
-  store.after = (revision) => ladder.start(revision);
-  store.on("pending", () => ladder.stop_finer());
-  store.on("changed", async ({ before, state: now }) => {
-    if (["output.width", "output.height", "camera.projection"].some((key) => before.values[key] !== now.values[key])) await ladder.read_rungs();
+  let sized = false;  // the rungs are those of the sheet's shape
+  store.on("changed", ({ before, state: now }) => {
+    if (["output.width", "output.height", "camera.projection"].some((key) => before.values[key] !== now.values[key])) sized = false;
   });
+  store.after = async (revision) => {
+    if (!sized) await ladder.read_rungs();
+    sized = true;
+    await ladder.start(revision);
+  };
+  store.on("pending", () => ladder.stop_finer());
   ladder.idle = (_, signal) => {
     map.read();
     check.read(signal);
@@ -100,8 +108,6 @@ async function start() {
   });
 
   panels.show("camera");
-  await ladder.read_rungs();
-  store.take(state);
   await store.act(async () => state);
   document.body.dataset.ready = "true";
 }

@@ -35,22 +35,22 @@ export const panels = [
       { title: "Direction of the light", editor: "sun" },
       { title: "Light and shade", rows: [
         { key: "light.sun", label: "Sunlight", min: 0, max: 2, step: 0.01 },
-        { key: "light.sky", label: "Light of the sky", min: 0, max: 1, step: 0.01 },
-        { key: "light.shadow_depth", label: "Depth of shadows", min: 0, max: 1, step: 0.01 },
+        { key: "light.sky", label: "Sky light", min: 0, max: 1, step: 0.01 },
+        { key: "light.shadow_depth", label: "Shadow depth", min: 0, max: 1, step: 0.01 },
         { key: "light.contrast", label: "Contrast", min: 0.2, max: 3, step: 0.01 },
         { key: "light.relief", label: "Relief without sun", min: 0, max: 1, step: 0.01 },
-        { key: "sun.radius_deg", label: "Softness of shadows", unit: "°", min: 0, max: 10, step: 0.05 },
+        { key: "sun.radius_deg", label: "Soft shadows", unit: "°", min: 0, max: 10, step: 0.05 },
       ] },
     ],
   },
   {
     id: "ground", label: "Ground", groups: [
-      { title: "Exaggeration", rows: [
-        { key: "deform.exaggeration", label: "Near, or everywhere", unit: "×", min: 0.5, max: 4, step: 0.02 },
-        { key: "deform.background_exaggeration", label: "Far", unit: "×", min: 0.5, max: 4, step: 0.02, auto: "as near" },
+      { title: "Heights", rows: [
+        { key: "deform.exaggeration", label: "Exaggeration", unit: "×", min: 0.5, max: 4, step: 0.02 },
+        { key: "deform.background_exaggeration", label: "Far away", unit: "×", min: 0.5, max: 4, step: 0.02, auto: "as near" },
         { key: "deform.foreground_to_m", label: "Near up to", ...distance },
         { key: "deform.background_from_m", label: "Far from", ...distance },
-        { key: "deform.exaggeration_base_m", label: "Altitude that stays", unit: "m", min: -500, max: 4000, step: 10 },
+        { key: "deform.exaggeration_base_m", label: "Fixed altitude", unit: "m", min: -500, max: 4000, step: 10 },
       ] },
       { title: "Bend", editor: "bend" },
       { title: "Handles", list: "deform.handles" },
@@ -226,7 +226,7 @@ export const lists = {
     pick: { label: "Put a light on a range…", hint: "Click on the range.", template: { radius_m: 5000, turn_deg: 40, blend_m: 3000 } },
     rows: [
       { key: "name", label: "Name" },
-      { key: "turn_deg", label: "Turn of the sun", unit: "°", min: -180, max: 180, step: 1, auto: "as scene" },
+      { key: "turn_deg", label: "Turn the sun", unit: "°", min: -180, max: 180, step: 1, auto: "as scene" },
       { key: "altitude_deg", label: "Its altitude", unit: "°", min: 1, max: 90, step: 0.5, auto: "as scene" },
       { key: "strength", label: "Strength", unit: "×", min: 0, max: 2, step: 0.02 },
       { key: "warmth", label: "Warmth", min: -1, max: 1, step: 0.02 },

@@ -12,7 +12,12 @@ export class Status {
 
   // What the ladder tells.
   drawn({ rung, rungs, name, without, milliseconds, working, done, stage, fault }) {
-    if (fault) return this.fault(fault);
+    if (fault) {
+      document.body.dataset.working = "false";
+      this.bar.hidden = true;
+      this.rung.textContent = "not drawn";
+      return;
+    }
     const last = rung === rungs - 1;
     document.body.dataset.rung = working ? String(Math.max(0, rung - 1)) : String(rung);
     document.body.dataset.working = String(Boolean(working) || !last);
@@ -20,7 +25,7 @@ export class Status {
     if (working && last) this.bar.value = done ?? 0;
     // While a rung is being drawn the line says what is there.
     if (working && !last) return;
-    const lacks = without.length > 0 ? `without ${without.join(", ")}` : "all of it";
+    const lacks = without.length > 0 ? `without ${without.join(", ")}` : "complete";
     const time = milliseconds >= 2000 ? `${(milliseconds / 1000).toFixed(1)} s` : `${Math.round(milliseconds ?? 0)} ms`;
     const state = working ? `${name}: ${Math.round(100 * (done ?? 0))} %${stage ? `, ${stage}` : ""}` : `${name}, ${lacks}, ${time}`;
     this.rung.textContent = state;

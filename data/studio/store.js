@@ -37,11 +37,13 @@ export class Store extends EventTarget {
     const names = Object.keys(this.state.values).filter((each) => each.startsWith(`${key}.`));
     return Object.fromEntries(names.map((each) => [each.slice(key.length + 1), this.value(each)]));
   }
-  derived(key) { return this.state.derived?.find((each) => each.key === key); }
+  derived(key) { return this.state.derived.find((each) => each.key === key); }
   // A number in effect: the scene's, else what the program found for this view.
   number(key) {
     const value = this.value(key);
     if (typeof value === "number") return value;
+    const otherwise = this.describe(key)?.default;
+    if (typeof otherwise === "number") return otherwise;
     const found = Number.parseFloat(this.derived(key)?.value);
     return Number.isFinite(found) ? found : undefined;
   }
@@ -105,8 +107,10 @@ export class Store extends EventTarget {
       await this.after(state.revision);
     } catch (error) {
       this.sent = null;
-      this.fail(error);
+      // A line would be one of the text that was refused, which nobody sees.
+      if (error.fault) error.fault = { ...error.fault, line: undefined, where: undefined };
       this.tell("state", this.state);  // the controls go back to what is
+      this.fail(error);
     } finally {
       this.leave();
     }
@@ -120,9 +124,10 @@ export class Store extends EventTarget {
   }
   take(state) {
     const before = this.state;
-    this.state = state;
-    this.tell("state", state);
-    if (before && before.revision !== state.revision) this.tell("changed", { before, state });
+    // A scene with an error has a text alone.
+    this.state = { ...state, values: state.values ?? {}, derived: state.derived ?? [] };
+    this.tell("state", this.state);
+    if (before && before.revision !== state.revision) this.tell("changed", { before, state: this.state });
     this.tell("fault", state.error ?? null);
   }
   fail(error) {
