@@ -42,7 +42,7 @@ export const api = {
   proposals: () => get("api/proposals"),
   set: (changes, step) => post("api/set", { changes, step }),
   text: (text) => post("api/text", { text }),
-  act: (name) => post(`api/${name}`),  // undo, redo, save, reload
+  act: (name) => post(`api/${name}`), // undo, redo, save, reload
   render: (width) => post("api/render", { width }),
   render_state: () => get("api/render"),
   render_cancel: () => post("api/render/cancel"),
@@ -56,7 +56,13 @@ export const api = {
     return {
       blob: await response.blob(),
       milliseconds: Number(response.headers.get("X-Belvedere-Milliseconds")),
-      without: without === null ? null : without.split(",").map((each) => each.trim()).filter(Boolean),
+      without:
+        without === null
+          ? null
+          : without
+              .split(",")
+              .map((each) => each.trim())
+              .filter(Boolean),
     };
   },
 

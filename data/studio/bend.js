@@ -13,7 +13,12 @@ export class Bend {
     this.store = store;
     this.grips = [];
     this.chosen = 0;
-    this.chart = drawing("svg", { class: "chart", viewBox: `0 0 ${size.width} ${size.height}`, role: "group", "aria-label": "Tilt of level ground by distance" });
+    this.chart = drawing("svg", {
+      class: "chart",
+      viewBox: `0 0 ${size.width} ${size.height}`,
+      role: "group",
+      "aria-label": "Tilt of level ground by distance",
+    });
     this.grid = drawing("g", { class: "grid" });
     this.line = drawing("path", { class: "line" });
     this.chart.append(this.grid, this.line);
@@ -28,9 +33,20 @@ export class Bend {
     this.by_points = element("button", { type: "button", class: "wide", click: () => this.to_points() }, "Shape it by points");
     this.more = element("button", { type: "button", class: "wide", click: () => this.add_one() }, "One point more");
     this.by_parabola = element("button", { type: "button", class: "wide", click: () => this.to_parabola() }, "Back to the parabola");
-    this.element = element("div", { class: "bend" }, this.chart, ...this.parabola.map((each) => each.element), this.table, this.by_points, this.more, this.by_parabola);
+    this.element = element(
+      "div",
+      { class: "bend" },
+      this.chart,
+      ...this.parabola.map((each) => each.element),
+      this.table,
+      this.by_points,
+      this.more,
+      this.by_parabola,
+    );
   }
-  rows() { return this.parabola; }
+  rows() {
+    return this.parabola;
+  }
 
   points() {
     return Array.from({ length: this.store.count(key) }, (_, index) => ({
@@ -56,7 +72,8 @@ export class Bend {
     // While a point is held the chart keeps its scale.
     if (!this.held) {
       this.far = Math.max(20000, 1.3 * crest * (points.length === 0), 1.2 * Math.max(0, ...points.map((each) => each.distance)));
-      const values = points.length > 0 ? points.map((each) => (this.drops ? each.drop : each.tilt) ?? 0) : [this.tilt(0), this.tilt(this.far)];
+      const values =
+        points.length > 0 ? points.map((each) => (this.drops ? each.drop : each.tilt) ?? 0) : [this.tilt(0), this.tilt(this.far)];
       this.top = this.drops ? Math.max(500, 1.2 * Math.max(...values)) : Math.max(20, 5 * Math.ceil(Math.max(...values) / 5 + 0.5));
       this.bottom = this.drops ? Math.min(0, 1.2 * Math.min(...values)) : Math.min(-5, 5 * Math.floor(Math.min(...values) / 5 - 0.2));
     }
@@ -68,14 +85,18 @@ export class Bend {
     this.by_points.hidden = points.length > 0;
     this.more.hidden = this.by_parabola.hidden = points.length === 0;
   }
-  x(distance) { return size.left + (size.width - size.left - size.right) * distance / this.far; }
-  y(value) { return size.top + (size.height - size.top - size.bottom) * (this.top - value) / (this.top - this.bottom); }
+  x(distance) {
+    return size.left + ((size.width - size.left - size.right) * distance) / this.far;
+  }
+  y(value) {
+    return size.top + ((size.height - size.top - size.bottom) * (this.top - value)) / (this.top - this.bottom);
+  }
   place(event) {
     const box = this.chart.getBoundingClientRect();
-    const [px, py] = [(event.clientX - box.left) * size.width / box.width, (event.clientY - box.top) * size.height / box.height];
+    const [px, py] = [((event.clientX - box.left) * size.width) / box.width, ((event.clientY - box.top) * size.height) / box.height];
     return [
-      (px - size.left) / (size.width - size.left - size.right) * this.far,
-      this.top - (py - size.top) / (size.height - size.top - size.bottom) * (this.top - this.bottom),
+      ((px - size.left) / (size.width - size.left - size.right)) * this.far,
+      this.top - ((py - size.top) / (size.height - size.top - size.bottom)) * (this.top - this.bottom),
     ];
   }
 
@@ -84,24 +105,43 @@ export class Bend {
     const step = [5, 10, 20, 50, 100, 200].find((km) => this.far / 1000 / km <= 6) ?? 500;
     for (let km = 0; km * 1000 <= this.far; km += step) {
       const x = this.x(km * 1000);
-      parts.push(drawing("path", { d: `M${x},${size.top}V${size.height - size.bottom}` }), drawing("text", { x, y: size.height - 5, "text-anchor": "middle" }, km === 0 ? "0 km" : String(km)));
+      parts.push(
+        drawing("path", { d: `M${x},${size.top}V${size.height - size.bottom}` }),
+        drawing("text", { x, y: size.height - 5, "text-anchor": "middle" }, km === 0 ? "0 km" : String(km)),
+      );
     }
-    const unit = this.drops ? [100, 500, 1000, 2000, 5000].find((m) => (this.top - this.bottom) / m <= 6) ?? 20000 : (this.top - this.bottom > 40 ? 20 : 10);
+    const unit = this.drops
+      ? ([100, 500, 1000, 2000, 5000].find((m) => (this.top - this.bottom) / m <= 6) ?? 20000)
+      : this.top - this.bottom > 40
+        ? 20
+        : 10;
     for (let value = Math.ceil(this.bottom / unit) * unit; value <= this.top; value += unit) {
       const y = this.y(value);
-      parts.push(drawing("path", { d: `M${size.left},${y}H${size.width - size.right}`, class: value === 0 ? "zero" : "" }),
-        drawing("text", { x: size.left - 4, y: y + 3.5, "text-anchor": "end" }, this.drops ? String(value) : `${value}°`));
+      parts.push(
+        drawing("path", { d: `M${size.left},${y}H${size.width - size.right}`, class: value === 0 ? "zero" : "" }),
+        drawing("text", { x: size.left - 4, y: y + 3.5, "text-anchor": "end" }, this.drops ? String(value) : `${value}°`),
+      );
     }
     this.grid.replaceChildren(...parts);
   }
   parabola_line() {
-    return Array.from({ length: 41 }, (_, k) => `${k === 0 ? "M" : "L"}${this.x(k / 40 * this.far).toFixed(1)},${clamp(this.y(this.tilt(k / 40 * this.far)), -50, 400).toFixed(1)}`).join("");
+    return Array.from(
+      { length: 41 },
+      (_, k) =>
+        `${k === 0 ? "M" : "L"}${this.x((k / 40) * this.far).toFixed(1)},${clamp(this.y(this.tilt((k / 40) * this.far)), -50, 400).toFixed(1)}`,
+    ).join("");
   }
   // Through the points without overshooting (monotone cubic, as the program draws it), level beyond the ends.
   curve(points) {
     const p = points.map((each) => [this.x(each.distance), this.y((this.drops ? each.drop : each.tilt) ?? 0)]);
     const slope = p.slice(1).map((q, k) => (q[1] - p[k][1]) / Math.max(1e-6, q[0] - p[k][0]));
-    const at = p.map((_, k) => (k === 0 || k === p.length - 1 ? slope[Math.min(k, slope.length - 1)] ?? 0 : slope[k - 1] * slope[k] <= 0 ? 0 : 2 * slope[k - 1] * slope[k] / (slope[k - 1] + slope[k])));
+    const at = p.map((_, k) =>
+      k === 0 || k === p.length - 1
+        ? (slope[Math.min(k, slope.length - 1)] ?? 0)
+        : slope[k - 1] * slope[k] <= 0
+          ? 0
+          : (2 * slope[k - 1] * slope[k]) / (slope[k - 1] + slope[k]),
+    );
     let path = `M${size.left},${p[0][1]}L${p[0].join()}`;
     for (let k = 1; k < p.length; ++k) {
       const third = (p[k][0] - p[k - 1][0]) / 3;
@@ -116,11 +156,19 @@ export class Bend {
     points.forEach((each, index) => {
       const value = (this.drops ? each.drop : each.tilt) ?? 0;
       this.grips[index].setAttribute("transform", `translate(${this.x(each.distance).toFixed(1)},${this.y(value).toFixed(1)})`);
-      this.grips[index].setAttribute("aria-label", `Point ${index + 1}: ${(each.distance / 1000).toFixed(1)} km, ${rounded(value, 0.1)} ${this.drops ? "m" : "°"}; arrow keys move it, Delete removes it`);
+      this.grips[index].setAttribute(
+        "aria-label",
+        `Point ${index + 1}: ${(each.distance / 1000).toFixed(1)} km, ${rounded(value, 0.1)} ${this.drops ? "m" : "°"}; arrow keys move it, Delete removes it`,
+      );
     });
   }
   grip(index) {
-    const grip = drawing("g", { class: "grip", tabindex: 0, role: "button" }, drawing("circle", { r: 13, class: "room" }), drawing("circle", { r: 5 }));
+    const grip = drawing(
+      "g",
+      { class: "grip", tabindex: 0, role: "button" },
+      drawing("circle", { r: 13, class: "room" }),
+      drawing("circle", { r: 5 }),
+    );
     draggable(grip, {
       start: () => {
         grip.focus();
@@ -139,8 +187,10 @@ export class Bend {
       const value = (this.drops ? point.drop : point.tilt) ?? 0;
       const unit = this.drops ? 10 : 0.1;
       const to = {
-        ArrowLeft: [point.distance - 100 * coarse, value], ArrowRight: [point.distance + 100 * coarse, value],
-        ArrowUp: [point.distance, value + unit * coarse], ArrowDown: [point.distance, value - unit * coarse],
+        ArrowLeft: [point.distance - 100 * coarse, value],
+        ArrowRight: [point.distance + 100 * coarse, value],
+        ArrowUp: [point.distance, value + unit * coarse],
+        ArrowDown: [point.distance, value - unit * coarse],
       }[event.key];
       if (event.key === "Delete" || event.key === "Backspace") this.remove(index);
       else if (to) this.move(index, ...to, running_step(`bend-${index}`));
@@ -156,10 +206,15 @@ export class Bend {
     const low = index > 0 ? points[index - 1].distance + 100 : 0;
     const high = index + 1 < points.length ? points[index + 1].distance - 100 : 1e8;
     const at = `${key}.${index}`;
-    this.store.edit([
-      { key: `${at}.distance_m`, value: clamp(rounded(distance, 1), low, high) },
-      this.drops ? { key: `${at}.drop_m`, value: Math.round(value) } : { key: `${at}.inclination_deg`, value: clamp(rounded(value, 0.1), -80, 80) },
-    ], step);
+    this.store.edit(
+      [
+        { key: `${at}.distance_m`, value: clamp(rounded(distance, 1), low, high) },
+        this.drops
+          ? { key: `${at}.drop_m`, value: Math.round(value) }
+          : { key: `${at}.inclination_deg`, value: clamp(rounded(value, 0.1), -80, 80) },
+      ],
+      step,
+    );
   }
 
   show_table(points) {
@@ -181,15 +236,24 @@ export class Bend {
     const send = () => this.move(index, 1000 * Number(distance.value), Number(value.value), new_step());
     distance.addEventListener("change", send);
     value.addEventListener("change", send);
-    const remove = element("button", { type: "button", class: "remove", "aria-label": `Remove point ${index + 1}`, title: "Remove", click: () => this.remove(index) }, "×");
+    const remove = element(
+      "button",
+      { type: "button", class: "remove", "aria-label": `Remove point ${index + 1}`, title: "Remove", click: () => this.remove(index) },
+      "×",
+    );
     return { distance, value, unit, element: element("div", {}, distance, element("span", { class: "unit" }, "km"), value, unit, remove) };
   }
 
   // New blocks stand at the end of the list, and distances must increase: the whole list is written again.
   write(points, more = []) {
-    const away = this.points().map((_, index) => ({ key: `${key}.${index}`, remove: true })).reverse();
+    const away = this.points()
+      .map((_, index) => ({ key: `${key}.${index}`, remove: true }))
+      .reverse();
     const made = points.map((each) => ({
-      key, append: this.drops ? { distance_m: Math.round(each.distance), drop_m: Math.round(each.drop) } : { distance_m: Math.round(each.distance), inclination_deg: rounded(each.tilt, 0.1) },
+      key,
+      append: this.drops
+        ? { distance_m: Math.round(each.distance), drop_m: Math.round(each.drop) }
+        : { distance_m: Math.round(each.distance), inclination_deg: rounded(each.tilt, 0.1) },
     }));
     this.store.edit([...more, ...away, ...made], new_step());
   }
@@ -203,7 +267,8 @@ export class Bend {
     // In the widest gap.
     const points = this.points();
     let best = 1;
-    for (let k = 1; k < points.length; ++k) if (points[k].distance - points[k - 1].distance > points[best].distance - points[best - 1].distance) best = k;
+    for (let k = 1; k < points.length; ++k)
+      if (points[k].distance - points[k - 1].distance > points[best].distance - points[best - 1].distance) best = k;
     const [a, b] = [points[best - 1], points[best]];
     this.add((a.distance + b.distance) / 2, this.drops ? (a.drop + b.drop) / 2 : (a.tilt + b.tilt) / 2);
   }
@@ -216,7 +281,17 @@ export class Bend {
     const names = ["radius_m", "crest_m", "far_from_m", "far_amount_per_m"].map((name) => `deform.bend.${name}`);
     const points = [0.25, 0.6, 1].map((share) => ({ distance: share * crest, tilt: Math.max(0, this.tilt(share * crest)) }));
     this.drops = false;
-    this.write(points, names.filter((name) => this.store.given(name)).map((name) => ({ key: name, remove: true })));
+    this.write(
+      points,
+      names.filter((name) => this.store.given(name)).map((name) => ({ key: name, remove: true })),
+    );
   }
-  to_parabola() { this.store.edit(this.points().map((_, index) => ({ key: `${key}.${index}`, remove: true })).reverse(), new_step()); }
+  to_parabola() {
+    this.store.edit(
+      this.points()
+        .map((_, index) => ({ key: `${key}.${index}`, remove: true }))
+        .reverse(),
+      new_step(),
+    );
+  }
 }

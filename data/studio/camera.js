@@ -4,8 +4,8 @@ import { clamp, rounded } from "./dom.js";
 
 const degree = Math.PI / 180;
 const full = (angle) => ((angle % 360) + 360) % 360;
-const position_step = 1;  // m
-const angle_step = 0.05;  // °
+const position_step = 1; // m
+const angle_step = 0.05; // °
 
 // {viewer, target, by_target, azimuth, pitch, tilt, field, height, parallel}: angles in °, positions in m.
 export function view(store) {
@@ -38,8 +38,7 @@ export function turned(store, from, right, up) {
   if (from.by_target) {
     const [east, north] = direction(azimuth);
     const far = distance(from);
-    if (right !== 0)
-      changes.push({ key: "camera.look_at", value: point([from.viewer[0] + far * east, from.viewer[1] + far * north]) });
+    if (right !== 0) changes.push({ key: "camera.look_at", value: point([from.viewer[0] + far * east, from.viewer[1] + far * north]) });
     if (up !== 0) changes.push({ key: "camera.tilt_deg", value: clamp(rounded(from.tilt + up, angle_step), -45, 45) });
   } else {
     if (right !== 0) changes.push({ key: "camera.azimuth_deg", value: rounded(azimuth, angle_step) });

@@ -17,7 +17,8 @@ export class Check {
     try {
       found = await api.check(signal);
     } catch (error) {
-      if (error.name !== "AbortError" && error.status !== 409) this.show([{ name: "critique", value: "", verdict: "note", advice: error.message }]);
+      if (error.name !== "AbortError" && error.status !== 409)
+        this.show([{ name: "critique", value: "", verdict: "note", advice: error.message }]);
       return;
     }
     if (found.revision === undefined || found.revision === this.store.state.revision) this.show(found.items);
@@ -25,11 +26,18 @@ export class Check {
   show(items) {
     const order = ["bad", "note", "good"];
     const sorted = [...items].sort((a, b) => order.indexOf(a.verdict) - order.indexOf(b.verdict));
-    const list = sorted.map(({ name, value, verdict, advice }) => element("li", { class: verdict },
-      element("span", { class: "sign", role: "img", "aria-label": words[verdict] ?? verdict }, signs[verdict] ?? "●"),
-      element("span", { class: "name" }, name), element("span", { class: "value" }, value ?? ""),
-      advice && verdict !== "good" ? element("span", { class: "advice" }, advice) : null));
-    for (const note of this.store.state.notes ?? []) list.push(element("li", { class: "note" }, element("span", { class: "sign" }, "◆"), element("span", { class: "advice" }, note)));
+    const list = sorted.map(({ name, value, verdict, advice }) =>
+      element(
+        "li",
+        { class: verdict },
+        element("span", { class: "sign", role: "img", "aria-label": words[verdict] ?? verdict }, signs[verdict] ?? "●"),
+        element("span", { class: "name" }, name),
+        element("span", { class: "value" }, value ?? ""),
+        advice && verdict !== "good" ? element("span", { class: "advice" }, advice) : null,
+      ),
+    );
+    for (const note of this.store.state.notes ?? [])
+      list.push(element("li", { class: "note" }, element("span", { class: "sign" }, "◆"), element("span", { class: "advice" }, note)));
     this.box.replaceChildren(...list);
     this.box.classList.remove("old");
   }

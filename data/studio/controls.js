@@ -13,8 +13,20 @@ export function kind_of(store, key) {
   const number = either.find((each) => each.type === "number" || each.type === "integer");
   const words = either.find((each) => each.enum)?.enum;
   const auto = words?.includes("auto") ?? false;
-  const out = { help: (part.description ?? "").replace(/ Unit: [^.]*\.$/, ""), default: part.default, auto, optional: part.default === undefined };
-  if (number) return { ...out, kind: "number", min: number.minimum ?? number.exclusiveMinimum, max: number.maximum, whole: number.type === "integer" };
+  const out = {
+    help: (part.description ?? "").replace(/ Unit: [^.]*\.$/, ""),
+    default: part.default,
+    auto,
+    optional: part.default === undefined,
+  };
+  if (number)
+    return {
+      ...out,
+      kind: "number",
+      min: number.minimum ?? number.exclusiveMinimum,
+      max: number.maximum,
+      whole: number.type === "integer",
+    };
   if (part.type === "boolean") return { ...out, kind: "switch" };
   if (part.type === "array" && part.items?.enum) return { ...out, kind: "set", words: part.items.enum };
   if (part.type === "array" && (part.maxItems === 2 || Array.isArray(part.items))) return { ...out, kind: "pair" };
@@ -27,7 +39,9 @@ export function kind_of(store, key) {
 export function row(store, spec) {
   const about = kind_of(store, spec.key);
   if (!about) return null;
-  const made = { number: number_row, switch: switch_row, choice: choice_row, pair: pair_row, set: set_row, text: text_row }[spec.kind ?? about.kind](store, spec, about);
+  const made = { number: number_row, switch: switch_row, choice: choice_row, pair: pair_row, set: set_row, text: text_row }[
+    spec.kind ?? about.kind
+  ](store, spec, about);
   made.element.dataset.key = spec.key;
   made.fault = element("p", { class: "fault", id: `fault-${++ids}`, hidden: true });
   made.element.append(made.fault);
@@ -56,14 +70,23 @@ export function show_fault(made, fault) {
 
 const set = (store, key, value, step) => store.edit(alone(store, [{ key, value }]), step ?? new_step());
 
-function label_of(spec, about, input) { return element("label", { for: input.id, title: about.help }, spec.label); }
+function label_of(spec, about, input) {
+  return element("label", { for: input.id, title: about.help }, spec.label);
+}
 
 // The way back to the default: the key leaves the scene.
 function reset_button(store, spec) {
-  return element("button", {
-    type: "button", class: "reset", title: "Back to the default", "aria-label": `${spec.label}: back to the default`,
-    click: () => store.edit([{ key: spec.key, remove: true }], new_step()),
-  }, "↺");
+  return element(
+    "button",
+    {
+      type: "button",
+      class: "reset",
+      title: "Back to the default",
+      "aria-label": `${spec.label}: back to the default`,
+      click: () => store.edit([{ key: spec.key, remove: true }], new_step()),
+    },
+    "↺",
+  );
 }
 function show_reset(store, spec, about, button) {
   button.hidden = about.auto || about.default === undefined || !store.given(spec.key);
@@ -76,10 +99,15 @@ function number_row(store, spec, about) {
   const id = `control-${++ids}`;
   // Distances by ratio: slider 0 … 1000 for min … max.
   const low = Math.max(min, spec.log ?? 0);
-  const to_slider = (value) => (spec.log ? (value < low ? 0 : 1 + 999 * Math.log(value / low) / Math.log(max / low)) : value);
+  const to_slider = (value) => (spec.log ? (value < low ? 0 : 1 + (999 * Math.log(value / low)) / Math.log(max / low)) : value);
   const from_slider = (at) => (spec.log ? (at < 1 ? min : Number((low * (max / low) ** ((at - 1) / 999)).toPrecision(3))) : at);
   const slider = element("input", {
-    type: "range", min: spec.log ? 0 : min, max: spec.log ? 1000 : max, step: spec.log ? 1 : step, "aria-label": `${spec.label}, ${spec.unit ?? ""}`, id: `${id}-slider`,
+    type: "range",
+    min: spec.log ? 0 : min,
+    max: spec.log ? 1000 : max,
+    step: spec.log ? 1 : step,
+    "aria-label": `${spec.label}, ${spec.unit ?? ""}`,
+    id: `${id}-slider`,
   });
   const field = element("input", { type: "number", id, min: about.min, max: about.max, step: "any" });
   const can_auto = spec.auto !== false && (about.auto || about.optional);
@@ -96,9 +124,13 @@ function number_row(store, spec, about) {
     field.value = value;
     change(value, moving);
   });
-  slider.addEventListener("change", () => { moving = null; });
+  slider.addEventListener("change", () => {
+    moving = null;
+  });
   let typing = false;
-  field.addEventListener("input", () => { typing = true; });
+  field.addEventListener("input", () => {
+    typing = true;
+  });
   field.addEventListener("change", () => {
     typing = false;
     if (field.value.trim() === "" || !Number.isFinite(Number(field.value))) return update();
@@ -134,15 +166,21 @@ function number_row(store, spec, about) {
     if (!typing) field.value = value === undefined ? "" : rounded(value, Math.min(step, spec.log ? 0.1 : step) / 10);
     slider.value = value === undefined ? slider.min : to_slider(clamp(value, min, max));
     slider.setAttribute("aria-valuetext", `${field.value} ${spec.unit ?? ""}`);
-    slider.style.setProperty("--at", `${100 * (slider.value - slider.min) / (slider.max - slider.min)}%`);
+    slider.style.setProperty("--at", `${(100 * (slider.value - slider.min)) / (slider.max - slider.min)}%`);
     auto?.setAttribute("aria-pressed", String(is_auto));
     made.classList.toggle("is-auto", is_auto);
     const why = store.derived(spec.key)?.why;
     if (auto) auto.title = why ? `The program chooses: ${why}` : "The program chooses";
     show_reset(store, spec, about, reset);
   }
-  const made = element("div", { class: "row number" }, label_of(spec, about, field), element("span", { class: "tools" }, auto, reset),
-    element("span", { class: "value" }, field, element("span", { class: "unit" }, spec.unit ?? "")), slider);
+  const made = element(
+    "div",
+    { class: "row number" },
+    label_of(spec, about, field),
+    element("span", { class: "tools" }, auto, reset),
+    element("span", { class: "value" }, field, element("span", { class: "unit" }, spec.unit ?? "")),
+    slider,
+  );
   return { element: made, update, focus: () => field.focus() };
 }
 
@@ -151,7 +189,9 @@ function switch_row(store, spec, about) {
   input.addEventListener("change", () => set(store, spec.key, input.checked));
   return {
     element: element("div", { class: "row switch" }, label_of(spec, about, input), input),
-    update: () => { input.checked = (store.value(spec.key) ?? about.default) === true; },
+    update: () => {
+      input.checked = (store.value(spec.key) ?? about.default) === true;
+    },
     focus: () => input.focus(),
   };
 }
@@ -161,7 +201,8 @@ function choice_row(store, spec, about) {
   const words = spec.words?.(store) ?? about.words;
   const none = spec.none ?? (about.optional ? "none" : null);
   if (none !== null && !words.includes("")) input.append(element("option", { value: "" }, none));
-  for (const word of words) input.append(element("option", { value: word }, word === "" ? (spec.none ?? "none") : word.replaceAll("_", " ")));
+  for (const word of words)
+    input.append(element("option", { value: word }, word === "" ? (spec.none ?? "none") : word.replaceAll("_", " ")));
   input.addEventListener("change", () => {
     if (input.value === "" && about.optional && !words.includes("")) store.edit([{ key: spec.key, remove: true }], new_step());
     else set(store, spec.key, input.value);
@@ -182,7 +223,9 @@ function choice_row(store, spec, about) {
 function pair_row(store, spec, about) {
   const names = spec.names ?? ["E", "N"];
   const step = spec.step ?? 1;
-  const fields = names.map((name) => element("input", { type: "number", id: `control-${++ids}`, step: "any", "aria-label": `${spec.label} ${name}` }));
+  const fields = names.map((name) =>
+    element("input", { type: "number", id: `control-${++ids}`, step: "any", "aria-label": `${spec.label} ${name}` }),
+  );
   const current = () => (spec.get ? spec.get(store) : store.value(spec.key));
   const send = (at) => {
     const value = fields.map((field) => Number(field.value));
@@ -191,7 +234,9 @@ function pair_row(store, spec, about) {
   let typing = false;
   for (const field of fields) {
     let moving = null;
-    field.addEventListener("input", () => { typing = true; });
+    field.addEventListener("input", () => {
+      typing = true;
+    });
     field.addEventListener("change", () => {
       typing = false;
       send();
@@ -200,7 +245,10 @@ function pair_row(store, spec, about) {
       if (event.key !== "ArrowUp" && event.key !== "ArrowDown") return;
       event.preventDefault();
       moving ??= new_step();
-      field.value = rounded(Number(field.value) + (event.key === "ArrowUp" ? 1 : -1) * step * (event.shiftKey ? 10 : event.altKey ? 0.1 : 1), step / 10);
+      field.value = rounded(
+        Number(field.value) + (event.key === "ArrowUp" ? 1 : -1) * step * (event.shiftKey ? 10 : event.altKey ? 0.1 : 1),
+        step / 10,
+      );
       send(moving);
     });
     field.addEventListener("blur", () => {
@@ -210,11 +258,24 @@ function pair_row(store, spec, about) {
   }
   const reset = reset_button(store, spec);
   return {
-    element: element("div", { class: "row pair" }, label_of(spec, about, fields[0]), element("span", { class: "tools" }, reset),
-      element("span", { class: "fields" }, ...fields.flatMap((field, k) => [element("span", { class: "unit", "aria-hidden": "true" }, names[k]), field]), element("span", { class: "unit" }, spec.unit ?? ""))),
+    element: element(
+      "div",
+      { class: "row pair" },
+      label_of(spec, about, fields[0]),
+      element("span", { class: "tools" }, reset),
+      element(
+        "span",
+        { class: "fields" },
+        ...fields.flatMap((field, k) => [element("span", { class: "unit", "aria-hidden": "true" }, names[k]), field]),
+        element("span", { class: "unit" }, spec.unit ?? ""),
+      ),
+    ),
     update: () => {
       const value = current() ?? about.default;
-      if (!typing) fields.forEach((field, k) => { field.value = value === undefined ? "" : rounded(value[k], step / 10); });
+      if (!typing)
+        fields.forEach((field, k) => {
+          field.value = value === undefined ? "" : rounded(value[k], step / 10);
+        });
       show_reset(store, spec, about, reset);
     },
     focus: () => fields[0].focus(),
@@ -223,24 +284,45 @@ function pair_row(store, spec, about) {
 
 function set_row(store, spec, about) {
   const boxes = about.words.map((word) => element("input", { type: "checkbox", value: word, id: `control-${++ids}` }));
-  for (const box of boxes) box.addEventListener("change", () => set(store, spec.key, boxes.filter((each) => each.checked).map((each) => each.value)));
+  for (const box of boxes)
+    box.addEventListener("change", () =>
+      set(
+        store,
+        spec.key,
+        boxes.filter((each) => each.checked).map((each) => each.value),
+      ),
+    );
   return {
-    element: element("div", { class: "row set", role: "group", "aria-label": spec.label }, element("span", { class: "label", title: about.help }, spec.label),
-      element("span", { class: "boxes" }, ...boxes.map((box) => element("label", {}, box, box.value)))),
-    update: () => { for (const box of boxes) box.checked = (store.value(spec.key) ?? about.default ?? []).includes(box.value); },
+    element: element(
+      "div",
+      { class: "row set", role: "group", "aria-label": spec.label },
+      element("span", { class: "label", title: about.help }, spec.label),
+      element("span", { class: "boxes" }, ...boxes.map((box) => element("label", {}, box, box.value))),
+    ),
+    update: () => {
+      for (const box of boxes) box.checked = (store.value(spec.key) ?? about.default ?? []).includes(box.value);
+    },
     focus: () => boxes[0].focus(),
   };
 }
 
 function text_row(store, spec, about) {
-  const input = element("input", { type: "text", id: `control-${++ids}`, placeholder: spec.hint ?? "", spellcheck: "false", autocomplete: "off" });
+  const input = element("input", {
+    type: "text",
+    id: `control-${++ids}`,
+    placeholder: spec.hint ?? "",
+    spellcheck: "false",
+    autocomplete: "off",
+  });
   input.addEventListener("change", () => {
     if (input.value === "" && about.optional) store.edit([{ key: spec.key, remove: true }], new_step());
     else set(store, spec.key, input.value);
   });
   return {
     element: element("div", { class: "row text" }, label_of(spec, about, input), input),
-    update: () => { if (document.activeElement !== input) input.value = store.value(spec.key) ?? ""; },
+    update: () => {
+      if (document.activeElement !== input) input.value = store.value(spec.key) ?? "";
+    },
     focus: () => input.focus(),
   };
 }

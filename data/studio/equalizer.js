@@ -7,7 +7,10 @@ const sets = [
   { id: "_ridges", label: "Ridges", min: -2, max: 3 },
   { id: "_valleys", label: "Valleys", min: -2, max: 3 },
 ];
-const sides = [{ id: "foreground", label: "Near" }, { id: "background", label: "Far" }];
+const sides = [
+  { id: "foreground", label: "Near" },
+  { id: "background", label: "Far" },
+];
 
 export class Equalizer {
   constructor(store) {
@@ -17,31 +20,75 @@ export class Equalizer {
     this.bands = 0;
     this.sliders = [];
     this.preset = element("select", { id: "equalizer-preset", change: () => this.choose_preset() });
-    for (const word of store.describe("generalize.preset")?.enum ?? []) this.preset.append(element("option", { value: word }, word.replaceAll("_", " ") || "none"));
-    this.tabs = element("div", { class: "segments", role: "group", "aria-label": "Weights of" },
-      ...sets.map((set) => element("button", { type: "button", "aria-pressed": "false", click: () => { this.set = set; this.bands = 0; this.update(); } }, set.label)));
+    for (const word of store.describe("generalize.preset")?.enum ?? [])
+      this.preset.append(element("option", { value: word }, word.replaceAll("_", " ") || "none"));
+    this.tabs = element(
+      "div",
+      { class: "segments", role: "group", "aria-label": "Weights of" },
+      ...sets.map((set) =>
+        element(
+          "button",
+          {
+            type: "button",
+            "aria-pressed": "false",
+            click: () => {
+              this.set = set;
+              this.bands = 0;
+              this.update();
+            },
+          },
+          set.label,
+        ),
+      ),
+    );
     this.box = element("div", { class: "bands" });
-    const link = element("input", { type: "checkbox", id: "equalizer-link", change: () => { this.linked = link.checked; } });
+    const link = element("input", {
+      type: "checkbox",
+      id: "equalizer-link",
+      change: () => {
+        this.linked = link.checked;
+      },
+    });
     this.fault = element("p", { class: "fault", hidden: true });
-    this.element = element("div", { class: "equalizer" },
-      element("div", { class: "row choice" }, element("label", { for: "equalizer-preset" }, "Preset"), element("span", { class: "tools" }), this.preset),
-      this.tabs, this.box,
+    this.element = element(
+      "div",
+      { class: "equalizer" },
+      element(
+        "div",
+        { class: "row choice" },
+        element("label", { for: "equalizer-preset" }, "Preset"),
+        element("span", { class: "tools" }),
+        this.preset,
+      ),
+      this.tabs,
+      this.box,
       element("p", { class: "axis" }, element("span", {}, "largest forms"), element("span", {}, "smallest")),
       element("div", { class: "row switch" }, element("label", { for: link.id }, "Near and far together"), link),
-      element("div", { class: "tools" },
+      element(
+        "div",
+        { class: "tools" },
         element("button", { type: "button", click: () => this.add(1) }, "One band more"),
         element("button", { type: "button", click: () => this.add(-1) }, "One less"),
-        element("button", { type: "button", click: () => this.flat() }, "All to neutral")));
+        element("button", { type: "button", click: () => this.flat() }, "All to neutral"),
+      ),
+    );
     this.element.dataset.key = "generalize.foreground";
     this.element.append(this.fault);
   }
-  focus() { this.sliders[0]?.slider.focus(); }
+  focus() {
+    this.sliders[0]?.slider.focus();
+  }
 
-  key(side, set = this.set) { return `generalize.${side}${set.id}`; }
-  neutral() { return this.set.id === "" ? 1 : 0; }
+  key(side, set = this.set) {
+    return `generalize.${side}${set.id}`;
+  }
+  neutral() {
+    return this.set.id === "" ? 1 : 0;
+  }
   weights(side, set = this.set) {
     const bands = (this.store.value("generalize.foreground") ?? [1, 1, 1, 1, 1, 1]).length;
-    const found = this.store.value(this.key(side, set)) ?? (side === "background" ? this.store.value(this.key("foreground", set)) : undefined);
+    const found =
+      this.store.value(this.key(side, set)) ?? (side === "background" ? this.store.value(this.key("foreground", set)) : undefined);
     return Array.from({ length: bands }, (_, band) => found?.[band] ?? (set.id === "" ? 1 : 0));
   }
 
@@ -66,17 +113,35 @@ export class Equalizer {
       const group = element("div", { class: "side", role: "group", "aria-label": label }, element("span", { class: "name" }, label));
       for (let band = 0; band < bands; ++band) {
         const name = `${label}, ${this.set.label.toLowerCase()}, band ${band + 1}${band === 0 ? ", the largest landforms" : band === bands - 1 ? ", the smallest" : ""}`;
-        const slider = element("input", { type: "range", min: this.set.min, max: this.set.max, step: 0.05, "aria-label": name, title: name, "aria-orientation": "vertical" });
-        const field = element("input", { type: "number", min: this.set.id === "" ? 0 : -5, max: 5, step: 0.05, "aria-label": `${name}, number` });
+        const slider = element("input", {
+          type: "range",
+          min: this.set.min,
+          max: this.set.max,
+          step: 0.05,
+          "aria-label": name,
+          title: name,
+          "aria-orientation": "vertical",
+        });
+        const field = element("input", {
+          type: "number",
+          min: this.set.id === "" ? 0 : -5,
+          max: 5,
+          step: 0.05,
+          "aria-label": `${name}, number`,
+        });
         let step = null;
-        slider.addEventListener("input", () => this.change(side, band, Number(slider.value), step ??= new_step()));
-        slider.addEventListener("change", () => { step = null; });
+        slider.addEventListener("input", () => this.change(side, band, Number(slider.value), (step ??= new_step())));
+        slider.addEventListener("change", () => {
+          step = null;
+        });
         slider.addEventListener("dblclick", () => this.change(side, band, this.neutral(), new_step()));
         field.addEventListener("change", () => {
           if (field.value !== "") this.change(side, band, clamp(Number(field.value), Number(field.min), 5), new_step());
         });
         this.sliders.push({ side, band, slider, field });
-        group.append(element("div", { class: "band" }, slider, field, element("span", { class: "unit", "aria-hidden": "true" }, String(band + 1))));
+        group.append(
+          element("div", { class: "band" }, slider, field, element("span", { class: "unit", "aria-hidden": "true" }, String(band + 1))),
+        );
       }
       this.box.append(group);
     }
@@ -109,7 +174,10 @@ export class Equalizer {
   }
   flat() {
     const bands = this.weights("foreground").length;
-    this.store.edit(sides.map(({ id }) => ({ key: this.key(id), value: Array(bands).fill(this.neutral()) })), new_step());
+    this.store.edit(
+      sides.map(({ id }) => ({ key: this.key(id), value: Array(bands).fill(this.neutral()) })),
+      new_step(),
+    );
   }
   // A preset's weights count where the scene gives none beside it.
   choose_preset() {

@@ -8,7 +8,10 @@ const max_bytes = 2 ** 30;
 // What can be done with a file of a kind: {label, changes(file)}.
 const uses = {
   terrain: [
-    { label: "Use it as the ground", changes: (file, store) => [...removed(store, "terrain.sources"), { key: "terrain.sources", append: { file } }] },
+    {
+      label: "Use it as the ground",
+      changes: (file, store) => [...removed(store, "terrain.sources"), { key: "terrain.sources", append: { file } }],
+    },
     { label: "Add it below the ground there is", changes: (file) => [{ key: "terrain.sources", append: { file } }] },
   ],
   track: [{ label: "Draw it as a track", changes: (file) => [{ key: "labels.tracks", append: { file } }] }],
@@ -18,9 +21,17 @@ const uses = {
   ],
   painting: [{ label: "Copy its paint", changes: (file) => [{ key: "exemplar", append: { picture: file } }] }],
 };
-const kinds = { terrain: "a terrain", track: "a track", features: "a file of features", painting: "a painting", scene: "a scene", other: "a file" };
+const kinds = {
+  terrain: "a terrain",
+  track: "a track",
+  features: "a file of features",
+  painting: "a painting",
+  scene: "a scene",
+  other: "a file",
+};
 
-const removed = (store, key) => Array.from({ length: store.count(key) }, (_, index) => ({ key: `${key}.${index}`, remove: true })).reverse();
+const removed = (store, key) =>
+  Array.from({ length: store.count(key) }, (_, index) => ({ key: `${key}.${index}`, remove: true })).reverse();
 
 export class Files {
   constructor(store) {
@@ -63,22 +74,32 @@ export class Files {
   }
   async one(file) {
     const name = element("b", {}, file.name);
-    if (file.size > max_bytes) return [name, element("span", { class: "fault" }, " is larger than 1 GiB: put it beside the scene yourself and name it there.")];
+    if (file.size > max_bytes)
+      return [name, element("span", { class: "fault" }, " is larger than 1 GiB: put it beside the scene yourself and name it there.")];
     let found;
     try {
       found = await api.upload(file);
     } catch (error) {
       return [name, element("span", { class: "fault" }, ` ${error.message}`)];
     }
-    const told = found.kind === "scene" ? ` is a scene: open it with belvedere studio ${found.file}` : ` is ${kinds[found.kind] ?? "a file"} and lies beside the scene as ${found.file}.`;
-    const buttons = (uses[found.kind] ?? []).map(({ label, changes }) => element("button", {
-      type: "button",
-      click: (event) => {
-        this.store.edit(changes(found.file, this.store), new_step());
-        for (const each of event.currentTarget.parentElement.querySelectorAll("button")) each.disabled = true;
-        this.dialog.close();
-      },
-    }, label));
+    const told =
+      found.kind === "scene"
+        ? ` is a scene: open it with belvedere studio ${found.file}`
+        : ` is ${kinds[found.kind] ?? "a file"} and lies beside the scene as ${found.file}.`;
+    const buttons = (uses[found.kind] ?? []).map(({ label, changes }) =>
+      element(
+        "button",
+        {
+          type: "button",
+          click: (event) => {
+            this.store.edit(changes(found.file, this.store), new_step());
+            for (const each of event.currentTarget.parentElement.querySelectorAll("button")) each.disabled = true;
+            this.dialog.close();
+          },
+        },
+        label,
+      ),
+    );
     return [name, element("span", {}, told), element("div", { class: "buttons" }, ...buttons)];
   }
 }

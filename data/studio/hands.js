@@ -5,7 +5,7 @@ import { moved, turned, view, widened } from "./camera.js";
 import { by_id, metres } from "./dom.js";
 import { alone, new_step, running_step } from "./store.js";
 
-const click_px = 4;  // a pointer that moves less has clicked
+const click_px = 4; // a pointer that moves less has clicked
 
 export class Hands {
   constructor(store, picture) {
@@ -14,12 +14,14 @@ export class Hands {
     this.canvas = picture.canvas;
     this.pointers = new Map();
     this.mode = "look";
-    this.pick = null;  // takes the next click: {hint, done(pointed, event)}
+    this.pick = null; // takes the next click: {hint, done(pointed, event)}
     this.asked = new AbortController();
     this.listen();
   }
 
-  per_px() { return view(this.store).field / this.canvas.clientWidth; }  // ° for a pixel of the page
+  per_px() {
+    return view(this.store).field / this.canvas.clientWidth;
+  } // ° for a pixel of the page
 
   // The next click on the picture is not a movement: pull(event, pointed) follows the hand after it, if given.
   choose(hint, done) {
@@ -47,7 +49,9 @@ export class Hands {
   }
   span() {
     const [a, b] = Array.from(this.pointers.values());
-    return b ? { size: Math.max(20, Math.hypot(a.at[0] - b.at[0], a.at[1] - b.at[1])), x: (a.at[0] + b.at[0]) / 2, y: (a.at[1] + b.at[1]) / 2 } : null;
+    return b
+      ? { size: Math.max(20, Math.hypot(a.at[0] - b.at[0], a.at[1] - b.at[1])), x: (a.at[0] + b.at[0]) / 2, y: (a.at[1] + b.at[1]) / 2 }
+      : null;
   }
   async picked(event) {
     const { done } = this.pick;
@@ -74,12 +78,15 @@ export class Hands {
       const span = this.span();
       const near = Math.log(span.size / this.held.span.size);
       const aside = (this.held.span.x - span.x) / width;
-      this.edit(moved(this.store, from, Math.max(-2, Math.min(0.9, 0.6 * near)), aside, (span.y - this.held.span.y) * from.height / width), step);
+      this.edit(
+        moved(this.store, from, Math.max(-2, Math.min(0.9, 0.6 * near)), aside, ((span.y - this.held.span.y) * from.height) / width),
+        step,
+      );
     } else if (event.shiftKey || this.mode === "move") {
-      const share = 2 * Math.tan(Math.min(from.field, 120) * Math.PI / 360) / width;
-      this.edit(moved(this.store, from, 0, -dx * share, dy * from.height / width), step);
+      const share = (2 * Math.tan((Math.min(from.field, 120) * Math.PI) / 360)) / width;
+      this.edit(moved(this.store, from, 0, -dx * share, (dy * from.height) / width), step);
     } else {
-      this.edit(turned(this.store, from, -dx * from.field / width, dy * from.field / width), step);
+      this.edit(turned(this.store, from, (-dx * from.field) / width, (dy * from.field) / width), step);
     }
   }
   up(event) {
@@ -102,19 +109,25 @@ export class Hands {
   forward(share, what = "forward") {
     this.edit(moved(this.store, view(this.store), Math.max(-0.5, Math.min(0.5, share)), 0), running_step(what));
   }
-  aside(px, what = "aside") { this.edit(moved(this.store, view(this.store), 0, px / this.canvas.clientWidth), running_step(what)); }
+  aside(px, what = "aside") {
+    this.edit(moved(this.store, view(this.store), 0, px / this.canvas.clientWidth), running_step(what));
+  }
   higher(share) {
     const from = view(this.store);
     this.edit(moved(this.store, from, 0, 0, Math.max(20, Math.abs(from.height * share)) * Math.sign(share)), running_step("height"));
   }
-  turn(right, up) { this.edit(turned(this.store, view(this.store), right, up), running_step("turn")); }
-  widen(factor) { this.edit(widened(this.store, factor), running_step("field")); }
+  turn(right, up) {
+    this.edit(turned(this.store, view(this.store), right, up), running_step("turn"));
+  }
+  widen(factor) {
+    this.edit(widened(this.store, factor), running_step("field"));
+  }
 
   keys(event) {
     if (event.ctrlKey || event.metaKey) return;
     const coarse = event.altKey ? 0.2 : 1;
-    const angle = coarse * view(this.store).field / 25;
-    const px = coarse * this.canvas.clientWidth / 25;
+    const angle = (coarse * view(this.store).field) / 25;
+    const px = (coarse * this.canvas.clientWidth) / 25;
     const actions = {
       ArrowLeft: () => (event.shiftKey ? this.aside(-px) : this.turn(-angle, 0)),
       ArrowRight: () => (event.shiftKey ? this.aside(px) : this.turn(angle, 0)),
@@ -145,7 +158,7 @@ export class Hands {
     try {
       return await api.pointer(...this.picture.share_of(event), this.store.state.revision, this.asked.signal);
     } catch {
-      return null;  // the picture has changed since
+      return null; // the picture has changed since
     }
   }
   hover(event) {
@@ -158,7 +171,9 @@ export class Hands {
     const pointed = await this.point(event);
     if (pointed) this.say(pointed.sky ? "sky" : told(pointed));
   }
-  say(text) { by_id("pointed").textContent = text; }
+  say(text) {
+    by_id("pointed").textContent = text;
+  }
 
   listen() {
     const { canvas } = this;
@@ -187,19 +202,25 @@ export class Hands {
       const index = this.store.count("deform.handles");
       const from = view(this.store);
       // Metres of a pixel of the page at that distance, before exaggeration.
-      const metres_px = 2 * Math.tan(Math.min(from.field, 120) * Math.PI / 360) * pointed.distance_m / this.canvas.clientWidth;
+      const metres_px = (2 * Math.tan((Math.min(from.field, 120) * Math.PI) / 360) * pointed.distance_m) / this.canvas.clientWidth;
       const radius = Math.max(500, Math.round(pointed.distance_m / 1500) * 100);
-      this.store.edit([{ key: "deform.handles", append: { position: pointed.position.map(Math.round), radius_m: radius, raise_m: 0 } }], step);
+      this.store.edit(
+        [{ key: "deform.handles", append: { position: pointed.position.map(Math.round), radius_m: radius, raise_m: 0 } }],
+        step,
+      );
       return (dx, dy) => {
-        const raise = Math.round(-dy * metres_px / (this.store.number("deform.exaggeration") ?? 1));
+        const raise = Math.round((-dy * metres_px) / (this.store.number("deform.exaggeration") ?? 1));
         const aside = Math.abs(dx) < 6 ? 0 : dx * metres_px;
-        const azimuth = from.azimuth * Math.PI / 180;
+        const azimuth = (from.azimuth * Math.PI) / 180;
         const move = [Math.round(aside * Math.cos(azimuth)), Math.round(-aside * Math.sin(azimuth))];
         const at = `deform.handles.${index}`;
-        this.store.edit([
-          { key: `${at}.raise_m`, value: Math.max(-5000, Math.min(5000, raise)) },
-          { key: `${at}.move_m`, value: move },
-        ], step);
+        this.store.edit(
+          [
+            { key: `${at}.raise_m`, value: Math.max(-5000, Math.min(5000, raise)) },
+            { key: `${at}.move_m`, value: move },
+          ],
+          step,
+        );
       };
     });
   }

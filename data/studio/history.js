@@ -2,13 +2,13 @@
 import { api } from "./api.js";
 import { by_id } from "./dom.js";
 
-const look_ms = 4000;  // how often the program is asked whether the file was changed outside
+const look_ms = 4000; // how often the program is asked whether the file was changed outside
 
 export class History {
   constructor(store, status) {
     this.store = store;
     this.status = status;
-    this.mine = null;  // the text for which "keep mine" was chosen
+    this.mine = null; // the text for which "keep mine" was chosen
     for (const name of ["undo", "redo", "save"]) by_id(name).addEventListener("click", () => this[name]());
     by_id("reload").addEventListener("click", () => store.act(() => api.act("reload")));
     by_id("keep-mine").addEventListener("click", () => {
@@ -37,8 +37,12 @@ export class History {
     by_id("outside").hidden = !state.outside || this.mine !== null;
   }
 
-  undo() { if (this.store.state.can_undo || this.store.busy) return this.store.act(() => api.act("undo")); }
-  redo() { if (this.store.state.can_redo || this.store.busy) return this.store.act(() => api.act("redo")); }
+  undo() {
+    if (this.store.state.can_undo || this.store.busy) return this.store.act(() => api.act("undo"));
+  }
+  redo() {
+    if (this.store.state.can_redo || this.store.busy) return this.store.act(() => api.act("redo"));
+  }
   async save() {
     if (await this.store.act(() => api.act("save"))) this.status.say("Saved.");
   }

@@ -27,7 +27,8 @@ export class Jobs {
     const width = Number(by_id("render-width").value);
     const [w, h] = [this.store.value("output.width") ?? 2400, this.store.value("output.height") ?? 1100];
     const sheet = this.store.value("output.sheet_width_mm") ?? 1200;
-    by_id("render-size").textContent = width > 0 ? `${width} × ${Math.round(width * h / w)} px, ${Math.round(25.4 * width / sheet)} dpi on ${sheet} mm` : "";
+    by_id("render-size").textContent =
+      width > 0 ? `${width} × ${Math.round((width * h) / w)} px, ${Math.round((25.4 * width) / sheet)} dpi on ${sheet} mm` : "";
   }
 
   async start() {

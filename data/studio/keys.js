@@ -16,7 +16,10 @@ const by_hand = [
   ["point, tap", "what is there"],
   ["double click a band", "back to neutral"],
 ];
-const in_fields = [["↑ ↓", "one step; ten with Shift, a tenth with Alt"], ["Tab", "the next control"]];
+const in_fields = [
+  ["↑ ↓", "one step; ten with Shift, a tenth with Alt"],
+  ["Tab", "the next control"],
+];
 
 // actions: {key: [what it does, function]}; a key may begin with "Ctrl-".
 export function listen_keys(actions) {
@@ -35,8 +38,20 @@ export function listen_keys(actions) {
 }
 
 export function fill_help(actions) {
-  const table = (title, rows) => element("section", {}, element("h3", {}, title),
-    element("dl", {}, ...rows.flatMap(([keys, what]) => [element("dt", {}, element("kbd", {}, keys)), element("dd", {}, what)])));
-  const pages = Object.entries(actions).filter(([, [what]]) => what).map(([key, [what]]) => [key.length === 1 ? key.toUpperCase() : key, what]);
-  by_id("help-keys").replaceChildren(table("Everywhere", pages), table("By hand, on the picture", by_hand), table("By keys, on the picture", on_picture), table("In fields", in_fields));
+  const table = (title, rows) =>
+    element(
+      "section",
+      {},
+      element("h3", {}, title),
+      element("dl", {}, ...rows.flatMap(([keys, what]) => [element("dt", {}, element("kbd", {}, keys)), element("dd", {}, what)])),
+    );
+  const pages = Object.entries(actions)
+    .filter(([, [what]]) => what)
+    .map(([key, [what]]) => [key.length === 1 ? key.toUpperCase() : key, what]);
+  by_id("help-keys").replaceChildren(
+    table("Everywhere", pages),
+    table("By hand, on the picture", by_hand),
+    table("By keys, on the picture", on_picture),
+    table("In fields", in_fields),
+  );
 }

@@ -2,17 +2,17 @@
 // all that is finer than the first rung; the first one is quick and always arrives, so that the picture follows the hand.
 import { api } from "./api.js";
 
-const rest_ms = 250;  // the hand rests when nothing has changed for so long
+const rest_ms = 250; // the hand rests when nothing has changed for so long
 
 export class Ladder {
   constructor(picture, tell) {
     this.picture = picture;
-    this.tell = tell;  // {rung, rungs, milliseconds, without, done, stage, fault}
+    this.tell = tell; // {rung, rungs, milliseconds, without, done, stage, fault}
     this.rungs = [];
     this.abort = new AbortController();
     this.timer = 0;
-    this.first = false;  // the first rung is being drawn
-    this.idle = () => {};  // called when the hand rests and the quick rungs are there
+    this.first = false; // the first rung is being drawn
+    this.idle = () => {}; // called when the hand rests and the quick rungs are there
   }
 
   async read_rungs() {
@@ -79,9 +79,16 @@ export class Ladder {
       if (signal.aborted) return;
       if (record.blob) await this.picture.tile(record, this.rungs[last]);
       complete = record.done >= 1;
-      this.tell({ ...this.about(last), working: !complete, done: record.done, stage: record.stage, milliseconds: performance.now() - started });
+      this.tell({
+        ...this.about(last),
+        working: !complete,
+        done: record.done,
+        stage: record.stage,
+        milliseconds: performance.now() - started,
+      });
     }
-    if (!complete && !signal.aborted) this.tell({ fault: { message: "The last rung ended early. Change anything, or press U, to draw again." } });
+    if (!complete && !signal.aborted)
+      this.tell({ fault: { message: "The last rung ended early. Change anything, or press U, to draw again." } });
   }
 
   about(rung) {

@@ -12,7 +12,8 @@ export class Blocks {
     this.box = element("div", { class: "blocks" });
     this.none = element("p", { class: "none" }, this.about.none);
     const add = element("span", { class: "add" });
-    if (this.about.pull) add.append(element("button", { type: "button", class: "wide", id: "pull", click: () => hands.pull_summit() }, this.about.pull));
+    if (this.about.pull)
+      add.append(element("button", { type: "button", class: "wide", id: "pull", click: () => hands.pull_summit() }, this.about.pull));
     if (this.about.pick) {
       const { label, hint, template } = this.about.pick;
       add.append(element("button", { type: "button", class: "wide", click: () => hands.place(hint, key, template) }, label));
@@ -20,7 +21,9 @@ export class Blocks {
     this.element = element("div", {}, this.none, this.box, add);
   }
 
-  rows() { return this.made.flatMap((block) => block.rows); }
+  rows() {
+    return this.made.flatMap((block) => block.rows);
+  }
 
   update() {
     const count = this.store.count(this.key);
@@ -46,14 +49,21 @@ export class Blocks {
     const at = `${this.key}.${index}`;
     const rows = this.about.rows.map((spec) => row(this.store, { ...spec, key: `${at}.${spec.key}` })).filter(Boolean);
     const name = element("span", { class: "name" });
-    const remove = element("button", {
-      type: "button", class: "remove", title: "Remove", "aria-label": `Remove ${this.about.one.toLowerCase()} ${index + 1}`,
-      click: (event) => {
-        event.preventDefault();
-        this.open.delete(index);
-        this.store.edit([{ key: at, remove: true }], new_step());
+    const remove = element(
+      "button",
+      {
+        type: "button",
+        class: "remove",
+        title: "Remove",
+        "aria-label": `Remove ${this.about.one.toLowerCase()} ${index + 1}`,
+        click: (event) => {
+          event.preventDefault();
+          this.open.delete(index);
+          this.store.edit([{ key: at, remove: true }], new_step());
+        },
       },
-    }, "×");
+      "×",
+    );
     const details = element("details", {}, element("summary", {}, name, remove), ...rows.map((each) => each.element));
     details.addEventListener("toggle", () => {
       if (details.open) this.open.add(index);

@@ -38,9 +38,9 @@ async function start() {
   new Files(store);
   panels.tab("text", "Text");
   status.go = (key) => panels.go(key);
-  store.on("fault", (fault) => status.fault(fault));  // after the panels, which know whose error it is
+  store.on("fault", (fault) => status.fault(fault)); // after the panels, which know whose error it is
 
-  let sized = false;  // the rungs are those of the sheet's shape
+  let sized = false; // the rungs are those of the sheet's shape
   store.on("changed", ({ before, state: now }) => {
     if (["output.width", "output.height", "camera.projection"].some((key) => before.values[key] !== now.values[key])) sized = false;
   });
@@ -87,17 +87,26 @@ async function start() {
     c: ["compare with the kept version", () => picture.kept_text !== null && compare(!picture.comparing())],
     f: ["the picture alone, and back", alone],
     g: ["guides: thirds, and an eighth of sky", guides],
-    t: ["text of the scene", () => { panels.show("text"); text.area.focus(); }],
+    t: [
+      "text of the scene",
+      () => {
+        panels.show("text");
+        text.area.focus();
+      },
+    ],
     r: ["render", () => jobs.open()],
     u: ["draw again", () => store.act(() => api.scene())],
     v: ["propose views", () => proposals.read()],
     "?": ["this list", help],
   };
   table.forEach(({ id }, index) => {
-    actions[String((index + 1) % 10)] = ["", () => {
-      panels.show(id);
-      by_id(`tab-${id}`).focus();
-    }];
+    actions[String((index + 1) % 10)] = [
+      "",
+      () => {
+        panels.show(id);
+        by_id(`tab-${id}`).focus();
+      },
+    ];
   });
   listen_keys(actions);
   fill_help({ ...actions, "1 … 9, 0": ["panels", null], Esc: ["leave what is open", null] });

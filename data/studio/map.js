@@ -13,6 +13,12 @@ const blocks = [
   { key: "light.clouds", name: "cloud shadow", sign: "cloud" },
   { key: "air.mist", name: "mist", sign: "mist" },
 ];
+// Distances from the viewer that a panel is about, as arcs in the cone.
+const distances = {
+  equalizer: ["generalize.foreground_to_m", "generalize.background_from_m"],
+  ground: ["deform.foreground_to_m", "deform.background_from_m"],
+  air: ["air.from_m"],
+};
 // The relief changes only with these.
 const ground = /^(terrain|generalize|land_cover|deform\.handles|deform\.summits)\b/;
 
@@ -23,13 +29,18 @@ export class Map_view {
     this.relief = by_id("relief");
     this.relief_of = null;
     this.signs = new Map();
-    this.layer = { cone: drawing("path", { class: "cone" }), edge: drawing("path", { class: "edge" }), circles: drawing("g"), signs: drawing("g") };
+    this.layer = {
+      cone: drawing("path", { class: "cone" }),
+      edge: drawing("path", { class: "edge" }),
+      circles: drawing("g"),
+      signs: drawing("g"),
+    };
     by_id("signs").append(this.layer.edge, this.layer.circles, this.layer.cone, this.layer.signs);
     store.on("changed", ({ before, state }) => {
       const names = new Set([...Object.keys(before.values), ...Object.keys(state.values)].filter((key) => ground.test(key)));
       if ([...names].some((key) => JSON.stringify(before.values[key]) !== JSON.stringify(state.values[key]))) this.relief_of = null;
     });
-    for (const kind of ["pending", "state"]) store.on(kind, () => this.draw());
+    for (const kind of ["pending", "state", "panel"]) store.on(kind, () => this.draw());
     new ResizeObserver(() => this.draw()).observe(this.box);
   }
 
@@ -55,14 +66,21 @@ export class Map_view {
     // While a sign is held the map stays.
     if (!this.held || !this.framed) {
       const pad = 0.06 * Math.max(extent[2] - extent[0], extent[3] - extent[1]);
-      this.framed = [Math.min(extent[0], viewer[0]) - pad, Math.min(extent[1], viewer[1]) - pad, Math.max(extent[2], viewer[0]) + pad, Math.max(extent[3], viewer[1]) + pad];
+      this.framed = [
+        Math.min(extent[0], viewer[0]) - pad,
+        Math.min(extent[1], viewer[1]) - pad,
+        Math.max(extent[2], viewer[0]) + pad,
+        Math.max(extent[3], viewer[1]) + pad,
+      ];
     }
     const [w, h] = [this.box.clientWidth, this.box.clientHeight];
     const [x0, y0, x1, y1] = this.framed;
-    this.scale = Math.min(w / (x1 - x0), h / (y1 - y0));  // px for a metre
-    this.origin = [w / 2 - this.scale * (x0 + x1) / 2, h / 2 + this.scale * (y0 + y1) / 2];
+    this.scale = Math.min(w / (x1 - x0), h / (y1 - y0)); // px for a metre
+    this.origin = [w / 2 - (this.scale * (x0 + x1)) / 2, h / 2 + (this.scale * (y0 + y1)) / 2];
   }
-  to_page([east, north]) { return [this.origin[0] + this.scale * east, this.origin[1] - this.scale * north]; }
+  to_page([east, north]) {
+    return [this.origin[0] + this.scale * east, this.origin[1] - this.scale * north];
+  }
   to_ground(event) {
     const box = this.box.getBoundingClientRect();
     return [(event.clientX - box.left - this.origin[0]) / this.scale, (this.origin[1] - event.clientY + box.top) / this.scale];
@@ -91,18 +109,31 @@ export class Map_view {
 
     const wanted = new Set();
     this.layer.circles.replaceChildren();
+    for (const key of distances[document.body.dataset.panel] ?? []) {
+      const far = this.scale * this.store.number(key);
+      if (far > 0 && !from.parallel)
+        this.layer.circles.append(drawing("path", { class: "distance", d: arc(at, from.azimuth, Math.min(from.field, 359), far) }));
+    }
     for (const { key, name, sign } of blocks)
       for (let index = 0; index < this.store.count(key); ++index) {
+        const outline = this.store.value(`${key}.${index}.points`);
+        if (outline)
+          this.layer.circles.append(drawing("path", { class: sign, d: `M${outline.map((each) => this.to_page(each).join()).join("L")}Z` }));
         const position = this.store.value(`${key}.${index}.position`) ?? this.found(key, index);
         if (!position) continue;
         const radius = this.store.number(`${key}.${index}.radius_m`);
         const [x, y] = this.to_page(position);
         if (radius) this.layer.circles.append(drawing("circle", { class: sign, cx: x, cy: y, r: this.scale * radius }));
         const called = this.store.value(`${key}.${index}.name`) || `${name} ${index + 1}`;
-        this.sign(wanted, `${key}.${index}`, sign, called, position, (to) => [{ key: `${key}.${index}.position`, value: to.map(Math.round) }]);
+        this.sign(wanted, `${key}.${index}`, sign, called, position, (to) => [
+          { key: `${key}.${index}.position`, value: to.map(Math.round) },
+        ]);
       }
     const target = from.by_target ? from.target : this.ahead(from);
-    if (target) this.sign(wanted, "target", "target", from.by_target ? "target" : "direction of view", target, (to) => placed(this.store, "target", to));
+    if (target)
+      this.sign(wanted, "target", "target", from.by_target ? "target" : "direction of view", target, (to) =>
+        placed(this.store, "target", to),
+      );
     this.sign(wanted, "viewer", "viewer", "viewer", from.viewer, (to) => placed(this.store, "viewer", to), from.azimuth);
     for (const [id, sign] of this.signs)
       if (!wanted.has(id)) {
@@ -111,11 +142,13 @@ export class Map_view {
       }
   }
   // A centre given by longitude and latitude, as the program found it.
-  found(key, index) { return key === "deform.handles" ? this.store.map.handles?.[index]?.position : undefined; }
+  found(key, index) {
+    return key === "deform.handles" ? this.store.map.handles?.[index]?.position : undefined;
+  }
   // Where the direction of view can be taken hold of, if it is given as an angle.
   ahead(from) {
-    const far = 0.3 * Math.min(this.box.clientWidth, this.box.clientHeight) / this.scale;
-    const angle = from.azimuth * Math.PI / 180;
+    const far = (0.3 * Math.min(this.box.clientWidth, this.box.clientHeight)) / this.scale;
+    const angle = (from.azimuth * Math.PI) / 180;
     return [from.viewer[0] + far * Math.sin(angle), from.viewer[1] + far * Math.cos(angle)];
   }
 
@@ -124,7 +157,11 @@ export class Map_view {
     wanted.add(id);
     let sign = this.signs.get(id);
     if (!sign) {
-      const made = drawing("g", { class: `sign ${kind}`, tabindex: 0, role: "button", "aria-roledescription": "place on the map" }, ...shape(kind));
+      const made = drawing(
+        "g",
+        { class: `sign ${kind}`, tabindex: 0, role: "button", "aria-roledescription": "place on the map" },
+        ...shape(kind),
+      );
       sign = { element: made };
       draggable(made, {
         start: () => {
@@ -156,18 +193,17 @@ export class Map_view {
     const title = sign.element.querySelector("title");
     if (title.textContent !== name) title.textContent = name;
   }
-
 }
 
-function cone([x, y], azimuth, field, reach) {
-  const end = (angle) => [x + reach * Math.sin(angle * Math.PI / 180), y - reach * Math.cos(angle * Math.PI / 180)];
-  const [a, b] = [end(azimuth - field / 2), end(azimuth + field / 2)];
-  return `M${x},${y}L${a[0]},${a[1]}A${reach},${reach} 0 ${field > 180 ? 1 : 0} 1 ${b[0]},${b[1]}Z`;
+function arc([x, y], azimuth, field, reach) {
+  const end = (angle) => `${x + reach * Math.sin((angle * Math.PI) / 180)},${y - reach * Math.cos((angle * Math.PI) / 180)}`;
+  return `M${end(azimuth - field / 2)}A${reach},${reach} 0 ${field > 180 ? 1 : 0} 1 ${end(azimuth + field / 2)}`;
 }
+const cone = (at, azimuth, field, reach) => `${arc(at, azimuth, field, reach)}L${at.join()}Z`;
 
 function shape(kind) {
   const title = drawing("title");
-  const grip = drawing("circle", { class: "grip", r: 16 });  // a finger's room
+  const grip = drawing("circle", { class: "grip", r: 16 }); // a finger's room
   const shapes = {
     viewer: () => drawing("path", { d: "M0,-9L6,7L0,3.5L-6,7Z" }),
     target: () => drawing("path", { d: "M-7,0H7M0,-7V7M-4.5,0A4.5,4.5 0 1 1 4.5,0A4.5,4.5 0 1 1 -4.5,0" }),

@@ -14,7 +14,7 @@ export class Panels {
   constructor(store, hands) {
     this.store = store;
     this.hands = hands;
-    this.made = new Map();  // id: what is shown in it, each with element, update() and rows
+    this.made = new Map(); // id: what is shown in it, each with element, update() and rows
     this.shown = null;
     const editors = { sun: Sun, bend: Bend, equalizer: Equalizer };
     const actions = { target: () => hands.target(), angles: () => this.by_angles() };
@@ -26,7 +26,12 @@ export class Panels {
         for (const spec of group.rows ?? []) this.add(parts, section, row(store, spec));
         for (const { label: text, action, when } of group.actions ?? []) {
           const button = element("button", { type: "button", class: "wide", click: actions[action] }, text);
-          this.add(parts, section, { element: button, update: () => { button.hidden = when ? !when(store) : false; } });
+          this.add(parts, section, {
+            element: button,
+            update: () => {
+              button.hidden = when ? !when(store) : false;
+            },
+          });
         }
         if (group.list) this.add(parts, section, new Blocks(store, hands, group.list));
         if (group.editor === "weights") for (const each of weights(store)) this.add(parts, section, each);
@@ -48,7 +53,19 @@ export class Panels {
 
   // ---- tabs
   tab(id, label) {
-    const tab = element("button", { type: "button", role: "tab", id: `tab-${id}`, "aria-controls": `panel-${id}`, "aria-selected": "false", tabindex: -1, click: () => this.show(id) }, label);
+    const tab = element(
+      "button",
+      {
+        type: "button",
+        role: "tab",
+        id: `tab-${id}`,
+        "aria-controls": `panel-${id}`,
+        "aria-selected": "false",
+        tabindex: -1,
+        click: () => this.show(id),
+      },
+      label,
+    );
     tab.addEventListener("keydown", (event) => {
       const tabs = Array.from(by_id("tabs").children);
       const at = tabs.indexOf(tab);
@@ -71,6 +88,7 @@ export class Panels {
       by_id(tab.getAttribute("aria-controls")).hidden = !chosen;
     }
     by_id("panels").scrollTop = 0;
+    this.store.tell("panel", id);
     this.update();
   }
   // Only what is seen is kept up to date.
@@ -84,7 +102,12 @@ export class Panels {
   }
 
   // ---- errors
-  rows(id) { return this.made.get(id).flatMap((part) => (part.rows ? part.rows() : [part])).filter((part) => part.fault); }
+  rows(id) {
+    return this.made
+      .get(id)
+      .flatMap((part) => (part.rows ? part.rows() : [part]))
+      .filter((part) => part.fault);
+  }
   fault(fault) {
     for (const id of this.made.keys()) {
       let here = false;
@@ -113,7 +136,12 @@ export class Panels {
   // The same view without a target, by angles.
   by_angles() {
     const from = view(this.store);
-    const away = ["camera.look_at", "camera.look_at_lonlat", "camera.look_at_altitude_m"].filter((key) => this.store.value(key) !== undefined);
-    this.store.edit([...away.map((key) => ({ key, remove: true })), { key: "camera.azimuth_deg", value: rounded(from.azimuth, 0.01) }], new_step());
+    const away = ["camera.look_at", "camera.look_at_lonlat", "camera.look_at_altitude_m"].filter(
+      (key) => this.store.value(key) !== undefined,
+    );
+    this.store.edit(
+      [...away.map((key) => ({ key, remove: true })), { key: "camera.azimuth_deg", value: rounded(from.azimuth, 0.01) }],
+      new_step(),
+    );
   }
 }

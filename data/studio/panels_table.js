@@ -4,6 +4,8 @@
 import { view } from "./camera.js";
 
 const parallel = (store) => store.value("camera.projection") === "oblique";
+const central = (store) => !parallel(store);
+const curved = (store) => store.value("deform.earth_curvature") === true;
 const styled = (store) => Boolean(store.value("style.file"));
 const distance = { unit: "m", min: 0, max: 300000, step: 100, log: 500 };
 const by_target = (store) => view(store).by_target;
@@ -13,7 +15,7 @@ export const panels = [
     id: "camera", label: "Camera", groups: [
       { title: "View", rows: [
         { key: "camera.projection", label: "Projection" },
-        { key: "camera.field_of_view_deg", label: "Field of view", unit: "°", min: 5, max: 180, step: 0.5, when: (store) => !parallel(store) },
+        { key: "camera.field_of_view_deg", label: "Field of view", unit: "°", min: 5, max: 180, step: 0.5, when: central },
         { key: "camera.view_width_m", label: "Width of the view", ...distance, min: 500, when: parallel },
         { key: "camera.azimuth_deg", label: "Direction", unit: "°", min: 0, max: 360, step: 0.5, when: (store) => !by_target(store) },
         { key: "camera.pitch_deg", label: "Pitch", unit: "°", min: -90, max: 30, step: 0.1, when: (store) => !by_target(store) },
@@ -24,7 +26,10 @@ export const panels = [
         { key: "camera.height_m", label: "Height", unit: "m", min: 0, max: 60000, step: 50, log: 200 },
         { key: "camera.height_above_ground", label: "Height above ground" },
       ] },
-      { title: "Target", actions: [{ label: "Look at a place in the picture…", action: "target" }, { label: "Look by angles instead", action: "angles", when: by_target }], rows: [
+      { title: "Target", actions: [
+        { label: "Look at a place in the picture…", action: "target" },
+        { label: "Look by angles instead", action: "angles", when: by_target },
+      ], rows: [
         { key: "camera.look_at", label: "Look at", unit: "m", step: 100, when: by_target, get: (store) => view(store).target },
         { key: "camera.look_at_altitude_m", label: "Target altitude", unit: "m", min: 0, max: 5000, step: 10, auto: "ground", when: by_target },
       ] },
@@ -57,7 +62,7 @@ export const panels = [
       { title: "Summits", list: "deform.summits" },
       { title: "Earth", rows: [
         { key: "deform.earth_curvature", label: "Curvature of the Earth" },
-        { key: "deform.refraction", label: "Refraction", min: 0, max: 0.5, step: 0.01, when: (store) => store.value("deform.earth_curvature") === true },
+        { key: "deform.refraction", label: "Refraction", min: 0, max: 0.5, step: 0.01, when: curved },
         { key: "deform.allow_folds", label: "Allow folds" },
       ] },
     ],
@@ -194,6 +199,8 @@ export const panels = [
   },
 ];
 
+const source = [{ key: "origin", label: "Origin" }, { key: "licence", label: "Licence" }];
+
 // Blocks: what one is called, its rows (names of keys in it), and how a new one begins. pick: a click on the picture puts it down.
 export const lists = {
   "deform.handles": {
@@ -271,9 +278,9 @@ export const lists = {
       { key: "licence", label: "Licence" },
     ],
   },
-  "labels.points": { one: "File", none: "None. Drop a file of points on the page.", title: "file", rows: [{ key: "origin", label: "Origin" }, { key: "licence", label: "Licence" }] },
-  "labels.shapes": { one: "File", none: "None.", title: "file", rows: [{ key: "origin", label: "Origin" }, { key: "licence", label: "Licence" }] },
-  "labels.tracks": { one: "Track", none: "None. Drop a GPX file on the page.", title: "file", rows: [{ key: "origin", label: "Origin" }, { key: "licence", label: "Licence" }] },
+  "labels.points": { one: "File", none: "None. Drop a file of points on the page.", title: "file", rows: source },
+  "labels.shapes": { one: "File", none: "None.", title: "file", rows: source },
+  "labels.tracks": { one: "Track", none: "None. Drop a GPX file on the page.", title: "file", rows: source },
   features: {
     one: "Features", none: "None. Drop a vector file on the page.", title: "source",
     rows: [

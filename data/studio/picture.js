@@ -3,7 +3,7 @@
 import { by_id, clamp, draggable, element } from "./dom.js";
 import { view } from "./camera.js";
 
-const max_width = 4096;  // px of the canvas
+const max_width = 4096; // px of the canvas
 
 export class Picture {
   constructor(store) {
@@ -12,9 +12,9 @@ export class Picture {
     this.canvas = by_id("picture");
     this.kept = by_id("kept");
     this.border = by_id("border");
-    this.kept_text = null;  // the scene of the kept version
+    this.kept_text = null; // the scene of the kept version
     this.share = 0.5;
-    this.shown = null;  // the view of the picture that is drawn
+    this.shown = null; // the view of the picture that is drawn
     this.listen();
     store.on("pending", () => this.glide());
   }
@@ -89,7 +89,9 @@ export class Picture {
     this.kept.getContext("2d").drawImage(this.canvas, 0, 0);
     this.kept_text = this.store.state.text;
   }
-  comparing() { return !this.kept.hidden; }
+  comparing() {
+    return !this.kept.hidden;
+  }
   compare(on) {
     const shows = on && this.kept_text !== null;
     this.kept.hidden = this.border.hidden = !shows;

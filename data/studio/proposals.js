@@ -27,12 +27,20 @@ export class Proposals {
     }
   }
   one({ name, why, changes }, index) {
-    return element("button", {
-      type: "button", class: "proposal", title: why,
-      click: () => {
-        this.store.edit(alone(this.store, changes), new_step());
-        this.status.say(`${name} taken. Ctrl-Z goes back.`);
+    return element(
+      "button",
+      {
+        type: "button",
+        class: "proposal",
+        title: why,
+        click: () => {
+          this.store.edit(alone(this.store, changes), new_step());
+          this.status.say(`${name} taken. Ctrl-Z goes back.`);
+        },
       },
-    }, element("img", { src: api.thumbnail(index, this.turn), alt: "", loading: "lazy" }), element("span", { class: "name" }, name), element("span", { class: "why" }, why ?? ""));
+      element("img", { src: api.thumbnail(index, this.turn), alt: "", loading: "lazy" }),
+      element("span", { class: "name" }, name),
+      element("span", { class: "why" }, why ?? ""),
+    );
   }
 }

@@ -7,7 +7,7 @@ export class Status {
     this.rung = by_id("rung");
     this.message = by_id("message");
     this.bar = by_id("progress");
-    this.go = () => false;  // shows the control of a key
+    this.go = () => false; // shows the control of a key
   }
 
   // What the ladder tells.
@@ -30,7 +30,9 @@ export class Status {
     const state = working ? `${name}: ${Math.round(100 * (done ?? 0))} %${stage ? `, ${stage}` : ""}` : `${name}, ${lacks}, ${time}`;
     this.rung.textContent = state;
     this.rung.dataset.lacks = String(without.length);
-    by_id("steps").replaceChildren(...Array.from({ length: rungs }, (_, k) => element("i", { class: k < rung || (k === rung && !working) ? "done" : "" })));
+    by_id("steps").replaceChildren(
+      ...Array.from({ length: rungs }, (_, k) => element("i", { class: k < rung || (k === rung && !working) ? "done" : "" })),
+    );
   }
 
   // An error that is shown where it belongs, at a control or a line in sight, is not told here again.
@@ -43,7 +45,8 @@ export class Status {
     const where = fault.where && !fault.message.includes(fault.where) ? `${fault.where}: ` : "";
     this.message.append(element("span", {}, `${where}${fault.message}`));
     if (fault.panel) this.message.append(element("button", { type: "button", click: () => this.go(fault.key) }, "Show"));
-    else if (fault.line) this.message.append(element("button", { type: "button", click: () => by_id("tab-text").click() }, "Show the line"));
+    else if (fault.line)
+      this.message.append(element("button", { type: "button", click: () => by_id("tab-text").click() }, "Show the line"));
     this.message.append(element("button", { type: "button", "aria-label": "Close the message", click: () => this.fault(null) }, "×"));
   }
 
@@ -53,6 +56,8 @@ export class Status {
     said.textContent = text;
     said.hidden = false;
     clearTimeout(this.timer);
-    this.timer = setTimeout(() => { said.hidden = true; }, 3500);
+    this.timer = setTimeout(() => {
+      said.hidden = true;
+    }, 3500);
   }
 }

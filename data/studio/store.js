@@ -8,16 +8,20 @@ export class Store extends EventTarget {
     this.schema = schema;
     this.choices = choices;
     this.state = null;
-    this.map = null;  // the last answer of api/map
-    this.queue = [];  // changes not sent yet: {step, changes, done}
-    this.sent = null;  // those in flight
+    this.map = null; // the last answer of api/map
+    this.queue = []; // changes not sent yet: {step, changes, done}
+    this.sent = null; // those in flight
     this.busy = false;
     this.waiting = [];
-    this.after = async () => {};  // what follows each change before the next is sent: the first rung
+    this.after = async () => {}; // what follows each change before the next is sent: the first rung
   }
 
-  tell(kind, detail) { this.dispatchEvent(new CustomEvent(kind, { detail })); }
-  on(kind, listener) { this.addEventListener(kind, (event) => listener(event.detail)); }
+  tell(kind, detail) {
+    this.dispatchEvent(new CustomEvent(kind, { detail }));
+  }
+  on(kind, listener) {
+    this.addEventListener(kind, (event) => listener(event.detail));
+  }
 
   // ---- reading
   // The value of a key, with the changes on their way.
@@ -29,7 +33,9 @@ export class Store extends EventTarget {
     return this.state.values[key];
   }
   // The same without the changes on their way.
-  settled() { return Object.create(this, { queue: { value: [] }, sent: { value: null } }); }
+  settled() {
+    return Object.create(this, { queue: { value: [] }, sent: { value: null } });
+  }
   // A key that holds a table can stand in `values` whole or name by name.
   table(key) {
     const whole = this.value(key);
@@ -37,7 +43,9 @@ export class Store extends EventTarget {
     const names = Object.keys(this.state.values).filter((each) => each.startsWith(`${key}.`));
     return Object.fromEntries(names.map((each) => [each.slice(key.length + 1), this.value(each)]));
   }
-  derived(key) { return this.state.derived.find((each) => each.key === key); }
+  derived(key) {
+    return this.state.derived.find((each) => each.key === key);
+  }
   // A number in effect: the scene's, else what the program found for this view.
   number(key) {
     const value = this.value(key);
@@ -62,7 +70,9 @@ export class Store extends EventTarget {
   describe(key) {
     let part = this.schema.allOf?.find((each) => each.properties) ?? this.schema;
     for (const name of key.split(".")) {
-      part = /^\d+$/.test(name) ? part?.items : (part?.properties?.[name] ?? part?.anyOf?.find((each) => each.properties)?.properties[name]);
+      part = /^\d+$/.test(name)
+        ? part?.items
+        : (part?.properties?.[name] ?? part?.anyOf?.find((each) => each.properties)?.properties[name]);
       if (!part) return undefined;
     }
     return part;
@@ -109,7 +119,7 @@ export class Store extends EventTarget {
       this.sent = null;
       // A line would be one of the text that was refused, which nobody sees.
       if (error.fault) error.fault = { ...error.fault, line: undefined, where: undefined };
-      this.tell("state", this.state);  // the controls go back to what is
+      this.tell("state", this.state); // the controls go back to what is
       this.fail(error);
     } finally {
       this.leave();

@@ -10,19 +10,47 @@ const full = (angle) => ((angle % 360) + 360) % 360;
 export class Sun {
   constructor(store) {
     this.store = store;
-    this.dial = drawing("svg", { viewBox: "-62 -62 124 124", class: "dial", role: "slider", tabindex: 0, "aria-label": "Direction of the sun", "aria-valuemin": 0, "aria-valuemax": 360 });
+    this.dial = drawing("svg", {
+      viewBox: "-62 -62 124 124",
+      class: "dial",
+      role: "slider",
+      tabindex: 0,
+      "aria-label": "Direction of the sun",
+      "aria-valuemin": 0,
+      "aria-valuemax": 360,
+    });
     this.cone = drawing("path", { class: "cone" });
     this.ray = drawing("path", { class: "ray" });
     this.sign = drawing("circle", { r: 6, class: "sun" });
-    const letters = [["N", 0, -53], ["E", 54, 4], ["S", 0, 59], ["W", -54, 4]].map(([text, x, y]) => drawing("text", { x, y, "text-anchor": "middle" }, text));
-    const ticks = Array.from({ length: 24 }, (_, k) => drawing("path", { d: `M0,-${k % 6 === 0 ? 38 : 41}V-44`, transform: `rotate(${15 * k})`, class: "tick" }));
+    const letters = [
+      ["N", 0, -53],
+      ["E", 54, 4],
+      ["S", 0, 59],
+      ["W", -54, 4],
+    ].map(([text, x, y]) => drawing("text", { x, y, "text-anchor": "middle" }, text));
+    const ticks = Array.from({ length: 24 }, (_, k) =>
+      drawing("path", { d: `M0,-${k % 6 === 0 ? 38 : 41}V-44`, transform: `rotate(${15 * k})`, class: "tick" }),
+    );
     this.dial.append(drawing("circle", { r: 44, class: "ring" }), this.cone, ...ticks, ...letters, this.ray, this.sign);
 
-    this.arc = drawing("svg", { viewBox: "-12 -62 78 84", class: "arc", role: "slider", tabindex: 0, "aria-label": "Altitude of the sun", "aria-valuemin": -20, "aria-valuemax": 90 });
+    this.arc = drawing("svg", {
+      viewBox: "-12 -62 78 84",
+      class: "arc",
+      role: "slider",
+      tabindex: 0,
+      "aria-label": "Altitude of the sun",
+      "aria-valuemin": -20,
+      "aria-valuemax": 90,
+    });
     this.height = drawing("circle", { r: 6, class: "sun" });
     this.lift = drawing("path", { class: "ray" });
-    this.arc.append(drawing("path", { d: "M0,-50A50,50 0 0 1 50,0A50,50 0 0 1 46.985,17.1", class: "ring" }), drawing("path", { d: "M-8,0H62", class: "tick" }),
-      ...[0, 15, 30, 45, 60, 75, 90].map((each) => drawing("path", { d: "M47,0H53", class: "tick", transform: `rotate(${-each})` })), this.lift, this.height);
+    this.arc.append(
+      drawing("path", { d: "M0,-50A50,50 0 0 1 50,0A50,50 0 0 1 46.985,17.1", class: "ring" }),
+      drawing("path", { d: "M-8,0H62", class: "tick" }),
+      ...[0, 15, 30, 45, 60, 75, 90].map((each) => drawing("path", { d: "M47,0H53", class: "tick", transform: `rotate(${-each})` })),
+      this.lift,
+      this.height,
+    );
     this.listen();
 
     this.numbers = [
@@ -31,25 +59,57 @@ export class Sun {
     ];
     this.timed = element("input", { type: "checkbox", id: "sun-timed", role: "switch", change: () => this.switch_time() });
     this.date = element("input", { type: "date", "aria-label": "Date", change: () => this.set_time() });
-    this.zone = element("input", { type: "text", size: 7, "aria-label": "Time zone, such as +02:00", pattern: "Z|[+\\-]\\d\\d:\\d\\d", change: () => this.set_time() });
+    this.zone = element("input", {
+      type: "text",
+      size: 7,
+      "aria-label": "Time zone, such as +02:00",
+      pattern: "Z|[+\\-]\\d\\d:\\d\\d",
+      change: () => this.set_time(),
+    });
     this.minutes = element("input", { type: "range", min: 0, max: 1439, step: 5, "aria-label": "Time of day" });
     this.clock = element("input", { type: "time", "aria-label": "Time of day", change: () => this.set_time() });
     let step = null;
     this.minutes.addEventListener("input", () => {
       this.clock.value = clock_of(Number(this.minutes.value));
-      this.set_time(step ??= new_step());
+      this.set_time((step ??= new_step()));
     });
-    this.minutes.addEventListener("change", () => { step = null; });
-    this.by_time = element("div", { class: "by-time" }, element("span", { class: "fields" }, this.date, this.clock, this.zone), this.minutes);
+    this.minutes.addEventListener("change", () => {
+      step = null;
+    });
+    this.by_time = element(
+      "div",
+      { class: "by-time" },
+      element("span", { class: "fields" }, this.date, this.clock, this.zone),
+      this.minutes,
+    );
     this.fault = element("p", { class: "fault", hidden: true });
-    const time_row = element("div", { class: "row switch", "data-key": "sun.time" }, element("label", { for: "sun-timed" }, "By date and time"), this.timed, this.fault);
+    const time_row = element(
+      "div",
+      { class: "row switch", "data-key": "sun.time" },
+      element("label", { for: "sun-timed" }, "By date and time"),
+      this.timed,
+      this.fault,
+    );
     this.time_row = { element: time_row, fault: this.fault, focus: () => this.timed.focus() };
-    this.element = element("div", { class: "sun" }, element("div", { class: "dials" }, this.dial, this.arc), ...this.numbers.map((each) => each.element), time_row, this.by_time);
+    this.element = element(
+      "div",
+      { class: "sun" },
+      element("div", { class: "dials" }, this.dial, this.arc),
+      ...this.numbers.map((each) => each.element),
+      time_row,
+      this.by_time,
+    );
   }
-  rows() { return [...this.numbers, this.time_row]; }
+  rows() {
+    return [...this.numbers, this.time_row];
+  }
 
-  azimuth() { return this.store.number("sun.azimuth_deg") ?? 315; }
-  altitude() { return this.store.number("sun.altitude_deg") ?? 30; }
+  azimuth() {
+    return this.store.number("sun.azimuth_deg") ?? 315;
+  }
+  altitude() {
+    return this.store.number("sun.altitude_deg") ?? 30;
+  }
 
   update() {
     const [azimuth, altitude] = [full(this.azimuth()), this.altitude()];
@@ -74,7 +134,7 @@ export class Sun {
     const time = parsed(this.store.value("sun.time"));
     this.timed.checked = Boolean(time);
     this.by_time.hidden = !time;
-    if (!time || this.by_time.contains(document.activeElement) && document.activeElement !== this.minutes) return;
+    if (!time || (this.by_time.contains(document.activeElement) && document.activeElement !== this.minutes)) return;
     [this.date.value, this.clock.value, this.zone.value] = [time.date, time.clock, time.zone];
     this.minutes.value = minutes_of(time.clock);
   }
@@ -94,7 +154,7 @@ export class Sun {
     const angle_of = (event, svg, [cx, cy]) => {
       const box = svg.getBoundingClientRect();
       const { x, y, width, height } = svg.viewBox.baseVal;
-      return [(event.clientX - box.left) / box.width * width + x - cx, (event.clientY - box.top) / box.height * height + y - cy];
+      return [((event.clientX - box.left) / box.width) * width + x - cx, ((event.clientY - box.top) / box.height) * height + y - cy];
     };
     const turn = (event, step) => {
       const [x, y] = angle_of(event, this.dial, [0, 0]);
@@ -105,7 +165,10 @@ export class Sun {
       const [x, y] = angle_of(event, this.arc, [0, 0]);
       this.lift_to(clamp(Math.round(Math.atan2(-y, Math.max(x, 0.01)) / degree), -20, 90), step);
     };
-    for (const [svg, to] of [[this.dial, turn], [this.arc, raise]])
+    for (const [svg, to] of [
+      [this.dial, turn],
+      [this.arc, raise],
+    ])
       draggable(svg, {
         start: (event) => {
           svg.focus();
@@ -115,12 +178,13 @@ export class Sun {
         },
         move: to,
       });
-    const keys = (svg, change) => svg.addEventListener("keydown", (event) => {
-      const by = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageUp: 15, PageDown: -15 }[event.key];
-      if (by === undefined || event.ctrlKey || event.metaKey) return;
-      event.preventDefault();
-      change(by * (event.shiftKey ? 10 : 1));
-    });
+    const keys = (svg, change) =>
+      svg.addEventListener("keydown", (event) => {
+        const by = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageUp: 15, PageDown: -15 }[event.key];
+        if (by === undefined || event.ctrlKey || event.metaKey) return;
+        event.preventDefault();
+        change(by * (event.shiftKey ? 10 : 1));
+      });
     keys(this.dial, (by) => this.set(this.azimuth() + by, undefined, running_step("sun-azimuth")));
     keys(this.arc, (by) => this.lift_to(this.altitude() + by, running_step("sun-altitude")));
   }
@@ -134,7 +198,9 @@ export class Sun {
   set_time(step = new_step()) {
     if (this.date.value && this.clock.value) this.send(this.date.value, this.clock.value.slice(0, 5), this.zone.value || "Z", step);
   }
-  send(date, clock, zone, step) { this.store.edit(alone(this.store, [{ key: "sun.time", value: `${date}T${clock}:00${zone}` }]), step); }
+  send(date, clock, zone, step) {
+    this.store.edit(alone(this.store, [{ key: "sun.time", value: `${date}T${clock}:00${zone}` }]), step);
+  }
 }
 
 function parsed(time) {

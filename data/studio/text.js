@@ -12,7 +12,7 @@ export class Text {
     this.lines = by_id("lines");
     this.fault_box = by_id("text-fault");
     this.mark = by_id("text-mark");
-    this.typed = false;  // there is text that the program has not taken
+    this.typed = false; // there is text that the program has not taken
     this.area.addEventListener("input", () => {
       this.typed = true;
       this.number();
@@ -78,7 +78,9 @@ export class Text {
     if (here && !this.typed) this.area.scrollTop = Math.max(0, (this.line - 6) * this.line_height());
     this.place_mark();
   }
-  line_height() { return Number.parseFloat(getComputedStyle(this.area).lineHeight); }
+  line_height() {
+    return Number.parseFloat(getComputedStyle(this.area).lineHeight);
+  }
   place_mark() {
     this.mark.hidden = !this.line;
     if (this.line) this.mark.style.transform = `translateY(${(this.line - 1) * this.line_height() - this.area.scrollTop}px)`;

@@ -6,9 +6,16 @@ const key = "synthesis.weights";
 
 export function weights(store) {
   const all = () => ({ ...store.describe(key)?.default, ...store.table(key) });
-  return guides.map((name) => row(store, {
-    key: `${key}.${name}`, label: name.replaceAll("_", " "), min: 0, max: 1, step: 0.01, auto: false,
-    get: () => all()[name],
-    set: (_, value) => [{ key, value: { ...all(), [name]: value } }],
-  }));
+  return guides.map((name) =>
+    row(store, {
+      key: `${key}.${name}`,
+      label: name.replaceAll("_", " "),
+      min: 0,
+      max: 1,
+      step: 0.01,
+      auto: false,
+      get: () => all()[name],
+      set: (_, value) => [{ key, value: { ...all(), [name]: value } }],
+    }),
+  );
 }

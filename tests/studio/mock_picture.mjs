@@ -17,13 +17,32 @@ function noise(x) {
 function camera(values) {
   const viewer = values["camera.position"] ?? [0, 0];
   const target = values["camera.look_at"];
-  const azimuth = target ? Math.atan2(target[0] - viewer[0], target[1] - viewer[1]) / degree : values["camera.azimuth_deg"] === "auto" ? 180 : values["camera.azimuth_deg"];
-  const pitch = (values["camera.pitch_deg"] === "auto" || values["camera.pitch_deg"] === undefined ? -12 : values["camera.pitch_deg"]) + (values["camera.tilt_deg"] === "auto" ? 0 : values["camera.tilt_deg"] ?? 0);
-  return { viewer, azimuth, pitch, field: values["camera.field_of_view_deg"], target: target ?? [viewer[0] + 50000 * Math.sin(azimuth * degree), viewer[1] + 50000 * Math.cos(azimuth * degree)] };
+  const azimuth = target
+    ? Math.atan2(target[0] - viewer[0], target[1] - viewer[1]) / degree
+    : values["camera.azimuth_deg"] === "auto"
+      ? 180
+      : values["camera.azimuth_deg"];
+  const pitch =
+    (values["camera.pitch_deg"] === "auto" || values["camera.pitch_deg"] === undefined ? -12 : values["camera.pitch_deg"]) +
+    (values["camera.tilt_deg"] === "auto" ? 0 : (values["camera.tilt_deg"] ?? 0));
+  return {
+    viewer,
+    azimuth,
+    pitch,
+    field: values["camera.field_of_view_deg"],
+    target: target ?? [viewer[0] + 50000 * Math.sin(azimuth * degree), viewer[1] + 50000 * Math.cos(azimuth * degree)],
+  };
 }
 export { camera };
 
-const palettes = { summer: [86, 116, 66], autumn: [140, 104, 58], winter: [206, 214, 222], evening: [150, 96, 84], morning: [112, 128, 128], desert: [176, 130, 88] };
+const palettes = {
+  summer: [86, 116, 66],
+  autumn: [140, 104, 58],
+  winter: [206, 214, 222],
+  evening: [150, 96, 84],
+  morning: [112, 128, 128],
+  desert: [176, 130, 88],
+};
 
 // {width, height, rgb}
 export function draw(values, width, height) {
@@ -37,9 +56,11 @@ export function draw(values, width, height) {
   const light = Math.max(0.15, Math.sin(number("sun.altitude_deg", 31) * degree + 0.35));
   const ground = palettes[values.palette] ?? palettes.summer;
   const rgb = Buffer.alloc(3 * width * height);
-  const scale = height / 26;  // px for a degree
+  const scale = height / 26; // px for a degree
   const horizon = height * 0.5 + (pitch + 3) * scale;
-  const handles = Object.keys(values).filter((key) => /^deform\.handles\.\d+\.raise_m$/.test(key)).reduce((sum, key) => sum + values[key], 0);
+  const handles = Object.keys(values)
+    .filter((key) => /^deform\.handles\.\d+\.raise_m$/.test(key))
+    .reduce((sum, key) => sum + values[key], 0);
   const layers = 7;
   for (let x = 0; x < width; ++x) {
     const bearing = azimuth + (x / width - 0.5) * field;
@@ -49,9 +70,18 @@ export function draw(values, width, height) {
       let h = 0;
       for (let band = 0; band < weights.length; ++band) {
         const frequency = 0.09 * 2 ** band * mix(1.2, 0.7, near);
-        h += mix(far_weights[band] ?? 1, weights[band], near) * noise(bearing * frequency + 37 * layer + viewer[0] / 9000 + viewer[1] / 15000 * near) / 1.7 ** band;
+        h +=
+          (mix(far_weights[band] ?? 1, weights[band], near) *
+            noise(bearing * frequency + 37 * layer + viewer[0] / 9000 + (viewer[1] / 15000) * near)) /
+          1.7 ** band;
       }
-      tops.push([horizon + near * near * height * 0.75 - (h - 0.9) * up * scale * mix(1.1, 3, near) - (layer === 3 ? handles / 400 * Math.exp(-((x / width - 0.5) ** 2) * 90) * scale : 0), h]);
+      tops.push([
+        horizon +
+          near * near * height * 0.75 -
+          (h - 0.9) * up * scale * mix(1.1, 3, near) -
+          (layer === 3 ? (handles / 400) * Math.exp(-((x / width - 0.5) ** 2) * 90) * scale : 0),
+        h,
+      ]);
     }
     let slope = 0;
     for (let y = 0; y < height; ++y) {
@@ -86,7 +116,8 @@ export function draw(values, width, height) {
 
 export function relief(width, height) {
   const rgb = Buffer.alloc(3 * width * height);
-  const z = (x, y) => noise(x / 40 + noise(y / 55) * 2) + noise(y / 30 + x / 90) + 0.4 * noise(x / 9 + y / 14) + 0.3 * noise(y / 8 - x / 17);
+  const z = (x, y) =>
+    noise(x / 40 + noise(y / 55) * 2) + noise(y / 30 + x / 90) + 0.4 * noise(x / 9 + y / 14) + 0.3 * noise(y / 8 - x / 17);
   for (let y = 0; y < height; ++y)
     for (let x = 0; x < width; ++x) {
       const shade = 150 + 700 * (z(x + 1, y + 1) - z(x, y)) + 12 * z(x, y);
@@ -126,5 +157,10 @@ export function png({ width, height, rgb }) {
   head.set([8, 2, 0, 0, 0], 8);
   const rows = Buffer.alloc((3 * width + 1) * height);
   for (let y = 0; y < height; ++y) rgb.copy(rows, y * (3 * width + 1) + 1, 3 * y * width, 3 * (y + 1) * width);
-  return Buffer.concat([Buffer.from([137, 80, 78, 71, 13, 10, 26, 10]), chunk("IHDR", head), chunk("IDAT", deflateSync(rows, { level: 1 })), chunk("IEND", Buffer.alloc(0))]);
+  return Buffer.concat([
+    Buffer.from([137, 80, 78, 71, 13, 10, 26, 10]),
+    chunk("IHDR", head),
+    chunk("IDAT", deflateSync(rows, { level: 1 })),
+    chunk("IEND", Buffer.alloc(0)),
+  ]);
 }

@@ -25,13 +25,14 @@ function defaults(part, prefix, out) {
   for (const [name, each] of Object.entries(part.properties ?? {})) {
     if (each.default !== undefined) out[prefix + name] = each.default;
     if (each.type === "object") defaults(each, `${prefix}${name}.`, out);
-    if (each.anyOf?.some((one) => one.enum?.length === 1 && one.enum[0] === "auto") && each.default === undefined) out[prefix + name] = "auto";
+    if (each.anyOf?.some((one) => one.enum?.length === 1 && one.enum[0] === "auto") && each.default === undefined)
+      out[prefix + name] = "auto";
   }
   return out;
 }
 
 function value_of(text, where) {
-  const json = text.replace(/([{,]\s*)([a-z_]+)\s*=/g, "$1\"$2\":");
+  const json = text.replace(/([{,]\s*)([a-z_]+)\s*=/g, '$1"$2":');
   try {
     return JSON.parse(json);
   } catch {
@@ -42,7 +43,7 @@ function value_of(text, where) {
 function without_comment(line) {
   let quoted = false;
   for (let k = 0; k < line.length; ++k) {
-    if (line[k] === "\"") quoted = !quoted;
+    if (line[k] === '"') quoted = !quoted;
     if (line[k] === "#" && !quoted) return [line.slice(0, k), line.slice(k)];
   }
   return [line, ""];
@@ -98,18 +99,33 @@ function validate(key, value, at) {
   if (!part) throw new Fault({ message: `unknown key ${key}`, key, ...at });
   const number = (part.anyOf ?? [part]).find((each) => each.type === "number" || each.type === "integer");
   if (number && typeof value === "number" && (value < number.minimum || value > number.maximum))
-    throw new Fault({ message: `${key} is ${value}, allowed: ${number.minimum} … ${number.maximum}`, key, allowed: `${number.minimum} … ${number.maximum}`, ...at });
+    throw new Fault({
+      message: `${key} is ${value}, allowed: ${number.minimum} … ${number.maximum}`,
+      key,
+      allowed: `${number.minimum} … ${number.maximum}`,
+      ...at,
+    });
   const words = (part.anyOf ?? [part]).find((each) => each.enum)?.enum;
-  if (words && typeof value === "string" && !words.includes(value) && !part.anyOf) throw new Fault({ message: `${key} is "${value}", allowed: ${words.join(", ")}`, key, ...at });
+  if (words && typeof value === "string" && !words.includes(value) && !part.anyOf)
+    throw new Fault({ message: `${key} is "${value}", allowed: ${words.join(", ")}`, key, ...at });
 }
 
-const written = (value) => (value !== null && typeof value === "object" && !Array.isArray(value) ? `{ ${Object.entries(value).map(([k, v]) => `${k} = ${written(v)}`).join(", ")} }`
-  : Array.isArray(value) ? `[${value.map(written).join(", ")}]` : JSON.stringify(value));
+const written = (value) =>
+  value !== null && typeof value === "object" && !Array.isArray(value)
+    ? `{ ${Object.entries(value)
+        .map(([k, v]) => `${k} = ${written(v)}`)
+        .join(", ")} }`
+    : Array.isArray(value)
+      ? `[${value.map(written).join(", ")}]`
+      : JSON.stringify(value);
 
 export function edit(text, { key, value, remove, append }) {
   const { lines, sections } = parse(text);
   const all = text.split("\n");
-  if (append) return `${text.replace(/\n*$/, "\n")}\n[[${key}]]\n${Object.entries(append).map(([name, each]) => `${name} = ${written(each)}`).join("\n")}\n`;
+  if (append)
+    return `${text.replace(/\n*$/, "\n")}\n[[${key}]]\n${Object.entries(append)
+      .map(([name, each]) => `${name} = ${written(each)}`)
+      .join("\n")}\n`;
   if (remove) {
     if (lines.has(key)) all.splice(lines.get(key), 1);
     else if (sections.has(key)) {

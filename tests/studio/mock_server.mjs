@@ -10,7 +10,8 @@ import { edit, Fault, parse, schema } from "./mock_scene.mjs";
 const token = "0123456789abcdef0123456789abcdef";
 const page = new URL("../../data/studio/", import.meta.url);
 const types = { html: "text/html; charset=utf-8", css: "text/css", js: "text/javascript", svg: "image/svg+xml" };
-const policy = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self'; connect-src 'self'; base-uri 'none'; form-action 'none'";
+const policy =
+  "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self'; connect-src 'self'; base-uri 'none'; form-action 'none'";
 
 const first_text = `# A scene of the mock server.
 version = 1
@@ -51,15 +52,22 @@ height = 1100
 `;
 
 const scene = { text: first_text, saved: first_text, revision: 1, undo: [], redo: [], step: "", outside: false };
-let newest = 0;  // of the requests for pictures
+let newest = 0; // of the requests for pictures
 let job = { state: "idle" };
 let job_timer = 0;
 
 function state() {
   const { values } = parse(scene.text);
   return {
-    revision: scene.revision, file: "/home/user/scenes/mock.toml", name: "mock", title: values.title ?? "", saved: scene.text === scene.saved,
-    can_undo: scene.undo.length > 0, can_redo: scene.redo.length > 0, text: scene.text, values,
+    revision: scene.revision,
+    file: "/home/user/scenes/mock.toml",
+    name: "mock",
+    title: values.title ?? "",
+    saved: scene.text === scene.saved,
+    can_undo: scene.undo.length > 0,
+    can_redo: scene.redo.length > 0,
+    text: scene.text,
+    values,
     derived: [
       { key: "air.from_m", value: "34000", why: "0.45 times the distance of the horizon" },
       { key: "air.scale_m", value: "46000", why: "0.6 times the distance of the horizon" },
@@ -69,12 +77,18 @@ function state() {
       { key: "camera.azimuth_deg", value: "180", why: "it shows most" },
       { key: "camera.pitch_deg", value: "-12", why: "an eighth of the picture is sky" },
       { key: "camera.tilt_deg", value: "0", why: "" },
-      { key: "sun.azimuth_deg", value: String(values["sun.time"] ? Number(values["sun.time"].slice(11, 13)) * 15 : 68), why: "upper left of the picture" },
+      {
+        key: "sun.azimuth_deg",
+        value: String(values["sun.time"] ? Number(values["sun.time"].slice(11, 13)) * 15 : 68),
+        why: "upper left of the picture",
+      },
       { key: "sun.altitude_deg", value: "31", why: "as painters place it" },
       { key: "deform.exaggeration", value: "1.5", why: "as tall as in painted panoramas" },
       { key: "deform.exaggeration_base_m", value: "560", why: "a tenth of the ground lies below" },
     ],
-    error: null, notes: [], outside: scene.outside,
+    error: null,
+    notes: [],
+    outside: scene.outside,
   };
 }
 
@@ -100,8 +114,10 @@ const rungs = () => {
   const ratio = values["output.height"] / values["output.width"];
   const rung = (index, name, width, without) => ({ rung: index, name, width, height: Math.round(width * ratio), without });
   return [
-    rung(0, "light and colour", 400, ["fine ground", "rock relief", "strokes", "paint"]), rung(1, "fine ground", 800, ["rock relief", "strokes", "paint"]),
-    rung(2, "strokes", 1000, ["paint"]), rung(3, "paint", 1000, []),
+    rung(0, "light and colour", 400, ["fine ground", "rock relief", "strokes", "paint"]),
+    rung(1, "fine ground", 800, ["rock relief", "strokes", "paint"]),
+    rung(2, "strokes", 1000, ["paint"]),
+    rung(3, "paint", 1000, []),
   ];
 };
 
@@ -110,7 +126,11 @@ const superseded = () => Object.assign(new Fault({ message: "superseded" }), { s
 const answers = {
   "GET api/scene": () => state(),
   "GET api/schema": () => schema,
-  "GET api/choices": () => ({ styles: ["bruegel", "gogh", "monet", "segantini", "turner"], palettes: ["autumn", "desert", "evening", "morning", "summer", "winter"], projections: ["perspective", "oblique", "cylindrical", "panini"] }),
+  "GET api/choices": () => ({
+    styles: ["bruegel", "gogh", "monet", "segantini", "turner"],
+    palettes: ["autumn", "desert", "evening", "morning", "summer", "winter"],
+    projections: ["perspective", "oblique", "cylindrical", "panini"],
+  }),
   "POST api/set": (_, body) => {
     const { changes, step } = JSON.parse(body);
     let text = scene.text;
@@ -146,28 +166,86 @@ const answers = {
     const y = Number(query.get("y"));
     if (y < 0.2) return { sky: true };
     const distance = 60000 * (1.05 - y);
-    const bearing = (azimuth + (Number(query.get("x")) - 0.5) * field) * Math.PI / 180;
-    return { sky: false, position: [viewer[0] + distance * Math.sin(bearing), viewer[1] + distance * Math.cos(bearing)], lonlat: [11.4 + Number(query.get("x")) / 2, 47.5 - y / 4], altitude_m: 2600 - 1800 * y, distance_m: distance, class: y > 0.6 ? "forest" : "rock" };
+    const bearing = ((azimuth + (Number(query.get("x")) - 0.5) * field) * Math.PI) / 180;
+    return {
+      sky: false,
+      position: [viewer[0] + distance * Math.sin(bearing), viewer[1] + distance * Math.cos(bearing)],
+      lonlat: [11.4 + Number(query.get("x")) / 2, 47.5 - y / 4],
+      altitude_m: 2600 - 1800 * y,
+      distance_m: distance,
+      class: y > 0.6 ? "forest" : "rock",
+    };
   },
   "GET api/map": () => {
     const { values } = parse(scene.text);
     const { viewer, target, azimuth, field } = camera(values);
-    return { revision: scene.revision, extent: [650000, 5220000, 730000, 5290000], width: 600, height: 525, crs: "EPSG:32632", viewer, height_m: 22000, target, azimuth_deg: azimuth, field_of_view_deg: field, handles: [] };
+    return {
+      revision: scene.revision,
+      extent: [650000, 5220000, 730000, 5290000],
+      width: 600,
+      height: 525,
+      crs: "EPSG:32632",
+      viewer,
+      height_m: 22000,
+      target,
+      azimuth_deg: azimuth,
+      field_of_view_deg: field,
+      handles: [],
+    };
   },
   "GET api/check": () => {
     const { values } = parse(scene.text);
-    return { revision: scene.revision, items: [
-      { name: "sky", value: "18 % of the picture", verdict: "good", advice: "" }, { name: "rim", value: "hidden", verdict: "good", advice: "" },
-      { name: "valley floor", value: "54 % visible", verdict: "note", advice: "A smaller radius of the bend shows more of it: try belvedere deform --search-bend." },
-      values["camera.field_of_view_deg"] > 70 ? { name: "edges", value: `${values["camera.field_of_view_deg"]}°`, verdict: "bad", advice: "Perspective stretches the edges: take panini." } : { name: "edges", value: "not stretched", verdict: "good", advice: "" },
-      { name: "summits", value: "2 cut", verdict: "note", advice: "Tilt the view up by 0.6°." },
-    ] };
+    return {
+      revision: scene.revision,
+      items: [
+        { name: "sky", value: "18 % of the picture", verdict: "good", advice: "" },
+        { name: "rim", value: "hidden", verdict: "good", advice: "" },
+        {
+          name: "valley floor",
+          value: "54 % visible",
+          verdict: "note",
+          advice: "A smaller radius of the bend shows more of it: try belvedere deform --search-bend.",
+        },
+        values["camera.field_of_view_deg"] > 70
+          ? {
+              name: "edges",
+              value: `${values["camera.field_of_view_deg"]}°`,
+              verdict: "bad",
+              advice: "Perspective stretches the edges: take panini.",
+            }
+          : { name: "edges", value: "not stretched", verdict: "good", advice: "" },
+        { name: "summits", value: "2 cut", verdict: "note", advice: "Tilt the view up by 0.6°." },
+      ],
+    };
   },
-  "GET api/proposals": () => ({ proposals: [
-    { name: "From the north", why: "The valley lies open and three ranges stand one behind the other.", changes: [{ key: "camera.position", value: [692000, 5302000] }, { key: "camera.look_at", value: [690000, 5249000] }] },
-    { name: "From the west", why: "Along the valley, with morning light on the walls.", changes: [{ key: "camera.position", value: [640000, 5250000] }, { key: "camera.look_at", value: [700000, 5250000] }] },
-    { name: "Wide", why: "All of the data, on a cylinder.", changes: [{ key: "camera.projection", value: "cylindrical" }, { key: "camera.field_of_view_deg", value: 110 }] },
-  ] }),
+  "GET api/proposals": () => ({
+    proposals: [
+      {
+        name: "From the north",
+        why: "The valley lies open and three ranges stand one behind the other.",
+        changes: [
+          { key: "camera.position", value: [692000, 5302000] },
+          { key: "camera.look_at", value: [690000, 5249000] },
+        ],
+      },
+      {
+        name: "From the west",
+        why: "Along the valley, with morning light on the walls.",
+        changes: [
+          { key: "camera.position", value: [640000, 5250000] },
+          { key: "camera.look_at", value: [700000, 5250000] },
+        ],
+      },
+      {
+        name: "Wide",
+        why: "All of the data, on a cylinder.",
+        changes: [
+          { key: "camera.projection", value: "cylindrical" },
+          { key: "camera.field_of_view_deg", value: 110 },
+        ],
+      },
+    ],
+  }),
   "POST api/render": (_, body) => {
     const { width } = JSON.parse(body);
     if (!(width >= 16 && width <= 65535)) throw new Fault({ message: `the width is ${width}, allowed: 16 … 65535 px` });
@@ -205,7 +283,8 @@ const answers = {
   },
 };
 
-const image = (response, bytes, headers = {}) => response.writeHead(200, { "Content-Type": "image/png", "Cache-Control": "no-store", ...headers }).end(bytes);
+const image = (response, bytes, headers = {}) =>
+  response.writeHead(200, { "Content-Type": "image/png", "Cache-Control": "no-store", ...headers }).end(bytes);
 
 const pictures = {
   "GET api/picture": async (query, response) => {
@@ -216,7 +295,11 @@ const pictures = {
     await sleep(5 + 30 * Number(query.get("rung")));
     if (mine !== newest) throw superseded();
     const bytes = png(draw(parse(scene.text).values, width, height));
-    image(response, bytes, { "X-Belvedere-Revision": scene.revision, "X-Belvedere-Without": without.join(", "), "X-Belvedere-Milliseconds": Math.round(performance.now() - started) });
+    image(response, bytes, {
+      "X-Belvedere-Revision": scene.revision,
+      "X-Belvedere-Without": without.join(", "),
+      "X-Belvedere-Milliseconds": Math.round(performance.now() - started),
+    });
   },
   "GET api/tiles": async (query, response) => {
     if (Number(query.get("revision")) !== scene.revision) throw superseded();
@@ -232,7 +315,8 @@ const pictures = {
     response.writeHead(200, { "Content-Type": "application/octet-stream" });
     record({ stage: "choosing texture", done: 0 });
     const tiles = [];
-    for (let y = 0; y < height; y += 256) for (let x = 0; x < width; x += 256) tiles.push({ x, y, width: Math.min(256, width - x), height: Math.min(256, height - y) });
+    for (let y = 0; y < height; y += 256)
+      for (let x = 0; x < width; x += 256) tiles.push({ x, y, width: Math.min(256, width - x), height: Math.min(256, height - y) });
     const far = (tile) => Math.hypot(tile.x + tile.width / 2 - width / 2, tile.y + tile.height / 2 - height / 2);
     tiles.sort((a, b) => far(a) - far(b));
     for (const [index, tile] of tiles.entries()) {
@@ -266,7 +350,9 @@ async function answer(request, response) {
     }
     const file = path === "" ? "index.html" : path;
     if (!/^[a-z_]+\.(html|css|js|svg)$/.test(file)) return response.writeHead(404).end();
-    response.writeHead(200, { "Content-Type": types[file.split(".")[1]], "Content-Security-Policy": policy }).end(await readFile(new URL(file, page)));
+    response
+      .writeHead(200, { "Content-Type": types[file.split(".")[1]], "Content-Security-Policy": policy })
+      .end(await readFile(new URL(file, page)));
   } catch (error) {
     if (!(error instanceof Fault)) console.error(error);
     const fault = error.fault ?? { message: error.message };
@@ -279,7 +365,13 @@ async function answer(request, response) {
 export async function serve(port = 0) {
   const server = createServer(answer);
   await new Promise((resolve) => server.listen(port, "127.0.0.1", resolve));
-  return { address: `http://127.0.0.1:${server.address().port}/${token}/`, close: () => { server.closeAllConnections(); server.close(); } };
+  return {
+    address: `http://127.0.0.1:${server.address().port}/${token}/`,
+    close: () => {
+      server.closeAllConnections();
+      server.close();
+    },
+  };
 }
 
 if (process.argv[1] === new URL(import.meta.url).pathname) console.log((await serve(Number(process.argv[2] ?? 0))).address);

@@ -41,13 +41,14 @@ async function finished() {
   await page.waitForFunction(() => document.body.dataset.working === "false", patience);
 }
 // A number that changes when the picture does.
-const picture = () => page.evaluate(() => {
-  const canvas = document.getElementById("picture");
-  const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
-  let sum = 0;
-  for (let k = 0; k < data.length; k += 4) sum = (sum * 31 + data[k] + 3 * data[k + 1] + 7 * data[k + 2]) % 2147483647;
-  return sum;
-});
+const picture = () =>
+  page.evaluate(() => {
+    const canvas = document.getElementById("picture");
+    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    let sum = 0;
+    for (let k = 0; k < data.length; k += 4) sum = (sum * 31 + data[k] + 3 * data[k + 1] + 7 * data[k + 2]) % 2147483647;
+    return sum;
+  });
 async function middle(selector) {
   const box = await (await page.$(selector)).boundingBox();
   return [box.x + box.width / 2, box.y + box.height / 2];
@@ -59,7 +60,9 @@ async function drag(selector, dx, dy, steps = 12) {
   await page.mouse.move(x + dx, y + dy, { steps });
   await page.mouse.up();
 }
-async function panel(id) { await page.click(`#tab-${id}`); }
+async function panel(id) {
+  await page.click(`#tab-${id}`);
+}
 async function changed(key, from) {
   const start = Date.now();
   for (;;) {
@@ -89,7 +92,10 @@ const undo = async () => {
 
 test("opens with the whole ladder drawn, a map and a critique", async () => {
   assert.match(await text_of("#rung"), /complete/);
-  await page.waitForFunction(() => document.querySelector("#relief").complete && document.querySelectorAll("#critique .sign").length > 0, patience);
+  await page.waitForFunction(
+    () => document.querySelector("#relief").complete && document.querySelectorAll("#critique .sign").length > 0,
+    patience,
+  );
   assert.ok(await page.$("#signs .viewer"));
 });
 
@@ -108,7 +114,7 @@ test("dragging the picture looks around, in one step of undo", async () => {
 
 test("the wheel moves forwards, shift drag moves sideways", async () => {
   const before = await value("camera.position");
-  await page.mouse.move(...await middle("#picture"));
+  await page.mouse.move(...(await middle("#picture")));
   await page.mouse.wheel({ deltaY: -120 });
   const nearer = await changed("camera.position", before);
   const target = await value("camera.look_at");
@@ -175,7 +181,7 @@ test("the sun turns on its dial", async () => {
   await page.mouse.up();
   await changed("sun.azimuth_deg", before);
   await finished();
-  assert.ok(Math.abs(await value("sun.azimuth_deg") - 180) < 3);
+  assert.ok(Math.abs((await value("sun.azimuth_deg")) - 180) < 3);
   await page.click("#sun-timed");
   assert.match(await changed("sun.time", undefined), /T09:00:00/);
   await undo();
@@ -189,7 +195,7 @@ test("a summit is pulled up in one step", async () => {
   await drag("#picture", 0, -60);
   await changed("deform.handles.0.raise_m", undefined);
   await finished();
-  assert.ok(await value("deform.handles.0.raise_m") > 0);
+  assert.ok((await value("deform.handles.0.raise_m")) > 0);
   await undo();
   assert.equal(await value("deform.handles.0.raise_m"), undefined);
 });
@@ -206,10 +212,15 @@ test("the viewer moves on the map", async () => {
 test("a text with an error is told at its line, and mended", async () => {
   await panel("text");
   const { text } = await scene();
-  const type = (what) => page.$eval("#text", (area, now) => {
-    area.value = now;
-    area.dispatchEvent(new Event("input", { bubbles: true }));
-  }, what);
+  const type = (what) =>
+    page.$eval(
+      "#text",
+      (area, now) => {
+        area.value = now;
+        area.dispatchEvent(new Event("input", { bubbles: true }));
+      },
+      what,
+    );
   await type(`${text}\nnonsense\n`);
   await page.waitForSelector("#text-fault:not([hidden])", patience);
   assert.equal(await page.$eval("#lines .faulty", (line) => line.textContent), String(text.split("\n").length + 1));
@@ -238,7 +249,7 @@ test("a version is kept and compared by a border", async () => {
   const share = () => page.$eval("#border", (border) => Number(border.getAttribute("aria-valuenow")));
   assert.equal(await share(), 50);
   await drag("#border", -100, 0);
-  assert.ok(await share() < 45);
+  assert.ok((await share()) < 45);
   await page.focus("#border");
   await page.keyboard.press("End");
   assert.equal(await share(), 100);
@@ -259,7 +270,13 @@ test("all by keyboard: look, move, a panel, a slider, undo, save, help", async (
   await page.keyboard.press("5");
   assert.equal(await page.evaluate(() => document.activeElement.id), "tab-air");
   const haze = await value("air.haze");
-  for (let k = 0; k < 40 && !(await page.evaluate(() => document.activeElement.closest("[data-key='air.haze']") && document.activeElement.type === "range")); ++k) await page.keyboard.press("Tab");
+  for (
+    let k = 0;
+    k < 40 &&
+    !(await page.evaluate(() => document.activeElement.closest("[data-key='air.haze']") && document.activeElement.type === "range"));
+    ++k
+  )
+    await page.keyboard.press("Tab");
   await page.keyboard.press("ArrowLeft");
   await changed("air.haze", haze);
   const less = await value("air.haze");
@@ -294,8 +311,11 @@ test("proposals are shown, and taken in one step", async () => {
 
 test("a file is sent and offered for what it is", async () => {
   const file = join(await mkdtemp(join(tmpdir(), "studio-")), `tour ${Date.now()}.gpx`);
-  await writeFile(file, `<gpx version="1.1" creator="test" xmlns="http://www.topografix.com/GPX/1/1"><trk><name>Tour</name><trkseg>
-    <trkpt lat="47.30" lon="11.40"/><trkpt lat="47.35" lon="11.45"/></trkseg></trk></gpx>`);
+  await writeFile(
+    file,
+    `<gpx version="1.1" creator="test" xmlns="http://www.topografix.com/GPX/1/1"><trk><name>Tour</name><trkseg>
+    <trkpt lat="47.30" lon="11.40"/><trkpt lat="47.35" lon="11.45"/></trkseg></trk></gpx>`,
+  );
   const input = await page.$("#choose-files");
   await input.uploadFile(file);
   await page.waitForSelector("#files-list .buttons button", patience);
@@ -320,28 +340,46 @@ test("the picture is rendered, and the rendering cancelled", async () => {
 });
 
 test("every control has a name", async () => {
-  const nameless = await page.evaluate(() => Array.from(document.querySelectorAll("button, input, select, textarea, [role=slider], [tabindex='0']"))
-    .filter((each) => !each.getAttribute("aria-label") && !each.getAttribute("aria-labelledby") && !each.labels?.length && !each.textContent.trim())
-    .map((each) => each.outerHTML.slice(0, 120)));
+  const nameless = await page.evaluate(() =>
+    Array.from(document.querySelectorAll("button, input, select, textarea, [role=slider], [tabindex='0']"))
+      .filter(
+        (each) =>
+          !each.getAttribute("aria-label") && !each.getAttribute("aria-labelledby") && !each.labels?.length && !each.textContent.trim(),
+      )
+      .map((each) => each.outerHTML.slice(0, 120)),
+  );
   assert.deepEqual(nameless, []);
 });
 
 test("many changes in a row: page, program and text agree, and undo leads back", async () => {
   const start = await scene();
   const count = Number(process.env.BELVEDERE_CHANGES ?? 40);
-  const sliders = ["camera.field_of_view_deg", "camera.tilt_deg", "light.sun", "light.contrast", "air.haze", "air.range_mist", "generalize.crest", "light.shadow_depth"];
+  const sliders = [
+    "camera.field_of_view_deg",
+    "camera.tilt_deg",
+    "light.sun",
+    "light.contrast",
+    "air.haze",
+    "air.range_mist",
+    "generalize.crest",
+    "light.shadow_depth",
+  ];
   const homes = { camera: "camera", light: "sun", air: "air", generalize: "equalizer" };
   let seed = 7;
   const random = () => (seed = (seed * 48271) % 2147483647) / 2147483647;
   for (let k = 0; k < count; ++k) {
     const name = sliders[Math.floor(random() * sliders.length)];
     await panel(homes[name.split(".")[0]]);
-    await page.$eval(`[data-key='${name}'] input[type=range]`, (slider, share) => {
-      const [min, max] = [Number(slider.min), Number(slider.max)];
-      slider.value = min + (max - min) * (0.2 + 0.6 * share);
-      slider.dispatchEvent(new Event("input", { bubbles: true }));
-      slider.dispatchEvent(new Event("change", { bubbles: true }));
-    }, random());
+    await page.$eval(
+      `[data-key='${name}'] input[type=range]`,
+      (slider, share) => {
+        const [min, max] = [Number(slider.min), Number(slider.max)];
+        slider.value = min + (max - min) * (0.2 + 0.6 * share);
+        slider.dispatchEvent(new Event("input", { bubbles: true }));
+        slider.dispatchEvent(new Event("change", { bubbles: true }));
+      },
+      random(),
+    );
     if (k % 8 === 7) await undo();
   }
   await finished();
@@ -351,7 +389,10 @@ test("many changes in a row: page, program and text agree, and undo leads back",
     await sleep(60);
     const shown = await page.$eval(`[data-key='${name}'] input[type=number]`, (field) => Number(field.value));
     assert.ok(Math.abs(shown - now.values[name]) < 1e-6, `${name}: ${shown} on the page, ${now.values[name]} in the scene`);
-    assert.ok(now.text.includes(`${name.split(".").at(-1)} = ${now.values[name]}`) || now.values[name] === start.values[name], `${name} in the text`);
+    assert.ok(
+      now.text.includes(`${name.split(".").at(-1)} = ${now.values[name]}`) || now.values[name] === start.values[name],
+      `${name} in the text`,
+    );
   }
   while ((await scene()).text !== start.text) {
     assert.ok((await scene()).can_undo, "undo leads back to the text of before");
@@ -387,25 +428,39 @@ test("a finger looks around, two fingers move", async () => {
 });
 
 test("latency of drags", async (context) => {
-  const times = await page.evaluate(async (count) => {
-    const canvas = document.getElementById("picture");
-    const box = canvas.getBoundingClientRect();
-    const send = (kind, x, y) => canvas.dispatchEvent(new PointerEvent(kind, { pointerId: 1, clientX: box.left + x, clientY: box.top + y, button: 0, buttons: 1, bubbles: true, isPrimary: true }));
-    canvas.setPointerCapture = () => {};
-    const out = [];
-    send("pointerdown", 200, 200);
-    for (let k = 0; k < count; ++k) {
-      const drawn = document.body.dataset.drawn;
-      const start = performance.now();
-      send("pointermove", 210 + 4 * (k % 50), 200 + (k % 7));
-      while (document.body.dataset.drawn === drawn) await new Promise((resolve) => setTimeout(resolve, 1));
-      out.push(performance.now() - start);
-      await new Promise((resolve) => setTimeout(resolve, 10));
-    }
-    send("pointerup", 200, 200);
-    delete canvas.setPointerCapture;
-    return out.sort((a, b) => a - b);
-  }, Number(process.env.BELVEDERE_DRAGS ?? 40));
+  const times = await page.evaluate(
+    async (count) => {
+      const canvas = document.getElementById("picture");
+      const box = canvas.getBoundingClientRect();
+      const send = (kind, x, y) =>
+        canvas.dispatchEvent(
+          new PointerEvent(kind, {
+            pointerId: 1,
+            clientX: box.left + x,
+            clientY: box.top + y,
+            button: 0,
+            buttons: 1,
+            bubbles: true,
+            isPrimary: true,
+          }),
+        );
+      canvas.setPointerCapture = () => {};
+      const out = [];
+      send("pointerdown", 200, 200);
+      for (let k = 0; k < count; ++k) {
+        const drawn = document.body.dataset.drawn;
+        const start = performance.now();
+        send("pointermove", 210 + 4 * (k % 50), 200 + (k % 7));
+        while (document.body.dataset.drawn === drawn) await new Promise((resolve) => setTimeout(resolve, 1));
+        out.push(performance.now() - start);
+        await new Promise((resolve) => setTimeout(resolve, 10));
+      }
+      send("pointerup", 200, 200);
+      delete canvas.setPointerCapture;
+      return out.sort((a, b) => a - b);
+    },
+    Number(process.env.BELVEDERE_DRAGS ?? 40),
+  );
   const at = (share) => Math.round(times[Math.floor(share * (times.length - 1))]);
   context.diagnostic(`from the movement to the picture: median ${at(0.5)} ms, 95 % ${at(0.95)} ms`);
   await finished();
@@ -441,5 +496,8 @@ test("a file changed outside is told", { skip: Boolean(process.env.BELVEDERE_STU
 
 test("nothing was wrong on the way", () => {
   // Refused requests are shown by Chromium as errors of the network: these were asked for.
-  assert.deepEqual(errors.filter((each) => !/status of (409|422)|ERR_ABORTED/.test(each)), []);
+  assert.deepEqual(
+    errors.filter((each) => !/status of (409|422)|ERR_ABORTED/.test(each)),
+    [],
+  );
 });
