@@ -12,7 +12,6 @@ export class Bend {
   constructor(store) {
     this.store = store;
     this.grips = [];
-    this.chosen = 0;
     this.chart = drawing("svg", {
       class: "chart",
       viewBox: `0 0 ${size.width} ${size.height}`,

@@ -14,19 +14,15 @@ export class Hands {
     this.canvas = picture.canvas;
     this.pointers = new Map();
     this.mode = "look";
-    this.pick = null; // takes the next click: {hint, done(pointed, event)}
+    this.pick = null; // takes the next click: {done(pointed, step)}
     this.asked = new AbortController();
     this.listen();
   }
 
-  per_px() {
-    return view(this.store).field / this.canvas.clientWidth;
-  } // ° for a pixel of the page
-
-  // The next click on the picture is not a movement: pull(event, pointed) follows the hand after it, if given.
+  // The next click on the picture is no movement: done(pointed, step) gets its ground and may return what follows the hand, pull(dx, dy).
   choose(hint, done) {
-    this.pick = { hint, done };
-    by_id("hint").textContent = `${hint} Esc: leave it.`;
+    this.pick = { done };
+    by_id("hint").textContent = `${hint} Enter takes the middle, Esc leaves it.`;
     by_id("hint").hidden = false;
     this.canvas.classList.add("picking");
     this.canvas.focus();
@@ -141,6 +137,10 @@ export class Hands {
       "[": () => this.widen(1 / 1.05),
       "]": () => this.widen(1.05),
     };
+    if (event.key === "Enter") {
+      event.preventDefault();
+      return this.middle();
+    }
     if (event.key === "Escape" && this.pick) {
       event.stopPropagation();
       return this.leave();
@@ -149,6 +149,14 @@ export class Hands {
     event.preventDefault();
     event.stopPropagation();
     actions[event.key]();
+  }
+
+  // Keys point at the middle of the picture.
+  middle() {
+    const box = this.canvas.parentElement.getBoundingClientRect();
+    const event = { clientX: box.left + box.width / 2, clientY: box.top + box.height / 2 };
+    this.held = { step: new_step() };
+    return this.pick ? this.picked(event) : this.read(event);
   }
 
   // ---- pointing
@@ -237,10 +245,12 @@ export class Hands {
   }
 }
 
+const degrees = (angle, positive, negative) => `${Math.abs(angle).toFixed(4)}° ${angle < 0 ? negative : positive}`;
+
 function told({ altitude_m, distance_m, class: ground, lonlat, position }) {
   const parts = [metres(altitude_m), `${(distance_m / 1000).toFixed(1)} km away`];
   if (ground) parts.push(ground.replaceAll("_", " "));
-  if (lonlat) parts.push(`${lonlat[1].toFixed(4)}° N ${lonlat[0].toFixed(4)}° E`);
+  if (lonlat) parts.push(`${degrees(lonlat[1], "N", "S")} ${degrees(lonlat[0], "E", "W")}`);
   else if (position) parts.push(`E ${Math.round(position[0])} N ${Math.round(position[1])}`);
   return parts.join(" · ");
 }

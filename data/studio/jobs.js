@@ -14,6 +14,7 @@ export class Jobs {
     by_id("render-cancel").addEventListener("click", () => this.cancel());
     by_id("render-width").addEventListener("input", () => this.size());
     this.dialog.addEventListener("close", () => by_id("render").focus());
+    this.look(); // a job may be running since before the page was opened
   }
 
   open() {

@@ -7,6 +7,7 @@ const on_picture = [
   ["Shift ↑ ↓  or  + −", "move forwards and back"],
   ["Page ↑ ↓", "higher, lower"],
   ["[ ]", "narrower, wider"],
+  ["Enter", "what is in the middle, or take it"],
 ];
 const by_hand = [
   ["drag", "look around"],

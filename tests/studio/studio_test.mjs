@@ -99,6 +99,42 @@ test("opens with the whole ladder drawn, a map and a critique", async () => {
   assert.ok(await page.$("#signs .viewer"));
 });
 
+test("the camera's arithmetic", async () => {
+  const found = await page.evaluate(async () => {
+    const { moved, turned, view, widened } = await import("./camera.js");
+    const { alone } = await import("./store.js");
+    const made = (values, map = {}) => ({
+      map,
+      value: (key) => values[key],
+      number: (key) => (typeof values[key] === "number" ? values[key] : undefined),
+      given: (key) => values[key] !== undefined && values[key] !== "auto",
+    });
+    const north = made({ "camera.position": [0, 0], "camera.look_at": [0, 10000], "camera.tilt_deg": 1 });
+    const angles = made({ "camera.position": [0, 0], "camera.azimuth_deg": 350, "camera.pitch_deg": -10 }, { target: [0, 10000] });
+    const lonlat = made({ "camera.position_lonlat": [11, 47], "camera.azimuth_deg": 90 }, { viewer: [500, 600], target: [1500, 600] });
+    return {
+      right: turned(north, view(north), 90, 0),
+      up: turned(north, view(north), 0, 2),
+      around: turned(angles, view(angles), 20, -100),
+      forward: moved(north, view(north), 0.5, 0),
+      aside: moved(north, view(north), 0, 0.1),
+      high: moved(north, view(north), 0, 0, 100),
+      lonlat: moved(lonlat, view(lonlat), 0.5, 0),
+      wide: widened(made({ "camera.field_of_view_deg": 149, "camera.projection": "perspective" }), 1.1),
+      time: alone(made({ "sun.azimuth_deg": 10, "sun.altitude_deg": "auto" }), [{ key: "sun.time", value: "now" }]),
+    };
+  });
+  assert.deepEqual(found.right, [{ key: "camera.look_at", value: [10000, 0] }]);
+  assert.deepEqual(found.up, [{ key: "camera.tilt_deg", value: 3 }]);
+  assert.deepEqual(found.around, [{ key: "camera.azimuth_deg", value: 10 }, { key: "camera.pitch_deg", value: -90 }]);
+  assert.deepEqual(found.forward, [{ key: "camera.position", value: [0, 5000] }]);
+  assert.deepEqual(found.aside, [{ key: "camera.position", value: [1000, 0] }, { key: "camera.look_at", value: [1000, 10000] }]);
+  assert.deepEqual(found.high, [{ key: "camera.height_m", value: 3100 }]);
+  assert.deepEqual(found.lonlat, [{ key: "camera.position_lonlat", remove: true }, { key: "camera.position", value: [1000, 600] }]);
+  assert.deepEqual(found.wide, [{ key: "camera.field_of_view_deg", value: 150 }]);
+  assert.deepEqual(found.time, [{ key: "sun.azimuth_deg", remove: true }, { key: "sun.time", value: "now" }]);
+});
+
 test("dragging the picture looks around, in one step of undo", async () => {
   const [before, drawn] = [await value("camera.look_at"), await picture()];
   await drag("#picture", 160, 30);
@@ -200,6 +236,18 @@ test("a summit is pulled up in one step", async () => {
   assert.equal(await value("deform.handles.0.raise_m"), undefined);
 });
 
+test("a light is put down by keys", async () => {
+  await panel("lights");
+  const lights = await page.evaluate(() => document.querySelectorAll("#panel-lights details").length);
+  await page.evaluate(() => [...document.querySelectorAll("#panel-lights button")].find((each) => each.textContent.startsWith("Put a light")).focus());
+  await page.keyboard.press("Enter");
+  assert.equal(await page.evaluate(() => document.activeElement.id), "picture");
+  await page.keyboard.press("Enter");
+  await changed(`light.regions.${lights}.turn_deg`, undefined);
+  await finished();
+  await undo();
+});
+
 test("the viewer moves on the map", async () => {
   const before = await value("camera.position");
   await drag("#signs .viewer", 12, 8, 4);
@@ -293,7 +341,7 @@ test("all by keyboard: look, move, a panel, a slider, undo, save, help", async (
   await page.evaluate(() => document.activeElement.blur());
   await page.keyboard.press("?");
   await page.waitForSelector("#help-dialog[open]", patience);
-  await page.keyboard.press("Escape");
+  await page.keyboard.press("Enter");  // its button
   await page.waitForSelector("#help-dialog:not([open])", patience);
 });
 
