@@ -1,5 +1,6 @@
 #include "base/memory/zeroed_memory.h"
 
+#include <malloc.h>
 #include <sys/mman.h>
 
 #include <cstdlib>
@@ -28,6 +29,12 @@ void observe(std::ptrdiff_t bytes) {
 }  // namespace
 
 std::atomic<void (*)(std::ptrdiff_t bytes)> zeroed_memory_observer = nullptr;
+
+void reuse_freed_memory() {
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the largest allowed
+  mallopt(M_TRIM_THRESHOLD, 256 << 20);
+  mallopt(M_TOP_PAD, 16 << 20);
+}
 
 void* allocate_zeroed(std::size_t bytes) {
   observe(static_cast<std::ptrdiff_t>(bytes));

@@ -86,7 +86,9 @@ LivePicture LiveView::paint(const LoadedScene& given, const Rung& rung, const Ru
 
   const SheetWorkParameters parameters{.scratch_folder = {},
                                        .rock_relief = rung.rock_relief,
-                                       .kept = rung.max_mcells > 0.0 ? &coarse_ : &fine_};
+                                       .tile_px = use_tile ? 0 : 1024,
+                                       .kept = rung.max_mcells > 0.0 ? &coarse_ : &fine_,
+                                       .kept_paint = &paint_};
   SheetWork work(loaded, request, parameters, run, run);
   LivePicture picture;
   if (rung.strokes) {

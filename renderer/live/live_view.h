@@ -10,6 +10,7 @@
 #include "base/pixel_rect.h"
 #include "base/run.h"
 #include "renderer/live/rungs.h"
+#include "renderer/pipeline/sheet_work.h"
 #include "renderer/scene/scene_file.h"
 #include "renderer/world/derived_values.h"
 #include "renderer/world/kept_world.h"
@@ -52,6 +53,7 @@ class LiveView {
   Kept<const GroundSize> size_;
   KeptWorld coarse_;
   KeptWorld fine_;  // of the last rung
+  KeptPaint paint_;
 };
 
 }  // namespace belvedere

@@ -16,9 +16,41 @@ bool is_copied(const Scene& scene, const SheetRequest& request) {
 
 namespace {
 
-ScenePaint paint_for(const LoadedScene& loaded, const SheetRequest& request, Progress& progress) {
+// Everything that paint is read from.
+std::string paint_key(const LoadedScene& loaded, const SheetRequest& request) {
+  Scene settings;
+  settings.palette = loaded.scene.palette;
+  settings.style = loaded.scene.style;
+  settings.exemplars = loaded.scene.exemplars;
+  settings.synthesis = loaded.scene.synthesis;
+  return write_scene(settings) + (request.panorama ? "picture\n" : "ground\n") + dem_key(loaded);
+}
+
+ScenePaint read_paint(const LoadedScene& loaded, const SheetRequest& request, Progress& progress) {
   return request.panorama ? read_scene_paint(loaded, progress)
                           : ScenePaint{{}, read_scene_palette(loaded, progress)};
+}
+
+// Paint that copies is used up.
+KeptPaint* kept_paint(const LoadedScene& loaded, const SheetRequest& request,
+                      const SheetWorkParameters& parameters) {
+  return is_copied(loaded.scene, request) ? nullptr : parameters.kept_paint;
+}
+
+ScenePaint paint_for(const LoadedScene& loaded, const SheetRequest& request, KeptPaint* kept,
+                     Progress& progress) {
+  if (kept == nullptr) return read_paint(loaded, request, progress);
+  return *keep_or_make(&kept->read, paint_key(loaded, request),
+                       [&] { return read_paint(loaded, request, progress); });
+}
+
+// Paint is read before the world, so that wrong files are refused early; the dependencies of its
+// colours are known after it.
+Palette located_palette(const LoadedScene& loaded, const SheetRequest& request,
+                        const ScenePaint& paint, const World& world, KeptPaint* kept) {
+  const auto make = [&] { return palette_for_location(paint.palette, loaded, *world.dem); };
+  if (kept == nullptr) return make();
+  return *keep_or_make(&kept->located, paint_key(loaded, request) + cover_key(loaded), make);
 }
 
 int block_px_for(const World& world, const ScenePaint& paint, const SheetView& view,
@@ -31,18 +63,9 @@ int block_px_for(const World& world, const ScenePaint& paint, const SheetView& v
                          paint.style ? &*paint.style : nullptr);
 }
 
-// Paint is read before the world, so that wrong files are refused early; the dependencies of its
-// colours are known after it.
-const Palette& adapt_palette_to_location(Palette& palette, const LoadedScene& loaded,
-                                         const World& world) {
-  palette = palette_for_location(palette, loaded, *world.dem);
-  return palette;
-}
-
-GroundInputs inputs_for(const LoadedScene& loaded, ScenePaint& paint, const World& world,
-                        const SheetView& view, bool rock_relief, const Run& run) {
-  GroundInputs inputs = make_ground_inputs(
-      world, view, adapt_palette_to_location(paint.palette, loaded, world), run);
+GroundInputs inputs_for(const ScenePaint& paint, const World& world, const SheetView& view,
+                        bool rock_relief, const Run& run) {
+  GroundInputs inputs = make_ground_inputs(world, view, paint.palette, run);
   inputs.rock_relief = rock_relief;
   if (paint.style)
     inputs.style = make_sheet_style(
@@ -55,14 +78,19 @@ GroundInputs inputs_for(const LoadedScene& loaded, ScenePaint& paint, const Worl
 
 SheetWork::SheetWork(const LoadedScene& loaded, const SheetRequest& request,
                      const SheetWorkParameters& parameters, const Run& run, const Run& stage_run)
-    : paint(paint_for(loaded, request, run.progress)),
+    : paint(paint_for(loaded, request, kept_paint(loaded, request, parameters), run.progress)),
       world(make_world(loaded, run.progress, run.cache, {}, parameters.kept)),
       position{parameters.scratch_folder, kept_tile_bytes()},
       view(view_of(world)),
       block_px(block_px_for(world, paint, view, request)),
-      graph(position, stage_run.progress),
-      ground(add_ground_stages(
-          graph, inputs_for(loaded, paint, world, view, parameters.rock_relief, stage_run),
-          choose_tile_px(block_px, region_of(world.scene, request)))) {}
+      graph(position, stage_run.progress) {
+  paint.palette = located_palette(loaded, request, paint, world,
+                                  kept_paint(loaded, request, parameters));
+  const int tile_px = parameters.tile_px > 0
+                          ? parameters.tile_px
+                          : choose_tile_px(block_px, region_of(world.scene, request));
+  ground = add_ground_stages(
+      graph, inputs_for(paint, world, view, parameters.rock_relief, stage_run), tile_px);
+}
 
 }  // namespace belvedere

@@ -13,10 +13,18 @@
 
 namespace belvedere {
 
+// Paint for the next picture of a scene that copies nothing, like KeptWorld.
+struct KeptPaint {
+  Kept<const ScenePaint> read;
+  Kept<const Palette> located;  // adapted to the terrain's climate
+};
+
 struct SheetWorkParameters {
   std::string scratch_folder;  // for tiles beyond kept_tile_bytes(); empty: temporary files
   bool rock_relief = true;     // false, for previews: rock as smooth as the DEM
+  int tile_px = 0;             // of the stages, 64…4096; 0: by memory. Changes no pixel
   KeptWorld* kept = nullptr;   // values of the world before
+  KeptPaint* kept_paint = nullptr;
 };
 
 // What the stages of a sheet are made of, and the ground stages. The members refer to each other by
@@ -34,7 +42,7 @@ struct SheetWork {
   SheetView view;
   int block_px;  // what is painted at once
   StageGraph graph;
-  GroundStages ground;
+  GroundStages ground = {};
 };
 
 // Whether the ground of a request is copied from paintings.

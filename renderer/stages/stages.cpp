@@ -78,6 +78,7 @@ GuidanceBuffers trace_tile(const GroundInputs& in, PixelRect tile) {
   const PixelRect window =
       intersection({0, 0, in.size_px.x, in.size_px.y}, grown(tile, guidance_margin_px()));
   GuidanceBuffers wide = trace_view(*in.world, in.view(), window, in.run);
+  if (window == tile) return wide;
   GuidanceBuffers traced;
   traced.origin_m = wide.origin_m;
   for (const GuidanceMember& channel : channels_of(ChannelMaker::trace))

@@ -8,6 +8,7 @@
 #include "renderer/trace/ground_surroundings.h"
 #include "renderer/trace/terrain_model.h"
 #include "renderer/trace/tracer.h"
+#include "renderer/trace/water/water_ground.h"
 #include "renderer/world/scene_dem.h"
 #include "renderer/world/view.h"
 #include "terrain/cover/land_cover.h"
@@ -31,6 +32,7 @@ struct KeptWorld {
   Kept<LandCover> land_cover;
   Kept<GroundSurroundings> surroundings;
   Kept<TerrainModel> terrain;
+  Kept<std::shared_ptr<const WaterGround>> waters;
   Kept<const DeformedSurface> surface;
   Kept<const Tracer> tracer;
 };

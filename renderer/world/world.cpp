@@ -145,6 +145,9 @@ World make_world(const LoadedScene& loaded, Progress& progress, const Cache& cac
         }
         return made;
       });
+  std::shared_ptr<const WaterGround> waters;
+  if (kept != nullptr)
+    waters = *keep_or_make(&kept->waters, key, [&] { return find_water_ground(*terrain); });
   // What differs between views of one ground.
   terrain->land_cover = land_cover;
   terrain->exaggeration = view.deform.exaggeration;
@@ -176,6 +179,7 @@ World make_world(const LoadedScene& loaded, Progress& progress, const Cache& cac
           *terrain,
           surface,
           *tracer,
+          std::move(waters),
           horizon_px,
           std::move(mist)};
 }

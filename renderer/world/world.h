@@ -9,6 +9,7 @@
 #include "renderer/trace/camera.h"
 #include "renderer/trace/guidance.h"
 #include "renderer/trace/tracer.h"
+#include "renderer/trace/water/water_ground.h"
 #include "renderer/world/scene_dem.h"
 #include "renderer/world/view.h"
 #include "terrain/cover/land_cover.h"
@@ -42,7 +43,8 @@ struct World {
   const TerrainModel& terrain;  // of `ground`, as the next two
   const std::shared_ptr<const DeformedSurface> surface;
   const Tracer& tracer;
-  const double horizon_px;  // row of the skyline's median
+  const std::shared_ptr<const WaterGround> waters;  // of the terrain; null: not known yet
+  const double horizon_px;                          // row of the skyline's median
   const MistAir mist;
 };
 

@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "base/memory/zeroed_memory.h"
 #include "base/parallel.h"
 #include "tools/options/options.h"
 
@@ -176,6 +177,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "bench: %s\n", message);
     return status;
   };
+  belvedere::reuse_freed_memory();
   try {
     return belvedere::bench::run(argc, argv);
   } catch (const belvedere::Error& error) {

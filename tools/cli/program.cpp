@@ -11,6 +11,7 @@
 
 #include "base/config.h"
 #include "base/error.h"
+#include "base/memory/zeroed_memory.h"
 #include "renderer/image/provenance.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/terminal.h"
@@ -126,6 +127,7 @@ CommandDescription describe_program() {
 
 int program_main(int argc, char** argv) {
   prepare_process();
+  reuse_freed_memory();
   const auto fail = [](const std::string& message, ErrorKind kind) {
     print_error("belvedere: " + message + "\n");
     return static_cast<int>(kind);
