@@ -12,7 +12,7 @@ export function kind_of(store, key) {
   const either = part.anyOf ?? [part];
   const number = either.find((each) => each.type === "number" || each.type === "integer");
   const words = either.find((each) => each.enum)?.enum;
-  const auto = words?.includes("auto") ?? false;
+  const auto = number !== undefined && (words?.includes("auto") ?? false); // beside a number; else it is a word like others
   const out = {
     help: (part.description ?? "").replace(/ Unit: [^.]*\.$/, ""),
     default: part.default,

@@ -12,6 +12,7 @@ export class Ladder {
     this.abort = new AbortController();
     this.timer = 0;
     this.first = false; // the first rung is being drawn
+    this.complete = false; // all of the last one is there
     this.idle = () => {}; // called when the hand rests and the quick rungs are there
   }
 
@@ -31,10 +32,16 @@ export class Ladder {
     if (!this.first) this.stop();
   }
 
+  // The change was refused: what it has stopped goes on.
+  resume(revision) {
+    if (!this.complete) this.start(revision);
+  }
+
   // The first rung of a revision; the finer ones follow when the hand rests.
   async start(revision) {
     this.stop();
     const { signal } = this.abort;
+    this.complete = false;
     this.first = true;
     if (this.rungs.length > 1) await this.rung(0, revision, signal);
     this.first = false;
@@ -87,6 +94,7 @@ export class Ladder {
         milliseconds: performance.now() - started,
       });
     }
+    this.complete = complete;
     if (!complete && !signal.aborted)
       this.tell({ fault: { message: "The last rung ended early. Change anything, or press U, to draw again." } });
   }

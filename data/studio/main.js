@@ -50,6 +50,7 @@ async function start() {
     await ladder.start(revision);
   };
   store.on("pending", () => ladder.stop_finer());
+  store.on("refused", () => ladder.resume(store.state.revision));
   ladder.idle = (_, signal) => {
     map.read();
     check.read(signal);

@@ -117,7 +117,7 @@ export const panels = [
         { key: "land_cover.rock", label: "Rock" },
       ] },
       { title: "Style of a painting", rows: [
-        { key: "style.file", label: "Style", words: (store) => store.choices.styles, none: "the program's own" },
+        { key: "style.file", label: "Style", words: (store) => store.choices.styles, none: "none" },
         { key: "style.palette", label: "Its colours", min: 0, max: 1, step: 0.01, when: styled },
         { key: "style.brushwork", label: "Its strokes", min: 0, max: 1, step: 0.01, when: styled },
         { key: "style.sky", label: "Its sky", min: 0, max: 1, step: 0.01, when: styled },
@@ -128,7 +128,7 @@ export const panels = [
         { key: "style.winter", label: "Winter", when: styled },
       ] },
       { title: "Season", rows: [
-        { key: "season.date", label: "Month and day", hint: "10-05" },
+        { key: "season.date", label: "Date", hint: "10-05" },
         { key: "season.frozen_lakes", label: "Frozen lakes" },
       ] },
       { title: "Water", rows: [
@@ -163,7 +163,7 @@ export const panels = [
     id: "names", label: "Names", groups: [
       { title: "Names", rows: [
         { key: "labels.in_picture", label: "Names in the picture" },
-        { key: "labels.summits", label: "Summits of the DEM", min: 0, max: 100, step: 1 },
+        { key: "labels.summits", label: "Summits", min: 0, max: 100, step: 1 },
         { key: "labels.min_prominence_m", label: "Prominence from", unit: "m", min: 1, max: 2000, step: 10 },
         { key: "labels.style", label: "Type" },
       ] },

@@ -121,6 +121,7 @@ export class Store extends EventTarget {
       if (error.fault) error.fault = { ...error.fault, line: undefined, where: undefined };
       this.tell("state", this.state); // the controls go back to what is
       this.fail(error);
+      this.tell("refused");
     } finally {
       this.leave();
     }

@@ -9,7 +9,7 @@ export function weights(store) {
   return guides.map((name) =>
     row(store, {
       key: `${key}.${name}`,
-      label: name.replaceAll("_", " "),
+      label: `${name[0].toUpperCase()}${name.slice(1).replaceAll("_", " ")}`,
       min: 0,
       max: 1,
       step: 0.01,

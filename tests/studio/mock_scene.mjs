@@ -5,6 +5,9 @@ const schema_file = new URL("../../docs/scene.schema.json", import.meta.url);
 export const schema = JSON.parse(readFileSync(schema_file, "utf8"));
 const root = schema.allOf[0];
 
+// The schema does not say it.
+const weights = { altitude: 0.04, tone: 0.15, distance: 0.02, shadow: 0.02, slope: 0.02, fall_line_x: 0.1, fall_line_y: 0.05, flow: 0 };
+
 export class Fault extends Error {
   constructor(fault) {
     super(fault.message);
@@ -91,7 +94,7 @@ export function parse(text) {
   exclude("camera.look_at", "camera.pitch_deg");
   exclude("sun.time", "sun.azimuth_deg");
   exclude("sun.time", "sun.altitude_deg");
-  return { values: { ...defaults(root, "", {}), ...values }, lines, sections };
+  return { values: { ...defaults(root, "", {}), "synthesis.weights": weights, ...values }, lines, sections };
 }
 
 function validate(key, value, at) {
