@@ -88,7 +88,8 @@ LivePicture LiveView::paint(const LoadedScene& given, const Rung& rung, const Ru
                                        .rock_relief = rung.rock_relief,
                                        .tile_px = use_tile ? 0 : 1024,
                                        .kept = rung.max_mcells > 0.0 ? &coarse_ : &fine_,
-                                       .kept_paint = &paint_};
+                                       .kept_paint = &paint_,
+                                       .kept_rays = rung.strokes ? nullptr : &rays_};
   SheetWork work(loaded, request, parameters, run, run);
   LivePicture picture;
   if (rung.strokes) {

@@ -54,6 +54,7 @@ class LiveView {
   KeptWorld coarse_;
   KeptWorld fine_;  // of the last rung
   KeptPaint paint_;
+  Kept<const GuidanceBuffers> rays_;  // of the last picture in light and colour
 };
 
 }  // namespace belvedere

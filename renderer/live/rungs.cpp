@@ -12,7 +12,7 @@ const std::vector<Rung>& rungs() {
   static const std::vector<Rung> all = {
       {.name = "light and colour",
        .without = {"fine ground", "rock relief", "strokes"},
-       .max_width_px = 400,
+       .max_width_px = 360,
        .max_mcells = 1.0,
        .rock_relief = false,
        .strokes = false,

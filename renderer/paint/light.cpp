@@ -300,8 +300,10 @@ Grid<float> make_tone(const GuidanceBuffers& guidance, const WideView& wide,
   });
   const Grid<GroundLight> local = local_lights(guidance, parameters, made);
   const Grid<float> ribs =
-      make_ribs(guidance, wide, ribbed,
-                {ppu, parameters.sun_image_x, parameters.seed, sides_of(local)}, origin_px);
+      parameters.ribs > 0.0
+          ? make_ribs(guidance, wide, ribbed,
+                      {ppu, parameters.sun_image_x, parameters.seed, sides_of(local)}, origin_px)
+          : Grid<float>(guidance.width(), guidance.height(), 0.0F);
   const GroundLight everywhere{.sun = parameters.sun_direction};
   const Grid<float> woods = woods_around(wide, ppu, moved(made, origin_px.x, origin_px.y));
   const Grid<float> pool = make_image_noise(stream_seed(parameters.seed, Stream::light_pools),

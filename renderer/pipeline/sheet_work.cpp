@@ -63,10 +63,31 @@ int block_px_for(const World& world, const ScenePaint& paint, const SheetView& v
                          paint.style ? &*paint.style : nullptr);
 }
 
+// Everything that the results of rays depend on.
+std::string rays_key(const LoadedScene& loaded, const World& world, const KeptWorld& kept) {
+  Scene settings;
+  settings.sun = loaded.scene.sun;
+  settings.sampling = loaded.scene.sampling;
+  settings.light_regions = loaded.scene.light_regions;
+  settings.light_clouds = loaded.scene.light_clouds;
+  return write_scene(settings) + camera_key(loaded, world.view) + kept.tracer.key +
+         kept.land_cover.key;
+}
+
+std::shared_ptr<const GuidanceBuffers> kept_rays(const LoadedScene& loaded, const World& world,
+                                                 const SheetView& view, PixelRect sheet,
+                                                 const SheetWorkParameters& parameters,
+                                                 const Run& run) {
+  if (parameters.kept_rays == nullptr) return nullptr;
+  return keep_or_make(parameters.kept_rays, rays_key(loaded, world, *parameters.kept),
+                      [&] { return trace_view(world, view, sheet, run); });
+}
+
 GroundInputs inputs_for(const ScenePaint& paint, const World& world, const SheetView& view,
                         bool rock_relief, const Run& run) {
   GroundInputs inputs = make_ground_inputs(world, view, paint.palette, run);
   inputs.rock_relief = rock_relief;
+  if (!rock_relief) inputs.tone.ribs = 0.0;
   if (paint.style)
     inputs.style = make_sheet_style(
         *paint.style, to_style_parameters(world.scene, view.pixels_per_unit, view.camera.size()),
@@ -89,8 +110,10 @@ SheetWork::SheetWork(const LoadedScene& loaded, const SheetRequest& request,
   const int tile_px = parameters.tile_px > 0
                           ? parameters.tile_px
                           : choose_tile_px(block_px, region_of(world.scene, request));
-  ground = add_ground_stages(
-      graph, inputs_for(paint, world, view, parameters.rock_relief, stage_run), tile_px);
+  GroundInputs inputs = inputs_for(paint, world, view, parameters.rock_relief, stage_run);
+  inputs.traced = kept_rays(loaded, world, view, {0, 0, inputs.size_px.x, inputs.size_px.y},
+                            parameters, stage_run);
+  ground = add_ground_stages(graph, std::move(inputs), tile_px);
 }
 
 }  // namespace belvedere

@@ -21,10 +21,11 @@ struct KeptPaint {
 
 struct SheetWorkParameters {
   std::string scratch_folder;  // for tiles beyond kept_tile_bytes(); empty: temporary files
-  bool rock_relief = true;     // false, for previews: rock as smooth as the DEM
+  bool rock_relief = true;     // false, for previews: slopes as smooth as the DEM, without ribs
   int tile_px = 0;             // of the stages, 64…4096; 0: by memory. Changes no pixel
   KeptWorld* kept = nullptr;   // values of the world before
   KeptPaint* kept_paint = nullptr;
+  Kept<const GuidanceBuffers>* kept_rays = nullptr;  // of the whole sheet; needs `kept`
 };
 
 // What the stages of a sheet are made of, and the ground stages. The members refer to each other by

@@ -3,6 +3,7 @@
 #include <glm/vec2.hpp>
 #include <memory>
 
+#include "base/guidance_buffers.h"
 #include "base/run.h"
 #include "renderer/paint/base_picture.h"
 #include "renderer/paint/light.h"
@@ -33,6 +34,8 @@ struct GroundInputs {
   bool has_mist = false;
   // Whether crests and rock get the relief that a DEM does not contain; previews leave it out.
   bool rock_relief = true;
+  // Results of rays of the whole sheet that are there already; null: traced tile by tile.
+  std::shared_ptr<const GuidanceBuffers> traced = nullptr;
   RockParameters rock = {};
   ToneParameters tone = {};
   BaseParameters base = {};

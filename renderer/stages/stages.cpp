@@ -73,19 +73,21 @@ Channels guide_channels() {
   return channels;
 }
 
+GuidanceBuffers traced_part(const GuidanceBuffers& traced, PixelRect part) {
+  GuidanceBuffers out;
+  out.origin_m = traced.origin_m;
+  for (const GuidanceMember& channel : channels_of(ChannelMaker::trace))
+    std::visit([&](auto grid) { out.*grid = part_of(traced.*grid, part); }, channel);
+  return out;
+}
+
 // Traced pixels of a tile: silhouettes and sky view read their neighbours.
 GuidanceBuffers trace_tile(const GroundInputs& in, PixelRect tile) {
-  const PixelRect window =
-      intersection({0, 0, in.size_px.x, in.size_px.y}, grown(tile, guidance_margin_px()));
+  const PixelRect sheet{0, 0, in.size_px.x, in.size_px.y};
+  if (in.traced) return tile == sheet ? *in.traced : traced_part(*in.traced, tile);
+  const PixelRect window = intersection(sheet, grown(tile, guidance_margin_px()));
   GuidanceBuffers wide = trace_view(*in.world, in.view(), window, in.run);
-  if (window == tile) return wide;
-  GuidanceBuffers traced;
-  traced.origin_m = wide.origin_m;
-  for (const GuidanceMember& channel : channels_of(ChannelMaker::trace))
-    std::visit(
-        [&](auto grid) { traced.*grid = part_of(wide.*grid, moved(tile, -window.x0, -window.y0)); },
-        channel);
-  return traced;
+  return window == tile ? std::move(wide) : traced_part(wide, moved(tile, -window.x0, -window.y0));
 }
 
 }  // namespace

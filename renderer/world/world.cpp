@@ -66,7 +66,15 @@ std::shared_ptr<const LandCover> make_cover(const LoadedScene& loaded, const Dem
   });
   const bool has_lines = !loaded.scene.features.empty() || !bare->inferred_rivers.empty();
   const std::string seen_as = has_lines ? camera_key(loaded, view) + deform_key(view) : "";
+  const std::shared_ptr<const LandCover> before =
+      kept->land_cover.key.starts_with(key) ? kept->land_cover.value : nullptr;
   return keep_or_make(&kept->land_cover, key + seen_as, [&] {
+    if (before != nullptr && loaded.scene.features.empty()) {
+      LandCover cover = *before;
+      cover.inferred_rivers = bare->inferred_rivers;
+      lay_inferred_rivers(cover, loaded, dem, &seen);
+      return cover;
+    }
     LandCover cover = *bare;
     lay_ground_map(cover, loaded, dem, progress, cache, &catchments, &seen);
     return cover;

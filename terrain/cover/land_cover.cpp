@@ -242,7 +242,7 @@ void lay_map(LandCover& cover, std::shared_ptr<const MapCover> map, const MapCov
 
 void lay_inferred(LandCover& cover, std::shared_ptr<const MapCover> inferred, const MapCover* own) {
   if (cover.below.empty()) cover.below = cover.classes.cells;
-  lay_over(cover, own != nullptr ? *own : *inferred);
+  if (cover.inferred == nullptr) lay_over(cover, own != nullptr ? *own : *inferred);
   cover.inferred = std::move(inferred);
 }
 
