@@ -73,21 +73,29 @@ Channels guide_channels() {
   return channels;
 }
 
-GuidanceBuffers traced_part(const GuidanceBuffers& traced, PixelRect part) {
-  GuidanceBuffers out;
-  out.origin_m = traced.origin_m;
-  for (const GuidanceMember& channel : channels_of(ChannelMaker::trace))
-    std::visit([&](auto grid) { out.*grid = part_of(traced.*grid, part); }, channel);
-  return out;
-}
-
 // Traced pixels of a tile: silhouettes and sky view read their neighbours.
 GuidanceBuffers trace_tile(const GroundInputs& in, PixelRect tile) {
-  const PixelRect sheet{0, 0, in.size_px.x, in.size_px.y};
-  if (in.traced) return tile == sheet ? *in.traced : traced_part(*in.traced, tile);
-  const PixelRect window = intersection(sheet, grown(tile, guidance_margin_px()));
+  const PixelRect window =
+      intersection({0, 0, in.size_px.x, in.size_px.y}, grown(tile, guidance_margin_px()));
   GuidanceBuffers wide = trace_view(*in.world, in.view(), window, in.run);
-  return window == tile ? std::move(wide) : traced_part(wide, moved(tile, -window.x0, -window.y0));
+  if (window == tile) return wide;
+  GuidanceBuffers traced;
+  traced.origin_m = wide.origin_m;
+  for (const GuidanceMember& channel : channels_of(ChannelMaker::trace))
+    std::visit(
+        [&](auto grid) { traced.*grid = part_of(wide.*grid, moved(tile, -window.x0, -window.y0)); },
+        channel);
+  return traced;
+}
+
+// The channels that are present in `out`, of rays that are traced already.
+void take_traced(const GuidanceBuffers& traced, PixelRect rect, GuidanceBuffers& out) {
+  for (const GuidanceMember& channel : channels_of(ChannelMaker::trace))
+    std::visit(
+        [&](auto grid) {
+          if (!(out.*grid).empty()) out.*grid = part_of(traced.*grid, rect);
+        },
+        channel);
 }
 
 }  // namespace
@@ -112,9 +120,16 @@ GroundStages add_ground_stages(StageGraph& graph, GroundInputs given, int tile_p
       [in] { return make_ice_plan(*in->world, in->run); });
 
   // Primary rays, several per pixel, with cast shadows and sky view.
-  ground.traced = graph.add_tiles<GuidanceBuffers>(
-      tiles("traced"), channels(channels_of(ChannelMaker::trace)), inputs(),
-      [in](const Tile& tile) { return trace_tile(*in, tile.rect); });
+  ground.traced =
+      in->traced
+          ? graph.add_view<GuidanceBuffers>(
+                view("traced"), channels(channels_of(ChannelMaker::trace)), inputs(),
+                [in](const Tile& tile, GuidanceBuffers& out) {
+                  take_traced(*in->traced, tile.rect, out);
+                })
+          : graph.add_tiles<GuidanceBuffers>(
+                tiles("traced"), channels(channels_of(ChannelMaker::trace)), inputs(),
+                [in](const Tile& tile) { return trace_tile(*in, tile.rect); });
 
   // The same in larger pixels, one ray each: wide effects (ribs, forest lanes, spurs of rock) read
   // these.
