@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/grid.h"
+#include "base/memory/zeroed_memory.h"
 
 namespace belvedere {
 
@@ -23,7 +24,8 @@ namespace belvedere {
 template <class T, class Value>
 concept FieldsOf = std::is_same_v<std::remove_const_t<T>, Value>;
 
-using Bytes = std::vector<std::byte>;
+// Not cleared twice when it grows: large ones come zeroed from the system.
+using Bytes = std::vector<std::byte, ZeroedAllocator<std::byte>>;
 
 template <class T>
 concept PlainBytes = std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>;
