@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "renderer/world/scene_dem.h"
-#include "terrain/io/raster_io.h"
-
 namespace belvedere {
 
 const std::vector<Rung>& rungs() {
@@ -31,20 +28,9 @@ const std::vector<Rung>& rungs() {
   return all;
 }
 
-GroundSize ground_size_of(const LoadedScene& loaded) {
-  const SceneTerrain& terrain = loaded.scene.terrain;
-  if (terrain.synthetic) {
-    const SyntheticParameters& made = *terrain.synthetic;
-    return {1e-6 * made.width * made.height, made.cell_m};
-  }
-  const RasterFrame frame = choose_frame(to_raster_sources(loaded, terrain.sources),
-                                         terrain.dem.crs, terrain.dem.cell_m, terrain.dem.extent);
-  return {1e-6 * frame.width * frame.height,
-          0.5 * (frame.transform.cell_x + frame.transform.cell_y)};
-}
-
 LoadedScene scene_of_rung(const LoadedScene& loaded, const Rung& rung, const GroundSize& ground) {
-  LoadedScene out = loaded;
+  LoadedScene out =
+      rung.max_mcells > 0.0 ? with_coarse_ground(loaded, ground, rung.max_mcells) : loaded;
   Scene& scene = out.scene;
   const int width = std::min(scene.output.width, rung.max_width_px);
   if (width < scene.output.width) {
@@ -53,11 +39,6 @@ LoadedScene scene_of_rung(const LoadedScene& loaded, const Rung& rung, const Gro
         16, static_cast<int>(std::lround(static_cast<double>(scene.output.height) * width /
                                          scene.output.width)));
     scene.output.width = width;
-  }
-  if (rung.max_mcells > 0.0 && ground.mcells > rung.max_mcells && !scene.terrain.synthetic) {
-    scene.terrain.dem.cell_m =
-        ground.cell_m * std::ceil(std::sqrt(ground.mcells / rung.max_mcells) - 0.05);
-    scene.terrain.max_mcells = 0.0;
   }
   if (rung.quick_rays) {
     scene.sampling.pixel_samples = 1;

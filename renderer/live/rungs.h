@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "renderer/scene/scene_file.h"
+#include "renderer/world/coarse_ground_scene.h"
 
 namespace belvedere {
 
@@ -21,13 +22,6 @@ struct Rung {
   bool is_last() const { return without.empty(); }
 };
 const std::vector<Rung>& rungs();
-
-// Millions of cells of a scene's DEM, and the side of one, from the headers of its files.
-struct GroundSize {
-  double mcells = 0.0;
-  double cell_m = 0.0;
-};
-GroundSize ground_size_of(const LoadedScene& loaded);
 
 // The scene as a rung draws it.
 LoadedScene scene_of_rung(const LoadedScene& loaded, const Rung& rung, const GroundSize& ground);

@@ -9,7 +9,7 @@
 #include "renderer/image/layers/layer_file.h"
 #include "renderer/pipeline/named_picture.h"
 #include "renderer/pipeline/pipeline.h"
-#include "renderer/scene/draft.h"
+#include "renderer/world/coarse_ground_scene.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/scene_options.h"
 #include "tools/cli/terminal.h"
@@ -38,7 +38,7 @@ using Results = std::vector<std::string> (*)(
 
 int run_job(const RenderOptions& options, Job job, Results results) {
   LoadedScene scene = load(options.scene);
-  if (options.draft) scene.scene = make_draft(std::move(scene.scene));
+  if (options.draft) scene = make_draft_scene(std::move(scene));
   const std::string folder = options.out.empty() ? scene.name : options.out;
   TerminalProgress progress(options.scene.quiet);
   const Cache cache = make_cache(options.scene);

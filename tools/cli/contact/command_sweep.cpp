@@ -9,7 +9,7 @@
 #include "base/text/json.h"
 #include "renderer/image/image_io.h"
 #include "renderer/pipeline/pipeline.h"
-#include "renderer/scene/draft.h"
+#include "renderer/world/coarse_ground_scene.h"
 #include "tools/cli/contact/contact_commands.h"
 #include "tools/cli/contact/picture_table.h"
 #include "tools/cli/contact/scene_sweep.h"
@@ -56,7 +56,7 @@ std::vector<Swept> read_scenes(const SweepOptions& options, const SceneSweep& sw
       for (std::size_t a = 0; a < swept.values.size(); ++a)
         one.files.settings.push_back(sweep.axes[a].key + "=" + swept.values[a]);
       swept.scene = load(one);
-      if (options.draft) swept.scene.scene = make_draft(std::move(swept.scene.scene));
+      if (options.draft) swept.scene = make_draft_scene(std::move(swept.scene));
       swept.scene.scene.output.formats = {"png"};
       all.push_back(std::move(swept));
     }
