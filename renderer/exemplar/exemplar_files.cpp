@@ -17,7 +17,7 @@
 #include "renderer/image/image_io.h"
 #include "renderer/image/output_file.h"
 #include "renderer/image/provenance.h"
-#include "renderer/world/scene_season.h"
+#include "renderer/world/season/scene_season.h"
 #include "renderer/world/style/scene_style.h"
 #include "renderer/world/world_notes.h"
 

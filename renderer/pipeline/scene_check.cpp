@@ -19,10 +19,10 @@
 #include "renderer/world/generalize_view.h"
 #include "renderer/world/ground_plan.h"
 #include "renderer/world/light/scene_light.h"
-#include "renderer/world/scene_climate.h"
 #include "renderer/world/scene_dem.h"
 #include "renderer/world/scene_land_cover.h"
-#include "renderer/world/scene_season.h"
+#include "renderer/world/season/scene_climate.h"
+#include "renderer/world/season/scene_season.h"
 #include "terrain/io/raster_io.h"
 
 namespace belvedere {

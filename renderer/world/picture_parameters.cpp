@@ -9,7 +9,7 @@
 #include "base/angle.h"
 #include "base/random.h"
 #include "renderer/paint/clouds/clouds.h"
-#include "renderer/world/scene_climate.h"
+#include "renderer/world/season/scene_climate.h"
 #include "terrain/climate/map_position.h"
 
 namespace belvedere {

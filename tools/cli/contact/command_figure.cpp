@@ -15,7 +15,7 @@
 #include "renderer/pipeline/pipeline.h"
 #include "renderer/pipeline/scene_lock_run.h"
 #include "renderer/pipeline/scene_paint.h"
-#include "renderer/world/scene_season.h"
+#include "renderer/world/season/scene_season.h"
 #include "renderer/world/world.h"
 #include "tools/cli/contact/contact_commands.h"
 #include "tools/cli/contact/making_of.h"

@@ -13,7 +13,7 @@
 #include "renderer/stages/stages.h"
 #include "renderer/trace/sketch/relief_sketch.h"
 #include "renderer/world/scene_features.h"
-#include "renderer/world/scene_season.h"
+#include "renderer/world/season/scene_season.h"
 #include "renderer/world/valley_view.h"
 #include "tools/cli/contact/picture_table.h"
 #include "tools/cli/lock/scratch_folder.h"

@@ -1,4 +1,4 @@
-#include "renderer/world/scene_season.h"
+#include "renderer/world/season/scene_season.h"
 
 #include <gtest/gtest.h>
 

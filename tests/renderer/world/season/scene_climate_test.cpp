@@ -1,4 +1,4 @@
-#include "renderer/world/scene_climate.h"
+#include "renderer/world/season/scene_climate.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

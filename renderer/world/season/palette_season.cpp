@@ -1,4 +1,4 @@
-#include "renderer/world/palette_season.h"
+#include "renderer/world/season/palette_season.h"
 
 #include <algorithm>
 #include <cmath>

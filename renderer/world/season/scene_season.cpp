@@ -1,4 +1,4 @@
-#include "renderer/world/scene_season.h"
+#include "renderer/world/season/scene_season.h"
 
 #include <algorithm>
 #include <array>
@@ -6,8 +6,8 @@
 #include <limits>
 #include <string>
 
-#include "renderer/world/palette_season.h"
-#include "renderer/world/scene_climate.h"
+#include "renderer/world/season/palette_season.h"
+#include "renderer/world/season/scene_climate.h"
 #include "terrain/climate/growing_season.h"
 #include "terrain/climate/life_zones.h"
 #include "terrain/cover/class_rules.h"
