@@ -22,7 +22,6 @@
 #include "tools/cli/terminal.h"
 #include "tools/cli/terrain_operators.h"
 #include "tools/options/refuse.h"
-#include "tools/report/equalizer_page.h"
 #include "tools/report/generalize_report_page.h"
 
 namespace belvedere::tools {
@@ -94,52 +93,10 @@ Grid<float> make_mask(const GeneralizeOptions& options, const Dem& dem, glm::dve
   return combine_masks(std::move(mask), drawn_mask(options, dem, progress));
 }
 
-// The page with sliders. The default viewer is at the centre of the southern rim and looks north.
-void write_equalizer(const GeneralizeOptions& options, const Dem& dem, glm::dvec2 cell_m,
-                     const GeneralizeParameters& bands, Progress& progress) {
-  const glm::dvec2 centre = dem.transform.to_crs(0.5 * (dem.width() - 1), dem.height() - 1.0);
-  const glm::dvec2 viewer =
-      options.viewer.empty() ? centre : glm::dvec2(options.viewer[0], options.viewer[1]);
-  const glm::dvec2 viewer_cell = dem.transform.to_cell(viewer.x, viewer.y);
-  glm::dvec2 distances_m = blend_distances(options, dem, viewer_cell, cell_m);
-  if (options.distances.empty())
-    distances_m = {std::floor(distances_m.x),
-                   std::ceil(distances_m.y)};  // as typed on the command line
-  const std::optional<SlopeRange> slopes = masked_slopes(options);
-  const SlopeRange range = slopes.value_or(SlopeRange{});
-  write_equalizer_page(options.equalizer,
-                       {.title = file_name(options.in),
-                        .altitude_m = dem.altitude_m,
-                        .cell_m = cell_m,
-                        .start = bands,
-                        .viewer_cell = viewer_cell,
-                        .distances_m = distances_m,
-                        .viewer_options = fmt::format("--viewer {},{} --distances {},{}", viewer.x,
-                                                      viewer.y, distances_m.x, distances_m.y),
-                        .other_options = describe_operators(options, bands),
-                        .lakes = find_lakes(dem.altitude_m, {}),
-                        .foot_mask = make_foot_mask(dem, cell_m, bands.foreground.size()),
-                        .slope_mask = slope_mask(dem.altitude_m, cell_m, range),
-                        .drawn_mask = drawn_mask(options, dem, progress),
-                        .slope_range = range,
-                        .drawn_name = file_name(options.mask),
-                        .switches = {.lakes = !options.change_lakes,
-                                     .foot = masks_slope_feet(options),
-                                     .slope = slopes.has_value(),
-                                     .drawn = !options.mask.empty()}},
-                       progress);
-}
-
 int run(const GeneralizeOptions& options) {
-  const bool only_page = options.out.empty() && !options.equalizer.empty();
   const GeneralizeParameters bands = resolve_bands(options);
-  if (options.out.empty() && !only_page)
-    refuse("OUT", "no output file", "a .tif or .asc file; only --equalizer works without one");
-  if (only_page && !options.report.empty())
-    refuse("--report", "--report is given without an output file", "a file OUT with it");
-  if (!only_page) check_dem_name(options.out);
+  check_dem_name(options.out);
   check_place(options.out);
-  check_place(options.equalizer);
   if (!options.report.empty()) check_output_folder(options.report);
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
@@ -167,11 +124,6 @@ int run(const GeneralizeOptions& options) {
   if (dem.crs.empty())
     progress.note("the DEM has no coordinate system: its cells are taken as metres");
 
-  if (!options.equalizer.empty()) write_equalizer(options, dem, cell_m, bands, progress);
-  if (only_page) {
-    progress.end();
-    return 0;
-  }
   const double cell = 0.5 * (cell_m.x + cell_m.y);
   const Grid<float> original_m = options.report.empty() ? Grid<float>() : dem.altitude_m;
   dem.altitude_m =

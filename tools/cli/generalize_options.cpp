@@ -35,6 +35,24 @@ void add_weights(CommandOptions& command, const char* name, Weights& weights, co
   command.add_option(name, weights, meaning).type_name("W1,…,WN").list(',');
 }
 
+// Options of the run other than weights and masks, as typed, each with a space before it: how break
+// lines are found, and the operators before and after the bands.
+std::string describe_operators(const GeneralizeOptions& options,
+                               const GeneralizeParameters& bands) {
+  const GeneralizeParameters usual;
+  std::string out;
+  if (bands.curvature == CurvatureForm::plan) out += " --curvature plan";
+  if (bands.full_curvature != usual.full_curvature)
+    out += fmt::format(" --full-curvature {}", bands.full_curvature);
+  if (bands.blur_cells != usual.blur_cells) out += fmt::format(" --blur {}", bands.blur_cells);
+  if (bands.exponent != usual.exponent) out += fmt::format(" --exponent {}", bands.exponent);
+  if (options.operators.destripe) out += " --destripe";
+  if (options.operators.line_integral) out += " --line-integral";
+  if (options.operators.widen_valleys_m > 0.F)
+    out += fmt::format(" --widen-valleys {}", options.operators.widen_valleys_m);
+  return out;
+}
+
 }  // namespace
 
 void add_generalize_options(CommandOptions& command, GeneralizeOptions& options) {
@@ -42,8 +60,8 @@ void add_generalize_options(CommandOptions& command, GeneralizeOptions& options)
       .add_option("IN", options.in,
                   "The DEM: GeoTIFF, ESRI ASCII, HGT …; grid and coordinates are kept")
       .required();
-  command.add_option("OUT", options.out,
-                     "The result, altitudes in metres: .tif or .asc. Optional with --equalizer");
+  command.add_option("OUT", options.out, "The result, altitudes in metres: .tif or .asc")
+      .required();
   add_elevation_options(command, options.elevation);
   std::vector<std::string> names;
   for (const GeneralizePreset& preset : generalize_presets()) names.emplace_back(preset.name);
@@ -117,11 +135,6 @@ void add_generalize_options(CommandOptions& command, GeneralizeOptions& options)
       .range(0.0, 4.0);
   add_terrain_operators(command, options.operators);
   command
-      .add_option("--equalizer", options.equalizer,
-                  "Also writes an .html page with sliders for all weights and a live preview; "
-                  "bands as in --global, otherwise six")
-      .type_name("FILE");
-  command
       .add_option(
           "--report", options.report,
           "Also writes a folder with a page of pictures and numbers: index.html, report.json")
@@ -139,7 +152,6 @@ void add_generalize_options(CommandOptions& command, GeneralizeOptions& options)
       "  belvedere generalize dem.tif out.tif --global 1,1.5,2,1,0.5 --automatic-mask --hillshade "
       "relief.tif\n"
       "  belvedere generalize dem.tif out.tif --preset bold_ridges --report report\n"
-      "  belvedere generalize dem.tif --equalizer sliders.html\n"
       "\n"
       "Presets:\n" +
       preset_lines());
@@ -149,7 +161,7 @@ GeneralizeParameters resolve_bands(const GeneralizeOptions& options) {
   GeneralizeParameters bands = options.bands;
   const GeneralizePreset* preset =
       options.preset.empty() ? nullptr : find_generalize_preset(options.preset);
-  if (preset == nullptr && options.global.empty() && options.equalizer.empty()) {
+  if (preset == nullptr && options.global.empty()) {
     refuse("--global", "no weights",
            "--global 1,1,0.7,0.3,0 (the largest landforms first), or --preset NAME");
   }
@@ -173,7 +185,7 @@ GeneralizeParameters resolve_bands(const GeneralizeOptions& options) {
   const bool differs = bands.background != bands.foreground ||
                        bands.background_ridges != bands.foreground_ridges ||
                        bands.background_valleys != bands.foreground_valleys;
-  if (differs && options.viewer.empty() && !(options.out.empty() && !options.equalizer.empty())) {
+  if (differs && options.viewer.empty()) {
     refuse("--viewer",
            (options.preset.empty() ? std::string("the background") : options.preset) +
                " weights terrain by distance from the viewer",
@@ -191,22 +203,6 @@ std::optional<SlopeRange> masked_slopes(const GeneralizeOptions& options) {
 bool masks_slope_feet(const GeneralizeOptions& options) {
   const GeneralizePreset* preset = find_generalize_preset(options.preset);
   return options.automatic_mask || (preset != nullptr && preset->automatic_mask);
-}
-
-std::string describe_operators(const GeneralizeOptions& options,
-                               const GeneralizeParameters& bands) {
-  const GeneralizeParameters usual;
-  std::string out;
-  if (bands.curvature == CurvatureForm::plan) out += " --curvature plan";
-  if (bands.full_curvature != usual.full_curvature)
-    out += fmt::format(" --full-curvature {}", bands.full_curvature);
-  if (bands.blur_cells != usual.blur_cells) out += fmt::format(" --blur {}", bands.blur_cells);
-  if (bands.exponent != usual.exponent) out += fmt::format(" --exponent {}", bands.exponent);
-  if (options.operators.destripe) out += " --destripe";
-  if (options.operators.line_integral) out += " --line-integral";
-  if (options.operators.widen_valleys_m > 0.F)
-    out += fmt::format(" --widen-valleys {}", options.operators.widen_valleys_m);
-  return out;
 }
 
 std::string describe_generalize(const GeneralizeOptions& options,

@@ -33,23 +33,17 @@ struct GeneralizeOptions : RunOptions {
   bool change_lakes = false;
   TerrainOperators operators;
   std::string report;
-  std::string equalizer;
 };
 
 void add_generalize_options(CommandOptions& command, GeneralizeOptions& options);
 
-// The requested weights. A page with sliders begins with the unchanged terrain. Error(usage) where
-// there are none, where sets differ in number, a weight is out of range, or weights depend on
-// distance and there is no viewer.
+// The requested weights. Error(usage) where there are none, where sets differ in number, a weight
+// is out of range, or weights depend on distance and there is no viewer.
 GeneralizeParameters resolve_bands(const GeneralizeOptions& options);
 // The requested slope mask; nothing: no mask.
 std::optional<SlopeRange> masked_slopes(const GeneralizeOptions& options);
 // Whether exaggeration is suppressed at the foot of slopes.
 bool masks_slope_feet(const GeneralizeOptions& options);
-// Options of the run other than weights and masks, as typed, each with a space before it: how break
-// lines are found, and the operators before and after the bands. For the command line below and
-// that of the page with sliders.
-std::string describe_operators(const GeneralizeOptions& options, const GeneralizeParameters& bands);
 // The run as a command line, with everything that altitudes depend on, without folders: the same on
 // every machine.
 std::string describe_generalize(const GeneralizeOptions& options,

@@ -21,7 +21,7 @@ using testing::IsEmpty;
 TEST(Embedded, EveryFileOfTheDataFoldersToTheByte) {
   int files = 0;
   for (const char* folder :
-       {"palettes", "legends", "layers", "sheet", "equalizer", "report", "segment", "sources"}) {
+       {"palettes", "legends", "layers", "sheet", "studio", "report", "segment", "sources"}) {
     for (const auto& entry :
          fs::directory_iterator(fs::path(test::source_folder()) / "data" / folder)) {
       const std::string name = std::string(folder) + "/" + entry.path().filename().string();

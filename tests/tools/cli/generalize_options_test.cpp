@@ -55,12 +55,6 @@ TEST(GeneralizeOptions, WhatCannotBeMeantIsRefused) {
   EXPECT_THAT(refusal("a b --global 1 --valleys -6"), HasSubstr("-5 … 5"));
   EXPECT_THAT(refusal("a b --global 1,1,1,1,1,1,1,1,1,1,1,1,1"), HasSubstr("1 to 12"));
   EXPECT_THAT(refusal("a b --global 1,1 --background-global 1,0"), HasSubstr("--viewer E,N"));
-  // A page with sliders begins with weights of 1, and needs no viewer.
-  EXPECT_EQ(resolve_bands(read_generalize_options("a --equalizer x.html")).foreground.size(), 6U);
-  EXPECT_EQ(resolve_bands(read_generalize_options(
-                              "a --equalizer x.html --global 1,1 --background-global 1,0"))
-                .background[1],
-            0.F);
 }
 
 TEST(GeneralizeOptions, TheCommandIsToldWithoutFolders) {
