@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "base/cache/cache_key.h"
+#include "renderer/world/style/scene_style.h"
 
 namespace belvedere {
 namespace {
@@ -22,9 +23,9 @@ void add_files(CacheKeyText& key, const LoadedScene& loaded) {
     std::error_code none;
     key.add("file", input.path)
         .add("bytes", static_cast<std::uint64_t>(std::filesystem::file_size(input.path, none)))
-        .add("time", static_cast<std::int64_t>(std::filesystem::last_write_time(input.path, none)
-                                                   .time_since_epoch()
-                                                   .count()));
+        .add("time",
+             static_cast<std::int64_t>(
+                 std::filesystem::last_write_time(input.path, none).time_since_epoch().count()));
   }
 }
 
@@ -46,14 +47,18 @@ std::string dem_key(const LoadedScene& loaded) {
 }
 
 std::string cover_key(const LoadedScene& loaded) {
-  return written([&](Scene& scene) {
-    scene.seed = loaded.scene.seed;
-    scene.land_cover = loaded.scene.land_cover;
-    scene.season = loaded.scene.season;
-    scene.climate = loaded.scene.climate;
-    scene.features_style = loaded.scene.features_style;
-    scene.features = loaded.scene.features;
-  });
+  CacheKeyText key;
+  key.add("settings", written([&](Scene& scene) {
+            scene.seed = loaded.scene.seed;
+            scene.land_cover = loaded.scene.land_cover;
+            scene.season = loaded.scene.season;
+            scene.climate = loaded.scene.climate;
+            scene.features_style = loaded.scene.features_style;
+            scene.features = loaded.scene.features;
+          }));
+  // Winter palettes lay snow.
+  key.add("winter", named_palette(loaded).winter ? 1 : 0);
+  return key.str();
 }
 
 std::string camera_key(const LoadedScene& loaded, const View& view) {
@@ -71,8 +76,7 @@ std::string camera_key(const LoadedScene& loaded, const View& view) {
 
 std::string generalize_key(const LoadedScene& loaded, const View& view) {
   CacheKeyText key;
-  key.add("settings",
-          written([&](Scene& scene) { scene.generalize = loaded.scene.generalize; }))
+  key.add("settings", written([&](Scene& scene) { scene.generalize = loaded.scene.generalize; }))
       .add("viewer", view.viewer_xy)
       .add("foreground_to_m", view.generalize.foreground_to_m)
       .add("background_from_m", view.generalize.background_from_m);

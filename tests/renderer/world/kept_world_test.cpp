@@ -1,0 +1,412 @@
+#include "renderer/world/kept_world.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/random.h"
+#include "renderer/world/world.h"
+#include "terrain/io/raster_io.h"
+#include "tests/files.h"
+#include "tests/scenes.h"
+#include "tests/shared_cache.h"
+
+namespace belvedere {
+namespace {
+
+using testing::ElementsAre;
+using testing::ElementsAreArray;
+using testing::IsEmpty;
+
+struct ToldStages : Progress {
+  void begin(std::string_view stage, double) override { all.emplace_back(stage); }
+  std::vector<std::string> all;
+};
+
+// A small scene with values of its own for some keys.
+LoadedScene hills(std::vector<std::string> settings = {}) {
+  settings.insert(settings.begin(),
+                  {"terrain.synthetic.width=30", "terrain.synthetic.height=28",
+                   "terrain.synthetic.cell_m=400", "output.width=48", "output.height=40"});
+  return test::small_scene(settings);
+}
+
+// ---- equal to a world that is made at once, whatever changed before
+
+void expect_same_ground(const World& kept, const World& fresh) {
+  EXPECT_TRUE(kept.dem->altitude_m == fresh.dem->altitude_m);
+  EXPECT_TRUE(kept.dem->filled == fresh.dem->filled);
+  EXPECT_EQ(kept.dem->transform, fresh.dem->transform);
+  EXPECT_EQ(kept.dem->crs, fresh.dem->crs);
+  const LandCover& a = *kept.land_cover;
+  const LandCover& b = *fresh.land_cover;
+  EXPECT_TRUE(a.classes.cells == b.classes.cells);
+  EXPECT_EQ(a.classes.transform, b.classes.transform);
+  EXPECT_TRUE(a.below == b.below);
+  EXPECT_EQ(a.inferred_rivers.size(), b.inferred_rivers.size());
+  for (double x = 50.0; x < 12000.0; x += 410.0)
+    for (double y = 50.0; y < 11200.0; y += 410.0)
+      ASSERT_EQ(a.at(x, y), b.at(x, y)) << x << " " << y;
+}
+
+void expect_same_terrain(const TerrainModel& kept, const TerrainModel& fresh) {
+  EXPECT_TRUE(kept.generalized_m == fresh.generalized_m);
+  EXPECT_TRUE(kept.came_from == fresh.came_from);
+  EXPECT_TRUE(kept.goes_to == fresh.goes_to);
+  EXPECT_TRUE(kept.detail_smooth_m == fresh.detail_smooth_m);
+  EXPECT_TRUE(kept.shape_smooth_m == fresh.shape_smooth_m);
+  EXPECT_TRUE(kept.relief_s_m == fresh.relief_s_m);
+  EXPECT_TRUE(kept.relief_m_m == fresh.relief_m_m);
+  EXPECT_TRUE(kept.relief_l_m == fresh.relief_l_m);
+  EXPECT_TRUE(kept.valley_height_m == fresh.valley_height_m);
+  EXPECT_TRUE(kept.rim_m == fresh.rim_m);
+  EXPECT_TRUE(kept.flow == fresh.flow);
+  EXPECT_TRUE(kept.floor_plan.built == fresh.floor_plan.built);
+  EXPECT_TRUE(kept.floor_plan.grain == fresh.floor_plan.grain);
+  EXPECT_EQ(kept.exaggeration, fresh.exaggeration);
+  EXPECT_EQ(kept.detail_boost, fresh.detail_boost);
+  EXPECT_EQ(kept.windows.size(), fresh.windows.size());
+  ASSERT_EQ(kept.local.has_value(), fresh.local.has_value());
+  for (double x = 500.0; kept.local && x < 12000.0; x += 1100.0)
+    EXPECT_EQ(kept.local->shape_jacobian({x, 0.9 * x, 1000.0}),
+              fresh.local->shape_jacobian({x, 0.9 * x, 1000.0}));
+}
+
+void expect_same_view(const World& kept, const World& fresh) {
+  const View& a = kept.view;
+  const View& b = fresh.view;
+  EXPECT_EQ(a.camera.eye, b.camera.eye);
+  EXPECT_EQ(a.viewer_xy, b.viewer_xy);
+  EXPECT_EQ(a.sun_direction, b.sun_direction);
+  EXPECT_EQ(a.sun_image_x, b.sun_image_x);
+  EXPECT_EQ(a.air.from_m, b.air.from_m);
+  EXPECT_EQ(a.air.rim_fade_m, b.air.rim_fade_m);
+  ASSERT_EQ(a.derived.size(), b.derived.size());
+  for (std::size_t i = 0; i < a.derived.size(); ++i)
+    EXPECT_EQ(a.derived[i].value, b.derived[i].value) << a.derived[i].key;
+  EXPECT_EQ(kept.horizon_px, fresh.horizon_px);
+  ASSERT_EQ(kept.light_field == nullptr, fresh.light_field == nullptr);
+  EXPECT_EQ(kept.mist.layers.size(), fresh.mist.layers.size());
+  EXPECT_EQ(kept.mist.farthest_m, fresh.mist.farthest_m);
+  EXPECT_TRUE(kept.mist.ground.floor_m == fresh.mist.ground.floor_m);
+  for (double x = 500.0; x < 12000.0; x += 700.0) {
+    const glm::dvec2 at(x, 12000.0 - x);
+    if (kept.light_field) {
+      EXPECT_EQ(kept.light_field->at(at).sun, fresh.light_field->at(at).sun);
+      EXPECT_EQ(kept.light_field->at(at).strength, fresh.light_field->at(at).strength);
+    }
+  }
+}
+
+// What rays through the picture hit.
+void expect_same_rays(const World& kept, const World& fresh) {
+  EXPECT_TRUE(kept.surface->vertices_m == fresh.surface->vertices_m);
+  EXPECT_EQ(kept.surface->origin, fresh.surface->origin);
+  std::vector<Ray> rays;
+  for (int y = 2; y < fresh.camera->size().y; y += 5)
+    for (int x = 2; x < fresh.camera->size().x; x += 5) {
+      rays.push_back(fresh.camera->ray({x, y}));
+      const Ray other = kept.camera->ray({x, y});
+      ASSERT_EQ(other.origin, rays.back().origin);
+      ASSERT_EQ(other.direction, rays.back().direction);
+    }
+  std::vector<Hit> a(rays.size());
+  std::vector<Hit> b(rays.size());
+  kept.tracer.intersect(rays, a);
+  fresh.tracer.intersect(rays, b);
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    ASSERT_EQ(a[i].found, b[i].found);
+    EXPECT_EQ(a[i].distance_m, b[i].distance_m);
+    EXPECT_EQ(a[i].column, b[i].column);
+    found += a[i].found ? 1 : 0;
+  }
+  EXPECT_EQ(kept.tracer.description(), fresh.tracer.description());
+  EXPECT_EQ(&kept.terrain, kept.ground.terrain.get());
+  EXPECT_EQ(kept.terrain.dem, kept.dem);
+  EXPECT_EQ(kept.terrain.land_cover, kept.land_cover);
+}
+
+// What somebody may turn: each row has one of its values at a time.
+const std::vector<std::vector<std::string>>& changeable() {
+  static const std::vector<std::vector<std::string>> rows = {
+      {"camera.position=[6000,-4000]", "camera.position=[4000,-3000]"},
+      {"camera.height_m=6000", "camera.height_m=4500"},
+      {"camera.azimuth_deg=0", "camera.azimuth_deg=20"},
+      {"camera.field_of_view_deg=50", "camera.field_of_view_deg=30"},
+      {"camera.projection=perspective", "camera.projection=cylindrical"},
+      {"sun.azimuth_deg=315", "sun.azimuth_deg=100", "sun.azimuth_deg=200"},
+      {"deform.exaggeration=1", "deform.exaggeration=1.6"},
+      {"deform.background_exaggeration=1", "deform.background_exaggeration=1.4"},
+      {"deform.bend.radius_m=0", "deform.bend.radius_m=60000"},
+      {"deform.earth_curvature=false", "deform.earth_curvature=true"},
+      {"deform.handles=[]",
+       "deform.handles=[{ position = [6000, 5000], radius_m = 3000, raise_m = 400 }]",
+       "deform.handles=[{ position = [6000, 5000], radius_m = 3000, move_m = [300, 0] }]"},
+      {"generalize.foreground=[1, 1, 1, 1, 1, 1]", "generalize.foreground=[1, 1.3, 1, 0.6, 0, 0]"},
+      {"generalize.print_detail_px=0", "generalize.print_detail_px=3"},
+      {"generalize.widen_valleys_m=0", "generalize.widen_valleys_m=300"},
+      {"generalize.mask_classes={}", "generalize.mask_classes={ forest = 0 }"},
+      {"land_cover.settings.treeline_m=1500", "land_cover.settings.treeline_m=1000"},
+      {"land_cover.smallest_patch_m2=0", "land_cover.smallest_patch_m2=400000"},
+      {"season.date=07-15", "season.date=02-01"},
+      {"palette=summer", "palette=winter"},
+      {"seed=1", "seed=2"},
+      {"terrain.synthetic.seed=3", "terrain.synthetic.seed=8"},
+      {"sampling.instruction_set=any", "sampling.instruction_set=sse2"},
+      {"sampling.shadow_rays=2", "sampling.shadow_rays=3"},
+      {"light.regions=[]",
+       "light.regions=[{ position = [6000, 5000], radius_m = 2000, turn_deg = 60 }]"},
+      {"air.mist=[]", "air.mist=[{ kind = \"sea\", to_m = 1200 }]"},
+      {"output.width=48", "output.width=64"}};
+  return rows;
+}
+
+// Makes a world of a scene with kept values and one without, and compares them.
+void expect_same_world(const LoadedScene& scene, KeptWorld& kept) {
+  const World one = make_world(scene, silent_progress(), no_cache(), {}, &kept);
+  const World other = make_world(scene, silent_progress());
+  expect_same_ground(one, other);
+  expect_same_terrain(one.terrain, other.terrain);
+  expect_same_view(one, other);
+  expect_same_rays(one, other);
+}
+
+// Every row is turned once, one after the other, so that worlds have more and more of them.
+TEST(KeptWorld, ValuesAreThoseOfAWorldThatIsMadeAtOnceInAnyOrderOfChanges) {
+  std::vector<std::size_t> order;
+  std::vector<std::string> settings;
+  for (const std::vector<std::string>& row : changeable()) {
+    const auto place = random_index(static_cast<std::uint32_t>(order.size() + 1), 5,
+                                    static_cast<std::int64_t>(order.size()), 0);
+    order.insert(order.begin() + place, order.size());
+    settings.push_back(row.front());
+  }
+  KeptWorld kept;
+  for (const std::size_t row : order) {
+    settings[row] = changeable()[row].back();
+    SCOPED_TRACE(settings[row]);
+    expect_same_world(hills(settings), kept);
+    ASSERT_FALSE(testing::Test::HasFailure());
+  }
+}
+
+// Each alone, there and back.
+TEST(KeptWorldLong, NoChangeIsOverlooked) {
+  KeptWorld kept;
+  for (const std::vector<std::string>& row : changeable())
+    for (const std::string& setting : row) {
+      SCOPED_TRACE(setting);
+      expect_same_world(hills({setting}), kept);
+      ASSERT_FALSE(testing::Test::HasFailure());
+    }
+}
+
+// ---- what a change makes again
+
+std::vector<std::string> stages_after(const std::string& change) {
+  static KeptWorld kept;
+  { const World first = make_world(hills(), silent_progress(), no_cache(), {}, &kept); }
+  ToldStages stages;
+  const World second = make_world(hills({change}), stages, no_cache(), {}, &kept);
+  return stages.all;
+}
+
+TEST(KeptWorld, AtFirstEverythingIsMade) {
+  KeptWorld kept;
+  ToldStages stages;
+  const World world = make_world(hills(), stages, no_cache(), {}, &kept);
+  EXPECT_THAT(stages.all, ElementsAre("synthetic terrain", "class rules", "generalize",
+                                      "building the ray tracer"));
+}
+
+TEST(KeptWorld, LightCameraAndColoursMakeNothingAgain) {
+  for (const char* change :
+       {"title=\"Hills\"", "sun.azimuth_deg=100", "camera.height_m=4500", "camera.azimuth_deg=20",
+        "camera.pitch_deg=-30", "camera.field_of_view_deg=30", "palette=autumn", "light.sun=1",
+        "air.haze=0.5", "sampling.shadow_rays=5", "output.width=64", "water.wind=0.5"})
+    EXPECT_THAT(stages_after(change), IsEmpty()) << change;
+}
+
+TEST(KeptWorld, BentGroundNeedsOnlyItsRayTracer) {
+  for (const char* change :
+       {"deform.bend.radius_m=60000", "deform.exaggeration=1.5",
+        "deform.handles=[{ position = [6000, 5000], radius_m = 3000, raise_m = 400 }]"})
+    EXPECT_THAT(stages_after(change), ElementsAre("building the ray tracer")) << change;
+  // … also where the processor's instructions are others.
+  EXPECT_THAT(stages_after("sampling.instruction_set=sse2"),
+              ElementsAre("building the ray tracer"));
+}
+
+TEST(KeptWorld, WeightsGeneralizeAgainAndClassesStay) {
+  for (const char* change : {"generalize.foreground=[1, 1.3, 1, 0.6, 0, 0]",
+                             "generalize.foreground_to_m=20000", "camera.position=[5000,-4000]"})
+    EXPECT_THAT(stages_after(change), ElementsAre("generalize", "building the ray tracer"))
+        << change;
+}
+
+TEST(KeptWorld, ClassesAreMadeAgainOnTheSameTerrain) {
+  for (const char* change : {"land_cover.settings.treeline_m=1000", "season.date=\"02-01\"",
+                             "land_cover.smallest_patch_m2=400000", "palette=winter"})
+    EXPECT_THAT(stages_after(change),
+                ElementsAre("class rules", "generalize", "building the ray tracer"))
+        << change;
+}
+
+TEST(KeptWorld, AnotherTerrainIsAnotherWorld) {
+  const auto all = {"synthetic terrain", "class rules", "generalize", "building the ray tracer"};
+  EXPECT_THAT(stages_after("terrain.synthetic.seed=8"), ElementsAreArray(all));
+}
+
+TEST(KeptWorld, HoldsOneValueOfEachKind) {
+  KeptWorld kept;
+  { const World world = make_world(hills(), silent_progress(), no_cache(), {}, &kept); }
+  const std::shared_ptr<const Tracer> tracer = kept.tracer.value;
+  ASSERT_NE(tracer, nullptr);
+  EXPECT_EQ(tracer.use_count(), 2) << "the world is gone";
+  { const World world = make_world(hills({"seed=2"}), silent_progress(), no_cache(), {}, &kept); }
+  EXPECT_NE(kept.tracer.value, tracer);
+  EXPECT_EQ(tracer.use_count(), 1) << "the tracer before is not kept";
+}
+
+TEST(KeptWorld, AfterAnErrorTheNextWorldIsRight) {
+  KeptWorld kept;
+  const std::string fold =
+      "deform.handles=[{ position = [6000, 6000], radius_m = 3000, core_m = 1000, move_m = [2500, "
+      "0] }]";
+  const std::vector<std::string> above = {"camera.position=[6000,6000]", "camera.height_m=12000",
+                                          "camera.pitch_deg=-90", "camera.field_of_view_deg=90"};
+  std::vector<std::string> folded = above;
+  folded.push_back(fold);
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(test::kind_of([&] {
+                const World world =
+                    make_world(hills(folded), silent_progress(), no_cache(), {}, &kept);
+              }),
+              ErrorKind::usage);
+    expect_same_world(hills(above), kept);
+  }
+}
+
+// ---- files
+
+// A slope to the east with its foot at `foot_m`.
+void write_slope(const std::string& path, float foot_m) {
+  Raster<float> raster{
+      Grid<float>(40, 40), {600000.0, 5204000.0, 100.0, 100.0}, normalize_crs("EPSG:32632")};
+  for (int y = 0; y < 40; ++y)
+    for (int x = 0; x < 40; ++x) {
+      const auto east = static_cast<float>(x);
+      raster.cells(x, y) = foot_m + 20.F * east + static_cast<float>((x * 7 + y * 3) % 5);
+    }
+  write_raster(path, raster);
+}
+
+LoadedScene slope_scene(const std::string& folder, const std::vector<std::string>& settings = {}) {
+  return parse_scene(R"(version = 1
+[[terrain.sources]]
+file = "slope.tif"
+[camera]
+position = [602000, 5198000]
+height_m = 4000
+azimuth_deg = 0
+pitch_deg = -30
+[output]
+width = 48
+height = 40
+)",
+                     "slope.toml", folder, {.data_folders = {}, .settings = settings});
+}
+
+// Rivers are as wide as the camera needs them, and lie in the cover that ground is made from. The
+// climate of the place is taken from the cache, whose keys are others.
+TEST(KeptWorld, RiversOfAMapFollowTheCamera) {
+  const test::Folder folder;
+  write_slope(folder / "slope.tif", 500.F);
+  folder.write("river.geojson",
+               R"({"type": "FeatureCollection", "features": [{"type": "Feature",
+                   "properties": {}, "geometry": {"type": "LineString",
+                   "coordinates": [[600200, 5200300], [602000, 5202000], [603500, 5203800]]}}]})");
+  const std::string river =
+      "features.0={ source = \"river.geojson\", kind = \"river\", crs = \"EPSG:32632\" }";
+  KeptWorld kept;
+  for (const char* change :
+       {"seed=1", "camera.height_m=9000", "camera.position=[603000, 5199000]", "output.width=24",
+        "output.sheet_width_mm=24", "deform.exaggeration=2", "features.0.width_mm=4",
+        "generalize.foreground=[1, 1, 0.5, 0, 0, 0]"}) {
+    SCOPED_TRACE(change);
+    const LoadedScene scene = slope_scene(folder.path(), {river, change});
+    const World one = make_world(scene, silent_progress(), test::shared_cache(), {}, &kept);
+    const World other = make_world(scene, silent_progress(), test::shared_cache());
+    expect_same_terrain(one.terrain, other.terrain);
+    EXPECT_TRUE(one.land_cover->classes.cells == other.land_cover->classes.cells);
+    int water = 0;
+    for (double x = 600050.0; x < 604000.0; x += 30.0)
+      for (double y = 5200050.0; y < 5204000.0; y += 90.0) {
+        const LandCoverClass id = one.land_cover->at(x, y);
+        ASSERT_EQ(id, other.land_cover->at(x, y)) << x << " " << y;
+        water += id == LandCoverClass::water ? 1 : 0;
+      }
+    EXPECT_GT(water, 0);
+  }
+}
+
+TEST(KeptWorld, AFileThatChangedIsReadAgain) {
+  const test::Folder folder;
+  write_slope(folder / "slope.tif", 500.F);
+  const LoadedScene scene = slope_scene(folder.path());
+  const std::string before = dem_key(scene);
+  EXPECT_EQ(dem_key(scene), before);
+  KeptWorld kept;
+  {
+    const World world = make_world(scene, silent_progress(), test::shared_cache(), {}, &kept);
+    EXPECT_EQ(world.dem->altitude_m(0, 0), 500.F);
+  }
+  write_slope(folder / "slope.tif", 700.F);
+  std::filesystem::last_write_time(
+      folder / "slope.tif", std::filesystem::file_time_type::clock::now() + std::chrono::hours(1));
+  EXPECT_NE(dem_key(scene), before);
+  ToldStages stages;
+  const World world = make_world(scene, stages, test::shared_cache(), {}, &kept);
+  EXPECT_EQ(world.dem->altitude_m(0, 0), 700.F);
+  EXPECT_THAT(stages.all, testing::Contains("generalize"));
+  // And one that is gone is an error, not the values of before.
+  std::filesystem::remove(folder / "slope.tif");
+  EXPECT_EQ(test::error_of([&] {
+              const World gone =
+                  make_world(scene, silent_progress(), test::shared_cache(), {}, &kept);
+            }).kind(),
+            ErrorKind::input);
+}
+
+// ---- keys
+
+TEST(KeptWorld, KeysDifferWhereTheirValuesMay) {
+  const LoadedScene scene = hills();
+  const std::string dem = dem_key(scene);
+  EXPECT_NE(dem_key(hills({"terrain.synthetic.seed=8"})), dem);
+  EXPECT_NE(dem_key(hills({"land_cover.sea_level_m=900"})), dem);
+  EXPECT_EQ(dem_key(hills({"camera.height_m=4000", "palette=winter"})), dem);
+  EXPECT_NE(cover_key(hills({"season.date=02-01"})), cover_key(scene));
+  EXPECT_NE(cover_key(hills({"climate.lapse_k_per_km=5"})), cover_key(scene));
+  EXPECT_EQ(cover_key(hills({"sun.azimuth_deg=10"})), cover_key(scene));
+  const World world = make_world(scene, silent_progress());
+  View moved = world.view;
+  moved.deform.handles.push_back({});
+  EXPECT_NE(deform_key(moved), deform_key(world.view));
+  EXPECT_EQ(generalize_key(scene, moved), generalize_key(scene, world.view));
+  const LoadedScene detailed = hills({"generalize.print_detail_px=2"});
+  EXPECT_NE(generalize_key(detailed, moved), generalize_key(detailed, world.view))
+      << "how much the print shows depends on where ground is drawn";
+  moved.camera.pitch_deg += 1.0;
+  EXPECT_NE(camera_key(scene, moved), camera_key(scene, world.view));
+}
+
+}  // namespace
+}  // namespace belvedere
