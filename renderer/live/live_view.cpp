@@ -7,7 +7,10 @@
 
 #include "base/error.h"
 #include "base/grid_part.h"
+#include "renderer/image/display_conversion.h"
+#include "renderer/paint/composite.h"
 #include "renderer/pipeline/copy_plan.h"
+#include "renderer/pipeline/output_colour.h"
 #include "renderer/pipeline/sheet_work.h"
 #include "renderer/stages/guidance_windows.h"
 #include "renderer/world/scene_features.h"
@@ -106,8 +109,14 @@ LivePicture LiveView::paint(const LoadedScene& given, const Rung& rung, const Ru
         draw_scene_features(loaded, work.world, work.ground.inputs->strokes.winter, run.progress);
     const PictureStages stages =
         add_picture_stages(work.graph, work.ground, copied ? &plan : nullptr, features);
-    picture.colour = read_tiles(
-        sheet, [&](PixelRect tile) { return stages.picture->read(tile).colour; }, use_tile);
+    // The files of `render` have been through linear light.
+    std::optional<DisplayConversion> display;
+    if (rung.is_last()) display.emplace(read_output_colour(loaded).display);
+    const auto read = [&](PixelRect tile) {
+      Grid<glm::vec3> colour = stages.picture->read(tile).colour;
+      return display ? display->convert(decode_srgb(colour)) : colour;
+    };
+    picture.colour = read_tiles(sheet, read, use_tile);
   } else {
     picture.colour = read_tiles(
         sheet, [&](PixelRect tile) { return work.ground.base->read(tile).colour; }, use_tile);
