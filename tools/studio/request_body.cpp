@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
@@ -23,18 +24,23 @@ Value parse_body(const std::string& body) {
   return value;
 }
 
+constexpr int max_depth = 16;  // of lists in lists; scenes need 4
+
 // JSON as TOML: only objects are written differently.
-std::string toml_of(const Value& value) {
+std::string toml_of(const Value& value, int depth = 0) {
+  if (depth > max_depth) throw not_understood("a value is nested too deeply");
   if (value.is_null()) throw not_understood("null is no value of a scene");
   if (value.is_array()) {
     std::string list;
-    for (const Value& element : value) list += (list.empty() ? "" : ", ") + toml_of(element);
+    for (const Value& element : value)
+      list += (list.empty() ? "" : ", ") + toml_of(element, depth + 1);
     return "[" + list + "]";
   }
   if (value.is_object()) {
     std::string list;
     for (const auto& [name, member] : value.items())
-      list += fmt::format("{}{} = {}", list.empty() ? "" : ", ", json_quoted(name), toml_of(member));
+      list += fmt::format("{}{} = {}", list.empty() ? "" : ", ", json_quoted(name),
+                          toml_of(member, depth + 1));
     return "{ " + list + " }";
   }
   if (value.is_string()) return json_quoted(value.get<std::string>());
@@ -59,7 +65,7 @@ SetBody read_set_body(const std::string& body) {
       edit.value = toml_of(change["append"]);
     else if (change.contains("value"))
       edit.value = toml_of(change["value"]);
-    else if (!change.contains("remove"))
+    else if (change.value("remove", Value()) != true)
       throw not_understood(edit.key + " has neither value nor append nor remove");
   }
   return out;
@@ -78,7 +84,9 @@ int read_number_member(const std::string& body, const std::string& name, int oth
   const Value read = parse_body(body);
   const auto member = read.find(name);
   if (member == read.end()) return otherwise;
-  if (!member->is_number_integer()) throw not_understood(name + " is not a whole number");
+  if (!member->is_number_integer() || *member < std::numeric_limits<int>::min() ||
+      *member > std::numeric_limits<int>::max())
+    throw not_understood(name + " is not a whole number");
   return member->get<int>();
 }
 
