@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 #include <httplib.h>
+#include <unistd.h>
 
+#include <atomic>
+#include <chrono>
 #include <random>
+#include <thread>
 #include <utility>
 
 #include "base/error.h"
@@ -12,7 +16,9 @@ namespace belvedere::tools {
 namespace {
 
 constexpr std::size_t connections = 24;  // served at once; a page opens six
-constexpr int idle_s = 5;                // a connection that sends nothing is closed
+constexpr int waiting = 512;             // connections that wait for one of those
+constexpr int silence_s = 5;             // a request that stops in its middle is given up
+constexpr int idle_s = 1;                // a connection without requests is closed; so stop() waits
 
 // The whole address must be right, so that a page of another site, or a name that was pointed at
 // this machine, reaches nothing.
@@ -23,6 +29,15 @@ bool is_allowed(const httplib::Request& request, const std::string& token, int p
   if (request.has_header("Origin") && request.get_header_value("Origin") != "http://" + host)
     return false;
   return request.path.starts_with("/" + token + "/");
+}
+
+// The status of a request that is refused before its body is read, whose size must be known; 0:
+// none.
+int refused(const httplib::Request& request) {
+  if (request.method != "GET" && request.method != "POST") return 405;
+  if (request.has_header("Content-Encoding")) return 415;
+  const bool sized = request.has_header("Content-Length");
+  return request.has_header("Transfer-Encoding") || (request.method == "POST" && !sized) ? 411 : 0;
 }
 
 }  // namespace
@@ -37,6 +52,11 @@ struct HttpServer::State {
   std::string token;
   int port = 0;
   std::function<HttpAnswer(const HttpRequest&)> answer;
+  // A server can be stopped only while it listens, which begins some time after run().
+  std::atomic<bool> running = false;
+  std::atomic<bool> stopped = false;
+  std::atomic<bool> listened = false;
+  socket_t socket = INVALID_SOCKET;
 
   void handle(const httplib::Request& request, httplib::Response& response) const {
     HttpRequest read{request.method, request.path.substr(token.size() + 2), {}, request.body};
@@ -68,7 +88,7 @@ HttpServer::HttpServer(const HttpParameters& parameters,
   httplib::Server& server = state.server;
   server.new_task_queue = [] { return new httplib::ThreadPool(connections); };
   server.set_payload_max_length(parameters.max_body_bytes);
-  server.set_read_timeout(idle_s);
+  server.set_read_timeout(silence_s);
   server.set_keep_alive_timeout(idle_s);
   server.set_keep_alive_max_count(1000000);
   server.set_tcp_nodelay(true);
@@ -79,14 +99,15 @@ HttpServer::HttpServer(const HttpParameters& parameters,
                               {"Content-Security-Policy",
                                "default-src 'self' blob: data:; style-src 'self' 'unsafe-inline'; "
                                "frame-ancestors 'none'"}});
-  server.set_pre_routing_handler(
-      [&state](const httplib::Request& request, httplib::Response& response) {
-        if (is_allowed(request, state.token, state.port))
-          return httplib::Server::HandlerResponse::Unhandled;
-        response.status = 403;
-        response.set_content("not allowed\n", "text/plain");
-        return httplib::Server::HandlerResponse::Handled;
-      });
+  server.set_pre_routing_handler([&state](const httplib::Request& request,
+                                          httplib::Response& response) {
+    const bool allowed = is_allowed(request, state.token, state.port);
+    const int status = allowed ? refused(request) : 403;
+    if (status == 0) return httplib::Server::HandlerResponse::Unhandled;
+    response.status = status;
+    response.set_content(allowed ? "not a request of the studio\n" : "not allowed\n", "text/plain");
+    return httplib::Server::HandlerResponse::Handled;
+  });
   server.set_exception_handler(
       [](const httplib::Request&, httplib::Response& response, const std::exception_ptr&) {
         response.status = 500;
@@ -99,7 +120,8 @@ HttpServer::HttpServer(const HttpParameters& parameters,
   server.Get(".*", handle);
   server.Post(".*", handle);
   // Without SO_REUSEPORT, which would let a second server share the port unnoticed.
-  server.set_socket_options([](socket_t socket) {
+  server.set_socket_options([&state](socket_t socket) {
+    state.socket = socket;
     const int yes = 1;
     setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
   });
@@ -109,9 +131,14 @@ HttpServer::HttpServer(const HttpParameters& parameters,
   if (state.port <= 0)
     throw Error(ErrorKind::usage, "--port", fmt::format("{} is in use", parameters.port),
                 "another port, or 0 for any that is free");
+  // The library lets five wait; others would try again after seconds.
+  listen(state.socket, waiting);
 }
 
-HttpServer::~HttpServer() { stop(); }
+HttpServer::~HttpServer() {
+  stop();
+  if (!state_->listened) close(state_->socket);  // the library does not
+}
 
 int HttpServer::port() const { return state_->port; }
 
@@ -119,9 +146,21 @@ std::string HttpServer::address() const {
   return fmt::format("http://127.0.0.1:{}/{}/", state_->port, state_->token);
 }
 
-void HttpServer::run() { state_->server.listen_after_bind(); }
+void HttpServer::run() {
+  state_->running = true;
+  if (!state_->stopped) {
+    state_->listened = true;
+    state_->server.listen_after_bind();
+  }
+  state_->running = false;
+}
 
-void HttpServer::stop() { state_->server.stop(); }
+void HttpServer::stop() {
+  state_->stopped = true;
+  while (state_->running && !state_->server.is_running())
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  state_->server.stop();
+}
 
 std::string random_token() {
   std::random_device source;

@@ -31,9 +31,9 @@ struct HttpAnswer {
 };
 
 struct HttpParameters {
-  int port = 0;                                  // of 127.0.0.1; 0: any that is free
-  std::string token;                             // first part of every address
-  std::uint64_t max_body_bytes = 1ULL << 30U;    // larger requests are refused
+  int port = 0;                                // of 127.0.0.1; 0: any that is free
+  std::string token;                           // first part of every address
+  std::uint64_t max_body_bytes = 1ULL << 30U;  // larger requests are refused
 };
 
 // A server for programs of this machine alone: it listens on 127.0.0.1, and answers only requests
