@@ -1,5 +1,6 @@
 #include "tools/studio/scene_session.h"
 
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <utility>
@@ -30,7 +31,7 @@ std::string SceneSession::read_file() const {
 
 LoadedScene SceneSession::parse(const std::string& text) const {
   const fs::path path(path_);
-  return parse_scene(text, path.stem().string(), path.parent_path().string(), options_);
+  return parse_scene(text, path.filename().string(), path.parent_path().string(), options_);
 }
 
 void SceneSession::change_to(const std::string& text) {
