@@ -7,11 +7,14 @@
 #include <cmath>
 #include <filesystem>
 
+#include "base/config.h"
 #include "base/text/embedded.h"
 #include "renderer/compose/proposals.h"
 #include "renderer/compose/proposed_scene.h"
+#include "renderer/pipeline/view_judgement.h"
 #include "renderer/scene/edit/scene_values.h"
 #include "renderer/scene/edit/toml_layout.h"
+#include "renderer/scene/scene_schema.h"
 #include "terrain/io/crs.h"
 #include "terrain/shape/hillshade.h"
 
@@ -19,6 +22,37 @@ namespace belvedere::tools {
 namespace {
 
 Json numbers(glm::dvec2 position) { return Json::numbers(std::vector{position.x, position.y}); }
+
+// Whether a text is a key of scenes: "sun.azimuth_deg", "deform.handles.0.move_m".
+bool is_scene_key(const std::string& text) {
+  const std::size_t dot = text.rfind('.');
+  if (dot == std::string::npos) return false;
+  std::string section;  // without indices
+  for (std::size_t at = 0; at < dot;) {
+    const std::size_t end = text.find('.', at);
+    const std::string part = text.substr(at, end - at);
+    if (part.find_first_not_of("0123456789") != std::string::npos)
+      section = join_key(section, part);
+    at = end + 1;
+  }
+  const SceneSection* found = find_section(section);
+  return found != nullptr && find_key(*found, text.substr(dot + 1)) != nullptr;
+}
+
+// A value of TOML as JSON: only tables are written differently.
+Json json_of(const ConfigValue& value) {
+  if (const auto* list = std::get_if<ConfigArray>(&value.value)) {
+    Json out = Json::array();
+    for (const ConfigValue& element : *list) out.add(json_of(element));
+    return out;
+  }
+  if (const auto* table = std::get_if<ConfigTable>(&value.value)) {
+    Json out = Json::object();
+    for (const ConfigEntry& entry : *table) out.add(entry.key, json_of(entry.value));
+    return out;
+  }
+  return Json::raw(toml_text(value));
+}
 
 Json error_members(const Error& error) {
   Json out = Json::object()
@@ -36,13 +70,12 @@ Json error_members(const Error& error) {
     std::from_chars(after + 1, end, column);
     break;
   }
-  if (line > 0)
-    out.add("line", Json::number(line)).add("column", Json::number(column));
-  const auto key = std::find_if(where.begin(), where.end(), [](char c) { return c == ' '; });
-  const std::string last(key == where.end() ? where.begin() : key + 1, where.end());
-  if (last.find('.') != std::string::npos && last.find_first_of("/: ") == std::string::npos &&
-      !last.ends_with(".toml"))
-    out.add("key", Json::text(last));
+  if (line > 0) out.add("line", Json::number(line)).add("column", Json::number(column));
+  // Messages of values begin with their key: "sun.altitude_deg is the number 900".
+  const std::string last = where.substr(where.rfind(' ') + 1);
+  const std::string first = error.found().substr(0, error.found().find(' '));
+  if (is_scene_key(last) || is_scene_key(first))
+    out.add("key", Json::text(is_scene_key(last) ? last : first));
   return out;
 }
 
@@ -117,8 +150,7 @@ Json pointer_json(const LivePicture& picture, glm::dvec2 share) {
                  .add("distance_m", Json::number(std::round(seen.depth_m[i])))
                  .add("class", Json::text(class_name(seen.land_cover[i])));
   if (!picture.crs.empty())
-    out.add("lonlat",
-            numbers(transform_point(picture.crs, normalize_crs("EPSG:4326"), position)));
+    out.add("lonlat", numbers(transform_point(picture.crs, normalize_crs("EPSG:4326"), position)));
   return out;
 }
 
@@ -138,20 +170,19 @@ Json map_json(const LiveView::Ground& ground, const LoadedScene& loaded) {
     handles.add(Json::object()
                     .add("position", numbers(handle.centre))
                     .add("radius_m", Json::number(handle.radius_m)));
-  Json out =
-      Json::object()
-          .add("extent", Json::numbers(std::vector{
-                             t.origin_x, t.origin_y - size.height * size.step * t.cell_y,
-                             t.origin_x + size.width * size.step * t.cell_x, t.origin_y}))
-          .add("width", Json::number(size.width))
-          .add("height", Json::number(size.height))
-          .add("crs", Json::text(dem.crs.empty() ? "" : describe_crs(dem.crs)))
-          .add("viewer", numbers(ground.view.viewer_xy))
-          .add("height_m", Json::number(camera.eye.z))
-          .add("azimuth_deg", Json::number(camera.azimuth_deg))
-          .add("pitch_deg", Json::number(camera.pitch_deg))
-          .add("field_of_view_deg", Json::number(camera.field_of_view_deg))
-          .add("handles", std::move(handles));
+  Json out = Json::object()
+                 .add("extent", Json::numbers(std::vector{
+                                    t.origin_x, t.origin_y - size.height * size.step * t.cell_y,
+                                    t.origin_x + size.width * size.step * t.cell_x, t.origin_y}))
+                 .add("width", Json::number(size.width))
+                 .add("height", Json::number(size.height))
+                 .add("crs", Json::text(dem.crs.empty() ? "" : describe_crs(dem.crs)))
+                 .add("viewer", numbers(ground.view.viewer_xy))
+                 .add("height_m", Json::number(camera.eye.z))
+                 .add("azimuth_deg", Json::number(camera.azimuth_deg))
+                 .add("pitch_deg", Json::number(camera.pitch_deg))
+                 .add("field_of_view_deg", Json::number(camera.field_of_view_deg))
+                 .add("handles", std::move(handles));
   if (loaded.scene.camera.look_at) out.add("target", numbers(*loaded.scene.camera.look_at));
   return out;
 }
@@ -229,7 +260,7 @@ Json proposals_json(const std::vector<Proposal>& proposals) {
     for (const SceneEdit& edit : proposal.edits) {
       Json change = Json::object().add("key", Json::text(edit.key));
       if (edit.value)
-        change.add("value", Json::raw(*edit.value));
+        change.add("value", json_of(parse_config_value(*edit.value, edit.key)));
       else
         change.add("remove", Json::boolean(true));
       changes.add(std::move(change));
@@ -240,24 +271,6 @@ Json proposals_json(const std::vector<Proposal>& proposals) {
                  .add("changes", std::move(changes)));
   }
   return Json::object().add("proposals", std::move(list));
-}
-
-Json job_json(const RenderJob::Report& report) {
-  Json out = Json::object()
-                 .add("state", Json::text(describe(report.state)))
-                 .add("stage", Json::text(report.stage))
-                 .add("done", Json::number(report.done))
-                 .add("elapsed_s", Json::number(std::round(report.elapsed_s)))
-                 .add("folder", Json::text(report.folder))
-                 .add("error", report.error.empty()
-                                   ? Json::raw("null")
-                                   : Json::object().add("message", Json::text(report.error)));
-  constexpr double soon = 0.02;
-  if (report.state == RenderJob::State::running && report.done > soon)
-    out.add("left_s",
-            Json::number(std::round(report.elapsed_s * (1.0 - report.done) / report.done)));
-  if (report.state == RenderJob::State::done) out.add("page", Json::text("render/index.html"));
-  return out;
 }
 
 Json choices_json() {

@@ -9,9 +9,11 @@
 #include "base/grid.h"
 #include "base/text/json.h"
 #include "renderer/live/live_view.h"
-#include "renderer/pipeline/view_judgement.h"
-#include "tools/studio/render_job.h"
 #include "tools/studio/scene_session.h"
+
+namespace belvedere {
+struct ViewEvaluation;
+}
 
 namespace belvedere::tools {
 
@@ -46,7 +48,6 @@ struct Proposal {
 };
 std::vector<Proposal> find_proposals(const LiveView::Ground& ground);
 Json proposals_json(const std::vector<Proposal>& proposals);
-Json job_json(const RenderJob::Report& report);
 Json choices_json();
 
 }  // namespace belvedere::tools

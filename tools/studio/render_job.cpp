@@ -1,6 +1,7 @@
 #include "tools/studio/render_job.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "base/error.h"
@@ -8,6 +9,25 @@
 #include "tools/web/web_page.h"
 
 namespace belvedere::tools {
+namespace {
+
+std::string describe(RenderJob::State state) {
+  switch (state) {
+    case RenderJob::State::idle:
+      return "idle";
+    case RenderJob::State::running:
+      return "running";
+    case RenderJob::State::done:
+      return "done";
+    case RenderJob::State::failed:
+      return "failed";
+    case RenderJob::State::cancelled:
+      break;
+  }
+  return "cancelled";
+}
+
+}  // namespace
 
 class RenderJob::JobProgress : public Progress {
  public:
@@ -92,20 +112,22 @@ RenderJob::Report RenderJob::report() const {
   return out;
 }
 
-std::string describe(RenderJob::State state) {
-  switch (state) {
-    case RenderJob::State::idle:
-      return "idle";
-    case RenderJob::State::running:
-      return "running";
-    case RenderJob::State::done:
-      return "done";
-    case RenderJob::State::failed:
-      return "failed";
-    case RenderJob::State::cancelled:
-      break;
-  }
-  return "cancelled";
+Json job_json(const RenderJob::Report& report) {
+  Json out = Json::object()
+                 .add("state", Json::text(describe(report.state)))
+                 .add("stage", Json::text(report.stage))
+                 .add("done", Json::number(report.done))
+                 .add("elapsed_s", Json::number(std::round(report.elapsed_s)))
+                 .add("folder", Json::text(report.folder))
+                 .add("error", report.error.empty()
+                                   ? Json::raw("null")
+                                   : Json::object().add("message", Json::text(report.error)));
+  constexpr double soon = 0.02;
+  if (report.state == RenderJob::State::running && report.done > soon)
+    out.add("left_s",
+            Json::number(std::round(report.elapsed_s * (1.0 - report.done) / report.done)));
+  if (report.state == RenderJob::State::done) out.add("page", Json::text("render/index.html"));
+  return out;
 }
 
 }  // namespace belvedere::tools

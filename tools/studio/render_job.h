@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "base/run.h"
+#include "base/text/json.h"
 #include "renderer/scene/scene_file.h"
 
 namespace belvedere::tools {
@@ -44,7 +45,7 @@ class RenderJob {
   std::thread thread_;
 };
 
-// "running", for answers.
-std::string describe(RenderJob::State state);
+// What the studio answers: docs/studio.md describes the members.
+Json job_json(const RenderJob::Report& report);
 
 }  // namespace belvedere::tools

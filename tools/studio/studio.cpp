@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -18,6 +19,7 @@
 
 #include "base/error.h"
 #include "base/text/embedded.h"
+#include "base/text/letters.h"
 #include "renderer/image/output_file.h"
 #include "renderer/pipeline/view_judgement.h"
 #include "tools/studio/answers.h"
@@ -35,7 +37,8 @@ namespace fs = std::filesystem;
 // Held while a studio has a scene open; the system drops it whatever ends the program.
 class SceneLockFile {
  public:
-  explicit SceneLockFile(const std::string& scene) : descriptor_(open(scene.c_str(), O_RDONLY)) {
+  explicit SceneLockFile(const std::string& scene)
+      : scene_(scene), descriptor_(open(scene.c_str(), O_RDONLY | O_CLOEXEC)) {
     if (descriptor_ < 0)
       throw Error(ErrorKind::input, scene, "cannot be read", "a scene file that you may read");
     if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
@@ -45,10 +48,21 @@ class SceneLockFile {
     }
   }
   ~SceneLockFile() { close(descriptor_); }
+  // Saving puts another file in the place of the one that is locked.
+  void renew() {
+    struct stat locked {};
+    struct stat there {};
+    if (fstat(descriptor_, &locked) == 0 && stat(scene_.c_str(), &there) == 0 &&
+        locked.st_dev == there.st_dev && locked.st_ino == there.st_ino)
+      return;
+    SceneLockFile next(scene_);
+    std::swap(descriptor_, next.descriptor_);
+  }
   SceneLockFile(const SceneLockFile&) = delete;
   SceneLockFile& operator=(const SceneLockFile&) = delete;
 
  private:
+  std::string scene_;
   int descriptor_;
 };
 
@@ -62,8 +76,12 @@ HttpAnswer picture_answer(std::string bytes, const std::string& type) {
 
 std::string type_of(const std::string& path) {
   static constexpr std::pair<const char*, const char*> types[] = {
-      {".html", "text/html; charset=utf-8"}, {".css", "text/css"}, {".js", "text/javascript"},
-      {".svg", "image/svg+xml"},             {".jpg", "image/jpeg"}, {".png", "image/png"}};
+      {".html", "text/html; charset=utf-8"},
+      {".css", "text/css"},
+      {".js", "text/javascript"},
+      {".svg", "image/svg+xml"},
+      {".jpg", "image/jpeg"},
+      {".png", "image/png"}};
   for (const auto& [extension, type] : types)
     if (path.ends_with(extension)) return type;
   return "application/octet-stream";
@@ -83,14 +101,14 @@ std::string length_prefix(std::size_t length) {
 
 // What a file is good for, by its name.
 std::string kind_of(const std::string& name) {
+  const std::string extension = lower_extension(name);
   static constexpr std::pair<const char*, const char*> kinds[] = {
-      {".gpx", "track"},      {".geojson", "features"}, {".gpkg", "features"},
-      {".shp", "features"},   {".kml", "features"},     {".tif", "terrain"},
-      {".tiff", "terrain"},   {".asc", "terrain"},      {".hgt", "terrain"},
-      {".jpg", "painting"},   {".jpeg", "painting"},    {".png", "painting"},
+      {".gpx", "track"},    {".geojson", "features"}, {".gpkg", "features"}, {".shp", "features"},
+      {".kml", "features"}, {".tif", "terrain"},      {".tiff", "terrain"},  {".asc", "terrain"},
+      {".hgt", "terrain"},  {".jpg", "painting"},     {".jpeg", "painting"}, {".png", "painting"},
       {".toml", "scene"}};
-  for (const auto& [extension, kind] : kinds)
-    if (name.ends_with(extension)) return kind;
+  for (const auto& [known, kind] : kinds)
+    if (extension == known) return kind;
   return "other";
 }
 
@@ -132,9 +150,7 @@ struct Studio::State {
     return {session.scene(), session.revision()};
   }
 
-  HttpAnswer scene_answer() {
-    return json_answer(scene_json(session, derived, notes));
-  }
+  HttpAnswer scene_answer() { return json_answer(scene_json(session, derived, notes)); }
   template <class Change>
   HttpAnswer change_scene(const Change& change) {
     const std::lock_guard guard(mutex);
@@ -162,7 +178,7 @@ struct Studio::State {
   std::vector<DerivedValue> derived;
   std::vector<std::string> notes;
   std::shared_ptr<const LivePicture> last;  // under the pointer
-  const SceneLockFile lock;
+  SceneLockFile lock;
   const Run& run;
   PictureQueue quick;  // all rungs but the last
   PictureQueue exact;  // the last
@@ -275,8 +291,8 @@ HttpAnswer Studio::State::pointer(const HttpRequest& request) {
     seen = last;
   }
   if (seen == nullptr) throw Error(ErrorKind::usage, "pointer", "there is no picture yet");
-  return json_answer(pointer_json(
-      *seen, {share_of(request.value("x"), "x"), share_of(request.value("y"), "y")}));
+  return json_answer(
+      pointer_json(*seen, {share_of(request.value("x"), "x"), share_of(request.value("y"), "y")}));
 }
 
 HttpAnswer Studio::State::start_render(const HttpRequest& request) {
@@ -307,13 +323,12 @@ HttpAnswer Studio::State::take_file(const HttpRequest& request) {
     const std::lock_guard guard(mutex);
     path = fs::path(session.scene().folder) / name;
   }
-  if (fs::exists(path))
+  if (fs::exists(fs::symlink_status(path)))  // a link to nowhere is a file too
     throw Error(ErrorKind::output, name, "a file of that name is there already",
                 "another name; no file is replaced");
   write_text_file(path.string(), request.body);
-  return json_answer(Json::object()
-                         .add("file", Json::text(name))
-                         .add("kind", Json::text(kind_of(name))));
+  return json_answer(
+      Json::object().add("file", Json::text(name)).add("kind", Json::text(kind_of(name))));
 }
 
 // Each proposal as the scene would look with its changes: 0.jpg, 1.jpg …
@@ -353,10 +368,15 @@ HttpAnswer Studio::State::route(const HttpRequest& request) {
       return change_scene([&] { session.replace(read_text_member(request.body, "text")); });
     if (name == "undo") return change_scene([&] { session.undo(); });
     if (name == "redo") return change_scene([&] { session.redo(); });
-    if (name == "reload") return change_scene([&] { session.reload(); });
+    if (name == "reload")
+      return change_scene([&] {
+        session.reload();
+        lock.renew();
+      });
     if (name == "save")
       return change_scene([&] {
         session.save(read_text_member(request.body, "over") == "yes");
+        lock.renew();
       });
     if (name == "render") return start_render(request);
     if (name == "render/cancel") {
@@ -377,20 +397,20 @@ HttpAnswer Studio::State::route(const HttpRequest& request) {
     const Moment now = moment(request);
     const auto revision = Json::number(static_cast<double>(now.revision));
     if (name == "map")
-      return json_answer(map_json(quick.ground(now.scene, run), now.scene).add("revision", revision));
+      return json_answer(
+          map_json(quick.ground(now.scene, run), now.scene).add("revision", revision));
     if (name == "map.png")
       return picture_answer(png_bytes(map_picture(quick.ground(now.scene, run))), "image/png");
     if (name == "check") {
       const LiveView::Ground ground = quick.ground(now.scene, run);
-      return json_answer(
-          check_json(evaluate_view(coarse_altitudes_of(*ground.dem), ground.view))
-              .add("revision", revision));
+      return json_answer(check_json(evaluate_view(coarse_altitudes_of(*ground.dem), ground.view))
+                             .add("revision", revision));
     }
-    if (name == "proposals") return json_answer(proposals_json(find_proposals(quick.ground(now.scene, run))));
+    if (name == "proposals")
+      return json_answer(proposals_json(find_proposals(quick.ground(now.scene, run))));
   }
-  return json_answer(error_json(Error(ErrorKind::usage, path, "no such request",
-                                      "those of docs/studio.md")),
-                     404);
+  return json_answer(
+      error_json(Error(ErrorKind::usage, path, "no such request", "those of docs/studio.md")), 404);
 }
 
 Studio::Studio(const StudioParameters& parameters, const Run& run)
