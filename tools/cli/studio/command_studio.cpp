@@ -16,6 +16,7 @@
 #include "tools/cli/scene_options.h"
 #include "tools/cli/terminal.h"
 #include "tools/options/options.h"
+#include "tools/options/refuse.h"
 #include "tools/studio/studio.h"
 
 namespace belvedere::tools {
@@ -30,12 +31,15 @@ struct StudioOptions : SceneOptions {
 
 // Of a DEM a scene is made beside it, with the first view that `new` proposes.
 std::string scene_of(const StudioOptions& options, Progress& progress) {
+  if (options.scene.empty())
+    refuse("SCENE", "no scene is given", "a scene file, or a DEM of which one is made");
   if (options.scene.ends_with(".toml")) return options.scene;
   NewOptions made;
   made.common = options;
   made.common.quiet = true;
+  made.common.json = false;
   made.dems = {options.scene};
-  made.out = fs::path(options.scene).stem().string() + ".toml";
+  made.out = fs::path(options.scene).replace_extension(".toml").string();
   if (!fs::exists(made.out)) {
     make_new_scene(made);
     progress.note(made.out + " is a new scene of this terrain");
@@ -48,6 +52,7 @@ std::string scene_of(const StudioOptions& options, Progress& progress) {
 // As the desktop opens addresses; where there is none the address on the terminal is all.
 void open_browser(const std::string& address) {
   if (fork() != 0) return;
+  setsid();  // Ctrl-C here does not end a browser that this begins
   execlp("xdg-open", "xdg-open", address.c_str(), static_cast<char*>(nullptr));
   _exit(1);
 }
@@ -79,8 +84,7 @@ int run_studio(const StudioOptions& options) {
 
 Action add_studio(CommandOptions& command) {
   const auto options = std::make_shared<StudioOptions>();
-  add_scene_options(command, *options,
-                    "A scene file, or a DEM of which a scene is made beside it");
+  add_scene_options(command, *options, "A scene file, or a DEM of which a scene is made beside it");
   command.add_option("--port", options->port, "Port of this machine; 0: any that is free")
       .type_name("N")
       .range(0, 65535);

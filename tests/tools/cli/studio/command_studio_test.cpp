@@ -1,0 +1,103 @@
+// `belvedere studio` as users meet it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <thread>
+
+#include "terrain/io/raster_io.h"
+#include "tests/renderer/compose/synthetic_region.h"
+#include "tests/tools/program.h"
+#include "tests/tools/studio/connection.h"
+#include "tools/studio/http_server.h"
+
+namespace belvedere {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+class StudioCommand : public Program {
+ protected:
+  // What the program says at its start: {"address": "http://127.0.0.1:PORT/TOKEN/"}.
+  std::string address() const {
+    for (int i = 0; i < 4000; ++i) {
+      const std::string said = read_bytes(path("stdout"));
+      const std::size_t at = said.find("http://127.0.0.1:");
+      if (at != std::string::npos && said.find('"', at) != std::string::npos)
+        return said.substr(at, said.find('"', at) - at);
+      std::this_thread::sleep_for(5ms);
+    }
+    ADD_FAILURE() << "no address: " << read_bytes(path("stderr"));
+    return {};
+  }
+  static int port_of(const std::string& address) { return std::stoi(address.substr(17)); }
+  static std::string path_of(const std::string& address) {
+    return address.substr(address.find('/', 17));
+  }
+};
+
+TEST_F(StudioCommand, HelpSaysWhatItDoes) {
+  const Outcome help = run({"studio", "--help"});
+  EXPECT_EQ(help.status, 0);
+  EXPECT_THAT(help.out, AllOf(HasSubstr("--port"), HasSubstr("--headless"), HasSubstr("SCENE"),
+                              HasSubstr("belvedere studio my_dem.tif")));
+}
+
+TEST_F(StudioCommand, RefusesWhatItCannotOpen) {
+  const Outcome none = run({"studio", path("none.toml"), "--headless"});
+  EXPECT_EQ(none.status, 3);
+  EXPECT_THAT(none.err, HasSubstr("none.toml"));
+  EXPECT_EQ(run({"studio", path("none.tif"), "--headless"}).status, 3);
+  const Outcome nothing = run({"studio", "--headless"});
+  EXPECT_EQ(nothing.status, 2);
+  EXPECT_THAT(nothing.err, HasSubstr("SCENE"));
+  const Outcome wrong =
+      run({"studio", write("wrong.toml", "version = 1\n[camera\n"), "--headless"});
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("wrong.toml:2:"));
+  EXPECT_EQ(run({"studio", write_scene_file(), "--port", "70000"}).status, 2);
+}
+
+TEST_F(StudioCommand, APortInUseIsAnError) {
+  const tools::HttpServer other({.port = 0, .token = "x"},
+                                [](const tools::HttpRequest&) { return tools::HttpAnswer{}; });
+  const Outcome refused =
+      run({"studio", write_scene_file(), "--headless", "--port", std::to_string(other.port())});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("--port"), HasSubstr("in use")));
+}
+
+TEST_F(StudioCommand, ServesTheSceneUntilItIsInterrupted) {
+  const std::string scene = write_scene_file();
+  const pid_t child = start({"studio", scene, "--headless", "--quiet"});
+  const std::string where = address();
+  ASSERT_FALSE(where.empty());
+  const int port = port_of(where);
+  const test::Reply reply =
+      test::ask_port(port, test::http_request("GET", path_of(where) + "api/scene", port));
+  EXPECT_EQ(reply.status, 200);
+  EXPECT_THAT(reply.body, AllOf(HasSubstr("\"revision\": 1"), HasSubstr("scene.toml")));
+  EXPECT_EQ(test::ask_port(port, test::http_request("GET", "/api/scene", port)).status, 403);
+  kill(child, SIGINT);
+  const Outcome ended = finish(child);
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_FALSE(test::Connection(port).is_open()) << "nothing is left running";
+}
+
+TEST_F(StudioCommand, OfADemASceneIsMadeBesideIt) {
+  write_raster(path("my_dem.tif"), test::synthetic_raster(60.0, test::cone));
+  const pid_t child = start({"studio", path("my_dem.tif"), "--headless", "--quiet"});
+  EXPECT_FALSE(address().empty());
+  kill(child, SIGINT);
+  EXPECT_EQ(finish(child).status, 0);
+  EXPECT_THAT(read_bytes(path("my_dem.toml")), HasSubstr("file = \"my_dem.tif\""));
+  EXPECT_FALSE(std::filesystem::exists("my_dem.toml")) << "not where the program was started";
+}
+
+}  // namespace
+}  // namespace belvedere
