@@ -63,6 +63,7 @@ struct HttpServer::State {
     for (const auto& [name, value] : request.params) read.query[name] = value;
     HttpAnswer made = answer(read);
     response.status = made.status;
+    made.headers.try_emplace("Content-Security-Policy", "default-src 'none'");
     for (const auto& [name, value] : made.headers) response.set_header(name, value);
     if (!made.stream) {
       response.set_content(std::move(made.body), made.type);
@@ -95,10 +96,7 @@ HttpServer::HttpServer(const HttpParameters& parameters,
   server.set_default_headers({{"Cache-Control", "no-store"},
                               {"X-Content-Type-Options", "nosniff"},
                               {"Referrer-Policy", "no-referrer"},
-                              {"Cross-Origin-Resource-Policy", "same-origin"},
-                              {"Content-Security-Policy",
-                               "default-src 'self' blob: data:; style-src 'self' 'unsafe-inline'; "
-                               "frame-ancestors 'none'"}});
+                              {"Cross-Origin-Resource-Policy", "same-origin"}});
   server.set_pre_routing_handler([&state](const httplib::Request& request,
                                           httplib::Response& response) {
     const bool allowed = is_allowed(request, state.token, state.port);

@@ -87,6 +87,15 @@ std::string type_of(const std::string& path) {
   return "application/octet-stream";
 }
 
+// What a page may load and run. The studio runs only its own files; a rendered picture's page has its
+// scripts in itself, and asks nothing of the program.
+constexpr const char* studio_policy =
+    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self'; connect-src 'self'; "
+    "base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+constexpr const char* rendered_policy =
+    "default-src 'none'; script-src 'self' 'unsafe-inline'; style-src 'self' 'unsafe-inline'; "
+    "img-src 'self' blob: data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+
 std::string read_bytes(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
@@ -194,7 +203,9 @@ HttpAnswer Studio::State::file(const std::string& name) {
       const std::string stem = path.substr(0, path.size() - extension.size());
       const std::vector<std::string> all = embedded_names("studio");
       if (std::find(all.begin(), all.end(), stem) == all.end()) break;
-      return {.type = type_of(path), .body = std::string(embedded_file("studio/" + path))};
+      return {.type = type_of(path),
+              .body = std::string(embedded_file("studio/" + path)),
+              .headers = {{"Content-Security-Policy", studio_policy}}};
     }
   return {.status = 404, .type = "text/plain", .body = "no such page\n"};
 }
@@ -207,7 +218,9 @@ HttpAnswer Studio::State::rendered(const std::string& name) {
   const fs::path folder = fs::weakly_canonical(RenderJob::page_folder(report.folder));
   const fs::path path = fs::weakly_canonical(folder / name);
   if (!path.string().starts_with(folder.string() + "/") || !fs::is_regular_file(path)) return none;
-  return {.type = type_of(path.string()), .body = read_bytes(path)};
+  return {.type = type_of(path.string()),
+          .body = read_bytes(path),
+          .headers = {{"Content-Security-Policy", rendered_policy}}};
 }
 
 HttpAnswer Studio::State::picture(const HttpRequest& request) {
