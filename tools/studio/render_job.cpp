@@ -36,6 +36,7 @@ class RenderJob::JobProgress : public Progress {
     const std::lock_guard lock(job_.mutex_);
     job_.report_.stage = stage;
     job_.report_.done = 0.0;
+    job_.stage_begun_ = std::chrono::steady_clock::now();
     total_ = total;
     check();
   }
@@ -69,7 +70,7 @@ void RenderJob::start(const LoadedScene& scene, const std::string& folder, const
     if (report_.state == State::running)
       throw Error(ErrorKind::usage, "render", "another one is running", "cancel it first");
     report_ = {.state = State::running, .stage = "reading", .folder = folder, .error = {}};
-    begun_ = std::chrono::steady_clock::now();
+    begun_ = stage_begun_ = std::chrono::steady_clock::now();
     cancelled_ = false;
   }
   if (thread_.joinable()) thread_.join();
@@ -106,9 +107,15 @@ void RenderJob::work(const LoadedScene& scene, const std::string& folder, const 
 RenderJob::Report RenderJob::report() const {
   const std::lock_guard lock(mutex_);
   Report out = report_;
-  if (out.state == State::running)
-    out.elapsed_s =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count();
+  if (out.state != State::running) return out;
+  const auto now = std::chrono::steady_clock::now();
+  out.elapsed_s = std::chrono::duration<double>(now - begun_).count();
+  const double in_stage_s = std::chrono::duration<double>(now - stage_begun_).count();
+  // A shorter time says little.
+  constexpr double min_done = 0.02;
+  constexpr double min_s = 2.0;
+  if (out.done > min_done && in_stage_s > min_s)
+    out.left_s = in_stage_s * (1.0 - out.done) / out.done;
   return out;
 }
 

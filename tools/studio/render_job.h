@@ -22,6 +22,7 @@ class RenderJob {
     std::string stage;
     double done = 0.0;  // of the stage, 0…1
     double elapsed_s = 0.0;
+    double left_s = -1.0;  // of the stage; negative: not known
     std::string folder;
     std::string error;
   };
@@ -41,6 +42,7 @@ class RenderJob {
   mutable std::mutex mutex_;
   Report report_;
   std::chrono::steady_clock::time_point begun_;
+  std::chrono::steady_clock::time_point stage_begun_;
   std::atomic<bool> cancelled_ = false;
   std::thread thread_;
 };
