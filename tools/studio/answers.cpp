@@ -79,10 +79,14 @@ Json error_members(const Error& error) {
   return out;
 }
 
-// Leaves of a table as edits: "camera.height_m" and "22000".
+// Leaves of a table as edits: "camera.height_m" and "22000"; tables of a list are appended to it.
 void add_edits(const ConfigValue& value, const std::string& key, std::vector<SceneEdit>& edits) {
+  const auto* list = std::get_if<ConfigArray>(&value.value);
   if (const auto* table = std::get_if<ConfigTable>(&value.value))
     for (const ConfigEntry& entry : *table) add_edits(entry.value, key + "." + entry.key, edits);
+  else if (list != nullptr && !list->empty() && list->front().is_table())
+    for (const ConfigValue& element : *list)
+      edits.push_back({.key = key, .value = toml_text(element), .append = true});
   else
     edits.push_back({.key = key, .value = toml_text(value)});
 }
@@ -222,7 +226,8 @@ Json check_json(const ViewEvaluation& evaluation) {
     const std::string_view advice = term.advice();
     items.add(Json::object()
                   .add("name", Json::text(term.name))
-                  .add("value", Json::text(measure_text(term) + " " + std::string(term.meaning)))
+                  .add("value", Json::text(measure_text(term)))
+                  .add("meaning", Json::text(term.meaning))
                   .add("verdict", Json::text(advice.empty() ? "good" : "note"))
                   .add("advice", Json::text(advice)));
   }
@@ -241,8 +246,11 @@ std::vector<Proposal> find_proposals(const LiveView::Ground& ground) {
   std::vector<Proposal> out;
   for (const Candidate& candidate : propose_views(search)) {
     Proposal& proposal = out.emplace_back();
-    proposal.name = describe_view(search, candidate);
-    proposal.why = fmt::format("merit {:.1f} of 10", candidate.merit);
+    // "looks south (179°), 27 to 65 km, 40° wide: a summit of …; merit 8.2"
+    const std::string words = describe_view(search, candidate);
+    const std::size_t colon = words.find(": ");
+    proposal.name = words.substr(0, colon);
+    if (colon != std::string::npos) proposal.why = words.substr(colon + 2);
     // The view as a whole is replaced, so that no key of the view before remains.
     proposal.edits = {{.key = "camera", .value = {}}, {.key = "deform", .value = {}}};
     const ConfigValue text = parse_config(proposed_scene_text(search, candidate, {}), "proposal");
@@ -260,7 +268,8 @@ Json proposals_json(const std::vector<Proposal>& proposals) {
     for (const SceneEdit& edit : proposal.edits) {
       Json change = Json::object().add("key", Json::text(edit.key));
       if (edit.value)
-        change.add("value", json_of(parse_config_value(*edit.value, edit.key)));
+        change.add(edit.append ? "append" : "value",
+                   json_of(parse_config_value(*edit.value, edit.key)));
       else
         change.add("remove", Json::boolean(true));
       changes.add(std::move(change));

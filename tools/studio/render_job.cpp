@@ -129,10 +129,7 @@ Json job_json(const RenderJob::Report& report) {
                  .add("error", report.error.empty()
                                    ? Json::raw("null")
                                    : Json::object().add("message", Json::text(report.error)));
-  constexpr double soon = 0.02;
-  if (report.state == RenderJob::State::running && report.done > soon)
-    out.add("left_s",
-            Json::number(std::round(report.elapsed_s * (1.0 - report.done) / report.done)));
+  if (report.left_s >= 0.0) out.add("left_s", Json::number(std::round(report.left_s)));
   if (report.state == RenderJob::State::done) out.add("page", Json::text("render/index.html"));
   return out;
 }

@@ -11,7 +11,7 @@
 namespace belvedere::tools {
 namespace {
 
-using Value = nlohmann::json;
+using Value = nlohmann::ordered_json;  // as it was written
 
 Error not_understood(const std::string& found) {
   return {ErrorKind::usage, "request", found, "JSON as in docs/studio.md"};

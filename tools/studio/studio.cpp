@@ -179,6 +179,7 @@ struct Studio::State {
   HttpAnswer pointer(const HttpRequest& request);
   HttpAnswer start_render(const HttpRequest& request);
   HttpAnswer take_file(const HttpRequest& request);
+  std::vector<Proposal> proposals(const LoadedScene& scene);
   HttpAnswer proposal_picture(const std::string& name);
   HttpAnswer route(const HttpRequest& request);
 
@@ -189,6 +190,9 @@ struct Studio::State {
   std::shared_ptr<const LivePicture> last;  // under the pointer
   SceneLockFile lock;
   const Run& run;
+  std::mutex proposals_mutex;
+  std::weak_ptr<const Dem> proposals_of;
+  std::vector<Proposal> proposed;
   PictureQueue quick;  // all rungs but the last
   PictureQueue exact;  // the last
   RenderJob job;
@@ -344,12 +348,23 @@ HttpAnswer Studio::State::take_file(const HttpRequest& request) {
       Json::object().add("file", Json::text(name)).add("kind", Json::text(kind_of(name))));
 }
 
+// They are found once for a ground.
+std::vector<Proposal> Studio::State::proposals(const LoadedScene& scene) {
+  const LiveView::Ground ground = quick.ground(scene, run);
+  const std::lock_guard guard(proposals_mutex);
+  if (proposals_of.lock() != ground.dem) {
+    proposed = find_proposals(ground);
+    proposals_of = ground.dem;
+  }
+  return proposed;
+}
+
 // Each proposal as the scene would look with its changes: 0.jpg, 1.jpg …
 HttpAnswer Studio::State::proposal_picture(const std::string& name) {
   const std::size_t number =
       static_cast<std::size_t>(whole_number(name.substr(0, name.find('.')), "proposal"));
   const Moment now = moment({});
-  const std::vector<Proposal> all = find_proposals(quick.ground(now.scene, run));
+  const std::vector<Proposal> all = proposals(now.scene);
   if (number >= all.size())
     return {.status = 404, .type = "text/plain", .body = "no such proposal\n"};
   LoadedScene scene = now.scene;
@@ -360,7 +375,7 @@ HttpAnswer Studio::State::proposal_picture(const std::string& name) {
   constexpr int thumbnail_px = 240;
   Rung rung = rungs().front();
   rung.max_width_px = thumbnail_px;
-  return picture_answer(jpeg_bytes(quick.paint(scene, rung, run).colour), "image/jpeg");
+  return picture_answer(jpeg_bytes(quick.paint_beside(scene, rung, run).colour), "image/jpeg");
 }
 
 HttpAnswer Studio::State::route(const HttpRequest& request) {
@@ -405,6 +420,12 @@ HttpAnswer Studio::State::route(const HttpRequest& request) {
     if (name == "picture") return picture(request);
     if (name == "tiles") return tiles(request);
     if (name == "pointer") return pointer(request);
+    if (name == "stage") {
+      const PictureQueue::Stage stage = quick.stage();
+      return json_answer(Json::object()
+                             .add("stage", Json::text(stage.name))
+                             .add("done", Json::number(stage.done)));
+    }
     if (name == "render") return json_answer(job_json(job.report()));
     if (name.starts_with("proposals/")) return proposal_picture(name.substr(10));
     const Moment now = moment(request);
@@ -419,8 +440,10 @@ HttpAnswer Studio::State::route(const HttpRequest& request) {
       return json_answer(check_json(evaluate_view(coarse_altitudes_of(*ground.dem), ground.view))
                              .add("revision", revision));
     }
-    if (name == "proposals")
-      return json_answer(proposals_json(find_proposals(quick.ground(now.scene, run))));
+    if (name == "proposals") {
+      quick.cancel();  // somebody waits for them
+      return json_answer(proposals_json(proposals(now.scene)));
+    }
   }
   return json_answer(
       error_json(Error(ErrorKind::usage, path, "no such request", "those of docs/studio.md")), 404);
