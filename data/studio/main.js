@@ -117,6 +117,9 @@ async function start() {
     document.body.classList.remove("alone");
   });
 
+  // The program ends with its page.
+  window.addEventListener("pagehide", () => navigator.sendBeacon("api/close", "{}"));
+
   panels.show("camera");
   await store.act(async () => state);
   document.body.dataset.ready = "true";

@@ -78,6 +78,14 @@ const GroundSize& LiveView::size_of(const LoadedScene& loaded) {
   return *keep_or_make(&size_, dem_key(loaded), [&] { return ground_size_of(loaded); });
 }
 
+// Ground that is much finer than the previews' would take a gigabyte between two pictures that take
+// long anyway.
+KeptWorld* LiveView::kept_for(const Rung& rung, const GroundSize& ground) {
+  constexpr double small_mcells = 2.0;
+  if (rung.max_mcells > 0.0) return &coarse_;
+  return ground.mcells <= small_mcells ? &fine_ : nullptr;
+}
+
 LivePicture LiveView::paint(const LoadedScene& given, const Rung& rung, const Run& run,
                             const UseTile& use_tile) {
   const RunLimits limits(run);
@@ -90,7 +98,7 @@ LivePicture LiveView::paint(const LoadedScene& given, const Rung& rung, const Ru
   const SheetWorkParameters parameters{.scratch_folder = {},
                                        .rock_relief = rung.rock_relief,
                                        .tile_px = use_tile ? 0 : 1024,
-                                       .kept = rung.max_mcells > 0.0 ? &coarse_ : &fine_,
+                                       .kept = kept_for(rung, size_of(given)),
                                        .kept_paint = &paint_,
                                        .kept_rays = rung.strokes ? nullptr : &rays_};
   SheetWork work(loaded, request, parameters, run, run);
@@ -126,7 +134,6 @@ LivePicture LiveView::paint(const LoadedScene& given, const Rung& rung, const Ru
                            work.world.surface->origin));
   picture.view = work.world.view;
   picture.crs = work.world.dem->crs;
-  if (rung.is_last()) fine_.surroundings = {}, fine_.bare_cover = {};  // the largest, seldom needed
   return picture;
 }
 

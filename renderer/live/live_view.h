@@ -49,10 +49,11 @@ class LiveView {
 
  private:
   const GroundSize& size_of(const LoadedScene& loaded);
+  KeptWorld* kept_for(const Rung& rung, const GroundSize& ground);
 
   Kept<const GroundSize> size_;
   KeptWorld coarse_;
-  KeptWorld fine_;  // of the last rung
+  KeptWorld fine_;  // of the last rung, if its ground is small
   KeptPaint paint_;
   Kept<const GuidanceBuffers> rays_;  // of the last picture in light and colour
 };

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <vector>
 
+#include "base/parallel.h"
 #include "renderer/live/live_view.h"
+#include "renderer/world/world.h"
+#include "tools/bench/bare_embree.h"
 #include "tools/bench/bench.h"
 
 namespace belvedere::bench {
@@ -29,16 +32,38 @@ constexpr Gesture gestures[] = {
     {"bend", "deform.bend.crest_m", 82000.0, 500.0},
     {"equalizer", "generalize.crest", 0.5, 0.02},
 };
-constexpr int steps = 7;
+constexpr int steps_per_repeat = 4;
 
 double quantile(std::vector<double> values, double share) {
   std::sort(values.begin(), values.end());
   return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5)];
 }
 
+// The bound: primary rays of the picture of a rung, prepared and without anything done with them.
+Cost bare_rays(const LoadedScene& scene, const Rung& rung, int repeats) {
+  const LoadedScene drawn = scene_of_rung(scene, rung, ground_size_of(scene));
+  const World world = make_world(drawn, silent_progress());
+  std::vector<Ray> rays;
+  const glm::ivec2 size = world.camera->size();
+  for (int y = 0; y < size.y; ++y)
+    for (int x = 0; x < size.x; ++x) rays.push_back(world.camera->ray({x + 0.5, y + 0.5}));
+  BareEmbree bare(*world.surface);
+  constexpr double anywhere_m = 1e9;
+  bare.prepare(rays, anywhere_m);
+  return measure_fastest(repeats, {[&] {
+                           constexpr std::size_t packets_per_task = 64;
+                           parallel_ranges<std::size_t>(
+                               bare.packets(), packets_per_task,
+                               [&](std::size_t first, std::size_t last) {
+                                 bare.intersect(first, last);
+                               });
+                         }})[0];
+}
+
 }  // namespace
 
-// Times from a change to the picture, of each rung of the ladder.
+// Times from a change to the picture, of each rung of the ladder but the last, which is the time of
+// `render`.
 std::vector<Measurement> bench_studio(const Options& options) {
   std::vector<Measurement> out;
   if (options.scene.empty()) return out;
@@ -53,6 +78,8 @@ std::vector<Measurement> bench_studio(const Options& options) {
     const Cost first = measure([&] { view.paint(scene_with("seed=1"), rung, run); });
     out.push_back({rung.name + "/first", first.wall_s * 1e3, "ms"});
     out.push_back({rung.name + "/first", first.cpu_s * 1e3, "CPU ms"});
+    const Cost bare = bare_rays(scene_with("seed=1"), rung, options.repeats);
+    out.push_back({rung.name + "/bare primary rays", bare.cpu_s * 1e3, "CPU ms"});
     if (i >= 2) {
       const Cost again = measure([&] { view.paint(scene_with("sun.azimuth_deg=300"), rung, run); });
       out.push_back({rung.name + "/sun", again.wall_s * 1e3, "ms"});
@@ -63,7 +90,7 @@ std::vector<Measurement> bench_studio(const Options& options) {
     for (const Gesture& gesture : gestures) {
       std::vector<double> wall_ms;
       std::vector<double> cpu_ms;
-      for (int step = 0; step < steps; ++step) {
+      for (int step = 0; step < steps_per_repeat * options.repeats; ++step) {
         const LoadedScene scene = scene_with(
             fmt::format("{}={}", gesture.key,
                         fmt::format(fmt::runtime(gesture.value), gesture.from + step * gesture.step)));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/pixel_rect.h"
 #include "base/progress.h"
 #include "tools/report/generalize_report_input.h"
 #include "tools/report/report.h"

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <malloc.h>
+
 #include "base/error.h"
 
 namespace belvedere::tools {
@@ -67,8 +69,10 @@ LivePicture PictureQueue::paint_as(std::uint64_t own, const LoadedScene& scene, 
   const std::lock_guard lock(engine_);
   WhileWanted progress(*this, own, notes, tell);
   progress.check();
-  return view_.paint(scene, rung, {run.threads, run.memory_bytes, run.tile_px, progress, run.cache},
-                     use_tile);
+  LivePicture picture = view_.paint(
+      scene, rung, {run.threads, run.memory_bytes, run.tile_px, progress, run.cache}, use_tile);
+  if (rung.is_last()) malloc_trim(0);  // the world of the scene goes, and is not made again soon
+  return picture;
 }
 
 PictureQueue::Stage PictureQueue::stage() const {

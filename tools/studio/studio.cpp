@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -196,6 +197,7 @@ struct Studio::State {
   PictureQueue quick;  // all rungs but the last
   PictureQueue exact;  // the last
   RenderJob job;
+  std::atomic<std::int64_t> closed_ms = 0;  // when the page said so; 0: it is open
   std::optional<HttpServer> server;
 };
 
@@ -412,6 +414,7 @@ HttpAnswer Studio::State::route(const HttpRequest& request) {
       return json_answer(job_json(job.report()));
     }
     if (name == "files") return take_file(request);
+    if (name == "close") return json_answer(Json::object());
   } else {
     if (name == "scene") return change_scene([] {});
     if (name == "rungs") return json_answer(rungs_json(moment(request).scene));
@@ -468,7 +471,25 @@ void Studio::stop() {
   state_->server->stop();
 }
 
+namespace {
+
+std::int64_t now_ms() {
+  return std::chrono::duration_cast<std::chrono::milliseconds>(
+             std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
+}  // namespace
+
+// A page that is loaded again closes first.
+bool Studio::is_left() const {
+  constexpr std::int64_t wait_ms = 5000;
+  const std::int64_t closed_ms = state_->closed_ms;
+  return closed_ms != 0 && now_ms() - closed_ms > wait_ms;
+}
+
 HttpAnswer Studio::answer(const HttpRequest& request) {
+  state_->closed_ms = request.path == "api/close" ? now_ms() : 0;
   try {
     return state_->route(request);
   } catch (const Error& error) {

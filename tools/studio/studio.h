@@ -30,6 +30,8 @@ class Studio {
   // Until stop(), from another thread.
   void run();
   void stop();
+  // Whether the page was closed and no other one has asked for anything in the 5 s after that.
+  bool is_left() const;
   // The answer to one request; for tests. Errors become answers.
   HttpAnswer answer(const HttpRequest& request);
 

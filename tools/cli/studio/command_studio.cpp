@@ -71,7 +71,8 @@ int run_studio(const StudioOptions& options) {
   // A signal can only set a flag.
   std::atomic<bool> ended = false;
   std::thread watch([&] {
-    while (!interrupted() && !ended) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    while (!interrupted() && !ended && (options.headless || !studio.is_left()))
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
     studio.stop();
   });
   studio.run();
