@@ -25,6 +25,7 @@ async function answered(address, options) {
     // Not JSON: the status says what there is to say.
   }
   if (typeof fault === "string") fault = { message: fault };
+  if (fault?.allowed) fault.message += `; allowed: ${fault.allowed}`;
   throw new Refused(response.status, fault ?? { message: `The program answered ${response.status} to ${address.split("?")[0]}.` });
 }
 
@@ -37,17 +38,18 @@ export const api = {
   schema: () => get("api/schema"),
   choices: () => get("api/choices"),
   rungs: () => get("api/rungs"),
+  stage: () => get("api/stage"),
   map: () => get("api/map"),
   check: (signal) => get("api/check", signal),
   proposals: () => get("api/proposals"),
   set: (changes, step) => post("api/set", { changes, step }),
   text: (text) => post("api/text", { text }),
-  act: (name) => post(`api/${name}`), // undo, redo, save, reload
+  act: (name, body) => post(`api/${name}`, body), // undo, redo, save, reload
   render: (width) => post("api/render", { width }),
   render_state: () => get("api/render"),
   render_cancel: () => post("api/render/cancel"),
   pointer: (x, y, revision, signal) => get(`api/pointer?x=${x.toFixed(5)}&y=${y.toFixed(5)}&revision=${revision}`, signal),
-  map_picture: (revision) => `api/map.png?revision=${revision}`,
+  map_picture: (revision) => `api/map.png?of=${revision}`, // of the newest scene, whatever its revision
   thumbnail: (index, turn) => `api/proposals/${index}.jpg?turn=${turn}`,
 
   async picture(rung, revision, signal) {

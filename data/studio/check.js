@@ -26,10 +26,10 @@ export class Check {
   show(items) {
     const order = ["bad", "note", "good"];
     const sorted = [...items].sort((a, b) => order.indexOf(a.verdict) - order.indexOf(b.verdict));
-    const list = sorted.map(({ name, value, verdict, advice }) =>
+    const list = sorted.map(({ name, value, meaning, verdict, advice }) =>
       element(
         "li",
-        { class: verdict },
+        { class: verdict, title: meaning ? `${value} ${meaning}` : null },
         element("span", { class: "sign", role: "img", "aria-label": words[verdict] ?? verdict }, signs[verdict] ?? "●"),
         element("span", { class: "name" }, name),
         element("span", { class: "value" }, value ?? ""),

@@ -44,7 +44,8 @@ export class History {
     if (this.store.state.can_redo || this.store.busy) return this.store.act(() => api.act("redo"));
   }
   async save() {
-    if (await this.store.act(() => api.act("save"))) this.status.say("Saved.");
+    const over = this.mine ? "yes" : "no"; // over what another program wrote
+    if (await this.store.act(() => api.act("save", { over }))) this.status.say("Saved.");
   }
 
   // Another program, or another page, may change the scene.

@@ -64,10 +64,12 @@ export class Jobs {
     by_id("render-start").disabled = by_id("render-width").disabled = this.running;
     by_id("render-cancel").hidden = !this.running;
     by_id("render-progress").hidden = !this.running;
-    by_id("render-progress").value = job.done ?? 0;
-    const left = job.left_s > 0 ? `, ${duration(job.left_s)} left` : "";
+    if (job.done > 0) by_id("render-progress").value = job.done;
+    else by_id("render-progress").removeAttribute("value"); // how long the step takes is not known
+    const share = job.done > 0 ? ` ${Math.round(100 * job.done)} %` : "";
+    const left = job.left_s > 0 ? `, ${duration(job.left_s)} left of this step` : "";
     const told = {
-      running: `${job.stage ?? "Working"}: ${Math.round(100 * (job.done ?? 0))} %, ${duration(job.elapsed_s ?? 0)}${left}`,
+      running: `${job.stage ?? "working"}${share}${left}; ${duration(job.elapsed_s ?? 0)} so far`,
       done: `Done in ${duration(job.elapsed_s ?? 0)}. Written to ${job.folder}.`,
       cancelled: "Cancelled. Nothing was left behind.",
     };
@@ -75,7 +77,7 @@ export class Jobs {
     by_id("render-page").hidden = job.state !== "done" || !job.page;
     if (job.page) by_id("render-page").href = job.page;
     if (job.state === "failed") this.fault(typeof job.error === "string" ? { message: job.error } : job.error);
-    by_id("render").textContent = this.running ? `Render ${Math.round(100 * (job.done ?? 0))} %` : "Render…";
+    by_id("render").textContent = this.running ? "Rendering…" : "Render…";
     if (was_running && job.state === "done" && !this.dialog.open) this.status.say("The picture is rendered.");
     if (this.running) this.timer = setTimeout(() => this.look(), look_ms);
   }

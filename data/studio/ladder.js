@@ -3,17 +3,20 @@
 import { api } from "./api.js";
 
 const rest_ms = 250; // the hand rests when nothing has changed for so long
+const stage_ms = 800; // a rung that takes longer tells what is being done
 
 export class Ladder {
   constructor(picture, tell) {
     this.picture = picture;
-    this.tell = tell; // {rung, rungs, milliseconds, without, done, stage, fault}
+    this.tell = tell; // {rung, rungs, name, without, milliseconds, working, done, stage, fault}
     this.rungs = [];
     this.abort = new AbortController();
     this.timer = 0;
     this.first = false; // the first rung is being drawn
     this.complete = false; // all of the last one is there
-    this.idle = () => {}; // called when the hand rests and the quick rungs are there
+    this.stopped = false;
+    this.reached = null; // {revision, rung}: what is drawn
+    this.rest = async () => {}; // called when the hand rests and the first rung is there
   }
 
   async read_rungs() {
@@ -22,6 +25,7 @@ export class Ladder {
   }
 
   stop() {
+    this.stopped = true;
     clearTimeout(this.timer);
     this.abort.abort();
     this.abort = new AbortController();
@@ -32,30 +36,32 @@ export class Ladder {
     if (!this.first) this.stop();
   }
 
-  // The change was refused: what it has stopped goes on.
+  // What was stopped goes on: the change was refused, or something else had to come first.
   resume(revision) {
-    if (!this.complete) this.start(revision);
+    if (this.complete || !this.stopped) return;
+    if (this.reached?.revision !== revision) return this.start(revision);
+    this.stopped = false;
+    return this.climb(revision, this.abort.signal, this.reached.rung + 1);
   }
 
   // The first rung of a revision; the finer ones follow when the hand rests.
   async start(revision) {
     this.stop();
     const { signal } = this.abort;
-    this.complete = false;
+    this.stopped = this.complete = false;
     this.first = true;
-    if (this.rungs.length > 1) await this.rung(0, revision, signal);
+    const there = this.rungs.length < 2 || (await this.rung(0, revision, signal));
     this.first = false;
-    if (signal.aborted) return;
+    if (!there || signal.aborted) return;
     this.timer = setTimeout(() => this.climb(revision, signal), rest_ms);
   }
 
-  async climb(revision, signal) {
+  async climb(revision, signal, from = 1) {
     try {
-      for (let rung = 1; rung + 1 < this.rungs.length; ++rung) {
+      await this.rest(signal);
+      for (let rung = from; rung + 1 < this.rungs.length; ++rung) {
         if (!(await this.rung(rung, revision, signal))) return;
-        if (rung === 1) this.idle(revision, signal);
       }
-      if (this.rungs.length < 3) this.idle(revision, signal);
       await this.tiles(revision, signal);
     } catch (error) {
       this.failed(error, signal);
@@ -63,17 +69,32 @@ export class Ladder {
   }
 
   async rung(rung, revision, signal) {
+    let waits = setInterval(() => this.read_stage(rung, () => waits !== 0), stage_ms);
     try {
       this.tell({ ...this.about(rung), working: true });
       const started = performance.now();
       const { blob, milliseconds, without } = await api.picture(rung, revision, signal);
       await this.picture.show(blob);
+      clearInterval(waits);
+      waits = 0;
+      this.reached = { revision, rung };
       const about = this.about(rung);
       this.tell({ ...about, without: without ?? about.without, milliseconds: milliseconds || performance.now() - started });
       return true;
     } catch (error) {
       this.failed(error, signal);
       return false;
+    } finally {
+      clearInterval(waits);
+      waits = 0;
+    }
+  }
+  async read_stage(rung, wanted) {
+    try {
+      const { stage, done } = await api.stage();
+      if (stage && wanted()) this.tell({ ...this.about(rung), working: true, stage, done });
+    } catch {
+      // The picture tells what is wrong.
     }
   }
 

@@ -33,7 +33,7 @@ async function start() {
   const panels = new Panels(store, hands);
   const history = new History(store, status);
   const text = new Text(store);
-  const proposals = new Proposals(store, status);
+  const proposals = new Proposals(store, status, ladder);
   const jobs = new Jobs(store, status);
   new Files(store);
   panels.tab("text", "Text");
@@ -51,10 +51,7 @@ async function start() {
   };
   store.on("pending", () => ladder.stop_finer());
   store.on("refused", () => ladder.resume(store.state.revision));
-  ladder.idle = (_, signal) => {
-    map.read();
-    check.read(signal);
-  };
+  ladder.rest = (signal) => Promise.all([map.read(), store.refresh(), check.read(signal)]);
 
   const compare = (on) => {
     const shows = picture.compare(on);

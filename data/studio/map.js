@@ -27,6 +27,10 @@ export class Map_view {
     this.store = store;
     this.box = by_id("map");
     this.relief = by_id("relief");
+    this.relief.addEventListener("error", () => {
+      this.relief_of = null;
+      this.relief.removeAttribute("src");
+    });
     this.relief_of = null;
     this.signs = new Map();
     this.layer = {

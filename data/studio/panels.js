@@ -109,6 +109,8 @@ export class Panels {
       .filter((part) => part.fault);
   }
   fault(fault) {
+    if (!fault && !this.faulty) return; // with every change
+    this.faulty = Boolean(fault);
     for (const id of this.made.keys()) {
       let here = false;
       for (const each of this.rows(id)) {

@@ -4,9 +4,10 @@ import { by_id, element } from "./dom.js";
 import { alone, new_step } from "./store.js";
 
 export class Proposals {
-  constructor(store, status) {
+  constructor(store, status, ladder) {
     this.store = store;
     this.status = status;
+    this.ladder = ladder;
     this.turn = 0;
     by_id("propose").addEventListener("click", () => this.read());
   }
@@ -15,18 +16,35 @@ export class Proposals {
     const box = by_id("proposals");
     by_id("propose").disabled = true;
     box.replaceChildren(element("p", { class: "none" }, "Looking for views …"));
+    this.ladder.stop(); // somebody waits for the views
     try {
       const { proposals } = await api.proposals();
       ++this.turn;
-      box.replaceChildren(...proposals.map((each, index) => this.one(each, index)));
+      box.replaceChildren(...proposals.map((each) => this.one(each)));
       if (proposals.length === 0) box.append(element("p", { class: "none" }, "There is nothing to propose for this ground."));
     } catch (error) {
       box.replaceChildren(element("p", { class: "none" }, error.message));
     } finally {
       by_id("propose").disabled = false;
     }
+    await this.draw(Array.from(box.querySelectorAll("img")), this.turn);
+    this.ladder.resume(this.store.state.revision);
   }
-  one({ name, why, changes }, index) {
+  // One after the other. What is changed meanwhile is drawn first: they would take the ground from it.
+  async draw(images, turn) {
+    for (const [index, image] of images.entries())
+      for (let attempt = 0; attempt < 60 && this.turn === turn && image.isConnected; ++attempt) {
+        const drawn = new Promise((resolve) => {
+          image.onload = () => resolve(true);
+          image.onerror = () => resolve(false);
+        });
+        image.src = api.thumbnail(index, `${turn}-${attempt}`);
+        if (await drawn) break;
+        do await new Promise((resolve) => setTimeout(resolve, 1000));
+        while (this.store.busy || !(this.ladder.complete || this.ladder.stopped));
+      }
+  }
+  one({ name, why, changes }) {
     return element(
       "button",
       {
@@ -38,7 +56,7 @@ export class Proposals {
           this.status.say(`${name} taken. Ctrl-Z goes back.`);
         },
       },
-      element("img", { src: api.thumbnail(index, this.turn), alt: "", loading: "lazy" }),
+      element("img", { alt: "" }),
       element("span", { class: "name" }, name),
       element("span", { class: "why" }, why ?? ""),
     );

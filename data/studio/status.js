@@ -21,13 +21,14 @@ export class Status {
     const last = rung === rungs - 1;
     document.body.dataset.rung = working ? String(Math.max(0, rung - 1)) : String(rung);
     document.body.dataset.working = String(Boolean(working) || !last);
-    this.bar.hidden = !(working && last);
-    if (working && last) this.bar.value = done ?? 0;
-    // While a rung is being drawn the line says what is there.
-    if (working && !last) return;
+    this.bar.hidden = !working || (!last && !stage);
+    if (working) this.bar.value = done ?? 0;
+    // While a rung is being drawn the line says what is there, unless it takes long.
+    if (working && !last && !stage) return;
     const lacks = without.length > 0 ? `without ${without.join(", ")}` : "complete";
     const time = milliseconds >= 2000 ? `${(milliseconds / 1000).toFixed(1)} s` : `${Math.round(milliseconds ?? 0)} ms`;
-    const state = working ? `${name}: ${Math.round(100 * (done ?? 0))} %${stage ? `, ${stage}` : ""}` : `${name}, ${lacks}, ${time}`;
+    const share = done > 0 ? `${Math.round(100 * done)} %` : "";
+    const state = working ? `${name}: ${[stage, share].filter(Boolean).join(", ") || "…"}` : `${name}, ${lacks}, ${time}`;
     this.rung.textContent = state;
     this.rung.dataset.lacks = String(without.length);
     by_id("steps").replaceChildren(

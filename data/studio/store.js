@@ -141,6 +141,13 @@ export class Store extends EventTarget {
     if (before && before.revision !== state.revision) this.tell("changed", { before, state: this.state });
     this.tell("fault", state.error ?? null);
   }
+  // What the program found for the picture that is drawn; the scene itself has not changed.
+  async refresh() {
+    const { revision, derived, notes } = await api.scene();
+    if (revision !== this.state.revision) return;
+    Object.assign(this.state, { derived: derived ?? [], notes });
+    this.tell("state", this.state);
+  }
   fail(error) {
     if (error.name === "AbortError") return;
     this.tell("fault", error.fault ?? { message: error.message });

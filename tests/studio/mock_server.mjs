@@ -161,6 +161,7 @@ const answers = {
     return state();
   },
   "GET api/rungs": () => rungs(),
+  "GET api/stage": () => ({ stage: "", done: 0 }),
   "GET api/pointer": (query) => {
     const { viewer, azimuth, field } = camera(parse(scene.text).values);
     const y = Number(query.get("y"));
@@ -198,7 +199,7 @@ const answers = {
     return {
       revision: scene.revision,
       items: [
-        { name: "sky", value: "18 % of the picture", verdict: "good", advice: "" },
+        { name: "sky", value: "18 %", meaning: "of the picture is above the skyline", verdict: "good", advice: "" },
         { name: "rim", value: "hidden", verdict: "good", advice: "" },
         {
           name: "valley floor",
