@@ -1,7 +1,8 @@
 // What a user does on the page of the studio, in headless Chromium: against the mock server, or against a running program by its address:
 //   npm --prefix tests/studio ci && node --test tests/studio/studio_test.mjs
 //   BELVEDERE_STUDIO=http://127.0.0.1:PORT/TOKEN/ node --test tests/studio/studio_test.mjs
-// The scene of that program needs a camera with look_at; it is saved by the test: give it a copy.
+// The scene of that program needs a camera with look_at; it is saved by the test: give it a copy. BELVEDERE_RUNG=1 waits for that rung
+// instead of the last one, where that takes long.
 import assert from "node:assert/strict";
 import { mkdtemp, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
@@ -11,6 +12,7 @@ import { setTimeout as sleep } from "node:timers/promises";
 import puppeteer from "puppeteer-core";
 import { serve } from "./mock_server.mjs";
 
+const enough = process.env.BELVEDERE_RUNG;
 const patience = { timeout: Number(process.env.BELVEDERE_PATIENCE_MS ?? 15000) };
 let server, browser, page, address;
 const errors = [];
@@ -35,10 +37,14 @@ after(async () => {
 const scene = () => page.evaluate(async () => (await fetch("api/scene")).json());
 const value = async (key) => (await scene()).values[key];
 const text_of = (selector) => page.$eval(selector, (found) => found.textContent);
-// The ladder has reached its last rung, for the newest revision.
+// The ladder has reached its last rung, or the one that is enough, for the newest revision.
 async function finished() {
   await sleep(150);
-  await page.waitForFunction(() => document.body.dataset.working === "false", patience);
+  await page.waitForFunction(
+    (rung) => document.body.dataset.working === "false" || Number(document.body.dataset.rung) >= rung,
+    patience,
+    Number(enough ?? Infinity),
+  );
 }
 // A number that changes when the picture does.
 const picture = () =>
@@ -91,7 +97,7 @@ const undo = async () => {
 };
 
 test("opens with the whole ladder drawn, a map and a critique", async () => {
-  assert.match(await text_of("#rung"), /complete/);
+  if (!enough) assert.match(await text_of("#rung"), /complete/);
   await page.waitForFunction(
     () => document.querySelector("#relief").complete && document.querySelectorAll("#critique .sign").length > 0,
     patience,
@@ -157,7 +163,7 @@ test("dragging the picture looks around, in one step of undo", async () => {
   await undo();
   assert.deepEqual(await value("camera.look_at"), before);
   await finished();
-  assert.equal(await picture(), drawn, "undo draws the same pixels again");
+  if (!enough) assert.equal(await picture(), drawn, "undo draws the same pixels again");
 });
 
 test("the wheel moves forwards, shift drag moves sideways", async () => {
@@ -208,8 +214,9 @@ test("a slider, an upright slider of the equalizer and a number field", async ()
 test("a value out of range is told at its control and changes nothing", async () => {
   await panel("camera");
   const row = "[data-key='camera.field_of_view_deg']";
+  const { revision } = await scene();
   await page.click("#nearer"); // still being drawn when the next change is refused
-  await page.waitForFunction(() => document.body.dataset.rung === "0", patience);
+  await page.waitForFunction((was) => Number(document.body.dataset.revision) > was, patience, revision);
   const before = await scene();
   await page.$eval(`${row} input[type=number]`, (input) => input.select());
   await page.type(`${row} input[type=number]`, "900");
