@@ -16,8 +16,8 @@ void* allocate_zeroed(std::size_t bytes);
 // bytes: the number requested.
 void free_zeroed(void* memory, std::size_t bytes) noexcept;
 // Lets the C library keep freed memory for the next grids instead of returning it to the system at
-// once: faulting in and clearing the same pages again took a third of a picture's time. For programs,
-// at their start; up to 256 MiB stay allocated.
+// once: faulting in and clearing the same pages again took a third of a picture's time. For
+// programs, at their start; up to 256 MiB stay allocated.
 void reuse_freed_memory();
 // For tests that count allocations: called with the size of each block, negative when it is freed.
 extern std::atomic<void (*)(std::ptrdiff_t bytes)> zeroed_memory_observer;

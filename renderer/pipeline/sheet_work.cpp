@@ -105,8 +105,8 @@ SheetWork::SheetWork(const LoadedScene& loaded, const SheetRequest& request,
       view(view_of(world)),
       block_px(block_px_for(world, paint, view, request)),
       graph(position, stage_run.progress) {
-  paint.palette = located_palette(loaded, request, paint, world,
-                                  kept_paint(loaded, request, parameters));
+  paint.palette =
+      located_palette(loaded, request, paint, world, kept_paint(loaded, request, parameters));
   const int tile_px = parameters.tile_px > 0
                           ? parameters.tile_px
                           : choose_tile_px(block_px, region_of(world.scene, request));

@@ -120,16 +120,15 @@ GroundStages add_ground_stages(StageGraph& graph, GroundInputs given, int tile_p
       [in] { return make_ice_plan(*in->world, in->run); });
 
   // Primary rays, several per pixel, with cast shadows and sky view.
-  ground.traced =
-      in->traced
-          ? graph.add_view<GuidanceBuffers>(
-                view("traced"), channels(channels_of(ChannelMaker::trace)), inputs(),
-                [in](const Tile& tile, GuidanceBuffers& out) {
-                  take_traced(*in->traced, tile.rect, out);
-                })
-          : graph.add_tiles<GuidanceBuffers>(
-                tiles("traced"), channels(channels_of(ChannelMaker::trace)), inputs(),
-                [in](const Tile& tile) { return trace_tile(*in, tile.rect); });
+  ground.traced = in->traced
+                      ? graph.add_view<GuidanceBuffers>(
+                            view("traced"), channels(channels_of(ChannelMaker::trace)), inputs(),
+                            [in](const Tile& tile, GuidanceBuffers& out) {
+                              take_traced(*in->traced, tile.rect, out);
+                            })
+                      : graph.add_tiles<GuidanceBuffers>(
+                            tiles("traced"), channels(channels_of(ChannelMaker::trace)), inputs(),
+                            [in](const Tile& tile) { return trace_tile(*in, tile.rect); });
 
   // The same in larger pixels, one ray each: wide effects (ribs, forest lanes, spurs of rock) read
   // these.
@@ -152,9 +151,9 @@ GroundStages add_ground_stages(StageGraph& graph, GroundInputs given, int tile_p
   ground.far = from_afar("far view", rock_factor(ppu), far_channels);
 
   const Channels traced_channels = channels_of(ChannelMaker::trace);
-  const Channels raised_channels =
-      in->rock_relief ? joined(traced_channels, channels_of(ChannelMaker::relief))
-                      : traced_channels;
+  const Channels raised_channels = in->rock_relief
+                                       ? joined(traced_channels, channels_of(ChannelMaker::relief))
+                                       : traced_channels;
   ground.crested = ground.raised = ground.traced;
   if (in->rock_relief) {
     // Crests of rock get pinnacles and notches: each column is shifted up or down.
@@ -232,17 +231,17 @@ GroundStages add_ground_stages(StageGraph& graph, GroundInputs given, int tile_p
       std::move(base_tiles),
       grids_of(&BasePicture::colour, &BasePicture::darker, &BasePicture::lighter,
                &BasePicture::accent, &BasePicture::tree_density, &BasePicture::haze),
-      inputs(reads(ground.wide, around(base_margin_px(in->base)), some(wide_channels)),
-             Reads<GuidanceBuffers>{
-                 .stage = ground.lit,
-                 .reach = base_reach(false, in->base),
-                 .wanted = with_rock(
-                     {&B::depth_m, &B::position_m, &B::altitude_m, &B::land_cover, &B::fall_line,
-                      &B::slope_deg, &B::footprint_m, &B::normal_smooth, &B::relief_s_m,
-                      &B::relief_m_m, &B::relief_l_m, &B::valley_height_m, &B::rim_m, &B::built,
-                      &B::grain, &B::tone},
-                     {&B::rock_facet, &B::rock_cover}),
-                 .wide_reach = base_reach(true, in->base)}),
+      inputs(
+          reads(ground.wide, around(base_margin_px(in->base)), some(wide_channels)),
+          Reads<GuidanceBuffers>{
+              .stage = ground.lit,
+              .reach = base_reach(false, in->base),
+              .wanted = with_rock({&B::depth_m, &B::position_m, &B::altitude_m, &B::land_cover,
+                                   &B::fall_line, &B::slope_deg, &B::footprint_m, &B::normal_smooth,
+                                   &B::relief_s_m, &B::relief_m_m, &B::relief_l_m,
+                                   &B::valley_height_m, &B::rim_m, &B::built, &B::grain, &B::tone},
+                                  {&B::rock_facet, &B::rock_cover}),
+              .wide_reach = base_reach(true, in->base)}),
       [in](const Tile& tile, const auto& wide, const auto& near) {
         const PixelRect wanted = near.inside(tile.rect);
         const std::optional<WaterImage> image = trace_reflections(

@@ -49,8 +49,8 @@ std::shared_ptr<T> keep_or_make(Kept<T>* kept, const std::string& key, const Mak
 }
 
 // The keys: texts that are equal only if the values are.
-std::string dem_key(const LoadedScene& loaded);         // settings, and the files' sizes and times
-std::string cover_key(const LoadedScene& loaded);       // of the land cover on a DEM of that key
+std::string dem_key(const LoadedScene& loaded);    // settings, and the files' sizes and times
+std::string cover_key(const LoadedScene& loaded);  // of the land cover on a DEM of that key
 std::string generalize_key(const LoadedScene& loaded, const View& view);
 std::string camera_key(const LoadedScene& loaded, const View& view);
 std::string deform_key(const View& view);

@@ -98,9 +98,9 @@ World make_world(const LoadedScene& loaded, Progress& progress, const Cache& cac
 
   // The ground as measured; the levels of a DEM larger than memory stay for its windows.
   const std::shared_ptr<SceneDem> opened =
-      known.dem ? std::make_shared<SceneDem>()
-                : keep_or_make(slot(&KeptWorld::dem), key,
-                               [&] { return open_scene_dem(loaded, progress, cache); });
+      known.dem ? std::make_shared<SceneDem>() : keep_or_make(slot(&KeptWorld::dem), key, [&] {
+        return open_scene_dem(loaded, progress, cache);
+      });
   const std::shared_ptr<const Dem> dem =
       known.dem ? std::move(known.dem) : std::shared_ptr<const Dem>(opened, &opened->dem);
 
@@ -117,8 +117,9 @@ World make_world(const LoadedScene& loaded, Progress& progress, const Cache& cac
   if (!known.land_cover && !catchments) catchments = std::make_unique<Catchments>(*dem);
   add_key([&] { return cover_key(loaded); });
   const std::shared_ptr<const LandCover> land_cover =
-      known.land_cover ? std::move(known.land_cover)
-                       : make_cover(loaded, *dem, view, seen, *catchments, progress, cache, kept, key);
+      known.land_cover
+          ? std::move(known.land_cover)
+          : make_cover(loaded, *dem, view, seen, *catchments, progress, cache, kept, key);
 
   // The ground for this view: generalized, with finer windows where the DEM is larger than memory.
   const std::string of_surroundings = key;
@@ -126,33 +127,32 @@ World make_world(const LoadedScene& loaded, Progress& progress, const Cache& cac
       deformation.is_local() ? std::optional(deformation) : std::nullopt;
   add_key([&] { return generalize_key(loaded, view); });
   if (opened->levels) add_key([&] { return camera_key(loaded, view) + deform_key(view); });
-  const std::shared_ptr<TerrainModel> terrain =
-      keep_or_make(slot(&KeptWorld::terrain), key, [&] {
-        GeneralizedTerrain generalized =
-            generalize_for_view(loaded, *dem, land_cover.get(), view, progress, cache);
-        const std::shared_ptr<GroundSurroundings> surroundings =
-            keep_or_make(slot(&KeptWorld::surroundings), of_surroundings, [&] {
-              return cached<GroundSurroundings>(
-                  cache, [&] { return surroundings_key(loaded, *dem, *land_cover); }, progress,
-                  [&](Progress&) { return find_surroundings(*dem, *land_cover, catchments.get()); });
-            });
-        TerrainModel made = make_terrain_model(
-            dem, std::move(generalized.altitude_m), land_cover, view.deform.exaggeration,
-            kept == nullptr ? std::move(*surroundings) : *surroundings);
-        made.came_from = std::move(generalized.came_from);
-        made.goes_to = std::move(generalized.goes_to);
-        made.local = local;
-        if (opened->levels) {
-          const RasterFrame& frame = opened->levels->frame();
-          const GroundPlan plan = plan_ground(frame, *dem, view, opened->max_cells);
-          progress.note(describe(plan, frame));
-          add_ground_windows(
-              made, plan,
-              {loaded, view, deformation, opened->sea, *opened->levels, progress, cache, seen});
-          if (kept == nullptr) opened->levels.reset();  // no longer needed
-        }
-        return made;
-      });
+  const std::shared_ptr<TerrainModel> terrain = keep_or_make(slot(&KeptWorld::terrain), key, [&] {
+    GeneralizedTerrain generalized =
+        generalize_for_view(loaded, *dem, land_cover.get(), view, progress, cache);
+    const std::shared_ptr<GroundSurroundings> surroundings =
+        keep_or_make(slot(&KeptWorld::surroundings), of_surroundings, [&] {
+          return cached<GroundSurroundings>(
+              cache, [&] { return surroundings_key(loaded, *dem, *land_cover); }, progress,
+              [&](Progress&) { return find_surroundings(*dem, *land_cover, catchments.get()); });
+        });
+    TerrainModel made = make_terrain_model(
+        dem, std::move(generalized.altitude_m), land_cover, view.deform.exaggeration,
+        kept == nullptr ? std::move(*surroundings) : *surroundings);
+    made.came_from = std::move(generalized.came_from);
+    made.goes_to = std::move(generalized.goes_to);
+    made.local = local;
+    if (opened->levels) {
+      const RasterFrame& frame = opened->levels->frame();
+      const GroundPlan plan = plan_ground(frame, *dem, view, opened->max_cells);
+      progress.note(describe(plan, frame));
+      add_ground_windows(
+          made, plan,
+          {loaded, view, deformation, opened->sea, *opened->levels, progress, cache, seen});
+      if (kept == nullptr) opened->levels.reset();  // no longer needed
+    }
+    return made;
+  });
   std::shared_ptr<const WaterGround> waters;
   if (kept != nullptr)
     waters = *keep_or_make(&kept->waters, key, [&] { return find_water_ground(*terrain); });

@@ -82,8 +82,8 @@ struct LandCover {
 // surrounding class, because the map has the true shore. `own`, if given, supplies the cells: the
 // same map before its rivers were widened for a picture.
 void lay_map(LandCover& cover, std::shared_ptr<const MapCover> map, const MapCover* own = nullptr);
-// Lays inferred rivers below the map, likewise. Rivers that are laid already are replaced by the same
-// ones as another picture shows them: the cells stay.
+// Lays inferred rivers below the map, likewise. Rivers that are laid already are replaced by the
+// same ones as another picture shows them: the cells stay.
 void lay_inferred(LandCover& cover, std::shared_ptr<const MapCover> inferred,
                   const MapCover* own = nullptr);
 

@@ -52,11 +52,10 @@ Cost bare_rays(const LoadedScene& scene, const Rung& rung, int repeats) {
   bare.prepare(rays, anywhere_m);
   return measure_fastest(repeats, {[&] {
                            constexpr std::size_t packets_per_task = 64;
-                           parallel_ranges<std::size_t>(
-                               bare.packets(), packets_per_task,
-                               [&](std::size_t first, std::size_t last) {
-                                 bare.intersect(first, last);
-                               });
+                           parallel_ranges<std::size_t>(bare.packets(), packets_per_task,
+                                                        [&](std::size_t first, std::size_t last) {
+                                                          bare.intersect(first, last);
+                                                        });
                          }})[0];
 }
 
@@ -91,9 +90,9 @@ std::vector<Measurement> bench_studio(const Options& options) {
       std::vector<double> wall_ms;
       std::vector<double> cpu_ms;
       for (int step = 0; step < steps_per_repeat * options.repeats; ++step) {
-        const LoadedScene scene = scene_with(
-            fmt::format("{}={}", gesture.key,
-                        fmt::format(fmt::runtime(gesture.value), gesture.from + step * gesture.step)));
+        const LoadedScene scene = scene_with(fmt::format(
+            "{}={}", gesture.key,
+            fmt::format(fmt::runtime(gesture.value), gesture.from + step * gesture.step)));
         const Cost cost = measure([&] { view.paint(scene, rung, run); });
         wall_ms.push_back(cost.wall_s * 1e3);
         cpu_ms.push_back(cost.cpu_s * 1e3);

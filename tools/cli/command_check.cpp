@@ -46,8 +46,7 @@ std::string composition_text(const ViewEvaluation& evaluation) {
       value("sky"), value("rim"), value("floor"), value("ranges"), value("cut"), value("haze"));
   for (const ScoreTerm& term : evaluation.terms)
     if (!term.advice().empty())
-      out += fmt::format("  {} ({} {})\n", term.advice(), measure_text(term),
-                         term.meaning);
+      out += fmt::format("  {} ({} {})\n", term.advice(), measure_text(term), term.meaning);
   return out;
 }
 

@@ -58,8 +58,7 @@ LivePicture PictureQueue::paint(const LoadedScene& scene, const Rung& rung, cons
   return paint_as(++newest_, scene, rung, run, notes, use_tile, tell);
 }
 
-LivePicture PictureQueue::paint_beside(const LoadedScene& scene, const Rung& rung,
-                                       const Run& run) {
+LivePicture PictureQueue::paint_beside(const LoadedScene& scene, const Rung& rung, const Run& run) {
   return paint_as(newest_, scene, rung, run, nullptr, {}, {});
 }
 

@@ -88,8 +88,8 @@ std::string type_of(const std::string& path) {
   return "application/octet-stream";
 }
 
-// What a page may load and run. The studio runs only its own files; a rendered picture's page has its
-// scripts in itself, and asks nothing of the program.
+// What a page may load and run. The studio runs only its own files; a rendered picture's page has
+// its scripts in itself, and asks nothing of the program.
 constexpr const char* studio_policy =
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self'; connect-src 'self'; "
     "base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
