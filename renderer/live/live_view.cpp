@@ -141,7 +141,9 @@ LiveView::Ground LiveView::ground(const LoadedScene& given, const Run& run) {
   const RunLimits limits(run);
   const LoadedScene loaded = scene_of_rung(given, rungs().front(), size_of(given));
   const World world = make_world(loaded, run.progress, run.cache, {}, &coarse_);
-  return {world.dem, world.land_cover, world.ground.terrain, world.view};
+  return {world.dem, world.land_cover,
+          std::shared_ptr<const Grid<float>>(world.ground.terrain, &world.terrain.generalized_m),
+          world.view};
 }
 
 }  // namespace belvedere

@@ -42,7 +42,7 @@ class LiveView {
   struct Ground {
     std::shared_ptr<const Dem> dem;
     std::shared_ptr<const LandCover> land_cover;
-    std::shared_ptr<const TerrainModel> terrain;
+    std::shared_ptr<const Grid<float>> generalized_m;
     View view;
   };
   Ground ground(const LoadedScene& loaded, const Run& run);

@@ -197,7 +197,7 @@ Grid<glm::vec3> map_picture(const LiveView::Ground& ground) {
   Grid<float> altitude_m(size.width, size.height);
   for (int y = 0; y < size.height; ++y)
     for (int x = 0; x < size.width; ++x)
-      altitude_m(x, y) = ground.terrain->generalized_m(x * size.step, y * size.step);
+      altitude_m(x, y) = (*ground.generalized_m)(x * size.step, y * size.step);
   const Grid<std::uint8_t> shade =
       hillshade(altitude_m, size.step * dem.transform.cell_x, size.step * dem.transform.cell_y, {});
   Grid<glm::vec3> picture(size.width, size.height);

@@ -206,7 +206,7 @@ TEST(LiveView, TheGroundOfMapsIsThatOfTheQuickestRung) {
   EXPECT_EQ(before.dem, after.dem) << "made once";
   EXPECT_EQ(before.terrain, after.terrain);
   EXPECT_EQ(after.view.camera.azimuth_deg, picture.view.camera.azimuth_deg);
-  EXPECT_TRUE(after.terrain->generalized_m.same_size(after.dem->altitude_m));
+  EXPECT_TRUE(after.generalized_m->same_size(after.dem->altitude_m));
 }
 
 // ---- cancelled
