@@ -4,6 +4,9 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
+#include "renderer/world/picture_parameters.h"
 #include "tests/scenes.h"
 
 namespace belvedere {
@@ -38,6 +41,31 @@ TEST(SheetIce, IsThatOfThePaperNotOfThePixels) {
   EXPECT_TRUE(small.flow.direction == large.flow.direction);
   for (std::size_t i = 0; i < small.ways.size(); ++i)
     EXPECT_EQ(small.ways[i].positions, large.ways[i].positions);
+}
+
+// Rows are traced some at a time; the plan is that of all rows together, up to the edges of the
+// sheet. The camera looks down, so that ice lies at the upper edge too.
+TEST(SheetIce, IsThatOfAllRowsTracedAtOnce) {
+  const World world = make_world(
+      test::small_scene({"output.width=120", "output.height=280", "output.sheet_width_mm=60",
+                         "camera.pitch_deg=-80", "terrain.synthetic.highest_m=3900",
+                         "land_cover.settings.ice_line_m=900", "land_cover.settings.treeline_m=400",
+                         "land_cover.settings.snowline_m=1100"}),
+      silent_progress());
+  const glm::ivec2 size = world.camera->size();
+  const GuidanceBuffers seen = trace_forms(world, *world.camera, {0, 0, size.x, size.y}, {});
+  StrokeParameters parameters;
+  parameters.pixels_per_unit = world.scene.pixels_per_unit();
+  parameters.seed = world.scene.seed;
+  const IcePlan whole = plan_ice(seen, parameters);
+  const auto is_ice = [](LandCoverClass id) { return has_trait(id, ClassTrait::icy); };
+  ASSERT_TRUE(std::any_of(seen.land_cover.row(0), seen.land_cover.row(0) + size.x, is_ice));
+  ASSERT_GT(whole.ways.size(), 2U);
+  const IcePlan plan = make_ice_plan(world, {});
+  EXPECT_TRUE(plan.flow.direction == whole.flow.direction);
+  ASSERT_EQ(plan.ways.size(), whole.ways.size());
+  for (std::size_t i = 0; i < plan.ways.size(); ++i)
+    EXPECT_EQ(plan.ways[i].positions, whole.ways[i].positions);
 }
 
 }  // namespace

@@ -153,6 +153,33 @@ TEST_F(FetchArea, AMissingTileBesideHighGroundIsNoSea) {
   EXPECT_TRUE(std::filesystem::is_empty(path("out")));
 }
 
+// Two missing tiles meet at a corner only, so each is judged by its own neighbours.
+TEST_F(FetchArea, OnlyTheMissingTileBesideHighGroundIsNamed) {
+  const MapSource source = elevation_source();
+  // High ground north-west of a diagonal that passes the corner.
+  const auto slope = [](double longitude, double latitude) {
+    return latitude - 40.0 > longitude - 44.95 ? 1400.0 : 0.0;
+  };
+  serve_tile(source, 44, 39, slope);
+  serve_tile(source, 45, 40, slope);
+  serve();
+  const std::string message = test::message_of(ErrorKind::input, [&] {
+    fetch(parameters({45.0, 40.0}, 40.0));
+  });
+  EXPECT_THAT(message, HasSubstr("the tiles N40E044, and the ground next to them is not sea"));
+}
+
+// The altitude at one end of a group of missing tiles decides for all of it.
+TEST_F(FetchArea, AdjacentMissingTilesAreJudgedTogether) {
+  const MapSource source = elevation_source();
+  serve_tile(source, 44, 39, [](double, double) { return 1400.0; });
+  serve();
+  const std::string message = test::message_of(ErrorKind::input, [&] {
+    fetch(parameters({45.0, 40.0}, 40.0));
+  });
+  EXPECT_THAT(message, AllOf(HasSubstr("N40E044"), HasSubstr("N39E045"), HasSubstr("N40E045")));
+}
+
 TEST_F(FetchArea, NothingAtAllIsAnError) {
   serve();
   EXPECT_THAT(test::message_of(ErrorKind::input,

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include "base/error.h"
 #include "base/random.h"
@@ -233,6 +235,59 @@ TEST(Quality, FloorIsWhatOtherAltitudesMakeByThemselves) {
     EXPECT_NEAR(c.colour_distance, 44.0, 1.5);  // means 143.5 and 99.5
     EXPECT_NEAR(c.colour_floor, c.colour_distance, 1.0);
     EXPECT_LT(c.colour_beyond_floor, 1.0);
+  }
+}
+
+TEST(Quality, FloorIsWhatOtherDistancesFromBordersMakeByThemselves) {
+  // The exemplar's brightness is the distance from borders: within 2, 4, 8, 15 pixels, and beyond.
+  // The target has other shares of each, copied without faults.
+  const auto step_of = [](std::uint8_t squared) {
+    const double distance = std::sqrt(static_cast<double>(squared));
+    return distance <= 2.0   ? 0
+           : distance <= 4.0 ? 1
+           : distance <= 8.0 ? 2
+           : distance < 15.0 ? 3
+                             : 4;
+  };
+  // Class 1 in stripes, 40 pixels apart, that end halfway down: corners have diagonal distances.
+  const auto stripes = [](const std::vector<int>& widths, int height) {
+    int width = 40;
+    for (const int w : widths) width += w + 40;
+    Grid<std::uint8_t> labels(width, height, 2);
+    int x0 = 40;
+    for (const int w : widths) {
+      for (int y = 0; y < height / 2; ++y)
+        std::fill_n(labels.row(y) + x0, w, static_cast<std::uint8_t>(1));
+      x0 += w + 40;
+    }
+    return labels;
+  };
+  Exemplar exemplar;
+  exemplar.guides.label = stripes({80}, 60);
+  const Grid<std::uint8_t> offered = border_distance_squared(exemplar.guides.label);
+  exemplar.picture = Grid<Rgb8>(offered.width(), offered.height());
+  std::array<std::array<Match, 5>, 3> texel{};  // one of each class and distance
+  for (int y = 0; y < offered.height(); ++y) {
+    for (int x = 0; x < offered.width(); ++x) {
+      const int label = exemplar.guides.label(x, y);
+      const int step = step_of(offered(x, y));
+      exemplar.picture(x, y) = grey(120 * (label - 1) + 20 * step);
+      texel.at(static_cast<std::size_t>(label)).at(static_cast<std::size_t>(step)) = {
+          0, static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y)};
+    }
+  }
+  GuideStack target;
+  target.label = stripes({4, 8, 16, 28, 40}, 100);
+  const Grid<std::uint8_t> requested = border_distance_squared(target.label);
+  MatchField field(requested.width(), requested.height());
+  for (std::size_t i = 0; i < field.size(); ++i)
+    field[i] = texel.at(target.label[i]).at(static_cast<std::size_t>(step_of(requested[i])));
+  const SynthesisQuality q = measure_quality(field, {exemplar}, target, {.repeat_samples = 0});
+  ASSERT_EQ(q.classes.size(), 2U);
+  for (const ClassQuality& c : q.classes) {
+    EXPECT_GT(c.colour_distance, 0.5);
+    EXPECT_NEAR(c.colour_floor, c.colour_distance, 1e-4);
+    EXPECT_NEAR(c.colour_beyond_floor, 0.0, 1e-4);
   }
 }
 
