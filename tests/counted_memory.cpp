@@ -24,6 +24,9 @@ void count(std::ptrdiff_t bytes) {
   }
 }
 
+// The sanitizers have their own operators.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define BELVEDERE_COUNTS_NEW
 void* counted_new(std::size_t bytes) {
   void* memory = std::malloc(bytes == 0 ? 1 : bytes);
   if (memory == nullptr) throw std::bad_alloc();
@@ -35,6 +38,7 @@ void counted_delete(void* memory) noexcept {
   if (memory != nullptr) count(-static_cast<std::ptrdiff_t>(malloc_usable_size(memory)));
   std::free(memory);
 }
+#endif
 
 }  // namespace
 
@@ -54,8 +58,7 @@ std::size_t CountedMemory::peak_bytes() const { return static_cast<std::size_t>(
 
 }  // namespace belvedere::test
 
-// The sanitizers have their own.
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#ifdef BELVEDERE_COUNTS_NEW
 void* operator new(std::size_t bytes) { return belvedere::test::counted_new(bytes); }
 void operator delete(void* memory) noexcept { belvedere::test::counted_delete(memory); }
 void operator delete(void* memory, std::size_t) noexcept {
