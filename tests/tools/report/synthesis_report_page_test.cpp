@@ -79,6 +79,15 @@ TEST_F(SynthesisReport, ShowsEverythingAndItsPicturesLieBesideThePage) {
   for (const auto& entry : fs::directory_iterator(path("report")))
     if (entry.path().extension() == ".png") written.insert(entry.path().filename().string());
   EXPECT_EQ(written, shown);
+  // Each of the worst windows has a row of its own.
+  const std::string worst = page.substr(page.find("\"id\": \"worst\""));
+  const auto count = [&](const std::regex& what) {
+    return std::distance(std::sregex_iterator(worst.begin(), worst.end(), what),
+                         std::sregex_iterator());
+  };
+  const auto windows = count(std::regex("place_[A-Z]+_picture\\.png"));
+  EXPECT_GT(windows, 1);
+  EXPECT_EQ(count(std::regex("\"pictures\":")), windows);
 }
 
 // Counted again from the match field beside it.
