@@ -35,5 +35,18 @@ TEST(LayoutFigures, KnowTopFromBottomAtAnySize) {
               .01);
 }
 
+// The brightest colour is in no strip's share of another one's.
+TEST(LayoutFigures, OfOtherColoursHaveNothingInCommon) {
+  Grid<Rgb8> white(160, 160);
+  Grid<Rgb8> blue(160, 160);
+  for (int y = 0; y < 160; ++y)
+    for (int x = 0; x < 160; ++x) {
+      const auto grain = static_cast<std::uint8_t>(random_index(8, 1, x, y));
+      white(x, y).fill(static_cast<std::uint8_t>(248 + grain));
+      blue(x, y) = {grain, grain, static_cast<std::uint8_t>(192 + grain)};
+    }
+  EXPECT_NEAR(layout_figures(white, blue).profile, 2.0, 1e-9);
+}
+
 }  // namespace
 }  // namespace belvedere

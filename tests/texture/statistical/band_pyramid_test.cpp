@@ -19,6 +19,15 @@ TEST(BandPyramid, PicturesComeBackFromTheirBands) {
           << i;  // half a level of dither in each direction
 }
 
+TEST(BandPyramid, ExtentIsThatOfAllPixelsFromTheFirstToTheLast) {
+  for (const std::size_t bright : {std::size_t{0}, std::size_t{16 * 16 - 1}}) {
+    Grid<Rgb8> crop(16, 16, Rgb8{100, 100, 100});
+    crop[bright] = {200, 200, 200};
+    const BandSpace bands = find_bands(crop, {});
+    EXPECT_NEAR(bands.high[0] - bands.low[0], 100.0 * std::sqrt(3.0) + 1.0, 3.0) << bright;
+  }
+}
+
 TEST(BandPyramid, AxesAreUnitVectorsAtRightAnglesTheWidestFirst) {
   const Grid<Rgb8> crop = test::meadow_crop(96, 96);
   const BandSpace bands = find_bands(crop, {});
