@@ -204,7 +204,7 @@ TEST(LiveView, TheGroundOfMapsIsThatOfTheQuickestRung) {
   const LivePicture picture = live.paint(scene, rungs().front(), {});
   const LiveView::Ground after = live.ground(scene, {});
   EXPECT_EQ(before.dem, after.dem) << "made once";
-  EXPECT_EQ(before.terrain, after.terrain);
+  EXPECT_EQ(before.generalized_m, after.generalized_m);
   EXPECT_EQ(after.view.camera.azimuth_deg, picture.view.camera.azimuth_deg);
   EXPECT_TRUE(after.generalized_m->same_size(after.dem->altitude_m));
 }
