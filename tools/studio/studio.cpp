@@ -482,10 +482,9 @@ std::int64_t now_ms() {
 }  // namespace
 
 // A page that is loaded again closes first.
-bool Studio::is_left() const {
-  constexpr std::int64_t wait_ms = 5000;
+bool Studio::is_left(double wait_s) const {
   const std::int64_t closed_ms = state_->closed_ms;
-  return closed_ms != 0 && now_ms() - closed_ms > wait_ms;
+  return closed_ms != 0 && static_cast<double>(now_ms() - closed_ms) >= 1e3 * wait_s;
 }
 
 HttpAnswer Studio::answer(const HttpRequest& request) {

@@ -30,8 +30,8 @@ class Studio {
   // Until stop(), from another thread.
   void run();
   void stop();
-  // Whether the page was closed and no other one has asked for anything in the 5 s after that.
-  bool is_left() const;
+  // Whether the page was closed so many seconds ago, and nothing else was asked for since.
+  bool is_left(double wait_s = 5.0) const;
   // The answer to one request; for tests. Errors become answers.
   HttpAnswer answer(const HttpRequest& request);
 

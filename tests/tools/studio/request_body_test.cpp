@@ -42,7 +42,7 @@ TEST(RequestBody, ValuesOfEveryKindBecomeToml) {
            {"[]", "[]"},
            {"[1, 2.5, -3]", "[1, 2.5, -3]"},
            {R"([[1, 2], ["a"]])", R"([[1, 2], ["a"]])"},
-           {R"({"rock": 2, "odd name": [1]})", R"({ "odd name" = [1], "rock" = 2 })"},
+           {R"({"rock": 2, "odd name": [1]})", R"({ "rock" = 2, "odd name" = [1] })"},
        })
     EXPECT_EQ(toml_of_json(json), toml);
   EXPECT_EQ(toml_of_json("{}"), "{  }");

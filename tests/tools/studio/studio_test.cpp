@@ -93,6 +93,16 @@ class StudioTest : public testing::Test {
   std::unique_ptr<Studio> studio_;
 };
 
+TEST_F(StudioTest, EndsWithItsPageUnlessAnotherOneAsks) {
+  got("api/scene");
+  EXPECT_FALSE(studio().is_left(0.0)) << "open";
+  posted("api/close");
+  EXPECT_TRUE(studio().is_left(0.0));
+  EXPECT_FALSE(studio().is_left(60.0)) << "it may be loaded again";
+  got("api/scene");
+  EXPECT_FALSE(studio().is_left(0.0)) << "loaded again";
+}
+
 // ---- the scene
 
 TEST_F(StudioTest, TellsTheScene) {
