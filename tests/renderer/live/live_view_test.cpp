@@ -142,10 +142,10 @@ TEST(LiveView, QuickPicturesLookLikeTheLast) {
 TEST(LiveView, PicturesHaveTheSizeOfTheirRung) {
   const LoadedScene scene = tiny_scene({"output.width=600", "output.height=100"});
   const LivePicture first = LiveView().paint(scene, rungs().front(), {});
-  EXPECT_EQ(first.colour.width(), 400);
-  EXPECT_EQ(first.colour.height(), 67);
-  EXPECT_EQ(first.seen.width(), 400);
-  EXPECT_EQ(first.seen.height(), 67);
+  EXPECT_EQ(first.colour.width(), 360);
+  EXPECT_EQ(first.colour.height(), 60);
+  EXPECT_EQ(first.seen.width(), 360);
+  EXPECT_EQ(first.seen.height(), 60);
 }
 
 // ---- tiles
