@@ -32,7 +32,9 @@ std::atomic<void (*)(std::ptrdiff_t bytes)> zeroed_memory_observer = nullptr;
 
 void reuse_freed_memory() {
   mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the largest allowed
-  mallopt(M_TRIM_THRESHOLD, 256 << 20);
+  // Threads share few arenas, because each keeps as much as the threshold.
+  mallopt(M_ARENA_MAX, 4);
+  mallopt(M_TRIM_THRESHOLD, 64 << 20);
   mallopt(M_TOP_PAD, 16 << 20);
 }
 

@@ -4,6 +4,8 @@
 
 #include <malloc.h>
 
+#include <future>
+
 #include "base/error.h"
 
 namespace belvedere::tools {
@@ -68,8 +70,14 @@ LivePicture PictureQueue::paint_as(std::uint64_t own, const LoadedScene& scene, 
   const std::lock_guard lock(engine_);
   WhileWanted progress(*this, own, notes, tell);
   progress.check();
-  LivePicture picture = view_.paint(
-      scene, rung, {run.threads, run.memory_bytes, run.tile_px, progress, run.cache}, use_tile);
+  // On a thread of its own: the C library would keep the memory of a picture for each thread of the
+  // server that made one.
+  LivePicture picture =
+      std::async(std::launch::async, [&] {
+        return view_.paint(scene, rung,
+                           {run.threads, run.memory_bytes, run.tile_px, progress, run.cache},
+                           use_tile);
+      }).get();
   if (rung.is_last()) malloc_trim(0);  // the world of the scene goes, and is not made again soon
   return picture;
 }
