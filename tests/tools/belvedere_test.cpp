@@ -67,8 +67,9 @@ TEST_F(Program, WrongCommandLinesAreUsageErrors) {
 
 TEST_F(Program, CommandsThatAreMissingOrMisspeltAreAskedFor) {
   const auto said = [&](const std::vector<std::string>& arguments) { return run(arguments).err; };
-  EXPECT_THAT(said({}),
-              HasSubstr("missing subcommand of belvedere\n  allowed: new, studio, render, guidance"));
+  EXPECT_THAT(
+      said({}),
+      HasSubstr("missing subcommand of belvedere\n  allowed: new, studio, render, guidance"));
   EXPECT_THAT(said({"rendr", "x.toml"}),
               HasSubstr("belvedere has no command \"rendr\"; did you mean \"render\"?"));
   EXPECT_THAT(

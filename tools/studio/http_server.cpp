@@ -63,7 +63,8 @@ struct HttpServer::State {
     for (const auto& [name, value] : request.params) read.query[name] = value;
     HttpAnswer made = answer(read);
     response.status = made.status;
-    made.headers.try_emplace("Content-Security-Policy", "default-src 'none'; frame-ancestors 'none'");
+    made.headers.try_emplace("Content-Security-Policy",
+                             "default-src 'none'; frame-ancestors 'none'");
     for (const auto& [name, value] : made.headers) response.set_header(name, value);
     if (!made.stream) {
       response.set_content(std::move(made.body), made.type);
