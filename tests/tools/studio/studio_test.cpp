@@ -480,6 +480,7 @@ TEST_F(StudioTest, OneJobAtATimeWhichCanBeCancelled) {
   EXPECT_THAT(posted("api/render", "{}", 422)["error"]["message"].get<std::string>(),
               HasSubstr("running"));
   EXPECT_EQ(get("api/picture", {{"rung", "0"}}).status, 200) << "composing goes on";
+  EXPECT_EQ(get("api/tiles").status, 409) << "but for what the job itself paints";
   posted("api/render/cancel");
   EXPECT_EQ(finished_job()["state"], "cancelled");
   EXPECT_EQ(get("render/index.html").status, 404);
