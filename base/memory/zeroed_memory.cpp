@@ -38,6 +38,8 @@ void reuse_freed_memory() {
   mallopt(M_TOP_PAD, 16 << 20);
 }
 
+void return_freed_memory() { malloc_trim(0); }
+
 void* allocate_zeroed(std::size_t bytes) {
   observe(static_cast<std::ptrdiff_t>(bytes));
   if (!is_large(bytes)) {

@@ -19,6 +19,8 @@ void free_zeroed(void* memory, std::size_t bytes) noexcept;
 // once: faulting in and clearing the same pages again took a third of a picture's time. For
 // programs, at their start; up to 256 MiB stay allocated.
 void reuse_freed_memory();
+// Returns to the system what is kept, after work that is not repeated soon.
+void return_freed_memory();
 // For tests that count allocations: called with the size of each block, negative when it is freed.
 extern std::atomic<void (*)(std::ptrdiff_t bytes)> zeroed_memory_observer;
 

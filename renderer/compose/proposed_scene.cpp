@@ -94,7 +94,7 @@ void write_summits(Text& text, const ViewSearch& search, const Candidate& candid
 
 }  // namespace
 
-std::string describe_view(const ViewSearch& search, const Candidate& candidate) {
+ViewWords view_words(const ViewSearch& search, const Candidate& candidate) {
   const ViewShape& v = candidate.view;
   const Anchor& anchor = search.massifs.anchors[static_cast<std::size_t>(candidate.plan.anchor)];
   const AnchorSight& sight =
@@ -102,11 +102,17 @@ std::string describe_view(const ViewSearch& search, const Candidate& candidate) 
   const std::string_view where = sight.position.x < 0.42   ? "left of the centre"
                                  : sight.position.x > 0.58 ? "right of the centre"
                                                            : "at the centre";
-  return fmt::format("{} ({:.0f}°), {:.0f} to {:.0f} km, {:.0f}° wide: {} {}; merit {:.1f}",
-                     v.field_of_view_deg >= 359.0 ? "full circle from"
-                                                  : fmt::format("looks {}", compass(v.azimuth_deg)),
-                     turned_deg(v.azimuth_deg), km(v.near_m), km(v.far_m), v.field_of_view_deg,
-                     subject_words(anchor, search.massifs), where, candidate.merit);
+  return {
+      fmt::format("{} ({:.0f}°), {:.0f} to {:.0f} km, {:.0f}° wide",
+                  v.field_of_view_deg >= 359.0 ? "full circle from"
+                                               : fmt::format("looks {}", compass(v.azimuth_deg)),
+                  turned_deg(v.azimuth_deg), km(v.near_m), km(v.far_m), v.field_of_view_deg),
+      fmt::format("{} {}", subject_words(anchor, search.massifs), where)};
+}
+
+std::string describe_view(const ViewSearch& search, const Candidate& candidate) {
+  const auto [view, subject] = view_words(search, candidate);
+  return fmt::format("{}: {}; merit {:.1f}", view, subject, candidate.merit);
 }
 
 std::string proposed_scene_text(const ViewSearch& search, const Candidate& candidate,

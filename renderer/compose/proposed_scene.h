@@ -41,7 +41,13 @@ struct ProposedScene {
 // The scene as TOML, with the reason of each value as a comment.
 std::string proposed_scene_text(const ViewSearch& search, const Candidate& candidate,
                                 const ProposedScene& about);
-// A line that describes the view.
+// The view in words.
+struct ViewWords {
+  std::string view;     // "looks south (179°), 27 to 65 km, 40° wide"
+  std::string subject;  // "a summit of 3314 m, 2265 m above its valleys left of the centre"
+};
+ViewWords view_words(const ViewSearch& search, const Candidate& candidate);
+// A line that describes the view: both, and its merit.
 std::string describe_view(const ViewSearch& search, const Candidate& candidate);
 
 }  // namespace belvedere

@@ -1,17 +1,16 @@
 #include "renderer/live/live_view.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <optional>
 #include <utility>
 
-#include "base/error.h"
 #include "base/grid_part.h"
 #include "renderer/image/display_conversion.h"
 #include "renderer/paint/composite.h"
 #include "renderer/pipeline/copy_plan.h"
 #include "renderer/pipeline/output_colour.h"
 #include "renderer/pipeline/sheet_work.h"
+#include "renderer/sheet/scratch_folder.h"
 #include "renderer/stages/guidance_windows.h"
 #include "renderer/world/scene_features.h"
 
@@ -39,27 +38,6 @@ std::vector<PixelRect> tiles_from_middle(PixelRect sheet) {
   return tiles;
 }
 
-// A folder for the plan of copies, removed at the end.
-class ScratchFolder {
- public:
-  ScratchFolder()
-      : path_((std::filesystem::temp_directory_path() / "belvedere-live-XXXXXX").string()) {
-    if (mkdtemp(path_.data()) == nullptr)
-      throw Error(ErrorKind::output, path_, "a folder cannot be made there",
-                  "space in the folder for temporary files");
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  ~ScratchFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
-
 template <class Read>
 Grid<glm::vec3> read_tiles(PixelRect sheet, const Read& read, const LiveView::UseTile& use_tile) {
   if (!use_tile) return read(sheet);
@@ -82,36 +60,35 @@ const GroundSize& LiveView::size_of(const LoadedScene& loaded) {
 // long anyway.
 KeptWorld* LiveView::kept_for(const Rung& rung, const GroundSize& ground) {
   constexpr double small_mcells = 2.0;
-  if (rung.max_mcells > 0.0) return &coarse_;
+  if (!rung.is_last()) return &coarse_;
   return ground.mcells <= small_mcells ? &fine_ : nullptr;
 }
 
 LivePicture LiveView::paint(const LoadedScene& given, const Rung& rung, const Run& run,
                             const UseTile& use_tile) {
   const RunLimits limits(run);
-  const LoadedScene loaded = scene_of_rung(given, rung, size_of(given));
+  const GroundSize& ground = size_of(given);
+  const LoadedScene loaded = scene_of_rung(given, rung, ground);
   SheetRequest request{.panorama = rung.strokes, .block_px = 1024};
   const PixelRect sheet = region_of(loaded.scene, request);
   if (use_tile) request.block_px = live_tile_px;
-  if (rung.is_last() && rung.strokes) require_inputs(loaded);
+  if (rung.is_last()) require_inputs(loaded);
 
   const SheetWorkParameters parameters{.scratch_folder = {},
-                                       .rock_relief = rung.rock_relief,
+                                       .rock_relief = rung.strokes,
                                        .tile_px = use_tile ? 0 : 1024,
-                                       .kept = kept_for(rung, size_of(given)),
+                                       .kept = kept_for(rung, ground),
                                        .kept_paint = &paint_,
                                        .kept_rays = rung.strokes ? nullptr : &rays_};
   SheetWork work(loaded, request, parameters, run, run);
   LivePicture picture;
   if (rung.strokes) {
-    const ScratchFolder scratch;
-    std::optional<WorkFolder> plan_folder;
-    CopyPlan plan;
     const bool copied = is_copied(loaded.scene, request);
+    CopyPlan plan;
     if (copied) {
-      plan_folder.emplace(scratch.path(), identify(loaded, request), WorkMode::begin);
-      plan = make_copy_plan(loaded, work.world, work.paint, work.ground, work.position,
-                            *plan_folder, run);
+      const ScratchFolder scratch;
+      const WorkFolder kept(scratch.path(), identify(loaded, request), WorkMode::begin);
+      plan = make_copy_plan(loaded, work.world, work.paint, work.ground, work.position, kept, run);
     }
     const DrawnFeatures features =
         draw_scene_features(loaded, work.world, work.ground.inputs->strokes.winter, run.progress);

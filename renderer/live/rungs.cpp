@@ -1,51 +1,36 @@
 #include "renderer/live/rungs.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "renderer/scene/draft.h"
 
 namespace belvedere {
+namespace {
+
+constexpr double preview_mcells = 1.0;
+
+}  // namespace
 
 const std::vector<Rung>& rungs() {
-  static const std::vector<Rung> all = {{.name = "light and colour",
-                                         .without = {"fine ground", "rock relief", "strokes"},
-                                         .max_width_px = 360,
-                                         .max_mcells = 1.0,
-                                         .rock_relief = false,
-                                         .strokes = false,
-                                         .quick_rays = true},
-                                        {.name = "larger",
-                                         .without = {"fine ground", "rock relief", "strokes"},
-                                         .max_mcells = 1.0,
-                                         .rock_relief = false,
-                                         .strokes = false,
-                                         .quick_rays = true},
-                                        {.name = "strokes",
-                                         .without = {"fine ground", "fine light"},
-                                         .max_mcells = 1.0,
-                                         .quick_rays = true},
-                                        {.name = "as rendered", .without = {}, .copied = true}};
+  static const std::vector<std::string> without_forms = {"fine ground", "rock relief", "strokes"};
+  static const std::vector<Rung> all = {
+      {.name = "light and colour", .without = without_forms, .max_width_px = 360, .strokes = false},
+      {.name = "larger", .without = without_forms, .strokes = false},
+      {.name = "strokes", .without = {"fine ground", "fine light"}},
+      {.name = "as rendered", .without = {}}};
   return all;
 }
 
 LoadedScene scene_of_rung(const LoadedScene& loaded, const Rung& rung, const GroundSize& ground) {
-  LoadedScene out =
-      rung.max_mcells > 0.0 ? with_coarse_ground(loaded, ground, rung.max_mcells) : loaded;
+  LoadedScene out = rung.is_last() ? loaded : with_coarse_ground(loaded, ground, preview_mcells);
   Scene& scene = out.scene;
-  const int width = std::min(scene.output.width, rung.max_width_px);
-  if (width < scene.output.width) {
-    // The width of the sheet is unchanged, so strokes keep their size on it.
-    scene.output.height =
-        std::max(16, static_cast<int>(std::lround(static_cast<double>(scene.output.height) * width /
-                                                  scene.output.width)));
-    scene.output.width = width;
-  }
-  if (rung.quick_rays) {
-    scene.sampling.pixel_samples = 1;
-    scene.sampling.shadow_rays = 1;
-    scene.sampling.sky_directions = std::min(scene.sampling.sky_directions, 4);
-    if (scene.water.mirror == "traced") scene.water.mirror = "column";
-  }
-  if (!rung.copied) scene.synthesis.enabled = false;
+  scene.output = with_width(scene.output, std::min(scene.output.width, rung.max_width_px));
+  if (rung.is_last()) return out;
+  scene.sampling.pixel_samples = 1;
+  scene.sampling.shadow_rays = 1;
+  scene.sampling.sky_directions = std::min(scene.sampling.sky_directions, 4);
+  if (scene.water.mirror == "traced") scene.water.mirror = "column";
+  scene.synthesis.enabled = false;
   return out;
 }
 

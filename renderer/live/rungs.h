@@ -14,11 +14,9 @@ struct Rung {
   std::string name;
   std::vector<std::string> without;  // what the finished picture has and this one lacks, in words
   int max_width_px = 1000;           // of the picture, 64…4096
-  double max_mcells = 0.0;           // millions of cells of the ground; 0: as the scene has it
-  bool rock_relief = true;
-  bool strokes = true;  // brushwork, mist, features and style; without them light and colour only
-  bool quick_rays = false;  // one ray a pixel, few for the light of the sky
-  bool copied = false;      // ground copied from paintings, if the scene asks for it
+  bool strokes = true;  // rock relief, brushwork, mist, features and style; else light and colour
+  // Draws the scene as it is; all others are on ground of about a million cells, with one ray a
+  // pixel and few for the light of the sky, and copy nothing from paintings.
   bool is_last() const { return without.empty(); }
 };
 const std::vector<Rung>& rungs();

@@ -1,6 +1,7 @@
 #include "renderer/scene/draft.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace belvedere {
 namespace {
@@ -12,6 +13,15 @@ int third(int px) {
 }
 
 }  // namespace
+
+SceneOutput with_width(SceneOutput output, int width_px) {
+  constexpr int min_px = 16;
+  if (width_px == output.width) return output;
+  output.height = std::max(min_px, static_cast<int>(std::lround(static_cast<double>(output.height) *
+                                                                width_px / output.width)));
+  output.width = width_px;
+  return output;
+}
 
 Scene make_draft(Scene scene) {
   // The width of the sheet is unchanged, so strokes keep their size on it.

@@ -13,6 +13,7 @@
 #include "base/text/json.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/output_file.h"
+#include "renderer/scene/draft.h"
 #include "renderer/trace/sketch/relief_sketch.h"
 #include "renderer/world/generalize_view.h"
 #include "renderer/world/scene_dem.h"
@@ -189,10 +190,7 @@ void search(BareView& bare, const ValleySight& sight, const DeformOptions& optio
 void shrink(LoadedScene& scene) {
   constexpr int width_px = 1000;
   SceneOutput& output = scene.scene.output;
-  if (output.width <= width_px) return;
-  output.height = std::max(16, static_cast<int>(std::lround(static_cast<double>(output.height) *
-                                                            width_px / output.width)));
-  output.width = width_px;
+  output = with_width(output, std::min(output.width, width_px));
 }
 
 void examine(const LoadedScene& loaded, const DeformOptions& options, Report& report,

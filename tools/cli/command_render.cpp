@@ -126,9 +126,11 @@ Action add_job(CommandOptions& command, const char* footer, Drafts drafts, Job j
                      "from, for synthesize --replay");
   if (drafts == Drafts::yes) add_layers_option(command, options->layers);
   if (drafts == Drafts::yes)
-    command.add_flag("--draft", options->draft,
-                     "A quick preview, in seconds: a third of the pixels per side, one ray per "
-                     "pixel, fewer sky directions, only strokes without copied texture");
+    command.add_flag(
+        "--draft", options->draft,
+        "A quick preview, in seconds: a third of the pixels per side, one ray per "
+        "pixel, fewer sky directions, at most 2.5 million cells of ground, only strokes "
+        "without copied texture");
   command.footer(footer);
   return [options, job, results] { return run_job(*options, job, results); };
 }

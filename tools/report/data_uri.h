@@ -8,7 +8,7 @@
 namespace belvedere::tools {
 
 // For self-contained pages: a picture of encoded RGB, 0…1, as a data URI:
-// "data:image/png;base64,…". It is written to a temporary file in the given folder.
-std::string png_address(const Grid<glm::vec3>& picture, const std::string& scratch_folder);
+// "data:image/png;base64,…".
+std::string png_address(const Grid<glm::vec3>& picture);
 
 }  // namespace belvedere::tools

@@ -96,8 +96,7 @@ Json Report::picture_json(const std::string& name, const Grid<glm::vec3>& pixels
                           const std::string& caption) const {
   if (pictures_ == Pictures::beside) write_picture(name, pixels);
   return Json::object()
-      .add("src",
-           Json::text(pictures_ == Pictures::beside ? name + ".png" : png_address(pixels, folder_)))
+      .add("src", Json::text(pictures_ == Pictures::beside ? name + ".png" : png_address(pixels)))
       .add("width", Json::number(pixels.width()))
       .add("height", Json::number(pixels.height()))
       .add("caption", Json::text(caption));

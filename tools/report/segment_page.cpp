@@ -35,9 +35,8 @@ std::string runs_of(const Grid<std::uint16_t>& pieces) {
   return out;
 }
 
-std::string script_data(const std::string& folder, const std::string& mask_name,
-                        const Grid<glm::vec3>& picture, const PaintingSegments& segments,
-                        std::size_t groups) {
+std::string script_data(const std::string& mask_name, const Grid<glm::vec3>& picture,
+                        const PaintingSegments& segments, std::size_t groups) {
   Json joins = Json::array();
   for (const auto& join : segments.tree.joins) joins.add(Json::numbers(join));
   Json classes = Json::array();
@@ -56,10 +55,8 @@ std::string script_data(const std::string& folder, const std::string& mask_name,
           .add("joins", std::move(joins))
           .add("classes", std::move(classes))
           .add("pieces", Json::text(base64(runs_of(segments.pieces))))
-          .add("picture",
-               Json::text(png_address(
-                   reduce_blocks(picture, (picture.width() + widest_shown - 1) / widest_shown),
-                   folder)))
+          .add("picture", Json::text(png_address(reduce_blocks(
+                              picture, (picture.width() + widest_shown - 1) / widest_shown))))
           .str());
 }
 
@@ -70,17 +67,16 @@ void write_segment_page(const std::string& path, const std::string& title,
                         const PaintingSegments& segments, std::size_t groups) {
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   const int factor = (picture.width() + widest_shown - 1) / widest_shown;
-  const std::string text = filled_page(
-      embedded_file("segment/index.html"),
-      {{"title", markup_text(title)},
-       {"mask", markup_text(mask_name)},
-       {"width", fmt::format("{}", (picture.width() + factor - 1) / factor)},
-       {"height", fmt::format("{}", (picture.height() + factor - 1) / factor)},
-       {"css", std::string(embedded_file("segment/segment.css"))},
-       {"data",
-        script_data(folder.empty() ? "." : folder.string(), mask_name, picture, segments, groups)},
-       {"groups", std::string(embedded_file("segment/groups.js"))},
-       {"page", std::string(embedded_file("segment/segment.js"))}});
+  const std::string text =
+      filled_page(embedded_file("segment/index.html"),
+                  {{"title", markup_text(title)},
+                   {"mask", markup_text(mask_name)},
+                   {"width", fmt::format("{}", (picture.width() + factor - 1) / factor)},
+                   {"height", fmt::format("{}", (picture.height() + factor - 1) / factor)},
+                   {"css", std::string(embedded_file("segment/segment.css"))},
+                   {"data", script_data(mask_name, picture, segments, groups)},
+                   {"groups", std::string(embedded_file("segment/groups.js"))},
+                   {"page", std::string(embedded_file("segment/segment.js"))}});
   write_text_file(path, text);
 }
 

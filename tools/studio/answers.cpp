@@ -209,12 +209,10 @@ Grid<glm::vec3> map_picture(const LiveView::Ground& ground) {
         continue;
       }
       const glm::dvec2 at = dem.transform.to_crs(x * size.step, y * size.step);
-      const LandCoverClass id = ground.land_cover->at(at.x, at.y);
-      const glm::vec3 own = id == LandCoverClass::water     ? glm::vec3(0.55F, 0.68F, 0.78F)
-                            : id == LandCoverClass::glacier ? glm::vec3(0.90F, 0.95F, 1.0F)
-                            : id == LandCoverClass::snow    ? glm::vec3(1.0F)
-                            : id == LandCoverClass::forest  ? glm::vec3(0.66F, 0.74F, 0.60F)
-                                                            : glm::vec3(0.82F, 0.80F, 0.74F);
+      // Pale, so that the forms show.
+      const std::uint32_t rgb = class_info(ground.land_cover->at(at.x, at.y)).rgb;
+      const glm::vec3 own =
+          0.55F + 0.45F / 255.0F * glm::vec3((rgb >> 16U) & 255U, (rgb >> 8U) & 255U, rgb & 255U);
       picture(x, y) = own * (0.35F + 0.65F * static_cast<float>(shade(x, y)) / 255.0F);
     }
   return picture;
@@ -246,11 +244,9 @@ std::vector<Proposal> find_proposals(const LiveView::Ground& ground) {
   std::vector<Proposal> out;
   for (const Candidate& candidate : propose_views(search)) {
     Proposal& proposal = out.emplace_back();
-    // "looks south (179°), 27 to 65 km, 40° wide: a summit of …; merit 8.2"
-    const std::string words = describe_view(search, candidate);
-    const std::size_t colon = words.find(": ");
-    proposal.name = words.substr(0, colon);
-    if (colon != std::string::npos) proposal.why = words.substr(colon + 2);
+    const ViewWords words = view_words(search, candidate);
+    proposal.name = words.view;
+    proposal.why = fmt::format("{}; merit {:.1f}", words.subject, candidate.merit);
     // The view as a whole is replaced, so that no key of the view before remains.
     proposal.edits = {{.key = "camera", .value = {}}, {.key = "deform", .value = {}}};
     const ConfigValue text = parse_config(proposed_scene_text(search, candidate, {}), "proposal");

@@ -1,12 +1,10 @@
 #include "tools/studio/picture_queue.h"
 
 #include <algorithm>
-
-#include <malloc.h>
-
 #include <future>
 
 #include "base/error.h"
+#include "base/memory/zeroed_memory.h"
 
 namespace belvedere::tools {
 
@@ -78,7 +76,7 @@ LivePicture PictureQueue::paint_as(std::uint64_t own, const LoadedScene& scene, 
                            {run.threads, run.memory_bytes, run.tile_px, progress, run.cache},
                            use_tile);
       }).get();
-  if (rung.is_last()) malloc_trim(0);  // the world of the scene goes, and is not made again soon
+  if (rung.is_last()) return_freed_memory();  // of the world of the scene
   return picture;
 }
 

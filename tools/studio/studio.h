@@ -9,6 +9,8 @@
 
 namespace belvedere::tools {
 
+struct StudioState;
+
 struct StudioParameters {
   std::string scene;  // path
   SceneFileOptions files;
@@ -36,8 +38,7 @@ class Studio {
   HttpAnswer answer(const HttpRequest& request);
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  std::unique_ptr<StudioState> state_;
 };
 
 }  // namespace belvedere::tools

@@ -26,22 +26,22 @@ class LayoutScan {
  private:
   using Kind = TomlPart::Kind;
 
-  char next() const { return i_ < text_.size() ? text_[i_] : '\n'; }
+  char peek() const { return i_ < text_.size() ? text_[i_] : '\n'; }
 
   void line() {
     const std::size_t index = parts_.size();
     parts_.emplace_back().whole.begin = i_;
     skip_blanks();
-    if (next() == '[') {
+    if (peek() == '[') {
       header(parts_[index]);
-    } else if (next() != '#' && next() != '\r' && next() != '\n') {
+    } else if (peek() != '#' && peek() != '\r' && peek() != '\n') {
       parts_[index].kind = Kind::value;
       parts_[index].table = table_;
       named_value(index, table_);
     }
     skip_blanks();
     TomlPart& part = parts_[index];
-    if (next() == '#') {
+    if (peek() == '#') {
       if (part.kind == Kind::blank) part.kind = Kind::comment;
       part.has_comment = true;
     }
@@ -74,7 +74,7 @@ class LayoutScan {
     while (i_ < text_.size()) {
       skip_blanks();
       const std::size_t begin = i_;
-      if (next() == '"' || next() == '\'') {
+      if (peek() == '"' || peek() == '\'') {
         skip_string();
         const ConfigValue name = parse_config_value(text_.substr(begin, i_ - begin), "");
         names.push_back(std::get<std::string>(name.value));
@@ -84,7 +84,7 @@ class LayoutScan {
       }
       key_end_ = i_;
       skip_blanks();
-      if (next() != '.') break;
+      if (peek() != '.') break;
       ++i_;
     }
     return names;
@@ -103,7 +103,7 @@ class LayoutScan {
 
   void value(std::size_t index) {
     const std::size_t begin = i_;
-    const char first = next();
+    const char first = peek();
     if (first == '"' || first == '\'') {
       skip_string();
     } else if (first == '[' || first == '{') {

@@ -152,7 +152,7 @@ TEST(LiveView, PicturesHaveTheSizeOfTheirRung) {
 
 TEST(LiveView, TilesCoverThePictureOnceFromTheMiddleAndEqualTheWhole) {
   const LoadedScene scene = tiny_scene({"output.width=600", "output.height=270"});
-  const Rung rung{.name = "tiles", .without = {"strokes"}, .strokes = false, .quick_rays = true};
+  const Rung rung{.name = "tiles", .without = {"strokes"}, .strokes = false};
   LiveView live;
   const Grid<glm::vec3> whole = live.paint(scene, rung, {}).colour;
   std::vector<PixelRect> rects;

@@ -2,7 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
 #include "renderer/scene/draft.h"
+#include "terrain/io/raster_io.h"
+#include "tests/files.h"
 #include "tests/scenes.h"
 
 namespace belvedere {
@@ -29,6 +34,35 @@ TEST(CoarseGroundScene, CellsAreWholeTimesAsWideAndAboutAsManyAsAllowed) {
 
 TEST(CoarseGroundScene, GroundThatIsSmallEnoughStays) {
   EXPECT_EQ(with_coarse_ground(scene_of_files(), {1.0, 30.0}, 1.0).scene.terrain.dem.cell_m, 0.0);
+}
+
+TEST(CoarseGroundScene, HasNoWindowsOfFinerCells) {
+  LoadedScene loaded = scene_of_files();
+  loaded.scene.terrain.max_mcells = 5.0;
+  EXPECT_EQ(with_coarse_ground(loaded, {9.0, 30.0}, 1.0).scene.terrain.max_mcells, 0.0);
+}
+
+TEST(CoarseGroundScene, TheSizeOfTheGroundIsThatOfItsFiles) {
+  const GroundSize synthetic = ground_size_of(test::small_scene());
+  EXPECT_DOUBLE_EQ(synthetic.mcells, 0.0144);
+  EXPECT_DOUBLE_EQ(synthetic.cell_m, 100.0);
+  const test::Folder folder;
+  write_raster(folder / "a.tif", Raster<float>{Grid<float>(60, 50, 7.F),
+                                               {600000.0, 5200000.0, 25.0, 25.0},
+                                               normalize_crs("EPSG:32632")});
+  const auto scene = [&](const std::vector<std::string>& settings = {}) {
+    return parse_scene(
+        "version = 1\n[[terrain.sources]]\nfile = \"a.tif\"\n[camera]\nposition = [0, 0]\n",
+        "a.toml", folder.path(), {.data_folders = {}, .settings = settings});
+  };
+  EXPECT_DOUBLE_EQ(ground_size_of(scene()).mcells, 0.003);
+  EXPECT_DOUBLE_EQ(ground_size_of(scene()).cell_m, 25.0);
+  EXPECT_DOUBLE_EQ(ground_size_of(scene({"terrain.cell_m=50"})).cell_m, 50.0);
+  EXPECT_NEAR(ground_size_of(scene({"terrain.cell_m=50"})).mcells, 0.00075, 0.00005);
+  EXPECT_EQ(test::error_of([&] {
+              ground_size_of(scene({"terrain.sources=[{ file = \"none.tif\" }]"}));
+            }).kind(),
+            ErrorKind::input);
 }
 
 TEST(CoarseGroundScene, SyntheticTerrainKeepsItsCellsAndItsSizeIsThatOfItsGrid) {

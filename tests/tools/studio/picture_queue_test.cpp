@@ -19,9 +19,7 @@ LoadedScene queue_scene() {
                             "output.width=600", "output.height=24"});
 }
 
-Rung tiled() {
-  return {.name = "tiled", .without = {"strokes"}, .strokes = false, .quick_rays = true};
-}
+Rung tiled() { return {.name = "tiled", .without = {"strokes"}, .strokes = false}; }
 
 TEST(PictureQueue, PicturesAreThoseOfTheEngine) {
   PictureQueue queue;

@@ -9,6 +9,7 @@
 #include "renderer/pipeline/copy_plan.h"
 #include "renderer/pipeline/scene_paint.h"
 #include "renderer/pipeline/sheet_memory.h"
+#include "renderer/sheet/scratch_folder.h"
 #include "renderer/stages/lit_picture.h"
 #include "renderer/stages/stages.h"
 #include "renderer/trace/sketch/relief_sketch.h"
@@ -16,7 +17,6 @@
 #include "renderer/world/season/scene_season.h"
 #include "renderer/world/valley_view.h"
 #include "tools/cli/contact/picture_table.h"
-#include "tools/cli/lock/scratch_folder.h"
 #include "tools/report/report_pictures.h"
 
 namespace belvedere::tools {

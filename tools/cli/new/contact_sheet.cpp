@@ -9,11 +9,11 @@
 #include "renderer/image/image_io.h"
 #include "renderer/pipeline/pipeline.h"
 #include "renderer/scene/draft.h"
+#include "renderer/sheet/scratch_folder.h"
 #include "renderer/world/scene_dem.h"
 #include "renderer/world/valley_view.h"
 #include "terrain/io/raster_io.h"
 #include "tools/cli/contact/picture_table.h"
-#include "tools/cli/lock/scratch_folder.h"
 
 namespace belvedere::tools {
 namespace {

@@ -1,4 +1,4 @@
-#include "tools/studio/encoded_picture.h"
+#include "tools/report/encoded_picture.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "tools/cli/lock/scratch_folder.h"
+#include "renderer/sheet/scratch_folder.h"
 
 #include <cerrno>
 #include <cstdlib>
@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 
-namespace belvedere::tools {
+namespace belvedere {
 
 ScratchFolder::ScratchFolder() {
   std::error_code problem;
@@ -26,4 +26,4 @@ ScratchFolder::~ScratchFolder() {
   std::filesystem::remove_all(path_, ignored);
 }
 
-}  // namespace belvedere::tools
+}  // namespace belvedere

@@ -1,14 +1,10 @@
-#include "tools/studio/encoded_picture.h"
+#include "tools/report/encoded_picture.h"
 
-#include <fmt/core.h>
-#include <unistd.h>
-
-#include <atomic>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 
 #include "renderer/image/image_io.h"
+#include "renderer/sheet/scratch_folder.h"
 
 namespace belvedere::tools {
 namespace {
@@ -16,15 +12,11 @@ namespace {
 // The writers write files.
 template <class Write>
 std::string bytes_of(const char* extension, const Write& write) {
-  static std::atomic<unsigned> count = 0;
-  const std::filesystem::path path =
-      std::filesystem::temp_directory_path() /
-      fmt::format("belvedere-{}-{}.{}", getpid(), count.fetch_add(1), extension);
-  write(path.string());
+  const ScratchFolder folder;
+  const std::string path = folder.path() + "/picture." + extension;
+  write(path);
   std::ifstream file(path, std::ios::binary);
-  std::string bytes(std::istreambuf_iterator<char>(file), {});
-  std::filesystem::remove(path);
-  return bytes;
+  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace belvedere::tools {
+namespace belvedere {
 
 // A temporary folder of the run in the system's usual location ($TMPDIR), removed with the object.
 class ScratchFolder {
@@ -19,4 +19,4 @@ class ScratchFolder {
   std::string path_;
 };
 
-}  // namespace belvedere::tools
+}  // namespace belvedere

@@ -1,0 +1,126 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "base/error.h"
+#include "base/text/embedded.h"
+#include "base/text/letters.h"
+#include "renderer/image/output_file.h"
+#include "renderer/scene/draft.h"
+#include "tools/studio/render_job.h"
+#include "tools/studio/request_body.h"
+#include "tools/studio/studio_state.h"
+
+namespace belvedere::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string type_of(const std::string& path) {
+  static constexpr std::pair<const char*, const char*> types[] = {
+      {".html", "text/html; charset=utf-8"},
+      {".css", "text/css"},
+      {".js", "text/javascript"},
+      {".svg", "image/svg+xml"},
+      {".jpg", "image/jpeg"},
+      {".png", "image/png"}};
+  for (const auto& [extension, type] : types)
+    if (path.ends_with(extension)) return type;
+  return "application/octet-stream";
+}
+
+// What a page may load and run. The studio runs only its own files; a rendered picture's page has
+// its scripts in itself, and asks nothing of the program.
+constexpr const char* studio_policy =
+    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self'; connect-src 'self'; "
+    "base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+constexpr const char* rendered_policy =
+    "default-src 'none'; script-src 'self' 'unsafe-inline'; style-src 'self' 'unsafe-inline'; "
+    "img-src 'self' blob: data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+
+std::string read_bytes(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// What a file is good for, by its name.
+std::string kind_of(const std::string& name) {
+  const std::string extension = lower_extension(name);
+  static constexpr std::pair<const char*, const char*> kinds[] = {
+      {".gpx", "track"},    {".geojson", "features"}, {".gpkg", "features"}, {".shp", "features"},
+      {".kml", "features"}, {".tif", "terrain"},      {".tiff", "terrain"},  {".asc", "terrain"},
+      {".hgt", "terrain"},  {".jpg", "painting"},     {".jpeg", "painting"}, {".png", "painting"},
+      {".toml", "scene"}};
+  for (const auto& [known, kind] : kinds)
+    if (extension == known) return kind;
+  return "other";
+}
+
+}  // namespace
+
+// A page's own files.
+HttpAnswer StudioState::file(const std::string& name) {
+  const std::string path = name.empty() ? "index.html" : name;
+  for (const std::string_view extension : {".html", ".css", ".js", ".svg"})
+    if (path.ends_with(extension)) {
+      const std::string stem = path.substr(0, path.size() - extension.size());
+      const std::vector<std::string> all = embedded_names("studio");
+      if (std::find(all.begin(), all.end(), stem) == all.end()) break;
+      return {.type = type_of(path),
+              .body = std::string(embedded_file("studio/" + path)),
+              .headers = {{"Content-Security-Policy", studio_policy}}};
+    }
+  return not_found("page");
+}
+
+// The page of the last rendered picture; nothing outside its folder.
+HttpAnswer StudioState::rendered(const std::string& name) {
+  const RenderJob::Report report = job->report();
+  if (report.state != RenderJob::State::done) return not_found("file");
+  const fs::path folder = fs::weakly_canonical(RenderJob::page_folder(report.folder));
+  const fs::path path = fs::weakly_canonical(folder / name);
+  if (!path.string().starts_with(folder.string() + "/") || !fs::is_regular_file(path))
+    return not_found("file");
+  return {.type = type_of(path.string()),
+          .body = read_bytes(path),
+          .headers = {{"Content-Security-Policy", rendered_policy}}};
+}
+
+HttpAnswer StudioState::start_render(const HttpRequest& request) {
+  LoadedScene scene = moment(request).scene;
+  SceneOutput& output = scene.scene.output;
+  const int width = read_number_member(request.body, "width", output.width);
+  if (width < 16 || width > 65535)
+    throw Error(ErrorKind::usage, "width", fmt::format("{}", width), "16 … 65535 px");
+  output = with_width(output, width);
+  const fs::path folder = fs::path(scene.folder) / (scene.name + "_rendered");
+  // The live pictures make room.
+  quick.cancel();
+  exact.cancel();
+  job->start(scene, folder.string(), run);
+  return json_answer(job_json(job->report()), 202);
+}
+
+HttpAnswer StudioState::take_file(const HttpRequest& request) {
+  const std::string name = request.value("name");
+  if (name.empty() || name.size() > 200 || name.front() == '.' ||
+      name.find_first_of(std::string("/\\\0", 3)) != std::string::npos)
+    throw Error(ErrorKind::usage, "name", fmt::format("\"{}\"", name),
+                "the name of a file, without folders");
+  fs::path path;
+  {
+    const std::lock_guard guard(mutex);
+    path = fs::path(session.scene().folder) / name;
+  }
+  if (fs::exists(fs::symlink_status(path)))  // a link to nowhere is a file too
+    throw Error(ErrorKind::output, name, "a file of that name is there already",
+                "another name; no file is replaced");
+  write_text_file(path.string(), request.body);
+  return json_answer(
+      Json::object().add("file", Json::text(name)).add("kind", Json::text(kind_of(name))));
+}
+
+}  // namespace belvedere::tools

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/run.h"
+#include "renderer/scene/scene_file.h"
+#include "tools/studio/answers.h"
+#include "tools/studio/http_server.h"
+#include "tools/studio/picture_queue.h"
+#include "tools/studio/scene_owner.h"
+#include "tools/studio/scene_session.h"
+
+namespace belvedere::tools {
+
+class RenderJob;
+
+// What the studio's files share: studio.cpp finds the answer to a request, studio_pictures.cpp and
+// studio_files.cpp have the longer ones.
+struct StudioState {
+  StudioState(const std::string& scene, const SceneFileOptions& files, const Run& given);
+  ~StudioState();
+  StudioState(const StudioState&) = delete;
+  StudioState& operator=(const StudioState&) = delete;
+
+  // What of the scene a request needs, at one moment.
+  struct Moment {
+    LoadedScene scene;
+    std::uint64_t revision = 0;
+  };
+  // Error(interrupted) where the request names another revision.
+  Moment moment(const HttpRequest& request);
+
+  // The scene after a change, which ends the pictures of the one before.
+  HttpAnswer change_scene(const std::function<void()>& change);
+  // What the page asks about the last picture: pointer, values left open, notes.
+  void remember(std::shared_ptr<const LivePicture> made, std::vector<std::string> told);
+
+  HttpAnswer file(const std::string& name);
+  HttpAnswer rendered(const std::string& name);
+  HttpAnswer picture(const HttpRequest& request);
+  HttpAnswer tiles(const HttpRequest& request);
+  HttpAnswer pointer(const HttpRequest& request);
+  HttpAnswer start_render(const HttpRequest& request);
+  HttpAnswer take_file(const HttpRequest& request);
+  std::vector<Proposal> proposals(const LoadedScene& scene);
+  HttpAnswer proposal_picture(const std::string& name);
+  HttpAnswer route(const HttpRequest& request);
+
+  std::mutex mutex;  // of the members below, up to `run`
+  SceneSession session;
+  std::vector<DerivedValue> derived;
+  std::vector<std::string> notes;
+  std::shared_ptr<const LivePicture> last;  // under the pointer
+  SceneOwner owner;
+  const Run& run;
+  std::mutex proposals_mutex;
+  std::weak_ptr<const Dem> proposals_of;
+  std::vector<Proposal> proposed;
+  PictureQueue quick;  // all rungs but the last
+  PictureQueue exact;  // the last
+  std::unique_ptr<RenderJob> job;
+  std::atomic<std::int64_t> closed_ms = 0;  // when the page said so; 0: it is open
+  std::optional<HttpServer> server;
+};
+
+inline HttpAnswer json_answer(const Json& json, int status = 200) {
+  return {.status = status, .body = json.str() + "\n"};
+}
+inline HttpAnswer picture_answer(std::string bytes, const std::string& type) {
+  return {.type = type, .body = std::move(bytes)};
+}
+inline HttpAnswer not_found(const std::string& what) {
+  return {.status = 404, .type = "text/plain", .body = "no such " + what + "\n"};
+}
+
+}  // namespace belvedere::tools
