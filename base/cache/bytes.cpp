@@ -17,15 +17,21 @@ void ByteWriter::put_number(std::uint64_t number) {
 }
 
 bool ByteReader::has(std::uint64_t count, std::uint64_t bytes_each) {
-  if (count > rest_.size() / bytes_each) failed_ = true;
+  if (count > left_ / bytes_each) failed_ = true;
   return !failed_;
 }
 
 bool ByteReader::copy(void* to, std::size_t count) {
   if (!has(count, 1)) return false;
-  if (count > 0) std::memcpy(to, rest_.data(), count);
-  rest_ = rest_.subspan(count);
-  return true;
+  if (count == 0) return true;
+  if (source_ != nullptr) {
+    failed_ = !(*source_)(to, count);
+  } else {
+    std::memcpy(to, rest_.data(), count);
+    rest_ = rest_.subspan(count);
+  }
+  left_ -= count;
+  return !failed_;
 }
 
 std::uint64_t ByteReader::take_number() {

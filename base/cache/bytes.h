@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "base/function_ref.h"
 #include "base/grid.h"
 #include "base/memory/zeroed_memory.h"
 
@@ -74,13 +75,19 @@ class ByteWriter {
 // empty and is_done() is false.
 class ByteReader {
  public:
-  explicit ByteReader(std::span<const std::byte> bytes) : rest_(bytes) {}
+  // Gives the next bytes; false where there are none.
+  using Source = FunctionRef<bool(void* to, std::size_t count)>;
+
+  explicit ByteReader(std::span<const std::byte> bytes) : rest_(bytes), left_(bytes.size()) {}
+  // From a file of so many bytes: large values are read without a copy of their bytes. `source`
+  // must outlive the reader.
+  ByteReader(const Source& source, std::uint64_t bytes) : source_(&source), left_(bytes) {}
   template <class... T>
   void operator()(T&... values) {
     (take(values), ...);
   }
   // Whether everything requested was there and nothing is left.
-  bool is_done() const { return !failed_ && rest_.empty(); }
+  bool is_done() const { return !failed_ && left_ == 0; }
 
  private:
   bool copy(void* to, std::size_t count);
@@ -121,7 +128,9 @@ class ByteReader {
   bool has(std::uint64_t count, std::uint64_t bytes_each);
 
   static constexpr std::uint64_t largest_side = INT32_MAX;
-  std::span<const std::byte> rest_;
+  const Source* source_ = nullptr;
+  std::span<const std::byte> rest_;  // without a source
+  std::uint64_t left_ = 0;
   bool failed_ = false;
 };
 

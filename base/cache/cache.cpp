@@ -11,6 +11,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <system_error>
@@ -116,6 +117,56 @@ std::optional<Header> read_header(const Descriptor& file) {
   return header;
 }
 
+// The bytes between header and hash, hashed as they are read.
+class Payload {
+ public:
+  Payload(const Descriptor& file, std::uint64_t bytes) : file_(file), left_(bytes) {}
+
+  bool read(void* to, std::size_t count) {
+    auto* at = static_cast<char*>(to);
+    while (count > 0) {
+      if (used_ < buffer_.size()) {
+        const std::size_t part = std::min(count, buffer_.size() - used_);
+        std::memcpy(at, buffer_.data() + used_, part);
+        used_ += part;
+        at += part;
+        count -= part;
+      } else if (count >= block_bytes) {  // straight to its place
+        if (!take(at, block_bytes)) return false;
+        at += block_bytes;
+        count -= block_bytes;
+      } else {
+        buffer_.resize(std::min<std::uint64_t>(block_bytes, left_));
+        used_ = 0;
+        if (buffer_.empty() || !take(buffer_.data(), buffer_.size())) return false;
+      }
+    }
+    return true;
+  }
+  // Once everything was read.
+  bool is_whole() const {
+    std::string expected(digits, '\0');
+    return left_ == 0 && used_ == buffer_.size() && file_.read(expected.data(), digits) &&
+           expected == hash_.digits();
+  }
+
+ private:
+  static constexpr std::size_t block_bytes = 1 << 18;  // is still near the processor when hashed
+
+  bool take(char* to, std::size_t count) {
+    if (count > left_ || !file_.read(to, count)) return false;
+    left_ -= count;
+    hash_.add(to, count);
+    return true;
+  }
+
+  const Descriptor& file_;
+  std::uint64_t left_;  // in the file
+  std::vector<char> buffer_;
+  std::size_t used_ = 0;  // of the buffer
+  ContentHash hash_;
+};
+
 bool is_hexadecimal(std::string_view text) {
   return text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
 }
@@ -189,34 +240,54 @@ void Cache::note_once(const std::string& reason, Progress& progress) const {
     progress.note(fmt::format("cache {} is not used: {}", parameters_.folder, reason));
 }
 
-std::optional<Bytes> Cache::find(const CacheKey& key, Progress& progress) const {
-  if (!is_on()) return std::nullopt;
+bool Cache::open(const CacheKey& key,
+                 FunctionRef<bool(const ByteReader::Source&, std::uint64_t)> take,
+                 Progress& progress) const {
+  if (!is_on()) return false;
   const std::string path = entry_path(parameters_.folder, key);
   const Descriptor file(path, O_RDONLY);
   if (!file.is_open()) {
     const int code = errno;
     if (code != ENOENT) note_once(reason_of(code), progress);
-    return std::nullopt;
+    return false;
   }
   const std::optional<Header> header = read_header(file);
-  Bytes payload;
-  std::string hash(digits, '\0');
   bool whole = header && header->product == key.product && header->text == key.text;
   if (whole) {
-    payload.resize(header->payload_bytes);
-    whole = file.read(payload.data(), payload.size()) && file.read(hash.data(), hash.size()) &&
-            hash == hash_bytes({reinterpret_cast<const char*>(payload.data()), payload.size()});
+    Payload payload(file, header->payload_bytes);
+    const auto source = [&](void* to, std::size_t count) { return payload.read(to, count); };
+    whole = take(source, header->payload_bytes) && payload.is_whole();
   }
   std::error_code ignored;
   if (!whole) {
     fs::remove(path, ignored);
     progress.note(
         fmt::format("damaged cache entry is recomputed: {} of {}", key.product, key.subject));
-    return std::nullopt;
+    return false;
   }
   fs::last_write_time(path, fs::file_time_type::clock::now(),
                       ignored);  // the modification time is the time of the last use
-  return payload;
+  return true;
+}
+
+std::optional<Bytes> Cache::find(const CacheKey& key, Progress& progress) const {
+  Bytes bytes;
+  const auto take = [&](const ByteReader::Source& source, std::uint64_t size) {
+    bytes.resize(size);
+    return source(bytes.data(), bytes.size());
+  };
+  if (!open(key, take, progress)) return std::nullopt;
+  return bytes;
+}
+
+bool Cache::read(const CacheKey& key, FunctionRef<void(ByteReader&)> read,
+                 Progress& progress) const {
+  const auto take = [&](const ByteReader::Source& source, std::uint64_t size) {
+    ByteReader reader(source, size);
+    read(reader);
+    return reader.is_done();
+  };
+  return open(key, take, progress);
 }
 
 void Cache::store(const CacheKey& key, std::span<const std::span<const std::byte>> parts,

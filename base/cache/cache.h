@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/cache/bytes.h"
+#include "base/function_ref.h"
 #include "base/progress.h"
 
 namespace belvedere {
@@ -43,6 +44,9 @@ class Cache {
   bool is_on() const { return !parameters_.folder.empty(); }
   // What was stored with this key, or nothing. A damaged entry is noted and removed.
   std::optional<Bytes> find(const CacheKey& key, Progress& progress) const;
+  // The same for values, which `read` takes straight from the file. Where the result is false there
+  // was no such entry, or it was damaged, and what was read counts for nothing.
+  bool read(const CacheKey& key, FunctionRef<void(ByteReader&)> read, Progress& progress) const;
   // Parts are concatenated.
   void store(const CacheKey& key, std::span<const std::span<const std::byte>> parts,
              Progress& progress) const;
@@ -51,6 +55,9 @@ class Cache {
   }
 
  private:
+  // `take` gets the payload and its size, and says whether it read to the end.
+  bool open(const CacheKey& key, FunctionRef<bool(const ByteReader::Source&, std::uint64_t)> take,
+            Progress& progress) const;
   void note_once(const std::string& reason, Progress& progress) const;
 
   CacheParameters parameters_;

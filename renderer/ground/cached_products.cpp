@@ -10,8 +10,9 @@
 namespace belvedere {
 namespace {
 
-constexpr std::array<CachedProductInfo, 8> table = {{
+constexpr std::array<CachedProductInfo, 9> table = {{
     {CachedProduct::synthetic_terrain, "synthetic terrain", 1},
+    {CachedProduct::elevation, "elevation", 1},
     {CachedProduct::land_cover, "land cover by rules", 2},
     {CachedProduct::generalized_ground, "generalized ground", 1},
     {CachedProduct::ground_surroundings, "surroundings of the ground", 1},

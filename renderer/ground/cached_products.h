@@ -19,6 +19,7 @@ namespace belvedere {
 // reading it.
 enum class CachedProduct {
   synthetic_terrain,
+  elevation,
   land_cover,
   generalized_ground,
   ground_surroundings,
@@ -67,12 +68,10 @@ template <class Value, class MakeKey, class Make>
 Value cached(const Cache& cache, MakeKey&& make_key, Progress& progress, Make&& make) {
   if (!cache.is_on()) return make(progress);
   const CacheKey key = make_key();
-  if (const std::optional<Bytes> bytes = cache.find(key, progress)) {
+  {
     std::vector<std::string> notes;
     Value value;
-    ByteReader reader(*bytes);
-    reader(notes, value);
-    if (reader.is_done()) {
+    if (cache.read(key, [&](ByteReader& bytes) { bytes(notes, value); }, progress)) {
       for (const std::string& note : notes) progress.note(note);
       return value;
     }

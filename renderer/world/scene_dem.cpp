@@ -6,6 +6,8 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <limits>
+#include <optional>
+#include <string_view>
 #include <utility>
 
 #include "base/cache/cache.h"
@@ -15,13 +17,14 @@
 #include "renderer/ground/cached_products.h"
 #include "renderer/ground/scene_ground_map.h"
 #include "terrain/generalize/destripe.h"
+#include "terrain/io/http_access.h"
+#include "terrain/io/raster_parts.h"
 
 namespace belvedere {
 
 void each_field(auto& bytes, FieldsOf<Dem> auto& dem) {
   auto& [altitude_m, filled, transform, crs, entries, halved] = dem;
-  bytes(altitude_m, filled, transform,
-        crs);  // synthetic terrain has no voids and is used unchanged
+  bytes(altitude_m, filled, transform, crs);  // as read or made: the rest is for windows
 }
 
 namespace {
@@ -41,6 +44,39 @@ CacheKey synthetic_key(const LoadedScene& loaded) {
   key.add("width", width).add("height", height).add("cell_m", cell_m);
   key.add("lowest_m", lowest_m).add("highest_m", highest_m).add("seed", seed);
   return make_cache_key(CachedProduct::synthetic_terrain, key, subject_of(loaded));
+}
+
+// The files' contents and all settings. Nothing where one of them is on a server.
+std::optional<CacheKey> elevation_key(const LoadedScene& loaded, const DemParameters& parameters) {
+  const auto& [sources, crs, cell_m, extent, max_void_share] = parameters;
+  CacheKeyText key;
+  key.add("crs", crs).add("cell_m", cell_m).add("max_void_share", max_void_share);
+  if (extent)
+    for (const double side : *extent) key.add("extent", side);
+  for (const RasterSource& source : sources) {
+    const auto& [path, band, variable, encoding, own_crs, unit_to_m, nodata, lowest_m, highest_m,
+                 max_spike_m] = source;
+    for (const std::string& part : raster_parts(path)) {
+      if (is_address(part)) return std::nullopt;
+      key.add("file", part).add("content", hash_file(part));
+    }
+    key.add("band", band).add("variable", variable).add("encoding", encoding);
+    key.add("source crs", own_crs).add("unit_to_m", unit_to_m).add("max_spike_m", max_spike_m);
+    const std::pair<std::string_view, const std::optional<double>*> limits[] = {
+        {"nodata", &nodata}, {"lowest_m", &lowest_m}, {"highest_m", &highest_m}};
+    for (const auto& [name, limit] : limits)
+      if (*limit) key.add(name, **limit);
+  }
+  return make_cache_key(CachedProduct::elevation, key, subject_of(loaded));
+}
+
+Dem read_or_find_dem(const LoadedScene& loaded, const DemParameters& parameters, Progress& progress,
+                     const Cache& cache) {
+  const std::optional<CacheKey> key =
+      cache.is_on() ? elevation_key(loaded, parameters) : std::nullopt;
+  return cached<Dem>(
+      key ? cache : no_cache(), [&] { return *key; }, progress,
+      [&](Progress& watcher) { return read_dem(parameters, watcher); });
 }
 
 // Bytes per cell from reading to rays: TerrainModel 69, surface 12, structure of the tracer 23, and
@@ -75,7 +111,8 @@ SceneDem read_scene_dem(const LoadedScene& loaded, Progress& progress, const Cac
   const double cells = static_cast<double>(frame.width) * frame.height;
   const double max = max_ground_cells(terrain, cells);
   const int coarsest = coarsest_level(frame, max);
-  if (coarsest == 0) return {read_dem(parameters, progress), nullptr, 0.0, {}};
+  if (coarsest == 0)
+    return {read_or_find_dem(loaded, parameters, progress, cache), nullptr, 0.0, {}};
   // Even at the coarsest useful resolution it still has to fit.
   const RasterFrame whole_frame = level_frame(frame, coarsest);
   check_memory(

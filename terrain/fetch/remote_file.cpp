@@ -118,12 +118,10 @@ void RemoteFile::ask_about() {
 const RemoteDescription& RemoteFile::describe() {
   if (about_) return *about_;
   std::optional<RemoteDescription> kept;
-  if (const std::optional<Bytes> bytes = context_.cache.find(about_key(), context_.progress)) {
-    RemoteDescription value;
-    ByteReader reader(*bytes);
-    reader(value);
-    if (reader.is_done()) kept = value;
-  }
+  RemoteDescription found;
+  if (context_.cache.read(
+          about_key(), [&](ByteReader& bytes) { bytes(found); }, context_.progress))
+    kept = found;
   const bool fresh = kept && context_.now_unix_s - kept->asked_unix_s < trusted_s &&
                      !context_.refresh && !distrust_;
   if (fresh) {

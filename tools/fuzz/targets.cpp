@@ -189,12 +189,11 @@ void read_cache_entry(const std::string& bytes) {
     content += hash_bytes(std::string_view(content).substr(head));
   std::ofstream(path, std::ios::binary | std::ios::trunc) << content;
   cache_entries(folder / "");
-  if (const auto found = cache.find(key, silent_progress())) {
-    std::vector<std::string> notes;
-    PackedRows rows;
-    ByteReader reader(*found);
-    reader(notes, rows);
-  }
+  cache.find(key, silent_progress());
+  std::ofstream(path, std::ios::binary | std::ios::trunc) << content;  // a damaged one is gone
+  std::vector<std::string> notes;
+  PackedRows rows;
+  cache.read(key, [&](ByteReader& reader) { reader(notes, rows); }, silent_progress());
 }
 
 // The bytes of cached values, as a changed version of the program would find them.

@@ -71,6 +71,35 @@ TEST_F(CacheTest, GivesBackWhatWasStoredWithTheKey) {
   EXPECT_THAT(notes_.all, IsEmpty());
 }
 
+// Straight from the file, whichever sizes the values have.
+TEST_F(CacheTest, ValuesAreReadAsTheyWereStored) {
+  Grid<float> large(700, 300);
+  for (std::size_t i = 0; i < large.size(); ++i) large.data()[i] = static_cast<float>(i);
+  const std::vector<std::string> texts(40000, "moraine");
+  ByteWriter writer;
+  writer(texts, large, texts);
+  cache_.store(key("a"), writer.parts(), notes_);
+  Grid<float> grid;
+  std::vector<std::string> before;
+  std::vector<std::string> after;
+  const auto read = [&](ByteReader& bytes) { bytes(before, grid, after); };
+  EXPECT_TRUE(cache_.read(key("a"), read, notes_));
+  EXPECT_EQ(grid, large);
+  EXPECT_EQ(before, texts);
+  EXPECT_EQ(after, texts);
+  EXPECT_FALSE(cache_.read(key("b"), read, notes_));
+  EXPECT_THAT(notes_.all, IsEmpty());
+  // Not to its end; then with a wrong value.
+  EXPECT_FALSE(cache_.read(
+      key("a"), [&](ByteReader& bytes) { bytes(before); }, notes_));
+  cache_.store(key("a"), writer.parts(), notes_);
+  std::string content = test::read_bytes(path_of("a"));
+  content[content.size() / 2] ^= 1;
+  test::write_bytes(path_of("a"), content);
+  EXPECT_FALSE(cache_.read(key("a"), read, notes_));
+  EXPECT_THAT(notes_.all, SizeIs(2));
+}
+
 // Whichever byte is wrong, and wherever the file ends.
 TEST_F(CacheTest, DamageIsFoundAndTheEntryRemoved) {
   store("a", "forest and rock");

@@ -3,11 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <string>
+#include <vector>
 
+#include "base/cache/cache.h"
 #include "renderer/world/generalize_view.h"
 #include "terrain/io/raster_io.h"
 #include "tests/files.h"
+#include "tests/notes.h"
 
 namespace belvedere {
 namespace {
@@ -35,10 +40,11 @@ class TerrainOperators : public testing::Test {
                                gullies_m * std::sin(x / 3.0) * std::sin(y / 11.0 + x));
     return raster;
   }
-  LoadedScene scene(const std::string& file, const std::string& settings) const {
+  LoadedScene scene(const std::string& file, const std::string& settings,
+                    const std::vector<std::string>& changes = {}) const {
     return parse_scene(
         "version = 1\n[[terrain.sources]]\nfile = \"" + file + "\"\n[generalize]\n" + settings,
-        "s.toml", folder_.path(), {});
+        "s.toml", folder_.path(), {.data_folders = {}, .settings = changes});
   }
   Grid<float> generalized(const std::string& settings) const {
     const LoadedScene loaded = scene("clean.tif", settings);
@@ -85,6 +91,33 @@ TEST_F(TerrainOperators, SlopesBecomePlainAndValleysWide) {
   for (int y = 100; y < 160; ++y)
     for (int x = 70; x <= 90; ++x) lower += bare(x, y) - wide(x, y);
   EXPECT_GT(lower / (60.0 * 21.0), 8.0);
+}
+
+// The same cells and notes, until a file or a setting changes.
+TEST_F(TerrainOperators, ElevationIsFoundInTheCache) {
+  Raster<float> holed = valley();
+  holed.cells(40, 50) = std::numeric_limits<float>::quiet_NaN();
+  write_raster(folder_ / "clean.tif", holed);
+  const std::string kept = folder_ / "cache";
+  const Cache cache({.folder = kept, .limit_bytes = std::uint64_t{1} << 30});
+  const auto read = [&](const std::vector<std::string>& changes, test::Notes& notes) {
+    return make_scene_dem(scene("clean.tif", "", changes), notes, cache);
+  };
+  test::Notes first;
+  test::Notes second;
+  const Dem made = read({}, first);
+  const Dem found = read({}, second);
+  EXPECT_EQ(cache_entries(kept).size(), 1U);
+  EXPECT_EQ(found.altitude_m, made.altitude_m);
+  EXPECT_EQ(found.filled, made.filled);
+  EXPECT_EQ(found.crs, made.crs);
+  EXPECT_EQ(second.all, first.all);
+  EXPECT_FALSE(first.all.empty()) << "a void is filled";
+  read({"terrain.max_void_share=0.5"}, first);
+  EXPECT_EQ(cache_entries(kept).size(), 2U);
+  write_raster(folder_ / "clean.tif", valley());
+  EXPECT_EQ(read({}, first).altitude_m, valley().cells);
+  EXPECT_EQ(cache_entries(kept).size(), 3U);
 }
 
 }  // namespace
