@@ -8,6 +8,7 @@
 #include "base/grid.h"
 #include "base/image.h"
 #include "base/land_cover_class.h"
+#include "base/math.h"
 
 namespace belvedere {
 
@@ -48,12 +49,14 @@ struct GroundChannels {
   Grid<float> flow;       // base-10 logarithm of the upstream area in m²
 };
 
-// Rock: relief that the DEM does not resolve (renderer/rock). All 0 outside rock.
+// Relief that the DEM does not resolve: of rock (renderer/rock), and of open ground seen from near
+// (renderer/close), which has only planes and tone. 0 elsewhere.
 struct RockChannels {
   Grid<float> rock_height;  // units of the sheet (0.5 mm)
   Grid<std::uint32_t>
       rock_facet;  // number of the plane of a pixel; planes of one large spur share the upper half
-  Grid<float> rock_tone;       // light on that relief, before the picture's
+  Grid<float> rock_tone;  // light on that relief, before the picture's; on near ground the tone
+                          // that its forms add
   Grid<glm::vec2> rock_cover;  // shares of turf and of snow on it, 0…1
 };
 
@@ -86,5 +89,13 @@ struct GuidanceBuffers : ViewChannels, GroundChannels, RockChannels, LightChanne
     return !(depth_m[i] < std::numeric_limits<float>::infinity());
   }
 };
+
+// How near ground is seen, 0…1, by the metres of it in a unit of the sheet (0.5 mm): at 1 its forms
+// are larger than the elevation data resolve, and are invented.
+inline float close_share(float metres_per_unit) {
+  constexpr float near_m = 14.0F;
+  constexpr float far_m = 25.0F;
+  return 1.0F - smoothstep(near_m, far_m, metres_per_unit);
+}
 
 }  // namespace belvedere

@@ -178,12 +178,13 @@ const GuidanceChannel channels[] = {
      .maker = ChannelMaker::relief,
      .unit = "id",
      .meaning =
-         "plane of rock; planes of one large spur have the upper 16 bits in common; 0: no rock"},
+         "plane of rock, where planes of one large spur have the upper 16 bits in common, or of "
+         "near ground; 0: none"},
     {.member = &B::rock_tone,
      .names = {"rock.tone"},
      .part = "rock",
      .maker = ChannelMaker::relief,
-     .meaning = "light on the rock spurs"},
+     .meaning = "light on the rock spurs; on other near ground what its forms add to the tone"},
     {.member = &B::rock_cover,
      .names = {"rock.turf", "rock.snow"},
      .part = "rock",

@@ -154,6 +154,10 @@ enum class Stream : std::uint16_t {
   style_contrasts,   // where it contrasts more than elsewhere
   style_weave,
   style_contours,  // dark strokes along silhouettes
+  close_roofs,     // forms of snow, scree and grass seen from near
+  close_borders,
+  close_calm,  // where they are low
+  river_banks,
 
   count  // not a stream: their number
 };

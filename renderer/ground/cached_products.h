@@ -71,7 +71,8 @@ Value cached(const Cache& cache, MakeKey&& make_key, Progress& progress, Make&& 
   {
     std::vector<std::string> notes;
     Value value;
-    if (cache.read(key, [&](ByteReader& bytes) { bytes(notes, value); }, progress)) {
+    if (cache.read(
+            key, [&](ByteReader& bytes) { bytes(notes, value); }, progress)) {
       for (const std::string& note : notes) progress.note(note);
       return value;
     }

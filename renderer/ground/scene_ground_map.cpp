@@ -20,6 +20,7 @@
 #include "renderer/ground/cached_products.h"
 #include "renderer/ground/feature_files.h"
 #include "renderer/ground/packed_rows.h"
+#include "renderer/ground/river_banks.h"
 #include "terrain/cover/town_file.h"
 #include "terrain/shape/coast.h"
 
@@ -276,7 +277,7 @@ void level_scene_lakes(Dem& dem, const LoadedScene& loaded, Progress& progress, 
 
 namespace {
 
-// Rivers widened for visibility; `fade` instead of breaking into dots.
+// Rivers widened for visibility, with their banks; `fade` instead of breaking into dots.
 std::vector<CoverRiver> widen_rivers(std::vector<CoverRiver> rivers, bool fade,
                                      const FeatureStyle& style, const LoadedScene& loaded,
                                      const Dem& dem, const SeenFrom& seen) {
@@ -289,7 +290,7 @@ std::vector<CoverRiver> widen_rivers(std::vector<CoverRiver> rivers, bool fade,
           widen_for_view(std::move(rivers[i]), {min_river_px(of_kind, loaded), fade}, dem, seen);
     }
   });
-  return rivers;
+  return with_banks(std::move(rivers), loaded.scene.seed);
 }
 
 }  // namespace

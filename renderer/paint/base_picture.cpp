@@ -250,6 +250,18 @@ glm::vec3 light_warmth(const Scenery& s, std::size_t i) {
   return 1.0F + full_warmth * (warmth * smoothstep(0.30F, 0.80F, s.guidance.tone[i]));
 }
 
+// Near snow is cream in the sun; steep shade is violet, shade that sees the sky is blue.
+glm::vec3 near_snow_hue(const Scenery& s, std::size_t i) {
+  const GuidanceBuffers& g = s.guidance;
+  const float close = close_share(s.metres_per_unit(i));
+  if (close <= 0.0F || !is_white(g.land_cover[i], s.palette.winter)) return glm::vec3(1.0F);
+  const float lit = smoothstep(0.55F, 0.90F, g.tone[i]);
+  const float shade = 1.0F - smoothstep(0.25F, 0.50F, g.tone[i]);
+  const float steep = std::clamp((g.slope_deg[i] - 26.0F) / 20.0F, -1.0F, 1.0F);
+  return 1.0F + close * (lit * glm::vec3(0.012F, 0.001F, -0.034F) +
+                         shade * steep * glm::vec3(0.045F, -0.02F, 0.0F));
+}
+
 PixelColour pixel_colour(const Scenery& s, std::size_t i, int y, const Patches& patches,
                          const ForestTurn& woods) {
   const GuidanceBuffers& g = s.guidance;
@@ -279,6 +291,7 @@ PixelColour pixel_colour(const Scenery& s, std::size_t i, int y, const Patches& 
   if (!s.palette.winter) pixel.factor *= grown_hue(s, i, patches, woods, pixel.air);
   pixel.factor *= evening_glow(s, i, far);
   pixel.factor *= light_warmth(s, i);
+  pixel.factor *= near_snow_hue(s, i);
   return pixel;
 }
 

@@ -40,6 +40,7 @@ constexpr float snow_detail =
 constexpr float snow_toe =
     0.17F;  // tones below and above which the range is compressed instead of clipped
 constexpr float snow_shoulder = 0.74F;
+constexpr float close_bright = 0.80F;  // tone of near snow above which light is compressed
 constexpr float snow_hollow = 0.055F;  // how much darker the hollows of swells are
 constexpr float cornice_units = 5.0F;  // height of the overhanging edge drawn below a crest
 constexpr float lip_units = 1.3F;      // of that, the lit lip; the rest is its shade
@@ -108,12 +109,14 @@ float keep_snow(float tone) {
 // Light before contrast on wind-shaped snow. Steep snow slides: it has runnels (ribs) and no
 // drifts.
 float snow_light(const GuidanceBuffers& g, std::size_t i, float shadow, float sky_view, float fine,
-                 const SnowForm& form, const GroundLight& own, const ToneParameters& p) {
+                 float close, const SnowForm& form, const GroundLight& own,
+                 const ToneParameters& p) {
   const float share = snow_detail * fine;
   const glm::vec3 ground =
       glm::normalize(g.normal_detail[i] * share + g.normal[i] * (1.0F - share));
-  const float laid =
-      (1.0F - 0.75F * smoothstep(24.0F, 44.0F, g.slope_deg[i])) * (0.35F + 0.65F * fine);
+  // Near snow has forms of its own (renderer/close).
+  const float laid = (1.0F - 0.75F * smoothstep(24.0F, 44.0F, g.slope_deg[i])) *
+                     (0.35F + 0.65F * fine) * (1.0F - close);
   const glm::vec2 rise = glm::vec2(ground) / -std::max(ground.z, 0.15F) + laid * form.slope;
   const glm::vec3 normal = glm::normalize(glm::vec3(-rise, 1.0F));
   const glm::vec3 sun_direction(own.sun);
@@ -329,11 +332,13 @@ Grid<float> make_tone(const GuidanceBuffers& guidance, const WideView& wide,
       // Rock with computed relief gets its light from there.
       const bool relief = has_relief && id == LandCoverClass::rock;
       const bool white = is_white(id, parameters.winter);
+      float close = 0.0F;  // ground near enough for forms of its own
       float value = 0.0F;
       if (relief) {
         value = middle_tone + (guidance.rock_tone[i] - middle_tone) / light.contrast;
       } else {
         const float fine = fineness(guidance, i, ppu);
+        if (has_relief) close = close_share(guidance.footprint_m[i] * static_cast<float>(ppu));
         const GroundLight& own = local.empty() ? everywhere : local[i];
         float raw = 0.0F;
         if (white) {
@@ -341,13 +346,13 @@ Grid<float> make_tone(const GuidanceBuffers& guidance, const WideView& wide,
           const double metres_per_unit =
               std::max(0.01, static_cast<double>(guidance.footprint_m[i]) * ppu);
           const SnowForm form = laid.at({position.x, position.y}, metres_per_unit, ppu);
-          raw = snow_light(guidance, i, shadow[i], sky_view[i], fine, form, own, parameters);
+          raw = snow_light(guidance, i, shadow[i], sky_view[i], fine, close, form, own, parameters);
         } else {
           raw = raw_light(guidance, i, shadow[i], sky_view[i], fine, own, parameters);
         }
         if (ribbed[i] != 0)
           raw += static_cast<float>(parameters.ribs) * light.ribs * fine * ribs[i] *
-                 steepness(guidance.slope_deg[i]);
+                 steepness(guidance.slope_deg[i]) * (1.0F - close);
         value =
             std::clamp((raw - raw_black) / raw_range,
                        id == LandCoverClass::rock || white ? -0.3F : 0.0F, white ? 1.3F : 1.05F);
@@ -363,9 +368,14 @@ Grid<float> make_tone(const GuidanceBuffers& guidance, const WideView& wide,
         value -= outcrop_shade * outcrop;
       }
       const float contrasted = middle_tone + (value - middle_tone) * contrast;
-      const float kept = id == LandCoverClass::rock ? keep_forms(contrasted)
-                         : white                    ? keep_snow(contrasted)
-                                                    : contrasted;
+      float kept = id == LandCoverClass::rock ? keep_forms(contrasted)
+                   : white                    ? keep_snow(contrasted)
+                                              : contrasted;
+      if (close > 0.0F) {
+        // Room for the forms in full light.
+        if (white && kept > close_bright) kept -= close * 0.25F * (kept - close_bright);
+        kept += guidance.rock_tone[i];
+      }
       tone[i] = std::clamp(kept, 0.0F, brightest_tone);
     }
     progress.advance(1.0);

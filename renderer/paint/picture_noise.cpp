@@ -46,6 +46,26 @@ std::vector<LatticeWeights> pixel_weights(int origin, int count, double pixels_p
 
 }  // namespace
 
+float broken_noise(std::uint64_t seed, float x, float y) {
+  const float floor_x = std::floor(x);
+  const float floor_y = std::floor(y);
+  const auto ix = static_cast<std::int64_t>(floor_x);
+  const auto iy = static_cast<std::int64_t>(floor_y);
+  const float fx = x - floor_x;
+  const float fy = y - floor_y;
+  const auto at = [&](std::int64_t a, std::int64_t b) {
+    return static_cast<float>(random_bits(seed, a, b) >> 40U) * 0x1.0p-23F - 1.0F;
+  };
+  const float b = at(ix + 1, iy);
+  const float c = at(ix, iy + 1);
+  if (fx + fy < 1.0F) {
+    const float a = at(ix, iy);
+    return 2.0F * (a + (b - a) * fx + (c - a) * fy);
+  }
+  const float d = at(ix + 1, iy + 1);
+  return 2.0F * (d + (c - d) * (1.0F - fx) + (b - d) * (1.0F - fy));
+}
+
 Grid<float> make_image_noise(std::uint64_t seed, glm::ivec2 origin_px, int width, int height,
                              double pixels_per_unit, double sigma_x_units, double sigma_y_units) {
   Grid<float> noise(width, height);

@@ -25,6 +25,10 @@ constexpr std::int64_t nowhere = INT64_MIN;
 Grid<float> make_image_noise(std::uint64_t seed, glm::ivec2 origin_px, int width, int height,
                              double pixels_per_unit, double sigma_x_units, double sigma_y_units);
 
+// Noise about -2…2 on a lattice of spacing 1, linear over the two triangles of a cell, for broken
+// instead of curled edges.
+float broken_noise(std::uint64_t seed, float x, float y);
+
 // Noise on the ground, in metres. It caches lattice values, for positions close to the previous
 // one, as along a row of pixels. Not to be shared between threads.
 class GroundNoise {

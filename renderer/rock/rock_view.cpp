@@ -7,6 +7,7 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "base/random_streams.h"
+#include "renderer/paint/picture_noise.h"
 
 namespace belvedere {
 namespace {
@@ -16,27 +17,6 @@ constexpr float band_depth_ratio = 1.105F;  // max depth ratio within a cell
 constexpr float warp_units = 0.56F;
 constexpr float warp_cell_units = 6.4F;
 constexpr float small_warp = 0.45F;
-
-// Noise about -2…2, linear over the two triangles of a cell, for broken instead of curled edges.
-float broken_noise(std::uint64_t seed, float x, float y) {
-  const float floor_x = std::floor(x);
-  const float floor_y = std::floor(y);
-  const auto ix = static_cast<std::int64_t>(floor_x);
-  const auto iy = static_cast<std::int64_t>(floor_y);
-  const float fx = x - floor_x;
-  const float fy = y - floor_y;
-  const auto at = [&](std::int64_t a, std::int64_t b) {
-    return static_cast<float>(random_bits(seed, a, b) >> 40U) * 0x1.0p-23F - 1.0F;
-  };
-  const float b = at(ix + 1, iy);
-  const float c = at(ix, iy + 1);
-  if (fx + fy < 1.0F) {
-    const float a = at(ix, iy);
-    return 2.0F * (a + (b - a) * fx + (c - a) * fy);
-  }
-  const float d = at(ix + 1, iy + 1);
-  return 2.0F * (d + (c - d) * (1.0F - fx) + (b - d) * (1.0F - fy));
-}
 
 BandPartition part_bands(const SpurGround& ground, PixelRect rect) {
   const auto ppu = static_cast<float>(ground.pixels_per_unit);

@@ -30,7 +30,7 @@ enum Field : int {
   fields
 };
 constexpr int row_lanes = 8;  // cells of a row evaluated at once
-static_assert(2 * spur_form::reach_across + 1 <= row_lanes);
+static_assert(2 * spur_form::max_reach + 1 <= row_lanes);
 
 struct Question {
   const float* first;    // position_x of the first cell
@@ -184,10 +184,12 @@ SpurPeaks find_peaks(const SpurCells& cells, float slender, glm::vec2 position, 
   using namespace spur_form;
   const int column = static_cast<int>(std::floor(position.x / cells.spacing)) - cells.first.x;
   const int row = static_cast<int>(std::floor(position.y / cells.spacing)) - cells.first.y;
-  const int x0 = std::max(column - reach_across, 0);
-  const int x1 = std::min(column + reach_across, cells.count.x - 1);
+  const int across = cells.any_direction ? max_reach : reach_across;
+  const int below = cells.any_direction ? max_reach : reach_down;
+  const int x0 = std::max(column - across, 0);
+  const int x1 = std::min(column + across, cells.count.x - 1);
   const int y0 = std::max(row - reach_up, 0);
-  const int y1 = std::min(row + reach_down, cells.count.y - 1);
+  const int y1 = std::min(row + below, cells.count.y - 1);
   SpurPeaks found;
   if (x1 < x0 || y1 < y0) return found;
   const peaks::Question question{.first = cells.lanes.numbers.data() + y0 * cells.lanes.row + x0,

@@ -36,6 +36,7 @@ struct SpurCells {
   float spacing = 1.0F;
   float lost_beyond =
       0.4F;  // height, in spacings, that a spur loses across the border of its parent
+  bool any_direction = false;  // spurs may run up, too
   glm::ivec2 first{0};
   glm::ivec2 count{0};
   std::vector<Spur> spurs;
@@ -56,10 +57,11 @@ inline constexpr float opening_to = 1.6F;
 // origin.
 inline constexpr float stray = 0.6F;
 // Cells around a position whose spurs can be highest there: those above reach farther down than
-// those below reach up.
+// those below reach up. Roofs that lie in any direction have the larger reach on every side.
 inline constexpr int reach_across = 2;
 inline constexpr int reach_up = 3;
 inline constexpr int reach_down = 2;
+inline constexpr int max_reach = 3;
 }  // namespace spur_form
 
 // The fields that determine a spur's height at a position, sorted by field, so that a row of cells

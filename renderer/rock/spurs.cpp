@@ -54,56 +54,6 @@ glm::ivec2 cell_of(glm::vec2 position, float spacing) {
           static_cast<int>(std::floor(position.y / spacing))};
 }
 
-SpurHit highest_spur(const SpurCells& cells, const RockKind& kind, glm::vec2 position,
-                     float depth_m, std::uint32_t parent) {
-  const SpurPeaks peaks = find_peaks(cells, kind.slender, position, depth_m, parent);
-  SpurHit best;
-  if (peaks.best < 0) {
-    best.over_next = 0.0F;
-    return best;
-  }
-  const Spur& spur = cells.spurs[static_cast<std::size_t>(peaks.best)];
-  best.spur = &spur;
-  const glm::vec2 offset = (position - spur.position) * (1.0F / cells.spacing);
-  const float v = (offset.x * spur.down.x + offset.y * spur.down.y) * kind.slender;
-  const float u = offset.x * spur.down.y - offset.y * spur.down.x;
-  best.across = u;
-  best.along = v;
-  best.side = u > 0.0F ? 1 : 0;
-  const bool right = best.side != 0;
-  const float wide = std::abs(u);
-  // Heads and feet are slanted and pointed: level ones would line up into horizontal bars.
-  const float head = spur.skew_head * u - head_point * wide;
-  const float tail = spur.length + spur.skew_foot * u + foot_point * wide;
-  best.height = spur.top;
-  float rise = 0.0F;   // of the height along
-  float drift = 0.0F;  // of the height across, from the slant
-  if (v < head) {
-    best.part = SpurPart::head;
-    best.height += head_rise * (v - head);
-    rise = head_rise;
-    drift = -head_rise * (spur.skew_head - (right ? head_point : -head_point));
-  } else if (v < tail || tail < head) {
-    best.height += back_rise * (v - head);
-    rise = back_rise;
-  } else {
-    best.part = SpurPart::foot;
-    best.height += back_rise * (tail - head) - spur.foot * (v - tail);
-    rise = -spur.foot;
-    drift = spur.foot * (spur.skew_foot + (right ? foot_point : -foot_point));
-  }
-  best.steepness =
-      spur.flank[best.side] / (opening + opening_along * std::clamp(v, opening_from, opening_to));
-  best.height -= best.steepness * wide;
-  if (spur.parent != parent) best.height -= cells.lost_beyond;
-  const float across = (right ? -best.steepness : best.steepness) + 0.7F * drift;
-  best.slope = {across * spur.down.y + rise * spur.down.x,
-                -across * spur.down.x + rise * spur.down.y};
-  best.next_id = peaks.next < 0 ? 0U : cells.spurs[static_cast<std::size_t>(peaks.next)].id;
-  best.over_next = best.height - peaks.next_height;
-  return best;
-}
-
 // The side of a position relative to the nearest ramp that crosses its surface there.
 struct RampSide {
   std::uint32_t id = 0;
@@ -232,7 +182,7 @@ Spur grow_spur(const SpurGround& ground, const SpurField& field, int band, int s
   for (int larger = 0; larger < size; ++larger) {
     const SpurHit hit =
         highest_spur(field.bands[static_cast<std::size_t>(band)][static_cast<std::size_t>(larger)],
-                     *field.kind, spur.position, spur.depth_m, spur.parent);
+                     field.kind->slender, spur.position, spur.depth_m, spur.parent);
     spur.parent = hit.flank_id();
     if (hit.spur != nullptr) spur.down -= field.kind->feather * hit.slope;
   }
@@ -241,6 +191,56 @@ Spur grow_spur(const SpurGround& ground, const SpurField& field, int band, int s
 }
 
 }  // namespace
+
+SpurHit highest_spur(const SpurCells& cells, float slender, glm::vec2 position, float depth_m,
+                     std::uint32_t parent) {
+  const SpurPeaks peaks = find_peaks(cells, slender, position, depth_m, parent);
+  SpurHit best;
+  if (peaks.best < 0) {
+    best.over_next = 0.0F;
+    return best;
+  }
+  const Spur& spur = cells.spurs[static_cast<std::size_t>(peaks.best)];
+  best.spur = &spur;
+  const glm::vec2 offset = (position - spur.position) * (1.0F / cells.spacing);
+  const float v = (offset.x * spur.down.x + offset.y * spur.down.y) * slender;
+  const float u = offset.x * spur.down.y - offset.y * spur.down.x;
+  best.across = u;
+  best.along = v;
+  best.side = u > 0.0F ? 1 : 0;
+  const bool right = best.side != 0;
+  const float wide = std::abs(u);
+  // Heads and feet are slanted and pointed: level ones would line up into horizontal bars.
+  const float head = spur.skew_head * u - head_point * wide;
+  const float tail = spur.length + spur.skew_foot * u + foot_point * wide;
+  best.height = spur.top;
+  float rise = 0.0F;   // of the height along
+  float drift = 0.0F;  // of the height across, from the slant
+  if (v < head) {
+    best.part = SpurPart::head;
+    best.height += head_rise * (v - head);
+    rise = head_rise;
+    drift = -head_rise * (spur.skew_head - (right ? head_point : -head_point));
+  } else if (v < tail || tail < head) {
+    best.height += back_rise * (v - head);
+    rise = back_rise;
+  } else {
+    best.part = SpurPart::foot;
+    best.height += back_rise * (tail - head) - spur.foot * (v - tail);
+    rise = -spur.foot;
+    drift = spur.foot * (spur.skew_foot + (right ? foot_point : -foot_point));
+  }
+  best.steepness =
+      spur.flank[best.side] / (opening + opening_along * std::clamp(v, opening_from, opening_to));
+  best.height -= best.steepness * wide;
+  if (spur.parent != parent) best.height -= cells.lost_beyond;
+  const float across = (right ? -best.steepness : best.steepness) + 0.7F * drift;
+  best.slope = {across * spur.down.y + rise * spur.down.x,
+                -across * spur.down.x + rise * spur.down.y};
+  best.next_id = peaks.next < 0 ? 0U : cells.spurs[static_cast<std::size_t>(peaks.next)].id;
+  best.over_next = best.height - peaks.next_height;
+  return best;
+}
 
 float funnel_at(std::uint64_t seed, glm::vec2 position) {
   return static_cast<float>(
@@ -353,15 +353,15 @@ SpurHits find_spurs(const SpurField& field, int band, glm::vec2 position, float 
   std::uint32_t parent = side.id;
   for (int size = 0; size < spur_sizes; ++size) {
     const auto k = static_cast<std::size_t>(size);
-    hits[k] = highest_spur(field.bands[static_cast<std::size_t>(band)][k], *field.kind, position,
-                           depth_m, parent);
+    hits[k] = highest_spur(field.bands[static_cast<std::size_t>(band)][k], field.kind->slender,
+                           position, depth_m, parent);
     parent = hits[k].flank_id();
   }
   return hits;
 }
 
 float large_height(const SpurField& field, int band, glm::vec2 position, float depth_m) {
-  return highest_spur(field.bands[static_cast<std::size_t>(band)][0], *field.kind, position,
+  return highest_spur(field.bands[static_cast<std::size_t>(band)][0], field.kind->slender, position,
                       depth_m, side_of_ramp(field.ramps, position, depth_m).id)
       .height;
 }

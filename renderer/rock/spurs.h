@@ -68,6 +68,10 @@ struct SpurHit {
   SpurPart part = SpurPart::back;
   std::uint32_t flank_id() const { return spur == nullptr ? 0U : spur->id * 3U + side + 1U; }
 };
+// `slender`: factor on lengths along spurs; `parent`: of the position.
+SpurHit highest_spur(const SpurCells& cells, float slender, glm::vec2 position, float depth_m,
+                     std::uint32_t parent);
+
 // All three sizes at a position, and the nearest ramp.
 struct SpurHits {
   std::array<SpurHit, spur_sizes> sizes;

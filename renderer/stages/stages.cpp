@@ -1,4 +1,5 @@
 #include "renderer/stages/stages.h"
+#include "renderer/close/close_relief.h"
 
 #include <algorithm>
 #include <cmath>
@@ -179,11 +180,19 @@ GroundStages add_ground_stages(StageGraph& graph, GroundInputs given, int tile_p
         tiles("rock relief", light_work_bytes),
         grids_of(&RockRelief::land_cover, &RockRelief::fall_line, &RockRelief::height,
                  &RockRelief::facet, &RockRelief::tone, &RockRelief::cover),
-        inputs(reads(ground.far, around(rock_margin_px(in->rock)), some(far_channels)),
-               reads(ground.crested, around(rock_near_margin_px(in->rock)), some(rock_channels()))),
+        inputs(
+            reads(ground.far, around(std::max(rock_margin_px(in->rock), close_margin_px(in->rock))),
+                  some(far_channels)),
+            reads(ground.crested,
+                  around(std::max(rock_near_margin_px(in->rock), close_near_margin_px(in->rock))),
+                  some(rock_channels()))),
         [in](const Tile& tile, const auto& far, const auto& near) {
-          return make_rock_relief(near.value, as_wide_view(far), in->rock, near.origin_px(),
-                                  in->run.progress, near.inside(tile.rect));
+          const PixelRect wanted = near.inside(tile.rect);
+          RockRelief relief = make_rock_relief(near.value, as_wide_view(far), in->rock,
+                                               near.origin_px(), in->run.progress, wanted);
+          add_close_relief(relief, near.value, as_wide_view(far), in->rock, near.origin_px(),
+                           in->run.progress, wanted);
+          return relief;
         });
     ground.raised = graph.add_view<GuidanceBuffers>(
         view("raised"), channels(raised_channels),

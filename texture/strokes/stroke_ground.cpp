@@ -11,6 +11,8 @@ namespace {
 
 using enum LandCoverClass;
 
+bool is_open_grass(LandCoverClass id) { return is_grass(id) && !is_floor(id); }
+
 // Difference in lightness of the sky at some units around a position: large at the edges of clouds.
 float cloud_edge(const StrokeScene& scene, glm::vec2 position, std::size_t i) {
   float max = 0.F;
@@ -53,63 +55,75 @@ std::vector<Stroke> sky_strokes(const StrokeScene& scene, Stream stream) {
 }
 
 std::vector<Stroke> wash_strokes(const StrokeScene& scene, Stream stream) {
-  return sow(scene, 4.4F, stream,
-             [&](StrokeSeed& seed, glm::vec2 position, std::size_t i, std::vector<Stroke>& out) {
-               const LandCoverClass id = scene.class_at(i);
-               const ClassStrokes& brush = strokes_of(id);
-               if (brush.wash_length <= 0.F) return;
-               Stroke stroke = ground_stroke(scene, i, seed);
-               const bool wooded = id == forest && !is_grassy(scene, i);
-               stroke.depth_tolerance = has_trait(id, ClassTrait::tight) ? tight_depth : 0.03F;
-               if (!wooded) stroke.tone = scene.guidance.tone[i];
-               const float turn =
-                   is_grass(id) && !is_floor(id) && seed.uniform() < 0.35F ? quarter_turn : 0.F;
-               // Under trees in all directions: strokes visible between crowns must not look
-               // combed.
-               const float angle = turn + seed.normal() * (wooded ? 0.9F : brush.wash_wander_rad);
-               lay_line(stroke, scene, position, brush.wash_length * seed.between(0.7F, 1.3F),
-                        angle, 0.2F, !is_floor(id), seed);
-               const bool ice = is_ice(id);
-               take_brush(stroke, scene, brush.wash_width * seed.between(0.7F, 1.3F),
-                          {.taper = 0.6F,
-                           .alpha = 0.80F,
-                           .bristle = ice ? 0.25F : 0.35F,
-                           .wetness = ice ? 0.015F : 0.03F,
-                           .load = ice ? 0.4F : 1.F});
-               stroke.colour = scene.colour(
-                   i, wooded ? -0.55F + 0.35F * seed.normal() : mixed_tone(0.22F, 0.15F, seed),
-                   paint_jitter, seed);
-               stroke.order += seed.uniform() * 300.F;
-               out.push_back(stroke);
-             });
+  return sow(
+      scene, 4.4F, stream,
+      [&](StrokeSeed& seed, glm::vec2 position, std::size_t i, std::vector<Stroke>& out) {
+        const LandCoverClass id = scene.class_at(i);
+        const ClassStrokes& brush = strokes_of(id);
+        if (brush.wash_length <= 0.F) return;
+        Stroke stroke = ground_stroke(scene, i, seed);
+        const bool wooded = id == forest && !is_grassy(scene, i);
+        stroke.depth_tolerance = has_trait(id, ClassTrait::tight) ? tight_depth : 0.03F;
+        if (!wooded) stroke.tone = scene.guidance.tone[i];
+        const float turn =
+            is_grass(id) && !is_floor(id) && seed.uniform() < 0.35F ? quarter_turn : 0.F;
+        // Under trees in all directions: strokes visible between crowns must not look
+        // combed.
+        const float angle = turn + seed.normal() * (wooded ? 0.9F : brush.wash_wander_rad);
+        const bool ice = is_ice(id);
+        // Near loose stone and snow are dabbed: dense lines down the slope would be fur.
+        const bool near = (id == scree || ice || is_open_grass(id)) && is_close(scene, i, seed);
+        if (near) end_with_class(stroke);
+        if (near && ice) stay_on_plane(stroke, scene, i);
+        const float length = near ? std::min(brush.wash_length, 5.5F) : brush.wash_length;
+        const float wander = near ? (id == scree ? 1.1F : ice ? 0.1F : 0.5F) * seed.normal() : 0.F;
+        lay_line(stroke, scene, position, length * seed.between(0.7F, 1.3F), angle + wander, 0.2F,
+                 !is_floor(id), seed);
+        take_brush(stroke, scene, brush.wash_width * seed.between(0.7F, 1.3F),
+                   {.taper = 0.6F,
+                    .alpha = 0.80F,
+                    .bristle = ice ? 0.25F : 0.35F,
+                    .wetness = ice ? 0.015F : 0.03F,
+                    .load = ice ? 0.4F : 1.F});
+        stroke.colour = scene.colour(
+            i, wooded ? -0.55F + 0.35F * seed.normal() : mixed_tone(0.22F, 0.15F, seed),
+            paint_jitter, seed);
+        stroke.order += seed.uniform() * 300.F;
+        out.push_back(stroke);
+      });
 }
 
 std::vector<Stroke> meadow_strokes(const StrokeScene& scene, Stream stream) {
-  return sow(
-      scene, 4.2F, stream,
-      [&](StrokeSeed& seed, glm::vec2 position, std::size_t i, std::vector<Stroke>& out) {
-        const LandCoverClass id = scene.class_at(i);
-        if (!is_grass(id)) return;
-        Stroke stroke = ground_stroke(scene, i, seed);
-        const float length = strokes_of(id).meadow_length * seed.between(0.6F, 1.4F);
-        if (is_floor(id)) {
-          lay_line(stroke, scene, position, length, seed.normal() * 0.12F, 0.1F, false, seed);
-        } else {
-          const float turn = seed.uniform() < 0.5F ? 0.F : quarter_turn;
-          lay_line(stroke, scene, position, length, turn + 0.25F * seed.normal(), 0.2F, true, seed);
-        }
-        take_brush(stroke, scene, (is_floor(id) ? 2.2F : 2.6F) * seed.between(0.7F, 1.3F),
-                   {.taper = 0.5F, .alpha = 0.6F, .bristle = 0.4F, .wetness = 0.03F});
-        // Whole patches are darker or lighter, so that a slope is varied and has no uniform grain.
-        const float patch =
-            is_floor(id) ? 0.F : 0.24F * patch_noise(scene, i, Stream::meadow_patches, 7.0);
-        const float busy = hand_busy_at(scene, position);
-        const float mixed = mixed_tone(0.02F + 0.34F * busy, 0.02F + 0.32F * busy, seed);
-        stroke.colour =
-            scene.colour(i, mixed + (0.20F + 1.0F * busy) * std::clamp(patch, -0.5F, 0.5F),
-                         paint_jitter * (0.4F + 1.6F * busy), seed);
-        out.push_back(stroke);
-      });
+  return sow(scene, 4.2F, stream,
+             [&](StrokeSeed& seed, glm::vec2 position, std::size_t i, std::vector<Stroke>& out) {
+               const LandCoverClass id = scene.class_at(i);
+               if (!is_grass(id)) return;
+               Stroke stroke = ground_stroke(scene, i, seed);
+               const float length = strokes_of(id).meadow_length * seed.between(0.6F, 1.4F);
+               if (is_floor(id)) {
+                 lay_line(stroke, scene, position, length, seed.normal() * 0.12F, 0.1F, false,
+                          seed);
+               } else {
+                 const float turn = seed.uniform() < 0.5F ? 0.F : quarter_turn;
+                 // Near slopes are drawn along their contours, as their terracettes run.
+                 const bool near = is_close(scene, i, seed);
+                 if (near) end_with_class(stroke);
+                 lay_line(stroke, scene, position, near ? 0.6F * length : length,
+                          (near ? quarter_turn : turn) + 0.25F * seed.normal(), 0.2F, true, seed);
+               }
+               take_brush(stroke, scene, (is_floor(id) ? 2.2F : 2.6F) * seed.between(0.7F, 1.3F),
+                          {.taper = 0.5F, .alpha = 0.6F, .bristle = 0.4F, .wetness = 0.03F});
+               // Whole patches are darker or lighter, so that a slope is varied and has no uniform
+               // grain.
+               const float patch =
+                   is_floor(id) ? 0.F : 0.24F * patch_noise(scene, i, Stream::meadow_patches, 7.0);
+               const float busy = hand_busy_at(scene, position);
+               const float mixed = mixed_tone(0.02F + 0.34F * busy, 0.02F + 0.32F * busy, seed);
+               stroke.colour =
+                   scene.colour(i, mixed + (0.20F + 1.0F * busy) * std::clamp(patch, -0.5F, 0.5F),
+                                paint_jitter * (0.4F + 1.6F * busy), seed);
+               out.push_back(stroke);
+             });
 }
 
 std::vector<Stroke> grass_flecks(const StrokeScene& scene, Stream stream) {
@@ -154,20 +168,30 @@ std::vector<Stroke> grass_flecks(const StrokeScene& scene, Stream stream) {
 }
 
 std::vector<Stroke> scree_strokes(const StrokeScene& scene, Stream stream) {
-  return sow(scene, 3.2F, stream,
-             [&](StrokeSeed& seed, glm::vec2 position, std::size_t i, std::vector<Stroke>& out) {
-               if (scene.class_at(i) != scree) return;
-               Stroke stroke = ground_stroke(scene, i, seed);
-               stroke.depth_tolerance = tight_depth;
-               stroke.tone = scene.guidance.tone[i];
-               const float u = seed.uniform();
-               lay_line(stroke, scene, position, 1.5F + 4.F * u * u, 0.15F * seed.normal(), 0.1F,
-                        true, seed);
-               take_brush(stroke, scene, seed.between(1.1F, 2.2F), {.taper = 0.7F, .alpha = 0.6F});
-               stroke.colour =
-                   scene.colour(i, mixed_tone(0.26F, 0.33F, seed), paint_jitter * 1.4F, seed);
-               out.push_back(stroke);
-             });
+  return sow(
+      scene, 3.2F, stream,
+      [&](StrokeSeed& seed, glm::vec2 position, std::size_t i, std::vector<Stroke>& out) {
+        if (scene.class_at(i) != scree) return;
+        Stroke stroke = ground_stroke(scene, i, seed);
+        stroke.depth_tolerance = tight_depth;
+        stroke.tone = scene.guidance.tone[i];
+        const float u = seed.uniform();
+        if (is_close(scene, i, seed)) {
+          // Dabs as wide as long, some of them across.
+          end_with_class(stroke);
+          stroke.tone_width = 0.11F;
+          const float turn = seed.uniform() < 0.4F ? quarter_turn : 0.F;
+          const float length = seed.between(1.6F, 4.2F);
+          lay_line(stroke, scene, position, length, turn + 0.35F * seed.normal(), 0.1F, true, seed);
+          take_brush(stroke, scene, seed.between(1.3F, 2.8F), {.taper = 0.7F, .alpha = 0.55F});
+        } else {
+          lay_line(stroke, scene, position, 1.5F + 4.F * u * u, 0.15F * seed.normal(), 0.1F, true,
+                   seed);
+          take_brush(stroke, scene, seed.between(1.1F, 2.2F), {.taper = 0.7F, .alpha = 0.6F});
+        }
+        stroke.colour = scene.colour(i, mixed_tone(0.26F, 0.33F, seed), paint_jitter * 1.4F, seed);
+        out.push_back(stroke);
+      });
 }
 
 std::vector<Stroke> broken_colour(const StrokeScene& scene, Stream stream) {
@@ -179,6 +203,8 @@ std::vector<Stroke> broken_colour(const StrokeScene& scene, Stream stream) {
         if (dabs == DabHue::none ||
             seed.uniform() > (is_ice(id) ? 0.40F : 0.10F + 0.85F * hand_busy_at(scene, position)))
           return;
+        // Near snow has forms instead.
+        if (is_ice(id) && is_close(scene, i, seed) && seed.uniform() > 0.2F) return;
         Stroke stroke = ground_stroke(scene, i, seed);
         stroke.depth_tolerance = tight_depth;
         // On walls just in front of what lies there, so that trees in front of them stay whole.

@@ -50,6 +50,19 @@ inline bool is_floor(LandCoverClass id) { return has_trait(id, ClassTrait::level
 inline bool is_ice(LandCoverClass id) { return has_trait(id, ClassTrait::icy); }
 inline bool is_grass(LandCoverClass id) { return strokes_of(id).meadow_length > 0.F; }
 
+// Whether a stroke is one of close views (close_share): by chance where near passes into far.
+inline bool is_close(const StrokeScene& scene, std::size_t i, StrokeSeed& seed) {
+  const float close = close_share(scene.metres_per_unit(i));
+  return close >= 1.F || (close > 0.F && seed.uniform() < close);
+}
+// A stroke that ends with the ground of its own class: near borders are crisp.
+inline void end_with_class(Stroke& stroke) { stroke.gate = StrokeGate::same_class; }
+// A stroke on one plane of a form: neither its edges nor its light are smeared.
+inline void stay_on_plane(Stroke& stroke, const StrokeScene& scene, std::size_t i) {
+  stroke.tone_width = 0.08F;
+  if (!scene.guidance.rock_facet.empty()) stroke.facet = scene.guidance.rock_facet[i];
+}
+
 // Share, 0…1, of eight positions on a circle around that satisfy `test(pixel index)`; positions off
 // the canvas count like the centre.
 template <class Test>

@@ -193,7 +193,8 @@ void read_cache_entry(const std::string& bytes) {
   std::ofstream(path, std::ios::binary | std::ios::trunc) << content;  // a damaged one is gone
   std::vector<std::string> notes;
   PackedRows rows;
-  cache.read(key, [&](ByteReader& reader) { reader(notes, rows); }, silent_progress());
+  cache.read(
+      key, [&](ByteReader& reader) { reader(notes, rows); }, silent_progress());
 }
 
 // The bytes of cached values, as a changed version of the program would find them.

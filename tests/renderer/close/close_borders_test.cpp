@@ -1,0 +1,69 @@
+#include "renderer/close/close_borders.h"
+
+#include <gtest/gtest.h>
+
+#include <optional>
+
+#include "tests/renderer/close/close_ground.h"
+
+namespace belvedere {
+namespace {
+
+using Class = LandCoverClass;
+
+// Where the border between the halves of a picture runs in each row, by the pixels of the left.
+struct Border {
+  GuidanceBuffers g;
+  int moved = 0;      // pixels that changed their class
+  double mean = 0.0;  // of the left class's pixels in a row
+  double farthest = 0.0;
+
+  Border(Class left, Class right, float close)
+      : g(test::make_close_hills(160, 140, 1.0, 8.0, left, right)) {
+    const WideView wide{g, 1, {0, 0}};
+    const Grid<glm::vec2> fall = smooth_fall_lines(wide, 1.0, {0, 0, 160, 140});
+    const SpurGround ground{wide, fall, 1.0, 7};
+    const CloseBorders borders{g,
+                               ground,
+                               {0, 0},
+                               grow_roofs(ground, border_roofs, border_roofs_part, {0, 0, 160, 140},
+                                          [&](std::size_t i) { return std::optional(fall[i]); }),
+                               7};
+    int rows = 0;
+    for (int y = 0; y < 140; ++y) {
+      if (g.is_sky(g.depth_m.index(80, y))) continue;
+      int lefts = 0;
+      for (int x = 0; x < 160; ++x) {
+        const Class shown = borders.at(x, y, close);
+        lefts += shown == left ? 1 : 0;
+        if (shown == g.land_cover(x, y)) continue;
+        ++moved;
+        farthest = std::max(farthest, std::abs(x - 79.5));
+      }
+      mean += lefts;
+      ++rows;
+    }
+    mean /= rows;
+  }
+};
+
+TEST(CloseBorders, FollowAReliefAndKeepAreas) {
+  const Border border(Class::scree, Class::alpine_grass, 1.0F);
+  EXPECT_GT(border.moved, 100);
+  EXPECT_LT(border.farthest, border_reach_units);
+  EXPECT_NEAR(border.mean, 80.0, 4.0);
+}
+
+TEST(CloseBorders, StayStraightFarAwayAndBesideForest) {
+  EXPECT_EQ(Border(Class::scree, Class::alpine_grass, 0.0F).moved, 0);
+  EXPECT_EQ(Border(Class::forest, Class::alpine_grass, 1.0F).moved, 0);
+  EXPECT_EQ(Border(Class::rock, Class::snow, 1.0F).moved, 0) << "rock has borders of its own";
+}
+
+TEST(CloseBorders, KnowTheirClasses) {
+  EXPECT_TRUE(is_open_ground(Class::glacier));
+  EXPECT_FALSE(is_open_ground(Class::valley_floor));
+}
+
+}  // namespace
+}  // namespace belvedere

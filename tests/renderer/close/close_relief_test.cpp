@@ -1,0 +1,103 @@
+#include "renderer/close/close_relief.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "tests/renderer/close/close_ground.h"
+#include "tests/renderer/paint/hills_print.h"
+
+namespace belvedere {
+namespace {
+
+using Class = LandCoverClass;
+
+RockRelief close_relief_of(const GuidanceBuffers& g, const RockParameters& p) {
+  RockRelief relief = test::bare_relief(g, {0, 0, g.width(), g.height()});
+  add_close_relief(relief, g, {g, 1, {0, 0}}, p, {0, 0}, silent_progress());
+  return relief;
+}
+
+double deviation(const Grid<float>& tone) {
+  double squares = 0.0;
+  for (const float t : tone) squares += static_cast<double>(t) * t;
+  return std::sqrt(squares / static_cast<double>(tone.size()));
+}
+
+TEST(CloseRelief, FarGroundHasNone) {
+  const GuidanceBuffers g = test::make_close_hills(160, 120, 1.0, 25.0, Class::snow, Class::scree);
+  const RockRelief relief = close_relief_of(g, test::close_parameters(1.0));
+  EXPECT_TRUE(relief.land_cover == g.land_cover);
+  EXPECT_EQ(deviation(relief.tone), 0.0);
+  EXPECT_EQ(std::count(relief.facet.begin(), relief.facet.end(), 0U),
+            static_cast<std::ptrdiff_t>(relief.facet.size()));
+}
+
+TEST(CloseRelief, ForestAndWaterStayAsTheyAre) {
+  const GuidanceBuffers g = test::make_close_hills(160, 120, 1.0, 6.0, Class::forest, Class::water);
+  const RockRelief relief = close_relief_of(g, test::close_parameters(1.0));
+  EXPECT_TRUE(relief.land_cover == g.land_cover);
+  EXPECT_EQ(deviation(relief.tone), 0.0);
+}
+
+// As strong as painters model snow, within the limits of each size, and weaker the farther.
+TEST(CloseRelief, SnowHasPlanesInLightAndShade) {
+  const auto strength = [](double metres_per_unit) {
+    const GuidanceBuffers g =
+        test::make_close_hills(200, 160, 1.0, metres_per_unit, Class::snow, Class::snow);
+    const RockRelief relief = close_relief_of(g, test::close_parameters(1.0));
+    for (const float t : relief.tone) EXPECT_LT(std::abs(t), 0.18 + 0.28 + 0.11 + 0.16);
+    return deviation(relief.tone);
+  };
+  const double near = strength(8.0);
+  const double middle = strength(19.5);
+  EXPECT_GT(near, 0.03);
+  EXPECT_LT(near, 0.20);
+  EXPECT_NEAR(middle, 0.5 * near, 0.1 * near);
+}
+
+TEST(CloseRelief, OfAPartIsThatOfTheWhole) {
+  const GuidanceBuffers g = test::make_close_hills(960, 420, 1.0, 8.0, Class::snow, Class::scree);
+  const RockParameters p = test::close_parameters(1.0);
+  const RockRelief whole = close_relief_of(g, p);
+  for (const PixelRect kept : {PixelRect{468, 200, 492, 224}, PixelRect{0, 360, 3, 420}}) {
+    const test::Window near = test::window_of(g, grown(kept, close_near_margin_px(p)));
+    const test::Window far = test::window_of(g, grown(kept, close_margin_px(p)));
+    RockRelief part = test::bare_relief(g, kept);
+    add_close_relief(part, near.held, {far.held, 1, {far.rect.x0, far.rect.y0}}, p,
+                     {near.rect.x0, near.rect.y0}, silent_progress(),
+                     moved(kept, -near.rect.x0, -near.rect.y0));
+    EXPECT_TRUE(part.land_cover == test::cut(whole.land_cover, kept));
+    EXPECT_TRUE(part.facet == test::cut(whole.facet, kept));
+    EXPECT_TRUE(part.tone == test::cut(whole.tone, kept));
+  }
+}
+
+TEST(CloseRelief, SameBitsForAnyThreads) {
+  const GuidanceBuffers g =
+      test::make_close_hills(200, 160, 1.0, 8.0, Class::alpine_grass, Class::glacier);
+  const RockParameters p = test::close_parameters(1.0);
+  const ThreadLimit all(2);
+  const RockRelief two = close_relief_of(g, p);
+  const ThreadLimit limit(1);
+  const RockRelief one = close_relief_of(g, p);
+  EXPECT_TRUE(one.tone == two.tone);
+  EXPECT_TRUE(one.land_cover == two.land_cover);
+}
+
+// In winter meadows lie under snow and have its forms; in summer their own.
+TEST(CloseRelief, WinterCoversMeadows) {
+  const GuidanceBuffers g =
+      test::make_close_hills(160, 120, 1.0, 8.0, Class::alpine_grass, Class::alpine_grass);
+  RockParameters p = test::close_parameters(1.0);
+  const RockRelief summer = close_relief_of(g, p);
+  p.winter = true;
+  const RockRelief winter = close_relief_of(g, p);
+  EXPECT_GT(deviation(winter.tone), 0.01);
+  EXPECT_FALSE(winter.tone == summer.tone);
+}
+
+}  // namespace
+}  // namespace belvedere
