@@ -1,5 +1,4 @@
 // The camera: what the keys in effect say of the view, and which keys a movement changes.
-import { alone } from "./store.js";
 import { clamp, rounded } from "./dom.js";
 
 const degree = Math.PI / 180;
@@ -44,7 +43,7 @@ export function turned(store, from, right, up) {
     if (right !== 0) changes.push({ key: "camera.azimuth_deg", value: rounded(azimuth, angle_step) });
     if (up !== 0) changes.push({ key: "camera.pitch_deg", value: clamp(rounded(from.pitch + up, angle_step), -90, 90) });
   }
-  return alone(store, changes);
+  return changes;
 }
 
 // Moves the viewer by shares of the distance to what it looks at: forwards and to the right; and up by metres.
@@ -62,16 +61,16 @@ export function moved(store, from, forward, right, up = 0) {
   else if (changes.length > 0 && !from.by_target && store.value("camera.azimuth_deg") === "auto")
     changes.push({ key: "camera.azimuth_deg", value: rounded(from.azimuth, angle_step) });
   if (up !== 0) changes.push({ key: "camera.height_m", value: clamp(Math.round(from.height + up), -12000, 1000000) });
-  return alone(store, changes);
+  return changes;
 }
 
 // The viewer or what it looks at, put down somewhere on the map.
 export function placed(store, what, position) {
   const from = view(store);
-  if (what === "viewer") return alone(store, [{ key: "camera.position", value: point(position) }]);
-  if (from.by_target) return alone(store, [{ key: "camera.look_at", value: point(position) }]);
+  if (what === "viewer") return [{ key: "camera.position", value: point(position) }];
+  if (from.by_target) return [{ key: "camera.look_at", value: point(position) }];
   const azimuth = full(Math.atan2(position[0] - from.viewer[0], position[1] - from.viewer[1]) / degree);
-  return alone(store, [{ key: "camera.azimuth_deg", value: rounded(azimuth, angle_step) }]);
+  return [{ key: "camera.azimuth_deg", value: rounded(azimuth, angle_step) }];
 }
 
 // The field of view, or the width of a parallel view, by a factor.

@@ -1,12 +1,12 @@
 // Controls for single keys. Each is a row: label, "auto" where the program can choose, number field with unit, slider, the way back to the
 // default, and a place for the error that names its key. What a key means and may be comes from the schema.
 import { clamp, element, rounded } from "./dom.js";
-import { alone, new_step } from "./store.js";
+import { new_step } from "./store.js";
 
 let ids = 0;
 
 // What the schema says of a key in the words that a control needs.
-export function kind_of(store, key) {
+function kind_of(store, key) {
   const part = store.describe(key);
   if (!part) return null;
   const either = part.anyOf ?? [part];
@@ -68,7 +68,7 @@ export function show_fault(made, fault) {
   }
 }
 
-const set = (store, key, value, step) => store.edit(alone(store, [{ key, value }]), step ?? new_step());
+const set = (store, key, value, step) => store.edit([{ key, value }], step ?? new_step());
 
 function label_of(spec, about, input) {
   return element("label", { for: input.id, title: about.help }, spec.label);

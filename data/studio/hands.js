@@ -3,7 +3,7 @@
 import { api } from "./api.js";
 import { moved, turned, view, widened } from "./camera.js";
 import { by_id, metres } from "./dom.js";
-import { alone, new_step, running_step } from "./store.js";
+import { new_step, running_step } from "./store.js";
 
 const click_px = 4; // a pointer that moves less has clicked
 
@@ -240,7 +240,7 @@ export class Hands {
   }
   target() {
     this.choose("Click what the picture shall look at.", (pointed, step) => {
-      this.store.edit(alone(this.store, [{ key: "camera.look_at", value: pointed.position.map(Math.round) }]), step);
+      this.store.edit([{ key: "camera.look_at", value: pointed.position.map(Math.round) }], step);
     });
   }
 }

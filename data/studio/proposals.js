@@ -1,7 +1,7 @@
 // Other compositions of the same ground, as `belvedere new` proposes them: thumbnails to take.
 import { api } from "./api.js";
 import { by_id, element } from "./dom.js";
-import { alone, new_step } from "./store.js";
+import { new_step } from "./store.js";
 
 export class Proposals {
   constructor(store, status, ladder) {
@@ -52,7 +52,7 @@ export class Proposals {
         class: "proposal",
         title: why,
         click: () => {
-          this.store.edit(alone(this.store, changes), new_step());
+          this.store.edit(changes, new_step());
           this.status.say(`${name} taken. Ctrl-Z goes back.`);
         },
       },

@@ -155,34 +155,6 @@ export class Store extends EventTarget {
   }
 }
 
-// Keys that exclude each other: setting one of the first takes those of the second away.
-const exclusions = [
-  [/^(.*)\.position$/, ["position_lonlat", "points", "points_lonlat", "file"]],
-  [/^(.*)\.look_at$/, ["look_at_lonlat", "azimuth_deg", "pitch_deg"]],
-  [/^(camera)\.(azimuth_deg|pitch_deg)$/, ["look_at", "look_at_lonlat"]],
-  [/^(sun)\.time$/, ["azimuth_deg", "altitude_deg"]],
-  [/^(sun)\.(azimuth_deg|altitude_deg)$/, ["time"]],
-  [/^(light\.regions\.\d+)\.turn_deg$/, ["azimuth_deg"]],
-  [/^(light\.regions\.\d+)\.azimuth_deg$/, ["turn_deg"]],
-];
-
-// The changes with the removals that they need, first.
-export function alone(store, changes) {
-  const removals = new Map();
-  for (const { key, remove, append } of changes) {
-    if (remove || append) continue;
-    for (const [pattern, names] of exclusions) {
-      const match = pattern.exec(key);
-      if (!match) continue;
-      for (const name of names) {
-        const other = `${match[1]}.${name}`;
-        if (store.given(other) && !changes.some((each) => each.key === other)) removals.set(other, { key: other, remove: true });
-      }
-    }
-  }
-  return [...removals.values(), ...changes];
-}
-
 // Names of steps: those of one movement of the hand are one step of undo.
 const session = Math.random().toString(36).slice(2, 8);
 let count = 0;

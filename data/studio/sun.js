@@ -2,7 +2,7 @@
 import { view } from "./camera.js";
 import { row } from "./controls.js";
 import { clamp, draggable, drawing, element, rounded } from "./dom.js";
-import { alone, new_step, running_step } from "./store.js";
+import { new_step, running_step } from "./store.js";
 
 const degree = Math.PI / 180;
 const full = (angle) => ((angle % 360) + 360) % 360;
@@ -144,7 +144,7 @@ export class Sun {
     const changes = [{ key: "sun.azimuth_deg", value: rounded(full(azimuth), 0.5) }];
     if (altitude !== undefined || this.store.value("sun.time") !== undefined)
       changes.push({ key: "sun.altitude_deg", value: clamp(rounded(altitude ?? this.altitude(), 0.5), -90, 90) });
-    this.store.edit(alone(this.store, changes), step);
+    this.store.edit(changes, step);
   }
   lift_to(altitude, step) {
     if (this.store.value("sun.time") !== undefined) return this.set(this.azimuth(), altitude, step);
@@ -199,7 +199,7 @@ export class Sun {
     if (this.date.value && this.clock.value) this.send(this.date.value, this.clock.value.slice(0, 5), this.zone.value || "Z", step);
   }
   send(date, clock, zone, step) {
-    this.store.edit(alone(this.store, [{ key: "sun.time", value: `${date}T${clock}:00${zone}` }]), step);
+    this.store.edit([{ key: "sun.time", value: `${date}T${clock}:00${zone}` }], step);
   }
 }
 

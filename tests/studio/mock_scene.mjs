@@ -8,6 +8,13 @@ const root = schema.allOf[0];
 // The schema does not say it.
 const weights = { altitude: 0.04, tone: 0.15, distance: 0.02, shadow: 0.02, slope: 0.02, fall_line_x: 0.1, fall_line_y: 0.05, flow: 0 };
 
+// Some of the keys of which only one side can be set.
+const exclusions = [
+  [["camera.position"], ["camera.position_lonlat"]],
+  [["camera.look_at"], ["camera.azimuth_deg", "camera.pitch_deg"]],
+  [["sun.time"], ["sun.azimuth_deg", "sun.altitude_deg"]],
+];
+
 export class Fault extends Error {
   constructor(fault) {
     super(fault.message);
@@ -86,14 +93,11 @@ export function parse(text) {
     lines.set(key, index);
     sections.get(section)[1] = index;
   });
-  const exclude = (a, b) => {
-    if (values[a] !== undefined && values[b] !== undefined && values[b] !== "auto")
-      throw new Fault({ message: `${a} and ${b} exclude each other`, key: b, line: lines.get(b) + 1 });
-  };
-  exclude("camera.look_at", "camera.azimuth_deg");
-  exclude("camera.look_at", "camera.pitch_deg");
-  exclude("sun.time", "sun.azimuth_deg");
-  exclude("sun.time", "sun.altitude_deg");
+  for (const [these, those] of exclusions)
+    for (const a of these)
+      for (const b of those)
+        if (values[a] !== undefined && values[b] !== undefined && values[b] !== "auto")
+          throw new Fault({ message: `${a} and ${b} exclude each other`, key: b, line: lines.get(b) + 1 });
   return { values: { ...defaults(root, "", {}), "synthesis.weights": weights, ...values }, lines, sections };
 }
 
@@ -122,7 +126,16 @@ const written = (value) =>
       ? `[${value.map(written).join(", ")}]`
       : JSON.stringify(value);
 
-export function edit(text, { key, value, remove, append }) {
+// The text after a change; like the program it drops what the new value excludes.
+export function edit(text, change) {
+  const { key, remove, append } = change;
+  const sides = remove || append ? [] : exclusions.flatMap(([these, those]) => [[these, those], [those, these]]);
+  const rivals = sides.filter(([these]) => these.includes(key)).flatMap(([, those]) => those);
+  const alone = rivals.reduce((rest, rival) => edited(rest, { key: rival, remove: true }), text);
+  return edited(alone, change);
+}
+
+function edited(text, { key, value, remove, append }) {
   const { lines, sections } = parse(text);
   const all = text.split("\n");
   if (append)
