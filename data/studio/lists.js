@@ -1,4 +1,5 @@
-// A list of blocks [[key]] of the scene: one row of controls for each, new ones by a click on the picture, each can be removed.
+// A list of blocks [[key]] of the scene: one row of controls for each, new ones by a click on the picture, each can be removed, and those
+// that have a key `enabled` can be switched off.
 import { row } from "./controls.js";
 import { element } from "./dom.js";
 import { lists } from "./panels_table.js";
@@ -41,6 +42,7 @@ export class Blocks {
       const named = this.store.value(`${at}.name`) ?? (this.about.title ? this.store.value(`${at}.${this.about.title}`) : "");
       block.name.textContent = named || `${this.about.one} ${index + 1}`;
       block.element.open = this.open.has(index);
+      block.enabled?.update();
       if (block.element.open) for (const each of block.rows) each.update();
     });
   }
@@ -64,12 +66,33 @@ export class Blocks {
       },
       "×",
     );
-    const details = element("details", {}, element("summary", {}, name, remove), ...rows.map((each) => each.element));
+    const enabled = this.enabled(index);
+    const details = element("details", {}, element("summary", {}, name, enabled?.element, remove), ...rows.map((each) => each.element));
     details.addEventListener("toggle", () => {
       if (details.open) this.open.add(index);
       else this.open.delete(index);
       if (details.open) for (const each of rows) each.update();
     });
-    return { element: details, rows, name };
+    return { element: details, rows, name, enabled };
+  }
+
+  enabled(index) {
+    const key = `${this.key}.${index}.enabled`;
+    if (!this.store.describe(key)) return null;
+    const input = element("input", {
+      type: "checkbox",
+      role: "switch",
+      "data-key": key,
+      title: "On or off",
+      "aria-label": `${this.about.one} ${index + 1} on or off`,
+      change: () => this.store.edit([{ key, value: input.checked }], new_step()),
+    });
+    return {
+      element: input,
+      update: () => {
+        input.checked = this.store.value(key) !== false;
+        input.closest("details").classList.toggle("off", !input.checked);
+      },
+    };
   }
 }

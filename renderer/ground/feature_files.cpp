@@ -38,6 +38,7 @@ std::vector<FeatureSource> feature_sources(const LoadedScene& loaded) {
   std::vector<FeatureSource> sources;
   for (std::size_t i = 0; i < loaded.scene.features.size(); ++i) {
     const SceneFeatures& block = loaded.scene.features[i];
+    if (!block.enabled) continue;
     VectorSource file = block.file;
     file.path = find_scene_file(loaded, block.source);
     if (file.path.empty()) continue;

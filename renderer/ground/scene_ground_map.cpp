@@ -98,7 +98,10 @@ CacheKey features_key(const LoadedScene& loaded, const Dem& dem) {
   CacheKeyText key;
   for (const SceneFeatures& block : loaded.scene.features) {
     const auto& [source, file, layer, where, kind, kind_of, width_mm, width_of, level_of,
-                 population_of, snap_m, keep_inferred, origin, licence, get_from, optional] = block;
+                 population_of, snap_m, keep_inferred, origin, licence, get_from, optional,
+                 enabled] = block;
+    key.add("enabled", enabled ? 1 : 0);
+    if (!enabled) continue;
     const std::string path = find_scene_file(loaded, source);
     key.add("file", source)
         .add("content", path.empty() ? std::string("none") : hash_with_companions(path));
@@ -236,7 +239,7 @@ GroundMap sort_out(const LoadedScene& loaded, const FeatureStyle& style,
 
 GroundMap read_ground_map(const LoadedScene& loaded, const Dem& dem, Progress& progress,
                           const Cache& cache) {
-  if (loaded.scene.features.empty()) return {};
+  if (!loaded.scene.any_features()) return {};
   const FeatureStyle style = read_scene_feature_style(loaded);
   const PackedRows packed = cached<PackedRows>(
       cache, [&] { return features_key(loaded, dem); }, progress,

@@ -64,7 +64,7 @@ void write_layer_files(const LoadedScene& loaded, const SheetRequest& request,
                      {},
                      {}};
   for (const PictureLayer& layer : picture_layers()) {
-    const bool none = (layer.of == LayerOf::features && scene.features.empty()) ||
+    const bool none = (layer.of == LayerOf::features && !scene.any_features()) ||
                       (layer.of == LayerOf::mist && scene.air.mist.empty());
     if (none) continue;
     sheet.layers.push_back(

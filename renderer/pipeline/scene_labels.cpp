@@ -129,6 +129,7 @@ std::vector<VectorSource> sources_of(const LoadedScene& scene,
                                      const std::vector<SceneLabelFile>& files, Progress& progress) {
   std::vector<VectorSource> sources;
   for (const SceneLabelFile& file : files) {
+    if (!file.enabled) continue;
     VectorSource source = file.source;
     source.path = find_scene_file(scene, file.file);
     if (!source.path.empty())

@@ -68,7 +68,7 @@ double piece_bytes_of(const Scene& scene, const SheetRequest& request) {
   if (!request.panorama || request.layers.empty()) return 0.0;
   const PixelRect region = region_of(scene, request);
   const int piece_px = request.piece_px > 0 ? request.piece_px : usual_piece_px;
-  const bool thinned = !scene.air.mist.empty() && !scene.features.empty();
+  const bool thinned = !scene.air.mist.empty() && scene.any_features();
   const double bytes_per_pixel = layer_bytes_per_pixel + (thinned ? thinned_bytes_per_pixel : 0.0);
   return bytes_per_pixel * std::min(region.width(), piece_px) * std::min(region.height(), piece_px);
 }

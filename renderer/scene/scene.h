@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -306,6 +307,7 @@ struct SceneFeatures {
   bool keep_inferred = false;  // keeps inferred rivers and towns beside those of this file
   std::string origin, licence, get_from;
   bool optional = false;  // a missing file is a note instead of an error
+  bool enabled = true;    // otherwise as if it were not there
 };
 
 struct SceneLabelFile {  // a file of named things, or of ways
@@ -313,6 +315,7 @@ struct SceneLabelFile {  // a file of named things, or of ways
   VectorSource source;  // without path
   std::string origin, licence, get_from;
   bool optional = false;  // a missing file is a note instead of an error
+  bool enabled = true;    // otherwise as if it were not there
 };
 
 struct SceneLabels {  // names on the picture: see renderer/labels
@@ -322,7 +325,12 @@ struct SceneLabels {  // names on the picture: see renderer/labels
   double min_prominence_m = 150.0;  // of these summits
   std::vector<SceneLabelFile> points, shapes, tracks;
 
-  bool any() const { return summits > 0 || !points.empty() || !shapes.empty() || !tracks.empty(); }
+  bool any() const {
+    const auto some = [](const std::vector<SceneLabelFile>& files) {
+      return std::any_of(files.begin(), files.end(), [](const auto& file) { return file.enabled; });
+    };
+    return summits > 0 || some(points) || some(shapes) || some(tracks);
+  }
 };
 
 struct SceneMargin {  // around panorama_names.*: see renderer/labels/margin.h
@@ -381,6 +389,10 @@ struct Scene {
   std::optional<SceneMargin> margin;
   SceneOutput output;
 
+  bool any_features() const {
+    return std::any_of(features.begin(), features.end(),
+                       [](const SceneFeatures& block) { return block.enabled; });
+  }
   double pixels_per_unit() const { return output.width / output.sheet_width_mm * 0.5; }
 };
 

@@ -99,7 +99,10 @@ std::vector<SceneInput> scene_inputs(const LoadedScene& scene) {
   Scene values = scene.scene;  // the table's accessors need one to write to
   for (const SceneSection& section : scene_sections()) {
     const std::size_t count = section.count == nullptr ? 1 : section.count(values);
+    const SceneKey* enabled =
+        section.kind == SectionKind::list ? find_key(section, "enabled") : nullptr;
     for (std::size_t i = 0; i < count; ++i) {
+      if (enabled != nullptr && !*std::get<bool*>(enabled->field(values, i))) continue;
       const std::string element = section.kind == SectionKind::list
                                       ? join_key(section.name, std::to_string(i))
                                       : std::string(section.name);

@@ -250,7 +250,10 @@ class Rules {
   }
 
   void labels() {
-    if (scene_.labels.in_picture && !scene_.labels.any())
+    const SceneLabels& labels = scene_.labels;
+    const bool none = labels.summits == 0 && labels.points.empty() && labels.shapes.empty() &&
+                      labels.tracks.empty();
+    if (labels.in_picture && none)
       refuse("labels.in_picture", "labels.in_picture is set, but there are no labels",
              "[[labels.points]] with a file, or labels.summits = 30");
   }

@@ -74,6 +74,9 @@ std::vector<SceneSection> make_features_sections() {
                 .field = AT(features[i].optional),
                 .meaning =
                     "If its file is missing, leave the block out with a note instead of an error."},
+               {.name = "enabled",
+                .field = AT(features[i].enabled),
+                .meaning = "If false, the block is left out."},
            },
        .count = [](const Scene& s) { return s.features.size(); },
        .resize = [](Scene& s, std::size_t n) { s.features.resize(n); }});

@@ -5,7 +5,7 @@ namespace {
 
 using Field = SceneField (*)(Scene&, std::size_t);
 struct FileFields {
-  Field file, crs, encoding, origin, licence, get_from, optional;
+  Field file, crs, encoding, origin, licence, get_from, optional, enabled;
 };
 
 // The three lists of files share these keys.
@@ -32,6 +32,9 @@ SceneSection file_section(std::string_view name, std::string_view meaning, std::
               {.name = "optional",
                .field = fields.optional,
                .meaning = "If the file is missing, leave it out with a note instead of an error."},
+              {.name = "enabled",
+               .field = fields.enabled,
+               .meaning = "If false, the block is left out."},
           }};
 }
 
@@ -72,8 +75,8 @@ std::vector<SceneSection> make_labels_sections() {
       "(1 … 9) and ele.",
       {AT(labels.points[i].file), AT(labels.points[i].source.crs),
        AT(labels.points[i].source.encoding), AT(labels.points[i].origin),
-       AT(labels.points[i].licence), AT(labels.points[i].get_from),
-       AT(labels.points[i].optional)}));
+       AT(labels.points[i].licence), AT(labels.points[i].get_from), AT(labels.points[i].optional),
+       AT(labels.points[i].enabled)}));
   sections.back().count = [](const Scene& s) { return s.labels.points.size(); };
   sections.back().resize = [](Scene& s, std::size_t n) { s.labels.points.resize(n); };
   sections.push_back(file_section(
@@ -83,8 +86,8 @@ std::vector<SceneSection> make_labels_sections() {
       "A .gpkg, .geojson, .shp or .fgb file with columns name, kind and rank.",
       {AT(labels.shapes[i].file), AT(labels.shapes[i].source.crs),
        AT(labels.shapes[i].source.encoding), AT(labels.shapes[i].origin),
-       AT(labels.shapes[i].licence), AT(labels.shapes[i].get_from),
-       AT(labels.shapes[i].optional)}));
+       AT(labels.shapes[i].licence), AT(labels.shapes[i].get_from), AT(labels.shapes[i].optional),
+       AT(labels.shapes[i].enabled)}));
   sections.back().count = [](const Scene& s) { return s.labels.shapes.size(); };
   sections.back().resize = [](Scene& s, std::size_t n) { s.labels.shapes.resize(n); };
   sections.push_back(file_section(
@@ -93,8 +96,8 @@ std::vector<SceneSection> make_labels_sections() {
       "A .gpx, .gpkg, .geojson, .shp or .fgb file.",
       {AT(labels.tracks[i].file), AT(labels.tracks[i].source.crs),
        AT(labels.tracks[i].source.encoding), AT(labels.tracks[i].origin),
-       AT(labels.tracks[i].licence), AT(labels.tracks[i].get_from),
-       AT(labels.tracks[i].optional)}));
+       AT(labels.tracks[i].licence), AT(labels.tracks[i].get_from), AT(labels.tracks[i].optional),
+       AT(labels.tracks[i].enabled)}));
   sections.back().count = [](const Scene& s) { return s.labels.tracks.size(); };
   sections.back().resize = [](Scene& s, std::size_t n) { s.labels.tracks.resize(n); };
   sections.push_back(

@@ -65,9 +65,9 @@ std::vector<CoverRiver> rivers_of(const World& world) {
 FeatureSet read_scene_features(const LoadedScene& loaded, const std::string& crs,
                                Progress& progress) {
   const Scene& scene = loaded.scene;
-  if (scene.features.empty()) return {};
+  if (!scene.any_features()) return {};
   for (const SceneFeatures& block : scene.features) {
-    if (!find_scene_file(loaded, block.source).empty()) continue;
+    if (!block.enabled || !find_scene_file(loaded, block.source).empty()) continue;
     if (!block.optional)
       throw Error(ErrorKind::input, block.source, "no such file",
                   "a file beside the scene or in a --data folder");
@@ -129,9 +129,9 @@ void check_extents(const FeatureSet& set, const Dem& dem) {
 DrawnFeatures draw_scene_features(const LoadedScene& loaded, const World& world, bool winter,
                                   Progress& progress) {
   const std::vector<CoverRiver> rivers = rivers_of(world);
-  if (loaded.scene.features.empty() && rivers.empty()) return {};
+  if (!loaded.scene.any_features() && rivers.empty()) return {};
   FeatureSet set;
-  if (loaded.scene.features.empty())
+  if (!loaded.scene.any_features())
     set.style = read_scene_feature_style(loaded);
   else
     set = read_scene_features(loaded, world.dem->crs, progress);

@@ -64,12 +64,12 @@ std::shared_ptr<const LandCover> make_cover(const LoadedScene& loaded, const Dem
   const std::shared_ptr<const LandCover> bare = keep_or_make(&kept->bare_cover, key, [&] {
     return make_bare_patches(loaded, dem, progress, cache, &catchments).cover;
   });
-  const bool has_lines = !loaded.scene.features.empty() || !bare->inferred_rivers.empty();
+  const bool has_lines = loaded.scene.any_features() || !bare->inferred_rivers.empty();
   const std::string seen_as = has_lines ? camera_key(loaded, view) + deform_key(view) : "";
   const std::shared_ptr<const LandCover> before =
       kept->land_cover.key.starts_with(key) ? kept->land_cover.value : nullptr;
   return keep_or_make(&kept->land_cover, key + seen_as, [&] {
-    if (before != nullptr && loaded.scene.features.empty()) {
+    if (before != nullptr && !loaded.scene.any_features()) {
       LandCover cover = *before;
       cover.inferred_rivers = bare->inferred_rivers;
       lay_inferred_rivers(cover, loaded, dem, &seen);

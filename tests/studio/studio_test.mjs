@@ -373,19 +373,34 @@ test("proposals are shown, and taken in one step", async () => {
   assert.equal((await scene()).text, text);
 });
 
-test("a file is sent and offered for what it is", async () => {
+test("a file is sent, offered for what it is, and switched off and on", async () => {
   const file = join(await mkdtemp(join(tmpdir(), "studio-")), `tour ${Date.now()}.gpx`);
   await writeFile(
     file,
     `<gpx version="1.1" creator="test" xmlns="http://www.topografix.com/GPX/1/1"><trk><name>Tour</name><trkseg>
     <trkpt lat="47.30" lon="11.40"/><trkpt lat="47.35" lon="11.45"/></trkseg></trk></gpx>`,
   );
+  const tracks = ((await scene()).text.match(/\[\[labels\.tracks\]\]/g) ?? []).length;
+  const key = `labels.tracks.${tracks}`;
   const input = await page.$("#choose-files");
   await input.uploadFile(file);
   await page.waitForSelector("#files-list .buttons button", patience);
   assert.equal(await text_of("#files-list .buttons button"), "Draw it as a track");
   await page.click("#files-list .buttons button");
-  assert.match(await changed("labels.tracks.0.file", undefined), /^tour.*gpx$/);
+  assert.match(await changed(`${key}.file`, undefined), /^tour.*gpx$/);
+  const { text } = await scene();
+  // Off and on again without opening its block; undo turns it back as well.
+  await panel("names");
+  const enabled = `[data-key='${key}.enabled']`;
+  await page.waitForSelector(enabled, patience);
+  const on = () => page.$eval(enabled, (input) => input.checked);
+  assert.equal(await on(), true);
+  await page.click(enabled);
+  await becomes(`${key}.enabled`, false);
+  assert.ok((await scene()).text.includes("enabled = false"));
+  await undo();
+  await page.waitForFunction((selector) => document.querySelector(selector).checked, patience, enabled);
+  assert.equal((await scene()).text, text);
   await finished();
   await undo();
 });

@@ -359,6 +359,16 @@ TEST_F(ManyNames, SeenAndHiddenAgreeWithTheTracedDepth) {
   EXPECT_GT(hidden, 20U);
 }
 
+TEST(LabelJob, FilesThatAreOffAreLeftOut) {
+  const LoadedScene off = parse_scene(
+      "version = 1\n[labels]\nin_picture = true\n"
+      "[[labels.points]]\nfile = \"none.csv\"\nenabled = false\n"
+      "[[labels.tracks]]\nfile = \"none.gpx\"\nenabled = false\n",
+      "mine.toml", ".", {});
+  EXPECT_TRUE(label_job(off, silent_progress()).empty());
+  EXPECT_FALSE(off.scene.labels.any());
+}
+
 TEST_F(ManyNames, TheSameBytesForOneThreadAndTwo) {
   const auto files = [&](int threads) {
     const ThreadLimit limit(threads);

@@ -145,6 +145,17 @@ TEST_F(SceneFolders, InputsAreFilesAndNoBuiltInNames) {
   }
 }
 
+TEST_F(SceneFolders, FilesOfBlocksThatAreOffAreNoInputs) {
+  const auto loaded = [&](const std::string& more) {
+    return load("[[features]]\nsource = \"none.gpkg\"\nkind = \"road\"\norigin = \"Tyrol\"\n" +
+                more);
+  };
+  EXPECT_THAT(scene_inputs(loaded("enabled = false\n")), IsEmpty());
+  EXPECT_THAT(source_credits(loaded("enabled = false\n")), IsEmpty());
+  EXPECT_NO_THROW(require_scene_files(loaded("enabled = false\n")));
+  EXPECT_THAT(scene_inputs(loaded("")), testing::SizeIs(1));
+}
+
 // Beside the scene first, then the folders in their order.
 TEST_F(SceneFolders, TheFirstFolderThatHasTheFileGivesIt) {
   root_.write("data/here.tif", "another");

@@ -190,6 +190,14 @@ TEST_F(SceneFeaturesInPictures, TheyAndMistAreLayersOfTheirOwn) {
   EXPECT_LT(misty.edges, clear.edges + 0.002) << "nothing of mist over a road is told by edges";
 }
 
+TEST_F(SceneFeaturesInPictures, ABlockThatIsOffIsAsIfItWereNotThere) {
+  write("roads.geojson", line("motorway", "[682500, 5243000], [685500, 5244500]") + "," +
+                             line("river", "[683000, 5242000], [684500, 5243500]"));
+  const Grid<glm::vec3> bare = painted(scene("", 120, 80), "bare");
+  EXPECT_FALSE(painted(scene(block, 120, 80), "on") == bare);
+  EXPECT_TRUE(painted(scene(std::string(block) + "enabled = false\n", 120, 80), "off") == bare);
+}
+
 TEST_F(SceneFeaturesInPictures, AFileWhoseFeaturesAllLieElsewhereIsSaidWithBothExtents) {
   write("roads.geojson", line("road", "[482500, 5243000], [485500, 5244500]"));
   const LoadedScene loaded = scene(block);

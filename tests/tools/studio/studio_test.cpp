@@ -278,6 +278,25 @@ TEST_F(StudioTest, RefusesPicturesThatAreNotOrCannotBe) {
   EXPECT_EQ(get("api/picture", {{"rung", "0"}}).status, 200) << "and goes on";
 }
 
+TEST_F(StudioTest, FeaturesAreSwitchedOffAndOn) {
+  const std::string rung = std::to_string(rungs().size() - 1);
+  const auto picture = [&] { return get("api/picture", {{"rung", rung}}).body; };
+  const std::string bare = picture();
+  folder_.write("roads.geojson",
+                R"({"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {},
+                   "geometry": {"type": "LineString",
+                                "coordinates": [[2000, 3000], [6000, 5000], [10000, 4000]]}}]})");
+  posted("api/set", R"({"changes": [{"key": "features", "append":
+                        {"source": "roads.geojson", "kind": "motorway", "width_mm": 4}}]})");
+  const std::string drawn = picture();
+  EXPECT_NE(drawn, bare);
+  EXPECT_EQ(got("api/scene")["values"]["features.0.enabled"], true);
+  EXPECT_EQ(set("features.0.enabled", false)["values"]["features.0.enabled"], false);
+  EXPECT_EQ(picture(), bare);
+  posted("api/undo");
+  EXPECT_EQ(picture(), drawn);
+}
+
 // ---- tiles
 
 struct TileRecord {

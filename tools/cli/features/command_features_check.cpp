@@ -117,7 +117,7 @@ int run(const FeaturesCheckOptions& options) {
   const LoadedScene scene = load(options.scene);
   const RunLimits limits(make_run(options.scene));
   TerminalProgress progress(options.scene.quiet);
-  if (scene.scene.features.empty())
+  if (!scene.scene.any_features())
     throw Error(ErrorKind::usage, scene.name, "the scene has no features",
                 "[[features]] with source and kind; see features.md");
   require_scene_files(scene);
