@@ -46,8 +46,9 @@ export const api = {
   text: (text) => post("api/text", { text }),
   act: (name, body) => post(`api/${name}`, body), // undo, redo, save, reload
   render: (width) => post("api/render", { width }),
-  render_state: () => get("api/render"),
-  render_cancel: () => post("api/render/cancel"),
+  fetch: (place, size, cover) => post("api/fetch", { place, size, land_cover: cover ? "yes" : "no" }),
+  job: (name) => get(`api/${name}`), // render, fetch
+  job_cancel: (name) => post(`api/${name}/cancel`),
   pointer: (x, y, revision, signal) => get(`api/pointer?x=${x.toFixed(5)}&y=${y.toFixed(5)}&revision=${revision}`, signal),
   map_picture: (revision) => `api/map.png?of=${revision}`, // of the newest scene, whatever its revision
   thumbnail: (index, turn) => `api/proposals/${index}.jpg?turn=${turn}`,

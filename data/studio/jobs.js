@@ -1,41 +1,33 @@
-// The real job: renders the scene at full size with progress, time left and cancel, and opens the page that zooms into it.
+// Long work of the program in a dialog with progress, time left and cancel: the picture rendered at full size, and maps fetched for a place.
 import { api } from "./api.js";
 import { by_id, duration } from "./dom.js";
 
 const look_ms = 700;
 
-export class Jobs {
-  constructor(store, status) {
-    this.store = store;
-    this.status = status;
-    this.dialog = by_id("render-dialog");
-    by_id("render").addEventListener("click", () => this.open());
-    by_id("render-start").addEventListener("click", () => this.start());
-    by_id("render-cancel").addEventListener("click", () => this.cancel());
-    by_id("render-width").addEventListener("input", () => this.size());
-    this.dialog.addEventListener("close", () => by_id("render").focus());
+// A dialog of the elements NAME-dialog, -start, -cancel, -progress, -says and -fault, opened by NAME; `job` has start(), state() and cancel().
+class Job {
+  constructor(name, job) {
+    Object.assign(this, { name, job });
+    this.dialog = this.part("dialog");
+    this.label = by_id(name).textContent;
+    by_id(name).addEventListener("click", () => this.open());
+    this.part("start").addEventListener("click", () => this.start());
+    this.part("cancel").addEventListener("click", () => this.cancel());
+    this.dialog.addEventListener("close", () => by_id(name).focus());
     this.look(); // a job may be running since before the page was opened
   }
-
+  part(of) {
+    return by_id(`${this.name}-${of}`);
+  }
   open() {
-    const field = by_id("render-width");
-    if (!this.running) field.value = this.store.value("output.width") ?? 2400;
-    this.size();
     this.dialog.showModal();
     this.look();
-  }
-  size() {
-    const width = Number(by_id("render-width").value);
-    const [w, h] = [this.store.value("output.width") ?? 2400, this.store.value("output.height") ?? 1100];
-    const sheet = this.store.value("output.sheet_width_mm") ?? 1200;
-    by_id("render-size").textContent =
-      width > 0 ? `${width} × ${Math.round((width * h) / w)} px, ${Math.round((25.4 * width) / sheet)} dpi on ${sheet} mm` : "";
   }
 
   async start() {
     this.fault(null);
     try {
-      await api.render(Number(by_id("render-width").value));
+      await this.job.start();
     } catch (error) {
       return this.fault(error.fault ?? { message: error.message });
     }
@@ -44,7 +36,7 @@ export class Jobs {
   }
   async cancel() {
     try {
-      await api.render_cancel();
+      await this.job.cancel();
     } catch (error) {
       this.fault(error.fault);
     }
@@ -55,34 +47,94 @@ export class Jobs {
     clearTimeout(this.timer);
     let job;
     try {
-      job = await api.render_state();
+      job = await this.job.state();
     } catch (error) {
       return this.fault(error.fault);
     }
     const was_running = this.running;
     this.running = job.state === "running";
-    by_id("render-start").disabled = by_id("render-width").disabled = this.running;
-    by_id("render-cancel").hidden = !this.running;
-    by_id("render-progress").hidden = !this.running;
-    if (job.done > 0) by_id("render-progress").value = job.done;
-    else by_id("render-progress").removeAttribute("value"); // how long the step takes is not known
+    this.part("start").disabled = this.running;
+    for (const input of this.dialog.querySelectorAll("input")) input.disabled = this.running;
+    this.part("cancel").hidden = !this.running;
+    const bar = this.part("progress");
+    bar.hidden = !this.running;
+    if (job.done > 0) bar.value = job.done;
+    else bar.removeAttribute("value"); // how long the step takes is not known
     const share = job.done > 0 ? ` ${Math.round(100 * job.done)} %` : "";
     const left = job.left_s > 0 ? `, ${duration(job.left_s)} left of this step` : "";
     const told = {
-      running: `${job.stage ?? "working"}${share}${left}; ${duration(job.elapsed_s ?? 0)} so far`,
-      done: `Done in ${duration(job.elapsed_s ?? 0)}. Written to ${job.folder}.`,
-      cancelled: "Cancelled. Nothing was left behind.",
+      running: () => `${job.stage || "working"}${share}${left}; ${duration(job.elapsed_s ?? 0)} so far`,
+      done: () => `Done in ${duration(job.elapsed_s ?? 0)}. Written to ${job.folder}.`,
+      cancelled: () => `Cancelled. ${this.left}`,
     };
-    by_id("render-says").textContent = told[job.state] ?? "";
-    by_id("render-page").hidden = job.state !== "done" || !job.page;
-    if (job.page) by_id("render-page").href = job.page;
-    if (job.state === "failed") this.fault(typeof job.error === "string" ? { message: job.error } : job.error);
-    by_id("render").textContent = this.running ? "Rendering…" : "Render…";
-    if (was_running && job.state === "done" && !this.dialog.open) this.status.say("The picture is rendered.");
+    this.part("says").textContent = told[job.state]?.() ?? "";
+    if (job.state === "failed") this.fault(job.error);
+    by_id(this.name).textContent = this.running ? this.working : this.label;
+    this.shown(job, was_running && job.state === "done");
     if (this.running) this.timer = setTimeout(() => this.look(), look_ms);
   }
   fault(fault) {
-    by_id("render-fault").hidden = !fault;
-    by_id("render-fault").textContent = fault?.message ?? "";
+    this.part("fault").hidden = !fault;
+    this.part("fault").textContent = fault?.message ?? "";
+  }
+}
+
+export class Rendering extends Job {
+  constructor(store, status) {
+    super("render", {
+      start: () => api.render(Number(by_id("render-width").value)),
+      state: () => api.job("render"),
+      cancel: () => api.job_cancel("render"),
+    });
+    Object.assign(this, { store, status, working: "Rendering…", left: "Nothing was left behind." });
+    by_id("render-width").addEventListener("input", () => this.size());
+  }
+  open() {
+    const field = by_id("render-width");
+    if (!this.running) field.value = this.store.value("output.width") ?? 2400;
+    this.size();
+    super.open();
+  }
+  size() {
+    const width = Number(by_id("render-width").value);
+    const [w, h] = [this.store.value("output.width") ?? 2400, this.store.value("output.height") ?? 1100];
+    const sheet = this.store.value("output.sheet_width_mm") ?? 1200;
+    by_id("render-size").textContent =
+      width > 0 ? `${width} × ${Math.round((width * h) / w)} px, ${Math.round((25.4 * width) / sheet)} dpi on ${sheet} mm` : "";
+  }
+  shown(job, is_new) {
+    by_id("render-page").hidden = job.state !== "done" || !job.page;
+    if (job.page) by_id("render-page").href = job.page;
+    if (is_new && !this.dialog.open) this.status.say("The picture is rendered.");
+  }
+}
+
+// Maps of a place, and the scene that is proposed for them.
+export class Places extends Job {
+  constructor(store, status) {
+    super("fetch", {
+      start: () => api.fetch(by_id("fetch-place").value, by_id("fetch-size").value, by_id("fetch-cover").checked),
+      state: () => api.job("fetch"),
+      cancel: () => api.job_cancel("fetch"),
+    });
+    Object.assign(this, { store, status, working: "Fetching…", left: "What was fetched is not asked for again." });
+    by_id("fetch-open").addEventListener("click", () => this.take());
+    // Enter in a field fetches; the dialog's form would close it.
+    for (const field of [by_id("fetch-place"), by_id("fetch-size")])
+      field.addEventListener("keydown", (event) => {
+        if (event.key !== "Enter") return;
+        event.preventDefault();
+        this.start();
+      });
+  }
+  shown(job, is_new) {
+    this.text = job.text;
+    by_id("fetch-open").hidden = !job.text;
+    if (is_new && this.dialog.open) by_id("fetch-open").focus();
+    else if (is_new) this.status.say("The maps are fetched.");
+  }
+  async take() {
+    this.dialog.close();
+    if (await this.store.act(() => api.text(this.text))) this.status.say("This is the place. Ctrl-Z goes back.");
   }
 }

@@ -5,7 +5,7 @@ import { by_id } from "./dom.js";
 import { Files } from "./files.js";
 import { Hands } from "./hands.js";
 import { History } from "./history.js";
-import { Jobs } from "./jobs.js";
+import { Places, Rendering } from "./jobs.js";
 import { fill_help, listen_keys } from "./keys.js";
 import { Ladder } from "./ladder.js";
 import { Map_view } from "./map.js";
@@ -34,7 +34,8 @@ async function start() {
   const history = new History(store, status);
   const text = new Text(store);
   const proposals = new Proposals(store, status, ladder);
-  const jobs = new Jobs(store, status);
+  const rendering = new Rendering(store, status);
+  const places = new Places(store, status);
   new Files(store);
   panels.tab("text", "Text");
   status.go = (key) => panels.go(key);
@@ -92,7 +93,8 @@ async function start() {
         text.area.focus();
       },
     ],
-    r: ["render", () => jobs.open()],
+    r: ["render", () => rendering.open()],
+    o: ["another place", () => places.open()],
     u: ["draw again", () => store.act(() => api.scene())],
     v: ["propose views", () => proposals.read()],
     "?": ["this list", help],

@@ -53,8 +53,29 @@ height = 1100
 
 const scene = { text: first_text, saved: first_text, revision: 1, undo: [], redo: [], step: "", outside: false };
 let newest = 0; // of the requests for pictures
-let job = { state: "idle" };
-let job_timer = 0;
+const jobs = { render: { state: "idle" }, fetch: { state: "idle" } };
+const timers = {};
+
+// A job of 3 s in two stages.
+function begin(name, stages, folder, result) {
+  if (jobs[name].state === "running") throw new Fault({ message: "another one is running" });
+  const started = Date.now();
+  jobs[name] = { state: "running", stage: stages[0], done: 0, elapsed_s: 0, left_s: 3, folder, error: null };
+  timers[name] = setInterval(() => {
+    const elapsed_s = (Date.now() - started) / 1000;
+    const done = Math.min(1, elapsed_s / 3);
+    Object.assign(jobs[name], { elapsed_s, done, left_s: 3 - elapsed_s, stage: stages[done > 0.5 ? 1 : 0] });
+    if (done < 1) return;
+    clearInterval(timers[name]);
+    Object.assign(jobs[name], { state: "done", ...result });
+  }, 100).unref();
+  return jobs[name];
+}
+function cancel(name) {
+  clearInterval(timers[name]);
+  if (jobs[name].state === "running") jobs[name].state = "cancelled";
+  return jobs[name];
+}
 
 function state() {
   const { values } = parse(scene.text);
@@ -250,27 +271,22 @@ const answers = {
   "POST api/render": (_, body) => {
     const { width } = JSON.parse(body);
     if (!(width >= 16 && width <= 65535)) throw new Fault({ message: `the width is ${width}, allowed: 16 … 65535 px` });
-    const started = Date.now();
-    job = { state: "running", stage: "Rays", done: 0, elapsed_s: 0, left_s: 3, folder: "/home/user/scenes/mock", page: null, error: null };
-    clearInterval(job_timer);
-    job_timer = setInterval(() => {
-      job.elapsed_s = (Date.now() - started) / 1000;
-      job.done = Math.min(1, job.elapsed_s / 3);
-      job.left_s = 3 - job.elapsed_s;
-      if (job.done > 0.5) job.stage = "Strokes";
-      if (job.done === 1) {
-        clearInterval(job_timer);
-        job = { ...job, state: "done", page: "render/index.html" };
-      }
-    }, 100).unref();
-    return job;
+    return begin("render", ["Rays", "Strokes"], "/home/user/scenes/mock_rendered", { page: "render/index.html" });
   },
-  "GET api/render": () => job,
-  "POST api/render/cancel": () => {
-    clearInterval(job_timer);
-    job = { ...job, state: "cancelled" };
-    return job;
+  "GET api/render": () => jobs.render,
+  "POST api/render/cancel": () => cancel("render"),
+  "POST api/fetch": (_, body) => {
+    const { place } = JSON.parse(body);
+    const [lon, lat] = place.split(",").map(Number);
+    if (place.split(",").length !== 2 || !Number.isFinite(lon + lat))
+      throw new Fault({ message: `"${place}"`, allowed: "longitude and latitude in degrees: 11.4, 47.35" });
+    if (Math.abs(lat) > 90) throw new Fault({ message: `latitude is ${lat}`, allowed: "-90 … 90 °" });
+    return begin("fetch", ["fetching", "looking for views"], `/home/user/scenes/place_${lon}_${lat}`, {
+      text: first_text.replace('"Karwendel"', `"${place}"`),
+    });
   },
+  "GET api/fetch": () => jobs.fetch,
+  "POST api/fetch/cancel": () => cancel("fetch"),
   "POST api/files": (query) => {
     const name = query.get("name");
     if (/[/\\]/.test(name)) throw new Fault({ message: "a name without folders" });
@@ -347,7 +363,7 @@ async function answer(request, response) {
     }
     if (answers[name]) {
       const body = JSON.stringify(await answers[name](address.searchParams, Buffer.concat(chunks).toString()));
-      return response.writeHead(name === "POST api/render" ? 202 : 200, { "Content-Type": "application/json" }).end(body);
+      return response.writeHead(["POST api/render", "POST api/fetch"].includes(name) ? 202 : 200, { "Content-Type": "application/json" }).end(body);
     }
     const file = path === "" ? "index.html" : path;
     if (!/^[a-z_]+\.(html|css|js|svg)$/.test(file)) return response.writeHead(404).end();

@@ -418,6 +418,54 @@ test("the picture is rendered, and the rendering cancelled", async () => {
   await page.keyboard.press("Escape");
 });
 
+const type_in = async (selector, text) => {
+  await page.$eval(selector, (field) => field.select());
+  await page.type(selector, text);
+};
+
+const no_place = Boolean(process.env.BELVEDERE_STUDIO) && !process.env.BELVEDERE_PLACE;
+test("a place is fetched and opened as a new scene, in one step of undo", { skip: no_place }, async () => {
+  const { text } = await scene();
+  await page.click("#fetch");
+  for (const [nowhere, said] of [
+    ["over there", "over there"],
+    ["11.4, 99", "99"],
+  ]) {
+    await type_in("#fetch-place", nowhere);
+    await page.click("#fetch-start");
+    await page.waitForFunction((what) => document.getElementById("fetch-fault").textContent.includes(what), patience, said);
+  }
+  await type_in("#fetch-place", process.env.BELVEDERE_PLACE ?? "11.5, 47.5");
+  await type_in("#fetch-size", "60");
+  await page.keyboard.press("Enter");
+  await page.waitForSelector("#fetch-cancel:not([hidden])", patience);
+  await page.waitForSelector("#fetch-fault[hidden]", patience);
+  await page.waitForSelector("#fetch-open:not([hidden])", { timeout: 8 * patience.timeout });
+  assert.equal((await scene()).text, text, "nothing changes before it is asked for");
+  await page.click("#fetch-open");
+  await page.waitForFunction((before) => Number(document.body.dataset.revision) > before, patience, (await scene()).revision - 1);
+  const start = Date.now();
+  while ((await scene()).text === text) {
+    assert.ok(Date.now() - start < patience.timeout);
+    await sleep(50);
+  }
+  await finished();
+  assert.ok(await page.$("#message[hidden]"), "the new place is drawn");
+  await undo();
+  assert.equal((await scene()).text, text);
+  await finished();
+});
+
+test("fetching is cancelled", { skip: Boolean(process.env.BELVEDERE_STUDIO) }, async () => {
+  await page.click("#fetch");
+  await type_in("#fetch-place", "11.5, 47.5");
+  await page.click("#fetch-start");
+  await page.waitForSelector("#fetch-cancel:not([hidden])", patience);
+  await page.click("#fetch-cancel");
+  await page.waitForFunction(() => /Cancelled/.test(document.getElementById("fetch-says").textContent), patience);
+  await page.keyboard.press("Escape");
+});
+
 test("every control has a name", async () => {
   const nameless = await page.evaluate(() =>
     Array.from(document.querySelectorAll("button, input, select, textarea, [role=slider], [tabindex='0']"))

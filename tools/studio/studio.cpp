@@ -7,14 +7,19 @@
 #include "base/error.h"
 #include "renderer/pipeline/view_judgement.h"
 #include "tools/report/encoded_picture.h"
-#include "tools/studio/render_job.h"
+#include "tools/studio/job.h"
 #include "tools/studio/request_body.h"
 #include "tools/studio/studio_state.h"
 
 namespace belvedere::tools {
 
-StudioState::StudioState(const std::string& scene, const SceneFileOptions& files, const Run& given)
-    : session(scene, files), owner(scene), run(given), job(std::make_unique<RenderJob>()) {}
+StudioState::StudioState(const StudioParameters& parameters, const Run& given)
+    : session(parameters.scene, parameters.files),
+      owner(parameters.scene),
+      run(given),
+      open_place(parameters.open_place),
+      render(std::make_unique<Job>("render")),
+      fetch(std::make_unique<Job>("fetch")) {}
 StudioState::~StudioState() = default;
 
 StudioState::Moment StudioState::moment(const HttpRequest& request) {
@@ -66,8 +71,13 @@ HttpAnswer StudioState::route(const HttpRequest& request) {
       });
     if (name == "render") return start_render(request);
     if (name == "render/cancel") {
-      job->cancel();
-      return json_answer(job_json(job->report()));
+      render->cancel();
+      return json_answer(render_json());
+    }
+    if (name == "fetch") return start_fetch(request);
+    if (name == "fetch/cancel") {
+      fetch->cancel();
+      return json_answer(fetch_json());
     }
     if (name == "files") return take_file(request);
     if (name == "close") return json_answer(Json::object());
@@ -85,7 +95,8 @@ HttpAnswer StudioState::route(const HttpRequest& request) {
                              .add("stage", Json::text(stage.name))
                              .add("done", Json::number(stage.done)));
     }
-    if (name == "render") return json_answer(job_json(job->report()));
+    if (name == "render") return json_answer(render_json());
+    if (name == "fetch") return json_answer(fetch_json());
     if (name.starts_with("proposals/")) return proposal_picture(name.substr(10));
     const Moment now = moment(request);
     const auto revision = Json::number(static_cast<double>(now.revision));
@@ -111,7 +122,7 @@ HttpAnswer StudioState::route(const HttpRequest& request) {
 }
 
 Studio::Studio(const StudioParameters& parameters, const Run& run)
-    : state_(std::make_unique<StudioState>(parameters.scene, parameters.files, run)) {
+    : state_(std::make_unique<StudioState>(parameters, run)) {
   state_->server.emplace(HttpParameters{.port = parameters.port, .token = random_token()},
                          [this](const HttpRequest& request) { return answer(request); });
 }
@@ -125,7 +136,8 @@ void Studio::run() { state_->server->run(); }
 void Studio::stop() {
   state_->quick.cancel();
   state_->exact.cancel();
-  state_->job->cancel();
+  state_->render->cancel();
+  state_->fetch->cancel();
   state_->server->stop();
 }
 

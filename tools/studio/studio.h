@@ -4,18 +4,12 @@
 #include <string>
 
 #include "base/run.h"
-#include "renderer/scene/scene_file.h"
 #include "tools/studio/http_server.h"
+#include "tools/studio/studio_parameters.h"
 
 namespace belvedere::tools {
 
 struct StudioState;
-
-struct StudioParameters {
-  std::string scene;  // path
-  SceneFileOptions files;
-  int port = 0;  // 0: any that is free
-};
 
 // Composes a scene live: answers the requests of docs/studio.md, about one scene, until it is
 // stopped.

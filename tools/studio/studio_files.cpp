@@ -9,10 +9,12 @@
 #include "base/text/embedded.h"
 #include "base/text/letters.h"
 #include "renderer/image/output_file.h"
+#include "renderer/pipeline/pipeline.h"
 #include "renderer/scene/draft.h"
-#include "tools/studio/render_job.h"
+#include "tools/studio/job.h"
 #include "tools/studio/request_body.h"
 #include "tools/studio/studio_state.h"
+#include "tools/web/web_page.h"
 
 namespace belvedere::tools {
 namespace {
@@ -40,6 +42,9 @@ constexpr const char* studio_policy =
 constexpr const char* rendered_policy =
     "default-src 'none'; script-src 'self' 'unsafe-inline'; style-src 'self' 'unsafe-inline'; "
     "img-src 'self' blob: data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+
+// Of the page of a rendered picture.
+std::string page_folder(const std::string& folder) { return (fs::path(folder) / "web").string(); }
 
 std::string read_bytes(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -78,9 +83,9 @@ HttpAnswer StudioState::file(const std::string& name) {
 
 // The page of the last rendered picture; nothing outside its folder.
 HttpAnswer StudioState::rendered(const std::string& name) {
-  const RenderJob::Report report = job->report();
-  if (report.state != RenderJob::State::done) return not_found("file");
-  const fs::path folder = fs::weakly_canonical(RenderJob::page_folder(report.folder));
+  const Job::Report report = render->report();
+  if (report.state != Job::State::done) return not_found("file");
+  const fs::path folder = fs::weakly_canonical(page_folder(report.folder));
   const fs::path path = fs::weakly_canonical(folder / name);
   if (!path.string().starts_with(folder.string() + "/") || !fs::is_regular_file(path))
     return not_found("file");
@@ -100,8 +105,19 @@ HttpAnswer StudioState::start_render(const HttpRequest& request) {
   // The live pictures make room.
   quick.cancel();
   exact.cancel();
-  job->start(scene, folder.string(), run);
-  return json_answer(job_json(job->report()), 202);
+  render->start(folder.string(), run, [scene, folder = folder.string()](const Run& given) {
+    belvedere::render(scene, folder, given);
+    write_web_page({{folder, scene.name}}, page_folder(folder), {}, given.progress);
+    return std::string();
+  });
+  return json_answer(render_json(), 202);
+}
+
+Json StudioState::render_json() const {
+  const Job::Report report = render->report();
+  Json out = job_json(report);
+  if (report.state == Job::State::done) out.add("page", Json::text("render/index.html"));
+  return out;
 }
 
 HttpAnswer StudioState::take_file(const HttpRequest& request) {

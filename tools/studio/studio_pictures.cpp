@@ -3,7 +3,7 @@
 #include <chrono>
 
 #include "tools/report/encoded_picture.h"
-#include "tools/studio/render_job.h"
+#include "tools/studio/job.h"
 #include "tools/studio/studio_state.h"
 
 namespace belvedere::tools {
@@ -68,7 +68,7 @@ HttpAnswer StudioState::picture(const HttpRequest& request) {
 // Records of the last rung: length of a JSON header, header, bytes of a PNG.
 HttpAnswer StudioState::tiles(const HttpRequest& request) {
   // Both would paint the same at half the speed.
-  if (job->report().state == RenderJob::State::running)
+  if (render->report().state == Job::State::running)
     throw Error(ErrorKind::interrupted, "picture", "superseded by the rendering",
                 "the last rung once it is done");
   const Moment now = moment(request);

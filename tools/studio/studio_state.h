@@ -17,15 +17,16 @@
 #include "tools/studio/picture_queue.h"
 #include "tools/studio/scene_owner.h"
 #include "tools/studio/scene_session.h"
+#include "tools/studio/studio_parameters.h"
 
 namespace belvedere::tools {
 
-class RenderJob;
+class Job;
 
-// What the studio's files share: studio.cpp finds the answer to a request, studio_pictures.cpp and
-// studio_files.cpp have the longer ones.
+// What the studio's files share: studio.cpp finds the answer to a request, studio_pictures.cpp,
+// studio_files.cpp and studio_places.cpp have the longer ones.
 struct StudioState {
-  StudioState(const std::string& scene, const SceneFileOptions& files, const Run& given);
+  StudioState(const StudioParameters& parameters, const Run& given);
   ~StudioState();
   StudioState(const StudioState&) = delete;
   StudioState& operator=(const StudioState&) = delete;
@@ -49,6 +50,9 @@ struct StudioState {
   HttpAnswer tiles(const HttpRequest& request);
   HttpAnswer pointer(const HttpRequest& request);
   HttpAnswer start_render(const HttpRequest& request);
+  Json render_json() const;
+  HttpAnswer start_fetch(const HttpRequest& request);
+  Json fetch_json() const;
   HttpAnswer take_file(const HttpRequest& request);
   std::vector<Proposal> proposals(const LoadedScene& scene);
   HttpAnswer proposal_picture(const std::string& name);
@@ -66,7 +70,9 @@ struct StudioState {
   std::vector<Proposal> proposed;
   PictureQueue quick;  // all rungs but the last
   PictureQueue exact;  // the last
-  std::unique_ptr<RenderJob> job;
+  const OpenPlace open_place;
+  std::unique_ptr<Job> render;
+  std::unique_ptr<Job> fetch;
   std::atomic<std::int64_t> closed_ms = 0;  // when the page said so; 0: it is open
   std::optional<HttpServer> server;
 };

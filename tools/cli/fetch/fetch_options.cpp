@@ -45,6 +45,11 @@ void add_fetch_options(CommandOptions& command, FetchOptions& options) {
                   "Size of the area in km: a side of the square, or west to east x south to north. "
                   "Default: 60")
       .type_name("KM");
+  command.add_flag("--no-land-cover", options.no_land_cover, "Only the elevation");
+  add_source_options(command, options);
+}
+
+void add_source_options(CommandOptions& command, FetchOptions& options) {
   command
       .add_option("--source", options.sources,
                   fmt::format("A source instead of copernicus_glo30 or esa_worldcover: {}, or a "
@@ -52,7 +57,6 @@ void add_fetch_options(CommandOptions& command, FetchOptions& options) {
                               fmt::join(built_in_map_sources(), ", ")))
       .type_name("NAME")
       .repeated();
-  command.add_flag("--no-land-cover", options.no_land_cover, "Only the elevation");
   command
       .add_option("--cell", options.cell_m,
                   "Cell size of the elevation in m. Default: the source's, 30")

@@ -22,8 +22,10 @@ struct FetchOptions {
   HttpOptions http_options;
 };
 
-// --http-silence only if the command lacks it; otherwise the command fills manners.silence_s.
+// --http-silence only if the command lacks it; otherwise the command fills http_options.silence_s.
 void add_fetch_options(CommandOptions& command, FetchOptions& options);
+// Of these, all but --at, --size and --no-land-cover.
+void add_source_options(CommandOptions& command, FetchOptions& options);
 // The head of the record of fetched data: tables that are ready for a scene beside it.
 std::string sources_for_scenes(const FetchedArea& area);
 // Error(usage) for text that cannot be parsed; fetch_area checks the range of positions and sizes.

@@ -133,7 +133,54 @@ double won(const Candidate& candidate) {
   return out;
 }
 
+// What views are looked for in, and the keys of a scene besides its view.
+struct Region {
+  CoarseGround ground;
+  Massifs massifs;
+  ProposedScene about;
+};
+
+Region read_region(const NewOptions& options, const SheetFormat& format, SceneFileNames& names,
+                   const Cache& cache, Progress& progress) {
+  ProposedScene about;
+  about.title = options.title.empty()
+                    ? title_of(options.dems.empty() ? options.out : options.dems.front())
+                    : options.title;
+  about.style = options.style.ends_with(".toml") ? names.name(options.style) : options.style;
+  about.width_px = format.width_px;
+  about.sheet_width_mm = format.sheet_width_mm;
+  const DemParameters dem = find_elevation(options, names, cache, progress, about);
+  CoarseGround ground = read_coarse_ground(dem, progress);
+  about.crs = short_crs(ground.crs);
+  if (!options.cover.file.empty()) find_land_cover(options, names, ground, progress, about);
+  progress.begin("looking for views", 0.0);
+  Massifs massifs = find_massifs(ground);
+  require_region(ground, massifs, dem.sources.front().path);
+  note_limits(ground, massifs, progress);
+  if (is_canyon_country(region_climate(ground))) {
+    if (about.style.empty()) {  // a style has its own palette
+      about.palette = "desert";
+      about.palette_why = "the climate here is dry and warm";
+    }
+    // Dry mountains may be of any rock; plateaus cut by canyons are of beds.
+    constexpr double mostly = 0.5;
+    if (ground.plateau > mostly) about.rock = "sandstone";
+    about.rock_why = "of canyons in dry country; or limestone, granite, volcanic";
+  }
+  return {std::move(ground), std::move(massifs), std::move(about)};
+}
+
 }  // namespace
+
+std::string new_scene_text(const NewOptions& options, const Cache& cache, Progress& progress) {
+  const SheetFormat format = read_format(options.format);
+  SceneFileNames names(options);
+  const Region region = read_region(options, format, names, cache, progress);
+  const ViewSearch search{region.ground, region.massifs,
+                          request_of(options, format.picture, region.ground)};
+  return proposed_scene_text(search, propose_views(search, {.max = options.max}).front(),
+                             region.about);
+}
 
 int make_new_scene(const NewOptions& options) {
   if (options.dems.empty() == options.fetch.at.empty())
@@ -158,31 +205,8 @@ int make_new_scene(const NewOptions& options) {
   const RunLimits limits(run);
 
   SceneFileNames names(options);
-  ProposedScene about;
-  about.title = options.title.empty()
-                    ? title_of(options.dems.empty() ? options.out : options.dems.front())
-                    : options.title;
-  about.style = options.style.ends_with(".toml") ? names.name(options.style) : options.style;
-  about.width_px = format.width_px;
-  about.sheet_width_mm = format.sheet_width_mm;
-  const DemParameters dem = find_elevation(options, names, cache, progress, about);
-  const CoarseGround ground = read_coarse_ground(dem, progress);
-  about.crs = short_crs(ground.crs);
-  if (!options.cover.file.empty()) find_land_cover(options, names, ground, progress, about);
-  progress.begin("looking for views", 0.0);
-  const Massifs massifs = find_massifs(ground);
-  require_region(ground, massifs, dem.sources.front().path);
-  note_limits(ground, massifs, progress);
-  if (is_canyon_country(region_climate(ground))) {
-    if (about.style.empty()) {  // a style has its own palette
-      about.palette = "desert";
-      about.palette_why = "the climate here is dry and warm";
-    }
-    // Dry mountains may be of any rock; plateaus cut by canyons are of beds.
-    constexpr double mostly = 0.5;
-    if (ground.plateau > mostly) about.rock = "sandstone";
-    about.rock_why = "of canyons in dry country; or limestone, granite, volcanic";
-  }
+  Region region = read_region(options, format, names, cache, progress);
+  const auto& [ground, massifs, about] = region;
   const ViewSearch search{ground, massifs, request_of(options, format.picture, ground)};
   const std::vector<Candidate> proposals = propose_views(search, {.max = options.max});
   if (options.choose > static_cast<int>(proposals.size()))
@@ -193,7 +217,7 @@ int make_new_scene(const NewOptions& options) {
 
   std::vector<std::string> texts;
   for (std::size_t i = 0; i < proposals.size(); ++i) {
-    about.number = fmt::format("{} of {}", i + 1, proposals.size());
+    region.about.number = fmt::format("{} of {}", i + 1, proposals.size());
     texts.push_back(proposed_scene_text(search, proposals[i], about));
   }
   // Parsed again as for rendering: a scene that does not parse is a bug of the program, and missing

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <thread>
@@ -27,6 +28,7 @@ namespace fs = std::filesystem;
 struct StudioOptions : SceneOptions {
   int port = 0;
   bool headless = false;
+  FetchOptions fetch;  // --at and --size are asked for on the page
 };
 
 // Of a DEM a scene is made beside it, with the first view that `new` proposes.
@@ -49,6 +51,23 @@ std::string scene_of(const StudioOptions& options, Progress& progress) {
   return made.out;
 }
 
+// Of a place a scene is made of what is fetched for it, as `new --at` does.
+std::string scene_of_place(const StudioOptions& options, const std::string& scene,
+                           const WantedPlace& place, const Run& run) {
+  NewOptions made;
+  made.common = options;
+  made.fetch = options.fetch;
+  made.fetch.at = fmt::format("{},{}", place.at_lonlat.x, place.at_lonlat.y);
+  made.fetch.size = fmt::format("{}x{}", place.size_km.x, place.size_km.y);
+  made.fetch.no_land_cover = !place.land_cover;
+  made.fetched = place.folder;
+  const glm::dvec2 at = place.at_lonlat;
+  made.title = fmt::format("{:g}° {}, {:g}° {}", std::abs(at.y), at.y < 0.0 ? "S" : "N",
+                           std::abs(at.x), at.x < 0.0 ? "W" : "E");
+  made.out = scene;
+  return new_scene_text(made, run.cache, run.progress);
+}
+
 // As the desktop opens addresses; where there is none the address on the terminal is all.
 void open_browser(const std::string& address) {
   if (fork() != 0) return;
@@ -61,7 +80,11 @@ int run_studio(const StudioOptions& options) {
   TerminalProgress progress(options.quiet);
   const Cache cache = make_cache(options);
   const Run run = make_run(options, Run{}.tile_px, silent_progress(), cache);
-  Studio studio({scene_of(options, progress), options.files, options.port}, run);
+  const std::string scene = scene_of(options, progress);
+  const OpenPlace open = [&](const WantedPlace& place, const Run& given) {
+    return scene_of_place(options, scene, place, given);
+  };
+  Studio studio({scene, options.files, options.port, open}, run);
   if (options.headless)
     print_out(Json::object().add("address", Json::text(studio.address())).str() + "\n");
   else
@@ -91,6 +114,7 @@ Action add_studio(CommandOptions& command) {
       .range(0, 65535);
   command.add_flag("--headless", options->headless,
                    "No browser; the address is printed as JSON, for programs");
+  add_source_options(command, options->fetch);
   command.footer(
       "Opens a page on which the scene is composed live: camera, sun, ground, colours. The file is "
       "written when you save; comments stay.\n"

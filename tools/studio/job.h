@@ -2,19 +2,18 @@
 
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <mutex>
 #include <string>
 #include <thread>
 
 #include "base/run.h"
 #include "base/text/json.h"
-#include "renderer/scene/scene_file.h"
 
 namespace belvedere::tools {
 
-// The real job beside the live pictures, one at a time: `render` into a folder, and its zoomable
-// page.
-class RenderJob {
+// Long work beside the live pictures, which writes into a folder; one at a time.
+class Job {
  public:
   enum class State { idle, running, done, failed, cancelled };
   struct Report {
@@ -25,20 +24,27 @@ class RenderJob {
     double left_s = -1.0;  // of the stage; negative: not known
     std::string folder;
     std::string error;
+    std::string result;  // of the work, once it is done
   };
+  // Called in a thread of its own, with a progress that throws Error(interrupted) after cancel().
+  using Work = std::function<std::string(const Run& run)>;
 
-  ~RenderJob();
+  // name: of the work, in messages: "render".
+  explicit Job(std::string name) : name_(std::move(name)) {}
+  ~Job();
+  Job(const Job&) = delete;
+  Job& operator=(const Job&) = delete;
+
   // Error(usage) while another one runs.
-  void start(const LoadedScene& scene, const std::string& folder, const Run& run);
+  void start(const std::string& folder, const Run& run, Work work);
   void cancel() { cancelled_ = true; }
   Report report() const;
-  // Of the page, once the job is done: FOLDER/web.
-  static std::string page_folder(const std::string& folder);
 
  private:
   class JobProgress;
-  void work(const LoadedScene& scene, const std::string& folder, const Run& run);
+  void do_work(const Run& run, const Work& work);
 
+  std::string name_;
   mutable std::mutex mutex_;
   Report report_;
   std::chrono::steady_clock::time_point begun_;
@@ -47,7 +53,7 @@ class RenderJob {
   std::thread thread_;
 };
 
-// What the studio answers: docs/studio.md describes the members.
-Json job_json(const RenderJob::Report& report);
+// What the studio answers, without the result: docs/studio.md describes the members.
+Json job_json(const Job::Report& report);
 
 }  // namespace belvedere::tools

@@ -1,27 +1,25 @@
-#include "tools/studio/render_job.h"
+#include "tools/studio/job.h"
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
+#include <utility>
 
 #include "base/error.h"
-#include "renderer/pipeline/pipeline.h"
-#include "tools/web/web_page.h"
 
 namespace belvedere::tools {
 namespace {
 
-std::string describe(RenderJob::State state) {
+std::string describe(Job::State state) {
   switch (state) {
-    case RenderJob::State::idle:
+    case Job::State::idle:
       return "idle";
-    case RenderJob::State::running:
+    case Job::State::running:
       return "running";
-    case RenderJob::State::done:
+    case Job::State::done:
       return "done";
-    case RenderJob::State::failed:
+    case Job::State::failed:
       return "failed";
-    case RenderJob::State::cancelled:
+    case Job::State::cancelled:
       break;
   }
   return "cancelled";
@@ -29,9 +27,9 @@ std::string describe(RenderJob::State state) {
 
 }  // namespace
 
-class RenderJob::JobProgress : public Progress {
+class Job::JobProgress : public Progress {
  public:
-  explicit JobProgress(RenderJob& job) : job_(job) {}
+  explicit JobProgress(Job& job) : job_(job) {}
   void begin(std::string_view stage, double total) override {
     const std::lock_guard lock(job_.mutex_);
     job_.report_.stage = stage;
@@ -49,46 +47,42 @@ class RenderJob::JobProgress : public Progress {
  private:
   void check() const {
     if (job_.cancelled_)
-      throw Error(ErrorKind::interrupted, "render", "cancelled", "render again to go on");
+      throw Error(ErrorKind::interrupted, job_.name_, "cancelled", "start it again to go on");
   }
-  RenderJob& job_;
+  Job& job_;
   double total_ = 0.0;
 };
 
-RenderJob::~RenderJob() {
+Job::~Job() {
   cancel();
   if (thread_.joinable()) thread_.join();
 }
 
-std::string RenderJob::page_folder(const std::string& folder) {
-  return (std::filesystem::path(folder) / "web").string();
-}
-
-void RenderJob::start(const LoadedScene& scene, const std::string& folder, const Run& run) {
+void Job::start(const std::string& folder, const Run& run, Work work) {
   {
     const std::lock_guard lock(mutex_);
     if (report_.state == State::running)
-      throw Error(ErrorKind::usage, "render", "another one is running", "cancel it first");
-    report_ = {.state = State::running, .stage = "reading", .folder = folder, .error = {}};
+      throw Error(ErrorKind::usage, name_, "another one is running", "cancel it first");
+    report_ = {
+        .state = State::running, .stage = "reading", .folder = folder, .error = {}, .result = {}};
     begun_ = stage_begun_ = std::chrono::steady_clock::now();
     cancelled_ = false;
   }
   if (thread_.joinable()) thread_.join();
-  thread_ = std::thread([this, scene, folder, threads = run.threads, memory = run.memory_bytes,
-                         tile_px = run.tile_px, &cache = run.cache] {
-    work(scene, folder, {threads, memory, tile_px, silent_progress(), cache});
+  thread_ = std::thread([this, work = std::move(work), threads = run.threads,
+                         memory = run.memory_bytes, tile_px = run.tile_px, &cache = run.cache] {
+    JobProgress progress(*this);
+    do_work({threads, memory, tile_px, progress, cache}, work);
   });
 }
 
 // The end of a thread, which may not throw: errors become the report.
-void RenderJob::work(const LoadedScene& scene, const std::string& folder, const Run& run) {
-  JobProgress progress(*this);
+void Job::do_work(const Run& run, const Work& work) {
   State end = State::done;
   std::string error;
+  std::string result;
   try {
-    belvedere::render(scene, folder,
-                      {run.threads, run.memory_bytes, run.tile_px, progress, run.cache});
-    write_web_page({{folder, scene.name}}, page_folder(folder), {}, progress);
+    result = work(run);
   } catch (const Error& caught) {
     end = caught.kind() == ErrorKind::interrupted ? State::cancelled : State::failed;
     error = caught.what();
@@ -99,12 +93,13 @@ void RenderJob::work(const LoadedScene& scene, const std::string& folder, const 
   const std::lock_guard lock(mutex_);
   report_.state = end;
   report_.error = error;
+  report_.result = result;
   report_.done = end == State::done ? 1.0 : report_.done;
   report_.elapsed_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count();
 }
 
-RenderJob::Report RenderJob::report() const {
+Job::Report Job::report() const {
   const std::lock_guard lock(mutex_);
   Report out = report_;
   if (out.state != State::running) return out;
@@ -119,7 +114,7 @@ RenderJob::Report RenderJob::report() const {
   return out;
 }
 
-Json job_json(const RenderJob::Report& report) {
+Json job_json(const Job::Report& report) {
   Json out = Json::object()
                  .add("state", Json::text(describe(report.state)))
                  .add("stage", Json::text(report.stage))
@@ -130,7 +125,6 @@ Json job_json(const RenderJob::Report& report) {
                                    ? Json::raw("null")
                                    : Json::object().add("message", Json::text(report.error)));
   if (report.left_s >= 0.0) out.add("left_s", Json::number(std::round(report.left_s)));
-  if (report.state == RenderJob::State::done) out.add("page", Json::text("render/index.html"));
   return out;
 }
 
