@@ -46,7 +46,7 @@ before(async () => {
   let said = "";
   for await (const bytes of program.stdout) {
     said += bytes;
-    if (said.includes("\n")) break;
+    if (said.includes("}\n")) break;
   }
   ({ address } = JSON.parse(said));
   browser = await puppeteer.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ["--no-sandbox"] });

@@ -2,7 +2,7 @@
 //   npm --prefix tests/studio ci && node --test tests/studio/studio_test.mjs
 //   BELVEDERE_STUDIO=http://127.0.0.1:PORT/TOKEN/ node --test tests/studio/studio_test.mjs
 // The scene of that program needs a camera with look_at; it is saved by the test: give it a copy. BELVEDERE_RUNG=1 waits for that rung
-// instead of the last one, where that takes long.
+// instead of the last one, where that takes long. BELVEDERE_PLACE="11.5, 47.5" is a place whose elevation its --mirror has.
 import assert from "node:assert/strict";
 import { mkdtemp, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
@@ -437,6 +437,8 @@ test("a place is fetched and opened as a new scene, in one step of undo", { skip
   }
   await type_in("#fetch-place", process.env.BELVEDERE_PLACE ?? "11.5, 47.5");
   await type_in("#fetch-size", "60");
+  if (process.env.BELVEDERE_PLACE) await page.click("#fetch-cover"); // its server has elevation alone
+  await page.focus("#fetch-size");
   await page.keyboard.press("Enter");
   await page.waitForSelector("#fetch-cancel:not([hidden])", patience);
   await page.waitForSelector("#fetch-fault[hidden]", patience);
