@@ -49,7 +49,7 @@ struct Border {
 
 TEST(CloseBorders, FollowAReliefAndKeepAreas) {
   const Border border(Class::scree, Class::alpine_grass, 1.0F);
-  EXPECT_GT(border.moved, 100);
+  EXPECT_GT(border.moved, 50);
   EXPECT_LT(border.farthest, border_reach_units);
   EXPECT_NEAR(border.mean, 80.0, 4.0);
 }
