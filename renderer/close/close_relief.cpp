@@ -181,7 +181,7 @@ FormLook snow_look(const CloseScene& s, int x, int y, std::size_t i, glm::vec2 p
   const float slope = g.slope_deg[i];
   const float depth_m = g.depth_m[i];
   // Nearly one or the other: mixed they would look like panes of glass over each other.
-  const float steep = smoothstep(24.5F, 29.5F, slope + 3.0F * s.steepness(u, v));
+  const float steep = smoothstep(25.0F, 29.0F, slope + 2.0F * s.steepness(u, v));
   const float calm = smoothstep(-0.6F, 0.7F, s.calm(u, v));
   const float small_calm = smoothstep(-0.1F, 0.9F, s.small_calm(u, v));
   // Whole slopes are empty beside busy ones.
@@ -408,7 +408,7 @@ void add_close_relief(RockRelief& relief, const GuidanceBuffers& guidance, const
   };
   scene.calm = noise(0, 42.0, 42.0);
   scene.small_calm = noise(1, 17.0, 17.0);
-  scene.steepness = noise(2, 16.0, 16.0);
+  scene.steepness = noise(2, 40.0, 40.0);
   scene.terraces = noise(3, 15.0, 6.0);
   scene.quiet = noise(4, 85.0, 60.0);
 

@@ -258,7 +258,7 @@ glm::vec3 near_snow_hue(const Scenery& s, std::size_t i) {
   const float lit = smoothstep(0.55F, 0.90F, g.tone[i]);
   const float shade = 1.0F - smoothstep(0.25F, 0.50F, g.tone[i]);
   const float steep = std::clamp((g.slope_deg[i] - 26.0F) / 20.0F, -1.0F, 1.0F);
-  return 1.0F + close * (lit * glm::vec3(0.012F, 0.001F, -0.034F) +
+  return 1.0F + close * (lit * glm::vec3(0.008F, 0.0F, -0.022F) +
                          shade * steep * glm::vec3(0.045F, -0.02F, 0.0F));
 }
 

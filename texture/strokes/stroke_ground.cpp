@@ -74,9 +74,14 @@ std::vector<Stroke> wash_strokes(const StrokeScene& scene, Stream stream) {
         // Near loose stone and snow are dabbed: dense lines down the slope would be fur.
         const bool near = (id == scree || ice || is_open_grass(id)) && is_close(scene, i, seed);
         if (near) end_with_class(stroke);
-        if (near && ice) stay_on_plane(stroke, scene, i);
+        const bool snowy = near && (ice || scene.parameters.winter);
+        if (snowy) stay_on_plane(stroke, scene, i);
         const float length = near ? std::min(brush.wash_length, 5.5F) : brush.wash_length;
-        const float wander = near ? (id == scree ? 1.1F : ice ? 0.1F : 0.5F) * seed.normal() : 0.F;
+        const float wander = near ? (snowy         ? 0.1F
+                                     : id == scree ? 1.1F
+                                                   : 0.5F) *
+                                        seed.normal()
+                                  : 0.F;
         lay_line(stroke, scene, position, length * seed.between(0.7F, 1.3F), angle + wander, 0.2F,
                  !is_floor(id), seed);
         take_brush(stroke, scene, brush.wash_width * seed.between(0.7F, 1.3F),
@@ -85,9 +90,10 @@ std::vector<Stroke> wash_strokes(const StrokeScene& scene, Stream stream) {
                     .bristle = ice ? 0.25F : 0.35F,
                     .wetness = ice ? 0.015F : 0.03F,
                     .load = ice ? 0.4F : 1.F});
-        stroke.colour = scene.colour(
-            i, wooded ? -0.55F + 0.35F * seed.normal() : mixed_tone(0.22F, 0.15F, seed),
-            paint_jitter, seed);
+        stroke.colour = scene.colour(i,
+                                     wooded ? -0.55F + 0.35F * seed.normal()
+                                            : (snowy ? 0.5F : 1.F) * mixed_tone(0.22F, 0.15F, seed),
+                                     paint_jitter, seed);
         stroke.order += seed.uniform() * 300.F;
         out.push_back(stroke);
       });
@@ -107,6 +113,7 @@ std::vector<Stroke> meadow_strokes(const StrokeScene& scene, Stream stream) {
                  const float turn = seed.uniform() < 0.5F ? 0.F : quarter_turn;
                  // Near slopes are drawn along their contours, as their terracettes run.
                  const bool near = is_close(scene, i, seed);
+                 if (near && scene.parameters.winter) return;  // under snow, which is washed
                  if (near) end_with_class(stroke);
                  lay_line(stroke, scene, position, near ? 0.6F * length : length,
                           (near ? quarter_turn : turn) + 0.25F * seed.normal(), 0.2F, true, seed);
@@ -177,6 +184,7 @@ std::vector<Stroke> scree_strokes(const StrokeScene& scene, Stream stream) {
         stroke.tone = scene.guidance.tone[i];
         const float u = seed.uniform();
         if (is_close(scene, i, seed)) {
+          if (scene.parameters.winter) return;  // under snow, which is washed
           // Dabs as wide as long, some of them across.
           end_with_class(stroke);
           stroke.tone_width = 0.11F;

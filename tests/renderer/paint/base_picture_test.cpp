@@ -66,9 +66,26 @@ TEST(Base, RockHasTheHueOfItsPlaneAndTurfAndSnowOnItsTreads) {
   expect(palette_colour(palette, LandCoverClass::alpine_grass, 1200.0, 0.55));
 }
 
+// Cream in the sun, and violet where steep shade does not see the sky.
+TEST(Base, NearSnowIsWarmInLightAndVioletInShade) {
+  const auto hue = [](float tone, float slope_deg, float metres_per_unit) {
+    GuidanceBuffers g = make_slope(30, 20, LandCoverClass::snow, {0.0F, 0.0F, 1.0F}, slope_deg);
+    g.tone = Grid<float>(30, 20, tone);
+    g.footprint_m = Grid<float>(30, 20, metres_per_unit);
+    return picture_of(g, plain()).colour(15, 10);
+  };
+  const glm::vec3 lit = hue(0.95F, 20.0F, 8.0F) / hue(0.95F, 20.0F, 40.0F);
+  EXPECT_LT(lit.b, 0.99F);
+  EXPECT_GE(lit.r, 1.0F);
+  const glm::vec3 shade = hue(0.2F, 45.0F, 8.0F) / hue(0.2F, 45.0F, 40.0F);
+  EXPECT_GT(shade.r, 1.02F);
+  EXPECT_LT(shade.g, 0.99F);
+}
+
 // Ice is blue near ice-free ground; deep in the snow it is white with firn.
 TEST(Base, TonguesAreIceAndFirnIsSnow) {
   GuidanceBuffers g = make_slope(200, 40, LandCoverClass::glacier, {0.0F, 0.0F, 1.0F}, 10.0F);
+  g.footprint_m = Grid<float>(200, 40, 40.0F);
   for (int y = 0; y < 40; ++y)
     for (int x = 0; x < 20; ++x) g.land_cover(x, y) = LandCoverClass::scree;
   const Palette palette = read_palette("summer");

@@ -195,11 +195,14 @@ TEST(Tone, OfRockIsThatOfItsRelief) {
   // The picture's contrast applies to it, around .55.
   p.light.contrast = 2.0;
   EXPECT_NEAR(mean(tone_of(wall, p)), 0.85, 0.12);
-  // Other ground does not need it.
+  // Other ground does not need it, unless it is near: then its forms add theirs.
   GuidanceBuffers meadow = make_slope(24, 24, LandCoverClass::pasture, sun_side_normal, 20.0F);
+  meadow.footprint_m = Grid<float>(24, 24, 40.0F);
   const Grid<float> without = tone_of(meadow);
   meadow.rock_tone = Grid<float>(24, 24, 0.1F);
   EXPECT_TRUE(tone_of(meadow) == without);
+  meadow.footprint_m = Grid<float>(24, 24, 5.0F);
+  EXPECT_NEAR(mean(tone_of(meadow)), mean(without) + 0.1, 0.02);
 }
 
 TEST(Tone, WallsInShadowKeepTheirForms) {

@@ -404,6 +404,8 @@ struct Meaning {
   explicit Meaning(const std::string& toml, std::vector<std::string> settings = {}) {
     try {
       scene = read(toml, std::move(settings)).scene;
+      // The order of rules' settings means nothing: an edit keeps that of the text.
+      std::sort(scene->land_cover.settings.begin(), scene->land_cover.settings.end());
       text = write_scene(*scene);
     } catch (const Error& error) {
       text = error.found();
