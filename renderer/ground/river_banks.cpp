@@ -1,6 +1,7 @@
 #include "renderer/ground/river_banks.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -15,7 +16,7 @@ namespace belvedere {
 namespace {
 
 // Lengths in half widths of the river.
-constexpr double spacing_widths = 0.8;     // of positions
+constexpr double spacing_widths = 1.8;     // of positions
 constexpr double tangent_widths = 2.0;     // over which directions are taken
 constexpr double bend_gain = 10.0;         // of curvature times half width: 1 is a full bend
 constexpr double noise_widths = 5.0;       // deviation of the noise of banks
@@ -32,6 +33,8 @@ constexpr double min_in = -0.50;
 constexpr double max_in = 0.48;
 constexpr float source_width = 0.40F;
 constexpr std::size_t max_positions = 20000;
+constexpr std::size_t noise_step = 2;    // positions
+constexpr std::size_t part_length = 32;  // of a river with a box of its own, positions
 
 struct Line {
   std::vector<glm::dvec2> positions;
@@ -107,6 +110,20 @@ CoverRiver bank_river(CoverRiver river, std::uint64_t seed) {
   const std::size_t count = line.positions.size();
   const auto reach =
       static_cast<std::size_t>(std::max(1.0, std::round(tangent_widths * mean_m / step_m)));
+  // Noise is smooth over several positions.
+  std::array<std::vector<double>, 2> noise;
+  for (std::size_t side = 0; side < 2; ++side)
+    for (std::size_t i = 0; i < count + noise_step; i += noise_step) {
+      const glm::dvec2 at = line.positions[std::min(i, count - 1)];
+      noise[side].push_back(std::clamp(gaussian_noise(stream_seed(seed, Stream::river_banks, side),
+                                                      at.x, at.y, noise_widths * mean_m),
+                                       -2.0, 2.0));
+    }
+  const auto noise_at = [&](std::size_t side, std::size_t i) {
+    const std::size_t k = i / noise_step;
+    return glm::mix(noise[side][k], noise[side][k + 1],
+                    static_cast<double>(i % noise_step) / static_cast<double>(noise_step));
+  };
   CoverRiver out = std::move(river);
   out.positions.clear();
   out.half_width_m.clear();
@@ -121,14 +138,9 @@ CoverRiver bank_river(CoverRiver river, std::uint64_t seed) {
     const double turn = before.x * after.y - before.y * after.x;
     const double bend = std::clamp(
         bend_gain * turn * half / (4.0 * static_cast<double>(reach) * step_m), -1.2, 1.2);
-    const auto noise = [&](std::uint64_t side) {
-      return std::clamp(gaussian_noise(stream_seed(seed, Stream::river_banks, side), at.x, at.y,
-                                       noise_widths * mean_m),
-                        -2.0, 2.0);
-    };
     // The inner bank of a left turn is the left one.
-    const double left_m = half * (1.0 - inwards(bend, noise(0)));
-    const double right_m = half * (1.0 - inwards(-bend, noise(1)));
+    const double left_m = half * (1.0 - inwards(bend, noise_at(0, i)));
+    const double right_m = half * (1.0 - inwards(-bend, noise_at(1, i)));
     const double to_end =
         std::min(line.along_m[i], line.along_m.back() - line.along_m[i]) / (end_widths * mean_m);
     const double moved = 0.5 * (left_m - right_m) * smoothstep(to_end);
@@ -144,16 +156,39 @@ CoverRiver bank_river(CoverRiver river, std::uint64_t seed) {
 struct Box {
   glm::dvec2 low{0.0};
   glm::dvec2 high{0.0};
-};
-Box box_of(const CoverRiver& river) {
-  Box box{river.positions.front(), river.positions.front()};
-  double widest = 0.0;
-  for (std::size_t i = 0; i < river.positions.size(); ++i) {
-    box.low = glm::min(box.low, river.positions[i]);
-    box.high = glm::max(box.high, river.positions[i]);
-    widest = std::max(widest, static_cast<double>(river.half_width_m[i]));
+  bool holds(glm::dvec2 p) const {
+    return p.x >= low.x && p.y >= low.y && p.x <= high.x && p.y <= high.y;
   }
-  return {box.low - 2.0 * widest, box.high + 2.0 * widest};
+};
+// A part of a river and everything that may flow into it.
+struct Part {
+  std::size_t river = 0;
+  std::size_t first = 0;
+  std::size_t end = 0;
+  Box box;
+};
+
+constexpr double mouth_reach = 1.5;  // half widths of the wider river
+
+std::vector<Part> parts_of(const std::vector<CoverRiver>& rivers) {
+  std::vector<Part> parts;
+  for (std::size_t k = 0; k < rivers.size(); ++k) {
+    const CoverRiver& river = rivers[k];
+    if (river.positions.size() < 3) continue;
+    for (std::size_t first = 0; first < river.positions.size(); first += part_length) {
+      Part part{k,
+                first,
+                std::min(first + part_length, river.positions.size()),
+                {river.positions[first], river.positions[first]}};
+      for (std::size_t i = first; i < part.end; ++i) {
+        const double reach = mouth_reach * static_cast<double>(river.half_width_m[i]);
+        part.box.low = glm::min(part.box.low, river.positions[i] - reach);
+        part.box.high = glm::max(part.box.high, river.positions[i] + reach);
+      }
+      parts.push_back(part);
+    }
+  }
+  return parts;
 }
 
 // Where the end of a river meets a wider one: the river and the position in it.
@@ -162,21 +197,19 @@ struct Mouth {
   std::size_t at = 0;
 };
 
-Mouth find_mouth(const std::vector<CoverRiver>& rivers, const std::vector<Box>& boxes,
+Mouth find_mouth(const std::vector<CoverRiver>& rivers, const std::vector<Part>& parts,
                  std::size_t own) {
   const glm::dvec2 end = rivers[own].positions.back();
-  const auto half = static_cast<double>(rivers[own].half_width_m.back());
+  const float half = rivers[own].half_width_m.back();
   Mouth mouth;
-  double nearest = 1.0;  // in half widths of the wider river
-  for (std::size_t k = 0; k < rivers.size(); ++k) {
-    const CoverRiver& other = rivers[k];
-    if (k == own || other.positions.size() < 3 || end.x < boxes[k].low.x ||
-        end.y < boxes[k].low.y || end.x > boxes[k].high.x || end.y > boxes[k].high.y)
-      continue;
-    for (std::size_t i = 0; i < other.positions.size(); ++i) {
-      const auto other_half = static_cast<double>(other.half_width_m[i]);
-      if (other_half < half) continue;
-      const double distance = glm::length(other.positions[i] - end) / (1.5 * other_half);
+  double nearest = 1.0;
+  for (const Part& part : parts) {
+    if (part.river == own || !part.box.holds(end)) continue;
+    const CoverRiver& other = rivers[part.river];
+    for (std::size_t i = part.first; i < part.end; ++i) {
+      if (other.half_width_m[i] < half) continue;
+      const double distance = glm::length(other.positions[i] - end) /
+                              (mouth_reach * static_cast<double>(other.half_width_m[i]));
       if (distance >= nearest) continue;
       nearest = distance;
       mouth = {&other, i};
@@ -214,15 +247,12 @@ std::vector<CoverRiver> with_banks(std::vector<CoverRiver> rivers, std::uint64_t
   parallel_ranges<std::size_t>(rivers.size(), 4, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i != end; ++i) rivers[i] = bank_river(std::move(rivers[i]), seed);
   });
-  std::vector<Box> boxes;
-  boxes.reserve(rivers.size());
-  for (const CoverRiver& river : rivers)
-    boxes.push_back(river.positions.empty() ? Box{} : box_of(river));
+  const std::vector<Part> parts = parts_of(rivers);
   // All mouths first: they are those of rivers that have not turned yet.
   std::vector<Mouth> mouths(rivers.size());
   parallel_ranges<std::size_t>(rivers.size(), 4, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i != end; ++i)
-      if (rivers[i].positions.size() >= 3) mouths[i] = find_mouth(rivers, boxes, i);
+      if (rivers[i].positions.size() >= 3) mouths[i] = find_mouth(rivers, parts, i);
   });
   const std::vector<CoverRiver> before = rivers;
   for (std::size_t i = 0; i < rivers.size(); ++i)
