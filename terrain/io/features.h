@@ -37,6 +37,7 @@ struct MapQuery {
   std::vector<std::string> also = {};  // optional columns; their values follow those of `columns`
   std::optional<MapBox> box =
       {};  // features outside are counted and dropped; empty: everything is kept
+  std::size_t max_positions = 30000000;  // of all features that are kept; more are an error
 };
 
 struct MapFeatures {
@@ -55,7 +56,7 @@ struct MapFeatures {
 // portions, so a file may be much larger than the part in the box. Areas may intersect themselves:
 // they contain what an odd number of their rings encloses. Throws Error(usage) for another
 // extension or an invalid layer, column or filter; Error(input) for a file that is missing, damaged
-// or without a CRS; Error(limit) for more than 2 · 10⁶ features or 3 · 10⁷ positions that are kept.
+// or without a CRS; Error(limit) for more than 2 · 10⁶ features or `max_positions` that are kept.
 MapFeatures read_map_features(const VectorSource& source, const MapQuery& query,
                               const std::string& crs);
 

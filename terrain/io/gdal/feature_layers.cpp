@@ -17,7 +17,6 @@ namespace belvedere {
 namespace {
 
 constexpr std::size_t max_features = 2000000;
-constexpr std::size_t max_positions = 30000000;
 
 using Row = std::vector<glm::dvec2>;
 
@@ -289,9 +288,9 @@ class Reader {
       for (const Row& row : all_.features[i].parts) positions_ += row.size();
     if (all_.features.size() > max_features)
       throw Error(ErrorKind::limit, path_, fmt::format("more than {} features", max_features));
-    if (positions_ > max_positions)
+    if (positions_ > query_.max_positions)
       throw Error(ErrorKind::limit, path_,
-                  fmt::format("features with more than {} positions", max_positions));
+                  fmt::format("features with more than {} positions", query_.max_positions));
   }
 
   const VectorSource& source_;

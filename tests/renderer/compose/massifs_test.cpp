@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -65,6 +66,30 @@ TEST(Massifs, ACanyonIsFoundWithItsCourseUpwards) {
   EXPECT_NEAR(canyon->stands_m, 600.0, 130.0);
   EXPECT_GT(canyon->along.y, 0.9) << "northwards, where its floor rises";
   EXPECT_EQ(first_of(find_massifs(test::cone_region()), AnchorKind::canyon), nullptr);
+}
+
+// A canyon shorter than the circle in which its direction is computed: nothing beyond it counts.
+TEST(Massifs, AShortCanyonHasItsOwnDirection) {
+  const auto region = [](double sign) {
+    return find_massifs(make_coarse_ground(
+        test::synthetic_raster(
+            40.0,
+            [&](double e, double n) {
+              const double upland =
+                  2000.0 + 25.0 * std::sin(0.9 * e) * std::cos(0.7 * n) + sign * 40.0 * e;
+              const double off = std::hypot(std::max(0.0, std::abs(e - 20.0) - 1.2), n - 20.0);
+              const double wall = std::clamp((off - 0.3) / 0.5, 0.0, 1.0);
+              const double depth = 640.0 - 60.0 * std::abs(e - 20.0);  // most in its middle
+              return upland - depth * (1.0 - wall);
+            }),
+        200.0));
+  };
+  for (const double sign : {1.0, -1.0}) {
+    const Massifs massifs = region(sign);
+    const Anchor* canyon = first_of(massifs, AnchorKind::canyon);
+    ASSERT_NE(canyon, nullptr);
+    EXPECT_GT(sign * canyon->along.x, 0.95) << "to where its floor rises";
+  }
 }
 
 TEST(Massifs, ABayIsFoundUnderItsMountains) {

@@ -143,6 +143,21 @@ TEST_F(MapFeatureFiles, PlacesAtZeroAreNobodysPlaces) {
   EXPECT_EQ(read.features.size(), 2U) << "they lie where they say";
 }
 
+// Every position counts, those of the first and of the last feature as well; areas without the
+// closing one, and nothing beside the box.
+TEST_F(MapFeatureFiles, MorePositionsThanTheLimitAreRefused) {
+  const std::string file = mixed();  // lines of 2 and 3, an area of 3 and 3, a point
+  EXPECT_EQ(read_map_features(file, {.max_positions = 12}, utm_).features.size(), 4U);
+  EXPECT_THAT(
+      message_of(ErrorKind::limit, [&] { read_map_features(file, {.max_positions = 11}, utm_); }),
+      AllOf(HasSubstr("mixed.geojson"), HasSubstr("more than 11 positions")));
+  const glm::dvec2 low = transform_point("EPSG:4326", utm_, {11.15, 46.9});
+  const glm::dvec2 high = transform_point("EPSG:4326", utm_, {11.5, 47.2});
+  EXPECT_EQ(
+      read_map_features(file, {.box = MapBox{low, high}, .max_positions = 3}, utm_).features.size(),
+      1U);
+}
+
 TEST_F(MapFeatureFiles, OpenStreetMapsOwnFormat) {
   const std::string file =
       write_text("region.osm", R"(<?xml version="1.0" encoding="UTF-8"?><osm version="0.6">

@@ -120,6 +120,25 @@ TEST(ReadOut, TheScriptsNumbersAreThoseOfThePicture) {
   }
 }
 
+// Sky takes the place of the origin, which is none of its own, and ground of the first pixel its
+// own.
+TEST(ReadOut, TheFirstPixelHasItsPlace) {
+  const test::Folder folder;
+  GuidanceBuffers ground = guidance();
+  ground.depth_m(0, 0) = 700.F;
+  ground.position_m(0, 0) = {300.F, 400.F, 0.F};
+  ground.land_cover(0, 0) = LandCoverClass::rock;
+  write_guidance(folder / "g.exr", ground, {{"belvedere:crs", "EPSG:32632"}});
+  const ReadOut out = sample_read_out(folder / "g.exr", sheet_width * sheet_height);
+  const glm::dvec2 first = transform_point("EPSG:32632", "EPSG:4326",
+                                           glm::dvec2(sheet_origin) + glm::dvec2(300.0, 400.0));
+  const glm::dvec2 origin = transform_point("EPSG:32632", "EPSG:4326", glm::dvec2(sheet_origin));
+  EXPECT_NEAR(out.longitude_deg(0, 0), first.x, 1e-6);
+  EXPECT_NEAR(out.latitude_deg(0, 0), first.y, 1e-6);
+  EXPECT_NEAR(out.longitude_deg(1, 0), origin.x, 1e-6);
+  EXPECT_NEAR(out.latitude_deg(1, 0), origin.y, 1e-6);
+}
+
 TEST(ReadOut, WithoutASystemThereAreNoPlaces) {
   const test::Folder folder;
   write_guidance(folder / "g.exr", guidance(), {{"belvedere:crs", "none"}});
