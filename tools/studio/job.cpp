@@ -59,6 +59,8 @@ Job::~Job() {
 }
 
 void Job::start(const std::string& folder, const Run& run, Work work) {
+  // A job may end before its thread is kept below.
+  const std::lock_guard starting(start_mutex_);
   {
     const std::lock_guard lock(mutex_);
     if (report_.state == State::running)

@@ -45,7 +45,8 @@ class Job {
   void do_work(const Run& run, const Work& work);
 
   std::string name_;
-  mutable std::mutex mutex_;
+  std::mutex start_mutex_;    // of the thread: requests to start may come at the same time
+  mutable std::mutex mutex_;  // of the report and its times
   Report report_;
   std::chrono::steady_clock::time_point begun_;
   std::chrono::steady_clock::time_point stage_begun_;
