@@ -37,16 +37,18 @@ void set_text(const Context& context, const Profile& profile, cmsTagSignature ta
   cmsWriteTag(profile.get(), tag, words.get());
 }
 
-// "RGB", "CMYK", "Lab" as profiles spell it.
-std::string space_name(cmsColorSpaceSignature space) {
+// "RGB", "CMYK", "Lab" as profiles spell it; of a damaged file "?GB".
+std::string space_name(std::uint32_t space) {
   std::string name;
-  for (int shift = 24; shift >= 0; shift -= 8)
-    name += static_cast<char>(static_cast<std::uint32_t>(space) >> shift & 0x7f);
+  for (int shift = 24; shift >= 0; shift -= 8) {
+    const std::uint32_t letter = space >> shift & 0xff;
+    name += letter >= ' ' && letter <= '~' ? static_cast<char>(letter) : '?';
+  }
   return name.substr(0, name.find_last_not_of(' ') + 1);
 }
 
 // Names of profile classes that pictures cannot be printed with.
-const char* other_kind(cmsProfileClassSignature kind) {
+const char* other_kind(std::uint32_t kind) {
   if (kind == cmsSigLinkClass) return "a device link, which joins two devices and is none itself";
   if (kind == cmsSigAbstractClass)
     return "an abstract profile, which changes colours and is of no device";
@@ -94,6 +96,14 @@ std::string name_of(const Profile& profile) {
   return name.empty() ? "without a name" : name;
 }
 
+std::uint32_t class_of(const Profile& profile) {
+  return static_cast<std::uint32_t>(cmsGetDeviceClass(profile.get()));
+}
+
+std::uint32_t colours_of(const Profile& profile) {
+  return static_cast<std::uint32_t>(cmsGetColorSpace(profile.get()));
+}
+
 std::vector<std::uint8_t> read_profile_bytes(const std::string& path) {
   std::error_code code;
   const std::uintmax_t size = std::filesystem::file_size(path, code);
@@ -113,10 +123,10 @@ void require_device(const std::string& where, const Context& context, const Prof
                     cmsColorSpaceSignature space, const char* allowed) {
   if (profile == nullptr)
     throw Error(ErrorKind::input, where, "is not an ICC profile: " + context.message(), allowed);
-  const cmsProfileClassSignature kind = cmsGetDeviceClass(profile.get());
+  const std::uint32_t kind = class_of(profile);
   if (const char* other = other_kind(kind))
     throw Error(ErrorKind::input, where, std::string("is ") + other, allowed);
-  const cmsColorSpaceSignature found = cmsGetColorSpace(profile.get());
+  const std::uint32_t found = colours_of(profile);
   if (found != space)
     throw Error(ErrorKind::input, where, "is a profile of colours in " + space_name(found),
                 allowed);

@@ -43,6 +43,10 @@ Profile open_profile(const Context& context, const std::vector<std::uint8_t>& by
 std::vector<std::uint8_t> save_dated(const Context& context, Profile profile, const char* name);
 // Its description, for messages.
 std::string name_of(const Profile& profile);
+// Class and colours as its header has them. Numbers, since damaged files hold some that are no
+// enumerator.
+std::uint32_t class_of(const Profile& profile);
+std::uint32_t colours_of(const Profile& profile);
 // The bytes of a file; Error(input) where it is missing, cannot be read or is far too large.
 std::vector<std::uint8_t> read_profile_bytes(const std::string& path);
 // Error(input) unless it is an open profile of a device or space with these colours, that pictures

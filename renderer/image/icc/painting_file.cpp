@@ -24,8 +24,8 @@ std::string to_srgb(Grid<glm::vec3>& encoded, const std::vector<std::uint8_t>& p
   const icc::Context context;
   const icc::Profile from = icc::open_profile(context, profile);
   const icc::Profile to = icc::open_profile(context, srgb_profile());
-  const bool grey = from != nullptr && cmsGetColorSpace(from.get()) == cmsSigGrayData;
-  if (from == nullptr || (!grey && cmsGetColorSpace(from.get()) != cmsSigRgbData))
+  const bool grey = from != nullptr && icc::colours_of(from) == cmsSigGrayData;
+  if (from == nullptr || (!grey && icc::colours_of(from) != cmsSigRgbData))
     throw Error(ErrorKind::input, "ICC profile", "is neither RGB nor grey");
   const DeviceParameters parameters{.intent = RenderingIntent::relative, .black_point = true};
   const icc::Transform transform = icc::make_transform(

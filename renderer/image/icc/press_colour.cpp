@@ -43,7 +43,7 @@ icc::Profile open_lab(const icc::Context& context) {
 bool has_colours(const std::vector<std::uint8_t>& bytes, cmsColorSpaceSignature space) {
   const icc::Context context;
   const icc::Profile profile = icc::open_profile(context, bytes);
-  return profile != nullptr && cmsGetColorSpace(profile.get()) == space;
+  return profile != nullptr && icc::colours_of(profile) == space;
 }
 
 template <class From, class To>

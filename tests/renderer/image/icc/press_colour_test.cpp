@@ -216,6 +216,8 @@ TEST(PressColour, WhatIsNoPressProfileIsNamed) {
   folder.write("names.icc", test::changed_header(press, 12, "nmcl"));
   const std::vector<std::uint8_t> rgb = srgb_profile();
   folder.write("rgb.icc", test::changed_header(rgb, 16, "RGB "));
+  // Letters beyond ASCII: no colours of any profile.
+  folder.write("colours.icc", test::changed_header(press, 16, "\xd2MYK"));
   const auto refused = [&](const char* file) {
     return test::message_of(ErrorKind::input, [&] { read_press_profile(folder / file); });
   };
@@ -224,6 +226,7 @@ TEST(PressColour, WhatIsNoPressProfileIsNamed) {
   EXPECT_THAT(refused("abstract.icc"), HasSubstr("abstract profile"));
   EXPECT_THAT(refused("names.icc"), HasSubstr("named colours"));
   EXPECT_THAT(refused("rgb.icc"), HasSubstr("colours in RGB"));
+  EXPECT_THAT(refused("colours.icc"), HasSubstr("colours in ?MYK"));
   EXPECT_THAT(refused("absent.icc"), HasSubstr("absent.icc"));
   EXPECT_THAT(test::message_of(ErrorKind::input, [&] { read_device_profile(folder / "link.icc"); }),
               HasSubstr("device link"));
