@@ -59,4 +59,14 @@ bool is_canyon_country(const RegionClimate& climate) {
   return climate.known && climate.moisture < dry && climate.temperature_c > warm_c;
 }
 
+std::string dry_palette(const RegionClimate& climate, double plateau) {
+  constexpr double bare = 0.3, grass = 0.6, hot_c = 13.0, mostly = 0.5;
+  if (!climate.known) return "";
+  const bool canyons = is_canyon_country(climate);
+  if (canyons && (plateau > mostly || climate.temperature_c > hot_c)) return "desert";
+  if (climate.moisture < bare) return "high_desert";
+  if (climate.moisture < grass || canyons) return "steppe";
+  return "";
+}
+
 }  // namespace belvedere

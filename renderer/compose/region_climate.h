@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "renderer/compose/coarse_ground.h"
 
 namespace belvedere {
@@ -12,6 +14,10 @@ struct RegionClimate {
   double temperature_c = 5.0;  // of the year
 };
 RegionClimate region_climate(const CoarseGround& ground);
+
+// The palette for a region: "desert" where is_canyon_country, else "high_desert" or "steppe" in dry
+// country; empty where forest has enough water. `plateau`: share of ground that is a plateau, 0…1.
+std::string dry_palette(const RegionClimate& climate, double plateau);
 
 // Red cliffs and sage rather than meadows: dry, and warm enough not to be barren from cold.
 bool is_canyon_country(const RegionClimate& climate);

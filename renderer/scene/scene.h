@@ -102,6 +102,7 @@ struct SceneClimate {       // see terrain/climate/climate.h; default: the clima
   std::string temperature;  // raster of 12 months; empty: none
   double temperature_factor = ClimateParameters{}.temperature_factor;
   std::string rain;  // raster of 12 months or of the year; empty: none
+  double rain_factor = ClimateParameters{}.rain_factor;
   std::optional<double> lapse_k_per_km;
   std::optional<double> wind_from_deg;
   std::optional<double> latitude_deg;  // of a terrain without CRS

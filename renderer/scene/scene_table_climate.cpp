@@ -32,6 +32,11 @@ std::vector<SceneSection> make_climate_sections() {
                        "band of the year.",
             .text = TextKind::file,
             .raster = true},
+           {.name = "rain_factor",
+            .field = AT(climate.rain_factor),
+            .range = {0.05, 20},
+            .meaning = "Factor on the rain of any source: 0.5 for ground half as wet, with more "
+                       "steppe and less forest."},
            {.name = "lapse_k_per_km",
             .field = AT(climate.lapse_k_per_km),
             .range = {-5, 12},

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -144,6 +145,33 @@ std::string describe_lines(const RuleClimate& climate) {
           : "");
 }
 
+// For the note: what grows, by the water in the lowest quarter of the ground; empty where forest
+// has enough.
+std::string describe_dryness(const RuleClimate& climate, const Dem& dem) {
+  std::vector<float> altitude_m;
+  constexpr std::size_t step = 97;
+  for (std::size_t i = 0; i < dem.altitude_m.size(); i += step)
+    altitude_m.push_back(dem.altitude_m[i]);
+  const auto low = altitude_m.begin() + static_cast<std::ptrdiff_t>(altitude_m.size() / 8);
+  std::nth_element(altitude_m.begin(), low, altitude_m.end());
+  const std::vector<float> ground(static_cast<std::size_t>(dem.width()), *low);
+  const auto at_centre = [&](ClimateVariable variable) {
+    std::vector<float> row(ground.size());
+    fill_climate_row(climate, variable, dem.transform, dem.height() / 2, dem.width(), ground.data(),
+                     row.data());
+    return static_cast<double>(row[row.size() / 2]);
+  };
+  const double moisture = at_centre(ClimateVariable::moisture);
+  constexpr double enough = 0.72;
+  if (!(moisture < enough)) return "";
+  return fmt::format(
+      "; at {:.0f} m {:.0f} mm of rain a year are {:.0f} % of what plants could use: {}",
+      static_cast<double>(*low), at_centre(ClimateVariable::rain), 100.0 * moisture,
+      moisture < 0.22   ? "desert, green only along water"
+      : moisture < 0.46 ? "steppe, green only along water"
+                        : "bushes and open woods");
+}
+
 // A scene's own value has precedence, and rules may lack the parameter.
 void set_unless_said(std::vector<std::pair<std::string, double>>& settings, const ClassRules& rules,
                      const char* name, double value) {
@@ -228,7 +256,8 @@ LandCover make_rule_cover(const LoadedScene& loaded, const Dem& dem, const Cover
   if (context.window != nullptr) work.parameters.sea = context.window->sea;
   work.parameters.catchments = context.catchments;
   if (context.whole == nullptr && takes_climate(loaded, rules, dem))
-    progress.note(describe_lines(work.parameters.climate));
+    progress.note(describe_lines(work.parameters.climate) +
+                  describe_dryness(work.parameters.climate, dem));
   const bool keeps = context.seen != nullptr && !context.window->kept.empty();
   std::optional<RuleGround> seen;
   LandCover cover = cached<LandCover>(
@@ -278,13 +307,14 @@ CacheKey layer_cover_key(const LoadedScene& loaded, const SurfaceLayers& layers,
   // Position and sun follow from the DEM and the latitude.
   key.add("latitude_deg", loaded.scene.climate.latitude_deg);
   if (climate) {
-    for (const auto& [sea_level_c, lapse_k_per_km, rain_mm_at_km, summer_share, gathers] :
+    for (const auto& [sea_level_c, lapse_k_per_km, rain_mm_at_km, summer_share, gathers, dry_air] :
          climate->nodes)
       key.add("sea_level_c", sea_level_c)
           .add("lapse", lapse_k_per_km)
           .add("rain", rain_mm_at_km)
           .add("summer", summer_share)
-          .add("gathers", gathers);
+          .add("gathers", gathers)
+          .add("dry_air", dry_air);
     key.add("nodes_across", climate->nodes.width())
         .add("warmer_k", climate->warmer_k)
         .add("rain_share", climate->rain_share);

@@ -35,6 +35,7 @@ void add(PlaceClimate& sum, const PlaceClimate& other, double weight) {
     sum.rain_mm_at_km[km] += weight * other.rain_mm_at_km[km];
   sum.summer_share += weight * other.summer_share;
   sum.gathers += weight * other.gathers;
+  sum.dry_air += weight * other.dry_air;
 }
 
 // The two neighbours of a position on a line of `count` values, and the weight of the second.
@@ -68,6 +69,8 @@ class Maker {
     };
     require(p_.temperature_factor >= 0.001 && p_.temperature_factor <= 1000.0, "temperature_factor",
             p_.temperature_factor, "0.001 … 1000");
+    require(p_.rain_factor >= 0.05 && p_.rain_factor <= 20.0, "rain_factor", p_.rain_factor,
+            "0.05 … 20");
     if (p_.lapse_k_per_km)
       require(*p_.lapse_k_per_km >= min_lapse && *p_.lapse_k_per_km <= largest_lapse,
               "lapse_k_per_km", *p_.lapse_k_per_km, "-5 … 12 K/km");
@@ -117,7 +120,9 @@ class Maker {
     else if (p_.rain)
       rain_from_raster();
     else
-      tell("rain: from latitude, longitude and altitude only");
+      tell(has_dry_country() ? "rain: from latitude, longitude and altitude, less in the dry "
+                               "country behind ranges and far from the sea"
+                             : "rain: from latitude, longitude and altitude only");
     const MapPosition& position = climate_.position;
     const double centre_deg = position.latitude_deg.at(0.5 * position.width, 0.5 * position.height);
     climate_.wind_from_deg = p_.wind_from_deg.value_or(usual_wind_from_deg(centre_deg));
@@ -127,6 +132,7 @@ class Maker {
     const bool told =
         p_.wind_from_deg.has_value() || by_stations || (side_m >= min_map_for_wind_m && !p_.rain);
     if (told && p_.upslope.strength > 0.0) share_out_by_wind();
+    if (p_.rain_factor != 1.0) change_rain();
   }
 
   Climate take() { return std::move(climate_); }
@@ -135,6 +141,11 @@ class Maker {
   void tell(const std::string& line) {
     climate_.sources.push_back(line);
     progress_.note(line);
+  }
+
+  bool has_dry_country() const {
+    return std::any_of(climate_.nodes.begin(), climate_.nodes.end(),
+                       [](const PlaceClimate& node) { return node.dry_air > 0.0; });
   }
 
   glm::dvec2 cell_of_node(int x, int y) const {
@@ -311,6 +322,12 @@ class Maker {
     climate_.rain_share = make_dem({std::move(year), coarse_, dem_.crs}).altitude_m;
     for (float& share : climate_.rain_share) share = std::max(0.0F, share);
     tell(fmt::format("rain: {}", p_.rain->path));
+  }
+
+  void change_rain() {
+    for (PlaceClimate& node : climate_.nodes)
+      for (double& mm : node.rain_mm_at_km) mm *= p_.rain_factor;
+    tell(fmt::format("rain: times {:g}, set by the scene", p_.rain_factor));
   }
 
   void share_out_by_wind() {

@@ -26,6 +26,7 @@ struct ClimateParameters {
       {};  // 12 bands of monthly means, °C, or K if their median is above 150
   double temperature_factor = 1.0;  // 0.001…1000: °C (or K) per unit of the raster; .1 for tenths
   std::optional<RasterSource> rain = {};  // 12 bands of months, or one of the year, mm
+  double rain_factor = 1.0;               // 0.05…20: on the rain of any source
   std::optional<double> lapse_k_per_km =
       {};  // -5…12: overrides stations, raster and default for all months
   std::optional<double> wind_from_deg =

@@ -10,6 +10,7 @@
 #include "base/math.h"
 #include "base/math_exact.h"
 #include "base/text/embedded.h"
+#include "terrain/climate/dry_places.h"
 #include "terrain/climate/map_position.h"
 #include "terrain/climate/snow_balance.h"
 
@@ -92,9 +93,10 @@ double gathers_at(const SnowGathering& gathering, double longitude_deg, double l
 PlaceClimate default_climate(double longitude_deg, double latitude_deg) {
   static const ClimateField field = make_climate_field(read_climate_stations());
   static const SnowGathering gathering = make_snow_gathering(field, read_measured_glaciers());
+  static const DryCountry country = make_dry_country(read_dry_places());
   PlaceClimate climate = place_climate(field, longitude_deg, latitude_deg);
   climate.gathers = gathers_at(gathering, longitude_deg, latitude_deg);
-  return climate;
+  return dried_climate(country, climate, longitude_deg, latitude_deg);
 }
 
 }  // namespace belvedere

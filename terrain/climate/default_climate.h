@@ -9,7 +9,7 @@
 namespace belvedere {
 
 // The climate of a position without local data: the climate from stations, corrected by measured
-// glaciers.
+// glaciers and in dry country (terrain/climate/dry_places.h).
 
 // A glacier whose equilibrium line was measured.
 struct MeasuredGlacier {
@@ -45,7 +45,7 @@ SnowGathering make_snow_gathering(const ClimateField& field,
 // At a position, > 0; 1 far from all glaciers.
 double gathers_at(const SnowGathering& gathering, double longitude_deg, double latitude_deg);
 
-// From the built-in stations and glaciers.
+// From the built-in stations, glaciers and dry places.
 PlaceClimate default_climate(double longitude_deg, double latitude_deg);
 
 }  // namespace belvedere

@@ -31,6 +31,8 @@ struct PlaceClimate {
   double summer_share = 0.5;              // 0…1: share from April to September
   double gathers = 1.0;                   // > 0: factor on the accumulation where glaciers form
                                           // (terrain/climate/default_climate.h)
+  double dry_air = 0.0;  // 0…3: additional demand of plants for water in dry country, relative to
+                         // that in a humid climate of this temperature (dry_places.h)
 };
 
 // The built-in stations. Error(usage) gives the line of a malformed station, for a text of the same

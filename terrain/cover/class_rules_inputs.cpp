@@ -81,6 +81,16 @@ void make_sea_inputs(const Dem& dem, const Sea& found, const std::vector<bool>& 
                                   : distance_to_marked_m(found.mask, dem.cell_m());
 }
 
+// The distance of each cell from streams that carry water all the year where it rains at all, m.
+Grid<float> distance_from_streams_m(const Grid<float>& catchment_km2, double cell_m) {
+  constexpr float min_catchment_km2 = 20.F;  // as of inferred rivers
+  Grid<std::uint8_t> streams(catchment_km2.width(), catchment_km2.height());
+  each_cell(streams, [&](int x, int y) {
+    return static_cast<std::uint8_t>(catchment_km2(x, y) >= min_catchment_km2 ? 1 : 0);
+  });
+  return distance_to_marked_m(streams, cell_m);
+}
+
 // Lakes of the ground around a window, in the window's cells; empty if unknown.
 Grid<std::uint8_t> known_lakes(const RuleGround* around, const Dem& dem) {
   if (around == nullptr || around->inputs[lake].empty()) return {};
@@ -250,10 +260,11 @@ std::vector<Grid<float>> make_terrain_inputs(const Dem& dem, const std::vector<b
     for (int part = begin; part != end; ++part) {
       if (part == 1)
         make_shape_inputs(dem, found, needed, parameters, climate, around, inputs, faces_south);
-      else if (needed[river] || needs_town)
+      else if (needed[river] || needed[riverside] || needs_town)
         waters.km2();
     }
   });
+  if (needed[riverside]) inputs[riverside] = distance_from_streams_m(waters.km2(), dem.cell_m());
   if (needed[river]) inputs[river] = river_mask(waters.km2(), dem.cell_m());
   if (needs_town) {
     const bool inferred =

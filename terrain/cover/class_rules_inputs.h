@@ -41,6 +41,7 @@ enum Variable : int {
   lake,
   shore,
   river,
+  riverside,
   sea,
   coast,
   town,

@@ -96,6 +96,11 @@ const std::vector<GroundVariable>& ground_variables() {
        .meaning = "distance to the shore on lakes; 0 elsewhere",
        .known_to = rules},
       {.name = "river", .meaning = "0…1, near rivers with large catchments", .known_to = rules},
+      {.name = "riverside",
+       .unit = "m",
+       .meaning = "distance from the nearest stream with a catchment of 20 km² or more; 1 000 000 "
+                  "if there is none",
+       .known_to = rules},
       {.name = "sea", .meaning = "1 at sea: see below", .input = Kind::sea},
       {.name = "coast",
        .unit = "m",

@@ -92,9 +92,11 @@ Action add_exemplar_paint(CommandOptions& command) {
       .type_name("DIR")
       .required();
   command
-      .add_option("--season", options->season,
-                  "Palette: summer, autumn, winter, desert, evening, morning or a .toml file. "
-                  "Default of an example sheet: summer")
+      .add_option(
+          "--season", options->season,
+          "Palette: summer, autumn, winter, steppe, high_desert, desert, evening, morning or a "
+          ".toml file. "
+          "Default of an example sheet: summer")
       .type_name("PALETTE");
   command.add_option("--size", options->size, "Side of the example sheet in pixels. Default: 4096")
       .type_name("PX")

@@ -32,6 +32,7 @@ Climate make_scene_climate(const LoadedScene& loaded, const Dem& dem, Progress& 
   parameters.temperature = raster(settings.temperature);
   parameters.temperature_factor = settings.temperature_factor;
   parameters.rain = raster(settings.rain);
+  parameters.rain_factor = settings.rain_factor;
   parameters.lapse_k_per_km = settings.lapse_k_per_km;
   parameters.wind_from_deg = settings.wind_from_deg;
   parameters.latitude_deg = settings.latitude_deg;

@@ -6,10 +6,12 @@
 #include <limits>
 #include <string>
 
+#include "base/math.h"
 #include "renderer/world/season/palette_season.h"
 #include "renderer/world/season/scene_climate.h"
 #include "terrain/climate/growing_season.h"
 #include "terrain/climate/life_zones.h"
+#include "terrain/climate/water_balance.h"
 #include "terrain/cover/class_rules.h"
 
 namespace belvedere {
@@ -78,6 +80,26 @@ double scene_lakes_freeze_from_m(const Palette& palette, const LoadedScene& load
   return lakes_freeze_from_m(climate.at(0.5 * (dem.width() - 1), 0.5 * (dem.height() - 1)));
 }
 
+// In dry country, where it is known (terrain/climate/dry_places.h), the colours of steppe and
+// desert at the altitudes that are as dry.
+Palette palette_in_dry_country(const Palette& palette, const PlaceClimate& climate, float lowest_m,
+                               float highest_m) {
+  if (climate.dry_air <= 0.0) return palette;
+  const auto low = static_cast<double>(lowest_m);
+  const auto high = static_cast<double>(highest_m);
+  // `moisture` at which each begins and is full: open woods to grass, tufts to bare ground. Heights
+  // above dry ground are paler than those of wet countries, though cold enough to be moist.
+  const auto share = [&](double begins, double full) {
+    const auto own = [&climate, begins, full](double altitude_m) {
+      return smoothstep((begins - plant_water_share(climate, altitude_m)) / (begins - full));
+    };
+    return
+        [own, pale = 0.6 * own(low)](double altitude_m) { return std::max(own(altitude_m), pale); };
+  };
+  return mix_palettes(mix_palettes(palette, read_palette("steppe"), share(0.62, 0.42), low, high),
+                      read_palette("high_desert"), share(0.34, 0.18), low, high);
+}
+
 }  // namespace
 
 Palette palette_for_location(const Palette& named, const LoadedScene& loaded, const Dem& dem) {
@@ -87,15 +109,17 @@ Palette palette_for_location(const Palette& named, const LoadedScene& loaded, co
   const std::optional<int> day = day_of_season(scene.season);
   const bool moves = has_alpine_altitudes(scene.palette) && takes_treeline(loaded);
   const bool turns = day && scene.palette == "summer" && scene.synthesis.colours == "palette";
-  if ((!moves && !turns) || !knows_place(scene, dem)) return palette;
+  const bool dries = scene.palette == "summer" && scene.synthesis.colours == "palette";
+  if ((!moves && !turns && !dries) || !knows_place(scene, dem)) return palette;
 
   const Climate climate = make_scene_climate(loaded, dem, silent_progress());
   const PlaceClimate centre = climate.at(0.5 * (dem.width() - 1), 0.5 * (dem.height() - 1));
   const double higher_m = moves ? treeline_m(centre) - palette_treeline_m : 0.0;
-  const Palette moved = palette_at_other_altitudes(palette, higher_m);
+  Palette moved = palette_at_other_altitudes(palette, higher_m);
+  const auto [lowest, highest] = std::minmax_element(dem.altitude_m.begin(), dem.altitude_m.end());
+  if (dries) moved = palette_in_dry_country(moved, centre, *lowest, *highest);
   if (!turns) return moved;
 
-  const auto [lowest, highest] = std::minmax_element(dem.altitude_m.begin(), dem.altitude_m.end());
   const Palette autumn = palette_at_other_altitudes(read_palette("autumn"), higher_m);
   const auto share = [&](double altitude_m) {
     return autumn_share(daily_c(monthly_c(centre, altitude_m)), *day);

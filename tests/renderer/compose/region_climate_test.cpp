@@ -18,6 +18,7 @@ TEST(RegionClimate, TheAlpsAreWetTheNamibIsDry) {
   ASSERT_TRUE(alps.known);
   EXPECT_GT(alps.moisture, 0.8);
   EXPECT_FALSE(is_canyon_country(alps));
+  EXPECT_EQ(dry_palette(alps, 0.0), "");
   // The same northing below the Equator's false one of 10 000 km is 43° S; the desert lies in the
   // other hemisphere.
   Raster<float> raster = test::synthetic_raster(40.0, test::chain);
@@ -27,6 +28,20 @@ TEST(RegionClimate, TheAlpsAreWetTheNamibIsDry) {
   EXPECT_LT(desert.moisture, 0.4);
   EXPECT_GT(desert.temperature_c, alps.temperature_c + 8.0);
   EXPECT_TRUE(is_canyon_country(desert));
+  EXPECT_EQ(dry_palette(desert, 0.0), "desert");
+}
+
+TEST(RegionClimate, ColdDesertsSteppesAndCanyonsHaveColoursOfTheirOwn) {
+  const auto colours = [](double moisture, double temperature_c, double plateau) {
+    return dry_palette({.known = true, .moisture = moisture, .temperature_c = temperature_c},
+                       plateau);
+  };
+  EXPECT_EQ(colours(0.15, -2.0, 0.0), "high_desert");  // Pamir
+  EXPECT_EQ(colours(0.4, 4.0, 0.0), "steppe");         // Lhasa
+  EXPECT_EQ(colours(0.4, 8.0, 0.8), "desert");         // Zion
+  EXPECT_EQ(colours(0.15, 18.0, 0.0), "desert");       // Sinai
+  EXPECT_EQ(colours(0.9, 4.0, 0.8), "");
+  EXPECT_EQ(dry_palette({}, 1.0), "");
 }
 
 TEST(RegionClimate, NowhereIsNotKnown) {

@@ -120,7 +120,8 @@ TEST(Base, ShadeOfWallsIsWarmAtTheirFoot) {
 // Pale and warm, and never as white as snow; in winter it has as much snow cover as scree.
 TEST(Base, SandIsPaleAndWarm) {
   const GuidanceBuffers g = make_slope(30, 20, LandCoverClass::sand, {0.0F, 0.0F, 1.0F}, 2.0F);
-  for (const char* season : {"summer", "autumn", "winter", "desert", "evening", "morning"}) {
+  for (const char* season :
+       {"summer", "autumn", "winter", "desert", "high_desert", "steppe", "evening", "morning"}) {
     const Palette palette = read_palette(season);
     const glm::vec3 colour = picture_of(g, plain(), season).colour(15, 10);
     EXPECT_GT(luma(colour), luma(palette_colour(palette, LandCoverClass::rock, 1200.0, 0.6)))

@@ -63,7 +63,8 @@ TEST(Palette, BlendsByAltitude) {
 }
 
 TEST(Palette, BuiltInPalettesAreCompleteAndGrowLighterWithTone) {
-  for (const char* name : {"summer", "autumn", "winter", "desert", "evening", "morning"}) {
+  for (const char* name :
+       {"summer", "autumn", "winter", "desert", "high_desert", "steppe", "evening", "morning"}) {
     const Palette palette = read_palette(name);
     EXPECT_EQ(palette.name, name);
     EXPECT_EQ(palette.winter, std::string(name) == "winter");

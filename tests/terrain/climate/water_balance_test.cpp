@@ -55,6 +55,19 @@ TEST(WaterBalance, SnowWaitsForTheThaw) {
   EXPECT_NEAR(plant_water_share(cold, 0.0), (april_mm + 120.0 + later_mm) / (6.0 * april_mm), 1e-6);
 }
 
+TEST(WaterBalance, DryAirTakesMoreAndSomeOfTheSnow) {
+  PlaceClimate dry = even(7.0, 455.0);
+  EXPECT_NEAR(plant_water_share(dry, 0.0), 1.0, 1e-9);
+  dry.dry_air = 1.0;  // 65 mm · (7 + 10)
+  EXPECT_NEAR(plant_water_demand_mm(dry, 0.0), 1105.0, 1e-9);
+  EXPECT_NEAR(plant_water_share(dry, 0.0), 455.0 / 1105.0, 1e-9);
+  PlaceClimate snowy = even(8.0, 240.0);
+  for (const std::size_t m : {0U, 1U, 2U, 9U, 10U, 11U}) snowy.sea_level_c[m] = -8.0;
+  snowy.dry_air = 1.0;  // all of the 20 mm that fall in a month
+  const double demand_mm = 6.0 * (8.0 + 11.0) * 65.0 / 12.0;
+  EXPECT_NEAR(plant_water_share(snowy, 0.0), 120.0 / demand_mm, 1e-9);
+}
+
 TEST(WaterBalance, HigherUpIsWetter) {
   const double low = plant_water_share(default_climate(-113.0, 37.3), 800.0);
   const double high = plant_water_share(default_climate(-113.0, 37.3), 2800.0);

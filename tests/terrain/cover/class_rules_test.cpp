@@ -221,6 +221,18 @@ TEST(ClassRules, VariablesOfTheSea) {
   EXPECT_EQ(share(apply(rules, cone()), forest), 1.0);
 }
 
+TEST(ClassRules, TheRiversideFollowsStreamsOfTwentySquareKilometres) {
+  // A valley 9 km wide that falls to the south.
+  const Dem dem = ground(300, [](double e, double n) { return 0.1 * std::abs(e) + 0.02 * n; });
+  const ClassRules rules{
+      "toy", {{"speck_cells", 0.0}}, {}, {{scree, "1"}, {pasture, "riverside < 200"}}};
+  const Grid<LandCoverClass> c = apply(rules, dem);
+  EXPECT_EQ(c(150, 290), pasture);
+  EXPECT_EQ(c(155, 290), pasture);
+  EXPECT_EQ(c(160, 290), scree);  // 300 m from it
+  EXPECT_EQ(c(150, 20), scree);   // a catchment of 5 km²
+}
+
 TEST(ClassRules, ReedsGrowIntoLakesFromTheShore) {
   const Dem dem = ground(
       160, [](double e, double n) { return std::max(600.0, 560.0 + 0.05 * std::hypot(e, n)); });

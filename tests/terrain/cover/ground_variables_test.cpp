@@ -43,6 +43,7 @@ TEST(GroundVariables, EachNameOnceAndSlotsOfRulesInItsOrder) {
                                                 {rules::roughness, "roughness"},
                                                 {rules::sun, "sun"},
                                                 {rules::coast, "coast"},
+                                                {rules::riverside, "riverside"},
                                                 {rules::ice, "ice"},
                                                 {rules::below_rock, "below_rock"},
                                                 {rules::n60, "n60"},

@@ -157,11 +157,12 @@ Region read_region(const NewOptions& options, const SheetFormat& format, SceneFi
   Massifs massifs = find_massifs(ground);
   require_region(ground, massifs, dem.sources.front().path);
   note_limits(ground, massifs, progress);
-  if (is_canyon_country(region_climate(ground))) {
-    if (about.style.empty()) {  // a style has its own palette
-      about.palette = "desert";
-      about.palette_why = "the climate here is dry and warm";
-    }
+  const RegionClimate climate = region_climate(ground);
+  if (about.style.empty()) {  // a style has its own palette
+    about.palette = dry_palette(climate, ground.plateau);
+    about.palette_why = "the climate here is dry; or summer, steppe, high_desert, desert";
+  }
+  if (is_canyon_country(climate)) {
     // Dry mountains may be of any rock; plateaus cut by canyons are of beds.
     constexpr double mostly = 0.5;
     if (ground.plateau > mostly) about.rock = "sandstone";

@@ -62,6 +62,14 @@ TEST_F(SceneClimateTest, StationsBesideTheSceneAreUsedAndSayHowSureTheyAre) {
                                    HasSubstr("wind from 200°")));
 }
 
+TEST_F(SceneClimateTest, AFactorMakesItDrierOrWetter) {
+  const PlaceClimate usual = make_scene_climate(scene(""), slope(), notes_).at(100, 100);
+  const PlaceClimate half =
+      make_scene_climate(scene("[climate]\nrain_factor = 0.5\n"), slope(), notes_).at(100, 100);
+  EXPECT_NEAR(rain_mm(half, 900.0), 0.5 * rain_mm(usual, 900.0), 1e-9);
+  EXPECT_THAT(notes_.text(), HasSubstr("times 0.5, set by the scene"));
+}
+
 TEST_F(SceneClimateTest, WhatIsMissingIsNamed) {
   folder_.write("stations.csv", "lon,lat,t_year\n11,47,5\n");
   const LoadedScene named = scene("[climate]\nstations = \"stations.csv\"\n");

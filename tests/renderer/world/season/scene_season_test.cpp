@@ -98,6 +98,27 @@ TEST_F(SceneSeasonTest, PalettesFollowTheTreelineOfThePlaceUnlessTheSceneHasItsO
             palette_colour(summer, forest, 1000.0, 0.5));
 }
 
+TEST_F(SceneSeasonTest, SummerIsOfOchreInDryCountry) {
+  const Palette summer = read_palette("summer");
+  const LoadedScene open = scene("[land_cover.settings]\ntreeline_m = 1820\n");
+  // 90 m cells of the same ground near Leh, EPSG:32643.
+  Dem leh = tyrol("EPSG:32643");
+  leh.transform.origin_x = 740000.0;
+  leh.transform.origin_y = 3782000.0;
+  for (float& z : leh.altitude_m) z += 2800.F;
+  const Palette dry = palette_for_location(summer, open, leh);
+  const glm::vec3 ground = palette_colour(dry, alpine_grass, 3400.0, 0.7);
+  const glm::vec3 desert = palette_colour(read_palette("high_desert"), alpine_grass, 3400.0, 0.7);
+  EXPECT_LT(glm::length(ground - desert), 0.05F);
+  // Not in Tyrol, and not in a palette that is named.
+  EXPECT_EQ(palette_colour(palette_for_location(summer, open, tyrol()), alpine_grass, 2000.0, 0.7),
+            palette_colour(summer, alpine_grass, 2000.0, 0.7));
+  const LoadedScene evening = parse_scene("version = 1\npalette = \"evening\"\n", "s.toml", "", {});
+  EXPECT_EQ(palette_colour(palette_for_location(read_palette("evening"), evening, leh), scree,
+                           3400.0, 0.7),
+            palette_colour(read_palette("evening"), scree, 3400.0, 0.7));
+}
+
 TEST_F(SceneSeasonTest, LakesFreezeWhereTheColdestMonthIsBelowThreeDegreesOfFrost) {
   PlaceClimate climate;
   climate.sea_level_c.fill(15.0);
