@@ -28,7 +28,17 @@ RegionClimate region_climate(const CoarseGround& ground) {
   const int width = dem.width();
   std::vector<float> moisture(static_cast<std::size_t>(width)), rain(moisture.size()),
       warmth(moisture.size());
+  double altitude_sum_m = 0.0;
+  int known = 0;
+  for (const auto& cell : ground.cells) {
+    if (!cell.known) continue;
+    altitude_sum_m += static_cast<double>(cell.altitude_m);
+    ++known;
+  }
+  const double mean_m = altitude_sum_m / std::max(1, known);
   double sums[3] = {0.0, 0.0, 0.0};
+  double low_sum = 0.0;
+  double low_count = 0.0;
   double count = 0.0;
   for (int y = 0; y < dem.height(); ++y) {
     const float* altitude_m = dem.altitude_m.row(y);
@@ -45,11 +55,15 @@ RegionClimate region_climate(const CoarseGround& ground) {
       sums[1] += static_cast<double>(rain[i]);
       sums[2] += static_cast<double>(warmth[i]);
       count += 1.0;
+      if (static_cast<double>(altitude_m[x]) > mean_m) continue;
+      low_sum += static_cast<double>(moisture[i]);
+      low_count += 1.0;
     }
   }
   if (count == 0.0) return out;
   return {.known = true,
           .moisture = sums[0] / count,
+          .low_moisture = low_sum / std::max(1.0, low_count),
           .rain_mm = sums[1] / count,
           .temperature_c = sums[2] / count};
 }
@@ -64,8 +78,8 @@ std::string dry_palette(const RegionClimate& climate, double plateau) {
   if (!climate.known) return "";
   const bool canyons = is_canyon_country(climate);
   if (canyons && (plateau > mostly || climate.temperature_c > hot_c)) return "desert";
-  if (climate.moisture < bare) return "high_desert";
-  if (climate.moisture < grass || canyons) return "steppe";
+  if (climate.low_moisture < bare) return "high_desert";
+  if (climate.low_moisture < grass || canyons) return "steppe";
   return "";
 }
 

@@ -10,6 +10,7 @@ namespace belvedere {
 struct RegionClimate {
   bool known = false;          // position on the Earth
   double moisture = 1.0;       // 0…1: available share of the water that plants could use
+  double low_moisture = 1.0;   // … on the ground below its mean altitude
   double rain_mm = 1000.0;     // a year
   double temperature_c = 5.0;  // of the year
 };

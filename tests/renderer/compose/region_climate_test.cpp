@@ -33,7 +33,10 @@ TEST(RegionClimate, TheAlpsAreWetTheNamibIsDry) {
 
 TEST(RegionClimate, ColdDesertsSteppesAndCanyonsHaveColoursOfTheirOwn) {
   const auto colours = [](double moisture, double temperature_c, double plateau) {
-    return dry_palette({.known = true, .moisture = moisture, .temperature_c = temperature_c},
+    return dry_palette({.known = true,
+                        .moisture = moisture,
+                        .low_moisture = moisture,
+                        .temperature_c = temperature_c},
                        plateau);
   };
   EXPECT_EQ(colours(0.15, -2.0, 0.0), "high_desert");  // Pamir

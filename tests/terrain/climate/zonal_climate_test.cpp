@@ -122,7 +122,7 @@ TEST(ZonalClimate, IsSmoothOverTheGlobe) {
     for (std::size_t m = 0; m < 12; ++m) EXPECT_NEAR(a.sea_level_c[m], b.sea_level_c[m], kelvin);
     for (std::size_t k = 0; k < 8; ++k)
       EXPECT_NEAR(a.rain_mm_at_km[k], b.rain_mm_at_km[k],
-                  1e-3 + kelvin * (2.0 + 0.1 * a.rain_mm_at_km[k]));
+                  1e-3 + kelvin * (2.0 + 0.2 * a.rain_mm_at_km[k]));  // behind ranges it falls fast
   };
   near(default_climate(180.0, 66.0), default_climate(-180.0, 66.0), 1e-6);
   near(default_climate(10.0, 90.0), default_climate(-150.0, 90.0), 1e-6);

@@ -107,7 +107,7 @@ TEST(LifeZones, WhereWaterIsScarceForestGivesWayToBushesGrassAndSand) {
   EXPECT_LT(share(bushes, forest), 0.25);
   EXPECT_GT(share(bushes, shrub), 0.3);
   EXPECT_GT(share(steppe, alpine_grass), 0.4);
-  EXPECT_EQ(share(desert, forest), 0.0);
+  EXPECT_LT(share(desert, forest), 0.005) << "only poplars at streams";
   EXPECT_GT(share(desert, sand) + share(desert, scree) + share(desert, rock), 0.7);
   const Dem slope = ground(240, [](double e, double n) {
     return 1500.0 + 0.45 * n + 30.0 * std::cos(e / 300.0);
