@@ -19,7 +19,7 @@ Job::Report ended(const Job& job) {
 TEST(Job, AFailureIsReportedWithItsMessage) {
   Job job("rendering");
   EXPECT_EQ(job.report().state, Job::State::idle);
-  job.start("out", {}, [](const Run&) -> std::string {
+  job.start("out", {}, [](const auto&) -> std::string {
     throw Error(ErrorKind::input, "/nowhere/terrain.tif", "file not found");
   });
   const Job::Report report = ended(job);
@@ -29,7 +29,7 @@ TEST(Job, AFailureIsReportedWithItsMessage) {
 
 TEST(Job, AResultIsKept) {
   Job job("rendering");
-  job.start("out", {}, [](const Run&) -> std::string { return "page"; });
+  job.start("out", {}, [](const auto&) -> std::string { return "page"; });
   EXPECT_EQ(ended(job).state, Job::State::done);
   EXPECT_EQ(job.report().result, "page");
   EXPECT_EQ(job.report().folder, "out");
@@ -45,7 +45,7 @@ TEST(Job, StartsAtTheSameTimeAreOneAfterTheOther) {
   for (int page = 0; page < 4; ++page)
     pages.emplace_back([&] {
       for (int i = 0; i < 20; ++i) try {
-          job.start("out", {}, [](const Run&) -> std::string { return ""; });
+          job.start("out", {}, [](const auto&) -> std::string { return ""; });
           ++begun;
         } catch (const Error& error) {
           EXPECT_EQ(error.kind(), ErrorKind::usage);
