@@ -50,8 +50,9 @@ TEST(ClassRulesRivers, InferredRiversAreLinesWhereTheRulesHaveThem) {
 
 TEST(ClassRulesRivers, LifeZonesHaveRiversDownToTheRimWhereRainFeedsThem) {
   const ClassRules rules = read_class_rules("life_zones");
-  const auto rivers = [&](float moisture) {
+  const auto rivers = [&](float moisture, float temperature_c = 9.F) {
     ClassRuleParameters parameters;
+    for (Grid<float>& level : parameters.climate.temperature_c) level(0, 0) = temperature_c;
     parameters.settings = {{"settlement", -1.0}};
     for (Grid<float>& level : parameters.climate.moisture) level(0, 0) = moisture;
     return apply_class_rules(rules, parameters, valley(), silent_progress());
@@ -63,7 +64,8 @@ TEST(ClassRulesRivers, LifeZonesHaveRiversDownToTheRimWhereRainFeedsThem) {
   EXPECT_EQ(river.half_width_m.front(), 0.F);
   EXPECT_GT(river.half_width_m.back(), 11.F);
   EXPECT_EQ(share(wet.classes.cells, water), 0.0) << "the cells have no stairs of it";
-  EXPECT_TRUE(rivers(0.08F).inferred_rivers.empty());
+  EXPECT_TRUE(rivers(0.08F, 18.F).inferred_rivers.empty());
+  EXPECT_EQ(rivers(0.08F, 4.F).inferred_rivers.size(), 1U) << "snow lasts above cold deserts";
 }
 
 }  // namespace
