@@ -129,7 +129,8 @@ const GuidanceChannel channels[] = {
      .part = "terrain",
      .type = float32,
      .unit = "m",
-     .meaning = "distance on the ground to the edge of the data"},
+     .meaning =
+         "distance on the ground to the edge of the data; more by mountains far above the region"},
     {.member = &B::built,
      .names = {"built.V"},
      .part = "terrain",

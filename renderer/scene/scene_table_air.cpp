@@ -41,7 +41,8 @@ std::vector<SceneSection> make_air_sections() {
             .range = {0, 1e6},
             .meaning =
                 "Over this distance before the edge of the terrain, haze increases and mountains "
-                "become blue silhouettes, so that the terrain does not end in a cliff. 0: off.",
+                "become blue silhouettes, so that the terrain does not end in a cliff. "
+                "Mountains far above the whole region keep their colour. 0: off.",
             .derived = "0.035 times the distance of the horizon"},
            {.name = "clouds",
             .field = AT(air.look.clouds),
