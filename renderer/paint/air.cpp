@@ -12,6 +12,8 @@ namespace {
 
 constexpr float far_air =
     0.34F;  // more air where ranges stand one behind the other; crests get it too
+constexpr float far_from = 0.13F;  // shares of haze between which ranges become far
+constexpr float far_to = 0.38F;
 constexpr double usual_haze = AirParameters{}.haze;
 
 }  // namespace
@@ -27,6 +29,10 @@ double haze_share(const AirParameters& p, double depth_m, double altitude_m) {
 
 float farness(const AirParameters& p, double depth_m) {
   return static_cast<float>(unit((depth_m - p.from_m - 0.30 * p.scale_m) / (0.5 * p.scale_m)));
+}
+
+float far_range_share(const AirParameters& p, double depth_m, double altitude_m) {
+  return smoothstep(far_from, far_to, static_cast<float>(haze_share(p, depth_m, altitude_m)));
 }
 
 float air_share(const AirParameters& p, const Palette& palette, double depth_m, double altitude_m,

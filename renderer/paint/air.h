@@ -17,6 +17,10 @@ double haze_share(const AirParameters& parameters, double depth_m, double altitu
 // 0 in the foreground … 1 where ranges stand one behind the other in the air.
 float farness(const AirParameters& parameters, double depth_m);
 
+// 0 near … 1 where a third of a position's colour or more is air: far ranges are painted in wide
+// masses. Before the palette's share.
+float far_range_share(const AirParameters& parameters, double depth_m, double altitude_m);
+
 // Share of air with the palette's share applied, 0…1. `far` is farness times the separation of
 // ranges, 0…3; `raised` is the position relative to its surroundings, -1 valley … 1 crest: among
 // far ranges the feet get more air and the crests less.

@@ -43,6 +43,11 @@ const glm::vec3 full_warmth{0.10F, -0.02F,
                             -0.16F};  // factors that regional light of warmth 1 adds to lit colours
 constexpr double brook_sigma_units = 1.8;  // water that this blur leaves pale is a brook
 constexpr double ice_step = 0.4;           // of the tone step: strokes on ice have less contrast
+// Mist in the hollows of far ranges, of unlike depth: deep here, none there.
+constexpr double mist_sigma_units[2][2] = {{69.0, 17.0}, {23.0, 8.0}};
+constexpr float deep_mist = 0.48F;
+constexpr float floor_mist =
+    0.35F;  // share of it on level floors, whose rivers and places stay in view
 constexpr float high_m = 260.0F;  // height above the surroundings from which a position is a crest
 
 using Class = LandCoverClass;
@@ -68,6 +73,7 @@ struct Surroundings {
   Grid<float> water;    // share of water around, on the same surface
   Mirrored mirrored;    // of water pixels; empty where there is none
   Grid<float> streaks;  // the same
+  Grid<float> mist;     // where hollows of far ranges hold mist, 0…1
   Grid<glm::vec3> sky;  // of the wanted sky pixels
 };
 
@@ -90,6 +96,19 @@ Grid<float> bare_around(const WideView& wide, double wide_ppu, PixelRect window)
       moved(wide_rect(window, wide.factor), -wide.origin_px.x, -wide.origin_px.y);
   return blur_on_surface(bare, wide.seen.depth_m, tongue_sigma_units * wide_ppu,
                          intersection({0, 0, bare.width(), bare.height()}, surface_look(asked)));
+}
+
+Grid<float> mist_places(const GuidanceBuffers& g, const BaseParameters& p, glm::ivec2 origin_px) {
+  const auto noise = [&](std::uint64_t part) {
+    const double* sigma = mist_sigma_units[part];
+    return make_image_noise(stream_seed(p.seed, Stream::mist_patches, 64 + part), origin_px,
+                            g.width(), g.height(), p.pixels_per_unit, sigma[0], sigma[1]);
+  };
+  Grid<float> places = noise(0);
+  const Grid<float> small = noise(1);
+  for (std::size_t i = 0; i < places.size(); ++i)
+    places[i] = smoothstep(-0.7F, 1.1F, places[i] + 0.4F * small[i]);
+  return places;
 }
 
 Surroundings look_around(const GuidanceBuffers& g, const WideView& wide, const Palette& palette,
@@ -121,6 +140,7 @@ Surroundings look_around(const GuidanceBuffers& g, const WideView& wide, const P
   } else {
     around.water = Grid<float>(g.width(), g.height(), 0.0F);
   }
+  around.mist = mist_places(g, p, origin_px);
   around.sky = make_sky(part_of(g.depth_m, wanted), palette, sky,
                         origin_px + glm::ivec2(wanted.x0, wanted.y0));
   return around;
@@ -133,6 +153,7 @@ struct PixelColour {
   glm::vec3 air_colour;
   float air = 0.0F;
   float desaturated = 0.0F;  // loss of freshness of greens, 0…1
+  float mist = 0.0F;         // share of the colour between ranges, in hollows of far ones
   RangeEdge edge;
   TerrainEnd end;
   glm::vec3 beyond;  // colour behind the end of the terrain
@@ -142,6 +163,7 @@ struct PixelColour {
     const float grey = 0.30F * colour.r + 0.59F * colour.g + 0.11F * colour.b;
     colour = glm::mix(colour, glm::vec3(1.03F, 0.99F, 1.04F) * grey, 0.12F * desaturated);
     colour = glm::mix(colour, air_colour, air);
+    colour = glm::mix(colour, range_mist, mist);
     colour = glm::mix(colour, range_mist, edge.mist);
     colour = glm::mix(colour, air_colour, end.air);
     colour = glm::clamp(colour * (1.0F - glm::vec3(0.40F, 0.35F, 0.27F) * edge.dark), 0.0F, 1.0F);
@@ -149,8 +171,8 @@ struct PixelColour {
   }
   // Share of the finished colour that does not come from the ground.
   float veiled() const {
-    return 1.0F - (1.0F - air) * (1.0F - std::min(edge.mist, 1.0F)) * (1.0F - end.air) *
-                      (1.0F - end.dissolved);
+    return 1.0F - (1.0F - air) * (1.0F - mist) * (1.0F - std::min(edge.mist, 1.0F)) *
+                      (1.0F - end.air) * (1.0F - end.dissolved);
   }
 };
 
@@ -286,6 +308,11 @@ PixelColour pixel_colour(const Scenery& s, std::size_t i, int y, const Patches& 
   pixel.air = air_share(p.air, s.palette, depth, g.altitude_m[i], far, raised);
   pixel.edge =
       range_edge(s.around.log_depth[i] - s.around.mean_log_depth[i], far, raised, separation);
+  const float steep = smoothstep(4.0F, 16.0F, g.slope_deg[i]);
+  pixel.mist = std::min(deep_mist * separation, 0.8F) * glm::mix(floor_mist, 1.0F, steep) *
+               far_range_share(p.air, depth, g.altitude_m[i]) *
+               static_cast<float>(s.palette.haze_share) *
+               (1.0F - smoothstep(-160.0F, 60.0F, g.relief_l_m[i])) * s.around.mist[i];
   pixel.beyond = air_beyond(s.palette, (y + s.origin_px.y + 0.5) / s.horizon_px);
   if (p.air.rim_fade_m > 0.0) pixel.end = terrain_end_at(g.rim_m[i], p.air.rim_fade_m, raised);
   if (!s.palette.winter) pixel.factor *= grown_hue(s, i, patches, woods, pixel.air);
@@ -381,8 +408,9 @@ BasePixel ground_pixel(const Scenery& s, GroundNoises& noises, WaterNoises& wate
     if (gravel > 0.0F) ramp = glm::mix(ramp, gravel_colour(light), gravel);
     ramp = open.bed.under(tint.over(ramp), s.palette, altitude, light);
     if (id == Class::settlement)
-      ramp = town_ground_colour(s.palette, ramp, g.built[i], altitude, light,
-                                static_cast<float>(s.parameters.air.hue_drift));
+      ramp =
+          town_ground_colour(s.palette, ramp, g.built[i], altitude, light,
+                             static_cast<float>(s.parameters.air.hue_drift));
     if (multiplied)
       ramp = times_light(ramp, light_of_tone(static_cast<float>(lit)) /
                                    static_cast<float>(s.parameters.mean_light));

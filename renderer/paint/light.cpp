@@ -11,6 +11,7 @@
 #include "base/parallel.h"
 #include "base/random_streams.h"
 #include "renderer/image/srgb.h"
+#include "renderer/paint/air.h"
 #include "renderer/paint/ground/snow_relief.h"
 #include "renderer/paint/picture_filter.h"
 #include "renderer/paint/picture_noise.h"
@@ -23,6 +24,11 @@ constexpr double shadow_blur_units = 0.8;
 constexpr double sky_blur_units = 1.5;
 constexpr float brightest_tone = 1.02F;
 constexpr float pool_strength = 0.035F;
+// Far ranges: pools of light and shade larger than a mountain, so that several summits belong
+// together and one leads; where such a pool is in shade, whole flanks lose detail.
+constexpr double far_pool_sigma_units[2][2] = {{121.0, 27.0}, {52.0, 14.0}};
+constexpr float far_pool_strength = 0.15F;
+constexpr float far_calm = 0.38F;
 // Rock inside forest is weathered and mossy: a small white shape there would read as a boulder, not
 // as a cliff.
 constexpr double outcrop_sigma_units = 12.0;  // forest within this is "around"
@@ -226,6 +232,21 @@ Grid<float> sides_of(const Grid<GroundLight>& lights) {
   return sides;
 }
 
+// Large pools of light and shade at the pixels of `made`, about -1.6 (shade) … 1.3.
+Grid<float> far_pools(const ToneParameters& p, glm::ivec2 origin_px, PixelRect made) {
+  const auto noise = [&](std::uint64_t part) {
+    const double* sigma = far_pool_sigma_units[part - 1];
+    return make_image_noise(stream_seed(p.seed, Stream::light_pools, part),
+                            origin_px + glm::ivec2(made.x0, made.y0), made.width(), made.height(),
+                            p.pixels_per_unit, sigma[0], sigma[1]);
+  };
+  Grid<float> pools = noise(1);
+  const Grid<float> small = noise(2);
+  for (std::size_t i = 0; i < pools.size(); ++i)
+    pools[i] = std::clamp(pools[i] + 0.45F * small[i], -1.6F, 1.3F);
+  return pools;
+}
+
 // Share of forest around each wide pixel that a rectangle of the sheet reads, 0…1; other pixels
 // hold 0.
 Grid<float> woods_around(const WideView& wide, double pixels_per_unit, PixelRect sheet_rect) {
@@ -313,6 +334,8 @@ Grid<float> make_tone(const GuidanceBuffers& guidance, const WideView& wide,
                                             origin_px + glm::ivec2(made.x0, made.y0), made.width(),
                                             made.height(), ppu, 140.0, 60.0);
 
+  const Grid<float> far_pool = far_pools(parameters, origin_px, made);
+
   // Drifts lie across raking light: the wind blows 35° off the direction of the light.
   const glm::dvec2 level(parameters.sun_direction);
   const double length = glm::length(level);
@@ -357,6 +380,16 @@ Grid<float> make_tone(const GuidanceBuffers& guidance, const WideView& wide,
             std::clamp((raw - raw_black) / raw_range,
                        id == LandCoverClass::rock || white ? -0.3F : 0.0F, white ? 1.3F : 1.05F);
       }
+      const float far = far_range_share(parameters.air, static_cast<double>(guidance.depth_m[i]),
+                                        static_cast<double>(guidance.altitude_m[i]));
+      const float far_light = far_pool(x - made.x0, row);
+      if (far > 0.0F && far_light < 0.2F) {
+        const GroundLight& own = local.empty() ? everywhere : local[i];
+        const float broad =
+            (raw_light(guidance, i, shadow[i], sky_view[i], 0.0F, own, parameters) - raw_black) /
+            raw_range;
+        value += far_calm * far * smoothstep(-0.2F, 1.2F, -far_light) * (broad - value);
+      }
       value += light.lift;
       value += pool_strength * pool(x - made.x0, row);
       float contrast = light.contrast * static_cast<float>(parameters.light.contrast);
@@ -367,7 +400,8 @@ Grid<float> make_tone(const GuidanceBuffers& guidance, const WideView& wide,
         contrast *= 1.0F - outcrop_calm * outcrop;
         value -= outcrop_shade * outcrop;
       }
-      const float contrasted = middle_tone + (value - middle_tone) * contrast;
+      float contrasted = middle_tone + (value - middle_tone) * contrast;
+      contrasted += far_pool_strength * far * far_light;
       float kept = id == LandCoverClass::rock ? keep_forms(contrasted)
                    : white                    ? keep_snow(contrasted)
                                               : contrasted;

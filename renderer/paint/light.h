@@ -9,6 +9,7 @@
 #include "base/guidance_buffers.h"
 #include "base/pixel_rect.h"
 #include "base/progress.h"
+#include "renderer/paint/air_parameters.h"
 #include "renderer/trace/light_field.h"
 #include "renderer/trace/wide_view.h"
 
@@ -51,6 +52,7 @@ struct ToneParameters {
   double ribs = 1.0;             // strength of ribs and gullies, 0…3
   double pixels_per_unit = 1.0;  // as in StrokeParameters: pixels in 0.5 mm of the sheet
   double wrap = 0.22;            // light beyond the terminator, 0…1
+  AirParameters air = {};        // where ranges are far
   bool winter = false;           // open ground is covered by snow
   std::uint64_t seed = 1;
 };

@@ -57,6 +57,7 @@ ToneParameters to_tone_parameters(const World& world, const Palette& palette,
   parameters.pixels_per_unit = view.pixels_per_unit;
   parameters.sun_image_x = world.view.sun_image_x;
   parameters.light_field = world.light_field;
+  parameters.air = world.view.air;
   parameters.winter = palette.winter;
   parameters.seed = world.scene.seed;
   return parameters;

@@ -23,6 +23,18 @@ TEST(Haze, GrowsWithDistanceAndSaturates) {
   EXPECT_NEAR(haze_share(p, 1e7, 600.0 + 900.0), 0.85 * (0.58 + 0.42 * std::exp(-1.0)), 1e-9);
 }
 
+TEST(Haze, MakesRangesFar) {
+  const AirParameters p;
+  EXPECT_EQ(far_range_share(p, p.from_m, 600.0), 0.0F);
+  EXPECT_EQ(far_range_share(p, p.from_m + p.scale_m, 600.0), 1.0F);
+  float last = 0.0F;
+  for (double depth = p.from_m; depth < p.from_m + p.scale_m; depth += 2000.0) {
+    EXPECT_GE(far_range_share(p, depth, 600.0), last);
+    last = far_range_share(p, depth, 600.0);
+  }
+  EXPECT_LT(far_range_share(p, 70000.0, 3000.0), far_range_share(p, 70000.0, 600.0));
+}
+
 TEST(Haze, IsThickenedAmongFarRangesAndThinnerOnTheirCrests) {
   const AirParameters p;
   const Palette palette = read_palette("summer");

@@ -252,6 +252,21 @@ TEST(Base, FarRangesGrowPale) {
   }
 }
 
+// Hollows of far ranges hold mist, deep here and none there; their crests and near ground none.
+TEST(Base, MistOfFarRangesIsOfUnlikeDepth) {
+  const auto spread = [](float depth_m, float relief_l_m) {
+    GuidanceBuffers g = make_slope(400, 60, LandCoverClass::forest, {0.0F, 0.0F, 1.0F}, 20.0F);
+    for (float& d : g.depth_m) d = depth_m;
+    for (float& r : g.relief_l_m) r = relief_l_m;
+    const BasePicture base = picture_of(g, BaseParameters{});
+    const auto [low, high] = std::minmax_element(base.haze.begin(), base.haze.end());
+    return *high - *low;
+  };
+  EXPECT_GT(spread(80000.0F, -160.0F), 0.15F);
+  EXPECT_LT(spread(80000.0F, 100.0F), 1e-5F);
+  EXPECT_LT(spread(20000.0F, -160.0F), 1e-5F);
+}
+
 // Mist behind an edge lies in the valley and leaves a crest clear.
 TEST(Base, MistLiesInValleys) {
   const auto behind_edge = [](float relief_l_m) {

@@ -358,6 +358,62 @@ TEST(Tone, OfAPrintLooksAroundInItsWideView) {
   EXPECT_LT(std::sqrt(squares / static_cast<double>(own.size())), 0.02);
 }
 
+// A slope at 100 km whose columns of ground lean to the sun and away from it in turn.
+GuidanceBuffers make_far_slope(float depth_m) {
+  GuidanceBuffers g = make_slope(600, 200, LandCoverClass::pasture, {0.0F, 0.0F, 1.0F}, 20.0F);
+  for (float& d : g.depth_m) d = depth_m;
+  for (int y = 0; y < g.height(); ++y)
+    for (int x = 0; x < g.width(); ++x)
+      g.normal(x, y) = g.normal_detail(x, y) =
+          glm::normalize(glm::vec3(x % 2 == 0 ? -0.25F : 0.25F, 0.0F, 1.0F));
+  return g;
+}
+
+TEST(Tone, FarRangesLieInPoolsOfLight) {
+  const auto means = [](float depth_m) {
+    const Grid<float> tone = tone_of(make_far_slope(depth_m));
+    float lightest = 0.0F;
+    float darkest = 1.0F;
+    for (int y = 0; y < tone.height(); ++y)
+      for (int x = 0; x + 1 < tone.width(); ++x) {
+        const float here = 0.5F * (tone(x, y) + tone(x + 1, y));
+        lightest = std::max(lightest, here);
+        darkest = std::min(darkest, here);
+      }
+    return lightest - darkest;
+  };
+  EXPECT_GT(means(130000.0F), means(20000.0F) + 0.15F);
+}
+
+TEST(Tone, FarFlanksInShadeLoseDetail) {
+  const Grid<float> far = tone_of(make_far_slope(130000.0F));
+  const Grid<float> near = tone_of(make_far_slope(20000.0F));
+  float calmest = 1.0F;
+  float liveliest = 0.0F;
+  for (int y = 0; y < far.height(); ++y)
+    for (int x = 0; x + 1 < far.width(); ++x) {
+      const float share =
+          std::abs(far(x, y) - far(x + 1, y)) / std::abs(near(x, y) - near(x + 1, y));
+      calmest = std::min(calmest, share);
+      liveliest = std::max(liveliest, share);
+    }
+  EXPECT_LT(calmest, 0.85F);
+  EXPECT_GT(calmest, 0.55F);
+  EXPECT_NEAR(liveliest, 1.0F, 0.06F);
+}
+
+TEST(Tone, PartOfAFarRangeEqualsWhole) {
+  const GuidanceBuffers slope = make_far_slope(100000.0F);
+  const Grid<float> whole = tone_of(slope);
+  const int margin = tone_margin_px({});
+  const PixelRect rect{300, 100, 340, 130};
+  const PixelRect held = with_margin(rect, margin, 600, 200);
+  const Grid<float> part = make_tone(cut(slope, held), {}, {held.x0, held.y0}, silent_progress());
+  for (int y = rect.y0; y < rect.y1; ++y)
+    for (int x = rect.x0; x < rect.x1; ++x)
+      ASSERT_EQ(part(x - held.x0, y - held.y0), whole(x, y)) << x << ' ' << y;
+}
+
 TEST(Tone, SameBitsForAnyThreads) {
   const GuidanceBuffers hills = make_hills(180, 140);
   Grid<float> one;
