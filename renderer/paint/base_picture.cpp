@@ -410,7 +410,7 @@ BasePixel ground_pixel(const Scenery& s, GroundNoises& noises, WaterNoises& wate
     if (id == Class::settlement)
       ramp =
           town_ground_colour(s.palette, ramp, g.built[i], altitude, light,
-                             static_cast<float>(s.parameters.air.hue_drift));
+                             static_cast<float>(s.parameters.air.hue_drift), s.metres_per_unit(i));
     if (multiplied)
       ramp = times_light(ramp, light_of_tone(static_cast<float>(lit)) /
                                    static_cast<float>(s.parameters.mean_light));

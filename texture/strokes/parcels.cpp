@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "base/math.h"
 #include "base/math_exact.h"
 #include "base/noise.h"
 #include "base/random.h"
@@ -161,6 +162,10 @@ Parcel parcel_at(std::uint64_t seed, double east_m, double north_m, float metres
   parcel.crop = sow_crop(green, own(0), own(1));
   parcel.shade = static_cast<float>(2.0 * own(2) - 1.0);
   return parcel;
+}
+
+float village_share(float metres_per_unit) {
+  return smoothstep(2.F, 3.F, metres_per_unit) * (1.F - smoothstep(14.F, 20.F, metres_per_unit));
 }
 
 glm::vec3 crop_colour(Crop crop) { return colours[static_cast<std::size_t>(crop)]; }

@@ -5,9 +5,11 @@
 #include <glm/geometric.hpp>
 #include <optional>
 
+#include "base/math.h"
 #include "base/math_exact.h"
 #include "base/noise.h"
 #include "base/parallel.h"
+#include "texture/strokes/parcels.h"
 #include "texture/strokes/stroke_kinds.h"
 #include "texture/strokes/stroke_parts.h"
 
@@ -20,11 +22,17 @@ using enum LandCoverClass;
 constexpr std::array<glm::vec3, 4> roofs = {
     glm::vec3(0.76F, 0.37F, 0.26F), glm::vec3(0.64F, 0.30F, 0.22F), glm::vec3(0.49F, 0.31F, 0.27F),
     glm::vec3(0.42F, 0.44F, 0.50F)};
+constexpr std::size_t red_roofs = 2;  // of them, from the first
 constexpr glm::vec3 wall{0.97F, 0.93F, 0.84F};
 constexpr glm::vec3 snowed{0.90F, 0.92F, 0.96F};
 constexpr glm::vec3 dusk{0.33F, 0.36F, 0.50F};    // colour of a house's shadow
 constexpr glm::vec3 leaves{0.27F, 0.40F, 0.24F};  // garden trees
 constexpr glm::vec3 bare{0.38F, 0.38F, 0.42F};    // … in winter
+
+// In villages drawn house by house most red roofs are a grey rose: red stays on groups, as accents.
+constexpr float group_units = 3.0F;  // extent of a group on the sheet
+constexpr float red_above = 0.52F;   // noise of deviation 1: 30 % of the roofs
+constexpr glm::vec3 rose{1.10F, 0.99F, 0.93F};
 
 constexpr float plot_width = 3.7F;      // units of the sheet per plot in a row …
 constexpr float plot_height = 3.0F;     // … and vertically, with its garden
@@ -191,7 +199,23 @@ struct House {
   float width;           // px
   float height;          // of walls and roof, px
   std::size_t roof = 0;  // index into `roofs`
+  float faded = 0.F;     // 0…1: how grey its roof has become
 };
+
+glm::vec3 roof_colour(const House& house) {
+  const glm::vec3 tiles = roofs[house.roof];
+  const float grey = 0.30F * tiles.r + 0.59F * tiles.g + 0.11F * tiles.b;
+  return glm::mix(tiles, grey * rose + 0.03F, house.faded);
+}
+
+// How grey a red roof is: by groups, where villages are drawn house by house.
+float faded_at(const StrokeScene& scene, std::size_t i, std::size_t roof) {
+  if (roof >= red_roofs) return 0.F;
+  const float share = village_share(scene.metres_per_unit(i));
+  if (share <= 0.F) return 0.F;
+  const float group = patch_noise(scene, i, Stream::house_density, group_units);
+  return share * (1.F - smoothstep(red_above - 0.1F, red_above + 0.1F, group));
+}
 
 // A shadow away from the sun, a lit front, a gable in shade, and a roof with a sunlit edge.
 void build(const StrokeScene& scene, const House& house, std::size_t i, StrokeSeed& seed,
@@ -236,7 +260,7 @@ void build(const StrokeScene& scene, const House& house, std::size_t i, StrokeSe
            house.foot + ridge + glm::vec2(inner * 1.1F, 0.F), 1.1F * stripe, 1.1F * stripe);
   const bool white = scene.parameters.winter && seed.uniform() < 0.7F;
   const float shift = 0.035F * seed.normal();
-  const glm::vec3 tiles = white ? snowed : roofs[house.roof] + shift;
+  const glm::vec3 tiles = white ? snowed : roof_colour(house) + shift;
   roof.colour = through_air(scene, i, tiles * (0.86F * light));
   out.push_back(roof);
   Stroke edge = roof;
@@ -359,8 +383,10 @@ std::vector<Stroke> houses(const StrokeScene& scene, Stream stream) {
     const float height = large ? seed.between(2.2F, 3.0F) : seed.between(1.9F, 2.5F) + 0.6F * built;
     const float r = seed.uniform();
     const std::size_t roof = large ? 3 : r < 0.44F ? 0 : r < 0.72F ? 1 : r < 0.90F ? 2 : 3;
-    build(scene, {plot.position, width * scene.scale(), height * scene.scale(), roof}, plot.pixel,
-          seed, all);
+    build(scene,
+          {plot.position, width * scene.scale(), height * scene.scale(), roof,
+           faded_at(scene, plot.pixel, roof)},
+          plot.pixel, seed, all);
   }
   return all;
 }

@@ -127,6 +127,30 @@ TEST(Towns, AreDenserAndLargerInTheirMiddle) {
   EXPECT_GT(large, 1.1 * small);
 }
 
+// Where villages are drawn house by house most roofs are a grey rose, and red ones stand in groups.
+TEST(Towns, RedRoofsAreAccentsNearTheViewer) {
+  const StrokeParameters parameters;
+  const auto red_share = [&](float metres) {
+    Picture p = level(settlement);
+    for (float& f : p.guidance.footprint_m) f = metres;
+    for (glm::vec3& at : p.guidance.position_m)
+      at = {at.x * metres / 20.F, at.y * metres / 20.F, at.z};
+    int red = 0;
+    int all = 0;
+    for (const Stroke& s : town_strokes({p.guidance, p.ground, parameters})) {
+      if (s.gate != StrokeGate::surface || s.alpha != 0.95F || is_wall(s)) continue;
+      red += s.colour.x > 1.6F * s.colour.y ? 1 : 0;
+      ++all;
+    }
+    return static_cast<double>(red) / all;
+  };
+  const double far = red_share(30.F);
+  const double near = red_share(8.F);
+  EXPECT_GT(far, 0.5);
+  EXPECT_LT(near, 0.5 * far);
+  EXPECT_GT(near, 0.1 * far);
+}
+
 TEST(Towns, EveryVillageHasItsChurchInItsMiddle) {
   const StrokeParameters parameters;
   Picture p = level(valley_floor);
