@@ -165,7 +165,7 @@ Parcel parcel_at(std::uint64_t seed, double east_m, double north_m, float metres
 }
 
 float village_share(float metres_per_unit) {
-  return smoothstep(2.F, 3.F, metres_per_unit) * (1.F - smoothstep(14.F, 20.F, metres_per_unit));
+  return smoothstep(0.5F, 1.F, metres_per_unit) * (1.F - smoothstep(14.F, 20.F, metres_per_unit));
 }
 
 glm::vec3 crop_colour(Crop crop) { return colours[static_cast<std::size_t>(crop)]; }

@@ -30,8 +30,8 @@ struct Parcel {
 Parcel parcel_at(std::uint64_t seed, double east_m, double north_m, float metres_per_unit,
                  glm::vec2 grain = glm::vec2(0.F));
 
-// 1 where villages are drawn house by house, so that they need quiet colours: from 3 to 14 m of
-// ground in a unit of the sheet; 0 below 2 and above 20.
+// 1 where villages are drawn house by house, so that they need quiet colours: from 1 to 14 m of
+// ground in a unit of the sheet; 0 below .5 and above 20.
 float village_share(float metres_per_unit);
 
 // Colour factor of a crop on the valley floor, encoded sRGB.
