@@ -45,7 +45,7 @@ constexpr double brook_sigma_units = 1.8;  // water that this blur leaves pale i
 constexpr double ice_step = 0.4;           // of the tone step: strokes on ice have less contrast
 // Mist in the hollows of far ranges, of unlike depth: deep here, none there.
 constexpr double mist_sigma_units[2][2] = {{69.0, 17.0}, {23.0, 8.0}};
-constexpr float deep_mist = 0.48F;
+constexpr float deep_mist = 0.32F;
 constexpr float floor_mist =
     0.35F;  // share of it on level floors, whose rivers and places stay in view
 constexpr float high_m = 260.0F;  // height above the surroundings from which a position is a crest

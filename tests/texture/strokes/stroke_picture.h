@@ -35,7 +35,7 @@ inline Picture plain_picture(LandCoverClass id, int width, int height) {
   p.guidance.tone = Grid<float>(width, height, 0.6F);
   p.guidance.position_m = Grid<glm::vec3>(width, height);
   p.guidance.slope_deg = Grid<float>(width, height, 25.F);
-  p.guidance.footprint_m = Grid<float>(width, height, 20.F);
+  p.guidance.footprint_m = Grid<float>(width, height, 30.F);
   p.guidance.relief_s_m = p.guidance.built = Grid<float>(width, height, 0.F);
   p.guidance.grain = Grid<glm::vec2>(width, height);
   p.ground.colour = Grid<glm::vec3>(width, height, glm::vec3(0.5F));

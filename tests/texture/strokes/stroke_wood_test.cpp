@@ -379,6 +379,23 @@ TEST(Shrub, BushesAreLowDarkAndAsManyAsTheirDensity) {
   EXPECT_TRUE(grow_strokes("low bushes", level_ground(pasture).scene()).empty());
 }
 
+// Near stone is dabbed in all directions, within its own class: lines would be fur.
+TEST(Scree, IsDabbedWhereItIsNear) {
+  Picture p = level_ground(scree);
+  const glm::vec2 fall(0.6F, 0.8F);
+  for (auto& d : p.guidance.fall_line) d = fall;
+  for (float& metres : p.guidance.footprint_m) metres = 6.F;
+  int all = 0;
+  int across = 0;
+  for (const Stroke& s : grow_strokes("scree", p.scene())) {
+    EXPECT_LT(glm::length(axis_of(s)), 6.F);
+    EXPECT_EQ(s.gate, StrokeGate::same_class);
+    across += angle_deg(axis_of(s), fall) > 45.0 ? 1 : 0;
+    ++all;
+  }
+  EXPECT_NEAR(across, 0.4 * all, 0.06 * all);
+}
+
 TEST(Scree, IsSmallStonesDownTheSlope) {
   Picture p = level_ground(scree);
   const glm::vec2 fall(0.6F, 0.8F);
