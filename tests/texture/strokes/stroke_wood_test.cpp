@@ -307,6 +307,7 @@ TEST(Wood, GroupsHaveALightSideAndADarkOne) {
 
 TEST(Wood, ValleyTreesFollowTheBrook) {
   Picture p = level_ground(valley_floor, 600.F);
+  for (float& metres : p.guidance.footprint_m) metres = 20.F;
   fill(p.guidance.land_cover, 0, 118, wood_width, 122, water);
   int banks = 0;
   int open = 0;
