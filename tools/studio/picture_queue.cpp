@@ -68,16 +68,23 @@ LivePicture PictureQueue::paint_as(std::uint64_t own, const LoadedScene& scene, 
   const std::lock_guard lock(engine_);
   WhileWanted progress(*this, own, notes, tell);
   progress.check();
+  // The world of the scene goes with the last rung, also where that is superseded.
+  struct ReturnMemory {
+    bool wanted;
+    ~ReturnMemory() {
+      if (wanted) return_freed_memory();
+    }
+  } at_end{rung.is_last()};
   // On a thread of its own: the C library would keep the memory of a picture for each thread of the
   // server that made one.
-  LivePicture picture =
-      std::async(std::launch::async, [&] {
-        return view_.paint(scene, rung,
-                           {run.threads, run.memory_bytes, run.tile_px, progress, run.cache},
-                           use_tile);
-      }).get();
-  if (rung.is_last()) return_freed_memory();  // of the world of the scene
-  return picture;
+  return std::async(std::launch::async,
+                    [&] {
+                      return view_.paint(
+                          scene, rung,
+                          {run.threads, run.memory_bytes, run.tile_px, progress, run.cache},
+                          use_tile);
+                    })
+      .get();
 }
 
 PictureQueue::Stage PictureQueue::stage() const {
