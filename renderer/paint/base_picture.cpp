@@ -43,11 +43,6 @@ const glm::vec3 full_warmth{0.10F, -0.02F,
                             -0.16F};  // factors that regional light of warmth 1 adds to lit colours
 constexpr double brook_sigma_units = 1.8;  // water that this blur leaves pale is a brook
 constexpr double ice_step = 0.4;           // of the tone step: strokes on ice have less contrast
-// Mist in the hollows of far ranges, of unlike depth: deep here, none there.
-constexpr double mist_sigma_units[2][2] = {{69.0, 17.0}, {23.0, 8.0}};
-constexpr float deep_mist = 0.32F;
-constexpr float floor_mist =
-    0.35F;  // share of it on level floors, whose rivers and places stay in view
 constexpr float high_m = 260.0F;  // height above the surroundings from which a position is a crest
 
 using Class = LandCoverClass;
@@ -98,19 +93,6 @@ Grid<float> bare_around(const WideView& wide, double wide_ppu, PixelRect window)
                          intersection({0, 0, bare.width(), bare.height()}, surface_look(asked)));
 }
 
-Grid<float> mist_places(const GuidanceBuffers& g, const BaseParameters& p, glm::ivec2 origin_px) {
-  const auto noise = [&](std::uint64_t part) {
-    const double* sigma = mist_sigma_units[part];
-    return make_image_noise(stream_seed(p.seed, Stream::mist_patches, 64 + part), origin_px,
-                            g.width(), g.height(), p.pixels_per_unit, sigma[0], sigma[1]);
-  };
-  Grid<float> places = noise(0);
-  const Grid<float> small = noise(1);
-  for (std::size_t i = 0; i < places.size(); ++i)
-    places[i] = smoothstep(-0.7F, 1.1F, places[i] + 0.4F * small[i]);
-  return places;
-}
-
 Surroundings look_around(const GuidanceBuffers& g, const WideView& wide, const Palette& palette,
                          const BaseParameters& p, const SkyParameters& sky, glm::ivec2 origin_px,
                          PixelRect wanted) {
@@ -140,7 +122,7 @@ Surroundings look_around(const GuidanceBuffers& g, const WideView& wide, const P
   } else {
     around.water = Grid<float>(g.width(), g.height(), 0.0F);
   }
-  around.mist = mist_places(g, p, origin_px);
+  around.mist = hollow_mist_places(p.seed, origin_px, g.width(), g.height(), p.pixels_per_unit);
   around.sky = make_sky(part_of(g.depth_m, wanted), palette, sky,
                         origin_px + glm::ivec2(wanted.x0, wanted.y0));
   return around;
@@ -272,18 +254,6 @@ glm::vec3 light_warmth(const Scenery& s, std::size_t i) {
   return 1.0F + full_warmth * (warmth * smoothstep(0.30F, 0.80F, s.guidance.tone[i]));
 }
 
-// Near snow is cream in the sun; steep shade is violet, shade that sees the sky is blue.
-glm::vec3 near_snow_hue(const Scenery& s, std::size_t i) {
-  const GuidanceBuffers& g = s.guidance;
-  const float close = close_share(s.metres_per_unit(i));
-  if (close <= 0.0F || !is_white(g.land_cover[i], s.palette.winter)) return glm::vec3(1.0F);
-  const float lit = smoothstep(0.55F, 0.90F, g.tone[i]);
-  const float shade = 1.0F - smoothstep(0.25F, 0.50F, g.tone[i]);
-  const float steep = std::clamp((g.slope_deg[i] - 26.0F) / 20.0F, -1.0F, 1.0F);
-  return 1.0F + close * (lit * glm::vec3(0.008F, 0.0F, -0.022F) +
-                         shade * steep * glm::vec3(0.045F, -0.02F, 0.0F));
-}
-
 PixelColour pixel_colour(const Scenery& s, std::size_t i, int y, const Patches& patches,
                          const ForestTurn& woods) {
   const GuidanceBuffers& g = s.guidance;
@@ -308,17 +278,16 @@ PixelColour pixel_colour(const Scenery& s, std::size_t i, int y, const Patches& 
   pixel.air = air_share(p.air, s.palette, depth, g.altitude_m[i], far, raised);
   pixel.edge =
       range_edge(s.around.log_depth[i] - s.around.mean_log_depth[i], far, raised, separation);
-  const float steep = smoothstep(4.0F, 16.0F, g.slope_deg[i]);
-  pixel.mist = std::min(deep_mist * separation, 0.8F) * glm::mix(floor_mist, 1.0F, steep) *
+  pixel.mist = hollow_mist(s.around.mist[i], g.relief_l_m[i], g.slope_deg[i], separation) *
                far_range_share(p.air, depth, g.altitude_m[i]) *
-               static_cast<float>(s.palette.haze_share) *
-               (1.0F - smoothstep(-160.0F, 60.0F, g.relief_l_m[i])) * s.around.mist[i];
+               static_cast<float>(s.palette.haze_share);
   pixel.beyond = air_beyond(s.palette, (y + s.origin_px.y + 0.5) / s.horizon_px);
   if (p.air.rim_fade_m > 0.0) pixel.end = terrain_end_at(g.rim_m[i], p.air.rim_fade_m, raised);
   if (!s.palette.winter) pixel.factor *= grown_hue(s, i, patches, woods, pixel.air);
   pixel.factor *= evening_glow(s, i, far);
   pixel.factor *= light_warmth(s, i);
-  pixel.factor *= near_snow_hue(s, i);
+  if (is_white(id, s.palette.winter))
+    pixel.factor *= near_snow_hue(g.tone[i], g.slope_deg[i], close_share(s.metres_per_unit(i)));
   return pixel;
 }
 

@@ -74,4 +74,12 @@ glm::vec3 hue_drift(LandCoverClass id, const Patches& p, const Palette& palette,
   return factor;
 }
 
+glm::vec3 near_snow_hue(float tone, float slope_deg, float close) {
+  const float lit = smoothstep(0.55F, 0.90F, tone);
+  const float shade = 1.0F - smoothstep(0.25F, 0.50F, tone);
+  const float steep = std::clamp((slope_deg - 26.0F) / 20.0F, -1.0F, 1.0F);
+  return 1.0F + close * (lit * glm::vec3(0.008F, 0.0F, -0.022F) +
+                         shade * steep * glm::vec3(0.045F, -0.02F, 0.0F));
+}
+
 }  // namespace belvedere

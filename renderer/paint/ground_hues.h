@@ -33,4 +33,8 @@ glm::vec3 grass_shift(LandCoverClass id, const Patches& patches, float relief_s_
 glm::vec3 hue_drift(LandCoverClass id, const Patches& patches, const Palette& palette,
                     float strength);
 
+// Near snow, a colour factor: cream in the sun; steep shade is violet, shade that sees the sky is
+// blue. `close`: as close_share.
+glm::vec3 near_snow_hue(float tone, float slope_deg, float close);
+
 }  // namespace belvedere

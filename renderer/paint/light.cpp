@@ -336,13 +336,7 @@ Grid<float> make_tone(const GuidanceBuffers& guidance, const WideView& wide,
 
   const Grid<float> far_pool = far_pools(parameters, origin_px, made);
 
-  // Drifts lie across raking light: the wind blows 35° off the direction of the light.
-  const glm::dvec2 level(parameters.sun_direction);
-  const double length = glm::length(level);
-  const glm::dvec2 away = length > 1e-6 ? -level / length : glm::dvec2(1.0, 0.0);
-  constexpr glm::dvec2 aside{0.819, 0.574};
-  const glm::dvec2 wind(away.x * aside.x - away.y * aside.y, away.x * aside.y + away.y * aside.x);
-
+  const glm::dvec2 wind = snow_wind(parameters.sun_direction);
   Grid<float> tone(width, height, 0.0F);
   parallel_rows(made.height(), [&](int row) {
     const int y = made.y0 + row;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -35,6 +36,12 @@ inline constexpr float middle_tone = 0.55F;
 // Raw light of a tone: the factor on the ground's own colour where light is a factor.
 constexpr float light_of_tone(float tone) {
   return raw_black + raw_range * (tone < 0.0F ? 0.0F : tone);
+}
+
+// A change of tone, limited softly to ±max.
+inline float soft_limit(float change, float max) {
+  const float t = change / max;
+  return change / std::sqrt(1.0F + t * t);
 }
 
 // An encoded colour times light, multiplied in linear values.

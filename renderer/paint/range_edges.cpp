@@ -6,6 +6,8 @@
 #include "base/math.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
+#include "base/random_streams.h"
+#include "renderer/paint/picture_noise.h"
 
 namespace belvedere {
 namespace {
@@ -39,6 +41,29 @@ RangeEdge range_edge(float behind, float far, float raised, float strength) {
               strength * low,
           std::clamp(-(1.5F + 4.0F * far) * behind, 0.0F, 0.25F + 0.10F * std::min(far, 1.0F)) *
               strength};
+}
+
+Grid<float> hollow_mist_places(std::uint64_t seed, glm::ivec2 origin_px, int width, int height,
+                               double pixels_per_unit) {
+  constexpr std::uint64_t first_part = 64;  // lower ones are those of mist layers
+  const auto noise = [&](std::uint64_t part, double sigma_x, double sigma_y) {
+    return make_image_noise(stream_seed(seed, Stream::mist_patches, first_part + part), origin_px,
+                            width, height, pixels_per_unit, sigma_x, sigma_y);
+  };
+  Grid<float> places = noise(0, 69.0, 17.0);
+  const Grid<float> small = noise(1, 23.0, 8.0);
+  for (std::size_t i = 0; i < places.size(); ++i)
+    places[i] = smoothstep(-0.7F, 1.1F, places[i] + 0.4F * small[i]);
+  return places;
+}
+
+float hollow_mist(float place, float relief_l_m, float slope_deg, float strength) {
+  constexpr float deepest = 0.32F;
+  constexpr float max = 0.8F;
+  constexpr float on_floors = 0.35F;
+  const float steep = smoothstep(4.0F, 16.0F, slope_deg);
+  return std::min(deepest * strength, max) * (on_floors + (1.0F - on_floors) * steep) *
+         (1.0F - smoothstep(-160.0F, 60.0F, relief_l_m)) * place;
 }
 
 float accent_at(const GuidanceBuffers& g, const Grid<float>& log_depth, int x, int y, int step_px) {

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <glm/vec2.hpp>
+
 #include "base/guidance_buffers.h"
 
 namespace belvedere {
@@ -19,6 +22,13 @@ struct RangeEdge {
   float dark = 0.0F;  // 0…1, of the near side
 };
 RangeEdge range_edge(float behind, float far, float raised, float strength);
+
+// Mist in the hollows of far ranges, of unlike depth: deep here, none there. The first is where it
+// may lie, 0…1 for every pixel of a window of the sheet; the second its share of the colour there,
+// before farness: less on level floors, whose rivers and places stay in view.
+Grid<float> hollow_mist_places(std::uint64_t seed, glm::ivec2 origin_px, int width, int height,
+                               double pixels_per_unit);
+float hollow_mist(float place, float relief_l_m, float slope_deg, float strength);
 
 // Light on the nearer side of a depth edge, ridges and hollows: -1 hollow … +1 edge. Reads
 // `step_px` to each side, up to three times. The skyline gets no accents: a light rim against the

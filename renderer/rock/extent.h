@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "base/grid.h"
 #include "base/parallel.h"
 
 namespace belvedere {
@@ -37,6 +38,15 @@ PixelRect extent_of(PixelRect in, Test&& test) {
               std::max(extent.x1, span.end), in.y0 + row + 1};
   }
   return extent;
+}
+
+// Whether a neighbour above, below or beside holds another value: one pixel of two planes.
+template <class T>
+bool is_edge(const Grid<T>& planes, int x, int y) {
+  const T own = planes(x, y);
+  return (x > 0 && planes(x - 1, y) != own) ||
+         (x + 1 < planes.width() && planes(x + 1, y) != own) ||
+         (y > 0 && planes(x, y - 1) != own) || (y + 1 < planes.height() && planes(x, y + 1) != own);
 }
 
 }  // namespace belvedere

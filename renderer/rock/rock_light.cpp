@@ -42,12 +42,6 @@ constexpr float min_of_patch = 0.35F;
 constexpr float gully_dark = 0.34F;
 constexpr float snow_paint = 0.95F;  // of what lies in snow
 
-// d softly limited to ±max.
-float soft(float d, float max) {
-  const float x = d / max;
-  return d / std::sqrt(1.0F + x * x);
-}
-
 float hashed(std::uint32_t id, std::uint64_t salt) {
   return static_cast<float>(mix_bits((static_cast<std::uint64_t>(id) << 8U) + salt) >> 40U) *
          0x1.0p-24F;
@@ -205,7 +199,7 @@ PlaneLight light_planes(const RockKind& kind, const ToneParameters& light, const
     const float now = sun(lit.normal, on.shadow, on.sky_share, on.facing);
     const float factor = (1.0F + (shade_factor[k] - 1.0F) * shade) *
                          (calm_min[k] + (1.0F - calm_min[k]) * calm) * share;
-    lit.tone += factor * soft(now - before, max_tone[k]);
+    lit.tone += factor * soft_limit(now - before, max_tone[k]);
     before = now;
   }
   // Unchanged shade has no darker tones left for the dark side of a plane: it is compressed around

@@ -320,12 +320,7 @@ RockRelief make_rock_relief(const GuidanceBuffers& guidance, const WideView& wid
     for (int x = std::max(made.x0, wanted.x0); x < std::min(made.x1, wanted.x1); ++x) {
       const int u = x - made.x0;
       if (bare(u, row) == 0) continue;
-      const std::uint32_t own = edges(u, row);
-      const bool edge = (u > 0 && edges(u - 1, row) != own) ||
-                        (u + 1 < made.width() && edges(u + 1, row) != own) ||
-                        (row > 0 && edges(u, row - 1) != own) ||
-                        (row + 1 < made.height() && edges(u, row + 1) != own);
-      if (!edge) continue;
+      if (!is_edge(edges, u, row)) continue;
       const RockPixel pixel = pixel_at(scene, x, y, made);
       float tone = 0.0F;
       glm::vec2 cover(0.0F);

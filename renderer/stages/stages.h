@@ -13,7 +13,8 @@
 #include "texture/synthesis/guide_stack.h"
 
 // The stages of a sheet, from the first rays to the finished picture. Each is declared once, in
-// stages.cpp, which lists them in order.
+// order: those of the ground in ground_stages.cpp, those of the paint over it in
+// picture_stages.cpp.
 namespace belvedere {
 
 struct CrestShift;

@@ -1,15 +1,13 @@
 #include "terrain/climate/default_climate.h"
 
-#include <fmt/core.h>
 #include <algorithm>
 #include <cstddef>
 
 #include "base/angle.h"
-#include "base/config.h"
-#include "base/error.h"
 #include "base/math.h"
 #include "base/math_exact.h"
 #include "base/text/embedded.h"
+#include "terrain/climate/climate_table.h"
 #include "terrain/climate/dry_places.h"
 #include "terrain/climate/map_position.h"
 #include "terrain/climate/snow_balance.h"
@@ -25,30 +23,13 @@ constexpr double strangest = 3.0;
 
 std::vector<MeasuredGlacier> measured_glaciers_from_toml(const std::string& text,
                                                          const std::string& name) {
-  const ConfigValue document = parse_config(text, name);
-  const ConfigTable& root = as_table(document, name);
-  allow_only(root, {"version", "glaciers"}, name);
-  const ConfigValue* version = find(root, "version");
-  const ConfigValue* rows = find(root, "glaciers");
-  if (version == nullptr || rows == nullptr || as_integer(*version, name) != 1)
-    throw Error(ErrorKind::usage, name, "not a table of glaciers", "version = 1 and glaciers");
   std::vector<MeasuredGlacier> glaciers;
-  for (const ConfigValue& value : as_array(*rows, name)) {
-    const ConfigArray& row = as_array(value, name);
-    if (row.size() != 5)
-      throw Error(ErrorKind::usage, config_where(name, value.position),
-                  fmt::format("a glacier with {} values", row.size()),
-                  "5 values: name, latitude, longitude, equilibrium line, source");
-    const auto number = [&](std::size_t column, double low, double high) {
-      const double found = as_number(row[column], name);
-      if (!(found >= low && found <= high))
-        throw Error(ErrorKind::usage, config_where(name, row[column].position),
-                    describe(row[column]), fmt::format("{} to {}", low, high));
-      return found;
-    };
-    glaciers.push_back({as_string(row[0], name), number(1, -90.0, 90.0), number(2, -180.0, 180.0),
-                        number(3, 0.0, 8000.0)});
-  }
+  for_each_row(text, name,
+               {"glaciers", "glacier", 5, "name, latitude, longitude, equilibrium line, source"},
+               [&](const ClimateRow& row) {
+                 glaciers.push_back({row.text(0), row.number(1, -90.0, 90.0),
+                                     row.number(2, -180.0, 180.0), row.number(3, 0.0, 8000.0)});
+               });
   return glaciers;
 }
 
@@ -80,9 +61,7 @@ double gathers_at(const SnowGathering& gathering, double longitude_deg, double l
   double sum = 0.0;
   double weight = gathering.similarity.usual_weight;
   for (std::size_t i = 0; i < gathering.positions.size(); ++i) {
-    double way = 0.0;  // squared chord through the Earth
-    for (std::size_t axis = 0; axis < here.size(); ++axis)
-      way += square(here[axis] - gathering.positions[i][axis]);
+    const double way = squared_chord_km2(here, gathering.positions[i]);
     const double k = 1.0 / square(1.0 + way / square(gathering.similarity.reach_km));
     sum += k * gathering.log_gathers[i];
     weight += k;

@@ -1,17 +1,15 @@
 #include "terrain/climate/dry_places.h"
 
-#include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <tuple>
 #include <utility>
 
-#include "base/config.h"
-#include "base/error.h"
 #include "base/math.h"
 #include "base/math_exact.h"
 #include "base/text/embedded.h"
+#include "terrain/climate/climate_table.h"
 #include "terrain/climate/map_position.h"
 #include "terrain/climate/water_balance.h"
 
@@ -20,18 +18,6 @@ namespace {
 
 constexpr double min_dry_air = 0.05;  // on coasts with fog too, whose air is hardly dry
 constexpr double max_dry_air = 3.0;
-
-// 1 up to half of the radius, 0 from it on, smooth between.
-double weight_at(double way_km, double radius_km) {
-  const double t = std::clamp(2.0 * (1.0 - way_km / radius_km), 0.0, 1.0);
-  return t * t * (3.0 - 2.0 * t);
-}
-
-double distance_km(const std::array<double, 3>& a, const std::array<double, 3>& b) {
-  double sum = 0.0;
-  for (std::size_t axis = 0; axis < a.size(); ++axis) sum += square(a[axis] - b[axis]);
-  return std::sqrt(sum);
-}
 
 // The dry air with which plants could use a place's evaporation at its floor.
 double dry_air_of(const DryPlace& place, PlaceClimate climate) {
@@ -46,39 +32,22 @@ double dry_air_of(const DryPlace& place, PlaceClimate climate) {
 }  // namespace
 
 std::vector<DryPlace> dry_places_from_toml(const std::string& text, const std::string& name) {
-  const ConfigValue document = parse_config(text, name);
-  const ConfigTable& root = as_table(document, name);
-  allow_only(root, {"version", "places"}, name);
-  const ConfigValue* version = find(root, "version");
-  const ConfigValue* rows = find(root, "places");
-  if (version == nullptr || rows == nullptr || as_integer(*version, name) != 1)
-    throw Error(ErrorKind::usage, name, "not a table of dry places", "version = 1 and places");
   std::vector<DryPlace> places;
-  for (const ConfigValue& value : as_array(*rows, name)) {
-    const ConfigArray& row = as_array(value, name);
-    if (row.size() != 9)
-      throw Error(ErrorKind::usage, config_where(name, value.position),
-                  fmt::format("a place with {} values", row.size()),
-                  "9 values: name, latitude, longitude, radius, two altitudes, rain, evaporation, "
-                  "cause");
-    const auto number = [&](std::size_t column, double low, double high) {
-      const double found = as_number(row[column], name);
-      if (!(found >= low && found <= high))
-        throw Error(ErrorKind::usage, config_where(name, row[column].position),
-                    describe(row[column]), fmt::format("{} to {}", low, high));
-      return found;
-    };
-    DryPlace place;
-    place.name = as_string(row[0], name);
-    place.latitude_deg = number(1, -90.0, 90.0);
-    place.longitude_deg = number(2, -180.0, 180.0);
-    place.radius_km = number(3, 20.0, 700.0);
-    place.floor_m = number(4, -450.0, 6000.0);
-    place.wet_from_m = number(5, place.floor_m + 1.0, 7000.0);
-    place.rain_mm = number(6, 1.0, 600.0);
-    place.evaporation_mm = number(7, 300.0, 3000.0);
-    places.push_back(std::move(place));
-  }
+  for_each_row(text, name,
+               {"places", "place", 9,
+                "name, latitude, longitude, radius, two altitudes, rain, evaporation, cause"},
+               [&](const ClimateRow& row) {
+                 DryPlace place;
+                 place.name = row.text(0);
+                 place.latitude_deg = row.number(1, -90.0, 90.0);
+                 place.longitude_deg = row.number(2, -180.0, 180.0);
+                 place.radius_km = row.number(3, 20.0, 700.0);
+                 place.floor_m = row.number(4, -450.0, 6000.0);
+                 place.wet_from_m = row.number(5, place.floor_m + 1.0, 7000.0);
+                 place.rain_mm = row.number(6, 1.0, 600.0);
+                 place.evaporation_mm = row.number(7, 300.0, 3000.0);
+                 places.push_back(std::move(place));
+               });
   return places;
 }
 
@@ -103,7 +72,9 @@ PlaceClimate dried_climate(const DryCountry& country, const PlaceClimate& climat
   std::array<double, std::tuple_size_v<decltype(climate.rain_mm_at_km)>> log_rain{};
   for (std::size_t i = 0; i < country.places.size(); ++i) {
     const DryPlace& place = country.places[i];
-    const double weight = weight_at(distance_km(here, country.positions[i]), place.radius_km);
+    // All of the effect up to half of the radius, none from it on.
+    const double way_km = std::sqrt(squared_chord_km2(here, country.positions[i]));
+    const double weight = smoothstep(2.0 * (1.0 - way_km / place.radius_km));
     if (weight <= 0.0) continue;
     weights += weight;
     dry_air += weight * dry_air_of(place, climate);

@@ -6,6 +6,7 @@
 
 #include "base/angle.h"
 #include "base/error.h"
+#include "base/math.h"
 #include "base/math_exact.h"
 #include "terrain/io/crs.h"
 
@@ -80,6 +81,12 @@ std::array<double, 3> earth_position_km(double longitude_deg, double latitude_de
   const exact::Turn latitude = exact::turn(to_radians(latitude_deg));
   return {earth_radius_km * latitude.cosine * longitude.cosine,
           earth_radius_km * latitude.cosine * longitude.sine, earth_radius_km * latitude.sine};
+}
+
+double squared_chord_km2(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+  double sum = 0.0;
+  for (std::size_t axis = 0; axis < a.size(); ++axis) sum += square(a[axis] - b[axis]);
+  return sum;
 }
 
 }  // namespace belvedere

@@ -45,5 +45,7 @@ constexpr double earth_radius_km = 6371.0;
 // A position on the globe, km from its centre: along the equator at 0° and 90° east, and to the
 // north.
 std::array<double, 3> earth_position_km(double longitude_deg, double latitude_deg);
+// Of two of them, through the Earth.
+double squared_chord_km2(const std::array<double, 3>& a, const std::array<double, 3>& b);
 
 }  // namespace belvedere

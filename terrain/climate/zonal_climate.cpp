@@ -6,10 +6,10 @@
 #include <cstddef>
 
 #include "base/angle.h"
-#include "base/config.h"
 #include "base/error.h"
 #include "base/math_exact.h"
 #include "base/text/embedded.h"
+#include "terrain/climate/climate_table.h"
 #include "terrain/climate/map_position.h"
 
 // Universal kriging (Cressie 1993): a value is a trend of latitude and altitude plus a sum over
@@ -166,45 +166,26 @@ Months to_months(const std::array<double, 4>& season) {
   return months;
 }
 
-double number_in(const ConfigArray& row, std::size_t column, double low, double high,
-                 const std::string& name) {
-  const double value = as_number(row[column], name);
-  if (!(value >= low && value <= high))
-    throw Error(ErrorKind::usage, config_where(name, row[column].position), describe(row[column]),
-                fmt::format("{} to {}", low, high));
-  return value;
-}
-
 }  // namespace
 
 std::vector<ClimateStation> climate_stations_from_toml(const std::string& text,
                                                        const std::string& name) {
-  const ConfigValue document = parse_config(text, name);
-  const ConfigTable& root = as_table(document, name);
-  allow_only(root, {"version", "stations"}, name);
-  const ConfigValue* version = find(root, "version");
-  const ConfigValue* rows = find(root, "stations");
-  if (version == nullptr || rows == nullptr || as_integer(*version, name) != 1)
-    throw Error(ErrorKind::usage, name, "not a table of stations", "version = 1 and stations");
   std::vector<ClimateStation> stations;
-  for (const ConfigValue& value : as_array(*rows, name)) {
-    const ConfigArray& row = as_array(value, name);
-    if (row.size() != 10)
-      throw Error(ErrorKind::usage, config_where(name, value.position),
-                  fmt::format("a station with {} values", row.size()),
-                  "10 values: name, latitude, longitude, altitude, four temperatures, rain, its "
-                  "summer share");
-    ClimateStation station;
-    station.name = as_string(row[0], name);
-    station.latitude_deg = number_in(row, 1, -90.0, 90.0, name);
-    station.longitude_deg = number_in(row, 2, -180.0, 180.0, name);
-    station.altitude_m = number_in(row, 3, -450.0, 8850.0, name);
-    for (std::size_t k = 0; k < 4; ++k)
-      station.season_c[k] = number_in(row, 4 + k, -80.0, 50.0, name);
-    station.rain_mm = number_in(row, 8, -1.0, 15000.0, name);
-    station.summer_share = number_in(row, 9, 0.0, 1.0, name);
-    stations.push_back(std::move(station));
-  }
+  for_each_row(text, name,
+               {"stations", "station", 10,
+                "name, latitude, longitude, altitude, four temperatures, rain, its summer share"},
+               [&](const ClimateRow& row) {
+                 ClimateStation station;
+                 station.name = row.text(0);
+                 station.latitude_deg = row.number(1, -90.0, 90.0);
+                 station.longitude_deg = row.number(2, -180.0, 180.0);
+                 station.altitude_m = row.number(3, -450.0, 8850.0);
+                 for (std::size_t k = 0; k < 4; ++k)
+                   station.season_c[k] = row.number(4 + k, -80.0, 50.0);
+                 station.rain_mm = row.number(8, -1.0, 15000.0);
+                 station.summer_share = row.number(9, 0.0, 1.0);
+                 stations.push_back(std::move(station));
+               });
   return stations;
 }
 

@@ -19,7 +19,7 @@ void lay_close_snow(Stroke& stroke, const StrokeScene& scene, glm::vec2 position
   end_with_class(stroke);
   stay_on_plane(stroke, scene, i);
   const bool steep = scene.guidance.slope_deg[i] > steep_deg;
-  const float angle = steep ? 0.14F * seed.normal() : 1.4F + 0.35F * seed.normal();
+  const float angle = (steep ? 0.F : 1.4F) + (steep ? 0.14F : 0.35F) * seed.normal();
   lay_line(stroke, scene, position, seed.between(5.F, 13.F), angle, 0.06F, true, seed);
   take_brush(stroke, scene, seed.between(2.2F, 4.6F),
              {.taper = 0.7F, .alpha = 0.5F, .bristle = 0.1F, .wetness = 0.012F, .load = 0.4F});

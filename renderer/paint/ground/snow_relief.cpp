@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <limits>
 
 #include "base/math.h"
@@ -33,6 +34,14 @@ constexpr float lee_rise =
 constexpr float crest_edge = 0.10F;  // width of the transition from one to the other
 
 }  // namespace
+
+glm::dvec2 snow_wind(glm::dvec3 sun_direction) {
+  const glm::dvec2 level(sun_direction);
+  const double length = glm::length(level);
+  const glm::dvec2 away = length > 1e-6 ? -level / length : glm::dvec2(1.0, 0.0);
+  constexpr glm::dvec2 aside{0.819, 0.574};
+  return {away.x * aside.x - away.y * aside.y, away.x * aside.y + away.y * aside.x};
+}
 
 // Noise of deviation about 1 with its gradient; lattice and B-spline as in base/noise.h, without
 // the variance correction between lattice points.

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <memory>
 #include <vector>
 
@@ -13,6 +14,10 @@ struct SnowForm {
   glm::vec2 slope{0.0F};  // added to the slope of the ground to the east and to the north, m per m
   float height = 0.0F;    // of the large swells: about -1.5 in a hollow … 1 on a crest
 };
+
+// Where the wind blows, unit, to the east and to the north: 35° aside of where the light goes, so
+// that drifts lie across raking light.
+glm::dvec2 snow_wind(glm::dvec3 sun_direction);
 
 // Swells and drifts of a picture's snow, of about the same size on the sheet at every distance, yet
 // fixed to the ground. Each is the lower of two smooth forms, one stretched across the wind; this

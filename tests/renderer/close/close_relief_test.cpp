@@ -59,10 +59,19 @@ TEST(CloseRelief, SnowHasPlanesInLightAndShade) {
 }
 
 TEST(CloseRelief, OfAPartIsThatOfTheWhole) {
-  const GuidanceBuffers g = test::make_close_hills(960, 420, 1.0, 8.0, Class::snow, Class::scree);
+  GuidanceBuffers g = test::make_close_hills(960, 420, 1.0, 8.0, Class::snow, Class::scree);
+  // In the middle snow lies above scree, and its tongues reach into parts that hold scree alone.
+  constexpr int below_snow = 240;
+  for (int y = 0; y < g.height(); ++y)
+    for (int x = 300; x < 600; ++x)
+      if (!g.is_sky(g.depth_m.index(x, y)))
+        g.land_cover(x, y) = y < below_snow ? Class::snow : Class::scree;
   const RockParameters p = test::close_parameters(1.0);
   const RockRelief whole = close_relief_of(g, p);
-  for (const PixelRect kept : {PixelRect{468, 200, 492, 224}, PixelRect{0, 360, 3, 420}}) {
+  const PixelRect tongues{310, below_snow + 4, 590, below_snow + 8};
+  const Grid<Class> shown = test::cut(whole.land_cover, tongues);
+  ASSERT_GT(std::count(shown.begin(), shown.end(), Class::snow), 50);
+  for (const PixelRect kept : {PixelRect{468, 200, 492, 224}, PixelRect{0, 360, 3, 420}, tongues}) {
     const test::Window near = test::window_of(g, grown(kept, close_near_margin_px(p)));
     const test::Window far = test::window_of(g, grown(kept, close_margin_px(p)));
     RockRelief part = test::bare_relief(g, kept);

@@ -1,0 +1,327 @@
+#include "renderer/close/close_look.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <optional>
+
+#include "base/math.h"
+#include "base/random_streams.h"
+#include "renderer/close/close_borders.h"
+#include "renderer/paint/ground/snow_relief.h"
+#include "renderer/paint/light.h"
+#include "renderer/paint/picture_filter.h"
+#include "renderer/paint/picture_noise.h"
+
+namespace belvedere {
+namespace {
+
+using Class = LandCoverClass;
+
+constexpr std::array<RoofSize, close_sizes> size_table = {{
+    {.spacing_units = 44.0F, .slender = 0.45F, .lean_rad = 0.25F},
+    {.spacing_units = 14.0F, .slender = 0.45F, .lean_rad = 0.25F},
+    {.spacing_units = 6.5F, .slender = 0.25F, .lean_rad = 0.12F},
+    {.spacing_units = 84.0F, .slender = 0.60F, .lean_rad = 0.35F},
+    {.spacing_units = 48.0F, .slender = 0.60F, .lean_rad = 0.30F},
+    {.spacing_units = 15.0F, .slender = 0.60F, .lean_rad = 0.30F},
+    {.spacing_units = 30.0F, .slender = 0.50F, .lean_rad = 0.25F},
+    {.spacing_units = 30.0F, .slender = 0.55F, .lean_rad = 0.40F},
+}};
+constexpr bool lies_along_wind(std::size_t size) { return size >= slabs && size <= small_swells; }
+constexpr CloseCover cover_with(std::size_t size) {
+  return size == scree_roofs   ? CloseCover::scree
+         : size == grass_roofs ? CloseCover::grass
+                               : CloseCover::snow;
+}
+
+constexpr double mean_normal_units = 14.0;  // deviation of the large form that light rakes
+// The sun is turned until its cosine to the large form lies between these, with their sines.
+constexpr float max_facing = 0.62F;
+constexpr float max_facing_sine = 0.785F;
+constexpr float min_facing = 0.25F;
+constexpr float min_facing_sine = 0.968F;
+constexpr float wrap = 0.10F;
+
+// Directions on the ground that belong to the fall line on the sheet and to its right.
+struct Frame {
+  glm::vec3 normal;
+  glm::vec3 down{0.0F};
+  glm::vec3 across{0.0F};
+
+  explicit Frame(glm::vec3 n) : normal(n) {
+    const glm::vec3 fall = glm::vec3(n.x * n.z, n.y * n.z, n.z * n.z - 1.0F);
+    const float length = std::sqrt(glm::dot(fall, fall));
+    if (length < 1e-4F) return;
+    down = fall / length;
+    across = glm::cross(n, down);
+  }
+  // The normal under a form of this gradient on the sheet.
+  glm::vec3 tilted(glm::vec2 gradient, glm::vec2 fall) const {
+    constexpr float along = 0.8F;
+    const float to_right = gradient.x * fall.y - gradient.y * fall.x;
+    const float downhill = along * (gradient.x * fall.x + gradient.y * fall.y);
+    return glm::normalize(normal - across * to_right - down * downhill);
+  }
+};
+
+glm::vec2 position_of(const CloseScene& s, int x, int y, glm::dvec2 within) {
+  const double ppu = s.ground.pixels_per_unit;
+  return {static_cast<float>((s.origin_px.x + x + within.x) / ppu),
+          static_cast<float>((s.origin_px.y + y + within.y) / ppu)};
+}
+
+// The light that forms on a large form get.
+struct Rake {
+  glm::vec3 sun;
+  float strength = 1.0F;
+
+  float facing(glm::vec3 normal) const {
+    return unit((glm::dot(normal, sun) + wrap) / (1.0F + wrap));
+  }
+  float operator()(glm::vec3 form, glm::vec3 ground) const {
+    return strength * (facing(form) - facing(ground));
+  }
+};
+
+Rake rake_at(const CloseScene& s, std::size_t i, glm::vec3 mean, bool snow) {
+  const GuidanceBuffers& g = s.guidance;
+  const GroundLight own =
+      ground_light(s.parameters.light, glm::dvec2(g.position_m[i]) + glm::dvec2(g.origin_m));
+  const glm::vec3 sun(own.sun);
+  const float facing = glm::dot(mean, sun);
+  Rake rake{sun};
+  const bool too_near = facing > max_facing;
+  if (too_near || (facing < min_facing && !snow)) {
+    glm::vec3 across = sun - facing * mean;
+    const float length = std::sqrt(glm::dot(across, across));
+    constexpr float too_short = 0.05F;
+    // From where the sun stands above: any side is as good.
+    across =
+        length > too_short ? across / length : glm::normalize(glm::vec3(-mean.y, mean.x, 0.1F));
+    rake.sun = too_near ? max_facing * mean + max_facing_sine * across
+                        : min_facing * mean + min_facing_sine * across;
+  }
+  const float direct = static_cast<float>(s.parameters.light.light.sun) * own.strength;
+  const float left = 1.0F - static_cast<float>(s.parameters.light.light.shadow_depth) *
+                                (1.0F - (snow ? smoothstep(0.3F, 0.7F, g.shadow[i]) : g.shadow[i]));
+  constexpr float min_strength = 0.34F;  // forms in cast shadow remain
+  rake.strength = (snow ? 1.3F * direct * left : std::max(direct * left, min_strength)) / raw_range;
+  return rake;
+}
+
+// Gradient of one size, and its plane.
+glm::vec2 form_at(const CloseScene& s, CloseSize size, glm::vec2 position, float depth_m,
+                  FormLook& look, bool leads) {
+  const SpurHit hit = highest_spur(s.roofs[size], size_table[size].slender, position, depth_m, 0);
+  const std::uint32_t plane = hit.flank_id() * 5U + static_cast<std::uint32_t>(hit.part);
+  look.edges = look.edges * 0x9e3779b1U + plane;
+  if (leads) look.plane = hit.flank_id();
+  return hit.slope;
+}
+
+FormLook snow_look(const CloseScene& s, int x, int y, std::size_t i, glm::vec2 position,
+                   glm::vec2 fall, glm::vec3 mean) {
+  const GuidanceBuffers& g = s.guidance;
+  const int u = x - s.made.x0;
+  const int v = y - s.made.y0;
+  glm::vec3 detail = 0.7F * g.normal_detail[i] + 0.3F * g.normal[i];
+  detail.x *= 1.3F;
+  detail.y *= 1.3F;
+  const Frame frame(glm::normalize(detail));
+  const float slope = g.slope_deg[i];
+  const float depth_m = g.depth_m[i];
+  // Nearly one or the other: mixed they would look like panes of glass over each other.
+  const float steep = smoothstep(25.0F, 29.0F, slope + 2.0F * s.steepness(u, v));
+  const float calm = smoothstep(-0.6F, 0.7F, s.calm(u, v));
+  const float small_calm = smoothstep(-0.1F, 0.9F, s.small_calm(u, v));
+  // Whole slopes are empty beside busy ones.
+  const float quiet = 1.0F - 0.7F * smoothstep(0.3F, 1.1F, s.quiet(u, v));
+  FormLook look;
+  glm::vec2 broad(0.0F);
+  glm::vec2 large(0.0F);
+  glm::vec2 small(0.0F);
+  if (steep > 0.01F) {
+    const float lively = 0.55F + 0.45F * smoothstep(24.0F, 38.0F, slope);
+    large +=
+        0.38F * steep * lively * quiet * form_at(s, ribs, position, depth_m, look, steep > 0.5F);
+    small += 0.16F * steep * (0.4F + 0.6F * small_calm) * quiet *
+             form_at(s, small_ribs, position, depth_m, look, false);
+    if (slope > 36.0F)
+      small += 0.24F * smoothstep(37.0F, 44.0F, slope) *
+               form_at(s, flutes, position, depth_m, look, false);
+  }
+  if (steep < 0.99F) {
+    // Level basins are held by broad slabs, with few smaller swells.
+    const float level = 1.0F - smoothstep(9.0F, 20.0F, slope);
+    broad += 0.22F * (1.0F - steep) * (0.5F + 0.5F * level) *
+             form_at(s, slabs, position, depth_m, look, steep <= 0.5F && level > 0.6F);
+    large += 0.26F * (1.0F - steep) * (0.35F + 0.65F * calm) * (1.0F - 0.65F * level) * quiet *
+             form_at(s, swells, position, depth_m, look, steep <= 0.5F && level <= 0.6F);
+    small += 0.07F * (1.0F - steep) * calm * small_calm * quiet *
+             form_at(s, small_swells, position, depth_m, look, false);
+  }
+  const Rake rake = rake_at(s, i, mean, true);
+  const glm::vec3 under = frame.tilted(broad, fall);
+  const glm::vec3 wide = frame.tilted(broad + large, fall);
+  const glm::vec3 all = frame.tilted(broad + large + small, fall);
+  const float lit = smoothstep(0.35F, 0.75F, rake.facing(frame.normal) * g.shadow[i]);
+  look.tone = lit * soft_limit(0.55F * rake(frame.normal, mean), 0.16F) +
+              soft_limit(rake(under, frame.normal), 0.18F) + soft_limit(rake(wide, under), 0.28F) +
+              soft_limit(rake(all, wide), 0.11F);
+  return look;
+}
+
+FormLook scree_look(const CloseScene& s, std::size_t i, glm::vec2 position, glm::vec2 fall,
+                    glm::vec3 mean) {
+  const GuidanceBuffers& g = s.guidance;
+  const Frame frame(glm::normalize(0.6F * g.normal_detail[i] + 0.4F * g.normal_smooth[i]));
+  FormLook look;
+  const glm::vec2 slope = 0.20F * form_at(s, scree_roofs, position, g.depth_m[i], look, true);
+  look.tone = soft_limit(
+      1.15F * rake_at(s, i, mean, false)(frame.tilted(slope, fall), frame.normal), 0.16F);
+  look.plane = 0;  // its dabs do not follow planes
+  return look;
+}
+
+// Narrow treads that cattle and creeping soil make along the contours of grass: the position in a
+// step is 0 … 1 upwards.
+float terracettes(const CloseScene& s, int x, int y, std::size_t i) {
+  const GuidanceBuffers& g = s.guidance;
+  const float slope = g.slope_deg[i];
+  const float field = smoothstep(15.0F, 24.0F, slope) * (1.0F - smoothstep(36.0F, 44.0F, slope)) *
+                      smoothstep(-0.1F, 0.7F, s.terraces(x - s.made.x0, y - s.made.y0));
+  if (field <= 0.0F) return 0.0F;
+  constexpr float rise_units = 2.2F;  // of a step on the sheet, about
+  const float metres_per_unit = g.footprint_m[i] * static_cast<float>(s.ground.pixels_per_unit);
+  const float wanted_m = std::max(0.2F, rise_units * metres_per_unit);
+  float step_m = 0.25F;
+  while (step_m * 1.4142F < wanted_m) step_m *= 2.0F;
+  const glm::vec2 position = position_of(s, x, y, {0.5, 0.5});
+  const float broken = broken_noise(stream_seed(s.ground.seed, Stream::close_calm, 9),
+                                    position.x / 5.0F, position.y / 5.0F);
+  const float phase = g.altitude_m[i] / step_m + 0.30F * broken;
+  const float at = phase - std::floor(phase);
+  const float riser = at < 0.30F ? (0.30F - at) / 0.30F : 0.0F;
+  const float tread = at > 0.62F ? (at - 0.62F) / 0.38F : 0.0F;
+  return field * (0.05F * tread - 0.06F * riser);
+}
+
+FormLook grass_look(const CloseScene& s, int x, int y, std::size_t i, glm::vec2 position,
+                    glm::vec2 fall, glm::vec3 mean) {
+  const GuidanceBuffers& g = s.guidance;
+  const Frame frame(glm::normalize(0.45F * g.normal_detail[i] + 0.55F * g.normal_smooth[i]));
+  const float amount = 0.46F * smoothstep(14.0F, 32.0F, g.slope_deg[i]) *
+                       smoothstep(-0.5F, 0.7F, s.calm(x - s.made.x0, y - s.made.y0));
+  FormLook look;
+  const glm::vec2 slope = amount * form_at(s, grass_roofs, position, g.depth_m[i], look, true);
+  look.tone =
+      soft_limit(rake_at(s, i, mean, false)(frame.tilted(slope, fall), frame.normal), 0.22F) +
+      terracettes(s, x, y, i);
+  return look;
+}
+
+// Where the wind blows on the sheet, at a wide pixel: 35° aside of where the light goes.
+glm::vec2 wind_on_sheet(const SpurGround& ground, glm::vec3 wind, std::size_t i) {
+  const Frame frame(ground.wide.seen.normal[i]);
+  const glm::vec2 fall = ground.fall[i];
+  constexpr float foreshortened = 0.5F;
+  const glm::vec2 to = glm::dot(frame.across, wind) * glm::vec2(fall.y, -fall.x) +
+                       foreshortened * glm::dot(frame.down, wind) * fall;
+  const float length = std::sqrt(to.x * to.x + to.y * to.y);
+  return length > 1e-3F ? to / length : glm::vec2(1.0F, 0.0F);
+}
+
+}  // namespace
+
+CloseCover close_cover(LandCoverClass id, bool winter) {
+  if (id == Class::scree && !winter) return CloseCover::scree;
+  if (is_white(id, winter)) return CloseCover::snow;
+  return is_open_ground(id) ? CloseCover::grass : CloseCover::other;
+}
+
+CloseScene make_close_scene(const GuidanceBuffers& guidance, const RockParameters& parameters,
+                            const SpurGround& ground, glm::ivec2 origin_px, PixelRect made,
+                            const std::array<bool, close_covers>& present) {
+  const double ppu = ground.pixels_per_unit;
+  const std::uint64_t seed = parameters.light.seed;
+  CloseScene scene{.guidance = guidance,
+                   .parameters = parameters,
+                   .ground = ground,
+                   .origin_px = origin_px,
+                   .made = made,
+                   .warp = Warp(seed)};
+  const PixelRect sheet_rect = moved(made, origin_px.x, origin_px.y);
+  const glm::vec3 wind(glm::vec2(snow_wind(parameters.light.sun_direction)), 0.0F);
+  const auto down = [&](std::size_t i) { return std::optional(ground.fall[i]); };
+  const auto along_wind = [&](std::size_t i) {
+    return std::optional(wind_on_sheet(ground, wind, i));
+  };
+  for (std::size_t k = 0; k < close_sizes; ++k)
+    if (present[static_cast<std::size_t>(cover_with(k))])
+      scene.roofs[k] = lies_along_wind(k)
+                           ? grow_roofs(ground, size_table[k], k + 1, sheet_rect, along_wind)
+                           : grow_roofs(ground, size_table[k], k + 1, sheet_rect, down);
+  const GuidanceBuffers& wide = ground.wide.seen;
+  const PixelRect held{0, 0, wide.width(), wide.height()};
+  const PixelRect read = moved(wide_rect(sheet_rect, ground.wide.factor), -ground.wide.origin_px.x,
+                               -ground.wide.origin_px.y);
+  for (int k = 0; k < 3; ++k) {
+    Grid<float> part(wide.width(), wide.height());
+    for (std::size_t i = 0; i < part.size(); ++i) part[i] = wide.normal[i][k];
+    scene.mean_normal[static_cast<std::size_t>(k)] =
+        blur_on_surface(part, wide.depth_m, mean_normal_units * ppu / ground.wide.factor,
+                        intersection(held, grown(surface_look(read), 1)));
+  }
+  const auto noise = [&](std::uint64_t part, double sigma_x, double sigma_y) {
+    return make_image_noise(stream_seed(seed, Stream::close_calm, part),
+                            origin_px + glm::ivec2(made.x0, made.y0), made.width(), made.height(),
+                            ppu, sigma_x, sigma_y);
+  };
+  scene.calm = noise(0, 42.0, 42.0);
+  scene.small_calm = noise(1, 17.0, 17.0);
+  scene.steepness = noise(2, 40.0, 40.0);
+  scene.terraces = noise(3, 15.0, 6.0);
+  scene.quiet = noise(4, 85.0, 60.0);
+  return scene;
+}
+
+float close_forms_reach_units() {
+  float reach = 0.0F;
+  for (const RoofSize& size : size_table) reach = std::max(reach, roof_reach_units(size));
+  return reach;
+}
+
+int mean_normal_reach(double pixels_per_unit, int factor) {
+  return surface_reach_px(mean_normal_units * pixels_per_unit / factor) + surface_look_rows + 4;
+}
+
+FormLook look_at_form(const CloseScene& s, int x, int y, CloseCover cover, glm::dvec2 within) {
+  const std::size_t i = s.guidance.depth_m.index(x, y);
+  const WideView& wide = s.ground.wide;
+  const int sheet_x = s.origin_px.x + x;
+  const int sheet_y = s.origin_px.y + y;
+  glm::vec3 mean(0.0F);
+  for (int k = 0; k < 3; ++k)
+    mean[k] = value_on_surface(wide, s.mean_normal[static_cast<std::size_t>(k)], sheet_x, sheet_y,
+                               s.guidance.depth_m[i]);
+  const float length = std::sqrt(glm::dot(mean, mean));
+  mean = length > 0.1F ? mean / length : s.guidance.normal[i];
+  const glm::vec2 fall = s.ground.fall[wide.index(sheet_x, sheet_y)];
+  const glm::vec2 position =
+      s.warp(position_of(s, x, y, within), static_cast<float>(s.ground.pixels_per_unit));
+  switch (cover) {
+    case CloseCover::snow:
+      return snow_look(s, x, y, i, position, fall, mean);
+    case CloseCover::scree:
+      return scree_look(s, i, position, fall, mean);
+    case CloseCover::grass:
+      return grass_look(s, x, y, i, position, fall, mean);
+    case CloseCover::other:
+      break;
+  }
+  return {};
+}
+
+}  // namespace belvedere

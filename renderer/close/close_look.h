@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec2.hpp>
+
+#include "base/grid.h"
+#include "base/guidance_buffers.h"
+#include "renderer/close/roofs.h"
+#include "renderer/rock/rock_view.h"
+
+namespace belvedere {
+
+// What forms a piece of ground has where it is near.
+enum class CloseCover : std::uint8_t { other, snow, scree, grass };
+inline constexpr std::size_t close_covers = 4;
+CloseCover close_cover(LandCoverClass id, bool winter);
+
+// Sizes of forms. Those of snow come in two directions: ribs down the fall line, swells along the
+// wind; slabs are broad and low and hold the basins together.
+enum CloseSize : std::size_t {
+  ribs,
+  small_ribs,
+  flutes,
+  slabs,
+  swells,
+  small_swells,
+  scree_roofs,
+  grass_roofs,
+  close_sizes
+};
+
+// The forms of a window's near ground, and what their light reads.
+struct CloseScene {
+  const GuidanceBuffers& guidance;
+  const RockParameters& parameters;
+  const SpurGround& ground;
+  glm::ivec2 origin_px;
+  PixelRect made;  // pixels of the window that may be looked at
+  Warp warp;
+  std::array<SpurCells, close_sizes> roofs = {};
+  std::array<Grid<float>, 3> mean_normal = {};  // of wide pixels: the large form that light rakes
+  Grid<float> calm = {}, small_calm = {}, steepness = {}, terraces = {}, quiet = {};  // deviation 1
+};
+// Forms of the covers that are `present`. Reaches close_forms_reach_units for roofs, and
+// mean_normal_reach wide pixels.
+CloseScene make_close_scene(const GuidanceBuffers& guidance, const RockParameters& parameters,
+                            const SpurGround& ground, glm::ivec2 origin_px, PixelRect made,
+                            const std::array<bool, close_covers>& present);
+float close_forms_reach_units();
+int mean_normal_reach(double pixels_per_unit, int factor);
+
+// What forms make of a position in a pixel of that cover.
+struct FormLook {
+  float tone = 0.0F;        // added to the ground's own, about -.5…+.5
+  std::uint32_t plane = 0;  // of the form that strokes follow; 0: none
+  std::uint32_t edges = 0;  // differs where any plane does
+};
+FormLook look_at_form(const CloseScene& scene, int x, int y, CloseCover cover, glm::dvec2 within);
+
+}  // namespace belvedere
