@@ -108,33 +108,42 @@ std::vector<CoverRiver> lay_rivers(const MapRivers& rivers, const LoadedScene& l
   return unpack(packed, rivers);
 }
 
-CoverRiver widen_for_view(CoverRiver centreline, const RiverLook& look, const Dem& dem,
-                          const SeenFrom& from) {
+std::vector<double> px_across(const CoverRiver& river, const Dem& dem, const SeenFrom& from) {
   constexpr double step_m = 30.0;
-  constexpr int passes = 40;  // the ground's direction changes from cell to cell; widths do not
   const auto seen = [&](glm::dvec2 position) {
     const glm::dvec2 cell = dem.transform.to_cell(position.x, position.y);
     return from.camera.project(
         from.deformation.point({position, sample_bilinear(dem.altitude_m, cell.x, cell.y)}));
   };
-  std::vector<float> wanted = centreline.half_width_m;
-  const std::size_t last = centreline.positions.size() - 1;
-  for (std::size_t i = 0; i <= last; ++i) {
-    const glm::dvec2 along = centreline.positions[std::min(i + 1, last)] -
-                             centreline.positions[i - std::min<std::size_t>(i, 1)];
+  std::vector<double> across(river.positions.size(), 0.0);
+  const std::size_t last = river.positions.size() - 1;
+  for (std::size_t i = 0; i < river.positions.size(); ++i) {
+    const glm::dvec2 along =
+        river.positions[std::min(i + 1, last)] - river.positions[i - std::min<std::size_t>(i, 1)];
     const double length = glm::length(along);
     if (!(length > 0.0)) continue;
     const glm::dvec2 ahead = along * (step_m / length);
-    const auto here = seen(centreline.positions[i]);
-    const auto on = seen(centreline.positions[i] + ahead);
-    const auto beside = seen(centreline.positions[i] + glm::dvec2(-ahead.y, ahead.x));
+    const auto here = seen(river.positions[i]);
+    const auto on = seen(river.positions[i] + ahead);
+    const auto beside = seen(river.positions[i] + glm::dvec2(-ahead.y, ahead.x));
     if (!here || !on || !beside) continue;
     const glm::dvec2 a = (*on - *here) / step_m;
     const glm::dvec2 b = (*beside - *here) / step_m;
     // Thickness in pixels of a strip 1 m wide.
-    const double thick = std::abs(a.x * b.y - a.y * b.x) / std::max(glm::length(a), 1e-12);
+    across[i] = std::abs(a.x * b.y - a.y * b.x) / std::max(glm::length(a), 1e-12);
+  }
+  return across;
+}
+
+CoverRiver widen_for_view(CoverRiver centreline, const RiverLook& look, const Dem& dem,
+                          const SeenFrom& from) {
+  constexpr int passes = 40;  // the ground's direction changes from cell to cell; widths do not
+  const std::vector<double> across = px_across(centreline, dem, from);
+  std::vector<float> wanted = centreline.half_width_m;
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    if (!(across[i] > 0.0)) continue;
     const float half = centreline.half_width_m[i];
-    const auto needed = static_cast<float>(0.5 * look.min_px / std::max(thick, 1e-9));
+    const auto needed = static_cast<float>(0.5 * look.min_px / std::max(across[i], 1e-9));
     const double grown =
         look.fades
             ? std::clamp(std::sqrt(static_cast<double>(half) / min_of_half_m), 1.0, max_grown)
@@ -145,7 +154,7 @@ CoverRiver widen_for_view(CoverRiver centreline, const RiverLook& look, const De
   }
   for (int pass = 0; pass < passes && wanted.size() > 2; ++pass) {
     std::vector<float> next = wanted;
-    for (std::size_t i = 1; i < last; ++i)
+    for (std::size_t i = 1; i + 1 < wanted.size(); ++i)
       next[i] = 0.5F * wanted[i] + 0.25F * (wanted[i - 1] + wanted[i + 1]);
     wanted.swap(next);
   }

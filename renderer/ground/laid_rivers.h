@@ -33,6 +33,10 @@ std::vector<CoverRiver> lay_rivers(const MapRivers& rivers, const LoadedScene& l
                                    const Cache& cache = no_cache(),
                                    Catchments* catchments = nullptr);
 
+// Across a river at each of its positions: pixels of the picture in a metre of the ground; 0 where
+// the camera does not see it or the river has no direction.
+std::vector<double> px_across(const CoverRiver& river, const Dem& dem, const SeenFrom& seen);
+
 // The same as drawn in a picture: rivers narrower than min_px are widened, up to three times.
 // Inferred rivers that are still too narrow fade instead of breaking into dots; those of maps stay.
 struct RiverLook {

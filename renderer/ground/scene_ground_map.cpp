@@ -21,6 +21,7 @@
 #include "renderer/ground/feature_files.h"
 #include "renderer/ground/packed_rows.h"
 #include "renderer/ground/river_banks.h"
+#include "renderer/ground/river_shores.h"
 #include "terrain/cover/town_file.h"
 #include "terrain/shape/coast.h"
 
@@ -280,6 +281,39 @@ void level_scene_lakes(Dem& dem, const LoadedScene& loaded, Progress& progress, 
 
 namespace {
 
+// Gravel and trees grow here, not in towns, on ice or in other water.
+bool has_shores(LandCoverClass id) {
+  using enum LandCoverClass;
+  return id == valley_floor || id == pasture || id == alpine_grass || id == shrub || id == forest ||
+         id == scree || id == sand;
+}
+
+// The shores of rivers and the rivers, the topmost last. `cover` and `own` are the ground without
+// what is drawn for a view.
+std::vector<CoverRiver> with_shores(std::vector<CoverRiver> rivers, const LandCover& cover,
+                                    const MapCover& own, const LoadedScene& loaded, const Dem& dem,
+                                    const SeenFrom& seen) {
+  const double ppu = loaded.scene.pixels_per_unit();
+  std::vector<CoverRiver> shores =
+      river_shores(rivers, {.seed = loaded.scene.seed,
+                            .units_per_m =
+                                [&](std::size_t i) {
+                                  std::vector<double> across = px_across(rivers[i], dem, seen);
+                                  for (double& px : across) px /= ppu;
+                                  return across;
+                                },
+                            .is_open =
+                                [&](glm::dvec2 position) {
+                                  const LandCoverClass known = own.at(position);
+                                  return has_shores(known != LandCoverClass::sky
+                                                        ? known
+                                                        : cover.cell_at(position.x, position.y));
+                                }});
+  shores.insert(shores.end(), std::make_move_iterator(rivers.begin()),
+                std::make_move_iterator(rivers.end()));
+  return shores;
+}
+
 // Rivers widened for visibility, with their banks; `fade` instead of breaking into dots.
 std::vector<CoverRiver> widen_rivers(std::vector<CoverRiver> rivers, bool fade,
                                      const FeatureStyle& style, const LoadedScene& loaded,
@@ -318,6 +352,7 @@ void lay_ground_map(LandCover& cover, const LoadedScene& loaded, const Dem& dem,
     } else {
       rivers = widen_rivers(std::move(rivers), false, read_scene_feature_style(loaded), loaded, dem,
                             *seen);
+      rivers = with_shores(std::move(rivers), cover, *own, loaded, dem, *seen);
       lay_map(cover,
               std::make_shared<const MapCover>(map.areas, std::move(rivers), box.low, box.high),
               own.get());
@@ -343,6 +378,7 @@ void lay_inferred_rivers(LandCover& cover, const LoadedScene& loaded, const Dem&
       std::make_shared<const MapCover>(std::vector<CoverArea>(), rivers, box.low, box.high);
   if (seen == nullptr) return lay_inferred(cover, own);
   rivers = widen_rivers(std::move(rivers), true, style, loaded, dem, *seen);
+  rivers = with_shores(std::move(rivers), cover, *own, loaded, dem, *seen);
   lay_inferred(cover,
                std::make_shared<const MapCover>(std::vector<CoverArea>(), std::move(rivers),
                                                 box.low, box.high),

@@ -7,9 +7,16 @@
 
 namespace belvedere {
 
+namespace {
+
+constexpr glm::vec3 white{0.95F, 0.975F, 0.97F};  // of broken water
+
+}  // namespace
+
 glm::vec3 WaterLook::over(glm::vec3 colour) const {
-  return glm::mix(glm::mix(glm::mix(colour, image, image_share), shallow, shallow_share), bank,
-                  bank_share);
+  const glm::vec3 open =
+      depth * glm::mix(glm::mix(colour, image, image_share), shallow, shallow_share);
+  return glm::mix(glm::mix(open, white, white_share), bank, bank_share);
 }
 
 namespace {

@@ -20,6 +20,8 @@ struct WaterLook {
   float tone_shift = 0.F;   // streaks of wind and light
   glm::vec3 shallow{0.0F};  // pale bed seen through the water
   float shallow_share = 0.F;
+  glm::vec3 depth{1.0F};    // factor of the colour: teal over the pools of a river
+  float white_share = 0.F;  // broken water of riffles
 
   // Applied to the ramp's colour.
   glm::vec3 over(glm::vec3 colour) const;

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <glm/common.hpp>
+#include <iterator>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "base/error.h"
 #include "renderer/ground/feature_files.h"
+#include "renderer/ground/river_shores.h"
 #include "terrain/io/crs.h"
 
 namespace belvedere {
@@ -51,8 +53,9 @@ std::string left_out(const SourceReading& reading) {
 std::vector<CoverRiver> rivers_of(const World& world) {
   std::vector<CoverRiver> rivers;
   const auto add = [&](const std::shared_ptr<const MapCover>& map) {
-    if (map != nullptr)
-      rivers.insert(rivers.end(), map->centrelines().begin(), map->centrelines().end());
+    if (map == nullptr) return;
+    std::copy_if(map->centrelines().begin(), map->centrelines().end(), std::back_inserter(rivers),
+                 [](const CoverRiver& river) { return river.kind != shore_kind; });
   };
   add(world.land_cover->map);
   add(world.land_cover->inferred);

@@ -1,8 +1,10 @@
 #include "renderer/paint/water/water_surface.h"
 
 #include <glm/common.hpp>
+#include <utility>
 
 #include "base/math.h"
+#include "renderer/paint/water/river_water.h"
 
 namespace belvedere {
 namespace {
@@ -31,6 +33,8 @@ WaterSurface water_surface(const WaterSources& water, WaterNoises& noises,
     out.look = water_look(g, palette, pixel.mirrored, i, pixel.share, pixel.streak, pixel.patches);
     if (water.parameters.mirror == "none") out.look.image_share = 0.0F;
   }
+  out.look = with_current(std::move(out.look), pixel.share, pixel.streak, pixel.patches,
+                          1.0F - ground.lake);
   // The painted line along near banks replaces the unknown bed.
   if (water.tint != nullptr)
     out.bed = lake_bed(*water.tint, palette, g.altitude_m[i], pixel.position_m, g.footprint_m[i]);

@@ -12,6 +12,7 @@
 #include "texture/strokes/parcels.h"
 #include "texture/strokes/stroke_kinds.h"
 #include "texture/strokes/stroke_parts.h"
+#include "texture/strokes/town/town_plots.h"
 
 namespace belvedere {
 namespace {
@@ -34,164 +35,17 @@ constexpr float group_units = 3.0F;  // extent of a group on the sheet
 constexpr float red_above = 0.52F;   // noise of deviation 1: 30 % of the roofs
 constexpr glm::vec3 rose{1.10F, 0.99F, 0.93F};
 
-constexpr float plot_width = 3.7F;      // units of the sheet per plot in a row …
-constexpr float plot_height = 3.0F;     // … and vertically, with its garden
-constexpr float same_plot_units = 8.F;  // plots farther apart are not duplicates
-constexpr double turn_step = 0.3927;    // rad, 22.5°: a quarter has one direction
-// Towns that grew over time have no grid: streets bend, plots vary in width, and rows of houses
-// begin anywhere.
-constexpr double bend_plots = 6.0;   // length of a street's bend, in plots …
-constexpr double bend_rows = 0.9;    // … and its sideways offset, in rows
-constexpr double width_plots = 2.2;  // extent of plots of one width, in plots …
-constexpr double width_share = 0.5;  // … and the shift of their borders, in plots
-constexpr int rows_of_block = 2;     // rows back to back, between two streets
+// Lanes, where villages are drawn house by house.
+constexpr float lane_width = 0.85F;       // units of the sheet
+constexpr float lane_alpha = 0.75F;       // most of its paint …
+constexpr float lane_from_built = 0.06F;  // … from this density of houses on, …
+constexpr float lane_to_built = 0.20F;    // … all of it from here
+constexpr glm::vec3 trodden{0.88F, 0.83F, 0.72F};
+constexpr glm::vec3 trodden_snow{0.74F, 0.76F, 0.82F};
 
 // 0 at the edge of a hamlet … .3 in a village … 1 in the centre of a large town.
 float built_at(const StrokeScene& scene, std::size_t i) {
   return std::clamp(scene.guidance.built[i], 0.F, 1.F);
-}
-
-glm::dvec2 ground_at(const StrokeScene& scene, std::size_t i) {
-  const glm::dvec3 p = glm::dvec3(scene.guidance.position_m[i]) + scene.guidance.origin_m;
-  return {p.x, p.y};
-}
-
-// The mapping between picture and ground around a pixel: metres of ground per pixel to the right
-// and down, and its inverse.
-struct GroundJacobian {
-  glm::dvec2 right{0.0}, down{0.0};
-  double area = 0.0;  // of the two, m²; 0: the ground is not visible from above
-
-  glm::dvec2 to_picture(glm::dvec2 m) const {
-    return glm::dvec2(m.x * down.y - m.y * down.x, right.x * m.y - right.y * m.x) / area;
-  }
-};
-
-GroundJacobian ground_jacobian(const StrokeScene& scene, glm::vec2 position, std::size_t i) {
-  const float step = std::max(1.F, std::round(1.5F * scene.scale()));
-  const auto across = [&](glm::vec2 direction) {
-    const glm::vec2 from = position - direction * step;
-    const glm::vec2 to = position + direction * step;
-    if (!scene.on_canvas(from) || !scene.on_canvas(to)) return glm::dvec2(0.0);
-    const std::size_t a = scene.pixel(from);
-    const std::size_t b = scene.pixel(to);
-    for (const std::size_t k : {a, b})
-      if (!(std::abs(scene.guidance.depth_m[k] / scene.guidance.depth_m[i] - 1.F) < 0.03F))
-        return glm::dvec2(0.0);
-    return (ground_at(scene, b) - ground_at(scene, a)) / (2.0 * static_cast<double>(step));
-  };
-  GroundJacobian lie;
-  lie.right = across({1.F, 0.F});
-  lie.down = across({0.F, 1.F});
-  lie.area = lie.right.x * lie.down.y - lie.right.y * lie.down.x;
-  return lie;
-}
-
-// A position for a house in a row along a street: a cell of a lattice on the ground that is as fine
-// as houses on the sheet allow.
-struct Plot {
-  std::uint64_t key;   // of the cell, for random numbers
-  double away_px;      // from the pixel where it was found
-  glm::vec2 position;  // px
-  std::uint32_t pixel;
-  bool street;  // left open: a lane across the rows
-};
-
-// A pitch of at least `min_m`, in steps of the square root of 2: neighbours agree on it.
-double pitch_m(double min_m) {
-  return exact::exp2(0.5 * std::ceil(2.0 * exact::log2(std::max(min_m, 1.0))));
-}
-
-bool find_plot(const StrokeScene& scene, Stream stream, glm::vec2 at, Plot& plot) {
-  const std::size_t i = scene.pixel(at);
-  if (scene.class_at(i) != settlement) return false;
-  const GroundJacobian lie = ground_jacobian(scene, at, i);
-  if (std::abs(lie.area) < 1e-6) return false;
-  // Streets follow the relief; without a direction each quarter has its own.
-  const glm::vec2 grain = scene.guidance.grain[i];
-  double angle =
-      0.6 * static_cast<double>(ground_noise(scene, i, Stream::street_directions, 900.0));
-  if (std::abs(grain.x) + std::abs(grain.y) > 0.1F)
-    angle = 0.5 * exact::atan2(static_cast<double>(grain.y), static_cast<double>(grain.x));
-  const auto turn = static_cast<std::int64_t>(std::lround(angle / turn_step));
-  const exact::Turn street = exact::turn(turn_step * static_cast<double>(turn));
-  const glm::dvec2 along{street.cosine, street.sine};
-  const glm::dvec2 across{-along.y, along.x};
-  const auto plots_a_metre = [&](glm::dvec2 direction) {
-    const glm::dvec2 d = lie.to_picture(direction) / static_cast<double>(scene.scale());
-    return glm::length(d / glm::dvec2(plot_width, plot_height));
-  };
-  const double length = pitch_m(1.0 / plots_a_metre(along));
-  const double depth = pitch_m(1.15 / plots_a_metre(across));
-  const glm::dvec2 here = ground_at(scene, i);
-  const auto bent = [&](std::uint64_t part, double sigma_m) {
-    return gaussian_noise(stream_seed(scene.parameters.seed, Stream::street_directions, 1 + part),
-                          here.x, here.y, sigma_m);
-  };
-  const double v = glm::dot(here, across) / depth + bend_rows * bent(0, bend_plots * length);
-  const auto row = static_cast<std::int64_t>(std::floor(v));
-  const std::int64_t block =
-      row >= 0 ? row / rows_of_block : (row - rows_of_block + 1) / rows_of_block;
-  const std::uint64_t key = stream_seed(scene.parameters.seed, stream);
-  const double begins = random_uniform(key, block, turn, 1);
-  const double u =
-      glm::dot(here, along) / length + width_share * bent(1, width_plots * length) + 6.0 * begins;
-  const auto column = static_cast<std::int64_t>(std::floor(u));
-  plot.key =
-      random_bits(key, column, row,
-                  static_cast<std::uint64_t>(turn * 4096 + std::lround(length + 64.0 * depth)));
-  // Rows are straighter than the gaps in them.
-  const double aside = 0.5 + 0.36 * (random_uniform(plot.key, 0, 0) - 0.5);
-  const double back = 0.5 + 0.2 * (random_uniform(plot.key, 0, 1) - 0.5);
-  // Bends are smooth: at the nearest pixel, which decides, they hardly move a house.
-  const glm::dvec2 to = along * ((static_cast<double>(column) + aside - u) * length) +
-                        across * ((static_cast<double>(row) + back - v) * depth);
-  const glm::dvec2 offset = lie.to_picture(to);
-  plot.away_px = glm::length(offset);
-  plot.position = at + glm::vec2(offset);
-  if (plot.away_px > 4.0 * static_cast<double>(scene.scale()) || !scene.on_canvas(plot.position))
-    return false;
-  const std::size_t there = scene.pixel(plot.position);
-  plot.pixel = static_cast<std::uint32_t>(there);
-  plot.street = column % 6 == 0;
-  return scene.class_at(there) == settlement &&
-         std::abs(scene.guidance.depth_m[there] / scene.guidance.depth_m[i] - 1.F) < 0.03F;
-}
-
-// All plots of the picture, each once: found from the nearest pixel of a grid that is finer than
-// the plots.
-std::vector<Plot> find_plots(const StrokeScene& scene, Stream stream) {
-  const float step = std::max(1.F, 1.4F * scene.scale());
-  const glm::ivec2 sheet = scene.sheet_px();
-  const PixelRect seeded = scene.seeded();
-  const CellRange columns = StrokeScene::cells_within(
-      seeded.x0, seeded.x1, step, static_cast<int>(static_cast<float>(sheet.x) / step));
-  const CellRange lines = StrokeScene::cells_within(
-      seeded.y0, seeded.y1, step, static_cast<int>(static_cast<float>(sheet.y) / step));
-  const int down = std::max(0, lines.last - lines.first + 1);
-  std::vector<std::vector<Plot>> rows(static_cast<std::size_t>(down));
-  parallel_rows(down, [&](int row) {
-    for (int x = columns.first; x <= columns.last; ++x) {
-      const glm::vec2 at = (glm::vec2(x, lines.first + row) + 0.5F) * step;
-      Plot plot{};
-      if (scene.on_canvas(at) && find_plot(scene, stream, at, plot))
-        rows[static_cast<std::size_t>(row)].push_back(plot);
-    }
-  });
-  std::vector<Plot> plots;
-  for (const auto& row : rows) plots.insert(plots.end(), row.begin(), row.end());
-  std::stable_sort(plots.begin(), plots.end(), [](const Plot& a, const Plot& b) {
-    return a.key != b.key ? a.key < b.key : a.away_px < b.away_px;
-  });
-  std::vector<Plot> kept;
-  for (std::size_t k = 0; k < plots.size(); ++k) {
-    bool found_nearer = false;
-    for (std::size_t other = k; other-- > 0 && plots[other].key == plots[k].key && !found_nearer;)
-      found_nearer =
-          glm::length(plots[other].position - plots[k].position) < same_plot_units * scene.scale();
-    if (!found_nearer) kept.push_back(plots[k]);
-  }
-  return kept;
 }
 
 struct House {
@@ -272,6 +126,24 @@ void build(const StrokeScene& scene, const House& house, std::size_t i, StrokeSe
   edge.colour = through_air(
       scene, i, glm::min(tiles * light + glm::vec3(0.09F, 0.06F, 0.03F), glm::vec3(1.F)));
   out.push_back(edge);
+}
+
+// The part of a lane at a plot: trodden ground, between houses only.
+void tread_lane(const StrokeScene& scene, const Plot& plot, float built, std::vector<Stroke>& out) {
+  const std::size_t i = plot.pixel;
+  const float share =
+      village_share(scene.metres_per_unit(i)) * smoothstep(lane_from_built, lane_to_built, built);
+  if (share <= 0.F || plot.lane_from == plot.lane_to) return;
+  const float light = 0.58F + 0.42F * std::clamp(scene.guidance.tone[i], 0.F, 1.F);
+  StrokeSeed seed(plot.key, 2, 0);
+  Stroke lane = ground_stroke(scene, i, seed);
+  lane.order -= 0.5F;
+  lane.gate = StrokeGate::same_class;
+  const float width = lane_width * scene.scale();
+  set_line(lane, plot.lane_from, plot.lane_to, width, width);
+  lane.alpha = lane_alpha * share;
+  lane.colour = through_air(scene, i, (scene.parameters.winter ? trodden_snow : trodden) * light);
+  out.push_back(lane);
 }
 
 // A tree in a garden: a dark crown and its sunny side.
@@ -368,6 +240,7 @@ std::vector<Stroke> houses(const StrokeScene& scene, Stream stream) {
     StrokeSeed seed(plot.key, 1, 0);
     const float built = built_at(scene, plot.pixel);
     const float quarter = 0.12F * ground_noise(scene, plot.pixel, Stream::house_density, 160.0);
+    tread_lane(scene, plot, built, all);
     // Blocks between lanes in the centre, scattered houses and gardens at the edge.
     const bool lane = plot.street && built > 0.3F;
     if (lane || seed.uniform() > std::clamp(0.34F + 0.75F * built + quarter, 0.15F, 0.97F)) {

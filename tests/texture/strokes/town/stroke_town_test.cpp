@@ -151,6 +151,32 @@ TEST(Towns, RedRoofsAreAccentsNearTheViewer) {
   EXPECT_GT(near, 0.1 * far);
 }
 
+// Lanes run between the rows of villages drawn house by house, and their parts meet.
+TEST(Towns, LanesRunBetweenRowsOfHouses) {
+  const StrokeParameters parameters;
+  const auto lanes = [&](float metres, float built) {
+    Picture p = level(settlement);
+    for (float& f : p.guidance.footprint_m) f = metres;
+    for (float& b : p.guidance.built) b = built;
+    for (glm::vec3& at : p.guidance.position_m)
+      at = {at.x * metres / 20.F, at.y * metres / 20.F, at.z};
+    std::vector<Stroke> found = town_strokes({p.guidance, p.ground, parameters});
+    std::erase_if(found, [](const Stroke& s) { return s.gate != StrokeGate::same_class; });
+    return found;
+  };
+  EXPECT_TRUE(lanes(30.F, 0.6F).empty()) << "far away";
+  EXPECT_TRUE(lanes(8.F, 0.03F).empty()) << "single houses";
+  const std::vector<Stroke> near = lanes(8.F, 0.6F);
+  ASSERT_GT(near.size(), 500U);
+  std::size_t joined = 0;
+  for (const Stroke& one : near)
+    joined += std::any_of(near.begin(), near.end(), [&](const Stroke& other) {
+      return &one != &other && std::hypot(one.points[1].x - other.points[0].x,
+                                          one.points[1].y - other.points[0].y) < 2.F;
+    });
+  EXPECT_GT(static_cast<double>(joined), 0.8 * static_cast<double>(near.size()));
+}
+
 TEST(Towns, EveryVillageHasItsChurchInItsMiddle) {
   const StrokeParameters parameters;
   Picture p = level(valley_floor);
