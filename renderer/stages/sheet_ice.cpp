@@ -39,6 +39,8 @@ GuidanceBuffers look_at(const World& world, const Camera& camera, const Run& run
   seen.depth_m = seen.slope_deg = seen.relief_s_m = Grid<float>(size.x, size.y);
   seen.land_cover = Grid<LandCoverClass>(size.x, size.y);
   seen.fall_line = Grid<glm::vec2>(size.x, size.y);
+  seen.position_m = Grid<glm::vec3>(size.x, size.y);
+  seen.footprint_m = Grid<float>(size.x, size.y);
   for (int y = 0; y < size.y; y += band_px) {
     const PixelRect band{0, y, size.x, std::min(y + band_px, size.y)};
     const GuidanceBuffers rows = trace_forms(world, camera, band, run);
@@ -47,6 +49,8 @@ GuidanceBuffers look_at(const World& world, const Camera& camera, const Run& run
     put_rows(seen.relief_s_m, y, rows.relief_s_m);
     put_rows(seen.land_cover, y, rows.land_cover);
     put_rows(seen.fall_line, y, rows.fall_line);
+    put_rows(seen.position_m, y, rows.position_m);
+    put_rows(seen.footprint_m, y, rows.footprint_m);
   }
   return seen;
 }

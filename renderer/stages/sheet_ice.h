@@ -2,7 +2,7 @@
 
 #include "base/run.h"
 #include "renderer/world/world.h"
-#include "texture/strokes/ice_plan.h"
+#include "texture/strokes/ice/ice_plan.h"
 
 namespace belvedere {
 

@@ -9,7 +9,7 @@
 #include "renderer/stages/ground_inputs.h"
 #include "renderer/stages/picture_layers.h"
 #include "renderer/world/lazy_value.h"
-#include "texture/strokes/ice_plan.h"
+#include "texture/strokes/ice/ice_plan.h"
 #include "texture/synthesis/guide_stack.h"
 
 // The stages of a sheet, from the first rays to the finished picture. Each is declared once, in

@@ -123,6 +123,79 @@ Stroke part_of_thing(const StrokeScene& scene, const Thing& thing, int part) {
   return stroke;
 }
 
+// A stone: its shadow on the ground, away from the sun; its body; the edge facing the sun.
+void lay_stone(const StrokeScene& scene, const Thing& stone, StrokeSeed& seed,
+               std::vector<Stroke>& out) {
+  const float size = stone.units * scene.scale();  // px
+  const float clear = 1.F - std::clamp(scene.base.haze[stone.pixel], 0.F, 1.F);
+  const float lit = std::clamp(scene.guidance.tone[stone.pixel], 0.F, 1.F);
+  const float sun = scene.sun_side(stone.pixel);
+  const float flat = seed.between(0.5F, 0.8F);
+  const float lean = seed.between(-0.15F, 0.15F) * size;
+  Stroke shadow = part_of_thing(scene, stone, 0);
+  const glm::vec2 foot = stone.position + glm::vec2(-0.22F * sun * size, 0.16F * size);
+  set_line(shadow, foot - glm::vec2(0.42F * size, 0.F), foot + glm::vec2(0.42F * size, 0.F),
+           0.42F * size, 0.3F * size);
+  shadow.alpha = 0.35F + 0.35F * lit;
+  shadow.colour = scene.colour(stone.pixel, -1.4F, paint_jitter, seed) -
+                  clear * lit * glm::vec3(0.05F, 0.04F, 0.01F);
+  Stroke body = part_of_thing(scene, stone, 1);
+  set_line(body, stone.position + glm::vec2(-0.32F * size, 0.08F * size),
+           stone.position + glm::vec2(0.32F * size, lean), flat * size, 0.85F * flat * size);
+  body.alpha = 0.85F;
+  const float grey = seed.normal();
+  body.colour = scene.colour(stone.pixel, -0.2F + 0.3F * grey, paint_jitter, seed);
+  const float value = (body.colour.r + body.colour.g + body.colour.b) / 3.F;
+  body.colour = glm::mix(body.colour, value * glm::vec3(1.02F, 1.F, 1.F),
+                         0.6F);  // rock, whatever class it lies in
+  out.push_back(shadow);
+  out.push_back(body);
+  if (stone.units < 1.4F) return;
+  Stroke edge = part_of_thing(scene, stone, 2);
+  const glm::vec2 top = stone.position + glm::vec2(0.12F * sun * size, -0.24F * flat * size);
+  set_line(edge, top - glm::vec2(0.26F * size, 0.F),
+           top + glm::vec2(0.26F * size, 0.5F * lean), 0.3F * flat * size, 0.2F * flat * size);
+  edge.alpha = 0.5F + 0.3F * lit;
+  edge.colour = body.colour + clear * (0.05F + 0.13F * lit) * glm::vec3(1.F, 0.92F, 0.78F);
+  out.push_back(edge);
+}
+
+// Blocks larger than life, as painters place them: at the foot of debris, where the largest come to
+// rest, and on the grass below it. The size of one at a seed; nothing where there is none.
+std::optional<float> block_units(const StrokeScene& scene, StrokeSeed& seed, glm::vec2 position,
+                                 std::size_t i) {
+  const LandCoverClass id = scene.class_at(i);
+  // Nearer by, stones have their own size.
+  constexpr float nearest_m = 1.4F;
+  if (scene.parameters.winter || scene.metres_per_unit(i) < nearest_m ||
+      (id != scree && !is_grass(id)) || is_floor(id))
+    return {};
+  const float chance = seed.uniform();
+  const float u = seed.uniform();
+  if (!is_close(scene, i, seed)) return {};
+  const glm::vec2 fall = scene.fall_line(position);
+  const auto class_along = [&](float units) {
+    const glm::vec2 there = position + fall * (units * scene.scale());
+    if (!scene.on_canvas(there)) return id;
+    const std::size_t k = scene.pixel(there);
+    return on_same_slope(scene, i, k) ? scene.class_at(k) : id;
+  };
+  float gathered = 0.F;
+  if (id == scree) {
+    for (const float below : {5.F, 10.F, 16.F})
+      if (is_grass(class_along(below))) gathered = std::max(gathered, 1.F - 0.04F * below);
+  } else {
+    for (const float above : {-4.F, -9.F, -16.F})
+      if (class_along(above) == scree) gathered = std::max(gathered, 0.7F + 0.03F * above);
+  }
+  const float field = sheet_noise(scene, position, Stream::stone_fields, 11.0);
+  const float strewn =
+      gathered * std::clamp(0.6F + 0.5F * field, 0.F, 1.F) + 0.12F * std::max(0.F, field - 1.2F);
+  const float share = id == scree ? 0.012F + 0.30F * strewn : 0.001F + 0.18F * strewn;
+  if (chance > share) return {};
+  return 1.1F + (1.2F + 2.0F * gathered) * u * u * u;
+}
+
 }  // namespace
 
 std::vector<Stroke> ground_stones(const StrokeScene& scene, Stream stream) {
@@ -131,50 +204,15 @@ std::vector<Stroke> ground_stones(const StrokeScene& scene, Stream stream) {
       [&](StrokeSeed& seed, glm::vec2 position, std::size_t i, std::vector<Stroke>& out) {
         const float per_m2 = stones_per_m2(scene.class_at(i));
         if (per_m2 <= 0.F) return;
+        if (const auto units = block_units(scene, seed, position, i)) {
+          lay_stone(scene, {position, i, *units}, seed, out);
+          return;
+        }
         // Fields of stones with bare ground between.
         const float field =
             std::clamp(1.F + 0.8F * ground_noise(scene, i, Stream::stone_fields, 14.0), 0.05F, 3.F);
         strew(scene, {.per_m2 = per_m2 * field, .largest_m = 2.5F}, seed, position, i,
-              [&](const Thing& stone) {
-                const float size = stone.units * scene.scale();  // px
-                const float clear = 1.F - std::clamp(scene.base.haze[stone.pixel], 0.F, 1.F);
-                const float lit = std::clamp(scene.guidance.tone[stone.pixel], 0.F, 1.F);
-                const float sun = scene.sun_side(stone.pixel);
-                const float flat = seed.between(0.5F, 0.8F);
-                const float lean = seed.between(-0.15F, 0.15F) * size;
-                // Its shadow on the ground, away from the sun; its body; the edge facing the sun.
-                Stroke shadow = part_of_thing(scene, stone, 0);
-                const glm::vec2 foot =
-                    stone.position + glm::vec2(-0.22F * sun * size, 0.16F * size);
-                set_line(shadow, foot - glm::vec2(0.42F * size, 0.F),
-                         foot + glm::vec2(0.42F * size, 0.F), 0.42F * size, 0.3F * size);
-                shadow.alpha = 0.35F + 0.35F * lit;
-                shadow.colour = scene.colour(stone.pixel, -1.4F, paint_jitter, seed) -
-                                clear * lit * glm::vec3(0.05F, 0.04F, 0.01F);
-                Stroke body = part_of_thing(scene, stone, 1);
-                set_line(body, stone.position + glm::vec2(-0.32F * size, 0.08F * size),
-                         stone.position + glm::vec2(0.32F * size, lean), flat * size,
-                         0.85F * flat * size);
-                body.alpha = 0.85F;
-                const float grey = seed.normal();
-                body.colour = scene.colour(stone.pixel, -0.2F + 0.3F * grey, paint_jitter, seed);
-                const float value = (body.colour.r + body.colour.g + body.colour.b) / 3.F;
-                body.colour = glm::mix(body.colour, value * glm::vec3(1.02F, 1.F, 1.F),
-                                       0.6F);  // rock, whatever class it lies in
-                out.push_back(shadow);
-                out.push_back(body);
-                if (stone.units < 1.4F) return;
-                Stroke edge = part_of_thing(scene, stone, 2);
-                const glm::vec2 top =
-                    stone.position + glm::vec2(0.12F * sun * size, -0.24F * flat * size);
-                set_line(edge, top - glm::vec2(0.26F * size, 0.F),
-                         top + glm::vec2(0.26F * size, 0.5F * lean), 0.3F * flat * size,
-                         0.2F * flat * size);
-                edge.alpha = 0.5F + 0.3F * lit;
-                edge.colour =
-                    body.colour + clear * (0.05F + 0.13F * lit) * glm::vec3(1.F, 0.92F, 0.78F);
-                out.push_back(edge);
-              });
+              [&](const Thing& stone) { lay_stone(scene, stone, seed, out); });
       });
 }
 

@@ -75,7 +75,7 @@ std::vector<Stroke> wash_strokes(const StrokeScene& scene, Stream stream) {
         const bool near = (id == scree || ice || is_open_grass(id)) && is_close(scene, i, seed);
         if (near) end_with_class(stroke);
         const bool snowy = near && (ice || scene.parameters.winter);
-        if (snowy) stay_on_plane(stroke, scene, i);
+        if (snowy || (near && id == scree)) stay_on_plane(stroke, scene, i);
         const float length = near ? std::min(brush.wash_length, 5.5F) : brush.wash_length;
         const float wander = near ? (snowy         ? 0.1F
                                      : id == scree ? 1.1F
@@ -187,6 +187,7 @@ std::vector<Stroke> scree_strokes(const StrokeScene& scene, Stream stream) {
           if (scene.parameters.winter) return;  // under snow, which is washed
           // Dabs as wide as long, some of them across.
           end_with_class(stroke);
+          stay_on_plane(stroke, scene, i);
           stroke.tone_width = 0.11F;
           const float turn = seed.uniform() < 0.4F ? quarter_turn : 0.F;
           const float length = seed.between(1.6F, 4.2F);

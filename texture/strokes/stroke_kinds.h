@@ -42,7 +42,7 @@ std::vector<Stroke> rock_drifts(
     Stream stream);  // snow that extends into a wall from its foot and overhangs its edge
 std::vector<Stroke> rock_rubble(const StrokeScene& scene, Stream stream);
 std::vector<Stroke> rock_trees(const StrokeScene& scene, Stream stream);
-// Snow and ice (stroke_ice.cpp, stroke_glacier.cpp). Flow lines, moraines, crevasses and edges of
+// Snow and ice (ice/). Flow lines, moraines, crevasses and edges of
 // glaciers are drawn on top.
 std::vector<Stroke> snow_strokes(const StrokeScene& scene, Stream stream);
 std::vector<Stroke> glacier_flow_lines(const StrokeScene& scene, Stream stream);

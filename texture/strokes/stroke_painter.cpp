@@ -10,7 +10,7 @@
 #include "base/guidance_channels.h"
 #include "texture/strokes/brush.h"
 #include "texture/strokes/far_strokes.h"
-#include "texture/strokes/ice_plan.h"
+#include "texture/strokes/ice/ice_plan.h"
 #include "texture/strokes/stroke_table.h"
 
 namespace belvedere {

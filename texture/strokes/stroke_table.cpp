@@ -175,13 +175,14 @@ constexpr StrokeKind kinds[] = {
      .layer = &StrokeLayers::breaks,
      .stream = Stream::glacier_moraines,
      .grow = glacier_moraines,
-     .reach = around(10.0 + 5.2),
+     // Bands of four positions 4 units apart, 11 units wide on each side.
+     .reach = around(12.0 + 12.0),
      .on_ice = true},
     {.name = "glacier crevasses",
      .layer = &StrokeLayers::breaks,
      .stream = Stream::glacier_crevasses,
      .grow = glacier_crevasses,
-     .reach = around(32.0),
+     .reach = around(27.0, 16.0),
      .on_ice = true},
     // Up to about 9 units large, and up to half a spacing from their seeds, whose neighbours give
     // the density of ground.
@@ -189,7 +190,7 @@ constexpr StrokeKind kinds[] = {
      .layer = &StrokeLayers::upright,
      .stream = Stream::ground_stones,
      .grow = ground_stones,
-     .reach = around(9.0, 4.0)},
+     .reach = around(9.0, 17.0)},
     {.name = "tufts",
      .layer = &StrokeLayers::upright,
      .stream = Stream::grass_tufts,

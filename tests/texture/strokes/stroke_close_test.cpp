@@ -46,7 +46,7 @@ TEST(CloseViews, NothingOfThemFromAfar) {
   for (const std::string_view kind : {"stones", "tufts"}) {
     EXPECT_GT(grow_strokes(kind, ground_of(alpine_grass, 120.0, 240, 0.5).scene()).size(), 100U)
         << kind;
-    EXPECT_EQ(grow_strokes(kind, ground_of(alpine_grass, 500.0, 240, 2.0).scene()).size(), 0U)
+    EXPECT_EQ(grow_strokes(kind, ground_of(alpine_grass, 6000.0, 240, 25.0).scene()).size(), 0U)
         << kind;
   }
   for (const LandCoverClass id : {forest, water, glacier, snow, rock, settlement, valley_floor}) {
@@ -83,6 +83,30 @@ TEST(CloseViews, SoManyStonesASquareMetreAtAnyResolution) {
       ASSERT_LT(size, 2.51);
     }
   }
+}
+
+// Blocks lie where debris ends, and on the grass below it, not up the slope.
+TEST(CloseViews, BlocksLieAtTheFootOfDebris) {
+  Picture p = ground_of(scree, 2400.0, 240, 10.0);
+  for (int y = 120; y < 240; ++y)
+    for (int x = 0; x < 240; ++x) p.guidance.land_cover(x, y) = alpine_grass;
+  int foot = 0, above = 0, meadow = 0;
+  over_seeds(p, [&] {
+    for (const Stroke& stroke : grow_strokes("stones", p.scene())) {
+      const float y = stroke.points[0].y;
+      if (y > 100.F && y < 136.F)
+        ++foot;
+      else if (y < 84.F)
+        ++above;
+      else if (y > 156.F)
+        ++meadow;
+    }
+  });
+  EXPECT_GT(foot, 200);
+  EXPECT_GT(foot, 2 * above);
+  EXPECT_GT(foot, 4 * meadow);
+  p.parameters.winter = true;
+  EXPECT_TRUE(grow_strokes("stones", p.scene()).empty());
 }
 
 // A slope seen at a low angle has more ground per pixel, and as many stones on it.

@@ -10,7 +10,7 @@
 
 #include "base/guidance_buffers.h"
 #include "texture/strokes/brush.h"
-#include "texture/strokes/ice_plan.h"
+#include "texture/strokes/ice/ice_plan.h"
 #include "texture/strokes/stroke_painter.h"
 #include "texture/strokes/stroke_seeds.h"
 #include "texture/strokes/stroke_table.h"

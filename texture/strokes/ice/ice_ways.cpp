@@ -1,8 +1,9 @@
-#include "texture/strokes/ice_ways.h"
+#include "texture/strokes/ice/ice_ways.h"
 
 #include <cmath>
 
 #include "base/error.h"
+#include "texture/strokes/stroke_parts.h"
 
 namespace belvedere {
 
@@ -29,6 +30,23 @@ void lay_flow(Stroke& stroke, const StrokeScene& scene, glm::vec2 position, floa
   stroke.points[2] = position + centre * (0.5F * step);
   stroke.points[0] = stroke.points[1] - heading(stroke.points[1] - centre * (0.5F * step)) * step;
   stroke.points[3] = stroke.points[2] + heading(stroke.points[2] + centre * (0.5F * step)) * step;
+}
+
+Stroke ice_stroke(const StrokeScene& scene, std::size_t i, StrokeSeed& seed) {
+  Stroke stroke = ground_stroke(scene, i, seed);
+  stroke.gate = StrokeGate::same_class;
+  stroke.depth_tolerance = same_ice_depth;
+  lay_on_top(stroke);
+  return stroke;
+}
+
+void lay_bow(Stroke& stroke, glm::vec2 centre, glm::vec2 across, glm::vec2 down, float length_px,
+             float sag_px) {
+  constexpr float positions[Stroke::max_points] = {-0.5F, -0.18F, 0.18F, 0.5F};
+  stroke.point_count = Stroke::max_points;
+  for (std::size_t k = 0; k < stroke.points.size(); ++k)
+    stroke.points[k] = centre + across * (positions[k] * length_px) +
+                       down * (sag_px * (1.F - 4.F * positions[k] * positions[k]));
 }
 
 StrokeSeed way_seed(const StrokeScene& scene, const IceWay& way, std::size_t part) {

@@ -1,4 +1,4 @@
-#include "texture/strokes/ice_flow.h"
+#include "texture/strokes/ice/ice_flow.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <optional>
 
-#include "texture/strokes/ice_plan.h"
+#include "texture/strokes/ice/ice_plan.h"
 #include "texture/strokes/stroke.h"
 #include "texture/strokes/stroke_seeds.h"
 
@@ -21,6 +23,17 @@ glm::vec2 ice_direction(const StrokeScene& scene, glm::vec2 position);
 // aside_rad.
 void lay_flow(Stroke& stroke, const StrokeScene& scene, glm::vec2 position, float length_px,
               float aside_rad);
+
+inline constexpr glm::vec3 moraine_paint{0.56F, 0.52F, 0.50F};  // rubble on ice, at tone 1/2
+inline constexpr glm::vec3 depth_of_ice{0.80F, 0.92F, 1.00F};   // ice is blue in depth: a factor
+inline glm::vec3 by_tone(glm::vec3 paint, float tone) {
+  return paint * (0.62F + 0.70F * std::clamp(tone, 0.F, 1.F));
+}
+// A stroke that starts on ice at pixel i, ends with it, and lies over its other paint.
+Stroke ice_stroke(const StrokeScene& scene, std::size_t i, StrokeSeed& seed);
+// An arc across the flow, its centre `sag_px` down the flow.
+void lay_bow(Stroke& stroke, glm::vec2 centre, glm::vec2 across, glm::vec2 down, float length_px,
+             float sag_px);
 
 // Random numbers of a path, which depend only on its cell and their purpose: part 0 for the path as
 // a whole, the others for its strokes.

@@ -1,0 +1,167 @@
+#include "texture/strokes/ice/ice_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <iterator>
+#include <utility>
+
+#include "texture/strokes/ice/ice_flow.h"
+#include "texture/strokes/ice/ice_ground.h"
+#include "texture/strokes/stroke_parts.h"
+
+namespace belvedere {
+namespace {
+
+using enum LandCoverClass;
+
+// Ice breaks up where its bed steepens, where it is steep and in bends; 0 … 1. It occurs in fields,
+// with intact ice between; firn seldom breaks up, and ice on a wall is thin and intact.
+float torn(const StrokeScene& scene, const IceFlow& flow, glm::vec2 position) {
+  constexpr float apart_units = 9.F;
+  const glm::vec2 units = position / scene.scale();
+  const glm::vec2 down = flow.at(units);
+  const float slope_deg = ice_slope_deg(scene, flow, position);
+  const auto slope_at = [&](float ahead_units) {
+    const glm::vec2 there = position + down * (ahead_units * scene.scale());
+    if (!scene.on_canvas(there)) return slope_deg;
+    const std::size_t k = scene.pixel(there);
+    return is_ice(scene.class_at(k)) && same_ice_surface(scene, k, scene.pixel(position))
+               ? ice_slope_deg(scene, flow, there)
+               : slope_deg;
+  };
+  const float moving = std::clamp((slope_deg - 4.F) / 5.F, 0.F, 1.F) *
+                       std::clamp((35.F - slope_deg) / 6.F, 0.F, 1.F);
+  if (moving <= 0.F) return 0.F;
+  const float steepens = slope_at(apart_units) - slope_at(-apart_units);
+  const float edge = std::clamp((steepens - 2.5F) / 7.F, 0.F, 1.F);
+  const float steep = std::clamp((slope_deg - 9.F) / 13.F, 0.F, 1.F);
+  const float over_edge = std::clamp(scene.relief_m(scene.pixel(position)) / 25.F, -0.3F, 0.4F);
+  const glm::vec2 before = flow.at(units - down * 14.F);
+  const glm::vec2 after = flow.at(units + down * 14.F);
+  const float bend = std::min(1.F, 1.6F * std::abs(before.x * after.y - before.y * after.x));
+  const float firn = share_around(scene, position, 26.F, [&](std::size_t k) {
+    return scene.class_at(k) == snow;
+  });
+  const float whole = 1.F - 0.8F * std::clamp(4.F * firn, 0.F, 1.F);
+  return moving * whole *
+         std::clamp(0.50F * steep + 0.70F * edge + 0.7F * over_edge + 0.25F * bend +
+                        0.45F * sheet_noise(scene, position, Stream::torn_ice, 34.0) - 0.50F,
+                    0.F, 1.F);
+}
+
+std::vector<IceWay> flow_lines(const StrokeScene& scene, const IceFlow& flow, Stream stream) {
+  return sow<IceWay>(
+      scene, 17.F, stream,
+      [&](StrokeSeed& seed, glm::vec2 position, std::size_t i, std::vector<IceWay>& out) {
+        if (scene.class_at(i) != glacier || scene.slope_deg(i) > 30.F) return;
+        if (seed.uniform() > 0.15F + 0.85F * on_tongue(scene, position)) return;
+        const int steps = 3 * (2 + static_cast<int>(seed.uniform() * 4.F));
+        const std::vector<glm::vec2> positions =
+            trace_ice(scene, flow, position, 7.F * scene.scale(), steps);
+        if (positions.size() > 3) out.push_back(way_along(scene, stream, seed, positions));
+      });
+}
+
+// A field of arcs, one below the other, the longest in its centre.
+IceWay crevasse_field(const StrokeScene& scene, const IceFlow& flow, Stream stream,
+                      StrokeSeed& seed, glm::vec2 position, float share) {
+  constexpr float falls_from_deg = 21.F;
+  constexpr float falls_from = 0.40F;
+  const std::size_t i = scene.pixel(position);
+  const int count = 4 + static_cast<int>(seed.uniform() * (2.F + 7.F * share));
+  const float u = seed.uniform();
+  const float longest_units = 24.F + 16.F * u * std::min(1.F, 0.45F + share);
+  const float gap_units = seed.between(4.4F, 6.6F);
+  // Its centre is at the position.
+  glm::vec2 centre = position;
+  for (int k = 0; k < count / 2; ++k) {
+    const glm::vec2 down = flow.at(centre / scene.scale());
+    const glm::vec2 above =
+        centre - down * (gap_units * (0.45F + 0.55F * std::abs(down.x)) * scene.scale());
+    if (!scene.on_canvas(above) || scene.class_at(scene.pixel(above)) != glacier ||
+        !same_ice_surface(scene, scene.pixel(above), i))
+      break;
+    centre = above;
+  }
+  std::vector<glm::vec2> centres;
+  std::vector<glm::vec2> across;
+  for (int k = 0; k < count && scene.on_canvas(centre); ++k) {
+    const std::size_t here = scene.pixel(centre);
+    if (scene.class_at(here) != glacier || !same_ice_surface(scene, here, i)) break;
+    const glm::vec2 down = flow.at(centre / scene.scale());
+    centres.push_back(centre);
+    across.push_back(across_flow(scene, centre, down));
+    // Foreshortened as the ice is.
+    const float gap =
+        gap_units * (0.45F + 0.55F * std::abs(down.x)) * seed.between(0.8F, 1.25F);
+    centre += down * (gap * scene.scale());
+    centre += across.back() * (0.05F * seed.normal() * longest_units * scene.scale());
+  }
+  IceWay way = way_along(scene, stream, seed, centres);
+  way.strength = share;
+  way.size_units = longest_units;
+  way.falls = share > falls_from && ice_slope_deg(scene, flow, position) > falls_from_deg;
+  way.across = std::move(across);
+  return way;
+}
+
+// Few fields, where the ice is most torn: none reaches into another.
+std::vector<IceWay> crevasses(const StrokeScene& scene, const IceFlow& flow, Stream stream) {
+  constexpr float torn_from = 0.40F;
+  constexpr float apart_units = 25.F;
+  struct Place {
+    StrokeSeed seed;
+    glm::vec2 position;
+    float share;
+  };
+  std::vector<Place> places = sow<Place>(
+      scene, 9.F, stream,
+      [&](StrokeSeed& seed, glm::vec2 position, std::size_t i, std::vector<Place>& out) {
+        if (scene.class_at(i) != glacier) return;
+        const float share = torn(scene, flow, position);
+        if (share > torn_from) out.push_back({seed, position, share});
+      });
+  std::stable_sort(places.begin(), places.end(),
+                   [](const Place& a, const Place& b) { return a.share > b.share; });
+  std::vector<IceWay> fields;
+  std::vector<glm::vec2> taken;
+  for (Place& place : places) {
+    const bool near = std::any_of(taken.begin(), taken.end(), [&](glm::vec2 other) {
+      const glm::vec2 offset = (other - place.position) / scene.scale();
+      return offset.x * offset.x + 1.6F * offset.y * offset.y < apart_units * apart_units;
+    });
+    if (near) continue;
+    taken.push_back(place.position);
+    if (place.seed.uniform() > 4.F * (place.share - torn_from) + 0.55F) continue;
+    fields.push_back(
+        crevasse_field(scene, flow, stream, place.seed, place.position, place.share));
+  }
+  return fields;
+}
+
+// Kinds of strokes that follow paths, by their random streams.
+struct WayKind {
+  Stream stream;
+  std::vector<IceWay> (*find)(const StrokeScene& scene, const IceFlow& flow, Stream stream);
+};
+constexpr WayKind way_kinds[] = {{Stream::glacier_flow_lines, flow_lines},
+                                 {Stream::glacier_moraines, plan_moraines},
+                                 {Stream::glacier_crevasses, crevasses}};
+
+}  // namespace
+
+IcePlan plan_ice(const GuidanceBuffers& guidance, const StrokeParameters& parameters) {
+  const BasePicture no_paint;
+  const StrokeScene scene{guidance, no_paint, parameters};
+  IcePlan plan;
+  plan.flow = find_ice_flow(scene);
+  if (plan.flow.direction.empty()) return plan;
+  for (const WayKind& kind : way_kinds) {
+    std::vector<IceWay> found = kind.find(scene, plan.flow, kind.stream);
+    std::move(found.begin(), found.end(), std::back_inserter(plan.ways));
+  }
+  return plan;
+}
+
+}  // namespace belvedere
