@@ -28,15 +28,17 @@ constexpr std::array<RoofSize, close_sizes> size_table = {{
     {.spacing_units = 15.0F, .slender = 0.60F, .lean_rad = 0.30F},
     {.spacing_units = 30.0F, .slender = 0.50F, .lean_rad = 0.25F},
     {.spacing_units = 30.0F, .slender = 0.55F, .lean_rad = 0.40F},
+    {.spacing_units = 74.0F, .slender = 0.60F, .lean_rad = 0.45F},
 }};
 constexpr bool lies_along_wind(std::size_t size) { return size >= slabs && size <= small_swells; }
 constexpr CloseCover cover_with(std::size_t size) {
   return size == scree_roofs   ? CloseCover::scree
-         : size == grass_roofs ? CloseCover::grass
+         : size >= grass_roofs ? CloseCover::grass
                                : CloseCover::snow;
 }
 
 constexpr double mean_normal_units = 14.0;  // deviation of the large form that light rakes
+constexpr double ice_units = 5.0;  // deviation of the share of ice around
 // The sun is turned until its cosine to the large form lies between these, with their sines.
 constexpr float max_facing = 0.62F;
 constexpr float max_facing_sine = 0.785F;
@@ -111,10 +113,12 @@ Rake rake_at(const CloseScene& s, std::size_t i, glm::vec3 mean, bool snow) {
   return rake;
 }
 
-// Gradient of one size, and its plane.
+// Gradient of one size, and its plane; `gully`: units from where it meets the next.
 glm::vec2 form_at(const CloseScene& s, CloseSize size, glm::vec2 position, float depth_m,
-                  FormLook& look, bool leads) {
+                  FormLook& look, bool leads, float* gully = nullptr) {
   const SpurHit hit = highest_spur(s.roofs[size], size_table[size].slender, position, depth_m, 0);
+  if (gully != nullptr)
+    *gully = hit.over_next * size_table[size].spacing_units / (2.0F * hit.steepness);
   const std::uint32_t plane = hit.flank_id() * 5U + static_cast<std::uint32_t>(hit.part);
   look.edges = look.edges * 0x9e3779b1U + plane;
   if (leads) look.plane = hit.flank_id();
@@ -137,7 +141,7 @@ FormLook snow_look(const CloseScene& s, int x, int y, std::size_t i, glm::vec2 p
   const float calm = smoothstep(-0.6F, 0.7F, s.calm(u, v));
   const float small_calm = smoothstep(-0.1F, 0.9F, s.small_calm(u, v));
   // Whole slopes are empty beside busy ones.
-  const float quiet = 1.0F - 0.7F * smoothstep(0.3F, 1.1F, s.quiet(u, v));
+  const float quiet = 1.0F - 0.80F * smoothstep(0.25F, 0.95F, s.quiet(u, v));
   FormLook look;
   glm::vec2 broad(0.0F);
   glm::vec2 large(0.0F);
@@ -173,15 +177,70 @@ FormLook snow_look(const CloseScene& s, int x, int y, std::size_t i, glm::vec2 p
   return look;
 }
 
-FormLook scree_look(const CloseScene& s, std::size_t i, glm::vec2 position, glm::vec2 fall,
+// A line of water between two forms: it comes and goes. Tone.
+float runnel(const CloseScene& s, int x, int y, std::size_t i, float from_gully, float scale) {
+  constexpr float half_width = 1.1F;
+  if (from_gully >= half_width) return 0.0F;
+  const float shown = smoothstep(0.0F, 0.8F, s.runnels(x - s.made.x0, y - s.made.y0)) *
+                      smoothstep(16.0F, 24.0F, s.guidance.slope_deg[i]);
+  const float across = from_gully / std::max(half_width, 0.6F / scale);
+  return -0.11F * shown * (1.0F - across);
+}
+
+// Lateral moraine: a ridge of rubble along the side of a glacier, where a certain share of ice lies
+// around. Gradient of its height on the sheet.
+glm::vec2 lateral_moraine(const CloseScene& s, int x, int y, float depth_m) {
+  constexpr float aside_units = 1.5F;
+  constexpr float half_share = 0.07F;
+  constexpr float height = 0.75F;
+  const WideView& wide = s.ground.wide;
+  const auto share = [&](float dx, float dy) {
+    const auto ppu = static_cast<float>(s.ground.pixels_per_unit);
+    return value_on_surface(wide, s.ice_around,
+                            s.origin_px.x + x + static_cast<int>(std::lround(dx * ppu)),
+                            s.origin_px.y + y + static_cast<int>(std::lround(dy * ppu)), depth_m);
+  };
+  const float own = share(0.0F, 0.0F);
+  if (own < 0.02F || own > 0.32F) return {0.0F, 0.0F};
+  const float calm = s.calm(x - s.made.x0, y - s.made.y0);
+  const float raised = smoothstep(-1.4F, -0.2F, calm);
+  const float at = 0.11F + 0.03F * std::clamp(s.steepness(x - s.made.x0, y - s.made.y0), -1.0F, 1.0F);
+  const float b = (own - at) / half_share;
+  if (std::abs(b) >= 1.0F || raised <= 0.0F) return {0.0F, 0.0F};
+  const glm::vec2 rise(share(aside_units, 0.0F) - share(-aside_units, 0.0F),
+                       share(0.0F, aside_units) - share(0.0F, -aside_units));
+  const glm::vec2 slope =
+      -2.0F * b / half_share * height * raised * rise / (2.0F * aside_units);
+  const float size = std::sqrt(glm::dot(slope, slope));
+  constexpr float steepest = 0.8F;
+  return size > steepest ? slope * (steepest / size) : slope;
+}
+
+FormLook scree_look(const CloseScene& s, int x, int y, std::size_t i, glm::vec2 position, glm::vec2 fall,
                     glm::vec3 mean) {
   const GuidanceBuffers& g = s.guidance;
   const Frame frame(glm::normalize(0.6F * g.normal_detail[i] + 0.4F * g.normal_smooth[i]));
   FormLook look;
-  const glm::vec2 slope = 0.20F * form_at(s, scree_roofs, position, g.depth_m[i], look, true);
-  look.tone = soft_limit(
-      1.15F * rake_at(s, i, mean, false)(frame.tilted(slope, fall), frame.normal), 0.16F);
-  look.plane = 0;  // its dabs do not follow planes
+  float gully = 1e9F;
+  const float quiet = smoothstep(0.1F, 0.8F, s.quiet(x - s.made.x0, y - s.made.y0));
+  glm::vec2 slope = 0.22F * (1.0F - 0.45F * quiet) *
+                    form_at(s, scree_roofs, position, g.depth_m[i], look, false, &gully);
+  const auto scale = static_cast<float>(s.ground.pixels_per_unit);
+  const DebrisHit debris = debris_at(s.cones, s.ground.seed, position, g.depth_m[i]);
+  if (debris.cone != nullptr) {
+    slope = (1.0F - 0.75F * debris.inside) * slope + debris.inside * debris.slope;
+    look.tone = debris.inside * debris.tone;
+    look.edges = look.edges * 0x9e3779b1U + debris.cone->id;
+    // Its paint stays on it.
+    if (debris.inside > 0.25F) look.plane = debris.cone->id;
+  } else {
+    // Old stone between them is dark.
+    look.tone = -0.07F - 0.09F * debris.beside;
+  }
+  slope += lateral_moraine(s, x, y, g.depth_m[i]);
+  look.tone += (1.0F - debris.inside) * runnel(s, x, y, i, gully, scale);
+  look.tone += soft_limit(
+      1.15F * rake_at(s, i, mean, false)(frame.tilted(slope, fall), frame.normal), 0.26F);
   return look;
 }
 
@@ -212,11 +271,19 @@ FormLook grass_look(const CloseScene& s, int x, int y, std::size_t i, glm::vec2 
                     glm::vec2 fall, glm::vec3 mean) {
   const GuidanceBuffers& g = s.guidance;
   const Frame frame(glm::normalize(0.45F * g.normal_detail[i] + 0.55F * g.normal_smooth[i]));
-  const float amount = 0.46F * smoothstep(14.0F, 32.0F, g.slope_deg[i]) *
-                       smoothstep(-0.5F, 0.7F, s.calm(x - s.made.x0, y - s.made.y0));
+  const float steep = smoothstep(14.0F, 32.0F, g.slope_deg[i]);
+  // Planes of unlike size: whole slopes without small ones.
+  const float quiet = smoothstep(0.1F, 0.8F, s.quiet(x - s.made.x0, y - s.made.y0));
+  const float amount = 0.42F * steep * (1.0F - 0.9F * quiet) *
+                       smoothstep(-0.3F, 0.8F, s.calm(x - s.made.x0, y - s.made.y0));
   FormLook look;
-  const glm::vec2 slope = amount * form_at(s, grass_roofs, position, g.depth_m[i], look, true);
+  float gully = 1e9F;
+  const glm::vec2 broad =
+      0.21F * steep * form_at(s, grass_slopes, position, g.depth_m[i], look, false);
+  const glm::vec2 slope =
+      broad + amount * form_at(s, grass_roofs, position, g.depth_m[i], look, true, &gully);
   look.tone =
+      0.4F * runnel(s, x, y, i, gully, static_cast<float>(s.ground.pixels_per_unit)) +
       soft_limit(rake_at(s, i, mean, false)(frame.tilted(slope, fall), frame.normal), 0.22F) +
       terracettes(s, x, y, i);
   return look;
@@ -242,7 +309,8 @@ CloseCover close_cover(LandCoverClass id, bool winter) {
 }
 
 CloseScene make_close_scene(const GuidanceBuffers& guidance, const RockParameters& parameters,
-                            const SpurGround& ground, glm::ivec2 origin_px, PixelRect made,
+                            const SpurGround& ground, const DebrisCones& cones,
+                            glm::ivec2 origin_px, PixelRect made,
                             const std::array<bool, close_covers>& present) {
   const double ppu = ground.pixels_per_unit;
   const std::uint64_t seed = parameters.light.seed;
@@ -251,7 +319,8 @@ CloseScene make_close_scene(const GuidanceBuffers& guidance, const RockParameter
                    .ground = ground,
                    .origin_px = origin_px,
                    .made = made,
-                   .warp = Warp(seed)};
+                   .warp = Warp(seed),
+                   .cones = cones};
   const PixelRect sheet_rect = moved(made, origin_px.x, origin_px.y);
   const glm::vec3 wind(glm::vec2(snow_wind(parameters.light.sun_direction)), 0.0F);
   const auto down = [&](std::size_t i) { return std::optional(ground.fall[i]); };
@@ -274,6 +343,13 @@ CloseScene make_close_scene(const GuidanceBuffers& guidance, const RockParameter
         blur_on_surface(part, wide.depth_m, mean_normal_units * ppu / ground.wide.factor,
                         intersection(held, grown(surface_look(read), 1)));
   }
+  if (present[static_cast<std::size_t>(CloseCover::scree)]) {
+    Grid<float> ice(wide.width(), wide.height());
+    for (std::size_t i = 0; i < ice.size(); ++i)
+      ice[i] = wide.land_cover[i] == Class::glacier ? 1.0F : 0.0F;
+    scene.ice_around = blur_on_surface(ice, wide.depth_m, ice_units * ppu / ground.wide.factor,
+                                       intersection(held, grown(surface_look(read), 3)));
+  }
   const auto noise = [&](std::uint64_t part, double sigma_x, double sigma_y) {
     return make_image_noise(stream_seed(seed, Stream::close_calm, part),
                             origin_px + glm::ivec2(made.x0, made.y0), made.width(), made.height(),
@@ -284,6 +360,7 @@ CloseScene make_close_scene(const GuidanceBuffers& guidance, const RockParameter
   scene.steepness = noise(2, 40.0, 40.0);
   scene.terraces = noise(3, 15.0, 6.0);
   scene.quiet = noise(4, 85.0, 60.0);
+  scene.runnels = noise(5, 16.0, 22.0);
   return scene;
 }
 
@@ -315,7 +392,7 @@ FormLook look_at_form(const CloseScene& s, int x, int y, CloseCover cover, glm::
     case CloseCover::snow:
       return snow_look(s, x, y, i, position, fall, mean);
     case CloseCover::scree:
-      return scree_look(s, i, position, fall, mean);
+      return scree_look(s, x, y, i, position, fall, mean);
     case CloseCover::grass:
       return grass_look(s, x, y, i, position, fall, mean);
     case CloseCover::other:

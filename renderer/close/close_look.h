@@ -6,6 +6,7 @@
 
 #include "base/grid.h"
 #include "base/guidance_buffers.h"
+#include "renderer/close/debris_cones.h"
 #include "renderer/close/roofs.h"
 #include "renderer/rock/rock_view.h"
 
@@ -27,6 +28,7 @@ enum CloseSize : std::size_t {
   small_swells,
   scree_roofs,
   grass_roofs,
+  grass_slopes,
   close_sizes
 };
 
@@ -38,14 +40,18 @@ struct CloseScene {
   glm::ivec2 origin_px;
   PixelRect made;  // pixels of the window that may be looked at
   Warp warp;
+  const DebrisCones& cones;
   std::array<SpurCells, close_sizes> roofs = {};
   std::array<Grid<float>, 3> mean_normal = {};  // of wide pixels: the large form that light rakes
-  Grid<float> calm = {}, small_calm = {}, steepness = {}, terraces = {}, quiet = {};  // deviation 1
+  Grid<float> ice_around = {};  // of wide pixels: share of glacier ice, 0…1
+  Grid<float> calm = {}, small_calm = {}, steepness = {}, terraces = {}, quiet = {};
+  Grid<float> runnels = {};  // all of deviation 1
 };
 // Forms of the covers that are `present`. Reaches close_forms_reach_units for roofs, and
 // mean_normal_reach wide pixels.
 CloseScene make_close_scene(const GuidanceBuffers& guidance, const RockParameters& parameters,
-                            const SpurGround& ground, glm::ivec2 origin_px, PixelRect made,
+                            const SpurGround& ground, const DebrisCones& cones,
+                            glm::ivec2 origin_px, PixelRect made,
                             const std::array<bool, close_covers>& present);
 float close_forms_reach_units();
 int mean_normal_reach(double pixels_per_unit, int factor);

@@ -26,7 +26,8 @@ int reach_px(double units, double pixels_per_unit) {
 }
 
 double roofs_reach_units() {
-  return static_cast<double>(std::max(roof_reach_units(border_roofs), close_forms_reach_units()));
+  return static_cast<double>(std::max({roof_reach_units(border_roofs), close_forms_reach_units(),
+                                       debris_cones_reach_units()}));
 }
 
 }  // namespace
@@ -37,10 +38,16 @@ void add_close_relief(RockRelief& relief, const GuidanceBuffers& guidance, const
   const PixelRect whole{0, 0, guidance.width(), guidance.height()};
   if (wanted.empty()) wanted = whole;
   const double ppu = parameters.light.pixels_per_unit;
+  // Debris in the gullies of a wall has forms, too.
+  const auto in_gully = [&](int x, int y) {
+    return !parameters.winter && guidance.land_cover(x, y) == LandCoverClass::rock &&
+           relief.land_cover(x - wanted.x0, y - wanted.y0) == LandCoverClass::scree;
+  };
   const PixelRect close = extent_of(wanted, [&](int x, int y) {
     const std::size_t i = guidance.depth_m.index(x, y);
     return !guidance.is_sky(i) && close_at(guidance, i, ppu) > 0.0F &&
-           close_cover(guidance.land_cover[i], parameters.winter) != CloseCover::other;
+           (close_cover(guidance.land_cover[i], parameters.winter) != CloseCover::other ||
+            in_gully(x, y));
   });
   if (close.empty()) return;
   // Edges of planes, and the ground above and below, are found from neighbours.
@@ -62,13 +69,28 @@ void add_close_relief(RockRelief& relief, const GuidanceBuffers& guidance, const
                              grow_roofs(ground, border_roofs, border_roofs_part, sheet_rect,
                                         [&](std::size_t i) { return std::optional(fall[i]); }),
                              parameters.light.seed};
+  const DebrisCones cones = grow_debris_cones(ground, sheet_rect);
+  const Warp warp(parameters.light.seed);
+  // Cones of debris lie over grass.
+  const auto covered = [&](LandCoverClass id, int x, int y) {
+    if (close_cover(id, false) != CloseCover::grass || cones.cones.empty()) return id;
+    const glm::vec2 position{static_cast<float>((origin_px.x + x + 0.5) / ppu),
+                             static_cast<float>((origin_px.y + y + 0.5) / ppu)};
+    const DebrisHit hit = debris_at(cones, parameters.light.seed,
+                                    warp(position, static_cast<float>(ppu)),
+                                    guidance.depth_m(x, y));
+    return debris_covers(hit) ? LandCoverClass::scree : id;
+  };
   Grid<LandCoverClass> shown(made.width(), made.height());
   parallel_rows(made.height(), [&](int row) {
     for (int x = made.x0; x < made.x1; ++x) {
       const std::size_t i = guidance.depth_m.index(x, made.y0 + row);
-      shown(x - made.x0, row) = guidance.is_sky(i)
-                                    ? guidance.land_cover[i]
-                                    : borders.at(x, made.y0 + row, close_at(guidance, i, ppu));
+      LandCoverClass& id = shown(x - made.x0, row);
+      id = guidance.land_cover[i];
+      if (guidance.is_sky(i)) continue;
+      const float near = close_at(guidance, i, ppu);
+      id = borders.at(x, made.y0 + row, near);
+      if (near > 0.5F) id = covered(id, x, made.y0 + row);
     }
     progress.advance(1.0);
   });
@@ -79,7 +101,10 @@ void add_close_relief(RockRelief& relief, const GuidanceBuffers& guidance, const
   std::array<bool, close_covers> present{};
   for (const LandCoverClass id : shown)
     present[static_cast<std::size_t>(close_cover(id, parameters.winter))] = true;
-  const CloseScene scene = make_close_scene(guidance, parameters, ground, origin_px, made, present);
+  for (const LandCoverClass id : relief.land_cover)
+    present[static_cast<std::size_t>(close_cover(id, parameters.winter))] = true;
+  const CloseScene scene =
+      make_close_scene(guidance, parameters, ground, cones, origin_px, made, present);
   Grid<std::uint32_t> edges(made.width(), made.height(), 0U);
   constexpr glm::dvec2 centre_of_pixel{0.5, 0.5};
   parallel_rows(made.height(), [&](int row) {
@@ -89,10 +114,17 @@ void add_close_relief(RockRelief& relief, const GuidanceBuffers& guidance, const
       if (guidance.is_sky(i)) continue;
       const float near = close_at(guidance, i, ppu);
       const CloseCover cover = lies(x, y);
+      const bool asked = x >= wanted.x0 && y >= wanted.y0 && x < wanted.x1 && y < wanted.y1;
+      if (near > 0.0F && asked && cover == CloseCover::other) {
+        if (in_gully(x, y))
+          relief.tone(x - wanted.x0, y - wanted.y0) =
+              near * look_at_form(scene, x, y, CloseCover::scree, centre_of_pixel).tone;
+        continue;
+      }
       if (near <= 0.0F || cover == CloseCover::other) continue;
       const FormLook look = look_at_form(scene, x, y, cover, centre_of_pixel);
       edges(x - made.x0, row) = look.edges;
-      if (x < wanted.x0 || y < wanted.y0 || x >= wanted.x1 || y >= wanted.y1) continue;
+      if (!asked) continue;
       const int u = x - wanted.x0;
       const int v = y - wanted.y0;
       // Where rock has changed the class, its border stays.
@@ -139,6 +171,11 @@ void add_close_relief(RockRelief& relief, const GuidanceBuffers& guidance, const
         relief.tone(to_x, to_y) += 0.10F * near;
       if (cover != CloseCover::snow && there(-0.9F) == CloseCover::snow)
         relief.tone(to_x, to_y) -= 0.13F * near;
+      // So is turf.
+      if (cover == CloseCover::grass && there(1.0F) == CloseCover::scree)
+        relief.tone(to_x, to_y) += 0.05F * near;
+      if (cover == CloseCover::scree && there(-0.9F) == CloseCover::grass)
+        relief.tone(to_x, to_y) -= 0.09F * near;
     }
   });
 }

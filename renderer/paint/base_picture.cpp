@@ -349,8 +349,13 @@ BasePixel ground_pixel(const Scenery& s, GroundNoises& noises, WaterNoises& wate
   const float firn = id == Class::glacier ? firn_share(s, x, y) : 0.0F;
   const ScreeTurn fan =
       id == Class::scree && !s.palette.winter
-          ? scree_turn(s.around.fans.position[i], s.around.fans.streak[i], g.relief_s_m[i], drift)
+          ? scree_turn(s.around.fans.position[i],
+                       // Near debris has cones of its own (renderer/close).
+                       s.around.fans.streak[i] * (1.0F - 0.30F * close_share(s.metres_per_unit(i))),
+                       g.relief_s_m[i], drift)
           : ScreeTurn{};
+  if (id == Class::scree && !s.palette.winter && !g.rock_facet.empty())
+    hue *= near_scree_hue(g.rock_facet[i] != 0, close_share(s.metres_per_unit(i)));
   const float turned = fan.tone + woods.tone;
   const bool multiplied = s.parameters.mean_light > 0.0 && id != Class::water;
   const auto paint = [&](double step) {

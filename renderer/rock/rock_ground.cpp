@@ -7,6 +7,7 @@
 
 #include "base/math.h"
 #include "base/parallel.h"
+#include "base/random.h"
 #include "renderer/paint/picture_filter.h"
 
 namespace belvedere {
@@ -20,6 +21,7 @@ constexpr double turf_sigma_units = 13.6;
 constexpr double snow_sigma_units = 12.0;
 
 constexpr float tongue = 0.75F;      // how far spurs and gullies shift the border
+constexpr float bed_ledge = 0.50F;   // how far beds do
 constexpr float keeps_rock = 0.42F;  // share of rock around below which rock is replaced …
 constexpr float inside = 0.93F;      // … but not in the centre of a wall
 constexpr float becomes_rock = 0.62F;
@@ -68,12 +70,35 @@ int rock_around_reach(double pixels_per_unit, int factor) {
   return surface_reach_px(turf_sigma_units * pixels_per_unit / factor);
 }
 
+float standing_bed(double altitude_m, double east_m, double north_m, float metres_per_unit,
+                   float noise) {
+  constexpr float bed_units = 7.0F;
+  const double wanted_m = std::max(0.5, static_cast<double>(bed_units * metres_per_unit));
+  double thick_m = 1.0;
+  while (thick_m * 1.4142 < wanted_m) thick_m *= 2.0;
+  const auto phase = static_cast<float>((altitude_m + 0.26 * east_m - 0.11 * north_m) / thick_m) +
+                     0.22F * noise;
+  const float number = std::floor(phase);
+  const float at = phase - number;
+  const auto height = [](float bed) {
+    const auto id = static_cast<std::uint64_t>(static_cast<std::int64_t>(bed));
+    return 2.0F * static_cast<float>(mix_bits(id + 77U) >> 40U) / static_cast<float>(1U << 24U) -
+           1.0F;
+  };
+  // A bed ends sharply at its top; below it weathers back.
+  constexpr float back = 0.3F;
+  const float own = height(number);
+  return at < back ? own + (height(number - 1.0F) - own) * (1.0F - at / back) : own;
+}
+
 LandCoverClass rock_border(const RockPosition& position) {
   const float r = position.rock;
   const float edge = 1.0F - 0.6F * std::abs(2.0F * r - 1.0F);
   const float under = smoothstep(0.05F, 0.4F, position.above);  // the foot of a wall
   const float cone = cone_share * position.cones * under * smoothstep(0.2F, 1.2F, -position.funnel);
-  const float m = r + tongue * std::clamp(1.4F * position.stands, -0.6F, 0.6F) * edge - cone;
+  const float by_spurs = tongue * (1.0F - 0.65F * position.bedded) *
+                         std::clamp(1.4F * position.stands, -0.6F, 0.6F);
+  const float m = r + (by_spurs + bed_ledge * position.bedded * position.bed) * edge - cone;
   if (position.mapped == Class::rock) {
     if (m > keeps_rock || (r > inside && cone <= 0.0F)) return Class::rock;
     if (position.snow > 0.30F && position.snow > position.turf) return Class::snow;

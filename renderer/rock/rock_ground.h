@@ -31,10 +31,16 @@ struct RockPosition {
   float stands = 0.0F;  // crest of a spur (+) or gully (-), -.6…+.6
   float funnel = 0.0F;  // as funnel_at
   float cones = 1.0F;   // as RockKind
+  float bedded = 0.0F;  // how far beds rather than spurs shape the border, 0…1
+  float bed = 0.0F;     // of a bed that stands out (+) or weathers back (-): -1…1
 };
 // The class that a pixel shows after spurs extend into the meadows and debris climbs the gullies.
 // Only rock, scree, snow, grass, shrub and pasture change; forest stays.
 LandCoverClass rock_border(const RockPosition& position);
+// Whether the bed at a position on the ground, m, stands out of turf, -1…1: beds of unlike
+// thickness, with one dip. Noise of deviation 1.
+float standing_bed(double altitude_m, double east_m, double north_m, float metres_per_unit,
+                   float noise);
 // Slope of snow, degrees, from which crests of rock may show, however far other rock is.
 inline constexpr float steep_snow_deg = 34.0F;
 

@@ -86,4 +86,10 @@ ScreeTurn scree_turn(float position, float streak, float relief_s_m, float stren
   return turn;
 }
 
+glm::vec3 near_scree_hue(bool in_cone, float close) {
+  constexpr glm::vec3 in_cones{1.035F, 1.02F, 1.0F};
+  constexpr glm::vec3 between{0.945F, 0.965F, 0.945F};
+  return 1.0F + close * ((in_cone ? in_cones : between) - 1.0F);
+}
+
 }  // namespace belvedere

@@ -60,6 +60,35 @@ TEST(CloseBorders, StayStraightFarAwayAndBesideForest) {
   EXPECT_EQ(Border(Class::rock, Class::snow, 1.0F).moved, 0) << "rock has borders of its own";
 }
 
+// Tufts stand before the edge of grass, and stones within: pixels of another class than both
+// neighbours three units away.
+TEST(CloseBorders, StrewOutliersOnBothSides) {
+  const auto outliers = [](Class left, Class right) {
+    const GuidanceBuffers g = test::make_close_hills(160, 140, 1.0, 8.0, left, right);
+    const WideView wide{g, 1, {0, 0}};
+    const Grid<glm::vec2> fall = smooth_fall_lines(wide, 1.0, {0, 0, 160, 140});
+    const SpurGround ground{wide, fall, 1.0, 7};
+    const CloseBorders borders{g,
+                               ground,
+                               {0, 0},
+                               grow_roofs(ground, border_roofs, border_roofs_part, {0, 0, 160, 140},
+                                          [&](std::size_t i) { return std::optional(fall[i]); }),
+                               7};
+    int count = 0;
+    for (int y = 0; y < 140; ++y)
+      for (int x = 66; x < 94; ++x) {
+        if (g.is_sky(g.depth_m.index(x, y))) continue;
+        const Class own = borders.at(x, y, 1.0F);
+        const Class before = borders.at(x - 3, y, 1.0F);
+        count += own != before && before == borders.at(x + 3, y, 1.0F) ? 1 : 0;
+      }
+    return count;
+  };
+  EXPECT_GT(outliers(Class::scree, Class::alpine_grass), 8);
+  EXPECT_GT(outliers(Class::scree, Class::alpine_grass),
+            2 * outliers(Class::snow, Class::glacier));
+}
+
 TEST(CloseBorders, KnowTheirClasses) {
   EXPECT_TRUE(is_open_ground(Class::glacier));
   EXPECT_FALSE(is_open_ground(Class::valley_floor));

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/renderer/close/close_ground.h"
@@ -30,8 +31,10 @@ double modelling(glm::vec3 normal, float shadow, CloseCover cover) {
   const Grid<glm::vec2> fall = smooth_fall_lines(wide, 1.0, {0, 0, side, side});
   const RockParameters parameters = test::close_parameters(1.0);
   const SpurGround ground{wide, fall, 1.0, 5};
+  const DebrisCones cones;
   const CloseScene scene =
-      make_close_scene(g, parameters, ground, {0, 0}, {0, 0, side, side}, {true, true, true, true});
+      make_close_scene(g, parameters, ground, cones, {0, 0}, {0, 0, side, side},
+                       {true, true, true, true});
   double squares = 0.0;
   for (int y = 0; y < side; y += 3)
     for (int x = 0; x < side; x += 3) {
@@ -54,6 +57,45 @@ TEST(CloseLook, FormsOfStoneRemainInCastShadow) {
   EXPECT_GT(lit, 0.02);
   EXPECT_GT(shaded, 0.25 * lit);
   EXPECT_LT(shaded, lit);
+}
+
+// Beside a glacier rubble lies in a ridge: light on one side and dark on the other; farther off
+// nothing changes.
+TEST(CloseLook, GlaciersHaveLateralMoraines) {
+  constexpr int side = 120;
+  const auto tones = [](Class beside) {
+    GuidanceBuffers g = test::make_slope(side, side, Class::scree,
+                                         glm::normalize(glm::vec3(0.1F, -0.4F, 0.9F)), 25.0F);
+    for (float& metres : g.footprint_m) metres = 6.0F;
+    for (int y = 0; y < side; ++y)
+      for (int x = 0; x < 50; ++x) g.land_cover(x, y) = beside;
+    const WideView wide{g, 1, {0, 0}};
+    const Grid<glm::vec2> fall = smooth_fall_lines(wide, 1.0, {0, 0, side, side});
+    const RockParameters parameters = test::close_parameters(1.0);
+    const SpurGround ground{wide, fall, 1.0, 5};
+    const DebrisCones cones;
+    const CloseScene scene = make_close_scene(g, parameters, ground, cones, {0, 0},
+                                              {0, 0, side, side}, {true, true, true, true});
+    Grid<float> tone(side, side, 0.0F);
+    for (int y = 0; y < side; ++y)
+      for (int x = 50; x < side; ++x)
+        tone(x, y) = look_at_form(scene, x, y, CloseCover::scree, {0.5, 0.5}).tone;
+    return tone;
+  };
+  const Grid<float> beside_ice = tones(Class::glacier);
+  const Grid<float> beside_grass = tones(Class::alpine_grass);
+  int lighter = 0, darker = 0;
+  for (int y = 10; y < side - 10; ++y)
+    for (int x = 50; x < side; ++x) {
+      const float more = beside_ice(x, y) - beside_grass(x, y);
+      if (x > 66) {
+        ASSERT_EQ(more, 0.0F);
+      }
+      lighter += more > 0.02F ? 1 : 0;
+      darker += more < -0.02F ? 1 : 0;
+    }
+  EXPECT_GT(lighter, 25);
+  EXPECT_GT(darker, 25);
 }
 
 }  // namespace

@@ -84,6 +84,44 @@ TEST(CloseRelief, OfAPartIsThatOfTheWhole) {
   }
 }
 
+// Below a wall whose gullies hold debris, with grass at its foot.
+TEST(CloseRelief, OfAPartWithConesIsThatOfTheWhole) {
+  GuidanceBuffers g =
+      test::make_close_hills(900, 420, 1.0, 8.0, Class::scree, Class::alpine_grass);
+  for (int y = 0; y < 200; ++y)
+    for (int x = 0; x < g.width(); ++x)
+      if (!g.is_sky(g.depth_m.index(x, y))) g.land_cover(x, y) = Class::rock;
+  const RockParameters p = test::close_parameters(1.0);
+  const auto with_gullies = [](RockRelief relief, glm::ivec2 origin) {
+    for (int y = 0; y < relief.land_cover.height(); ++y)
+      for (int x = 0; x < relief.land_cover.width(); ++x)
+        if (relief.land_cover(x, y) == Class::rock && y + origin.y > 185 &&
+            (x + origin.x) % 40 < 12)
+          relief.land_cover(x, y) = Class::scree;
+    return relief;
+  };
+  const PixelRect all{0, 0, g.width(), g.height()};
+  RockRelief whole = with_gullies(test::bare_relief(g, all), {0, 0});
+  const Grid<Class> before = whole.land_cover;
+  add_close_relief(whole, g, {g, 1, {0, 0}}, p, {0, 0}, silent_progress());
+  int covered = 0;
+  for (std::size_t i = 0; i < before.size(); ++i)
+    covered += before[i] == Class::alpine_grass && whole.land_cover[i] == Class::scree ? 1 : 0;
+  EXPECT_GT(covered, 500) << "cones lie on grass";
+  for (const PixelRect kept :
+       {PixelRect{440, 186, 470, 230}, PixelRect{640, 188, 660, 198}, PixelRect{600, 230, 640, 260}}) {
+    const test::Window near = test::window_of(g, grown(kept, close_near_margin_px(p)));
+    const test::Window far = test::window_of(g, grown(kept, close_margin_px(p)));
+    RockRelief part = with_gullies(test::bare_relief(g, kept), {kept.x0, kept.y0});
+    add_close_relief(part, near.held, {far.held, 1, {far.rect.x0, far.rect.y0}}, p,
+                     {near.rect.x0, near.rect.y0}, silent_progress(),
+                     moved(kept, -near.rect.x0, -near.rect.y0));
+    EXPECT_TRUE(part.land_cover == test::cut(whole.land_cover, kept));
+    EXPECT_TRUE(part.facet == test::cut(whole.facet, kept));
+    EXPECT_TRUE(part.tone == test::cut(whole.tone, kept));
+  }
+}
+
 TEST(CloseRelief, SameBitsForAnyThreads) {
   const GuidanceBuffers g =
       test::make_close_hills(200, 160, 1.0, 8.0, Class::alpine_grass, Class::glacier);

@@ -16,7 +16,7 @@
 #include "renderer/paint/palette.h"
 #include "tests/renderer/exemplar/painted_hills.h"
 #include "tests/renderer/exemplar/painting_figures.h"
-#include "texture/strokes/ice_plan.h"
+#include "texture/strokes/ice/ice_plan.h"
 #include "texture/strokes/stroke_painter.h"
 #include "texture/strokes/stroke_table.h"
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/renderer/rock/rock_wall.h"
 
 namespace belvedere {
@@ -56,6 +58,31 @@ TEST(RockGround, CrestsStandOutOfSteepSnow) {
   EXPECT_EQ(at(50.0F, 0.5F), rock);
   EXPECT_EQ(at(50.0F, -0.2F), snow);
   EXPECT_EQ(at(30.0F, 0.6F), snow);
+}
+
+// Beds lie one above the other with one dip, and stand out unlike far.
+TEST(RockGround, BedsShapeRibsInTurf) {
+  for (const float metres_per_unit : {3.0F, 11.0F}) {
+    double sum = 0.0;
+    double squares = 0.0;
+    for (int k = 0; k < 4000; ++k) {
+      const float bed = standing_bed(1000.0 + 0.7 * k, 5000.0, 900.0, metres_per_unit, 0.0F);
+      ASSERT_LE(std::abs(bed), 1.0F);
+      sum += static_cast<double>(bed);
+      squares += static_cast<double>(bed) * bed;
+    }
+    EXPECT_NEAR(sum / 4000.0, 0.0, 0.3);
+    EXPECT_GT(squares / 4000.0, 0.1);
+    // Along its dip a bed stays the same.
+    EXPECT_NEAR(standing_bed(1500.0, 0.0, 0.0, metres_per_unit, 0.0F),
+                standing_bed(1500.0 - 26.0, 100.0, 0.0, metres_per_unit, 0.0F), 1e-4F);
+  }
+  const auto at = [](float bedded, float bed) {
+    return rock_border({.mapped = alpine_grass, .rock = 0.45F, .bedded = bedded, .bed = bed});
+  };
+  EXPECT_EQ(at(0.0F, 1.0F), alpine_grass);
+  EXPECT_EQ(at(1.0F, 1.0F), rock);
+  EXPECT_EQ(at(1.0F, -1.0F), alpine_grass);
 }
 
 TEST(RockGround, DebrisReachesUpBeneathFunnels) {

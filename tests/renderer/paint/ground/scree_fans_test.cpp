@@ -65,6 +65,13 @@ TEST(ScreeFans, AreGreyAtTheWallAndGrownOverAtTheFoot) {
   EXPECT_EQ(off.grown, 0.0F);
 }
 
+TEST(ScreeFans, NearConesAreFresherThanWhatLiesBetween) {
+  EXPECT_EQ(near_scree_hue(true, 0.0F), glm::vec3(1.0F));
+  EXPECT_EQ(near_scree_hue(false, 0.0F), glm::vec3(1.0F));
+  for (int k = 0; k < 3; ++k)
+    EXPECT_GT(near_scree_hue(true, 1.0F)[k], near_scree_hue(false, 1.0F)[k] + 0.04F);
+}
+
 TEST(ScreeFans, PartEqualsWhole) {
   GuidanceBuffers g = fan(300, 120);
   for (auto& d : g.fall_line) d = glm::vec2(0.28F, 0.96F);
