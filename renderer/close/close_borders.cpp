@@ -116,13 +116,13 @@ Class CloseBorders::at(int x, int y, float close) const {
                            ? 0.0F
                            : std::clamp(roof.height - middle_height, -max_height, max_height);
   const float unlike = std::clamp(
-      0.85F + 0.75F * static_cast<float>(gaussian_noise(stream_seed(seed, Stream::close_borders, 4),
-                                                        static_cast<double>(position.x),
-                                                        static_cast<double>(position.y),
-                                                        unlike_sigma)),
+      0.85F +
+          0.75F * static_cast<float>(gaussian_noise(stream_seed(seed, Stream::close_borders, 4),
+                                                    static_cast<double>(position.x),
+                                                    static_cast<double>(position.y), unlike_sigma)),
       least, most);
-  const float down =
-      by_relief * unlike * height + coarse_shift * noise(0, coarse_cell) + fine_shift * noise(1, fine_cell);
+  const float down = by_relief * unlike * height + coarse_shift * noise(0, coarse_cell) +
+                     fine_shift * noise(1, fine_cell);
   const float aside = coarse_shift * noise(2, coarse_cell) + fine_shift * noise(3, fine_cell);
   const glm::vec2 fall = ground.fall[ground.wide.index(origin_px.x + x, origin_px.y + y)];
   const glm::vec2 across{fall.y, -fall.x};

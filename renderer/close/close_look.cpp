@@ -38,7 +38,7 @@ constexpr CloseCover cover_with(std::size_t size) {
 }
 
 constexpr double mean_normal_units = 14.0;  // deviation of the large form that light rakes
-constexpr double ice_units = 5.0;  // deviation of the share of ice around
+constexpr double ice_units = 5.0;           // deviation of the share of ice around
 // The sun is turned until its cosine to the large form lies between these, with their sines.
 constexpr float max_facing = 0.62F;
 constexpr float max_facing_sine = 0.785F;
@@ -204,20 +204,20 @@ glm::vec2 lateral_moraine(const CloseScene& s, int x, int y, float depth_m) {
   if (own < 0.02F || own > 0.32F) return {0.0F, 0.0F};
   const float calm = s.calm(x - s.made.x0, y - s.made.y0);
   const float raised = smoothstep(-1.4F, -0.2F, calm);
-  const float at = 0.11F + 0.03F * std::clamp(s.steepness(x - s.made.x0, y - s.made.y0), -1.0F, 1.0F);
+  const float at =
+      0.11F + 0.03F * std::clamp(s.steepness(x - s.made.x0, y - s.made.y0), -1.0F, 1.0F);
   const float b = (own - at) / half_share;
   if (std::abs(b) >= 1.0F || raised <= 0.0F) return {0.0F, 0.0F};
   const glm::vec2 rise(share(aside_units, 0.0F) - share(-aside_units, 0.0F),
                        share(0.0F, aside_units) - share(0.0F, -aside_units));
-  const glm::vec2 slope =
-      -2.0F * b / half_share * height * raised * rise / (2.0F * aside_units);
+  const glm::vec2 slope = -2.0F * b / half_share * height * raised * rise / (2.0F * aside_units);
   const float size = std::sqrt(glm::dot(slope, slope));
   constexpr float steepest = 0.8F;
   return size > steepest ? slope * (steepest / size) : slope;
 }
 
-FormLook scree_look(const CloseScene& s, int x, int y, std::size_t i, glm::vec2 position, glm::vec2 fall,
-                    glm::vec3 mean) {
+FormLook scree_look(const CloseScene& s, int x, int y, std::size_t i, glm::vec2 position,
+                    glm::vec2 fall, glm::vec3 mean) {
   const GuidanceBuffers& g = s.guidance;
   const Frame frame(glm::normalize(0.6F * g.normal_detail[i] + 0.4F * g.normal_smooth[i]));
   FormLook look;

@@ -43,7 +43,7 @@ struct CloseScene {
   const DebrisCones& cones;
   std::array<SpurCells, close_sizes> roofs = {};
   std::array<Grid<float>, 3> mean_normal = {};  // of wide pixels: the large form that light rakes
-  Grid<float> ice_around = {};  // of wide pixels: share of glacier ice, 0…1
+  Grid<float> ice_around = {};                  // of wide pixels: share of glacier ice, 0…1
   Grid<float> calm = {}, small_calm = {}, steepness = {}, terraces = {}, quiet = {};
   Grid<float> runnels = {};  // all of deviation 1
 };

@@ -26,8 +26,8 @@ int reach_px(double units, double pixels_per_unit) {
 }
 
 double roofs_reach_units() {
-  return static_cast<double>(std::max({roof_reach_units(border_roofs), close_forms_reach_units(),
-                                       debris_cones_reach_units()}));
+  return static_cast<double>(std::max(
+      {roof_reach_units(border_roofs), close_forms_reach_units(), debris_cones_reach_units()}));
 }
 
 }  // namespace
@@ -76,9 +76,9 @@ void add_close_relief(RockRelief& relief, const GuidanceBuffers& guidance, const
     if (close_cover(id, false) != CloseCover::grass || cones.cones.empty()) return id;
     const glm::vec2 position{static_cast<float>((origin_px.x + x + 0.5) / ppu),
                              static_cast<float>((origin_px.y + y + 0.5) / ppu)};
-    const DebrisHit hit = debris_at(cones, parameters.light.seed,
-                                    warp(position, static_cast<float>(ppu)),
-                                    guidance.depth_m(x, y));
+    const DebrisHit hit =
+        debris_at(cones, parameters.light.seed, warp(position, static_cast<float>(ppu)),
+                  guidance.depth_m(x, y));
     return debris_covers(hit) ? LandCoverClass::scree : id;
   };
   Grid<LandCoverClass> shown(made.width(), made.height());

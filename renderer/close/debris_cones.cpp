@@ -26,23 +26,23 @@ constexpr float seed_cell = 13.0F;    // units: spacing of positions that look f
 constexpr float bucket_cell = 16.0F;  // units
 constexpr float up_step = 2.0F;       // of the way up to the wall, units
 constexpr int up_steps = 8;
-constexpr float slide = 4.0F;  // along the foot of the wall, units a step
-constexpr int slides = 4;      // to each side
+constexpr float slide = 4.0F;   // along the foot of the wall, units a step
+constexpr int slides = 4;       // to each side
 constexpr float apart = 15.0F;  // minimum distance of two apices, units
 constexpr float down_step = 4.0F;
 constexpr float shortest = 22.0F;
 constexpr float longest = 130.0F;
-constexpr float widest = 0.62F;       // half width at the foot, in lengths
-constexpr float level_z = 0.985F;     // of a normal: the slope ends below 10°
-constexpr float steepest_z = 0.70F;   // debris does not lie above 45°
-constexpr float min_down = 0.15F;     // slopes that face away are not seen
+constexpr float widest = 0.62F;      // half width at the foot, in lengths
+constexpr float level_z = 0.985F;    // of a normal: the slope ends below 10°
+constexpr float steepest_z = 0.70F;  // debris does not lie above 45°
+constexpr float min_down = 0.15F;    // slopes that face away are not seen
 constexpr float tolerance_slope_cone = 4.5F;
 constexpr float tolerance_share_cone = 0.003F;
 constexpr float above_apex = 0.12F;   // lengths of a cone that lie in its gully
 constexpr float head_width = 0.055F;  // half width at the apex, in lengths
 constexpr float foot_lobes = 0.13F;
-constexpr float ragged = 0.16F;   // of its sides, in half widths
-constexpr float convex = 0.75F;   // gradient at its sides
+constexpr float ragged = 0.16F;  // of its sides, in half widths
+constexpr float convex = 0.75F;  // gradient at its sides
 constexpr float channel_depth = 0.7F;
 constexpr float beside_units = 4.0F;  // of darker ground around it
 
@@ -177,16 +177,15 @@ DebrisCone grow_cone(const SpurGround& ground, std::uint64_t key, glm::ivec2 cel
   cone.spread = between(0.30F, widest);
   cone.top = between(0.0F, 0.5F) + 0.25F * std::clamp(most, 0.0F, 2.0F);
   cone.depth_m = seen.depth_m[*i];
-  const float metres_per_unit = seen.footprint_m[*i] *
-                                static_cast<float>(ground.pixels_per_unit) /
+  const float metres_per_unit = seen.footprint_m[*i] * static_cast<float>(ground.pixels_per_unit) /
                                 static_cast<float>(ground.wide.factor);
   cone.tolerance_m = metres_per_unit * tolerance_slope_cone;
   cone.id = static_cast<std::uint32_t>(random_bits(key, cell.x, cell.y, draws++)) | 1U;
   cone.channel_count = 2 + static_cast<int>(between(0.0F, 3.99F));
   for (int k = 0; k < cone.channel_count; ++k) {
     DebrisChannel& channel = cone.channels[static_cast<std::size_t>(k)];
-    const float slot = (static_cast<float>(k) + between(0.15F, 0.85F)) /
-                       static_cast<float>(cone.channel_count);
+    const float slot =
+        (static_cast<float>(k) + between(0.15F, 0.85F)) / static_cast<float>(cone.channel_count);
     channel.at = 1.7F * slot - 0.85F;
     channel.from = between(0.0F, 0.20F);
     channel.to = between(0.35F, 0.95F);
@@ -267,8 +266,9 @@ DebrisCones grow_debris_cones(const SpurGround& ground, PixelRect rect) {
          y <= std::min(to.y - grown.first.y, grown.count.y - 1); ++y)
       for (int x = std::max(from.x - grown.first.x, 0);
            x <= std::min(to.x - grown.first.x, grown.count.x - 1); ++x)
-        grown.cells[static_cast<std::size_t>(y) * static_cast<std::size_t>(grown.count.x) +
-                    static_cast<std::size_t>(x)]
+        grown
+            .cells[static_cast<std::size_t>(y) * static_cast<std::size_t>(grown.count.x) +
+                   static_cast<std::size_t>(x)]
             .push_back(static_cast<std::uint32_t>(k));
   }
   return grown;
@@ -282,10 +282,9 @@ float debris_cones_reach_units() {
 DebrisHit debris_at(const DebrisCones& cones, std::uint64_t seed, glm::vec2 position,
                     float depth_m) {
   DebrisHit hit;
-  const glm::ivec2 cell =
-      glm::ivec2(static_cast<int>(std::floor(position.x / bucket_cell)),
-                 static_cast<int>(std::floor(position.y / bucket_cell))) -
-      cones.first;
+  const glm::ivec2 cell = glm::ivec2(static_cast<int>(std::floor(position.x / bucket_cell)),
+                                     static_cast<int>(std::floor(position.y / bucket_cell))) -
+                          cones.first;
   if (cell.x < 0 || cell.y < 0 || cell.x >= cones.count.x || cell.y >= cones.count.y) return hit;
   const std::uint64_t key = stream_seed(seed, Stream::close_roofs, streaks_part);
   float highest = -1e9F;
@@ -301,8 +300,8 @@ DebrisHit debris_at(const DebrisCones& cones, std::uint64_t seed, glm::vec2 posi
         tolerance_share_cone * depth_m + cone.tolerance_m * (4.0F + std::abs(p.v) * cone.length))
       continue;
     const float own = static_cast<float>(cone.id % 97U);
-    const float foot = 1.0F + foot_lobes * broken_noise(key, 3.0F * p.e + own, own) -
-                       0.22F * p.e * p.e;
+    const float foot =
+        1.0F + foot_lobes * broken_noise(key, 3.0F * p.e + own, own) - 0.22F * p.e * p.e;
     const float side = 1.0F + ragged * unit(4.0F * p.v) *
                                   broken_noise(key, 9.0F * p.v + own, p.e > 0.0F ? own : -own);
     const float within = std::min((foot - p.v) * cone.length, (side - std::abs(p.e)) * p.width);
@@ -331,16 +330,17 @@ DebrisHit debris_at(const DebrisCones& cones, std::uint64_t seed, glm::vec2 posi
   const float own = static_cast<float>(cone.id % 97U) * 3.7F;
   float across = -convex * best.e * smoothstep(-0.05F, 0.12F, best.v);
   // Streaks from the apex, as broad as a dab at least.
-  float tone = 0.12F * broken_noise(key, 0.22F * best.e * cone.spread * cone.length + own,
-                                     2.2F * best.v + own) +
-               0.045F * broken_noise(key, 0.55F * best.e * cone.spread * cone.length - own,
-                                     4.0F * best.v);
+  float tone =
+      0.12F *
+          broken_noise(key, 0.22F * best.e * cone.spread * cone.length + own, 2.2F * best.v + own) +
+      0.045F * broken_noise(key, 0.55F * best.e * cone.spread * cone.length - own, 4.0F * best.v);
   for (int k = 0; k < cone.channel_count; ++k) {
     const DebrisChannel& channel = cone.channels[static_cast<std::size_t>(k)];
     if (best.v > channel.to + 0.2F) continue;
     const float branch = static_cast<float>(k) * 9.3F + own;
-    const float way = channel.at * smoothstep(channel.from, channel.from + 0.40F, best.v) +
-                      0.10F * broken_noise(key, 5.0F * best.v + branch, branch) * unit(3.0F * best.v);
+    const float way =
+        channel.at * smoothstep(channel.from, channel.from + 0.40F, best.v) +
+        0.10F * broken_noise(key, 5.0F * best.v + branch, branch) * unit(3.0F * best.v);
     const float share = unit(best.v / channel.to);
     const float broad = 1.7F - 1.0F * share;  // units
     const float d = (best.e - way) * best.width / broad;

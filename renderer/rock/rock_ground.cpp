@@ -76,8 +76,8 @@ float standing_bed(double altitude_m, double east_m, double north_m, float metre
   const double wanted_m = std::max(0.5, static_cast<double>(bed_units * metres_per_unit));
   double thick_m = 1.0;
   while (thick_m * 1.4142 < wanted_m) thick_m *= 2.0;
-  const auto phase = static_cast<float>((altitude_m + 0.26 * east_m - 0.11 * north_m) / thick_m) +
-                     0.22F * noise;
+  const auto phase =
+      static_cast<float>((altitude_m + 0.26 * east_m - 0.11 * north_m) / thick_m) + 0.22F * noise;
   const float number = std::floor(phase);
   const float at = phase - number;
   const auto height = [](float bed) {
@@ -96,8 +96,8 @@ LandCoverClass rock_border(const RockPosition& position) {
   const float edge = 1.0F - 0.6F * std::abs(2.0F * r - 1.0F);
   const float under = smoothstep(0.05F, 0.4F, position.above);  // the foot of a wall
   const float cone = cone_share * position.cones * under * smoothstep(0.2F, 1.2F, -position.funnel);
-  const float by_spurs = tongue * (1.0F - 0.65F * position.bedded) *
-                         std::clamp(1.4F * position.stands, -0.6F, 0.6F);
+  const float by_spurs =
+      tongue * (1.0F - 0.65F * position.bedded) * std::clamp(1.4F * position.stands, -0.6F, 0.6F);
   const float m = r + (by_spurs + bed_ledge * position.bedded * position.bed) * edge - cone;
   if (position.mapped == Class::rock) {
     if (m > keeps_rock || (r > inside && cone <= 0.0F)) return Class::rock;

@@ -190,8 +190,7 @@ RockPosition border_place(const RockScene& s, const RockPixel& p, int x, int y, 
   // Near ribs in meadows are ledges of beds.
   position.bedded = close_share(p.metres_per_unit) * smoothstep(0.12F, 0.45F, p.turf);
   if (position.bedded > 0.0F)
-    position.bed =
-        standing_bed(p.altitude_m, p.east_m, p.north_m, p.metres_per_unit, p.bed_noise);
+    position.bed = standing_bed(p.altitude_m, p.east_m, p.north_m, p.metres_per_unit, p.bed_noise);
   return position;
 }
 

@@ -153,8 +153,8 @@ void lay_stone(const StrokeScene& scene, const Thing& stone, StrokeSeed& seed,
   if (stone.units < 1.4F) return;
   Stroke edge = part_of_thing(scene, stone, 2);
   const glm::vec2 top = stone.position + glm::vec2(0.12F * sun * size, -0.24F * flat * size);
-  set_line(edge, top - glm::vec2(0.26F * size, 0.F),
-           top + glm::vec2(0.26F * size, 0.5F * lean), 0.3F * flat * size, 0.2F * flat * size);
+  set_line(edge, top - glm::vec2(0.26F * size, 0.F), top + glm::vec2(0.26F * size, 0.5F * lean),
+           0.3F * flat * size, 0.2F * flat * size);
   edge.alpha = 0.5F + 0.3F * lit;
   edge.colour = body.colour + clear * (0.05F + 0.13F * lit) * glm::vec3(1.F, 0.92F, 0.78F);
   out.push_back(edge);
@@ -199,21 +199,20 @@ std::optional<float> block_units(const StrokeScene& scene, StrokeSeed& seed, glm
 }  // namespace
 
 std::vector<Stroke> ground_stones(const StrokeScene& scene, Stream stream) {
-  return sow(
-      scene, spacing_units, stream,
-      [&](StrokeSeed& seed, glm::vec2 position, std::size_t i, std::vector<Stroke>& out) {
-        const float per_m2 = stones_per_m2(scene.class_at(i));
-        if (per_m2 <= 0.F) return;
-        if (const auto units = block_units(scene, seed, position, i)) {
-          lay_stone(scene, {position, i, *units}, seed, out);
-          return;
-        }
-        // Fields of stones with bare ground between.
-        const float field =
-            std::clamp(1.F + 0.8F * ground_noise(scene, i, Stream::stone_fields, 14.0), 0.05F, 3.F);
-        strew(scene, {.per_m2 = per_m2 * field, .largest_m = 2.5F}, seed, position, i,
-              [&](const Thing& stone) { lay_stone(scene, stone, seed, out); });
-      });
+  return sow(scene, spacing_units, stream,
+             [&](StrokeSeed& seed, glm::vec2 position, std::size_t i, std::vector<Stroke>& out) {
+               const float per_m2 = stones_per_m2(scene.class_at(i));
+               if (per_m2 <= 0.F) return;
+               if (const auto units = block_units(scene, seed, position, i)) {
+                 lay_stone(scene, {position, i, *units}, seed, out);
+                 return;
+               }
+               // Fields of stones with bare ground between.
+               const float field = std::clamp(
+                   1.F + 0.8F * ground_noise(scene, i, Stream::stone_fields, 14.0), 0.05F, 3.F);
+               strew(scene, {.per_m2 = per_m2 * field, .largest_m = 2.5F}, seed, position, i,
+                     [&](const Thing& stone) { lay_stone(scene, stone, seed, out); });
+             });
 }
 
 std::vector<Stroke> grass_tufts(const StrokeScene& scene, Stream stream) {

@@ -37,8 +37,8 @@ struct ScreeTurn {
 // relief_s_m: height above the ground around. strength 0…3: AirParameters::hue_drift.
 ScreeTurn scree_turn(float position, float streak, float relief_s_m, float strength);
 
-// Colour of near debris: fresh in cones (renderer/close), old and weathered between them. `close`: as
-// close_share.
+// Colour of near debris: fresh in cones (renderer/close), old and weathered between them. `close`:
+// as close_share.
 glm::vec3 near_scree_hue(bool in_cone, float close);
 
 }  // namespace belvedere

@@ -85,8 +85,7 @@ TEST(CloseBorders, StrewOutliersOnBothSides) {
     return count;
   };
   EXPECT_GT(outliers(Class::scree, Class::alpine_grass), 8);
-  EXPECT_GT(outliers(Class::scree, Class::alpine_grass),
-            2 * outliers(Class::snow, Class::glacier));
+  EXPECT_GT(outliers(Class::scree, Class::alpine_grass), 2 * outliers(Class::snow, Class::glacier));
 }
 
 TEST(CloseBorders, KnowTheirClasses) {

@@ -32,9 +32,8 @@ double modelling(glm::vec3 normal, float shadow, CloseCover cover) {
   const RockParameters parameters = test::close_parameters(1.0);
   const SpurGround ground{wide, fall, 1.0, 5};
   const DebrisCones cones;
-  const CloseScene scene =
-      make_close_scene(g, parameters, ground, cones, {0, 0}, {0, 0, side, side},
-                       {true, true, true, true});
+  const CloseScene scene = make_close_scene(g, parameters, ground, cones, {0, 0},
+                                            {0, 0, side, side}, {true, true, true, true});
   double squares = 0.0;
   for (int y = 0; y < side; y += 3)
     for (int x = 0; x < side; x += 3) {

@@ -86,8 +86,7 @@ TEST(CloseRelief, OfAPartIsThatOfTheWhole) {
 
 // Below a wall whose gullies hold debris, with grass at its foot.
 TEST(CloseRelief, OfAPartWithConesIsThatOfTheWhole) {
-  GuidanceBuffers g =
-      test::make_close_hills(900, 420, 1.0, 8.0, Class::scree, Class::alpine_grass);
+  GuidanceBuffers g = test::make_close_hills(900, 420, 1.0, 8.0, Class::scree, Class::alpine_grass);
   for (int y = 0; y < 200; ++y)
     for (int x = 0; x < g.width(); ++x)
       if (!g.is_sky(g.depth_m.index(x, y))) g.land_cover(x, y) = Class::rock;
@@ -108,8 +107,8 @@ TEST(CloseRelief, OfAPartWithConesIsThatOfTheWhole) {
   for (std::size_t i = 0; i < before.size(); ++i)
     covered += before[i] == Class::alpine_grass && whole.land_cover[i] == Class::scree ? 1 : 0;
   EXPECT_GT(covered, 500) << "cones lie on grass";
-  for (const PixelRect kept :
-       {PixelRect{440, 186, 470, 230}, PixelRect{640, 188, 660, 198}, PixelRect{600, 230, 640, 260}}) {
+  for (const PixelRect kept : {PixelRect{440, 186, 470, 230}, PixelRect{640, 188, 660, 198},
+                               PixelRect{600, 230, 640, 260}}) {
     const test::Window near = test::window_of(g, grown(kept, close_near_margin_px(p)));
     const test::Window far = test::window_of(g, grown(kept, close_margin_px(p)));
     RockRelief part = with_gullies(test::bare_relief(g, kept), {kept.x0, kept.y0});

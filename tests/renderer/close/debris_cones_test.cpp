@@ -79,8 +79,8 @@ TEST(DebrisCones, AreConvex) {
   int count = 0;
   for (int y = foot_of_rock + 10; y < height; y += 3)
     for (int x = 0; x < width; x += 3) {
-      const DebrisHit hit = debris_at(grown, 5, {static_cast<float>(x), static_cast<float>(y)},
-                                      wall.g.depth_m(x, y));
+      const DebrisHit hit =
+          debris_at(grown, 5, {static_cast<float>(x), static_cast<float>(y)}, wall.g.depth_m(x, y));
       if (hit.cone == nullptr || std::abs(hit.across) < 0.5F || hit.along < 0.3F) continue;
       // To the right of an axis that points down the sheet.
       away += static_cast<double>(hit.across > 0.0F ? hit.slope.x : -hit.slope.x);
@@ -118,8 +118,8 @@ TEST(DebrisCones, LeaveGrassAtTheirFeet) {
   int high = 0, covered_high = 0, low = 0, covered_low = 0;
   for (int y = foot_of_rock; y < height; ++y)
     for (int x = 0; x < width; ++x) {
-      const DebrisHit hit = debris_at(grown, 5, {static_cast<float>(x), static_cast<float>(y)},
-                                      wall.g.depth_m(x, y));
+      const DebrisHit hit =
+          debris_at(grown, 5, {static_cast<float>(x), static_cast<float>(y)}, wall.g.depth_m(x, y));
       if (hit.cone == nullptr || hit.inside < 0.9F) continue;
       const bool covers = debris_covers(hit);
       if (hit.along > 0.1F && hit.along < 0.4F) {

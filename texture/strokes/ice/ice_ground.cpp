@@ -79,7 +79,8 @@ float ice_slope_deg(const StrokeScene& scene, const IceFlow& flow, glm::vec2 pos
   const std::size_t i = scene.pixel(position);
   float sum = 0.F;
   int count = 0;
-  for (const glm::vec2 offset : {glm::vec2(0.F), 2.F * down, -2.F * down, 2.F * aside, -2.F * aside}) {
+  for (const glm::vec2 offset :
+       {glm::vec2(0.F), 2.F * down, -2.F * down, 2.F * aside, -2.F * aside}) {
     if (!scene.on_canvas(position + offset)) continue;
     const std::size_t k = scene.pixel(position + offset);
     if (!is_ice(scene.class_at(k)) || !same_ice_surface(scene, k, i)) continue;

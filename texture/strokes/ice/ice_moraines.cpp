@@ -13,14 +13,14 @@ namespace {
 
 using enum LandCoverClass;
 
-constexpr float moraine_step = 4.F;     // units between positions
-constexpr int moraine_steps = 220;      // at most
+constexpr float moraine_step = 4.F;       // units between positions
+constexpr int moraine_steps = 220;        // at most
 constexpr std::size_t shortest_way = 10;  // positions of a line on its own
-constexpr float joins_within = 3.F;     // units
-constexpr float beside_within = 9.F;    // lines that long stay so near are one …
-constexpr float beside_share = 0.35F;   // … for this share of their way
-constexpr float widest_half = 7.F;     // units
-constexpr float firn_until = 0.35F;     // share of the way that may lie in firn
+constexpr float joins_within = 3.F;       // units
+constexpr float beside_within = 9.F;      // lines that long stay so near are one …
+constexpr float beside_share = 0.35F;     // … for this share of their way
+constexpr float widest_half = 7.F;        // units
+constexpr float firn_until = 0.35F;       // share of the way that may lie in firn
 
 // Where the ice leaves a rib of rock above a position: from there the rubble of two streams runs
 // down as one line. With ice on both sides: else it is the glacier's margin.
@@ -121,8 +121,7 @@ void measure(const StrokeScene& scene, const IceFlow& flow, Line& line, float wi
     // At the tongue it spreads.
     const float left = moraine_step * static_cast<float>(count - 1 - k);
     const float spread = line.joined ? 1.F : 1.F + 0.9F * std::max(0.F, 1.F - left / 36.F);
-    way.half_width.push_back(
-        std::min(widest_half, width * (0.55F + units / 55.F) * spread));
+    way.half_width.push_back(std::min(widest_half, width * (0.55F + units / 55.F) * spread));
   }
 }
 
@@ -142,9 +141,8 @@ std::vector<IceWay> plan_moraines(const StrokeScene& scene, const IceFlow& flow,
           return;
         const auto in_firn = static_cast<float>(
             std::count_if(line.positions.begin(), line.positions.end(), [&](glm::vec2 at) {
-              return share_around(scene, at, 26.F, [&](std::size_t k) {
-                       return scene.class_at(k) == snow;
-                     }) > 0.3F;
+              return share_around(scene, at, 26.F,
+                                  [&](std::size_t k) { return scene.class_at(k) == snow; }) > 0.3F;
             }));
         if (in_firn > firn_until * static_cast<float>(line.positions.size())) return;
         line.way = way_along(scene, stream, seed, line.positions);

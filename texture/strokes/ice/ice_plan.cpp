@@ -40,9 +40,8 @@ float torn(const StrokeScene& scene, const IceFlow& flow, glm::vec2 position) {
   const glm::vec2 before = flow.at(units - down * 14.F);
   const glm::vec2 after = flow.at(units + down * 14.F);
   const float bend = std::min(1.F, 1.6F * std::abs(before.x * after.y - before.y * after.x));
-  const float firn = share_around(scene, position, 26.F, [&](std::size_t k) {
-    return scene.class_at(k) == snow;
-  });
+  const float firn =
+      share_around(scene, position, 26.F, [&](std::size_t k) { return scene.class_at(k) == snow; });
   const float whole = 1.F - 0.8F * std::clamp(4.F * firn, 0.F, 1.F);
   return moving * whole *
          std::clamp(0.50F * steep + 0.70F * edge + 0.7F * over_edge + 0.25F * bend +
@@ -93,8 +92,7 @@ IceWay crevasse_field(const StrokeScene& scene, const IceFlow& flow, Stream stre
     centres.push_back(centre);
     across.push_back(across_flow(scene, centre, down));
     // Foreshortened as the ice is.
-    const float gap =
-        gap_units * (0.45F + 0.55F * std::abs(down.x)) * seed.between(0.8F, 1.25F);
+    const float gap = gap_units * (0.45F + 0.55F * std::abs(down.x)) * seed.between(0.8F, 1.25F);
     centre += down * (gap * scene.scale());
     centre += across.back() * (0.05F * seed.normal() * longest_units * scene.scale());
   }
@@ -115,13 +113,13 @@ std::vector<IceWay> crevasses(const StrokeScene& scene, const IceFlow& flow, Str
     glm::vec2 position;
     float share;
   };
-  std::vector<Place> places = sow<Place>(
-      scene, 9.F, stream,
-      [&](StrokeSeed& seed, glm::vec2 position, std::size_t i, std::vector<Place>& out) {
-        if (scene.class_at(i) != glacier) return;
-        const float share = torn(scene, flow, position);
-        if (share > torn_from) out.push_back({seed, position, share});
-      });
+  std::vector<Place> places =
+      sow<Place>(scene, 9.F, stream,
+                 [&](StrokeSeed& seed, glm::vec2 position, std::size_t i, std::vector<Place>& out) {
+                   if (scene.class_at(i) != glacier) return;
+                   const float share = torn(scene, flow, position);
+                   if (share > torn_from) out.push_back({seed, position, share});
+                 });
   std::stable_sort(places.begin(), places.end(),
                    [](const Place& a, const Place& b) { return a.share > b.share; });
   std::vector<IceWay> fields;
@@ -134,8 +132,7 @@ std::vector<IceWay> crevasses(const StrokeScene& scene, const IceFlow& flow, Str
     if (near) continue;
     taken.push_back(place.position);
     if (place.seed.uniform() > 4.F * (place.share - torn_from) + 0.55F) continue;
-    fields.push_back(
-        crevasse_field(scene, flow, stream, place.seed, place.position, place.share));
+    fields.push_back(crevasse_field(scene, flow, stream, place.seed, place.position, place.share));
   }
   return fields;
 }

@@ -17,8 +17,8 @@ struct IcePlan {
 };
 
 // From a picture of the whole sheet; about one pixel per unit is sufficient. Needs depth, position,
-// land cover, fall line, slope, footprint and relief_s. It uses the parameters pixels_per_unit (of this picture)
-// and seed.
+// land cover, fall line, slope, footprint and relief_s. It uses the parameters pixels_per_unit (of
+// this picture) and seed.
 IcePlan plan_ice(const GuidanceBuffers& guidance, const StrokeParameters& parameters);
 
 }  // namespace belvedere

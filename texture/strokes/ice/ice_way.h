@@ -11,14 +11,14 @@ namespace belvedere {
 // A series of strokes on ice longer than a stroke's reach: a line that runs down with the ice, a
 // series of crevasses.
 struct IceWay {
-  Stream stream;                        // of the kind of its strokes
-  glm::ivec2 cell{0};                   // cell of its seed: all its random numbers derive from it
-  LandCoverClass land_cover;            // class that it runs over
-  float strength = 0.F;                 // of crevasses: how broken the ice is, 0…1
-  float size_units = 0.F;               // of crevasses: length of the longest
-  bool falls = false;                   // of crevasses: an icefall, broken into blocks
-  std::vector<glm::vec2> positions{};   // units of the sheet, downwards, never empty
-  std::vector<float> depth_m{};         // of the ground at each position
+  Stream stream;                       // of the kind of its strokes
+  glm::ivec2 cell{0};                  // cell of its seed: all its random numbers derive from it
+  LandCoverClass land_cover;           // class that it runs over
+  float strength = 0.F;                // of crevasses: how broken the ice is, 0…1
+  float size_units = 0.F;              // of crevasses: length of the longest
+  bool falls = false;                  // of crevasses: an icefall, broken into blocks
+  std::vector<glm::vec2> positions{};  // units of the sheet, downwards, never empty
+  std::vector<float> depth_m{};        // of the ground at each position
   std::vector<glm::vec2> across{};  // what a unit of level ground across the flow measures on the
                                     // sheet at each position, units; empty for flow lines
   std::vector<float> half_width{};  // of moraines at each position, units of ground

@@ -59,7 +59,8 @@ void open_crevasses(const Ice& row, float lean, StrokeSeed& seed, std::vector<St
   const float seen_along = 0.6F + 0.4F * std::abs(row.down.x);
   for (int n = 0; n < beside; ++n) {
     const float share = seed.between(0.45F, 0.85F);
-    const float length = share * width_of_row * scale * std::min(1.F, 2.F / static_cast<float>(beside) + 0.3F);
+    const float length =
+        share * width_of_row * scale * std::min(1.F, 2.F / static_cast<float>(beside) + 0.3F);
     const float room = 0.5F * std::max(0.F, width_of_row * scale - length);
     const float slot = (static_cast<float>(n) + seed.uniform()) / static_cast<float>(beside);
     const float aside = (2.F * slot - 1.F) * room;
@@ -72,8 +73,7 @@ void open_crevasses(const Ice& row, float lean, StrokeSeed& seed, std::vector<St
     const float alpha = 0.5F + 0.4F * u;
     const glm::vec2 way = row.across + row.down * (lean + turn);
     Crack crack;
-    crack.centre =
-        way_place(scene, row.field, row.k) + row.across * aside + row.down * jump;
+    crack.centre = way_place(scene, row.field, row.k) + row.across * aside + row.down * jump;
     if (!scene.on_canvas(crack.centre)) continue;
     const std::size_t here = scene.pixel(crack.centre);
     if (scene.class_at(here) != row.field.land_cover) continue;

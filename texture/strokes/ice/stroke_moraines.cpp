@@ -46,9 +46,9 @@ void strew_rubble(const StrokeScene& scene, const IceWay& way, std::size_t k, st
     dab.alpha = std::max(0.12F, 0.62F - 0.40F * edge);
     // The side that faces the sun is light.
     const float ridge = std::min(1.F, half / 2.F) * 0.10F * aside * right * sun;
-    dab.colour = through_air(
-        scene, own,
-        by_tone(moraine_paint, scene.guidance.tone[own]) + grey + ridge * glm::vec3(1.F, 0.95F, 0.85F));
+    dab.colour = through_air(scene, own,
+                             by_tone(moraine_paint, scene.guidance.tone[own]) + grey +
+                                 ridge * glm::vec3(1.F, 0.95F, 0.85F));
     out.push_back(dab);
   }
 }
@@ -77,8 +77,7 @@ std::vector<Stroke> glacier_moraines(const StrokeScene& scene, Stream stream) {
                     .wetness = 0.02F,
                     .load = 0.4F,
                     .edge = 0.15F});
-        band.colour = through_air(scene, *here,
-                                  by_tone(moraine_paint, scene.guidance.tone[*here]));
+        band.colour = through_air(scene, *here, by_tone(moraine_paint, scene.guidance.tone[*here]));
         out.push_back(band);
       }
       // In winter a line of stones remains.
