@@ -65,8 +65,8 @@ std::vector<IceWay> flow_lines(const StrokeScene& scene, const IceFlow& flow, St
 // A field of arcs, one below the other, the longest in its centre.
 IceWay crevasse_field(const StrokeScene& scene, const IceFlow& flow, Stream stream,
                       StrokeSeed& seed, glm::vec2 position, float share) {
-  constexpr float falls_from_deg = 21.F;
-  constexpr float falls_from = 0.40F;
+  constexpr float falls_from_deg = 25.F;
+  constexpr float falls_from = 0.66F;
   const std::size_t i = scene.pixel(position);
   const int count = 4 + static_cast<int>(seed.uniform() * (2.F + 7.F * share));
   const float u = seed.uniform();

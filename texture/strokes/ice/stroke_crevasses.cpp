@@ -114,8 +114,8 @@ void break_blocks(const Ice& ice, StrokeSeed& seed, std::vector<Stroke>& out) {
   float at = -reach * seed.between(0.6F, 1.F);
   while (at < reach) {
     const float size = seed.between(1.5F, 3.6F);
-    const float turn = 0.35F * seed.normal();
-    const float jump = seed.between(-0.8F, 0.8F);
+    const float turn = 0.4F * seed.normal();
+    const float jump = seed.between(-1.4F, 1.4F);
     const float chance = seed.uniform();
     const float tall = seed.between(0.7F, 1.2F);
     const float value = seed.between(-0.4F, 0.4F);
@@ -126,7 +126,7 @@ void break_blocks(const Ice& ice, StrokeSeed& seed, std::vector<Stroke>& out) {
     const std::size_t here = ice.scene.pixel(place);
     if (ice.scene.class_at(here) != ice.field.land_cover) continue;
     const glm::vec2 side = ice.across + ice.down * turn;
-    const float height = tall * (0.55F + 0.25F * size) * scale;
+    const float height = tall * (0.8F + 0.5F * size) * scale;
     const Ice block{ice.scene, ice.field, ice.k, here, ice.down, ice.across};
     Stroke face = ice_stroke(ice.scene, here, seed);
     set_line(face, place - side * (0.5F * size * scale), place + side * (0.42F * size * scale),
@@ -135,6 +135,7 @@ void break_blocks(const Ice& ice, StrokeSeed& seed, std::vector<Stroke>& out) {
     face.alpha = 0.85F;
     face.colour = block.blue(-1.3F + 0.4F * value, depth_of_ice, seed);
     Stroke top = face;
+    top.tip = StrokeTip::hairs;
     const glm::vec2 up = glm::vec2(0.F, -0.55F * height);
     for (auto& point : top.points) point += up;
     top.start_width = 0.55F * height;
@@ -142,6 +143,7 @@ void break_blocks(const Ice& ice, StrokeSeed& seed, std::vector<Stroke>& out) {
     top.alpha = 0.95F;
     top.colour = ice.scene.colour(here, lit_edge + 0.2F * value, paint_jitter * 0.4F, seed);
     Stroke foot = face;
+    foot.tip = StrokeTip::hairs;
     for (auto& point : foot.points) point -= 0.8F * up;
     foot.start_width = 0.3F * height;
     foot.end_width = 0.15F * height;

@@ -129,6 +129,11 @@ std::vector<Stroke> glacier_edges(const StrokeScene& scene, Stream stream) {
                  if (reach > 0.F && (side == 0.F || reach < std::abs(side))) side = sign * reach;
                }
                if (side == 0.F) return;
+               // Where the ice ends ahead, behind a step, it has no side.
+               for (const float ahead : {5.F, 10.F, 15.F, 20.F}) {
+                 const glm::vec2 there = position + down * (ahead * scale);
+                 if (!scene.on_canvas(there) || !is_ice(scene.class_at(scene.pixel(there)))) return;
+               }
                // Along the border, which must go on above and below.
                constexpr float along_units = 4.F;
                const auto border = [&](float along) -> std::optional<glm::vec2> {
