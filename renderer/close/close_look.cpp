@@ -178,13 +178,12 @@ FormLook snow_look(const CloseScene& s, int x, int y, std::size_t i, glm::vec2 p
 }
 
 // A line of water between two forms: it comes and goes. Tone.
-float runnel(const CloseScene& s, int x, int y, std::size_t i, float from_gully, float scale) {
+float runnel(const CloseScene& s, int x, int y, std::size_t i, float from_gully) {
   constexpr float half_width = 1.1F;
   if (from_gully >= half_width) return 0.0F;
   const float shown = smoothstep(0.0F, 0.8F, s.runnels(x - s.made.x0, y - s.made.y0)) *
                       smoothstep(16.0F, 24.0F, s.guidance.slope_deg[i]);
-  const float across = from_gully / std::max(half_width, 0.6F / scale);
-  return -0.11F * shown * (1.0F - across);
+  return -0.11F * shown * (1.0F - from_gully / half_width);
 }
 
 // Lateral moraine: a ridge of rubble along the side of a glacier, where a certain share of ice lies
@@ -202,8 +201,7 @@ glm::vec2 lateral_moraine(const CloseScene& s, int x, int y, float depth_m) {
   };
   const float own = share(0.0F, 0.0F);
   if (own < 0.02F || own > 0.32F) return {0.0F, 0.0F};
-  const float calm = s.calm(x - s.made.x0, y - s.made.y0);
-  const float raised = smoothstep(-1.4F, -0.2F, calm);
+  const float raised = smoothstep(-1.4F, -0.2F, s.calm(x - s.made.x0, y - s.made.y0));
   const float at =
       0.11F + 0.03F * std::clamp(s.steepness(x - s.made.x0, y - s.made.y0), -1.0F, 1.0F);
   const float b = (own - at) / half_share;
@@ -225,20 +223,18 @@ FormLook scree_look(const CloseScene& s, int x, int y, std::size_t i, glm::vec2 
   const float quiet = smoothstep(0.1F, 0.8F, s.quiet(x - s.made.x0, y - s.made.y0));
   glm::vec2 slope = 0.22F * (1.0F - 0.45F * quiet) *
                     form_at(s, scree_roofs, position, g.depth_m[i], look, false, &gully);
-  const auto scale = static_cast<float>(s.ground.pixels_per_unit);
   const DebrisHit debris = debris_at(s.cones, s.ground.seed, position, g.depth_m[i]);
   if (debris.cone != nullptr) {
     slope = (1.0F - 0.75F * debris.inside) * slope + debris.inside * debris.slope;
     look.tone = debris.inside * debris.tone;
     look.edges = look.edges * 0x9e3779b1U + debris.cone->id;
-    // Its paint stays on it.
     if (debris.inside > 0.25F) look.plane = debris.cone->id;
   } else {
     // Old stone between them is dark.
     look.tone = -0.07F - 0.09F * debris.beside;
   }
   slope += lateral_moraine(s, x, y, g.depth_m[i]);
-  look.tone += (1.0F - debris.inside) * runnel(s, x, y, i, gully, scale);
+  look.tone += (1.0F - debris.inside) * runnel(s, x, y, i, gully);
   look.tone += soft_limit(
       1.15F * rake_at(s, i, mean, false)(frame.tilted(slope, fall), frame.normal), 0.26F);
   return look;
@@ -283,7 +279,7 @@ FormLook grass_look(const CloseScene& s, int x, int y, std::size_t i, glm::vec2 
   const glm::vec2 slope =
       broad + amount * form_at(s, grass_roofs, position, g.depth_m[i], look, true, &gully);
   look.tone =
-      0.4F * runnel(s, x, y, i, gully, static_cast<float>(s.ground.pixels_per_unit)) +
+      0.4F * runnel(s, x, y, i, gully) +
       soft_limit(rake_at(s, i, mean, false)(frame.tilted(slope, fall), frame.normal), 0.22F) +
       terracettes(s, x, y, i);
   return look;
