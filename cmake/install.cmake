@@ -27,6 +27,15 @@ install(FILES ${share}/completion.zsh DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/v
 install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/belvedere COMPONENT program FILES_MATCHING PATTERN "*.toml" PATTERN "*.csv" PATTERN "*.geojson" REGEX "/masks/[^/]*[.]png$")
 install(FILES docs/scene.md docs/scene.schema.json README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright COMPONENT program)
+# The fonts of the built-in style of names, with their licences (SIL Open Font License): found beside the program on any machine.
+set(garamond 08-Regular 08-Italic 12-Regular 12-Italic)
+list(TRANSFORM garamond REPLACE "(.+)" "/usr/share/fonts/opentype/ebgaramond/EBGaramond\\1.otf")
+set(lato Regular Italic Medium Semibold Bold)
+list(TRANSFORM lato REPLACE "(.+)" "/usr/share/fonts/truetype/lato/Lato-\\1.ttf")
+set(fonts_folder ${CMAKE_INSTALL_DATADIR}/belvedere/fonts)
+install(FILES ${garamond} ${lato} DESTINATION ${fonts_folder} COMPONENT program)
+install(FILES /usr/share/doc/fonts-ebgaramond/copyright DESTINATION ${fonts_folder} RENAME LICENCE-EBGaramond COMPONENT program)
+install(FILES /usr/share/doc/fonts-lato/copyright DESTINATION ${fonts_folder} RENAME LICENCE-Lato COMPONENT program)
 
 # ---- the libraries
 

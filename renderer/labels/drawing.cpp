@@ -5,7 +5,6 @@
 #include <glm/geometric.hpp>
 
 namespace belvedere {
-namespace {
 
 glm::dvec2 point_at(const std::vector<glm::dvec2>& line, double from_start) {
   for (std::size_t i = 0; i + 1 < line.size(); ++i) {
@@ -16,8 +15,6 @@ glm::dvec2 point_at(const std::vector<glm::dvec2>& line, double from_start) {
   }
   return line.back();
 }
-
-}  // namespace
 
 void move_shape(DrawnShape& shape, glm::dvec2 by) {
   if (DrawnPath* path = std::get_if<DrawnPath>(&shape))

@@ -38,8 +38,10 @@ struct DrawnText {
   glm::dvec2 at{0.0};   // on the baseline
   double anchor = 0.0;  // anchor of the text: 0 its left end, .5 its centre, 1 its right end
   std::string colour;
-  std::string halo = {};
-  double halo_px = 0.0;  // around the letters
+  std::string halo = {};  // around the letters, where there is no picture below them
+  double halo_px = 0.0;
+  double halo_contrast = 0.0;  // > 0: in a picture the halo is the painting, changed until it has
+                               // this contrast to the letters (paint_halo.h)
   std::vector<glm::dvec2> along =
       {};  // the baseline, from left to right; the text is centred on it
 };
@@ -64,5 +66,7 @@ struct LetterPosition {
 std::vector<LetterPosition> set_along(const std::vector<double>& widths_px,
                                       const std::vector<glm::dvec2>& line);
 double length_of(const std::vector<glm::dvec2>& line);
+// The point at that length along a line; beyond its ends it continues straight.
+glm::dvec2 point_at(const std::vector<glm::dvec2>& line, double from_start);
 
 }  // namespace belvedere

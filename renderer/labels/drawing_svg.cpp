@@ -142,7 +142,9 @@ std::string svg_of(const DrawnText& text, const std::function<const TextMeasure&
   const TextStyle& type = text.type;
   std::string look = fmt::format(" font-family=\"{}\" font-size=\"{}px\" fill=\"{}\"",
                                  markup_text(type.family), px(type.size_px), text.colour);
-  if (type.bold) look += " font-weight=\"bold\"";
+  if (text.text.find_first_of("0123456789") != std::string::npos)
+    look += " font-variant-numeric=\"lining-nums\"";
+  if (type.weight != 400) look += fmt::format(" font-weight=\"{}\"", type.weight);
   if (type.italic) look += " font-style=\"italic\"";
   if (!text.along.empty()) return bent_text_svg(text, look, measure());
   if (type.spacing > 0.0)

@@ -29,10 +29,11 @@ std::string number_or_nothing(double value, int digits) {
   return std::isnan(value) ? std::string() : fmt::format("{:.{}f}", value, digits);
 }
 
-// Whether it was placed in the picture: "placed", "no room", or why it is not visible.
+// Whether it was placed in the picture: "placed", "no room", "enough names around", or why it is
+// not visible.
 std::string outcome(const Label& label) {
   if (label.mark.state != MarkState::seen) return std::string(name_of(label.mark.state));
-  return label.spot.placed ? "placed" : "no room";
+  return label.spot.placed ? "placed" : label.spot.crowded ? "enough names around" : "no room";
 }
 
 bool has_pixel(const Label& label) {

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <numeric>
 #include <optional>
+
+#include "renderer/labels/drawing.h"
 
 namespace belvedere {
 namespace {
@@ -48,11 +51,35 @@ LabelBox leader_box(const LabelRequest& request, double top_px) {
   return {request.mark.x - .5, top_px, request.mark.x + .5, request.mark.y - .5 * request.mark_px};
 }
 
+double side_of(glm::dvec2 a, glm::dvec2 b, glm::dvec2 p) {
+  return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+}
+
+// A point on a line lies on its positive side, so that a bend is crossed once.
+bool segments_cross(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c, glm::dvec2 d) {
+  return (side_of(a, b, c) >= 0.0) != (side_of(a, b, d) >= 0.0) &&
+         (side_of(c, d, a) >= 0.0) != (side_of(c, d, b) >= 0.0);
+}
+
+// Whether a segment has a point in a box: an end, or it crosses a diagonal.
+bool enters(glm::dvec2 a, glm::dvec2 b, const LabelBox& box) {
+  const auto has = [&](glm::dvec2 p) {
+    return p.x > box.left && p.x < box.right && p.y > box.top && p.y < box.bottom;
+  };
+  return has(a) || has(b) || segments_cross(a, b, {box.left, box.top}, {box.right, box.bottom}) ||
+         segments_cross(a, b, {box.left, box.bottom}, {box.right, box.top});
+}
+
 class Layout {
  public:
   Layout(const std::vector<LabelRequest>& requests, const std::vector<double>& skyline_px,
-         const LabelLayoutParameters& parameters)
-      : requests_(requests), skyline_px_(skyline_px), p_(parameters), chosen_(requests.size()) {
+         const LabelLayoutParameters& parameters,
+         const std::vector<std::vector<glm::dvec2>>& barriers)
+      : requests_(requests),
+        skyline_px_(skyline_px),
+        p_(parameters),
+        barriers_(barriers),
+        chosen_(requests.size()) {
     for (const LabelRequest& request : requests_) candidates_.push_back(candidates_of(request));
   }
 
@@ -62,9 +89,11 @@ class Layout {
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
       return requests_[a].rank < requests_[b].rank;
     });
-    for (const std::size_t i : order)
-      if (!place_free(i)) place_by_moving_one(i);
     std::vector<LabelSpot> spots(requests_.size());
+    for (const std::size_t i : order) {
+      spots[i].crowded = is_crowded(i);
+      if (!spots[i].crowded && !place_free(i)) place_by_moving_one(i);
+    }
     for (std::size_t i = 0; i < spots.size(); ++i)
       if (const std::optional<Candidate>& c = chosen_[i]) {
         spots[i] = {.placed = true,
@@ -102,6 +131,9 @@ class Layout {
           for (const double dx : {0.0, -.35, .35})
             add(request, request.mark.x + dx * request.width_px,
                 request.mark.y + (dy + .5) * request.height_px, std::abs(dy) + std::abs(dx), all);
+        break;
+      case LabelPlace::on:
+        add_on(request, all);
         break;
     }
     std::stable_sort(all.begin(), all.end(),
@@ -154,11 +186,18 @@ class Layout {
       }
   }
 
-  // Straight above the mark, or higher and higher on a leader.
+  // Straight above the mark, or a little higher on a leader, which must not cross much ground; else
+  // beside its tip.
   void add_above(const LabelRequest& request, std::vector<Candidate>& all) const {
     const double foot = foot_of(request);
-    for (int row = 0; row * p_.row_px <= p_.longest_leader_px; ++row)
+    for (int row = 0; row * p_.row_px <= p_.ground_leader_px; ++row)
       lead(request, foot - row * p_.row_px, row, all);
+    const double r = .5 * request.mark_px + p_.gap_px;
+    const double w = .5 * request.width_px;
+    const double last = std::floor(p_.ground_leader_px / p_.row_px) + 1.0;
+    for (const double side : {1.0, -1.0})
+      add(request, request.mark.x + side * (r + w), request.mark.y + .25 * request.height_px,
+          last + (side > 0.0 ? 0.0 : .2), all);
   }
 
   // Rows count from the upper margin, so that the names of all summits share them. The lowest whose
@@ -203,6 +242,48 @@ class Layout {
     add(request, m.x - .7 * r - w, m.y + .3 * r + h, 1.0, all);
     add(request, m.x, m.y - r, 1.2, all);
     add(request, m.x, m.y + r + h, 1.4, all);
+    for (Candidate& candidate : all) candidate.cost += barrier_cost(request, candidate.text);
+  }
+
+  // At the centre of the line, then towards its ends.
+  void add_on(const LabelRequest& request, std::vector<Candidate>& all) const {
+    if (request.along.empty()) {
+      add(request, request.mark.x, request.mark.y + .5 * request.height_px, 0.0, all);
+      return;
+    }
+    const double length = length_of(request.along);
+    for (const double share : {.5, .42, .58, .34, .66, .26, .74, .18, .82}) {
+      const glm::dvec2 at = point_at(request.along, share * length);
+      add(request, at.x, at.y + .5 * request.height_px, std::abs(share - .5), all);
+    }
+  }
+
+  // A name of a place on the other bank would be read as another place: worse than any other
+  // position. One across the water is half as bad.
+  double barrier_cost(const LabelRequest& request, const LabelBox& box) const {
+    const glm::dvec2 centre(.5 * (box.left + box.right), .5 * (box.top + box.bottom));
+    int crossed = 0;
+    bool touched = false;
+    for (const std::vector<glm::dvec2>& line : barriers_)
+      for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+        crossed += segments_cross(request.mark, centre, line[i], line[i + 1]) ? 1 : 0;
+        touched = touched || enters(line[i], line[i + 1], box);
+      }
+    return (crossed % 2 == 1 ? 4.0 : 0.0) + (touched ? 2.0 : 0.0);
+  }
+
+  static bool follows_line(const LabelRequest& request) {
+    return !request.bent.empty() || request.position == LabelPlace::on;
+  }
+
+  bool is_crowded(std::size_t i) const {
+    if (p_.crowd_radius_px <= 0.0 || follows_line(requests_[i])) return false;
+    double around = 0.0;
+    for (std::size_t j = 0; j < chosen_.size(); ++j)
+      if (chosen_[j] && !follows_line(requests_[j]) &&
+          glm::length(requests_[j].mark - requests_[i].mark) < p_.crowd_radius_px)
+        around += 1.0;
+    return around >= p_.crowd;
   }
 
   bool collide(std::size_t i, const Candidate& a, std::size_t j, const Candidate& b) const {
@@ -261,6 +342,7 @@ class Layout {
   const std::vector<LabelRequest>& requests_;
   const std::vector<double>& skyline_px_;
   const LabelLayoutParameters& p_;
+  const std::vector<std::vector<glm::dvec2>>& barriers_;
   std::vector<std::vector<Candidate>> candidates_;
   std::vector<std::optional<Candidate>> chosen_;
 };
@@ -269,8 +351,9 @@ class Layout {
 
 std::vector<LabelSpot> place_labels(const std::vector<LabelRequest>& requests,
                                     const std::vector<double>& skyline_px,
-                                    const LabelLayoutParameters& parameters) {
-  return Layout(requests, skyline_px, parameters).run();
+                                    const LabelLayoutParameters& parameters,
+                                    const std::vector<std::vector<glm::dvec2>>& barriers) {
+  return Layout(requests, skyline_px, parameters, barriers).run();
 }
 
 }  // namespace belvedere

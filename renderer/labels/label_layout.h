@@ -36,21 +36,28 @@ struct LabelRequest {
   double rank = 5.0;        // small ranks are placed first; equal ones in their order
   std::vector<BentRoom> bent =
       {};  // for a name that follows a shape, best first; position and mark are then ignored
+  std::vector<glm::dvec2> along = {};  // of LabelPlace::on: the line that it is centred on
 };
 
 struct LabelLayoutParameters {
   int width_px = 0;
   int height_px = 0;
-  double margin_px = 6.0;     // from the picture's edge
-  double clearance_px = 2.0;  // between names
-  double gap_px = 2.0;        // between mark and name
-  double row_px = 14.0;       // between rows
-  double longest_leader_px = 160.0;
+  double margin_px = 6.0;            // from the picture's edge
+  double clearance_px = 2.0;         // between names
+  double gap_px = 2.0;               // between mark and name
+  double row_px = 14.0;              // between rows
+  double longest_leader_px = 160.0;  // in front of the sky
+  double ground_leader_px = 30.0;    // in front of ground
+  // Names of the same or better rank within a radius of a name, which is left out where there are
+  // as many already; radius 0: any number. Names along lines do not count and are not left out.
+  double crowd = 0.0;
+  double crowd_radius_px = 0.0;
 };
 
 // Position of a name.
 struct LabelSpot {
   bool placed = false;
+  bool crowded = false;                   // not placed because there are enough names around
   LabelBox text;                          // for a curved name around all its letters
   std::vector<LabelBox> letters = {};     // of a curved name
   std::vector<glm::dvec2> baseline = {};  // of a curved name; empty: level
@@ -62,9 +69,11 @@ struct LabelSpot {
 // text or a mark. Ranks decide: a placed name keeps its position or moves to another free one, but
 // is never dropped for one of lower rank. Names that do not fit are not placed. `skyline_px`: for
 // each column of the picture the row above which there is sky (0 where there is none): names of the
-// skyline are above it, in shared rows. Deterministic.
+// skyline are above it, in shared rows. Names beside their marks stay on the same side of
+// `barriers` (rivers, shores) as these where they can. Deterministic.
 std::vector<LabelSpot> place_labels(const std::vector<LabelRequest>& requests,
                                     const std::vector<double>& skyline_px,
-                                    const LabelLayoutParameters& parameters);
+                                    const LabelLayoutParameters& parameters,
+                                    const std::vector<std::vector<glm::dvec2>>& barriers = {});
 
 }  // namespace belvedere

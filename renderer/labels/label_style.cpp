@@ -14,22 +14,33 @@
 namespace belvedere {
 namespace {
 
+void read_weight(ConfigReader& read, int& weight) {
+  double value = weight;
+  read.number("weight", value, 100.0, 900.0);
+  weight = static_cast<int>(value);
+}
+
 LabelKindStyle read_kind(const ConfigEntry& entry, const std::string& name) {
   LabelKindStyle kind;
   kind.name = entry.key;
   ConfigReader read(entry.value, name);
   read.texts("also", kind.also);
-  read.word<LabelPlace>(
-      "place", kind.position,
-      {{"above", LabelPlace::above}, {"beside", LabelPlace::beside}, {"over", LabelPlace::over}});
+  read.word<LabelPlace>("place", kind.position,
+                        {{"above", LabelPlace::above},
+                         {"beside", LabelPlace::beside},
+                         {"over", LabelPlace::over},
+                         {"on", LabelPlace::on}});
   read.text("family", kind.family);
   read.number("size_mm", kind.size_mm, 0.5, 100.0);
-  read.flag("bold", kind.bold);
+  read.number("rank_step", kind.rank_step, 0.0, 0.2);
+  read_weight(read, kind.weight);
   read.flag("italic", kind.italic);
+  read.flag("capitals", kind.capitals);
   read.number("spacing", kind.spacing, 0.0, 2.0);
   read.number("lift", kind.lift, -3.0, 3.0);
   read.number("aside", kind.aside, 0.0, 5.0);
   read.colour("colour", kind.colour);
+  read.colour("light", kind.light);
   read.colour("halo", kind.halo);
   read.number("halo_mm", kind.halo_mm, 0.0, 10.0);
   read.word<LabelMarkShape>("mark", kind.mark,
@@ -40,6 +51,8 @@ LabelKindStyle read_kind(const ConfigEntry& entry, const std::string& name) {
                              {"square", LabelMarkShape::square}});
   read.number("mark_mm", kind.mark_mm, 0.0, 20.0);
   read.flag("altitude", kind.altitude);
+  read.flag("barrier", kind.barrier);
+  read.flag("straight", kind.straight);
   read.number("climb_m", kind.climb_m, 0.0, 5000.0);
   read.end();
   return kind;
@@ -56,10 +69,22 @@ TrackStyle read_track(const ConfigValue& value, const std::string& name) {
   return track;
 }
 
+AltitudeStyle read_altitude(const ConfigValue& value, const std::string& name) {
+  AltitudeStyle altitude;
+  ConfigReader read(value, name);
+  read.text("family", altitude.family);
+  read.number("size", altitude.size, 0.3, 1.0);
+  read_weight(read, altitude.weight);
+  read.colour("colour", altitude.colour);
+  read.end();
+  return altitude;
+}
+
 MarginStyle read_margin(const ConfigValue& value, const std::string& name) {
   MarginStyle margin;
   ConfigReader read(value, name);
   read.text("family", margin.family);
+  read.text("heading", margin.heading);
   read.colour("paper", margin.paper);
   read.colour("ink", margin.ink);
   read.colour("sun", margin.sun);
@@ -81,11 +106,16 @@ LabelStyle read_style(const ConfigValue& document, const std::string& name) {
   read.number("gap_mm", style.gap_mm, 0.0, 100.0);
   read.number("row_mm", style.row_mm, 0.5, 200.0);
   read.number("longest_leader_mm", style.longest_leader_mm, 0.0, 1000.0);
+  read.number("ground_leader_mm", style.ground_leader_mm, 0.0, 1000.0);
+  read.number("min_contrast", style.min_contrast, 1.0, 12.0);
+  read.number("names_per_dm2", style.names_per_dm2, 0.1, 1000.0);
   read.number("clearance_mm", style.clearance_mm, 0.0, 100.0);
   read.number("margin_mm", style.margin_mm, 0.0, 500.0);
   read.colour("leader", style.leader);
   read.number("leader_mm", style.leader_mm, 0.0, 10.0);
   const ConfigValue* kinds = read.known("kinds");
+  if (const ConfigValue* altitude = read.known("altitude"))
+    style.altitude = read_altitude(*altitude, name);
   if (const ConfigValue* track = read.known("track")) style.track = read_track(*track, name);
   if (const ConfigValue* margin = read.known("margin")) style.margin = read_margin(*margin, name);
   read.end();

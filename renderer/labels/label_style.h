@@ -9,7 +9,8 @@ namespace belvedere {
 enum class LabelPlace : int {
   above,   // above the mark, higher up with a leader where that is taken; on the skyline in rows
   beside,  // on any side of the mark
-  over     // centred on the position itself
+  over,    // centred on the position itself
+  on       // in a disc on the line of its shape, as numbers of ski runs
 };
 
 enum class LabelMarkShape : int { none, dot, ring, triangle, square };
@@ -21,20 +22,25 @@ struct LabelKindStyle {
   LabelPlace position = LabelPlace::beside;
   std::string family =
       "serif";  // as known to fontconfig, several separated by commas: the first that is installed
-  double size_mm = 3.5;  // of the type, 0.5…100
-  bool bold = false;
+  double size_mm = 3.5;    // of the type at rank 5, 0.5…100
+  double rank_step = 0.0;  // by which each better rank enlarges it, of size_mm, 0…0.2
+  int weight = 400;        // 400 regular, 700 bold; 100…900
   bool italic = false;
+  bool capitals = false;
   double lift =
       -0.3;  // height of the baseline of a curved name above its line, of the type's size, -3…3
   double aside =
       0.0;  // further offsets below or above where others block it, of the type's size, 0…5
   double spacing = 0.0;  // between letters, of the type's size, 0…2
   std::string colour = "#202020";
-  std::string halo = "#ffffff";  // around the letters
-  double halo_mm = 0.4;          // 0…10
+  std::string light = "#fdf9ee";  // on dark ground
+  std::string halo = "#ffffff";   // around the letters where there is no picture below them
+  double halo_mm = 0.35;          // 0…10
   LabelMarkShape mark = LabelMarkShape::dot;
   double mark_mm = 1.0;   // across, 0…20
-  bool altitude = false;  // written after the name
+  bool altitude = false;  // under a name that stands above its mark, else after it
+  bool barrier = false;   // names of places stay on their side of this line or area
+  bool straight = false;  // as cables are: its line runs straight from end to end
   double climb_m = 0.0;   // maximum distance of the drawn summit that the mark moves to, 0…5000
 };
 
@@ -46,9 +52,18 @@ struct TrackStyle {
   double halo_mm = 0.25;  // 0…10
 };
 
+// Altitudes beside names.
+struct AltitudeStyle {
+  std::string family = "serif";
+  double size = 0.8;  // of the name's size, 0.3…1
+  int weight = 400;
+  std::string colour = "#404040";
+};
+
 // The paper around a picture.
 struct MarginStyle {
-  std::string family = "serif";
+  std::string family = "serif";        // title and texts
+  std::string heading = "sans-serif";  // headings and names in the legend
   std::string paper = "#fdfaf2";
   std::string ink = "#1f2634";
   std::string sun = "#f2c33d";
@@ -61,11 +76,15 @@ struct LabelStyle {
   double min_px = 11.0;
   double gap_mm = 0.9;
   double row_mm = 6.5;
-  double longest_leader_mm = 75.0;
+  double longest_leader_mm = 75.0;  // in front of the sky
+  double ground_leader_mm = 12.0;   // in front of ground
+  double min_contrast = 4.0;        // of letters to the ground beside them (WCAG 2: 1…21), 1…12
+  double names_per_dm2 = 4.0;       // of the same or better rank around a name, 0.1…1000
   double clearance_mm = 0.7;
   double margin_mm = 3.0;
   std::string leader = "#404040";
   double leader_mm = 0.22;
+  AltitudeStyle altitude;
   TrackStyle track;
   MarginStyle margin;
   std::vector<LabelKindStyle>

@@ -1,11 +1,13 @@
 #include "renderer/labels/labels.h"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <set>
 #include <utility>
 
 #include "base/error.h"
@@ -19,10 +21,42 @@ namespace {
 // stay separate.
 constexpr double end_room = 0.25;
 
+constexpr double altitude_foot = 0.12;  // below its figures, which have no descenders
+
+// "Run 12b" and "12" are the number 12; without one the name itself.
+std::string number_in(const std::string& name) {
+  const std::size_t from = name.find_first_of("0123456789");
+  if (from == std::string::npos) return name;
+  return name.substr(from, name.find_first_not_of("0123456789", from) - from);
+}
+
 std::string set_text(const LabelPoint& point, const LabelMark& mark, const LabelKindStyle& kind) {
   if (point.name.empty()) return altitude_text(point, mark);
-  const std::string altitude = kind.altitude ? altitude_text(point, mark) : std::string();
-  return altitude.empty() ? point.name : point.name + "\u2002" + altitude;
+  if (kind.position == LabelPlace::on) return number_in(point.name);
+  return kind.capitals ? capitals(point.name) : point.name;
+}
+
+// Width and height of a name with its altitude.
+glm::dvec2 room_of(const LabelSheet& sheet, const Label& label) {
+  const glm::dvec2 name(label.room.width_px, label.room.up_px + label.room.down_px);
+  if (label.altitude.empty()) return name;
+  const double size_px = sheet.altitude_type_of(label).size_px;
+  if (sheet.is_stacked(label))
+    return {std::max(name.x, label.altitude_room.width_px),
+            label.room.up_px + (altitude_lead + altitude_foot) * size_px};
+  return {name.x + altitude_gap * size_px + label.altitude_room.width_px, name.y};
+}
+
+// Mean luminance below which letters are light. Dark letters on such ground would need a halo four
+// times as light as it.
+constexpr double dark_ground = 0.075;
+
+// Width and height of the disc or tile of a number, px: a disc for two figures.
+glm::dvec2 plate_px(const TextRoom& room, const TextStyle& type) {
+  const double figures = 1.25 * type.size_px;
+  const double side =
+      std::max(1.55 * type.size_px, std::min(room.width_px, figures) + .6 * type.size_px);
+  return {side + std::max(0.0, room.width_px - figures), side};
 }
 
 // Limits of letter spacing along a shape: the share of the line, and the space between letters.
@@ -85,6 +119,8 @@ std::vector<BentRoom> bent_rooms(Label& label, const LabelKindStyle& kind, TextS
   return rooms;
 }
 
+constexpr double dm2_radius_mm = 56.419;  // of a circle of 1 dm²
+
 LabelLayoutParameters layout_parameters(const LabelSheet& sheet) {
   const double scale = sheet.px_per_mm;
   return {.width_px = sheet.size_px.x,
@@ -93,7 +129,10 @@ LabelLayoutParameters layout_parameters(const LabelSheet& sheet) {
           .clearance_px = sheet.style.clearance_mm * scale,
           .gap_px = sheet.style.gap_mm * scale,
           .row_px = sheet.style.row_mm * scale,
-          .longest_leader_px = sheet.style.longest_leader_mm * scale};
+          .longest_leader_px = sheet.style.longest_leader_mm * scale,
+          .ground_leader_px = sheet.style.ground_leader_mm * scale,
+          .crowd = sheet.style.names_per_dm2,
+          .crowd_radius_px = dm2_radius_mm * scale};
 }
 
 }  // namespace
@@ -117,18 +156,41 @@ std::string altitude_text(const LabelPoint& point, const LabelMark& mark) {
   return std::isnan(altitude_m) ? std::string() : fmt::format("{:.0f}\u00A0m", altitude_m);
 }
 
-TextStyle text_style(const LabelKindStyle& kind, double px_per_mm) {
+TextStyle text_style(const LabelKindStyle& kind, double px_per_mm, double rank) {
   return {.family = kind.family,
-          .size_px = kind.size_mm * px_per_mm,
-          .bold = kind.bold,
+          .size_px = kind.size_mm * (1.0 + kind.rank_step * (5.0 - rank)) * px_per_mm,
+          .weight = kind.weight,
           .italic = kind.italic,
           .spacing = kind.spacing};
 }
 
 TextStyle LabelSheet::type_of(const Label& label) const {
-  TextStyle type = text_style(kind_of(label), px_per_mm);
+  TextStyle type = text_style(kind_of(label), px_per_mm, label.point.rank);
   type.spacing = label.spacing;
   return type;
+}
+
+TextStyle LabelSheet::altitude_type_of(const Label& label) const {
+  return {.family = style.altitude.family,
+          .size_px =
+              style.altitude.size * text_style(kind_of(label), px_per_mm, label.point.rank).size_px,
+          .weight = style.altitude.weight};
+}
+
+void require_fonts(const LabelStyle& style) {
+  std::set<std::string> missing;
+  const auto require = [&](const std::string& families) {
+    if (!TextMeasure::has_family(families)) missing.insert(families);
+  };
+  for (const LabelKindStyle& kind : style.kinds) require(kind.family);
+  require(style.altitude.family);
+  require(style.margin.family);
+  require(style.margin.heading);
+  if (!missing.empty())
+    throw Error(ErrorKind::input, fmt::format("the fonts of the style {}", style.name),
+                fmt::format("not installed: {}", fmt::join(missing, "; ")),
+                "Debian's packages fonts-ebgaramond and fonts-lato for the style classic, or a "
+                "style that names installed fonts");
 }
 
 LabelSheet empty_label_sheet(LabelStyle style, glm::ivec2 size_px, double sheet_width_mm) {
@@ -158,45 +220,78 @@ std::vector<double> find_skyline(const GeoMap& map, glm::ivec2 size_px) {
   return skyline;
 }
 
+void choose_inks(LabelSheet& sheet, const Grid<float>& luminance) {
+  const glm::dvec2 scale =
+      glm::dvec2(luminance.width(), luminance.height()) / glm::dvec2(sheet.size_px);
+  for (Label& label : sheet.labels) {
+    if (!label.spot.placed) continue;
+    const LabelBox& box = label.spot.text;
+    const glm::ivec2 low(scale * glm::dvec2(box.left, box.top));
+    const glm::ivec2 high = glm::ivec2(scale * glm::dvec2(box.right, box.bottom)) + 1;
+    double sum = 0.0;
+    int count = 0;
+    for (int y = std::max(0, low.y); y < std::min(luminance.height(), high.y); ++y)
+      for (int x = std::max(0, low.x); x < std::min(luminance.width(), high.x); ++x, ++count)
+        sum += static_cast<double>(luminance(x, y));
+    label.on_dark = count > 0 && sum < dark_ground * count;
+  }
+}
+
 LabelSheet make_labels(const std::vector<LabelPoint>& points, const std::vector<LabelMark>& marks,
                        const std::vector<double>& skyline_px, LabelStyle style, glm::ivec2 size_px,
                        double sheet_width_mm, const std::vector<std::vector<glm::dvec2>>& lines) {
   if (marks.size() != points.size())
     throw Error(ErrorKind::bug, "labels",
                 fmt::format("{} marks of {} points", marks.size(), points.size()));
+  require_fonts(style);
   LabelSheet sheet = empty_label_sheet(std::move(style), size_px, sheet_width_mm);
   const TextMeasure measure;
   std::vector<LabelRequest> requests;
   std::vector<std::size_t> asks;
+  std::vector<std::vector<glm::dvec2>> barriers;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const LabelKindStyle& kind = sheet.style.kinds[static_cast<std::size_t>(points[i].kind)];
+    const bool follows = i < lines.size() && lines[i].size() > 1;
     Label label;
     label.point = points[i];
     label.mark = marks[i];
     label.text = set_text(points[i], marks[i], kind);
-    TextStyle type = text_style(kind, sheet.px_per_mm);
+    if (kind.altitude && !points[i].name.empty() && !follows)
+      label.altitude = altitude_text(points[i], marks[i]);
+    TextStyle type = text_style(kind, sheet.px_per_mm, points[i].rank);
     label.spacing = type.spacing = spacing_of(kind, label.text);
     label.room = measure.measure(label.text, type);
+    label.altitude_room = measure.measure(label.altitude, sheet.altitude_type_of(label));
     label.hidden_by = hiding_name(points, marks, i);
+    if (kind.barrier && follows) barriers.push_back(lines[i]);
     if (label.mark.state == MarkState::seen && !label.text.empty()) {
       asks.push_back(i);
-      std::vector<BentRoom> bent;
-      const bool follows = i < lines.size() && lines[i].size() > 1;
-      if (follows) bent = bent_rooms(label, kind, type, lines[i], measure);
-      requests.push_back({.mark = label.mark.pixel,
-                          .mark_px = follows || kind.mark == LabelMarkShape::none
-                                         ? 0.0
-                                         : kind.mark_mm * sheet.px_per_mm,
-                          .width_px = label.room.width_px + 2.0 * end_room * type.size_px,
-                          .height_px = label.room.up_px + label.room.down_px,
-                          .position = kind.position,
-                          .on_skyline = label.mark.on_skyline,
-                          .rank = label.point.rank,
-                          .bent = std::move(bent)});
+      LabelRequest request{.mark = label.mark.pixel,
+                           .mark_px = follows || kind.mark == LabelMarkShape::none
+                                          ? 0.0
+                                          : kind.mark_mm * sheet.px_per_mm,
+                           .position = kind.position,
+                           .on_skyline = label.mark.on_skyline,
+                           .rank = label.point.rank};
+      if (kind.position == LabelPlace::on) {
+        request.mark_px = 0.0;
+        const glm::dvec2 plate = plate_px(label.room, type);
+        request.width_px = plate.x;
+        request.height_px = plate.y;
+        if (follows) request.along = lines[i];
+        if (follows && kind.straight) request.along = {lines[i].front(), lines[i].back()};
+      } else {
+        if (follows) request.bent = bent_rooms(label, kind, type, lines[i], measure);
+        const glm::dvec2 room = room_of(sheet, label);
+        request.width_px = room.x + 2.0 * end_room * type.size_px;
+        request.height_px = room.y;
+      }
+      requests.push_back(std::move(request));
     }
     sheet.labels.push_back(std::move(label));
   }
-  const std::vector<LabelSpot> spots = place_labels(requests, skyline_px, layout_parameters(sheet));
+  const std::vector<LabelSpot> spots =
+      place_labels(requests, skyline_px, layout_parameters(sheet), barriers);
   for (std::size_t k = 0; k < asks.size(); ++k) sheet.labels[asks[k]].spot = spots[k];
   return sheet;
 }

@@ -90,7 +90,8 @@ void draw_house(const FeatureSwatch& swatch, glm::dvec2 size, double px_per_mm,
 std::vector<DrawnShape> draw_swatch(const FeatureSwatch& swatch, glm::dvec2 size_px,
                                     double px_per_mm) {
   std::vector<DrawnShape> shapes;
-  shapes.push_back(filled(rectangle({0.0, 0.0}, size_px), swatch.ground));
+  if (!swatch.ground.empty())
+    shapes.push_back(filled(rectangle({0.0, 0.0}, size_px), swatch.ground));
   switch (swatch.form) {
     case SwatchForm::line:
       draw_line(swatch, size_px, px_per_mm, shapes);

@@ -16,7 +16,7 @@ enum class SwatchForm : int { line, cable, house };
 struct FeatureSwatch {
   std::string name;
   SwatchForm form = SwatchForm::line;
-  std::string ground = "#c8cfa4";  // ground below it
+  std::string ground = "#c8cfa4";  // ground below it; empty: a piece of the picture
   std::string fill = "#f2e7cb";
   std::string casing = "#6b4a33";
   std::string bed = {};

@@ -3,8 +3,10 @@
 #include <cairo.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <glm/common.hpp>
 #include <limits>
 #include <vector>
 
@@ -18,6 +20,9 @@ namespace {
 
 // Side of a tile. What is painted in a tile depends only on its position on the sheet.
 constexpr int tile_px = 128;
+// Letters darker than this are dark ones, on ground that must be light: the luminance whose
+// contrasts to black and to white are equal.
+constexpr double middle_luminance = 0.179;
 
 // Cairo counts in 256ths of a pixel: positions are rounded to them on the sheet, so that no tile
 // rounds differently from its neighbour.
@@ -32,6 +37,8 @@ struct Stroke {
   std::vector<double> dashes_px;
   double opacity = 1.0;
   bool round_caps = true;
+  bool below = true;                                        // below the halos of the painting
+  bool is_plain_halo = false;                               // left out where there is a painting
   double left = 0.0, top = 0.0, right = 0.0, bottom = 0.0;  // bounds of its pixels
 };
 
@@ -124,17 +131,139 @@ void paint_stroke(cairo_t* cairo, const Stroke& stroke, glm::dvec2 origin) {
   cairo_stroke(cairo);
 }
 
+bool touches(const Stroke& s, const PixelRect& tile) {
+  return s.left < tile.x1 && s.right > tile.x0 && s.top < tile.y1 && s.bottom > tile.y0;
+}
+
+// The pixels of a tile, painted by Cairo.
+class Surface {
+ public:
+  Surface()
+      : pixels_(static_cast<std::size_t>(tile_px) * tile_px),
+        surface_(cairo_image_surface_create_for_data(
+            reinterpret_cast<unsigned char*>(pixels_.data()), CAIRO_FORMAT_ARGB32, tile_px, tile_px,
+            4 * tile_px)),
+        cairo_(cairo_create(surface_)) {}
+  ~Surface() {
+    cairo_destroy(cairo_);
+    cairo_surface_destroy(surface_);
+  }
+  Surface(const Surface&) = delete;
+  Surface& operator=(const Surface&) = delete;
+
+  cairo_t* cairo() const { return cairo_; }
+  // After the last stroke.
+  void finish() const {
+    const cairo_status_t status = cairo_status(cairo_);
+    cairo_surface_flush(surface_);
+    if (status != CAIRO_STATUS_SUCCESS)
+      throw Error(ErrorKind::bug, "names in the picture", cairo_status_to_string(status), "");
+  }
+  std::uint32_t pixel(int x, int y) const {
+    return pixels_[static_cast<std::size_t>(y) * tile_px + static_cast<std::size_t>(x)];
+  }
+
+ private:
+  std::vector<std::uint32_t> pixels_;
+  cairo_surface_t* surface_;
+  cairo_t* cairo_;
+};
+
+// Letters around which the painting is their halo.
+struct PaintedHalo {
+  Stroke outline;  // as wide as the halo reaches
+  double halo_px = 0.0;
+  HaloAim aim;
+};
+
+// Strength of a halo at a distance from the letters' edge, of halo_px: full beside the letters,
+// then fading, so that it has no edge of its own.
+constexpr std::array<glm::dvec2, 6> fades = {
+    {{2.2, .12}, {1.9, .3}, {1.6, .52}, {1.3, .74}, {1.05, .9}, {.8, 1.0}}};
+
+// The strength of a halo in a tile, one value a pixel.
+void paint_strength(const PaintedHalo& halo, cairo_t* cairo, glm::dvec2 origin) {
+  double before = 0.0;
+  for (const glm::dvec2 fade : fades) {
+    Stroke stroke = halo.outline;
+    stroke.width_px = 2.0 * fade.x * halo.halo_px;
+    stroke.opacity = before < 1.0 ? (fade.y - before) / (1.0 - before) : 0.0;
+    before = fade.y;
+    paint_stroke(cairo, stroke, origin);
+  }
+  Stroke inside = halo.outline;
+  inside.fills = true;
+  paint_stroke(cairo, inside, origin);
+}
+
 int tile_of(int pixel) { return pixel >= 0 ? pixel / tile_px : -((tile_px - 1 - pixel) / tile_px); }
 
 }  // namespace
 
 struct SheetPainter::State {
   std::vector<Stroke> strokes;
+  std::vector<PaintedHalo> halos;
+
+  void paint_tile(Grid<glm::vec3>& encoded, glm::ivec2 at, glm::ivec2 corner,
+                  const PictureWindow* picture) const {
+    const PixelRect tile{corner.x, corner.y, corner.x + tile_px, corner.y + tile_px};
+    const PixelRect shown =
+        intersection(tile, {at.x, at.y, at.x + encoded.width(), at.y + encoded.height()});
+    const auto paint_strokes = [&](bool below) {
+      const auto is_part = [&](const Stroke& s) {
+        return s.below == below && !(s.is_plain_halo && picture != nullptr) && touches(s, tile);
+      };
+      if (std::none_of(strokes.begin(), strokes.end(), is_part)) return;
+      const Surface surface;
+      for (const Stroke& stroke : strokes)
+        if (is_part(stroke)) paint_stroke(surface.cairo(), stroke, corner);
+      surface.finish();
+      // Colours are premultiplied by their alpha.
+      for (int y = shown.y0; y < shown.y1; ++y)
+        for (int x = shown.x0; x < shown.x1; ++x) {
+          const std::uint32_t value = surface.pixel(x - corner.x, y - corner.y);
+          const std::uint32_t alpha = value >> 24;
+          if (alpha == 0) continue;
+          const glm::vec3 over =
+              glm::vec3((value >> 16) & 255U, (value >> 8) & 255U, value & 255U) / 255.0F;
+          glm::vec3& pixel = encoded(x - at.x, y - at.y);
+          pixel = alpha == 255 ? over : over + pixel * (1.0F - static_cast<float>(alpha) / 255.0F);
+        }
+    };
+    paint_strokes(true);
+    if (picture != nullptr)
+      for (const PaintedHalo& halo : halos)
+        if (touches(halo.outline, tile)) paint_halo(halo, encoded, at, corner, shown, *picture);
+    paint_strokes(false);
+  }
+
+  static void paint_halo(const PaintedHalo& halo, Grid<glm::vec3>& encoded, glm::ivec2 at,
+                         glm::ivec2 corner, PixelRect shown, const PictureWindow& picture) {
+    const Surface surface;
+    paint_strength(halo, surface.cairo(), corner);
+    surface.finish();
+    const Stroke& reach = halo.outline;
+    const PixelRect rect = intersection(
+        shown,
+        {static_cast<int>(std::floor(reach.left)), static_cast<int>(std::floor(reach.top)),
+         static_cast<int>(std::ceil(reach.right)), static_cast<int>(std::ceil(reach.bottom))});
+    if (rect.empty()) return;
+    const Grid<glm::vec3> ground = blurred(picture, rect, halo_blur_px(halo.halo_px));
+    for (int y = rect.y0; y < rect.y1; ++y)
+      for (int x = rect.x0; x < rect.x1; ++x) {
+        const std::uint32_t alpha = surface.pixel(x - corner.x, y - corner.y) >> 24;
+        if (alpha == 0) continue;
+        glm::vec3& pixel = encoded(x - at.x, y - at.y);
+        pixel = glm::mix(pixel, halo_colour(ground(x - rect.x0, y - rect.y0), halo.aim),
+                         static_cast<float>(alpha) / 255.0F);
+      }
+  }
 };
 
 SheetPainter::SheetPainter(const Drawing& drawing) : state_(std::make_unique<State>()) {
   std::vector<Stroke>& strokes = state_->strokes;
   std::unique_ptr<TextMeasure> measure;
+  std::size_t first_above = std::numeric_limits<std::size_t>::max();
   for (const DrawnShape& shape : drawing.shapes) {
     if (const DrawnPath* path = std::get_if<DrawnPath>(&shape);
         path != nullptr && path->points.size() > 1) {
@@ -155,58 +284,47 @@ SheetPainter::SheetPainter(const Drawing& drawing) : state_(std::make_unique<Sta
     }
     if (const DrawnText* text = std::get_if<DrawnText>(&shape)) {
       if (!measure) measure = std::make_unique<TextMeasure>();
+      const std::size_t text_begins = strokes.size();
       const Outline outline = outline_of(place_letters(*text, *measure));
       if (outline.empty()) continue;
-      if (!text->halo.empty() && text->halo_px > 0.0)
+      const bool on_paint = text->halo_contrast > 0.0 && text->halo_px > 0.0;
+      if (!text->halo.empty() && text->halo_px > 0.0) {
         strokes.push_back(prepared(outline, text->halo, false, 2.0 * text->halo_px));
+        strokes.back().is_plain_halo = on_paint;
+      }
       strokes.push_back(prepared(outline, text->colour, true, 0.0));
+      if (!on_paint) continue;
+      if (state_->halos.empty()) first_above = std::min(first_above, text_begins);
+      const glm::vec3 letters(rgb_of(text->colour));
+      state_->halos.push_back(
+          {.outline = prepared(outline, "#000000", false, 2.0 * fades.front().x * text->halo_px),
+           .halo_px = text->halo_px,
+           .aim = {letters, text->halo_contrast, luminance(letters) < middle_luminance}});
     }
   }
+  for (std::size_t i = first_above; i < strokes.size(); ++i) strokes[i].below = false;
 }
 
 SheetPainter::~SheetPainter() = default;
 
-void SheetPainter::paint(Grid<glm::vec3>& encoded, glm::ivec2 at) const {
+int SheetPainter::halo_reach() const {
+  int reach = 0;
+  for (const PaintedHalo& halo : state_->halos)
+    reach = std::max(reach, halo_reach_px(halo_blur_px(halo.halo_px)));
+  return reach;
+}
+
+void SheetPainter::paint(Grid<glm::vec3>& encoded, glm::ivec2 at,
+                         const PictureWindow* picture) const {
   const PixelRect whole{at.x, at.y, at.x + encoded.width(), at.y + encoded.height()};
   const int first_x = tile_of(whole.x0);
   const int first_y = tile_of(whole.y0);
   const int columns = tile_of(whole.x1 - 1) - first_x + 1;
   const int rows = tile_of(whole.y1 - 1) - first_y + 1;
   parallel_ranges<int>(columns * rows, 1, [&](int begin, int end) {
-    std::vector<std::uint32_t> pixels(static_cast<std::size_t>(tile_px) * tile_px);
     for (int t = begin; t < end; ++t) {
-      const int x0 = (first_x + t % columns) * tile_px;
-      const int y0 = (first_y + t / columns) * tile_px;
-      const auto touches = [&](const Stroke& s) {
-        return s.left < x0 + tile_px && s.right > x0 && s.top < y0 + tile_px && s.bottom > y0;
-      };
-      if (std::none_of(state_->strokes.begin(), state_->strokes.end(), touches)) continue;
-      std::fill(pixels.begin(), pixels.end(), 0U);
-      cairo_surface_t* surface =
-          cairo_image_surface_create_for_data(reinterpret_cast<unsigned char*>(pixels.data()),
-                                              CAIRO_FORMAT_ARGB32, tile_px, tile_px, 4 * tile_px);
-      cairo_t* cairo = cairo_create(surface);
-      for (const Stroke& stroke : state_->strokes)
-        if (touches(stroke)) paint_stroke(cairo, stroke, {x0, y0});
-      const cairo_status_t status = cairo_status(cairo);
-      cairo_destroy(cairo);
-      cairo_surface_flush(surface);
-      cairo_surface_destroy(surface);
-      if (status != CAIRO_STATUS_SUCCESS)
-        throw Error(ErrorKind::bug, "names in the picture", cairo_status_to_string(status), "");
-      // Colours are premultiplied by their alpha.
-      const PixelRect shown = intersection({x0, y0, x0 + tile_px, y0 + tile_px}, whole);
-      for (int y = shown.y0; y < shown.y1; ++y)
-        for (int x = shown.x0; x < shown.x1; ++x) {
-          const std::uint32_t value =
-              pixels[static_cast<std::size_t>(y - y0) * tile_px + static_cast<std::size_t>(x - x0)];
-          const std::uint32_t alpha = value >> 24;
-          if (alpha == 0) continue;
-          const glm::vec3 over =
-              glm::vec3((value >> 16) & 255U, (value >> 8) & 255U, value & 255U) / 255.0F;
-          glm::vec3& pixel = encoded(x - at.x, y - at.y);
-          pixel = alpha == 255 ? over : over + pixel * (1.0F - static_cast<float>(alpha) / 255.0F);
-        }
+      const glm::ivec2 corner = tile_px * glm::ivec2(first_x + t % columns, first_y + t / columns);
+      state_->paint_tile(encoded, at, corner, picture);
     }
   });
 }

@@ -4,6 +4,9 @@
 #include <pango/pangocairo.h>
 
 #include <algorithm>
+#include <array>
+#include <filesystem>
+#include <sstream>
 
 #include "base/error.h"
 
@@ -25,21 +28,37 @@ Font font_of(const TextStyle& style) {
   Font font(pango_font_description_new(), &pango_font_description_free);
   pango_font_description_set_family(font.get(), style.family.c_str());
   pango_font_description_set_absolute_size(font.get(), style.size_px * PANGO_SCALE);
-  pango_font_description_set_weight(font.get(),
-                                    style.bold ? PANGO_WEIGHT_BOLD : PANGO_WEIGHT_NORMAL);
+  pango_font_description_set_weight(font.get(), static_cast<PangoWeight>(style.weight));
   pango_font_description_set_style(font.get(),
                                    style.italic ? PANGO_STYLE_ITALIC : PANGO_STYLE_NORMAL);
   return font;
 }
 
-bool any_fonts() {
-  FcPattern* everything = FcPatternCreate();
+// Fonts of an installed program, once per process: they need not be known to the system.
+void add_own_fonts() {
+  static const bool added = [] {
+    std::error_code missing;
+    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", missing);
+    const std::filesystem::path folder =
+        program.parent_path().parent_path() / "share/belvedere/fonts";
+    return std::filesystem::is_directory(folder, missing) &&
+           FcConfigAppFontAddDir(nullptr, reinterpret_cast<const FcChar8*>(folder.c_str())) != 0;
+  }();
+  static_cast<void>(added);
+}
+
+// Whether there are fonts of that family; empty: any at all.
+bool any_fonts(const std::string& family) {
+  add_own_fonts();
+  FcPattern* wanted = FcPatternCreate();
+  if (!family.empty())
+    FcPatternAddString(wanted, FC_FAMILY, reinterpret_cast<const FcChar8*>(family.c_str()));
   FcObjectSet* nothing = FcObjectSetCreate();
-  FcFontSet* fonts = FcFontList(nullptr, everything, nothing);
+  FcFontSet* fonts = FcFontList(nullptr, wanted, nothing);
   const bool any = fonts != nullptr && fonts->nfont > 0;
   if (fonts != nullptr) FcFontSetDestroy(fonts);
   FcObjectSetDestroy(nothing);
-  FcPatternDestroy(everything);
+  FcPatternDestroy(wanted);
   return any;
 }
 
@@ -51,7 +70,7 @@ struct TextMeasure::State {
 };
 
 TextMeasure::TextMeasure() : state_(std::make_unique<State>()) {
-  if (!any_fonts())
+  if (!any_fonts({}))
     throw Error(ErrorKind::input, "the system's fonts", "none is installed",
                 "a package of fonts, such as fonts-ebgaramond");
   state_->fonts.reset(pango_cairo_font_map_new());
@@ -75,13 +94,14 @@ Owned<PangoLayout> lay_out(PangoContext* context, const std::string& text, const
   Owned<PangoLayout> layout(pango_layout_new(context));
   pango_layout_set_font_description(layout.get(), font.get());
   pango_layout_set_single_paragraph_mode(layout.get(), TRUE);
-  if (style.spacing > 0.0) {
-    PangoAttrList* attributes = pango_attr_list_new();
+  PangoAttrList* attributes = pango_attr_list_new();
+  // Figures of equal height: altitudes are read, not part of a sentence.
+  pango_attr_list_insert(attributes, pango_attr_font_features_new("lnum=1"));
+  if (style.spacing > 0.0)
     pango_attr_list_insert(attributes, pango_attr_letter_spacing_new(static_cast<int>(
                                            style.spacing * style.size_px * PANGO_SCALE)));
-    pango_layout_set_attributes(layout.get(), attributes);
-    pango_attr_list_unref(attributes);
-  }
+  pango_layout_set_attributes(layout.get(), attributes);
+  pango_attr_list_unref(attributes);
   pango_layout_set_text(layout.get(), text.data(), static_cast<int>(text.size()));
   return layout;
 }
@@ -174,12 +194,27 @@ std::vector<TextLetter> TextMeasure::letters(const std::string& text,
   return letters;
 }
 
-std::string TextMeasure::family_of(const TextStyle& style) const {
-  const Font font = font_of(style);
-  const Owned<PangoFont> loaded(pango_context_load_font(state_->context.get(), font.get()));
-  if (loaded == nullptr) return {};
-  const Font found(pango_font_describe(loaded.get()), &pango_font_description_free);
-  return pango_font_description_get_family(found.get());
+bool TextMeasure::has_family(const std::string& families) {
+  std::istringstream list(families);
+  for (std::string family; std::getline(list >> std::ws, family, ',');)
+    if (family == "serif" || family == "sans-serif" || family == "sans" || family == "monospace" ||
+        any_fonts(family))
+      return true;
+  return false;
+}
+
+std::string capitals(const std::string& text) {
+  std::string out;
+  for (const char* at = text.c_str(); *at != '\0'; at = g_utf8_next_char(at)) {
+    const gunichar letter = g_utf8_get_char(at);
+    std::array<char, 6> bytes{};
+    if (letter == 0xDF)
+      out += "SS";
+    else
+      out.append(bytes.data(), static_cast<std::size_t>(
+                                   g_unichar_to_utf8(g_unichar_toupper(letter), bytes.data())));
+  }
+  return out;
 }
 
 }  // namespace belvedere

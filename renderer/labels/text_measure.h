@@ -12,7 +12,7 @@ namespace belvedere {
 struct TextStyle {
   std::string family = "serif";  // several, separated by commas: the first that is installed
   double size_px = 12.0;         // of the type, > 0
-  bool bold = false;
+  int weight = 400;              // as in CSS: 400 regular, 700 bold; 100…900
   bool italic = false;
   double spacing = 0.0;  // between letters, of the type's size
 };
@@ -44,9 +44,13 @@ struct TextLetter {
   Outline outline;        // from the baseline's left end under the letter; empty: a space
 };
 
+// A text in capitals, the same for every language of the machine; ß becomes SS.
+std::string capitals(const std::string& text);
+
 // Measures lines of text in any script, also from right to left, without hinting, so that a text
-// twice as large is twice as wide. The only file that uses Pango. Throws Error(input) where no
-// fonts are installed. Not thread-safe.
+// twice as large is twice as wide. Fonts are those of the system and those that an installed
+// program brings along, in share/belvedere/fonts beside its bin. The only file that uses Pango.
+// Throws Error(input) where there are no fonts. Not thread-safe.
 class TextMeasure {
  public:
   TextMeasure();
@@ -57,9 +61,9 @@ class TextMeasure {
   TextRoom measure(const std::string& text, const TextStyle& style) const;
   // The same line letter by letter; the widths add up to the total.
   std::vector<TextLetter> letters(const std::string& text, const TextStyle& style) const;
-  // The font family used for a style: the first of its families that is installed, or the system's
-  // substitute.
-  std::string family_of(const TextStyle& style) const;
+  // Whether one of the families, separated by commas, is installed, so that no substitute is used.
+  // "serif", "sans-serif", "sans" and "monospace" always are.
+  static bool has_family(const std::string& families);
 
  private:
   struct State;

@@ -16,22 +16,26 @@ namespace belvedere {
 namespace {
 
 // Nothing where the scene names nothing, or all its files are optional and missing.
-std::shared_ptr<const SheetPainter> names_of(const LoadedScene& loaded, const Run& run) {
+std::shared_ptr<const SheetPainter> names_of(const LoadedScene& loaded,
+                                             const Grid<float>& luminance, const Run& run) {
   if (!loaded.scene.labels.any()) return nullptr;
   const LabelJob job = label_job(loaded, run.progress);
   if (job.empty()) return nullptr;
   const BareView bare = make_bare_view(loaded, run.progress, run.cache);
-  return std::make_shared<SheetPainter>(
-      label_drawing(make_label_sheet(loaded, job, bare, run.progress)));
+  LabelSheet sheet = make_label_sheet(loaded, job, bare, run.progress);
+  if (luminance.size() > 0) choose_inks(sheet, luminance);
+  return std::make_shared<SheetPainter>(label_drawing(sheet));
 }
 
-// A drawing without what is below it. Drawn over black it shows its colour times its opacity; over
-// white the transmitted white is added.
-Grid<LayerPixel> paint_alone(const SheetPainter& painter, PixelRect rect) {
+// A drawing without what is below it, but with halos of the painting. Drawn over black it shows its
+// colour times its opacity; over white the transmitted white is added.
+Grid<LayerPixel> paint_alone(const SheetPainter& painter, const PaintedRows& painted,
+                             PixelRect rect) {
+  const NamedWindow window(painted, rect, painter.halo_reach());
   Grid<glm::vec3> black(rect.width(), rect.height(), glm::vec3(0.0F));
   Grid<glm::vec3> white(rect.width(), rect.height(), glm::vec3(1.0F));
-  painter.paint(black, {rect.x0, rect.y0});
-  painter.paint(white, {rect.x0, rect.y0});
+  painter.paint(black, {rect.x0, rect.y0}, &window.around);
+  painter.paint(white, {rect.x0, rect.y0}, &window.around);
   Grid<LayerPixel> out(rect.width(), rect.height(), LayerPixel{});
   for (std::size_t i = 0; i < out.size(); ++i) {
     const glm::vec3 left = white[i] - black[i];
@@ -49,7 +53,9 @@ Grid<LayerPixel> paint_alone(const SheetPainter& painter, PixelRect rect) {
 }  // namespace
 
 void write_layer_files(const LoadedScene& loaded, const SheetRequest& request,
-                       const JoinedPieces& joined, const std::string& out_folder, const Run& run) {
+                       const JoinedPieces& joined, const PaintedRows& painted,
+                       const Grid<float>& luminance, const std::string& out_folder,
+                       const Run& run) {
   if (request.layers.empty()) return;
   const Scene& scene = loaded.scene;
   const PixelRect region = joined.region;
@@ -73,11 +79,12 @@ void write_layer_files(const LoadedScene& loaded, const SheetRequest& request,
            return make_layer(layer, plane, rows_of(layer_plane_names()[about_plane], y0, y1));
          }});
   }
-  if (const std::shared_ptr<const SheetPainter> painter = names_of(loaded, run)) {
-    sheet.layers.push_back(
-        {"names", "Names", true, [painter, region](int y0, int y1) {
-           return paint_alone(*painter, {region.x0, region.y0 + y0, region.x1, region.y0 + y1});
-         }});
+  if (const std::shared_ptr<const SheetPainter> painter = names_of(loaded, luminance, run)) {
+    sheet.layers.push_back({"names", "Names", true, [painter, region, painted](int y0, int y1) {
+                              return paint_alone(
+                                  *painter, painted,
+                                  {region.x0, region.y0 + y0, region.x1, region.y0 + y1});
+                            }});
   }
   sheet.merged = [&](int y0, int y1) {
     Grid<glm::vec3> rows(region.width(), y1 - y0);

@@ -3,14 +3,17 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
+#include <glm/common.hpp>
 #include <iterator>
 
+#include "base/grid_part.h"
+#include "base/text/hex_colour.h"
 #include "renderer/image/output_file.h"
 #include "renderer/image/rows/picture_files.h"
 #include "renderer/labels/drawing_svg.h"
 #include "renderer/labels/label_drawing.h"
+#include "renderer/labels/margin_blocks.h"
 #include "renderer/labels/sheet_painter.h"
 #include "renderer/paint/composite.h"
 #include "renderer/pipeline/scene_labels.h"
@@ -18,12 +21,46 @@
 namespace belvedere {
 namespace {
 
-constexpr int rows_per_copy = 64;
+constexpr int rows_per_copy = 128;
 
-glm::vec3 colour_of(const std::string& hex) {
-  unsigned value = 0;
-  std::from_chars(hex.data() + 1, hex.data() + hex.size(), value, 16);
-  return glm::vec3((value >> 16) & 255U, (value >> 8) & 255U, value & 255U) / 255.0F;
+// A picture in another size, by linear interpolation; of its own size, itself.
+Grid<glm::vec3> scaled(const Grid<glm::vec3>& picture, int width, int height) {
+  Grid<glm::vec3> out(width, height);
+  const auto at = [](int i, int to, int from) {
+    return std::clamp((i + .5) * from / to - .5, 0.0, from - 1.0);
+  };
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const glm::dvec2 p(at(x, width, picture.width()), at(y, height, picture.height()));
+      const glm::ivec2 a(p);
+      const glm::ivec2 b = glm::min(a + 1, glm::ivec2(picture.width(), picture.height()) - 1);
+      const glm::vec2 share(p - glm::dvec2(a));
+      out(x, y) = glm::mix(glm::mix(picture(a.x, a.y), picture(b.x, a.y), share.x),
+                           glm::mix(picture(a.x, b.y), picture(b.x, b.y), share.x), share.y);
+    }
+  return out;
+}
+
+// Those rows of a swatch that lie in a band of paper which begins with row y0.
+void copy_swatch(const Grid<glm::vec3>& swatch, PixelRect to, int y0, Grid<glm::vec3>& band) {
+  for (int y = std::max(to.y0, y0); y < std::min(to.y1, y0 + band.height()); ++y)
+    std::copy_n(swatch.row(y - to.y0), swatch.width(), band.row(y - y0) + to.x0);
+}
+
+// The scale of the scene's style, without names.
+LabelSheet bare_sheet(const LoadedScene& loaded) {
+  const Scene& scene = loaded.scene;
+  return empty_label_sheet(load_label_style(find_named_file(loaded, "labels", scene.labels.style)),
+                           {scene.output.width, scene.output.height}, scene.output.sheet_width_mm);
+}
+
+// The piece of the picture below features: snow in winter, else a meadow.
+PixelRect open_ground(const PictureLegend& legend) {
+  const bool winter = luminance(colour_of_hex(legend.features.front().ground).value()) > .6;
+  for (const char* name : {winter ? "snow" : "pasture", winter ? "glacier" : "alpine grass"})
+    for (const LegendEntry& entry : legend.classes)
+      if (entry.name == name && !entry.at.empty()) return entry.at;
+  return {};
 }
 
 MarginContent content_of(const LoadedScene& loaded, const BareView& bare, const LabelSheet& sheet,
@@ -36,6 +73,7 @@ MarginContent content_of(const LoadedScene& loaded, const BareView& bare, const 
   if (asked.legend) {
     content.classes = legend.classes;
     content.features = legend.features;
+    if (!legend.features.empty()) content.features_at = open_ground(legend);
   }
   const GeoMap map = bare.geo_map();
   const CameraParameters& camera = bare.view.camera;
@@ -52,17 +90,6 @@ MarginContent content_of(const LoadedScene& loaded, const BareView& bare, const 
   return content;
 }
 
-// The sheet's drawing on paper: names over the picture, the margin around it.
-Drawing on_paper(const Drawing& names, const Margin& margin) {
-  Drawing all = margin.drawing;
-  const glm::dvec2 by(margin.left, margin.top);
-  for (DrawnShape shape : names.shapes) {
-    move_shape(shape, by);
-    all.shapes.push_back(std::move(shape));
-  }
-  return all;
-}
-
 }  // namespace
 
 std::string second_picture(const Scene& scene, bool whole_sheet) {
@@ -70,7 +97,35 @@ std::string second_picture(const Scene& scene, bool whole_sheet) {
   return scene.margin && whole_sheet ? "panorama_margin" : "";
 }
 
-void write_named_picture(const LoadedScene& loaded, PixelRect region, const SheetRows& rows,
+NamedWindow::NamedWindow(const PaintedRows& painted, PixelRect rect, int reach_px)
+    : from_y(std::max(rect.y0 - reach_px, painted.region.y0)),
+      rows(painted.rows(from_y, std::min(rect.y1 + reach_px, painted.region.y1))),
+      part(part_of(rows, moved(rect, -painted.region.x0, -from_y))),
+      around{rows, {painted.region.x0, from_y}} {}
+
+glm::dvec2 legend_swatch_px(const LoadedScene& loaded) {
+  const LabelSheet names = bare_sheet(loaded);
+  return swatch_size_mm(names.style.margin) *
+         MarginSetter(names.style.margin, names.px_per_mm, names.size_px.x).mm(1.0);
+}
+
+bool shows_names(const Scene& scene, const SheetRequest& request) {
+  return request.panorama && scene.labels.any() &&
+         (scene.labels.in_picture || !request.layers.empty());
+}
+
+PixelRect region_with_halos(const LoadedScene& loaded, const SheetRequest& request) {
+  const Scene& scene = loaded.scene;
+  const PixelRect region = region_of(scene, request);
+  const PixelRect sheet{0, 0, scene.output.width, scene.output.height};
+  if (region == sheet || !shows_names(scene, request)) return region;
+  const LabelSheet names = bare_sheet(loaded);
+  double halo_mm = 0.0;
+  for (const LabelKindStyle& kind : names.style.kinds) halo_mm = std::max(halo_mm, kind.halo_mm);
+  return intersection(sheet, grown(region, halo_reach_px(halo_blur_px(halo_mm * names.px_per_mm))));
+}
+
+void write_named_picture(const LoadedScene& loaded, PixelRect region, const PaintedRows& painted,
                          const PictureLegend& legend, const OutputColour& colour,
                          const FileNotes& notes, const std::string& out_folder, const Run& run) {
   const Scene& scene = loaded.scene;
@@ -82,6 +137,7 @@ void write_named_picture(const LoadedScene& loaded, PixelRect region, const Shee
   LabelSheet sheet;
   if (!job.empty()) {
     sheet = make_label_sheet(loaded, job, bare, run.progress);
+    if (legend.luminance.size() > 0) choose_inks(sheet, legend.luminance);
     const std::vector<std::string>& formats = scene.output.formats;
     const bool has_png = std::find(formats.begin(), formats.end(), "png") != formats.end();
     write_label_files(sheet, bare.dem.crs, out_folder, has_png && whole ? "panorama.png" : "",
@@ -97,9 +153,8 @@ void write_named_picture(const LoadedScene& loaded, PixelRect region, const Shee
     margin =
         lay_out_margin(content_of(loaded, bare, sheet, legend), sheet.style.margin, sheet.size_px,
                        sheet.px_per_mm, scene.margin->frame_mm * sheet.px_per_mm);
-  const Drawing drawing =
-      on_paper(scene.labels.in_picture ? label_drawing(sheet) : Drawing(), margin);
-  const SheetPainter painter(drawing);
+  const SheetPainter names(scene.labels.in_picture ? label_drawing(sheet) : Drawing());
+  const SheetPainter paper_painter(margin.drawing);
   const int width = margin.left + region.width() + margin.right;
   const int height = margin.top + region.height() + margin.bottom;
   if (scene.margin && whole) {
@@ -111,20 +166,31 @@ void write_named_picture(const LoadedScene& loaded, PixelRect region, const Shee
   PictureFiles files((std::filesystem::path(out_folder) / stem).string(), scene.output.formats,
                      width, height, {colour.display, colour.profile},
                      scene.output.width / scene.output.sheet_width_mm * 25.4, notes);
-  const glm::vec3 paper = colour_of(sheet.style.margin.paper);
+  const glm::vec3 paper = colour_of_hex(sheet.style.margin.paper).value();
+  std::vector<Grid<glm::vec3>> swatches;
+  for (const LegendCrop& crop : margin.crops) {
+    const Grid<glm::vec3> rows = painted.rows(crop.from.y0, crop.from.y1);
+    swatches.push_back(scaled(part_of(rows, moved(crop.from, -painted.region.x0, -crop.from.y0)),
+                              crop.to.width(), crop.to.height()));
+  }
   // Bands of paper above and below, between them those of the picture.
   for (int y0 = 0; y0 < height; y0 += rows_per_copy) {
     const int y1 = std::min(height, y0 + rows_per_copy);
     Grid<glm::vec3> band(width, y1 - y0, paper);
+    for (std::size_t i = 0; i < swatches.size(); ++i)
+      copy_swatch(swatches[i], margin.crops[i].to, y0, band);
+    paper_painter.paint(band, {0, y0});
     const int first = std::max(y0, margin.top);
     const int end = std::min(y1, margin.top + region.height());
     if (first < end) {
-      const Grid<glm::vec3> picture =
-          rows(region.y0 + first - margin.top, region.y0 + end - margin.top);
+      const int from = region.y0 + first - margin.top;
+      const PixelRect part{region.x0, from, region.x1, from + end - first};
+      const NamedWindow window(painted, part, names.halo_reach());
+      Grid<glm::vec3> picture = window.part;
+      names.paint(picture, {part.x0, part.y0}, &window.around);
       for (int y = first; y < end; ++y)
         std::copy_n(picture.row(y - first), region.width(), band.row(y - y0) + margin.left);
     }
-    painter.paint(band, {region.x0, region.y0 + y0});
     files.write_rows(decode_srgb(band));
     run.progress.advance(y1 - y0);
   }

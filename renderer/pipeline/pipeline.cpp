@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "renderer/image/layers/layer_file.h"
 #include "renderer/image/output_file.h"
+#include "renderer/pipeline/named_picture.h"
 #include "renderer/pipeline/output_colour.h"
 #include "renderer/pipeline/scene_paint.h"
 #include "renderer/pipeline/sheet_job.h"
@@ -56,7 +57,7 @@ void render(const LoadedScene& loaded, const std::string& out_folder, const Run&
   refuse_beyond_memory(loaded, request);
   require_inputs(loaded);
   read_output_colour(loaded);
-  const std::vector<PixelRect> pieces = pieces_of(region_of(loaded.scene, request), request);
+  const std::vector<PixelRect> pieces = pieces_of(region_with_halos(loaded, request), request);
   check_output_folder(out_folder);
 
   if (!request.resume && holds_work(work_folder_of(out_folder)))
@@ -95,7 +96,7 @@ void make_part(const LoadedScene& loaded, const std::string& folder, int part, i
   if (part < 1 || part > parts)
     throw Error(ErrorKind::usage, "part", fmt::format("{}", part),
                 fmt::format("1 to {}, the parts of the plan", parts));
-  const std::vector<PixelRect> pieces = pieces_of(region_of(loaded.scene, request), request);
+  const std::vector<PixelRect> pieces = pieces_of(region_with_halos(loaded, request), request);
   const PieceSpan own = pieces_of_part(pieces.size(), part, parts);
   const WorkFolder work(work_folder_of(folder), identify(loaded, request), WorkMode::join);
   make_pieces(loaded, request, std::span(pieces).subspan(own.first, own.end - own.first), work,

@@ -170,8 +170,9 @@ LabelJob label_job(const LoadedScene& scene, Progress& progress) {
 
 void check_names(const LoadedScene& scene, const Dem& dem) {
   const LabelJob job = label_job(scene, silent_progress());
-  read_names(job, load_label_style(job.style), dem, silent_progress());
-  if (!job.empty() || scene.scene.margin) const TextMeasure fonts;  // throws where there are none
+  const LabelStyle style = load_label_style(job.style);
+  read_names(job, style, dem, silent_progress());
+  if (!job.empty() || scene.scene.margin) require_fonts(style);
 }
 
 LabelSheet make_label_sheet(const LoadedScene& scene, const LabelJob& job, const BareView& bare,

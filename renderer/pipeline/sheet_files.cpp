@@ -141,7 +141,8 @@ void write_sheet_files(const LoadedScene& loaded, const SheetRequest& request,
                        const PlanOfParts& plan) {
   const Scene& scene = loaded.scene;
   const PixelRect region = region_of(scene, request);
-  const JoinedPieces joined{work, pieces_of(region, request), region};
+  const PixelRect made = region_with_halos(loaded, request);
+  const JoinedPieces joined{work, pieces_of(made, request), region};
   require_pieces(work, request, joined.pieces, run.progress, plan);
   const FileNotes notes = job_from_text(work.read_bytes("notes"));
   FileNotes file_notes = notes;
@@ -178,16 +179,24 @@ void write_sheet_files(const LoadedScene& loaded, const SheetRequest& request,
     run.progress.advance(y1 - y0);
   }
   panorama.finish();
-  write_layer_files(loaded, request, joined, out_folder, run);
-  if (const std::optional<InkCoverage> ink = panorama.ink())
-    run.progress.note(ink_note("panorama.tif", *ink));
-  commit();
   PictureLegend legend;
   if (work.has_bytes(legend_bytes))
     legend.classes = legend_from_text(work.read_bytes(legend_bytes));
+  if (work.has_bytes(luminance_bytes))
+    legend.luminance = luminance_from_bytes(work.read_bytes(luminance_bytes));
   if (work.has_bytes(feature_legend_bytes))
     legend.features = swatches_from_text(work.read_bytes(feature_legend_bytes));
-  write_named_picture(loaded, region, encoded_rows, legend, colour, file_notes, out_folder, run);
+  const JoinedPieces around{work, joined.pieces, made};
+  const PaintedRows painted{made, [&](int y0, int y1) {
+                              Grid<glm::vec3> rows(made.width(), y1 - y0);
+                              around.read("panorama", y0, y1, {plane_of(rows)});
+                              return rows;
+                            }};
+  write_layer_files(loaded, request, joined, painted, legend.luminance, out_folder, run);
+  if (const std::optional<InkCoverage> ink = panorama.ink())
+    run.progress.note(ink_note("panorama.tif", *ink));
+  commit();
+  write_named_picture(loaded, region, painted, legend, colour, file_notes, out_folder, run);
 }
 
 }  // namespace belvedere

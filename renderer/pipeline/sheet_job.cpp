@@ -69,12 +69,17 @@ bool lacks_layers(const WorkFolder& work, PixelRect piece) {
 
 // What every piece needs besides the stages: names that can be placed, notes, and the legend.
 void prepare_work(const LoadedScene& loaded, const SheetRequest& request, const SheetWork& sheet,
-                  const WorkFolder& work) {
+                  const WorkFolder& work, const Run& run) {
   if (request.panorama) check_names(loaded, *sheet.world.dem);
   keep_notes(loaded, sheet.world, work);
-  const std::optional<SceneMargin>& margin = sheet.world.scene.margin;
-  if (margin && margin->legend && !work.has_bytes(legend_bytes))
-    work.keep_bytes(legend_bytes, legend_to_text(find_legend(sheet.world, sheet.paint.palette)));
+  const Scene& scene = sheet.world.scene;
+  const bool shows_legend = scene.margin && scene.margin->legend;
+  const bool needed = (request.panorama && shows_legend) || shows_names(scene, request);
+  if (!needed || work.has_bytes(luminance_bytes)) return;
+  const PictureOverview overview = make_overview(sheet.world, sheet.paint.palette, run);
+  work.keep_bytes(luminance_bytes, luminance_to_bytes(overview));
+  const glm::dvec2 swatch_px = legend_swatch_px(loaded);
+  work.keep_bytes(legend_bytes, legend_to_text(find_legend(overview, swatch_px)));
 }
 
 std::vector<MatchedPicture> pictures_of(const CopyPlan& plan) {
@@ -117,7 +122,7 @@ void make_pieces(const LoadedScene& loaded, const SheetRequest& request,
   RepeatedStages progress(run.progress, few);
   const Run stage_run{run.threads, run.memory_bytes, run.tile_px, progress, run.cache};
   SheetWork sheet(loaded, request, {.scratch_folder = work.folder()}, run, stage_run);
-  prepare_work(loaded, request, sheet, work);
+  prepare_work(loaded, request, sheet, work, run);
   const bool copied = is_copied(sheet.world.scene, request);
   CopyPlan plan = copied ? plan_copies(loaded, sheet, work, run, few) : CopyPlan{};
   const DrawnFeatures features =
@@ -179,7 +184,7 @@ void make_pieces(const LoadedScene& loaded, const SheetRequest& request,
 void make_plan(const LoadedScene& loaded, const SheetRequest& request, const WorkFolder& work,
                const Run& run) {
   SheetWork sheet(loaded, request, {.scratch_folder = work.folder()}, run, run);
-  prepare_work(loaded, request, sheet, work);
+  prepare_work(loaded, request, sheet, work, run);
   if (is_copied(sheet.world.scene, request)) plan_copies(loaded, sheet, work, run, true);
 }
 

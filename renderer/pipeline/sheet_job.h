@@ -22,6 +22,8 @@ void make_plan(const LoadedScene& loaded, const SheetRequest& request, const Wor
 constexpr const char* matched_bytes = "matched";
 // … and the classes of the whole picture, for a margin's legend.
 constexpr const char* legend_bytes = "legend";
+// … the luminance of a small copy of it, for names.
+constexpr const char* luminance_bytes = "luminance";
 // … and the kinds of features.
 constexpr const char* feature_legend_bytes = "legend_features";
 

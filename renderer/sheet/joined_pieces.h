@@ -12,7 +12,7 @@ namespace belvedere {
 // The finished pieces of a part of the sheet, read as rows over its whole width.
 struct JoinedPieces {
   const WorkFolder& work;
-  std::vector<PixelRect> pieces;  // all that the region touches, clipped to it
+  std::vector<PixelRect> pieces;  // that cover the region, and perhaps more
   PixelRect region;               // px of the sheet
 
   // Rows [y0, y1) of the sheet of a product, into planes of the region's width and that many rows.

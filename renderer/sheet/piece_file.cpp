@@ -144,10 +144,14 @@ void read_piece_rows(const std::string& path, const PieceKey& key, int y0, int y
     const std::uint64_t first = start + width * size * static_cast<std::uint64_t>(y0 - key.rect.y0);
     if (read_bytes_at(file.descriptor, rows.data(), rows.size(), first) != 0)
       throw Error(ErrorKind::input, path, "this finished piece cannot be read");
-    for (int y = 0; y < y1 - y0; ++y)
+    const int x0 = std::max(key.rect.x0, origin_x);
+    const int x1 = std::min(key.rect.x1, origin_x + static_cast<int>(to[i].row_bytes() / size));
+    for (int y = 0; y < y1 - y0 && x0 < x1; ++y)
       std::memcpy(to[i].values + to[i].row_bytes() * static_cast<std::size_t>(y) +
-                      size * static_cast<std::size_t>(key.rect.x0 - origin_x),
-                  rows.data() + width * size * static_cast<std::size_t>(y), width * size);
+                      size * static_cast<std::size_t>(x0 - origin_x),
+                  rows.data() + size * (width * static_cast<std::size_t>(y) +
+                                        static_cast<std::size_t>(x0 - key.rect.x0)),
+                  size * static_cast<std::size_t>(x1 - x0));
     start += width * size * static_cast<std::uint64_t>(key.rect.height());
   }
 }

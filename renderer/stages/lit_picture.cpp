@@ -48,7 +48,12 @@ GroundInputs make_ground_inputs(const World& world, const SheetView& view, const
 
 LitPicture make_lit_picture(const World& world, const Palette& palette, PixelRect region,
                             const Run& run) {
-  return make_at_once(make_ground_inputs(world, view_of(world), palette, run), region);
+  return make_lit_picture(world, view_of(world), palette, region, run);
+}
+
+LitPicture make_lit_picture(const World& world, const SheetView& view, const Palette& palette,
+                            PixelRect region, const Run& run) {
+  return make_at_once(make_ground_inputs(world, view, palette, run), region);
 }
 
 double mean_light_of(const World& world, const Palette& palette) {

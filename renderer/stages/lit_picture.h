@@ -25,6 +25,9 @@ struct LitPicture {
 };
 LitPicture make_lit_picture(const World& world, const Palette& palette, PixelRect region,
                             const Run& run);
+// The same of another view of the world, such as a reduced one.
+LitPicture make_lit_picture(const World& world, const SheetView& view, const Palette& palette,
+                            PixelRect region, const Run& run);
 
 // The mean light (light_of_tone) over the sunlit ground of the picture, weighted by the luminance
 // of the ground's own colour, so that colours times light divided by this are on average as light

@@ -31,7 +31,12 @@ also = ["shelter"]
 place = "beside"
 family = "Serif"
 size_mm = 5
-bold = true
+weight = 700
+capitals = true
+rank_step = 0.05
+light = "#eeeeee"
+barrier = true
+straight = true
 italic = true
 spacing = 0.5
 colour = "#102030"
@@ -48,7 +53,10 @@ climb_m = 30
   EXPECT_EQ(style.min_px, 9.0);
   EXPECT_EQ(style.row_mm, 7.0);
   EXPECT_EQ(hut.size_mm, 5.0);
-  EXPECT_TRUE(hut.bold && hut.italic && hut.altitude);
+  EXPECT_TRUE(hut.italic && hut.altitude && hut.capitals && hut.barrier && hut.straight);
+  EXPECT_EQ(hut.weight, 700);
+  EXPECT_EQ(hut.rank_step, .05);
+  EXPECT_EQ(hut.light, "#eeeeee");
   EXPECT_EQ(hut.spacing, .5);
   EXPECT_EQ(hut.colour, "#102030");
   EXPECT_EQ(hut.mark, LabelMarkShape::square);
@@ -67,7 +75,7 @@ TEST(LabelStyle, WhatIsWrongIsSaidAtItsPlace) {
               AllOf(HasSubstr("mine.toml:3"), HasSubstr("0.5 … 100")));
   EXPECT_THAT(message("[kinds.hut]\ncolour = \"red\"\n"), HasSubstr("\"#rrggbb\""));
   EXPECT_THAT(message("[kinds.hut]\nplace = \"under\"\n"),
-              HasSubstr("\"above\", \"beside\", \"over\""));
+              HasSubstr("\"above\", \"beside\", \"over\", \"on\""));
   EXPECT_THAT(message("[kinds.hut]\nmak = \"dot\"\n"), HasSubstr("mak"));
   EXPECT_THAT(message(""), HasSubstr("no kinds"));
   EXPECT_THAT(

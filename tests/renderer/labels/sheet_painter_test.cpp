@@ -7,6 +7,8 @@
 
 #include "base/grid_part.h"
 #include "base/parallel.h"
+#include "base/random.h"
+#include "base/text/hex_colour.h"
 
 namespace belvedere {
 namespace {
@@ -112,6 +114,87 @@ TEST(SheetPainter, HalosLieBelowTheirLetters) {
   }
   EXPECT_GT(ink, 300);
   EXPECT_GT(light, 300);
+}
+
+// Noise with names on it: dark and light letters, level and along a line, over a track.
+Drawing named() {
+  Drawing drawing{.size_px = {500, 300}, .shapes = {}};
+  drawing.shapes.push_back(
+      DrawnPath{.points = {{0, 0}, {499, 299}}, .fill = {}, .stroke = "#b3202a", .width_px = 6.0});
+  const auto name = [&](const char* words, glm::dvec2 at, const char* colour) {
+    return DrawnText{.text = words,
+                     .type = {.family = family, .size_px = 40.0},
+                     .at = at,
+                     .colour = colour,
+                     .halo = "#ffffff",
+                     .halo_px = 4.0,
+                     .halo_contrast = 4.5};
+  };
+  drawing.shapes.push_back(name("Habicht", {30, 90}, "#14161f"));
+  drawing.shapes.push_back(name("Zillertal", {210, 180}, "#fdf9ee"));
+  drawing.shapes.push_back(name("Inn", {}, "#0b2f55"));
+  std::get<DrawnText>(drawing.shapes.back()).along = {{50, 280}, {250, 250}, {450, 280}};
+  return drawing;
+}
+
+Grid<glm::vec3> ground() {
+  Grid<glm::vec3> picture(500, 300);
+  for (int y = 0; y < 300; ++y)
+    for (int x = 0; x < 500; ++x)
+      for (int c = 0; c < 3; ++c)
+        picture(x, y)[c] = static_cast<float>(random_uniform(9, 500 * y + x, c)) *
+                           (.3F + .7F * static_cast<float>(x) / 500.0F);
+  return picture;
+}
+
+// A part that reads the painting as far around it as the painter says, to the bit.
+TEST(SheetPainter, HalosOfThePaintingAreTheSameInAnyPart) {
+  const SheetPainter painter(named());
+  const Grid<glm::vec3> picture = ground();
+  const auto painted_with = [&](PixelRect part, int reach) {
+    const PixelRect read = intersection({0, 0, 500, 300}, grown(part, reach));
+    const Grid<glm::vec3> around = part_of(picture, read);
+    const PictureWindow window{around, {read.x0, read.y0}};
+    Grid<glm::vec3> pixels = part_of(picture, part);
+    painter.paint(pixels, {part.x0, part.y0}, &window);
+    return pixels;
+  };
+  const int reach = painter.halo_reach();
+  const Grid<glm::vec3> whole = painted_with({0, 0, 500, 300}, reach);
+  EXPECT_FALSE(whole == picture);
+  for (const PixelRect part : {PixelRect{60, 60, 200, 120}, {127, 0, 129, 300}, {0, 170, 500, 171}})
+    EXPECT_TRUE(painted_with(part, reach) == part_of(whole, part)) << part.x0 << ',' << part.y0;
+  EXPECT_FALSE(painted_with({60, 60, 200, 120}, reach / 2) == part_of(whole, {60, 60, 200, 120}))
+      << "half the reach is not enough";
+}
+
+// Beside the letters every pixel has the contrast, whatever is painted there.
+TEST(SheetPainter, LettersStandOutOfThePainting) {
+  Drawing drawing = named();
+  const Grid<glm::vec3> picture = ground();
+  const PictureWindow window{picture, {0, 0}};
+  Grid<glm::vec3> pixels = picture;
+  SheetPainter(drawing).paint(pixels, {0, 0}, &window);
+  // The same letters black on white, and grown by two pixels.
+  Drawing letters{.size_px = drawing.size_px, .shapes = {drawing.shapes[1]}};
+  auto& name = std::get<DrawnText>(letters.shapes[0]);
+  const glm::vec3 ink = colour_of_hex(name.colour).value();
+  name.colour = "#000000";
+  name.halo.clear();
+  name.halo_contrast = 0.0;
+  Grid<glm::vec3> mask(500, 300, glm::vec3(1.0F));
+  SheetPainter(letters).paint(mask, {0, 0});
+  int beside = 0;
+  for (int y = 2; y < 298; ++y)
+    for (int x = 2; x < 498; ++x) {
+      bool near_letter = false;
+      for (int dy = -2; dy <= 2; ++dy)
+        for (int dx = -2; dx <= 2; ++dx) near_letter |= mask(x + dx, y + dy) == glm::vec3(0.0F);
+      if (!near_letter || mask(x, y) != glm::vec3(1.0F)) continue;
+      ++beside;
+      EXPECT_GE(contrast(pixels(x, y), ink), 4.45) << x << ',' << y;
+    }
+  EXPECT_GT(beside, 500);
 }
 
 // Letters one by one are as wide as the whole line, in any script.

@@ -14,7 +14,7 @@ using test::sans;
 TEST(TextMeasure, IsTheFontsOwnWidth) {
   const TextMeasure measure;
   const TextStyle style{.family = sans, .size_px = 100.0};
-  if (measure.family_of(style) != sans) GTEST_SKIP() << "DejaVu is not installed";
+  if (!TextMeasure::has_family(sans)) GTEST_SKIP() << "DejaVu is not installed";
   // Advance of H in DejaVu Sans: 1540 / 2048.
   EXPECT_NEAR(measure.measure("H", style).width_px, 100.0 * 1540.0 / 2048.0, .1);
   EXPECT_NEAR(measure.measure("HHHH", style).width_px, 400.0 * 1540.0 / 2048.0, .2);
@@ -45,9 +45,19 @@ TEST(TextMeasure, AnyScriptAndNothingHaveARoom) {
 }
 
 TEST(TextMeasure, TakesTheFirstFamilyThatIsThere) {
+  if (!TextMeasure::has_family(sans)) GTEST_SKIP() << "DejaVu is not installed";
   const TextMeasure measure;
-  if (measure.family_of({.family = sans}) != sans) GTEST_SKIP() << "DejaVu is not installed";
-  EXPECT_EQ(measure.family_of({.family = "No Such Font At All, DejaVu Sans"}), sans);
+  EXPECT_DOUBLE_EQ(measure.measure("Inn", {.family = "No Such Font At All, DejaVu Sans"}).width_px,
+                   measure.measure("Inn", {.family = sans}).width_px);
+  EXPECT_TRUE(TextMeasure::has_family("No Such Font At All, DejaVu Sans"));
+  EXPECT_FALSE(TextMeasure::has_family("No Such Font At All, Nor This"));
+  EXPECT_TRUE(TextMeasure::has_family("serif")) << "whatever the system has";
+}
+
+TEST(TextMeasure, CapitalsAreThoseOfEveryScriptAndNoLanguage) {
+  EXPECT_EQ(capitals("Großes Öd, Inn"), "GROSSES ÖD, INN");
+  EXPECT_EQ(capitals("Ťažký štít Пик"), "ŤAŽKÝ ŠTÍT ПИК");
+  EXPECT_EQ(capitals("御嶽山 جبل"), "御嶽山 جبل");
 }
 
 }  // namespace

@@ -170,11 +170,49 @@ TEST(NamedPicture, TheLegendShowsFeaturesThatAreDrawn) {
 }
 
 TEST(NamedPicture, TheLegendSurvivesTheWorkFolder) {
-  const std::vector<LegendEntry> legend = {{"alpine grass", "#aabbcc"}, {"rock", "#010203"}};
+  const std::vector<LegendEntry> legend = {{"alpine grass", "#aabbcc", {3, 4, 25, 16}},
+                                           {"rock", "#010203"}};
   const std::vector<LegendEntry> again = legend_from_text(legend_to_text(legend));
   ASSERT_EQ(again.size(), 2U);
   EXPECT_EQ(again[0].name, "alpine grass");
+  EXPECT_EQ(again[0].at, (PixelRect{3, 4, 25, 16}));
   EXPECT_EQ(again[1].colour, "#010203");
+}
+
+// A sheet of two classes, whose light differs: the piece lies in its class, where that is as light
+// as usual, and the class that is too narrow is shown by half a piece.
+TEST(NamedPicture, SwatchesAreTypicalPiecesOfThePicture) {
+  PictureOverview overview{.sheet_px = {800, 400},
+                           .factor = 4,
+                           .classes = Grid<LandCoverClass>(200, 100, LandCoverClass::forest),
+                           .colours = Grid<glm::vec3>(200, 100, glm::vec3(.2F, .4F, .2F))};
+  for (int y = 0; y < 100; ++y)
+    for (int x = 0; x < 200; ++x) {
+      if (x < 40) overview.colours(x, y) = glm::vec3(.8F);
+      if (x >= 100 && y >= 50 && y < 54) {
+        overview.classes(x, y) = LandCoverClass::rock;
+        overview.colours(x, y) = glm::vec3(.6F, .6F, .65F);
+      }
+    }
+  const std::vector<LegendEntry> legend = find_legend(overview, {48.0, 28.0});
+  ASSERT_EQ(legend.size(), 2U);
+  EXPECT_EQ(legend[0].name, "forest");
+  EXPECT_EQ(legend[0].at.width(), 48);
+  EXPECT_GE(legend[0].at.x0, 160) << "not in the light";
+  EXPECT_TRUE(legend[0].at.y0 >= 216 || legend[0].at.y1 <= 200 || legend[0].at.x1 <= 400)
+      << "no rock in it";
+  EXPECT_EQ(legend[1].name, "rock");
+  EXPECT_EQ(legend[1].at.width(), 24);
+  EXPECT_GE(legend[1].at.x0, 400);
+  EXPECT_NEAR(.5 * (legend[1].at.y0 + legend[1].at.y1), 208.0, 5.0);
+}
+
+TEST(NamedPicture, TheGroundsLuminanceSurvivesTheWorkFolder) {
+  const PictureOverview overview{
+      .sheet_px = {30, 20}, .classes = {}, .colours = Grid<glm::vec3>(3, 2, glm::vec3(.5F))};
+  const Grid<float> again = luminance_from_bytes(luminance_to_bytes(overview));
+  ASSERT_EQ(again.width(), 3);
+  EXPECT_NEAR(again(2, 1), .2140, .003) << "sRGB's half";
 }
 
 }  // namespace

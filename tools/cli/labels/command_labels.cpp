@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <utility>
 
@@ -38,18 +37,6 @@ struct LabelsOptions {
 
 constexpr int usual_summits = 30;
 
-// Fonts of the style that are not installed: the picture then differs from the style's intention.
-void note_fonts(const LabelStyle& style, Progress& progress) {
-  const TextMeasure measure;
-  std::map<std::string, std::string> taken;
-  for (const LabelKindStyle& kind : style.kinds)
-    taken[kind.family] = measure.family_of(text_style(kind, 1.0));
-  for (const auto& [asked, found] : taken)
-    if (!asked.starts_with(found))
-      progress.note(
-          fmt::format("of the fonts \"{}\", {} is used: the first is not installed", asked, found));
-}
-
 int run(const LabelsOptions& options) {
   const LoadedScene scene = load(options.scene);
   const RunLimits limits(make_run(options.scene));
@@ -67,7 +54,7 @@ int run(const LabelsOptions& options) {
     job.summits = options.summits;
   else if (job.points.empty() && job.shapes.empty() && job.tracks.empty() && job.summits == 0)
     job.summits = usual_summits;
-  note_fonts(load_label_style(job.style), progress);
+  require_fonts(load_label_style(job.style));
   const fs::path folder = options.out;
   check_place((folder / "labels.svg").string());
 
