@@ -40,7 +40,7 @@ struct LabelKindStyle {
   double mark_mm = 1.0;   // across, 0…20
   bool altitude = false;  // under a name that stands above its mark, else after it
   bool barrier = false;   // names of places stay on their side of this line or area
-  bool straight = false;  // as cables are: its line runs straight from end to end
+  bool straight = false;  // its line runs straight from end to end over the ground, as cables
   double climb_m = 0.0;   // maximum distance of the drawn summit that the mark moves to, 0…5000
 };
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <set>
@@ -57,6 +58,21 @@ glm::dvec2 plate_px(const TextRoom& room, const TextStyle& type) {
   const double side =
       std::max(1.55 * type.size_px, std::min(room.width_px, figures) + .6 * type.size_px);
   return {side + std::max(0.0, room.width_px - figures), side};
+}
+
+// The line of a cable between the ends of its line on the ground: straight, or over the ground where
+// that rises higher in the picture.
+std::vector<glm::dvec2> cable_over(const std::vector<glm::dvec2>& line) {
+  constexpr int steps = 32;
+  const double length = length_of(line);
+  std::vector<glm::dvec2> cable;
+  for (int k = 0; k <= steps; ++k) {
+    const double share = static_cast<double>(k) / steps;
+    const glm::dvec2 ground = point_at(line, share * length);
+    const glm::dvec2 straight = glm::mix(line.front(), line.back(), share);
+    cable.push_back(ground.y < straight.y ? ground : straight);
+  }
+  return cable;
 }
 
 // Limits of letter spacing along a shape: the share of the line, and the space between letters.
@@ -279,7 +295,7 @@ LabelSheet make_labels(const std::vector<LabelPoint>& points, const std::vector<
         request.width_px = plate.x;
         request.height_px = plate.y;
         if (follows) request.along = lines[i];
-        if (follows && kind.straight) request.along = {lines[i].front(), lines[i].back()};
+        if (follows && kind.straight) request.along = cable_over(lines[i]);
       } else {
         if (follows) request.bent = bent_rooms(label, kind, type, lines[i], measure);
         const glm::dvec2 room = room_of(sheet, label);
