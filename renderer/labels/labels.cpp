@@ -60,8 +60,8 @@ glm::dvec2 plate_px(const TextRoom& room, const TextStyle& type) {
   return {side + std::max(0.0, room.width_px - figures), side};
 }
 
-// The line of a cable between the ends of its line on the ground: straight, or over the ground where
-// that rises higher in the picture.
+// The line of a cable between the ends of its line on the ground: straight, or over the ground
+// where that rises higher in the picture.
 std::vector<glm::dvec2> cable_over(const std::vector<glm::dvec2>& line) {
   constexpr int steps = 32;
   const double length = length_of(line);

@@ -14,6 +14,7 @@ namespace {
 constexpr double rule_mm = 0.14;       // thin lines
 constexpr double outer_line_mm = 0.4;  // of the frame
 constexpr double outer_gap_mm = 1.2;   // between the two lines of the frame
+constexpr double line_gap_mm = 6.0;    // between lines of blocks
 constexpr double block_gap_mm = 11.0;  // minimum distance of blocks
 
 DrawnPath framing_line(glm::dvec2 low, glm::dvec2 high, double out_px, const std::string& colour,
@@ -43,6 +44,18 @@ double widest_line(const std::vector<MarginBlock>& blocks, const std::vector<std
     first = end;
   }
   return width;
+}
+
+double height_of(const std::vector<MarginBlock>& blocks, const std::vector<std::size_t>& ends,
+                 double gap) {
+  double height = 0.0;
+  std::size_t first = 0;
+  for (const std::size_t end : ends) {
+    double highest = 0.0;
+    for (; first < end; ++first) highest = std::max(highest, blocks[first].size.y);
+    height += highest + gap;
+  }
+  return height;
 }
 
 // The ends of the lines that blocks are broken into: as few as fit, and of those that whose widest
@@ -98,17 +111,18 @@ Margin lay_out_margin(const MarginContent& content, const MarginStyle& style, gl
   const MarginSetter set(style, px_per_mm, picture_px.x);
   const double inner = picture_px.x;
   const double gap = set.mm(block_gap_mm);
-  // Of the numbers of rows of the legend the first with which all blocks stand side by side, or
-  // else come in the fewest lines.
+  const double line_gap = set.mm(line_gap_mm);
+  // The number of rows of the legend with which the strip is lowest and not wider than the picture.
   std::vector<MarginBlock> blocks;
   std::vector<std::size_t> ends;
+  std::pair<double, double> best;  // what is too wide, and the height
   for (const std::size_t rows : {4U, 5U, 6U, 8U, 12U}) {
     std::vector<MarginBlock> tried = blocks_of(content, set, rows, inner);
     std::vector<std::size_t> breaks = broken(tried, gap, inner);
-    if (!blocks.empty() &&
-        (breaks.size() > ends.size() ||
-         (breaks.size() == ends.size() && widest_line(blocks, ends, gap) <= inner)))
-      continue;
+    const std::pair found(std::max(inner, widest_line(tried, breaks, gap)),
+                          height_of(tried, breaks, line_gap));
+    if (!ends.empty() && found >= best) continue;
+    best = found;
     blocks = std::move(tried);
     ends = std::move(breaks);
   }
@@ -133,7 +147,7 @@ Margin lay_out_margin(const MarginContent& content, const MarginStyle& style, gl
       place(std::move(blocks[i]), {std::round(x), std::round(y)}, margin);
       x += block_width + between;
     }
-    y += height + set.mm(6.0);
+    y += height + line_gap;
     first = end;
   }
   MarginBlock sources = set.sources(content.sources, inner);
