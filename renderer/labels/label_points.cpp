@@ -82,6 +82,17 @@ bool is_utf8(std::string_view text) {
   return true;
 }
 
+// Of its people: a city of a hundred thousand has rank 1, each further rank about a third of them.
+// Nothing for texts that are no number, as OpenStreetMap has some.
+std::optional<double> rank_of_population(const std::string& text) {
+  constexpr std::array from{100000.0, 30000.0, 10000.0, 3000.0, 1000.0, 300.0, 100.0, 30.0};
+  double people = 0.0;
+  if (std::from_chars(text.data(), text.data() + text.size(), people).ec != std::errc())
+    return std::nullopt;
+  return 1.0 + static_cast<double>(std::count_if(from.begin(), from.end(),
+                                                 [&](double least) { return people < least; }));
+}
+
 constexpr std::array kind_columns{"kind", "type", "natural", "place", "tourism"};
 constexpr std::array altitude_columns{"ele", "altitude_m", "altitude", "elevation", "height"};
 
@@ -94,11 +105,13 @@ PointTable read_table(const VectorSource& source, const std::string& crs, NamesA
   (names == NamesAre::needed ? query.columns : query.also).emplace_back("name");
   query.also.insert(query.also.end(), kind_columns.begin(), kind_columns.end());
   query.also.emplace_back("rank");
+  query.also.emplace_back("population");
   query.also.insert(query.also.end(), altitude_columns.begin(), altitude_columns.end());
   MapFeatures file = read_map_features(source, query, crs);
   PointTable table{.file = path, .columns = {"name"}, .points = {}};
   table.columns.insert(table.columns.end(), kind_columns.begin(), kind_columns.end());
   table.columns.emplace_back("rank");
+  table.columns.emplace_back("population");
   table.columns.insert(table.columns.end(), altitude_columns.begin(), altitude_columns.end());
   for (MapFeature& feature : file.features)
     if (feature.shape == MapShape::point)
@@ -135,6 +148,7 @@ std::vector<LabelPoint> read_label_points(const VectorSource& source, const std:
                 "name");
   const std::vector<int> kind = columns_of(table, kind_columns);
   const int rank = table.find("rank");
+  const int population = table.find("population");
   const std::vector<int> altitude = columns_of(table, altitude_columns);
   std::vector<LabelPoint> points;
   std::size_t unnamed = 0;
@@ -161,7 +175,8 @@ std::vector<LabelPoint> read_label_points(const VectorSource& source, const std:
       if (found < 0) strange.insert(word);
       point.kind = std::max(0, found);
     }
-    point.rank = number_of(table, row, rank, 1.0, 9.0).value_or(point.rank);
+    point.rank = number_of(table, row, rank, 1.0, 9.0)
+                     .value_or(rank_of_population(text_of(row, population)).value_or(point.rank));
     point.altitude_m = number_of(table, row, filled(row, altitude), -12000.0, 9000.0);
     points.push_back(std::move(point));
   }

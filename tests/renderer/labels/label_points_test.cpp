@@ -44,6 +44,15 @@ TEST_F(LabelPoints, OfOpenStreetMapsColumns) {
   EXPECT_EQ(points[0].altitude_m, 2000.0);
 }
 
+TEST_F(LabelPoints, HaveTheRankOfTheirPeopleWhereNoneIsGiven) {
+  const std::vector<LabelPoint> points = read(
+      "name,rank,population,east,north\nA,,130000,1,2\nB,,3000,1,2\nC,2,10,1,2\nD,,,1,2\n"
+      "E,,many,1,2\nF,,4,1,2\n");
+  const double ranks[] = {1.0, 4.0, 2.0, 5.0, 5.0, 9.0};
+  ASSERT_EQ(points.size(), 6U);
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(points[i].rank, ranks[i]) << points[i].name;
+}
+
 TEST_F(LabelPoints, WithoutANameOrWithTooLongAOneAreLeftOutAndSaid) {
   const std::string ninety(90, 'x');
   const std::vector<LabelPoint> points = read("name,east,north\n,1,2\n" + ninety + ",3,4\nA,5,6\n");
