@@ -190,12 +190,15 @@ struct Scenery {
   }
   WaterPixel water_pixel(std::size_t i, int x, int y, const Patches& patches) const {
     const bool known = parameters.waters && guidance.land_cover[i] == Class::water;
+    const WaterGround::Place ground =
+        known ? parameters.waters->at(glm::dvec2(position_m(i))) : WaterGround::Place{};
     return {
         .index = i,
         .position_m = position_m(i),
         .metres_per_unit = metres_per_unit(i),
-        .ground = known ? parameters.waters->at(glm::dvec2(position_m(i))) : WaterGround::Place{},
+        .ground = ground,
         .mirrored = around.mirrored,
+        .river = known ? 1.0F - ground.lake : 0.0F,
         .share = around.water[i],
         .streak = around.streaks.empty() ? 0.0F : around.streaks[i],
         .patches = patches,

@@ -34,7 +34,7 @@ WaterSurface water_surface(const WaterSources& water, WaterNoises& noises,
     if (water.parameters.mirror == "none") out.look.image_share = 0.0F;
   }
   out.look = with_current(std::move(out.look), pixel.share, pixel.streak, pixel.patches,
-                          1.0F - ground.lake);
+                          pixel.river);
   // The painted line along near banks replaces the unknown bed.
   if (water.tint != nullptr)
     out.bed = lake_bed(*water.tint, palette, g.altitude_m[i], pixel.position_m, g.footprint_m[i]);

@@ -42,8 +42,9 @@ struct WaterPixel {
   float metres_per_unit;      // ground in a unit of the sheet
   WaterGround::Place ground;  // what lies below it; depth 0 where unknown
   const Mirrored& mirrored;
-  float share;   // of water around, on the same surface
-  float streak;  // noise, -1 … 1
+  float river = 0.0F;  // 1 a river … 0 a lake, or unknown
+  float share;         // of water around, on the same surface
+  float streak;        // noise, -1 … 1
   const Patches& patches;
   const WaterImage* image = nullptr;  // the reflection; null: it is looked up in the pixel's
                                       // column, unless nothing shall be mirrored
