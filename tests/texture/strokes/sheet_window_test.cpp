@@ -297,7 +297,7 @@ TEST(SheetWindow, LayersTogetherEqualTheWhole) {
       }
       EXPECT_EQ(different, 0) << "at " << sheet.pixels_per_unit;
       EXPECT_LE(farthest, paint_source_reach_px(layers, p.parameters));
-      EXPECT_GT(farthest, paint_source_reach_px(layers, p.parameters) / 5);
+      EXPECT_GT(farthest, paint_source_reach_px(layers, p.parameters) / 6);
     }
   }
 }
