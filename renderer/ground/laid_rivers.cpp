@@ -84,30 +84,8 @@ CacheKey rivers_key(const LoadedScene& loaded, const MapRivers& rivers, const De
   return make_cache_key(CachedProduct::river_courses, key, subject_of(loaded));
 }
 
-}  // namespace
-
-std::vector<CoverRiver> lay_rivers(const MapRivers& rivers, const LoadedScene& loaded,
-                                   const Dem& dem, Progress& progress, const Cache& cache,
-                                   Catchments* catchments) {
-  if (rivers.lines.empty()) return {};
-  const PackedRows packed = cached<PackedRows>(
-      cache, [&] { return rivers_key(loaded, rivers, dem); }, progress,
-      [&](Progress& watcher) {
-        watcher.begin("aligning rivers with their valleys", 0.0);
-        Catchments own(dem);
-        const RiverCentrelines laid =
-            snap_rivers(rivers.lines, dem, (catchments != nullptr ? *catchments : own).km2());
-        if (laid.lines.empty()) return PackedRows{};
-        watcher.note(
-            fmt::format("rivers of the map: {} in {} pieces, moved to the bottoms of their valleys "
-                        "by {:.0f} m on average, {:.0f} m at most",
-                        laid.lines.size(), laid.lines.size() + laid.joined, laid.mean_moved_m,
-                        laid.max_moved_m));
-        return pack(laid);
-      });
-  return unpack(packed, rivers);
-}
-
+// Across a river at each of its positions: pixels of the picture in a metre of the ground; 0 where
+// the camera does not see it or the river has no direction.
 std::vector<double> px_across(const CoverRiver& river, const Dem& dem, const SeenFrom& from) {
   constexpr double step_m = 30.0;
   const auto seen = [&](glm::dvec2 position) {
@@ -135,6 +113,30 @@ std::vector<double> px_across(const CoverRiver& river, const Dem& dem, const See
   return across;
 }
 
+}  // namespace
+
+std::vector<CoverRiver> lay_rivers(const MapRivers& rivers, const LoadedScene& loaded,
+                                   const Dem& dem, Progress& progress, const Cache& cache,
+                                   Catchments* catchments) {
+  if (rivers.lines.empty()) return {};
+  const PackedRows packed = cached<PackedRows>(
+      cache, [&] { return rivers_key(loaded, rivers, dem); }, progress,
+      [&](Progress& watcher) {
+        watcher.begin("aligning rivers with their valleys", 0.0);
+        Catchments own(dem);
+        const RiverCentrelines laid =
+            snap_rivers(rivers.lines, dem, (catchments != nullptr ? *catchments : own).km2());
+        if (laid.lines.empty()) return PackedRows{};
+        watcher.note(
+            fmt::format("rivers of the map: {} in {} pieces, moved to the bottoms of their valleys "
+                        "by {:.0f} m on average, {:.0f} m at most",
+                        laid.lines.size(), laid.lines.size() + laid.joined, laid.mean_moved_m,
+                        laid.max_moved_m));
+        return pack(laid);
+      });
+  return unpack(packed, rivers);
+}
+
 CoverRiver widen_for_view(CoverRiver centreline, const RiverLook& look, const Dem& dem,
                           const SeenFrom& from) {
   constexpr int passes = 40;  // the ground's direction changes from cell to cell; widths do not
@@ -160,6 +162,23 @@ CoverRiver widen_for_view(CoverRiver centreline, const RiverLook& look, const De
   }
   centreline.half_width_m = std::move(wanted);
   return centreline;
+}
+
+std::vector<double> units_across(const CoverRiver& river, double pixels_per_unit, const Dem& dem,
+                                 const SeenFrom& seen) {
+  constexpr std::size_t step = 8;
+  const std::size_t count = river.positions.size();
+  CoverRiver few;
+  for (std::size_t i = 0; i < count; i += step) few.positions.push_back(river.positions[i]);
+  const std::vector<double> across = px_across(few, dem, seen);
+  std::vector<double> units(count, 0.0);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t k = i / step;
+    const std::size_t next = std::min(k + 1, across.size() - 1);
+    const double t = static_cast<double>(i % step) / static_cast<double>(step);
+    units[i] = ((1.0 - t) * across[k] + t * across[next]) / pixels_per_unit;
+  }
+  return units;
 }
 
 }  // namespace belvedere

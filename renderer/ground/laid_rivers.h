@@ -33,10 +33,6 @@ std::vector<CoverRiver> lay_rivers(const MapRivers& rivers, const LoadedScene& l
                                    const Cache& cache = no_cache(),
                                    Catchments* catchments = nullptr);
 
-// Across a river at each of its positions: pixels of the picture in a metre of the ground; 0 where
-// the camera does not see it or the river has no direction.
-std::vector<double> px_across(const CoverRiver& river, const Dem& dem, const SeenFrom& seen);
-
 // The same as drawn in a picture: rivers narrower than min_px are widened, up to three times.
 // Inferred rivers that are still too narrow fade instead of breaking into dots; those of maps stay.
 struct RiverLook {
@@ -45,5 +41,11 @@ struct RiverLook {
 };
 CoverRiver widen_for_view(CoverRiver river, const RiverLook& look, const Dem& dem,
                           const SeenFrom& seen);
+
+// Units of the sheet (0.5 mm) in a metre across a river at each of its positions; 0 where the
+// camera does not see it. Banks have many positions: every eighth is looked up, between them it is
+// linear.
+std::vector<double> units_across(const CoverRiver& river, double pixels_per_unit, const Dem& dem,
+                                 const SeenFrom& seen);
 
 }  // namespace belvedere

@@ -51,23 +51,25 @@ double noise_at(const ShoreParameters& p, std::uint64_t part, const Site& site, 
 
 // How broad the gravel of a bank is, m.
 double gravel_m(const ShoreParameters& p, std::uint64_t side, const Site& site) {
-  const double units = site.half_m * site.units_per_m;
+  const double drawn =
+      smoothstep(gravel_from_units, gravel_full_units, site.half_m * site.units_per_m);
+  if (drawn <= 0.0) return 0.0;
   const double noise = noise_at(p, gravel_part + side, site, gravel_noise_widths);
   const double share = 0.15 + 1.0 * smoothstep(-0.1, 0.8, site.inner) + 0.55 * noise;
   const double breadth = gravel_breadth * site.half_m * std::max(share, 0.0);
-  return std::min(breadth, max_gravel_units / site.units_per_m) *
-         smoothstep(gravel_from_units, gravel_full_units, units);
+  return std::min(breadth, max_gravel_units / site.units_per_m) * drawn;
 }
 
 // Half of the breadth of a grove, m.
 double grove_half_m(const ShoreParameters& p, std::uint64_t side, const Site& site) {
-  const double units = site.half_m * site.units_per_m;
+  const double drawn =
+      smoothstep(groves_from_units, groves_full_units, site.half_m * site.units_per_m);
+  if (drawn <= 0.0) return 0.0;
   const double stand = noise_at(p, grove_part + side, site, grove_noise_widths);
   const double tuft = noise_at(p, tuft_part + side, site, tuft_noise_widths);
   const double share =
       smoothstep(0.25, 1.1, stand + 0.45 * tuft - 0.45 * std::clamp(site.inner, -1.0, 1.0));
-  return std::min(grove_breadth * site.half_m, max_grove_units / site.units_per_m) * share *
-         smoothstep(groves_from_units, groves_full_units, units);
+  return std::min(grove_breadth * site.half_m, max_grove_units / site.units_per_m) * share * drawn;
 }
 
 struct Shores {
@@ -108,6 +110,11 @@ Shores shores_of(const CoverRiver& river, const std::vector<double>& units_per_m
   Shores out;
   const std::size_t count = river.positions.size();
   if (count < 3 || river.painted_as != LandCoverClass::water) return out;
+  bool wide = false;
+  for (std::size_t i = 0; i < count && !wide; ++i)
+    wide = static_cast<double>(river.half_width_m[i]) * units_per_m[i] >
+           std::min(gravel_from_units, groves_from_units);
+  if (!wide) return out;
   std::array<CoverRiver, 2> gravel{strip_of(river, LandCoverClass::sand),
                                    strip_of(river, LandCoverClass::sand)};
   std::array<CoverRiver, 2> groves{strip_of(river, LandCoverClass::forest),

@@ -294,21 +294,16 @@ std::vector<CoverRiver> with_shores(std::vector<CoverRiver> rivers, const LandCo
                                     const MapCover& own, const LoadedScene& loaded, const Dem& dem,
                                     const SeenFrom& seen) {
   const double ppu = loaded.scene.pixels_per_unit();
-  std::vector<CoverRiver> shores =
-      river_shores(rivers, {.seed = loaded.scene.seed,
-                            .units_per_m =
-                                [&](std::size_t i) {
-                                  std::vector<double> across = px_across(rivers[i], dem, seen);
-                                  for (double& px : across) px /= ppu;
-                                  return across;
-                                },
-                            .is_open =
-                                [&](glm::dvec2 position) {
-                                  const LandCoverClass known = own.at(position);
-                                  return has_shores(known != LandCoverClass::sky
-                                                        ? known
-                                                        : cover.cell_at(position.x, position.y));
-                                }});
+  std::vector<CoverRiver> shores = river_shores(
+      rivers,
+      {.seed = loaded.scene.seed,
+       .units_per_m = [&](std::size_t i) { return units_across(rivers[i], ppu, dem, seen); },
+       .is_open =
+           [&](glm::dvec2 position) {
+             const LandCoverClass known = own.at(position);
+             return has_shores(
+                 known != LandCoverClass::sky ? known : cover.cell_at(position.x, position.y));
+           }});
   shores.insert(shores.end(), std::make_move_iterator(rivers.begin()),
                 std::make_move_iterator(rivers.end()));
   return shores;

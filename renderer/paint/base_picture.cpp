@@ -192,18 +192,17 @@ struct Scenery {
     const bool known = parameters.waters && guidance.land_cover[i] == Class::water;
     const WaterGround::Place ground =
         known ? parameters.waters->at(glm::dvec2(position_m(i))) : WaterGround::Place{};
-    return {
-        .index = i,
-        .position_m = position_m(i),
-        .metres_per_unit = metres_per_unit(i),
-        .ground = ground,
-        .mirrored = around.mirrored,
-        .river = known ? 1.0F - ground.lake : 0.0F,
-        .share = around.water[i],
-        .streak = around.streaks.empty() ? 0.0F : around.streaks[i],
-        .patches = patches,
-        .image = image,
-        .image_index = image != nullptr ? image->share.index(x - wanted.x0, y - wanted.y0) : 0};
+    return {.index = i,
+            .position_m = position_m(i),
+            .metres_per_unit = metres_per_unit(i),
+            .ground = ground,
+            .mirrored = around.mirrored,
+            .river = known ? 1.0F - ground.lake : 0.0F,
+            .share = around.water[i],
+            .streak = around.streaks.empty() ? 0.0F : around.streaks[i],
+            .patches = patches,
+            .image = image,
+            .image_index = image != nullptr ? image->share.index(x - wanted.x0, y - wanted.y0) : 0};
   }
   // Position relative to the surroundings: -1 valley … 1 crest.
   float raised(std::size_t i) const {

@@ -33,8 +33,8 @@ WaterSurface water_surface(const WaterSources& water, WaterNoises& noises,
     out.look = water_look(g, palette, pixel.mirrored, i, pixel.share, pixel.streak, pixel.patches);
     if (water.parameters.mirror == "none") out.look.image_share = 0.0F;
   }
-  out.look = with_current(std::move(out.look), pixel.share, pixel.streak, pixel.patches,
-                          pixel.river);
+  out.look =
+      with_current(std::move(out.look), pixel.share, pixel.streak, pixel.patches, pixel.river);
   // The painted line along near banks replaces the unknown bed.
   if (water.tint != nullptr)
     out.bed = lake_bed(*water.tint, palette, g.altitude_m[i], pixel.position_m, g.footprint_m[i]);

@@ -46,13 +46,13 @@ TEST(SheetIce, IsThatOfThePaperNotOfThePixels) {
 // Rows are traced some at a time; the plan is that of all rows together, up to the edges of the
 // sheet. The camera looks down, so that ice lies at the upper edge too.
 TEST(SheetIce, IsThatOfAllRowsTracedAtOnce) {
-  const World world = make_world(
-      test::small_scene({"output.width=120", "output.height=280", "output.sheet_width_mm=60",
-                         "camera.pitch_deg=-80", "terrain.synthetic.highest_m=3900",
-                         "land_cover.settings.ice_line_m=1150",
-                         "land_cover.settings.treeline_m=400",
-                         "land_cover.settings.snowline_m=1500"}),
-      silent_progress());
+  const World world =
+      make_world(test::small_scene(
+                     {"output.width=120", "output.height=280", "output.sheet_width_mm=60",
+                      "camera.pitch_deg=-80", "terrain.synthetic.highest_m=3900",
+                      "land_cover.settings.ice_line_m=1150", "land_cover.settings.treeline_m=400",
+                      "land_cover.settings.snowline_m=1500"}),
+                 silent_progress());
   const glm::ivec2 size = world.camera->size();
   const GuidanceBuffers seen = trace_forms(world, *world.camera, {0, 0, size.x, size.y}, {});
   StrokeParameters parameters;
