@@ -25,6 +25,7 @@ constexpr double gravel_from_units = 0.7;
 constexpr double gravel_full_units = 1.8;
 constexpr double groves_from_units = 0.6;
 constexpr double groves_full_units = 2.6;
+constexpr double min_gravel_units = 0.4;
 constexpr double max_gravel_units = 3.4;
 constexpr double max_grove_units = 2.2;
 // In half widths of the river.
@@ -55,9 +56,11 @@ double gravel_m(const ShoreParameters& p, std::uint64_t side, const Site& site) 
       smoothstep(gravel_from_units, gravel_full_units, site.half_m * site.units_per_m);
   if (drawn <= 0.0) return 0.0;
   const double noise = noise_at(p, gravel_part + side, site, gravel_noise_widths);
-  const double share = 0.15 + 1.0 * smoothstep(-0.1, 0.8, site.inner) + 0.55 * noise;
+  const double share = -0.10 + 1.1 * smoothstep(-0.1, 0.8, site.inner) + 0.5 * noise;
   const double breadth = gravel_breadth * site.half_m * std::max(share, 0.0);
-  return std::min(breadth, max_gravel_units / site.units_per_m) * drawn;
+  const double bar = std::min(breadth, max_gravel_units / site.units_per_m) * drawn;
+  // A bar narrower than a dab would only serrate the bank.
+  return bar * smoothstep(min_gravel_units, 2.0 * min_gravel_units, bar * site.units_per_m);
 }
 
 // Half of the breadth of a grove, m.

@@ -35,27 +35,18 @@ double width_of(const std::vector<MarginBlock>& blocks, std::size_t first, std::
   return width;
 }
 
-double widest_line(const std::vector<MarginBlock>& blocks, const std::vector<std::size_t>& ends,
-                   double gap) {
-  double width = 0.0;
+// Of blocks broken into lines: the widest line and the sum of the heights.
+glm::dvec2 extent_of(const std::vector<MarginBlock>& blocks, const std::vector<std::size_t>& ends,
+                     double gap, double line_gap) {
+  glm::dvec2 extent(0.0);
   std::size_t first = 0;
   for (const std::size_t end : ends) {
-    width = std::max(width, width_of(blocks, first, end, gap));
-    first = end;
-  }
-  return width;
-}
-
-double height_of(const std::vector<MarginBlock>& blocks, const std::vector<std::size_t>& ends,
-                 double gap) {
-  double height = 0.0;
-  std::size_t first = 0;
-  for (const std::size_t end : ends) {
+    extent.x = std::max(extent.x, width_of(blocks, first, end, gap));
     double highest = 0.0;
     for (; first < end; ++first) highest = std::max(highest, blocks[first].size.y);
-    height += highest + gap;
+    extent.y += highest + line_gap;
   }
-  return height;
+  return extent;
 }
 
 // The ends of the lines that blocks are broken into: as few as fit, and of those that whose widest
@@ -70,7 +61,7 @@ std::vector<std::size_t> broken(const std::vector<MarginBlock>& blocks, double g
       if ((breaks >> (i - 1) & 1U) != 0) ends.push_back(i);
     ends.push_back(blocks.size());
     // Blocks that are alone too wide stand alone.
-    const double width = widest_line(blocks, ends, gap);
+    const double width = extent_of(blocks, ends, gap, 0.0).x;
     const auto badness = [&](double wide, std::size_t lines) {
       return std::tuple(std::max(max_px, wide), lines, wide);
     };
@@ -119,8 +110,8 @@ Margin lay_out_margin(const MarginContent& content, const MarginStyle& style, gl
   for (const std::size_t rows : {4U, 5U, 6U, 8U, 12U}) {
     std::vector<MarginBlock> tried = blocks_of(content, set, rows, inner);
     std::vector<std::size_t> breaks = broken(tried, gap, inner);
-    const std::pair found(std::max(inner, widest_line(tried, breaks, gap)),
-                          height_of(tried, breaks, line_gap));
+    const glm::dvec2 extent = extent_of(tried, breaks, gap, line_gap);
+    const std::pair found(std::max(inner, extent.x), extent.y);
     if (!ends.empty() && found >= best) continue;
     best = found;
     blocks = std::move(tried);

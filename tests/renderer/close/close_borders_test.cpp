@@ -12,29 +12,42 @@ namespace {
 using Class = LandCoverClass;
 
 // Where the border between the halves of a picture runs in each row, by the pixels of the left.
-struct Border {
+// Hills whose left and right halves are of two classes, with the borders drawn between them.
+struct BorderScene {
   GuidanceBuffers g;
+  WideView wide{g, 1, {0, 0}};
+  Grid<glm::vec2> fall;
+  SpurGround ground;
+  CloseBorders borders;
+
+  BorderScene(Class left, Class right)
+      : g(test::make_close_hills(160, 140, 1.0, 8.0, left, right)),
+        fall(smooth_fall_lines(wide, 1.0, {0, 0, 160, 140})),
+        ground{wide, fall, 1.0, 7},
+        borders{g,
+                ground,
+                {0, 0},
+                grow_roofs(ground, border_roofs, border_roofs_part, {0, 0, 160, 140},
+                           [&](std::size_t i) { return std::optional(fall[i]); }),
+                7} {}
+  BorderScene(const BorderScene&) = delete;
+  BorderScene& operator=(const BorderScene&) = delete;
+};
+
+struct Border {
   int moved = 0;      // pixels that changed their class
   double mean = 0.0;  // of the left class's pixels in a row
   double farthest = 0.0;
 
-  Border(Class left, Class right, float close)
-      : g(test::make_close_hills(160, 140, 1.0, 8.0, left, right)) {
-    const WideView wide{g, 1, {0, 0}};
-    const Grid<glm::vec2> fall = smooth_fall_lines(wide, 1.0, {0, 0, 160, 140});
-    const SpurGround ground{wide, fall, 1.0, 7};
-    const CloseBorders borders{g,
-                               ground,
-                               {0, 0},
-                               grow_roofs(ground, border_roofs, border_roofs_part, {0, 0, 160, 140},
-                                          [&](std::size_t i) { return std::optional(fall[i]); }),
-                               7};
+  Border(Class left, Class right, float close) {
+    const BorderScene scene(left, right);
+    const GuidanceBuffers& g = scene.g;
     int rows = 0;
     for (int y = 0; y < 140; ++y) {
       if (g.is_sky(g.depth_m.index(80, y))) continue;
       int lefts = 0;
       for (int x = 0; x < 160; ++x) {
-        const Class shown = borders.at(x, y, close);
+        const Class shown = scene.borders.at(x, y, close);
         lefts += shown == left ? 1 : 0;
         if (shown == g.land_cover(x, y)) continue;
         ++moved;
@@ -64,16 +77,9 @@ TEST(CloseBorders, StayStraightFarAwayAndBesideForest) {
 // neighbours three units away.
 TEST(CloseBorders, StrewOutliersOnBothSides) {
   const auto outliers = [](Class left, Class right) {
-    const GuidanceBuffers g = test::make_close_hills(160, 140, 1.0, 8.0, left, right);
-    const WideView wide{g, 1, {0, 0}};
-    const Grid<glm::vec2> fall = smooth_fall_lines(wide, 1.0, {0, 0, 160, 140});
-    const SpurGround ground{wide, fall, 1.0, 7};
-    const CloseBorders borders{g,
-                               ground,
-                               {0, 0},
-                               grow_roofs(ground, border_roofs, border_roofs_part, {0, 0, 160, 140},
-                                          [&](std::size_t i) { return std::optional(fall[i]); }),
-                               7};
+    const BorderScene scene(left, right);
+    const GuidanceBuffers& g = scene.g;
+    const CloseBorders& borders = scene.borders;
     int count = 0;
     for (int y = 0; y < 140; ++y)
       for (int x = 66; x < 94; ++x) {

@@ -21,23 +21,37 @@ TEST(CloseLook, CoversAreThoseThatSeasonsLeaveBare) {
   EXPECT_EQ(close_cover(Class::rock, false), CloseCover::other);
 }
 
+// All close forms on a slope.
+struct SlopeScene {
+  WideView wide;
+  Grid<glm::vec2> fall;
+  RockParameters parameters = test::close_parameters(1.0);
+  SpurGround ground;
+  DebrisCones cones;
+  CloseScene scene;
+
+  explicit SlopeScene(const GuidanceBuffers& g)
+      : wide{g, 1, {0, 0}},
+        fall(smooth_fall_lines(wide, 1.0, {0, 0, g.width(), g.height()})),
+        ground{wide, fall, 1.0, 5},
+        scene(make_close_scene(g, parameters, ground, cones, {0, 0}, {0, 0, g.width(), g.height()},
+                               {true, true, true, true})) {}
+  SlopeScene(const SlopeScene&) = delete;
+  SlopeScene& operator=(const SlopeScene&) = delete;
+};
+
 // Deviation of the tone that forms add to an even slope of snow of this normal and shadow.
 double modelling(glm::vec3 normal, float shadow, CloseCover cover) {
   constexpr int side = 90;
   GuidanceBuffers g = test::make_slope(side, side, Class::snow, normal, 35.0F);
   for (float& s : g.shadow) s = shadow;
   for (float& metres : g.footprint_m) metres = 6.0F;
-  const WideView wide{g, 1, {0, 0}};
-  const Grid<glm::vec2> fall = smooth_fall_lines(wide, 1.0, {0, 0, side, side});
-  const RockParameters parameters = test::close_parameters(1.0);
-  const SpurGround ground{wide, fall, 1.0, 5};
-  const DebrisCones cones;
-  const CloseScene scene = make_close_scene(g, parameters, ground, cones, {0, 0},
-                                            {0, 0, side, side}, {true, true, true, true});
+  const SlopeScene made(g);
   double squares = 0.0;
   for (int y = 0; y < side; y += 3)
     for (int x = 0; x < side; x += 3) {
-      const double tone = static_cast<double>(look_at_form(scene, x, y, cover, {0.5, 0.5}).tone);
+      const double tone =
+          static_cast<double>(look_at_form(made.scene, x, y, cover, {0.5, 0.5}).tone);
       squares += tone * tone;
     }
   return std::sqrt(squares / (30.0 * 30.0));
@@ -68,17 +82,11 @@ TEST(CloseLook, GlaciersHaveLateralMoraines) {
     for (float& metres : g.footprint_m) metres = 6.0F;
     for (int y = 0; y < side; ++y)
       for (int x = 0; x < 50; ++x) g.land_cover(x, y) = beside;
-    const WideView wide{g, 1, {0, 0}};
-    const Grid<glm::vec2> fall = smooth_fall_lines(wide, 1.0, {0, 0, side, side});
-    const RockParameters parameters = test::close_parameters(1.0);
-    const SpurGround ground{wide, fall, 1.0, 5};
-    const DebrisCones cones;
-    const CloseScene scene = make_close_scene(g, parameters, ground, cones, {0, 0},
-                                              {0, 0, side, side}, {true, true, true, true});
+    const SlopeScene made(g);
     Grid<float> tone(side, side, 0.0F);
     for (int y = 0; y < side; ++y)
       for (int x = 50; x < side; ++x)
-        tone(x, y) = look_at_form(scene, x, y, CloseCover::scree, {0.5, 0.5}).tone;
+        tone(x, y) = look_at_form(made.scene, x, y, CloseCover::scree, {0.5, 0.5}).tone;
     return tone;
   };
   const Grid<float> beside_ice = tones(Class::glacier);

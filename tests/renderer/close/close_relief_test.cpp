@@ -58,6 +58,20 @@ TEST(CloseRelief, SnowHasPlanesInLightAndShade) {
   EXPECT_NEAR(middle, 0.5 * near, 0.1 * near);
 }
 
+// Close relief added to a part alone is the crop of the whole, to the bit.
+void expect_part_of(const RockRelief& whole, PixelRect kept, const GuidanceBuffers& g,
+                    RockRelief part) {
+  const RockParameters p = test::close_parameters(1.0);
+  const test::Window near = test::window_of(g, grown(kept, close_near_margin_px(p)));
+  const test::Window far = test::window_of(g, grown(kept, close_margin_px(p)));
+  add_close_relief(part, near.held, {far.held, 1, {far.rect.x0, far.rect.y0}}, p,
+                   {near.rect.x0, near.rect.y0}, silent_progress(),
+                   moved(kept, -near.rect.x0, -near.rect.y0));
+  EXPECT_TRUE(part.land_cover == test::cut(whole.land_cover, kept));
+  EXPECT_TRUE(part.facet == test::cut(whole.facet, kept));
+  EXPECT_TRUE(part.tone == test::cut(whole.tone, kept));
+}
+
 TEST(CloseRelief, OfAPartIsThatOfTheWhole) {
   GuidanceBuffers g = test::make_close_hills(960, 420, 1.0, 8.0, Class::snow, Class::scree);
   // In the middle snow lies above scree, and its tongues reach into parts that hold scree alone.
@@ -72,15 +86,7 @@ TEST(CloseRelief, OfAPartIsThatOfTheWhole) {
   const Grid<Class> shown = test::cut(whole.land_cover, tongues);
   ASSERT_GT(std::count(shown.begin(), shown.end(), Class::snow), 50);
   for (const PixelRect kept : {PixelRect{468, 200, 492, 224}, PixelRect{0, 360, 3, 420}, tongues}) {
-    const test::Window near = test::window_of(g, grown(kept, close_near_margin_px(p)));
-    const test::Window far = test::window_of(g, grown(kept, close_margin_px(p)));
-    RockRelief part = test::bare_relief(g, kept);
-    add_close_relief(part, near.held, {far.held, 1, {far.rect.x0, far.rect.y0}}, p,
-                     {near.rect.x0, near.rect.y0}, silent_progress(),
-                     moved(kept, -near.rect.x0, -near.rect.y0));
-    EXPECT_TRUE(part.land_cover == test::cut(whole.land_cover, kept));
-    EXPECT_TRUE(part.facet == test::cut(whole.facet, kept));
-    EXPECT_TRUE(part.tone == test::cut(whole.tone, kept));
+    expect_part_of(whole, kept, g, test::bare_relief(g, kept));
   }
 }
 
@@ -109,15 +115,7 @@ TEST(CloseRelief, OfAPartWithConesIsThatOfTheWhole) {
   EXPECT_GT(covered, 500) << "cones lie on grass";
   for (const PixelRect kept : {PixelRect{440, 186, 470, 230}, PixelRect{640, 188, 660, 198},
                                PixelRect{600, 230, 640, 260}}) {
-    const test::Window near = test::window_of(g, grown(kept, close_near_margin_px(p)));
-    const test::Window far = test::window_of(g, grown(kept, close_margin_px(p)));
-    RockRelief part = with_gullies(test::bare_relief(g, kept), {kept.x0, kept.y0});
-    add_close_relief(part, near.held, {far.held, 1, {far.rect.x0, far.rect.y0}}, p,
-                     {near.rect.x0, near.rect.y0}, silent_progress(),
-                     moved(kept, -near.rect.x0, -near.rect.y0));
-    EXPECT_TRUE(part.land_cover == test::cut(whole.land_cover, kept));
-    EXPECT_TRUE(part.facet == test::cut(whole.facet, kept));
-    EXPECT_TRUE(part.tone == test::cut(whole.tone, kept));
+    expect_part_of(whole, kept, g, with_gullies(test::bare_relief(g, kept), {kept.x0, kept.y0}));
   }
 }
 

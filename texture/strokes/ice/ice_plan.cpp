@@ -99,7 +99,7 @@ IceWay crevasse_field(const StrokeScene& scene, const IceFlow& flow, Stream stre
   IceWay way = way_along(scene, stream, seed, centres);
   way.strength = share;
   way.size_units = longest_units;
-  way.falls = share > falls_from && ice_slope_deg(scene, flow, position) > falls_from_deg;
+  way.is_icefall = share > falls_from && ice_slope_deg(scene, flow, position) > falls_from_deg;
   way.across = std::move(across);
   return way;
 }

@@ -16,7 +16,7 @@ struct IceWay {
   LandCoverClass land_cover;           // class that it runs over
   float strength = 0.F;                // of crevasses: how broken the ice is, 0…1
   float size_units = 0.F;              // of crevasses: length of the longest
-  bool falls = false;                  // of crevasses: an icefall, broken into blocks
+  bool is_icefall = false;             // of crevasses: broken into blocks
   std::vector<glm::vec2> positions{};  // units of the sheet, downwards, never empty
   std::vector<float> depth_m{};        // of the ground at each position
   std::vector<glm::vec2> across{};  // what a unit of level ground across the flow measures on the

@@ -183,7 +183,7 @@ std::vector<Stroke> glacier_crevasses(const StrokeScene& scene, Stream stream) {
       StrokeSeed seed = way_seed(scene, field, 1 + k);
       const glm::vec2 centre = way_place(scene, field, k);
       const Ice ice{scene, field, k, *here, ice_direction(scene, centre), field.across[k]};
-      if (field.falls && k % 2 == 1)
+      if (field.is_icefall && k % 2 == 1)
         break_blocks(ice, seed, out);
       else
         open_crevasses(ice, lean, seed, out);

@@ -128,8 +128,8 @@ void build(const StrokeScene& scene, const House& house, std::size_t i, StrokeSe
   out.push_back(edge);
 }
 
-// The part of a lane at a plot: trodden ground, between houses only.
-void tread_lane(const StrokeScene& scene, const Plot& plot, float built, std::vector<Stroke>& out) {
+// The part of a lane at a plot, only between houses.
+void draw_lane(const StrokeScene& scene, const Plot& plot, float built, std::vector<Stroke>& out) {
   const std::size_t i = plot.pixel;
   const float share =
       village_share(scene.metres_per_unit(i)) * smoothstep(lane_from_built, lane_to_built, built);
@@ -240,7 +240,7 @@ std::vector<Stroke> houses(const StrokeScene& scene, Stream stream) {
     StrokeSeed seed(plot.key, 1, 0);
     const float built = built_at(scene, plot.pixel);
     const float quarter = 0.12F * ground_noise(scene, plot.pixel, Stream::house_density, 160.0);
-    tread_lane(scene, plot, built, all);
+    draw_lane(scene, plot, built, all);
     // Blocks between lanes in the centre, scattered houses and gardens at the edge.
     const bool lane = plot.street && built > 0.3F;
     if (lane || seed.uniform() > std::clamp(0.34F + 0.75F * built + quarter, 0.15F, 0.97F)) {
