@@ -11,11 +11,6 @@ set(BELVEDERE_BATCH_SIZE 10 CACHE STRING "Files that are compiled as one, at mos
 set(belvedere_o1_folders renderer_labels_ renderer_pipeline_ renderer_press_ renderer_scene_ terrain_fetch_ tools_cli_ tools_report_
   tools_web_)
 
-# Rooms that no reader of damaged files enters (tools/fuzz). They are linked, but what the undefined-behaviour sanitizer adds to them costs
-# libFuzzer's build half of its time.
-set(belvedere_unread_folders texture_quality_ texture_segment_ texture_strokes_ texture_synthesis_ renderer_compose_ renderer_ground_
-  renderer_live_ renderer_mist_ renderer_pipeline_ renderer_rock_ renderer_stages_ renderer_trace_ renderer_world_)
-
 # belvedere_precompiled(NAME headers … [LINK libraries …]): headers that many targets read, compiled once for all of them. What defines
 # macros or changes code (belvedere_flags) must be the same here and there, else the compiler says so.
 function(belvedere_precompiled name)
@@ -54,9 +49,6 @@ function(belvedere_batches target precompiled)
     file(STRINGS "${path}" alone REGEX "hwy/foreach_target.h" LIMIT_COUNT 1)
     if(alone)
       set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-      if(BELVEDERE_SANITIZE MATCHES "fuzzer" AND room IN_LIST belvedere_unread_folders)
-        set_source_files_properties(${source} PROPERTIES COMPILE_OPTIONS -fno-sanitize=undefined)
-      endif()
       continue()
     endif()
     list(APPEND rooms ${room})
@@ -68,17 +60,11 @@ function(belvedere_batches target precompiled)
     list(SORT ${room})
     list(LENGTH ${room} count)
     math(EXPR batches "(${count} + ${BELVEDERE_BATCH_SIZE} - 1) / ${BELVEDERE_BATCH_SIZE}")
-    set(options "")
     if(CMAKE_BUILD_TYPE STREQUAL "Release" AND room IN_LIST belvedere_o1_folders)
-      set(options -O1)
-    elseif(BELVEDERE_SANITIZE MATCHES "fuzzer" AND room IN_LIST belvedere_unread_folders)
-      set(options -fno-sanitize=undefined)
-    endif()
-    if(options)
       math(EXPR last "${batches} - 1")
       foreach(batch RANGE ${last})
         set(unit ${CMAKE_CURRENT_BINARY_DIR}/CMakeFiles/${target}.dir/Unity/unity_${room}_${batch}_cxx.cxx)
-        set_source_files_properties(${unit} PROPERTIES COMPILE_OPTIONS ${options})
+        set_source_files_properties(${unit} PROPERTIES COMPILE_OPTIONS -O1)
       endforeach()
     endif()
     set(at 0)

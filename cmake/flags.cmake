@@ -11,6 +11,6 @@ target_compile_options(belvedere_flags INTERFACE
   # The same bits everywhere: no fused multiply-add unless written, no fast-math; a plain x86-64-v2 machine is enough.
   -ffp-contract=off -march=x86-64-v2 -mtune=generic -pthread)
 if(BELVEDERE_SANITIZE)
-  target_compile_options(belvedere_flags INTERFACE -fsanitize=${BELVEDERE_SANITIZE} -fno-omit-frame-pointer $<$<CXX_COMPILER_ID:GNU>:-Wno-error=maybe-uninitialized>)
+  target_compile_options(belvedere_flags INTERFACE -fsanitize=${BELVEDERE_SANITIZE} -fno-omit-frame-pointer)
   target_link_options(belvedere_flags INTERFACE -fsanitize=${BELVEDERE_SANITIZE})
 endif()

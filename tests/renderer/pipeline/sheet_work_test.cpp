@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "renderer/rock/crest_shift.h"  // Clang asks for the whole type
 #include "tests/scenes.h"
 
 namespace belvedere {

@@ -127,6 +127,7 @@ void expect_same_rays(const World& kept, const World& fresh) {
     EXPECT_EQ(a[i].column, b[i].column);
     found += a[i].found ? 1 : 0;
   }
+  EXPECT_GT(found, rays.size() / 4);
   EXPECT_EQ(kept.tracer.description(), fresh.tracer.description());
   EXPECT_EQ(&kept.terrain, kept.ground.terrain.get());
   EXPECT_EQ(kept.terrain.dem, kept.dem);

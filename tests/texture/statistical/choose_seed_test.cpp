@@ -85,7 +85,8 @@ const Choice& choice_for_dabs() {
 }
 
 TEST(ChooseSeed, TriesAllAndTakesTheNearest) {
-  const auto& [model, trials] = choice_for_dabs();
+  const CliqueModel& model = choice_for_dabs().model;
+  const std::vector<SeedTrial>& trials = choice_for_dabs().trials;
   EXPECT_EQ(trials.size(), 6U);
   const auto min = [&](bool streaks, auto&& measure) {
     double out = 100.0;
@@ -107,7 +108,8 @@ TEST(ChooseSeed, TriesAllAndTakesTheNearest) {
 // By the figures beyond pairs alone streaks would be chosen: dabs without a direction would look
 // combed.
 TEST(ChooseSeed, StreaksAreForWhatIsMuchDrawn) {
-  const auto& [model, trials] = choice_for_dabs();
+  const CliqueModel& model = choice_for_dabs().model;
+  const std::vector<SeedTrial>& trials = choice_for_dabs().trials;
   EXPECT_NE(model.seed, TextureSeed::streaks);
   const auto nearest =
       std::min_element(trials.begin(), trials.end(),

@@ -24,7 +24,6 @@ std::vector<glm::vec3> ramp_texels() {
 }
 
 TEST(QuantileRamp, GivesBackTheColoursAtItsQuantiles) {
-  const ClassRampParameters parameters;
   const LabRamp ramp = quantile_ramp(ramp_texels());
   for (std::size_t k = 0; k < 4; ++k) {
     const double q = ramp_quantiles[k];
