@@ -8,6 +8,7 @@
 #include <new>
 
 #include "base/memory/zeroed_memory.h"
+#include "tests/sanitized.h"
 
 namespace belvedere::test {
 namespace {
@@ -25,7 +26,7 @@ void count(std::ptrdiff_t bytes) {
 }
 
 // The sanitizers have their own operators.
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#ifndef BELVEDERE_SANITIZED
 #define BELVEDERE_COUNTS_NEW
 void* counted_new(std::size_t bytes) {
   void* memory = std::malloc(bytes == 0 ? 1 : bytes);

@@ -16,6 +16,7 @@
 
 #include "base/grid.h"
 #include "renderer/image/image_io.h"
+#include "tests/sanitized.h"
 #include "tests/tools/program.h"
 
 namespace belvedere {
@@ -105,7 +106,7 @@ TEST_F(Program, DeepAndHugeScenesAreRefusedAtOnce) {
   fs::resize_file(huge, 100'000'000);
   for (const std::string& scene : {write("deep.toml", deep), huge}) {
     const Outcome outcome = run_prepared({"check", scene}, [] {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef BELVEDERE_SANITIZED
       const rlimit seconds{10, 10};
 #else
       const rlimit seconds{1, 1};  // of processor time: more would end it by a signal
@@ -200,7 +201,7 @@ TEST_F(Program, TooLittleMemoryIsALimit) {
       run({"render", write_scene_file(), "--out", path("result"), "--memory", "1"});
   EXPECT_EQ(wide.status, 5);
   EXPECT_THAT(wide.err, HasSubstr("MiB"));
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef BELVEDERE_SANITIZED
   GTEST_SKIP() << "sanitizers need more address space than the rest of this test allows";
 #endif
   // An allocation that fails: a grey TIFF of 400 MB that takes no disk, 4.5 GiB once it is a

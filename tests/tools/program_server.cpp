@@ -14,6 +14,7 @@
 #include <iostream>
 #include <stdexcept>
 
+#include "tests/sanitized.h"
 #include "tools/cli/program.h"
 
 extern "C" void __gcov_dump() __attribute__((weak));  // there when coverage is measured
@@ -102,7 +103,7 @@ void prepare_environment(std::vector<std::string>& variables, const std::string&
 }
 
 void start_program_server() {
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#ifndef BELVEDERE_SANITIZED
   std::array<int, 2> ends{};
   if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0) return;
   const int large = 1 << 20;

@@ -5,6 +5,7 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "tests/counted_memory.h"
+#include "tests/sanitized.h"
 #include "texture/synthesis/synthesize.h"
 
 namespace belvedere {
@@ -47,7 +48,7 @@ std::size_t peak_of(int width, int height, int guides, bool with_depth) {
 }
 
 TEST(SynthesisMemory, SlopeStaysUnderTheBound) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef BELVEDERE_SANITIZED
   GTEST_SKIP() << "sanitizers have memory of their own";
 #endif
   struct Case {

@@ -19,6 +19,7 @@
 #include "tests/files.h"
 #include "tests/renderer/image/random_picture.h"
 #include "tests/renderer/image/rows/write_pictures.h"
+#include "tests/sanitized.h"
 #include "tests/small_disk.h"
 
 namespace belvedere {
@@ -269,7 +270,7 @@ double peak_of(const std::string& stem, int height) {
 }
 
 TEST(PictureFiles, MemoryDoesNotGrowWithTheHeight) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef BELVEDERE_SANITIZED
   GTEST_SKIP() << "sanitizers keep freed memory";
 #endif
   if (status("VmHWM") == 0.0 || !std::ofstream("/proc/self/clear_refs"))
