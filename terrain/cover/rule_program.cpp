@@ -243,7 +243,7 @@ void RuleRows::start(int y) {
 
 void RuleRows::go_to(int begin) {
   for (std::size_t v = 0; v < rows_.size(); ++v) {
-    if (!of_.needed[v]) continue;
+    if (rows_[v].empty()) continue;  // not needed, or a term that comes later
     const bool in_place = of_.grids[v] != nullptr && begin + rule_block <= of_.cells.width();
     pointers_[v] = in_place ? of_.grids[v]->row(y_) + begin : rows_[v].data() + begin;
   }

@@ -58,7 +58,7 @@ std::vector<std::string> fields_of(const std::string& bytes) {
   _exit(status);
 }
 
-[[noreturn]] void serve(int socket) {
+[[noreturn, maybe_unused]] void serve(int socket) {
   std::string buffer(1U << 20U, '\0');
   while (true) {
     const ssize_t size = recv(socket, buffer.data(), buffer.size(), 0);
