@@ -27,7 +27,7 @@ Grid<LayerPixel> random_layer(int width, int height, int number) {
       for (std::uint64_t c = 0; c < 4; ++c) {
         // Runs of equal bytes, noise, and nothing: all cases of PackBits.
         const double v = y % 3 == 0   ? random_uniform(3, x + 1000 * number, y, c)
-                         : y % 3 == 1 ? 0.25 * number
+                         : y % 3 == 1 ? 0.25 * (number % 4)
                                       : 0.0;
         out(x, y)[c] = static_cast<std::uint16_t>(v * 65535.0);
       }
