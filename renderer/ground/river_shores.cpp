@@ -27,6 +27,7 @@ constexpr double groves_from_units = 0.6;
 constexpr double groves_full_units = 2.6;
 constexpr double min_gravel_units = 0.4;
 constexpr double max_gravel_units = 3.4;
+constexpr double min_grove_units = 0.45;  // narrower ones are scraps of trees
 constexpr double max_grove_units = 2.2;
 // In half widths of the river.
 constexpr double gravel_breadth = 0.60;
@@ -72,7 +73,9 @@ double grove_half_m(const ShoreParameters& p, std::uint64_t side, const Site& si
   const double tuft = noise_at(p, tuft_part + side, site, tuft_noise_widths);
   const double share =
       smoothstep(0.25, 1.1, stand + 0.45 * tuft - 0.45 * std::clamp(site.inner, -1.0, 1.0));
-  return std::min(grove_breadth * site.half_m, max_grove_units / site.units_per_m) * share * drawn;
+  const double half =
+      std::min(grove_breadth * site.half_m, max_grove_units / site.units_per_m) * share * drawn;
+  return half * smoothstep(min_grove_units, 1.5 * min_grove_units, half * site.units_per_m);
 }
 
 struct Shores {
@@ -161,7 +164,8 @@ Shores shores_of(const CoverRiver& river, const std::vector<double>& units_per_m
       const double grove_m = open ? grove_half_m(p, side, site) : 0.0;
       const glm::dvec2 middle = at + (half + bar_m + grove_m) * out_of;
       groves[side].positions.push_back(middle);
-      groves[side].half_width_m.push_back(p.is_open(middle) ? static_cast<float>(grove_m) : 0.F);
+      groves[side].half_width_m.push_back(p.grows_trees(middle) ? static_cast<float>(grove_m)
+                                                                : 0.F);
     }
   }
   for (std::size_t side = 0; side < 2; ++side) {

@@ -19,8 +19,9 @@ struct ShoreParameters {
   std::uint64_t seed = 1;
   // Units of the sheet (0.5 mm) in a metre across river `i` at each of its positions; 0: unseen.
   std::function<std::vector<double>(std::size_t i)> units_per_m;
-  // Whether ground at a position, m in the scene's CRS, can have gravel and trees.
+  // Whether ground at a position, m in the scene's CRS, can have gravel, and trees.
   std::function<bool(glm::dvec2)> is_open;
+  std::function<bool(glm::dvec2)> grows_trees;
 };
 
 // In the order in which they lie on each other; rivers belong on top of all of them. A pure

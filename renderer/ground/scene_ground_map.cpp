@@ -281,11 +281,16 @@ void level_scene_lakes(Dem& dem, const LoadedScene& loaded, Progress& progress, 
 
 namespace {
 
-// Gravel and trees grow here, not in towns, on ice or in other water.
+// Gravel lies here, not in towns, on ice or in other water.
 bool has_shores(LandCoverClass id) {
   using enum LandCoverClass;
   return id == valley_floor || id == pasture || id == alpine_grass || id == shrub || id == forest ||
          id == scree || id == sand;
+}
+// Trees grow here, below the treeline.
+bool has_groves(LandCoverClass id) {
+  using enum LandCoverClass;
+  return id == valley_floor || id == pasture || id == shrub || id == forest || id == sand;
 }
 
 // The shores of rivers and the rivers, the topmost last. `cover` and `own` are the ground without
@@ -294,16 +299,16 @@ std::vector<CoverRiver> with_shores(std::vector<CoverRiver> rivers, const LandCo
                                     const MapCover& own, const LoadedScene& loaded, const Dem& dem,
                                     const SeenFrom& seen) {
   const double ppu = loaded.scene.pixels_per_unit();
+  const auto class_at = [&](glm::dvec2 position) {
+    const LandCoverClass known = own.at(position);
+    return known != LandCoverClass::sky ? known : cover.cell_at(position.x, position.y);
+  };
   std::vector<CoverRiver> shores = river_shores(
       rivers,
       {.seed = loaded.scene.seed,
        .units_per_m = [&](std::size_t i) { return units_across(rivers[i], ppu, dem, seen); },
-       .is_open =
-           [&](glm::dvec2 position) {
-             const LandCoverClass known = own.at(position);
-             return has_shores(
-                 known != LandCoverClass::sky ? known : cover.cell_at(position.x, position.y));
-           }});
+       .is_open = [&](glm::dvec2 position) { return has_shores(class_at(position)); },
+       .grows_trees = [&](glm::dvec2 position) { return has_groves(class_at(position)); }});
   shores.insert(shores.end(), std::make_move_iterator(rivers.begin()),
                 std::make_move_iterator(rivers.end()));
   return shores;

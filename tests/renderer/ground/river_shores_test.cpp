@@ -26,13 +26,15 @@ CoverRiver straight_course() {
 
 std::vector<CoverRiver> shores_of(
     const CoverRiver& river, double units_per_m,
-    const std::function<bool(glm::dvec2)>& is_open = [](glm::dvec2) { return true; }) {
+    const std::function<bool(glm::dvec2)>& is_open = [](glm::dvec2) { return true; },
+    const std::function<bool(glm::dvec2)>& grows_trees = [](glm::dvec2) { return true; }) {
   const std::vector<CoverRiver> rivers = {river};
   return river_shores(
       rivers,
       {.units_per_m =
            [&](std::size_t) { return std::vector<double>(river.positions.size(), units_per_m); },
-       .is_open = is_open});
+       .is_open = is_open,
+       .grows_trees = grows_trees});
 }
 
 // Mean half width of strips of a class among positions chosen, over all positions of the river.
@@ -118,6 +120,24 @@ TEST(RiverShores, OnlyOpenGroundHasThem) {
   for (const CoverRiver& strip : shores)
     for (std::size_t i = 0; i < strip.positions.size(); ++i)
       EXPECT_TRUE(strip.positions[i].y > 0.0 || strip.half_width_m[i] == 0.F);
+}
+
+// Above the treeline gravel alone lies on the banks.
+TEST(RiverShores, TreesStandWhereTheyGrow) {
+  const std::vector<CoverRiver> shores = shores_of(
+      straight_course(), 0.2, [](glm::dvec2) { return true; },
+      [](glm::dvec2 at) { return at.x < 45000.0; });
+  double trees[2] = {0.0, 0.0};
+  double gravel[2] = {0.0, 0.0};
+  for (const CoverRiver& strip : shores)
+    for (std::size_t i = 0; i < strip.positions.size(); ++i)
+      (strip.painted_as == LandCoverClass::forest
+           ? trees
+           : gravel)[strip.positions[i].x < 45000.0 ? 0 : 1] +=
+          static_cast<double>(strip.half_width_m[i]);
+  EXPECT_GT(trees[0], 0.0);
+  EXPECT_EQ(trees[1], 0.0);
+  EXPECT_GT(gravel[1], 0.5 * gravel[0]);
 }
 
 // Breadths are limited in units of the sheet: of a river twice as large on it they are not twice as
