@@ -265,8 +265,8 @@ Grid<float> woods_around(const WideView& wide, double pixels_per_unit, PixelRect
 bool is_white(LandCoverClass id, bool winter) {
   using enum LandCoverClass;
   if (has_trait(id, ClassTrait::icy)) return true;
-  return winter &&
-         (id == valley_floor || id == pasture || id == alpine_grass || id == scree || id == sand);
+  return winter && (id == valley_floor || id == pasture || id == alpine_grass || id == shrub ||
+                    id == scree || id == sand);
 }
 
 glm::vec3 times_light(const glm::vec3& colour, float light) {

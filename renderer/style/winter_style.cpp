@@ -25,7 +25,7 @@ Style winter_style(Style style) {
   for (const LandCoverClassInfo& info : land_cover_classes()) {
     const std::size_t c = index_of(info.id);
     const bool white = is_white(info.id, true) && !is_white(info.id, false);
-    if (!white && info.id != forest && info.id != shrub) continue;
+    if (!white && info.id != forest) continue;
     LabRamp ramp = own[c];
     for (std::size_t k = 0; k < ramp.size(); ++k)
       if (info.id == forest) {

@@ -9,6 +9,8 @@
 namespace belvedere {
 namespace {
 
+constexpr glm::vec3 bare_twigs{0.72F, 0.66F, 0.66F};  // a factor on the shade of snow
+
 using enum LandCoverClass;
 
 // 1 on the borders of some fields, where hedges grow.
@@ -121,8 +123,11 @@ std::vector<Stroke> low_bushes(const StrokeScene& scene, Stream stream) {
         const LandCoverClass id = scene.class_at(i);
         if ((id != alpine_grass && id != shrub) || seed.uniform() > scene.base.tree_density[i])
           return;
+        const bool winter = scene.parameters.winter;
+        // In winter twigs of thickets stand out of the snow.
+        if (winter && sheet_noise(scene, position, Stream::copses, 9.0) < 0.35F) return;
         const float scale = scene.scale();
-        const float width = 2.6F * scale * seed.between(0.6F, 1.4F);
+        const float width = (winter ? 1.7F : 2.6F) * scale * seed.between(0.6F, 1.4F);
         Stroke stroke = standing_stroke(scene, i);
         stroke.order = stroke.depth_m - 0.5F;
         stroke.gate = StrokeGate::upright;
@@ -131,6 +136,7 @@ std::vector<Stroke> low_bushes(const StrokeScene& scene, Stream stream) {
         stroke.alpha = 0.7F;
         stroke.colour = scene.colour(i, -seed.between(1.2F, 1.4F), paint_jitter, seed) +
                         glm::vec3(-0.03F, 0.015F, 0.F);
+        if (winter) stroke.colour *= through_air_factor(scene, i, bare_twigs);
         out.push_back(stroke);
       });
 }
