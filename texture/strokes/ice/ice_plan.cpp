@@ -71,7 +71,9 @@ IceWay crevasse_field(const StrokeScene& scene, const IceFlow& flow, Stream stre
   const int count = 4 + static_cast<int>(seed.uniform() * (2.F + 7.F * share));
   const float u = seed.uniform();
   const float longest_units = 24.F + 16.F * u * std::min(1.F, 0.45F + share);
-  const float gap_units = seed.between(4.4F, 6.6F);
+  const bool falls = share > falls_from && ice_slope_deg(scene, flow, position) > falls_from_deg;
+  // Cliffs of an icefall are as high as they are apart.
+  const float gap_units = (falls ? 1.7F : 1.F) * seed.between(4.4F, 6.6F);
   // Its centre is at the position.
   glm::vec2 centre = position;
   for (int k = 0; k < count / 2; ++k) {
@@ -99,7 +101,7 @@ IceWay crevasse_field(const StrokeScene& scene, const IceFlow& flow, Stream stre
   IceWay way = way_along(scene, stream, seed, centres);
   way.strength = share;
   way.size_units = longest_units;
-  way.is_icefall = share > falls_from && ice_slope_deg(scene, flow, position) > falls_from_deg;
+  way.is_icefall = falls;
   way.across = std::move(across);
   return way;
 }

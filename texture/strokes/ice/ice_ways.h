@@ -24,8 +24,8 @@ glm::vec2 ice_direction(const StrokeScene& scene, glm::vec2 position);
 void lay_flow(Stroke& stroke, const StrokeScene& scene, glm::vec2 position, float length_px,
               float aside_rad);
 
-inline constexpr glm::vec3 moraine_paint{0.56F, 0.52F, 0.50F};  // rubble on ice, at tone 1/2
-inline constexpr glm::vec3 depth_of_ice{0.80F, 0.92F, 1.00F};   // ice is blue in depth: a factor
+inline constexpr glm::vec3 moraine_paint{0.53F, 0.515F, 0.525F};  // rubble on ice, at tone 1/2
+inline constexpr glm::vec3 depth_of_ice{0.80F, 0.92F, 1.00F};     // ice is blue in depth: a factor
 inline glm::vec3 by_tone(glm::vec3 paint, float tone) {
   return paint * (0.62F + 0.70F * std::clamp(tone, 0.F, 1.F));
 }

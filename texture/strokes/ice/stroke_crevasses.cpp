@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -15,17 +16,20 @@ constexpr float lit_edge = 1.4F;                 // steps of tone
 // A crack that is widest in its middle and ends in points: two strokes from there.
 struct Crack {
   glm::vec2 centre{0.F};
-  glm::vec2 half{0.F};  // from the centre to the end on the right, px
-  glm::vec2 sag{0.F};   // of its ends
-  float width = 1.F;    // in the middle, px
+  glm::vec2 half{0.F};              // from the centre to the end on the right, px
+  glm::vec2 sag{0.F};               // of its ends
+  std::array<glm::vec2, 2> kink{};  // of the middle of either half
+  float width = 1.F;                // in the middle, px
 };
 void put_crack(const Stroke& like, const Crack& crack, std::vector<Stroke>& out) {
-  for (const float side : {-1.F, 1.F}) {
+  for (const int end : {0, 1}) {
+    const float side = end == 0 ? -1.F : 1.F;
     Stroke part = like;
     part.tip = StrokeTip::round;
     part.point_count = 3;
     part.points[0] = crack.centre - crack.half * (0.04F * side);
-    part.points[1] = crack.centre + crack.half * (0.5F * side) + 0.25F * crack.sag;
+    part.points[1] = crack.centre + crack.half * (0.5F * side) + 0.25F * crack.sag +
+                     crack.kink[static_cast<std::size_t>(end)];
     part.points[2] = crack.centre + crack.half * side + crack.sag;
     part.start_width = crack.width;
     part.end_width = 0.12F * crack.width;
@@ -58,15 +62,19 @@ void open_crevasses(const Ice& row, float lean, StrokeSeed& seed, std::vector<St
   // As wide on the ground as the flow is foreshortened.
   const float seen_along = 0.6F + 0.4F * std::abs(row.down.x);
   for (int n = 0; n < beside; ++n) {
-    const float share = seed.between(0.45F, 0.85F);
+    // Of very unlike length: rows of equal ones would be the bones of a fish.
+    const float drawn = seed.uniform();
+    const float share = 0.25F + 0.65F * drawn * drawn;
     const float length =
         share * width_of_row * scale * std::min(1.F, 2.F / static_cast<float>(beside) + 0.3F);
     const float room = 0.5F * std::max(0.F, width_of_row * scale - length);
     const float slot = (static_cast<float>(n) + seed.uniform()) / static_cast<float>(beside);
     const float aside = (2.F * slot - 1.F) * room;
     const float jump = seed.between(-0.8F, 0.8F) * seen_along * scale;
-    const float turn = 0.04F * seed.normal();
-    const float sag = seed.between(0.04F, 0.10F) * length * seen_along;
+    const float turn = 0.07F * seed.normal();
+    const float sag = seed.between(0.01F, 0.08F) * length * seen_along;
+    const float left = seed.between(-0.035F, 0.035F) * length * seen_along;
+    const float right = seed.between(-0.035F, 0.035F) * length * seen_along;
     // A few gape among many fine ones.
     const float u = seed.uniform();
     const float open = 0.5F + 2.1F * u * u * u + 0.018F * length / scale;
@@ -80,6 +88,7 @@ void open_crevasses(const Ice& row, float lean, StrokeSeed& seed, std::vector<St
     const Ice ice{scene, row.field, row.k, here, row.down, row.across};
     crack.half = way * (0.5F * length);
     crack.sag = ice.down * sag;
+    crack.kink = {ice.down * left, ice.down * right};
     const float width = std::min(open, 2.6F) * seen_along * scale;
     crack.width = width;
     Stroke gap = ice_stroke(scene, here, seed);
@@ -102,56 +111,84 @@ void open_crevasses(const Ice& row, float lean, StrokeSeed& seed, std::vector<St
     bottom.centre -= ice.down * (0.16F * width);
     bottom.half *= 0.7F;
     bottom.sag *= 0.5F;
+    bottom.kink = {};
     bottom.width = 0.42F * width;
     put_crack(deep, bottom, out);
   }
 }
 
-// A row of blocks that lean down the fall: a blue face below a light top.
-void break_blocks(const Ice& ice, StrokeSeed& seed, std::vector<Stroke>& out) {
-  const float scale = ice.scene.scale();
-  const float reach = 0.5F * std::min(ice.field.size_units, 40.F);
-  float at = -reach * seed.between(0.6F, 1.F);
-  while (at < reach) {
-    const float size = seed.between(1.5F, 3.6F);
-    const float turn = 0.4F * seed.normal();
-    const float jump = seed.between(-1.4F, 1.4F);
-    const float chance = seed.uniform();
-    const float tall = seed.between(0.7F, 1.2F);
-    const float value = seed.between(-0.4F, 0.4F);
-    const glm::vec2 place = way_place(ice.scene, ice.field, ice.k) + ice.across * (at * scale) +
-                            ice.down * (jump * scale);
-    at += size * seed.between(0.85F, 1.5F);
-    if (chance > 0.8F || !ice.scene.on_canvas(place)) continue;
-    const std::size_t here = ice.scene.pixel(place);
-    if (ice.scene.class_at(here) != ice.field.land_cover) continue;
-    const glm::vec2 side = ice.across + ice.down * turn;
-    const float height = tall * (0.8F + 0.5F * size) * scale;
-    const Ice block{ice.scene, ice.field, ice.k, here, ice.down, ice.across};
-    Stroke face = ice_stroke(ice.scene, here, seed);
-    set_line(face, place - side * (0.5F * size * scale), place + side * (0.42F * size * scale),
-             height, 0.75F * height);
-    face.tip = StrokeTip::square;
-    face.alpha = 0.85F;
-    face.colour = block.blue(-1.3F + 0.4F * value, depth_of_ice, seed);
-    Stroke top = face;
-    top.tip = StrokeTip::hairs;
-    const glm::vec2 up = glm::vec2(0.F, -0.55F * height);
-    for (auto& point : top.points) point += up;
-    top.start_width = 0.55F * height;
-    top.end_width = 0.35F * height;
-    top.alpha = 0.95F;
-    top.colour = ice.scene.colour(here, lit_edge + 0.2F * value, paint_jitter * 0.4F, seed);
+// A cliff of ice across the flow, broken into faces of unlike breadth and height that step up and
+// down: light on top, blue below, with cracks between.
+void break_cliff(const Ice& ice, StrokeSeed& seed, std::vector<Stroke>& out) {
+  const StrokeScene& scene = ice.scene;
+  const float scale = scene.scale();
+  const auto count = static_cast<float>(ice.field.positions.size());
+  const float off = 2.F * std::abs((static_cast<float>(ice.k) + 0.5F) / count - 0.5F);
+  const float reach = 0.5F * ice.field.size_units * std::sqrt(1.F - 0.6F * off * off);
+  const float tall = seed.between(2.2F, 5.6F);
+  const float aside = 0.22F * reach * seed.normal();
+  const float bow = seed.between(0.5F, 3.F);  // the middle moves ahead, units
+  float at = -reach * seed.between(0.55F, 1.F);
+  const float last = reach * seed.between(0.55F, 1.F);
+  float step = 0.F;  // of the row up or down here, units
+  float before = 0.4F;
+  while (at < last) {
+    const float u = seed.uniform();
+    const float broad = 2.2F + 8.5F * u * u;
+    const float high = seed.between(0.45F, 1.15F);
+    step = std::clamp(step + seed.between(-2.2F, 2.2F), -3.6F, 3.6F);
+    const float turn = seed.between(-0.28F, 0.28F);
+    const float value = seed.between(-0.35F, 0.35F);
+    const bool snowed_in = seed.uniform() < 0.16F;
+    const bool cracked = seed.uniform() < 0.5F;
+    const float lid = seed.between(0.8F, 1.9F);
+    const float middle = at + 0.5F * broad;
+    at += broad;
+    const float ahead = step + bow * (1.F - (middle * middle) / (reach * reach));
+    const glm::vec2 place = way_place(scene, ice.field, ice.k) +
+                            ice.across * ((aside + middle) * scale) + ice.down * (ahead * scale);
+    const float ends = 1.F - std::min(1.F, (middle * middle) / (reach * reach));
+    const float height = tall * high * std::sqrt(ends);
+    const float from = std::min(before, 1.4F * height);
+    before = snowed_in ? 0.3F : height;
+    if (snowed_in || height < 0.45F || !scene.on_canvas(place)) continue;
+    const std::size_t here = scene.pixel(place);
+    if (scene.class_at(here) != ice.field.land_cover) continue;
+    const Ice block{scene, ice.field, ice.k, here, ice.down, ice.across};
+    const glm::vec2 side = (ice.across + ice.down * turn) * (0.5F * broad * scale);
+    const glm::vec2 up{0.F, -scale};
+    // The side that faces the sun is lighter.
+    const float facing = 0.9F * turn * scene.sun_side(here);
+    Stroke face = ice_stroke(scene, here, seed);
+    set_line(face, place - side, place + side, from * scale, height * scale);
+    face.tip = StrokeTip::hairs;
+    face.bristle = 0.15F;
+    face.alpha = 0.82F;
+    face.colour = block.blue(-0.95F + value + facing, depth_of_ice, seed);
+    // Deep blue at its foot, where it leaves the ice below.
     Stroke foot = face;
-    foot.tip = StrokeTip::hairs;
-    for (auto& point : foot.points) point -= 0.8F * up;
-    foot.start_width = 0.3F * height;
-    foot.end_width = 0.15F * height;
-    foot.alpha = 0.8F;
-    foot.colour = block.blue(-1.5F, chasm, seed);
+    set_line(foot, place - 0.9F * side - up * (0.42F * from),
+             place + 0.8F * side - up * (0.42F * height), 0.35F * from * scale,
+             0.5F * height * scale);
+    foot.alpha = 0.7F;
+    foot.colour = block.blue(-1.5F + 0.5F * value, chasm, seed);
+    Stroke top = face;
+    set_line(top, place - 0.96F * side + up * (0.5F * from + 0.3F * lid),
+             place + side + up * (0.5F * height + 0.2F * lid), 0.8F * lid * scale, lid * scale);
+    top.alpha = 0.92F;
+    top.colour = scene.colour(here, lit_edge + 0.4F * value, paint_jitter * 0.4F, seed);
     out.push_back(foot);
     out.push_back(face);
     out.push_back(top);
+    if (!cracked) continue;
+    Stroke crack = face;
+    crack.tip = StrokeTip::square;
+    const glm::vec2 edge = place + side;
+    set_line(crack, edge + up * (0.75F * height + 0.5F * lid), edge - up * (0.5F * height),
+             0.25F * scale, 0.75F * scale);
+    crack.alpha = 0.75F;
+    crack.colour = block.blue(-1.5F, chasm, seed);
+    out.push_back(crack);
   }
 }
 
@@ -183,8 +220,8 @@ std::vector<Stroke> glacier_crevasses(const StrokeScene& scene, Stream stream) {
       StrokeSeed seed = way_seed(scene, field, 1 + k);
       const glm::vec2 centre = way_place(scene, field, k);
       const Ice ice{scene, field, k, *here, ice_direction(scene, centre), field.across[k]};
-      if (field.is_icefall && k % 2 == 1)
-        break_blocks(ice, seed, out);
+      if (field.is_icefall)
+        break_cliff(ice, seed, out);
       else
         open_crevasses(ice, lean, seed, out);
     }

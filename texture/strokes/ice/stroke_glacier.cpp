@@ -84,7 +84,8 @@ std::vector<Stroke> glacier_edges(const StrokeScene& scene, Stream stream) {
                };
                // The tongue: its last stretch is dirty, and it ends in a blue wall over rubble.
                if (const float ahead = end_within(scene, position, i, down, 20.F); ahead > 0.F) {
-                 const float chance = seed.uniform();
+                 // Near, rubble lies as ground of its own around the ice.
+                 const float chance = is_close(scene, i, seed) ? 1.F : seed.uniform();
                  const float value = 0.04F * seed.normal();
                  Stroke stroke = ice_stroke(scene, i, seed);
                  if (ahead < 5.1F) {
@@ -149,6 +150,7 @@ std::vector<Stroke> glacier_edges(const StrokeScene& scene, Stream stream) {
                const auto below = border(along_units);
                if (!above || !below) return;
                const bool rubble = std::abs(side) < 6.F && seed.uniform() < 0.5F;
+               if (rubble && is_close(scene, i, seed)) return;
                Stroke stroke = ice_stroke(scene, i, seed);
                if (rubble) stroke.gate = StrokeGate::surface;
                stroke.depth_tolerance = tight_depth;

@@ -20,36 +20,47 @@ void strew_rubble(const StrokeScene& scene, const IceWay& way, std::size_t k, st
   const float half = way.half_width[k];
   const float sun = scene.sun_side(here);
   const float right = across.x >= 0.F ? 1.F : -1.F;
-  // It comes in heaps.
-  const float heap =
-      std::clamp(0.85F + 0.45F * sheet_noise(scene, from, Stream::rubble_places, 5.0), 0.2F, 1.4F);
-  const int count = static_cast<int>(heap * (3.F + 4.2F * half));
-  for (int n = 0; n < count; ++n) {
-    const float a = seed.between(-1.F, 1.F);
-    const float b = seed.uniform();
-    const float aside = a * (0.25F + 1.15F * b * b);  // denser in the middle
-    const float ahead = seed.uniform();
-    const float size = seed.between(0.9F, 2.2F);
-    const float length = seed.between(0.9F, 2.2F) * size;
-    const float turn = 0.45F * seed.normal();
-    const float grey = 0.03F + 0.055F * seed.normal();
-    const glm::vec2 at = from + along * ahead + across * (aside * half * scale);
-    // On its own ground: seen at a grazing angle the next is far away.
-    if (!scene.on_canvas(at)) continue;
-    const std::size_t own = scene.pixel(at);
-    if (scene.class_at(own) != way.land_cover) continue;
-    Stroke dab = ice_stroke(scene, own, seed);
-    const glm::vec2 way_of = turned(glm::normalize(along), turn_by(turn));
-    set_line(dab, at - way_of * (0.5F * length * scale), at + way_of * (0.5F * length * scale),
-             size * scale, 0.7F * size * scale);
-    const float edge = std::abs(aside);
-    dab.alpha = std::max(0.12F, 0.62F - 0.40F * edge);
-    // The side that faces the sun is light.
-    const float ridge = std::min(1.F, half / 2.F) * 0.10F * aside * right * sun;
-    dab.colour = through_air(scene, own,
-                             by_tone(moraine_paint, scene.guidance.tone[own]) + grey +
-                                 ridge * glm::vec3(1.F, 0.95F, 0.85F));
-    out.push_back(dab);
+  // Where it is broad it lies in strands that part and join, each of them in heaps.
+  const int strands = 1 + static_cast<int>(std::min(2.F, half / 2.2F));
+  for (int strand = 0; strand < strands; ++strand) {
+    const float slot =
+        2.F * (static_cast<float>(strand) + 0.5F) / static_cast<float>(strands) - 1.F;
+    const glm::vec2 apart = from + glm::vec2(900.F * scale * static_cast<float>(strand), 0.F);
+    const float wander = sheet_noise(scene, apart, Stream::rubble_places, 16.0);
+    const float middle = strands > 1 ? 0.50F * slot + 0.40F * wander : 0.12F * wander;
+    const float spread = strands > 1 ? 0.34F : 0.7F;
+    const float heap = std::clamp(
+        0.75F + 0.55F * sheet_noise(scene, apart, Stream::rubble_places, 7.0) + 0.25F * wander,
+        0.1F, 1.4F);
+    const int count =
+        static_cast<int>(heap * (3.F + 4.2F * half) / static_cast<float>(strands) + 0.5F);
+    for (int n = 0; n < count; ++n) {
+      const float a = seed.between(-1.F, 1.F);
+      const float b = seed.uniform();
+      const float aside = middle + spread * a * (0.3F + 1.1F * b * b);
+      const float ahead = seed.uniform();
+      const float size = seed.between(0.8F, 2.0F);
+      const float length = seed.between(0.9F, 2.2F) * size;
+      const float turn = 0.45F * seed.normal();
+      const float grey = 0.03F + 0.055F * seed.normal();
+      const glm::vec2 at = from + along * ahead + across * (aside * half * scale);
+      // On its own ground: seen at a grazing angle the next is far away.
+      if (!scene.on_canvas(at)) continue;
+      const std::size_t own = scene.pixel(at);
+      if (scene.class_at(own) != way.land_cover) continue;
+      Stroke dab = ice_stroke(scene, own, seed);
+      const glm::vec2 way_of = turned(glm::normalize(along), turn_by(turn));
+      set_line(dab, at - way_of * (0.5F * length * scale), at + way_of * (0.5F * length * scale),
+               size * scale, 0.7F * size * scale);
+      const float edge = std::abs(aside - middle) / spread;
+      dab.alpha = std::max(0.12F, 0.62F - 0.34F * edge);
+      // The side that faces the sun is light.
+      const float ridge = std::min(1.F, half / 2.F) * 0.10F * aside * right * sun;
+      dab.colour = through_air(scene, own,
+                               by_tone(moraine_paint, scene.guidance.tone[own]) + grey +
+                                   ridge * glm::vec3(1.F, 0.95F, 0.85F));
+      out.push_back(dab);
+    }
   }
 }
 
@@ -69,11 +80,11 @@ std::vector<Stroke> glacier_moraines(const StrokeScene& scene, Stream stream) {
         band.point_count = 4;
         for (std::size_t j = 0; j < 4; ++j) band.points[j] = way_place(scene, way, k + j);
         const float seen = glm::length(way.across[k]);
-        const float dirty = 0.14F + 0.16F * std::min(1.F, static_cast<float>(k) / 25.F);
+        const float dirty = 0.04F + 0.06F * std::min(1.F, static_cast<float>(k) / 25.F);
         take_brush(band, scene, std::max(1.2F, 3.6F * way.half_width[k] * seen),
                    {.taper = 0.95F,
                     .alpha = dirty,
-                    .bristle = 0.4F,
+                    .bristle = 0.1F,
                     .wetness = 0.02F,
                     .load = 0.4F,
                     .edge = 0.15F});
