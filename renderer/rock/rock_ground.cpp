@@ -104,9 +104,15 @@ LandCoverClass rock_border(const RockPosition& position) {
     if (position.snow > 0.30F && position.snow > position.turf) return Class::snow;
     return under < 0.35F ? Class::rock : Class::scree;
   }
-  if (position.mapped == Class::snow &&
-      m + bare_share * smoothstep(steep_snow_deg, bare_snow_deg, position.slope_deg) > becomes_rock)
-    return Class::rock;
+  if (position.mapped == Class::snow) {
+    // Near snow stays in the hollows of a wall and leaves its ribs.
+    const float slope_deg =
+        position.slope_deg + 3.5F * position.close * std::clamp(position.funnel, -1.5F, 1.5F);
+    const float from_deg = steep_snow_deg(position.close);
+    const float bare = smoothstep(from_deg, bare_snow_deg - 9.0F * position.close, slope_deg);
+    const float ribs = std::max(0.0F, position.close * bare - edge) * by_spurs;
+    if (m + ribs + bare_share * bare > becomes_rock) return Class::rock;
+  }
   return gives_way(position.mapped) && m > becomes_rock ? Class::rock : position.mapped;
 }
 

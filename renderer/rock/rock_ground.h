@@ -33,6 +33,7 @@ struct RockPosition {
   float cones = 1.0F;   // as RockKind
   float bedded = 0.0F;  // how far beds rather than spurs shape the border, 0…1
   float bed = 0.0F;     // of a bed that stands out (+) or weathers back (-): -1…1
+  float close = 0.0F;   // close_share
 };
 // The class that a pixel shows after spurs extend into the meadows and debris climbs the gullies.
 // Only rock, scree, snow, grass, shrub and pasture change; forest stays.
@@ -41,7 +42,8 @@ LandCoverClass rock_border(const RockPosition& position);
 // thickness, with one dip. Noise of deviation 1.
 float standing_bed(double altitude_m, double east_m, double north_m, float metres_per_unit,
                    float noise);
-// Slope of snow, degrees, from which crests of rock may show, however far other rock is.
-inline constexpr float steep_snow_deg = 34.0F;
+// Slope of snow, degrees, from which crests of rock may show, however far other rock is. Near walls
+// are steeper than elevation data of their cell size can tell.
+constexpr float steep_snow_deg(float close) { return 34.0F - 10.0F * close; }
 
 }  // namespace belvedere

@@ -331,10 +331,11 @@ SunPath way_to_sun(const RockKind& kind, const ToneParameters& light, const Rock
   return way;
 }
 
-float sun_past(const RockKind& kind, const SunPath& way, float height, float own_height) {
+float sun_past(const RockKind& kind, const SunPath& way, float height, float own_height,
+               float close) {
   if (way.gained <= 0.0F || height < -1e8F) return 1.0F;
   const float over = 1.6F * kind.tilt[0] * (height - own_height) - way.gained;
-  return 1.0F - 0.7F * smoothstep(-0.02F, 0.14F, over);
+  return 1.0F - (0.7F - 0.4F * close) * smoothstep(-0.02F, 0.14F + 0.40F * close, over);
 }
 
 RockLook light_rock(const RockKind& kind, const ToneParameters& light, bool winter,

@@ -58,7 +58,9 @@ struct SunPath {
 };
 SunPath way_to_sun(const RockKind& kind, const ToneParameters& light, const RockPixel& pixel,
                    const SpurHits& hits);
-// The share of sunlight that passes a spur of that height above the pixel's, both in spacings.
-float sun_past(const RockKind& kind, const SunPath& way, float height, float own_height);
+// The share of sunlight that passes a spur of that height above the pixel's, both in spacings. Near
+// (`close`: close_share) the edge of a broad shadow is soft.
+float sun_past(const RockKind& kind, const SunPath& way, float height, float own_height,
+               float close = 0.0F);
 
 }  // namespace belvedere

@@ -30,17 +30,26 @@ constexpr double shadow_blur_units = 1.6;
 constexpr double sky_blur_units = 2.0;
 constexpr float above_units =
     6.0F;  // distance along the fall line, up and down, that is searched for rock
-constexpr float stroke_feather = 0.6F;  // how far strokes turn down the flanks
+constexpr float turf_shift_units = 13.0F;  // of near turf up and down a wall, at most
+constexpr float stroke_feather = 0.6F;     // how far strokes turn down the flanks
+
+// Ground whose border with rock moves up and down the slope where it is near.
+bool has_turf_border(LandCoverClass id) {
+  return id == LandCoverClass::rock || id == LandCoverClass::alpine_grass ||
+         id == LandCoverClass::pasture || id == LandCoverClass::shrub;
+}
 
 // Whether a pixel may show rock by its own class and slope.
-bool may_be_bare(const GuidanceBuffers& g, std::size_t i) {
-  return g.land_cover[i] == LandCoverClass::rock ||
-         (g.land_cover[i] == LandCoverClass::snow && g.slope_deg[i] > steep_snow_deg);
+bool may_be_bare(const GuidanceBuffers& g, std::size_t i, double pixels_per_unit) {
+  if (g.land_cover[i] != LandCoverClass::snow) return g.land_cover[i] == LandCoverClass::rock;
+  const float close = close_share(g.footprint_m[i] * static_cast<float>(pixels_per_unit));
+  return g.slope_deg[i] > steep_snow_deg(close) - 5.5F * close;
 }
 
 // The bounding rectangle of the window's pixels with rock around.
 PixelRect rocky_part(const GuidanceBuffers& guidance, const WideView& wide, PixelRect made,
-                     glm::ivec2 origin_px, int apron_px) {
+                     glm::ivec2 origin_px, double pixels_per_unit) {
+  const int apron_px = static_cast<int>(std::ceil(apron_units * pixels_per_unit));
   PixelRect rocky{made.x1, made.y1, made.x0, made.y0};
   const auto include = [&](PixelRect rect) {
     rect = intersection(made, rect);
@@ -70,8 +79,9 @@ PixelRect rocky_part(const GuidanceBuffers& guidance, const WideView& wide, Pixe
     include(grown({low.x, low.y, high.x, high.y}, apron_px));
   }
   // Rock that the wide view has missed.
-  include(extent_of(
-      made, [&](int x, int y) { return may_be_bare(guidance, guidance.depth_m.index(x, y)); }));
+  include(extent_of(made, [&](int x, int y) {
+    return may_be_bare(guidance, guidance.depth_m.index(x, y), pixels_per_unit);
+  }));
   return rocky;
 }
 
@@ -127,7 +137,7 @@ RockLook look_of(const RockScene& s, const RockPixel& pixel, int x, int y, glm::
     sun = sun_past(kind, way,
                    large_height(s.view.field, pixel.band, position_of(s, x, y, within) + way.offset,
                                 pixel.depth_m),
-                   hits[0].height);
+                   hits[0].height, close_share(pixel.metres_per_unit));
   return light_rock(kind, s.parameters.light, s.parameters.winter, pixel, hits, sun);
 }
 
@@ -172,26 +182,56 @@ float rock_share(const RockScene& s, glm::vec2 sheet_px, float depth_m) {
 
 RockPosition border_place(const RockScene& s, const RockPixel& p, int x, int y, float rock,
                           const SpurHits& hits, float funnel) {
-  const glm::vec2 sheet_px(s.origin_px + glm::ivec2(x, y));
-  const glm::vec2 reach =
-      s.view.fall[index_on_surface(s.wide, s.origin_px.x + x, s.origin_px.y + y, p.depth_m)] *
-      (above_units * p.scale);
+  glm::vec2 sheet_px(s.origin_px + glm::ivec2(x, y));
+  const glm::vec2 fall =
+      s.view.fall[index_on_surface(s.wide, s.origin_px.x + x, s.origin_px.y + y, p.depth_m)];
+  const glm::vec2 reach = fall * (above_units * p.scale);
   RockPosition position;
   position.mapped = s.guidance.land_cover(x, y);
+  position.stands = stands_out(hits);
+  position.close = close_share(p.metres_per_unit);
+  // Near the border of turf is that of a place up or down the slope: cells of elevation data would
+  // leave round meadows in a wall.
+  if (position.close > 0.0F && has_turf_border(position.mapped)) {
+    const float shift = turf_shift_units * position.close *
+                        std::clamp(1.5F * position.stands + 0.35F * p.bed_noise, -1.0F, 1.0F);
+    const glm::vec2 there = sheet_px - fall * (shift * p.scale);
+    const LandCoverClass id =
+        s.wide.seen.land_cover[index_on_surface(s.wide, static_cast<int>(std::floor(there.x)),
+                                                static_cast<int>(std::floor(there.y)), p.depth_m)];
+    if (has_turf_border(id)) {
+      sheet_px = there;
+      position.mapped = id;
+      rock = rock_share(s, there, p.depth_m);
+    }
+  }
   position.slope_deg = p.slope_deg;
   position.rock = rock;
   position.turf = p.turf;
   position.snow = p.snow;
   position.above =
       rock_share(s, sheet_px - reach, p.depth_m) - rock_share(s, sheet_px + reach, p.depth_m);
-  position.stands = stands_out(hits);
   position.funnel = funnel;
   position.cones = s.parameters.kind->cones;
   // Near ribs in meadows are ledges of beds.
-  position.bedded = close_share(p.metres_per_unit) * smoothstep(0.12F, 0.45F, p.turf);
+  position.bedded = position.close * smoothstep(0.12F, 0.45F, p.turf);
   if (position.bedded > 0.0F)
     position.bed = standing_bed(p.altitude_m, p.east_m, p.north_m, p.metres_per_unit, p.bed_noise);
   return position;
+}
+
+// Whether rock may move to a pixel of near turf without any around it.
+bool turf_near_rock(const RockScene& s, int x, int y, float depth_m) {
+  const GuidanceBuffers& g = s.guidance;
+  const float close = close_share(g.footprint_m(x, y) * static_cast<float>(s.pixels_per_unit));
+  if (close <= 0.0F || !has_turf_border(g.land_cover(x, y))) return false;
+  const glm::vec2 sheet_px(s.origin_px + glm::ivec2(x, y));
+  const glm::vec2 way =
+      s.view.fall[index_on_surface(s.wide, s.origin_px.x + x, s.origin_px.y + y, depth_m)] *
+      (turf_shift_units * close * static_cast<float>(s.pixels_per_unit));
+  for (const float share : {-1.0F, -0.5F, 0.5F, 1.0F})
+    if (rock_share(s, sheet_px + share * way, depth_m) > min_rock) return true;
+  return false;
 }
 
 // The direction of strokes on a plane: down the wall, and off the crests of its spurs.
@@ -214,7 +254,7 @@ RockScene look_at_rock(const GuidanceBuffers& guidance, const RockView& view,
   const std::uint64_t seed = parameters.light.seed;
   RockScene s{guidance, view, view.far(), parameters, origin_px, ppu, {}, {},
               {},       {},   {},         {},         {},        {},  {}};
-  const int reach_px = static_cast<int>(std::ceil((above_units + 2.0) * ppu));
+  const int reach_px = static_cast<int>(std::ceil((above_units + turf_shift_units + 2.0) * ppu));
   const PixelRect asked =
       wide_rect(grown(moved(made, origin_px.x, origin_px.y), reach_px), s.wide.factor);
   s.around = look_around_rock(
@@ -275,8 +315,7 @@ RockRelief make_rock_relief(const GuidanceBuffers& guidance, const WideView& wid
   const double ppu = parameters.light.pixels_per_unit;
   // One more pixel on each side: edges are found from neighbours.
   const PixelRect around = intersection(whole, grown(wanted, 1));
-  const PixelRect made =
-      rocky_part(guidance, wide, around, origin_px, static_cast<int>(std::ceil(apron_units * ppu)));
+  const PixelRect made = rocky_part(guidance, wide, around, origin_px, ppu);
   if (made.empty()) return relief;
   progress.begin("relief of rock", 2.0 * made.height());
   // Spurs outside the window cast shadows into it.
@@ -293,7 +332,9 @@ RockRelief make_rock_relief(const GuidanceBuffers& guidance, const WideView& wid
       if (guidance.is_sky(i)) continue;
       const float rock = value_on_surface(scene.wide, scene.around.rock, origin_px.x + x,
                                           origin_px.y + y, guidance.depth_m[i]);
-      if (rock <= min_rock && !may_be_bare(guidance, i)) continue;
+      if (rock <= min_rock && !may_be_bare(guidance, i, ppu) &&
+          !turf_near_rock(scene, x, y, guidance.depth_m[i]))
+        continue;
       const RockPixel pixel = pixel_at(scene, x, y, made);
       const SpurHits hits = hits_at(scene, pixel, x, y, centre_of_pixel);
       const float funnel = scene.funnel(x - made.x0, row);
@@ -350,7 +391,7 @@ int rock_near_margin_px(const RockParameters& parameters) {
 int rock_margin_px(const RockParameters& parameters) {
   const double ppu = parameters.light.pixels_per_unit;
   const int factor = rock_factor(ppu);
-  const int around = static_cast<int>(std::ceil((above_units + 2.0) * ppu)) +
+  const int around = static_cast<int>(std::ceil((above_units + turf_shift_units + 2.0) * ppu)) +
                      factor * (rock_around_reach(ppu, factor) + surface_look_rows + 4);
   const int apron = static_cast<int>(std::ceil(apron_units * ppu)) + factor;
   const int spurs =

@@ -60,6 +60,24 @@ TEST(RockGround, CrestsStandOutOfSteepSnow) {
   EXPECT_EQ(at(30.0F, 0.6F), snow);
 }
 
+// Near walls are steeper than their elevation data: ribs show on gentler ones, and snow fills the
+// gullies and hollows between.
+TEST(RockGround, RibsOfNearWallsShowInSnow) {
+  const auto at = [](float slope_deg, float stands, float funnel) {
+    return rock_border({.mapped = snow,
+                        .slope_deg = slope_deg,
+                        .stands = stands,
+                        .funnel = funnel,
+                        .close = 1.0F});
+  };
+  EXPECT_EQ(at(39.0F, 0.5F, 0.0F), rock);
+  EXPECT_EQ(at(39.0F, -0.2F, 0.0F), snow);
+  EXPECT_EQ(at(34.0F, 0.3F, 0.0F), snow);
+  EXPECT_EQ(at(38.0F, 0.3F, 1.0F), rock);
+  EXPECT_EQ(at(38.0F, 0.3F, -1.0F), snow);
+  EXPECT_EQ(at(18.0F, 0.6F, 1.5F), snow);
+}
+
 // Beds lie one above the other with one dip, and stand out unlike far.
 TEST(RockGround, BedsShapeRibsInTurf) {
   for (const float metres_per_unit : {3.0F, 11.0F}) {

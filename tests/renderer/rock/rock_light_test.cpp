@@ -120,6 +120,7 @@ TEST(RockLight, LargeSpursStandInTheSunsWay) {
   EXPECT_GT(way.gained, 0.0F);
   EXPECT_EQ(sun_past(limestone(), way, 0.3F, 0.3F), 1.0F);
   EXPECT_LT(sun_past(limestone(), way, 2.0F, 0.3F), 0.35F);
+  EXPECT_GT(sun_past(limestone(), way, 2.0F, 0.3F, 1.0F), 0.6F) << "softer where it is near";
   EXPECT_EQ(sun_past(limestone(), way, -1e9F, 0.3F), 1.0F) << "there is no spur";
   EXPECT_LT(light_rock(limestone(), light, false, wall_pixel(), flank.hits, 0.2F).tone,
             light_rock(limestone(), light, false, wall_pixel(), flank.hits, 1.0F).tone - 0.2F);
