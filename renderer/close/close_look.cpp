@@ -8,7 +8,7 @@
 
 #include "base/math.h"
 #include "base/random_streams.h"
-#include "renderer/close/close_borders.h"
+#include "renderer/close/raking_light.h"
 #include "renderer/paint/ground/snow_relief.h"
 #include "renderer/paint/light.h"
 #include "renderer/paint/picture_filter.h"
@@ -38,91 +38,52 @@ constexpr CloseCover cover_with(std::size_t size) {
 }
 
 constexpr double mean_normal_units = 14.0;  // deviation of the large form that light rakes
-constexpr double ice_units = 5.0;           // deviation of the share of ice around
-// The sun is turned until its cosine to the large form lies between these, with their sines.
-constexpr float max_facing = 0.62F;
-constexpr float max_facing_sine = 0.785F;
-constexpr float min_facing = 0.25F;
-constexpr float min_facing_sine = 0.968F;
-constexpr float wrap = 0.10F;
-
-// Directions on the ground that belong to the fall line on the sheet and to its right.
-struct Frame {
-  glm::vec3 normal;
-  glm::vec3 down{0.0F};
-  glm::vec3 across{0.0F};
-
-  explicit Frame(glm::vec3 n) : normal(n) {
-    const glm::vec3 fall = glm::vec3(n.x * n.z, n.y * n.z, n.z * n.z - 1.0F);
-    const float length = std::sqrt(glm::dot(fall, fall));
-    if (length < 1e-4F) return;
-    down = fall / length;
-    across = glm::cross(n, down);
-  }
-  // The normal under a form of this gradient on the sheet.
-  glm::vec3 tilted(glm::vec2 gradient, glm::vec2 fall) const {
-    constexpr float along = 0.8F;
-    const float to_right = gradient.x * fall.y - gradient.y * fall.x;
-    const float downhill = along * (gradient.x * fall.x + gradient.y * fall.y);
-    return glm::normalize(normal - across * to_right - down * downhill);
-  }
-};
-
+constexpr double dome_units = 56.0;         // … and of what domes and basins rise from
 glm::vec2 position_of(const CloseScene& s, int x, int y, glm::dvec2 within) {
   const double ppu = s.ground.pixels_per_unit;
   return {static_cast<float>((s.origin_px.x + x + within.x) / ppu),
           static_cast<float>((s.origin_px.y + y + within.y) / ppu)};
 }
 
-// The light that forms on a large form get.
-struct Rake {
-  glm::vec3 sun;
-  float strength = 1.0F;
-
-  float facing(glm::vec3 normal) const {
-    return unit((glm::dot(normal, sun) + wrap) / (1.0F + wrap));
-  }
-  float operator()(glm::vec3 form, glm::vec3 ground) const {
-    return strength * (facing(form) - facing(ground));
-  }
-};
-
-Rake rake_at(const CloseScene& s, std::size_t i, glm::vec3 mean, bool snow) {
-  const GuidanceBuffers& g = s.guidance;
-  const GroundLight own =
-      ground_light(s.parameters.light, glm::dvec2(g.position_m[i]) + glm::dvec2(g.origin_m));
-  const glm::vec3 sun(own.sun);
-  const float facing = glm::dot(mean, sun);
-  Rake rake{sun};
-  const bool too_near = facing > max_facing;
-  if (too_near || (facing < min_facing && !snow)) {
-    glm::vec3 across = sun - facing * mean;
-    const float length = std::sqrt(glm::dot(across, across));
-    constexpr float too_short = 0.05F;
-    // From where the sun stands above: any side is as good.
-    across =
-        length > too_short ? across / length : glm::normalize(glm::vec3(-mean.y, mean.x, 0.1F));
-    rake.sun = too_near ? max_facing * mean + max_facing_sine * across
-                        : min_facing * mean + min_facing_sine * across;
-  }
-  const float direct = static_cast<float>(s.parameters.light.light.sun) * own.strength;
-  const float left = 1.0F - static_cast<float>(s.parameters.light.light.shadow_depth) *
-                                (1.0F - (snow ? smoothstep(0.3F, 0.7F, g.shadow[i]) : g.shadow[i]));
-  constexpr float min_strength = 0.34F;  // forms in cast shadow remain
-  rake.strength = (snow ? 1.3F * direct * left : std::max(direct * left, min_strength)) / raw_range;
-  return rake;
+RakingLight rake_at(const CloseScene& s, std::size_t i, glm::vec3 mean, bool snow) {
+  return raking_light(s.parameters.light, s.guidance, i, mean, snow);
 }
 
-// Gradient of one size, and its plane; `gully`: units from where it meets the next.
+constexpr float one_light = 0.7F;  // how far a plane of snow has the light of its middle
+
+// Forms that the wind has laid are worn: crisp at their crest, they run out before they meet.
+constexpr float worn_height(std::size_t size) {  // above the next form, in spacings
+  return size == slabs ? 0.42F : 0.20F;
+}
+constexpr float bend_units = 6.0F;  // of slabs: deviation of their crests from straight
+
+// Gradient of one size, and its plane; `gully`: units from where it meets the next; `leader`: the
+// form itself if it leads.
 glm::vec2 form_at(const CloseScene& s, CloseSize size, glm::vec2 position, float depth_m,
-                  FormLook& look, bool leads, float* gully = nullptr) {
+                  FormLook& look, bool leads, float* gully = nullptr,
+                  const Spur** leader = nullptr) {
   const SpurHit hit = highest_spur(s.roofs[size], size_table[size].slender, position, depth_m, 0);
   if (gully != nullptr)
     *gully = hit.over_next * size_table[size].spacing_units / (2.0F * hit.steepness);
   const std::uint32_t plane = hit.flank_id() * 5U + static_cast<std::uint32_t>(hit.part);
   look.edges = look.edges * 0x9e3779b1U + plane;
   if (leads) look.plane = hit.flank_id();
-  return hit.slope;
+  if (leads && leader != nullptr) *leader = hit.spur;
+  if (!lies_along_wind(size) || hit.spur == nullptr) return hit.slope;
+  const glm::vec2 down = hit.spur->down;
+  return smoothstep(0.0F, worn_height(size), hit.over_next) *
+         (hit.slope - glm::dot(hit.slope, down) * down);
+}
+
+// The large form around a wide pixel's surface; `otherwise` where there is none.
+glm::vec3 mean_at(const CloseScene& s, const std::array<Grid<float>, 3>& normals, int x, int y,
+                  glm::vec3 otherwise) {
+  glm::vec3 mean(0.0F);
+  for (int k = 0; k < 3; ++k)
+    mean[k] = value_on_surface(s.ground.wide, normals[static_cast<std::size_t>(k)],
+                               s.origin_px.x + x, s.origin_px.y + y, s.guidance.depth_m(x, y));
+  const float length = std::sqrt(glm::dot(mean, mean));
+  return length > 0.1F ? mean / length : otherwise;
 }
 
 FormLook snow_look(const CloseScene& s, int x, int y, std::size_t i, glm::vec2 position,
@@ -133,7 +94,7 @@ FormLook snow_look(const CloseScene& s, int x, int y, std::size_t i, glm::vec2 p
   glm::vec3 detail = 0.7F * g.normal_detail[i] + 0.3F * g.normal[i];
   detail.x *= 1.3F;
   detail.y *= 1.3F;
-  const Frame frame(glm::normalize(detail));
+  const SlopeFrame frame(glm::normalize(detail));
   const float slope = g.slope_deg[i];
   const float depth_m = g.depth_m[i];
   // Nearly one or the other: mixed they would look like panes of glass over each other.
@@ -146,6 +107,8 @@ FormLook snow_look(const CloseScene& s, int x, int y, std::size_t i, glm::vec2 p
   glm::vec2 broad(0.0F);
   glm::vec2 large(0.0F);
   glm::vec2 small(0.0F);
+  const Spur* leader = nullptr;
+  const float level = 1.0F - smoothstep(9.0F, 20.0F, slope);
   if (steep > 0.01F) {
     const float lively = 0.55F + 0.45F * smoothstep(24.0F, 38.0F, slope);
     large +=
@@ -157,21 +120,33 @@ FormLook snow_look(const CloseScene& s, int x, int y, std::size_t i, glm::vec2 p
                form_at(s, flutes, position, depth_m, look, false);
   }
   if (steep < 0.99F) {
-    // Level basins are held by broad slabs, with few smaller swells.
-    const float level = 1.0F - smoothstep(9.0F, 20.0F, slope);
+    // Level basins are held by broad slabs, bent as the wind turns, with few smaller swells.
+    const glm::vec2 bent = bend_units * glm::vec2(s.small_calm(u, v), 0.6F * s.steepness(u, v));
     broad += 0.22F * (1.0F - steep) * (0.5F + 0.5F * level) *
-             form_at(s, slabs, position, depth_m, look, steep <= 0.5F && level > 0.6F);
-    large += 0.26F * (1.0F - steep) * (0.35F + 0.65F * calm) * (1.0F - 0.65F * level) * quiet *
-             form_at(s, swells, position, depth_m, look, steep <= 0.5F && level <= 0.6F);
-    small += 0.07F * (1.0F - steep) * calm * small_calm * quiet *
+             form_at(s, slabs, position + bent, depth_m, look, steep <= 0.5F && level > 0.6F);
+    large += 0.38F * (1.0F - steep) * (0.35F + 0.65F * calm) * (1.0F - 0.65F * level) * quiet *
+             form_at(s, swells, position, depth_m, look, steep <= 0.5F && level <= 0.6F, nullptr,
+                     &leader);
+    small += 0.10F * (1.0F - steep) * calm * small_calm * quiet *
              form_at(s, small_swells, position, depth_m, look, false);
   }
-  const Rake rake = rake_at(s, i, mean, true);
+  const RakingLight rake = rake_at(s, i, mean, true);
   const glm::vec3 under = frame.tilted(broad, fall);
   const glm::vec3 wide = frame.tilted(broad + large, fall);
   const glm::vec3 all = frame.tilted(broad + large + small, fall);
   const float lit = smoothstep(0.35F, 0.75F, rake.facing(frame.normal) * g.shadow[i]);
-  look.tone = lit * soft_limit(0.55F * rake(frame.normal, mean), 0.16F) +
+  // Domes and basins, which full light would leave blank.
+  const glm::vec3 base = mean_at(s, s.dome_normal, x, y, mean);
+  const float dome = (1.0F - smoothstep(14.0F, 24.0F, slope)) *
+                     soft_limit(1.1F * rake_at(s, i, base, true)(mean, base), 0.20F);
+  // A plane has one light, that of the ground in its middle: soft humps would look airbrushed.
+  const float plane = leader == nullptr
+                          ? 0.0F
+                          : one_light * (1.0F - level) *
+                                soft_limit(sun_light(s.parameters.light, g, i, rake.strength)(
+                                               leader->normal, g.normal[i]),
+                                           0.28F);
+  look.tone = plane + lit * (soft_limit(0.55F * rake(frame.normal, mean), 0.16F) + dome) +
               soft_limit(rake(under, frame.normal), 0.18F) + soft_limit(rake(wide, under), 0.28F) +
               soft_limit(rake(all, wide), 0.11F);
   return look;
@@ -195,7 +170,7 @@ glm::vec2 lateral_moraine(const CloseScene& s, int x, int y, float depth_m) {
   const WideView& wide = s.ground.wide;
   const auto share = [&](float dx, float dy) {
     const auto ppu = static_cast<float>(s.ground.pixels_per_unit);
-    return value_on_surface(wide, s.ice_around,
+    return value_on_surface(wide, s.ice.ice,
                             s.origin_px.x + x + static_cast<int>(std::lround(dx * ppu)),
                             s.origin_px.y + y + static_cast<int>(std::lround(dy * ppu)), depth_m);
   };
@@ -217,7 +192,7 @@ glm::vec2 lateral_moraine(const CloseScene& s, int x, int y, float depth_m) {
 FormLook scree_look(const CloseScene& s, int x, int y, std::size_t i, glm::vec2 position,
                     glm::vec2 fall, glm::vec3 mean) {
   const GuidanceBuffers& g = s.guidance;
-  const Frame frame(glm::normalize(0.6F * g.normal_detail[i] + 0.4F * g.normal_smooth[i]));
+  const SlopeFrame frame(glm::normalize(0.6F * g.normal_detail[i] + 0.4F * g.normal_smooth[i]));
   FormLook look;
   float gully = 1e9F;
   const float quiet = smoothstep(0.1F, 0.8F, s.quiet(x - s.made.x0, y - s.made.y0));
@@ -266,7 +241,7 @@ float terracettes(const CloseScene& s, int x, int y, std::size_t i) {
 FormLook grass_look(const CloseScene& s, int x, int y, std::size_t i, glm::vec2 position,
                     glm::vec2 fall, glm::vec3 mean) {
   const GuidanceBuffers& g = s.guidance;
-  const Frame frame(glm::normalize(0.45F * g.normal_detail[i] + 0.55F * g.normal_smooth[i]));
+  const SlopeFrame frame(glm::normalize(0.45F * g.normal_detail[i] + 0.55F * g.normal_smooth[i]));
   const float steep = smoothstep(14.0F, 32.0F, g.slope_deg[i]);
   // Planes of unlike size: whole slopes without small ones.
   const float quiet = smoothstep(0.1F, 0.8F, s.quiet(x - s.made.x0, y - s.made.y0));
@@ -287,7 +262,7 @@ FormLook grass_look(const CloseScene& s, int x, int y, std::size_t i, glm::vec2 
 
 // Where the wind blows on the sheet, at a wide pixel: 35° aside of where the light goes.
 glm::vec2 wind_on_sheet(const SpurGround& ground, glm::vec3 wind, std::size_t i) {
-  const Frame frame(ground.wide.seen.normal[i]);
+  const SlopeFrame frame(ground.wide.seen.normal[i]);
   const glm::vec2 fall = ground.fall[i];
   constexpr float foreshortened = 0.5F;
   const glm::vec2 to = glm::dot(frame.across, wind) * glm::vec2(fall.y, -fall.x) +
@@ -306,7 +281,7 @@ CloseCover close_cover(LandCoverClass id, bool winter) {
 
 CloseScene make_close_scene(const GuidanceBuffers& guidance, const RockParameters& parameters,
                             const SpurGround& ground, const DebrisCones& cones,
-                            glm::ivec2 origin_px, PixelRect made,
+                            const IceAround& ice, glm::ivec2 origin_px, PixelRect made,
                             const std::array<bool, close_covers>& present) {
   const double ppu = ground.pixels_per_unit;
   const std::uint64_t seed = parameters.light.seed;
@@ -316,7 +291,8 @@ CloseScene make_close_scene(const GuidanceBuffers& guidance, const RockParameter
                    .origin_px = origin_px,
                    .made = made,
                    .warp = Warp(seed),
-                   .cones = cones};
+                   .cones = cones,
+                   .ice = ice};
   const PixelRect sheet_rect = moved(made, origin_px.x, origin_px.y);
   const glm::vec3 wind(glm::vec2(snow_wind(parameters.light.sun_direction)), 0.0F);
   const auto down = [&](std::size_t i) { return std::optional(ground.fall[i]); };
@@ -332,19 +308,16 @@ CloseScene make_close_scene(const GuidanceBuffers& guidance, const RockParameter
   const PixelRect held{0, 0, wide.width(), wide.height()};
   const PixelRect read = moved(wide_rect(sheet_rect, ground.wide.factor), -ground.wide.origin_px.x,
                                -ground.wide.origin_px.y);
-  for (int k = 0; k < 3; ++k) {
+  for (std::size_t k = 0; k < 3; ++k) {
     Grid<float> part(wide.width(), wide.height());
-    for (std::size_t i = 0; i < part.size(); ++i) part[i] = wide.normal[i][k];
-    scene.mean_normal[static_cast<std::size_t>(k)] =
-        blur_on_surface(part, wide.depth_m, mean_normal_units * ppu / ground.wide.factor,
-                        intersection(held, grown(surface_look(read), 1)));
-  }
-  if (present[static_cast<std::size_t>(CloseCover::scree)]) {
-    Grid<float> ice(wide.width(), wide.height());
-    for (std::size_t i = 0; i < ice.size(); ++i)
-      ice[i] = wide.land_cover[i] == Class::glacier ? 1.0F : 0.0F;
-    scene.ice_around = blur_on_surface(ice, wide.depth_m, ice_units * ppu / ground.wide.factor,
-                                       intersection(held, grown(surface_look(read), 3)));
+    for (std::size_t i = 0; i < part.size(); ++i) part[i] = wide.normal[i][static_cast<int>(k)];
+    const auto around = [&](double units) {
+      return blur_on_surface(part, wide.depth_m, units * ppu / ground.wide.factor,
+                             intersection(held, grown(surface_look(read), 1)));
+    };
+    scene.mean_normal[k] = around(mean_normal_units);
+    if (present[static_cast<std::size_t>(CloseCover::snow)])
+      scene.dome_normal[k] = around(dome_units);
   }
   const auto noise = [&](std::uint64_t part, double sigma_x, double sigma_y) {
     return make_image_noise(stream_seed(seed, Stream::close_calm, part),
@@ -367,7 +340,7 @@ float close_forms_reach_units() {
 }
 
 int mean_normal_reach(double pixels_per_unit, int factor) {
-  return surface_reach_px(mean_normal_units * pixels_per_unit / factor) + surface_look_rows + 4;
+  return surface_reach_px(dome_units * pixels_per_unit / factor) + surface_look_rows + 4;
 }
 
 FormLook look_at_form(const CloseScene& s, int x, int y, CloseCover cover, glm::dvec2 within) {
@@ -375,12 +348,7 @@ FormLook look_at_form(const CloseScene& s, int x, int y, CloseCover cover, glm::
   const WideView& wide = s.ground.wide;
   const int sheet_x = s.origin_px.x + x;
   const int sheet_y = s.origin_px.y + y;
-  glm::vec3 mean(0.0F);
-  for (int k = 0; k < 3; ++k)
-    mean[k] = value_on_surface(wide, s.mean_normal[static_cast<std::size_t>(k)], sheet_x, sheet_y,
-                               s.guidance.depth_m[i]);
-  const float length = std::sqrt(glm::dot(mean, mean));
-  mean = length > 0.1F ? mean / length : s.guidance.normal[i];
+  const glm::vec3 mean = mean_at(s, s.mean_normal, x, y, s.guidance.normal[i]);
   const glm::vec2 fall = s.ground.fall[wide.index(sheet_x, sheet_y)];
   const glm::vec2 position =
       s.warp(position_of(s, x, y, within), static_cast<float>(s.ground.pixels_per_unit));

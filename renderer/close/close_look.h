@@ -6,6 +6,7 @@
 
 #include "base/grid.h"
 #include "base/guidance_buffers.h"
+#include "renderer/close/close_borders.h"
 #include "renderer/close/debris_cones.h"
 #include "renderer/close/roofs.h"
 #include "renderer/rock/rock_view.h"
@@ -41,9 +42,10 @@ struct CloseScene {
   PixelRect made;  // pixels of the window that may be looked at
   Warp warp;
   const DebrisCones& cones;
+  const IceAround& ice;
   std::array<SpurCells, close_sizes> roofs = {};
   std::array<Grid<float>, 3> mean_normal = {};  // of wide pixels: the large form that light rakes
-  Grid<float> ice_around = {};                  // of wide pixels: share of glacier ice, 0…1
+  std::array<Grid<float>, 3> dome_normal = {};  // of what that rises from
   Grid<float> calm = {}, small_calm = {}, steepness = {}, terraces = {}, quiet = {};
   Grid<float> runnels = {};  // all of deviation 1
 };
@@ -51,7 +53,7 @@ struct CloseScene {
 // mean_normal_reach wide pixels.
 CloseScene make_close_scene(const GuidanceBuffers& guidance, const RockParameters& parameters,
                             const SpurGround& ground, const DebrisCones& cones,
-                            glm::ivec2 origin_px, PixelRect made,
+                            const IceAround& ice, glm::ivec2 origin_px, PixelRect made,
                             const std::array<bool, close_covers>& present);
 float close_forms_reach_units();
 int mean_normal_reach(double pixels_per_unit, int factor);

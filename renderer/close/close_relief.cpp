@@ -27,7 +27,7 @@ int reach_px(double units, double pixels_per_unit) {
 
 double roofs_reach_units() {
   return static_cast<double>(std::max(
-      {roof_reach_units(border_roofs), close_forms_reach_units(), debris_cones_reach_units()}));
+      {roof_reach_units(border_tongues), close_forms_reach_units(), debris_cones_reach_units()}));
 }
 
 }  // namespace
@@ -65,11 +65,10 @@ void add_close_relief(RockRelief& relief, const GuidanceBuffers& guidance, const
             -far.origin_px.x, -far.origin_px.y));
   const Grid<glm::vec2> fall = smooth_fall_lines(far, ppu, read);
   const SpurGround ground{far, fall, ppu, parameters.light.seed};
-  const CloseBorders borders{guidance, ground, origin_px,
-                             grow_roofs(ground, border_roofs, border_roofs_part, sheet_rect,
-                                        [&](std::size_t i) { return std::optional(fall[i]); }),
-                             parameters.light.seed};
-  const DebrisCones cones = grow_debris_cones(ground, sheet_rect);
+  const IceAround ice = look_around_ice(ground, sheet_rect);
+  const CloseBorders borders =
+      make_close_borders(guidance, ground, ice, origin_px, sheet_rect, parameters.light.seed);
+  const DebrisCones cones = grow_debris_cones(ground, sheet_rect, parameters.kind->cones);
   const Warp warp(parameters.light.seed);
   // Cones of debris lie over grass.
   const auto covered = [&](LandCoverClass id, int x, int y) {
@@ -104,7 +103,7 @@ void add_close_relief(RockRelief& relief, const GuidanceBuffers& guidance, const
   for (const LandCoverClass id : relief.land_cover)
     present[static_cast<std::size_t>(close_cover(id, parameters.winter))] = true;
   const CloseScene scene =
-      make_close_scene(guidance, parameters, ground, cones, origin_px, made, present);
+      make_close_scene(guidance, parameters, ground, cones, ice, origin_px, made, present);
   Grid<std::uint32_t> edges(made.width(), made.height(), 0U);
   constexpr glm::dvec2 centre_of_pixel{0.5, 0.5};
   parallel_rows(made.height(), [&](int row) {
@@ -182,7 +181,7 @@ void add_close_relief(RockRelief& relief, const GuidanceBuffers& guidance, const
 
 int close_near_margin_px(const RockParameters& parameters) {
   const double ppu = parameters.light.pixels_per_unit;
-  return reach_px(lip_units, ppu) + reach_px(static_cast<double>(border_reach_units), ppu) + 1;
+  return reach_px(lip_units, ppu) + 1;
 }
 
 int close_margin_px(const RockParameters& parameters) {
@@ -190,7 +189,7 @@ int close_margin_px(const RockParameters& parameters) {
   const int factor = rock_factor(ppu);
   const int roofs =
       reach_px(roofs_reach_units(), ppu) + factor * (smooth_fall_reach(ppu, factor) + 3);
-  const int blur = factor * mean_normal_reach(ppu, factor);
+  const int blur = factor * std::max(mean_normal_reach(ppu, factor), ice_around_reach(ppu, factor));
   return std::max(roofs, blur) + close_near_margin_px(parameters) + 2;
 }
 

@@ -32,10 +32,11 @@ constexpr float apart = 15.0F;  // minimum distance of two apices, units
 constexpr float down_step = 4.0F;
 constexpr float shortest = 22.0F;
 constexpr float longest = 130.0F;
-constexpr float widest = 0.62F;      // half width at the foot, in lengths
-constexpr float level_z = 0.985F;    // of a normal: the slope ends below 10°
-constexpr float steepest_z = 0.70F;  // debris does not lie above 45°
-constexpr float min_down = 0.15F;    // slopes that face away are not seen
+constexpr float highest_wall = 80.0F;  // that is measured, units
+constexpr float widest = 0.62F;        // half width at the foot, in lengths
+constexpr float level_z = 0.985F;      // of a normal: the slope ends below 10°
+constexpr float steepest_z = 0.70F;    // debris does not lie above 45°
+constexpr float min_down = 0.15F;      // slopes that face away are not seen
 constexpr float tolerance_slope_cone = 4.5F;
 constexpr float tolerance_share_cone = 0.003F;
 constexpr float above_apex = 0.12F;   // lengths of a cone that lie in its gully
@@ -130,7 +131,22 @@ Fall way_down(const SpurGround& ground, glm::vec2 apex, std::size_t i, float wan
   return way;
 }
 
-DebrisCone grow_cone(const SpurGround& ground, std::uint64_t key, glm::ivec2 cell) {
+// Rock above an apex, units up its fall line.
+float wall_above(const SpurGround& ground, glm::vec2 apex, std::size_t i) {
+  const GuidanceBuffers& seen = ground.wide.seen;
+  glm::vec2 position = apex;
+  std::size_t here = i;
+  for (float up = 0.0F; up < highest_wall; up += down_step) {
+    position -= ground.fall[here] * down_step;
+    const auto there = wide_at(ground, position);
+    if (!there || !same_surface(seen.depth_m[*there], seen.depth_m[here])) return up;
+    if (seen.land_cover[*there] != Class::rock && up > down_step) return up;
+    here = *there;
+  }
+  return highest_wall;
+}
+
+DebrisCone grow_cone(const SpurGround& ground, std::uint64_t key, glm::ivec2 cell, float amount) {
   std::uint64_t draws = 0;
   const auto between = [&](float low, float high) {
     return low + (high - low) * static_cast<float>(random_uniform(key, cell.x, cell.y, draws++));
@@ -162,9 +178,14 @@ DebrisCone grow_cone(const SpurGround& ground, std::uint64_t key, glm::ivec2 cel
     cone.apex = *there;
   }
   const float drawn = between(0.0F, 1.0F);
-  const float wanted = shortest + (longest - shortest) * (0.25F + 0.75F * drawn);
   const auto i = wide_at(ground, cone.apex);
   if (!i || most < -0.3F || seen.normal[*i].z < steepest_z) return cone;
+  const float kept = std::min(amount, 1.0F);
+  if (between(0.0F, 1.0F) > kept * kept) return cone;
+  // A low wall has little to give.
+  const float wanted =
+      std::min((shortest + (longest - shortest) * (0.25F + 0.75F * drawn)) * (0.4F + 0.6F * kept),
+               12.0F + 1.1F * wall_above(ground, cone.apex, *i));
   const Fall way = way_down(ground, cone.apex, *i, wanted);
   if (way.length < shortest) return cone;
   const glm::vec2 axis = way.end - cone.apex;
@@ -214,7 +235,7 @@ Place place_on_cone(const DebrisCone& cone, glm::vec2 position) {
 
 }  // namespace
 
-DebrisCones grow_debris_cones(const SpurGround& ground, PixelRect rect) {
+DebrisCones grow_debris_cones(const SpurGround& ground, PixelRect rect, float amount) {
   const std::uint64_t key = stream_seed(ground.seed, Stream::close_roofs, cones_part);
   DebrisCones grown;
   if (rect.empty()) return grown;
@@ -232,7 +253,7 @@ DebrisCones grow_debris_cones(const SpurGround& ground, PixelRect rect) {
   parallel_rows(size.y, [&](int y) {
     for (int x = 0; x < size.x; ++x)
       all[static_cast<std::size_t>(y) * static_cast<std::size_t>(size.x) +
-          static_cast<std::size_t>(x)] = grow_cone(ground, key, low + glm::ivec2(x, y));
+          static_cast<std::size_t>(x)] = grow_cone(ground, key, low + glm::ivec2(x, y), amount);
   });
   std::erase_if(all, [](const DebrisCone& cone) { return cone.id == 0; });
   // Of two at one mouth the higher remains.
@@ -275,8 +296,8 @@ DebrisCones grow_debris_cones(const SpurGround& ground, PixelRect rect) {
 }
 
 float debris_cones_reach_units() {
-  // From a position to the farthest apex, and from there down its way.
-  return 2.2F * longest + apart + 24.0F;
+  // From a position to the farthest apex, and from there down its way or up its wall.
+  return 2.2F * longest + apart + 24.0F + 0.5F * highest_wall;
 }
 
 DebrisHit debris_at(const DebrisCones& cones, std::uint64_t seed, glm::vec2 position,

@@ -39,8 +39,9 @@ struct DebrisCones {
 };
 
 // The cones that touch a rectangle of the sheet (px); the same for any rectangle. Reads the wide
-// view within debris_cones_reach_units of it.
-DebrisCones grow_debris_cones(const SpurGround& ground, PixelRect sheet_rect);
+// view within debris_cones_reach_units of it. `amount`: RockKind::cones; rock that breaks into
+// little debris has fewer and shorter ones.
+DebrisCones grow_debris_cones(const SpurGround& ground, PixelRect sheet_rect, float amount = 1.0F);
 float debris_cones_reach_units();
 
 // The cone at a position, units of the sheet.

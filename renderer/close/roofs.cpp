@@ -47,6 +47,7 @@ Spur grow_roof(const SpurGround& ground, const RoofSize& size, std::uint64_t key
   const glm::vec2 turned = *down + turn * glm::vec2(down->y, -down->x);
   roof.down = turned / std::sqrt(turned.x * turned.x + turned.y * turned.y);
   roof.fall = *down;
+  roof.normal = ground.wide.seen.normal[i];
   roof.depth_m = ground.wide.seen.depth_m[i];
   const float metres_per_unit =
       ground.wide.seen.footprint_m[i] * ppu / static_cast<float>(ground.wide.factor);

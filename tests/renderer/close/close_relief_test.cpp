@@ -48,7 +48,8 @@ TEST(CloseRelief, SnowHasPlanesInLightAndShade) {
     const GuidanceBuffers g =
         test::make_close_hills(200, 160, 1.0, metres_per_unit, Class::snow, Class::snow);
     const RockRelief relief = close_relief_of(g, test::close_parameters(1.0));
-    for (const float t : relief.tone) EXPECT_LT(std::abs(t), 0.18 + 0.28 + 0.11 + 0.16);
+    for (const float t : relief.tone)
+      EXPECT_LT(std::abs(t), 0.18 + 0.28 + 0.11 + 0.16 + 0.20 + 0.7 * 0.28);
     return deviation(relief.tone);
   };
   const double near = strength(8.0);
@@ -88,6 +89,17 @@ TEST(CloseRelief, OfAPartIsThatOfTheWhole) {
   for (const PixelRect kept : {PixelRect{468, 200, 492, 224}, PixelRect{0, 360, 3, 420}, tongues}) {
     expect_part_of(whole, kept, g, test::bare_relief(g, kept));
   }
+}
+
+TEST(CloseRelief, OfAPartBesideAGlacierIsThatOfTheWhole) {
+  GuidanceBuffers g =
+      test::make_close_hills(760, 420, 1.0, 8.0, Class::glacier, Class::alpine_grass);
+  for (int y = 300; y < g.height(); ++y)
+    for (int x = 300; x < 420; ++x)
+      if (!g.is_sky(g.depth_m.index(x, y))) g.land_cover(x, y) = Class::scree;
+  const RockRelief whole = close_relief_of(g, test::close_parameters(1.0));
+  for (const PixelRect kept : {PixelRect{374, 200, 394, 230}, PixelRect{350, 310, 430, 330}})
+    expect_part_of(whole, kept, g, test::bare_relief(g, kept));
 }
 
 // Below a wall whose gullies hold debris, with grass at its foot.

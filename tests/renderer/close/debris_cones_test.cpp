@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -135,6 +136,30 @@ TEST(DebrisCones, LeaveGrassAtTheirFeet) {
   EXPECT_GT(covered_high, 0.98 * high);
   EXPECT_LT(covered_low, 0.8 * low);
   EXPECT_GT(covered_low, 0.1 * low);
+}
+
+// Hard rock gives few and short cones, and a low wall gives short ones.
+TEST(DebrisCones, AreThoseOfTheirWall) {
+  const auto mean_length = [](const DebrisCones& grown) {
+    double sum = 0.0;
+    for (const DebrisCone& cone : grown.cones) sum += static_cast<double>(cone.length);
+    return sum / static_cast<double>(std::max<std::size_t>(grown.cones.size(), 1));
+  };
+  const PixelRect rect{0, 0, width, height};
+  const Wall wall;
+  const DebrisCones loose = grow_debris_cones(wall.ground, rect);
+  const DebrisCones hard = grow_debris_cones(wall.ground, rect, 0.7F);
+  ASSERT_FALSE(hard.cones.empty());
+  EXPECT_LT(hard.cones.size(), loose.cones.size());
+  // .4 + .6 · .7 = .82 of their length, give or take that of twenty cones.
+  EXPECT_LT(mean_length(hard), 0.95 * mean_length(loose));
+  Wall low;
+  constexpr int wall_units = 16;
+  for (int y = 0; y < foot_of_rock - wall_units; ++y)
+    for (int x = 0; x < width; ++x) low.g.land_cover(x, y) = Class::alpine_grass;
+  const DebrisCones small = grow_debris_cones(low.ground, rect);
+  ASSERT_FALSE(small.cones.empty());
+  for (const DebrisCone& cone : small.cones) EXPECT_LE(cone.length, 12.0F + 1.1F * 24.0F);
 }
 
 }  // namespace
