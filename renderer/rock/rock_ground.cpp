@@ -104,14 +104,20 @@ LandCoverClass rock_border(const RockPosition& position) {
     if (position.snow > 0.30F && position.snow > position.turf) return Class::snow;
     return under < 0.35F ? Class::rock : Class::scree;
   }
-  if (position.mapped == Class::snow) {
+  if (position.mapped == Class::snow ||
+      (position.mapped == Class::glacier && position.close > 0.0F)) {
     // Near snow stays in the hollows of a wall and leaves its ribs.
+    // Ice holds where snow does not.
+    const float mapped_deg = position.slope_deg - (position.mapped == Class::glacier ? 2.0F : 0.0F);
     const float slope_deg =
-        position.slope_deg + 3.5F * position.close * std::clamp(position.funnel, -1.5F, 1.5F);
+        mapped_deg + position.close * (3.0F * std::clamp(position.funnel, -1.5F, 1.5F) +
+                                       4.5F * std::clamp(position.wall, -1.5F, 1.2F));
     const float from_deg = steep_snow_deg(position.close);
     const float bare = smoothstep(from_deg, bare_snow_deg - 9.0F * position.close, slope_deg);
-    const float ribs = std::max(0.0F, position.close * bare - edge) * by_spurs;
-    if (m + ribs + bare_share * bare > becomes_rock) return Class::rock;
+    const float far_out = m + bare_share * bare;
+    // The barer a wall, the broader its ribs.
+    const float near_out = r + bare * (0.42F + 0.75F * position.rib) + 0.25F * position.stands;
+    if (far_out + position.close * (near_out - far_out) > becomes_rock) return Class::rock;
   }
   return gives_way(position.mapped) && m > becomes_rock ? Class::rock : position.mapped;
 }

@@ -34,6 +34,8 @@ struct RockPosition {
   float bedded = 0.0F;  // how far beds rather than spurs shape the border, 0…1
   float bed = 0.0F;     // of a bed that stands out (+) or weathers back (-): -1…1
   float close = 0.0F;   // close_share
+  float rib = 0.0F;     // 1 on the crest of a large spur, 0 beside it
+  float wall = 0.0F;    // which near walls are bare: noise of deviation 1 over whole walls
 };
 // The class that a pixel shows after spurs extend into the meadows and debris climbs the gullies.
 // Only rock, scree, snow, grass, shrub and pasture change; forest stays.

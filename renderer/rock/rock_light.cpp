@@ -242,7 +242,9 @@ void cover_rock(RockLook& look, const RockPixel& p, const PlaneLight& planes, bo
   if (snow_near > 0.0F)
     look.snow = snow_paint * snow_near *
                 (winter ? winter_snow(p, planes.large_normal, stands, tread * strong_bed)
-                        : old_snow(p, planes.normal, stands, snow_near));
+                        : old_snow(p, planes.normal, stands, snow_near)) *
+                // Near ribs that snow leaves are dark.
+                (winter ? 1.0F : 1.0F - 0.65F * close_share(p.metres_per_unit));
 }
 
 // Lines of brushwork: light on crests, dark in gullies, 0…1.

@@ -30,8 +30,10 @@ constexpr double shadow_blur_units = 1.6;
 constexpr double sky_blur_units = 2.0;
 constexpr float above_units =
     6.0F;  // distance along the fall line, up and down, that is searched for rock
-constexpr float turf_shift_units = 13.0F;  // of near turf up and down a wall, at most
-constexpr float stroke_feather = 0.6F;     // how far strokes turn down the flanks
+constexpr glm::dvec2 wall_sigma_units{70.0, 90.0};  // of near walls that are bare of snow
+constexpr float rib_half_width = 0.28F;             // of spurs that stand out of snow, spacings
+constexpr float turf_shift_units = 13.0F;           // of near turf up and down a wall, at most
+constexpr float stroke_feather = 0.6F;              // how far strokes turn down the flanks
 
 // Ground whose border with rock moves up and down the slope where it is near.
 bool has_turf_border(LandCoverClass id) {
@@ -41,9 +43,11 @@ bool has_turf_border(LandCoverClass id) {
 
 // Whether a pixel may show rock by its own class and slope.
 bool may_be_bare(const GuidanceBuffers& g, std::size_t i, double pixels_per_unit) {
-  if (g.land_cover[i] != LandCoverClass::snow) return g.land_cover[i] == LandCoverClass::rock;
+  const LandCoverClass id = g.land_cover[i];
   const float close = close_share(g.footprint_m[i] * static_cast<float>(pixels_per_unit));
-  return g.slope_deg[i] > steep_snow_deg(close) - 5.5F * close;
+  if (id != LandCoverClass::snow && (id != LandCoverClass::glacier || close <= 0.0F))
+    return id == LandCoverClass::rock;
+  return g.slope_deg[i] > steep_snow_deg(close) - 10.0F * close;
 }
 
 // The bounding rectangle of the window's pixels with rock around.
@@ -115,7 +119,7 @@ struct RockScene {
   glm::ivec2 origin_px;
   double pixels_per_unit;
   RockAround around;
-  Grid<float> shadow, sky_view, calm, bed_place, bed_show, lines, cover, funnel;
+  Grid<float> shadow, sky_view, calm, bed_place, bed_show, lines, cover, funnel, wall;
 };
 
 glm::vec2 position_of(const RockScene& s, int x, int y, glm::dvec2 within) {
@@ -181,7 +185,7 @@ float rock_share(const RockScene& s, glm::vec2 sheet_px, float depth_m) {
 }
 
 RockPosition border_place(const RockScene& s, const RockPixel& p, int x, int y, float rock,
-                          const SpurHits& hits, float funnel) {
+                          const SpurHits& hits, float funnel, float wall) {
   glm::vec2 sheet_px(s.origin_px + glm::ivec2(x, y));
   const glm::vec2 fall =
       s.view.fall[index_on_surface(s.wide, s.origin_px.x + x, s.origin_px.y + y, p.depth_m)];
@@ -212,6 +216,9 @@ RockPosition border_place(const RockScene& s, const RockPixel& p, int x, int y, 
   position.above =
       rock_share(s, sheet_px - reach, p.depth_m) - rock_share(s, sheet_px + reach, p.depth_m);
   position.funnel = funnel;
+  position.wall = wall;
+  if (hits[0].spur != nullptr && hits[0].part != SpurPart::foot)
+    position.rib = unit(1.0F - std::abs(hits[0].across) / rib_half_width);
   position.cones = s.parameters.kind->cones;
   // Near ribs in meadows are ledges of beds.
   position.bedded = position.close * smoothstep(0.12F, 0.45F, p.turf);
@@ -253,7 +260,7 @@ RockScene look_at_rock(const GuidanceBuffers& guidance, const RockView& view,
   const double ppu = parameters.light.pixels_per_unit;
   const std::uint64_t seed = parameters.light.seed;
   RockScene s{guidance, view, view.far(), parameters, origin_px, ppu, {}, {},
-              {},       {},   {},         {},         {},        {},  {}};
+              {},       {},   {},         {},         {},        {},  {}, {}};
   const int reach_px = static_cast<int>(std::ceil((above_units + turf_shift_units + 2.0) * ppu));
   const PixelRect asked =
       wide_rect(grown(moved(made, origin_px.x, origin_px.y), reach_px), s.wide.factor);
@@ -274,6 +281,7 @@ RockScene look_at_rock(const GuidanceBuffers& guidance, const RockView& view,
   s.lines = noise(Stream::rock_lines, 1.3, 1.3);
   s.cover = noise(Stream::rock_cover, 1.6, 1.0);
   s.funnel = noise(Stream::rock_funnels, funnel_sigma_units.x, funnel_sigma_units.y);
+  s.wall = noise(Stream::rock_funnels, wall_sigma_units.x, wall_sigma_units.y, 1);
   return s;
 }
 
@@ -338,8 +346,8 @@ RockRelief make_rock_relief(const GuidanceBuffers& guidance, const WideView& wid
       const RockPixel pixel = pixel_at(scene, x, y, made);
       const SpurHits hits = hits_at(scene, pixel, x, y, centre_of_pixel);
       const float funnel = scene.funnel(x - made.x0, row);
-      const LandCoverClass shown =
-          rock_border(border_place(scene, pixel, x, y, rock, hits, funnel));
+      const LandCoverClass shown = rock_border(
+          border_place(scene, pixel, x, y, rock, hits, funnel, scene.wall(x - made.x0, row)));
       edges(x - made.x0, row) = edge_key(hits);
       if (x < wanted.x0 || y < wanted.y0 || x >= wanted.x1 || y >= wanted.y1) continue;
       const int u = x - wanted.x0;

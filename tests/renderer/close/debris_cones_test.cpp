@@ -154,12 +154,12 @@ TEST(DebrisCones, AreThoseOfTheirWall) {
   // .4 + .6 · .7 = .82 of their length, give or take that of twenty cones.
   EXPECT_LT(mean_length(hard), 0.95 * mean_length(loose));
   Wall low;
-  constexpr int wall_units = 16;
+  constexpr int wall_units = 24;
   for (int y = 0; y < foot_of_rock - wall_units; ++y)
     for (int x = 0; x < width; ++x) low.g.land_cover(x, y) = Class::alpine_grass;
   const DebrisCones small = grow_debris_cones(low.ground, rect);
   ASSERT_FALSE(small.cones.empty());
-  for (const DebrisCone& cone : small.cones) EXPECT_LE(cone.length, 12.0F + 1.1F * 24.0F);
+  for (const DebrisCone& cone : small.cones) EXPECT_LE(cone.length, 12.0F + 1.1F * 32.0F);
 }
 
 }  // namespace

@@ -60,22 +60,31 @@ TEST(RockGround, CrestsStandOutOfSteepSnow) {
   EXPECT_EQ(at(30.0F, 0.6F), snow);
 }
 
-// Near walls are steeper than their elevation data: ribs show on gentler ones, and snow fills the
-// gullies and hollows between.
+// Near walls are steeper than their elevation data: ribs show on gentler ones, the broader the
+// steeper; snow fills the gullies and hollows between, and whole walls.
 TEST(RockGround, RibsOfNearWallsShowInSnow) {
-  const auto at = [](float slope_deg, float stands, float funnel) {
+  const auto at = [](float slope_deg, float rib, float funnel, float wall) {
     return rock_border({.mapped = snow,
                         .slope_deg = slope_deg,
-                        .stands = stands,
                         .funnel = funnel,
-                        .close = 1.0F});
+                        .close = 1.0F,
+                        .rib = rib,
+                        .wall = wall});
   };
-  EXPECT_EQ(at(39.0F, 0.5F, 0.0F), rock);
-  EXPECT_EQ(at(39.0F, -0.2F, 0.0F), snow);
-  EXPECT_EQ(at(34.0F, 0.3F, 0.0F), snow);
-  EXPECT_EQ(at(38.0F, 0.3F, 1.0F), rock);
-  EXPECT_EQ(at(38.0F, 0.3F, -1.0F), snow);
-  EXPECT_EQ(at(18.0F, 0.6F, 1.5F), snow);
+  EXPECT_EQ(at(38.0F, 0.9F, 0.0F, 0.0F), rock);
+  EXPECT_EQ(at(38.0F, 0.0F, 0.0F, 0.0F), snow);
+  EXPECT_EQ(at(38.0F, 0.45F, 0.0F, 0.0F), rock);
+  EXPECT_EQ(at(34.0F, 0.45F, 0.0F, 0.0F), snow);
+  EXPECT_EQ(at(34.0F, 0.45F, 1.0F, 0.5F), rock);
+  EXPECT_EQ(at(38.0F, 0.45F, -1.0F, -1.0F), snow);
+  EXPECT_EQ(at(12.0F, 1.0F, 1.5F, 1.5F), snow);
+  const auto of_ice = [](float slope_deg, float close) {
+    return rock_border(
+        {.mapped = glacier, .slope_deg = slope_deg, .close = close, .rib = 0.9F, .wall = 0.5F});
+  };
+  EXPECT_EQ(of_ice(38.0F, 1.0F), rock);
+  EXPECT_EQ(of_ice(38.0F, 0.0F), glacier);
+  EXPECT_EQ(of_ice(24.0F, 1.0F), glacier);
 }
 
 // Beds lie one above the other with one dip, and stand out unlike far.

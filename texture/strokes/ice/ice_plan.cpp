@@ -54,7 +54,10 @@ std::vector<IceWay> flow_lines(const StrokeScene& scene, const IceFlow& flow, St
       scene, 17.F, stream,
       [&](StrokeSeed& seed, glm::vec2 position, std::size_t i, std::vector<IceWay>& out) {
         if (scene.class_at(i) != glacier || scene.slope_deg(i) > 30.F) return;
-        if (seed.uniform() > 0.15F + 0.85F * on_tongue(scene, position)) return;
+        // Level trunks of ice have bands even between firn.
+        const float trunk = std::clamp((12.F - scene.slope_deg(i)) / 5.F, 0.F, 1.F);
+        if (seed.uniform() > 0.15F + std::max(0.85F * on_tongue(scene, position), 0.5F * trunk))
+          return;
         const int steps = 3 * (2 + static_cast<int>(seed.uniform() * 4.F));
         const std::vector<glm::vec2> positions =
             trace_ice(scene, flow, position, 7.F * scene.scale(), steps);

@@ -27,7 +27,7 @@ void strew_rubble(const StrokeScene& scene, const IceWay& way, std::size_t k, st
         2.F * (static_cast<float>(strand) + 0.5F) / static_cast<float>(strands) - 1.F;
     const glm::vec2 apart = from + glm::vec2(900.F * scale * static_cast<float>(strand), 0.F);
     const float wander = sheet_noise(scene, apart, Stream::rubble_places, 16.0);
-    const float middle = strands > 1 ? 0.50F * slot + 0.40F * wander : 0.12F * wander;
+    const float middle = strands > 1 ? 0.66F * slot + 0.36F * wander : 0.12F * wander;
     const float spread = strands > 1 ? 0.34F : 0.7F;
     const float heap = std::clamp(
         0.75F + 0.55F * sheet_noise(scene, apart, Stream::rubble_places, 7.0) + 0.25F * wander,
@@ -80,7 +80,7 @@ std::vector<Stroke> glacier_moraines(const StrokeScene& scene, Stream stream) {
         band.point_count = 4;
         for (std::size_t j = 0; j < 4; ++j) band.points[j] = way_place(scene, way, k + j);
         const float seen = glm::length(way.across[k]);
-        const float dirty = 0.04F + 0.06F * std::min(1.F, static_cast<float>(k) / 25.F);
+        const float dirty = 0.06F + 0.09F * std::min(1.F, static_cast<float>(k) / 25.F);
         take_brush(band, scene, std::max(1.2F, 3.6F * way.half_width[k] * seen),
                    {.taper = 0.95F,
                     .alpha = dirty,
