@@ -91,6 +91,15 @@ float standing_bed(double altitude_m, double east_m, double north_m, float metre
   return at < back ? own + (height(number - 1.0F) - own) * (1.0F - at / back) : own;
 }
 
+std::optional<float> clings_deg(LandCoverClass id, float close) {
+  if (id == Class::snow) return 0.0F;
+  if (close <= 0.0F) return std::nullopt;
+  if (id == Class::glacier) return 2.0F;
+  if (id == Class::scree) return 1.0F;
+  if (id == Class::alpine_grass || id == Class::pasture || id == Class::shrub) return 3.0F;
+  return std::nullopt;
+}
+
 LandCoverClass rock_border(const RockPosition& position) {
   const float r = position.rock;
   const float edge = 1.0F - 0.6F * std::abs(2.0F * r - 1.0F);
@@ -104,19 +113,19 @@ LandCoverClass rock_border(const RockPosition& position) {
     if (position.snow > 0.30F && position.snow > position.turf) return Class::snow;
     return under < 0.35F ? Class::rock : Class::scree;
   }
-  if (position.mapped == Class::snow ||
-      (position.mapped == Class::glacier && position.close > 0.0F)) {
-    // Near snow stays in the hollows of a wall and leaves its ribs.
-    // Ice holds where snow does not.
-    const float mapped_deg = position.slope_deg - (position.mapped == Class::glacier ? 2.0F : 0.0F);
-    const float slope_deg =
-        mapped_deg + position.close * (3.0F * std::clamp(position.funnel, -1.5F, 1.5F) +
-                                       4.5F * std::clamp(position.wall, -1.5F, 1.2F));
+  if (const std::optional<float> clings = clings_deg(position.mapped, position.close)) {
+    // Near snow, stones and turf stay in the hollows of a wall and leave its ribs.
+    const float slope_deg = position.slope_deg - *clings +
+                            position.close * (3.0F * std::clamp(position.funnel, -1.5F, 1.5F) +
+                                              4.5F * std::clamp(position.wall, -1.5F, 1.2F));
     const float from_deg = steep_snow_deg(position.close);
-    const float bare = smoothstep(from_deg, bare_snow_deg - 9.0F * position.close, slope_deg);
+    float bare = smoothstep(from_deg, bare_snow_deg - 9.0F * position.close, slope_deg);
+    // In turf no lone splinters.
+    if (is_turf(position.mapped)) bare *= smoothstep(0.45F, 0.80F, bare);
     const float far_out = m + bare_share * bare;
     // The barer a wall, the broader its ribs.
-    const float near_out = r + bare * (0.42F + 0.75F * position.rib) + 0.25F * position.stands;
+    const float near_out = r + bare * (0.42F + 0.75F * position.rib) + 0.25F * position.stands +
+                           0.15F * position.bedded * position.bed;
     if (far_out + position.close * (near_out - far_out) > becomes_rock) return Class::rock;
   }
   return gives_way(position.mapped) && m > becomes_rock ? Class::rock : position.mapped;

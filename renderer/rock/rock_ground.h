@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/vec2.hpp>
+#include <optional>
 
 #include "base/grid.h"
 #include "base/land_cover_class.h"
@@ -47,5 +48,8 @@ float standing_bed(double altitude_m, double east_m, double north_m, float metre
 // Slope of snow, degrees, from which crests of rock may show, however far other rock is. Near walls
 // are steeper than elevation data of their cell size can tell.
 constexpr float steep_snow_deg(float close) { return 34.0F - 10.0F * close; }
+// How much steeper ground of a class is where crests of rock show: turf and ice cling. None where
+// no slope lays rock bare.
+std::optional<float> clings_deg(LandCoverClass id, float close);
 
 }  // namespace belvedere

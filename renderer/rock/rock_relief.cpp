@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -45,9 +46,9 @@ bool has_turf_border(LandCoverClass id) {
 bool may_be_bare(const GuidanceBuffers& g, std::size_t i, double pixels_per_unit) {
   const LandCoverClass id = g.land_cover[i];
   const float close = close_share(g.footprint_m[i] * static_cast<float>(pixels_per_unit));
-  if (id != LandCoverClass::snow && (id != LandCoverClass::glacier || close <= 0.0F))
-    return id == LandCoverClass::rock;
-  return g.slope_deg[i] > steep_snow_deg(close) - 10.0F * close;
+  const std::optional<float> clings = clings_deg(id, close);
+  if (!clings) return id == LandCoverClass::rock;
+  return g.slope_deg[i] > steep_snow_deg(close) + *clings - 4.0F * close;
 }
 
 // The bounding rectangle of the window's pixels with rock around.

@@ -85,6 +85,16 @@ TEST(RockGround, RibsOfNearWallsShowInSnow) {
   EXPECT_EQ(of_ice(38.0F, 1.0F), rock);
   EXPECT_EQ(of_ice(38.0F, 0.0F), glacier);
   EXPECT_EQ(of_ice(24.0F, 1.0F), glacier);
+  // Turf clings to steeper ground, and none of this is so from afar.
+  for (const LandCoverClass id : {scree, alpine_grass, pasture, shrub}) {
+    const auto of = [&](float slope_deg, float rib, float close) {
+      return rock_border({.mapped = id, .slope_deg = slope_deg, .close = close, .rib = rib});
+    };
+    EXPECT_EQ(of(42.0F, 0.9F, 1.0F), rock);
+    EXPECT_EQ(of(42.0F, 0.0F, 1.0F), id);
+    EXPECT_EQ(of(31.0F, 0.9F, 1.0F), id);
+    EXPECT_EQ(of(42.0F, 0.9F, 0.0F), id);
+  }
 }
 
 // Beds lie one above the other with one dip, and stand out unlike far.

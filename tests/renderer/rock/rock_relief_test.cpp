@@ -51,7 +51,8 @@ double contrast_of(const RockRelief& relief, int first, int end) {
 }
 
 TEST(RockRelief, WhereThereIsNoRockNothingChanges) {
-  const GuidanceBuffers g = test::make_wall(160, 120, 1.0, LandCoverClass::pasture);
+  GuidanceBuffers g = test::make_wall(160, 120, 1.0, LandCoverClass::pasture);
+  for (float& metres : g.footprint_m) metres = 40.0F;
   const RockRelief relief = relief_of(g, parameters_of(1.0));
   EXPECT_TRUE(relief.land_cover == g.land_cover);
   EXPECT_TRUE(relief.fall_line == g.fall_line);
@@ -106,6 +107,40 @@ TEST(RockRelief, OfAPartIsThatOfTheWhole) {
         near.held, {far.held, test::print_factor, {far.rect.x0, far.rect.y0}}, p,
         {near.rect.x0, near.rect.y0}, silent_progress(), moved(kept, -near.rect.x0, -near.rect.y0));
     expect_same(part, cut(whole, kept));
+  }
+}
+
+// Near turf on a wall shows ribs of rock, and interlocks with rock beside it.
+TEST(RockRelief, OfAPartOfNearTurfIsThatOfTheWhole) {
+  GuidanceBuffers g = test::make_wall(1000, 760, 1.0, LandCoverClass::alpine_grass);
+  for (float& metres : g.footprint_m) metres = 8.0F;
+  for (int y = 0; y < g.height(); ++y)
+    for (int x = 0; x < g.width(); ++x) {
+      g.slope_deg(x, y) = x < 500 ? 41.0F : 25.0F;
+      if (x > 500 && y < 360) g.land_cover(x, y) = LandCoverClass::rock;
+    }
+  const RockParameters p = parameters_of(1.0);
+  // Left of x = 500 ribs in steep turf, right of it the border of turf and rock.
+  for (const PixelRect kept : {PixelRect{430, 380, 500, 440}, PixelRect{510, 340, 570, 380}}) {
+    const RockRelief whole =
+        make_rock_relief(g, {g, 1, {0, 0}}, p, {0, 0}, silent_progress(), kept);
+    const auto moved_to = [&](LandCoverClass id) {
+      int count = 0;
+      for (int y = 0; y < kept.height(); ++y)
+        for (int x = 0; x < kept.width(); ++x)
+          count += whole.land_cover(x, y) == id && g.land_cover(kept.x0 + x, kept.y0 + y) != id;
+      return count;
+    };
+    EXPECT_GT(moved_to(LandCoverClass::rock), kept.width() * kept.height() / 50);
+    if (kept.x0 > 500) {
+      EXPECT_GT(moved_to(LandCoverClass::alpine_grass), kept.width() * kept.height() / 50);
+    }
+    const test::Window near = test::window_of(g, grown(kept, rock_near_margin_px(p)));
+    const test::Window far = test::window_of(g, grown(kept, rock_margin_px(p)));
+    const RockRelief part = make_rock_relief(near.held, {far.held, 1, {far.rect.x0, far.rect.y0}},
+                                             p, {near.rect.x0, near.rect.y0}, silent_progress(),
+                                             moved(kept, -near.rect.x0, -near.rect.y0));
+    expect_same(part, whole);
   }
 }
 
