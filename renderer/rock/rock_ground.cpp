@@ -124,7 +124,7 @@ LandCoverClass rock_border(const RockPosition& position) {
     if (is_turf(position.mapped)) bare *= smoothstep(0.45F, 0.80F, bare);
     const float far_out = m + bare_share * bare;
     // The barer a wall, the broader its ribs.
-    const float near_out = r + bare * (0.42F + 0.75F * position.rib) + 0.25F * position.stands +
+    const float near_out = r + bare * (0.42F + 0.75F * position.rib) + 0.50F * position.stands +
                            0.15F * position.bedded * position.bed;
     if (far_out + position.close * (near_out - far_out) > becomes_rock) return Class::rock;
   }

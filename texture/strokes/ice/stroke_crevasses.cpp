@@ -128,6 +128,15 @@ void break_cliff(const Ice& ice, StrokeSeed& seed, std::vector<Stroke>& out) {
   const float tall = seed.between(2.2F, 5.6F);
   const float aside = 0.22F * reach * seed.normal();
   const float bow = seed.between(0.5F, 3.F);  // the middle moves ahead, units
+  // Broken ice is blue between its cliffs.
+  Stroke veil = ice_stroke(scene, ice.here, seed);
+  lay_bow(veil,
+          way_place(scene, ice.field, ice.k) + ice.across * (aside * scale) +
+              ice.down * (0.5F * tall * scale),
+          ice.across, ice.down, 2.F * reach * scale, bow * scale);
+  take_brush(veil, scene, 1.7F * tall, {.taper = 0.8F, .alpha = 0.3F, .bristle = 0.25F});
+  veil.colour = ice.blue(-0.75F, depth_of_ice, seed);
+  out.push_back(veil);
   float at = -reach * seed.between(0.55F, 1.F);
   const float last = reach * seed.between(0.55F, 1.F);
   float step = 0.F;  // of the row up or down here, units
