@@ -39,11 +39,13 @@
 #include "terrain/cover/rule_program.h"
 #include "terrain/cover/town_file.h"
 #include "terrain/fetch/map_source.h"
+#include "terrain/io/crs.h"
 #include "terrain/io/csv.h"
 #include "terrain/io/dem.h"
 #include "terrain/io/features.h"
 #include "terrain/layers/fit/colour_regions.h"
 #include "terrain/layers/layers_file.h"
+#include "terrain/register/control_pairs.h"
 #include "texture/composite/composite_model.h"
 #include "texture/sheet/synthesis_plan.h"
 #include "texture/statistical/model_file.h"
@@ -150,6 +152,12 @@ void read_terrain(const std::string& path) {
   parameters.crs = crs;
   parameters.cell_m = 100.0;
   read_dem(parameters, silent_progress());
+}
+
+void read_pairs(const std::string& path) {
+  static const Dem dem = make_dem(
+      {Grid<float>(40, 40, 1000.F), {666000.0, 5250000.0, 300.0, 300.0}, normalize_crs(crs)});
+  read_control_pairs(path, {1200, 550}, dem);
 }
 
 void read_painting_file(const std::string& path) {
@@ -262,6 +270,7 @@ const std::vector<FuzzTarget>& fuzz_targets() {
        of_file("towns.csv", [](auto& path) { read_towns(path, crs, silent_progress()); })},
       {"stations", "",
        of_file("stations.csv", [](auto& path) { read_stations(path, crs, silent_progress()); })},
+      {"control_pairs", "", of_file("pairs.csv", read_pairs)},
       {"sheet_plan", "data/sheet/plan.toml", read_sheet_plan},
       {"needed_texels", "data/sheet/needed_texels.toml",
        [](auto& text) { parse_needed_texels(text, "needed.toml"); }},

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace belvedere {
+
+// A small dense matrix of doubles, by rows, for problems with up to a few hundred unknowns. Plain
+// loops in a fixed order, so results have the same bits on every machine.
+class Matrix {
+ public:
+  Matrix() = default;
+  Matrix(std::size_t rows, std::size_t columns, double value = 0.0)
+      : rows_(rows), columns_(columns), values_(rows * columns, value) {}
+
+  std::size_t rows() const { return rows_; }
+  std::size_t columns() const { return columns_; }
+  double& operator()(std::size_t row, std::size_t column) {
+    return values_[row * columns_ + column];
+  }
+  double operator()(std::size_t row, std::size_t column) const {
+    return values_[row * columns_ + column];
+  }
+  std::span<double> row(std::size_t row) {
+    return std::span(values_).subspan(row * columns_, columns_);
+  }
+  std::span<const double> row(std::size_t row) const {
+    return std::span(values_).subspan(row * columns_, columns_);
+  }
+
+ private:
+  std::size_t rows_ = 0;
+  std::size_t columns_ = 0;
+  std::vector<double> values_;
+};
+
+Matrix transposed(const Matrix& a);
+Matrix product(const Matrix& a, const Matrix& b);
+std::vector<double> product(const Matrix& a, std::span<const double> x);
+// aᵀ a and aᵀ x.
+Matrix normal_matrix(const Matrix& a);
+std::vector<double> product_transposed(const Matrix& a, std::span<const double> x);
+
+// A symmetric positive definite matrix as L Lᵀ, L lower triangular, for solving equations with it.
+class Cholesky {
+ public:
+  // Reads the lower triangle. Nothing if the matrix is not positive definite to working precision.
+  static std::optional<Cholesky> of(Matrix a);
+
+  // L⁻¹ x: uncorrelated and of deviation 1 if the matrix is the covariance of x.
+  std::vector<double> whitened(std::span<const double> x) const;
+  // L⁻¹ times each column.
+  Matrix whitened(const Matrix& a) const;
+  // The matrix's inverse times x, or times each column.
+  std::vector<double> solve(std::span<const double> x) const;
+  Matrix solve(const Matrix& a) const;
+  Matrix inverse() const;
+
+ private:
+  explicit Cholesky(Matrix lower) : lower_(static_cast<Matrix&&>(lower)) {}
+  void substitute_forward(std::span<double> x) const;
+  void substitute_back(std::span<double> x) const;
+
+  Matrix lower_;
+};
+
+}  // namespace belvedere

@@ -1,0 +1,128 @@
+#include "terrain/register/control_pairs.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+#include "base/error.h"
+#include "base/filter.h"
+#include "terrain/io/crs.h"
+#include "terrain/io/csv.h"
+
+namespace belvedere {
+namespace {
+
+struct PairColumns {
+  int x, y, longitude, latitude, name, sure;  // sure: -1 if there is none
+};
+
+PairColumns pair_columns(const CsvTable& table) {
+  const auto column = [&](const char* name) {
+    const int found = table.find(name);
+    if (found < 0)
+      throw Error(ErrorKind::usage, table.name + ":1",
+                  fmt::format("no column {}; it has {}", name, fmt::join(table.columns, ", ")),
+                  "x_px, y_px, lon, lat, name, and optionally sure");
+    return found;
+  };
+  return {column("x_px"), column("y_px"), column("lon"),
+          column("lat"),  column("name"), table.find("sure")};
+}
+
+// Reads one row; errors name its line and column.
+class PairRow {
+ public:
+  PairRow(const CsvTable& table, const CsvTable::Row& row) : table_(table), row_(row) {}
+
+  const std::string& text(int column) const {
+    return row_.fields[static_cast<std::size_t>(column)];
+  }
+  double number(int column, double lowest, double highest) const {
+    const std::string& field = text(column);
+    double value = 0.0;
+    const auto [stop, problem] = std::from_chars(field.data(), field.data() + field.size(), value);
+    if (problem != std::errc() || stop != field.data() + field.size() ||
+        !(value >= lowest && value <= highest))
+      refuse(column, fmt::format("\"{}\"", field),
+             fmt::format("a number, {} … {}, with a decimal point", lowest, highest));
+    return value;
+  }
+  bool sure(int column) const {
+    if (column < 0 || text(column).empty() || text(column) == "0") return false;
+    if (text(column) != "1")
+      refuse(column, fmt::format("\"{}\"", text(column)), "1, or 0 or empty if not sure");
+    return true;
+  }
+  [[noreturn]] void refuse(int column, const std::string& found, const std::string& allowed) const {
+    throw Error(ErrorKind::usage, fmt::format("{}:{}", table_.name, row_.line),
+                fmt::format("{} is {}", table_.columns[static_cast<std::size_t>(column)], found),
+                allowed);
+  }
+
+ private:
+  const CsvTable& table_;
+  const CsvTable::Row& row_;
+};
+
+double altitude_of_pair(const Dem& dem, glm::dvec2 position, const PairRow& row, int column) {
+  const glm::dvec2 cell = dem.transform.to_cell(position.x, position.y);
+  if (!(cell.x >= 0.0 && cell.y >= 0.0 && cell.x <= dem.width() - 1.0 &&
+        cell.y <= dem.height() - 1.0))
+    row.refuse(column, row.text(column) + ", which lies outside the DEM",
+               "a place within it; longitude before latitude");
+  const int x = static_cast<int>(std::lround(cell.x));
+  const int y = static_cast<int>(std::lround(cell.y));
+  if (!dem.filled.empty() && dem.filled(x, y) != 0)
+    row.refuse(column, row.text(column) + ", where the DEM has no data", "a place with data");
+  return static_cast<double>(sample_bilinear(dem.altitude_m, cell.x, cell.y));
+}
+
+void refuse_double(const std::vector<ControlPair>& pairs, const ControlPair& pair,
+                   const PairRow& row, int column) {
+  for (const ControlPair& other : pairs)
+    if (other.pixel == pair.pixel && other.position == pair.position)
+      row.refuse(column, fmt::format("{}, as in line {}: the same pair", row.text(column), other.line),
+                 "each pair once");
+}
+
+}  // namespace
+
+std::vector<ControlPair> read_control_pairs(const std::string& path, glm::ivec2 painting_px,
+                                            const Dem& dem) {
+  if (dem.crs.empty())
+    throw Error(ErrorKind::usage, path, "has longitudes and latitudes, but the DEM has no CRS",
+                "a DEM with a CRS");
+  const CsvTable table = read_csv(path);
+  const PairColumns columns = pair_columns(table);
+  std::vector<ControlPair> pairs;
+  std::vector<glm::dvec2> positions;
+  for (const CsvTable::Row& fields : table.rows) {
+    const PairRow row(table, fields);
+    positions.emplace_back(row.number(columns.longitude, -180.0, 180.0),
+                           row.number(columns.latitude, -90.0, 90.0));
+  }
+  PointTransform(normalize_crs("EPSG:4326"), dem.crs).apply(positions);
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const PairRow row(table, table.rows[i]);
+    ControlPair pair;
+    pair.line = table.rows[i].line;
+    pair.pixel = {row.number(columns.x, 0.0, painting_px.x),
+                  row.number(columns.y, 0.0, painting_px.y)};
+    pair.position = positions[i];
+    pair.altitude_m = altitude_of_pair(dem, pair.position, row, columns.longitude);
+    pair.name = row.text(columns.name);
+    pair.sure = row.sure(columns.sure);
+    refuse_double(pairs, pair, row, columns.x);
+    pairs.push_back(std::move(pair));
+  }
+  if (pairs.size() < least_control_pairs)
+    throw Error(ErrorKind::usage, path, fmt::format("{} pairs", pairs.size()),
+                fmt::format("{} or more, spread over the painting; 40 are good",
+                            least_control_pairs));
+  return pairs;
+}
+
+}  // namespace belvedere

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <string>
+#include <vector>
+
+#include "terrain/io/dem.h"
+
+namespace belvedere {
+
+// A place that somebody recognizes in a painting.
+struct ControlPair {
+  glm::dvec2 pixel{0.0};     // x right, y down, (0, 0) the outer corner of the top-left pixel
+  glm::dvec2 position{0.0};  // of the ground, in the DEM's CRS
+  double altitude_m = 0.0;   // of the DEM there
+  std::string name = {};     // may be empty
+  bool sure = false;         // never taken for wrong
+  int line = 0;              // of the file
+};
+
+// Fewer pairs cannot tell a view from chance.
+constexpr std::size_t least_control_pairs = 8;
+
+// The rows of a CSV file with columns x_px, y_px, lon, lat (degrees), name and optionally sure
+// (1: never taken for wrong; 0 or empty). Error(usage) naming line and column for a missing column,
+// text that is no number, a pixel outside the painting, a place outside the DEM or in a void that
+// was filled, a pair that is there twice, and fewer than least_control_pairs.
+std::vector<ControlPair> read_control_pairs(const std::string& path, glm::ivec2 painting_px,
+                                            const Dem& dem);
+
+}  // namespace belvedere
