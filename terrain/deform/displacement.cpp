@@ -1,0 +1,155 @@
+#include "terrain/deform/displacement.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "base/error.h"
+#include "base/math.h"
+#include "base/math_exact.h"
+
+namespace belvedere {
+namespace {
+
+// Beyond so many lengths the kernel is below 1e-13, beyond so many reaches a weight below 1e-14.
+constexpr double farthest_lengths = 19.0;
+constexpr double farthest_reaches = 8.0;
+
+double square_distance(glm::dvec2 a, glm::dvec2 b) { return square(a.x - b.x) + square(a.y - b.y); }
+
+double matern(double square_of_lengths) {
+  if (square_of_lengths > square(farthest_lengths)) return 0.0;
+  const double t = std::sqrt(3.0 * square_of_lengths);
+  return (1.0 + t) * exact::exp(-t);
+}
+
+// m_j².
+double square_beyond_noise(const DisplacementParameters& parameters, const DisplacedPlace& place) {
+  constexpr double noise_factor = 1.5;
+  const double moved = 0.5 * (square(place.moved.lateral_m) + square(place.moved.upward_m));
+  const double noise = 0.5 * (square(place.noise.lateral_m) + square(place.noise.upward_m));
+  return std::clamp(moved - square(noise_factor) * noise, 0.0, square(parameters.most_m));
+}
+
+void check_displacement(const DisplacementParameters& p) {
+  const auto require = [](bool holds, const std::string& where, double value, const char* allowed) {
+    if (!holds) throw Error(ErrorKind::usage, where, fmt::format("{}", value), allowed);
+  };
+  constexpr double most_m = 1e5, farthest_m = 1e7;
+  const auto length = [&](const char* name, double value) {
+    require(value > 0.0 && value <= farthest_m, name, value, "metres, more than 0, up to 1e7");
+  };
+  length("length_m", p.length_m);
+  length("reach_m", p.reach_m);
+  length("still_m", p.still_m);
+  length("most_m", p.most_m);
+  for (std::size_t i = 0; i < p.places.size(); ++i) {
+    const DisplacedPlace& place = p.places[i];
+    const std::string where = fmt::format("places.{}", i);
+    for (const double value : {place.moved.lateral_m, place.moved.upward_m})
+      require(std::abs(value) <= most_m, where, value, "a displacement of -1e5 to 1e5 m");
+    for (const double value : {place.noise.lateral_m, place.noise.upward_m})
+      require(value > 0.0 && value <= most_m, where, value, "noise of more than 0, up to 1e5 m");
+  }
+}
+
+Cholesky with_noise(Matrix covariance, const std::vector<DisplacedPlace>& places,
+                    double Displacement::*part) {
+  for (std::size_t i = 0; i < places.size(); ++i) covariance(i, i) += square(places[i].noise.*part);
+  std::optional<Cholesky> factors = Cholesky::of(std::move(covariance));
+  if (!factors)
+    throw Error(ErrorKind::usage, "places", "two of them are the same place without noise",
+                "different places, or more noise");
+  return *std::move(factors);
+}
+
+std::vector<double> parts_of(const std::vector<DisplacedPlace>& places,
+                             double Displacement::*part) {
+  std::vector<double> out;
+  for (const DisplacedPlace& place : places) out.push_back(place.moved.*part);
+  return out;
+}
+
+}  // namespace
+
+double displacement_size_m(const DisplacementParameters& parameters, glm::dvec2 position,
+                           std::optional<std::size_t> without) {
+  constexpr double weight_of_still = 0.15;
+  double weights = weight_of_still;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < parameters.places.size(); ++i) {
+    const DisplacedPlace& place = parameters.places[i];
+    const double distance2 =
+        square_distance(position, place.position) / square(parameters.reach_m);
+    if (distance2 > square(farthest_reaches) || i == without) continue;
+    const double weight = exact::exp(-0.5 * distance2);
+    weights += weight;
+    sum += weight * square_beyond_noise(parameters, place);
+  }
+  return std::sqrt(square(parameters.still_m) + sum / weights);
+}
+
+Matrix displacement_covariance(const DisplacementParameters& parameters) {
+  const std::vector<DisplacedPlace>& places = parameters.places;
+  std::vector<double> size;
+  for (const DisplacedPlace& place : places)
+    size.push_back(displacement_size_m(parameters, place.position));
+  Matrix out(places.size(), places.size());
+  for (std::size_t i = 0; i < places.size(); ++i)
+    for (std::size_t k = 0; k < places.size(); ++k)
+      out(i, k) = size[i] * size[k] *
+                  matern(square_distance(places[i].position, places[k].position) /
+                         square(parameters.length_m));
+  return out;
+}
+
+DisplacementField::DisplacementField(DisplacementParameters parameters)
+    : parameters_(std::move(parameters)) {
+  if (parameters_.places.empty()) return;
+  check_displacement(parameters_);
+  const std::vector<DisplacedPlace>& places = parameters_.places;
+  for (const DisplacedPlace& place : places)
+    sizes_m_.push_back(displacement_size_m(parameters_, place.position));
+  const Matrix covariance = displacement_covariance(parameters_);
+  lateral_covariance_ = with_noise(covariance, places, &Displacement::lateral_m);
+  upward_covariance_ = with_noise(covariance, places, &Displacement::upward_m);
+  lateral_ = lateral_covariance_->solve(parts_of(places, &Displacement::lateral_m));
+  upward_ = upward_covariance_->solve(parts_of(places, &Displacement::upward_m));
+}
+
+std::vector<double> DisplacementField::covariance_with(glm::dvec2 position) const {
+  const double size = displacement_size_m(parameters_, position);
+  std::vector<double> out;
+  for (std::size_t i = 0; i < parameters_.places.size(); ++i)
+    out.push_back(size * sizes_m_[i] *
+                  matern(square_distance(position, parameters_.places[i].position) /
+                         square(parameters_.length_m)));
+  return out;
+}
+
+Displacement DisplacementField::at(glm::dvec2 position) const {
+  Displacement out;
+  const std::vector<double> covariance = covariance_with(position);
+  for (std::size_t i = 0; i < covariance.size(); ++i) {
+    out.lateral_m += covariance[i] * lateral_[i];
+    out.upward_m += covariance[i] * upward_[i];
+  }
+  return out;
+}
+
+Displacement DisplacementField::deviation(glm::dvec2 position) const {
+  if (is_identity()) return {};
+  const std::vector<double> covariance = covariance_with(position);
+  const double whole = square(displacement_size_m(parameters_, position));
+  const auto left = [&](const Cholesky& factors) {
+    double known = 0.0;
+    for (const double v : factors.whitened(covariance)) known += v * v;
+    return std::sqrt(std::max(whole - known, 0.0));
+  };
+  return {left(*lateral_covariance_), left(*upward_covariance_)};
+}
+
+}  // namespace belvedere

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <glm/vec2.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "terrain/deform/displacement.h"
+#include "terrain/register/control_pairs.h"
+#include "terrain/register/fit_view.h"
+
+namespace belvedere {
+
+struct RegistrationParameters {
+  FitViewParameters view;
+  std::optional<double> sigma_px;  // how exactly pixels were clicked, of the painting, standard
+                                   // deviation, 0.1…100; absent: estimated
+};
+
+// What becomes of a pair.
+struct PairFinding {
+  bool wrong = false;      // thrown out
+  bool doubted = false;    // as far off as a wrong one, but sure
+  double view_px = 0.0;    // its distance from the view alone, in pixels of the painting
+  double others_px = 0.0;  // from where all other pairs say that it is
+  double deviations = 0.0;  // the same in standard deviations, as if it alone said that its ground
+                            // was moved
+  double nearest_m = 0.0;   // to the nearest pair that was kept
+  std::size_t near_by = 0;  // kept pairs that tell how far its ground was moved
+};
+
+// The place of every pixel of a painting, as a view and a displacement of the ground.
+struct Registration {
+  double scale = 1.0;  // pixels of the painting per pixel of `frame`, which is 1200 px wide
+  ViewFrame frame;
+  ViewUnknowns view = {};
+  DisplacementParameters displacement;
+  double sigma_px = 0.0;  // of clicks, in pixels of the painting: as given, or estimated
+  std::vector<PairFinding> findings;  // of all pairs, in their order
+  std::vector<FittedView> kinds;      // the views from the pairs alone, best first
+};
+
+// Finds the view, and then where the painter moved the ground: kriging of the residuals over the
+// map, with the view fitted again under its covariance, so that moved ground does not pull at it.
+// Pairs are judged by what the others say (leave_out), thrown out worst first, a quarter of all at
+// most; a pair must not vouch for itself, so the size of the displacement there is taken without
+// it. Throws Error(usage) for values out of range.
+Registration register_pairs(std::span<const ControlPair> pairs, glm::ivec2 painting_px,
+                            const RegistrationParameters& parameters = {});
+
+// The painting's pixel that shows a place.
+glm::dvec2 registered_pixel(const Registration& registration, const DisplacementField& field,
+                            glm::dvec2 position, double altitude_m);
+
+}  // namespace belvedere

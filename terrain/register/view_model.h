@@ -1,0 +1,88 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "base/matrix/dual.h"
+#include "terrain/deform/displacement.h"
+#include "terrain/register/control_pairs.h"
+
+namespace belvedere {
+
+// How a painter may have seen the land, in numbers that pairs can tell. The true camera is not
+// looked for: height of the eye, bend, pitch and horizon trade off exactly. Instead two curves of
+// distance give the direction of a place (E, N, z), d its horizontal distance from the eye, L the
+// extent of the pairs, x = d / L, b the valleys' altitude:
+//   azimuth  a = atan2(E - Ex, N - Ny) + s / d              s, h: what it is displaced, m
+//   tangent  t = (e(d) (z - b) - D(d) + h) / d              of its elevation
+//   e(d) = e0 + e1 ln x + e2 ln² x                          vertical exaggeration
+//   D(d) / L = D0 + D1 x + D2 x² + Σ c_k max(0, x - x_k)³   eye above b, and bend, in one
+// A camera takes p = a - azimuth and t to pixels, f in pixels, (cx, cy) the middle:
+//   cylinder  u = cx + f p              v = cy - f t
+//   panini    u = cx + f S sin p        v = cy - f S t       S = 2 / (1 + cos p)
+//   plane     u = cx + f sin p / w      v = cy - f (t cos q - sin q cos p) / w
+//             w = cos q cos p + t sin q, q the pitch
+enum class ViewKind : std::uint8_t { cylinder, panini, plane };
+std::string_view view_kind_name(ViewKind kind);  // as in `camera.projection`
+
+namespace view_unknown {
+constexpr std::size_t east = 0, north = 1;  // of the eye from the origin, in L
+constexpr std::size_t azimuth = 2;          // of the middle, rad
+constexpr std::size_t log_focal = 3;        // ln f
+constexpr std::size_t pitch = 4;            // q, rad; of a plane alone
+constexpr std::size_t exaggeration = 5;     // e0, e1, e2
+constexpr std::size_t drop = 8;             // D0, D1, D2
+constexpr std::size_t bend = 11;            // c_k
+constexpr std::size_t middle = 14;          // cx, cy from the picture's centre, in its width
+constexpr std::size_t count = 16;
+}  // namespace view_unknown
+constexpr std::array<double, 3> view_knots = {0.4, 0.8, 1.2};  // x_k
+
+using ViewUnknowns = std::array<double, view_unknown::count>;
+using ViewNumber = Dual<view_unknown::count>;
+
+// What is known of a view before its unknowns.
+struct ViewFrame {
+  ViewKind kind = ViewKind::cylinder;
+  glm::dvec2 size_px{0.0};  // of the picture
+  glm::dvec2 origin{0.0};   // mean of the pairs' places, CRS
+  double extent_m = 1.0;    // L
+  double valley_m = 0.0;    // b: a tenth of the pairs lies lower
+  bool cropped = false;     // the middle may lie beside the picture's centre
+};
+// Of pairs; at least one.
+ViewFrame view_frame(ViewKind kind, glm::dvec2 size_px, bool cropped,
+                     std::span<const ControlPair> pairs);
+
+// Distance of a place from the eye, m; at least a fiftieth of L.
+double view_distance_m(const ViewFrame& frame, const ViewUnknowns& view, glm::dvec2 position);
+// The factors of e0, e1, e2, D0, D1, D2, c_k in a place's tangent.
+std::array<double, 9> tangent_factors(const ViewFrame& frame, double distance_m, double altitude_m);
+// e(d) and D(d) - L D0 …: the curves themselves.
+double view_exaggeration(const ViewFrame& frame, const ViewUnknowns& view, double distance_m);
+double view_drop_m(const ViewFrame& frame, const ViewUnknowns& view, double distance_m);
+
+struct ViewPixel {
+  ViewNumber u, v;
+};
+// The pixel of a place, with derivatives.
+ViewPixel project_in_view(const ViewFrame& frame, const ViewUnknowns& view, glm::dvec2 position,
+                          double altitude_m, const Displacement& displaced = {});
+
+// How far a pair's place is displaced if its pixel shows it, with derivatives, and the pixels that
+// a metre of both takes up.
+struct ViewDisplacement {
+  ViewNumber lateral_m, upward_m;
+  Displacement px_per_m;
+};
+ViewDisplacement displacement_in_view(const ViewFrame& frame, const ViewUnknowns& view,
+                                      const ControlPair& pair);
+
+// What pairs cannot tell must not run away: residuals in standard deviations.
+std::vector<ViewNumber> view_priors(const ViewFrame& frame, const ViewUnknowns& view);
+
+}  // namespace belvedere

@@ -1,0 +1,123 @@
+#include "terrain/register/registration.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "base/error.h"
+#include "base/math.h"
+#include "base/random.h"
+#include "base/statistics.h"
+#include "tests/terrain/register/made_up_view.h"
+
+namespace belvedere {
+namespace {
+
+constexpr glm::dvec2 moved_centre(686000.0, 5256000.0);
+
+// Ground within 6 km of a place is 600 m to the right and 200 m up, less towards the edge.
+Displacement moved_at(glm::dvec2 position) {
+  const double share = 1.0 - smoothstep(3000.0, 6000.0, glm::length(position - moved_centre));
+  return {600.0 * share, 200.0 * share};
+}
+
+// Pairs with noise; if `moved`, on ground that is moved in part.
+std::vector<ControlPair> painted_pairs(std::size_t count, double sigma_px, bool moved,
+                                       test::MadeUpView& truth) {
+  std::vector<ControlPair> pairs = test::made_up_places(count);
+  truth = test::made_up_view(ViewKind::plane, pairs);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const auto n = static_cast<std::int64_t>(i);
+    pairs[i].pixel = test::pixel_of(truth, pairs[i],
+                                    moved ? moved_at(pairs[i].position) : Displacement{});
+    pairs[i].pixel.x += sigma_px * random_normal(5, n, 0);
+    pairs[i].pixel.y += sigma_px * random_normal(5, n, 1);
+  }
+  return pairs;
+}
+
+// Distances of places that are not among the pairs, px.
+std::vector<double> distances_px(const Registration& found, const test::MadeUpView& truth,
+                                 bool moved, bool inside) {
+  const DisplacementField field(found.displacement);
+  std::vector<double> out;
+  for (const ControlPair& place : test::made_up_places(400, 77)) {
+    if ((glm::length(place.position - moved_centre) < 4000.0) != inside) continue;
+    const glm::dvec2 true_pixel = found.scale * test::pixel_of(truth, place,
+                                                 moved ? moved_at(place.position) : Displacement{});
+    out.push_back(glm::length(
+        registered_pixel(found, field, place.position, place.altitude_m) - true_pixel));
+  }
+  return out;
+}
+
+std::size_t count_wrong(const Registration& found) {
+  return static_cast<std::size_t>(std::count_if(found.findings.begin(), found.findings.end(),
+                                                [](const PairFinding& f) { return f.wrong; }));
+}
+
+TEST(Registration, ExactPairsOfStillGroundAreAllKept) {
+  test::MadeUpView truth;
+  const std::vector<ControlPair> pairs = painted_pairs(40, 0.0, false, truth);
+  const Registration found = register_pairs(pairs, {1200, 550});
+  EXPECT_EQ(count_wrong(found), 0U);
+  EXPECT_EQ(found.frame.kind, ViewKind::plane);
+  const std::vector<double> off = distances_px(found, truth, false, false);
+  EXPECT_LT(*std::max_element(off.begin(), off.end()), 0.2);
+  for (const PairFinding& finding : found.findings) EXPECT_LT(finding.others_px, 0.5);
+}
+
+TEST(Registration, GroundThatWasMovedIsFollowedAndTheRestStaysStill) {
+  test::MadeUpView truth;
+  const std::vector<ControlPair> pairs = painted_pairs(120, 1.0, true, truth);
+  const Registration found = register_pairs(pairs, {1200, 550}, {.view = {}, .sigma_px = 1.0});
+  EXPECT_LE(count_wrong(found), 1U);
+  // The view alone is 15 px off inside.
+  EXPECT_LT(median(distances_px(found, truth, true, true)), 4.0);
+  EXPECT_LT(median(distances_px(found, truth, true, false)), 1.2);
+  const Displacement there = DisplacementField(found.displacement).at(moved_centre);
+  EXPECT_NEAR(there.lateral_m, 600.0, 120.0);
+  EXPECT_NEAR(there.upward_m, 200.0, 100.0);
+}
+
+TEST(Registration, WrongPairsAreFoundAndSureOnesAreKept) {
+  test::MadeUpView truth;
+  std::vector<ControlPair> pairs = painted_pairs(40, 2.0, false, truth);
+  for (const std::size_t i : {3U, 12U, 20U, 33U}) pairs[i].pixel += glm::dvec2(90.0, -40.0);
+  pairs[20].sure = true;
+  const Registration found = register_pairs(pairs, {1200, 550});
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    EXPECT_EQ(found.findings[i].wrong, i == 3 || i == 12 || i == 33) << i;
+    EXPECT_EQ(found.findings[i].doubted, i == 20) << i;
+  }
+  EXPECT_GT(found.findings[3].others_px, 60.0);
+  EXPECT_GT(found.findings[20].deviations, 5.0);
+}
+
+TEST(Registration, NoiseIsEstimatedUnlessItIsGiven) {
+  test::MadeUpView truth;
+  const std::vector<ControlPair> coarse = painted_pairs(40, 6.0, false, truth);
+  EXPECT_GE(register_pairs(coarse, {1200, 550}).sigma_px, 4.5);
+  const std::vector<ControlPair> fine = painted_pairs(40, 1.0, false, truth);
+  EXPECT_LE(register_pairs(fine, {1200, 550}).sigma_px, 2.0);
+  EXPECT_EQ(register_pairs(fine, {1200, 550}, {.view = {}, .sigma_px = 4.0}).sigma_px, 4.0);
+  EXPECT_THROW(register_pairs(fine, {1200, 550}, {.view = {}, .sigma_px = 0.0}), Error);
+}
+
+TEST(Registration, APaintingFourTimesAsLargeIsTheSame) {
+  test::MadeUpView truth;
+  std::vector<ControlPair> pairs = painted_pairs(40, 2.0, true, truth);
+  const Registration small = register_pairs(pairs, {1200, 550});
+  for (ControlPair& pair : pairs) pair.pixel *= 4.0;
+  const Registration large = register_pairs(pairs, {4800, 2200});
+  EXPECT_EQ(small.view, large.view);
+  EXPECT_EQ(large.sigma_px, 4.0 * small.sigma_px);
+  EXPECT_EQ(large.scale, 4.0);
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    EXPECT_NEAR(large.findings[i].others_px, 4.0 * small.findings[i].others_px, 1e-9);
+}
+
+}  // namespace
+}  // namespace belvedere
