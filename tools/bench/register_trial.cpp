@@ -1,0 +1,159 @@
+// How well paintings are registered to their terrain: secret scenes of four regions, pairs with
+// noise and wrong ones, and where 200 other pixels come to lie. Prints a line per run and a table.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <glm/geometric.hpp>
+
+#include "base/error.h"
+#include "base/random.h"
+#include "base/statistics.h"
+#include "terrain/register/registration.h"
+#include "tools/bench/secret_scene.h"
+#include "tools/options/options.h"
+
+namespace belvedere::bench {
+namespace {
+
+struct TrialOptions {
+  std::string data;
+  std::vector<std::string> regions;
+  int scenes = 3;
+  int first = 0;
+  int draws = 3;
+  int count = 40;
+  double sigma_px = 3.0;
+  double wrong = 0.1;
+  bool known = false;
+};
+
+struct Trial {
+  std::vector<double> view_px, all_px, still_px, moved_px;
+  std::size_t wrong = 0, found = 0, good = 0, thrown = 0;
+  double sigma_px = 0.0;
+};
+
+Trial run_trial(const SecretScene& scene, const TrialOptions& options, std::uint64_t seed) {
+  const SecretPairs secret = make_secret_pairs(
+      scene, {static_cast<std::size_t>(options.count), options.sigma_px, options.wrong}, seed);
+  RegistrationParameters parameters;
+  if (options.known) {
+    parameters.sigma_px = 3.0;
+    parameters.view.kinds = {scene.camera.projection == "perspective" ? ViewKind::plane
+                             : scene.camera.projection == "panini"    ? ViewKind::panini
+                                                                      : ViewKind::cylinder};
+  }
+  const glm::ivec2 size(scene.camera.width, scene.camera.height);
+  const Registration found = register_pairs(secret.pairs, size, parameters);
+  const DisplacementField field(found.displacement);
+  const FittedView& alone = found.kinds.front();
+  Trial out;
+  out.sigma_px = found.sigma_px;
+  for (std::size_t i = 0; i < secret.pairs.size(); ++i) {
+    const bool thrown = found.findings[i].wrong;
+    ++(secret.wrong[i] ? out.wrong : out.good);
+    if (thrown) ++(secret.wrong[i] ? out.found : out.thrown);
+  }
+  constexpr std::size_t held_out = 200;
+  for (const SeenPixel& at : seen_pixels(scene, held_out, mix_bits(seed + 3))) {
+    const ViewPixel pixel = project_in_view(alone.frame, alone.view, at.position, at.altitude_m);
+    out.view_px.push_back(glm::length(
+        glm::dvec2(pixel.u.value, pixel.v.value) * found.scale - at.pixel));
+    const double off =
+        glm::length(registered_pixel(found, field, at.position, at.altitude_m) - at.pixel);
+    out.all_px.push_back(off);
+    (scene.on_moved_ground(at.position) ? out.moved_px : out.still_px).push_back(off);
+  }
+  return out;
+}
+
+std::string share(std::size_t part, std::size_t whole) {
+  return fmt::format("{:.0f} %", whole == 0 ? 0.0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole));
+}
+
+void print_table(const std::vector<Trial>& trials) {
+  std::vector<double> view, view_90, all, all_90, still, moved;
+  std::size_t within_3 = 0, within_5 = 0, wrong = 0, found = 0, good = 0, thrown = 0;
+  for (const Trial& t : trials) {
+    view.push_back(median(t.view_px));
+    view_90.push_back(percentile(t.view_px, 0.9));
+    all.push_back(median(t.all_px));
+    all_90.push_back(percentile(t.all_px, 0.9));
+    within_3 += all.back() <= 3.0 ? 1 : 0;
+    within_5 += all.back() <= 5.0 ? 1 : 0;
+    if (!t.still_px.empty()) still.push_back(median(t.still_px));
+    if (!t.moved_px.empty()) moved.push_back(median(t.moved_px));
+    wrong += t.wrong, found += t.found, good += t.good, thrown += t.thrown;
+  }
+  fmt::print(
+      "| runs | view alone | with field | worst | <= 3 px | <= 5 px | still | moved | wrong found | "
+      "good thrown out |\n|---|---|---|---|---|---|---|---|---|---|\n");
+  fmt::print("| {} | {:.1f} / {:.0f} | {:.1f} / {:.0f} | {:.0f} | {} | {} | {:.1f} | {:.1f} | {} of {} | {} |\n",
+             trials.size(), median(view), median(view_90), median(all), median(all_90),
+             *std::max_element(all.begin(), all.end()), share(within_3, trials.size()),
+             share(within_5, trials.size()), median(still), median(moved), found, wrong,
+             share(thrown, good));
+}
+
+int measure_registration(int argc, char** argv) {
+  tools::CommandLine line("register_trial", "Measures how well paintings are registered.");
+  tools::CommandOptions& command = line.options();
+  TrialOptions options;
+  command.add_option("--data", options.data, "Folder of the regions' elevation").required();
+  command.add_option("--region", options.regions, "Only these regions");
+  command.add_option("--scenes", options.scenes, "Scenes of each region").range(1, 100).show_default();
+  command.add_option("--first", options.first, "Number of the first scene").range(0, 1000).show_default();
+  command.add_option("--draws", options.draws, "Draws of pairs of each scene").range(1, 100).show_default();
+  command.add_option("--pairs", options.count, "Pairs of each draw").range(8, 400).show_default();
+  command.add_option("--sigma", options.sigma_px, "Noise of pixels").range(0.0, 50.0).show_default();
+  command.add_option("--wrong", options.wrong, "Share of wrong pairs").range(0.0, 0.5).show_default();
+  command.add_flag("--known", options.known, "Kind of view and noise of 3 px are told");
+  if (const std::string help = line.read({argv + 1, argv + argc}); !help.empty()) {
+    fmt::print("{}", help);
+    return 0;
+  }
+  std::vector<Trial> trials;
+  for (const SecretRegion& region : secret_regions()) {
+    if (!options.regions.empty() &&
+        std::find(options.regions.begin(), options.regions.end(), region.name) ==
+            options.regions.end())
+      continue;
+    const Dem dem = read_secret_region(region, options.data);
+    for (int i = options.first; i < options.first + options.scenes; ++i) {
+      const SecretScene scene =
+          make_secret_scene(dem, region, mix_bits(mix_bits(static_cast<std::uint64_t>(&region - secret_regions().data()) + 1) +
+                   static_cast<std::uint64_t>(i)));
+      for (int draw = 0; draw < options.draws; ++draw) {
+        const Trial trial = run_trial(
+            scene, options, mix_bits(static_cast<std::uint64_t>(1000 * i + draw) + 7));
+        fmt::print(
+            "{:10} {:2} {:11} {:2.0f} % moved, {} draw {}: view {:.1f} / {:.0f}, field {:.1f} / "
+            "{:.0f}, still {:.1f}, moved {:.1f}, wrong {} of {}, thrown {}, sigma {:.1f}\n",
+            region.name, i, scene.camera.projection, 100.0 * scene.moved_share,
+            scene.widened_m > 0.0 ? "wide" : "    ", draw, median(trial.view_px),
+            percentile(trial.view_px, 0.9), median(trial.all_px), percentile(trial.all_px, 0.9),
+            median(trial.still_px), median(trial.moved_px), trial.found, trial.wrong,
+            trial.thrown, trial.sigma_px);
+        std::fflush(stdout);
+        trials.push_back(trial);
+      }
+    }
+  }
+  print_table(trials);
+  return 0;
+}
+
+}  // namespace
+}  // namespace belvedere::bench
+
+int main(int argc, char** argv) {
+  try {
+    return belvedere::bench::measure_registration(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "register_trial: %s\n", error.what());
+    return 1;
+  }
+}
