@@ -31,9 +31,15 @@ struct Dual {
   }
 
   friend Dual operator-(const Dual& a) { return a.mapped(-a.value, -1.0); }
-  friend Dual operator+(const Dual& a, const Dual& b) { return combined(a, b, a.value + b.value, 1.0, 1.0); }
-  friend Dual operator-(const Dual& a, const Dual& b) { return combined(a, b, a.value - b.value, 1.0, -1.0); }
-  friend Dual operator*(const Dual& a, const Dual& b) { return combined(a, b, a.value * b.value, b.value, a.value); }
+  friend Dual operator+(const Dual& a, const Dual& b) {
+    return combined(a, b, a.value + b.value, 1.0, 1.0);
+  }
+  friend Dual operator-(const Dual& a, const Dual& b) {
+    return combined(a, b, a.value - b.value, 1.0, -1.0);
+  }
+  friend Dual operator*(const Dual& a, const Dual& b) {
+    return combined(a, b, a.value * b.value, b.value, a.value);
+  }
   friend Dual operator/(const Dual& a, const Dual& b) {
     const double quotient = a.value / b.value;
     return combined(a, b, quotient, 1.0 / b.value, -quotient / b.value);

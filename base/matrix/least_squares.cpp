@@ -57,13 +57,13 @@ LeastSquaresFit fit_least_squares(std::vector<double> start, ResidualFunction fu
   LeastSquaresFit fit{std::move(start), 0.0, 0};
   Residuals here = function(fit.at);
   fit.cost = cost_of(here, parameters.robust);
-  constexpr double first_damping = 1e-3, most_damping = 1e12;
+  constexpr double first_damping = 1e-3, max_damping = 1e12;
   constexpr double raise = 4.0, lower = 0.2;
   double damping = first_damping;
-  while (fit.steps < parameters.max_steps && damping < most_damping) {
+  while (fit.steps < parameters.max_steps && damping < max_damping) {
     const Normal normal = normal_of(here, parameters.robust);
     bool better = false;
-    while (!better && damping < most_damping) {
+    while (!better && damping < max_damping) {
       const std::optional<std::vector<double>> step = damped_step(normal, damping);
       std::vector<double> next = fit.at;
       for (std::size_t i = 0; step && i < next.size(); ++i) next[i] -= (*step)[i];

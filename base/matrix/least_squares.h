@@ -18,9 +18,9 @@ struct Residuals {
 using ResidualFunction = FunctionRef<Residuals(std::span<const double> at)>;
 
 struct LeastSquaresParameters {
-  int max_steps = 60;          // ≥ 1
-  double tolerance = 1e-10;    // stops when a step gains less than this share of the cost, ≥ 0
-  std::size_t robust = 0;      // so many residuals, from the first, count as ln(1 + r²) (Cauchy)
+  int max_steps = 60;        // ≥ 1
+  double tolerance = 1e-10;  // stops when a step gains less than this share of the cost, ≥ 0
+  std::size_t robust = 0;    // so many residuals, from the first, count as ln(1 + r²) (Cauchy)
 };
 struct LeastSquaresFit {
   std::vector<double> at;

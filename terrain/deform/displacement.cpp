@@ -31,28 +31,28 @@ double square_beyond_noise(const DisplacementParameters& parameters, const Displ
   constexpr double noise_factor = 1.5;
   const double moved = 0.5 * (square(place.moved.lateral_m) + square(place.moved.upward_m));
   const double noise = 0.5 * (square(place.noise.lateral_m) + square(place.noise.upward_m));
-  return std::clamp(moved - square(noise_factor) * noise, 0.0, square(parameters.most_m));
+  return std::clamp(moved - square(noise_factor) * noise, 0.0, square(parameters.max_m));
 }
 
 void check_displacement(const DisplacementParameters& p) {
   const auto require = [](bool holds, const std::string& where, double value, const char* allowed) {
     if (!holds) throw Error(ErrorKind::usage, where, fmt::format("{}", value), allowed);
   };
-  constexpr double most_m = 1e5, farthest_m = 1e7;
+  constexpr double max_m = 1e5, farthest_m = 1e7;
   const auto length = [&](const char* name, double value) {
     require(value > 0.0 && value <= farthest_m, name, value, "metres, more than 0, up to 1e7");
   };
   length("length_m", p.length_m);
   length("reach_m", p.reach_m);
   length("still_m", p.still_m);
-  length("most_m", p.most_m);
+  length("max_m", p.max_m);
   for (std::size_t i = 0; i < p.places.size(); ++i) {
     const DisplacedPlace& place = p.places[i];
     const std::string where = fmt::format("places.{}", i);
     for (const double value : {place.moved.lateral_m, place.moved.upward_m})
-      require(std::abs(value) <= most_m, where, value, "a displacement of -1e5 to 1e5 m");
+      require(std::abs(value) <= max_m, where, value, "a displacement of -1e5 to 1e5 m");
     for (const double value : {place.noise.lateral_m, place.noise.upward_m})
-      require(value > 0.0 && value <= most_m, where, value, "noise of more than 0, up to 1e5 m");
+      require(value > 0.0 && value <= max_m, where, value, "noise of more than 0, up to 1e5 m");
   }
 }
 
@@ -82,8 +82,7 @@ double displacement_size_m(const DisplacementParameters& parameters, glm::dvec2 
   double sum = 0.0;
   for (std::size_t i = 0; i < parameters.places.size(); ++i) {
     const DisplacedPlace& place = parameters.places[i];
-    const double distance2 =
-        square_distance(position, place.position) / square(parameters.reach_m);
+    const double distance2 = square_distance(position, place.position) / square(parameters.reach_m);
     if (distance2 > square(farthest_reaches) || i == without) continue;
     const double weight = exact::exp(-0.5 * distance2);
     weights += weight;

@@ -28,12 +28,12 @@ struct DisplacedPlace {
 //   cov(x, y) = amp(x) amp(y) k(|x - y| / length),  k(t) = (1 + √3 t) exp(-√3 t) (Matérn 3/2)
 //   amp(x)² = still² + Σ w_j m_j² / (0.15 + Σ w_j),  w_j = exp(-|x - x_j|² / (2 reach²))
 // m_j² is what place j moves beyond 1.5 times its noise: (lateral² + upward²) / 2 - (1.5 noise)²,
-// within 0 … most².
+// within 0 … max².
 struct DisplacementParameters {
   double length_m = 0.0;  // over which displacements are alike, > 0
   double reach_m = 0.0;   // within which a place tells their size, > 0
   double still_m = 0.0;   // their size away from places that moved, > 0
-  double most_m = 0.0;    // the largest size, > 0
+  double max_m = 0.0;     // the largest size, > 0
   std::vector<DisplacedPlace> places;
 };
 

@@ -84,7 +84,8 @@ void refuse_double(const std::vector<ControlPair>& pairs, const ControlPair& pai
                    const PairRow& row, int column) {
   for (const ControlPair& other : pairs)
     if (other.pixel == pair.pixel && other.position == pair.position)
-      row.refuse(column, fmt::format("{}, as in line {}: the same pair", row.text(column), other.line),
+      row.refuse(column,
+                 fmt::format("{}, as in line {}: the same pair", row.text(column), other.line),
                  "each pair once");
 }
 
@@ -118,10 +119,10 @@ std::vector<ControlPair> read_control_pairs(const std::string& path, glm::ivec2 
     refuse_double(pairs, pair, row, columns.x);
     pairs.push_back(std::move(pair));
   }
-  if (pairs.size() < least_control_pairs)
-    throw Error(ErrorKind::usage, path, fmt::format("{} pairs", pairs.size()),
-                fmt::format("{} or more, spread over the painting; 40 are good",
-                            least_control_pairs));
+  if (pairs.size() < min_control_pairs)
+    throw Error(
+        ErrorKind::usage, path, fmt::format("{} pairs", pairs.size()),
+        fmt::format("{} or more, spread over the painting; 40 are good", min_control_pairs));
   return pairs;
 }
 

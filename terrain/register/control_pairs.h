@@ -19,12 +19,12 @@ struct ControlPair {
 };
 
 // Fewer pairs cannot tell a view from chance.
-constexpr std::size_t least_control_pairs = 8;
+constexpr std::size_t min_control_pairs = 8;
 
 // The rows of a CSV file with columns x_px, y_px, lon, lat (degrees), name and optionally sure
 // (1: never taken for wrong; 0 or empty). Error(usage) naming line and column for a missing column,
 // text that is no number, a pixel outside the painting, a place outside the DEM or in a void that
-// was filled, a pair that is there twice, and fewer than least_control_pairs.
+// was filled, a pair that is there twice, and fewer than min_control_pairs.
 std::vector<ControlPair> read_control_pairs(const std::string& path, glm::ivec2 painting_px,
                                             const Dem& dem);
 

@@ -61,7 +61,7 @@ std::optional<Start> cylinder_from(glm::dvec2 eye, const ViewFrame& frame,
                                    std::span<const ControlPair> pairs) {
   const std::optional<Azimuths> azimuths = azimuths_from(eye, frame, pairs);
   if (!azimuths) return std::nullopt;
-  constexpr double apart = 0.06;   // of the width: pairs of pairs nearer than that tell no slope
+  constexpr double apart = 0.06;      // of the width: pairs of pairs nearer than that tell no slope
   constexpr double shortest = 0.125;  // focal length in widths: 460°
   const double width = frame.size_px.x;
   std::vector<double> slopes;
@@ -93,7 +93,7 @@ std::optional<Start> cylinder_from(glm::dvec2 eye, const ViewFrame& frame,
 bool add_tangents(Start& start, const ViewFrame& frame, std::span<const ControlPair> pairs) {
   constexpr std::array<std::size_t, 5> used = {0, 1, 3, 4, 5};  // of tangent_factors
   constexpr int rounds = 12;
-  constexpr double floor_px = 2.0, ridge = 1e-6, least_exaggeration = 0.3;
+  constexpr double floor_px = 2.0, ridge = 1e-6, min_exaggeration = 0.3;
   const double focal = exact::exp(start.view[unknown::log_focal]);
   const std::size_t n = pairs.size();
   // Two more rows keep e0 near 1.5 and e1 near 0.
@@ -130,7 +130,7 @@ bool add_tangents(Start& start, const ViewFrame& frame, std::span<const ControlP
       weights[i] = 1.0 / std::max(std::abs(residuals[i]), floor_px);
     }
   }
-  if (found[0] < least_exaggeration) return false;
+  if (found[0] < min_exaggeration) return false;
   for (std::size_t k = 0; k < used.size(); ++k)
     start.view[unknown::exaggeration + used[k]] = found[k];
   residuals.resize(n);
@@ -217,8 +217,7 @@ FittedView fit_from(const Start& start, const ViewFrame& frame,
   std::vector<double> distances;
   for (const ControlPair& pair : pairs) {
     const ViewPixel pixel = project_in_view(frame, out.view, pair.position, pair.altitude_m);
-    distances.push_back(
-        exact::hypot(pixel.u.value - pair.pixel.x, pixel.v.value - pair.pixel.y));
+    distances.push_back(exact::hypot(pixel.u.value - pair.pixel.x, pixel.v.value - pair.pixel.y));
   }
   out.median_px = median(std::move(distances));
   return out;

@@ -71,7 +71,8 @@ Matrix whole_covariance(const DisplacementParameters& field) {
 
 Cholesky factors_of_pairs(const DisplacementParameters& field) {
   std::optional<Cholesky> factors = Cholesky::of(whole_covariance(field));
-  if (!factors) throw Error(ErrorKind::bug, "registration", "a covariance is not positive definite");
+  if (!factors)
+    throw Error(ErrorKind::bug, "registration", "a covariance is not positive definite");
   return *std::move(factors);
 }
 
@@ -122,14 +123,14 @@ Judgement judge(const Fit& fit, double sigma_px) {
   // The model's own derivatives are those of observed minus modelled, reversed; the sign has no
   // effect.
   Matrix precision(unknown::count, unknown::count);
-  constexpr double least_precision = 1e-4;
+  constexpr double min_precision = 1e-4;
   for (const ViewNumber& prior : view_priors(fit.frame, fit.view)) {
     const ViewNumber scaled = weighed(prior, sigma_px);
     for (std::size_t i = 0; i < unknown::count; ++i)
       for (std::size_t k = 0; k < unknown::count; ++k)
         precision(i, k) += scaled.slope[i] * scaled.slope[k];
   }
-  for (std::size_t i = 0; i < unknown::count; ++i) precision(i, i) += least_precision;
+  for (std::size_t i = 0; i < unknown::count; ++i) precision(i, i) += min_precision;
   std::vector<std::vector<std::size_t>> groups;
   for (std::size_t i = 0; i < n; ++i) groups.push_back({i, n + i});
   Judgement out;
@@ -152,7 +153,8 @@ Judgement judge(const Fit& fit, double sigma_px) {
       const double honest_variance = square(size_by_others) * share + square(noise_m);
       const double deviations2 = square(honest) / honest_variance;
       square_deviations += deviations2;
-      constexpr double heavy_tail = 3.0;  // Student's t, so that wrong pairs do not choose the field
+      constexpr double heavy_tail =
+          3.0;  // Student's t, so that wrong pairs do not choose the field
       out.score -= 0.5 * exact::log(honest_variance * square(px_per_m)) +
                    2.0 * exact::log(1.0 + deviations2 / heavy_tail);
     };
@@ -201,8 +203,8 @@ Choice choose_field(const Fit& fit, std::optional<double> sigma_px) {
     for (const double length : {0.06, 0.12, 0.2}) {
       Fit tried = fit;
       tried.field = field_of_extent(fit.frame.extent_m, length);
-      const double score = refine(tried, sigma, 1).score -
-                           0.5 * square(exact::log(sigma / usual_px) / usual_spread);
+      const double score =
+          refine(tried, sigma, 1).score - 0.5 * square(exact::log(sigma / usual_px) / usual_spread);
       if (score > best_score) best_score = score, best = {length, sigma};
     }
   return best;
@@ -216,8 +218,8 @@ double view_distance_px(const Fit& fit, const ControlPair& pair) {
 // Where the field and the view show a place.
 glm::dvec2 predicted_pixel(const Fit& fit, const DisplacementField& field,
                            const ControlPair& pair) {
-  const ViewPixel at = project_in_view(fit.frame, fit.view, pair.position, pair.altitude_m,
-                                       field.at(pair.position));
+  const ViewPixel at =
+      project_in_view(fit.frame, fit.view, pair.position, pair.altitude_m, field.at(pair.position));
   return {at.u.value, at.v.value};
 }
 
@@ -231,7 +233,7 @@ void check_sigma(std::optional<double> sigma_px) {
 Registration register_pairs(std::span<const ControlPair> given, glm::ivec2 painting_px,
                             const RegistrationParameters& parameters) {
   check_sigma(parameters.sigma_px);
-  constexpr double cut_deviations = 5.0, cut_sigmas = 4.0, most_wrong = 0.25;
+  constexpr double cut_deviations = 5.0, cut_sigmas = 4.0, max_wrong = 0.25;
   constexpr int choose_every = 3;
   Registration out;
   out.scale = painting_px.x / fitted_width_px;
@@ -244,7 +246,7 @@ Registration register_pairs(std::span<const ControlPair> given, glm::ivec2 paint
   const std::optional<double> sigma =
       parameters.sigma_px ? std::optional(*parameters.sigma_px / out.scale) : std::nullopt;
   out.findings.resize(pairs.size());
-  const auto most = static_cast<std::size_t>(most_wrong * static_cast<double>(pairs.size()));
+  const auto most = static_cast<std::size_t>(max_wrong * static_cast<double>(pairs.size()));
   Choice choice;
   Judgement judgement;
   for (int round = 0;; ++round) {

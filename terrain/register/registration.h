@@ -20,10 +20,10 @@ struct RegistrationParameters {
 
 // What becomes of a pair.
 struct PairFinding {
-  bool wrong = false;      // thrown out
-  bool doubted = false;    // as far off as a wrong one, but sure
-  double view_px = 0.0;    // its distance from the view alone, in pixels of the painting
-  double others_px = 0.0;  // from where all other pairs say that it is
+  bool wrong = false;       // thrown out
+  bool doubted = false;     // as far off as a wrong one, but sure
+  double view_px = 0.0;     // its distance from the view alone, in pixels of the painting
+  double others_px = 0.0;   // from where all other pairs say that it is
   double deviations = 0.0;  // the same in standard deviations, as if it alone said that its ground
                             // was moved
   double nearest_m = 0.0;   // to the nearest pair that was kept

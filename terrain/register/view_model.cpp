@@ -40,9 +40,9 @@ Position<Number> to_pixel(const Lens<Number>& lens, const Number& turn, const Nu
     const Number scale = lens.focal * Number(2.0) / (Number(1.0) + at_least(cos(turn), -0.9));
     return {lens.middle_x + scale * sin(turn), lens.middle_y - scale * tangent};
   }
-  constexpr double least_depth = 0.05;
+  constexpr double min_depth = 0.05;
   const Number along = cos(lens.pitch), up = sin(lens.pitch);
-  const Number depth = at_least(along * cos(turn) + up * tangent, least_depth);
+  const Number depth = at_least(along * cos(turn) + up * tangent, min_depth);
   return {lens.middle_x + lens.focal * sin(turn) / depth,
           lens.middle_y - lens.focal * (along * tangent - up * cos(turn)) / depth};
 }
@@ -88,16 +88,17 @@ struct Direction {
 Direction direction_of(const ViewFrame& frame, const ViewUnknowns& view, glm::dvec2 position,
                        double altitude_m) {
   const ViewNumber extent(frame.extent_m);
-  const ViewNumber east = ViewNumber(position.x - frame.origin.x) - extent * number(view, unknown::east);
+  const ViewNumber east =
+      ViewNumber(position.x - frame.origin.x) - extent * number(view, unknown::east);
   const ViewNumber north =
       ViewNumber(position.y - frame.origin.y) - extent * number(view, unknown::north);
   const ViewNumber distance =
       at_least(sqrt(east * east + north * north), nearest_share * frame.extent_m);
   const ViewNumber x = distance / extent;
   const ViewNumber log_x = log(x);
-  const ViewNumber exaggeration =
-      number(view, unknown::exaggeration) + number(view, unknown::exaggeration + 1) * log_x +
-      number(view, unknown::exaggeration + 2) * log_x * log_x;
+  const ViewNumber exaggeration = number(view, unknown::exaggeration) +
+                                  number(view, unknown::exaggeration + 1) * log_x +
+                                  number(view, unknown::exaggeration + 2) * log_x * log_x;
   ViewNumber drop = number(view, unknown::drop) + number(view, unknown::drop + 1) * x +
                     number(view, unknown::drop + 2) * x * x;
   for (std::size_t k = 0; k < view_knots.size(); ++k) {
@@ -134,17 +135,16 @@ ViewFrame view_frame(ViewKind kind, glm::dvec2 size_px, bool cropped,
     high = {std::max(high.x, pair.position.x), std::max(high.y, pair.position.y)};
     altitudes.push_back(pair.altitude_m);
   }
-  constexpr double lower = 0.1, least_extent_m = 1.0;
-  frame.extent_m = std::max({high.x - low.x, high.y - low.y, least_extent_m});
+  constexpr double lower = 0.1, min_extent_m = 1.0;
+  frame.extent_m = std::max({high.x - low.x, high.y - low.y, min_extent_m});
   frame.valley_m = percentile(altitudes, lower);
   return frame;
 }
 
 double view_distance_m(const ViewFrame& frame, const ViewUnknowns& view, glm::dvec2 position) {
-  return std::max(
-      exact::hypot(position.x - frame.origin.x - frame.extent_m * view[unknown::east],
-                   position.y - frame.origin.y - frame.extent_m * view[unknown::north]),
-      nearest_share * frame.extent_m);
+  return std::max(exact::hypot(position.x - frame.origin.x - frame.extent_m * view[unknown::east],
+                               position.y - frame.origin.y - frame.extent_m * view[unknown::north]),
+                  nearest_share * frame.extent_m);
 }
 
 std::array<double, 9> tangent_factors(const ViewFrame& frame, double distance_m,

@@ -60,8 +60,8 @@ Trial run_trial(const SecretScene& scene, const TrialOptions& options, std::uint
   constexpr std::size_t held_out = 200;
   for (const SeenPixel& at : seen_pixels(scene, held_out, mix_bits(seed + 3))) {
     const ViewPixel pixel = project_in_view(alone.frame, alone.view, at.position, at.altitude_m);
-    out.view_px.push_back(glm::length(
-        glm::dvec2(pixel.u.value, pixel.v.value) * found.scale - at.pixel));
+    out.view_px.push_back(
+        glm::length(glm::dvec2(pixel.u.value, pixel.v.value) * found.scale - at.pixel));
     const double off =
         glm::length(registered_pixel(found, field, at.position, at.altitude_m) - at.pixel);
     out.all_px.push_back(off);
@@ -71,7 +71,9 @@ Trial run_trial(const SecretScene& scene, const TrialOptions& options, std::uint
 }
 
 std::string share(std::size_t part, std::size_t whole) {
-  return fmt::format("{:.0f} %", whole == 0 ? 0.0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole));
+  return fmt::format(
+      "{:.0f} %",
+      whole == 0 ? 0.0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole));
 }
 
 void print_table(const std::vector<Trial>& trials) {
@@ -89,13 +91,16 @@ void print_table(const std::vector<Trial>& trials) {
     wrong += t.wrong, found += t.found, good += t.good, thrown += t.thrown;
   }
   fmt::print(
-      "| runs | view alone | with field | worst | <= 3 px | <= 5 px | still | moved | wrong found | "
+      "| runs | view alone | with field | worst | <= 3 px | <= 5 px | still | moved | wrong found "
+      "| "
       "good thrown out |\n|---|---|---|---|---|---|---|---|---|---|\n");
-  fmt::print("| {} | {:.1f} / {:.0f} | {:.1f} / {:.0f} | {:.0f} | {} | {} | {:.1f} | {:.1f} | {} of {} | {} |\n",
-             trials.size(), median(view), median(view_90), median(all), median(all_90),
-             *std::max_element(all.begin(), all.end()), share(within_3, trials.size()),
-             share(within_5, trials.size()), median(still), median(moved), found, wrong,
-             share(thrown, good));
+  fmt::print(
+      "| {} | {:.1f} / {:.0f} | {:.1f} / {:.0f} | {:.0f} | {} | {} | {:.1f} | {:.1f} | {} of {} | "
+      "{} |\n",
+      trials.size(), median(view), median(view_90), median(all), median(all_90),
+      *std::max_element(all.begin(), all.end()), share(within_3, trials.size()),
+      share(within_5, trials.size()), median(still), median(moved), found, wrong,
+      share(thrown, good));
 }
 
 int measure_registration(int argc, char** argv) {
@@ -104,12 +109,22 @@ int measure_registration(int argc, char** argv) {
   TrialOptions options;
   command.add_option("--data", options.data, "Folder of the regions' elevation").required();
   command.add_option("--region", options.regions, "Only these regions");
-  command.add_option("--scenes", options.scenes, "Scenes of each region").range(1, 100).show_default();
-  command.add_option("--first", options.first, "Number of the first scene").range(0, 1000).show_default();
-  command.add_option("--draws", options.draws, "Draws of pairs of each scene").range(1, 100).show_default();
+  command.add_option("--scenes", options.scenes, "Scenes of each region")
+      .range(1, 100)
+      .show_default();
+  command.add_option("--first", options.first, "Number of the first scene")
+      .range(0, 1000)
+      .show_default();
+  command.add_option("--draws", options.draws, "Draws of pairs of each scene")
+      .range(1, 100)
+      .show_default();
   command.add_option("--pairs", options.count, "Pairs of each draw").range(8, 400).show_default();
-  command.add_option("--sigma", options.sigma_px, "Noise of pixels").range(0.0, 50.0).show_default();
-  command.add_option("--wrong", options.wrong, "Share of wrong pairs").range(0.0, 0.5).show_default();
+  command.add_option("--sigma", options.sigma_px, "Noise of pixels")
+      .range(0.0, 50.0)
+      .show_default();
+  command.add_option("--wrong", options.wrong, "Share of wrong pairs")
+      .range(0.0, 0.5)
+      .show_default();
   command.add_flag("--known", options.known, "Kind of view and noise of 3 px are told");
   if (const std::string help = line.read({argv + 1, argv + argc}); !help.empty()) {
     fmt::print("{}", help);
@@ -117,26 +132,26 @@ int measure_registration(int argc, char** argv) {
   }
   std::vector<Trial> trials;
   for (const SecretRegion& region : secret_regions()) {
-    if (!options.regions.empty() &&
-        std::find(options.regions.begin(), options.regions.end(), region.name) ==
-            options.regions.end())
+    if (!options.regions.empty() && std::find(options.regions.begin(), options.regions.end(),
+                                              region.name) == options.regions.end())
       continue;
     const Dem dem = read_secret_region(region, options.data);
     for (int i = options.first; i < options.first + options.scenes; ++i) {
-      const SecretScene scene =
-          make_secret_scene(dem, region, mix_bits(mix_bits(static_cast<std::uint64_t>(&region - secret_regions().data()) + 1) +
+      const SecretScene scene = make_secret_scene(
+          dem, region,
+          mix_bits(mix_bits(static_cast<std::uint64_t>(&region - secret_regions().data()) + 1) +
                    static_cast<std::uint64_t>(i)));
       for (int draw = 0; draw < options.draws; ++draw) {
-        const Trial trial = run_trial(
-            scene, options, mix_bits(static_cast<std::uint64_t>(1000 * i + draw) + 7));
+        const Trial trial =
+            run_trial(scene, options, mix_bits(static_cast<std::uint64_t>(1000 * i + draw) + 7));
         fmt::print(
             "{:10} {:2} {:11} {:2.0f} % moved, {} draw {}: view {:.1f} / {:.0f}, field {:.1f} / "
             "{:.0f}, still {:.1f}, moved {:.1f}, wrong {} of {}, thrown {}, sigma {:.1f}\n",
             region.name, i, scene.camera.projection, 100.0 * scene.moved_share,
             scene.widened_m > 0.0 ? "wide" : "    ", draw, median(trial.view_px),
             percentile(trial.view_px, 0.9), median(trial.all_px), percentile(trial.all_px, 0.9),
-            median(trial.still_px), median(trial.moved_px), trial.found, trial.wrong,
-            trial.thrown, trial.sigma_px);
+            median(trial.still_px), median(trial.moved_px), trial.found, trial.wrong, trial.thrown,
+            trial.sigma_px);
         std::fflush(stdout);
         trials.push_back(trial);
       }

@@ -40,7 +40,7 @@ double valley_of(const Dem& dem) {
 // The view and the bend, without local changes.
 void draw_view(SecretScene& scene, const SecretRegion& region, Draws& draws) {
   const double kind = draws.between(0.0, 1.0);
-  const bool plane = kind < 0.5, panini = kind > 0.9;
+  const bool plane = kind<0.5, panini = kind> 0.9;
   const double side = region.side_m;
   const double off_east = draws.between(-0.12, 0.12) * side;
   const double off_north = draws.between(-0.12, 0.12) * side;
@@ -82,9 +82,9 @@ void draw_view(SecretScene& scene, const SecretRegion& region, Draws& draws) {
   camera.eye = {eye, height};
   // A level far ground lies a seventh of the picture's height below its top.
   const double far_tangent = (base + relief - bent.drop_m(far) - height) / far;
-  const double focal = plane ? 0.5 * secret_width /
-                                   std::tan(0.5 * to_radians(camera.field_of_view_deg))
-                             : secret_width / to_radians(camera.field_of_view_deg);
+  const double focal =
+      plane ? 0.5 * secret_width / std::tan(0.5 * to_radians(camera.field_of_view_deg))
+            : secret_width / to_radians(camera.field_of_view_deg);
   const double above = (0.5 - 1.0 / 7.0) * secret_height / focal;
   camera.pitch_deg = to_degrees(plane ? std::atan(far_tangent) - std::atan(above)
                                       : std::atan(far_tangent - above));
@@ -125,10 +125,11 @@ void draw_handles(SecretScene& scene, Draws& draws) {
     handle.centre = at.position;
     handle.radius_m = draws.between(2500.0, 7000.0);
     handle.core_m = handle.radius_m * draws.between(0.3, 0.5);
-    const bool apart = std::all_of(
-        scene.deform.handles.begin(), scene.deform.handles.end(), [&](const DeformHandle& other) {
-          return glm::length(handle.centre - other.centre) > 0.8 * (handle.radius_m + other.radius_m);
-        });
+    const bool apart = std::all_of(scene.deform.handles.begin(), scene.deform.handles.end(),
+                                   [&](const DeformHandle& other) {
+                                     return glm::length(handle.centre - other.centre) >
+                                            0.8 * (handle.radius_m + other.radius_m);
+                                   });
     const double far = std::min(2000.0, (handle.radius_m - handle.core_m) / 2.2);
     const double length = draws.between(200.0, far);
     const double azimuth = draws.between(0.0, 360.0);
@@ -188,9 +189,7 @@ double Draws::between(double low, double high) {
   return low + (high - low) * random_uniform(seed_, 0, 0, count_++);
 }
 
-double Draws::normal(double deviation) {
-  return deviation * random_normal(seed_, 1, 0, count_++);
-}
+double Draws::normal(double deviation) { return deviation * random_normal(seed_, 1, 0, count_++); }
 
 std::size_t Draws::below(std::size_t count) {
   return random_index(static_cast<std::uint32_t>(count), seed_, 2, 0, count_++);
@@ -226,14 +225,14 @@ SecretScene make_secret_scene(const Dem& dem, const SecretRegion& region, std::u
   SecretScene scene;
   scene.dem = &dem;
   constexpr int tries = 100;
-  constexpr double least_ground = 0.85;
+  constexpr double min_ground = 0.85;
   scene.drawn_m = dem.altitude_m;
   bool good = false;
   for (int i = 0; i < tries && !good; ++i) {
     scene.deform = {};
     draw_view(scene, region, draws);
     prepare(scene);
-    good = ground_share(scene) >= least_ground;
+    good = ground_share(scene) >= min_ground;
   }
   if (!good) throw Error(ErrorKind::bug, region.name, "no view shows enough ground");
   draw_handles(scene, draws);
@@ -270,7 +269,8 @@ SecretPairs make_secret_pairs(const SecretScene& scene, const SecretPairsParamet
       const glm::dvec2 position = dem.transform.to_crs(x, y);
       const auto at = scene.map->to_image(position);
       if (!at || !at->visible) continue;
-      const int column = std::min(columns - 1, static_cast<int>(at->pixel.x * columns / secret_width));
+      const int column =
+          std::min(columns - 1, static_cast<int>(at->pixel.x * columns / secret_width));
       const int row = std::min(rows - 1, static_cast<int>(at->pixel.y * rows / secret_height));
       fields[static_cast<std::size_t>(row * columns + column)].push_back(
           {at->pixel, position, altitude_at(dem, position)});

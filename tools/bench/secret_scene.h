@@ -47,8 +47,8 @@ struct SecretScene {
   CameraParameters camera;
   DeformParameters deform;
   double widened_m = 0.0;
-  Grid<float> drawn_m;           // the ground that is drawn: with wide valleys
-  Grid<glm::vec2> goes_to;       // where the map's content moves with them
+  Grid<float> drawn_m;      // the ground that is drawn: with wide valleys
+  Grid<glm::vec2> goes_to;  // where the map's content moves with them
   std::unique_ptr<Deformation> deformation;
   std::unique_ptr<DeformedSurface> surface;
   std::unique_ptr<Camera> made_camera;
@@ -66,8 +66,7 @@ struct SeenPixel {
   glm::dvec2 position{0.0};
   double altitude_m = 0.0;
 };
-std::vector<SeenPixel> seen_pixels(const SecretScene& scene, std::size_t count,
-                                   std::uint64_t seed);
+std::vector<SeenPixel> seen_pixels(const SecretScene& scene, std::size_t count, std::uint64_t seed);
 
 struct SecretPairsParameters {
   std::size_t count = 40;

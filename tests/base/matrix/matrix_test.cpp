@@ -22,7 +22,8 @@ Matrix example() {
 TEST(Matrix, ProductsAreThoseOfThePaper) {
   Matrix a(2, 3);
   for (std::size_t i = 0; i < 2; ++i)
-    for (std::size_t k = 0; k < 3; ++k) a(i, k) = 10.0 * static_cast<double>(i) + static_cast<double>(k);
+    for (std::size_t k = 0; k < 3; ++k)
+      a(i, k) = 10.0 * static_cast<double>(i) + static_cast<double>(k);
   const Matrix square = normal_matrix(a);
   const Matrix other = product(transposed(a), a);
   for (std::size_t i = 0; i < 3; ++i)

@@ -16,7 +16,7 @@ DisplacementParameters example(double noise_m) {
   return {.length_m = 4000.0,
           .reach_m = 2000.0,
           .still_m = 20.0,
-          .most_m = 1500.0,
+          .max_m = 1500.0,
           .places = {{{0.0, 0.0}, {400.0, -200.0}, noise},
                      {{1500.0, 500.0}, {300.0, -100.0}, noise},
                      {{12000.0, 0.0}, {5.0, 3.0}, noise},

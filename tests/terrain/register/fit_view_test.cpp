@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "base/error.h"
-#include "tests/terrain/register/made_up_view.h"
+#include "tests/terrain/register/synthetic_view.h"
 
 namespace belvedere {
 namespace {
@@ -15,23 +15,23 @@ namespace {
 constexpr std::array every_kind = {ViewKind::cylinder, ViewKind::panini, ViewKind::plane};
 
 // The largest distance of places that were not fitted.
-double worst_px(const FittedView& fitted, const test::MadeUpView& truth) {
+double worst_px(const FittedView& fitted, const test::SyntheticView& truth) {
   double worst = 0.0;
-  for (const ControlPair& place : test::made_up_places(200, 77)) {
+  for (const ControlPair& place : test::synthetic_places(200, 77)) {
     const ViewPixel at =
         project_in_view(fitted.frame, fitted.view, place.position, place.altitude_m);
-    worst = std::max(worst, glm::length(glm::dvec2(at.u.value, at.v.value) -
-                                        test::pixel_of(truth, place)));
+    worst = std::max(
+        worst, glm::length(glm::dvec2(at.u.value, at.v.value) - test::pixel_of(truth, place)));
   }
   return worst;
 }
 
-TEST(FitView, FindsAMadeUpViewExactlyAndItsKind) {
+TEST(FitView, FindsASyntheticViewExactlyAndItsKind) {
   for (const ViewKind kind : every_kind) {
-    std::vector<ControlPair> pairs = test::made_up_places(40);
-    const test::MadeUpView truth = test::made_up_view(kind, pairs);
+    std::vector<ControlPair> pairs = test::synthetic_places(40);
+    const test::SyntheticView truth = test::synthetic_view(kind, pairs);
     test::paint(truth, pairs);
-    const std::vector<FittedView> views = fit_views(pairs, test::made_up_size);
+    const std::vector<FittedView> views = fit_views(pairs, test::synthetic_size);
     ASSERT_EQ(views.size(), 3U);
     EXPECT_EQ(views.front().frame.kind, kind);
     EXPECT_LT(views.front().cost, 0.1 * views[1].cost);
@@ -42,45 +42,45 @@ TEST(FitView, FindsAMadeUpViewExactlyAndItsKind) {
 }
 
 TEST(FitView, PriorsHardlyBendAViewThatIsNotAsTheyExpect) {
-  std::vector<ControlPair> pairs = test::made_up_places(40);
-  test::MadeUpView truth = test::made_up_view(ViewKind::plane, pairs);
+  std::vector<ControlPair> pairs = test::synthetic_places(40);
+  test::SyntheticView truth = test::synthetic_view(ViewKind::plane, pairs);
   truth.view[view_unknown::exaggeration] = 1.9;
   truth.view[view_unknown::exaggeration + 1] = 0.3;
   truth.view[view_unknown::drop + 2] = 0.1;
   truth.view[view_unknown::bend + 1] = 0.1;
   test::paint(truth, pairs);
-  EXPECT_LT(worst_px(fit_views(pairs, test::made_up_size).front(), truth), 1.5);
+  EXPECT_LT(worst_px(fit_views(pairs, test::synthetic_size).front(), truth), 1.5);
 }
 
 TEST(FitView, GrossErrorsHaveNoEffect) {
-  std::vector<ControlPair> pairs = test::made_up_places(40);
-  const test::MadeUpView truth = test::made_up_view(ViewKind::cylinder, pairs);
+  std::vector<ControlPair> pairs = test::synthetic_places(40);
+  const test::SyntheticView truth = test::synthetic_view(ViewKind::cylinder, pairs);
   test::paint(truth, pairs);
   for (std::size_t i = 0; i < pairs.size(); i += 5) pairs[i].pixel += glm::dvec2(150.0, -80.0);
   const FittedView view =
-      fit_views(pairs, test::made_up_size, {.kinds = {ViewKind::cylinder}}).front();
+      fit_views(pairs, test::synthetic_size, {.kinds = {ViewKind::cylinder}}).front();
   EXPECT_LT(worst_px(view, truth), 1.0);
   EXPECT_LT(view.median_px, 0.2);
 }
 
 TEST(FitView, ACroppedPaintingsMiddleIsFoundIfAskedFor) {
-  std::vector<ControlPair> pairs = test::made_up_places(60);
-  test::MadeUpView truth = test::made_up_view(ViewKind::plane, pairs);
+  std::vector<ControlPair> pairs = test::synthetic_places(60);
+  test::SyntheticView truth = test::synthetic_view(ViewKind::plane, pairs);
   truth.view[view_unknown::middle] = 0.12;
   truth.view[view_unknown::middle + 1] = 0.05;
   test::paint(truth, pairs);
   const std::vector<ViewKind> kinds = {ViewKind::plane};
-  const FittedView whole = fit_views(pairs, test::made_up_size, {.kinds = kinds}).front();
+  const FittedView whole = fit_views(pairs, test::synthetic_size, {.kinds = kinds}).front();
   EXPECT_GT(worst_px(whole, truth), 5.0);
   const FittedView cropped =
-      fit_views(pairs, test::made_up_size, {.kinds = kinds, .cropped = true}).front();
+      fit_views(pairs, test::synthetic_size, {.kinds = kinds, .cropped = true}).front();
   EXPECT_LT(worst_px(cropped, truth), 1.0);
 }
 
 TEST(FitView, PairsWithoutAnyViewAreRefused) {
-  std::vector<ControlPair> pairs = test::made_up_places(20);
+  std::vector<ControlPair> pairs = test::synthetic_places(20);
   for (ControlPair& pair : pairs) pair.pixel = {600.0, 200.0};
-  EXPECT_THROW(fit_views(pairs, test::made_up_size), Error);
+  EXPECT_THROW(fit_views(pairs, test::synthetic_size), Error);
 }
 
 }  // namespace

@@ -90,9 +90,8 @@ TEST(LeaveOut, EqualsFittingWithoutTheGroup) {
     const std::vector<double> residuals = line.residuals(line.fitted(others));
     // The others' noise tells part of the group's.
     const Cholesky noise = *Cholesky::of(Line::block(line.covariance, others, others));
-    const std::vector<double> told =
-        product(Line::block(line.covariance, groups[g], others),
-                noise.solve(Line::picked(residuals, others)));
+    const std::vector<double> told = product(Line::block(line.covariance, groups[g], others),
+                                             noise.solve(Line::picked(residuals, others)));
     for (std::size_t k = 0; k < groups[g].size(); ++k)
       EXPECT_NEAR(left[g].residuals[k], residuals[groups[g][k]] - told[k], 1e-10);
     // By the whole covariance of the observations, the unknowns' prior in it.

@@ -10,7 +10,7 @@
 #include "base/math.h"
 #include "base/random.h"
 #include "base/statistics.h"
-#include "tests/terrain/register/made_up_view.h"
+#include "tests/terrain/register/synthetic_view.h"
 
 namespace belvedere {
 namespace {
@@ -25,13 +25,13 @@ Displacement moved_at(glm::dvec2 position) {
 
 // Pairs with noise; if `moved`, on ground that is moved in part.
 std::vector<ControlPair> painted_pairs(std::size_t count, double sigma_px, bool moved,
-                                       test::MadeUpView& truth) {
-  std::vector<ControlPair> pairs = test::made_up_places(count);
-  truth = test::made_up_view(ViewKind::plane, pairs);
+                                       test::SyntheticView& truth) {
+  std::vector<ControlPair> pairs = test::synthetic_places(count);
+  truth = test::synthetic_view(ViewKind::plane, pairs);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const auto n = static_cast<std::int64_t>(i);
-    pairs[i].pixel = test::pixel_of(truth, pairs[i],
-                                    moved ? moved_at(pairs[i].position) : Displacement{});
+    pairs[i].pixel =
+        test::pixel_of(truth, pairs[i], moved ? moved_at(pairs[i].position) : Displacement{});
     pairs[i].pixel.x += sigma_px * random_normal(5, n, 0);
     pairs[i].pixel.y += sigma_px * random_normal(5, n, 1);
   }
@@ -39,16 +39,17 @@ std::vector<ControlPair> painted_pairs(std::size_t count, double sigma_px, bool 
 }
 
 // Distances of places that are not among the pairs, px.
-std::vector<double> distances_px(const Registration& found, const test::MadeUpView& truth,
+std::vector<double> distances_px(const Registration& found, const test::SyntheticView& truth,
                                  bool moved, bool inside) {
   const DisplacementField field(found.displacement);
   std::vector<double> out;
-  for (const ControlPair& place : test::made_up_places(400, 77)) {
+  for (const ControlPair& place : test::synthetic_places(400, 77)) {
     if ((glm::length(place.position - moved_centre) < 4000.0) != inside) continue;
-    const glm::dvec2 true_pixel = found.scale * test::pixel_of(truth, place,
-                                                 moved ? moved_at(place.position) : Displacement{});
-    out.push_back(glm::length(
-        registered_pixel(found, field, place.position, place.altitude_m) - true_pixel));
+    const glm::dvec2 true_pixel =
+        found.scale *
+        test::pixel_of(truth, place, moved ? moved_at(place.position) : Displacement{});
+    out.push_back(
+        glm::length(registered_pixel(found, field, place.position, place.altitude_m) - true_pixel));
   }
   return out;
 }
@@ -59,7 +60,7 @@ std::size_t count_wrong(const Registration& found) {
 }
 
 TEST(Registration, ExactPairsOfStillGroundAreAllKept) {
-  test::MadeUpView truth;
+  test::SyntheticView truth;
   const std::vector<ControlPair> pairs = painted_pairs(40, 0.0, false, truth);
   const Registration found = register_pairs(pairs, {1200, 550});
   EXPECT_EQ(count_wrong(found), 0U);
@@ -70,7 +71,7 @@ TEST(Registration, ExactPairsOfStillGroundAreAllKept) {
 }
 
 TEST(Registration, GroundThatWasMovedIsFollowedAndTheRestStaysStill) {
-  test::MadeUpView truth;
+  test::SyntheticView truth;
   const std::vector<ControlPair> pairs = painted_pairs(120, 1.0, true, truth);
   const Registration found = register_pairs(pairs, {1200, 550}, {.view = {}, .sigma_px = 1.0});
   EXPECT_LE(count_wrong(found), 1U);
@@ -83,7 +84,7 @@ TEST(Registration, GroundThatWasMovedIsFollowedAndTheRestStaysStill) {
 }
 
 TEST(Registration, WrongPairsAreFoundAndSureOnesAreKept) {
-  test::MadeUpView truth;
+  test::SyntheticView truth;
   std::vector<ControlPair> pairs = painted_pairs(40, 2.0, false, truth);
   for (const std::size_t i : {3U, 12U, 20U, 33U}) pairs[i].pixel += glm::dvec2(90.0, -40.0);
   pairs[20].sure = true;
@@ -97,7 +98,7 @@ TEST(Registration, WrongPairsAreFoundAndSureOnesAreKept) {
 }
 
 TEST(Registration, NoiseIsEstimatedUnlessItIsGiven) {
-  test::MadeUpView truth;
+  test::SyntheticView truth;
   const std::vector<ControlPair> coarse = painted_pairs(40, 6.0, false, truth);
   EXPECT_GE(register_pairs(coarse, {1200, 550}).sigma_px, 4.5);
   const std::vector<ControlPair> fine = painted_pairs(40, 1.0, false, truth);
@@ -107,7 +108,7 @@ TEST(Registration, NoiseIsEstimatedUnlessItIsGiven) {
 }
 
 TEST(Registration, APaintingFourTimesAsLargeIsTheSame) {
-  test::MadeUpView truth;
+  test::SyntheticView truth;
   std::vector<ControlPair> pairs = painted_pairs(40, 2.0, true, truth);
   const Registration small = register_pairs(pairs, {1200, 550});
   for (ControlPair& pair : pairs) pair.pixel *= 4.0;

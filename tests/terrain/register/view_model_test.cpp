@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "tests/terrain/register/made_up_view.h"
+#include "tests/terrain/register/synthetic_view.h"
 
 namespace belvedere {
 namespace {
@@ -61,37 +61,37 @@ TEST(ViewModel, PixelsHaveTheClosedForms) {
 }
 
 TEST(ViewModel, TangentsAreLinearInTheirFactors) {
-  const std::vector<ControlPair> places = test::made_up_places(5);
-  test::MadeUpView made_up = test::made_up_view(ViewKind::cylinder, places);
+  const std::vector<ControlPair> places = test::synthetic_places(5);
+  test::SyntheticView synthetic = test::synthetic_view(ViewKind::cylinder, places);
   for (std::size_t i = 0; i < 9; ++i)
-    made_up.view[view_unknown::exaggeration + i] += 0.01 * (static_cast<double>(i) + 1.0);
+    synthetic.view[view_unknown::exaggeration + i] += 0.01 * (static_cast<double>(i) + 1.0);
   for (const ControlPair& place : places) {
-    const double distance = view_distance_m(made_up.frame, made_up.view, place.position);
-    const auto factors = tangent_factors(made_up.frame, distance, place.altitude_m);
+    const double distance = view_distance_m(synthetic.frame, synthetic.view, place.position);
+    const auto factors = tangent_factors(synthetic.frame, distance, place.altitude_m);
     double tangent = 0.0;
     for (std::size_t i = 0; i < 9; ++i)
-      tangent += factors[i] * made_up.view[view_unknown::exaggeration + i];
-    EXPECT_NEAR(test::pixel_of(made_up, place).y, 275.0 - 850.0 * tangent, 1e-9);
+      tangent += factors[i] * synthetic.view[view_unknown::exaggeration + i];
+    EXPECT_NEAR(test::pixel_of(synthetic, place).y, 275.0 - 850.0 * tangent, 1e-9);
   }
 }
 
 TEST(ViewModel, DerivativesAreThoseOfDifferences) {
-  const std::vector<ControlPair> places = test::made_up_places(6);
+  const std::vector<ControlPair> places = test::synthetic_places(6);
   for (const ViewKind kind : all_kinds) {
-    test::MadeUpView made_up = test::made_up_view(kind, places);
-    for (std::size_t i = 0; i < 9; ++i) made_up.view[view_unknown::exaggeration + i] += 0.03;
+    test::SyntheticView synthetic = test::synthetic_view(kind, places);
+    for (std::size_t i = 0; i < 9; ++i) synthetic.view[view_unknown::exaggeration + i] += 0.03;
     for (ControlPair place : places) {
-      place.pixel = test::pixel_of(made_up, place) + glm::dvec2(20.0, -10.0);
+      place.pixel = test::pixel_of(synthetic, place) + glm::dvec2(20.0, -10.0);
       const auto values = [&](const ViewUnknowns& view) {
         const ViewPixel pixel =
-            project_in_view(made_up.frame, view, place.position, place.altitude_m, {90.0, 60.0});
-        const ViewDisplacement seen = displacement_in_view(made_up.frame, view, place);
+            project_in_view(synthetic.frame, view, place.position, place.altitude_m, {90.0, 60.0});
+        const ViewDisplacement seen = displacement_in_view(synthetic.frame, view, place);
         return std::array{pixel.u, pixel.v, seen.lateral_m, seen.upward_m};
       };
-      const auto here = values(made_up.view);
+      const auto here = values(synthetic.view);
       for (std::size_t i = 0; i < view_unknown::count; ++i) {
         constexpr double step = 1e-5;
-        ViewUnknowns more = made_up.view, less = made_up.view;
+        ViewUnknowns more = synthetic.view, less = synthetic.view;
         more[i] += step, less[i] -= step;
         const auto above = values(more), below = values(less);
         for (std::size_t k = 0; k < here.size(); ++k) {
@@ -105,33 +105,34 @@ TEST(ViewModel, DerivativesAreThoseOfDifferences) {
 }
 
 TEST(ViewModel, DisplacementsAreReadBackFromPixels) {
-  std::vector<ControlPair> places = test::made_up_places(12);
+  std::vector<ControlPair> places = test::synthetic_places(12);
   const Displacement moved{350.0, -140.0};
   for (const ViewKind kind : all_kinds) {
-    const test::MadeUpView made_up = test::made_up_view(kind, places);
+    const test::SyntheticView synthetic = test::synthetic_view(kind, places);
     for (ControlPair& place : places) {
-      place.pixel = test::pixel_of(made_up, place, moved);
-      const ViewDisplacement seen = displacement_in_view(made_up.frame, made_up.view, place);
+      place.pixel = test::pixel_of(synthetic, place, moved);
+      const ViewDisplacement seen = displacement_in_view(synthetic.frame, synthetic.view, place);
       EXPECT_NEAR(seen.lateral_m.value, moved.lateral_m, 1e-6);
       EXPECT_NEAR(seen.upward_m.value, moved.upward_m, 1e-6);
       const double right =
-          test::pixel_of(made_up, place, {moved.lateral_m + 1.0, moved.upward_m}).x;
-      const double left = test::pixel_of(made_up, place, {moved.lateral_m - 1.0, moved.upward_m}).x;
+          test::pixel_of(synthetic, place, {moved.lateral_m + 1.0, moved.upward_m}).x;
+      const double left =
+          test::pixel_of(synthetic, place, {moved.lateral_m - 1.0, moved.upward_m}).x;
       EXPECT_NEAR(std::abs(right - left) / 2.0, seen.px_per_m.lateral_m, 1e-8);
     }
   }
 }
 
 TEST(ViewModel, PriorsVanishWhereTheyExpect) {
-  const std::vector<ControlPair> places = test::made_up_places(5);
+  const std::vector<ControlPair> places = test::synthetic_places(5);
   for (const ViewKind kind : all_kinds) {
-    test::MadeUpView made_up = test::made_up_view(kind, places);
-    for (const ViewNumber& prior : view_priors(made_up.frame, made_up.view))
+    test::SyntheticView synthetic = test::synthetic_view(kind, places);
+    for (const ViewNumber& prior : view_priors(synthetic.frame, synthetic.view))
       EXPECT_EQ(prior.value, 0.0);
-    made_up.view[view_unknown::middle] = 0.1;
-    made_up.frame.cropped = true;
+    synthetic.view[view_unknown::middle] = 0.1;
+    synthetic.frame.cropped = true;
     double most = 0.0;
-    for (const ViewNumber& prior : view_priors(made_up.frame, made_up.view))
+    for (const ViewNumber& prior : view_priors(synthetic.frame, synthetic.view))
       most = std::max(most, prior.value);
     EXPECT_NEAR(most, 1.0, 1e-12);
   }

@@ -6,13 +6,13 @@
 #include "base/random.h"
 #include "terrain/register/view_model.h"
 
-// A painting of made-up places by a known view.
+// A painting of synthetic places by a known view.
 namespace belvedere::test {
 
-constexpr glm::dvec2 made_up_size(1200.0, 550.0);
+constexpr glm::dvec2 synthetic_size(1200.0, 550.0);
 
 // Places 30 km square, spread evenly, 600 to 2600 m high.
-inline std::vector<ControlPair> made_up_places(std::size_t count, std::uint64_t seed = 1) {
+inline std::vector<ControlPair> synthetic_places(std::size_t count, std::uint64_t seed = 1) {
   std::vector<ControlPair> pairs;
   for (std::size_t i = 0; i < count; ++i) {
     const auto n = static_cast<std::int64_t>(i);
@@ -26,12 +26,12 @@ inline std::vector<ControlPair> made_up_places(std::size_t count, std::uint64_t 
 }
 
 // An eye 24 km in the south of the places' middle looks north; all priors hold exactly.
-struct MadeUpView {
+struct SyntheticView {
   ViewFrame frame;
   ViewUnknowns view = {};
 };
-inline MadeUpView made_up_view(ViewKind kind, const std::vector<ControlPair>& places) {
-  MadeUpView out{view_frame(kind, made_up_size, false, places), {}};
+inline SyntheticView synthetic_view(ViewKind kind, const std::vector<ControlPair>& places) {
+  SyntheticView out{view_frame(kind, synthetic_size, false, places), {}};
   out.view[view_unknown::north] = -0.8;
   out.view[view_unknown::azimuth] = 0.05;
   out.view[view_unknown::log_focal] = std::log(kind == ViewKind::plane ? 950.0 : 850.0);
@@ -44,15 +44,15 @@ inline MadeUpView made_up_view(ViewKind kind, const std::vector<ControlPair>& pl
   return out;
 }
 
-inline glm::dvec2 pixel_of(const MadeUpView& made_up, const ControlPair& place,
+inline glm::dvec2 pixel_of(const SyntheticView& synthetic, const ControlPair& place,
                            const Displacement& displaced = {}) {
-  const ViewPixel at = project_in_view(made_up.frame, made_up.view, place.position,
-                                       place.altitude_m, displaced);
+  const ViewPixel at =
+      project_in_view(synthetic.frame, synthetic.view, place.position, place.altitude_m, displaced);
   return {at.u.value, at.v.value};
 }
 
-inline void paint(const MadeUpView& made_up, std::vector<ControlPair>& places) {
-  for (ControlPair& place : places) place.pixel = pixel_of(made_up, place);
+inline void paint(const SyntheticView& synthetic, std::vector<ControlPair>& places) {
+  for (ControlPair& place : places) place.pixel = pixel_of(synthetic, place);
 }
 
 }  // namespace belvedere::test
