@@ -20,7 +20,7 @@ ViewEvaluation evaluate_view(const CoarseAltitudes& region, const View& view,
     return out;
   }
   const Deformation deformation(view.deform, view.viewer_xy);
-  const bool rearranged = !view.deform.summits.empty() || !view.deform.handles.empty();
+  const bool rearranged = !view.deform.summits.empty() || deformation.moves_in_plan();
   std::function<glm::dvec3(glm::dvec3)> move;
   if (rearranged) move = [&](glm::dvec3 p) { return deformation.rearranged(p); };
   CoarseGround ground;

@@ -148,15 +148,24 @@ struct SceneHandle {  // a piece of ground that is moved: see terrain/deform/han
           5000.0};  // without centre, core and move; a scene must set the radius of a handle
 };
 
+struct SceneDisplacedPlace {  // a place of the field: see terrain/deform/displacement.h
+  std::string name;
+  std::optional<glm::dvec2> position;
+  std::optional<glm::dvec2> position_lonlat;
+  std::array<double, 2> moved_m = {0.0, 0.0};  // to the right, up
+  std::array<double, 2> noise_m = {50.0, 50.0};
+};
+
 struct SceneDeform {
-  // Without summits and handles (resolve_deform adds them, at positions in the scene's CRS) and
-  // without the values below.
+  // Without summits, handles and places of the field (resolve_deform adds them, at positions in the
+  // scene's CRS) and without the values below.
   DeformParameters ground;
   // Absent: derived from the region, see renderer/world/resolve_view.h.
   std::optional<double> exaggeration, exaggeration_base_m;
   std::optional<double> bend_radius_m, bend_crest_m;
   std::vector<SceneSummit> summits;
   std::vector<SceneHandle> handles;
+  std::vector<SceneDisplacedPlace> field_places;
   bool allow_folds = false;  // a fold of ground in the picture is a note instead of an error
 
   // Only these values raise or bend the ground.
@@ -183,6 +192,7 @@ struct SceneCamera {
   std::optional<double> pitch_deg;
   std::optional<double> tilt_deg;  // added to the pitch in both cases
   double field_of_view_deg = CameraParameters{}.field_of_view_deg;
+  std::array<double, 2> shift = {0.0, 0.0};
   double view_width_m = CameraParameters{}.view_width_m;
 };
 

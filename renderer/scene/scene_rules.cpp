@@ -179,7 +179,20 @@ class Rules {
     for (std::size_t i = 0; i < scene_.deform.summits.size(); ++i)
       require_position(fmt::format("deform.summits.{}", i), scene_.deform.summits[i].position,
                        scene_.deform.summits[i].position_lonlat);
+    for (std::size_t i = 0; i < scene_.deform.field_places.size(); ++i)
+      require_position(fmt::format("deform.field.places.{}", i),
+                       scene_.deform.field_places[i].position,
+                       scene_.deform.field_places[i].position_lonlat);
+    if (!ground.exaggeration_points.empty() && ground.background_exaggeration)
+      refuse("deform.background_exaggeration",
+             "deform.background_exaggeration together with deform.exaggeration_points",
+             "one of the two");
     try {
+      in_section("deform", [&] {
+        DeformParameters exaggerated;
+        exaggerated.exaggeration_points = ground.exaggeration_points;
+        return Deformation(exaggerated, {0.0, 0.0});
+      });
       in_section("deform.bend", [&] { return BendProfile(scene_.deform.written().bend); });
     } catch (const Error& error) {  // pointing to the line where it is written
       refuse(error.where(), error.where() + ": " + error.found(), error.allowed());

@@ -25,6 +25,7 @@ const std::vector<SceneExclusion>& scene_exclusions() {
       {"land_cover.towns", {"position"}, {"position_lonlat"}},
       {"deform.summits", {"position"}, {"position_lonlat"}},
       {"deform.handles", {"position"}, {"position_lonlat"}},
+      {"deform.field.places", {"position"}, {"position_lonlat"}},
       {"air.mist", {"position"}, {"position_lonlat"}},
       {"light.regions", {"position"}, {"position_lonlat", "points", "points_lonlat", "file"}},
       {"light.regions", {"position_lonlat"}, {"points", "points_lonlat", "file"}},

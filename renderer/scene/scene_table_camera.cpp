@@ -88,6 +88,12 @@ std::vector<SceneSection> make_camera_sections() {
             .unit = "°",
             .meaning =
                 "Horizontal field of view; the table below gives the limit of each projection."},
+           {.name = "shift",
+            .field = AT(camera.shift),
+            .range = {-1, 1},
+            .meaning =
+                "Middle of the projection from the picture's centre, [right, down] in widths "
+                "of the picture: of a painting that was cropped on one side."},
            {.name = "view_width_m",
             .field = AT(camera.view_width_m),
             .range = {1, 1e7},

@@ -51,6 +51,27 @@ std::vector<SceneSection> make_deform_sections() {
                 "Allows handles to fold the ground in the picture; otherwise a fold is an error."},
        }});
   sections.push_back(
+      {.name = "deform.exaggeration_points",
+       .kind = SectionKind::list,
+       .meaning = "One block for each control point of exaggeration by distance, from near to far, "
+                  "instead of a background. A smooth curve passes through them.",
+       .keys =
+           {
+               {.name = "distance_m",
+                .field = AT(deform.ground.exaggeration_points[i].distance_m),
+                .range = {0, largest_m},
+                .unit = "m",
+                .meaning = "Distance from the viewer; increases from block to block.",
+                .required = true},
+               {.name = "factor",
+                .field = AT(deform.ground.exaggeration_points[i].factor),
+                .range = {0.05, 20},
+                .meaning = "Factor there; multiplies the general exaggeration.",
+                .required = true},
+           },
+       .count = [](const Scene& s) { return s.deform.ground.exaggeration_points.size(); },
+       .resize = [](Scene& s, std::size_t n) { s.deform.ground.exaggeration_points.resize(n); }});
+  sections.push_back(
       {.name = "deform.bend",
        .meaning = "Progressive bend: the near ground tilts towards the viewer like a map, the far "
                   "ground sinks to a horizon. Given as a parabola or by control points.",
@@ -205,6 +226,66 @@ std::vector<SceneSection> make_deform_sections() {
            },
        .count = [](const Scene& s) { return s.deform.handles.size(); },
        .resize = [](Scene& s, std::size_t n) { s.deform.handles.resize(n); }});
+  sections.push_back(
+      {.name = "deform.field",
+       .meaning =
+           "A displacement of the ground that is known at some places and smooth in between, "
+           "as belvedere exemplar register finds it in a painting; see registration.md.",
+       .keys = {
+           {.name = "length_m",
+            .field = AT(deform.ground.field.length_m),
+            .range = {1, 1e7},
+            .unit = "m",
+            .meaning = "Distance over which displacements are alike."},
+           {.name = "reach_m",
+            .field = AT(deform.ground.field.reach_m),
+            .range = {1, 1e7},
+            .unit = "m",
+            .meaning = "Distance within which a place tells whether the ground was moved."},
+           {.name = "still_m",
+            .field = AT(deform.ground.field.still_m),
+            .range = {0.01, 1e6},
+            .unit = "m",
+            .meaning = "Displacement to expect where no place was moved."},
+           {.name = "max_m",
+            .field = AT(deform.ground.field.max_m),
+            .range = {0.01, 1e6},
+            .unit = "m",
+            .meaning = "The largest displacement to expect."},
+       }});
+  sections.push_back(
+      {.name = "deform.field.places",
+       .kind = SectionKind::list,
+       .meaning = "One block for each place whose displacement is known.",
+       .keys =
+           {
+               {.name = "name",
+                .field = AT(deform.field_places[i].name),
+                .meaning = "Name for messages."},
+               {.name = "position",
+                .field = AT(deform.field_places[i].position),
+                .range = {-largest_m, largest_m},
+                .unit = "m",
+                .meaning = "The place in the undeformed terrain, [E, N] in the scene's CRS."},
+               {.name = "position_lonlat",
+                .field = AT(deform.field_places[i].position_lonlat),
+                .unit = "°",
+                .meaning = "The place, [longitude, latitude]; instead of position.",
+                .lonlat = true},
+               {.name = "moved_m",
+                .field = AT(deform.field_places[i].moved_m),
+                .range = {-1e5, 1e5},
+                .unit = "m",
+                .meaning = "Displacement as seen by the viewer, [to the right, up], after "
+                           "exaggeration."},
+               {.name = "noise_m",
+                .field = AT(deform.field_places[i].noise_m),
+                .range = {0.001, 1e5},
+                .unit = "m",
+                .meaning = "How exactly that is known: standard deviations of both."},
+           },
+       .count = [](const Scene& s) { return s.deform.field_places.size(); },
+       .resize = [](Scene& s, std::size_t n) { s.deform.field_places.resize(n); }});
   return sections;
 }
 

@@ -47,6 +47,10 @@ ViewAxes view_axes(const CameraParameters& parameters) {
           ahead * exact::cos(pitch) + glm::dvec3(0.0, 0.0, exact::sin(pitch))};
 }
 
+glm::dvec2 projection_middle(const CameraParameters& p) {
+  return 0.5 * glm::dvec2(p.width, p.height) + static_cast<double>(p.width) * p.shift;
+}
+
 void check_camera_value(std::string_view field, double value, double lowest, double highest) {
   if (value >= lowest && value <= highest) return;
   throw Error(ErrorKind::usage, std::string(field), fmt::format("{}", value),
@@ -61,6 +65,8 @@ std::unique_ptr<Camera> make_camera(const CameraParameters& parameters) {
   check_camera_value("eye.x", parameters.eye.x, -1e8, 1e8);
   check_camera_value("eye.y", parameters.eye.y, -1e8, 1e8);
   check_camera_value("eye.z", parameters.eye.z, -1e7, 1e7);
+  check_camera_value("shift.x", parameters.shift.x, -1, 1);
+  check_camera_value("shift.y", parameters.shift.y, -1, 1);
   check_camera_value("azimuth_deg", parameters.azimuth_deg, -360, 360);
   if (const Projection* projection = find_projection(parameters.projection)) {
     if (projection->widest_deg > 0.0)

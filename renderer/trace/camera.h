@@ -40,7 +40,10 @@ struct CameraParameters {
   double pitch_deg =
       -20.0;  // perspective -90 straight down … 90, oblique -90…-5, cylindrical and panini -80…80
   double field_of_view_deg = 50.0;  // horizontal; 1…widest_deg of the projection
-  double view_width_m = 20000.0;    // oblique: width of the picture on the ground, 1…1e7
+  // The middle of the projection from the picture's centre, right and down, in widths of the
+  // picture, -1…1: of a picture that was cropped on one side.
+  glm::dvec2 shift{0.0};
+  double view_width_m = 20000.0;  // oblique: width of the picture on the ground, 1…1e7
 };
 
 // A projection is one file with its factory, declared and listed in camera.cpp: see CONTRIBUTING.
@@ -69,6 +72,9 @@ struct ViewAxes {
   glm::dvec3 forward;
 };
 ViewAxes view_axes(const CameraParameters& parameters);
+
+// The middle of the projection, px.
+glm::dvec2 projection_middle(const CameraParameters& parameters);
 
 // Throws Error(usage) unless lowest <= value <= highest (also for NaN); for the factories. field:
 // "pitch_deg".

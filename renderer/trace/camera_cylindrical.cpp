@@ -16,7 +16,7 @@ class CylindricalCamera final : public Camera {
  public:
   explicit CylindricalCamera(const CameraParameters& p) : eye_(p.eye), size_(p.width, p.height) {
     azimuth_ = to_radians(p.azimuth_deg);
-    centre_ = 0.5 * glm::dvec2(size_);
+    centre_ = projection_middle(p);
     radius_px_ = p.width / to_radians(p.field_of_view_deg);
     horizon_y_ = centre_.y + radius_px_ * exact::tan(to_radians(p.pitch_deg));
   }

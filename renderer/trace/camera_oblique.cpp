@@ -17,7 +17,7 @@ class ObliqueCamera final : public Camera {
     right_ = axes.right;
     up_ = axes.ahead;
     direction_ = glm::normalize(axes.forward);
-    centre_ = 0.5 * glm::dvec2(size_);
+    centre_ = projection_middle(p);
     metres_per_px_ = p.view_width_m / p.width;
   }
 

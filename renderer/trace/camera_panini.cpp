@@ -23,9 +23,9 @@ class PaniniCamera final : public Camera {
     const ViewAxes axes = view_axes(p);
     right_ = axes.right;
     ahead_ = axes.ahead;
-    centre_ = 0.5 * glm::dvec2(size_);
+    centre_ = projection_middle(p);
     const double half = 0.5 * to_radians(p.field_of_view_deg);
-    unit_px_ = centre_.x / (widening(exact::cos(half)) * exact::sin(half));
+    unit_px_ = 0.5 * p.width / (widening(exact::cos(half)) * exact::sin(half));
     horizon_y_ = centre_.y + unit_px_ * exact::tan(to_radians(p.pitch_deg));
   }
 

@@ -16,8 +16,8 @@ class PerspectiveCamera final : public Camera {
     right_ = axes.right;
     forward_ = axes.forward;
     up_ = glm::cross(right_, forward_);
-    centre_ = 0.5 * glm::dvec2(size_);
-    focal_px_ = centre_.x / exact::tan(0.5 * to_radians(p.field_of_view_deg));
+    centre_ = projection_middle(p);
+    focal_px_ = 0.5 * p.width / exact::tan(0.5 * to_radians(p.field_of_view_deg));
   }
 
   Ray ray(glm::dvec2 pixel) const override {

@@ -9,6 +9,16 @@
 #include "terrain/deform/fold.h"
 
 namespace belvedere {
+namespace {
+
+// The key of what folds the ground.
+std::string place_of(const FoldSummary& summary, const SceneDeform& scene) {
+  if (!summary.handle) return "deform.field";
+  const std::string& name = scene.handles[*summary.handle].name;
+  return fmt::format("deform.handles.{}{}", *summary.handle, name.empty() ? "" : " (" + name + ")");
+}
+
+}  // namespace
 
 void check_folds(const SceneDeform& scene, const TerrainModel& terrain,
                  const Deformation& deformation, const Camera& camera, Progress& progress) {
@@ -24,17 +34,17 @@ void check_folds(const SceneDeform& scene, const TerrainModel& terrain,
   }
   const bool refuse = !in_picture.empty() && !scene.allow_folds;
   for (const FoldSummary& summary :
-       summarize_folds(refuse ? in_picture : folds, deformation.parameters().handles)) {
-    const std::string& name = scene.handles[summary.handle].name;
-    const std::string where =
-        fmt::format("deform.handles.{}{}", summary.handle, name.empty() ? "" : " (" + name + ")");
+       summarize_folds(refuse ? in_picture : folds, deformation.parameters())) {
+    const std::string where = place_of(summary, scene);
     const std::string found = fmt::format("folds the ground{} around E {:.0f} N {:.0f}, {} facets",
                                           refuse ? " in the picture" : "", summary.centre.x,
                                           summary.centre.y, summary.facets);
     if (refuse)
       throw Error(ErrorKind::usage, where, found,
-                  "a smaller move_m, rotate_deg or scale, a larger radius_m, a smaller core_m, or "
-                  "deform.allow_folds = true");
+                  summary.handle ? "a smaller move_m, rotate_deg or scale, a larger radius_m, a "
+                                   "smaller core_m, or deform.allow_folds = true"
+                                 : "places that are displaced less unlike their neighbours, or "
+                                   "deform.allow_folds = true");
     progress.note(where + " " + found);
   }
 }

@@ -62,13 +62,14 @@ std::string cover_key(const LoadedScene& loaded) {
 }
 
 std::string camera_key(const LoadedScene& loaded, const View& view) {
-  const auto& [projection, width, height, eye, azimuth_deg, pitch_deg, field_of_view_deg,
+  const auto& [projection, width, height, eye, azimuth_deg, pitch_deg, field_of_view_deg, shift,
                view_width_m] = view.camera;
   CacheKeyText key;
   key.add("projection", projection).add("width", width).add("height", height).add("eye", eye);
   key.add("azimuth_deg", azimuth_deg)
       .add("pitch_deg", pitch_deg)
       .add("field_of_view_deg", field_of_view_deg)
+      .add("shift", shift)
       .add("view_width_m", view_width_m)
       .add("sheet_width_mm", loaded.scene.output.sheet_width_mm);
   return key.str();
@@ -87,7 +88,8 @@ std::string generalize_key(const LoadedScene& loaded, const View& view) {
 
 std::string deform_key(const View& view) {
   const auto& [exaggeration, bend, earth_curvature, refraction, background_exaggeration,
-               foreground_to_m, background_from_m, base_m, summits, handles] = view.deform;
+               foreground_to_m, background_from_m, base_m, summits, handles, exaggeration_points,
+               field] = view.deform;
   const auto& [radius_m, crest_m, far_from_m, far_amount_per_m, points] = bend;
   CacheKeyText key;
   key.add("viewer", view.viewer_xy)
@@ -115,6 +117,17 @@ std::string deform_key(const View& view) {
         .add("radius_m", radius)
         .add("core_m", core_m)
         .add("pin", pin);
+  for (const auto& [distance_m, factor] : exaggeration_points)
+    key.add("exaggeration_m", distance_m).add("factor", factor);
+  const auto& [length_m, reach_m, still_m, max_m, places] = field;
+  if (!places.empty())
+    key.add("field", length_m).add("reach_m", reach_m).add("still_m", still_m).add("max_m", max_m);
+  for (const auto& [position, moved, noise] : places)
+    key.add("place", position)
+        .add("lateral_m", moved.lateral_m)
+        .add("upward_m", moved.upward_m)
+        .add("lateral_noise_m", noise.lateral_m)
+        .add("upward_noise_m", noise.upward_m);
   return key.str();
 }
 

@@ -78,7 +78,15 @@ DeformParameters resolve_deform(const SceneDeform& scene_deform, const Dem& dem)
     handle.move_m = {given.move_m[0], given.move_m[1]};
     handle.core_m = given.core_m.value_or(core_share * handle.radius_m);
   }
-  in_section("deform", [&] { return HandleField(deform.handles); });
+  for (std::size_t i = 0; i < scene_deform.field_places.size(); ++i) {
+    const SceneDisplacedPlace& given = scene_deform.field_places[i];
+    DisplacedPlace& place = deform.field.places.emplace_back();
+    place.position = resolve_place(dem, given.position, given.position_lonlat,
+                                   fmt::format("deform.field.places.{}", i));
+    place.moved = {given.moved_m[0], given.moved_m[1]};
+    place.noise = {given.noise_m[0], given.noise_m[1]};
+  }
+  in_section("deform", [&] { return Deformation(deform, {0.0, 0.0}); });
   return deform;
 }
 
@@ -94,6 +102,7 @@ View make_view(const Scene& scene, const Dem& dem, Progress& progress,
   view.camera.height = scene.output.height;
   view.camera.field_of_view_deg = scene.camera.field_of_view_deg;
   view.camera.view_width_m = scene.camera.view_width_m;
+  view.camera.shift = {scene.camera.shift[0], scene.camera.shift[1]};
 
   if (scene.camera.position)
     view.viewer_xy = *scene.camera.position;
@@ -154,6 +163,7 @@ View make_view(const Scene& scene, const Dem& dem, Progress& progress,
     DeformParameters plain = view.deform;
     plain.summits.clear();
     plain.handles.clear();
+    plain.field = {};
     look_towards(view.camera,
                  Deformation(plain, view.viewer_xy).unbent({target->position, target->altitude_m}));
   } else {

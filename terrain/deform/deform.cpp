@@ -1,12 +1,17 @@
 #include "terrain/deform/deform.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/mat2x2.hpp>
 #include <glm/matrix.hpp>
+#include <utility>
 
+#include "base/error.h"
 #include "base/math.h"
+#include "base/math_exact.h"
 #include "base/parallel.h"
 
 namespace belvedere {
@@ -25,17 +30,39 @@ double soft_height(double h) {
   return summit_ramp_m * t * t * (2.0 - t);
 }
 
+MonotoneCurve curve_of(const std::vector<ExaggerationPoint>& points) {
+  std::vector<glm::dvec2> out;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (i > 0 && !(points[i].distance_m - points[i - 1].distance_m >= 1.0))
+      throw Error(ErrorKind::usage, fmt::format("exaggeration_points.{}", i),
+                  fmt::format("{} m after {} m", points[i].distance_m, points[i - 1].distance_m),
+                  "distances in ascending order, at least 1 m apart");
+    out.emplace_back(points[i].distance_m, points[i].factor);
+  }
+  return MonotoneCurve(std::move(out));
+}
+
+DisplacementField in_field(const DisplacementParameters& parameters) {
+  try {
+    return DisplacementField(parameters);
+  } catch (const Error& error) {
+    throw Error(error.kind(), "field." + error.where(), error.found(), error.allowed());
+  }
+}
+
 }  // namespace
 
 Deformation::Deformation(const DeformParameters& parameters, glm::dvec2 viewer_xy)
     : parameters_(parameters),
       viewer_xy_(viewer_xy),
       bend_(parameters.bend),
-      handles_(parameters.handles) {}
+      handles_(parameters.handles),
+      exaggeration_curve_(curve_of(parameters.exaggeration_points)),
+      field_(in_field(parameters.field)) {}
 
-double Deformation::distance_m(glm::dvec3 point) const {
-  const double east = point.x - viewer_xy_.x;
-  const double north = point.y - viewer_xy_.y;
+double Deformation::distance_m(glm::dvec2 position) const {
+  const double east = position.x - viewer_xy_.x;
+  const double north = position.y - viewer_xy_.y;
   return std::sqrt(east * east + north * north);
 }
 
@@ -50,6 +77,7 @@ double Deformation::drop_m(double distance_m) const {
 
 double Deformation::exaggeration(double distance_m) const {
   const double near = parameters_.exaggeration;
+  if (!parameters_.exaggeration_points.empty()) return near * exaggeration_curve_.at(distance_m);
   if (!parameters_.background_exaggeration || distance_m <= parameters_.foreground_to_m)
     return near;
   const double far = *parameters_.background_exaggeration;
@@ -72,33 +100,57 @@ double Deformation::raised_by_summits_m(glm::dvec3 point) const {
   return raised;
 }
 
-glm::dvec3 Deformation::rearranged(glm::dvec3 point) const {
-  const double raised = parameters_.summits.empty() ? 0.0 : raised_by_summits_m(point);
-  if (handles_.is_identity()) return {point.x, point.y, point.z + raised};
-  const glm::dvec2 position(point);
+HandleField::Moved Deformation::moved_by_handles(glm::dvec2 position) const {
   const glm::dvec2 low = handles_.lowest();
   const glm::dvec2 high = handles_.highest();
-  if (position.x < low.x || position.y < low.y || position.x > high.x || position.y > high.y)
-    return {position, point.z + raised};
-  const HandleField::Moved moved = handles_.move(position);
-  return {moved.position, point.z + raised + moved.raise_m};
+  if (handles_.is_identity() || position.x < low.x || position.y < low.y || position.x > high.x ||
+      position.y > high.y)
+    return {position, 0.0};
+  return handles_.move(position);
+}
+
+glm::dvec2 Deformation::turned(glm::dvec2 position, double lateral_m) const {
+  if (lateral_m == 0.0) return position;
+  constexpr double nearest = 0.4;  // of the field's reach: nearer ground turns no further
+  const double distance = std::max(distance_m(position), nearest * field_.parameters().reach_m);
+  const exact::Turn turn = exact::turn(lateral_m / distance);
+  const glm::dvec2 from = position - viewer_xy_;
+  return viewer_xy_ + glm::dvec2(from.x * turn.cosine + from.y * turn.sine,
+                                 from.y * turn.cosine - from.x * turn.sine);
+}
+
+glm::dvec2 Deformation::moved_in_plan(glm::dvec2 position) const {
+  const glm::dvec2 moved = moved_by_handles(position).position;
+  return field_.is_identity() ? moved : turned(moved, field_.at(position).lateral_m);
+}
+
+glm::dvec3 Deformation::rearranged(glm::dvec3 point) const {
+  const double raised = parameters_.summits.empty() ? 0.0 : raised_by_summits_m(point);
+  if (!moves_in_plan()) return {point.x, point.y, point.z + raised};
+  const glm::dvec2 position(point);
+  const HandleField::Moved moved = moved_by_handles(position);
+  const double z = point.z + raised + moved.raise_m;
+  if (field_.is_identity()) return {moved.position, z};
+  const Displacement displaced = field_.at(position);
+  return {turned(moved.position, displaced.lateral_m),
+          z + displaced.upward_m / exaggeration(distance_m(moved.position))};
 }
 
 glm::dvec3 Deformation::unbent(glm::dvec3 point) const {
   const glm::dvec3 moved = rearranged(point);
   const double base = parameters_.exaggeration_base_m;
-  return {moved.x, moved.y, base + (moved.z - base) * exaggeration(distance_m(moved))};
+  return {moved.x, moved.y, base + (moved.z - base) * exaggeration(distance_m(glm::dvec2(moved)))};
 }
 
 glm::dvec3 Deformation::point(glm::dvec3 point) const {
   const glm::dvec3 moved = rearranged(point);
   const double base = parameters_.exaggeration_base_m;
-  const double distance = distance_m(moved);
+  const double distance = distance_m(glm::dvec2(moved));
   return {moved.x, moved.y, base + (moved.z - base) * exaggeration(distance) - drop_m(distance)};
 }
 
 glm::dmat3 Deformation::shape_jacobian(glm::dvec3 point) const {
-  const double e = exaggeration(distance_m(rearranged(point)));
+  const double e = exaggeration(distance_m(glm::dvec2(rearranged(point))));
   glm::dmat3 jacobian;
   constexpr double step_m =
       1.0;  // the functions are smooth over hundreds of metres, and double keeps nanometres
@@ -113,7 +165,7 @@ glm::dmat3 Deformation::shape_jacobian(glm::dvec3 point) const {
 }
 
 std::optional<glm::dvec2> Deformation::source_of(glm::dvec2 moved) const {
-  if (handles_.is_identity()) return moved;
+  if (!moves_in_plan()) return moved;
   // Start from the current position and from the inverse of each handle: a moved core is far from
   // its origin.
   std::vector<glm::dvec2> starts = {moved};
@@ -125,11 +177,10 @@ std::optional<glm::dvec2> Deformation::source_of(glm::dvec2 moved) const {
   constexpr double close_m = 1e-3;
   for (glm::dvec2 at : starts) {
     for (int round = 0; round < 40; ++round) {
-      const glm::dvec2 error = handles_.move(at).position - moved;
+      const glm::dvec2 error = moved_in_plan(at) - moved;
       if (glm::length(error) < close_m) return at;
       const auto change = [&](glm::dvec2 step) {
-        return (handles_.move(at + step).position - handles_.move(at - step).position) /
-               (2.0 * step_m);
+        return (moved_in_plan(at + step) - moved_in_plan(at - step)) / (2.0 * step_m);
       };
       const glm::dmat2 slope(change({step_m, 0.0}), change({0.0, step_m}));
       const double det = glm::determinant(slope);
@@ -141,8 +192,9 @@ std::optional<glm::dvec2> Deformation::source_of(glm::dvec2 moved) const {
 }
 
 bool Deformation::is_local() const {
-  return parameters_.background_exaggeration.has_value() || !parameters_.summits.empty() ||
-         !handles_.is_identity();
+  return parameters_.background_exaggeration.has_value() ||
+         !parameters_.exaggeration_points.empty() || !parameters_.summits.empty() ||
+         moves_in_plan();
 }
 
 double bend_drop_m(const DeformParameters& parameters, double distance_m) {

@@ -9,7 +9,9 @@
 #include "base/grid.h"
 #include "base/pixel_rect.h"
 #include "terrain/deform/bend_curve.h"
+#include "terrain/deform/displacement.h"
 #include "terrain/deform/handles.h"
+#include "terrain/deform/monotone_curve.h"
 #include "terrain/io/raster.h"
 
 namespace belvedere {
@@ -24,12 +26,20 @@ struct SummitExaggeration {
                         // applies, below it none
 };
 
+// A control point of the exaggeration by distance from the viewer.
+struct ExaggerationPoint {
+  double distance_m = 0.0;  // 0…1e8
+  double factor = 1.0;      // of the exaggeration, 0.05…20
+};
+
 // What happens to a point (x, y, altitude z), in this order; d is the horizontal distance from the
 // viewer to its position after step 1:
 //   1. handles move it in plan and raise it;
-//   2. summits: z += (factor - 1) share(distance) · (z - base);
-//   3. exaggeration: z = base + e(d) (z - base);
-//   4. bend and earth curvature: z -= drop(d).
+//   2. the field, at its undeformed position, turns it about the viewer by lateral / d, clockwise,
+//      and raises it by upward / e(d);
+//   3. summits: z += (factor - 1) share(distance) · (z - base);
+//   4. exaggeration: z = base + e(d) (z - base);
+//   5. bend and earth curvature: z -= drop(d).
 struct DeformParameters {
   double exaggeration =
       1.0;  // 0.1…10, of all altitudes; if a background is given, up to foreground_to_m
@@ -44,6 +54,10 @@ struct DeformParameters {
   double exaggeration_base_m = 0.0;  // altitude that the exaggeration does not move, -12000…9000
   std::vector<SummitExaggeration> summits;
   std::vector<DeformHandle> handles;
+  // Factors on the exaggeration by distance, from near to far; a monotone curve joins them,
+  // constant before the first and after the last. Not together with a background.
+  std::vector<ExaggerationPoint> exaggeration_points;
+  DisplacementParameters field;
 };
 
 // A deformation prepared for one viewer. Immutable and thread-safe. Vertices, the ground below the
@@ -51,15 +65,16 @@ struct DeformParameters {
 class Deformation {
  public:
   Deformation() : Deformation({}, {0.0, 0.0}) {}
-  // viewer_xy: the eye in the DEM's CRS. Throws Error(usage) for an invalid bend or handles, as
-  // BendProfile and HandleField do.
+  // viewer_xy: the eye in the DEM's CRS. Throws Error(usage) for an invalid bend, handles or field,
+  // as BendProfile, HandleField and DisplacementField do, and for exaggeration_points that do not
+  // ascend.
   Deformation(const DeformParameters& parameters, glm::dvec2 viewer_xy);
 
   // From x, y, altitude to the position in the deformed world.
   glm::dvec3 point(glm::dvec3 point) const;
-  // Steps 1 to 3 only: before bending.
+  // Steps 1 to 4 only: before bending.
   glm::dvec3 unbent(glm::dvec3 point) const;
-  // Steps 1 and 2 only: the deformed landscape in its own metres.
+  // Steps 1 to 3 only: the deformed landscape in its own metres.
   glm::dvec3 rearranged(glm::dvec3 point) const;
   // Drop of the ground at horizontal distance d ≥ 0, m (positive is down): bend and earth
   // curvature.
@@ -68,23 +83,31 @@ class Deformation {
   // Derivatives (columns: by x, y, z) of the ground's shape for lighting: moved and exaggerated,
   // but tilted neither by the bend nor by an exaggeration that changes with distance.
   glm::dmat3 shape_jacobian(glm::dvec3 point) const;
-  // The undeformed position that handles move to `moved`, if there is one; Newton's method, within
+  // Whether steps 1 and 2 may move ground in plan, and where they move a position.
+  bool moves_in_plan() const { return !handles_.is_identity() || !field_.is_identity(); }
+  glm::dvec2 moved_in_plan(glm::dvec2 position) const;
+  // The undeformed position that they move to `moved`, if there is one; Newton's method, within
   // a millimetre.
   std::optional<glm::dvec2> source_of(glm::dvec2 moved) const;
   // Whether there is more than one exaggeration for all of the ground and a bend.
   bool is_local() const;
   const HandleField& handles() const { return handles_; }
+  const DisplacementField& field() const { return field_; }
   const DeformParameters& parameters() const { return parameters_; }
   glm::dvec2 viewer_xy() const { return viewer_xy_; }
 
  private:
-  double distance_m(glm::dvec3 point) const;
+  double distance_m(glm::dvec2 position) const;
+  HandleField::Moved moved_by_handles(glm::dvec2 position) const;
+  glm::dvec2 turned(glm::dvec2 position, double lateral_m) const;
   double raised_by_summits_m(glm::dvec3 point) const;
 
   DeformParameters parameters_;
   glm::dvec2 viewer_xy_;
   BendProfile bend_;
   HandleField handles_;
+  MonotoneCurve exaggeration_curve_;
+  DisplacementField field_;
 };
 
 // bend_drop_m and deform_point are Deformation::drop_m and ::point for a single use.

@@ -131,10 +131,15 @@ std::vector<double> DisplacementField::covariance_with(glm::dvec2 position) cons
 
 Displacement DisplacementField::at(glm::dvec2 position) const {
   Displacement out;
-  const std::vector<double> covariance = covariance_with(position);
-  for (std::size_t i = 0; i < covariance.size(); ++i) {
-    out.lateral_m += covariance[i] * lateral_[i];
-    out.upward_m += covariance[i] * upward_[i];
+  if (is_identity()) return out;
+  const double size = displacement_size_m(parameters_, position);
+  for (std::size_t i = 0; i < parameters_.places.size(); ++i) {
+    const double kernel = matern(square_distance(position, parameters_.places[i].position) /
+                                 square(parameters_.length_m));
+    if (kernel == 0.0) continue;
+    const double covariance = size * sizes_m_[i] * kernel;
+    out.lateral_m += covariance * lateral_[i];
+    out.upward_m += covariance * upward_[i];
   }
   return out;
 }

@@ -30,10 +30,10 @@ struct DisplacedPlace {
 // m_j² is what place j moves beyond 1.5 times its noise: (lateral² + upward²) / 2 - (1.5 noise)²,
 // within 0 … max².
 struct DisplacementParameters {
-  double length_m = 0.0;  // over which displacements are alike, > 0
-  double reach_m = 0.0;   // within which a place tells their size, > 0
-  double still_m = 0.0;   // their size away from places that moved, > 0
-  double max_m = 0.0;     // the largest size, > 0
+  double length_m = 5000.0;  // over which displacements are alike, > 0
+  double reach_m = 2000.0;   // within which a place tells their size, > 0
+  double still_m = 25.0;     // their size away from places that moved, > 0
+  double max_m = 1500.0;     // the largest size, > 0
   std::vector<DisplacedPlace> places;
 };
 

@@ -22,15 +22,15 @@ double distance_from(const DeformHandle& handle, glm::dvec2 position) {
 
 std::vector<Fold> find_folds(const Grid<float>& altitude_m, const GeoTransform& transform,
                              const Deformation& deformation) {
-  if (deformation.handles().is_identity() || altitude_m.width() < 2 || altitude_m.height() < 2)
-    return {};
+  if (!deformation.moves_in_plan() || altitude_m.width() < 2 || altitude_m.height() < 2) return {};
   const auto moved = [&](int x, int y) {
     const glm::dvec3 position = deformation.rearranged({transform.to_crs(x, y), altitude_m(x, y)});
     return glm::dvec2(position);
   };
-  // Cells within the radius of some handle, and one more on each side.
-  const glm::dvec2 low = deformation.handles().lowest();
-  const glm::dvec2 high = deformation.handles().highest();
+  // Cells within the radius of some handle, and one more on each side; all if there is a field.
+  const bool everywhere = !deformation.field().is_identity();
+  const glm::dvec2 low = everywhere ? glm::dvec2(-1e9) : deformation.handles().lowest();
+  const glm::dvec2 high = everywhere ? glm::dvec2(1e9) : deformation.handles().highest();
   const auto cell_of = [](double at, int count) {
     return static_cast<int>(std::clamp(at, 0.0, static_cast<double>(count - 1)));
   };
@@ -68,17 +68,22 @@ std::vector<Fold> find_folds(const Grid<float>& altitude_m, const GeoTransform& 
 }
 
 std::vector<FoldSummary> summarize_folds(const std::vector<Fold>& folds,
-                                         const std::vector<DeformHandle>& handles) {
-  std::vector<std::vector<const Fold*>> of_handle(handles.size());
+                                         const DeformParameters& deform) {
+  const std::vector<DeformHandle>& handles = deform.handles;
+  const double limit = deform.field.places.empty() ? std::numeric_limits<double>::infinity() : 1.0;
+  // The last is for folds that lie in no handle.
+  std::vector<std::vector<const Fold*>> of_handle(handles.size() + 1);
   for (const Fold& fold : folds) {
-    std::size_t nearest = 0;
-    for (std::size_t i = 1; i < handles.size(); ++i)
-      if (distance_from(handles[i], fold.position) < distance_from(handles[nearest], fold.position))
-        nearest = i;
-    if (!handles.empty()) of_handle[nearest].push_back(&fold);
+    std::size_t nearest = handles.size();
+    double nearest_distance = limit;
+    for (std::size_t i = 0; i < handles.size(); ++i) {
+      const double distance = distance_from(handles[i], fold.position);
+      if (distance <= nearest_distance) nearest = i, nearest_distance = distance;
+    }
+    of_handle[nearest].push_back(&fold);
   }
   std::vector<FoldSummary> summaries;
-  for (std::size_t i = 0; i < handles.size(); ++i) {
+  for (std::size_t i = 0; i < of_handle.size(); ++i) {
     if (of_handle[i].empty()) continue;
     glm::dvec2 mean(0.0);
     for (const Fold* fold : of_handle[i])
@@ -88,7 +93,8 @@ std::vector<FoldSummary> summarize_folds(const std::vector<Fold>& folds,
         of_handle[i].begin(), of_handle[i].end(), [&](const Fold* a, const Fold* b) {
           return glm::length(a->position - mean) < glm::length(b->position - mean);
         });
-    summaries.push_back({i, of_handle[i].size(), centre->position});
+    summaries.push_back({i < handles.size() ? std::optional(i) : std::nullopt, of_handle[i].size(),
+                         centre->position});
   }
   return summaries;
 }

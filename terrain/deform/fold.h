@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <optional>
 #include <vector>
 
 #include "terrain/deform/deform.h"
@@ -9,8 +10,8 @@
 namespace belvedere {
 
 // A facet of the surface (see renderer/trace/tracer.h: the cell's north-western or south-eastern
-// triangle) that handles fold over in plan: its orientation is reversed or its posts are collinear.
-// There the ground covers itself.
+// triangle) that handles or the field fold over in plan: its orientation is reversed or its posts
+// are collinear. There the ground covers itself.
 struct Fold {
   int column = 0;  // of the cell's north-western post
   int row = 0;
@@ -19,18 +20,19 @@ struct Fold {
   glm::dvec2 moved{0.0};     // its position in the deformed world
 };
 
-// All of them, by rows. Without handles there are none, as all other steps move points only up and
-// down.
+// All of them, by rows. Without handles and field there are none, as all other steps move points
+// only up and down.
 std::vector<Fold> find_folds(const Grid<float>& altitude_m, const GeoTransform& transform,
                              const Deformation& deformation);
 
-// Summary for messages, by the handle whose edge (core or radius) is nearest.
+// Summary for messages, by the handle within whose radius they lie, the one whose centre is nearest
+// in radii; all others are of the field, if there is one.
 struct FoldSummary {
-  std::size_t handle = 0;  // index in DeformParameters::handles
+  std::optional<std::size_t> handle;  // index in DeformParameters::handles; none: of the field
   std::size_t facets = 0;
   glm::dvec2 centre{0.0};  // undeformed position of the fold nearest to the mean of them all
 };
 std::vector<FoldSummary> summarize_folds(const std::vector<Fold>& folds,
-                                         const std::vector<DeformHandle>& handles);
+                                         const DeformParameters& deform);
 
 }  // namespace belvedere

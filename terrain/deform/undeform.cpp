@@ -12,12 +12,12 @@ std::optional<glm::dvec3> undeform(const Deformation& deformation, glm::dvec3 de
   const double moved_z = p.exaggeration_base_m +
                          (deformed.z + deformation.drop_m(distance_m) - p.exaggeration_base_m) /
                              deformation.exaggeration(distance_m);
-  if (p.summits.empty() && deformation.handles().is_identity())
+  if (p.summits.empty() && !deformation.moves_in_plan())
     return glm::dvec3(deformed.x, deformed.y, moved_z);
   const std::optional<glm::dvec2> position = deformation.source_of(glm::dvec2(deformed));
   if (!position) return std::nullopt;
-  // The height added by handles and summits now depends only on the altitude and grows with it:
-  // secant method.
+  // The height added by handles, field and summits now depends only on the altitude and grows with
+  // it: secant method.
   const auto error = [&](double z) {
     return deformation.rearranged({position->x, position->y, z}).z - moved_z;
   };

@@ -42,20 +42,20 @@ std::string percent(double share) { return fmt::format("{:.1f} %", 100.0 * share
 
 void report_folds(const Grid<float>& altitude_m, const GeoTransform& transform,
                   const Deformation& deformation, Report& report) {
-  const std::vector<DeformHandle>& handles = deformation.parameters().handles;
   Json folds = Json::array();
   for (const FoldSummary& fold :
-       summarize_folds(find_folds(altitude_m, transform, deformation), handles)) {
-    report.text += fmt::format(
-        "fold: deform.handles.{} folds the ground over itself around E {:.0f} N {:.0f}, {} "
-        "facets\n",
-        fold.handle, fold.centre.x, fold.centre.y, fold.facets);
+       summarize_folds(find_folds(altitude_m, transform, deformation), deformation.parameters())) {
+    report.text +=
+        fmt::format("fold: {} folds the ground over itself around E {:.0f} N {:.0f}, {} facets\n",
+                    fold.handle ? fmt::format("deform.handles.{}", *fold.handle) : "deform.field",
+                    fold.centre.x, fold.centre.y, fold.facets);
     folds.add(Json::object()
-                  .add("handle", Json::number(static_cast<double>(fold.handle)))
+                  .add("handle", fold.handle ? Json::number(static_cast<double>(*fold.handle))
+                                             : Json::raw("null"))
                   .add("facets", Json::number(static_cast<double>(fold.facets)))
                   .add("place", pair_json(fold.centre)));
   }
-  if (report.text.empty() && !handles.empty()) report.text += "no folds\n";
+  if (report.text.empty() && deformation.moves_in_plan()) report.text += "no folds\n";
   report.json.add("folds", std::move(folds));
 }
 

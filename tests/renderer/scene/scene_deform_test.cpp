@@ -88,6 +88,47 @@ TEST(SceneDeform, WrittenReadsBackAndSettingsReachEachElement) {
                              HasSubstr("rotate_deg = -30")));
 }
 
+TEST(SceneDeform, ExaggerationByDistanceAndAField) {
+  const std::string text = R"([[deform.exaggeration_points]]
+distance_m = 9000
+factor = 1.3
+[[deform.exaggeration_points]]
+distance_m = 40000
+factor = 0.9
+[deform.field]
+length_m = 3000
+[[deform.field.places]]
+position = [680000, 5250000]
+moved_m = [250, -40]
+noise_m = [60, 70]
+[[deform.field.places]]
+name = "Kaiser"
+position = [690000, 5250000]
+)";
+  const Scene scene = scene_of(text);
+  Dem dem;
+  dem.altitude_m = Grid<float>(2, 2);
+  const DeformParameters p = resolve_deform(scene.deform, dem);
+  ASSERT_EQ(p.exaggeration_points.size(), 2U);
+  EXPECT_EQ(p.exaggeration_points[1].factor, 0.9);
+  EXPECT_EQ(p.field.length_m, 3000.0);
+  EXPECT_EQ(p.field.reach_m, DisplacementParameters{}.reach_m);
+  ASSERT_EQ(p.field.places.size(), 2U);
+  EXPECT_EQ(p.field.places[0].position, glm::dvec2(680000.0, 5250000.0));
+  EXPECT_EQ(p.field.places[0].moved.lateral_m, 250.0);
+  EXPECT_EQ(p.field.places[0].moved.upward_m, -40.0);
+  EXPECT_EQ(p.field.places[0].noise.upward_m, 70.0);
+  EXPECT_EQ(p.field.places[1].moved.lateral_m, 0.0);
+  const std::string written = write_scene(scene);
+  EXPECT_EQ(write_scene(parse_scene(written, "again.toml", ".", {}).scene), written);
+  EXPECT_THAT(refused("[[deform.field.places]]\nmoved_m = [1, 2]\n"),
+              HasSubstr("deform.field.places.0 has no position"));
+  EXPECT_THAT(refused("[deform]\nbackground_exaggeration = 2\n" + text),
+              HasSubstr("one of the two"));
+  EXPECT_THAT(refused(text + "[[deform.exaggeration_points]]\ndistance_m = 5\nfactor = 1\n"),
+              HasSubstr("ascending order"));
+}
+
 TEST(SceneDeform, RefusesWhatCannotBe) {
   const std::string points = "[[deform.bend.points]]\ndistance_m = 1000\ninclination_deg = 9\n";
   EXPECT_THAT(refused(points), AllOf(HasSubstr("s.toml:2:"), HasSubstr("a single control point")));

@@ -53,6 +53,23 @@ TEST(Camera, ProjectUndoesRayInEveryProjection) {
   }
 }
 
+// A picture that is cropped on one side shows what the whole shows there.
+TEST(Camera, AShiftMovesThePictureAlone) {
+  for (const Projection& projection : projections()) {
+    const CameraParameters whole = base(std::string(projection.name));
+    CameraParameters shifted = whole;
+    shifted.shift = {0.1, -0.05};
+    const auto a = make_camera(whole);
+    const auto b = make_camera(shifted);
+    for (const glm::dvec2 pixel : {glm::dvec2(100.0, 350.0), {400.0, 200.0}, {700.0, 50.0}}) {
+      const Ray of_whole = a->ray(pixel);
+      const Ray of_shifted = b->ray(pixel + glm::dvec2(80.0, -40.0));
+      expect_near(of_shifted.direction, of_whole.direction, 1e-12);
+      expect_near(of_shifted.origin, of_whole.origin, 1e-6);
+    }
+  }
+}
+
 TEST(Camera, MiddleRayLooksAlongAzimuthAndPitch) {
   for (const Projection& projection : projections()) {
     CameraParameters p = base(std::string(projection.name));

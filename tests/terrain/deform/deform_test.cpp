@@ -173,6 +173,52 @@ TEST(Deform, ExaggerationIsExactAtBothEndsAndSmoothBetween) {
   EXPECT_EQ(deform_point({0.0, 40000.0, 600.0}, {0.0, 0.0}, p).z, 600.0);
 }
 
+TEST(Deform, ExaggerationByDistancePassesThroughItsPoints) {
+  DeformParameters p;
+  p.exaggeration = 1.5;
+  p.exaggeration_base_m = 500.0;
+  p.exaggeration_points = {{10000.0, 1.2}, {30000.0, 0.8}, {50000.0, 0.8}};
+  const Deformation deformation(p, {0.0, 0.0});
+  EXPECT_TRUE(deformation.is_local());
+  const auto height = [&](double d) { return deformation.point({0.0, d, 1500.0}).z; };
+  EXPECT_NEAR(height(1000.0), 500.0 + 1.5 * 1.2 * 1000.0, 1e-9);
+  EXPECT_NEAR(height(10000.0), 500.0 + 1.5 * 1.2 * 1000.0, 1e-9);
+  EXPECT_NEAR(height(30000.0), 500.0 + 1.5 * 0.8 * 1000.0, 1e-9);
+  EXPECT_NEAR(height(90000.0), 500.0 + 1.5 * 0.8 * 1000.0, 1e-9);
+  EXPECT_LT(height(20000.0), height(12000.0));
+  p.exaggeration_points[1].distance_m = 10000.5;
+  EXPECT_THROW(Deformation(p, {0.0, 0.0}), Error);
+}
+
+// A place 20 km to the north-east, known exactly, moves to the right as seen from the viewer and
+// up.
+TEST(Deform, AFieldTurnsAboutTheViewerAndRaisesAfterExaggeration) {
+  const glm::dvec2 viewer(600000.0, 5200000.0);
+  const double distance = 20000.0;
+  const glm::dvec2 place = viewer + distance * glm::dvec2(0.6, 0.8);
+  DeformParameters p;
+  p.exaggeration = 2.0;
+  p.exaggeration_base_m = 400.0;
+  p.bend.radius_m = 100000.0;
+  p.field.places = {{place, {300.0, 120.0}, {1e-4, 1e-4}}};
+  const Deformation deformation(p, viewer);
+  const glm::dvec3 moved = deformation.point({place, 1400.0});
+  const double angle = std::atan2(0.6, 0.8) + 300.0 / distance;  // clockwise from north
+  EXPECT_NEAR(moved.x, viewer.x + distance * std::sin(angle), 1e-3);
+  EXPECT_NEAR(moved.y, viewer.y + distance * std::cos(angle), 1e-3);
+  EXPECT_NEAR(moved.z, 400.0 + 2.0 * 1000.0 + 120.0 - distance * distance / 200000.0, 1e-3);
+  EXPECT_TRUE(deformation.moves_in_plan());
+  EXPECT_TRUE(deformation.is_local());
+  const auto source = deformation.source_of(glm::dvec2(moved));
+  ASSERT_TRUE(source);
+  EXPECT_LT(glm::length(*source - place), 0.01);
+  // Far from the place nothing moves.
+  const glm::dvec3 far(viewer + glm::dvec2(-150000.0, 0.0), 900.0);
+  EXPECT_EQ(glm::dvec2(deformation.rearranged(far)), glm::dvec2(far));
+  p.field.places[0].noise.lateral_m = 0.0;
+  EXPECT_THROW(Deformation(p, viewer), Error);
+}
+
 TEST(Deform, ASummitRisesAloneAndSmoothly) {
   DeformParameters p;
   p.summits = {{{5000.0, 5000.0}, 3000.0, 1.5, 1000.0}};

@@ -65,7 +65,8 @@ TEST(Fold, IsFoundWhereAMovedCoreRunsOverTheGroundBeforeIt) {
        .move_m = {3000.0, 0.0},
        .radius_m = 4000.0,
        .core_m = 2000.0}};
-  const std::vector<Fold> folds = find_folds(flat, frame, with(handles));
+  const Deformation deformation = with(handles);
+  const std::vector<Fold> folds = find_folds(flat, frame, deformation);
   ASSERT_FALSE(folds.empty());
   for (const Fold& fold : folds) {
     EXPECT_GT(fold.position.x, 12500.0);
@@ -74,13 +75,31 @@ TEST(Fold, IsFoundWhereAMovedCoreRunsOverTheGroundBeforeIt) {
     const glm::dvec2 post = frame.to_crs(fold.column, fold.row);
     EXPECT_LT(glm::length(post - fold.position), 142.0);
   }
-  const std::vector<FoldSummary> summary = summarize_folds(folds, handles);
+  const std::vector<FoldSummary> summary = summarize_folds(folds, deformation.parameters());
   ASSERT_EQ(summary.size(), 1U);
   EXPECT_EQ(summary[0].handle, 1U);
   EXPECT_EQ(summary[0].facets, folds.size());
   EXPECT_NEAR(summary[0].centre.y, 12000.0, 300.0);
   EXPECT_GT(summary[0].centre.x, 14000.0);
   EXPECT_LT(summary[0].centre.x, 16000.0);
+}
+
+TEST(Fold, OfAFieldWhoseNeighboursMoveUnlike) {
+  DeformParameters parameters;
+  parameters.field = {
+      .length_m = 1500.0, .reach_m = 800.0, .still_m = 20.0, .max_m = 1500.0, .places = {}};
+  // Seen from the south, ground in the west moves to the east and the other way round.
+  parameters.field.places = {{{9000.0, 12000.0}, {900.0, 0.0}, {5.0, 5.0}},
+                             {{11000.0, 12000.0}, {-900.0, 0.0}, {5.0, 5.0}}};
+  const Deformation deformation(parameters, {10000.0, -20000.0});
+  const std::vector<Fold> folds = find_folds(flat, frame, deformation);
+  ASSERT_FALSE(folds.empty());
+  for (const Fold& fold : folds) EXPECT_NEAR(fold.position.x, 10000.0, 1100.0);
+  const std::vector<FoldSummary> summary = summarize_folds(folds, parameters);
+  ASSERT_EQ(summary.size(), 1U);
+  EXPECT_FALSE(summary[0].handle);
+  parameters.field.places[1].moved.lateral_m = 600.0;
+  EXPECT_TRUE(find_folds(flat, frame, Deformation(parameters, {10000.0, -20000.0})).empty());
 }
 
 TEST(Fold, AgreesWithTheSignOfAreasAllOverTheGrid) {

@@ -32,7 +32,7 @@ TEST(Undeform, BendAndExaggerationGoBackExactly) {
   expect_round_trip(p, 1e-6);
 }
 
-TEST(Undeform, SummitsAndHandlesGoBackWithinMillimetres) {
+TEST(Undeform, SummitsHandlesAndAFieldGoBackWithinMillimetres) {
   DeformParameters p;
   p.exaggeration = 1.5;
   p.bend = {120000.0, 30000.0};
@@ -46,6 +46,10 @@ TEST(Undeform, SummitsAndHandlesGoBackWithinMillimetres) {
   handle.move_m = {900.0, -400.0};
   handle.raise_m = 250.0;
   p.handles = {handle};
+  expect_round_trip(p, 0.01);
+  p.exaggeration_points = {{5000.0, 1.1}, {60000.0, 0.9}};
+  p.field.places = {{{605000.0, 5209000.0}, {250.0, -80.0}, {20.0, 20.0}},
+                    {{596000.0, 5212000.0}, {-10.0, 5.0}, {20.0, 20.0}}};
   expect_round_trip(p, 0.01);
 }
 
