@@ -182,7 +182,7 @@ FittedView fit_from(const Start& start, const ViewFrame& frame,
   // One deviation of the priors weighs like so many pixels.
   constexpr double prior_px = 2.0;
   std::vector<double> first(start.view.begin(), start.view.end());
-  if (frame.kind == ViewKind::plane) {
+  if (frame.kind != ViewKind::cylinder) {
     first[unknown::pitch] = first_pitch;
     first[unknown::drop + 1] -= exact::tan(first_pitch);
   }

@@ -38,7 +38,8 @@ Position<Number> to_pixel(const Lens<Number>& lens, const Number& turn, const Nu
     return {lens.middle_x + lens.focal * turn, lens.middle_y - lens.focal * tangent};
   if (lens.kind == ViewKind::panini) {
     const Number scale = lens.focal * Number(2.0) / (Number(1.0) + at_least(cos(turn), -0.9));
-    return {lens.middle_x + scale * sin(turn), lens.middle_y - scale * tangent};
+    const Number horizon = lens.middle_y + lens.focal * sin(lens.pitch) / cos(lens.pitch);
+    return {lens.middle_x + scale * sin(turn), horizon - scale * tangent};
   }
   constexpr double min_depth = 0.05;
   const Number along = cos(lens.pitch), up = sin(lens.pitch);
@@ -57,7 +58,7 @@ Position<Number> from_pixel(const Lens<Number>& lens, glm::dvec2 pixel) {
     const Number quarter = x * x / Number(4.0);
     const Number cosine = (Number(1.0) - quarter) / (Number(1.0) + quarter);
     const Number scale = Number(2.0) / (Number(1.0) + cosine);
-    return {atan2(x / scale, cosine), y / scale};
+    return {atan2(x / scale, cosine), (y + sin(lens.pitch) / cos(lens.pitch)) / scale};
   }
   const Number ahead = cos(lens.pitch) - y * sin(lens.pitch);
   const Number up = sin(lens.pitch) + y * cos(lens.pitch);
@@ -209,8 +210,8 @@ std::vector<ViewNumber> view_priors(const ViewFrame& frame, const ViewUnknowns& 
   expect(unknown::exaggeration, 1.5, 0.5);
   expect(unknown::exaggeration + 1, 0.0, 0.35);
   expect(unknown::exaggeration + 2, 0.0, 0.12);
-  frame.kind == ViewKind::plane ? expect(unknown::pitch, -0.25, 0.12)
-                                : expect(unknown::pitch, 0.0, fixed);
+  frame.kind == ViewKind::cylinder ? expect(unknown::pitch, 0.0, fixed)
+                                   : expect(unknown::pitch, -0.25, 0.12);
   expect(unknown::drop + 2, 0.0, 1.0);
   for (std::size_t k = 0; k < view_knots.size(); ++k) expect(unknown::bend + k, 0.0, 0.4);
   for (std::size_t k = 0; k < 2; ++k) expect(unknown::middle + k, 0.0, frame.cropped ? 0.1 : 1e-6);

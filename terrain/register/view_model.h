@@ -23,7 +23,7 @@ namespace belvedere {
 //   D(d) / L = D0 + D1 x + D2 x² + Σ c_k max(0, x - x_k)³   eye above b, and bend, in one
 // A camera takes p = a - azimuth and t to pixels, f in pixels, (cx, cy) the middle:
 //   cylinder  u = cx + f p              v = cy - f t
-//   panini    u = cx + f S sin p        v = cy - f S t       S = 2 / (1 + cos p)
+//   panini    u = cx + f S sin p        v = cy + f tan q - f S t   S = 2 / (1 + cos p)
 //   plane     u = cx + f sin p / w      v = cy - f (t cos q - sin q cos p) / w
 //             w = cos q cos p + t sin q, q the pitch
 enum class ViewKind : std::uint8_t { cylinder, panini, plane };
@@ -33,7 +33,7 @@ namespace view_unknown {
 constexpr std::size_t east = 0, north = 1;  // of the eye from the origin, in L
 constexpr std::size_t azimuth = 2;          // of the middle, rad
 constexpr std::size_t log_focal = 3;        // ln f
-constexpr std::size_t pitch = 4;            // q, rad; of a plane alone
+constexpr std::size_t pitch = 4;            // q, rad; a cylinder's is in D1
 constexpr std::size_t exaggeration = 5;     // e0, e1, e2
 constexpr std::size_t drop = 8;             // D0, D1, D2
 constexpr std::size_t bend = 11;            // c_k

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/random.h"
 #include "base/statistics.h"
+#include "renderer/image/output_file.h"
 #include "terrain/register/registration.h"
 #include "tools/bench/secret_scene.h"
 #include "tools/options/options.h"
@@ -28,6 +29,7 @@ struct TrialOptions {
   double sigma_px = 3.0;
   double wrong = 0.1;
   bool known = false;
+  std::string write;
 };
 
 struct Trial {
@@ -36,9 +38,8 @@ struct Trial {
   double sigma_px = 0.0;
 };
 
-Trial run_trial(const SecretScene& scene, const TrialOptions& options, std::uint64_t seed) {
-  const SecretPairs secret = make_secret_pairs(
-      scene, {static_cast<std::size_t>(options.count), options.sigma_px, options.wrong}, seed);
+Trial run_trial(const SecretScene& scene, const SecretPairs& secret, const TrialOptions& options,
+                std::uint64_t seed) {
   RegistrationParameters parameters;
   if (options.known) {
     parameters.sigma_px = 3.0;
@@ -125,6 +126,7 @@ int measure_registration(int argc, char** argv) {
   command.add_option("--wrong", options.wrong, "Share of wrong pairs")
       .range(0.0, 0.5)
       .show_default();
+  command.add_option("--write", options.write, "Folder for the scenes and pairs as files");
   command.add_flag("--known", options.known, "Kind of view and noise of 3 px are told");
   if (const std::string help = line.read({argv + 1, argv + argc}); !help.empty()) {
     fmt::print("{}", help);
@@ -142,8 +144,16 @@ int measure_registration(int argc, char** argv) {
           mix_bits(mix_bits(static_cast<std::uint64_t>(&region - secret_regions().data()) + 1) +
                    static_cast<std::uint64_t>(i)));
       for (int draw = 0; draw < options.draws; ++draw) {
-        const Trial trial =
-            run_trial(scene, options, mix_bits(static_cast<std::uint64_t>(1000 * i + draw) + 7));
+        const std::uint64_t seed = mix_bits(static_cast<std::uint64_t>(1000 * i + draw) + 7);
+        const SecretPairs pairs = make_secret_pairs(
+            scene, {static_cast<std::size_t>(options.count), options.sigma_px, options.wrong},
+            seed);
+        if (!options.write.empty()) {
+          const std::string name = fmt::format("{}/{}_{}", options.write, region.name, i);
+          write_text_file(name + ".toml", secret_scene_text(scene, region));
+          write_text_file(fmt::format("{}_{}.csv", name, draw), secret_pairs_text(scene, pairs));
+        }
+        const Trial trial = run_trial(scene, pairs, options, seed);
         fmt::print(
             "{:10} {:2} {:11} {:2.0f} % moved, {} draw {}: view {:.1f} / {:.0f}, field {:.1f} / "
             "{:.0f}, still {:.1f}, moved {:.1f}, wrong {} of {}, thrown {}, sigma {:.1f}\n",

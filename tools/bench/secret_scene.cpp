@@ -1,5 +1,7 @@
 #include "tools/bench/secret_scene.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -10,7 +12,9 @@
 #include "base/filter.h"
 #include "base/random.h"
 #include "base/statistics.h"
+#include "renderer/scene/scene_file.h"
 #include "terrain/generalize/widen_valleys.h"
+#include "terrain/io/crs.h"
 
 namespace belvedere::bench {
 namespace {
@@ -242,6 +246,53 @@ SecretScene make_secret_scene(const Dem& dem, const SecretRegion& region, std::u
   for (const SeenPixel& at : seen)
     scene.moved_share += scene.on_moved_ground(at.position) ? 1.0 / 400.0 : 0.0;
   return scene;
+}
+
+std::string secret_scene_text(const SecretScene& secret, const SecretRegion& region) {
+  Scene scene;
+  scene.title = region.name;
+  SceneSource& source = scene.terrain.sources.emplace_back();
+  source.file = region.file.substr(region.file.find('/') + 1);
+  scene.terrain.dem.cell_m = region.cell_m;
+  scene.output.width = secret.camera.width;
+  scene.output.height = secret.camera.height;
+  scene.output.sheet_width_mm = secret.camera.width / 2.0;
+  scene.camera.projection = secret.camera.projection;
+  scene.camera.position = glm::dvec2(secret.camera.eye);
+  scene.camera.height_m = secret.camera.eye.z;
+  scene.camera.azimuth_deg = secret.camera.azimuth_deg;
+  scene.camera.pitch_deg = secret.camera.pitch_deg;
+  scene.camera.tilt_deg = 0.0;
+  scene.camera.field_of_view_deg = secret.camera.field_of_view_deg;
+  scene.deform.ground = secret.deform;
+  scene.deform.exaggeration = secret.deform.exaggeration;
+  scene.deform.exaggeration_base_m = secret.deform.exaggeration_base_m;
+  scene.deform.bend_radius_m = secret.deform.bend.radius_m;
+  scene.deform.bend_crest_m = secret.deform.bend.crest_m;
+  scene.deform.allow_folds = true;
+  scene.generalize.valleys.width_m = static_cast<float>(secret.widened_m);
+  for (const SummitExaggeration& summit : secret.deform.summits)
+    scene.deform.summits.push_back(
+        {.name = "", .position = summit.centre, .position_lonlat = {}, .summit = summit});
+  for (const DeformHandle& handle : secret.deform.handles)
+    scene.deform.handles.push_back({.name = "",
+                                    .position = handle.centre,
+                                    .position_lonlat = {},
+                                    .core_m = handle.core_m,
+                                    .move_m = {handle.move_m.x, handle.move_m.y},
+                                    .handle = handle});
+  return write_scene(scene);
+}
+
+std::string secret_pairs_text(const SecretScene& scene, const SecretPairs& pairs) {
+  std::string text = "x_px,y_px,lon,lat,name\n";
+  for (std::size_t i = 0; i < pairs.pairs.size(); ++i) {
+    const ControlPair& pair = pairs.pairs[i];
+    const glm::dvec2 at = transform_point(scene.dem->crs, "EPSG:4326", pair.position);
+    text += fmt::format("{:.2f},{:.2f},{:.7f},{:.7f},{} {}\n", pair.pixel.x, pair.pixel.y, at.x,
+                        at.y, pairs.wrong[i] ? "wrong" : "place", i + 1);
+  }
+  return text;
 }
 
 std::vector<SeenPixel> seen_pixels(const SecretScene& scene, std::size_t count,

@@ -60,6 +60,10 @@ struct SecretScene {
 };
 SecretScene make_secret_scene(const Dem& dem, const SecretRegion& region, std::uint64_t seed);
 
+// The same as a scene file, whose data are in the region's folder. Its wider valleys differ a
+// little, as a scene's keep lakes.
+std::string secret_scene_text(const SecretScene& scene, const SecretRegion& region);
+
 // Pixels on the ground and the place that each shows.
 struct SeenPixel {
   glm::dvec2 pixel{0.0};
@@ -77,6 +81,8 @@ struct SecretPairs {
   std::vector<ControlPair> pairs;
   std::vector<bool> wrong;
 };
+// As read_control_pairs takes them; the names of wrong ones say so.
+std::string secret_pairs_text(const SecretScene& scene, const SecretPairs& pairs);
 // Seen summits, passes and hollows, spread over the picture.
 SecretPairs make_secret_pairs(const SecretScene& scene, const SecretPairsParameters& parameters,
                               std::uint64_t seed);

@@ -57,6 +57,9 @@ const std::vector<Command>& all_commands() {
       {"exemplar", "paint",
        "Paints an exemplar: a sheet with all classes, or a scene's view in strokes alone",
        add_exemplar_paint},
+      {"exemplar", "register",
+       "Registers a painted panorama to its terrain: the place of every pixel",
+       add_exemplar_register},
       {"exemplar", "segment",
        "Segments a painting into groups of similar paint, for a mask of its classes",
        add_exemplar_segment},
@@ -117,7 +120,7 @@ const std::vector<CommandGroup>& command_groups() {
   static const std::vector<CommandGroup> groups = {
       {"features", "Roads, lifts, houses and other features of vector files"},
       {"cache", "The cache of earlier results: land cover, terrain, example sheets"},
-      {"exemplar", "Exemplar paintings: checking, painting and segmenting them"},
+      {"exemplar", "Exemplar paintings: checking, painting, registering and segmenting them"},
       {"style", "Styles: the looks of paintings, to render scenes in"},
       {"layers", "Surface layers: what covers the ground, by altitude, slope, sun …"},
       {"texture", "Textures as statistical models of about a kilobyte"},

@@ -37,7 +37,7 @@ inline SyntheticView synthetic_view(ViewKind kind, const std::vector<ControlPair
   out.view[view_unknown::log_focal] = std::log(kind == ViewKind::plane ? 950.0 : 850.0);
   out.view[view_unknown::exaggeration] = 1.5;
   out.view[view_unknown::drop] = 0.42;
-  if (kind == ViewKind::plane)
+  if (kind != ViewKind::cylinder)
     out.view[view_unknown::pitch] = -0.25;
   else
     out.view[view_unknown::drop + 1] = -0.1;

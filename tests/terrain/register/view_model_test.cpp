@@ -50,10 +50,10 @@ TEST(ViewModel, PixelsHaveTheClosedForms) {
   };
   EXPECT_NEAR(pixel(ViewKind::cylinder).x, 600.0 + focal * a, 1e-9);
   EXPECT_NEAR(pixel(ViewKind::cylinder).y, 300.0 - focal * t, 1e-9);
+  view[view_unknown::pitch] = q;
   const double s = 2.0 / (1.0 + std::cos(a));
   EXPECT_NEAR(pixel(ViewKind::panini).x, 600.0 + focal * s * std::sin(a), 1e-9);
-  EXPECT_NEAR(pixel(ViewKind::panini).y, 300.0 - focal * s * t, 1e-9);
-  view[view_unknown::pitch] = q;
+  EXPECT_NEAR(pixel(ViewKind::panini).y, 300.0 + focal * std::tan(q) - focal * s * t, 1e-9);
   const double depth = std::cos(q) * std::cos(a) + std::sin(q) * t;
   EXPECT_NEAR(pixel(ViewKind::plane).x, 600.0 + focal * std::sin(a) / depth, 1e-9);
   EXPECT_NEAR(pixel(ViewKind::plane).y,

@@ -58,7 +58,8 @@ TEST_F(BashCompletion, CompletesCommands) {
   EXPECT_THAT(completed("\"\""),
               AllOf(Contains("render"), Contains("exemplar"), Not(Contains("paint"))));
   EXPECT_THAT(completed("exemplar p"), ElementsAre("paint"));
-  EXPECT_THAT(completed("exemplar \"\""), UnorderedElementsAre("check", "paint", "segment"));
+  EXPECT_THAT(completed("exemplar \"\""),
+              UnorderedElementsAre("check", "paint", "register", "segment"));
 }
 
 TEST_F(BashCompletion, CompletesOptionsOfTheCommandThatStandsThere) {

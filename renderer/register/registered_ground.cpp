@@ -1,0 +1,153 @@
+#include "renderer/register/registered_ground.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <optional>
+
+#include "base/math_exact.h"
+#include "base/parallel.h"
+#include "base/statistics.h"
+#include "renderer/trace/geo_map.h"
+#include "renderer/trace/tracer.h"
+#include "renderer/world/view.h"
+#include "terrain/deform/fold.h"
+
+namespace belvedere {
+namespace {
+
+constexpr float unknown_value = std::numeric_limits<float>::quiet_NaN();
+
+std::size_t folded_in_picture(const Dem& dem, const Deformation& deformation,
+                              const Camera& camera) {
+  std::size_t count = 0;
+  for (const Fold& fold : find_folds(dem.altitude_m, dem.transform, deformation)) {
+    const double altitude = static_cast<double>(dem.altitude_m(fold.column, fold.row));
+    const auto at = camera.project(deformation.point({fold.position, altitude}));
+    count +=
+        at && at->x >= 0.0 && at->y >= 0.0 && at->x <= camera.size().x && at->y <= camera.size().y
+            ? 1
+            : 0;
+  }
+  return count;
+}
+
+// Whether a line of `step` lies between two altitudes, and whether it is a fifth one.
+enum class Line { none, thin, thick };
+Line line_between(float a, float b, double step) {
+  if (std::isnan(a) || std::isnan(b)) return Line::none;
+  const double low = std::floor(static_cast<double>(std::min(a, b)) / step);
+  const double high = std::floor(static_cast<double>(std::max(a, b)) / step);
+  if (low == high) return Line::none;
+  return std::floor(low / 5.0) == std::floor(high / 5.0) ? Line::thin : Line::thick;
+}
+
+}  // namespace
+
+RegisteredGround trace_registered(const Registration& registration, const Scene& scene,
+                                  const Dem& dem, glm::ivec2 size_px, Progress& progress) {
+  Scene sized = scene;
+  sized.output.width = size_px.x;
+  sized.output.height = size_px.y;
+  const View view = make_view(sized, dem, progress);
+  const Deformation deformation(view.deform, view.viewer_xy);
+  const DeformedSurface surface =
+      deform(dem.altitude_m, dem.transform, glm::dvec3(view.viewer_xy, 0.0), deformation);
+  const std::unique_ptr<const Camera> camera = make_camera(view.camera);
+  const Tracer tracer(surface);
+  const Grid<glm::vec2> nothing_moved;
+  const GeoMap map(dem.altitude_m, nothing_moved, dem.transform, deformation, surface, *camera,
+                   tracer);
+  const DisplacementField& field = deformation.field();
+  const double focal_px =
+      registration.scale * exact::exp(registration.view[view_unknown::log_focal]);
+  RegisteredGround out{Grid<float>(size_px.x, size_px.y, unknown_value),
+                       Grid<float>(size_px.x, size_px.y, unknown_value),
+                       Grid<float>(size_px.x, size_px.y, unknown_value),
+                       folded_in_picture(dem, deformation, *camera)};
+  const auto sigma_px = [&](glm::dvec2 position) {
+    const Displacement deviation = field.deviation(position);
+    const double distance = view_distance_m(registration.frame, registration.view, position);
+    return static_cast<float>(exact::hypot(deviation.lateral_m, deviation.upward_m) *
+                              std::numbers::sqrt2 / 2.0 * focal_px / distance);
+  };
+  // It changes slowly along the ground: one value for the pixels of a row that show neighbours.
+  constexpr int run_px = 8;
+  constexpr double neighbours = 1.01;  // ratio of their distances
+  parallel_rows(size_px.y, [&](int y) {
+    double distance = 0.0;
+    for (int x = 0; x < size_px.x; ++x) {
+      const std::optional<GeoPosition> at = map.to_geo({x + 0.5, y + 0.5});
+      if (!at) continue;
+      out.altitude_m(x, y) = static_cast<float>(at->altitude_m);
+      out.distance_m(x, y) = static_cast<float>(at->distance_m);
+      const bool same =
+          x % run_px != 0 && !std::isnan(out.sigma_px(x - 1, y)) &&
+          std::max(at->distance_m, distance) < neighbours * std::min(at->distance_m, distance);
+      out.sigma_px(x, y) = same ? out.sigma_px(x - 1, y) : sigma_px(at->position);
+      if (!same) distance = at->distance_m;
+    }
+  });
+  return out;
+}
+
+double contour_step_m(const Grid<float>& altitude_m) {
+  std::vector<float> known;
+  for (const float z : altitude_m)
+    if (!std::isnan(z)) known.push_back(z);
+  constexpr double smallest = 20.0, lines = 10.0;
+  if (known.empty()) return smallest;
+  const double relief = static_cast<double>(value_at_share(known, 0.95)) -
+                        static_cast<double>(value_at_share(known, 0.05));
+  double step = smallest;
+  for (const double next : {50.0, 100.0, 200.0, 500.0})
+    if (relief / next >= lines) step = next;
+  return step;
+}
+
+Grid<glm::vec3> contours_over(const Grid<glm::vec3>& painting, const RegisteredGround& ground,
+                              double step_m) {
+  constexpr float jump = 1.06F;  // of distance: a silhouette, not a slope
+  const glm::vec3 black(0.05F), white(1.F), red(0.95F, 0.1F, 0.1F), yellow(1.F, 0.85F, 0.1F);
+  Grid<glm::vec3> out = painting;
+  const auto draw = [&](int x, int y, glm::vec3 colour, float cover) {
+    out(x, y) = glm::mix(out(x, y), colour, cover);
+  };
+  for (int y = 0; y + 1 < out.height(); ++y)
+    for (int x = 0; x + 1 < out.width(); ++x) {
+      const float z = ground.altitude_m(x, y);
+      Line line = Line::none;
+      bool skyline = false, silhouette = false;
+      for (const glm::ivec2 to : {glm::ivec2(x + 1, y), glm::ivec2(x, y + 1)}) {
+        const float other = ground.altitude_m(to.x, to.y);
+        skyline = skyline || std::isnan(z) != std::isnan(other);
+        const float near = std::min(ground.distance_m(x, y), ground.distance_m(to.x, to.y));
+        const float far = std::max(ground.distance_m(x, y), ground.distance_m(to.x, to.y));
+        const bool apart = far > jump * near;
+        silhouette = silhouette || apart;
+        if (!apart) line = std::max(line, line_between(z, other, step_m));
+      }
+      if (line == Line::thin) draw(x, y, black, 0.45F);
+      if (line == Line::thick) draw(x, y, white, 0.8F);
+      if (silhouette) draw(x, y, yellow, 0.7F);
+      if (skyline) draw(x, y, red, 1.F);
+    }
+  return out;
+}
+
+Grid<glm::vec3> trust_picture(const Grid<float>& sigma_px, double limit_px) {
+  Grid<glm::vec3> out(sigma_px.width(), sigma_px.height(), glm::vec3(0.55F, 0.65F, 0.8F));
+  const glm::vec3 good(0.93F, 0.95F, 0.88F), middle(0.95F, 0.75F, 0.3F), bad(0.55F, 0.1F, 0.15F);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (std::isnan(sigma_px[i])) continue;
+    const float share = std::min(sigma_px[i] / static_cast<float>(limit_px), 1.F);
+    out[i] = share < 0.5F ? glm::mix(good, middle, 2.F * share)
+                          : glm::mix(middle, bad, 2.F * share - 1.F);
+  }
+  return out;
+}
+
+}  // namespace belvedere

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstddef>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+#include "base/grid.h"
+#include "base/progress.h"
+#include "renderer/scene/scene.h"
+#include "terrain/io/dem.h"
+#include "terrain/register/registration.h"
+
+namespace belvedere {
+
+// What a registration says of each pixel of a painting, at any size; NaN where it shows sky.
+struct RegisteredGround {
+  Grid<float> altitude_m;
+  Grid<float> distance_m;  // from the eye
+  Grid<float> sigma_px;    // how far the place may be off in one direction: standard deviation, in
+                           // pixels of the painting, without that of the view
+  std::size_t folded = 0;  // facets of the ground in the picture that the registration turns over
+};
+
+// Traces the terrain as registered_scene() draws it.
+RegisteredGround trace_registered(const Registration& registration, const Scene& scene,
+                                  const Dem& dem, glm::ivec2 size_px, Progress& progress);
+
+// The largest of 20, 50, 100, 200, 500 m that gives some ten contours or more.
+double contour_step_m(const Grid<float>& altitude_m);
+
+// The painting with lines over it: contours of altitude in black, every fifth in white, the
+// terrain's skyline in red, its other silhouettes in yellow. All of the same size.
+Grid<glm::vec3> contours_over(const Grid<glm::vec3>& painting, const RegisteredGround& ground,
+                              double step_m);
+
+// From pale, trusted, to dark red at limit_px and beyond; sky is blue.
+Grid<glm::vec3> trust_picture(const Grid<float>& sigma_px, double limit_px);
+
+}  // namespace belvedere

@@ -1,0 +1,77 @@
+#include "tools/report/register_page.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/files.h"
+
+namespace belvedere::tools {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+PairFinding finding(bool wrong, double view_px, double others_px, std::size_t near_by) {
+  return {.wrong = wrong,
+          .doubted = false,
+          .view_px = view_px,
+          .others_px = others_px,
+          .deviations = others_px / 3.0,
+          .nearest_m = 900.0,
+          .near_by = near_by};
+}
+
+TEST(RegisterPage, SaysOfEachPairWhatWasFound) {
+  const auto words = [](const PairFinding& of) { return pair_words(of, 3.0).sentence; };
+  EXPECT_THAT(words(finding(true, 90.0, 90.0, 0)), HasSubstr("none near by confirms it"));
+  EXPECT_THAT(words(finding(true, 90.0, 90.0, 1)), HasSubstr("one pair near by says otherwise"));
+  EXPECT_THAT(words(finding(true, 90.0, 90.0, 3)), HasSubstr("3 pairs near by say otherwise"));
+  EXPECT_THAT(words(finding(false, 90.0, 4.0, 3)), HasSubstr("was moved, as other pairs say"));
+  EXPECT_THAT(words(finding(false, 90.0, 40.0, 0)), HasSubstr("two more pairs"));
+  EXPECT_THAT(words(finding(false, 90.0, 40.0, 2)), HasSubstr("one more pair"));
+  EXPECT_THAT(words(finding(false, 4.0, 4.0, 2)), HasSubstr("where the others say"));
+  PairFinding sure = finding(false, 90.0, 90.0, 0);
+  sure.doubted = true;
+  EXPECT_THAT(words(sure), HasSubstr("sure: kept"));
+}
+
+RegisterReportInput example() {
+  RegisterReportInput input;
+  input.painting = "painting.jpg";
+  input.registration.frame.size_px = {1200.0, 600.0};
+  input.registration.sigma_px = 3.0;
+  input.registration.findings = {finding(false, 4.0, 3.0, 2), finding(true, 90.0, 80.0, 0),
+                                 finding(false, 5.0, 9.0, 2)};
+  for (int i = 0; i < 3; ++i) {
+    ControlPair pair;
+    pair.pixel = {200.0 + 300.0 * i, 300.0};
+    pair.name = "Spitze " + std::to_string(i);
+    pair.line = i + 2;
+    input.pairs.push_back(pair);
+  }
+  input.picture = Grid<glm::vec3>(120, 60, glm::vec3(0.5F));
+  input.ground = {Grid<float>(120, 60, 1000.F), Grid<float>(120, 60, 9000.F),
+                  Grid<float>(120, 60, 2.F)};
+  return input;
+}
+
+TEST(RegisterPage, OrdersPairsWorstFirst) {
+  EXPECT_THAT(pairs_worst_first(example().registration), ElementsAre(1, 2, 0));
+}
+
+TEST(RegisterPage, IsAPageWithThePairsAndPictures) {
+  const test::Folder folder;
+  const RegisterReportInput input = example();
+  write_register_report(folder / "", input);
+  const std::string page = test::read_bytes(folder / "index.html");
+  EXPECT_THAT(page, AllOf(HasSubstr("Spitze 1"), HasSubstr("none near by confirms it")));
+  const std::string json = test::read_bytes(folder / "report.json");
+  EXPECT_LT(json.find("Spitze 1"), json.find("Spitze 0"));
+  EXPECT_THAT(json, AllOf(HasSubstr("\"sigma_px\""), HasSubstr("\"projection\"")));
+  EXPECT_TRUE(std::filesystem::exists(folder / "registered.png"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "trust.png"));
+}
+
+}  // namespace
+}  // namespace belvedere::tools

@@ -1,0 +1,199 @@
+#include "tools/report/register_page.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+
+#include "base/angle.h"
+#include "base/statistics.h"
+#include "tools/report/report.h"
+
+namespace belvedere::tools {
+namespace {
+
+constexpr double far_off_sigmas = 4.0;
+
+std::string near_by(std::size_t count) {
+  return count == 1 ? "one pair near by" : fmt::format("{} pairs near by", count);
+}
+
+double focal_px(const Registration& found) {
+  return found.scale * std::exp(found.view[view_unknown::log_focal]);
+}
+
+glm::dvec2 eye_of(const Registration& found) {
+  return found.frame.origin + found.frame.extent_m * glm::dvec2(found.view[view_unknown::east],
+                                                                found.view[view_unknown::north]);
+}
+
+std::vector<double> kept_distances_px(const Registration& found) {
+  std::vector<double> out;
+  for (const PairFinding& finding : found.findings)
+    if (!finding.wrong) out.push_back(finding.others_px);
+  return out;
+}
+
+// A ring about a pixel.
+void draw_ring(Grid<glm::vec3>& picture, glm::dvec2 at, glm::vec3 colour) {
+  constexpr int reach = 7;
+  const int x0 = static_cast<int>(std::floor(at.x)), y0 = static_cast<int>(std::floor(at.y));
+  for (int y = y0 - reach; y <= y0 + reach; ++y)
+    for (int x = x0 - reach; x <= x0 + reach; ++x) {
+      if (x < 0 || y < 0 || x >= picture.width() || y >= picture.height()) continue;
+      const double off = std::abs(std::hypot(x + 0.5 - at.x, y + 0.5 - at.y) - 4.5);
+      const double cover = std::clamp(2.0 - off, 0.0, 1.0);
+      picture(x, y) = glm::mix(picture(x, y), colour, static_cast<float>(cover));
+    }
+}
+
+Grid<glm::vec3> with_pairs(Grid<glm::vec3> picture, const RegisterReportInput& input) {
+  const double scale =
+      picture.width() / (input.registration.frame.size_px.x * input.registration.scale);
+  for (std::size_t i = 0; i < input.pairs.size(); ++i) {
+    const PairFinding& finding = input.registration.findings[i];
+    draw_ring(picture, scale * input.pairs[i].pixel,
+              finding.wrong     ? glm::vec3(0.9F, 0.05F, 0.1F)
+              : finding.doubted ? glm::vec3(1.F, 0.55F, 0.F)
+                                : glm::vec3(0.1F, 0.75F, 0.25F));
+  }
+  return picture;
+}
+
+std::string summary_of(const RegisterReportInput& input) {
+  const Registration& found = input.registration;
+  const auto wrong = std::count_if(found.findings.begin(), found.findings.end(),
+                                   [](const PairFinding& f) { return f.wrong; });
+  return fmt::format(
+      "{} pairs, {} thrown out; each of the others lies {:.1f} px from where the rest say it is, "
+      "at "
+      "the median. The painting is as if seen in a {} view.",
+      found.findings.size(), wrong, median(kept_distances_px(found)),
+      view_kind_name(found.frame.kind));
+}
+
+ReportTable table_of_pairs(const RegisterReportInput& input) {
+  ReportTable table({{"line", "line", "", "Line of the table of pairs"},
+                     {"name", "name"},
+                     {"x_px", "x", ".0f"},
+                     {"y_px", "y", ".0f"},
+                     {"others_px", "off, px", ".1f", "From where all other pairs say that it is"},
+                     {"deviations", "deviations", ".1f",
+                      "The same in standard deviations, as if this pair alone said that its ground "
+                      "was moved; more than 5 is wrong"},
+                     {"view_px", "view, px", ".1f", "From the view alone: what the painter moved"},
+                     {"verdict", "verdict"},
+                     {"words", "in words"}});
+  for (const std::size_t i : pairs_worst_first(input.registration)) {
+    const PairFinding& finding = input.registration.findings[i];
+    const PairWords words = pair_words(finding, input.registration.sigma_px);
+    table.row(input.pairs[i].line, input.pairs[i].name, input.pairs[i].pixel.x,
+              input.pairs[i].pixel.y, finding.others_px, finding.deviations, finding.view_px,
+              words.verdict, words.sentence);
+  }
+  return table;
+}
+
+}  // namespace
+
+PairWords pair_words(const PairFinding& finding, double sigma_px) {
+  const bool moved = finding.view_px > far_off_sigmas * sigma_px;
+  const std::string others = near_by(finding.near_by);
+  if (finding.wrong && finding.near_by == 0)
+    return {
+        "thrown out",
+        "this pair says that its ground was moved, none near by confirms it: wrong, or give two "
+        "more pairs there"};
+  if (finding.wrong)
+    return {"thrown out", fmt::format("{} {} otherwise: wrong, most likely", others,
+                                      finding.near_by == 1 ? "says" : "say")};
+  if (finding.doubted) return {"doubtful", "as far off as a wrong pair, but sure: kept"};
+  if (moved && finding.others_px > far_off_sigmas * sigma_px)
+    return {"moved",
+            finding.near_by == 0
+                ? "its ground seems moved, and no pair near by confirms it: two more pairs "
+                  "there would tell how"
+                : fmt::format("its ground was moved, and {} {} not tell exactly how: one "
+                              "more pair there would",
+                              others, finding.near_by == 1 ? "does" : "do")};
+  if (moved) return {"moved", "its ground was moved, as other pairs say too"};
+  return {"fits", "lies where the others say"};
+}
+
+std::vector<std::size_t> pairs_worst_first(const Registration& registration) {
+  const std::vector<PairFinding>& findings = registration.findings;
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < findings.size(); ++i) order.push_back(i);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    if (findings[a].wrong != findings[b].wrong) return findings[a].wrong;
+    return findings[a].deviations > findings[b].deviations;
+  });
+  return order;
+}
+
+Json registration_json(const RegisterReportInput& input) {
+  const Registration& found = input.registration;
+  const glm::dvec2 eye = eye_of(found);
+  Json kinds = Json::array();
+  for (const FittedView& kind : found.kinds)
+    kinds.add(Json::object()
+                  .add("projection", Json::text(view_kind_name(kind.frame.kind)))
+                  .add("cost", known(kind.cost))
+                  .add("median_px", known(found.scale * kind.median_px)));
+  Json pairs = Json::array();
+  for (std::size_t i = 0; i < input.pairs.size(); ++i) {
+    const PairFinding& finding = found.findings[i];
+    pairs.add(Json::object()
+                  .add("line", Json::number(input.pairs[i].line))
+                  .add("name", Json::text(input.pairs[i].name))
+                  .add("wrong", Json::boolean(finding.wrong))
+                  .add("others_px", known(finding.others_px))
+                  .add("deviations", known(finding.deviations))
+                  .add("view_px", known(finding.view_px))
+                  .add("words", Json::text(pair_words(finding, found.sigma_px).sentence)));
+  }
+  return Json::object()
+      .add("projection", Json::text(view_kind_name(found.frame.kind)))
+      .add("eye", Json::array({known(eye.x), known(eye.y)}))
+      .add("azimuth_deg", known(to_degrees(found.view[view_unknown::azimuth])))
+      .add("focal_px", known(focal_px(found)))
+      .add("sigma_px", known(found.sigma_px))
+      .add("others_px", known(median(kept_distances_px(found))))
+      .add("folded", Json::number(static_cast<double>(input.ground.folded)))
+      .add("kinds", std::move(kinds))
+      .add("pairs", std::move(pairs));
+}
+
+void write_register_report(const std::string& folder, const RegisterReportInput& input) {
+  Report page(folder);
+  const double step_m = contour_step_m(input.ground.altitude_m);
+  page.section(
+      "contours", "The terrain over the painting",
+      fmt::format("Contours every {0:.0f} m in black, every {1:.0f} m in white; the "
+                  "terrain's skyline in red, other silhouettes in yellow. Pairs that were "
+                  "kept in green, thrown out in red, kept because they are sure in orange.",
+                  step_m, 5.0 * step_m));
+  page.compare("painting", input.picture, "registered",
+               with_pairs(contours_over(input.picture, input.ground, step_m), input));
+  if (input.ground.folded > 0)
+    page.text(
+        fmt::format("{} facets of the ground in the picture are turned over: pairs that are "
+                    "near each other move it unlike.",
+                    input.ground.folded));
+  page.section("pairs", "Pairs, worst first", summary_of(input));
+  page.table(table_of_pairs(input));
+  page.section(
+      "trust", "Trust",
+      fmt::format("How far the place of a pixel may be off: pale 0, dark red {:.0f} px and "
+                  "more, where no pixel should be copied (exclude.png).",
+                  trusted_px * input.registration.scale));
+  page.picture("trust", trust_picture(input.ground.sigma_px, trusted_px * input.registration.scale),
+               "standard deviation of places");
+  page.write({.title = "Registration of " + input.painting,
+              .lead = summary_of(input),
+              .command = input.command,
+              .data = registration_json(input)});
+}
+
+}  // namespace belvedere::tools

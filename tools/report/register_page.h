@@ -1,0 +1,42 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+#include "base/grid.h"
+#include "base/text/json.h"
+#include "renderer/register/registered_ground.h"
+#include "terrain/register/registration.h"
+
+namespace belvedere::tools {
+
+// Pixels whose place may be off by more than that should not be copied; of a painting 1200 px wide.
+constexpr double trusted_px = 12.0;
+
+// What a registration found of a pair, in a word ("wrong", "moved", "fits" …) and a sentence.
+struct PairWords {
+  std::string verdict;
+  std::string sentence;
+};
+PairWords pair_words(const PairFinding& finding, double sigma_px);
+
+// Pairs from the farthest off, in deviations, to the nearest; those thrown out first.
+std::vector<std::size_t> pairs_worst_first(const Registration& registration);
+
+struct RegisterReportInput {
+  std::string painting;  // its name
+  std::string command;
+  std::vector<ControlPair> pairs;
+  Registration registration;
+  Grid<glm::vec3> picture;  // the painting, as large as the ground
+  RegisteredGround ground;
+};
+
+// The figures of a registration.
+Json registration_json(const RegisterReportInput& input);
+// index.html and report.json in the folder: the pairs, worst first, in words; contours and skyline
+// of the terrain over the painting; a map of trust. Throws Error(output).
+void write_register_report(const std::string& folder, const RegisterReportInput& input);
+
+}  // namespace belvedere::tools
