@@ -229,20 +229,21 @@ std::vector<FittedView> fit_views(std::span<const ControlPair> pairs, glm::dvec2
                                   const FitViewParameters& parameters) {
   ViewFrame frame = view_frame(ViewKind::cylinder, size_px, parameters.cropped, pairs);
   const std::vector<Start> starts = find_starts(frame, pairs);
-  if (starts.empty())
-    throw Error(ErrorKind::input, "pairs", "no view shows these places at these pixels",
-                "x_px to the right and y_px down from the top left; longitude before latitude; "
-                "pairs spread over the painting");
   std::vector<FittedView> views;
   for (const ViewKind kind : parameters.kinds) {
     frame.kind = kind;
     std::optional<FittedView> best;
     for (const Start& start : starts) {
       FittedView fitted = fit_from(start, frame, pairs);
+      if (!is_plausible(frame, fitted.view, pairs)) continue;
       if (!best || fitted.cost < best->cost) best = std::move(fitted);
     }
-    views.push_back(*best);
+    if (best) views.push_back(*best);
   }
+  if (views.empty())
+    throw Error(ErrorKind::input, "pairs", "no view shows these places at these pixels",
+                "x_px to the right and y_px down from the top left; longitude before latitude; "
+                "pairs spread over the painting");
   std::stable_sort(views.begin(), views.end(),
                    [](const FittedView& a, const FittedView& b) { return a.cost < b.cost; });
   return views;

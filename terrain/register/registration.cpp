@@ -174,6 +174,7 @@ Judgement refine(Fit& fit, double sigma_px, int rounds) {
   for (int round = 0; round < rounds; ++round) {
     Fit next = fit;
     next.view = refitted_view(fit, sigma_px);
+    if (!is_plausible(fit.frame, next.view, fit.pairs)) break;
     next.field.places = displaced_places(next, sigma_px);
     Judgement judgement = judge(next, sigma_px);
     if (judgement.score < best.score) break;

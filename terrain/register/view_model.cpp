@@ -201,6 +201,22 @@ ViewDisplacement displacement_in_view(const ViewFrame& frame, const ViewUnknowns
            std::abs(pixel.y.slope[1]) / to.distance_m.value}};
 }
 
+bool is_plausible(const ViewFrame& frame, const ViewUnknowns& view,
+                  std::span<const ControlPair> pairs) {
+  constexpr double shortest = 0.125, longest = 50.0;  // focal length, in widths
+  constexpr double farthest = 10.0;                   // eye, in L
+  constexpr double min_px_per_extent = 1.0;
+  const double focal = exact::exp(view[unknown::log_focal]) / frame.size_px.x;
+  if (!(focal >= shortest && focal <= longest)) return false;
+  if (!(exact::hypot(view[unknown::east], view[unknown::north]) <= farthest)) return false;
+  return std::all_of(pairs.begin(), pairs.end(), [&](const ControlPair& pair) {
+    const ViewDisplacement seen = displacement_in_view(frame, view, pair);
+    return std::isfinite(seen.lateral_m.value) && std::isfinite(seen.upward_m.value) &&
+           seen.px_per_m.lateral_m * frame.extent_m >= min_px_per_extent &&
+           seen.px_per_m.upward_m * frame.extent_m >= min_px_per_extent;
+  });
+}
+
 std::vector<ViewNumber> view_priors(const ViewFrame& frame, const ViewUnknowns& view) {
   std::vector<ViewNumber> out;
   const auto expect = [&](std::size_t index, double mean, double deviation) {

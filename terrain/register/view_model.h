@@ -82,6 +82,11 @@ struct ViewDisplacement {
 ViewDisplacement displacement_in_view(const ViewFrame& frame, const ViewUnknowns& view,
                                       const ControlPair& pair);
 
+// Whether a painting may be seen like that: a focal length of an eighth to fifty widths, an eye at
+// most ten extents away, pixels that move with their places.
+bool is_plausible(const ViewFrame& frame, const ViewUnknowns& view,
+                  std::span<const ControlPair> pairs);
+
 // What pairs cannot tell must not run away: residuals in standard deviations.
 std::vector<ViewNumber> view_priors(const ViewFrame& frame, const ViewUnknowns& view);
 

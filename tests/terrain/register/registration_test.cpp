@@ -107,6 +107,28 @@ TEST(Registration, NoiseIsEstimatedUnlessItIsGiven) {
   EXPECT_THROW(register_pairs(fine, {1200, 550}, {.view = {}, .sigma_px = 0.0}), Error);
 }
 
+// Pairs that no view explains are refused, or registered as badly as they are; never more.
+TEST(Registration, NonsenseIsNoFaultOfTheProgram) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    std::vector<ControlPair> anywhere = test::synthetic_places(12, seed);
+    std::vector<ControlPair> in_line = anywhere;
+    const test::SyntheticView truth = test::synthetic_view(ViewKind::plane, anywhere);
+    for (std::size_t i = 0; i < anywhere.size(); ++i) {
+      const auto n = static_cast<std::int64_t>(i);
+      anywhere[i].pixel.x = 1200.0 * random_uniform(seed, n, 5);
+      anywhere[i].pixel.y = 550.0 * random_uniform(seed, n, 6);
+      in_line[i].pixel = test::pixel_of(truth, in_line[i]);
+      in_line[i].position.y = 5250000.0;
+    }
+    for (const std::vector<ControlPair>& pairs : {anywhere, in_line}) try {
+        for (const double value : register_pairs(pairs, {1200, 550}).view)
+          EXPECT_TRUE(std::isfinite(value));
+      } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::input) << error.what();
+      }
+  }
+}
+
 TEST(Registration, APaintingFourTimesAsLargeIsTheSame) {
   test::SyntheticView truth;
   std::vector<ControlPair> pairs = painted_pairs(40, 2.0, true, truth);

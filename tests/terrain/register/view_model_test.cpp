@@ -123,6 +123,22 @@ TEST(ViewModel, DisplacementsAreReadBackFromPixels) {
   }
 }
 
+TEST(ViewModel, ViewsOfNoPainterAreNotPlausible) {
+  std::vector<ControlPair> places = test::synthetic_places(12);
+  const test::SyntheticView synthetic = test::synthetic_view(ViewKind::plane, places);
+  test::paint(synthetic, places);
+  EXPECT_TRUE(is_plausible(synthetic.frame, synthetic.view, places));
+  const auto with = [&](std::size_t index, double value) {
+    ViewUnknowns view = synthetic.view;
+    view[index] = value;
+    return is_plausible(synthetic.frame, view, places);
+  };
+  EXPECT_FALSE(with(view_unknown::log_focal, std::log(100.0)));
+  EXPECT_FALSE(with(view_unknown::log_focal, 200.0));
+  EXPECT_FALSE(with(view_unknown::east, -30.0));
+  EXPECT_FALSE(with(view_unknown::north, std::nan("")));
+}
+
 TEST(ViewModel, PriorsVanishWhereTheyExpect) {
   const std::vector<ControlPair> places = test::synthetic_places(5);
   for (const ViewKind kind : all_kinds) {

@@ -168,7 +168,7 @@ int run(const RegisterOptions& options) {
   std::string data;
   for (const std::string& folder : folders_of(options.dems)) data += " --data " + folder;
   print_out(fmt::format("{}\nnext: belvedere guidance {}{} --out {}\n", in_folder("index.html"),
-                        in_folder("registered.toml"), data, in_folder("guidance.exr")));
+                        in_folder("registered.toml"), data, options.out));
   return 0;
 }
 
