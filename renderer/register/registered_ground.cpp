@@ -75,7 +75,7 @@ RegisteredGround trace_registered(const Registration& registration, const Scene&
                               std::numbers::sqrt2 / 2.0 * focal_px / distance);
   };
   // It changes slowly along the ground: one value for the pixels of a row that show neighbours.
-  constexpr int run_px = 8;
+  constexpr int run_px = 4;
   constexpr double neighbours = 1.01;  // ratio of their distances
   parallel_rows(size_px.y, [&](int y) {
     double distance = 0.0;

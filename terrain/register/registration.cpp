@@ -195,7 +195,7 @@ struct Choice {
   double sigma_px = 0.0;
 };
 Choice choose_field(const Fit& fit, std::optional<double> sigma_px) {
-  constexpr double usual_px = 3.0, usual_spread = 0.3;  // of ln sigma
+  constexpr double usual_px = 3.0, usual_spread = 0.2;  // of ln sigma
   const std::vector<double> sigmas =
       sigma_px ? std::vector{*sigma_px} : std::vector{1.5, 2.0, 3.0, 4.5, 6.5};
   Choice best;
