@@ -25,7 +25,8 @@ TEST(ProgramRun, AsksForTheCommandAndNamesTheNearest) {
   EXPECT_THAT(refused_run({"chekc"}), HasSubstr("did you mean \"check\"?"));
   EXPECT_THAT(refused_run({"exemplar", "chekc"}),
               HasSubstr("belvedere exemplar has no command \"chekc\"; did you mean \"check\"?"));
-  EXPECT_THAT(refused_run({"exemplar", "render"}), HasSubstr("allowed: check, paint, segment;"));
+  EXPECT_THAT(refused_run({"exemplar", "render"}),
+              HasSubstr("allowed: check, paint, register, segment;"));
   EXPECT_THAT(refused_run({"--nonsense"}), HasSubstr("missing subcommand of belvedere"));
   // If the command is found, the error is in what follows.
   EXPECT_THAT(refused_run({"diff", "a"}), Not(HasSubstr("missing subcommand")));
