@@ -57,6 +57,11 @@ class Reader {
     if (value > INT32_MAX) refuse("a number out of range");
     return static_cast<int>(value);
   }
+  std::int64_t weight(std::uint64_t max) {
+    const std::uint64_t value = number();
+    if (value > max) refuse("a weight out of range");
+    return static_cast<std::int64_t>(value);
+  }
   template <class T>
   std::vector<T> list() {
     const std::uint64_t count = number();
@@ -165,14 +170,19 @@ SynthesisPlan unpack_plan(const std::vector<std::uint8_t>& bytes,
   const int guides = in.small_number();
   for (int g = 0; g < guides; ++g) {
     data->setup.guide_names.push_back(in.text());
-    data->setup.roles.push_back({static_cast<std::int64_t>(in.number())});
+    data->setup.roles.push_back(
+        {in.weight(16 * static_cast<std::uint64_t>(synth::price::guide) * synth::max_weight)});
   }
   synth::Classes& classes = data->setup.classes;
   classes.count = in.small_number();
   for (auto* table : {&classes.of_exemplar, &classes.of_target, &classes.around})
     read_classes(in, *table, classes.count);
-  const std::int64_t weight_q8 = static_cast<std::int64_t>(in.number());
+  const std::int64_t weight_q8 =
+      in.weight(static_cast<std::uint64_t>(synth::price::surroundings_q8) * synth::max_weight);
   data->setup.around_price = {weight_q8, in.list<std::uint8_t>(), classes.count};
+  if (data->setup.around_price.pairs().size() !=
+      static_cast<std::size_t>(classes.count) * static_cast<std::size_t>(classes.count))
+    refuse("the pairs of classes have another size");
   data->matches = in.list<std::uint32_t>();
   data->demand.counts = in.list<std::uint32_t>();
   data->demand.keys = synth::choose_list_keys(data->setup.roles);

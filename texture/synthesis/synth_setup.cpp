@@ -32,7 +32,7 @@ void check_parameters(const SynthesisParameters& parameters) {
   in_range("levels", parameters.levels, 1, 8);
   in_range("reuse", parameters.reuse, 0, 10);
   in_range("copy_cap", parameters.copy_cap, 16, 100000);
-  in_range("surroundings", parameters.surroundings, 0, 100);
+  in_range("surroundings", parameters.surroundings, 0, max_weight);
   if (parameters.neighbourhood % 2 == 0 || parameters.neighbourhood < 3 ||
       parameters.neighbourhood > 2 * largest_patch_radius + 1)
     throw Error(ErrorKind::usage, "synthesis neighbourhood",
@@ -47,7 +47,7 @@ void check_parameters(const SynthesisParameters& parameters) {
     throw Error(ErrorKind::usage, "synthesis tile", fmt::format("{}", parameters.tile),
                 "0 or an even number of pixels");
   for (const auto& [name, weight] : parameters.weights)
-    in_range(fmt::format("weight of \"{}\"", name).c_str(), weight, 0, 100);
+    in_range(fmt::format("weight of \"{}\"", name).c_str(), weight, 0, max_weight);
 }
 
 // A guide that exemplars and target share, with its weight.

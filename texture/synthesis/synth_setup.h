@@ -25,6 +25,9 @@ struct Classes {
   int count = 0;
 };
 
+// Of a guide, of surroundings: times the usual price.
+inline constexpr int max_weight = 100;
+
 struct Setup {
   SynthesisParameters parameters;
   std::vector<std::string> guide_names;  // in descending order of weight, as in planes

@@ -1,8 +1,14 @@
 #include "texture/sheet/synthesis_plan.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
+
 #include "base/error.h"
+#include "base/random.h"
+#include "tests/files.h"
 #include "tests/notes.h"
 #include "tests/texture/sheet/sheet_samples.h"
 
@@ -88,6 +94,26 @@ TEST(PackedPlan, RefusesDamagedBytesAndOtherExemplars) {
   others[0].guides.guides[0].values(3, 3) ^= 1;
   EXPECT_THROW(unpack_plan(bytes, others), Error);
   EXPECT_THROW(unpack_plan(bytes, {}), Error);
+}
+
+// Sums of weights would overflow.
+TEST(PackedPlan, RefusesWeightsThatNoSceneCanAskFor) {
+  const std::vector<Exemplar> exemplars{painting(60, 60, 1)};
+  std::vector<std::uint8_t> bytes =
+      pack_plan(plan_of(exemplars, land(130, 128, 40), {130, 128, 1, 64}));
+  // After the guide's name: 16 times the price of a squared difference.
+  const std::string name = exemplars[0].guides.guides[0].name;
+  const auto weight = std::search(bytes.begin(), bytes.end(), name.begin(), name.end()) +
+                      static_cast<std::ptrdiff_t>(name.size());
+  ASSERT_EQ(weight[0] | weight[1] << 8, 16 * 270);
+  weight[7] = 0x70;
+  const std::size_t content = bytes.size() - 8;
+  std::uint64_t sum = content;
+  for (std::size_t i = 0; i < content; ++i) sum = mix_bits(sum ^ bytes[i]);
+  for (std::size_t i = 0; i < 8; ++i)
+    bytes[content + i] = static_cast<std::uint8_t>(sum >> (8 * i));
+  EXPECT_THAT(test::error_of([&] { unpack_plan(bytes, exemplars); }).found(),
+              testing::HasSubstr("a weight out of range"));
 }
 
 }  // namespace
