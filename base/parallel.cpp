@@ -7,7 +7,9 @@
 
 #include <cstddef>
 
-#if defined(__SANITIZE_THREAD__)
+#include "base/sanitized.h"
+
+#ifdef BELVEDERE_THREAD_SANITIZER
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -33,7 +35,7 @@ int max_threads() {
       tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
 }
 
-#if defined(__SANITIZE_THREAD__)
+#ifdef BELVEDERE_THREAD_SANITIZER
 // TBB is not instrumented: the thread sanitizer would report every hand-over between caller and
 // task as a race. That build uses two plain threads, whose start and end the sanitizer sees, so
 // that it reports only races between tasks.

@@ -8,7 +8,7 @@
 #include <new>
 
 #include "base/memory/zeroed_memory.h"
-#include "tests/sanitized.h"
+#include "base/sanitized.h"
 
 namespace belvedere::test {
 namespace {

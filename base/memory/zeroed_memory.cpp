@@ -5,6 +5,8 @@
 
 #include <cstdlib>
 
+#include "base/sanitized.h"
+
 namespace belvedere {
 namespace {
 
@@ -13,7 +15,7 @@ namespace {
 constexpr std::size_t large_block_bytes = std::size_t{16} << 20;
 
 // The address sanitizer watches only the C library's blocks.
-#ifdef __SANITIZE_ADDRESS__
+#ifdef BELVEDERE_ADDRESS_SANITIZER
 constexpr bool from_system = false;
 #else
 constexpr bool from_system = true;

@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "base/grid.h"
+#include "base/sanitized.h"
 #include "renderer/image/image_io.h"
-#include "tests/sanitized.h"
 #include "tests/tools/program.h"
 
 namespace belvedere {

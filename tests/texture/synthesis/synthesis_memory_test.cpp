@@ -4,8 +4,8 @@
 
 #include "base/parallel.h"
 #include "base/random.h"
+#include "base/sanitized.h"
 #include "tests/counted_memory.h"
-#include "tests/sanitized.h"
 #include "texture/synthesis/synthesize.h"
 
 namespace belvedere {

@@ -14,12 +14,12 @@
 #include "base/error.h"
 #include "base/memory_limit.h"
 #include "base/random.h"
+#include "base/sanitized.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/picture_formats.h"
 #include "tests/files.h"
 #include "tests/renderer/image/random_picture.h"
 #include "tests/renderer/image/rows/write_pictures.h"
-#include "tests/sanitized.h"
 #include "tests/small_disk.h"
 
 namespace belvedere {
