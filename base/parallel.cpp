@@ -7,7 +7,7 @@
 
 #include <cstddef>
 
-#include "base/sanitized.h"
+#include "base/memory/sanitized.h"
 
 #ifdef BELVEDERE_THREAD_SANITIZER
 #include <algorithm>

@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <new>
 
+#include "base/memory/sanitized.h"
 #include "base/memory/zeroed_memory.h"
-#include "base/sanitized.h"
 
 namespace belvedere::test {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <cstdlib>
 
-#include "base/sanitized.h"
+#include "base/memory/sanitized.h"
 
 namespace belvedere {
 namespace {

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "base/grid.h"
-#include "base/sanitized.h"
+#include "base/memory/sanitized.h"
 #include "renderer/image/image_io.h"
 #include "tests/tools/program.h"
 

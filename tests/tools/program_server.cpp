@@ -14,7 +14,7 @@
 #include <iostream>
 #include <stdexcept>
 
-#include "base/sanitized.h"
+#include "base/memory/sanitized.h"
 #include "tools/cli/program.h"
 
 extern "C" void __gcov_dump() __attribute__((weak));  // there when coverage is measured

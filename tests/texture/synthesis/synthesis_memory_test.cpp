@@ -2,9 +2,9 @@
 
 #include <string>
 
+#include "base/memory/sanitized.h"
 #include "base/parallel.h"
 #include "base/random.h"
-#include "base/sanitized.h"
 #include "tests/counted_memory.h"
 #include "texture/synthesis/synthesize.h"
 

@@ -12,9 +12,9 @@
 #include <tuple>
 
 #include "base/error.h"
+#include "base/memory/sanitized.h"
 #include "base/memory_limit.h"
 #include "base/random.h"
-#include "base/sanitized.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/picture_formats.h"
 #include "tests/files.h"
