@@ -41,10 +41,10 @@ Normal normal_of(const Residuals& residuals, std::size_t robust) {
 
 std::optional<std::vector<double>> damped_step(const Normal& normal, double damping) {
   // An unknown without any effect still needs a pivot.
-  constexpr double least = 1e-12;
+  constexpr double min_diagonal = 1e-12;
   Matrix damped = normal.matrix;
   for (std::size_t i = 0; i < damped.rows(); ++i)
-    damped(i, i) += damping * std::max(damped(i, i), least);
+    damped(i, i) += damping * std::max(damped(i, i), min_diagonal);
   const std::optional<Cholesky> factors = Cholesky::of(std::move(damped));
   if (!factors) return std::nullopt;
   return factors->solve(normal.gradient);

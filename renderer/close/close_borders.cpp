@@ -15,6 +15,7 @@
 #include "base/random_streams.h"
 #include "renderer/paint/picture_filter.h"
 #include "renderer/paint/picture_noise.h"
+#include "renderer/rock/rock_ground.h"
 
 namespace belvedere {
 namespace {
@@ -47,11 +48,8 @@ constexpr float widest_gully = 8.0F;  // half of old snow in it, units
 constexpr float narrowest_gully = 0.8F;
 constexpr float border_limit = border_reach_units - 0.5F;
 
-bool is_grassy_class(Class id) {
-  return id == Class::alpine_grass || id == Class::pasture || id == Class::shrub;
-}
 bool mixes(Class a, Class b) {
-  return (a == Class::scree && is_grassy_class(b)) || (b == Class::scree && is_grassy_class(a));
+  return (a == Class::scree && is_turf(b)) || (b == Class::scree && is_turf(a));
 }
 
 // A patch of ground that belongs to a place aside of it.
@@ -242,12 +240,12 @@ Class CloseBorders::at(int x, int y, float close) const {
     shift = shifted(on_glaciers);
     shown = class_at(close * shift);
   }
-  if (close < 0.5F || (shown != Class::scree && !is_grassy_class(shown))) return shown;
+  if (close < 0.5F || (shown != Class::scree && !is_turf(shown))) return shown;
   const auto around = [&](const Grid<float>& share) {
     return value_on_surface(wide, share, origin_px.x + x, origin_px.y + y, depth_m);
   };
   // Ground that ice has left lies bare; snow lasts in the gullies around it.
-  if (is_grassy_class(shown) && around(ice.ice) > bare_from + 0.05F * noise(6, 2.0F * coarse_cell))
+  if (is_turf(shown) && around(ice.ice) > bare_from + 0.05F * noise(6, 2.0F * coarse_cell))
     return Class::scree;
   if (shown == Class::scree && broad.spur != nullptr) {
     const float lasts = smoothstep(0.08F, 0.50F, around(ice.white));

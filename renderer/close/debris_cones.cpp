@@ -13,6 +13,7 @@
 #include "base/random_streams.h"
 #include "renderer/paint/picture_filter.h"
 #include "renderer/paint/picture_noise.h"
+#include "renderer/rock/rock_ground.h"
 
 namespace belvedere {
 namespace {
@@ -47,10 +48,7 @@ constexpr float convex = 0.75F;  // gradient at its sides
 constexpr float channel_depth = 0.7F;
 constexpr float beside_units = 4.0F;  // of darker ground around it
 
-bool is_turf_class(Class id) {
-  return id == Class::alpine_grass || id == Class::pasture || id == Class::shrub;
-}
-bool takes_debris(Class id) { return id == Class::scree || is_turf_class(id); }
+bool takes_debris(Class id) { return id == Class::scree || is_turf(id); }
 
 // The wide pixel under a position of the sheet in units.
 std::optional<std::size_t> wide_at(const SpurGround& ground, glm::vec2 position) {

@@ -29,15 +29,9 @@ constexpr float bare_snow_deg = 50.0F;  // slope at which most crests are bare o
 constexpr float bare_share = 0.56F;
 constexpr float cone_share = 0.20F;  // share by which debris reaches up beneath a funnel
 
-bool is_turf(Class id) {
-  return id == Class::alpine_grass || id == Class::pasture || id == Class::forest ||
-         id == Class::shrub;
-}
+bool is_vegetation(Class id) { return is_turf(id) || id == Class::forest; }
 bool is_snow(Class id) { return id == Class::snow || id == Class::glacier; }
-bool gives_way(Class id) {
-  return id == Class::scree || id == Class::alpine_grass || id == Class::pasture ||
-         id == Class::shrub || id == Class::snow;
-}
+bool gives_way(Class id) { return id == Class::scree || is_turf(id) || id == Class::snow; }
 
 template <class Test>
 Grid<float> share_around_of(const WideView& wide, double sigma_px, PixelRect wanted, Test&& test) {
@@ -62,7 +56,7 @@ RockAround look_around_rock(const WideView& wide, double pixels_per_unit, PixelR
   const double scale = pixels_per_unit / wide.factor;
   return {.rock = share_around_of(wide, rock_sigma_units * scale, wanted,
                                   [](Class id) { return id == Class::rock; }),
-          .turf = share_around_of(wide, turf_sigma_units * scale, wanted, is_turf),
+          .turf = share_around_of(wide, turf_sigma_units * scale, wanted, is_vegetation),
           .snow = share_around_of(wide, snow_sigma_units * scale, wanted, is_snow)};
 }
 
@@ -91,12 +85,16 @@ float standing_bed(double altitude_m, double east_m, double north_m, float metre
   return at < back ? own + (height(number - 1.0F) - own) * (1.0F - at / back) : own;
 }
 
+bool is_turf(Class id) {
+  return id == Class::alpine_grass || id == Class::pasture || id == Class::shrub;
+}
+
 std::optional<float> clings_deg(LandCoverClass id, float close) {
   if (id == Class::snow) return 0.0F;
   if (close <= 0.0F) return std::nullopt;
   if (id == Class::glacier) return 2.0F;
   if (id == Class::scree) return 1.0F;
-  if (id == Class::alpine_grass || id == Class::pasture || id == Class::shrub) return 3.0F;
+  if (is_turf(id)) return 3.0F;
   return std::nullopt;
 }
 

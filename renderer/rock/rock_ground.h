@@ -10,6 +10,9 @@
 
 namespace belvedere {
 
+// Open ground that low plants cover.
+bool is_turf(LandCoverClass id);
+
 // Shares of rock, turf and snow around each wide pixel on its own surface, 0…1: spurs reach into
 // the vegetation around them; snow and turf lie on treads where there is some nearby.
 struct RockAround {

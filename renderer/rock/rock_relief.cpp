@@ -37,10 +37,7 @@ constexpr float turf_shift_units = 13.0F;           // of near turf up and down 
 constexpr float stroke_feather = 0.6F;              // how far strokes turn down the flanks
 
 // Ground whose border with rock moves up and down the slope where it is near.
-bool has_turf_border(LandCoverClass id) {
-  return id == LandCoverClass::rock || id == LandCoverClass::alpine_grass ||
-         id == LandCoverClass::pasture || id == LandCoverClass::shrub;
-}
+bool has_turf_border(LandCoverClass id) { return id == LandCoverClass::rock || is_turf(id); }
 
 // Whether a pixel may show rock by its own class and slope.
 bool may_be_bare(const GuidanceBuffers& g, std::size_t i, double pixels_per_unit) {

@@ -40,14 +40,14 @@ class PairRow {
   const std::string& text(int column) const {
     return row_.fields[static_cast<std::size_t>(column)];
   }
-  double number(int column, double lowest, double highest) const {
+  double number(int column, double min, double max) const {
     const std::string& field = text(column);
     double value = 0.0;
     const auto [stop, problem] = std::from_chars(field.data(), field.data() + field.size(), value);
     if (problem != std::errc() || stop != field.data() + field.size() ||
-        !(value >= lowest && value <= highest))
+        !(value >= min && value <= max))
       refuse(column, fmt::format("\"{}\"", field),
-             fmt::format("a number, {} … {}, with a decimal point", lowest, highest));
+             fmt::format("a number, {} … {}, with a decimal point", min, max));
     return value;
   }
   bool sure(int column) const {
@@ -80,8 +80,8 @@ double altitude_of_pair(const Dem& dem, glm::dvec2 position, const PairRow& row,
   return static_cast<double>(sample_bilinear(dem.altitude_m, cell.x, cell.y));
 }
 
-void refuse_double(const std::vector<ControlPair>& pairs, const ControlPair& pair,
-                   const PairRow& row, int column) {
+void refuse_duplicate(const std::vector<ControlPair>& pairs, const ControlPair& pair,
+                      const PairRow& row, int column) {
   for (const ControlPair& other : pairs)
     if (other.pixel == pair.pixel && other.position == pair.position)
       row.refuse(column,
@@ -116,7 +116,7 @@ std::vector<ControlPair> read_control_pairs(const std::string& path, glm::ivec2 
     pair.altitude_m = altitude_of_pair(dem, pair.position, row, columns.longitude);
     pair.name = row.text(columns.name);
     pair.sure = row.sure(columns.sure);
-    refuse_double(pairs, pair, row, columns.x);
+    refuse_duplicate(pairs, pair, row, columns.x);
     pairs.push_back(std::move(pair));
   }
   if (pairs.size() < min_control_pairs)

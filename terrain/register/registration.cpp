@@ -185,8 +185,8 @@ Judgement refine(Fit& fit, double sigma_px, int rounds) {
 }
 
 DisplacementParameters field_of_extent(double extent_m, double length) {
-  constexpr double reach = 0.05, still = 0.0006, most = 0.04;
-  return {length * extent_m, reach * extent_m, still * extent_m, most * extent_m, {}};
+  constexpr double reach = 0.05, still = 0.0006, max = 0.04;
+  return {length * extent_m, reach * extent_m, still * extent_m, max * extent_m, {}};
 }
 
 // The length of the field, and the noise if it is not given, that leave-one-out finds likeliest.
@@ -247,7 +247,8 @@ Registration register_pairs(std::span<const ControlPair> given, glm::ivec2 paint
   const std::optional<double> sigma =
       parameters.sigma_px ? std::optional(*parameters.sigma_px / out.scale) : std::nullopt;
   out.findings.resize(pairs.size());
-  const auto most = static_cast<std::size_t>(max_wrong * static_cast<double>(pairs.size()));
+  const auto max_thrown_out =
+      static_cast<std::size_t>(max_wrong * static_cast<double>(pairs.size()));
   Choice choice;
   Judgement judgement;
   for (int round = 0;; ++round) {
@@ -270,7 +271,7 @@ Registration register_pairs(std::span<const ControlPair> given, glm::ivec2 paint
           (!worst || judgement.deviations[i] > judgement.deviations[*worst]))
         worst = i;
     }
-    if (!worst || pairs.size() - fit.pairs.size() >= most) break;
+    if (!worst || pairs.size() - fit.pairs.size() >= max_thrown_out) break;
     out.findings[index[*worst]].wrong = true;
     fit.pairs.erase(fit.pairs.begin() + static_cast<std::ptrdiff_t>(*worst));
     index.erase(index.begin() + static_cast<std::ptrdiff_t>(*worst));

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "terrain/shape/mask_pieces.h"
 #include "tests/renderer/close/close_ground.h"
 
 namespace belvedere {
@@ -84,29 +85,21 @@ TEST(CloseBorders, StrewOutliersOnBothSides) {
     for (int y = 0; y < 140; ++y)
       for (int x = 0; x < 160; ++x)
         shown(x, y) = scene.g.is_sky(shown.index(x, y)) ? Class::sky : scene.borders.at(x, y, 1.0F);
-    // Pieces of a class that do not reach its own edge of the picture: of the left and the right.
+    // Pieces of a class that do not reach an edge of the picture: of the left and of the right one.
+    const auto spread = [&](Mask& mask, glm::ivec2 from) {
+      const Class id = shown(from.x, from.y);
+      mask(from.x, from.y) = 1;
+      flood(mask, {from.y * 160 + from.x}, [&](int x, int y) { return shown(x, y) == id; });
+    };
+    Mask seen(160, 140, 0);
+    for (int y = 0; y < 140; ++y)
+      for (const int x : {0, 159}) spread(seen, {x, y});
     std::pair<int, int> count{0, 0};
-    Grid<std::uint8_t> seen(160, 140, 0);
     for (int y = 0; y < 140; ++y)
       for (int x = 0; x < 160; ++x) {
         if (seen(x, y) != 0 || (shown(x, y) != left && shown(x, y) != right)) continue;
-        const Class id = shown(x, y);
-        bool at_edge = false;
-        std::vector<glm::ivec2> open{{x, y}};
-        seen(x, y) = 1;
-        while (!open.empty()) {
-          const glm::ivec2 at = open.back();
-          open.pop_back();
-          at_edge = at_edge || at.x == 0 || at.x == 159;
-          for (const glm::ivec2 next : {at + glm::ivec2(1, 0), at - glm::ivec2(1, 0),
-                                        at + glm::ivec2(0, 1), at - glm::ivec2(0, 1)})
-            if (shown.contains(next.x, next.y) && seen(next.x, next.y) == 0 &&
-                shown(next.x, next.y) == id) {
-              seen(next.x, next.y) = 1;
-              open.push_back(next);
-            }
-        }
-        if (!at_edge) ++(id == left ? count.first : count.second);
+        ++(shown(x, y) == left ? count.first : count.second);
+        spread(seen, {x, y});
       }
     return count;
   };

@@ -215,14 +215,10 @@ Action add_exemplar_register(CommandOptions& command) {
       .range(0.1, 10000.0);
   add_run_options(command, *options);
   command.footer(
-      "Finds the place of every pixel of a painting from some forty places that a person "
-      "recognizes "
-      "in it, without\n"
-      "a first estimate of the view: the view itself, and where the painter moved the ground. "
-      "Pairs "
-      "that do not agree\n"
-      "with the others are named. The result is a scene, whose guidance serves the painting as an "
-      "exemplar.\n"
+      "Finds the place of every pixel of a painting from some forty places that a person\n"
+      "recognizes in it, without a first estimate of the view: the view itself, and where the\n"
+      "painter moved the ground. Pairs that do not agree with the others are named. The result\n"
+      "is a scene, whose guidance serves the painting as an exemplar.\n"
       "\n"
       "  belvedere exemplar register painting.jpg dem.tif --pairs pairs.csv --out registered");
   return [options] { return run(*options); };
