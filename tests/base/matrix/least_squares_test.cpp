@@ -36,6 +36,17 @@ Residuals residuals_of(std::span<const Two> rows) {
   return out;
 }
 
+// One residual that nothing can change: half its square, or half the logarithm that robust ones
+// have.
+TEST(LeastSquares, TheCostIsHalfTheSum) {
+  const auto apart = [](std::span<const double> at) {
+    return residuals_of(std::array{Two(2.0), Two::unknown(at[0], 0), Two::unknown(at[1], 1)});
+  };
+  EXPECT_NEAR(fit_least_squares({3.0, -1.0}, apart).cost, 2.0, 1e-12);
+  EXPECT_NEAR(fit_least_squares({3.0, -1.0}, apart, {.robust = 1}).cost, 0.5 * std::log(5.0),
+              1e-12);
+}
+
 // Rosenbrock's valley as two residuals; its least cost, 0, is at (1, 1).
 TEST(LeastSquares, FollowsACurvedValleyToItsEnd) {
   const auto valley = [](std::span<const double> at) {

@@ -51,6 +51,8 @@ TEST_F(Proof, TellsSharesAndShowsThem) {
   EXPECT_GT(outside(5, 70).x, 2.0F * outside(5, 70).y) << "red";
   EXPECT_NEAR(outside(50, 70).x, outside(50, 70).y, 1e-6) << "grey";
   EXPECT_NEAR(shown(50, 70).x, greys_and_greens()(50, 70).x, 0.03F) << "greys stay";
+  EXPECT_EQ(shown(0, 70), shown(5, 70)) << "up to the edges";
+  EXPECT_EQ(shown(79, 70), shown(50, 70));
   EXPECT_GT(shown(5, 70).x, 0.1F) << "the print's green is duller";
   EXPECT_EQ(read_image_info(folder_ / "b_proof.png").notes.at("belvedere:press"), report.press);
 }

@@ -91,6 +91,9 @@ TEST_F(RasterIo, CodesKeepNothingBelowZero) {
       },
       "255");
   EXPECT_THAT(read_codes(source_of(path("c.asc"))).cells, testing::ElementsAre(41, -1, -1, -1));
+  write_ascii(
+      "first.asc", 2, 1, 0, 0, 30, [](int x, int) { return x == 0 ? "255" : "7"; }, "255");
+  EXPECT_THAT(read_codes(source_of(path("first.asc"))).cells, testing::ElementsAre(-1, 7));
 }
 
 TEST_F(RasterIo, FeetBecomeMetres) {

@@ -139,6 +139,20 @@ TEST(ReadOut, TheFirstPixelHasItsPlace) {
   EXPECT_NEAR(out.latitude_deg(1, 0), origin.y, 1e-6);
 }
 
+// The only ground is the last pixel: the script's scale is its longitude.
+TEST(ReadOut, TheLastPixelCountsForTheExtent) {
+  const test::Folder folder;
+  GuidanceBuffers ground = guidance();
+  for (float& depth : ground.depth_m) depth = std::numeric_limits<float>::infinity();
+  ground.depth_m(sheet_width - 1, sheet_height - 1) = 700.F;
+  write_guidance(folder / "g.exr", ground, {{"belvedere:crs", "EPSG:32632"}});
+  const ReadOut out = sample_read_out(folder / "g.exr", sheet_width * sheet_height);
+  const std::string script = read_out_script(out);
+  const std::size_t longitude = script.find("\"longitude\"");
+  EXPECT_NEAR(std::strtod(behind(script, "from", longitude).data(), nullptr),
+              out.longitude_deg(sheet_width - 1, sheet_height - 1), 1e-6);
+}
+
 TEST(ReadOut, WithoutASystemThereAreNoPlaces) {
   const test::Folder folder;
   write_guidance(folder / "g.exr", guidance(), {{"belvedere:crs", "none"}});

@@ -44,6 +44,19 @@ TEST(PaletteSeason, MixesByAltitude) {
   EXPECT_FALSE(mixed.winter);
 }
 
+// The sky has no altitude: half of both where every ground has half of both.
+TEST(PaletteSeason, TheSkyIsMixedAtEveryHeight) {
+  Palette low = read_palette("summer"), high = low;
+  const glm::vec3 black(0.F), grey(0.4F), white(1.F);
+  low.sky = {{0.0, black}, {0.5, black}, {1.0, white}};
+  high.sky = {{0.25, white}, {0.75, grey}};
+  const Palette mixed = mix_palettes(low, high, [](double) { return 0.5; }, 400.0, 3000.0);
+  ASSERT_EQ(mixed.sky.size(), 3U);
+  EXPECT_FLOAT_EQ(mixed.sky[0].second.x, 0.5F);
+  EXPECT_FLOAT_EQ(mixed.sky[1].second.x, 0.35F);  // half of black, half of (white + grey) / 2
+  EXPECT_FLOAT_EQ(mixed.sky[2].second.x, 0.7F);
+}
+
 TEST(PaletteSeason, NothingOfTheSecondIsTheFirst) {
   const Palette summer = read_palette("summer");
   const Palette same = mix_palettes(
