@@ -3,13 +3,16 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <string>
 #include <utility>
 
 #include "base/error.h"
 #include "base/math.h"
 #include "base/math_exact.h"
+#include "base/parallel.h"
 
 namespace belvedere {
 namespace {
@@ -73,6 +76,12 @@ std::vector<double> parts_of(const std::vector<DisplacedPlace>& places,
   return out;
 }
 
+// Weights of the four nodes about t, 0…1 after the second (Catmull and Rom 1974).
+std::array<double, 4> catmull_rom(double t) {
+  return {0.5 * t * (-1.0 + t * (2.0 - t)), 1.0 + 0.5 * t * t * (3.0 * t - 5.0),
+          0.5 * t * (1.0 + t * (4.0 - 3.0 * t)), 0.5 * t * t * (t - 1.0)};
+}
+
 }  // namespace
 
 double displacement_size_m(const DisplacementParameters& parameters, glm::dvec2 position,
@@ -117,6 +126,33 @@ DisplacementField::DisplacementField(DisplacementParameters parameters)
   upward_covariance_ = with_noise(covariance, places, &Displacement::upward_m);
   lateral_ = lateral_covariance_->solve(parts_of(places, &Displacement::lateral_m));
   upward_ = upward_covariance_->solve(parts_of(places, &Displacement::upward_m));
+  tabulate();
+}
+
+// Each vertex of the ground asks for the field, at a cost of two exponentials a place.
+void DisplacementField::tabulate() {
+  constexpr std::size_t min_places = 8;  // fewer are quicker exactly
+  constexpr double nodes_to_a_length = 8.0, margin_reaches = 4.0;
+  constexpr double max_nodes = 1 << 19;
+  if (parameters_.places.size() < min_places) return;
+  glm::dvec2 low = parameters_.places.front().position, high = low;
+  for (const DisplacedPlace& place : parameters_.places) {
+    low = glm::min(low, place.position);
+    high = glm::max(high, place.position);
+  }
+  const double margin = margin_reaches * parameters_.reach_m;
+  const double step = std::min(parameters_.length_m, parameters_.reach_m) / nodes_to_a_length;
+  const glm::dvec2 count = glm::ceil((high - low + 2.0 * margin) / step) + 1.0;
+  if (count.x * count.y > max_nodes) return;
+  first_node_ = low - margin;
+  node_step_m_ = step;
+  nodes_ = Grid<glm::dvec2>(static_cast<int>(count.x), static_cast<int>(count.y));
+  parallel_rows(nodes_.height(), [&](int y) {
+    for (int x = 0; x < nodes_.width(); ++x) {
+      const Displacement value = exactly_at(first_node_ + step * glm::dvec2(x, y));
+      nodes_(x, y) = {value.lateral_m, value.upward_m};
+    }
+  });
 }
 
 std::vector<double> DisplacementField::covariance_with(glm::dvec2 position) const {
@@ -130,6 +166,23 @@ std::vector<double> DisplacementField::covariance_with(glm::dvec2 position) cons
 }
 
 Displacement DisplacementField::at(glm::dvec2 position) const {
+  const glm::dvec2 node = (position - first_node_) / node_step_m_;
+  if (!(node.x >= 1.0 && node.y >= 1.0 && node.x < nodes_.width() - 2.0 &&
+        node.y < nodes_.height() - 2.0))
+    return exactly_at(position);
+  const int x = static_cast<int>(node.x), y = static_cast<int>(node.y);
+  const std::array<double, 4> across = catmull_rom(node.x - x), along = catmull_rom(node.y - y);
+  glm::dvec2 sum(0.0);
+  for (int row = 0; row < 4; ++row) {
+    glm::dvec2 of_row(0.0);
+    for (int column = 0; column < 4; ++column)
+      of_row += across[static_cast<std::size_t>(column)] * nodes_(x - 1 + column, y - 1 + row);
+    sum += along[static_cast<std::size_t>(row)] * of_row;
+  }
+  return {sum.x, sum.y};
+}
+
+Displacement DisplacementField::exactly_at(glm::dvec2 position) const {
   Displacement out;
   if (is_identity()) return out;
   const double size = displacement_size_m(parameters_, position);

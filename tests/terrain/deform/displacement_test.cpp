@@ -3,9 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
+#include "base/random.h"
 
 namespace belvedere {
 namespace {
@@ -68,6 +70,28 @@ TEST(Displacement, FarAwayNothingMovesAndOnlyStillnessIsKnown) {
   EXPECT_TRUE(DisplacementField().is_identity());
   EXPECT_EQ(DisplacementField().at({0.0, 0.0}).upward_m, 0.0);
   EXPECT_EQ(DisplacementField().deviation({0.0, 0.0}).lateral_m, 0.0);
+}
+
+// Many places are tabulated; so is the field between them, and beyond the nodes it goes on.
+TEST(Displacement, OfManyPlacesIsWithinTwoThousandthsOfTheExactOne) {
+  DisplacementParameters p = example(10.0);
+  for (int i = 0; i < 30; ++i)
+    p.places.push_back({{400.0 * i, 9000.0 * random_uniform(1, 0, i)},
+                        {800.0 * random_uniform(2, 0, i) - 400.0, 60.0},
+                        {20.0, 20.0}});
+  const DisplacementField field(p);
+  double worst = 0.0, largest = 0.0;
+  for (int i = 0; i < 3000; ++i) {
+    const glm::dvec2 at(40000.0 * random_uniform(3, 0, i) - 15000.0,
+                        50000.0 * random_uniform(4, 0, i) - 20000.0);
+    const Displacement exact = field.exactly_at(at), quick = field.at(at);
+    worst = std::max({worst, std::abs(exact.lateral_m - quick.lateral_m),
+                      std::abs(exact.upward_m - quick.upward_m)});
+    largest = std::max(largest, std::abs(exact.lateral_m));
+  }
+  EXPECT_GT(largest, 200.0);
+  EXPECT_GT(worst, 0.0);
+  EXPECT_LT(worst, 2e-3 * largest);
 }
 
 TEST(Displacement, TheSizeIsLimited) {
