@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <memory>
 #include <numbers>
 #include <optional>
 
+#include "base/filter.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
 #include "base/statistics.h"
@@ -33,6 +35,17 @@ std::size_t folded_in_picture(const Dem& dem, const Deformation& deformation,
             : 0;
   }
   return count;
+}
+
+glm::vec3 normal_at(const Dem& dem, glm::dvec2 position, double exaggeration) {
+  const glm::dvec2 cell = dem.transform.to_cell(position.x, position.y);
+  const auto altitude = [&](double dx, double dy) {
+    return static_cast<double>(sample_bilinear(dem.altitude_m, cell.x + dx, cell.y + dy));
+  };
+  const double rise = exaggeration / (2.0 * dem.cell_m());
+  const double east = altitude(1.0, 0.0) - altitude(-1.0, 0.0);
+  const double north = altitude(0.0, -1.0) - altitude(0.0, 1.0);
+  return glm::vec3(glm::normalize(glm::dvec3(-east * rise, -north * rise, 1.0)));
 }
 
 // Whether a line of `step` lies between two altitudes, and whether it is a fifth one.
@@ -67,7 +80,9 @@ RegisteredGround trace_registered(const Registration& registration, const Scene&
   RegisteredGround out{Grid<float>(size_px.x, size_px.y, unknown_value),
                        Grid<float>(size_px.x, size_px.y, unknown_value),
                        Grid<float>(size_px.x, size_px.y, unknown_value),
-                       folded_in_picture(dem, deformation, *camera)};
+                       folded_in_picture(dem, deformation, *camera),
+                       Grid<glm::dvec2>(size_px.x, size_px.y),
+                       Grid<glm::vec3>(size_px.x, size_px.y)};
   const auto sigma_px = [&](glm::dvec2 position) {
     const Displacement deviation = field.deviation(position);
     const double distance = view_distance_m(registration.frame, registration.view, position);
@@ -84,6 +99,11 @@ RegisteredGround trace_registered(const Registration& registration, const Scene&
       if (!at) continue;
       out.altitude_m(x, y) = static_cast<float>(at->altitude_m);
       out.distance_m(x, y) = static_cast<float>(at->distance_m);
+      out.position(x, y) = at->position;
+      out.normal(x, y) = normal_at(
+          dem, at->position,
+          view_exaggeration(registration.frame, registration.view,
+                            view_distance_m(registration.frame, registration.view, at->position)));
       const bool same =
           x % run_px != 0 && !std::isnan(out.sigma_px(x - 1, y)) &&
           std::max(at->distance_m, distance) < neighbours * std::min(at->distance_m, distance);

@@ -21,6 +21,8 @@ struct RegisteredGround {
   Grid<float> sigma_px;    // how far the place may be off in one direction: standard deviation, in
                            // pixels of the painting, without that of the view
   std::size_t folded = 0;  // facets of the ground in the picture that the registration turns over
+  Grid<glm::dvec2> position = {};  // CRS
+  Grid<glm::vec3> normal = {};     // of the exaggerated ground, as it lies on the map
 };
 
 // Traces the terrain as registered_scene() draws it.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <limits>
 #include <utility>
 
@@ -56,6 +57,95 @@ glm::dvec2 predicted_pixel(const PairFit& fit, const DisplacementField& field,
   const ViewPixel at =
       project_in_view(fit.frame, fit.view, pair.position, pair.altitude_m, field.at(pair.position));
   return {at.u.value, at.v.value};
+}
+
+// A fit whose first pairs are those of `index`, in their order; places found in the paint follow.
+struct FittedPairs {
+  PairFit fit;
+  std::vector<std::size_t> index;
+  PairJudgement judgement;
+};
+
+double mean_score(const FittedPairs& fitted) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < fitted.index.size(); ++i) sum += fitted.judgement.scores[i];
+  return sum / static_cast<double>(fitted.index.size());
+}
+
+void add_pair(FittedPairs& fitted, const std::vector<ControlPair>& pairs, std::size_t index,
+              double sigma_px) {
+  const auto at = static_cast<std::ptrdiff_t>(fitted.index.size());
+  fitted.fit.pairs.insert(fitted.fit.pairs.begin() + at, pairs[index]);
+  fitted.fit.noise_px.insert(fitted.fit.noise_px.begin() + at, glm::dvec2(sigma_px));
+  fitted.fit.weights.insert(fitted.fit.weights.begin() + at, 1.0);
+  fitted.index.push_back(index);
+}
+
+// Of Student's t with 4 degrees of freedom, two values at once; hardly any beyond all doubt.
+double weight_of(double square_deviations) {
+  constexpr double freedom = 4.0, hopeless = 30.0, hardly_any = 0.01;
+  if (square_deviations > hopeless) return hardly_any;
+  return std::min((freedom + 2.0) / (freedom + square_deviations), 1.0);
+}
+
+void weigh_by_agreement(FittedPairs& fitted, double sigma_px, int rounds) {
+  constexpr double min_weight_of_pairs = 0.25;
+  PairFit& fit = fitted.fit;
+  fit.field.places = displaced_places(fit);
+  for (int round = 0; round < rounds; ++round) {
+    const ViewUnknowns view = refitted_view(fit, sigma_px);
+    if (is_plausible(fit.frame, view, fit.pairs)) fit.view = view;
+    fit.field.places = displaced_places(fit);
+    fitted.judgement = judge_pairs(fit, sigma_px);
+    if (round + 1 == rounds) break;
+    for (std::size_t i = 0; i < fit.pairs.size(); ++i) {
+      const double weight = weight_of(fitted.judgement.square_deviations[i]);
+      fit.weights[i] = i < fitted.index.size() ? std::max(weight, min_weight_of_pairs) : weight;
+    }
+    fit.field.places = displaced_places(fit);
+  }
+}
+
+// Pairs that were thrown out and agree now.
+bool take_back(FittedPairs& fitted, const std::vector<ControlPair>& pairs, double sigma_px) {
+  constexpr double near_px = 14.0;
+  const DisplacementField field(fitted.fit.field);
+  bool any = false;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (std::find(fitted.index.begin(), fitted.index.end(), i) != fitted.index.end()) continue;
+    const glm::dvec2 off = predicted_pixel(fitted.fit, field, pairs[i]) - pairs[i].pixel;
+    if (exact::hypot(off.x, off.y) > near_px) continue;
+    add_pair(fitted, pairs, i, sigma_px);
+    any = true;
+  }
+  return any;
+}
+
+void take_result(Registration& out, const FittedPairs& fitted,
+                 const std::vector<ControlPair>& pairs) {
+  const PairFit& fit = fitted.fit;
+  const DisplacementField field(fit.field);
+  constexpr double near_by = 2.0;  // of the field's reach
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    PairFinding& finding = out.findings[i];
+    finding.view_px = out.scale * view_distance_px(fit, pairs[i]);
+    const glm::dvec2 off = predicted_pixel(fit, field, pairs[i]) - pairs[i].pixel;
+    if (finding.wrong) finding.others_px = exact::hypot(off.x, off.y);
+    finding.others_px *= out.scale;
+    finding.nearest_m = std::numeric_limits<double>::infinity();
+    finding.near_by = 0;
+    for (std::size_t k = 0; k < fit.pairs.size(); ++k) {
+      if (k < fitted.index.size() && fitted.index[k] == i) continue;
+      const glm::dvec2 line = fit.pairs[k].position - pairs[i].position;
+      const double distance = exact::hypot(line.x, line.y);
+      finding.nearest_m = std::min(finding.nearest_m, distance);
+      if (distance < near_by * fit.field.reach_m) ++finding.near_by;
+    }
+  }
+  out.frame = fit.frame;
+  out.view = fit.view;
+  out.displacement = fit.field;
+  out.score = mean_score(fitted);
 }
 
 void check_sigma(std::optional<double> sigma_px) {
@@ -111,27 +201,61 @@ Registration register_pairs(std::span<const ControlPair> given, glm::ivec2 paint
     fit.pairs.erase(fit.pairs.begin() + static_cast<std::ptrdiff_t>(*worst));
     index.erase(index.begin() + static_cast<std::ptrdiff_t>(*worst));
   }
-  const DisplacementField field(fit.field);
-  constexpr double near_by = 2.0;  // of the field's reach
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    PairFinding& finding = out.findings[i];
-    finding.view_px = out.scale * view_distance_px(fit, pairs[i]);
-    const glm::dvec2 off = predicted_pixel(fit, field, pairs[i]) - pairs[i].pixel;
-    if (finding.wrong) finding.others_px = exact::hypot(off.x, off.y);
-    finding.others_px *= out.scale;
-    finding.nearest_m = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < fit.pairs.size(); ++k) {
-      if (index[k] == i) continue;
-      const glm::dvec2 line = fit.pairs[k].position - pairs[i].position;
-      const double distance = exact::hypot(line.x, line.y);
-      finding.nearest_m = std::min(finding.nearest_m, distance);
-      if (distance < near_by * fit.field.reach_m) ++finding.near_by;
-    }
-  }
-  out.frame = fit.frame;
-  out.view = fit.view;
-  out.displacement = fit.field;
   out.sigma_px = out.scale * choice.sigma_px;
+  take_result(out, {fit, index, judgement}, pairs);
+  return out;
+}
+
+std::optional<Registration> refine_registration(const Registration& registration,
+                                                std::span<const ControlPair> given,
+                                                std::span<const PaintedPlace> painted) {
+  const double scale = registration.scale;
+  const double sigma = registration.sigma_px / scale;
+  std::vector<ControlPair> pairs(given.begin(), given.end());
+  for (ControlPair& pair : pairs) pair.pixel /= scale;
+  FittedPairs start;
+  start.fit.frame = registration.frame;
+  start.fit.view = registration.view;
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    if (!registration.findings[i].wrong) add_pair(start, pairs, i, sigma);
+  const DisplacementField field(registration.displacement);
+  for (const PaintedPlace& match : painted) {
+    ControlPair place = match.place;
+    place.pixel /= scale;
+    const glm::dvec2 noise = glm::max(match.sigma_px / scale, glm::dvec2(sigma));
+    const glm::dvec2 off = predicted_pixel(start.fit, field, place) - place.pixel;
+    const ViewDisplacement seen = displacement_in_view(start.fit.frame, start.fit.view, place);
+    const Displacement unsure = field.deviation(place.position);
+    const double deviations2 =
+        square(off.x) / (square(unsure.lateral_m * seen.px_per_m.lateral_m) + square(noise.x)) +
+        square(off.y) / (square(unsure.upward_m * seen.px_per_m.upward_m) + square(noise.y));
+    start.fit.pairs.push_back(place);
+    start.fit.noise_px.push_back(noise);
+    start.fit.weights.push_back(weight_of(deviations2));
+  }
+  std::optional<FittedPairs> best;
+  for (const double length : {0.06, 0.12}) {
+    FittedPairs tried = start;
+    tried.fit.field = field_of_extent(start.fit.frame.extent_m, length);
+    constexpr int rounds = 4;
+    weigh_by_agreement(tried, sigma, rounds);
+    if (!is_plausible(tried.fit.frame, tried.fit.view, tried.fit.pairs)) continue;
+    if (!best || tried.judgement.score > best->judgement.score) best = std::move(tried);
+  }
+  if (!best || mean_score(*best) < registration.score) return std::nullopt;
+  Registration out = registration;
+  const double score = mean_score(*best);
+  if (take_back(*best, pairs, sigma)) weigh_by_agreement(*best, sigma, 2);
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    out.findings[i].wrong =
+        std::find(best->index.begin(), best->index.end(), i) == best->index.end();
+  for (std::size_t i = 0; i < best->index.size(); ++i) {
+    PairFinding& finding = out.findings[best->index[i]];
+    finding.others_px = best->judgement.others_px[i];
+    finding.deviations = best->judgement.deviations[i];
+  }
+  take_result(out, *best, pairs);
+  out.score = score;
   return out;
 }
 

@@ -37,6 +37,7 @@ struct Registration {
   ViewUnknowns view = {};
   DisplacementParameters displacement;
   double sigma_px = 0.0;  // of clicks, in pixels of the painting: as given, or estimated
+  double score = 0.0;     // mean ln of how likely each kept pair is by the others
   std::vector<PairFinding> findings;  // of all pairs, in their order
   std::vector<FittedView> kinds;      // the views from the pairs alone, best first
 };
@@ -48,6 +49,20 @@ struct Registration {
 // it. Throws Error(usage) for values out of range.
 Registration register_pairs(std::span<const ControlPair> pairs, glm::ivec2 painting_px,
                             const RegistrationParameters& parameters = {});
+
+// A place that the paint itself shows.
+struct PaintedPlace {
+  ControlPair place;          // pixel of the painting
+  glm::dvec2 sigma_px{1.0};   // of its pixel, standard deviation, > 0
+};
+
+// Registers again with places that were found in the paint beside the pairs. They count the less
+// the less they agree with the others (Student's t with 4 degrees of freedom); pairs keep a quarter
+// of their weight, and one that was thrown out comes back if it agrees now. Nothing if the others
+// then tell the kept pairs worse than before: the paint was misread.
+std::optional<Registration> refine_registration(const Registration& registration,
+                                                std::span<const ControlPair> pairs,
+                                                std::span<const PaintedPlace> painted);
 
 // The painting's pixel that shows a place.
 glm::dvec2 registered_pixel(const Registration& registration, const DisplacementField& field,

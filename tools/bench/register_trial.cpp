@@ -11,7 +11,9 @@
 #include "base/error.h"
 #include "base/random.h"
 #include "base/statistics.h"
+#include "renderer/image/icc/painting_file.h"
 #include "renderer/image/output_file.h"
+#include "renderer/register/register_by_paint.h"
 #include "terrain/register/registration.h"
 #include "tools/bench/secret_scene.h"
 #include "tools/options/options.h"
@@ -30,16 +32,19 @@ struct TrialOptions {
   double wrong = 0.1;
   bool known = false;
   std::string write;
+  std::string paint;
 };
 
 struct Trial {
   std::vector<double> view_px, all_px, still_px, moved_px;
   std::size_t wrong = 0, found = 0, good = 0, thrown = 0;
   double sigma_px = 0.0;
+  int rounds = 0;
+  std::size_t matches = 0;
 };
 
 Trial run_trial(const SecretScene& scene, const SecretPairs& secret, const TrialOptions& options,
-                std::uint64_t seed) {
+                const std::string& name, std::uint64_t seed) {
   RegistrationParameters parameters;
   if (options.known) {
     parameters.sigma_px = 3.0;
@@ -48,10 +53,19 @@ Trial run_trial(const SecretScene& scene, const SecretPairs& secret, const Trial
                                                                       : ViewKind::cylinder};
   }
   const glm::ivec2 size(scene.camera.width, scene.camera.height);
-  const Registration found = register_pairs(secret.pairs, size, parameters);
+  Registration found = register_pairs(secret.pairs, size, parameters);
+  Trial out;
+  if (!options.paint.empty()) {
+    const Grid<glm::vec3> painting =
+        read_painting(fmt::format("{}/{}.png", options.paint, name), silent_progress());
+    const PaintRegistration by_paint =
+        register_by_paint(found, secret.pairs, painting, *scene.dem, silent_progress());
+    found = by_paint.registration;
+    out.rounds = by_paint.rounds;
+    out.matches = by_paint.matches;
+  }
   const DisplacementField field(found.displacement);
   const FittedView& alone = found.kinds.front();
-  Trial out;
   out.sigma_px = found.sigma_px;
   for (std::size_t i = 0; i < secret.pairs.size(); ++i) {
     const bool thrown = found.findings[i].wrong;
@@ -127,6 +141,8 @@ int measure_registration(int argc, char** argv) {
       .range(0.0, 0.5)
       .show_default();
   command.add_option("--write", options.write, "Folder for the scenes and pairs as files");
+  command.add_option("--paint", options.paint,
+                     "Folder of the scenes' paintings, REGION_NUMBER.png: registered by them as well");
   command.add_flag("--known", options.known, "Kind of view and noise of 3 px are told");
   if (const std::string help = line.read({argv + 1, argv + argc}); !help.empty()) {
     fmt::print("{}", help);
@@ -153,15 +169,17 @@ int measure_registration(int argc, char** argv) {
           write_text_file(name + ".toml", secret_scene_text(scene, region));
           write_text_file(fmt::format("{}_{}.csv", name, draw), secret_pairs_text(scene, pairs));
         }
-        const Trial trial = run_trial(scene, pairs, options, seed);
+        const Trial trial =
+            run_trial(scene, pairs, options, fmt::format("{}_{}", region.name, i), seed);
         fmt::print(
             "{:10} {:2} {:11} {:2.0f} % moved, {} draw {}: view {:.1f} / {:.0f}, field {:.1f} / "
-            "{:.0f}, still {:.1f}, moved {:.1f}, wrong {} of {}, thrown {}, sigma {:.1f}\n",
+            "{:.0f}, still {:.1f}, moved {:.1f}, wrong {} of {}, thrown {}, sigma {:.1f}, {} rounds, "
+            "{} matches\n",
             region.name, i, scene.camera.projection, 100.0 * scene.moved_share,
             scene.widened_m > 0.0 ? "wide" : "    ", draw, median(trial.view_px),
             percentile(trial.view_px, 0.9), median(trial.all_px), percentile(trial.all_px, 0.9),
             median(trial.still_px), median(trial.moved_px), trial.found, trial.wrong, trial.thrown,
-            trial.sigma_px);
+            trial.sigma_px, trial.rounds, trial.matches);
         std::fflush(stdout);
         trials.push_back(trial);
       }

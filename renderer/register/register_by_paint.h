@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <glm/vec3.hpp>
+#include <span>
+
+#include "base/grid.h"
+#include "base/progress.h"
+#include "terrain/io/dem.h"
+#include "terrain/register/registration.h"
+
+namespace belvedere {
+
+struct PaintRegistration {
+  Registration registration;
+  int rounds = 0;           // that the pairs accepted, of three
+  std::size_t matches = 0;  // places of the last of them that were found in the paint
+};
+
+// Improves a registration by the painting itself: three times, with smaller patches each time, the
+// ground is traced as it is registered, its patches are found in the paint (match_paint), and the
+// registration is fitted again with them (refine_registration). A round that makes the pairs' own
+// leave-one-out worse is left out.
+PaintRegistration register_by_paint(const Registration& from_pairs,
+                                    std::span<const ControlPair> pairs,
+                                    const Grid<glm::vec3>& painting, const Dem& dem,
+                                    Progress& progress);
+
+}  // namespace belvedere
