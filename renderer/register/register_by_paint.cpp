@@ -74,7 +74,8 @@ PaintRegistration register_by_paint(const Registration& from_pairs,
   PaintRegistration out{from_pairs};
   const glm::ivec2 painting_px(painting.width(), painting.height());
   for (const Round& round : rounds) {
-    const int width = std::min(round.width_px, painting.width());
+    const int width = round.width_px;
+    if (painting.width() < width) continue;
     const glm::ivec2 size(width, std::max(1, width * painting.height() / painting.width()));
     const double px = static_cast<double>(painting.width()) / width;
     RegisteredGround ground =

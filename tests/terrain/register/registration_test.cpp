@@ -107,6 +107,41 @@ TEST(Registration, NoiseIsEstimatedUnlessItIsGiven) {
   EXPECT_THROW(register_pairs(fine, {1200, 550}, {.view = {}, .sigma_px = 0.0}), Error);
 }
 
+// Places found in the paint, of which a fifth are wrong, on ground that is moved.
+std::vector<PaintedPlace> painted_places(const test::SyntheticView& truth, glm::dvec2 shift) {
+  std::vector<PaintedPlace> out;
+  for (const ControlPair& place : test::synthetic_places(60, 31)) {
+    const auto n = static_cast<std::int64_t>(out.size());
+    PaintedPlace painted{place, glm::dvec2(1.0)};
+    painted.place.pixel = test::pixel_of(truth, place, moved_at(place.position)) + shift +
+                          glm::dvec2(random_normal(8, n, 0), random_normal(8, n, 1));
+    if (n % 5 == 0) painted.place.pixel += glm::dvec2(25.0, -20.0);
+    out.push_back(painted);
+  }
+  return out;
+}
+
+TEST(Registration, PlacesFoundInThePaintImproveItAlthoughSomeAreWrong) {
+  test::SyntheticView truth;
+  std::vector<ControlPair> pairs = painted_pairs(40, 3.0, true, truth);
+  pairs[11].pixel += glm::dvec2(80.0, 30.0);
+  const Registration by_pairs = register_pairs(pairs, {1200, 550}, {.view = {}, .sigma_px = 3.0});
+  const auto better = refine_registration(by_pairs, pairs, painted_places(truth, {0.0, 0.0}));
+  ASSERT_TRUE(better);
+  for (const bool inside : {false, true})
+    EXPECT_LT(median(distances_px(*better, truth, true, inside)),
+              0.7 * median(distances_px(by_pairs, truth, true, inside)));
+  EXPECT_TRUE(better->findings[11].wrong);
+  EXPECT_GT(better->score, by_pairs.score);
+}
+
+TEST(Registration, PaintThatContradictsThePairsIsNotBelieved) {
+  test::SyntheticView truth;
+  const std::vector<ControlPair> pairs = painted_pairs(40, 1.0, false, truth);
+  const Registration by_pairs = register_pairs(pairs, {1200, 550}, {.view = {}, .sigma_px = 1.0});
+  EXPECT_FALSE(refine_registration(by_pairs, pairs, painted_places(truth, {9.0, -9.0})));
+}
+
 // Pairs that no view explains are refused, or registered as badly as they are; never more.
 TEST(Registration, NonsenseIsNoFaultOfTheProgram) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {

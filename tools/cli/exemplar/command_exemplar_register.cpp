@@ -13,6 +13,7 @@
 #include "renderer/image/icc/painting_file.h"
 #include "renderer/image/output_file.h"
 #include "renderer/image/png_palette.h"
+#include "renderer/register/register_by_paint.h"
 #include "renderer/register/registered_ground.h"
 #include "renderer/register/registered_scene.h"
 #include "renderer/scene/scene_file.h"
@@ -40,6 +41,7 @@ struct RegisterOptions : RunOptions {
   double cell_m = 0.0;
   std::optional<double> sigma_px;
   bool cropped = false;
+  bool pairs_only = false;
 };
 
 DemParameters dem_parameters(const RegisterOptions& options) {
@@ -137,6 +139,9 @@ int run(const RegisterOptions& options) {
   input.pairs = read_control_pairs(options.pairs, size, dem);
   progress.begin("registering", 0.0);
   input.registration = register_pairs(input.pairs, size, registration_parameters(options));
+  if (!options.pairs_only)
+    input.registration =
+        register_by_paint(input.registration, input.pairs, painting, dem, progress).registration;
   const Scene registered = registered_scene(input.registration, size);
   progress.begin("drawing", 0.0);
   input.picture = reduced_picture(painting, register_report_px);
@@ -206,6 +211,8 @@ Action add_exemplar_register(CommandOptions& command) {
       .one_of({"auto", "perspective", "cylindrical", "panini"});
   command.add_flag("--cropped", options->cropped,
                    "The painting was cropped on one side: its middle is not that of the view");
+  command.add_flag("--pairs-only", options->pairs_only,
+                   "Do not look for the ground's relief in the paint");
   command.add_option("--crs", options->crs, "CRS of the elevation, where its files do not name it")
       .type_name("CRS");
   command
