@@ -124,7 +124,7 @@ class Layout {
         request.on_skyline ? add_rows(request, all) : add_above(request, all);
         break;
       case LabelPlace::beside:
-        add_around(request, all);
+        request.area_px > 0.0 ? add_beside_area(request, all) : add_around(request, all);
         break;
       case LabelPlace::over:
         for (const double dy : {0.0, -.6, .6, -1.2, 1.2})
@@ -243,6 +243,16 @@ class Layout {
     add(request, m.x, m.y - r, 1.2, all);
     add(request, m.x, m.y + r + h, 1.4, all);
     for (Candidate& candidate : all) candidate.cost += barrier_cost(request, candidate.text);
+  }
+
+  // Right or left of an area that is too narrow for the name.
+  void add_beside_area(const LabelRequest& request, std::vector<Candidate>& all) const {
+    const double aside = .5 * request.area_px + p_.gap_px + .5 * request.width_px;
+    for (const double down : {0.0, -.8, .8, -1.6, 1.6})
+      for (const double side : {1.0, -1.0})
+        add(request, request.mark.x + side * aside,
+            request.mark.y + (down + .5) * request.height_px,
+            std::abs(down) + (side > 0.0 ? 0.0 : .2), all);
   }
 
   // At the centre of the line, then towards its ends.

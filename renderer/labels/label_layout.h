@@ -37,6 +37,7 @@ struct LabelRequest {
   std::vector<BentRoom> bent =
       {};  // for a name that follows a shape, best first; position and mark are then ignored
   std::vector<glm::dvec2> along = {};  // of LabelPlace::on: the line that it is centred on
+  double area_px = 0.0;  // of LabelPlace::beside: width of the area that the name stands beside
 };
 
 struct LabelLayoutParameters {

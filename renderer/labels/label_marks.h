@@ -26,6 +26,7 @@ struct LabelMark {
   MarkState state = MarkState::outside_terrain;
   std::optional<GeoPosition> in_front;  // the ground that hides it
   bool on_skyline = false;              // only sky is above it
+  double width_px = 0.0;                // of a seen area: how wide it is at the mark's row
 };
 
 // Input for marks: the generalized ground, whose tops are drawn, with the map to the picture. All

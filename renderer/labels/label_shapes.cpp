@@ -149,6 +149,22 @@ LabelMark mark_of(const DrawnGround& ground, const LabelShape& shape,
   return mark;
 }
 
+// How wide an area is seen in the row of a pixel that shows it.
+double seen_width(const DrawnGround& ground, const LabelShape& shape, glm::dvec2 pixel) {
+  constexpr double widest_px = 4000.0;  // wide enough for any name
+  const auto reach = [&](double step) {
+    double way = 0.0;
+    while (way < widest_px) {
+      const std::optional<GeoPosition> shown =
+          ground.map.to_geo(pixel + glm::dvec2((way + 1.0) * step, 0.0));
+      if (!shown || !encloses(shape.parts, shown->position)) break;
+      way += 1.0;
+    }
+    return way;
+  };
+  return 1.0 + reach(-1.0) + reach(1.0);
+}
+
 // The part of a line between two lengths along it, in 32 steps.
 std::vector<glm::dvec2> stretch(const std::vector<glm::dvec2>& line, double from, double to) {
   constexpr int steps = 32;
@@ -336,6 +352,8 @@ std::vector<ShapeRun> find_shape_runs(const DrawnGround& ground,
     for (std::size_t i = begin; i < end; ++i) {
       runs[i] = shapes[i].is_area ? run_of_area(ground, shapes[i]) : run_of_line(ground, shapes[i]);
       runs[i].mark = mark_of(ground, shapes[i], runs[i].line);
+      if (shapes[i].is_area && runs[i].mark.state == MarkState::seen)
+        runs[i].mark.width_px = seen_width(ground, shapes[i], runs[i].mark.pixel);
     }
   });
   return runs;

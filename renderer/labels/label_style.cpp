@@ -41,6 +41,7 @@ LabelKindStyle read_kind(const ConfigEntry& entry, const std::string& name) {
   read.number("aside", kind.aside, 0.0, 5.0);
   read.colour("colour", kind.colour);
   read.colour("light", kind.light);
+  read.number("light_below", kind.light_below, 0.0, 1.0);
   read.colour("halo", kind.halo);
   read.number("halo_mm", kind.halo_mm, 0.0, 10.0);
   read.word<LabelMarkShape>("mark", kind.mark,

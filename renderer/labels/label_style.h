@@ -34,8 +34,11 @@ struct LabelKindStyle {
   double spacing = 0.0;  // between letters, of the type's size, 0…2
   std::string colour = "#202020";
   std::string light = "#fdf9ee";  // on dark ground
-  std::string halo = "#ffffff";   // around the letters where there is no picture below them
-  double halo_mm = 0.35;          // 0…10
+  // Mean luminance of the ground below which letters are light, 0…1. Dark letters on ground of .075
+  // would need a halo four times as light as it; spaced ones have no halo that holds them together.
+  double light_below = 0.075;
+  std::string halo = "#ffffff";  // around the letters where there is no picture below them
+  double halo_mm = 0.35;         // 0…10
   LabelMarkShape mark = LabelMarkShape::dot;
   double mark_mm = 1.0;   // across, 0…20
   bool altitude = false;  // under a name that stands above its mark, else after it

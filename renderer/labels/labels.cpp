@@ -48,10 +48,6 @@ glm::dvec2 room_of(const LabelSheet& sheet, const Label& label) {
   return {name.x + altitude_gap * size_px + label.altitude_room.width_px, name.y};
 }
 
-// Mean luminance below which letters are light. Dark letters on such ground would need a halo four
-// times as light as it.
-constexpr double dark_ground = 0.075;
-
 // Width and height of the disc or tile of a number, px: a disc for two figures.
 glm::dvec2 plate_px(const TextRoom& room, const TextStyle& type) {
   const double figures = 1.25 * type.size_px;
@@ -249,7 +245,7 @@ void choose_inks(LabelSheet& sheet, const Grid<float>& luminance) {
     for (int y = std::max(0, low.y); y < std::min(luminance.height(), high.y); ++y)
       for (int x = std::max(0, low.x); x < std::min(luminance.width(), high.x); ++x, ++count)
         sum += static_cast<double>(luminance(x, y));
-    label.on_dark = count > 0 && sum < dark_ground * count;
+    label.on_dark = count > 0 && sum < sheet.kind_of(label).light_below * count;
   }
 }
 
@@ -298,6 +294,12 @@ LabelSheet make_labels(const std::vector<LabelPoint>& points, const std::vector<
         if (follows && kind.straight) request.along = cable_over(lines[i]);
       } else {
         if (follows) request.bent = bent_rooms(label, kind, type, lines[i], measure);
+        // A name wider than its water stands beside it.
+        if (kind.barrier && kind.position == LabelPlace::over && request.bent.empty() &&
+            label.mark.width_px > 0.0 && label.room.width_px > label.mark.width_px) {
+          request.position = LabelPlace::beside;
+          request.area_px = label.mark.width_px;
+        }
         const glm::dvec2 room = room_of(sheet, label);
         request.width_px = room.x + 2.0 * end_room * type.size_px;
         request.height_px = room.y;

@@ -286,7 +286,21 @@ TEST(Labels, NumbersOfRunsStandInDiscsOnTheirLines) {
   EXPECT_NEAR(.5 * (box.top + box.bottom), 400.0, 1e-6);
 }
 
-// Letters are light only where the ground is dark.
+// A lake that runs away from the viewer is narrow: its name would lie across both banks.
+TEST(Labels, ANameWiderThanItsWaterStandsBesideIt) {
+  const auto box_of = [](double lake_px) {
+    LabelMark lake = seen_at(1000, 400);
+    lake.width_px = lake_px;
+    return sheet_of({of_kind("Achensee", "lake")}, {lake}, {{{1000, 300}, {1000, 500}}})
+        .labels[0]
+        .spot.text;
+  };
+  EXPECT_GT(box_of(24.0).left, 1012.0);
+  const LabelBox wide = box_of(900.0);
+  EXPECT_NEAR(.5 * (wide.left + wide.right), 1000.0, 1e-6) << "over its own water";
+}
+
+// Letters are light only where the ground is dark, and spaced ones already on forest.
 TEST(Labels, InksFollowTheGround) {
   LabelSheet sheet = sheet_of({of_kind("Dunkel", "summit"), of_kind("Hell", "summit")},
                               {seen_at(500, 400), seen_at(1500, 400)});
@@ -294,6 +308,11 @@ TEST(Labels, InksFollowTheGround) {
   for (int y = 0; y < 80; ++y)
     for (int x = 0; x < 100; ++x) luminance(x, y) = .02F;
   choose_inks(sheet, luminance);
+  EXPECT_TRUE(sheet.labels[0].on_dark);
+  EXPECT_FALSE(sheet.labels[1].on_dark);
+  sheet = sheet_of({of_kind("Wald", "valley"), of_kind("Wald", "summit")},
+                   {seen_at(500, 400), seen_at(1500, 400)});
+  choose_inks(sheet, Grid<float>(200, 80, .12F));
   EXPECT_TRUE(sheet.labels[0].on_dark);
   EXPECT_FALSE(sheet.labels[1].on_dark);
 }
