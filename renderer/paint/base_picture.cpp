@@ -178,6 +178,7 @@ struct Scenery {
   const Surroundings& around;
   double horizon_px;
   glm::ivec2 origin_px;
+  int width_px;  // of the whole picture
   const WaterImage* image;
   PixelRect wanted;
 
@@ -256,7 +257,20 @@ glm::vec3 light_warmth(const Scenery& s, std::size_t i) {
   return 1.0F + full_warmth * (warmth * smoothstep(0.30F, 0.80F, s.guidance.tone[i]));
 }
 
-PixelColour pixel_colour(const Scenery& s, std::size_t i, int y, const Patches& patches,
+TerrainEnd end_at(const Scenery& s, std::size_t i, int x, const Patches& patches) {
+  const BaseParameters& p = s.parameters;
+  if (!(p.air.rim_fade_m > 0.0)) return {};
+  const TerrainEnd end = terrain_end_at(s.guidance.rim_m[i], p.air.rim_fade_m, s.raised(i));
+  if (!p.sides) return end;
+  const float side =
+      side_share(*p.sides, {.position = glm::dvec2(s.position_m(i)),
+                            .metres_per_unit = static_cast<double>(s.metres_per_unit(i)),
+                            .from_left_units = (x + s.origin_px.x + 0.5) / p.pixels_per_unit,
+                            .sheet_width_units = s.width_px / p.pixels_per_unit});
+  return with_sides(end, side, patches.n60 + 0.6F * patches.n25);
+}
+
+PixelColour pixel_colour(const Scenery& s, std::size_t i, int x, int y, const Patches& patches,
                          const ForestTurn& woods) {
   const GuidanceBuffers& g = s.guidance;
   const BaseParameters& p = s.parameters;
@@ -284,7 +298,7 @@ PixelColour pixel_colour(const Scenery& s, std::size_t i, int y, const Patches& 
                far_range_share(p.air, depth, g.altitude_m[i]) *
                static_cast<float>(s.palette.haze_share);
   pixel.beyond = air_beyond(s.palette, (y + s.origin_px.y + 0.5) / s.horizon_px);
-  if (p.air.rim_fade_m > 0.0) pixel.end = terrain_end_at(g.rim_m[i], p.air.rim_fade_m, raised);
+  pixel.end = end_at(s, i, x, patches);
   if (!s.palette.winter) pixel.factor *= grown_hue(s, i, patches, woods, pixel.air);
   pixel.factor *= evening_glow(s, i, far);
   pixel.factor *= light_warmth(s, i);
@@ -328,7 +342,7 @@ BasePixel ground_pixel(const Scenery& s, GroundNoises& noises, WaterNoises& wate
   const ForestTurn woods =
       id == Class::forest ? forest_turn(g.relief_s_m[i], g.relief_m_m[i], g.tone[i], patches, drift)
                           : ForestTurn{};
-  const PixelColour pixel = pixel_colour(s, i, y, patches, woods);
+  const PixelColour pixel = pixel_colour(s, i, x, y, patches, woods);
   const float glade = s.around.cover.glade[i];
   const bool has_gravel = has_trait(id, ClassTrait::gravel_banks) && !s.palette.winter;
   const float gravel = has_gravel ? gravel_share(s.around.water[i], patches) : 0.0F;
@@ -438,8 +452,8 @@ BasePicture make_base_picture(const GuidanceBuffers& guidance, const WideView& w
   if (image != nullptr && (image->share.width() != width || image->share.height() != height))
     throw Error(ErrorKind::bug, "base picture",
                 "the reflected image covers other pixels than the picture");
-  const Scenery scenery{guidance,   wide,      palette, parameters, around,
-                        horizon_px, origin_px, image,   wanted};
+  const Scenery scenery{guidance,   wide,      palette,        parameters, around,
+                        horizon_px, origin_px, picture_size.x, image,      wanted};
 
   BasePicture picture;
   picture.colour = picture.darker = picture.lighter = Grid<glm::vec3>(width, height);

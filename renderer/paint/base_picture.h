@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <memory>
+#include <optional>
 
 #include "base/guidance_buffers.h"
 #include "base/pixel_rect.h"
@@ -11,6 +12,7 @@
 #include "renderer/paint/ground/ground_tint.h"
 #include "renderer/paint/palette.h"
 #include "renderer/paint/rock_kinds.h"
+#include "renderer/paint/terrain_end.h"
 #include "renderer/paint/water/water_image.h"
 #include "renderer/paint/water/water_parameters.h"
 #include "renderer/trace/light_field.h"
@@ -43,6 +45,7 @@ struct BaseParameters {
       nullptr;  // gives lit ground its warmth; null: the palette's alone
   std::shared_ptr<const GroundTint> tint =
       nullptr;  // the ground's own colours, towards which ramps are shifted; null: plain ramps
+  std::optional<TerrainSides> sides = {};  // of the data; none: they do not fade at their sides
 };
 
 // Base picture (encoded sRGB) at the pixel's tone and at ∓ .17, with accents, tree density and

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <glm/common.hpp>
 #include <limits>
 #include <utility>
 
@@ -36,6 +37,16 @@ double find_sunny_side(const World& world) {
   const MapPosition position = make_map_position(dem.transform, dem.crs, dem.width(), dem.height(),
                                                  world.scene.climate.latitude_deg);
   return position.centre_lonlat_deg().y < 0.0 ? -1.0 : 1.0;
+}
+
+// The sides of the data; none where rays are parallel.
+std::optional<TerrainSides> find_sides(const World& world) {
+  const Projection* projection = find_projection(world.view.camera.projection);
+  if (projection == nullptr || !(projection->widest_deg > 0.0)) return std::nullopt;
+  const Dem& dem = *world.terrain.dem;
+  const glm::dvec2 a = dem.transform.to_crs(0.0, 0.0);
+  const glm::dvec2 b = dem.transform.to_crs(dem.width() - 1.0, dem.height() - 1.0);
+  return TerrainSides{glm::min(a, b), glm::max(a, b), world.view.viewer_xy};
 }
 
 }  // namespace
@@ -84,6 +95,7 @@ BaseParameters to_base_parameters(const World& world, const Palette& palette,
   parameters.sky_seed = sky_seed(world);
   parameters.water = world.scene.water;
   parameters.waters = world.waters ? world.waters : find_water_ground(world.terrain);
+  parameters.sides = find_sides(world);
   parameters.tint = make_ground_tint(world.terrain, palette, world.scene.land_cover.colour_share);
   return parameters;
 }

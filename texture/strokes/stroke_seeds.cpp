@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "base/math.h"
 #include "base/math_exact.h"
 
 namespace belvedere {
@@ -42,6 +43,8 @@ glm::vec2 StrokeScene::fall_line(glm::vec2 position) const {
 glm::vec3 StrokeScene::colour(std::size_t i, float m, float jitter, StrokeSeed& seed) const {
   const glm::vec3 here = base.colour[i];
   const glm::vec3 there = m < 0.F ? base.darker[i] : base.lighter[i];
+  // Ground that has dissolved in air has no paint of its own.
+  jitter *= 1.F - smoothstep(0.90F, 0.99F, base.haze[i]);
   const float value = seed.normal() * jitter;
   const float warmth = seed.normal() * jitter * 0.6F;
   return here + (there - here) * std::min(1.5F, std::abs(m)) +
