@@ -10,6 +10,7 @@
 #include "base/cache/cache.h"
 #include "base/filter.h"
 #include "base/math.h"
+#include "base/math_exact.h"
 #include "base/pixel_rect.h"
 #include "renderer/ground/cached_products.h"
 #include "renderer/ground/packed_rows.h"
@@ -36,10 +37,11 @@ constexpr float max_widened = 3.F;
 // the second on they are.
 constexpr float faded_below = 0.4F;
 constexpr float full_from = 0.8F;
-// Inferred rivers of this half width, m, are drawn with min_px; larger ones with the root of the
+// Inferred rivers of this half width, m, are drawn with min_px; larger ones with a power of the
 // ratio, so that a river is visibly wider below its confluences.
-constexpr double min_of_half_m = 12.0;
-constexpr double max_grown = 2.2;
+constexpr double min_of_half_m = 18.0;
+constexpr double grown_exponent = 0.85;
+constexpr double max_grown = 3.0;
 
 std::vector<CoverRiver> unpack(const PackedRows& packed, const MapRivers& rivers) {
   std::vector<CoverRiver> centrelines;
@@ -148,7 +150,9 @@ CoverRiver widen_for_view(CoverRiver centreline, const RiverLook& look, const De
     const auto needed = static_cast<float>(0.5 * look.min_px / std::max(across[i], 1e-9));
     const double grown =
         look.fades
-            ? std::clamp(std::sqrt(static_cast<double>(half) / min_of_half_m), 1.0, max_grown)
+            ? std::clamp(exact::pow(std::max(static_cast<double>(half), 1e-3) / min_of_half_m,
+                                    grown_exponent),
+                         1.0, max_grown)
             : 1.0;
     wanted[i] = std::clamp(needed * static_cast<float>(grown), half, max_widened * half);
     if (look.fades)

@@ -26,11 +26,11 @@ constexpr double junction_widths = 8.0;    // of the wider river: where a tribut
 constexpr double downstream_share = 0.62;  // of that, how far down it enters
 // Shares of the half width by which a bank moves inwards.
 constexpr double always = -0.04;
-constexpr double inner_bank = 0.42;
-constexpr double outer_bank = 0.30;
-constexpr double broken = 0.15;
+constexpr double inner_bank = 0.62;  // bends are narrower than straight reaches
+constexpr double outer_bank = 0.13;
+constexpr double broken = 0.19;
 constexpr double min_in = -0.50;
-constexpr double max_in = 0.48;
+constexpr double max_in = 0.60;
 constexpr float source_width = 0.40F;
 constexpr std::size_t max_positions = 20000;
 constexpr std::size_t noise_step = 2;    // positions

@@ -8,8 +8,9 @@
 namespace belvedere {
 
 // Rivers as they are drawn, with two banks that move by themselves: the inner bank of a bend comes
-// forward, where gravel lies, and the outer one is cut; both are broken by noise. The mean width
-// stays, so that a map still reads a river as one line. Sources are narrow. A tributary turns
+// forward, where gravel lies, and the outer one is cut, so that bends are narrower than straight
+// reaches; both are broken by noise. The mean width of these stays, so that a map still reads a
+// river as one line. Sources are narrow. A tributary turns
 // downstream before it enters a wider river. A pure function of lines, widths and seed; ends that
 // join nothing stay where they are.
 std::vector<CoverRiver> with_banks(std::vector<CoverRiver> rivers, std::uint64_t seed);

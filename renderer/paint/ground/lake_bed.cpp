@@ -13,7 +13,7 @@ constexpr LandCoverClass bed_class = LandCoverClass::scree;
 constexpr float max_share = 0.9F;
 constexpr float drawn_from_m =
     7.F;  // metres per unit of the sheet from which shallows are drawn wider than they are …
-constexpr float max_drawn = 2.5F;  // … and by how much at most
+constexpr float max_drawn = 6.0F;  // … and by how much at most: a rim must be seen on a map
 constexpr double lighter_share =
     0.5;  // share of the lightness that shallow water adds: painted deep water is already pale
 

@@ -57,12 +57,15 @@ TEST(RiverBanks, InnerBanksComeForward) {
   };
   const CoverRiver river = with_banks({river_along(circle, 1100.0, 25.0F)}, 1)[0];
   double mean_m = 0.0;
+  double half_m = 0.0;
   int count = 0;
   for (std::size_t i = river.positions.size() / 3; i < 2 * river.positions.size() / 3; ++i) {
     mean_m += std::hypot(river.positions[i].x, river.positions[i].y);
+    half_m += static_cast<double>(river.half_width_m[i]);
     ++count;
   }
   EXPECT_GT(mean_m / count, radius_m + 4.0);
+  EXPECT_LT(half_m / count, 0.92 * 25.0) << "bends are narrow";
 }
 
 TEST(RiverBanks, SourcesAreNarrowAndEndsStay) {

@@ -63,8 +63,29 @@ TEST(WaterSurface, ABedTakesThePlaceOfTheLineAlongBanks) {
   OpenWater lake;
   lake.mirrored.to_near[0] = 1.1F;
   EXPECT_GT(lake.surface().look.shallow_share, 0.3F);
-  lake.ground = {3.0F, 1.0F};
+  lake.ground = {40.0F, 1.0F};
   EXPECT_EQ(lake.surface().look.shallow_share, 0.0F);
+}
+
+TEST(WaterSurface, LakesHaveATurquoiseRimADarkMiddleAndStreaksTowardsTheFarShore) {
+  OpenWater lake;
+  lake.ground = {0.5F, 1.0F};
+  const WaterLook rim = lake.surface().look;
+  EXPECT_GT(rim.shallow_share, 0.5F);
+  EXPECT_GT(rim.shallow.g, 1.3F * rim.shallow.r);
+  EXPECT_EQ(rim.white_share, 0.0F);
+  lake.ground = {40.0F, 1.0F};
+  const auto middle = [&](float to_far, float streak) {
+    lake.mirrored.to_far[0] = to_far;
+    WaterPixel pixel = lake.pixel();
+    pixel.streak = streak;
+    return water_surface(lake.sources(), lake.noises, pixel).look;
+  };
+  EXPECT_LT(middle(60.0F, 0.0F).depth.r, 0.82F);
+  EXPECT_GT(middle(60.0F, 0.0F).depth.b, middle(60.0F, 0.0F).depth.r);
+  EXPECT_GT(middle(5.0F, 2.0F).white_share, 0.15F);
+  EXPECT_EQ(middle(60.0F, 2.0F).white_share, 0.0F) << "none below the viewer";
+  EXPECT_EQ(middle(5.0F, 0.0F).white_share, 0.0F);
 }
 
 TEST(WaterSurface, NothingIsMirroredWhereNothingShallBe) {
