@@ -48,6 +48,15 @@ constexpr float widest_gully = 8.0F;  // half of old snow in it, units
 constexpr float narrowest_gully = 0.8F;
 constexpr float border_limit = border_reach_units - 0.5F;
 
+// Edges of forest are displaced by the tongues, too, and by broader noise: trees climb ribs, and
+// copses stand beyond them.
+constexpr float wood_tongues = 0.85F;
+constexpr float wood_cell = 15.0F;
+constexpr float wood_shift = 4.5F;
+constexpr float copse_cell = 10.0F;
+
+bool borders_forest(Class id) { return id == Class::forest || id == Class::scree || is_turf(id); }
+
 bool mixes(Class a, Class b) {
   return (a == Class::scree && is_turf(b)) || (b == Class::scree && is_turf(a));
 }
@@ -57,19 +66,19 @@ struct Outlier {
   bool found = false;
   glm::vec2 from{0.0F};  // offset of that place, units
 };
-Outlier outlier_at(std::uint64_t key, glm::vec2 position) {
-  const glm::ivec2 own(static_cast<int>(std::floor(position.x / outlier_cell)),
-                       static_cast<int>(std::floor(position.y / outlier_cell)));
+Outlier outlier_at(std::uint64_t key, float cell, glm::vec2 position) {
+  const glm::ivec2 own(static_cast<int>(std::floor(position.x / cell)),
+                       static_cast<int>(std::floor(position.y / cell)));
   for (int y = own.y - 1; y <= own.y + 1; ++y)
     for (int x = own.x - 1; x <= own.x + 1; ++x) {
       const auto draw = [&](std::uint64_t k) {
         return static_cast<float>(random_uniform(key, x, y, k));
       };
       if (draw(0) > outlier_share) continue;
-      const glm::vec2 centre((static_cast<float>(x) + draw(1)) * outlier_cell,
-                             (static_cast<float>(y) + draw(2)) * outlier_cell);
+      const glm::vec2 centre((static_cast<float>(x) + draw(1)) * cell,
+                             (static_cast<float>(y) + draw(2)) * cell);
       const float u = draw(3);
-      const float radius = 0.5F + u * u;
+      const float radius = (0.5F + u * u) * cell / outlier_cell;
       glm::vec2 offset = position - centre;
       offset.x *= 0.75F;  // wider than high
       if (offset.x * offset.x + offset.y * offset.y > radius * radius) continue;
@@ -112,9 +121,10 @@ Grid<std::uint8_t> mixed_ground(const Grid<Class>& land_cover, int reach) {
   return mixed;
 }
 
-// The open class at a position of the wide view, units of the sheet: the largest share of the four
-// pixels around on the surface at depth_m; `otherwise` where most of them are not open.
-Class class_around(const SpurGround& ground, glm::vec2 position, float depth_m, Class otherwise) {
+// The class at a position of the wide view, units of the sheet, of those that `counts`: the largest
+// share of the four pixels around on the surface at depth_m; `otherwise` where most do not count.
+Class class_around(const SpurGround& ground, glm::vec2 position, float depth_m, Class otherwise,
+                   bool (*counts)(Class)) {
   const WideView& wide = ground.wide;
   const auto factor = static_cast<float>(wide.factor);
   const glm::vec2 at = position * static_cast<float>(ground.pixels_per_unit) / factor - 0.5F;
@@ -130,7 +140,7 @@ Class class_around(const SpurGround& ground, glm::vec2 position, float depth_m, 
     const std::size_t i =
         wide.index(static_cast<int>(std::floor(centre.x)), static_cast<int>(std::floor(centre.y)));
     const Class id = wide.seen.land_cover[i];
-    if (!is_open_ground(id) || !same_surface(wide.seen.depth_m[i], depth_m)) continue;
+    if (!counts(id) || !same_surface(wide.seen.depth_m[i], depth_m)) continue;
     float& share = shares[static_cast<std::size_t>(id)];
     share += near.x * near.y;
     open += near.x * near.y;
@@ -198,7 +208,7 @@ CloseBorders make_close_borders(const GuidanceBuffers& guidance, const SpurGroun
 Class CloseBorders::at(int x, int y, float close) const {
   const GuidanceBuffers& g = guidance;
   const Class own = g.land_cover(x, y);
-  if (!is_open_ground(own) || close <= 0.0F) return own;
+  if ((own != Class::forest && !is_open_ground(own)) || close <= 0.0F) return own;
   const WideView& wide = ground.wide;
   const std::size_t below = wide.index(origin_px.x + x, origin_px.y + y);
   // Within one class nothing changes: most pixels end here.
@@ -229,8 +239,22 @@ Class CloseBorders::at(int x, int y, float close) const {
   const glm::vec2 fall = ground.fall[below];
   const glm::vec2 across{fall.y, -fall.x};
   const auto class_at = [&](glm::vec2 offset_units) {
-    return class_around(ground, position + offset_units, depth_m, own);
+    return class_around(ground, position + offset_units, depth_m, own, is_open_ground);
   };
+  const auto within_limit = [](glm::vec2 offset) {
+    const float length = std::sqrt(glm::dot(offset, offset));
+    return length > border_limit ? offset * (border_limit / length) : offset;
+  };
+  if (borders_forest(own)) {
+    const glm::vec2 wood =
+        close * ((wood_tongues * tongue + tooth + wood_shift * noise(9, wood_cell)) * fall +
+                 (aside + wood_shift * noise(10, wood_cell)) * across);
+    const Outlier copse =
+        outlier_at(stream_seed(seed, Stream::close_borders, 11), copse_cell, position);
+    const Class there = class_around(ground, position + within_limit(wood + copse.from), depth_m,
+                                     own, borders_forest);
+    if (there == Class::forest || own == Class::forest) return there;
+  }
   const auto shifted = [&](float share) {
     return (share * tongue + tooth) * fall + aside * across;
   };
@@ -255,11 +279,10 @@ Class CloseBorders::at(int x, int y, float close) const {
     const float filled = widest_gully * lasts * here;
     if (filled > narrowest_gully && from_gully < filled) return Class::snow;
   }
-  const Outlier outlier = outlier_at(stream_seed(seed, Stream::close_borders, 5), position);
+  const Outlier outlier =
+      outlier_at(stream_seed(seed, Stream::close_borders, 5), outlier_cell, position);
   if (!outlier.found) return shown;
-  const float length = std::sqrt(glm::dot(outlier.from + shift, outlier.from + shift));
-  const float held = length > border_limit ? border_limit / length : 1.0F;
-  const Class strewn = class_at(held * (outlier.from + shift));
+  const Class strewn = class_at(within_limit(outlier.from + shift));
   return mixes(shown, strewn) ? strewn : shown;
 }
 

@@ -29,7 +29,7 @@ struct CloseBorders {
   std::uint64_t seed = 1;
 
   // The class that a pixel of the window shows: that of a place displaced down the fall line by the
-  // relief and broken noise, on the same surface. `close`: 0…1.
+  // relief and broken noise, on the same surface. Of open ground and forest. `close`: 0…1.
   LandCoverClass at(int x, int y, float close) const;
 };
 // Two sizes: large tongues break the round outlines that cells of elevation data leave, small teeth

@@ -8,6 +8,7 @@
 
 #include "base/math.h"
 #include "base/random_streams.h"
+#include "renderer/close/ice_streams.h"
 #include "renderer/close/raking_light.h"
 #include "renderer/paint/ground/snow_relief.h"
 #include "renderer/paint/light.h"
@@ -26,7 +27,7 @@ constexpr std::array<RoofSize, close_sizes> size_table = {{
     {.spacing_units = 84.0F, .slender = 0.60F, .lean_rad = 0.35F},
     {.spacing_units = 48.0F, .slender = 0.60F, .lean_rad = 0.30F},
     {.spacing_units = 15.0F, .slender = 0.60F, .lean_rad = 0.30F},
-    {.spacing_units = 30.0F, .slender = 0.50F, .lean_rad = 0.25F},
+    {.spacing_units = 36.0F, .slender = 0.80F, .lean_rad = 0.55F},
     {.spacing_units = 30.0F, .slender = 0.55F, .lean_rad = 0.40F},
     {.spacing_units = 74.0F, .slender = 0.60F, .lean_rad = 0.45F},
 }};
@@ -138,7 +139,7 @@ FormLook snow_look(const CloseScene& s, int x, int y, std::size_t i, glm::vec2 p
   // Domes and basins, which full light would leave blank.
   const glm::vec3 base = mean_at(s, s.dome_normal, x, y, mean);
   const float dome = (1.0F - smoothstep(14.0F, 24.0F, slope)) *
-                     soft_limit(1.1F * rake_at(s, i, base, true)(mean, base), 0.20F);
+                     soft_limit(1.3F * rake_at(s, i, base, true)(mean, base), 0.24F);
   // A plane has one light, that of the ground in its middle: soft humps would look airbrushed.
   const float plane = leader == nullptr
                           ? 0.0F
@@ -146,8 +147,13 @@ FormLook snow_look(const CloseScene& s, int x, int y, std::size_t i, glm::vec2 p
                                 soft_limit(sun_light(s.parameters.light, g, i, rake.strength)(
                                                leader->normal, g.normal[i]),
                                            0.28F);
-  look.tone = plane + lit * (soft_limit(0.55F * rake(frame.normal, mean), 0.16F) + dome) +
-              soft_limit(rake(under, frame.normal), 0.18F) + soft_limit(rake(wide, under), 0.28F) +
+  // Broad basins lie in pools of light and shade, drawn out along the flow of their ice.
+  const float pool =
+      0.06F * level * std::clamp(s.quiet(u, v), -1.3F, 1.0F) +
+      0.15F * level *
+          value_on_surface(s.ground.wide, s.streams, s.origin_px.x + x, s.origin_px.y + y, depth_m);
+  look.tone = plane + pool + lit * (soft_limit(0.55F * rake(frame.normal, mean), 0.16F) + dome) +
+              soft_limit(rake(under, frame.normal), 0.22F) + soft_limit(rake(wide, under), 0.28F) +
               soft_limit(rake(all, wide), 0.11F);
   return look;
 }
@@ -196,7 +202,7 @@ FormLook scree_look(const CloseScene& s, int x, int y, std::size_t i, glm::vec2 
   FormLook look;
   float gully = 1e9F;
   const float quiet = smoothstep(0.1F, 0.8F, s.quiet(x - s.made.x0, y - s.made.y0));
-  glm::vec2 slope = 0.22F * (1.0F - 0.45F * quiet) *
+  glm::vec2 slope = 0.20F * (1.0F - 0.60F * quiet) *
                     form_at(s, scree_roofs, position, g.depth_m[i], look, false, &gully);
   const DebrisHit debris = debris_at(s.cones, s.ground.seed, position, g.depth_m[i]);
   if (debris.cone != nullptr) {
@@ -260,13 +266,13 @@ FormLook grass_look(const CloseScene& s, int x, int y, std::size_t i, glm::vec2 
   return look;
 }
 
-// Where the wind blows on the sheet, at a wide pixel: 35° aside of where the light goes.
-glm::vec2 wind_on_sheet(const SpurGround& ground, glm::vec3 wind, std::size_t i) {
+// A level direction on the ground, as on the sheet at a wide pixel; unit.
+glm::vec2 on_sheet(const SpurGround& ground, glm::vec3 way, std::size_t i) {
   const SlopeFrame frame(ground.wide.seen.normal[i]);
   const glm::vec2 fall = ground.fall[i];
   constexpr float foreshortened = 0.5F;
-  const glm::vec2 to = glm::dot(frame.across, wind) * glm::vec2(fall.y, -fall.x) +
-                       foreshortened * glm::dot(frame.down, wind) * fall;
+  const glm::vec2 to = glm::dot(frame.across, way) * glm::vec2(fall.y, -fall.x) +
+                       foreshortened * glm::dot(frame.down, way) * fall;
   const float length = std::sqrt(to.x * to.x + to.y * to.y);
   return length > 1e-3F ? to / length : glm::vec2(1.0F, 0.0F);
 }
@@ -296,15 +302,13 @@ CloseScene make_close_scene(const GuidanceBuffers& guidance, const RockParameter
   const PixelRect sheet_rect = moved(made, origin_px.x, origin_px.y);
   const glm::vec3 wind(glm::vec2(snow_wind(parameters.light.sun_direction)), 0.0F);
   const auto down = [&](std::size_t i) { return std::optional(ground.fall[i]); };
-  const auto along_wind = [&](std::size_t i) {
-    return std::optional(wind_on_sheet(ground, wind, i));
-  };
+  const auto along_wind = [&](std::size_t i) { return std::optional(on_sheet(ground, wind, i)); };
+  const GuidanceBuffers& wide = ground.wide.seen;
   for (std::size_t k = 0; k < close_sizes; ++k)
     if (present[static_cast<std::size_t>(cover_with(k))])
       scene.roofs[k] = lies_along_wind(k)
                            ? grow_roofs(ground, size_table[k], k + 1, sheet_rect, along_wind)
                            : grow_roofs(ground, size_table[k], k + 1, sheet_rect, down);
-  const GuidanceBuffers& wide = ground.wide.seen;
   const PixelRect held{0, 0, wide.width(), wide.height()};
   const PixelRect read = moved(wide_rect(sheet_rect, ground.wide.factor), -ground.wide.origin_px.x,
                                -ground.wide.origin_px.y);
@@ -319,6 +323,8 @@ CloseScene make_close_scene(const GuidanceBuffers& guidance, const RockParameter
     if (present[static_cast<std::size_t>(CloseCover::snow)])
       scene.dome_normal[k] = around(dome_units);
   }
+  if (present[static_cast<std::size_t>(CloseCover::snow)])
+    scene.streams = ice_streams(ground, intersection(held, grown(surface_look(read), 1)));
   const auto noise = [&](std::uint64_t part, double sigma_x, double sigma_y) {
     return make_image_noise(stream_seed(seed, Stream::close_calm, part),
                             origin_px + glm::ivec2(made.x0, made.y0), made.width(), made.height(),
@@ -337,6 +343,10 @@ float close_forms_reach_units() {
   float reach = 0.0F;
   for (const RoofSize& size : size_table) reach = std::max(reach, roof_reach_units(size));
   return reach;
+}
+
+int streams_reach(double pixels_per_unit, int factor) {
+  return ice_streams_reach(pixels_per_unit, factor) + surface_look_rows + 4;
 }
 
 int mean_normal_reach(double pixels_per_unit, int factor) {

@@ -48,15 +48,18 @@ struct CloseScene {
   std::array<Grid<float>, 3> dome_normal = {};  // of what that rises from
   Grid<float> calm = {}, small_calm = {}, steepness = {}, terraces = {}, quiet = {};
   Grid<float> runnels = {};  // all of deviation 1
+  Grid<float> streams =
+      {};  // of wide pixels: light and dark bands along the flow of ice, about -1…1
 };
 // Forms of the covers that are `present`. Reaches close_forms_reach_units for roofs, and
-// mean_normal_reach wide pixels.
+// mean_normal_reach and streams_reach wide pixels.
 CloseScene make_close_scene(const GuidanceBuffers& guidance, const RockParameters& parameters,
                             const SpurGround& ground, const DebrisCones& cones,
                             const IceAround& ice, glm::ivec2 origin_px, PixelRect made,
                             const std::array<bool, close_covers>& present);
 float close_forms_reach_units();
 int mean_normal_reach(double pixels_per_unit, int factor);
+int streams_reach(double pixels_per_unit, int factor);
 
 // What forms make of a position in a pixel of that cover.
 struct FormLook {

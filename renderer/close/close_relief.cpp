@@ -38,16 +38,17 @@ void add_close_relief(RockRelief& relief, const GuidanceBuffers& guidance, const
   const PixelRect whole{0, 0, guidance.width(), guidance.height()};
   if (wanted.empty()) wanted = whole;
   const double ppu = parameters.light.pixels_per_unit;
-  // Debris in the gullies of a wall has forms, too.
-  const auto in_gully = [&](int x, int y) {
-    return !parameters.winter && guidance.land_cover(x, y) == LandCoverClass::rock &&
-           relief.land_cover(x - wanted.x0, y - wanted.y0) == LandCoverClass::scree;
+  // What lies on a wall has forms, too: debris in its gullies, snow in winter.
+  const LandCoverClass on_walls = parameters.winter ? LandCoverClass::snow : LandCoverClass::scree;
+  const auto on_wall = [&](int x, int y) {
+    return guidance.land_cover(x, y) == LandCoverClass::rock &&
+           relief.land_cover(x - wanted.x0, y - wanted.y0) == on_walls;
   };
   const PixelRect close = extent_of(wanted, [&](int x, int y) {
     const std::size_t i = guidance.depth_m.index(x, y);
     return !guidance.is_sky(i) && close_at(guidance, i, ppu) > 0.0F &&
            (close_cover(guidance.land_cover[i], parameters.winter) != CloseCover::other ||
-            in_gully(x, y));
+            guidance.land_cover[i] == LandCoverClass::forest || on_wall(x, y));
   });
   if (close.empty()) return;
   // Edges of planes, and the ground above and below, are found from neighbours.
@@ -115,9 +116,14 @@ void add_close_relief(RockRelief& relief, const GuidanceBuffers& guidance, const
       const CloseCover cover = lies(x, y);
       const bool asked = x >= wanted.x0 && y >= wanted.y0 && x < wanted.x1 && y < wanted.y1;
       if (near > 0.0F && asked && cover == CloseCover::other) {
-        if (in_gully(x, y))
-          relief.tone(x - wanted.x0, y - wanted.y0) =
-              near * look_at_form(scene, x, y, CloseCover::scree, centre_of_pixel).tone;
+        LandCoverClass& id = relief.land_cover(x - wanted.x0, y - wanted.y0);
+        if (shown(x - made.x0, row) == LandCoverClass::forest && id == guidance.land_cover[i])
+          id = LandCoverClass::forest;
+        if (!on_wall(x, y)) continue;
+        const FormLook look =
+            look_at_form(scene, x, y, close_cover(on_walls, parameters.winter), centre_of_pixel);
+        relief.tone(x - wanted.x0, y - wanted.y0) = near * look.tone;
+        if (parameters.winter) relief.facet(x - wanted.x0, y - wanted.y0) = look.plane;
         continue;
       }
       if (near <= 0.0F || cover == CloseCover::other) continue;
@@ -189,7 +195,8 @@ int close_margin_px(const RockParameters& parameters) {
   const int factor = rock_factor(ppu);
   const int roofs =
       reach_px(roofs_reach_units(), ppu) + factor * (smooth_fall_reach(ppu, factor) + 3);
-  const int blur = factor * std::max(mean_normal_reach(ppu, factor), ice_around_reach(ppu, factor));
+  const int blur = factor * std::max({mean_normal_reach(ppu, factor), streams_reach(ppu, factor),
+                                      ice_around_reach(ppu, factor)});
   return std::max(roofs, blur) + close_near_margin_px(parameters) + 2;
 }
 

@@ -152,6 +152,25 @@ float winter_snow(const RockPixel& p, glm::vec3 large_normal, float stands, floa
   return std::max({level, hollow, on_tread});
 }
 
+// Near walls are bare along the crests of their large spurs, the steeper the broader, as a whole
+// where they are very steep: rock stands in ribs and bands, and no flecks of it lie in the snow.
+constexpr float snow_holds_deg = 28.0F;  // on flanks
+constexpr float snow_slides_deg = 57.0F;
+constexpr float bare_crest = 0.46F;  // half width of a crest, spacings
+
+float near_winter_snow(const RockPixel& p, const SpurHits& hits, float stands, float strong_tread) {
+  const float steep = smoothstep(snow_holds_deg, snow_slides_deg,
+                                 p.slope_deg + 4.0F * std::clamp(p.wall_noise, -1.5F, 1.5F));
+  const SpurHit& large = hits[0];
+  const float crest = large.spur == nullptr || large.part == SpurPart::foot
+                          ? 0.0F
+                          : unit(1.0F - std::abs(large.across) / bare_crest);
+  const float bare = 1.20F * steep + 0.55F * (crest - 0.5F) + 0.30F * stands +
+                     0.07F * p.calm_noise + 0.02F * p.cover_noise;
+  const float on_tread = smoothstep(0.45F, 0.75F, p.rock) * smoothstep(0.44F, 0.60F, strong_tread);
+  return std::max(1.0F - smoothstep(0.52F, 0.56F, bare), on_tread);
+}
+
 // The wall under a pixel, without its spurs, and its light.
 struct LitWall {
   glm::vec3 base{0.0F};    // its normal
@@ -228,8 +247,8 @@ float light_bed(const RockKind& kind, const Sun& sun, const RockPixel& p, const 
 }
 
 // Turf and snow lie where the ground is flat enough, in the amount found nearby.
-void cover_rock(RockLook& look, const RockPixel& p, const PlaneLight& planes, bool winter,
-                float stands, float tread, float strong_bed) {
+void cover_rock(RockLook& look, const RockPixel& p, const SpurHits& hits, const PlaneLight& planes,
+                bool winter, float stands, float tread, float strong_bed) {
   const float turf_near = smoothstep(0.04F, 0.35F, p.turf);
   if (turf_near > 0.0F && !winter)
     look.turf =
@@ -237,6 +256,11 @@ void cover_rock(RockLook& look, const RockPixel& p, const PlaneLight& planes, bo
                         turf_near * smoothstep(0.66F, 0.72F,
                                                planes.normal.z + 0.12F * (turf_near - 0.6F) +
                                                    0.05F * p.cover_noise));
+  const float close = close_share(p.metres_per_unit);
+  if (winter && close > 0.5F) {
+    look.snow = snow_paint * near_winter_snow(p, hits, stands, tread * strong_bed);
+    return;
+  }
   const float field_near = smoothstep(0.03F, 0.40F, p.snow);
   const float snow_near = winter ? std::max(0.75F, field_near) : field_near;
   if (snow_near > 0.0F)
@@ -244,7 +268,7 @@ void cover_rock(RockLook& look, const RockPixel& p, const PlaneLight& planes, bo
                 (winter ? winter_snow(p, planes.large_normal, stands, tread * strong_bed)
                         : old_snow(p, planes.normal, stands, snow_near)) *
                 // Near ribs that snow leaves are dark.
-                (winter ? 1.0F : 1.0F - 0.65F * close_share(p.metres_per_unit));
+                (winter ? 1.0F : 1.0F - 0.65F * close);
 }
 
 // Lines of brushwork: light on crests, dark in gullies, 0…1.
@@ -366,7 +390,7 @@ RockLook light_rock(const RockKind& kind, const ToneParameters& light, bool wint
   const float tread = light_bed(kind, sun, p, bed, wall, tone);
 
   RockLook look;
-  cover_rock(look, p, planes, winter, stands, tread, bed.strong);
+  cover_rock(look, p, hits, planes, winter, stands, tread, bed.strong);
   const RockLines lines = draw_rock_lines(kind, p, hits, calm);
   const float lit = tone;
   look.tone =

@@ -27,6 +27,7 @@ struct RockPixel {
   float bed_show = 0.0F;           // … and where they are drawn
   float line_noise = 0.0F;
   float cover_noise = 0.0F;
+  float wall_noise = 0.0F;  // which whole walls are bare
   int band = 0;
   float scale = 1.0F;  // pixels in a unit: forms of a few pixels are left out
   std::optional<GroundLight> own_light = {};  // where light varies with position

@@ -143,6 +143,11 @@ RockLook look_of(const RockScene& s, const RockPixel& pixel, int x, int y, glm::
   return light_rock(kind, s.parameters.light, s.parameters.winter, pixel, hits, sun);
 }
 
+// Whether winter snow hides near rock: then it is a slope of snow, with its forms.
+bool lies_under_snow(const RockScene& s, const RockPixel& pixel, const RockLook& look) {
+  return s.parameters.winter && close_share(pixel.metres_per_unit) > 0.5F && look.snow > 0.5F;
+}
+
 RockPixel pixel_at(const RockScene& s, int x, int y, PixelRect made) {
   const GuidanceBuffers& g = s.guidance;
   const std::size_t i = g.depth_m.index(x, y);
@@ -171,6 +176,7 @@ RockPixel pixel_at(const RockScene& s, int x, int y, PixelRect made) {
   p.bed_show = s.bed_show(u, v);
   p.line_noise = s.lines(u, v);
   p.cover_noise = s.cover(u, v);
+  p.wall_noise = s.wall(u, v);
   p.scale = static_cast<float>(s.pixels_per_unit);
   p.band = s.view.bands.at(position_of(s, x, y, {0.5, 0.5}), p.depth_m,
                            p.metres_per_unit * units_per_mm);
@@ -344,14 +350,19 @@ RockRelief make_rock_relief(const GuidanceBuffers& guidance, const WideView& wid
       const RockPixel pixel = pixel_at(scene, x, y, made);
       const SpurHits hits = hits_at(scene, pixel, x, y, centre_of_pixel);
       const float funnel = scene.funnel(x - made.x0, row);
-      const LandCoverClass shown = rock_border(
-          border_place(scene, pixel, x, y, rock, hits, funnel, scene.wall(x - made.x0, row)));
+      const LandCoverClass shown =
+          rock_border(border_place(scene, pixel, x, y, rock, hits, funnel, pixel.wall_noise));
       edges(x - made.x0, row) = edge_key(hits);
       if (x < wanted.x0 || y < wanted.y0 || x >= wanted.x1 || y >= wanted.y1) continue;
       const int u = x - wanted.x0;
       const int v = y - wanted.y0;
       relief.land_cover(u, v) = shown;
       if (shown != LandCoverClass::rock) continue;
+      const RockLook look = look_of(scene, pixel, x, y, centre_of_pixel, hits);
+      if (lies_under_snow(scene, pixel, look)) {
+        relief.land_cover(u, v) = LandCoverClass::snow;
+        continue;
+      }
       bare(x - made.x0, row) = 1;
       relief.facet(u, v) = facet_of(hits);
       for (int size = 0; size < 2; ++size)
@@ -359,7 +370,6 @@ RockRelief make_rock_relief(const GuidanceBuffers& guidance, const WideView& wid
           relief.height(u, v) += hits[static_cast<std::size_t>(size)].height *
                                  spur_spacing(*parameters.kind, size, pixel.band);
       relief.fall_line(u, v) = plane_fall(scene, hits, guidance.fall_line[i]);
-      const RockLook look = look_of(scene, pixel, x, y, centre_of_pixel, hits);
       relief.tone(u, v) = look.tone;
       relief.cover(u, v) = {look.turf, look.snow};
     }

@@ -9,7 +9,7 @@
 namespace belvedere {
 namespace {
 
-constexpr glm::vec3 bare_twigs{0.72F, 0.66F, 0.66F};  // a factor on the shade of snow
+constexpr glm::vec3 bare_twigs{0.78F, 0.70F, 0.70F};  // a factor on the shade of snow
 
 using enum LandCoverClass;
 
@@ -19,6 +19,42 @@ float hedge_at(const StrokeScene& scene, std::size_t i) {
   const Parcel parcel =
       parcel_at(scene.parameters.seed, p.x, p.y, scene.metres_per_unit(i), scene.guidance.grain[i]);
   return parcel.border_m < 0.09F * parcel.width_m && parcel.hedged ? 1.F : 0.F;
+}
+
+// A thicket in winter: a mauve haze of twigs on the snow, close together, and few of them upright
+// before it. Lone dots would look like pepper.
+void draw_thicket(const StrokeScene& scene, glm::vec2 position, std::size_t i, StrokeSeed& seed,
+                  std::vector<Stroke>& out) {
+  constexpr float thicket_from = 0.75F;  // of noise of deviation 1
+  const float dense = (sheet_noise(scene, position, Stream::copses, 11.0) - thicket_from) / 0.9F;
+  if (dense <= 0.F) return;
+  const float scale = scene.scale();
+  const float strength = std::min(1.F, dense);
+  const glm::vec3 twigs =
+      scene.colour(i, -0.7F, 0.5F * paint_jitter, seed) * through_air_factor(scene, i, bare_twigs);
+  Stroke haze = standing_stroke(scene, i);
+  haze.order = haze.depth_m;
+  const float length = seed.between(5.F, 9.F);
+  set_line(haze, position - glm::vec2(0.5F * length * scale, 0.F),
+           position + glm::vec2(0.5F * length * scale, -0.6F * scale), 4.2F * scale, 3.F * scale);
+  haze.alpha = 0.10F + 0.22F * strength;
+  haze.colour = twigs;
+  out.push_back(haze);
+  const int count = static_cast<int>(4.F * strength * seed.uniform() + 0.3F);
+  for (int k = 0; k < count; ++k) {
+    const float right = seed.between(-2.4F, 2.4F);
+    const float down = seed.between(-1.2F, 1.2F);
+    const float height = seed.between(1.2F, 2.2F);
+    const glm::vec2 foot = position + glm::vec2(right, down) * scale;
+    if (!scene.on_canvas(foot) || !on_same_slope(scene, i, scene.pixel(foot))) continue;
+    Stroke twig = standing_stroke(scene, i);
+    twig.order = twig.depth_m - 0.5F;
+    twig.gate = StrokeGate::upright;
+    set_line(twig, foot, foot - glm::vec2(0.F, height * scale), 1.3F * scale, 0.5F * scale);
+    twig.alpha = 0.35F + 0.2F * strength;
+    twig.colour = twigs;
+    out.push_back(twig);
+  }
 }
 
 }  // namespace
@@ -123,11 +159,12 @@ std::vector<Stroke> low_bushes(const StrokeScene& scene, Stream stream) {
         const LandCoverClass id = scene.class_at(i);
         if ((id != alpine_grass && id != shrub) || seed.uniform() > scene.base.tree_density[i])
           return;
-        const bool winter = scene.parameters.winter;
-        // In winter twigs of thickets stand out of the snow.
-        if (winter && sheet_noise(scene, position, Stream::copses, 9.0) < 0.35F) return;
+        if (scene.parameters.winter) {
+          draw_thicket(scene, position, i, seed, out);
+          return;
+        }
         const float scale = scene.scale();
-        const float width = (winter ? 1.7F : 2.6F) * scale * seed.between(0.6F, 1.4F);
+        const float width = 2.6F * scale * seed.between(0.6F, 1.4F);
         Stroke stroke = standing_stroke(scene, i);
         stroke.order = stroke.depth_m - 0.5F;
         stroke.gate = StrokeGate::upright;
@@ -136,7 +173,6 @@ std::vector<Stroke> low_bushes(const StrokeScene& scene, Stream stream) {
         stroke.alpha = 0.7F;
         stroke.colour = scene.colour(i, -seed.between(1.2F, 1.4F), paint_jitter, seed) +
                         glm::vec3(-0.03F, 0.015F, 0.F);
-        if (winter) stroke.colour *= through_air_factor(scene, i, bare_twigs);
         out.push_back(stroke);
       });
 }

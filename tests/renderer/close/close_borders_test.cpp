@@ -66,10 +66,19 @@ TEST(CloseBorders, FollowAReliefAndKeepAreas) {
   EXPECT_NEAR(border.mean, 80.0, 4.0);
 }
 
-TEST(CloseBorders, StayStraightFarAwayAndBesideForest) {
+TEST(CloseBorders, StayStraightFarAwayAndBesideFieldsAndRock) {
   EXPECT_EQ(Border(Class::scree, Class::alpine_grass, 0.0F).moved, 0);
-  EXPECT_EQ(Border(Class::forest, Class::alpine_grass, 1.0F).moved, 0);
+  EXPECT_EQ(Border(Class::forest, Class::alpine_grass, 0.0F).moved, 0);
+  EXPECT_EQ(Border(Class::forest, Class::valley_floor, 1.0F).moved, 0);
+  EXPECT_EQ(Border(Class::forest, Class::rock, 1.0F).moved, 0);
   EXPECT_EQ(Border(Class::rock, Class::snow, 1.0F).moved, 0) << "rock has borders of its own";
+}
+
+TEST(CloseBorders, EdgesOfForestAreBrokenAndKeepAreas) {
+  const Border border(Class::forest, Class::alpine_grass, 1.0F);
+  EXPECT_GT(border.moved, 100);
+  EXPECT_LT(border.farthest, border_reach_units);
+  EXPECT_NEAR(border.mean, 80.0, 5.0);
 }
 
 // Tufts stand before the edge of grass, and stones within: islands of either class in the other. In

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/math.h"
 #include "base/parallel.h"
 #include "tests/renderer/close/close_ground.h"
 #include "tests/renderer/paint/hills_print.h"
@@ -61,8 +62,9 @@ TEST(CloseRelief, SnowHasPlanesInLightAndShade) {
 
 // Close relief added to a part alone is the crop of the whole, to the bit.
 void expect_part_of(const RockRelief& whole, PixelRect kept, const GuidanceBuffers& g,
-                    RockRelief part) {
-  const RockParameters p = test::close_parameters(1.0);
+                    RockRelief part, bool winter = false) {
+  RockParameters p = test::close_parameters(1.0);
+  p.winter = winter;
   const test::Window near = test::window_of(g, grown(kept, close_near_margin_px(p)));
   const test::Window far = test::window_of(g, grown(kept, close_margin_px(p)));
   add_close_relief(part, near.held, {far.held, 1, {far.rect.x0, far.rect.y0}}, p,
@@ -129,6 +131,36 @@ TEST(CloseRelief, OfAPartWithConesIsThatOfTheWhole) {
                                PixelRect{600, 230, 640, 260}}) {
     expect_part_of(whole, kept, g, with_gullies(test::bare_relief(g, kept), {kept.x0, kept.y0}));
   }
+}
+
+// Walls that winter has covered, with forest at their foot.
+TEST(CloseRelief, OfAPartInWinterIsThatOfTheWhole) {
+  GuidanceBuffers g =
+      test::make_close_hills(820, 420, 1.0, 8.0, Class::alpine_grass, Class::forest);
+  for (int y = 0; y < 220; ++y)
+    for (int x = 0; x < g.width(); ++x)
+      if (!g.is_sky(g.depth_m.index(x, y))) g.land_cover(x, y) = Class::rock;
+  RockParameters p = test::close_parameters(1.0);
+  p.winter = true;
+  const auto covered = [](RockRelief relief, glm::ivec2 origin) {
+    for (int y = 0; y < relief.land_cover.height(); ++y)
+      for (int x = 0; x < relief.land_cover.width(); ++x)
+        if (relief.land_cover(x, y) == Class::rock && (x + origin.x) % 60 < 40)
+          relief.land_cover(x, y) = Class::snow;
+    return relief;
+  };
+  RockRelief whole = covered(test::bare_relief(g, {0, 0, g.width(), g.height()}), {0, 0});
+  add_close_relief(whole, g, {g, 1, {0, 0}}, p, {0, 0}, silent_progress());
+  double squares = 0.0;
+  int count = 0;
+  for (int x = 0; x < g.width(); ++x)
+    if (whole.land_cover(x, 200) == Class::snow) {
+      squares += square(static_cast<double>(whole.tone(x, 200)));
+      ++count;
+    }
+  EXPECT_GT(squares, count * square(0.01)) << "snow on walls has forms";
+  for (const PixelRect kept : {PixelRect{380, 190, 440, 216}, PixelRect{396, 250, 424, 300}})
+    expect_part_of(whole, kept, g, covered(test::bare_relief(g, kept), {kept.x0, kept.y0}), true);
 }
 
 TEST(CloseRelief, SameBitsForAnyThreads) {

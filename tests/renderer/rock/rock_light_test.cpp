@@ -242,5 +242,22 @@ TEST(RockLight, GulliesHoldWintersSnowUnlessTheWallIsTooSteep) {
   EXPECT_LT(snow_in(true, 76.0F), 0.05F);
 }
 
+// Near, rock stands out of the snow in ribs: along crests, and whole where it is very steep.
+TEST(RockLight, NearWallsAreBareAlongCrestsInWinter) {
+  const auto snow_at = [](float across, float slope_deg) {
+    Flank flank(0);
+    flank.hits[0].across = across;
+    flank.hits[0].part = SpurPart::back;
+    RockPixel p = wall_pixel();
+    p.metres_per_unit = 6.0F;
+    p.slope_deg = slope_deg;
+    return light_rock(limestone(), sun_from(0.7), true, p, flank.hits).snow;
+  };
+  EXPECT_LT(snow_at(0.0F, 44.0F), 0.1F);
+  EXPECT_GT(snow_at(0.5F, 40.0F), 0.9F);
+  EXPECT_GT(snow_at(0.0F, 30.0F), 0.9F) << "level ground holds snow";
+  EXPECT_LT(snow_at(0.5F, 65.0F), 0.1F) << "the steepest walls none";
+}
+
 }  // namespace
 }  // namespace belvedere

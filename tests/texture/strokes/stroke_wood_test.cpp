@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <set>
+#include <utility>
 
 #include "base/progress.h"
 #include "tests/texture/strokes/stroke_picture.h"
@@ -378,6 +380,22 @@ TEST(Shrub, BushesAreLowDarkAndAsManyAsTheirDensity) {
   EXPECT_NEAR(static_cast<double>(grow_strokes("low bushes", p.scene()).size()),
               0.2 * static_cast<double>(bushes.size()), 0.06 * static_cast<double>(bushes.size()));
   EXPECT_TRUE(grow_strokes("low bushes", level_ground(pasture).scene()).empty());
+}
+
+// Lone dots of twigs all over the snow would look like pepper.
+TEST(Shrub, StandsInThicketsInWinter) {
+  Picture p = level_ground(shrub);
+  for (float& d : p.ground.tree_density) d = 1.F;
+  p.parameters.winter = true;
+  const auto twigs = grow_strokes("low bushes", p.scene());
+  ASSERT_GT(twigs.size(), 20U);
+  constexpr float cell = 12.F;
+  std::set<std::pair<int, int>> cells;
+  for (const Stroke& s : twigs)
+    cells.emplace(static_cast<int>(s.points[0].x / cell), static_cast<int>(s.points[0].y / cell));
+  const double all = wood_width * wood_height / static_cast<double>(cell * cell);
+  EXPECT_LT(static_cast<double>(cells.size()), 0.5 * all) << "most snow is empty";
+  EXPECT_GT(static_cast<double>(twigs.size()), 4.0 * static_cast<double>(cells.size()));
 }
 
 // Near stone is dabbed in all directions, within its own class: lines would be fur.

@@ -19,8 +19,11 @@ constexpr std::size_t shortest_way = 10;  // positions of a line on its own
 constexpr float joins_within = 3.F;       // units
 constexpr float beside_within = 9.F;      // lines that long stay so near are one …
 constexpr float beside_share = 0.35F;     // … for this share of their way
-constexpr float widest_half = 7.F;        // units
-constexpr float firn_until = 0.35F;       // share of the way that may lie in firn
+constexpr float widest_half = 7.F;        // units, seen from afar
+constexpr float widest_near = 10.F;       // units, seen from near
+constexpr float full_m = 15.F;       // metres per unit from which on moraines keep their size …
+constexpr float max_grown = 2.6F;    // … and how much broader than that they are near, at most
+constexpr float firn_until = 0.35F;  // share of the way that may lie in firn
 
 // Where the ice leaves a rib of rock above a position: from there the rubble of two streams runs
 // down as one line. With ice on both sides: else it is the glacier's margin.
@@ -121,7 +124,15 @@ void measure(const StrokeScene& scene, const IceFlow& flow, Line& line, float wi
     // At the tongue it spreads.
     const float left = moraine_step * static_cast<float>(count - 1 - k);
     const float spread = line.joined ? 1.F : 1.F + 0.9F * std::max(0.F, 1.F - left / 36.F);
-    way.half_width.push_back(std::min(widest_half, width * (0.55F + units / 55.F) * spread));
+    // Near, they are as broad as on the ground, and they swell and thin.
+    const float grown =
+        std::clamp(full_m / scene.metres_per_unit(scene.pixel(line.positions[k])), 1.F, max_grown);
+    const float swells =
+        std::clamp(1.F + 0.38F * sheet_noise(scene, line.positions[k], Stream::rubble_places, 19.0),
+                   0.45F, 1.8F);
+    way.half_width.push_back(
+        std::min(widest_near,
+                 grown * std::min(widest_half, width * (0.65F + units / 55.F) * spread * swells)));
   }
 }
 
@@ -191,7 +202,7 @@ std::vector<IceWay> plan_moraines(const StrokeScene& scene, const IceFlow& flow,
       const float more = line.way.half_width.back();
       for (std::size_t k = at; k < receiver.way.half_width.size(); ++k) {
         float& own = receiver.way.half_width[k];
-        own = std::min(widest_half, std::sqrt(own * own + more * more));
+        own = std::min(widest_near, std::sqrt(own * own + more * more));
       }
     }
     kept.push_back(std::move(line));

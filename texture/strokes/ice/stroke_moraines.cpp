@@ -9,6 +9,8 @@
 namespace belvedere {
 namespace {
 
+constexpr float widest_dirt = 20.F;  // dirty ice around a moraine, units
+
 // Rubble on ice between two positions of a moraine: dabs, dense in its middle, with the light of a
 // low ridge.
 void strew_rubble(const StrokeScene& scene, const IceWay& way, std::size_t k, std::size_t here,
@@ -21,7 +23,7 @@ void strew_rubble(const StrokeScene& scene, const IceWay& way, std::size_t k, st
   const float sun = scene.sun_side(here);
   const float right = across.x >= 0.F ? 1.F : -1.F;
   // Where it is broad it lies in strands that part and join, each of them in heaps.
-  const int strands = 1 + static_cast<int>(std::min(2.F, half / 2.2F));
+  const int strands = 1 + static_cast<int>(std::min(3.F, half / 2.2F));
   for (int strand = 0; strand < strands; ++strand) {
     const float slot =
         2.F * (static_cast<float>(strand) + 0.5F) / static_cast<float>(strands) - 1.F;
@@ -30,8 +32,8 @@ void strew_rubble(const StrokeScene& scene, const IceWay& way, std::size_t k, st
     const float middle = strands > 1 ? 0.66F * slot + 0.36F * wander : 0.12F * wander;
     const float spread = strands > 1 ? 0.34F : 0.7F;
     const float heap = std::clamp(
-        0.75F + 0.55F * sheet_noise(scene, apart, Stream::rubble_places, 7.0) + 0.25F * wander,
-        0.1F, 1.4F);
+        0.65F + 0.75F * sheet_noise(scene, apart, Stream::rubble_places, 7.0) + 0.25F * wander, 0.F,
+        1.4F);
     const int count =
         static_cast<int>(heap * (3.F + 4.2F * half) / static_cast<float>(strands) + 0.5F);
     for (int n = 0; n < count; ++n) {
@@ -53,7 +55,7 @@ void strew_rubble(const StrokeScene& scene, const IceWay& way, std::size_t k, st
       set_line(dab, at - way_of * (0.5F * length * scale), at + way_of * (0.5F * length * scale),
                size * scale, 0.7F * size * scale);
       const float edge = std::abs(aside - middle) / spread;
-      dab.alpha = std::max(0.12F, 0.62F - 0.34F * edge);
+      dab.alpha = std::max(0.10F, 0.60F - 0.38F * edge);
       // The side that faces the sun is light.
       const float ridge = std::min(1.F, half / 2.F) * 0.10F * aside * right * sun;
       dab.colour = through_air(scene, own,
@@ -81,7 +83,7 @@ std::vector<Stroke> glacier_moraines(const StrokeScene& scene, Stream stream) {
         for (std::size_t j = 0; j < 4; ++j) band.points[j] = way_place(scene, way, k + j);
         const float seen = glm::length(way.across[k]);
         const float dirty = 0.06F + 0.09F * std::min(1.F, static_cast<float>(k) / 25.F);
-        take_brush(band, scene, std::max(1.2F, 3.6F * way.half_width[k] * seen),
+        take_brush(band, scene, std::clamp(3.6F * way.half_width[k] * seen, 1.2F, widest_dirt),
                    {.taper = 0.95F,
                     .alpha = dirty,
                     .bristle = 0.1F,
