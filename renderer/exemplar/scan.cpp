@@ -49,16 +49,9 @@ struct Raw {
   Grid<std::uint8_t> labels;  // class ids, sky included; unused_label is never copied
 };
 
-// A grey image as 0…1.
 Grid<float> read_share(const std::string& path, const Grid<glm::vec3>& picture) {
-  const Grid<std::uint16_t> grey = read_grey(path);
-  check_same_size(path, grey.width(), grey.height(), picture);
-  std::uint16_t highest = 255;
-  for (const std::uint16_t value : grey)
-    if (value > 255) highest = 65535;
-  Grid<float> share(grey.width(), grey.height());
-  for (std::size_t i = 0; i < grey.size(); ++i)
-    share[i] = static_cast<float>(grey[i]) / static_cast<float>(highest);
+  Grid<float> share = read_grey_share(path);
+  check_same_size(path, share.width(), share.height(), picture);
   return share;
 }
 
@@ -358,7 +351,7 @@ void check_paintings(const LoadedScene& scene) {
       if (file == &settings.classes)
         read_class_mask(guide);
       else if (file != &settings.guidance)
-        read_grey(guide);
+        read_grey_share(guide);
     }
   }
 }

@@ -246,4 +246,19 @@ LabelImages read_label_images(const std::vector<std::string>& paths, Progress& p
   return out;
 }
 
+Grid<float> read_grey_share(const std::string& path) {
+  const Grid<glm::vec3> picture = read_picture(path);
+  Grid<float> share(picture.width(), picture.height());
+  for (int y = 0; y < picture.height(); ++y)
+    for (int x = 0; x < picture.width(); ++x) {
+      const glm::vec3 value = picture(x, y);
+      if (value.x != value.y || value.y != value.z)
+        throw Error(ErrorKind::input, path,
+                    fmt::format("has colours: pixel ({}, {}) is not grey", x, y),
+                    "a grey picture, or one of equal red, green and blue");
+      share(x, y) = std::clamp(value.x, 0.F, 1.F);
+    }
+  return share;
+}
+
 }  // namespace belvedere

@@ -35,4 +35,9 @@ constexpr int max_lossy_steps = 12;
 Grid<std::uint8_t> read_class_mask(const std::string& path,
                                    const std::vector<std::uint8_t>& others = {});
 
+// A grey picture of any format as shares of the range of its type, 0…1: black is 0, white is 1,
+// whatever values occur in it. A palette gives its greys. Error(input) for colours, and for what
+// read_picture refuses.
+Grid<float> read_grey_share(const std::string& path);
+
 }  // namespace belvedere

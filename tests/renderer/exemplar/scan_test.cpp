@@ -195,6 +195,14 @@ TEST_F(Scans, AShadowImageIsTheGuideAsItStands) {
   EXPECT_EQ(guide(scan, "shadow")(30, 61), 255);
 }
 
+TEST_F(Scans, AShadowImageOf16BitsIsReadAsSuch) {
+  std::string rows;
+  for (int i = 0; i < scan_width * scan_height; ++i) rows += std::string("\x00\xc8", 2);
+  test::write_bytes(folder_ / "shadow.png", test::make_png(scan_width, scan_height, 16, 0, rows));
+  const ScannedPainting scan = read("shadow = \"shadow.png\"").front();
+  EXPECT_EQ(guide(scan, "shadow")(30, 60), 1) << "200 of 65535 is black";
+}
+
 TEST_F(Scans, SeveralPaintingsAreHarmonizedWhereTheSceneSaysSo) {
   const std::string second =
       "[[exemplar]]\npicture = \"b.png\"\nclasses = \"classes.png\"\n[synthesis]\nharmonize = ";

@@ -1,5 +1,6 @@
 #include "renderer/image/label_image.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "base/error.h"
@@ -8,6 +9,12 @@
 
 namespace belvedere {
 namespace {
+
+using namespace std::string_literals;
+using testing::ElementsAre;
+using testing::FloatNear;
+using testing::Property;
+using testing::Throws;
 
 class LabelImage : public testing::Test {
  protected:
@@ -117,6 +124,36 @@ TEST_F(LabelImage, NeighbouringColoursOfALosslessDrawingStayApart) {
   for (int y = 0; y < 16; ++y)
     for (int x = 0; x < 20; ++x) rows += std::string(3, x < 4 && y < 4 ? '\2' : '\1');
   EXPECT_EQ(read_label_images({write("a.png", 2, rows)}).colours.size(), 2U);
+}
+
+Grid<float> shares_of(const std::string& bytes) {
+  const test::Folder folder;
+  test::write_bytes(folder / "grey.png", bytes);
+  return read_grey_share(folder / "grey.png");
+}
+
+TEST(GreyShare, IsOfTheRangeOfTheType) {
+  EXPECT_THAT(shares_of(test::make_png(3, 1, 8, 0, "\x00\x33\xff"s)),
+              ElementsAre(0.F, FloatNear(0.2F, 1e-6F), 1.F));
+  EXPECT_THAT(shares_of(test::make_png(4, 1, 4, 0, "\x03\x9f"s)),
+              ElementsAre(0.F, FloatNear(0.2F, 1e-6F), FloatNear(0.6F, 1e-6F), 1.F));
+  EXPECT_THAT(shares_of(test::make_png(8, 1, 1, 0, "\x25"s)),
+              ElementsAre(0.F, 0.F, 1.F, 0.F, 0.F, 1.F, 0.F, 1.F));
+  const std::string greys = "\xff\xff\xff\x33\x33\x33"s;
+  EXPECT_THAT(shares_of(test::make_png(2, 1, 8, 3, "\x00\x01"s, greys)),
+              ElementsAre(1.F, FloatNear(0.2F, 1e-6F)));
+}
+
+// Dark pictures of 16 bits are dark, even where no value exceeds those of 8 bits.
+TEST(GreyShare, DoesNotDependOnTheValuesThatOccur) {
+  EXPECT_THAT(shares_of(test::make_png(3, 1, 16, 0, "\x00\x00\x00\x80\x00\xff"s)),
+              ElementsAre(0.F, FloatNear(128.F / 65535.F, 1e-7F), FloatNear(1.F / 257.F, 1e-7F)));
+}
+
+TEST(GreyShare, RefusesColour) {
+  EXPECT_THAT([] { shares_of(test::make_png(2, 1, 8, 2, "\x05\x05\x05\x05\x06\x05"s)); },
+              Throws<Error>(Property(&Error::kind, ErrorKind::input)));
+  EXPECT_THAT(shares_of(test::make_png(1, 1, 8, 2, "\xff\xff\xff"s)), ElementsAre(1.F));
 }
 
 }  // namespace
