@@ -269,7 +269,7 @@ ScannedPainting finish_scan(const SceneExemplar& settings, Raw raw, double resid
     if (!served || (leave_shadow && guidance.shadow[i] < lit_from)) raw.labels[i] = unused_label;
   }
   guides.label = std::move(raw.labels);
-  guides.depth_m = {};
+  if (!raw.measured) guides.depth_m = {};
   painted.picture = std::move(raw.picture);
   painted.exemplar.picture = seam_picture(painted, guides.label, residual);
   return scan;

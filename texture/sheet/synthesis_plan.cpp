@@ -68,7 +68,8 @@ std::uint64_t digest_of(const synth::Plane& plane) {
   std::uint64_t digest = random_bits(static_cast<std::uint64_t>(plane.stride), plane.guide_count,
                                      static_cast<std::int64_t>(plane.words.size()));
   digest = mix_bits(digest ^ digest_of_values(plane.words));
-  return mix_bits(digest ^ digest_of_values(plane.guides));
+  digest = mix_bits(digest ^ digest_of_values(plane.guides));
+  return mix_bits(digest ^ digest_of_values(plane.cuts));
 }
 
 void make_sources(SynthesisPlanData& data, std::vector<synth::Plane> planes) {
@@ -84,6 +85,7 @@ void make_sources(SynthesisPlanData& data, std::vector<synth::Plane> planes) {
         data.setup.settings(static_cast<int>(l)), data.setup.roles, data.setup.classes.count,
         data.exemplars[l], demand, data.setup.around_price));
     data.exemplars[l].guides = {};  // contained in records and lists
+    data.exemplars[l].cuts = {};
   }
 }
 

@@ -21,8 +21,8 @@ struct Exemplar {
 
   std::string name;
   Grid<Rgb8> picture;
-  GuideStack guides;  // label 255: never a source (lettering, frames, excluded areas); depth
-                      // is not used
+  GuideStack guides;  // label 255: never a source (lettering, frames, excluded areas); depth:
+                      // no piece is copied across its jumps
 };
 
 // Throws Error(usage) if picture and guides differ in size or are empty, Error(limit) over the

@@ -20,12 +20,13 @@ Forbidden forbidden_texels(const KernelView& view, std::uint32_t pixel, bool all
   static constexpr std::array<std::array<int, 2>, 4> steps{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
   Forbidden forbidden;
   for (const auto& [dx, dy] : steps) {
-    if (!all_neighbours &&
-        (view.links == nullptr || linked(view.links, view.target->stride, pixel, dx, dy)))
-      continue;
     // Outside the picture's sides is `nowhere`, whose neighbours have no class either.
     const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(pixel) + dx +
                               static_cast<std::ptrdiff_t>(dy) * view.target->stride;
+    if (!all_neighbours &&
+        (view.links == nullptr || linked(view.links, view.target->stride, pixel, dx, dy)) &&
+        continues(view, view.match[at], dx, dy))
+      continue;
     const std::ptrdiff_t texel = static_cast<std::ptrdiff_t>(view.match[at]) - dx -
                                  static_cast<std::ptrdiff_t>(dy) * view.exemplars->stride;
     forbidden.texels[static_cast<std::size_t>(forbidden.count++)] =

@@ -183,7 +183,7 @@ struct Search {
       for (int g = 2; g < count && slack.others != nullptr; ++g) free[g] = slack.others[g];
     }
     if (state.around_price != nullptr) around = state.target_around[pixel];
-    if (state.links != nullptr && (state.links[pixel] & link::all) != link::all)
+    if (state.has_cuts || (state.links != nullptr && (state.links[pixel] & link::all) != link::all))
       forbidden = forbidden_texels(state, pixel);
     own = best = state.match[pixel];
     LoadPatch<radius>(state, pixel, patch);
@@ -315,6 +315,7 @@ void ImproveRowOf(const KernelView& view, int x0, int x1, int y, std::uint32_t* 
           static_cast<std::ptrdiff_t>(pixel) + dx + static_cast<std::ptrdiff_t>(dy) * target.stride;
       const std::ptrdiff_t texel = static_cast<std::ptrdiff_t>(view.match[at]) - dx -
                                    static_cast<std::ptrdiff_t>(dy) * view.exemplars->stride;
+      if (!continues(view, view.match[at], dx, dy)) continue;
       const std::int64_t size = view.piece_size[at];
       const bool joins = size >= (view.replaces_pieces ? nearly_full : view.copy_cap);
       search.Offer(static_cast<std::uint32_t>(texel), joins ? price::join : 0);

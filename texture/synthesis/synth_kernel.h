@@ -95,7 +95,8 @@ struct KernelView {
   const std::uint16_t* piece_size =
       nullptr;  // by target index: size of the pixel's piece, saturated
   const TexelRecords* texels =
-      nullptr;  // uses, bins, surroundings and guides of the exemplars' texels
+      nullptr;            // uses, bins, surroundings and guides of the exemplars' texels
+  bool has_cuts = false;  // the exemplars have silhouettes
   const std::int32_t* bin_cost = nullptr;  // by class × 64 + bin
   const std::int64_t* reuse_q4 = nullptr;  // by class: price of reuse in sixteenths
   const std::uint32_t* max_uses =
@@ -165,8 +166,8 @@ inline std::int64_t surroundings_cost(const KernelView& view, Surroundings reque
                      *view.around_price, view.classes);
 }
 
-// Texels that a pixel must not copy, because a neighbour across a silhouette copies with the same
-// offset: no piece continues behind a ridge.
+// Texels that a pixel must not copy, because a neighbour across a silhouette, of the picture or of
+// the exemplar, copies with the same offset: no piece continues behind a ridge.
 struct Forbidden {
   std::array<std::uint32_t, 4> texels{};
   int count = 0;
@@ -174,6 +175,11 @@ struct Forbidden {
     return std::find(texels.begin(), texels.begin() + count, texel) != texels.begin() + count;
   }
 };
+// Whether a neighbour's texel and the one that continues it, by (dx, dy) back to the pixel, show
+// one surface.
+inline bool continues(const KernelView& view, std::uint32_t neighbours_texel, int dx, int dy) {
+  return !view.has_cuts || !view.texels->is_cut(neighbours_texel, -dx, -dy, view.exemplars->stride);
+}
 // With `all_neighbours` also the offsets of linked neighbours: a pixel that copies none of these is
 // a piece of its own.
 Forbidden forbidden_texels(const KernelView& view, std::uint32_t pixel,

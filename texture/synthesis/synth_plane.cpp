@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstddef>
 
 #include "base/error.h"
@@ -84,12 +85,42 @@ std::uint32_t majority(const std::array<std::uint32_t, 4>& classes) {
 
 }  // namespace
 
+namespace {
+
+bool same_depth(float a, float b, float ratio) {
+  return a == b || std::max(a, b) <= ratio * std::min(a, b);
+}
+
+// Of the coarse texel at (x, y) of a picture.
+std::uint8_t halved_cuts(const Plane& fine, int picture, int x, int y) {
+  const Plane::Part& part = fine.parts[static_cast<std::size_t>(picture)];
+  const auto is_cut = [&](int fx, int fy, std::uint8_t side) {
+    return (fine.cuts[fine.index(picture, std::min(fx, part.width - 1),
+                                 std::min(fy, part.height - 1))] &
+            side) != 0;
+  };
+  const auto line_is_cut = [&](int other, std::uint8_t side) {
+    const bool across = side == cut::right;
+    for (int step = 0; step < 2; ++step)
+      if (is_cut(2 * x + (across ? step : other), 2 * y + (across ? other : step), side))
+        return true;
+    return false;
+  };
+  std::uint8_t cuts = 0;
+  for (const std::uint8_t side : {cut::right, cut::down})
+    if (line_is_cut(0, side) && line_is_cut(1, side)) cuts |= side;
+  return cuts;
+}
+
+}  // namespace
+
 Plane halve(const Plane& fine) {
   std::vector<std::pair<int, int>> sizes;
   for (const Plane::Part& part : fine.parts)
     sizes.emplace_back((part.width + 1) / 2, (part.height + 1) / 2);
   Plane coarse = make_plane(sizes, fine.guide_count, fine.margin);
   const std::size_t guides = static_cast<std::size_t>(fine.guide_count);
+  if (!fine.cuts.empty()) coarse.cuts.assign(coarse.words.size(), 0);
   for (std::size_t p = 0; p < fine.parts.size(); ++p) {
     const Plane::Part& part = fine.parts[p];
     parallel_rows(coarse.parts[p].height, [&](int y) {
@@ -123,6 +154,7 @@ Plane halve(const Plane& fine) {
               class_of(fine.words[fine.index(static_cast<int>(p), fx, fy)]);
         }
         const std::uint32_t at = coarse.index(static_cast<int>(p), x, y);
+        if (!fine.cuts.empty()) coarse.cuts[at] = halved_cuts(fine, static_cast<int>(p), x, y);
         std::uint32_t word = majority(classes) << 24;
         for (std::size_t c = 0; c < 3; ++c)
           word |= static_cast<std::uint32_t>((colour[c] + total / 2) / total) << (8 * c);
@@ -135,6 +167,25 @@ Plane halve(const Plane& fine) {
   }
   pad(coarse);
   return coarse;
+}
+
+bool add_cuts(const Grid<float>& depth_m, int part, float ratio, Plane& plane) {
+  plane.cuts.resize(plane.words.size(), 0);
+  std::atomic<bool> any = false;
+  parallel_rows(depth_m.height(), [&](int y) {
+    for (int x = 0; x < depth_m.width(); ++x) {
+      std::uint8_t cuts = 0;
+      const float here = depth_m(x, y);
+      if (x + 1 < depth_m.width() && !same_depth(here, depth_m(x + 1, y), ratio))
+        cuts |= cut::right;
+      if (y + 1 < depth_m.height() && !same_depth(here, depth_m(x, y + 1), ratio))
+        cuts |= cut::down;
+      if (cuts == 0) continue;
+      plane.cuts[plane.index(part, x, y)] = cuts;
+      any.store(true, std::memory_order_relaxed);
+    }
+  });
+  return any.load();
 }
 
 Grid<float> halve_depth(const Grid<float>& depth_m, const Plane& fine, const Plane& coarse) {
@@ -161,9 +212,7 @@ std::vector<std::uint8_t> make_links(const Grid<float>& depth_m, const Plane& pl
   std::vector<std::uint8_t> links(plane.words.size(), 0);
   const int width = depth_m.width();
   const int height = depth_m.height();
-  const auto same_surface = [ratio](float a, float b) {
-    return a == b || std::max(a, b) <= ratio * std::min(a, b);
-  };
+  const auto same_surface = [ratio](float a, float b) { return same_depth(a, b, ratio); };
   parallel_rows(height, [&](int y) {
     for (int x = 0; x < width; ++x) {
       const float here = depth_m(x, y);

@@ -44,6 +44,9 @@ struct Plane {
   int guide_count = 0;
   std::vector<std::uint32_t> words;
   std::vector<std::uint8_t> guides;  // guide_count per word
+  // Of exemplars: cut::right, cut::down per word, where a silhouette lies between a texel and its
+  // neighbour; empty: none.
+  std::vector<std::uint8_t> cuts;
 
   std::uint32_t index(int part, int x, int y) const {
     const Part& p = parts[static_cast<std::size_t>(part)];
@@ -71,6 +74,11 @@ struct Plane {
   }
 };
 
+// Silhouettes between a texel and the next one.
+namespace cut {
+inline constexpr std::uint8_t right = 1, down = 2;
+}  // namespace cut
+
 // A plane of empty pictures of these sizes (width, height), without classes. Throws Error(limit)
 // over 2^31 words.
 Plane make_plane(const std::vector<std::pair<int, int>>& sizes, int guide_count,
@@ -78,7 +86,9 @@ Plane make_plane(const std::vector<std::pair<int, int>>& sizes, int guide_count,
 // Fills the padding with the nearest pixel's colour and no class.
 void pad(Plane& plane);
 // The next coarser level, sides (n + 1) / 2: colour and guides low-passed by [1 3 3 1]² / 64 over
-// pixels of a class, class by the majority of the 2 × 2 children, ties to the lower one. Padded.
+// pixels of a class, class by the majority of the 2 × 2 children, ties to the lower one. Two texels
+// are cut if both lines of children that lead from the first of one to the first of the other are.
+// Padded.
 Plane halve(const Plane& fine);
 
 // Silhouettes, one byte per word of a plane with a single part: which of the 4 neighbours belong to
@@ -87,6 +97,10 @@ namespace link {
 inline constexpr std::uint8_t right = 1, left = 2, down = 4, up = 8, all = 15;
 inline constexpr std::uint8_t cut_patch = 128;  // the patch around contains a missing link
 }  // namespace link
+
+// Cuts of one picture of a plane, in their words: neighbours whose depths differ by more than
+// `ratio` (1.04: 4 %), and the sky (+inf) from all else. Returns whether there are any.
+bool add_cuts(const Grid<float>& depth_m, int part, float ratio, Plane& plane);
 
 // Depths of the coarser level: that of the first child with the coarse pixel's class (values of
 // different surfaces never mix).

@@ -210,10 +210,11 @@ void limit_pieces(LevelState& state) {
     find_pieces(state);
   for (int round = 0; round < max_rounds && replace_pieces(state, first, round); ++round) {
   }
-  if (!state.links.empty()) {
+  if (!state.links.empty() || state.source->has_cuts) {
     isolate(state, 0, [](const KernelView& view, std::uint32_t at, int, int) {
-      return (view.links[at] & link::all) != link::all &&
-             forbidden_texels(view, at).has(view.match[at]);
+      const bool at_silhouette =
+          view.has_cuts || (view.links != nullptr && (view.links[at] & link::all) != link::all);
+      return at_silhouette && forbidden_texels(view, at).has(view.match[at]);
     });
     find_pieces(state);
   }

@@ -236,6 +236,13 @@ Plane exemplar_plane(const std::vector<Exemplar>& exemplars, const Setup& setup)
       }
     });
   }
+  bool any_cuts = false;
+  for (std::size_t e = 0; e < exemplars.size(); ++e)
+    if (!exemplars[e].guides.depth_m.empty())
+      any_cuts =
+          add_cuts(exemplars[e].guides.depth_m, static_cast<int>(e), depth_ratio(0), plane) ||
+          any_cuts;
+  if (!any_cuts) plane.cuts = {};
   pad(plane);
   prefer_large_pages(plane.words);
   return plane;

@@ -112,6 +112,7 @@ LevelSource::LevelSource(const LevelSettings& settings, const std::vector<GuideR
                          const SurroundingsPrice& surroundings_price, ClassShares class_shares,
                          const std::vector<Surroundings>& around)
     : exemplars(exemplar_plane),
+      has_cuts(!exemplar_plane.cuts.empty()),
       classes(class_count),
       guides(guide_roles),
       vector_weights(vector_weights_of(guide_roles)),
@@ -202,6 +203,7 @@ KernelView LevelState::view(int pass) const {
   view.fixed = fixed.empty() ? nullptr : fixed.data();
   view.piece_size = pieces.size().data();
   view.texels = &texels;
+  view.has_cuts = source->has_cuts;
   view.bin_cost = bin_cost.data();
   view.reuse_q4 = reuse_q4.data();
   view.max_uses = max_uses.data();

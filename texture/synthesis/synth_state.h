@@ -56,6 +56,7 @@ inline std::uint64_t key_for(const LevelSettings& settings, Purpose purpose, int
 // in its records change: those of the current window, all 0 before and after.
 struct LevelSource {
   const Plane& exemplars;
+  bool has_cuts = false;  // silhouettes, in the records of texels
   int classes = 0;
   std::vector<GuideRole> guides;
   std::vector<std::uint32_t> vector_weights;  // empty: guides are priced one by one

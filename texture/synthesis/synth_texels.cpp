@@ -27,6 +27,8 @@ TexelRecords::TexelRecords(const Plane& exemplars, const std::vector<std::uint8_
         for (std::size_t i = static_cast<std::size_t>(begin) * texels_per_task; i < last; ++i) {
           std::uint8_t* bytes = reinterpret_cast<std::uint8_t*>(words_.data() + i * record_words_);
           bytes[4] = bins[i];
+          if (!exemplars.cuts.empty())
+            bytes[4] = static_cast<std::uint8_t>(bytes[4] | exemplars.cuts[i] << bin_width);
           if (!around.empty()) {
             bytes[5] = around[i].others;
             bytes[6] = around[i].commonest;

@@ -48,5 +48,23 @@ TEST(Plane, HalvesByClassAndMean) {
   coarse.for_each([&](std::uint32_t at) { EXPECT_EQ(coarse.guides[at], 77); });
 }
 
+TEST(Plane, CutsOfCoarserLevelsLieWhereTheFinerOnesDo) {
+  Plane plane = noise_plane({{3, 3}, {16, 12}}, 2, 1, false);
+  Grid<float> depth(16, 12, 100.F);
+  for (int y = 0; y < 12; ++y)
+    for (int x = 0; x < 16; ++x) depth(x, y) = x >= 6 ? 300.F : y >= 5 ? 100.F * 1.03F : 100.F;
+  depth(12, 3) = 50.F;  // a texel by itself is passed on its other line
+  EXPECT_TRUE(add_cuts(depth, 1, 1.04F, plane));
+  EXPECT_EQ(plane.cuts[plane.index(1, 5, 2)], cut::right);
+  EXPECT_EQ(plane.cuts[plane.index(1, 4, 2)], 0);
+  EXPECT_EQ(plane.cuts[plane.index(1, 2, 4)], 0) << "3 % is one surface";
+  EXPECT_EQ(plane.cuts[plane.index(1, 12, 3)], cut::right | cut::down);
+  const Plane coarse = halve(plane);
+  for (int y = 0; y < 6; ++y)
+    for (int x = 0; x < 8; ++x)
+      EXPECT_EQ(coarse.cuts[coarse.index(1, x, y)], x == 2 ? cut::right : 0) << x << ' ' << y;
+  EXPECT_FALSE(add_cuts(Grid<float>(3, 3, 7.F), 0, 1.04F, plane));
+}
+
 }  // namespace
 }  // namespace belvedere::synth

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -183,6 +185,50 @@ TEST(Synthesize, NoPieceRunsOnAcrossADepthJump) {
     const MatchField field = run(exemplars, target, parameters);
     EXPECT_EQ(measure_quality(field, exemplars, target, quick).across_silhouettes, 0.0);
     EXPECT_EQ(measure_quality(field, exemplars, target, quick).label_agreement, 1.0);
+  }
+}
+
+// Neighbours that copy with one offset texels on both sides of a jump of the exemplar's depth.
+int pairs_across(const MatchField& field, const Grid<float>& depth_m) {
+  int count = 0;
+  for (int y = 0; y < field.height(); ++y)
+    for (int x = 0; x < field.width(); ++x)
+      for (const auto& [dx, dy] : {std::pair{1, 0}, {0, 1}}) {
+        if (!field.contains(x + dx, y + dy)) continue;
+        const Match a = field(x, y), b = field(x + dx, y + dy);
+        if (a.exemplar != b.exemplar || b.x - a.x != dx || b.y - a.y != dy) continue;
+        const float near = std::min(depth_m(a.x, a.y), depth_m(b.x, b.y));
+        const float far = std::max(depth_m(a.x, a.y), depth_m(b.x, b.y));
+        count += far > 1.04F * near ? 1 : 0;
+      }
+  return count;
+}
+
+TEST(Synthesize, NoPieceIsCopiedAcrossADepthJumpOfTheExemplar) {
+  std::vector<Exemplar> exemplars{painting(160, 160, 1)};
+  GuideStack target = land(120, 120, 40);
+  // A ridge before a far plain, and a spire.
+  Grid<float> depth_m(160, 160, 5000.0F);
+  for (int y = 0; y < 160; ++y)
+    for (int x = 0; x < 160; ++x) {
+      if (y > 60 + 20 * std::sin(0.1 * x)) depth_m(x, y) = 2000.0F;
+      if (x == 100) depth_m(x, y) = 900.0F;
+    }
+  EXPECT_GT(pairs_across(run(exemplars, target), depth_m), 40);
+  exemplars[0].guides.depth_m = depth_m;
+  for (const bool silhouettes_in_target : {false, true}) {
+    if (silhouettes_in_target) {
+      target.depth_m = Grid<float>(120, 120, 5000.0F);
+      for (int y = 50; y < 120; ++y)
+        for (int x = 0; x < 120; ++x) target.depth_m(x, y) = 2000.0F;
+    }
+    for (const int cap : {240, 40}) {
+      SynthesisParameters parameters;
+      parameters.copy_cap = cap;
+      const MatchField field = run(exemplars, target, parameters);
+      EXPECT_EQ(pairs_across(field, depth_m), 0);
+      EXPECT_GT(measure_quality(field, exemplars, target, {.repeat_samples = 0}).coherence, 0.5);
+    }
   }
 }
 
