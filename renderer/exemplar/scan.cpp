@@ -14,10 +14,10 @@
 #include "renderer/exemplar/example_painting.h"
 #include "renderer/exemplar/fill_excluded.h"
 #include "renderer/exemplar/harmonize.h"
+#include "renderer/exemplar/light/painting_tone.h"
+#include "renderer/exemplar/light/shadow_texels.h"
 #include "renderer/exemplar/painting_strokes.h"
-#include "renderer/exemplar/painting_tone.h"
 #include "renderer/exemplar/seam_picture.h"
-#include "renderer/exemplar/shadow_texels.h"
 #include "renderer/exemplar/texture_models.h"
 #include "renderer/image/guidance_io.h"
 #include "renderer/image/icc/painting_file.h"
@@ -46,6 +46,7 @@ struct Raw {
   Grid<glm::vec3> picture;
   GuidanceBuffers guidance;
   bool measured = false;  // guidance comes from the renderer: with distances and all other channels
+  bool painted = false;   // so does the picture: what guidance says of its light is exact
   Grid<std::uint8_t> labels;  // class ids, sky included; unused_label is never copied
 };
 
@@ -76,28 +77,30 @@ void read_masks(const SceneExemplar& settings, const LoadedScene& scene, Raw& ra
 }
 
 // Files of one painting written by the program name the scene they were made from. A disk that
-// filled up between them, or a copy of only one, leaves a pair that is not registered.
-void check_same_painting(const FileNotes& picture, const FileNotes& guidance,
+// filled up between them, or a copy of only one, leaves a pair that is not registered. Returns
+// whether the program wrote both.
+bool check_same_painting(const FileNotes& picture, const FileNotes& guidance,
                          const std::string& path) {
   const auto made_by = picture.find("belvedere:scene");
   const auto its = guidance.find("belvedere:scene");
-  if (made_by == picture.end() || its == guidance.end() || made_by->second == its->second) return;
+  if (made_by == picture.end() || its == guidance.end()) return false;
+  if (made_by->second == its->second) return true;
   throw Error(ErrorKind::input, path,
               "it belongs to a different painting: the picture was made from another scene",
               "the guidance.exr written together with the picture");
 }
 
 // A painting made by the program contains the origin of its paint: class and base colour are read
-// there. The header of the file marks the layer without trees.
-void take_paint(const SceneExemplar& settings, const LoadedScene& scene,
+// there. The header of the file marks the layer without trees. Returns whether it is one.
+bool take_paint(const SceneExemplar& settings, const LoadedScene& scene,
                 GuidanceBuffers& guidance) {
   const FileNotes notes = read_image_info(find_scene_file(scene, settings.picture)).notes;
   const std::string path = find_scene_file(scene, settings.guidance);
-  check_same_painting(notes, read_image_info(path).notes, path);
+  const bool same = check_same_painting(notes, read_image_info(path).notes, path);
   const auto layer = notes.find(exemplar_layer_note);
   const bool without_trees = layer != notes.end() && layer->second == exemplar_ground_layer;
   const Grid<std::uint32_t>& from = without_trees ? guidance.ground_from : guidance.painted_from;
-  if (from.empty() || guidance.base.empty()) return;
+  if (from.empty() || guidance.base.empty()) return same;
   for (const std::uint32_t index : from)
     if (index >= from.size())
       throw Error(ErrorKind::input, path,
@@ -106,6 +109,7 @@ void take_paint(const SceneExemplar& settings, const LoadedScene& scene,
   PaintedClasses classes = classes_of_paint(guidance, from);
   guidance.land_cover = std::move(classes.land_cover);
   guidance.base = decode_srgb(classes.base);
+  return true;
 }
 
 // Removes excluded pixels from the labels; or fills them with the paint around them if the block
@@ -145,7 +149,7 @@ Raw read_raw(const SceneExemplar& settings, const LoadedScene& scene, Progress& 
     require_channels(raw.guidance, {&GuidanceBuffers::depth_m, &GuidanceBuffers::land_cover}, path,
                      ErrorKind::input);
     check_same_size(path, raw.guidance.width(), raw.guidance.height(), raw.picture);
-    take_paint(settings, scene, raw.guidance);
+    raw.painted = take_paint(settings, scene, raw.guidance);
   } else {
     read_masks(settings, scene, raw);
   }
@@ -228,24 +232,40 @@ const Grid<std::uint8_t>& values_of(const GuideStack& guides, const char* name) 
   return found == nullptr ? none : *found;
 }
 
+// Tone and cast shadow, where guidance does not know them exactly.
+void find_light(const SceneExemplar& settings, Raw& raw, Progress& progress) {
+  GuidanceBuffers& guidance = raw.guidance;
+  const bool registered = raw.measured && !raw.painted;
+  if (registered && !guidance.tone.empty() && !guidance.altitude_m.empty())
+    guidance.tone = combine_tone(raw.picture, raw.labels, settings.stroke_px, guidance.tone,
+                                 guidance.altitude_m, guidance.depth_m);
+  else if (guidance.tone.empty())
+    guidance.tone = estimate_tone(raw.picture, raw.labels, settings.stroke_px);
+  if (registered && settings.shadow.empty()) {
+    if (settings.found_shadow == "guide" && !guidance.shadow.empty()) {
+      guidance.shadow = shadow_share(guidance.shadow, raw.labels);
+      return;
+    }
+    guidance.shadow = {};
+  }
+  if (!guidance.shadow.empty() || settings.found_shadow == "ignore") return;
+  guidance.shadow = find_shadow(raw.picture, raw.labels, settings.stroke_px);
+  std::size_t shaded = 0;
+  for (std::size_t i = 0; i < raw.labels.size(); ++i)
+    shaded += raw.labels[i] != unused_label && guidance.shadow[i] < lit_from ? 1 : 0;
+  progress.note(
+      fmt::format("{}: {:.1f} % of it is classified as cast shadow", settings.picture,
+                  100.0 * static_cast<double>(shaded) / static_cast<double>(raw.labels.size())));
+}
+
 ScannedPainting finish_scan(const SceneExemplar& settings, Raw raw, double residual,
                             Progress& progress) {
   ScannedPainting scan;
   learn_sky(raw, scan);
   for (std::uint8_t& label : raw.labels)
     if (label == sky_label) label = unused_label;  // the sky is painted, not copied
+  find_light(settings, raw, progress);
   GuidanceBuffers& guidance = raw.guidance;
-  if (guidance.tone.empty())
-    guidance.tone = estimate_tone(raw.picture, raw.labels, settings.stroke_px);
-  if (guidance.shadow.empty() && settings.found_shadow != "ignore") {
-    guidance.shadow = find_shadow(raw.picture, raw.labels, settings.stroke_px);
-    std::size_t shaded = 0;
-    for (std::size_t i = 0; i < raw.labels.size(); ++i)
-      shaded += raw.labels[i] != unused_label && guidance.shadow[i] < lit_from ? 1 : 0;
-    progress.note(
-        fmt::format("{}: {:.1f} % of it is classified as cast shadow", settings.picture,
-                    100.0 * static_cast<double>(shaded) / static_cast<double>(raw.labels.size())));
-  }
   if (guidance.fall_line.empty())
     guidance.fall_line = find_stroke_direction(raw.picture, raw.labels, settings.stroke_px);
   PaintedExemplar& painted = scan.painted;
@@ -256,7 +276,8 @@ ScannedPainting finish_scan(const SceneExemplar& settings, Raw raw, double resid
     std::erase_if(guides.guides, [](const Guide& guide) { return guide.name == "distance"; });
   const Grid<std::uint8_t>& distance = values_of(guides, "distance");
   scan.ramps = fit_ramps(raw.picture, raw.labels, guidance.tone, distance);
-  if (!guidance.base.empty())
+  // That of a registered painting is in the program's colours, not in its own.
+  if (!guidance.base.empty() && (raw.painted || !raw.measured))
     painted.base = encode_srgb(guidance.base);
   else
     painted.base = make_ramp_base(scan.ramps, raw.picture, raw.labels, guidance.tone, distance);
@@ -273,37 +294,6 @@ ScannedPainting finish_scan(const SceneExemplar& settings, Raw raw, double resid
   painted.picture = std::move(raw.picture);
   painted.exemplar.picture = seam_picture(painted, guides.label, residual);
   return scan;
-}
-
-// A painting's own light is often too faint to show relief, and much of it is in strokes, which
-// ramps leave out. The ramp gets at least this share of the palette's range of lightness (OKLab),
-// about its centre, with hue and saturation kept; stretched at most threefold.
-constexpr double min_range_share = 0.8;
-constexpr double largest_stretch = 3.0;
-ToneRamp stretch(const ToneRamp& ramp, const ToneRamp& target) {
-  const auto range = [](const ToneRamp& r) { return to_oklab(r.back()).x - to_oklab(r.front()).x; };
-  const double factor = std::clamp(min_range_share * range(target) / std::max(range(ramp), 1e-3),
-                                   1.0, largest_stretch);
-  double centre = 0.0;
-  for (const glm::vec3& colour : ramp)
-    centre += to_oklab(colour).x / static_cast<double>(ramp.size());
-  ToneRamp out = ramp;
-  for (glm::vec3& colour : out) {
-    glm::dvec3 lab = to_oklab(colour);
-    lab.x = std::clamp(centre + factor * (lab.x - centre), 0.0, 1.0);
-    colour = glm::clamp(from_oklab(lab), 0.F, 1.F);
-  }
-  return out;
-}
-
-glm::vec3 gradient_at(const std::vector<std::pair<double, glm::vec3>>& gradient, double position) {
-  for (std::size_t k = 1; k < gradient.size(); ++k)
-    if (position <= gradient[k].first) {
-      const double width = gradient[k].first - gradient[k - 1].first;
-      const double share = std::clamp((position - gradient[k - 1].first) / width, 0.0, 1.0);
-      return glm::mix(gradient[k - 1].second, gradient[k].second, static_cast<float>(share));
-    }
-  return gradient.back().second;
 }
 
 }  // namespace
@@ -354,68 +344,6 @@ void check_paintings(const LoadedScene& scene) {
         read_grey_share(guide);
     }
   }
-}
-
-Palette take_colours(const Palette& palette, const std::vector<ScannedPainting>& scans,
-                     const std::vector<std::pair<LandCoverClass, LandCoverClass>>& fallback) {
-  Palette out = palette;
-  constexpr double usual_altitude_m =
-      1500.0;  // altitude at which palettes that change with altitude are compared
-  std::array<bool, land_cover_class_count> known{};
-  // Nearest distance: the scene sets the effect of air on it.
-  for (std::size_t id = 1; id < known.size(); ++id) {
-    ToneRamp sum{};
-    float texels = 0.F;
-    for (const ScannedPainting& scan : scans) {
-      const LabelRamps& fitted = scan.ramps[id];
-      if (fitted.ramps.empty()) continue;
-      const auto count = static_cast<float>(fitted.texels);
-      for (std::size_t t = 0; t < sum.size(); ++t) sum[t] += count * fitted.ramps.front()[t];
-      texels += count;
-    }
-    if (!(texels > 0.F)) continue;
-    known[id] = true;
-    for (glm::vec3& colour : sum) colour /= texels;
-    ToneRamp own{};
-    for (std::size_t t = 0; t < own.size(); ++t)
-      own[t] =
-          palette_colour(palette, static_cast<LandCoverClass>(id), usual_altitude_m, ramp_tones[t]);
-    out.classes[id].stops = {{0.0, stretch(sum, own)}};
-  }
-  const int classes = static_cast<int>(std::count(known.begin(), known.end(), true));
-  if (classes == 0) return palette;
-  ToneRamp shift{};
-  for (std::size_t id = 1; id < known.size(); ++id)
-    for (std::size_t t = 0; t < shift.size() && known[id]; ++t)
-      shift[t] += (out.classes[id].stops.front().ramp[t] -
-                   palette_colour(palette, static_cast<LandCoverClass>(id), usual_altitude_m,
-                                  ramp_tones[t])) /
-                  static_cast<float>(classes);
-  for (std::size_t id = 1; id < known.size(); ++id) {
-    if (known[id]) continue;
-    const auto stand_in = std::find_if(fallback.begin(), fallback.end(), [&](const auto& pair) {
-      return pair.first == static_cast<LandCoverClass>(id);
-    });
-    if (stand_in != fallback.end() && known[static_cast<std::size_t>(stand_in->second)]) {
-      out.classes[id].stops = out.classes[static_cast<std::size_t>(stand_in->second)].stops;
-      continue;
-    }
-    for (ClassPalette::Stop& stop : out.classes[id].stops)
-      for (std::size_t t = 0; t < shift.size(); ++t)
-        stop.ramp[t] = glm::clamp(stop.ramp[t] + shift[t], 0.F, 1.F);
-  }
-  for (const ScannedPainting& scan : scans) {
-    if (scan.sky.empty()) continue;
-    out.sky = scan.sky;
-    out.cloud_light = scan.cloud_light;
-    out.cloud_shade = scan.cloud_shade;
-    // Air has the sky's blue where it begins and the horizon's colour far away.
-    out.haze_near = gradient_at(scan.sky, 0.35);
-    out.haze_far = gradient_at(scan.sky, 0.8);
-    out.range_mist = gradient_at(scan.sky, 0.85);
-    break;
-  }
-  return out;
 }
 
 }  // namespace belvedere

@@ -1,5 +1,6 @@
 #include "renderer/pipeline/scene_paint.h"
 
+#include "renderer/exemplar/scan_palette.h"
 #include "renderer/world/style/scene_style.h"
 
 namespace belvedere {

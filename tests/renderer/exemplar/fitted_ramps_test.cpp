@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "base/random.h"
-#include "renderer/exemplar/painting_tone.h"
+#include "renderer/exemplar/light/painting_tone.h"
 #include "renderer/paint/base_picture.h"
 #include "renderer/paint/composite.h"
 #include "renderer/paint/guides.h"

@@ -1,4 +1,5 @@
 #include "renderer/exemplar/scan.h"
+#include "renderer/exemplar/scan_palette.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

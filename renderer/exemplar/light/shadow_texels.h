@@ -15,6 +15,11 @@ namespace belvedere {
 Grid<float> find_shadow(const Grid<glm::vec3>& picture, const Grid<std::uint8_t>& labels,
                         double stroke_px);
 
+// The lit share, 0…1, of the ground around each texel: `shadow` averaged over a fortieth of the
+// picture's width (sigma), over texels of any label but unused_label. The place of a cast shadow on
+// the ground of a registered painting is not known to its own width, its share of a region is.
+Grid<float> shadow_share(const Grid<float>& shadow, const Grid<std::uint8_t>& labels);
+
 // Value from which a texel counts as sunlit.
 inline constexpr float lit_from = 0.5F;
 

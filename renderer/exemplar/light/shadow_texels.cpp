@@ -1,4 +1,4 @@
-#include "renderer/exemplar/shadow_texels.h"
+#include "renderer/exemplar/light/shadow_texels.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 
 #include "base/masks/label_blur.h"
 #include "base/parallel.h"
-#include "renderer/exemplar/painting_tone.h"
+#include "renderer/exemplar/light/painting_tone.h"
 #include "renderer/image/oklab.h"
 #include "texture/synthesis/guide_stack.h"
 
@@ -100,6 +100,19 @@ Grid<float> find_shadow(const Grid<glm::vec3>& picture, const Grid<std::uint8_t>
     }
   });
   return shadow;
+}
+
+Grid<float> shadow_share(const Grid<float>& shadow, const Grid<std::uint8_t>& labels) {
+  constexpr double share_of_width = 1.0 / 40.0;
+  Grid<std::uint8_t> ground = labels;
+  for (std::uint8_t& label : ground)
+    if (label != unused_label) label = 0;
+  static_assert(unused_label == no_label);
+  Grid<float> out =
+      blur_within_labels(shadow, ground, std::max(1.0, share_of_width * shadow.width()));
+  for (std::size_t i = 0; i < out.size(); ++i)
+    if (labels[i] == unused_label) out[i] = 1.F;
+  return out;
 }
 
 }  // namespace belvedere

@@ -1,4 +1,4 @@
-#include "renderer/exemplar/shadow_texels.h"
+#include "renderer/exemplar/light/shadow_texels.h"
 
 #include <gtest/gtest.h>
 
@@ -104,6 +104,22 @@ TEST(FindShadow, ShadedGroundIsCopiedFromShadedGround) {
   };
   EXPECT_GT(agreement(1.0), 0.97);
   EXPECT_LT(agreement(0.0), 0.85);
+}
+
+// Of ground whose shadows lie some pixels off, the lit share of a region is right.
+TEST(ShadowShare, IsThatOfTheRegion) {
+  Grid<std::uint8_t> labels(160, 120, 7);
+  Grid<float> shadow(160, 120, 1.F);
+  for (int y = 0; y < 120; ++y)
+    for (int x = 0; x < 160; ++x) {
+      if (y < 30) labels(x, y) = unused_label;  // the sky
+      if (x >= 80) shadow(x, y) = (x + y) % 4 == 0 ? 1.F : 0.F;
+      if (y < 30) shadow(x, y) = 0.F;
+    }
+  const Grid<float> share = shadow_share(shadow, labels);
+  EXPECT_NEAR(share(40, 31), 1.F, 1e-4F) << "the sky does not count";
+  EXPECT_NEAR(share(120, 80), 0.25F, 0.03F);
+  EXPECT_EQ(share(120, 10), 1.F);
 }
 
 }  // namespace

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+
+#include "base/grid.h"
+
+namespace belvedere {
+
+// The light of a painting of which only picture (encoded sRGB) and labels are known, 0…1: lightness
+// (OKLab) of structures larger than strokes (sigma stroke_px, never across a border of labels),
+// ranked within each label and mapped to the distribution of tone in a target (quartiles .43 .64
+// .86: docs/synthesis.md, Paintings from paper). A label with much less contrast than the others
+// (.35 of their interquartile range) shows one light only, such as one in shade as a whole: it gets
+// their scale, and the light of its neighbours at its borders, or tone .64 if it has none. A
+// painting of flat colours has tone .64; texels of unused_label have 0.
+Grid<float> estimate_tone(const Grid<glm::vec3>& picture, const Grid<std::uint8_t>& labels,
+                          double stroke_px);
+
+// The light of a painting of known ground: `modelled` is the tone of that ground in the painting's
+// sun, which errs where the ground is not exactly where the painting shows it, and where the
+// painter placed his light otherwise; the lightness of the paint within each label, without what
+// altitude and ln distance explain, errs as strokes do. Both on one scale for all labels, each to
+// one half as far as they agree; otherwise as estimate_tone. Pixels of one size everywhere.
+Grid<float> combine_tone(const Grid<glm::vec3>& picture, const Grid<std::uint8_t>& labels,
+                         double stroke_px, const Grid<float>& modelled,
+                         const Grid<float>& altitude_m, const Grid<float>& depth_m);
+
+}  // namespace belvedere
