@@ -3,8 +3,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include "base/angle.h"
 #include "base/statistics.h"
@@ -59,6 +61,77 @@ Grid<glm::vec3> with_pairs(Grid<glm::vec3> picture, const RegisterReportInput& i
                                 : glm::vec3(0.1F, 0.75F, 0.25F));
   }
   return picture;
+}
+
+// A line from one position to another, `reach` px to both sides.
+void draw_line(Grid<glm::vec3>& picture, glm::dvec2 from, glm::dvec2 to, glm::vec3 colour,
+               double reach) {
+  const auto clamped = [](double value, int size) {
+    return std::clamp(static_cast<int>(std::lround(value)), 0, size - 1);
+  };
+  const double margin = reach + 1.0;
+  const glm::dvec2 along = to - from;
+  const double square = std::max(glm::dot(along, along), 1e-9);
+  for (int y = clamped(std::min(from.y, to.y) - margin, picture.height());
+       y <= clamped(std::max(from.y, to.y) + margin, picture.height()); ++y)
+    for (int x = clamped(std::min(from.x, to.x) - margin, picture.width());
+         x <= clamped(std::max(from.x, to.x) + margin, picture.width()); ++x) {
+      const glm::dvec2 at(x + 0.5, y + 0.5);
+      const double share = std::clamp(glm::dot(at - from, along) / square, 0.0, 1.0);
+      const double off = glm::length(at - from - share * along);
+      const double cover = std::clamp(reach + 0.5 - off, 0.0, 1.0);
+      picture(x, y) = glm::mix(picture(x, y), colour, static_cast<float>(cover));
+    }
+}
+
+// The way of the light over the ground, in the picture: to the right, and up where it goes away
+// from the viewer.
+void draw_light(Grid<glm::vec3>& picture, glm::dvec2 centre, double length, const SunEstimate& sun,
+                double bearing_deg) {
+  const double angle = to_radians(sun.azimuth_deg - bearing_deg);
+  const glm::dvec2 way(-std::sin(angle), std::cos(angle)), side(-way.y, way.x);
+  const glm::dvec2 tip = centre + 0.5 * length * way, end = centre - 0.5 * length * way;
+  const bool sure = sun.trusted();
+  const double reach = std::max(1.0, 0.035 * length);
+  for (const bool outline : {true, false}) {
+    const glm::vec3 colour = outline ? glm::vec3(0.05F)
+                             : sure  ? glm::vec3(1.F, 0.85F, 0.1F)
+                                     : glm::vec3(0.6F);
+    const double wide = (sure ? reach : 0.5 * reach) + (outline ? 1.0 : 0.0);
+    draw_line(picture, end, tip, colour, wide);
+    for (const double turned : {1.0, -1.0})
+      draw_line(picture, tip, tip - 0.25 * length * (way + 0.6 * turned * side), colour, wide);
+  }
+}
+
+Grid<glm::vec3> with_light(Grid<glm::vec3> picture, const RegisteredLight& light) {
+  const int columns = light.regions.width(), rows = light.regions.height();
+  const double length = 0.5 * std::min(picture.width() / columns, picture.height() / rows);
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column) {
+      const RegisteredRegion& region = light.regions(column, row);
+      if (region.sun.pixels == 0) continue;
+      draw_light(
+          picture,
+          {(column + 0.5) * picture.width() / columns, (row + 0.5) * picture.height() / rows},
+          length, region.sun, region.bearing_deg);
+    }
+  return picture;
+}
+
+Json sun_json(const SunEstimate& sun) {
+  return Json::object()
+      .add("azimuth_deg", known(sun.azimuth_deg))
+      .add("altitude_deg", known(sun.altitude_deg))
+      .add("explained", known(sun.explained))
+      .add("trust", known(sun.trust()))
+      .add("trusted", Json::boolean(sun.trusted()));
+}
+
+Json light_json(const RegisteredLight& light) {
+  Json regions = Json::array();
+  for (const RegisteredRegion& region : light.regions) regions.add(sun_json(region.sun));
+  return Json::object().add("whole", sun_json(light.sun)).add("regions", std::move(regions));
 }
 
 std::string summary_of(const RegisterReportInput& input) {
@@ -121,6 +194,32 @@ PairWords pair_words(const PairFinding& finding, double sigma_px) {
   return {"fits", "lies where the others say"};
 }
 
+std::string light_words(const RegisteredLight& light) {
+  constexpr std::array<const char*, 8> sides = {"behind the mountains",
+                                                "behind the mountains, right",
+                                                "the right",
+                                                "the viewer's right",
+                                                "behind the viewer",
+                                                "the viewer's left",
+                                                "the left",
+                                                "behind the mountains, left"};
+  if (!light.sun.trusted())
+    return "The paint does not tell where the sun stands: the scene keeps the usual one.";
+  const double turned = light.sun.azimuth_deg - light.bearing_deg;
+  const auto side = static_cast<std::size_t>(std::lround(turned / 45.0) + 16) % sides.size();
+  const std::size_t other = regions_of_other_light(light).size();
+  return fmt::format(
+      "The light comes from {}: azimuth {:.0f}°, {:.0f}° high. It explains {:.0f} % of the "
+      "lightness within classes, {:.0f} % more than light from elsewhere would. {}",
+      sides[side], light.sun.azimuth_deg, light.sun.altitude_deg, 100.0 * light.sun.explained,
+      100.0 * light.sun.trust(),
+      other == 0   ? "All parts of the picture agree, or do not tell."
+      : other == 1 ? "One part of the picture has light from elsewhere, which the scene takes over."
+                   : fmt::format("{} parts of the picture have light from elsewhere, which the "
+                                 "scene takes over.",
+                                 other));
+}
+
 std::vector<std::size_t> pairs_worst_first(const Registration& registration) {
   const std::vector<PairFinding>& findings = registration.findings;
   std::vector<std::size_t> order;
@@ -161,6 +260,7 @@ Json registration_json(const RegisterReportInput& input) {
       .add("sigma_px", known(found.sigma_px))
       .add("others_px", known(median(kept_distances_px(found))))
       .add("folded", Json::number(static_cast<double>(input.ground.folded)))
+      .add("light", light_json(input.light))
       .add("kinds", std::move(kinds))
       .add("pairs", std::move(pairs));
 }
@@ -183,6 +283,11 @@ void write_register_report(const std::string& folder, const RegisterReportInput&
                     input.ground.folded));
   page.section("pairs", "Pairs, worst first", summary_of(input));
   page.table(table_of_pairs(input));
+  page.section("light", "Light",
+               light_words(input.light) +
+                   " Arrows go the way of the light over the ground, up away from the viewer; grey "
+                   "ones are not trusted.");
+  page.picture("light", with_light(input.picture, input.light), "light of each part");
   page.section(
       "trust", "Trust",
       fmt::format("How far the place of a pixel may be off: pale 0, dark red {:.0f} px and "

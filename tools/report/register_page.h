@@ -7,6 +7,7 @@
 #include "base/grid.h"
 #include "base/text/json.h"
 #include "renderer/register/registered_ground.h"
+#include "renderer/register/registered_light.h"
 #include "terrain/register/registration.h"
 
 namespace belvedere::tools {
@@ -31,12 +32,17 @@ struct RegisterReportInput {
   Registration registration;
   Grid<glm::vec3> picture;  // the painting, as large as the ground
   RegisteredGround ground;
+  RegisteredLight light;
 };
+
+// The light of a painting in words: where the sun stands to the viewer, and whether the paint
+// tells.
+std::string light_words(const RegisteredLight& light);
 
 // The figures of a registration.
 Json registration_json(const RegisterReportInput& input);
 // index.html and report.json in the folder: the pairs, worst first, in words; contours and skyline
-// of the terrain over the painting; a map of trust. Throws Error(output).
+// of the terrain over the painting; its light; a map of trust. Throws Error(output).
 void write_register_report(const std::string& folder, const RegisterReportInput& input);
 
 }  // namespace belvedere::tools

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -183,7 +184,9 @@ double add_explained(const std::vector<const LightSample*>& samples,
   return variance;
 }
 
-SunEstimate estimate_sun(const std::vector<LightSample>& samples) {
+// `whole`: index of the sun of the whole picture, or none.
+SunEstimate estimate_sun(const std::vector<LightSample>& samples, std::optional<std::size_t> whole,
+                         std::size_t* found = nullptr) {
   SunEstimate out;
   if (samples.size() < min_region_pixels) return out;
   const std::vector<PossibleSun>& suns = possible_suns();
@@ -201,19 +204,19 @@ SunEstimate estimate_sun(const std::vector<LightSample>& samples) {
   const std::size_t best = static_cast<std::size_t>(
       std::max_element(explained.begin(), explained.end()) - explained.begin());
   glm::dvec3 mean(0.0);
-  double elsewhere = 0.0;
   for (std::size_t k = 0; k < suns.size(); ++k) {
     mean += exact::exp((explained[k] - explained[best]) / sun_sharpness) * suns[k].direction;
     if (azimuth_between(suns[k].position.azimuth_deg, suns[best].position.azimuth_deg) >
         opposite_deg)
-      elsewhere = std::max(elsewhere, explained[k]);
+      out.elsewhere = std::max(out.elsewhere, explained[k]);
   }
   mean = glm::normalize(mean);
   const double azimuth = to_degrees(exact::atan2(mean.x, mean.y));
   out.azimuth_deg = azimuth < 0.0 ? azimuth + 360.0 : azimuth;
   out.altitude_deg = to_degrees(exact::asin(mean.z));
   out.explained = explained[best];
-  out.trust = explained[best] - elsewhere;
+  out.by_whole = explained[whole.value_or(best)];
+  if (found != nullptr) *found = best;
   return out;
 }
 
@@ -226,20 +229,19 @@ PaintingLight find_painting_light(const Grid<glm::vec3>& picture, const Grid<std
   require_channels(guidance, {&B::depth_m, &B::normal, &B::altitude_m}, "light of a painting");
   const LightFields fields = blurred_fields(picture, labels, guidance, parameters.blur_px);
   const int width = picture.width(), height = picture.height();
-  const auto in = [&](PixelRect rect) {
-    return estimate_sun(light_samples(fields, labels, guidance, rect, parameters.max_pixels));
+  const auto samples_in = [&](PixelRect rect) {
+    return light_samples(fields, labels, guidance, rect, parameters.max_pixels);
   };
-  PaintingLight out{{}, Grid<SunEstimate>(parameters.columns, parameters.rows)};
-  parallel_ranges(parameters.columns * parameters.rows + 1, 1, [&](int begin, int end) {
+  std::size_t best = 0;
+  PaintingLight out{estimate_sun(samples_in({0, 0, width, height}), std::nullopt, &best),
+                    Grid<SunEstimate>(parameters.columns, parameters.rows)};
+  parallel_ranges(parameters.columns * parameters.rows, 1, [&](int begin, int end) {
     for (int k = begin; k < end; ++k) {
-      if (k == parameters.columns * parameters.rows) {
-        out.whole = in({0, 0, width, height});
-        continue;
-      }
       const int column = k % parameters.columns, row = k / parameters.columns;
-      out.regions(column, row) =
-          in({width * column / parameters.columns, height * row / parameters.rows,
-              width * (column + 1) / parameters.columns, height * (row + 1) / parameters.rows});
+      const PixelRect rect{width * column / parameters.columns, height * row / parameters.rows,
+                           width * (column + 1) / parameters.columns,
+                           height * (row + 1) / parameters.rows};
+      out.regions(column, row) = estimate_sun(samples_in(rect), best);
     }
   });
   return out;

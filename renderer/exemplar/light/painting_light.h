@@ -16,11 +16,16 @@ inline constexpr double min_sun_trust = 0.05;
 struct SunEstimate {
   double azimuth_deg = 0.0;   // 0…360, clockwise from north
   double altitude_deg = 0.0;  // 18…60
-  double explained = 0.0;     // share of the variance of lightness within classes, without altitude
-                              // and air, that its light explains, 0…1
-  double trust = 0.0;  // the same, less that of the best sun from more than 75° of azimuth away
+  // Share of the variance of lightness within classes, without altitude and air, that its light
+  // explains, 0…1; what the sun of the whole picture explains of it; and the best sun from more
+  // than 75° of azimuth away.
+  double explained = 0.0, by_whole = 0.0, elsewhere = 0.0;
   std::size_t pixels = 0;  // compared; 0: too few for an estimate
-  bool trusted() const { return pixels > 0 && trust >= min_sun_trust; }
+
+  double trust() const { return explained - elsewhere; }
+  bool trusted() const { return pixels > 0 && trust() >= min_sun_trust; }
+  // Whether a part of a picture has light of its own.
+  bool differs() const { return trusted() && explained - by_whole >= min_sun_trust; }
 };
 
 struct PaintingLight {

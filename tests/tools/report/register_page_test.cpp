@@ -53,7 +53,24 @@ RegisterReportInput example() {
   input.picture = Grid<glm::vec3>(120, 60, glm::vec3(0.5F));
   input.ground = {Grid<float>(120, 60, 1000.F), Grid<float>(120, 60, 9000.F),
                   Grid<float>(120, 60, 2.F)};
+  input.light.regions = Grid<RegisteredRegion>(4, 2);
   return input;
+}
+
+TEST(RegisterPage, SaysWhereTheLightComesFrom) {
+  RegisteredLight light;
+  light.bearing_deg = 180.0;  // the viewer looks south
+  EXPECT_THAT(light_words(light), HasSubstr("does not tell"));
+  light.sun = {300.0, 30.0, 0.3, 0.3, 0.1, 5000};
+  EXPECT_THAT(light_words(light),
+              AllOf(HasSubstr("from the viewer's right"), HasSubstr("azimuth 300°"),
+                    HasSubstr("30 %"), HasSubstr("20 % more")));
+  light.sun.azimuth_deg = 92.0;
+  EXPECT_THAT(light_words(light), HasSubstr("from the left:"));
+  light.sun.azimuth_deg = 0.0;
+  EXPECT_THAT(light_words(light), HasSubstr("from behind the viewer"));
+  light.sun.azimuth_deg = 181.0;
+  EXPECT_THAT(light_words(light), HasSubstr("from behind the mountains:"));
 }
 
 TEST(RegisterPage, OrdersPairsWorstFirst) {
@@ -71,6 +88,7 @@ TEST(RegisterPage, IsAPageWithThePairsAndPictures) {
   EXPECT_THAT(json, AllOf(HasSubstr("\"sigma_px\""), HasSubstr("\"projection\"")));
   EXPECT_TRUE(std::filesystem::exists(folder / "registered.png"));
   EXPECT_TRUE(std::filesystem::exists(folder / "trust.png"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "light.png"));
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "renderer/image/png_palette.h"
 #include "renderer/register/register_by_paint.h"
 #include "renderer/register/registered_ground.h"
+#include "renderer/register/registered_light.h"
 #include "renderer/register/registered_scene.h"
 #include "renderer/scene/scene_file.h"
 #include "terrain/register/control_pairs.h"
@@ -32,7 +33,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 4> about = {"terrain", "deform", "camera", "output"};
+constexpr std::array<std::string_view, 6> about = {"terrain", "deform",        "camera",
+                                                   "sun",     "light.regions", "output"};
 constexpr int register_report_px = 1400;  // longest side of the pictures of the report
 
 struct RegisterOptions : RunOptions {
@@ -80,6 +82,16 @@ Scene scene_with_terrain(const RegisterOptions& options, Scene scene, const Dem&
   if (crs.starts_with("EPSG:")) scene.terrain.dem.crs = crs;
   scene.deform.allow_folds = folded > 0;
   return scene;
+}
+
+// The light of the painting on the ground that the scene shows.
+RegisteredLight light_of(const Scene& scene, std::shared_ptr<const Dem> dem,
+                         const Grid<glm::vec3>& painting, Progress& progress) {
+  LoadedScene loaded;
+  loaded.scene = scene;
+  const GuidanceBuffers guidance = trace_registered_guidance(
+      loaded, std::move(dem), {painting.width(), painting.height()}, {.progress = progress});
+  return find_registered_light(painting, guidance, scene.camera.position.value());
 }
 
 // The sections of a scene file that a registration is about; all others are at their defaults.
@@ -133,10 +145,10 @@ int run(const RegisterOptions& options) {
   progress.begin("reading", 0.0);
   const Grid<glm::vec3> painting = read_painting(options.painting, progress);
   const glm::ivec2 size(painting.width(), painting.height());
-  const Dem dem = read_dem(dem_parameters(options), progress);
+  const auto dem = std::make_shared<const Dem>(read_dem(dem_parameters(options), progress));
   RegisterReportInput input;
   input.painting = file_name(options.painting);
-  input.pairs = read_control_pairs(options.pairs, size, dem);
+  input.pairs = read_control_pairs(options.pairs, size, *dem);
   progress.begin("registering", 0.0);
   input.registration = register_pairs(input.pairs, size, registration_parameters(options));
   if (!options.pairs_only)
@@ -145,9 +157,11 @@ int run(const RegisterOptions& options) {
   const Scene registered = registered_scene(input.registration, size);
   progress.begin("drawing", 0.0);
   input.picture = reduced_picture(painting, register_report_px);
-  input.ground = trace_registered(input.registration, registered, dem,
+  input.ground = trace_registered(input.registration, registered, *dem,
                                   {input.picture.width(), input.picture.height()}, progress);
-  const Scene scene = scene_with_terrain(options, registered, dem, input.ground.folded);
+  Scene scene = scene_with_terrain(options, registered, *dem, input.ground.folded);
+  input.light = light_of(scene, dem, input.picture, progress);
+  light_scene(input.light, scene);
   write_text_file(in_folder("registered.toml"),
                   fmt::format("# {} registered to its terrain by belvedere exemplar register.\n{}",
                               input.painting, registered_sections(write_scene(scene))));
@@ -223,9 +237,10 @@ Action add_exemplar_register(CommandOptions& command) {
   add_run_options(command, *options);
   command.footer(
       "Finds the place of every pixel of a painting from some forty places that a person\n"
-      "recognizes in it, without a first estimate of the view: the view itself, and where the\n"
-      "painter moved the ground. Pairs that do not agree with the others are named. The result\n"
-      "is a scene, whose guidance serves the painting as an exemplar.\n"
+      "recognizes in it, without a first estimate of the view: the view itself, where the\n"
+      "painter moved the ground, and where the sun stands. Pairs that do not agree with the\n"
+      "others are named. The result is a scene, whose guidance serves the painting as an\n"
+      "exemplar.\n"
       "\n"
       "  belvedere exemplar register painting.jpg dem.tif --pairs pairs.csv --out registered");
   return [options] { return run(*options); };
