@@ -15,7 +15,7 @@ async function answered(address, options) {
     response = await fetch(address, { cache: "no-store", ...options });
   } catch (error) {
     if (error.name === "AbortError") throw error;
-    throw new Refused(0, { message: "The program does not answer. Is belvedere studio still running?" });
+    throw new Refused(0, { message: "The program does not answer. Is belvedere still running?" });
   }
   if (response.ok) return response;
   let fault = null;
@@ -29,8 +29,8 @@ async function answered(address, options) {
   throw new Refused(response.status, fault ?? { message: `The program answered ${response.status} to ${address.split("?")[0]}.` });
 }
 
-const get = async (address, signal) => (await answered(address, { signal })).json();
-const post = async (address, body = {}) =>
+export const get = async (address, signal) => (await answered(address, { signal })).json();
+export const post = async (address, body = {}) =>
   (await answered(address, { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(body) })).json();
 
 export const api = {

@@ -12,6 +12,7 @@
 #include "renderer/register/match_paint.h"
 #include "renderer/register/registered_ground.h"
 #include "renderer/register/registered_scene.h"
+#include "renderer/register/registered_view.h"
 
 namespace belvedere {
 namespace {
@@ -78,9 +79,9 @@ PaintRegistration register_by_paint(const Registration& from_pairs,
     if (painting.width() < width) continue;
     const glm::ivec2 size(width, std::max(1, width * painting.height() / painting.width()));
     const double px = static_cast<double>(painting.width()) / width;
-    RegisteredGround ground =
-        trace_registered(out.registration, registered_scene(out.registration, painting_px), dem,
-                         size, progress);
+    RegisteredGround ground = trace_registered(
+        RegisteredView(out.registration, registered_scene(out.registration, painting_px), dem, size,
+                       progress));
     for (float& sigma : ground.sigma_px) sigma /= static_cast<float>(px);
     MatchPaintParameters parameters = round.match;
     constexpr double independent_px2 = 50.0;  // of a painting 1200 px wide: a stroke

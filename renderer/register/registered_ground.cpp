@@ -5,7 +5,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <memory>
 #include <numbers>
 #include <optional>
 
@@ -13,9 +12,6 @@
 #include "base/math_exact.h"
 #include "base/parallel.h"
 #include "base/statistics.h"
-#include "renderer/trace/geo_map.h"
-#include "renderer/trace/tracer.h"
-#include "renderer/world/view.h"
 #include "terrain/deform/fold.h"
 
 namespace belvedere {
@@ -60,27 +56,16 @@ Line line_between(float a, float b, double step) {
 
 }  // namespace
 
-RegisteredGround trace_registered(const Registration& registration, const Scene& scene,
-                                  const Dem& dem, glm::ivec2 size_px, Progress& progress) {
-  Scene sized = scene;
-  sized.output.width = size_px.x;
-  sized.output.height = size_px.y;
-  const View view = make_view(sized, dem, progress);
-  const Deformation deformation(view.deform, view.viewer_xy);
-  const DeformedSurface surface =
-      deform(dem.altitude_m, dem.transform, glm::dvec3(view.viewer_xy, 0.0), deformation);
-  const std::unique_ptr<const Camera> camera = make_camera(view.camera);
-  const Tracer tracer(surface);
-  const Grid<glm::vec2> nothing_moved;
-  const GeoMap map(dem.altitude_m, nothing_moved, dem.transform, deformation, surface, *camera,
-                   tracer);
-  const DisplacementField& field = deformation.field();
+RegisteredGround trace_registered(const RegisteredView& view) {
+  const glm::ivec2 size_px = view.size_px();
+  const Registration& registration = view.registration();
+  const DisplacementField& field = view.deformation().field();
   const double focal_px =
       registration.scale * exact::exp(registration.view[view_unknown::log_focal]);
   RegisteredGround out{Grid<float>(size_px.x, size_px.y, unknown_value),
                        Grid<float>(size_px.x, size_px.y, unknown_value),
                        Grid<float>(size_px.x, size_px.y, unknown_value),
-                       folded_in_picture(dem, deformation, *camera),
+                       folded_in_picture(view.dem(), view.deformation(), view.camera()),
                        Grid<glm::dvec2>(size_px.x, size_px.y),
                        Grid<glm::vec3>(size_px.x, size_px.y)};
   const auto sigma_px = [&](glm::dvec2 position) {
@@ -95,13 +80,13 @@ RegisteredGround trace_registered(const Registration& registration, const Scene&
   parallel_rows(size_px.y, [&](int y) {
     double distance = 0.0;
     for (int x = 0; x < size_px.x; ++x) {
-      const std::optional<GeoPosition> at = map.to_geo({x + 0.5, y + 0.5});
+      const std::optional<GeoPosition> at = view.map().to_geo({x + 0.5, y + 0.5});
       if (!at) continue;
       out.altitude_m(x, y) = static_cast<float>(at->altitude_m);
       out.distance_m(x, y) = static_cast<float>(at->distance_m);
       out.position(x, y) = at->position;
       out.normal(x, y) = normal_at(
-          dem, at->position,
+          view.dem(), at->position,
           view_exaggeration(registration.frame, registration.view,
                             view_distance_m(registration.frame, registration.view, at->position)));
       const bool same =

@@ -1,16 +1,10 @@
 #pragma once
 
 #include <cstddef>
-#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
-#include <string>
-#include <vector>
 
 #include "base/grid.h"
-#include "base/progress.h"
-#include "renderer/scene/scene.h"
-#include "terrain/io/dem.h"
-#include "terrain/register/registration.h"
+#include "renderer/register/registered_view.h"
 
 namespace belvedere {
 
@@ -25,9 +19,8 @@ struct RegisteredGround {
   Grid<glm::vec3> normal = {};     // of the exaggerated ground, as it lies on the map
 };
 
-// Traces the terrain as registered_scene() draws it.
-RegisteredGround trace_registered(const Registration& registration, const Scene& scene,
-                                  const Dem& dem, glm::ivec2 size_px, Progress& progress);
+// Of all pixels of a view.
+RegisteredGround trace_registered(const RegisteredView& view);
 
 // The largest of 20, 50, 100, 200, 500 m that gives some ten contours or more.
 double contour_step_m(const Grid<float>& altitude_m);

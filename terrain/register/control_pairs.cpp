@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 #include "base/error.h"
@@ -19,7 +22,16 @@ struct PairColumns {
   int x, y, longitude, latitude, name, sure;  // sure: -1 if there is none
 };
 
-PairColumns pair_columns(const CsvTable& table) {
+constexpr std::array<std::string_view, 6> written = {"x_px", "y_px", "lon", "lat", "name", "sure"};
+
+PairColumns pair_columns(const CsvTable& table, const ControlPairsFormat& format) {
+  for (std::size_t i = 0; !format.other_columns && i < table.columns.size(); ++i)
+    if (std::none_of(written.begin(), written.end(), [&](std::string_view name) {
+          return table.find(name) == static_cast<int>(i);
+        }))
+      throw Error(ErrorKind::usage, table.name + ":1",
+                  fmt::format("has a column {}, which would be lost", table.columns[i]),
+                  fmt::format("{} alone", fmt::join(written, ", ")));
   const auto column = [&](const char* name) {
     const int found = table.find(name);
     if (found < 0)
@@ -80,7 +92,7 @@ double altitude_of_pair(const Dem& dem, glm::dvec2 position, const PairRow& row,
   return static_cast<double>(sample_bilinear(dem.altitude_m, cell.x, cell.y));
 }
 
-void refuse_duplicate(const std::vector<ControlPair>& pairs, const ControlPair& pair,
+void refuse_duplicate(std::span<const ControlPair> pairs, const ControlPair& pair,
                       const PairRow& row, int column) {
   for (const ControlPair& other : pairs)
     if (other.pixel == pair.pixel && other.position == pair.position)
@@ -89,41 +101,68 @@ void refuse_duplicate(const std::vector<ControlPair>& pairs, const ControlPair& 
                  "each pair once");
 }
 
-}  // namespace
-
-std::vector<ControlPair> read_control_pairs(const std::string& path, glm::ivec2 painting_px,
-                                            const Dem& dem) {
+std::vector<ControlPair> pairs_of(const CsvTable& table, glm::ivec2 painting_px, const Dem& dem,
+                                  const ControlPairsFormat& format) {
   if (dem.crs.empty())
-    throw Error(ErrorKind::usage, path, "has longitudes and latitudes, but the DEM has no CRS",
-                "a DEM with a CRS");
-  const CsvTable table = read_csv(path);
-  const PairColumns columns = pair_columns(table);
+    throw Error(ErrorKind::usage, table.name,
+                "has longitudes and latitudes, but the DEM has no CRS", "a DEM with a CRS");
+  const PairColumns columns = pair_columns(table, format);
   std::vector<ControlPair> pairs;
   std::vector<glm::dvec2> positions;
   for (const CsvTable::Row& fields : table.rows) {
     const PairRow row(table, fields);
-    positions.emplace_back(row.number(columns.longitude, -180.0, 180.0),
-                           row.number(columns.latitude, -90.0, 90.0));
+    ControlPair& pair = pairs.emplace_back();
+    pair.line = fields.line;
+    pair.lonlat = {row.number(columns.longitude, -180.0, 180.0),
+                   row.number(columns.latitude, -90.0, 90.0)};
+    positions.push_back(pair.lonlat);
   }
   PointTransform(normalize_crs("EPSG:4326"), dem.crs).apply(positions);
-  for (std::size_t i = 0; i < positions.size(); ++i) {
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
     const PairRow row(table, table.rows[i]);
-    ControlPair pair;
-    pair.line = table.rows[i].line;
+    ControlPair& pair = pairs[i];
     pair.pixel = {row.number(columns.x, 0.0, painting_px.x),
                   row.number(columns.y, 0.0, painting_px.y)};
     pair.position = positions[i];
     pair.altitude_m = altitude_of_pair(dem, pair.position, row, columns.longitude);
     pair.name = row.text(columns.name);
     pair.sure = row.sure(columns.sure);
-    refuse_duplicate(pairs, pair, row, columns.x);
-    pairs.push_back(std::move(pair));
+    refuse_duplicate(std::span(pairs).first(i), pair, row, columns.x);
   }
-  if (pairs.size() < min_control_pairs)
-    throw Error(
-        ErrorKind::usage, path, fmt::format("{} pairs", pairs.size()),
-        fmt::format("{} or more, spread over the painting; 40 are good", min_control_pairs));
+  if (pairs.size() < format.min_pairs)
+    throw Error(ErrorKind::usage, table.name, fmt::format("{} pairs", pairs.size()),
+                fmt::format("{} or more, spread over the painting; 40 are good", format.min_pairs));
   return pairs;
+}
+
+// RFC 4180.
+std::string csv_field(const std::string& text) {
+  const bool blank_ends = !text.empty() && (text.front() == ' ' || text.back() == ' ');
+  if (!blank_ends && text.find_first_of(",;\t\"\r\n") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + "\"";
+}
+
+}  // namespace
+
+std::vector<ControlPair> read_control_pairs(const std::string& path, glm::ivec2 painting_px,
+                                            const Dem& dem) {
+  return pairs_of(read_csv(path), painting_px, dem, {});
+}
+
+std::vector<ControlPair> parse_control_pairs(const std::string& text, const std::string& name,
+                                             glm::ivec2 painting_px, const Dem& dem,
+                                             const ControlPairsFormat& format) {
+  return pairs_of(parse_csv(text, name), painting_px, dem, format);
+}
+
+std::string control_pairs_text(std::span<const ControlPair> pairs) {
+  std::string out = fmt::format("{}\n", fmt::join(written, ","));
+  for (const ControlPair& pair : pairs)
+    out += fmt::format("{},{},{},{},{},{}\n", pair.pixel.x, pair.pixel.y, pair.lonlat.x,
+                       pair.lonlat.y, csv_field(pair.name), pair.sure ? "1" : "");
+  return out;
 }
 
 }  // namespace belvedere

@@ -226,7 +226,7 @@ FittedView fit_from(const Start& start, const ViewFrame& frame,
 }  // namespace
 
 std::vector<FittedView> fit_views(std::span<const ControlPair> pairs, glm::dvec2 size_px,
-                                  const FitViewParameters& parameters) {
+                                  const FitViewParameters& parameters, Progress& progress) {
   ViewFrame frame = view_frame(ViewKind::cylinder, size_px, parameters.cropped, pairs);
   const std::vector<Start> starts = find_starts(frame, pairs);
   std::vector<FittedView> views;
@@ -234,6 +234,7 @@ std::vector<FittedView> fit_views(std::span<const ControlPair> pairs, glm::dvec2
     frame.kind = kind;
     std::optional<FittedView> best;
     for (const Start& start : starts) {
+      progress.advance(0.0);
       FittedView fitted = fit_from(start, frame, pairs);
       if (!is_plausible(frame, fitted.view, pairs)) continue;
       if (!best || fitted.cost < best->cost) best = std::move(fitted);

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "base/progress.h"
 #include "terrain/register/view_model.h"
 
 namespace belvedere {
@@ -28,6 +29,7 @@ struct FittedView {
 // painter moved counts as far off. The picture is 1200 px wide: all constants are for that. Best
 // kind first; Error(input) if no eye explains the pairs.
 std::vector<FittedView> fit_views(std::span<const ControlPair> pairs, glm::dvec2 size_px,
-                                  const FitViewParameters& parameters = {});
+                                  const FitViewParameters& parameters = {},
+                                  Progress& progress = silent_progress());
 
 }  // namespace belvedere

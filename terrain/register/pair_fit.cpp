@@ -58,6 +58,20 @@ ViewNumber weighed(const ViewNumber& prior, double sigma_px) {
   return prior * ViewNumber(2.0 / sigma_px);
 }
 
+// Inverse covariance of the view's unknowns before there are pairs.
+Matrix prior_precision(const PairFit& fit, double sigma_px) {
+  Matrix precision(unknown::count, unknown::count);
+  constexpr double min_precision = 1e-4;
+  for (const ViewNumber& prior : view_priors(fit.frame, fit.view)) {
+    const ViewNumber scaled = weighed(prior, sigma_px);
+    for (std::size_t i = 0; i < unknown::count; ++i)
+      for (std::size_t k = 0; k < unknown::count; ++k)
+        precision(i, k) += scaled.slope[i] * scaled.slope[k];
+  }
+  for (std::size_t i = 0; i < unknown::count; ++i) precision(i, i) += min_precision;
+  return precision;
+}
+
 }  // namespace
 
 std::vector<DisplacedPlace> displaced_places(const PairFit& fit) {
@@ -99,25 +113,28 @@ ViewUnknowns refitted_view(const PairFit& fit, double sigma_px) {
   return view;
 }
 
+Matrix view_covariance(const PairFit& fit, double sigma_px) {
+  Matrix precision =
+      normal_matrix(factors_of_pairs(fit.field).whitened(displacements(fit, fit.view).slopes));
+  const Matrix prior = prior_precision(fit, sigma_px);
+  for (std::size_t i = 0; i < unknown::count; ++i)
+    for (std::size_t k = 0; k < unknown::count; ++k) precision(i, k) += prior(i, k);
+  const std::optional<Cholesky> factors = Cholesky::of(std::move(precision));
+  if (!factors) throw Error(ErrorKind::bug, "registration", "no view is likely");
+  return factors->inverse();
+}
+
 PairJudgement judge_pairs(const PairFit& fit, double sigma_px) {
   const std::size_t n = fit.pairs.size();
   const Residuals moved = displacements(fit, fit.view);
   // The model's own derivatives are those of observed minus modelled, reversed; the sign has no
   // effect.
-  Matrix precision(unknown::count, unknown::count);
-  constexpr double min_precision = 1e-4;
-  for (const ViewNumber& prior : view_priors(fit.frame, fit.view)) {
-    const ViewNumber scaled = weighed(prior, sigma_px);
-    for (std::size_t i = 0; i < unknown::count; ++i)
-      for (std::size_t k = 0; k < unknown::count; ++k)
-        precision(i, k) += scaled.slope[i] * scaled.slope[k];
-  }
-  for (std::size_t i = 0; i < unknown::count; ++i) precision(i, i) += min_precision;
   std::vector<std::vector<std::size_t>> groups;
   for (std::size_t i = 0; i < n; ++i) groups.push_back({i, n + i});
   PairJudgement out;
   const std::vector<LeftOut> left_out =
-      leave_out(whole_covariance(fit.field), moved.slopes, precision, moved.values, groups);
+      leave_out(whole_covariance(fit.field), moved.slopes, prior_precision(fit, sigma_px),
+                moved.values, groups);
   for (std::size_t i = 0; i < n; ++i) {
     const DisplacedPlace& place = fit.field.places[i];
     const double size = displacement_size_m(fit.field, place.position);

@@ -3,6 +3,7 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
+#include "base/matrix/matrix.h"
 #include "terrain/deform/displacement.h"
 #include "terrain/register/control_pairs.h"
 #include "terrain/register/fit_view.h"
@@ -36,6 +37,9 @@ std::vector<DisplacedPlace> displaced_places(const PairFit& fit);
 
 // Each pair by the others. One deviation of the view's priors weighs like two pixels of sigma_px.
 PairJudgement judge_pairs(const PairFit& fit, double sigma_px);
+
+// Covariance of the view's unknowns given the pairs.
+Matrix view_covariance(const PairFit& fit, double sigma_px);
 
 // The view that is most likely under the field's covariance.
 ViewUnknowns refitted_view(const PairFit& fit, double sigma_px);

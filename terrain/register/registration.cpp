@@ -16,6 +16,8 @@
 namespace belvedere {
 namespace {
 
+namespace unknown = view_unknown;
+
 constexpr double fitted_width_px = 1200.0;
 
 void set_noise(PairFit& fit, double sigma_px) {
@@ -28,7 +30,7 @@ struct Choice {
   double length = 0.0;  // in extents
   double sigma_px = 0.0;
 };
-Choice choose_field(const PairFit& fit, std::optional<double> sigma_px) {
+Choice choose_field(const PairFit& fit, std::optional<double> sigma_px, Progress& progress) {
   constexpr double usual_px = 3.0, usual_spread = 0.2;  // of ln sigma
   const std::vector<double> sigmas =
       sigma_px ? std::vector{*sigma_px} : std::vector{1.5, 2.0, 3.0, 4.5, 6.5};
@@ -36,6 +38,7 @@ Choice choose_field(const PairFit& fit, std::optional<double> sigma_px) {
   double best_score = -std::numeric_limits<double>::infinity();
   for (const double sigma : sigmas)
     for (const double length : {0.06, 0.12, 0.2}) {
+      progress.advance(0.0);
       PairFit tried = fit;
       tried.field = field_of_extent(fit.frame.extent_m, length);
       set_noise(tried, sigma);
@@ -146,6 +149,7 @@ void take_result(Registration& out, const FittedPairs& fitted,
   out.view = fit.view;
   out.displacement = fit.field;
   out.score = mean_score(fitted);
+  out.view_covariance = view_covariance(fit, out.sigma_px / out.scale);
 }
 
 void check_sigma(std::optional<double> sigma_px) {
@@ -156,15 +160,18 @@ void check_sigma(std::optional<double> sigma_px) {
 }  // namespace
 
 Registration register_pairs(std::span<const ControlPair> given, glm::ivec2 painting_px,
-                            const RegistrationParameters& parameters) {
+                            const RegistrationParameters& parameters, Progress& progress) {
   check_sigma(parameters.sigma_px);
+  if (given.size() < min_fitted_pairs)
+    throw Error(ErrorKind::usage, "pairs", fmt::format("{} pairs", given.size()),
+                fmt::format("{} or more", min_fitted_pairs));
   constexpr double cut_deviations = 5.0, cut_sigmas = 4.0, max_wrong = 0.25;
   constexpr int choose_every = 3;
   Registration out;
   out.scale = painting_px.x / fitted_width_px;
   std::vector<ControlPair> pairs(given.begin(), given.end());
   for (ControlPair& pair : pairs) pair.pixel /= out.scale;
-  out.kinds = fit_views(pairs, glm::dvec2(painting_px) / out.scale, parameters.view);
+  out.kinds = fit_views(pairs, glm::dvec2(painting_px) / out.scale, parameters.view, progress);
   PairFit fit{pairs, {}, {}, out.kinds.front().frame, out.kinds.front().view, {}};
   std::vector<std::size_t> index;  // of fit.pairs in pairs
   for (std::size_t i = 0; i < pairs.size(); ++i) index.push_back(i);
@@ -177,9 +184,10 @@ Registration register_pairs(std::span<const ControlPair> given, glm::ivec2 paint
   PairJudgement judgement;
   for (int round = 0;; ++round) {
     if (round % choose_every == 0) {
-      choice = choose_field(fit, sigma);
+      choice = choose_field(fit, sigma, progress);
       fit.field = field_of_extent(fit.frame.extent_m, choice.length);
     }
+    progress.advance(0.0);
     set_noise(fit, choice.sigma_px);
     judgement = refine_pairs(fit, choice.sigma_px, 2);
     const auto is_far_off = [&](std::size_t i) {
@@ -264,6 +272,25 @@ glm::dvec2 registered_pixel(const Registration& registration, const Displacement
   const ViewPixel at = project_in_view(registration.frame, registration.view, position, altitude_m,
                                        field.at(position));
   return registration.scale * glm::dvec2(at.u.value, at.v.value);
+}
+
+double registered_sigma_px(const Registration& registration, const DisplacementField& field,
+                           glm::dvec2 position, double altitude_m) {
+  const ViewPixel at = project_in_view(registration.frame, registration.view, position, altitude_m,
+                                       field.at(position));
+  const auto variance = [&](const ViewNumber& part) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < unknown::count; ++i)
+      for (std::size_t k = 0; k < unknown::count; ++k)
+        sum += part.slope[i] * registration.view_covariance(i, k) * part.slope[k];
+    return sum;
+  };
+  const Displacement moved = field.deviation(position);
+  const double px_per_m = exact::exp(registration.view[unknown::log_focal]) /
+                          view_distance_m(registration.frame, registration.view, position);
+  return registration.scale *
+         std::sqrt(0.5 * (variance(at.u) + variance(at.v)) +
+                   0.5 * square(px_per_m) * (square(moved.lateral_m) + square(moved.upward_m)));
 }
 
 }  // namespace belvedere

@@ -73,10 +73,8 @@ TEST_F(Program, CommandsThatAreMissingOrMisspeltAreAskedFor) {
       HasSubstr("missing subcommand of belvedere\n  allowed: new, studio, render, guidance"));
   EXPECT_THAT(said({"rendr", "x.toml"}),
               HasSubstr("belvedere has no command \"rendr\"; did you mean \"render\"?"));
-  EXPECT_THAT(
-      said({"exemplar"}),
-      HasSubstr(
-          "missing subcommand of belvedere exemplar\n  allowed: check, paint, register, segment;"));
+  EXPECT_THAT(said({"exemplar"}), HasSubstr("missing subcommand of belvedere exemplar\n  allowed: "
+                                            "check, paint, pick, register, segment;"));
   EXPECT_THAT(said({"exemplar", "pain"}),
               HasSubstr("belvedere exemplar has no command \"pain\"; did you mean \"paint\"?"));
   EXPECT_THAT(said({"exemplar", "xyz"}), Not(HasSubstr("did you mean")));

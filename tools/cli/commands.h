@@ -37,6 +37,7 @@ Action add_deform(CommandOptions& command);
 Action add_diff(CommandOptions& command);
 Action add_exemplar_check(CommandOptions& command);
 Action add_exemplar_paint(CommandOptions& command);
+Action add_exemplar_pick(CommandOptions& command);
 Action add_exemplar_register(CommandOptions& command);
 Action add_exemplar_segment(CommandOptions& command);
 Action add_fetch(CommandOptions& command);

@@ -14,7 +14,7 @@ namespace {
 using Value = nlohmann::ordered_json;  // as it was written
 
 Error not_understood(const std::string& found) {
-  return {ErrorKind::usage, "request", found, "JSON as in docs/studio.md"};
+  return {ErrorKind::usage, "request", found, "JSON as in the documentation of the page"};
 }
 
 Value parse_body(const std::string& body) {
@@ -88,6 +88,24 @@ int read_number_member(const std::string& body, const std::string& name, int oth
       *member > std::numeric_limits<int>::max())
     throw not_understood(name + " is not a whole number");
   return member->get<int>();
+}
+
+std::optional<glm::dvec2> read_point_member(const std::string& body, const std::string& name) {
+  const Value read = parse_body(body);
+  const auto member = read.find(name);
+  if (member == read.end()) return std::nullopt;
+  if (!member->is_array() || member->size() != 2 || !(*member)[0].is_number() ||
+      !(*member)[1].is_number())
+    throw not_understood(name + " is not a list of two numbers");
+  return glm::dvec2((*member)[0].get<double>(), (*member)[1].get<double>());
+}
+
+std::optional<bool> read_flag_member(const std::string& body, const std::string& name) {
+  const Value read = parse_body(body);
+  const auto member = read.find(name);
+  if (member == read.end()) return std::nullopt;
+  if (!member->is_boolean()) throw not_understood(name + " is neither true nor false");
+  return member->get<bool>();
 }
 
 }  // namespace belvedere::tools

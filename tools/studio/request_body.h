@@ -1,5 +1,7 @@
 #pragma once
 
+#include <glm/vec2.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,5 +21,8 @@ SetBody read_set_body(const std::string& body);
 std::string read_text_member(const std::string& body, const std::string& name,
                              const std::string& otherwise = {});
 int read_number_member(const std::string& body, const std::string& name, int otherwise);
+// A member that is a list of two numbers, or true or false; nothing where there is none.
+std::optional<glm::dvec2> read_point_member(const std::string& body, const std::string& name);
+std::optional<bool> read_flag_member(const std::string& body, const std::string& name);
 
 }  // namespace belvedere::tools

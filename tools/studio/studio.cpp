@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
-
 #include "base/error.h"
 #include "renderer/pipeline/view_judgement.h"
 #include "tools/report/encoded_picture.h"
@@ -15,7 +13,7 @@ namespace belvedere::tools {
 
 StudioState::StudioState(const StudioParameters& parameters, const Run& given)
     : session(parameters.scene, parameters.files),
-      owner(parameters.scene),
+      owner(parameters.scene, "studio"),
       run(given),
       open_place(parameters.open_place),
       render(std::make_unique<Job>("render")),
@@ -46,7 +44,7 @@ HttpAnswer StudioState::route(const HttpRequest& request) {
   const bool post = request.method == "POST";
   if (!path.starts_with("api/")) {
     if (path.starts_with("render/")) return rendered(path.substr(7));
-    return file(path);
+    return page_file({"studio"}, path);
   }
   const std::string name = path.substr(4);
   if (post) {
@@ -141,31 +139,14 @@ void Studio::stop() {
   state_->server->stop();
 }
 
-namespace {
-
-std::int64_t now_ms() {
-  return std::chrono::duration_cast<std::chrono::milliseconds>(
-             std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
-
-}  // namespace
-
-// A page that is loaded again closes first.
-bool Studio::is_left(double wait_s) const {
-  const std::int64_t closed_ms = state_->closed_ms;
-  return closed_ms != 0 && static_cast<double>(now_ms() - closed_ms) >= 1e3 * wait_s;
-}
+bool Studio::is_left(double wait_s) const { return state_->visits.is_left(wait_s); }
 
 HttpAnswer Studio::answer(const HttpRequest& request) {
-  state_->closed_ms = request.path == "api/close" ? now_ms() : 0;
+  state_->visits.asked(request);
   try {
     return state_->route(request);
   } catch (const Error& error) {
-    const int status = error.kind() == ErrorKind::interrupted ? 409
-                       : error.kind() == ErrorKind::bug       ? 500
-                                                              : 422;
-    return json_answer(error_json(error), status);
+    return error_answer(error);
   }
 }
 

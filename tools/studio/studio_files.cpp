@@ -1,12 +1,10 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 
 #include "base/error.h"
-#include "base/text/embedded.h"
 #include "base/text/letters.h"
 #include "renderer/image/output_file.h"
 #include "renderer/pipeline/pipeline.h"
@@ -21,24 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string type_of(const std::string& path) {
-  static constexpr std::pair<const char*, const char*> types[] = {
-      {".html", "text/html; charset=utf-8"},
-      {".css", "text/css"},
-      {".js", "text/javascript"},
-      {".svg", "image/svg+xml"},
-      {".jpg", "image/jpeg"},
-      {".png", "image/png"}};
-  for (const auto& [extension, type] : types)
-    if (path.ends_with(extension)) return type;
-  return "application/octet-stream";
-}
-
-// What a page may load and run. The studio runs only its own files; a rendered picture's page has
-// its scripts in itself, and asks nothing of the program.
-constexpr const char* studio_policy =
-    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self'; connect-src 'self'; "
-    "base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+// What the page of a rendered picture may load and run: it has its scripts in itself, and asks
+// nothing of the program.
 constexpr const char* rendered_policy =
     "default-src 'none'; script-src 'self' 'unsafe-inline'; style-src 'self' 'unsafe-inline'; "
     "img-src 'self' blob: data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
@@ -66,21 +48,6 @@ std::string kind_of(const std::string& name) {
 
 }  // namespace
 
-// A page's own files.
-HttpAnswer StudioState::file(const std::string& name) {
-  const std::string path = name.empty() ? "index.html" : name;
-  for (const std::string_view extension : {".html", ".css", ".js", ".svg"})
-    if (path.ends_with(extension)) {
-      const std::string stem = path.substr(0, path.size() - extension.size());
-      const std::vector<std::string> all = embedded_names("studio");
-      if (std::find(all.begin(), all.end(), stem) == all.end()) break;
-      return {.type = type_of(path),
-              .body = std::string(embedded_file("studio/" + path)),
-              .headers = {{"Content-Security-Policy", studio_policy}}};
-    }
-  return not_found("page");
-}
-
 // The page of the last rendered picture; nothing outside its folder.
 HttpAnswer StudioState::rendered(const std::string& name) {
   const Job::Report report = render->report();
@@ -89,7 +56,7 @@ HttpAnswer StudioState::rendered(const std::string& name) {
   const fs::path path = fs::weakly_canonical(folder / name);
   if (!path.string().starts_with(folder.string() + "/") || !fs::is_regular_file(path))
     return not_found("file");
-  return {.type = type_of(path.string()),
+  return {.type = media_type(path.string()),
           .body = read_bytes(path),
           .headers = {{"Content-Security-Policy", rendered_policy}}};
 }

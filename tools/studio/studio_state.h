@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -13,9 +12,10 @@
 #include "base/run.h"
 #include "renderer/scene/scene_file.h"
 #include "tools/studio/answers.h"
+#include "tools/studio/file_owner.h"
 #include "tools/studio/http_server.h"
+#include "tools/studio/page_answers.h"
 #include "tools/studio/picture_queue.h"
-#include "tools/studio/scene_owner.h"
 #include "tools/studio/scene_session.h"
 #include "tools/studio/studio_parameters.h"
 
@@ -44,7 +44,6 @@ struct StudioState {
   // What the page asks about the last picture: pointer, values left open, notes.
   void remember(std::shared_ptr<const LivePicture> made, std::vector<std::string> told);
 
-  HttpAnswer file(const std::string& name);
   HttpAnswer rendered(const std::string& name);
   HttpAnswer picture(const HttpRequest& request);
   HttpAnswer tiles(const HttpRequest& request);
@@ -63,7 +62,7 @@ struct StudioState {
   std::vector<DerivedValue> derived;
   std::vector<std::string> notes;
   std::shared_ptr<const LivePicture> last;  // under the pointer
-  SceneOwner owner;
+  FileOwner owner;
   const Run& run;
   std::mutex proposals_mutex;
   std::weak_ptr<const Dem> proposals_of;
@@ -73,18 +72,8 @@ struct StudioState {
   const OpenPlace open_place;
   std::unique_ptr<Job> render;
   std::unique_ptr<Job> fetch;
-  std::atomic<std::int64_t> closed_ms = 0;  // when the page said so; 0: it is open
+  PageVisits visits;
   std::optional<HttpServer> server;
 };
-
-inline HttpAnswer json_answer(const Json& json, int status = 200) {
-  return {.status = status, .body = json.str() + "\n"};
-}
-inline HttpAnswer picture_answer(std::string bytes, const std::string& type) {
-  return {.type = type, .body = std::move(bytes)};
-}
-inline HttpAnswer not_found(const std::string& what) {
-  return {.status = 404, .type = "text/plain", .body = "no such " + what + "\n"};
-}
 
 }  // namespace belvedere::tools

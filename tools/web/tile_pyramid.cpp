@@ -17,17 +17,17 @@
 namespace belvedere::tools {
 namespace {
 
-// One level of the picture: collects rows until they make a row of tiles, writes these, and passes
+// One level of the picture: collects rows until they make a row of tiles, cuts these, and passes
 // the rows on to the next level.
 class Level {
  public:
-  Level(std::string folder, int width, int height, const TileParameters& parameters)
-      : folder_(std::move(folder)),
-        parameters_(parameters),
-        band_(width, std::min(height, parameters.tile_px)),
+  Level(int number, int width, int height, int tile_px, const TakeTile& take_tile)
+      : number_(number),
+        tile_px_(tile_px),
+        take_tile_(take_tile),
+        band_(width, std::min(height, tile_px)),
         height_(height) {
-    std::filesystem::create_directories(folder_);
-    if (std::max(width, height) <= parameters_.tile_px) return;
+    if (std::max(width, height) <= tile_px_) return;
     reducer_ = std::make_unique<RowReducer>(width, height, 2);
   }
 
@@ -38,7 +38,7 @@ class Level {
   void take(const Grid<glm::vec3>& encoded) {
     for (int y = 0; y < encoded.height(); ++y) {
       std::copy_n(encoded.row(y), encoded.width(), band_.row(filled_));
-      if (++filled_ == band_.height() || written_ + filled_ == height_) write();
+      if (++filled_ == band_.height() || taken_ + filled_ == height_) cut();
     }
   }
   // Rows of the next level; often none.
@@ -47,51 +47,66 @@ class Level {
   }
 
  private:
-  void write() {
-    const int row = written_ / parameters_.tile_px;
-    const int across = (band_.width() + parameters_.tile_px - 1) / parameters_.tile_px;
+  void cut() {
+    const int row = taken_ / tile_px_;
+    const int across = (band_.width() + tile_px_ - 1) / tile_px_;
     parallel_rows(across, [&](int column) {
-      const int x0 = column * parameters_.tile_px;
-      const PixelRect tile{x0, 0, std::min(x0 + parameters_.tile_px, band_.width()), filled_};
-      write_jpeg(fmt::format("{}/{}_{}.jpg", folder_, column, row), part_of(band_, tile),
-                 parameters_.quality);
+      const int x0 = column * tile_px_;
+      const PixelRect tile{x0, 0, std::min(x0 + tile_px_, band_.width()), filled_};
+      take_tile_(number_, column, row, part_of(band_, tile));
     });
-    written_ += filled_;
+    taken_ += filled_;
     filled_ = 0;
   }
 
-  std::string folder_;
-  TileParameters parameters_;
+  int number_;
+  int tile_px_;
+  const TakeTile& take_tile_;
   Grid<glm::vec3> band_;
   int height_;
-  int filled_ = 0;   // rows of the band
-  int written_ = 0;  // rows of the picture
+  int filled_ = 0;  // rows of the band
+  int taken_ = 0;   // rows of the picture
   std::unique_ptr<RowReducer> reducer_;
 };
 
 }  // namespace
 
-TilePyramid write_tile_pyramid(const std::string& picture, const std::string& folder,
-                               const TileParameters& parameters, Progress& progress) {
-  const ImageInfo info = read_image_info(picture);
+TilePyramid cut_into_tiles(int width, int height, int tile_px, const ReadRows& read,
+                           const TakeTile& take) {
   std::vector<std::unique_ptr<Level>> levels;
-  for (int width = info.width, height = info.height;;) {
-    levels.push_back(std::make_unique<Level>(fmt::format("{}/{}", folder, levels.size()), width,
-                                             height, parameters));
+  for (int w = width, h = height;;) {
+    levels.push_back(std::make_unique<Level>(static_cast<int>(levels.size()), w, h, tile_px, take));
     if (levels.back()->last()) break;
-    width = levels.back()->next_width();
-    height = levels.back()->next_height();
+    w = levels.back()->next_width();
+    h = levels.back()->next_height();
   }
-  progress.begin("cutting the picture into tiles", info.height);
-  read_picture_rows(picture, [&](int, const Grid<glm::vec3>& rows) {
+  read([&](const Grid<glm::vec3>& rows) {
     Grid<glm::vec3> encoded = rows;
     for (std::size_t k = 0; k < levels.size() && encoded.height() > 0; ++k) {
       levels[k]->take(encoded);
       if (!levels[k]->last()) encoded = levels[k]->smaller(encoded);
     }
-    progress.advance(rows.height());
   });
-  return {info.width, info.height, parameters.tile_px, static_cast<int>(levels.size())};
+  return {width, height, tile_px, static_cast<int>(levels.size())};
+}
+
+TilePyramid write_tile_pyramid(const std::string& picture, const std::string& folder,
+                               const TileParameters& parameters, Progress& progress) {
+  const ImageInfo info = read_image_info(picture);
+  progress.begin("cutting the picture into tiles", info.height);
+  return cut_into_tiles(
+      info.width, info.height, parameters.tile_px,
+      [&](const TakeRows& take) {
+        read_picture_rows(picture, [&](int, const Grid<glm::vec3>& rows) {
+          take(rows);
+          progress.advance(rows.height());
+        });
+      },
+      [&](int level, int column, int row, const Grid<glm::vec3>& tile) {
+        const std::string place = fmt::format("{}/{}", folder, level);
+        std::filesystem::create_directories(place);
+        write_jpeg(fmt::format("{}/{}_{}.jpg", place, column, row), tile, parameters.quality);
+      });
 }
 
 }  // namespace belvedere::tools

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <functional>
+#include <glm/vec3.hpp>
 #include <string>
 
+#include "base/grid.h"
 #include "base/progress.h"
 
 namespace belvedere::tools {
@@ -19,9 +22,20 @@ struct TilePyramid {
   int levels = 0;  // each has half the pixels per side of the previous one; the last is one tile
 };
 
-// Writes FOLDER/LEVEL/COLUMN_ROW.jpg, reading the picture once from top to bottom: memory holds a
-// row of tiles of each level. Smaller levels are means in linear light. The folder must exist.
-// Error(input) for a picture that cannot be read, Error(output).
+// Takes a tile, of encoded RGB; called from several threads.
+using TakeTile =
+    std::function<void(int level, int column, int row, const Grid<glm::vec3>& encoded)>;
+// Hands over the rows of a picture in strips from top to bottom, of encoded RGB.
+using TakeRows = std::function<void(const Grid<glm::vec3>& encoded)>;
+using ReadRows = std::function<void(const TakeRows& take)>;
+
+// Cuts a picture of that size into tiles. Memory holds a row of tiles of each level; smaller levels
+// are means in linear light.
+TilePyramid cut_into_tiles(int width, int height, int tile_px, const ReadRows& read,
+                           const TakeTile& take);
+
+// Writes FOLDER/LEVEL/COLUMN_ROW.jpg, reading the picture once from top to bottom. The folder must
+// exist. Error(input) for a picture that cannot be read, Error(output).
 TilePyramid write_tile_pyramid(const std::string& picture, const std::string& folder,
                                const TileParameters& parameters, Progress& progress);
 

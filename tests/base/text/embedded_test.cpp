@@ -20,8 +20,8 @@ using testing::IsEmpty;
 
 TEST(Embedded, EveryFileOfTheDataFoldersToTheByte) {
   int files = 0;
-  for (const char* folder :
-       {"palettes", "legends", "layers", "sheet", "studio", "report", "segment", "sources"}) {
+  for (const char* folder : {"palettes", "legends", "layers", "sheet", "studio", "pick", "report",
+                             "segment", "sources"}) {
     for (const auto& entry :
          fs::directory_iterator(fs::path(test::source_folder()) / "data" / folder)) {
       const std::string name = std::string(folder) + "/" + entry.path().filename().string();

@@ -9,6 +9,7 @@
 #include "base/statistics.h"
 #include "renderer/register/registered_ground.h"
 #include "renderer/register/registered_scene.h"
+#include "renderer/register/registered_view.h"
 #include "terrain/io/raster_io.h"
 #include "tests/grids.h"
 #include "tests/terrain/register/synthetic_view.h"
@@ -35,8 +36,8 @@ Dem hilly_dem() {
 
 // The ground that a registration shows, lit from the left, below a pale sky.
 Grid<glm::vec3> painted(const Registration& truth, const Dem& dem, glm::ivec2 size) {
-  const RegisteredGround ground = trace_registered(truth, registered_scene(truth, {1200, 550}), dem,
-                                                   size, silent_progress());
+  const RegisteredGround ground = trace_registered(
+      RegisteredView(truth, registered_scene(truth, {1200, 550}), dem, size, silent_progress()));
   const glm::vec3 sun = glm::normalize(glm::vec3(-1.F, 0.4F, 0.7F));
   Grid<glm::vec3> out(size.x, size.y, glm::vec3(0.8F, 0.88F, 0.95F));
   for (std::size_t i = 0; i < out.size(); ++i)

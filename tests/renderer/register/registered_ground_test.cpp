@@ -30,8 +30,8 @@ TEST(RegisteredGround, IsTheGroundThatTheRegistrationShows) {
   });
   ASSERT_GE(pairs.size(), 12U);
   const Registration found = register_pairs(pairs, {1200, 550});
-  const RegisteredGround ground = trace_registered(found, registered_scene(found, {1200, 550}), dem,
-                                                   {300, 138}, silent_progress());
+  const RegisteredGround ground = trace_registered(RegisteredView(
+      found, registered_scene(found, {1200, 550}), dem, {300, 138}, silent_progress()));
   EXPECT_EQ(ground.folded, 0U);
   int near = 0;
   for (const ControlPair& pair : pairs) {

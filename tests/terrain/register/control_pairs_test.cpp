@@ -111,5 +111,43 @@ TEST(ControlPairs, FaultsNameLineAndColumn) {
   EXPECT_THAT(refusal(header + rows(7)), HasSubstr("7 pairs"));
 }
 
+TEST(ControlPairs, AreWrittenAsTheyAreRead) {
+  const std::vector<ControlPair> pairs = [] {
+    std::vector<ControlPair> out =
+        parse_control_pairs(header + rows(3), "pairs.csv", {1200, 550}, tilted_dem(),
+                            {.min_pairs = 0, .other_columns = false});
+    out[0].pixel = {0.1, 549.9};
+    out[0].name = "Spitze, \"große\"";
+    out[1].name = " ; ";
+    out[2].sure = true;
+    return out;
+  }();
+  const std::string text = control_pairs_text(pairs);
+  EXPECT_THAT(text, HasSubstr(header));
+  const std::vector<ControlPair> again =
+      parse_control_pairs(text, "pairs.csv", {1200, 550}, tilted_dem(), {.min_pairs = 3});
+  ASSERT_EQ(again.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(again[i].pixel, pairs[i].pixel);
+    EXPECT_EQ(again[i].lonlat, pairs[i].lonlat);
+    EXPECT_EQ(again[i].position, pairs[i].position);
+    EXPECT_EQ(again[i].name, pairs[i].name);
+    EXPECT_EQ(again[i].sure, i == 2);
+  }
+  EXPECT_EQ(control_pairs_text(again), text);
+  EXPECT_EQ(control_pairs_text({}), header);
+}
+
+TEST(ControlPairs, ColumnsThatWouldBeLostAreRefusedBeforeWriting) {
+  const std::string text = "x_px,y_px,lon,lat,name,who\n";
+  EXPECT_TRUE(parse_control_pairs(text, "p", {1200, 550}, tilted_dem(), {.min_pairs = 0}).empty());
+  const Error refused = test::error_of([&] {
+    parse_control_pairs(text, "p", {1200, 550}, tilted_dem(),
+                        {.min_pairs = 0, .other_columns = false});
+  });
+  EXPECT_EQ(refused.kind(), ErrorKind::usage);
+  EXPECT_THAT(refused.what(), HasSubstr("p:1: has a column who"));
+}
+
 }  // namespace
 }  // namespace belvedere

@@ -10,6 +10,7 @@
 #include "base/math.h"
 #include "base/random.h"
 #include "base/statistics.h"
+#include "tests/files.h"
 #include "tests/terrain/register/synthetic_view.h"
 
 namespace belvedere {
@@ -175,6 +176,41 @@ TEST(Registration, APaintingFourTimesAsLargeIsTheSame) {
   EXPECT_EQ(large.scale, 4.0);
   for (std::size_t i = 0; i < pairs.size(); ++i)
     EXPECT_NEAR(large.findings[i].others_px, 4.0 * small.findings[i].others_px, 1e-9);
+}
+
+TEST(Registration, FewPairsSayHowLittleTheyKnow) {
+  double unsure_px = 20.0;
+  for (const std::size_t count : {5U, 6U, 7U, 20U}) {
+    test::SyntheticView truth;
+    const std::vector<ControlPair> pairs = painted_pairs(count, 1.0, false, truth);
+    const Registration found = register_pairs(pairs, {1200, 550}, {.view = {}, .sigma_px = 1.0});
+    const DisplacementField field(found.displacement);
+    std::vector<double> share, sigma;  // off, of its deviation
+    for (const ControlPair& place : test::synthetic_places(200, 77)) {
+      sigma.push_back(registered_sigma_px(found, field, place.position, place.altitude_m));
+      share.push_back(glm::length(registered_pixel(found, field, place.position, place.altitude_m) -
+                                  test::pixel_of(truth, place)) /
+                      sigma.back());
+    }
+    EXPECT_LT(median(share), 3.0) << count;  // 1.2 for a normal distribution in both directions
+    EXPECT_LT(median(sigma), unsure_px) << count << " pairs know more";
+    unsure_px = median(sigma);
+  }
+  test::SyntheticView truth;
+  EXPECT_THROW(register_pairs(painted_pairs(4, 1.0, false, truth), {1200, 550}), Error);
+}
+
+TEST(Registration, EndsWhenItIsNoLongerWanted) {
+  class Unwanted : public Progress {
+   public:
+    void advance(double) override { throw Error(ErrorKind::interrupted, "pairs", "superseded"); }
+  } progress;
+  test::SyntheticView truth;
+  const std::vector<ControlPair> pairs = painted_pairs(20, 1.0, false, truth);
+  EXPECT_EQ(test::error_of([&] {
+              register_pairs(pairs, {1200, 550}, {}, progress);
+            }).kind(),
+            ErrorKind::interrupted);
 }
 
 }  // namespace

@@ -115,7 +115,8 @@ TEST_F(ExemplarCheck, RefusesWhatCannotBeMeant) {
     EXPECT_THAT(outcome.err, HasSubstr(words));
   };
   refused(2, {"exemplar"},
-          "missing subcommand of belvedere exemplar\n  allowed: check, paint, register, segment;");
+          "missing subcommand of belvedere exemplar\n  allowed: check, paint, pick, register, "
+          "segment;");
   refused(2, {"exemplar", "check", "--label", label_}, "--picture is missing");
   refused(2, {"exemplar", "check", "--picture", style_}, "1 --picture but 0 --label");
   refused(2, {"exemplar", "check", "scene.toml", "--picture", style_, "--label", label_},

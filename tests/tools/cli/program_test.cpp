@@ -26,7 +26,7 @@ TEST(ProgramRun, AsksForTheCommandAndNamesTheNearest) {
   EXPECT_THAT(refused_run({"exemplar", "chekc"}),
               HasSubstr("belvedere exemplar has no command \"chekc\"; did you mean \"check\"?"));
   EXPECT_THAT(refused_run({"exemplar", "render"}),
-              HasSubstr("allowed: check, paint, register, segment;"));
+              HasSubstr("allowed: check, paint, pick, register, segment;"));
   EXPECT_THAT(refused_run({"--nonsense"}), HasSubstr("missing subcommand of belvedere"));
   // If the command is found, the error is in what follows.
   EXPECT_THAT(refused_run({"diff", "a"}), Not(HasSubstr("missing subcommand")));

@@ -57,9 +57,9 @@ TEST_F(BashCompletion, CompletesCommands) {
   EXPECT_THAT(completed("ren"), ElementsAre("render"));
   EXPECT_THAT(completed("\"\""),
               AllOf(Contains("render"), Contains("exemplar"), Not(Contains("paint"))));
-  EXPECT_THAT(completed("exemplar p"), ElementsAre("paint"));
+  EXPECT_THAT(completed("exemplar pa"), ElementsAre("paint"));
   EXPECT_THAT(completed("exemplar \"\""),
-              UnorderedElementsAre("check", "paint", "register", "segment"));
+              UnorderedElementsAre("check", "paint", "pick", "register", "segment"));
 }
 
 TEST_F(BashCompletion, CompletesOptionsOfTheCommandThatStandsThere) {

@@ -117,5 +117,17 @@ TEST(RequestBody, MembersThatAreWholeNumbers) {
         << body;
 }
 
+TEST(RequestBody, PointsAndFlagsAreThereOrNot) {
+  const std::string body = R"({"pixel": [1.5, -2], "sure": true, "one": [1], "text": "yes"})";
+  EXPECT_EQ(read_point_member(body, "pixel"), glm::dvec2(1.5, -2.0));
+  EXPECT_FALSE(read_point_member(body, "position"));
+  EXPECT_EQ(read_flag_member(body, "sure"), true);
+  EXPECT_FALSE(read_flag_member(body, "other"));
+  for (const char* name : {"one", "sure", "text"})
+    EXPECT_EQ(test::kind_of([&] { read_point_member(body, name); }), ErrorKind::usage) << name;
+  for (const char* name : {"pixel", "text"})
+    EXPECT_EQ(test::kind_of([&] { read_flag_member(body, name); }), ErrorKind::usage) << name;
+}
+
 }  // namespace
 }  // namespace belvedere::tools

@@ -4,7 +4,6 @@
 #include <array>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <sstream>
 
 #include "base/error.h"
@@ -17,14 +16,14 @@
 #include "renderer/register/registered_ground.h"
 #include "renderer/register/registered_light.h"
 #include "renderer/register/registered_scene.h"
+#include "renderer/register/registered_view.h"
 #include "renderer/scene/scene_file.h"
 #include "terrain/register/control_pairs.h"
 #include "terrain/register/registration.h"
 #include "tools/cli/commands.h"
+#include "tools/cli/exemplar/register_options.h"
 #include "tools/cli/file_names.h"
 #include "tools/cli/terminal.h"
-#include "tools/options/options.h"
-#include "tools/options/run_options.h"
 #include "tools/report/register_page.h"
 #include "tools/report/report_pictures.h"
 
@@ -37,36 +36,10 @@ constexpr std::array<std::string_view, 6> about = {"terrain", "deform",        "
                                                    "sun",     "light.regions", "output"};
 constexpr int register_report_px = 1400;  // longest side of the pictures of the report
 
-struct RegisterOptions : RunOptions {
-  std::string painting, pairs, out, crs, projection = "auto";
-  std::vector<std::string> dems;
-  double cell_m = 0.0;
-  std::optional<double> sigma_px;
-  bool cropped = false;
+struct RegisterCommand : RegisterOptions {
+  std::string out;
   bool pairs_only = false;
 };
-
-DemParameters dem_parameters(const RegisterOptions& options) {
-  DemParameters out;
-  for (const std::string& path : options.dems) {
-    RasterSource source;
-    source.path = path;
-    source.crs = options.crs;
-    out.sources.push_back(source);
-  }
-  out.cell_m = options.cell_m;
-  return out;
-}
-
-RegistrationParameters registration_parameters(const RegisterOptions& options) {
-  RegistrationParameters out;
-  out.sigma_px = options.sigma_px;
-  out.view.cropped = options.cropped;
-  if (options.projection != "auto")
-    std::erase_if(out.view.kinds,
-                  [&](ViewKind kind) { return view_kind_name(kind) != options.projection; });
-  return out;
-}
 
 // The scene with its terrain: files by their names, which --data finds.
 Scene scene_with_terrain(const RegisterOptions& options, Scene scene, const Dem& dem,
@@ -133,43 +106,58 @@ Grid<std::uint8_t> excluded_pixels(const Grid<float>& sigma_px, glm::ivec2 paint
   return out;
 }
 
-int run(const RegisterOptions& options) {
-  for (const std::string& file : options.dems)
-    if (!fs::exists(file)) throw Error(ErrorKind::input, file, "no such file");
+// All that is found of a painting.
+struct RegisteredPainting {
+  glm::ivec2 size_px{0};
+  Scene scene;
+  RegisterReportInput report;
+};
+
+RegisteredPainting register_painting(const RegisterCommand& options, Progress& progress) {
+  RegisteredPainting out;
+  progress.begin("reading", 0.0);
+  const Grid<glm::vec3> painting = read_painting(options.painting, progress);
+  out.size_px = {painting.width(), painting.height()};
+  const auto dem = std::make_shared<const Dem>(read_dem(dem_parameters(options), progress));
+  RegisterReportInput& report = out.report;
+  report.painting = file_name(options.painting);
+  report.command = fmt::format("belvedere exemplar register {} … --pairs {}", report.painting,
+                               file_name(options.pairs));
+  report.pairs = read_control_pairs(options.pairs, out.size_px, *dem);
+  progress.begin("registering", 0.0);
+  report.registration =
+      register_pairs(report.pairs, out.size_px, registration_parameters(options), progress);
+  if (!options.pairs_only)
+    report.registration =
+        register_by_paint(report.registration, report.pairs, painting, *dem, progress).registration;
+  const Scene registered = registered_scene(report.registration, out.size_px);
+  progress.begin("drawing", 0.0);
+  report.picture = reduced_picture(painting, register_report_px);
+  report.ground =
+      trace_registered(RegisteredView(report.registration, registered, *dem,
+                                      {report.picture.width(), report.picture.height()}, progress));
+  out.scene = scene_with_terrain(options, registered, *dem, report.ground.folded);
+  report.light = light_of(out.scene, dem, report.picture, progress);
+  light_scene(report.light, out.scene);
+  return out;
+}
+
+int run(const RegisterCommand& options) {
+  check_dems_exist(options);
   check_output_folder(options.out);
   const auto in_folder = [&](const char* name) { return (fs::path(options.out) / name).string(); };
   for (const char* name : {"registered.toml", "exclude.png", "index.html"})
     check_not_read(in_folder(name), "--out", {options.painting, options.pairs});
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
-  progress.begin("reading", 0.0);
-  const Grid<glm::vec3> painting = read_painting(options.painting, progress);
-  const glm::ivec2 size(painting.width(), painting.height());
-  const auto dem = std::make_shared<const Dem>(read_dem(dem_parameters(options), progress));
-  RegisterReportInput input;
-  input.painting = file_name(options.painting);
-  input.pairs = read_control_pairs(options.pairs, size, *dem);
-  progress.begin("registering", 0.0);
-  input.registration = register_pairs(input.pairs, size, registration_parameters(options));
-  if (!options.pairs_only)
-    input.registration =
-        register_by_paint(input.registration, input.pairs, painting, dem, progress).registration;
-  const Scene registered = registered_scene(input.registration, size);
-  progress.begin("drawing", 0.0);
-  input.picture = reduced_picture(painting, register_report_px);
-  input.ground = trace_registered(input.registration, registered, *dem,
-                                  {input.picture.width(), input.picture.height()}, progress);
-  Scene scene = scene_with_terrain(options, registered, *dem, input.ground.folded);
-  input.light = light_of(scene, dem, input.picture, progress);
-  light_scene(input.light, scene);
+  const RegisteredPainting found = register_painting(options, progress);
+  const RegisterReportInput& input = found.report;
   write_text_file(in_folder("registered.toml"),
                   fmt::format("# {} registered to its terrain by belvedere exemplar register.\n{}",
-                              input.painting, registered_sections(write_scene(scene))));
+                              input.painting, registered_sections(write_scene(found.scene))));
   image_io::write_grey_png(
       in_folder("exclude.png"),
-      excluded_pixels(input.ground.sigma_px, size, trusted_px * input.registration.scale));
-  input.command = fmt::format("belvedere exemplar register {} … --pairs {}", input.painting,
-                              file_name(options.pairs));
+      excluded_pixels(input.ground.sigma_px, found.size_px, trusted_px * input.registration.scale));
   write_register_report(options.out, input);
   progress.end();
   if (options.json) {
@@ -194,47 +182,18 @@ int run(const RegisterOptions& options) {
 }  // namespace
 
 Action add_exemplar_register(CommandOptions& command) {
-  const auto options = std::make_shared<RegisterOptions>();
-  command.add_option("PAINTING", options->painting, "A painted panorama or its scan")
-      .required()
-      .type_name("PICTURE");
-  command.add_option("DEM", options->dems, "Elevation of the region that it shows")
-      .required()
-      .type_name("DEM");
-  command
-      .add_option(
-          "--pairs", options->pairs,
-          "Places that are recognized in it: a .csv with columns x_px, y_px, lon, lat, name "
-          "and optionally sure")
-      .required()
-      .type_name("PAIRS");
+  const auto options = std::make_shared<RegisterCommand>();
+  add_register_options(
+      command, *options,
+      "Places that are recognized in it: a .csv with columns x_px, y_px, lon, lat, name "
+      "and optionally sure");
   command
       .add_option("--out", options->out,
                   "Folder for registered.toml, exclude.png and the report; created if missing")
       .required()
       .type_name("DIR");
-  command
-      .add_option("--sigma", options->sigma_px,
-                  "How exactly pixels were clicked: standard deviation in pixels. Default: "
-                  "estimated")
-      .type_name("PX")
-      .range(0.1, 100.0);
-  command
-      .add_option("--projection", options->projection,
-                  "As which projection the painting is fitted. Default: the one that fits best")
-      .one_of({"auto", "perspective", "cylindrical", "panini"});
-  command.add_flag("--cropped", options->cropped,
-                   "The painting was cropped on one side: its middle is not that of the view");
   command.add_flag("--pairs-only", options->pairs_only,
                    "Do not look for the ground's relief in the paint");
-  command.add_option("--crs", options->crs, "CRS of the elevation, where its files do not name it")
-      .type_name("CRS");
-  command
-      .add_option("--cell", options->cell_m,
-                  "Side of the ground's cells in metres. Default: that of the data")
-      .type_name("M")
-      .range(0.1, 10000.0);
-  add_run_options(command, *options);
   command.footer(
       "Finds the place of every pixel of a painting from some forty places that a person\n"
       "recognizes in it, without a first estimate of the view: the view itself, where the\n"

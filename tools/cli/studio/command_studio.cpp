@@ -1,20 +1,16 @@
 #include <fmt/core.h>
-#include <unistd.h>
 
-#include <atomic>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <memory>
-#include <thread>
 
 #include "base/cache/cache.h"
 #include "base/error.h"
-#include "base/text/json.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/new/new_options.h"
 #include "tools/cli/new/new_scene.h"
 #include "tools/cli/scene_options.h"
+#include "tools/cli/studio/serve_page.h"
 #include "tools/cli/terminal.h"
 #include "tools/options/options.h"
 #include "tools/options/refuse.h"
@@ -26,8 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct StudioOptions : SceneOptions {
-  int port = 0;
-  bool headless = false;
+  PageOptions page;
   FetchOptions fetch;  // --at and --size are asked for on the page
 };
 
@@ -68,14 +63,6 @@ std::string scene_of_place(const StudioOptions& options, const std::string& scen
   return new_scene_text(made, run.cache, run.progress);
 }
 
-// As the desktop opens addresses; where there is none the address on the terminal is all.
-void open_browser(const std::string& address) {
-  if (fork() != 0) return;
-  setsid();  // Ctrl-C here does not end a browser that this begins
-  execlp("xdg-open", "xdg-open", address.c_str(), static_cast<char*>(nullptr));
-  _exit(1);
-}
-
 int run_studio(const StudioOptions& options) {
   TerminalProgress progress(options.quiet);
   const Cache cache = make_cache(options);
@@ -84,23 +71,8 @@ int run_studio(const StudioOptions& options) {
   const OpenPlace open = [&](const WantedPlace& place, const Run& given) {
     return scene_of_place(options, scene, place, given);
   };
-  Studio studio({scene, options.files, options.port, open}, run);
-  if (options.headless)
-    print_out(Json::object().add("address", Json::text(studio.address())).str() + "\n");
-  else
-    print_out(fmt::format("{}\nCtrl-C ends it.\n", studio.address()));
-  finish_output();
-  if (!options.headless) open_browser(studio.address());
-  // A signal can only set a flag.
-  std::atomic<bool> ended = false;
-  std::thread watch([&] {
-    while (!interrupted() && !ended && (options.headless || !studio.is_left()))
-      std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    studio.stop();
-  });
-  studio.run();
-  ended = true;
-  watch.join();
+  Studio studio({scene, options.files, options.page.port, open}, run);
+  serve_page(served_page(studio), options.page.headless);
   return 0;
 }
 
@@ -109,11 +81,7 @@ int run_studio(const StudioOptions& options) {
 Action add_studio(CommandOptions& command) {
   const auto options = std::make_shared<StudioOptions>();
   add_scene_options(command, *options, "A scene file, or a DEM of which a scene is made beside it");
-  command.add_option("--port", options->port, "Port of this machine; 0: any that is free")
-      .type_name("N")
-      .range(0, 65535);
-  command.add_flag("--headless", options->headless,
-                   "No browser; the address is printed as JSON, for programs");
+  add_page_options(command, options->page);
   add_source_options(command, options->fetch);
   command.footer(
       "Opens a page on which the scene is composed live: camera, sun, ground, colours. The file is "

@@ -1,0 +1,67 @@
+#include "tools/cli/exemplar/register_options.h"
+
+#include <filesystem>
+
+#include "base/error.h"
+
+namespace belvedere::tools {
+
+void add_register_options(CommandOptions& command, RegisterOptions& options,
+                          const std::string& pairs) {
+  command.add_option("PAINTING", options.painting, "A painted panorama or its scan")
+      .required()
+      .type_name("PICTURE");
+  command.add_option("DEM", options.dems, "Elevation of the region that it shows")
+      .required()
+      .type_name("DEM");
+  command.add_option("--pairs", options.pairs, pairs).required().type_name("PAIRS");
+  command
+      .add_option("--sigma", options.sigma_px,
+                  "How exactly pixels were clicked: standard deviation in pixels. Default: "
+                  "estimated")
+      .type_name("PX")
+      .range(0.1, 100.0);
+  command
+      .add_option("--projection", options.projection,
+                  "As which projection the painting is fitted. Default: the one that fits best")
+      .one_of({"auto", "perspective", "cylindrical", "panini"});
+  command.add_flag("--cropped", options.cropped,
+                   "The painting was cropped on one side: its middle is not that of the view");
+  command.add_option("--crs", options.crs, "CRS of the elevation, where its files do not name it")
+      .type_name("CRS");
+  command
+      .add_option("--cell", options.cell_m,
+                  "Side of the ground's cells in metres. Default: that of the data")
+      .type_name("M")
+      .range(0.1, 10000.0);
+  add_run_options(command, options);
+}
+
+DemParameters dem_parameters(const RegisterOptions& options) {
+  DemParameters out;
+  for (const std::string& path : options.dems) {
+    RasterSource source;
+    source.path = path;
+    source.crs = options.crs;
+    out.sources.push_back(source);
+  }
+  out.cell_m = options.cell_m;
+  return out;
+}
+
+RegistrationParameters registration_parameters(const RegisterOptions& options) {
+  RegistrationParameters out;
+  out.sigma_px = options.sigma_px;
+  out.view.cropped = options.cropped;
+  if (options.projection != "auto")
+    std::erase_if(out.view.kinds,
+                  [&](ViewKind kind) { return view_kind_name(kind) != options.projection; });
+  return out;
+}
+
+void check_dems_exist(const RegisterOptions& options) {
+  for (const std::string& file : options.dems)
+    if (!std::filesystem::exists(file)) throw Error(ErrorKind::input, file, "no such file");
+}
+
+}  // namespace belvedere::tools

@@ -1,0 +1,219 @@
+#include "tools/pick/pairs_fitter.h"
+
+#include <algorithm>
+#include <exception>
+#include <utility>
+
+#include "base/math_exact.h"
+#include "renderer/register/registered_ground.h"
+#include "renderer/register/registered_scene.h"
+
+namespace belvedere::tools {
+namespace {
+
+constexpr int lines_width_px = 1400;  // of the picture in which skyline and ridges are looked for
+
+Error superseded() {
+  return {ErrorKind::interrupted, "pairs", "superseded", "the present revision"};
+}
+
+glm::ivec2 traced_size(glm::ivec2 painting_px) {
+  const int width = std::min(lines_width_px, painting_px.x);
+  return {width, std::max(1, painting_px.y * width / painting_px.x)};
+}
+
+FittedPairs fit_pairs(const PairsFitterInput& input, std::uint64_t revision,
+                      const std::vector<ControlPair>& pairs, Progress& progress) {
+  FittedPairs out{
+      .revision = revision,
+      .pairs = pairs,
+      .registration = register_pairs(pairs, input.painting_px, input.registration, progress),
+      .field = {},
+      .places = {}};
+  out.field = DisplacementField(out.registration.displacement);
+  for (const KnownPlace& place : input.places)
+    out.places.push_back(propose_pixel(out.registration, out.field, place));
+  return out;
+}
+
+// A line in pieces, since far ground may be unsure where near ground is not.
+void add_pieces(std::vector<DrawnLine>& out, const SeenLine& line, const RegisteredView& view,
+                const DisplacementField& field, float scale) {
+  constexpr std::size_t piece = 40;  // points
+  const Registration& found = view.registration();
+  for (std::size_t from = 0; from + 1 < line.points.size(); from += piece) {
+    const std::size_t to = std::min(from + piece + 1, line.points.size());  // joined to the next
+    const glm::vec2 middle = line.points[(from + to) / 2];
+    const auto ground = view.map().to_geo(glm::dvec2(middle.x, middle.y + 0.5F));
+    DrawnLine& drawn = out.emplace_back();
+    drawn.line.skyline = line.skyline;
+    if (ground)
+      drawn.sigma_px = exact::hypot(
+          found.sigma_px, registered_sigma_px(found, field, ground->position, ground->altitude_m));
+    for (std::size_t i = from; i < to; ++i) drawn.line.points.push_back(scale * line.points[i]);
+  }
+}
+
+FittedTerrain terrain_of(const PairsFitterInput& input, const FittedPairs& fit,
+                         Progress& progress) {
+  FittedTerrain out{
+      .view = nullptr, .lines = {}, .seen = std::vector<bool>(input.places.size(), true)};
+  if (fit.pairs.size() < min_control_pairs) return out;
+  const glm::ivec2 size = traced_size(input.painting_px);
+  const float scale = static_cast<float>(input.painting_px.x) / static_cast<float>(size.x);
+  out.view = std::make_unique<const RegisteredView>(
+      fit.registration, registered_scene(fit.registration, input.painting_px), input.drawn, size,
+      progress);
+  progress.advance(0.0);
+  for (const SeenLine& line : seen_lines(trace_registered(*out.view)))
+    add_pieces(out.lines, line, *out.view, fit.field, scale);
+  for (std::size_t i = 0; i < input.places.size(); ++i) {
+    progress.advance(0.0);
+    out.seen[i] = is_seen(*out.view, input.places[i]);
+  }
+  return out;
+}
+
+}  // namespace
+
+Dem highest_cells(const Dem& dem, std::size_t max_cells) {
+  int n = 1;
+  const auto cells = [&] {
+    return static_cast<std::size_t>(dem.width() / n) * static_cast<std::size_t>(dem.height() / n);
+  };
+  while (cells() > max_cells) ++n;
+  if (n == 1) return dem;
+  Dem out;
+  out.crs = dem.crs;
+  out.transform = dem.transform;
+  out.transform.cell_x *= n;
+  out.transform.cell_y *= n;
+  out.altitude_m = Grid<float>(dem.width() / n, dem.height() / n);
+  out.filled = Grid<std::uint8_t>(dem.width() / n, dem.height() / n);
+  for (int y = 0; y < out.height(); ++y)
+    for (int x = 0; x < out.width(); ++x) {
+      float highest = dem.altitude_m(n * x, n * y);
+      bool filled = true;
+      for (int dy = 0; dy < n; ++dy)
+        for (int dx = 0; dx < n; ++dx) {
+          highest = std::max(highest, dem.altitude_m(n * x + dx, n * y + dy));
+          filled = filled && !dem.filled.empty() && dem.filled(n * x + dx, n * y + dy) != 0;
+        }
+      out.altitude_m(x, y) = highest;
+      out.filled(x, y) = filled ? 1 : 0;
+    }
+  return out;
+}
+
+// Ends work whose pairs are no longer the newest.
+class PairsFitter::WhileNewest : public Progress {
+ public:
+  WhileNewest(const PairsFitter& fitter, std::uint64_t revision)
+      : fitter_(fitter), revision_(revision) {}
+  void begin(std::string_view, double) override { check(); }
+  void advance(double) override { check(); }
+
+ private:
+  void check() const {
+    const std::lock_guard lock(fitter_.mutex_);
+    if (fitter_.ended_ || fitter_.newest_ != revision_) throw superseded();
+  }
+  const PairsFitter& fitter_;
+  std::uint64_t revision_;
+};
+
+PairsFitter::PairsFitter(PairsFitterInput input)
+    : input_(std::move(input)), thread_([this] { work(); }) {}
+
+PairsFitter::~PairsFitter() {
+  end();
+  thread_.join();
+}
+
+void PairsFitter::end() {
+  const std::lock_guard lock(mutex_);
+  ended_ = true;
+  changed_.notify_all();
+}
+
+void PairsFitter::fit(std::uint64_t revision, std::vector<ControlPair> pairs) {
+  const std::lock_guard lock(mutex_);
+  newest_ = revision;
+  pairs_ = std::move(pairs);
+  changed_.notify_all();
+}
+
+void PairsFitter::work() {
+  for (;;) {
+    std::uint64_t revision = 0;
+    std::vector<ControlPair> pairs;
+    {
+      std::unique_lock lock(mutex_);
+      changed_.wait(lock, [&] { return ended_ || newest_ != done_; });
+      if (ended_) return;
+      revision = newest_;
+      pairs = pairs_;
+      error_.reset();
+    }
+    std::optional<Error> error;
+    try {
+      fit_newest(revision, pairs);
+    } catch (const Error& caught) {
+      error = caught;
+    } catch (const std::exception& caught) {  // memory
+      error = Error(ErrorKind::limit, "pairs", caught.what());
+    }
+    const std::lock_guard lock(mutex_);
+    error_ = std::move(error);
+    done_ = revision;
+    changed_.notify_all();
+  }
+}
+
+void PairsFitter::fit_newest(std::uint64_t revision, const std::vector<ControlPair>& pairs) {
+  WhileNewest progress(*this, revision);
+  if (pairs.size() < min_fitted_pairs) {
+    const std::lock_guard lock(mutex_);
+    latest_ = {};
+    return;
+  }
+  const auto fit =
+      std::make_shared<const FittedPairs>(fit_pairs(input_, revision, pairs, progress));
+  {
+    const std::lock_guard lock(mutex_);
+    latest_ = {fit, nullptr};
+    changed_.notify_all();
+  }
+  auto terrain = std::make_shared<const FittedTerrain>(terrain_of(input_, *fit, progress));
+  const std::lock_guard lock(mutex_);
+  latest_.terrain = std::move(terrain);
+}
+
+PairsFitter::Latest PairsFitter::wait(std::uint64_t revision, bool for_terrain) {
+  const auto is_there = [&] {
+    return latest_.fit != nullptr && latest_.fit->revision == revision &&
+           (!for_terrain || latest_.terrain != nullptr);
+  };
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock,
+                [&] { return ended_ || newest_ != revision || done_ == revision || is_there(); });
+  if (ended_ || newest_ != revision) throw superseded();
+  if (is_there()) return latest_;
+  if (error_) throw *error_;
+  return {};
+}
+
+std::shared_ptr<const FittedPairs> PairsFitter::fitted(std::uint64_t revision) {
+  return wait(revision, false).fit;
+}
+
+std::shared_ptr<const FittedTerrain> PairsFitter::terrain(std::uint64_t revision) {
+  return wait(revision, true).terrain;
+}
+
+PairsFitter::Latest PairsFitter::latest() const {
+  const std::lock_guard lock(mutex_);
+  return latest_;
+}
+
+}  // namespace belvedere::tools

@@ -1,0 +1,337 @@
+#include "tools/pick/picking.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include "base/error.h"
+#include "base/filter.h"
+#include "terrain/io/crs.h"
+#include "tools/pick/pairs_fitter.h"
+#include "tools/pick/pairs_session.h"
+#include "tools/pick/pick_answers.h"
+#include "tools/pick/picture_tiles.h"
+#include "tools/pick/relief_map.h"
+#include "tools/studio/answers.h"
+#include "tools/studio/page_answers.h"
+#include "tools/studio/request_body.h"
+
+namespace belvedere::tools {
+namespace {
+
+constexpr std::size_t max_drawn_cells = 1'000'000;  // of the DEM for skyline and ridges
+constexpr std::size_t max_proposals = 3;
+
+double number_of(const HttpRequest& request, const std::string& name, double min, double max) {
+  const std::string text = request.value(name);
+  double value = 0.0;
+  const auto [stop, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (problem != std::errc() || stop != text.data() + text.size() ||
+      !(value >= min && value <= max))
+    throw Error(ErrorKind::usage, name, fmt::format("\"{}\"", text),
+                fmt::format("a number, {} … {}", min, max));
+  return value;
+}
+
+// One line of text.
+std::string one_line(std::string text) {
+  constexpr std::size_t longest = 200;
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < ' ') c = ' ';
+  if (text.size() > longest)
+    throw Error(ErrorKind::usage, "name", "has more than 200 bytes", "a shorter name");
+  return text;
+}
+
+std::uint64_t asked_revision(const HttpRequest& request) {
+  return static_cast<std::uint64_t>(number_of(request, "revision", 0.0, 1e15));
+}
+
+glm::dvec2 rounded_to(glm::dvec2 at, double digits) {
+  return {std::round(at.x * digits) / digits, std::round(at.y * digits) / digits};
+}
+
+}  // namespace
+
+// Members in the order in which they need each other.
+struct PickingState {
+  PickingState(PickingInput given, Progress& progress);
+
+  HttpAnswer route(const HttpRequest& request);
+  HttpAnswer change_pairs(const std::string& name, const std::string& body);
+  HttpAnswer change_all(const std::function<void()>& change);
+  void edit(const std::string& name, const std::string& body);
+  ControlPair edited(ControlPair pair, const std::string& body) const;
+  std::size_t pair_number(const std::string& body) const;
+  std::optional<KnownPlace> ground_at(glm::dvec2 position) const;
+  KnownPlace place_at(glm::dvec2 position) const;
+  HttpAnswer place(const HttpRequest& request);
+  HttpAnswer places(const HttpRequest& request);
+  static HttpAnswer tile(const PictureTiles& tiles, const std::string& name);
+
+  const Dem dem;
+  const glm::ivec2 painting_px;
+  std::mutex mutex;  // of the session
+  PairsSession session;
+  PickingSetup setup;
+  PictureTiles painting;
+  PictureTiles map;
+  const Dem drawn;
+  PairsFitter fitter;
+  PageVisits visits;
+  std::optional<HttpServer> server;
+};
+
+namespace {
+
+PickingSetup make_setup(const PickingInput& given, const Dem& dem, Progress& progress) {
+  progress.begin("looking for summits", 0.0);
+  PickingSetup out;
+  out.painting = given.painting_name;
+  out.next = given.next;
+  out.crs = describe_crs(dem.crs);
+  out.map_origin = {dem.transform.origin_x, dem.transform.origin_y};
+  out.places = known_places(dem, given.named);
+  return out;
+}
+
+PictureTiles make_map(const Dem& dem, PickingSetup& setup, Progress& progress) {
+  progress.begin("drawing the map", 0.0);
+  const ReliefMap relief = relief_map(dem);
+  setup.map_px_m = static_cast<double>(relief.cells_per_px) *
+                   glm::dvec2(dem.transform.cell_x, dem.transform.cell_y);
+  PictureTiles out = picture_tiles(relief.picture);
+  setup.map_tiles = out.pyramid;
+  return out;
+}
+
+PictureTiles make_painting(const Grid<glm::vec3>& picture, PickingSetup& setup,
+                           Progress& progress) {
+  progress.begin("cutting the painting into tiles", 0.0);
+  PictureTiles out = picture_tiles(picture);
+  setup.painting_tiles = out.pyramid;
+  return out;
+}
+
+}  // namespace
+
+PickingState::PickingState(PickingInput given, Progress& progress)
+    : dem(std::move(given.dem)),
+      painting_px(given.painting.width(), given.painting.height()),
+      session(given.pairs, painting_px, dem),
+      setup(make_setup(given, dem, progress)),
+      painting(make_painting(given.painting, setup, progress)),
+      map(make_map(dem, setup, progress)),
+      drawn(highest_cells(dem, max_drawn_cells)),
+      fitter({drawn, setup.places, painting_px, given.registration}) {
+  fitter.fit(session.revision(), session.pairs());
+}
+
+HttpAnswer PickingState::tile(const PictureTiles& tiles, const std::string& name) {
+  const auto found = tiles.files.find(name);
+  if (found == tiles.files.end()) return not_found("tile");
+  return picture_answer(found->second, "image/jpeg");
+}
+
+// ---- changes
+
+std::size_t PickingState::pair_number(const std::string& body) const {
+  const int number = read_number_member(body, "pair", -1);
+  if (number < 0 || number >= static_cast<int>(session.pairs().size()))
+    throw Error(ErrorKind::usage, "pair", fmt::format("{}", number),
+                fmt::format("0 … {}", static_cast<int>(session.pairs().size()) - 1));
+  return static_cast<std::size_t>(number);
+}
+
+// A pair with what a request says of it.
+ControlPair PickingState::edited(ControlPair pair, const std::string& body) const {
+  if (const auto pixel = read_point_member(body, "pixel")) pair.pixel = rounded_to(*pixel, 10.0);
+  if (const auto position = read_point_member(body, "position")) {
+    place_at(*position);  // refuses what lies outside
+    pair.lonlat = rounded_to(transform_point(dem.crs, normalize_crs("EPSG:4326"), *position), 1e7);
+  }
+  pair.name = one_line(read_text_member(body, "name", pair.name));
+  pair.sure = read_flag_member(body, "sure").value_or(pair.sure);
+  return pair;
+}
+
+void PickingState::edit(const std::string& name, const std::string& body) {
+  std::vector<ControlPair> pairs = session.pairs();
+  if (name == "add") {
+    if (!read_point_member(body, "pixel") || !read_point_member(body, "position"))
+      throw Error(ErrorKind::usage, "pair", "lacks its pixel or its position", "both");
+    pairs.push_back(edited({}, body));
+  } else if (name == "change") {
+    ControlPair& pair = pairs[pair_number(body)];
+    pair = edited(pair, body);
+  } else {
+    pairs.erase(pairs.begin() + static_cast<std::ptrdiff_t>(pair_number(body)));
+  }
+  session.change(pairs);
+}
+
+HttpAnswer PickingState::change_all(const std::function<void()>& change) {
+  const std::lock_guard guard(mutex);
+  const std::uint64_t before = session.revision();
+  change();
+  if (session.revision() != before) fitter.fit(session.revision(), session.pairs());
+  return json_answer(pairs_json(session));
+}
+
+HttpAnswer PickingState::change_pairs(const std::string& name, const std::string& body) {
+  if (name == "undo") return change_all([&] { session.undo(); });
+  if (name == "redo") return change_all([&] { session.redo(); });
+  if (name == "reload") return change_all([&] { session.reload(); });
+  if (name == "save") return change_all([&] { session.save_over(); });
+  return change_all([&] {
+    // Numbers of pairs are those of a revision.
+    const int revision = read_number_member(body, "revision", -1);
+    if (revision >= 0 && static_cast<std::uint64_t>(revision) != session.revision())
+      throw Error(ErrorKind::interrupted, "pairs", "superseded", "the present revision");
+    edit(name, body);
+  });
+}
+
+// ---- proposals
+
+// The ground at a position; nothing outside the data.
+std::optional<KnownPlace> PickingState::ground_at(glm::dvec2 position) const {
+  const glm::dvec2 cell = dem.transform.to_cell(position.x, position.y);
+  if (!(cell.x >= 0.0 && cell.y >= 0.0 && cell.x <= dem.width() - 1.0 &&
+        cell.y <= dem.height() - 1.0))
+    return std::nullopt;
+  const int x = static_cast<int>(std::lround(cell.x)), y = static_cast<int>(std::lround(cell.y));
+  if (!dem.filled.empty() && dem.filled(x, y) != 0) return std::nullopt;
+  return KnownPlace{
+      {}, position, static_cast<double>(sample_bilinear(dem.altitude_m, cell.x, cell.y)), 0.0};
+}
+
+KnownPlace PickingState::place_at(glm::dvec2 position) const {
+  const std::optional<KnownPlace> ground = ground_at(position);
+  if (!ground)
+    throw Error(ErrorKind::usage, "position", "the DEM has no data there", "a place of the map");
+  return *ground;
+}
+
+// A place of the map: the known one near by, else the ground there.
+HttpAnswer PickingState::place(const HttpRequest& request) {
+  const glm::dvec2 at(number_of(request, "east", -1e8, 1e8),
+                      number_of(request, "north", -1e8, 1e8));
+  const double radius_m = number_of(request, "radius", 0.0, 1e6);
+  PlaceAnswer out;
+  out.known = radius_m > 0.0 ? nearest_place(setup.places, at, radius_m) : std::nullopt;
+  out.place = out.known ? setup.places[*out.known] : place_at(at);
+  const PairsFitter::Latest latest = fitter.latest();
+  if (latest.fit != nullptr) {
+    out.painted = propose_pixel(latest.fit->registration, latest.fit->field, out.place);
+    if (latest.terrain != nullptr && latest.terrain->view != nullptr)
+      out.seen = is_seen(*latest.terrain->view, out.place);
+  }
+  const std::lock_guard guard(mutex);
+  out.pair = pair_of_place(session.pairs(), out.place.position, dem.cell_m());
+  return json_answer(place_json(out));
+}
+
+// What a pixel of the painting may show.
+HttpAnswer PickingState::places(const HttpRequest& request) {
+  const glm::dvec2 pixel(number_of(request, "x", 0.0, painting_px.x),
+                         number_of(request, "y", 0.0, painting_px.y));
+  const PairsFitter::Latest latest = fitter.latest();
+  Json proposals = Json::array();
+  Json ground = Json::raw("null");
+  if (latest.fit != nullptr) {
+    const std::vector<bool> seen = latest.terrain != nullptr
+                                       ? latest.terrain->seen
+                                       : std::vector<bool>(setup.places.size(), true);
+    std::vector<ProposedPlace> found = propose_places(setup.places, latest.fit->places, seen, pixel,
+                                                      latest.fit->registration.scale);
+    const std::lock_guard guard(mutex);
+    std::erase_if(found, [&](const ProposedPlace& proposal) {
+      return pair_of_place(session.pairs(), setup.places[proposal.place].position, dem.cell_m());
+    });
+    if (found.size() > max_proposals) found.resize(max_proposals);
+    for (const ProposedPlace& proposal : found)
+      proposals.add(place_json({.place = setup.places[proposal.place],
+                                .known = proposal.place,
+                                .pair = {},
+                                .painted = latest.fit->places[proposal.place],
+                                .seen = true,
+                                .off_px = proposal.off_px}));
+  }
+  if (latest.terrain != nullptr && latest.terrain->view != nullptr) {
+    const RegisteredView& view = *latest.terrain->view;
+    const auto shown = view.map().to_geo(pixel * static_cast<double>(view.size_px().x) /
+                                         static_cast<double>(painting_px.x));
+    if (shown)
+      if (const std::optional<KnownPlace> place = ground_at(shown->position))
+        ground = place_json({.place = *place});
+  }
+  return json_answer(
+      Json::object().add("proposals", std::move(proposals)).add("ground", std::move(ground)));
+}
+
+HttpAnswer PickingState::route(const HttpRequest& request) {
+  const std::string& path = request.path;
+  if (path.starts_with("painting/")) return tile(painting, path.substr(9));
+  if (path.starts_with("map/")) return tile(map, path.substr(4));
+  if (!path.starts_with("api/")) return page_file({"pick", "studio", "web"}, path);
+  const std::string name = path.substr(4);
+  if (request.method == "POST") {
+    for (const char* known : {"add", "change", "remove", "undo", "redo", "reload", "save"})
+      if (name == known) return change_pairs(name, request.body);
+    if (name == "close") return json_answer(Json::object());
+  } else {
+    if (name == "setup") return json_answer(setup_json(setup));
+    if (name == "pairs") return change_all([] {});
+    if (name == "fit") {
+      const std::uint64_t revision = asked_revision(request);
+      return json_answer(fit_json(revision, fitter.fitted(revision).get(), painting_px));
+    }
+    if (name == "terrain") {
+      const std::uint64_t revision = asked_revision(request);
+      return json_answer(terrain_json(revision, fitter.terrain(revision).get()));
+    }
+    if (name == "place") return place(request);
+    if (name == "places") return places(request);
+  }
+  return json_answer(
+      error_json(Error(ErrorKind::usage, path, "no such request", "those of docs/registration.md")),
+      404);
+}
+
+Picking::Picking(PickingInput input, Progress& progress) {
+  const int port = input.port;
+  state_ = std::make_unique<PickingState>(std::move(input), progress);
+  state_->server.emplace(HttpParameters{.port = port, .token = random_token()},
+                         [this](const HttpRequest& request) { return answer(request); });
+}
+
+Picking::~Picking() { stop(); }
+
+std::string Picking::address() const { return state_->server->address(); }
+
+void Picking::run() { state_->server->run(); }
+
+void Picking::stop() {
+  state_->fitter.end();
+  state_->server->stop();
+}
+
+bool Picking::is_left(double wait_s) const { return state_->visits.is_left(wait_s); }
+
+HttpAnswer Picking::answer(const HttpRequest& request) {
+  state_->visits.asked(request);
+  try {
+    return state_->route(request);
+  } catch (const Error& error) {
+    return error_answer(error);
+  }
+}
+
+}  // namespace belvedere::tools

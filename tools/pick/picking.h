@@ -1,0 +1,53 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/grid.h"
+#include "base/progress.h"
+#include "renderer/register/pair_proposals.h"
+#include "terrain/io/dem.h"
+#include "terrain/register/registration.h"
+#include "tools/studio/http_server.h"
+
+namespace belvedere::tools {
+
+struct PickingInput {
+  std::string pairs;          // path of the table, made if it is missing
+  std::string painting_name;  // for the page
+  Grid<glm::vec3> painting;   // encoded RGB
+  Dem dem;
+  std::vector<NamedPlace> named;
+  RegistrationParameters registration;
+  std::string next;  // the command to go on with, for the page
+  int port = 0;      // 0: any that is free
+};
+
+struct PickingState;
+
+// Picks pairs of a painting's pixels and places of a map: answers the requests of
+// docs/registration.md, about one table, until it is stopped.
+class Picking {
+ public:
+  // Error as PairsSession, and Error(usage) where the port is in use.
+  Picking(PickingInput input, Progress& progress);
+  ~Picking();
+  Picking(const Picking&) = delete;
+  Picking& operator=(const Picking&) = delete;
+
+  std::string address() const;
+  // Until stop(), from another thread.
+  void run();
+  void stop();
+  // As Studio::is_left.
+  bool is_left(double wait_s = 5.0) const;
+  // The answer to one request; for tests. Errors become answers.
+  HttpAnswer answer(const HttpRequest& request);
+
+ private:
+  std::unique_ptr<PickingState> state_;
+};
+
+}  // namespace belvedere::tools
