@@ -176,6 +176,12 @@ TEST(SynthesisTile, WhatNeighboursHaveMadeIsTaken) {
   const GuideStack other = land(400, 390, 90);
   EXPECT_EQ(tile_of(plan, other, sheet.tile(2, 2)), tile_of(fresh, other, sheet.tile(2, 2)));
   EXPECT_GT(plan.data().between_tiles.count(), before) << "other guides";
+  GuideStack touched = target;
+  const PixelRect tile = sheet.tile(2, 2);
+  touched.guides[0].values(tile.x0, tile.y0) ^= 1;
+  const std::size_t after = plan.data().between_tiles.count();
+  tile_of(plan, touched, tile);
+  EXPECT_GT(plan.data().between_tiles.count(), after) << "one value of one guide";
 }
 
 TEST(SynthesisTile, RefusesOtherTilesAndWindows) {
