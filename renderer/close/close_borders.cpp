@@ -48,8 +48,8 @@ constexpr float widest_gully = 8.0F;  // half of old snow in it, units
 constexpr float narrowest_gully = 0.8F;
 constexpr float border_limit = border_reach_units - 0.5F;
 
-// Edges of forest are displaced by the tongues, too, and by broader noise: trees climb ribs, and
-// copses stand beyond them.
+// Edges of forest are displaced by the tongues, too. They and those of turf follow broader noise as
+// well: trees climb ribs, and copses and meadows lie beyond them.
 constexpr float wood_tongues = 0.85F;
 constexpr float wood_cell = 15.0F;
 constexpr float wood_shift = 4.5F;
@@ -245,14 +245,16 @@ Class CloseBorders::at(int x, int y, float close) const {
     const float length = std::sqrt(glm::dot(offset, offset));
     return length > border_limit ? offset * (border_limit / length) : offset;
   };
-  if (borders_forest(own)) {
-    const glm::vec2 wood =
-        close * ((wood_tongues * tongue + tooth + wood_shift * noise(9, wood_cell)) * fall +
-                 (aside + wood_shift * noise(10, wood_cell)) * across);
+  const bool grown = borders_forest(own);
+  glm::vec2 ragged(0.0F);
+  if (grown) {
     const Outlier copse =
         outlier_at(stream_seed(seed, Stream::close_borders, 11), copse_cell, position);
-    const Class there = class_around(ground, position + within_limit(wood + copse.from), depth_m,
-                                     own, borders_forest);
+    ragged = close * wood_shift * (noise(9, wood_cell) * fall + noise(10, wood_cell) * across) +
+             copse.from;
+    const glm::vec2 wood = close * ((wood_tongues * tongue + tooth) * fall + aside * across);
+    const Class there =
+        class_around(ground, position + within_limit(wood + ragged), depth_m, own, borders_forest);
     if (there == Class::forest || own == Class::forest) return there;
   }
   const auto shifted = [&](float share) {
@@ -265,6 +267,11 @@ Class CloseBorders::at(int x, int y, float close) const {
     shown = class_at(close * shift);
   }
   if (close < 0.5F || (shown != Class::scree && !is_turf(shown))) return shown;
+  // Between turf and stones as well: cells of elevation data would leave round meadows.
+  if (grown) {
+    const Class there = class_at(within_limit(close * shift + ragged));
+    if (mixes(shown, there)) shown = there;
+  }
   const auto around = [&](const Grid<float>& share) {
     return value_on_surface(wide, share, origin_px.x + x, origin_px.y + y, depth_m);
   };

@@ -9,6 +9,7 @@
 namespace belvedere {
 namespace {
 
+constexpr float begins_over = 9.F;   // positions
 constexpr float widest_dirt = 20.F;  // dirty ice around a moraine, units
 
 // Rubble on ice between two positions of a moraine: dabs, dense in its middle, with the light of a
@@ -20,6 +21,9 @@ void strew_rubble(const StrokeScene& scene, const IceWay& way, std::size_t k, st
   const glm::vec2 along = way_place(scene, way, k + 1) - from;
   const glm::vec2 across = way.across[k];
   const float half = way.half_width[k];
+  // Seen at a grazing angle there is room for few stones; the first ones lie far apart.
+  const float room = std::clamp(1.4F * glm::length(across), 0.35F, 1.F);
+  const float begun = std::min(1.F, (static_cast<float>(k) + 1.F) / begins_over);
   const float sun = scene.sun_side(here);
   const float right = across.x >= 0.F ? 1.F : -1.F;
   // Where it is broad it lies in strands that part and join, each of them in heaps.
@@ -30,12 +34,12 @@ void strew_rubble(const StrokeScene& scene, const IceWay& way, std::size_t k, st
     const glm::vec2 apart = from + glm::vec2(900.F * scale * static_cast<float>(strand), 0.F);
     const float wander = sheet_noise(scene, apart, Stream::rubble_places, 16.0);
     const float middle = strands > 1 ? 0.66F * slot + 0.36F * wander : 0.12F * wander;
-    const float spread = strands > 1 ? 0.34F : 0.7F;
+    const float spread = strands > 1 ? 0.38F : 1.1F;
     const float heap = std::clamp(
         0.65F + 0.75F * sheet_noise(scene, apart, Stream::rubble_places, 7.0) + 0.25F * wander, 0.F,
         1.4F);
-    const int count =
-        static_cast<int>(heap * (3.F + 4.2F * half) / static_cast<float>(strands) + 0.5F);
+    const int count = static_cast<int>(
+        heap * room * begun * (3.F + 4.2F * half) / static_cast<float>(strands) + 0.5F);
     for (int n = 0; n < count; ++n) {
       const float a = seed.between(-1.F, 1.F);
       const float b = seed.uniform();
@@ -55,7 +59,7 @@ void strew_rubble(const StrokeScene& scene, const IceWay& way, std::size_t k, st
       set_line(dab, at - way_of * (0.5F * length * scale), at + way_of * (0.5F * length * scale),
                size * scale, 0.7F * size * scale);
       const float edge = std::abs(aside - middle) / spread;
-      dab.alpha = std::max(0.10F, 0.60F - 0.38F * edge);
+      dab.alpha = std::max(0.10F, 0.50F - 0.32F * edge) * (0.4F + 0.6F * begun);
       // The side that faces the sun is light.
       const float ridge = std::min(1.F, half / 2.F) * 0.10F * aside * right * sun;
       dab.colour = through_air(scene, own,
