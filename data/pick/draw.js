@@ -76,8 +76,8 @@ export function triangle(context, [x, y], size, fill, edge = dark) {
   context.stroke();
 }
 
-export function text(context, words, [x, y], { ink = "#fff", halo = "#000c", size = 12, align = "left" } = {}) {
-  context.font = `${size}px system-ui, sans-serif`;
+export function text(context, words, [x, y], { ink = "#fff", halo = "#000c", size = 12, weight = 400, align = "left" } = {}) {
+  context.font = `${weight} ${size}px system-ui, sans-serif`;
   context.textAlign = align;
   context.textBaseline = "middle";
   context.lineJoin = "round";

@@ -60,7 +60,7 @@ export class List {
     if (fit.state === "failed") return `no view shows them yet: ${fit.message}`;
     if (fit.state === "rough") return `a rough ${fit.projection} view · ${setup.min_pairs - count} more until they are judged`;
     const wrong = fit.wrong > 0 ? ` · ${fit.wrong} thrown out` : "";
-    return `${fit.projection} view · ${fit.others_px.toFixed(1)} px off at the median${wrong} · clicks to ${fit.sigma_px.toFixed(1)} px`;
+    return `${fit.projection} view · ${fit.others_px.toFixed(1)} px off at the median${wrong} · clicks ± ${fit.sigma_px.toFixed(1)} px`;
   }
   row(index) {
     const { pairs } = this;

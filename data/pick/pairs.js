@@ -38,11 +38,14 @@ export class Pairs extends EventTarget {
   }
 
   // ---- changes: add, change, remove, undo, redo, reload, save. False if it was refused.
+  // `pair` of the body is a number of now: what is done before may give the pair another one, or take it away.
   act(name, body = {}) {
+    const meant = this.list[body.pair];
     const done = this.turn.then(async () => {
+      const pair = meant && this.list.findIndex((each) => String([each.pixel, each.position]) === String([meant.pixel, meant.position]));
+      if (pair === -1) return false;
       try {
-        const numbered = ["change", "remove"].includes(name);
-        this.take(await post(`api/${name}`, numbered ? { ...body, revision: this.state.revision } : body));
+        this.take(await post(`api/${name}`, meant ? { ...body, pair, revision: this.state.revision } : body));
         this.tell("fault", null);
         return true;
       } catch (error) {

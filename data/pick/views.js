@@ -159,9 +159,15 @@ export class Views {
       const [x, y] = pane.toPage(...this.to_map(pair.position));
       room.take(x - 9, y - 9, x + 9, y + 9);
     }
+    const { half } = picking;
+    // What waits, or is proposed, has its name before all others.
+    const named = half?.place ? [half.place] : half?.pixel ? half.offers : [];
+    const names = named.map((place) => [place.name || `${Math.round(place.altitude_m)} m`, pane.toPage(...this.to_map(place.position))]);
+    context.font = "600 13px system-ui, sans-serif";
+    for (const [words, [x, y]] of names) room.take(x - 14, y - 14, x + 30 + context.measureText(words).width, y + 14);
     if (this.shows.names) this.draw_known(context, pane, room, (index) => this.to_map(pairs.setup.places[index]), false);
     this.draw_pairs(context, pane, (pair) => this.to_map(pair.position));
-    const { half } = picking;
+    for (const [words, [x, y]] of names) text(context, words, [x + 18, y + 4], { ink: "#101418", halo: "#fffd", size: 13, weight: 600 });
     if (half?.place) cross(context, pane.toPage(...this.to_map(half.place.position)), colours.half);
     if (half?.pixel)
       half.offers.forEach((offer, index) => {

@@ -19,20 +19,6 @@ namespace {
 
 constexpr float unknown_value = std::numeric_limits<float>::quiet_NaN();
 
-std::size_t folded_in_picture(const Dem& dem, const Deformation& deformation,
-                              const Camera& camera) {
-  std::size_t count = 0;
-  for (const Fold& fold : find_folds(dem.altitude_m, dem.transform, deformation)) {
-    const double altitude = static_cast<double>(dem.altitude_m(fold.column, fold.row));
-    const auto at = camera.project(deformation.point({fold.position, altitude}));
-    count +=
-        at && at->x >= 0.0 && at->y >= 0.0 && at->x <= camera.size().x && at->y <= camera.size().y
-            ? 1
-            : 0;
-  }
-  return count;
-}
-
 glm::vec3 normal_at(const Dem& dem, glm::dvec2 position, double exaggeration) {
   const glm::dvec2 cell = dem.transform.to_cell(position.x, position.y);
   const auto altitude = [&](double dx, double dy) {
@@ -65,7 +51,7 @@ RegisteredGround trace_registered(const RegisteredView& view) {
   RegisteredGround out{Grid<float>(size_px.x, size_px.y, unknown_value),
                        Grid<float>(size_px.x, size_px.y, unknown_value),
                        Grid<float>(size_px.x, size_px.y, unknown_value),
-                       folded_in_picture(view.dem(), view.deformation(), view.camera()),
+                       0,
                        Grid<glm::dvec2>(size_px.x, size_px.y),
                        Grid<glm::vec3>(size_px.x, size_px.y)};
   const auto sigma_px = [&](glm::dvec2 position) {
@@ -97,6 +83,18 @@ RegisteredGround trace_registered(const RegisteredView& view) {
     }
   });
   return out;
+}
+
+std::size_t folded_facets(const RegisteredView& view) {
+  const Dem& dem = view.dem();
+  const glm::ivec2 size = view.size_px();
+  std::size_t count = 0;
+  for (const Fold& fold : find_folds(dem.altitude_m, dem.transform, view.deformation())) {
+    const double altitude = static_cast<double>(dem.altitude_m(fold.column, fold.row));
+    const auto at = view.camera().project(view.deformation().point({fold.position, altitude}));
+    count += at && at->x >= 0.0 && at->y >= 0.0 && at->x <= size.x && at->y <= size.y ? 1 : 0;
+  }
+  return count;
 }
 
 double contour_step_m(const Grid<float>& altitude_m) {

@@ -14,13 +14,15 @@ struct RegisteredGround {
   Grid<float> distance_m;  // from the eye
   Grid<float> sigma_px;    // how far the place may be off in one direction: standard deviation, in
                            // pixels of the painting, without that of the view
-  std::size_t folded = 0;  // facets of the ground in the picture that the registration turns over
+  std::size_t folded = 0;  // folded_facets() of the view, where that is asked for
   Grid<glm::dvec2> position = {};  // CRS
   Grid<glm::vec3> normal = {};     // of the exaggerated ground, as it lies on the map
 };
 
-// Of all pixels of a view.
+// Of all pixels of a view, without folded facets.
 RegisteredGround trace_registered(const RegisteredView& view);
+// Facets of the ground in the picture that the registration turns over.
+std::size_t folded_facets(const RegisteredView& view);
 
 // The largest of 20, 50, 100, 200, 500 m that gives some ten contours or more.
 double contour_step_m(const Grid<float>& altitude_m);

@@ -43,7 +43,7 @@ struct FittedTerrain {
 };
 
 struct PairsFitterInput {
-  const Dem& drawn;  // whose skyline and ridges are drawn: at most a million cells are quick
+  const Dem& drawn;  // whose skyline and ridges are drawn: about a million cells are quick
   const std::vector<KnownPlace>& places;
   glm::ivec2 painting_px{0};
   RegistrationParameters registration;

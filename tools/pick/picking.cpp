@@ -25,7 +25,7 @@
 namespace belvedere::tools {
 namespace {
 
-constexpr std::size_t max_drawn_cells = 1'000'000;  // of the DEM for skyline and ridges
+constexpr std::size_t max_drawn_cells = 1'200'000;  // of the DEM for skyline and ridges
 constexpr std::size_t max_proposals = 3;
 
 double number_of(const HttpRequest& request, const std::string& name, double min, double max) {

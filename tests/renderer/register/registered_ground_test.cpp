@@ -30,9 +30,10 @@ TEST(RegisteredGround, IsTheGroundThatTheRegistrationShows) {
   });
   ASSERT_GE(pairs.size(), 12U);
   const Registration found = register_pairs(pairs, {1200, 550});
-  const RegisteredGround ground = trace_registered(RegisteredView(
-      found, registered_scene(found, {1200, 550}), dem, {300, 138}, silent_progress()));
-  EXPECT_EQ(ground.folded, 0U);
+  const RegisteredView view(found, registered_scene(found, {1200, 550}), dem, {300, 138},
+                            silent_progress());
+  const RegisteredGround ground = trace_registered(view);
+  EXPECT_EQ(folded_facets(view), 0U);
   int near = 0;
   for (const ControlPair& pair : pairs) {
     const int x = std::min(299, static_cast<int>(pair.pixel.x / 4.0));
