@@ -35,7 +35,9 @@ export class Picking extends EventTarget {
         return;
       }
       if (this.half?.pixel) return this.pair(this.half.pixel, place);
-      this.set({ place, offers: place.painted ? [{ ...place.painted, sure: sureness(place.painted.sigma_px, this.pairs.setup.painting.width) > 0.5 }] : [] });
+      // What the view hides, or hardly knows, is shown and not offered.
+      const sure = place.painted && place.seen && sureness(place.painted.sigma_px, this.pairs.setup.painting.width) > 0.5;
+      this.set({ place, offers: place.painted ? [{ ...place.painted, sure }] : [] });
     } catch (error) {
       this.pairs.fail(error);
     }

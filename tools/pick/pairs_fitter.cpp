@@ -160,6 +160,10 @@ void PairsFitter::work() {
       fit_newest(revision, pairs);
     } catch (const Error& caught) {
       error = caught;
+      // What a few pairs leave open may be more than priors close.
+      if (caught.kind() == ErrorKind::bug && pairs.size() < min_control_pairs)
+        error = Error(ErrorKind::input, "pairs", "they do not tell a view",
+                      "pairs that are spread over the painting");
     } catch (const std::exception& caught) {  // memory
       error = Error(ErrorKind::limit, "pairs", caught.what());
     }

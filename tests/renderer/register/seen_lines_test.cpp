@@ -44,16 +44,20 @@ TEST(SeenLines, SlopesAndShortPiecesAreNone) {
   EXPECT_EQ(seen_lines(two_ranges(7), {.min_length_px = 7}).size(), 2U);
 }
 
-TEST(SeenLines, AStepEndsALineAndBeginsAnother) {
-  RegisteredGround step;
-  step.distance_m = test::grid_of(40, 60, [](int x, int y) {
-    return y < (x < 20 ? 10 : 30) ? static_cast<double>(no_ground) : 5000.0;
-  });
-  const std::vector<SeenLine> lines = seen_lines(step);
+TEST(SeenLines, AStepOfMoreThanItsLimitEndsALineAndBeginsAnother) {
+  const auto stepped = [](int rows) {
+    RegisteredGround out;
+    out.distance_m = test::grid_of(40, 60, [=](int x, int y) {
+      return y < (x < 20 ? 10 : 10 + rows) ? static_cast<double>(no_ground) : 5000.0;
+    });
+    return out;
+  };
+  const SeenLinesParameters usual;
+  EXPECT_EQ(seen_lines(stepped(usual.max_step_px)).size(), 1U);
+  const std::vector<SeenLine> lines = seen_lines(stepped(usual.max_step_px + 1));
   ASSERT_EQ(lines.size(), 2U);
   EXPECT_EQ(lines[0].points.back().x, 19.5F);
   EXPECT_EQ(lines[1].points.front().x, 20.5F);
-  EXPECT_EQ(seen_lines(step, {.max_step_px = 20}).size(), 1U);
 }
 
 }  // namespace
