@@ -173,7 +173,7 @@ export class Views {
       half.offers.forEach((offer, index) => {
         const at = pane.toPage(...this.to_map(offer.position));
         ring(context, at, 12, colours.offer, { dot: true });
-        badge(context, [at[0] + 14, at[1] - 14], String(index + 1), colours.offer);
+        badge(context, [at[0] - 14, at[1] - 14], String(index + 1), colours.offer);
       });
   }
   draw_pairs(context, pane, of) {

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
-#include <filesystem>
+#include <algorithm>
+#include <cctype>
 #include <memory>
+#include <string_view>
 #include <utility>
 
 #include "base/error.h"
@@ -39,12 +41,24 @@ std::vector<NamedPlace> read_named_places(const PickOptions& options, const std:
   return out;
 }
 
+// As a shell takes it for one word.
+std::string shell_word(const std::string& text) {
+  const auto plain = [](unsigned char c) {
+    return std::isalnum(c) != 0 || c >= 0x80 ||
+           std::string_view("_./-+=:,@%").find(static_cast<char>(c)) != std::string_view::npos;
+  };
+  if (!text.empty() && std::all_of(text.begin(), text.end(), plain)) return text;
+  std::string out = "'";
+  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
 // What to do with the pairs.
 std::string next_command(const PickOptions& options) {
   std::string dems;
-  for (const std::string& dem : options.dems) dems += " " + dem;
+  for (const std::string& dem : options.dems) dems += " " + shell_word(dem);
   return fmt::format("belvedere exemplar register {}{} --pairs {} --out registered",
-                     options.painting, dems, options.pairs);
+                     shell_word(options.painting), dems, shell_word(options.pairs));
 }
 
 int run_pick(const PickOptions& options) {

@@ -24,7 +24,7 @@ class ExemplarPick : public Program {
   void SetUp() override {
     const Dem& dem = test::painted_cones().dem;
     write_raster(path("dem.tif"), Raster<float>{dem.altitude_m, dem.transform, dem.crs});
-    write_picture("painting.png", 1200, 550, [](int, int) { return glm::vec3(0.5F); });
+    write_picture("it's a painting.png", 1200, 550, [](int, int) { return glm::vec3(0.5F); });
     write("names.csv", "name,kind,lon,lat\n" + name_of(3, "Summit three"));
   }
   static std::string name_of(std::size_t pair, const std::string& name) {
@@ -32,7 +32,7 @@ class ExemplarPick : public Program {
     return name + ",summit," + std::to_string(at.x) + "," + std::to_string(at.y) + "\n";
   }
   std::vector<std::string> words(std::vector<std::string> more = {}) const {
-    std::vector<std::string> out = {"exemplar",      "pick",    path("painting.png"),
+    std::vector<std::string> out = {"exemplar",      "pick",    path("it's a painting.png"),
                                     path("dem.tif"), "--pairs", path("pairs.csv"),
                                     "--headless",    "-q"};
     out.insert(out.end(), more.begin(), more.end());
@@ -60,7 +60,9 @@ TEST_F(ExemplarPick, ServesItsPageUntilItIsInterrupted) {
   const auto ask = [&](const char* method, const std::string& name, const std::string& body = {}) {
     return test::ask_port(port, test::http_request(method, token + name, port, body)).body;
   };
-  EXPECT_THAT(ask("GET", "api/setup"), AllOf(HasSubstr("Summit three"), HasSubstr("--pairs")));
+  EXPECT_THAT(ask("GET", "api/setup"),
+              AllOf(HasSubstr("Summit three"), HasSubstr("it'\\\\''s a painting.png' "),
+                    HasSubstr("dem.tif --pairs ")));
   const ControlPair& pair = test::painted_cones().pairs[3];
   ask("POST", "api/add",
       "{\"pixel\": [100.5, 200], \"name\": \"Summit three\", \"position\": [" +
@@ -71,7 +73,7 @@ TEST_F(ExemplarPick, ServesItsPageUntilItIsInterrupted) {
   EXPECT_EQ(ended.status, 0) << ended.err;
   EXPECT_FALSE(test::Connection(port).is_open()) << "nothing is left running";
   // What was picked is what `register` reads.
-  const Outcome outcome = run({"exemplar", "register", path("painting.png"), path("dem.tif"),
+  const Outcome outcome = run({"exemplar", "register", path("it's a painting.png"), path("dem.tif"),
                                "--pairs", path("pairs.csv"), "--out", path("r")});
   EXPECT_THAT(outcome.err, HasSubstr("1 pairs"));
 }
