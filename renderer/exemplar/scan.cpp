@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/guidance_channels.h"
+#include "base/math_exact.h"
 #include "renderer/exemplar/example_painting.h"
 #include "renderer/exemplar/fill_excluded.h"
 #include "renderer/exemplar/harmonize.h"
@@ -19,6 +20,7 @@
 #include "renderer/exemplar/painting_strokes.h"
 #include "renderer/exemplar/seam_picture.h"
 #include "renderer/exemplar/texture_models.h"
+#include "renderer/exemplar/uncertain_places.h"
 #include "renderer/image/guidance_io.h"
 #include "renderer/image/icc/painting_file.h"
 #include "renderer/image/image_io.h"
@@ -48,6 +50,7 @@ struct Raw {
   bool measured = false;  // guidance comes from the renderer: with distances and all other channels
   bool painted = false;   // so does the picture: what guidance says of its light is exact
   Grid<std::uint8_t> labels;  // class ids, sky included; unused_label is never copied
+  Grid<float> deviation_px;   // of the places of pixels; empty: they are known
 };
 
 Grid<float> read_share(const std::string& path, const Grid<glm::vec3>& picture) {
@@ -56,10 +59,16 @@ Grid<float> read_share(const std::string& path, const Grid<glm::vec3>& picture) 
   return share;
 }
 
-void read_masks(const SceneExemplar& settings, const LoadedScene& scene, Raw& raw) {
+Grid<std::uint8_t> read_classes(const SceneExemplar& settings, const LoadedScene& scene,
+                                const Grid<glm::vec3>& picture) {
   const std::string path = find_scene_file(scene, settings.classes);
-  const Grid<std::uint8_t> ids = read_class_mask(path);
-  check_same_size(path, ids.width(), ids.height(), raw.picture);
+  Grid<std::uint8_t> ids = read_class_mask(path);
+  check_same_size(path, ids.width(), ids.height(), picture);
+  return ids;
+}
+
+void read_masks(const SceneExemplar& settings, const LoadedScene& scene, Raw& raw) {
+  const Grid<std::uint8_t> ids = read_classes(settings, scene, raw.picture);
   GuidanceBuffers& guidance = raw.guidance;
   guidance.depth_m = Grid<float>(ids.width(), ids.height(), 1.F);
   guidance.land_cover = Grid<LandCoverClass>(ids.width(), ids.height());
@@ -67,6 +76,14 @@ void read_masks(const SceneExemplar& settings, const LoadedScene& scene, Raw& ra
     guidance.land_cover[i] = static_cast<LandCoverClass>(ids[i]);
     if (guidance.land_cover[i] == LandCoverClass::sky)
       guidance.depth_m[i] = std::numeric_limits<float>::infinity();
+  }
+  if (!settings.distance.empty()) {
+    const Grid<float> share = read_share(find_scene_file(scene, settings.distance), raw.picture);
+    const double ratio = settings.distance_range_m[1] / settings.distance_range_m[0];
+    for (std::size_t i = 0; i < share.size(); ++i)
+      if (!guidance.is_sky(i))
+        guidance.depth_m[i] = static_cast<float>(settings.distance_range_m[0] *
+                                                 exact::pow(ratio, static_cast<double>(share[i])));
   }
   if (settings.altitude.empty()) return;
   guidance.altitude_m = read_share(find_scene_file(scene, settings.altitude), raw.picture);
@@ -150,6 +167,11 @@ Raw read_raw(const SceneExemplar& settings, const LoadedScene& scene, Progress& 
                      ErrorKind::input);
     check_same_size(path, raw.guidance.width(), raw.guidance.height(), raw.picture);
     raw.painted = take_paint(settings, scene, raw.guidance);
+    if (!settings.classes.empty()) {
+      const Grid<std::uint8_t> ids = read_classes(settings, scene, raw.picture);
+      for (std::size_t i = 0; i < ids.size(); ++i)
+        raw.guidance.land_cover[i] = static_cast<LandCoverClass>(ids[i]);
+    }
   } else {
     read_masks(settings, scene, raw);
   }
@@ -162,6 +184,11 @@ Raw read_raw(const SceneExemplar& settings, const LoadedScene& scene, Progress& 
   // Bare paper between the panels of an example sheet is neither ground nor sky.
   for (std::size_t i = 0; i < raw.guidance.sky_view.size(); ++i)
     if (raw.guidance.is_sky(i) && raw.guidance.sky_view[i] <= 0.F) raw.labels[i] = unused_label;
+  if (!settings.trust.empty()) {
+    raw.deviation_px =
+        place_deviation(read_share(find_scene_file(scene, settings.trust), raw.picture));
+    raw.labels = certain_labels(raw.labels, raw.deviation_px);
+  }
   exclude(settings, scene, raw, progress);
   return raw;
 }
@@ -238,7 +265,7 @@ void find_light(const SceneExemplar& settings, Raw& raw, Progress& progress) {
   const bool registered = raw.measured && !raw.painted;
   if (registered && !guidance.tone.empty() && !guidance.altitude_m.empty())
     guidance.tone = combine_tone(raw.picture, raw.labels, settings.stroke_px, guidance.tone,
-                                 guidance.altitude_m, guidance.depth_m);
+                                 guidance.altitude_m, guidance.depth_m, raw.deviation_px);
   else if (guidance.tone.empty())
     guidance.tone = estimate_tone(raw.picture, raw.labels, settings.stroke_px);
   if (registered && settings.shadow.empty()) {
@@ -272,7 +299,9 @@ ScannedPainting finish_scan(const SceneExemplar& settings, Raw raw, double resid
   painted.exemplar.name = settings.picture;
   painted.exemplar.guides = make_guide_stack(guidance, guidance.land_cover);
   GuideStack& guides = painted.exemplar.guides;
-  if (!raw.measured)
+  if (!raw.deviation_px.empty()) average_over_places(raw.deviation_px, guides);
+  const bool has_distance = raw.measured || !settings.distance.empty();
+  if (!has_distance)
     std::erase_if(guides.guides, [](const Guide& guide) { return guide.name == "distance"; });
   const Grid<std::uint8_t>& distance = values_of(guides, "distance");
   scan.ramps = fit_ramps(raw.picture, raw.labels, guidance.tone, distance);
@@ -290,7 +319,7 @@ ScannedPainting finish_scan(const SceneExemplar& settings, Raw raw, double resid
     if (!served || (leave_shadow && guidance.shadow[i] < lit_from)) raw.labels[i] = unused_label;
   }
   guides.label = std::move(raw.labels);
-  if (!raw.measured) guides.depth_m = {};
+  if (!has_distance) guides.depth_m = {};
   painted.picture = std::move(raw.picture);
   painted.exemplar.picture = seam_picture(painted, guides.label, residual);
   return scan;
@@ -332,8 +361,9 @@ void check_paintings(const LoadedScene& scene) {
         settings.picture.empty() ? std::string() : find_scene_file(scene, settings.picture);
     if (path.empty()) continue;
     const Grid<glm::vec3> picture = read_painting(path, silent_progress());
-    for (const std::string* file : {&settings.guidance, &settings.classes, &settings.altitude,
-                                    &settings.shadow, &settings.exclude}) {
+    for (const std::string* file :
+         {&settings.guidance, &settings.classes, &settings.altitude, &settings.distance,
+          &settings.trust, &settings.shadow, &settings.exclude}) {
       if (file->empty()) continue;
       const std::string guide = find_scene_file(scene, *file);
       const ImageInfo info = read_image_info(guide);

@@ -37,6 +37,8 @@ const GuideKind kinds[] = {
      &B::fall_line, [](const B& g, std::size_t i) { return 0.5F + 0.5F * g.fall_line[i].x; }, 0.1},
     {"fall_line_y", "y of the unit direction, -1 (up) … 1; 128 where there is none", &B::fall_line,
      [](const B& g, std::size_t i) { return 0.5F + 0.5F * g.fall_line[i].y; }, 0.05},
+    {"valley", "height above the lowest ground within 900 m, 0…600 m", &B::valley_height_m,
+     [](const B& g, std::size_t i) { return g.valley_height_m[i] / 600.0F; }, 0.0},
     {"flow", "upstream area, logarithm from 100 m² to 100 000 km²", &B::flow,
      [](const B& g, std::size_t i) { return (g.flow[i] - 2.0F) / 9.0F; }, 0.0},
 };

@@ -253,10 +253,13 @@ struct SceneExemplar {
   std::string prefer =
       "texels";  // for the model's classes: "texels" while there are enough, or the "model"
   std::string light = "any";  // ground that the model paints: "lit", "shaded" or "any"
-  std::string guidance;       // guidance.exr of the picture, or:
-  std::string classes;        // grey image of class ids; 255 excludes
+  std::string guidance;       // guidance.exr of the picture, and/or:
+  std::string classes;        // grey image of class ids, instead of those of guidance; 255 excludes
   std::string altitude;       // grey image, scaled by altitude_range_m
   std::array<double, 2> altitude_range_m = {0.0, 4000.0};
+  std::string distance;  // grey image, scaled by distance_range_m in equal ratios
+  std::array<double, 2> distance_range_m = {2000.0, 60000.0};
+  std::string trust;              // grey image: how far the place of a pixel is known
   std::string shadow;             // grey image: black in cast shadow, white in the sun
   std::string exclude;            // grey image: pixels that are not black are never copied from
   std::string excluded = "skip";  // what happens to it: "skip", or "fill" it from the paint around

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <tuple>
 
 #include "base/error.h"
 #include "renderer/scene/scene_error.h"
@@ -276,9 +277,9 @@ class Rules {
       const SceneExemplar& exemplar = scene_.exemplars[i];
       const std::string name = fmt::format("exemplar.{}", i);
       if (!exemplar.model.empty()) {
-        for (const char* key :
-             {"picture", "guidance", "classes", "altitude", "altitude_range_m", "shadow",
-              "found_shadow", "exclude", "excluded", "width", "height", "seed"})
+        for (const char* key : {"picture", "guidance", "classes", "altitude", "altitude_range_m",
+                                "distance", "distance_range_m", "trust", "shadow", "found_shadow",
+                                "exclude", "excluded", "width", "height", "seed"})
           if (written(name + "." + key))
             refuse(name + "." + key, fmt::format("{}.{} is set together with a model", name, key),
                    "a picture or a model in each block");
@@ -299,9 +300,9 @@ class Rules {
             name + ".picture has neither guidance nor classes, which give the class of each pixel",
             "guidance = \"….exr\", or classes = \"….png\"");
       if (exemplar.picture.empty())
-        for (const char* key :
-             {"guidance", "classes", "altitude", "altitude_range_m", "shadow", "found_shadow",
-              "exclude", "excluded", "serves", "stroke_px", "optional"})
+        for (const char* key : {"guidance", "classes", "altitude", "altitude_range_m", "distance",
+                                "distance_range_m", "trust", "shadow", "found_shadow", "exclude",
+                                "excluded", "serves", "stroke_px", "optional"})
           if (written(name + "." + key))
             refuse(name + "." + key, fmt::format("{}.{} is set without a picture", name, key),
                    "a picture with it");
@@ -309,14 +310,18 @@ class Rules {
         refuse(name + ".excluded",
                fmt::format("{}.excluded is \"fill\", but no area is excluded", name),
                "exclude = \"….png\" with it");
-      if (!exemplar.altitude.empty() && exemplar.classes.empty())
-        refuse(name + ".altitude", name + ".altitude needs classes beside it",
-               "classes = \"….png\"");
-      if (exemplar.altitude_range_m[0] >= exemplar.altitude_range_m[1])
-        refuse(name + ".altitude_range_m",
-               fmt::format("{}.altitude_range_m goes from {} to {}", name,
-                           exemplar.altitude_range_m[0], exemplar.altitude_range_m[1]),
-               "[lower, upper]");
+      for (const auto& [key, file, range] :
+           {std::tuple{"altitude", &exemplar.altitude, &exemplar.altitude_range_m},
+            {"distance", &exemplar.distance, &exemplar.distance_range_m}}) {
+        if (!file->empty() && exemplar.classes.empty())
+          refuse(fmt::format("{}.{}", name, key),
+                 fmt::format("{}.{} needs classes beside it", name, key), "classes = \"….png\"");
+        if ((*range)[0] >= (*range)[1])
+          refuse(
+              fmt::format("{}.{}_range_m", name, key),
+              fmt::format("{}.{}_range_m goes from {} to {}", name, key, (*range)[0], (*range)[1]),
+              "[lower, upper]");
+      }
     }
   }
 

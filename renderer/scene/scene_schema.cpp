@@ -35,7 +35,7 @@ const std::vector<SceneExclusion>& scene_exclusions() {
       {"light.regions", {"azimuth_deg"}, {"turn_deg"}},
       {"light.clouds", {"position"}, {"position_lonlat"}},
       {"sun", {"time"}, {"azimuth_deg", "altitude_deg"}},
-      {"exemplar", {"guidance"}, {"classes", "altitude", "altitude_range_m"}},
+      {"exemplar", {"guidance"}, {"altitude", "altitude_range_m", "distance", "distance_range_m"}},
       {"exemplar", {"picture"}, {"width", "height", "seed"}},
   };
   return exclusions;

@@ -35,13 +35,13 @@ std::vector<SceneSection> make_exemplar_sections() {
                 .choices = {"any", "lit", "shaded"}},
                {.name = "guidance",
                 .field = AT(exemplars[i].guidance),
-                .meaning = "guidance.exr of the picture, registered to the pixel; or give classes "
-                           "and altitude instead.",
+                .meaning = "guidance.exr of the picture, registered to the pixel; or give classes, "
+                           "altitude and distance instead.",
                 .text = TextKind::file},
                {.name = "classes",
                 .field = AT(exemplars[i].classes),
                 .meaning = "Grey image of the picture's size with the number of each pixel's "
-                           "class; 255 is never copied from.",
+                           "class, also instead of those of guidance; 255 is never copied from.",
                 .text = TextKind::file},
                {.name = "altitude",
                 .field = AT(exemplars[i].altitude),
@@ -52,6 +52,23 @@ std::vector<SceneSection> make_exemplar_sections() {
                 .range = {-12000, 1e5},
                 .unit = "m",
                 .meaning = "Altitudes of black and of white."},
+               {.name = "distance",
+                .field = AT(exemplars[i].distance),
+                .meaning = "Grey image of the picture's size: distance from the viewer, black "
+                           "near, white far; equal steps of grey are equal ratios of distance.",
+                .text = TextKind::file},
+               {.name = "distance_range_m",
+                .field = AT(exemplars[i].distance_range_m),
+                .range = {1, 1e6},
+                .unit = "m",
+                .meaning = "Distances of black and of white."},
+               {.name = "trust",
+                .field = AT(exemplars[i].trust),
+                .meaning =
+                    "Grey image of the picture's size: how far the place of a pixel is "
+                    "known: white exactly, mid grey (128) to a hundredth of the picture's width, "
+                    "black not at all. Guides are averages of what the place may be.",
+                .text = TextKind::file},
                {.name = "shadow",
                 .field = AT(exemplars[i].shadow),
                 .meaning = "Grey image of the picture's size: black where it shows cast shadow, "

@@ -291,7 +291,8 @@ void write_register_report(const std::string& folder, const RegisterReportInput&
   page.section(
       "trust", "Trust",
       fmt::format("How far the place of a pixel may be off: pale 0, dark red {:.0f} px and "
-                  "more, where no pixel should be copied (exclude.png).",
+                  "more. The less a place is known, the less altitude, distance and slope guide "
+                  "what is copied from it (trust.png).",
                   trusted_px * input.registration.scale));
   page.picture("trust", trust_picture(input.ground.sigma_px, trusted_px * input.registration.scale),
                "standard deviation of places");

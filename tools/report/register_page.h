@@ -12,7 +12,7 @@
 
 namespace belvedere::tools {
 
-// Pixels whose place may be off by more than that should not be copied; of a painting 1200 px wide.
+// Deviation of places in the darkest colour of the map of trust; of a painting 1200 px wide.
 constexpr double trusted_px = 12.0;
 
 // What a registration found of a pair, in a word ("wrong", "moved", "fits" …) and a sentence.

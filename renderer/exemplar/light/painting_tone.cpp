@@ -12,6 +12,7 @@
 #include "base/matrix/matrix.h"
 #include "base/parallel.h"
 #include "base/statistics.h"
+#include "renderer/exemplar/uncertain_places.h"
 #include "renderer/image/oklab.h"
 #include "texture/synthesis/guide_stack.h"
 
@@ -201,7 +202,8 @@ Grid<float> estimate_tone(const Grid<glm::vec3>& picture, const Grid<std::uint8_
 
 Grid<float> combine_tone(const Grid<glm::vec3>& picture, const Grid<std::uint8_t>& labels,
                          double stroke_px, const Grid<float>& modelled,
-                         const Grid<float>& altitude_m, const Grid<float>& depth_m) {
+                         const Grid<float>& altitude_m, const Grid<float>& depth_m,
+                         const Grid<float>& deviation_px) {
   Grid<float> lightness = blur_within_labels(root_of_lightness(picture), labels, stroke_px);
   const Grid<float> model = blur_within_labels(modelled, labels, stroke_px);
   std::array<ToneSums, 256> sums;
@@ -248,7 +250,11 @@ Grid<float> combine_tone(const Grid<glm::vec3>& picture, const Grid<std::uint8_t
     if (labels[i] == unused_label) continue;
     const double painted =
         mean_model[labels[i]] + scale * (static_cast<double>(lightness[i]) - mean[labels[i]]);
-    const double known = 0.5 * (painted + static_cast<double>(modelled[i]));
+    const double share = deviation_px.empty()
+                             ? 0.5
+                             : 0.5 * static_cast<double>(place_trust(
+                                         static_cast<double>(deviation_px[i]), tone.width()));
+    const double known = painted + share * (static_cast<double>(modelled[i]) - painted);
     tone[i] += static_cast<float>(weight * (known - static_cast<double>(tone[i])));
     tone[i] = std::clamp(tone[i], 0.F, 1.F);
   }

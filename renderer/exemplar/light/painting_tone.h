@@ -21,9 +21,11 @@ Grid<float> estimate_tone(const Grid<glm::vec3>& picture, const Grid<std::uint8_
 // sun, which errs where the ground is not exactly where the painting shows it, and where the
 // painter placed his light otherwise; the lightness of the paint within each label, without what
 // altitude and ln distance explain, errs as strokes do. Both on one scale for all labels, each to
-// one half as far as they agree; otherwise as estimate_tone. Pixels of one size everywhere.
+// one half as far as they agree; otherwise as estimate_tone. The less is known of the place of a
+// pixel (deviation_px, uncertain_places.h; empty: all), the less the model counts.
 Grid<float> combine_tone(const Grid<glm::vec3>& picture, const Grid<std::uint8_t>& labels,
                          double stroke_px, const Grid<float>& modelled,
-                         const Grid<float>& altitude_m, const Grid<float>& depth_m);
+                         const Grid<float>& altitude_m, const Grid<float>& depth_m,
+                         const Grid<float>& deviation_px = {});
 
 }  // namespace belvedere

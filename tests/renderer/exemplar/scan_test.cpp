@@ -204,6 +204,40 @@ TEST_F(Scans, AShadowImageOf16BitsIsReadAsSuch) {
   EXPECT_EQ(guide(scan, "shadow")(30, 60), 1) << "200 of 65535 is black";
 }
 
+TEST_F(Scans, ADistanceImageIsAGuideInEqualRatios) {
+  Grid<glm::vec3> distance(scan_width, scan_height, glm::vec3(0.F));
+  for (int y = 0; y < scan_height; ++y)
+    for (int x = 0; x < scan_width; ++x) distance(x, y) = glm::vec3(y < 50 ? 1.F : 51.F / 255.F);
+  write_grey("distance.png", distance);
+  const ScannedPainting scan =
+      read("distance = \"distance.png\"\ndistance_range_m = [500, 500000]").front();
+  EXPECT_EQ(guide(scan, "distance")(30, 40), 255);
+  EXPECT_EQ(guide(scan, "distance")(30, 60), 51);
+  EXPECT_EQ(guide(scan, "distance")(30, 5), 0) << "the sky";
+  // Its jumps are silhouettes.
+  EXPECT_GT(scan.painted.exemplar.guides.depth_m(30, 40), 400000.F);
+  EXPECT_THAT([&] { read("distance = \"distance.png\"\ndistance_range_m = [9000, 800]"); },
+              testing::Throws<Error>());
+}
+
+TEST_F(Scans, WhatIsNotTrustedGuidesByItsClassOnly) {
+  Grid<glm::vec3> altitude(scan_width, scan_height, glm::vec3(0.F));
+  Grid<glm::vec3> trust(scan_width, scan_height, glm::vec3(0.F));
+  for (int y = 0; y < scan_height; ++y)
+    for (int x = 0; x < scan_width; ++x) {
+      altitude(x, y) = glm::vec3(static_cast<float>(x % 48) / 48.F);
+      trust(x, y) = glm::vec3(y < 50 ? 1.F : 0.F);
+    }
+  write_grey("altitude.png", altitude);
+  write_grey("trust.png", trust);
+  const ScannedPainting scan =
+      read("altitude = \"altitude.png\"\naltitude_range_m = [0, 5000]\ntrust = \"trust.png\"")
+          .front();
+  const Grid<std::uint8_t> guides = guide(scan, "altitude");
+  EXPECT_GT(guides(44, 40), guides(4, 40) + 150);
+  EXPECT_NEAR(guides(44, 70), guides(4, 70), 60) << "nearly the mean of the class";
+}
+
 TEST_F(Scans, SeveralPaintingsAreHarmonizedWhereTheSceneSaysSo) {
   const std::string second =
       "[[exemplar]]\npicture = \"b.png\"\nclasses = \"classes.png\"\n[synthesis]\nharmonize = ";

@@ -61,6 +61,8 @@ TEST(Guides, AreQuantizedAsDocumented) {
   g.altitude_m[1] = -20.0F;
   g.altitude_m[2] = 9000.0F;
   g.fall_line[1] = {-1.0F, 0.0F};
+  g.valley_height_m[1] = 300.0F;
+  g.valley_height_m[2] = 900.0F;
   const GuideStack stack = make_guide_stack(g, g.land_cover);
   const auto guide = [&](const std::string& name) {
     for (const Guide& each : stack.guides)
@@ -68,6 +70,9 @@ TEST(Guides, AreQuantizedAsDocumented) {
     ADD_FAILURE() << name;
     return Grid<std::uint8_t>(4, 1, 0);
   };
+  EXPECT_EQ(guide("valley")[0], 0);
+  EXPECT_EQ(guide("valley")[1], 128);
+  EXPECT_EQ(guide("valley")[2], 255);
   EXPECT_EQ(stack.label[0], 6);
   EXPECT_EQ(stack.label[3], 255);
   EXPECT_EQ(stack.depth_m, g.depth_m);

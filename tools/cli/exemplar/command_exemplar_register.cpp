@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <sstream>
@@ -9,6 +10,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/text/json.h"
+#include "renderer/exemplar/uncertain_places.h"
 #include "renderer/image/icc/painting_file.h"
 #include "renderer/image/output_file.h"
 #include "renderer/image/png_palette.h"
@@ -93,15 +95,17 @@ std::vector<std::string> folders_of(const std::vector<std::string>& files) {
   return out;
 }
 
-// White where the place of a pixel may be off by more than is good for copying.
-Grid<std::uint8_t> excluded_pixels(const Grid<float>& sigma_px, glm::ivec2 painting_px,
-                                   double limit_px) {
-  Grid<std::uint8_t> out(painting_px.x, painting_px.y);
+// How far the place of each pixel is known, for `trust` of an exemplar; the sky's is.
+Grid<std::uint8_t> trust_of_pixels(const Grid<float>& sigma_px, glm::ivec2 painting_px) {
+  Grid<std::uint8_t> out(painting_px.x, painting_px.y, 255);
   for (int y = 0; y < painting_px.y; ++y)
     for (int x = 0; x < painting_px.x; ++x) {
       const int column = std::min(x * sigma_px.width() / painting_px.x, sigma_px.width() - 1);
       const int row = std::min(y * sigma_px.height() / painting_px.y, sigma_px.height() - 1);
-      out(x, y) = static_cast<double>(sigma_px(column, row)) > limit_px ? 255 : 0;
+      const float sigma = sigma_px(column, row);
+      if (std::isnan(sigma)) continue;
+      out(x, y) = static_cast<std::uint8_t>(
+          std::lround(255.F * place_trust(static_cast<double>(sigma), painting_px.x)));
     }
   return out;
 }
@@ -133,9 +137,10 @@ RegisteredPainting register_painting(const RegisterCommand& options, Progress& p
   const Scene registered = registered_scene(report.registration, out.size_px);
   progress.begin("drawing", 0.0);
   report.picture = reduced_picture(painting, register_report_px);
-  report.ground =
-      trace_registered(RegisteredView(report.registration, registered, *dem,
-                                      {report.picture.width(), report.picture.height()}, progress));
+  const RegisteredView view(report.registration, registered, *dem,
+                            {report.picture.width(), report.picture.height()}, progress);
+  report.ground = trace_registered(view);
+  report.ground.folded = folded_facets(view);
   out.scene = scene_with_terrain(options, registered, *dem, report.ground.folded);
   report.light = light_of(out.scene, dem, report.picture, progress);
   light_scene(report.light, out.scene);
@@ -146,7 +151,7 @@ int run(const RegisterCommand& options) {
   check_dems_exist(options);
   check_output_folder(options.out);
   const auto in_folder = [&](const char* name) { return (fs::path(options.out) / name).string(); };
-  for (const char* name : {"registered.toml", "exclude.png", "index.html"})
+  for (const char* name : {"registered.toml", "trust.png", "index.html"})
     check_not_read(in_folder(name), "--out", {options.painting, options.pairs});
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
@@ -155,9 +160,8 @@ int run(const RegisterCommand& options) {
   write_text_file(in_folder("registered.toml"),
                   fmt::format("# {} registered to its terrain by belvedere exemplar register.\n{}",
                               input.painting, registered_sections(write_scene(found.scene))));
-  image_io::write_grey_png(
-      in_folder("exclude.png"),
-      excluded_pixels(input.ground.sigma_px, found.size_px, trusted_px * input.registration.scale));
+  image_io::write_grey_png(in_folder("trust.png"),
+                           trust_of_pixels(input.ground.sigma_px, found.size_px));
   write_register_report(options.out, input);
   progress.end();
   if (options.json) {
@@ -189,7 +193,7 @@ Action add_exemplar_register(CommandOptions& command) {
       "and optionally sure");
   command
       .add_option("--out", options->out,
-                  "Folder for registered.toml, exclude.png and the report; created if missing")
+                  "Folder for registered.toml, trust.png and the report; created if missing")
       .required()
       .type_name("DIR");
   command.add_flag("--pairs-only", options->pairs_only,

@@ -129,6 +129,27 @@ TEST(CombineTone, IsBetterThanPaintAndModelAlone) {
   EXPECT_NEAR(wood, 0.3, 0.03) << "one scale for all labels";
 }
 
+TEST(CombineTone, LeavesItToThePaintWherePlacesAreNotKnown) {
+  const ModelledSlope s = paint_modelled_slope();
+  Grid<float> modelled = s.modelled;
+  Grid<float> deviation(200, 80, 0.F);
+  for (int y = 0; y < 80; ++y)
+    for (int x = 0; x < 20; ++x) {
+      modelled(x, y) = 1.F - modelled(x, y);
+      deviation(x, y) = 200.F;
+    }
+  const auto error = [&](const Grid<float>& off) {
+    const Grid<float> tone =
+        combine_tone(s.picture, s.labels, 3.0, modelled, s.altitude, s.depth, off);
+    double sum = 0.0;
+    for (int y = 0; y < 80; ++y)
+      for (int x = 0; x < 20; ++x)
+        sum += std::abs(static_cast<double>(tone(x, y) - s.tone(x, y))) / (80.0 * 20.0);
+    return sum;
+  };
+  EXPECT_LT(error(deviation), 0.7 * error({}));
+}
+
 TEST(CombineTone, IsThePaintsWhereTheModelSaysSomethingElse) {
   ModelledSlope s = paint_modelled_slope();
   for (int y = 0; y < 80; ++y)

@@ -51,7 +51,7 @@ class ExemplarRegister : public Program {
   std::vector<ControlPair> pairs_;
 };
 
-TEST_F(ExemplarRegister, WritesASceneAReportAndWhatNotToCopy) {
+TEST_F(ExemplarRegister, WritesASceneAReportAndTrust) {
   const Outcome outcome = run({"exemplar", "register", path("painting.png"), path("dem.tif"),
                                "--pairs", write_pairs(), "--out", path("registered")});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
@@ -61,7 +61,9 @@ TEST_F(ExemplarRegister, WritesASceneAReportAndWhatNotToCopy) {
               AllOf(HasSubstr("projection = \"perspective\""), HasSubstr("file = \"dem.tif\""),
                     HasSubstr("[[deform.field.places]]"), HasSubstr("width = 300")));
   EXPECT_THAT(read_bytes(path("registered/index.html")), HasSubstr("place 5"));
-  EXPECT_EQ(read_grey(path("registered/exclude.png")).width(), 300);
+  const Grid<std::uint16_t> trust = read_grey(path("registered/trust.png"));
+  EXPECT_EQ(trust.width(), 300);
+  EXPECT_GT(trust(150, 120), 60);
   // The scene is one that the program takes.
   const Outcome checked = run({"check", path("registered/registered.toml"), "--data", path("")});
   EXPECT_EQ(checked.status, 0) << checked.err;

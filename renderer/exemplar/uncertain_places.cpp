@@ -1,0 +1,109 @@
+#include "renderer/exemplar/uncertain_places.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+
+#include "base/filter.h"
+#include "base/masks/label_blur.h"
+#include "base/parallel.h"
+
+namespace belvedere {
+namespace {
+
+constexpr double half_trust_share = 0.01;  // of the width: deviation at trust .5
+constexpr float min_trust = 1e-4F;
+constexpr float exact_px = 0.5F;  // smaller deviations are none
+constexpr int steps = 10;         // of deviation: .5 … 1, 1 … 2, … px and beyond
+
+// The step of a deviation, or -1 for none.
+int step_of(float deviation_px) {
+  int step = -1;
+  for (float from = exact_px; deviation_px >= from && step + 1 < steps; from *= 2.F) ++step;
+  return step;
+}
+
+// The deviation that stands for a step: the middle of its range.
+double deviation_of(int step) { return 0.75 * static_cast<double>(1 << step); }
+
+std::array<bool, steps> used_steps(const Grid<float>& deviation_px) {
+  std::array<bool, steps> used{};
+  for (const float deviation : deviation_px)
+    if (const int step = step_of(deviation); step >= 0) used[static_cast<std::size_t>(step)] = true;
+  return used;
+}
+
+// Calls take(i) for the pixels of a step.
+void each_of_step(const Grid<float>& deviation_px, int step,
+                  const std::function<void(std::size_t)>& take) {
+  for (std::size_t i = 0; i < deviation_px.size(); ++i)
+    if (step_of(deviation_px[i]) == step) take(i);
+}
+
+}  // namespace
+
+Grid<float> place_deviation(const Grid<float>& trust) {
+  Grid<float> out(trust.width(), trust.height());
+  const double half_px = half_trust_share * trust.width();
+  parallel_rows(out.height(), [&](int y) {
+    for (int x = 0; x < out.width(); ++x) {
+      const double share = static_cast<double>(std::clamp(trust(x, y), min_trust, 1.F));
+      out(x, y) = static_cast<float>(half_px * std::sqrt(1.0 / share - 1.0));
+    }
+  });
+  return out;
+}
+
+float place_trust(double deviation_px, int width) {
+  const double halves = deviation_px / (half_trust_share * width);
+  return static_cast<float>(1.0 / (1.0 + halves * halves));
+}
+
+Grid<float> average_over_places(const Grid<float>& values, const Grid<std::uint8_t>& labels,
+                                const Grid<float>& deviation_px) {
+  Grid<float> out = values;
+  const std::array<bool, steps> used = used_steps(deviation_px);
+  for (int step = 0; step < steps; ++step) {
+    if (!used[static_cast<std::size_t>(step)]) continue;
+    const Grid<float> blurred = blur_within_labels(values, labels, deviation_of(step));
+    each_of_step(deviation_px, step, [&](std::size_t i) {
+      if (labels[i] != unused_label) out[i] = blurred[i];
+    });
+  }
+  return out;
+}
+
+void average_over_places(const Grid<float>& deviation_px, GuideStack& guides) {
+  for (Guide& guide : guides.guides) {
+    if (guide.name == "tone" || guide.name == "shadow") continue;
+    Grid<float> values(guide.values.width(), guide.values.height());
+    std::copy(guide.values.begin(), guide.values.end(), values.begin());
+    values = average_over_places(values, guides.label, deviation_px);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      guide.values[i] = static_cast<std::uint8_t>(std::lround(values[i]));
+  }
+}
+
+Grid<std::uint8_t> certain_labels(const Grid<std::uint8_t>& labels,
+                                  const Grid<float>& deviation_px) {
+  Grid<std::uint8_t> out = labels;
+  std::array<bool, 256> present{};
+  for (const std::uint8_t label : labels) present[label] = true;
+  const std::array<bool, steps> used = used_steps(deviation_px);
+  for (std::size_t label = 0; label < unused_label; ++label) {
+    if (!present[label]) continue;
+    Grid<float> own(labels.width(), labels.height());
+    for (std::size_t i = 0; i < own.size(); ++i) own[i] = labels[i] == label ? 1.F : 0.F;
+    for (int step = 0; step < steps; ++step) {
+      if (!used[static_cast<std::size_t>(step)]) continue;
+      const Grid<float> share = gaussian_blur(own, deviation_of(step));
+      each_of_step(deviation_px, step, [&](std::size_t i) {
+        if (labels[i] == label && share[i] < 0.5F) out[i] = unused_label;
+      });
+    }
+  }
+  return out;
+}
+
+}  // namespace belvedere

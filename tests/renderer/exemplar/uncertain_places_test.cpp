@@ -1,0 +1,60 @@
+#include "renderer/exemplar/uncertain_places.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace belvedere {
+namespace {
+
+TEST(UncertainPlaces, TrustIsADeviation) {
+  Grid<float> trust(400, 1, 1.F);
+  trust[1] = 0.5F;
+  trust[2] = place_trust(10.0, 400);
+  trust[3] = 0.F;
+  const Grid<float> deviation = place_deviation(trust);
+  EXPECT_EQ(deviation[0], 0.F);
+  EXPECT_NEAR(deviation[1], 4.F, 1e-4F) << "a hundredth of the width";
+  EXPECT_NEAR(deviation[2], 10.F, 1e-3F);
+  EXPECT_GE(deviation[3], 399.F);
+}
+
+// A guide that rises to the right; left the places are exact, right they are not known at all.
+TEST(UncertainPlaces, GuidesAreAveragesOfWhatTheirPlacesMayBe) {
+  GuideStack guides;
+  guides.label = Grid<std::uint8_t>(300, 40, 3);
+  Grid<std::uint8_t> rise(300, 40);
+  for (int y = 0; y < 40; ++y)
+    for (int x = 0; x < 300; ++x) {
+      if (y >= 20) guides.label(x, y) = 5;
+      rise(x, y) = static_cast<std::uint8_t>(y >= 20 ? 200 : x / 2);
+    }
+  guides.guides = {{"altitude", rise}, {"tone", rise}};
+  Grid<float> deviation(300, 40, 0.F);
+  for (int y = 0; y < 40; ++y)
+    for (int x = 150; x < 300; ++x) deviation(x, y) = x < 200 ? 6.F : 1000.F;
+  average_over_places(deviation, guides);
+  const Grid<std::uint8_t>& averaged = guides.guides[0].values;
+  for (int x = 0; x < 150; ++x) EXPECT_EQ(averaged(x, 10), x / 2) << x;
+  EXPECT_NEAR(averaged(175, 10), 175 / 2, 1) << "the mean of a slope is its middle";
+  EXPECT_NEAR(averaged(290, 10), 75, 25) << "the class's own mean, nearly";
+  EXPECT_EQ(averaged(290, 30), 200) << "other classes do not count";
+  EXPECT_EQ(guides.guides[1].values, rise) << "tone is combined with the paint instead";
+}
+
+TEST(UncertainPlaces, ClassesAreUsedWhereTheyAreCertain) {
+  Grid<std::uint8_t> labels(120, 60, 3);
+  for (int y = 0; y < 60; ++y)
+    for (int x = 0; x < 120; ++x)
+      if (x >= 100 || (y >= 28 && y < 32)) labels(x, y) = 5;  // a field, and a narrow road
+  const Grid<std::uint8_t> exact = certain_labels(labels, Grid<float>(120, 60, 0.F));
+  EXPECT_EQ(exact, labels);
+  const Grid<std::uint8_t> certain = certain_labels(labels, Grid<float>(120, 60, 6.F));
+  EXPECT_EQ(certain(50, 30), unused_label) << "a road that may lie elsewhere";
+  EXPECT_EQ(certain(50, 10), 3);
+  EXPECT_EQ(certain(112, 30), 5);
+}
+
+}  // namespace
+}  // namespace belvedere
