@@ -140,8 +140,7 @@ float old_snow(const RockPixel& p, glm::vec3 normal, float stands, float near) {
 }
 
 // Winter snow: whole flanks of the larger spurs that are level enough, gullies between them while
-// the wall can hold snow, and lines along the strongest beds. Small spurs get none of their own,
-// because the wall would look strewn with flakes. Steep walls are bare rock: calm areas in the
+// the wall can hold snow, and lines along strong beds; small spurs would strew the wall with flakes. Steep walls are bare rock: calm areas in the
 // picture.
 float winter_snow(const RockPixel& p, glm::vec3 large_normal, float stands, float strong_tread) {
   const float holds = 1.0F - smoothstep(54.0F, 74.0F, p.slope_deg + 6.0F * p.calm_noise);
@@ -152,8 +151,7 @@ float winter_snow(const RockPixel& p, glm::vec3 large_normal, float stands, floa
   return std::max({level, hollow, on_tread});
 }
 
-// Near walls are bare along the crests of their large spurs, the steeper the broader, as a whole
-// where they are very steep: rock stands in ribs and bands, and no flecks of it lie in the snow.
+// Near walls are bare along the crests of large spurs, the steepest as a whole: ribs, no flecks.
 constexpr float snow_holds_deg = 28.0F;  // on flanks
 constexpr float snow_slides_deg = 57.0F;
 constexpr float bare_crest = 0.46F;  // half width of a crest, spacings
