@@ -140,8 +140,8 @@ float old_snow(const RockPixel& p, glm::vec3 normal, float stands, float near) {
 }
 
 // Winter snow: whole flanks of the larger spurs that are level enough, gullies between them while
-// the wall can hold snow, and lines along strong beds; small spurs would strew the wall with flakes. Steep walls are bare rock: calm areas in the
-// picture.
+// the wall can hold snow, and lines along strong beds; small spurs would strew it with flakes.
+// Steep walls are bare rock: calm areas in the picture.
 float winter_snow(const RockPixel& p, glm::vec3 large_normal, float stands, float strong_tread) {
   const float holds = 1.0F - smoothstep(54.0F, 74.0F, p.slope_deg + 6.0F * p.calm_noise);
   const float level =
