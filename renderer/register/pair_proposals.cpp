@@ -110,8 +110,9 @@ std::vector<ProposedPlace> propose_places(std::span<const KnownPlace> places,
   }
   std::stable_sort(found.begin(), found.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<ProposedPlace> out;
-  for (const auto& [unlikely, place] : found) out.push_back(place);
+  std::vector<ProposedPlace> out(found.size());
+  std::transform(found.begin(), found.end(), out.begin(),
+                 [](const auto& each) { return each.second; });
   return out;
 }
 
