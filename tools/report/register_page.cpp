@@ -294,7 +294,8 @@ void write_register_report(const std::string& folder, const RegisterReportInput&
                   "more. The less a place is known, the less altitude, distance and slope guide "
                   "what is copied from it (trust.png).",
                   trusted_px * input.registration.scale));
-  page.picture("trust", trust_picture(input.ground.sigma_px, trusted_px * input.registration.scale),
+  page.picture("trust_map",
+               trust_picture(input.ground.sigma_px, trusted_px * input.registration.scale),
                "standard deviation of places");
   page.write({.title = "Registration of " + input.painting,
               .lead = summary_of(input),

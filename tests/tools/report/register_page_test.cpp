@@ -87,7 +87,7 @@ TEST(RegisterPage, IsAPageWithThePairsAndPictures) {
   EXPECT_LT(json.find("Spitze 1"), json.find("Spitze 0"));
   EXPECT_THAT(json, AllOf(HasSubstr("\"sigma_px\""), HasSubstr("\"projection\"")));
   EXPECT_TRUE(std::filesystem::exists(folder / "registered.png"));
-  EXPECT_TRUE(std::filesystem::exists(folder / "trust.png"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "trust_map.png"));
   EXPECT_TRUE(std::filesystem::exists(folder / "light.png"));
 }
 
