@@ -16,7 +16,7 @@
 namespace belvedere {
 namespace {
 
-constexpr std::size_t factors = 7;    // 1, normal, altitude, ln distance, sky
+constexpr std::size_t factors = 7;      // 1, normal, altitude, ln distance, sky
 constexpr std::size_t max_across = 32;  // shifts across, so that loops over them have one length
 using Factors = std::array<float, factors>;
 using Sums = std::array<float, max_across>;  // of each shift across
@@ -109,8 +109,8 @@ std::array<Channel, 3> padded_channels(const Grid<glm::vec3>& paint, glm::ivec2 
   std::array<Channel, 3> out;
   for (int c = 0; c < 3; ++c) {
     Channel& channel = out[static_cast<std::size_t>(c)];
-    channel.values = channel.squares = Grid<float>(paint.width() + 2 * border.x + int{max_across},
-                                                   paint.height() + 2 * border.y);
+    channel.values = channel.squares =
+        Grid<float>(paint.width() + 2 * border.x + int{max_across}, paint.height() + 2 * border.y);
     for (int y = 0; y < channel.values.height(); ++y)
       for (int x = 0; x < channel.values.width(); ++x) {
         const float value = paint.clamped(x - border.x, y - border.y)[c];
@@ -169,8 +169,7 @@ struct Moments {
 };
 Moments moments_of(const std::vector<double>& shares, int reach) {
   Moments out;
-  for (int i = -reach; i <= reach; ++i)
-    out.mean += i * shares[static_cast<std::size_t>(i + reach)];
+  for (int i = -reach; i <= reach; ++i) out.mean += i * shares[static_cast<std::size_t>(i + reach)];
   for (int i = -reach; i <= reach; ++i)
     out.variance += square(i - out.mean) * shares[static_cast<std::size_t>(i + reach)];
   return out;

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/math_exact.h"
 #include "base/parallel.h"
 #include "renderer/image/oklab.h"
 #include "renderer/register/match_paint.h"
@@ -56,11 +57,10 @@ std::vector<PaintedPlace> painted_places(const std::vector<PaintMatch>& matches,
     PaintedPlace painted;
     painted.place.pixel = px * (glm::dvec2(match.pixel) + 0.5 + match.shift_px);
     painted.place.position = ground.position(match.pixel.x, match.pixel.y);
-    painted.place.altitude_m =
-        static_cast<double>(ground.altitude_m(match.pixel.x, match.pixel.y));
+    painted.place.altitude_m = static_cast<double>(ground.altitude_m(match.pixel.x, match.pixel.y));
     const double least = min_sigma_px * px * ground.altitude_m.width() / 1200.0;
-    painted.sigma_px = {std::hypot(px * match.sigma_px.x, least),
-                        std::hypot(px * match.sigma_px.y, least)};
+    painted.sigma_px = {exact::hypot(px * match.sigma_px.x, least),
+                        exact::hypot(px * match.sigma_px.y, least)};
     out.push_back(painted);
   }
   return out;
@@ -79,9 +79,8 @@ PaintRegistration register_by_paint(const Registration& from_pairs,
     if (painting.width() < width) continue;
     const glm::ivec2 size(width, std::max(1, width * painting.height() / painting.width()));
     const double px = static_cast<double>(painting.width()) / width;
-    RegisteredGround ground = trace_registered(
-        RegisteredView(out.registration, registered_scene(out.registration, painting_px), dem, size,
-                       progress));
+    RegisteredGround ground = trace_registered(RegisteredView(
+        out.registration, registered_scene(out.registration, painting_px), dem, size, progress));
     for (float& sigma : ground.sigma_px) sigma /= static_cast<float>(px);
     MatchPaintParameters parameters = round.match;
     constexpr double independent_px2 = 50.0;  // of a painting 1200 px wide: a stroke

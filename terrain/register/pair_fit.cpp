@@ -146,8 +146,8 @@ PairJudgement judge_pairs(const PairFit& fit, double sigma_px) {
       const double variance = left_out[i].covariance(part, part);
       square_px += square(residual * px_per_m);
       const double ground_variance = std::max(variance - square(noise_m), 0.0);
-      square_deviations += square(residual * px_per_m) /
-                           (ground_variance * square(px_per_m) + square(noise_px));
+      square_deviations +=
+          square(residual * px_per_m) / (ground_variance * square(px_per_m) + square(noise_px));
       // A pair must not vouch for itself: the same if its ground had the size that others give it.
       const double share = ground_variance / square(size);
       const double observed = part == 0 ? moved.values[i] : moved.values[n + i];

@@ -42,8 +42,8 @@ Choice choose_field(const PairFit& fit, std::optional<double> sigma_px, Progress
       PairFit tried = fit;
       tried.field = field_of_extent(fit.frame.extent_m, length);
       set_noise(tried, sigma);
-      const double score =
-          refine_pairs(tried, sigma, 1).score - 0.5 * square(exact::log(sigma / usual_px) / usual_spread);
+      const double score = refine_pairs(tried, sigma, 1).score -
+                           0.5 * square(exact::log(sigma / usual_px) / usual_spread);
       if (score > best_score) best_score = score, best = {length, sigma};
     }
   return best;

@@ -62,8 +62,8 @@ Registration register_pairs(std::span<const ControlPair> pairs, glm::ivec2 paint
 
 // A place that the paint itself shows.
 struct PaintedPlace {
-  ControlPair place;          // pixel of the painting
-  glm::dvec2 sigma_px{1.0};   // of its pixel, standard deviation, > 0
+  ControlPair place;         // pixel of the painting
+  glm::dvec2 sigma_px{1.0};  // of its pixel, standard deviation, > 0
 };
 
 // Registers again with places that were found in the paint beside the pairs. They count the less

@@ -212,7 +212,8 @@ TEST(Config, NearestWord) {
   EXPECT_EQ(nearest_word("azimut_deg", keys), "azimuth_deg");
   EXPECT_EQ(nearest_word("Altitude_Deg", keys), "altitude_deg");
   EXPECT_EQ(nearest_word("tmie", keys), "time");
-  EXPECT_EQ(nearest_word("itme", {"ixxe", "time"}), "time") << "letters are swapped at the start too";
+  EXPECT_EQ(nearest_word("itme", {"ixxe", "time"}), "time")
+      << "letters are swapped at the start too";
   EXPECT_EQ(nearest_word("time_utc", keys), "time");
   EXPECT_EQ(nearest_word("azimuth", keys), "azimuth_deg");
   EXPECT_EQ(nearest_word("palette", keys), "");

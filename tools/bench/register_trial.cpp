@@ -141,8 +141,9 @@ int measure_registration(int argc, char** argv) {
       .range(0.0, 0.5)
       .show_default();
   command.add_option("--write", options.write, "Folder for the scenes and pairs as files");
-  command.add_option("--paint", options.paint,
-                     "Folder of the scenes' paintings, REGION_NUMBER.png: registered by them as well");
+  command.add_option(
+      "--paint", options.paint,
+      "Folder of the scenes' paintings, REGION_NUMBER.png: registered by them as well");
   command.add_flag("--known", options.known, "Kind of view and noise of 3 px are told");
   if (const std::string help = line.read({argv + 1, argv + argc}); !help.empty()) {
     fmt::print("{}", help);
@@ -173,7 +174,8 @@ int measure_registration(int argc, char** argv) {
             run_trial(scene, pairs, options, fmt::format("{}_{}", region.name, i), seed);
         fmt::print(
             "{:10} {:2} {:11} {:2.0f} % moved, {} draw {}: view {:.1f} / {:.0f}, field {:.1f} / "
-            "{:.0f}, still {:.1f}, moved {:.1f}, wrong {} of {}, thrown {}, sigma {:.1f}, {} rounds, "
+            "{:.0f}, still {:.1f}, moved {:.1f}, wrong {} of {}, thrown {}, sigma {:.1f}, {} "
+            "rounds, "
             "{} matches\n",
             region.name, i, scene.camera.projection, 100.0 * scene.moved_share,
             scene.widened_m > 0.0 ? "wide" : "    ", draw, median(trial.view_px),

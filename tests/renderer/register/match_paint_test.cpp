@@ -49,8 +49,7 @@ constexpr MatchPaintParameters example = {
 TEST(MatchPaint, FindsAShiftUnderAnUnknownLight) {
   const RegisteredGround ground = hill_ground();
   for (const glm::dvec2 shift : {glm::dvec2(0.0, 0.0), glm::dvec2(5.0, -3.0)}) {
-    const std::vector<PaintMatch> found =
-        match_paint(painted_hills(shift, 0.03F), ground, example);
+    const std::vector<PaintMatch> found = match_paint(painted_hills(shift, 0.03F), ground, example);
     ASSERT_GE(found.size(), 20U);
     std::vector<double> off;
     for (const PaintMatch& match : found) off.push_back(glm::length(match.shift_px - shift));

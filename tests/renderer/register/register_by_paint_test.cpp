@@ -70,15 +70,14 @@ TEST(RegisterByPaint, ThePaintIsMoreExactThanClicks) {
     clicks[i].pixel.x = pairs[i].pixel.x / 3.0 + 2.0 * random_normal(9, n, 0);
     clicks[i].pixel.y = pairs[i].pixel.y / 3.0 + 2.0 * random_normal(9, n, 1);
   }
-  const Registration clicked = register_pairs(
-      clicks, size, {.view = {.kinds = {ViewKind::plane}}, .sigma_px = 2.0});
+  const Registration clicked =
+      register_pairs(clicks, size, {.view = {.kinds = {ViewKind::plane}}, .sigma_px = 2.0});
   const auto distance_px = [&](const Registration& found) {
     const DisplacementField field(found.displacement);
     std::vector<double> off;
     for (const ControlPair& place : pairs)
-      off.push_back(
-          glm::length(registered_pixel(found, field, place.position, place.altitude_m) -
-                      place.pixel / 3.0));
+      off.push_back(glm::length(registered_pixel(found, field, place.position, place.altitude_m) -
+                                place.pixel / 3.0));
     return median(off);
   };
   const PaintRegistration found =

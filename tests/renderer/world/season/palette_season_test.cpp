@@ -50,7 +50,8 @@ TEST(PaletteSeason, TheSkyIsMixedAtEveryHeight) {
   const glm::vec3 black(0.F), grey(0.4F), white(1.F);
   low.sky = {{0.0, black}, {0.5, black}, {1.0, white}};
   high.sky = {{0.25, white}, {0.75, grey}};
-  const Palette mixed = mix_palettes(low, high, [](double) { return 0.5; }, 400.0, 3000.0);
+  const Palette mixed = mix_palettes(
+      low, high, [](double) { return 0.5; }, 400.0, 3000.0);
   ASSERT_EQ(mixed.sky.size(), 3U);
   EXPECT_FLOAT_EQ(mixed.sky[0].second.x, 0.5F);
   EXPECT_FLOAT_EQ(mixed.sky[1].second.x, 0.35F);  // half of black, half of (white + grey) / 2
