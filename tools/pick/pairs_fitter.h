@@ -49,10 +49,6 @@ struct PairsFitterInput {
   RegistrationParameters registration;
 };
 
-// A DEM whose cells are the highest of n × n, n the smallest that leaves at most so many cells: the
-// skyline keeps its summits.
-Dem highest_cells(const Dem& dem, std::size_t max_cells);
-
 // Fits pairs in a thread of its own: first the registration, then what terrain it shows. The newest
 // pairs end the work for those before.
 class PairsFitter {

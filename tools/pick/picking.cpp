@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/filter.h"
 #include "terrain/io/crs.h"
+#include "terrain/register/highest_cells.h"
 #include "tools/pick/pairs_fitter.h"
 #include "tools/pick/pairs_session.h"
 #include "tools/pick/pick_answers.h"

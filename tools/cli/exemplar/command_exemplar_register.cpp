@@ -21,6 +21,7 @@
 #include "renderer/register/registered_view.h"
 #include "renderer/scene/scene_file.h"
 #include "terrain/register/control_pairs.h"
+#include "terrain/register/highest_cells.h"
 #include "terrain/register/registration.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/exemplar/register_options.h"
@@ -37,6 +38,8 @@ namespace fs = std::filesystem;
 constexpr std::array<std::string_view, 6> about = {"terrain", "deform",        "camera",
                                                    "sun",     "light.regions", "output"};
 constexpr int register_report_px = 1400;  // longest side of the pictures of the report
+// Of the ground that is drawn to look for it in the paint, and for the report.
+constexpr std::size_t max_drawn_cells = 1'500'000;
 
 struct RegisterCommand : RegisterOptions {
   std::string out;
@@ -44,8 +47,7 @@ struct RegisterCommand : RegisterOptions {
 };
 
 // The scene with its terrain: files by their names, which --data finds.
-Scene scene_with_terrain(const RegisterOptions& options, Scene scene, const Dem& dem,
-                         std::size_t folded) {
+Scene scene_with_terrain(const RegisterOptions& options, Scene scene, const Dem& dem) {
   scene.title = fs::path(options.painting).stem().string();
   for (const std::string& path : options.dems) {
     SceneSource& source = scene.terrain.sources.emplace_back();
@@ -55,7 +57,7 @@ Scene scene_with_terrain(const RegisterOptions& options, Scene scene, const Dem&
   scene.terrain.dem.cell_m = options.cell_m;
   const std::string crs = describe_crs(dem.crs);
   if (crs.starts_with("EPSG:")) scene.terrain.dem.crs = crs;
-  scene.deform.allow_folds = folded > 0;
+  scene.deform.allow_folds = true;  // the report counts them
   return scene;
 }
 
@@ -122,27 +124,29 @@ RegisteredPainting register_painting(const RegisterCommand& options, Progress& p
   progress.begin("reading", 0.0);
   const Grid<glm::vec3> painting = read_painting(options.painting, progress);
   out.size_px = {painting.width(), painting.height()};
-  const auto dem = std::make_shared<const Dem>(read_dem(dem_parameters(options), progress));
+  const Dem dem = read_dem(dem_parameters(options), progress);
+  const auto drawn = std::make_shared<const Dem>(highest_cells(dem, max_drawn_cells));
   RegisterReportInput& report = out.report;
   report.painting = file_name(options.painting);
   report.command = fmt::format("belvedere exemplar register {} … --pairs {}", report.painting,
                                file_name(options.pairs));
-  report.pairs = read_control_pairs(options.pairs, out.size_px, *dem);
+  report.pairs = read_control_pairs(options.pairs, out.size_px, dem);
   progress.begin("registering", 0.0);
   report.registration =
       register_pairs(report.pairs, out.size_px, registration_parameters(options), progress);
   if (!options.pairs_only)
     report.registration =
-        register_by_paint(report.registration, report.pairs, painting, *dem, progress).registration;
+        register_by_paint(report.registration, report.pairs, painting, *drawn, progress)
+            .registration;
   const Scene registered = registered_scene(report.registration, out.size_px);
   progress.begin("drawing", 0.0);
   report.picture = reduced_picture(painting, register_report_px);
-  const RegisteredView view(report.registration, registered, *dem,
+  const RegisteredView view(report.registration, registered, *drawn,
                             {report.picture.width(), report.picture.height()}, progress);
   report.ground = trace_registered(view);
   report.ground.folded = folded_facets(view);
-  out.scene = scene_with_terrain(options, registered, *dem, report.ground.folded);
-  report.light = light_of(out.scene, dem, report.picture, progress);
+  out.scene = scene_with_terrain(options, registered, dem);
+  report.light = light_of(out.scene, drawn, report.picture, progress);
   light_scene(report.light, out.scene);
   return out;
 }
