@@ -49,6 +49,13 @@ TEST(PaintHalo, IsThePaintWhereThatIsLightEnough) {
   EXPECT_NEAR(halo.b / halo.g, meadow.b / meadow.g, .02);
 }
 
+TEST(PaintHalo, IsALighterGreenOnGreen) {
+  const glm::vec3 green(.4F, .55F, .3F);
+  const glm::vec3 halo = halo_colour(green, {.letters = glm::vec3(.1F), .contrast = 6.5});
+  EXPECT_GT(halo.g, 1.15F * green.g);
+  EXPECT_NEAR(halo.b / halo.g, green.b / green.g, .05);
+}
+
 TEST(PaintHalo, OfEvenPaintIsEvenAndOfAPointAHill) {
   const Grid<glm::vec3> even(30, 30, glm::vec3(.25F, .5F, .75F));
   const Grid<glm::vec3> same = blurred({even, {0, 0}}, {5, 5, 20, 20}, 3);
