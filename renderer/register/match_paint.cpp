@@ -156,8 +156,8 @@ Grid<float> explained_shares(const Patch& patch, const std::array<Channel, 3>& p
       }
     }
   // A place of even paint says nothing.
-  const float most = *std::max_element(variance.begin(), variance.end());
-  const float even = 1e-6F * static_cast<float>(patch.area) + 0.02F * most;
+  const float max_variance = *std::max_element(variance.begin(), variance.end());
+  const float even = 1e-6F * static_cast<float>(patch.area) + 0.02F * max_variance;
   constexpr float max_share = 0.98F;
   for (std::size_t i = 0; i < explained.size(); ++i)
     explained[i] = std::clamp(explained[i] / std::max(variance[i], even), 0.F, max_share);
@@ -183,13 +183,13 @@ std::optional<PaintMatch> most_likely_shift(const Grid<float>& explained, glm::i
       log_likelihood(x, y) =
           -0.5 * samples * exact::log(1.0 - static_cast<double>(explained(x, y))) -
           0.5 * (square(1.0 * (x - reach.x)) + square(1.0 * (y - reach.y))) / square(prior);
-  const double most = *std::max_element(log_likelihood.begin(), log_likelihood.end());
+  const double highest = *std::max_element(log_likelihood.begin(), log_likelihood.end());
   std::vector<double> across(static_cast<std::size_t>(explained.width()));
   std::vector<double> along(static_cast<std::size_t>(explained.height()));
   double sum = 0.0;
   for (int y = 0; y < explained.height(); ++y)
     for (int x = 0; x < explained.width(); ++x) {
-      const double p = exact::exp(log_likelihood(x, y) - most);
+      const double p = exact::exp(log_likelihood(x, y) - highest);
       across[static_cast<std::size_t>(x)] += p;
       along[static_cast<std::size_t>(y)] += p;
       sum += p;

@@ -58,9 +58,9 @@ std::vector<PaintedPlace> painted_places(const std::vector<PaintMatch>& matches,
     painted.place.pixel = px * (glm::dvec2(match.pixel) + 0.5 + match.shift_px);
     painted.place.position = ground.position(match.pixel.x, match.pixel.y);
     painted.place.altitude_m = static_cast<double>(ground.altitude_m(match.pixel.x, match.pixel.y));
-    const double least = min_sigma_px * px * ground.altitude_m.width() / 1200.0;
-    painted.sigma_px = {exact::hypot(px * match.sigma_px.x, least),
-                        exact::hypot(px * match.sigma_px.y, least)};
+    const double min_px = min_sigma_px * px * ground.altitude_m.width() / 1200.0;
+    painted.sigma_px = {exact::hypot(px * match.sigma_px.x, min_px),
+                        exact::hypot(px * match.sigma_px.y, min_px)};
     out.push_back(painted);
   }
   return out;
