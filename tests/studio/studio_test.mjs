@@ -56,7 +56,7 @@ const picture = () =>
     return sum;
   });
 async function middle(selector) {
-  const box = await (await page.$(selector)).boundingBox();
+  const box = await (await page.waitForSelector(selector, { visible: true, ...patience })).boundingBox();
   return [box.x + box.width / 2, box.y + box.height / 2];
 }
 async function drag(selector, dx, dy, steps = 12) {
