@@ -175,8 +175,8 @@ Moments moments_of(const std::vector<double>& shares, int reach) {
   return out;
 }
 
-std::optional<PaintMatch> most_likely_shift(const Grid<float>& explained, glm::ivec2 reach,
-                                            double samples, double prior) {
+std::optional<PaintMatch> expected_shift(const Grid<float>& explained, glm::ivec2 reach,
+                                         double samples, double prior) {
   Grid<double> log_likelihood(explained.width(), explained.height());
   for (int y = 0; y < explained.height(); ++y)
     for (int x = 0; x < explained.width(); ++x)
@@ -235,8 +235,8 @@ std::vector<PaintMatch> match_paint(const Grid<glm::vec3>& paint, const Register
         std::clamp(static_cast<double>(ground.sigma_px(middle.x, middle.y)), parameters.prior_px,
                    std::max(parameters.prior_px, max_prior * reach.x));
     std::optional<PaintMatch>& match = found[static_cast<std::size_t>(i)];
-    match = most_likely_shift(explained_shares(*patch, channels, middle, reach), reach,
-                              patch->area / parameters.independent_px2, prior);
+    match = expected_shift(explained_shares(*patch, channels, middle, reach), reach,
+                           patch->area / parameters.independent_px2, prior);
     if (match) match->pixel = middle;
   });
   std::vector<PaintMatch> out;

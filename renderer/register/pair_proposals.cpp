@@ -23,15 +23,17 @@ Grid<float> measured_altitudes(const Dem& dem) {
   return out;
 }
 
-std::optional<double> altitude_at(const Dem& dem, glm::dvec2 position) {
+}  // namespace
+
+std::optional<double> measured_altitude_m(const Dem& dem, glm::dvec2 position) {
   const glm::dvec2 cell = dem.transform.to_cell(position.x, position.y);
   if (!(cell.x >= 0.0 && cell.y >= 0.0 && cell.x <= dem.width() - 1.0 &&
         cell.y <= dem.height() - 1.0))
     return std::nullopt;
+  const int x = static_cast<int>(std::lround(cell.x)), y = static_cast<int>(std::lround(cell.y));
+  if (!dem.filled.empty() && dem.filled(x, y) != 0) return std::nullopt;
   return static_cast<double>(sample_bilinear(dem.altitude_m, cell.x, cell.y));
 }
-
-}  // namespace
 
 std::vector<KnownPlace> known_places(const Dem& dem, std::span<const NamedPlace> named,
                                      const KnownPlacesParameters& parameters) {
@@ -44,7 +46,7 @@ std::vector<KnownPlace> known_places(const Dem& dem, std::span<const NamedPlace>
                    static_cast<double>(summit.prominence_m)});
   const std::size_t summits = out.size();
   for (const NamedPlace& place : named) {
-    const std::optional<double> altitude = altitude_at(dem, place.position);
+    const std::optional<double> altitude = measured_altitude_m(dem, place.position);
     if (!altitude) continue;
     const std::optional<std::size_t> summit =
         place.summit

@@ -13,6 +13,9 @@
 
 namespace belvedere {
 
+// Altitude of a place, between cells; nothing outside the DEM and in voids that were filled.
+std::optional<double> measured_altitude_m(const Dem& dem, glm::dvec2 position);
+
 // A place that a person may recognize in a painting: a summit of the DEM, or a place of a file.
 struct KnownPlace {
   std::string name = {};  // empty: not known

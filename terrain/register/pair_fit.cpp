@@ -127,11 +127,10 @@ Matrix view_covariance(const PairFit& fit, double sigma_px) {
 PairJudgement judge_pairs(const PairFit& fit, double sigma_px) {
   const std::size_t n = fit.pairs.size();
   const Residuals moved = displacements(fit, fit.view);
-  // The model's own derivatives are those of observed minus modelled, reversed; the sign has no
-  // effect.
   std::vector<std::vector<std::size_t>> groups;
   for (std::size_t i = 0; i < n; ++i) groups.push_back({i, n + i});
   PairJudgement out;
+  // The slopes of observed less modelled: those of the model reversed, which has no effect.
   const std::vector<LeftOut> left_out =
       leave_out(whole_covariance(fit.field), moved.slopes, prior_precision(fit, sigma_px),
                 moved.values, groups);

@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/filter.h"
 #include "terrain/io/crs.h"
 #include "terrain/register/highest_cells.h"
 #include "tools/pick/pairs_fitter.h"
@@ -203,14 +202,9 @@ HttpAnswer PickingState::change_pairs(const std::string& name, const std::string
 
 // The ground at a position; nothing outside the data.
 std::optional<KnownPlace> PickingState::ground_at(glm::dvec2 position) const {
-  const glm::dvec2 cell = dem.transform.to_cell(position.x, position.y);
-  if (!(cell.x >= 0.0 && cell.y >= 0.0 && cell.x <= dem.width() - 1.0 &&
-        cell.y <= dem.height() - 1.0))
-    return std::nullopt;
-  const int x = static_cast<int>(std::lround(cell.x)), y = static_cast<int>(std::lround(cell.y));
-  if (!dem.filled.empty() && dem.filled(x, y) != 0) return std::nullopt;
-  return KnownPlace{
-      {}, position, static_cast<double>(sample_bilinear(dem.altitude_m, cell.x, cell.y)), 0.0};
+  const std::optional<double> altitude_m = measured_altitude_m(dem, position);
+  if (!altitude_m) return std::nullopt;
+  return KnownPlace{{}, position, *altitude_m, 0.0};
 }
 
 KnownPlace PickingState::place_at(glm::dvec2 position) const {

@@ -140,9 +140,12 @@ std::string summary_of(const RegisterReportInput& input) {
                                    [](const PairFinding& f) { return f.wrong; });
   return fmt::format(
       "{} pairs, {} thrown out; each of the others lies {:.1f} px from where the rest say it is, "
-      "at "
-      "the median. The painting is as if seen in a {} view.",
+      "at the median. {} The painting is as if seen in a {} view.",
       found.findings.size(), wrong, median(kept_distances_px(found)),
+      input.painted_places == 0
+          ? "They alone are fitted, not the paint."
+          : fmt::format("{} patches of ground that were found in the paint are fitted with them.",
+                        input.painted_places),
       view_kind_name(found.frame.kind));
 }
 
@@ -259,6 +262,7 @@ Json registration_json(const RegisterReportInput& input) {
       .add("focal_px", known(focal_px(found)))
       .add("sigma_px", known(found.sigma_px))
       .add("others_px", known(median(kept_distances_px(found))))
+      .add("painted_places", Json::number(static_cast<double>(input.painted_places)))
       .add("folded", Json::number(static_cast<double>(input.ground.folded)))
       .add("light", light_json(input.light))
       .add("kinds", std::move(kinds))

@@ -30,7 +30,8 @@ struct RegisterReportInput {
   std::string command;
   std::vector<ControlPair> pairs;
   Registration registration;
-  Grid<glm::vec3> picture;  // the painting, as large as the ground
+  std::size_t painted_places = 0;  // that were found in the paint and fitted too
+  Grid<glm::vec3> picture;         // the painting, as large as the ground
   RegisteredGround ground;
   RegisteredLight light;
 };

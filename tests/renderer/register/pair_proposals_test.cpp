@@ -34,6 +34,18 @@ Dem three_summits() {
 }
 glm::dvec2 centre_of(int x, int y) { return {660100.0 + 200.0 * x, 5279900.0 - 200.0 * y}; }
 
+TEST(MeasuredAltitude, LiesBetweenCellsAndNowhereWithoutData) {
+  Dem dem = make_dem({test::grid_of(5, 4, [](int x, int y) { return 100.0 * x + 10.0 * y; }),
+                      {0.0, 400.0, 100.0, 100.0},
+                      normalize_crs("EPSG:32632")});
+  dem.filled = Grid<std::uint8_t>(5, 4);
+  dem.filled(3, 2) = 1;
+  EXPECT_EQ(measured_altitude_m(dem, dem.transform.to_crs(1.5, 1.0)), 160.0);
+  EXPECT_EQ(measured_altitude_m(dem, dem.transform.to_crs(4.0, 3.0)), 430.0);
+  EXPECT_FALSE(measured_altitude_m(dem, dem.transform.to_crs(3.2, 1.8)));
+  EXPECT_FALSE(measured_altitude_m(dem, dem.transform.to_crs(4.1, 1.0)));
+}
+
 TEST(PairProposals, SummitsHaveTheirNamesAndOtherPlacesTheirAltitude) {
   const Dem dem = three_summits();
   const std::vector<NamedPlace> named = {

@@ -79,9 +79,13 @@ TEST(RegisterPage, OrdersPairsWorstFirst) {
 
 TEST(RegisterPage, IsAPageWithThePairsAndPictures) {
   const test::Folder folder;
-  const RegisterReportInput input = example();
+  RegisterReportInput input = example();
+  write_register_report(folder / "", input);
+  EXPECT_THAT(test::read_bytes(folder / "index.html"), HasSubstr("They alone are fitted"));
+  input.painted_places = 87;
   write_register_report(folder / "", input);
   const std::string page = test::read_bytes(folder / "index.html");
+  EXPECT_THAT(page, HasSubstr("87 patches of ground"));
   EXPECT_THAT(page, AllOf(HasSubstr("Spitze 1"), HasSubstr("none near by confirms it")));
   const std::string json = test::read_bytes(folder / "report.json");
   EXPECT_LT(json.find("Spitze 1"), json.find("Spitze 0"));

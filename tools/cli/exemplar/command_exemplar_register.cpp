@@ -134,10 +134,12 @@ RegisteredPainting register_painting(const RegisterCommand& options, Progress& p
   progress.begin("registering", 0.0);
   report.registration =
       register_pairs(report.pairs, out.size_px, registration_parameters(options), progress);
-  if (!options.pairs_only)
-    report.registration =
-        register_by_paint(report.registration, report.pairs, painting, *drawn, progress)
-            .registration;
+  if (!options.pairs_only) {
+    PaintRegistration by_paint =
+        register_by_paint(report.registration, report.pairs, painting, *drawn, progress);
+    report.registration = std::move(by_paint.registration);
+    report.painted_places = by_paint.matches;
+  }
   const Scene registered = registered_scene(report.registration, out.size_px);
   progress.begin("drawing", 0.0);
   report.picture = reduced_picture(painting, register_report_px);
