@@ -104,13 +104,16 @@ bool check_same_painting(const FileNotes& picture, const FileNotes& guidance,
   if (made_by->second == its->second) return true;
   throw Error(ErrorKind::input, path,
               "it belongs to a different painting: the picture was made from another scene",
-              "the guidance.exr written together with the picture");
+              "the guidance.exr written together with the picture; if the painting was registered, "
+              "trust = \"trust.png\" of its registration as well");
 }
 
 // A painting made by the program contains the origin of its paint: class and base colour are read
 // there. The header of the file marks the layer without trees. Returns whether it is one.
 bool take_paint(const SceneExemplar& settings, const LoadedScene& scene,
                 GuidanceBuffers& guidance) {
+  // The guidance of a registration is of a scene of its own and does not know the paint.
+  if (!settings.trust.empty()) return false;
   const FileNotes notes = read_image_info(find_scene_file(scene, settings.picture)).notes;
   const std::string path = find_scene_file(scene, settings.guidance);
   const bool same = check_same_painting(notes, read_image_info(path).notes, path);
@@ -264,8 +267,10 @@ void find_light(const SceneExemplar& settings, Raw& raw, Progress& progress) {
   GuidanceBuffers& guidance = raw.guidance;
   const bool registered = raw.measured && !raw.painted;
   if (registered && !guidance.tone.empty() && !guidance.altitude_m.empty())
-    guidance.tone = combine_tone(raw.picture, raw.labels, settings.stroke_px, guidance.tone,
-                                 guidance.altitude_m, guidance.depth_m, raw.deviation_px);
+    guidance.tone =
+        spread_tone(combine_tone(raw.picture, raw.labels, settings.stroke_px, guidance.tone,
+                                 guidance.altitude_m, guidance.depth_m, raw.deviation_px),
+                    raw.labels);
   else if (guidance.tone.empty())
     guidance.tone = estimate_tone(raw.picture, raw.labels, settings.stroke_px);
   if (registered && settings.shadow.empty()) {

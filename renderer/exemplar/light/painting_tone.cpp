@@ -67,6 +67,16 @@ struct ToneScale {
   }
 };
 
+ToneScale scale_of(std::vector<float>& values) {
+  ToneScale scale;
+  scale.texels = values.size();
+  std::sort(values.begin(), values.end());
+  for (std::size_t k = 0; k < spread.size(); ++k)
+    scale.lightness[k] = static_cast<double>(
+        values[static_cast<std::size_t>(spread[k].share * static_cast<double>(values.size() - 1))]);
+  return scale;
+}
+
 using ToneScales = std::array<ToneScale, 256>;
 
 ToneScales scales_of_labels(const Grid<float>& lightness, const Grid<std::uint8_t>& labels) {
@@ -74,15 +84,8 @@ ToneScales scales_of_labels(const Grid<float>& lightness, const Grid<std::uint8_
   for (std::size_t i = 0; i < lightness.size(); ++i)
     if (labels[i] != unused_label) sorted[labels[i]].push_back(lightness[i]);
   ToneScales scales;
-  for (std::size_t label = 0; label < sorted.size(); ++label) {
-    std::vector<float>& values = sorted[label];
-    if (values.empty()) continue;
-    std::sort(values.begin(), values.end());
-    scales[label].texels = values.size();
-    for (std::size_t k = 0; k < spread.size(); ++k)
-      scales[label].lightness[k] = static_cast<double>(values[static_cast<std::size_t>(
-          spread[k].share * static_cast<double>(values.size() - 1))]);
-  }
+  for (std::size_t label = 0; label < sorted.size(); ++label)
+    if (!sorted[label].empty()) scales[label] = scale_of(sorted[label]);
   return scales;
 }
 
@@ -258,6 +261,18 @@ Grid<float> combine_tone(const Grid<glm::vec3>& picture, const Grid<std::uint8_t
     tone[i] += static_cast<float>(weight * (known - static_cast<double>(tone[i])));
     tone[i] = std::clamp(tone[i], 0.F, 1.F);
   }
+  return tone;
+}
+
+Grid<float> spread_tone(Grid<float> tone, const Grid<std::uint8_t>& labels) {
+  std::vector<float> values;
+  for (std::size_t i = 0; i < tone.size(); ++i)
+    if (labels[i] != unused_label) values.push_back(tone[i]);
+  if (values.empty()) return tone;
+  const ToneScale scale = scale_of(values);
+  for (std::size_t i = 0; i < tone.size(); ++i)
+    if (labels[i] != unused_label)
+      tone[i] = static_cast<float>(scale.tone(static_cast<double>(tone[i])));
   return tone;
 }
 

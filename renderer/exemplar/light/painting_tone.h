@@ -28,4 +28,9 @@ Grid<float> combine_tone(const Grid<glm::vec3>& picture, const Grid<std::uint8_t
                          const Grid<float>& altitude_m, const Grid<float>& depth_m,
                          const Grid<float>& deviation_px = {});
 
+// A tone on one scale for all labels, brought to the distribution of tone in a target as a whole
+// (quartiles as above): the light and shade of a painting against the sun serve a target with the
+// sun behind the viewer, and a label in shade stays in shade.
+Grid<float> spread_tone(Grid<float> tone, const Grid<std::uint8_t>& labels);
+
 }  // namespace belvedere

@@ -12,6 +12,7 @@
 #include "base/random.h"
 #include "renderer/exemplar/harmonize.h"
 #include "renderer/exemplar/seam_picture.h"
+#include "renderer/image/guidance_io.h"
 #include "renderer/image/image_io.h"
 #include "tests/renderer/image/picture_bytes.h"
 #include "texture/synthesis/guide_stack.h"
@@ -236,6 +237,26 @@ TEST_F(Scans, WhatIsNotTrustedGuidesByItsClassOnly) {
   const Grid<std::uint8_t> guides = guide(scan, "altitude");
   EXPECT_GT(guides(44, 40), guides(4, 40) + 150);
   EXPECT_NEAR(guides(44, 70), guides(4, 70), 60) << "nearly the mean of the class";
+}
+
+// A painting of the program, registered like any other: its guidance is that of another scene.
+TEST_F(Scans, GuidanceOfAnotherSceneNeedsTrust) {
+  PictureFileOptions options;
+  options.notes["belvedere:scene"] = "its own";
+  write_png8(folder_ / "a.png", Grid<glm::vec3>(scan_width, scan_height, glm::vec3(0.4F)), options);
+  GuidanceBuffers guidance;
+  guidance.depth_m = Grid<float>(scan_width, scan_height, 900.F);
+  guidance.land_cover = Grid<LandCoverClass>(scan_width, scan_height, LandCoverClass::rock);
+  guidance.base = Image(scan_width, scan_height, glm::vec3(0.9F));
+  write_guidance(folder_ / "guidance.exr", guidance,
+                 {{"belvedere:scene", "that of the registration"}});
+  write_grey("trust.png", Grid<glm::vec3>(scan_width, scan_height, glm::vec3(1.F)));
+  const std::string keys = "guidance = \"guidance.exr\"";
+  EXPECT_THAT([&] { read(keys); },
+              testing::ThrowsMessage<Error>(testing::AllOf(testing::HasSubstr("different painting"),
+                                                           testing::HasSubstr("trust.png"))));
+  const ScannedPainting scan = read(keys + "\ntrust = \"trust.png\"").front();
+  EXPECT_LT(scan.painted.base(30, 40).x, 0.6F) << "fitted to its own paint";
 }
 
 TEST_F(Scans, SeveralPaintingsAreHarmonizedWhereTheSceneSaysSo) {

@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <memory>
@@ -56,14 +57,36 @@ Grid<glm::vec3> class_picture(const GuideStack& guides) {
   return out;
 }
 
-// Black at the lowest, white at the highest, the same for the painting and the picture.
-Grid<glm::vec3> altitude_picture(const GuideStack& guides) {
-  const Grid<std::uint8_t>* values = guides.find("altitude");
+// What is black and what is white in the pictures of a guide, the same in all columns.
+struct GreyRange {
+  float black = 0.F;
+  float white = 255.F;
+};
+
+// Of all texels and pixels that are used, so that all steps of a narrow guide are seen.
+GreyRange range_of(const std::vector<Column>& columns, const char* guide) {
+  GreyRange range{255.F, 0.F};
+  for (const Column& column : columns) {
+    const Grid<std::uint8_t>* values = column.guides.find(guide);
+    if (values == nullptr) continue;
+    for (std::size_t i = 0; i < values->size(); ++i) {
+      if (column.guides.label[i] == unused_label) continue;
+      range.black = std::min(range.black, static_cast<float>((*values)[i]));
+      range.white = std::max(range.white, static_cast<float>((*values)[i]));
+    }
+  }
+  return range.black < range.white ? range : GreyRange{};
+}
+
+// Empty if the guide is not known.
+Grid<glm::vec3> guide_picture(const GuideStack& guides, const char* guide, GreyRange range) {
+  const Grid<std::uint8_t>* values = guides.find(guide);
   if (values == nullptr) return {};
   Grid<glm::vec3> out(guides.width(), guides.height(), blank);
   for (std::size_t i = 0; i < out.size(); ++i)
     if (guides.label[i] != unused_label)
-      out[i] = glm::vec3(static_cast<float>((*values)[i]) / 255.F);
+      out[i] =
+          glm::vec3((static_cast<float>((*values)[i]) - range.black) / (range.white - range.black));
   return out;
 }
 
@@ -139,13 +162,15 @@ int run(const FigureOptions& options) {
   std::vector<Column> columns = copied_from(loaded, progress, cache);
   columns.push_back(std::move(result));
   PictureTable table;
-  table.rows = {"land cover", "altitude", "picture"};
+  table.rows = {"land cover", "altitude", "distance", "picture"};
   table.cells.resize(table.rows.size());
+  const GreyRange distances = range_of(columns, "distance");
   for (const Column& column : columns) {
     table.columns.push_back(column.name);
-    const std::array<std::pair<const char*, Grid<glm::vec3>>, 3> rows = {
+    const std::array<std::pair<const char*, Grid<glm::vec3>>, 4> rows = {
         {{"landcover", class_picture(column.guides)},
-         {"altitude", altitude_picture(column.guides)},
+         {"altitude", guide_picture(column.guides, "altitude", {})},
+         {"distance", guide_picture(column.guides, "distance", distances)},
          {"", column.picture}}};
     for (std::size_t r = 0; r < rows.size(); ++r) {
       const auto& [name, picture] = rows[r];
@@ -156,9 +181,11 @@ int run(const FigureOptions& options) {
     }
   }
   table.foot = legend(columns);
-  page.section("sheet", "Paintings and the picture",
-               "The classes and altitudes of both (figure 4 of Jenny & Jenny 2013), the painting, "
-               "and the result (figure 5).");
+  page.section(
+      "sheet", "Paintings and the picture",
+      "The classes, altitudes (20 m a step of grey from 0 m) and distances (logarithm, black "
+      "near) of both (figure 4 of Jenny & Jenny 2013), the painting, and the result "
+      "(figure 5). A painting without guidance or such images has only its classes.");
   page.picture("sheet", draw_table(table), "sheet.png");
   if (options.making)
     add_making_of(page, loaded, make_run(options.scene, Run{}.tile_px, progress, cache));
@@ -201,7 +228,8 @@ std::function<int()> add_figure(CommandOptions& command) {
                    "cover, light, colours, copied paint, strokes.\n"
                    "Paints the picture a second time");
   command.footer(
-      "Rows of land cover, altitude and paint, a column for each painting that is copied from and "
+      "Rows of land cover, altitude, distance and paint, a column for each painting that is copied "
+      "from and "
       "one for the picture:\n"
       "figures 4 and 5 of Jenny & Jenny 2013 for any scene.\n"
       "\n"

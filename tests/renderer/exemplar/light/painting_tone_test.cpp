@@ -159,6 +159,39 @@ TEST(CombineTone, IsThePaintsWhereTheModelSaysSomethingElse) {
             estimate_tone(s.picture, s.labels, 3.0));
 }
 
+// Seen against the sun: nearly all ground is in shade, the wood more than the meadow.
+TEST(SpreadTone, HasTheQuartilesOfTargetsWhileTheOrderOfAllLabelsStays) {
+  const Grid<std::uint8_t> labels = halves(100, 40);
+  Grid<float> tone(100, 40);
+  for (int y = 0; y < 40; ++y)
+    for (int x = 0; x < 100; ++x) {
+      const double share = random_uniform(9, x, y);
+      tone(x, y) = static_cast<float>(labels(x, y) == 1 ? 0.1 + 0.3 * share : 0.05 * share);
+    }
+  const Grid<float> out = spread_tone(tone, labels);
+  std::vector<float> sorted(out.begin(), out.end());
+  std::sort(sorted.begin(), sorted.end());
+  EXPECT_NEAR(sorted[1000], 0.43F, 0.01F);
+  EXPECT_NEAR(sorted[1999], 0.64F, 0.01F);
+  EXPECT_NEAR(sorted[3000], 0.86F, 0.01F);
+  for (std::size_t i = 1; i < out.size(); ++i) {
+    if (tone[i] > tone[i - 1]) {
+      EXPECT_GE(out[i], out[i - 1]) << i;
+    }
+    if (labels[i] == 2) {
+      EXPECT_LE(out[i], 0.65F) << "the wood stays in shade";
+    }
+  }
+}
+
+TEST(SpreadTone, FlatLightIsTheMiddleToneAndUnusedTexelsKeepTheirs) {
+  Grid<std::uint8_t> labels(10, 10, 3);
+  labels(4, 4) = unused_label;
+  const Grid<float> out = spread_tone(Grid<float>(10, 10, 0.1F), labels);
+  EXPECT_FLOAT_EQ(out(0, 0), 0.64F);
+  EXPECT_EQ(out(4, 4), 0.1F);
+}
+
 TEST(EstimateTone, SameBitsForOneAndTwoThreads) {
   Grid<glm::vec3> picture(70, 50);
   for (std::size_t i = 0; i < picture.size(); ++i)

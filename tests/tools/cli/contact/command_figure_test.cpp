@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "base/land_cover_class.h"
 #include "renderer/image/guidance_io.h"
@@ -32,7 +34,7 @@ glm::ivec2 found_in(const Grid<glm::vec3>& sheet, const Grid<glm::vec3>& picture
   return glm::ivec2(-1);
 }
 
-TEST_F(Figure, ShowsClassesAndAltitudesOfThePictureAndOfWhatItCopiesFrom) {
+TEST_F(Figure, ShowsGuidesOfThePictureAndOfWhatItCopiesFrom) {
   const std::string file = write("s.toml", figure_scene);
   const Outcome outcome = run({"figure", file, "--quiet", "--out", path("out")});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
@@ -58,9 +60,20 @@ TEST_F(Figure, ShowsClassesAndAltitudesOfThePictureAndOfWhatItCopiesFrom) {
     highest = std::max(highest, guidance.altitude_m[i]);
   }
   EXPECT_GT(highest, lowest + 500.F);
+  // Distance: black nearest, white farthest of both columns, straight in its logarithm.
+  const Grid<glm::vec3> distance = read_picture(path("out/picture_distance.png"));
+  std::vector<std::pair<float, float>> by_depth;
+  for (std::size_t i = 0; i < distance.size(); ++i)
+    if (!guidance.is_sky(i))
+      by_depth.emplace_back(std::log(std::max(guidance.depth_m[i], 500.F)), distance[i].r);
+  const auto [near, far] = std::minmax_element(by_depth.begin(), by_depth.end());
+  ASSERT_GT(far->second, near->second + 0.2F);
+  const float slope = (far->second - near->second) / (far->first - near->first);
+  for (const auto& [log_m, grey] : by_depth)
+    ASSERT_NEAR(grey, near->second + slope * (log_m - near->first), 0.04F);
   // The example sheet that texels come from, with the same two.
-  for (const char* name :
-       {"out/copied_1.png", "out/copied_1_landcover.png", "out/copied_1_altitude.png"}) {
+  for (const char* name : {"out/copied_1.png", "out/copied_1_landcover.png",
+                           "out/copied_1_altitude.png", "out/copied_1_distance.png"}) {
     const Grid<glm::vec3> picture = read_picture(path(name));
     EXPECT_EQ(picture.width(), 240) << name;
     EXPECT_EQ(picture.height(), 180) << name;
@@ -68,19 +81,21 @@ TEST_F(Figure, ShowsClassesAndAltitudesOfThePictureAndOfWhatItCopiesFrom) {
   const Grid<glm::vec3> sheet = read_picture(path("out/sheet.png"));
   EXPECT_GT(sheet.width(), 360);
   EXPECT_GT(sheet.height(), 3 * 180);
-  // Land cover above altitude above paint, what is copied from at the left of the picture.
+  // Land cover above altitude above distance above paint, what is copied from at the left of the
+  // picture.
   const auto corner = [&](const std::string& name) {
     return found_in(sheet, read_picture(path("out/" + name + ".png")));
   };
   for (const std::string column : {"copied_1", "picture"}) {
     const glm::ivec2 cover = corner(column + "_landcover");
     const glm::ivec2 heights = corner(column + "_altitude");
+    const glm::ivec2 distances = corner(column + "_distance");
     const glm::ivec2 paint = corner(column);
-    ASSERT_TRUE(cover.x >= 0 && heights.x >= 0 && paint.x >= 0) << column;
-    EXPECT_EQ(cover.x, heights.x) << column;
-    EXPECT_EQ(cover.x, paint.x) << column;
+    ASSERT_TRUE(cover.x >= 0 && heights.x >= 0 && distances.x >= 0 && paint.x >= 0) << column;
+    for (const glm::ivec2 other : {heights, distances, paint}) EXPECT_EQ(cover.x, other.x);
     EXPECT_LT(cover.y, heights.y) << column;
-    EXPECT_LT(heights.y, paint.y) << column;
+    EXPECT_LT(heights.y, distances.y) << column;
+    EXPECT_LT(distances.y, paint.y) << column;
   }
   EXPECT_GE(corner("picture").x, corner("copied_1").x + 240);
   // The example sheet's own: classes in their colours, altitudes in grey, paint in neither.
