@@ -126,33 +126,51 @@ DisplacementField::DisplacementField(DisplacementParameters parameters)
   upward_covariance_ = with_noise(covariance, places, &Displacement::upward_m);
   lateral_ = lateral_covariance_->solve(parts_of(places, &Displacement::lateral_m));
   upward_ = upward_covariance_->solve(parts_of(places, &Displacement::upward_m));
-  tabulate();
+  // Each vertex of the ground asks for the field, at a cost of two exponentials a place.
+  constexpr std::size_t min_places = 8;  // fewer are quicker exactly
+  constexpr double nodes_to_a_length = 8.0;
+  // Where sizes no longer differ, by 1e-7, and where the kernel is below 1e-5.
+  constexpr double near_reaches = 6.0, far_lengths = 8.0;
+  if (places.size() < min_places) return;
+  const double near_step = std::min(parameters_.length_m, parameters_.reach_m) / nodes_to_a_length;
+  near_ = tabulate(near_step, near_reaches * parameters_.reach_m);
+  far_ = tabulate(parameters_.length_m / nodes_to_a_length, far_lengths * parameters_.length_m);
 }
 
-// Each vertex of the ground asks for the field, at a cost of two exponentials a place.
-void DisplacementField::tabulate() {
-  constexpr std::size_t min_places = 8;  // fewer are quicker exactly
-  constexpr double nodes_to_a_length = 8.0, margin_reaches = 4.0;
+DisplacementField::Nodes DisplacementField::tabulate(double step_m, double margin_m) const {
   constexpr double max_nodes = 1 << 19;
-  if (parameters_.places.size() < min_places) return;
   glm::dvec2 low = parameters_.places.front().position, high = low;
   for (const DisplacedPlace& place : parameters_.places) {
     low = glm::min(low, place.position);
     high = glm::max(high, place.position);
   }
-  const double margin = margin_reaches * parameters_.reach_m;
-  const double step = std::min(parameters_.length_m, parameters_.reach_m) / nodes_to_a_length;
-  const glm::dvec2 count = glm::ceil((high - low + 2.0 * margin) / step) + 1.0;
-  if (count.x * count.y > max_nodes) return;
-  first_node_ = low - margin;
-  node_step_m_ = step;
-  nodes_ = Grid<glm::dvec2>(static_cast<int>(count.x), static_cast<int>(count.y));
-  parallel_rows(nodes_.height(), [&](int y) {
-    for (int x = 0; x < nodes_.width(); ++x) {
-      const Displacement value = exactly_at(first_node_ + step * glm::dvec2(x, y));
-      nodes_(x, y) = {value.lateral_m, value.upward_m};
+  const glm::dvec2 count = glm::ceil((high - low + 2.0 * margin_m) / step_m) + 1.0;
+  if (count.x * count.y > max_nodes) return {};
+  Nodes nodes{low - margin_m, step_m, {static_cast<int>(count.x), static_cast<int>(count.y)}};
+  parallel_rows(nodes.values.height(), [&](int y) {
+    for (int x = 0; x < nodes.values.width(); ++x) {
+      const Displacement value = exactly_at(nodes.first + step_m * glm::dvec2(x, y));
+      nodes.values(x, y) = {value.lateral_m, value.upward_m};
     }
   });
+  return nodes;
+}
+
+std::optional<glm::dvec2> DisplacementField::Nodes::at(glm::dvec2 position) const {
+  const glm::dvec2 node = (position - first) / step_m;
+  if (!(node.x >= 1.0 && node.y >= 1.0 && node.x < values.width() - 2.0 &&
+        node.y < values.height() - 2.0))
+    return {};
+  const int x = static_cast<int>(node.x), y = static_cast<int>(node.y);
+  const std::array<double, 4> across = catmull_rom(node.x - x), along = catmull_rom(node.y - y);
+  glm::dvec2 sum(0.0);
+  for (int row = 0; row < 4; ++row) {
+    glm::dvec2 of_row(0.0);
+    for (int column = 0; column < 4; ++column)
+      of_row += across[static_cast<std::size_t>(column)] * values(x - 1 + column, y - 1 + row);
+    sum += along[static_cast<std::size_t>(row)] * of_row;
+  }
+  return sum;
 }
 
 std::vector<double> DisplacementField::covariance_with(glm::dvec2 position) const {
@@ -166,20 +184,12 @@ std::vector<double> DisplacementField::covariance_with(glm::dvec2 position) cons
 }
 
 Displacement DisplacementField::at(glm::dvec2 position) const {
-  const glm::dvec2 node = (position - first_node_) / node_step_m_;
-  if (!(node.x >= 1.0 && node.y >= 1.0 && node.x < nodes_.width() - 2.0 &&
-        node.y < nodes_.height() - 2.0))
-    return exactly_at(position);
-  const int x = static_cast<int>(node.x), y = static_cast<int>(node.y);
-  const std::array<double, 4> across = catmull_rom(node.x - x), along = catmull_rom(node.y - y);
-  glm::dvec2 sum(0.0);
-  for (int row = 0; row < 4; ++row) {
-    glm::dvec2 of_row(0.0);
-    for (int column = 0; column < 4; ++column)
-      of_row += across[static_cast<std::size_t>(column)] * nodes_(x - 1 + column, y - 1 + row);
-    sum += along[static_cast<std::size_t>(row)] * of_row;
+  std::optional<glm::dvec2> moved = near_.at(position);
+  if (!moved) {
+    if (near_.values.empty() || far_.values.empty()) return exactly_at(position);
+    moved = far_.at(position);
   }
-  return {sum.x, sum.y};
+  return moved ? Displacement{moved->x, moved->y} : Displacement{};
 }
 
 Displacement DisplacementField::exactly_at(glm::dvec2 position) const {

@@ -52,8 +52,8 @@ class DisplacementField {
   explicit DisplacementField(DisplacementParameters parameters);
 
   bool is_identity() const { return parameters_.places.empty(); }
-  // The expected displacement: 0 far from all places. Of many places, near them, from nodes eight
-  // to a reach or length, within 2e-3 of the largest displacement.
+  // The expected displacement: 0 far from all places. Of many places from nodes eight to a reach
+  // near them and eight to a length farther away, within 2e-3 of the largest displacement.
   Displacement at(glm::dvec2 position) const;
   Displacement exactly_at(glm::dvec2 position) const;
   // Its standard deviation, of both parts.
@@ -61,7 +61,14 @@ class DisplacementField {
   const DisplacementParameters& parameters() const { return parameters_; }
 
  private:
-  void tabulate();
+  // Displacements (lateral, upward) at nodes, and between them.
+  struct Nodes {
+    glm::dvec2 first{0.0};  // CRS
+    double step_m = 1.0;
+    Grid<glm::dvec2> values;
+    std::optional<glm::dvec2> at(glm::dvec2 position) const;  // none outside
+  };
+  Nodes tabulate(double step_m, double margin_m) const;
   // cov of a position with every place; all zero beyond reach of them.
   std::vector<double> covariance_with(glm::dvec2 position) const;
 
@@ -71,9 +78,7 @@ class DisplacementField {
   std::vector<double> upward_;
   std::optional<Cholesky> lateral_covariance_;  // K + noise²
   std::optional<Cholesky> upward_covariance_;
-  glm::dvec2 first_node_{0.0};  // CRS
-  double node_step_m_ = 1.0;
-  Grid<glm::dvec2> nodes_;  // lateral, upward; empty: all is computed exactly
+  Nodes near_, far_;  // empty: computed exactly
 };
 
 }  // namespace belvedere
