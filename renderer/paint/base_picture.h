@@ -1,62 +1,27 @@
 #pragma once
 
-#include <cstdint>
 #include <glm/vec2.hpp>
-#include <memory>
-#include <optional>
 
 #include "base/guidance_buffers.h"
 #include "base/pixel_rect.h"
 #include "base/progress.h"
-#include "renderer/paint/air_parameters.h"
-#include "renderer/paint/ground/ground_tint.h"
+#include "renderer/paint/ground/base_parameters.h"
 #include "renderer/paint/palette.h"
-#include "renderer/paint/rock_kinds.h"
-#include "renderer/paint/terrain_end.h"
 #include "renderer/paint/water/water_image.h"
-#include "renderer/paint/water/water_parameters.h"
-#include "renderer/trace/light_field.h"
-#include "renderer/trace/water/water_ground.h"
 #include "renderer/trace/wide_view.h"
 #include "texture/strokes/stroke_painter.h"
 
 namespace belvedere {
 
-// Parameters that turn ramps into the base picture.
-struct BaseParameters {
-  AirParameters air;
-  const RockKind* rock = &rock_kinds().front();  // gives rock its hues
-  double horizon_px = 0.0;  // row of the horizon in the whole picture (skyline_row_px of sky.h); 0:
-                            // 0.18 of its height
-  double sun_image_x = 1.0;  // as in ToneParameters
-  double sunny_side = 1.0;  // 1: the noon sun stands in the south, as it does north of the tropics;
-                            // -1: in the north
-  double pixels_per_unit = 1.0;
-  std::uint64_t seed = 1;
-  std::uint64_t sky_seed = 1;  // of the sky alone: each view of a scene has its own sky
-  // 0: tone picks colours from the palette's ramps. Otherwise: the mean light of lit ground; the
-  // colour is that of the ramp at the middle tone, times the light of the pixel's tone divided by
-  // this mean.
-  double mean_light = 0.0;
-  std::shared_ptr<const WaterGround> waters =
-      nullptr;  // lakes and their beds; null: all water looks the same and no bed shows
-  WaterParameters water;
-  std::shared_ptr<const LightField> light_field =
-      nullptr;  // gives lit ground its warmth; null: the palette's alone
-  std::shared_ptr<const GroundTint> tint =
-      nullptr;  // the ground's own colours, towards which ramps are shifted; null: plain ramps
-  std::optional<TerrainSides> sides = {};  // of the data; none: they do not fade at their sides
-};
-
 // Base picture (encoded sRGB) at the pixel's tone and at ∓ .17, with accents, tree density and
 // haze; sky pixels get sky and clouds. Needs depths, positions, altitudes, classes, tone, fall
 // lines, slopes, footprints, relief of all sizes, smooth normals, heights above the valley, rim,
 // built and grain. `origin_px`, `picture_size`: position of the buffers in the whole picture. Local
-// up to base_margin_px(): a part with that margin equals the whole bit for bit. Only the `wanted`
-// pixels of the buffers (empty: all) are made; the result has their size. With a wide view only
-// that must reach so far; the buffers need no more than base_window(wanted). `image`: the
-// reflections in the water of the wanted pixels, of their size; null: looked up in their columns,
-// unless mirroring is off.
+// up to base_margin_px() of base_surroundings.h: a part with that margin equals the whole bit for
+// bit. Only the `wanted` pixels of the buffers (empty: all) are made; the result has their size.
+// With a wide view only that must reach so far; the buffers need no more than base_window(wanted).
+// `image`: the reflections in the water of the wanted pixels, of their size; null: looked up in
+// their columns, unless mirroring is off.
 BasePicture make_base_picture(const GuidanceBuffers& guidance, const WideView& wide,
                               const Palette& palette, const BaseParameters& parameters,
                               glm::ivec2 origin_px, glm::ivec2 picture_size, Progress& progress,
@@ -64,9 +29,5 @@ BasePicture make_base_picture(const GuidanceBuffers& guidance, const WideView& w
 BasePicture make_base_picture(const GuidanceBuffers& guidance, const Palette& palette,
                               const BaseParameters& parameters, glm::ivec2 origin_px,
                               glm::ivec2 picture_size, Progress& progress, PixelRect wanted = {});
-int base_margin_px(const BaseParameters& parameters);
-// The wanted pixels and those read around them where a wide view is given. has_water: whether any
-// of them is water, which needs the shores above and below.
-PixelRect base_window(PixelRect wanted, bool has_water, const BaseParameters& parameters);
 
 }  // namespace belvedere

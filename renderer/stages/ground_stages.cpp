@@ -9,6 +9,7 @@
 #include "renderer/close/close_relief.h"
 #include "renderer/features/drawn_features.h"
 #include "renderer/mist/mist_sight.h"
+#include "renderer/paint/ground/base_surroundings.h"
 #include "renderer/paint/guides.h"
 #include "renderer/rock/crest_shift.h"
 #include "renderer/stages/finishing_paint.h"

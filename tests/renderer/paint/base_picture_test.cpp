@@ -1,4 +1,5 @@
 #include "renderer/paint/base_picture.h"
+#include "renderer/paint/ground/base_surroundings.h"
 
 #include <gtest/gtest.h>
 
