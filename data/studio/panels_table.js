@@ -272,6 +272,7 @@ export const lists = {
     rows: [
       { key: "light", label: "Serves light" },
       { key: "found_shadow", label: "Dark pixels" },
+      { key: "classes_from", label: "Classes by" },
       { key: "stroke_px", label: "Size of strokes", unit: "px", min: 0.5, max: 40, step: 0.5 },
       { key: "seed", label: "Seed", min: 0, max: 1000, step: 1 },
       { key: "origin", label: "Origin" },

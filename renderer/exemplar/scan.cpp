@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "base/guidance_channels.h"
 #include "base/math_exact.h"
+#include "renderer/exemplar/classes_by_paint.h"
 #include "renderer/exemplar/example_painting.h"
 #include "renderer/exemplar/fill_excluded.h"
 #include "renderer/exemplar/harmonize.h"
@@ -159,6 +160,11 @@ void exclude(const SceneExemplar& settings, const LoadedScene& scene, Raw& raw,
     if (excluded[i] != 0) raw.labels[i] = unused_label;
 }
 
+void set_classes(const Grid<std::uint8_t>& ids, GuidanceBuffers& guidance) {
+  for (std::size_t i = 0; i < ids.size(); ++i)
+    guidance.land_cover[i] = static_cast<LandCoverClass>(ids[i]);
+}
+
 Raw read_raw(const SceneExemplar& settings, const LoadedScene& scene, Progress& progress) {
   Raw raw;
   raw.picture = read_painting(find_scene_file(scene, settings.picture), progress);
@@ -170,11 +176,10 @@ Raw read_raw(const SceneExemplar& settings, const LoadedScene& scene, Progress& 
                      ErrorKind::input);
     check_same_size(path, raw.guidance.width(), raw.guidance.height(), raw.picture);
     raw.painted = take_paint(settings, scene, raw.guidance);
-    if (!settings.classes.empty()) {
-      const Grid<std::uint8_t> ids = read_classes(settings, scene, raw.picture);
-      for (std::size_t i = 0; i < ids.size(); ++i)
-        raw.guidance.land_cover[i] = static_cast<LandCoverClass>(ids[i]);
-    }
+    if (!settings.classes.empty())
+      set_classes(read_classes(settings, scene, raw.picture), raw.guidance);
+    else if (!raw.painted && settings.classes_from == "paint" && !raw.guidance.altitude_m.empty())
+      set_classes(classes_by_paint(raw.picture, places_of(raw.guidance)), raw.guidance);
   } else {
     read_masks(settings, scene, raw);
   }

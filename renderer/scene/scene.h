@@ -255,7 +255,9 @@ struct SceneExemplar {
   std::string light = "any";  // ground that the model paints: "lit", "shaded" or "any"
   std::string guidance;       // guidance.exr of the picture, and/or:
   std::string classes;        // grey image of class ids, instead of those of guidance; 255 excludes
-  std::string altitude;       // grey image, scaled by altitude_range_m
+  std::string classes_from = "paint";  // of guidance that was not painted with the picture: "paint"
+                                       // corrects its classes, "guidance" takes them as they are
+  std::string altitude;                // grey image, scaled by altitude_range_m
   std::array<double, 2> altitude_range_m = {0.0, 4000.0};
   std::string distance;  // grey image, scaled by distance_range_m in equal ratios
   std::array<double, 2> distance_range_m = {2000.0, 60000.0};

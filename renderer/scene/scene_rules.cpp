@@ -277,9 +277,10 @@ class Rules {
       const SceneExemplar& exemplar = scene_.exemplars[i];
       const std::string name = fmt::format("exemplar.{}", i);
       if (!exemplar.model.empty()) {
-        for (const char* key : {"picture", "guidance", "classes", "altitude", "altitude_range_m",
-                                "distance", "distance_range_m", "trust", "shadow", "found_shadow",
-                                "exclude", "excluded", "width", "height", "seed"})
+        for (const char* key :
+             {"picture", "guidance", "classes", "classes_from", "altitude", "altitude_range_m",
+              "distance", "distance_range_m", "trust", "shadow", "found_shadow", "exclude",
+              "excluded", "width", "height", "seed"})
           if (written(name + "." + key))
             refuse(name + "." + key, fmt::format("{}.{} is set together with a model", name, key),
                    "a picture or a model in each block");
@@ -300,9 +301,10 @@ class Rules {
             name + ".picture has neither guidance nor classes, which give the class of each pixel",
             "guidance = \"….exr\", or classes = \"….png\"");
       if (exemplar.picture.empty())
-        for (const char* key : {"guidance", "classes", "altitude", "altitude_range_m", "distance",
-                                "distance_range_m", "trust", "shadow", "found_shadow", "exclude",
-                                "excluded", "serves", "stroke_px", "optional"})
+        for (const char* key :
+             {"guidance", "classes", "classes_from", "altitude", "altitude_range_m", "distance",
+              "distance_range_m", "trust", "shadow", "found_shadow", "exclude", "excluded",
+              "serves", "stroke_px", "optional"})
           if (written(name + "." + key))
             refuse(name + "." + key, fmt::format("{}.{} is set without a picture", name, key),
                    "a picture with it");

@@ -43,6 +43,13 @@ std::vector<SceneSection> make_exemplar_sections() {
                 .meaning = "Grey image of the picture's size with the number of each pixel's "
                            "class, also instead of those of guidance; 255 is never copied from.",
                 .text = TextKind::file},
+               {.name = "classes_from",
+                .field = AT(exemplars[i].classes_from),
+                .meaning = "With the guidance of a registered painting and without classes: paint "
+                           "corrects its classes by the colours of the painting, guidance takes "
+                           "them as they are.",
+                .text = TextKind::choice,
+                .choices = {"paint", "guidance"}},
                {.name = "altitude",
                 .field = AT(exemplars[i].altitude),
                 .meaning = "Grey image of the picture's size: altitude from black to white.",

@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <exception>
 #include <glm/geometric.hpp>
+#include <memory>
+#include <optional>
 
 #include "base/error.h"
 #include "base/random.h"
@@ -15,6 +17,7 @@
 #include "renderer/image/output_file.h"
 #include "renderer/register/register_by_paint.h"
 #include "terrain/register/registration.h"
+#include "tools/bench/cover_trial.h"
 #include "tools/bench/secret_scene.h"
 #include "tools/options/options.h"
 
@@ -33,6 +36,7 @@ struct TrialOptions {
   bool known = false;
   std::string write;
   std::string paint;
+  bool classes = false;
 };
 
 struct Trial {
@@ -41,6 +45,7 @@ struct Trial {
   double sigma_px = 0.0;
   int rounds = 0;
   std::size_t matches = 0;
+  std::optional<CoverTrial> cover;
 };
 
 Trial run_trial(const SecretScene& scene, const SecretPairs& secret, const TrialOptions& options,
@@ -63,6 +68,9 @@ Trial run_trial(const SecretScene& scene, const SecretPairs& secret, const Trial
     found = by_paint.registration;
     out.rounds = by_paint.rounds;
     out.matches = by_paint.matches;
+    const std::string truth = fmt::format("{}/out_{}/guidance.exr", options.paint, name);
+    if (options.classes)
+      out.cover = try_cover(found, painting, std::make_shared<const Dem>(*scene.dem), truth);
   }
   const DisplacementField field(found.displacement);
   const FittedView& alone = found.kinds.front();
@@ -118,6 +126,35 @@ void print_table(const std::vector<Trial>& trials) {
       share(thrown, good));
 }
 
+// A line of a table of the land cover.
+std::string cover_row(const CoverTrial& of) {
+  const auto cell = [](const ClassAgreement& a) {
+    return fmt::format("{:.2f} / {:.2f}", a.iou, a.right);
+  };
+  return fmt::format("{} | {} | {} | {}", cell(of.rules), cell(of.painted), cell(of.own_rules),
+                     cell(of.own));
+}
+
+// The means, of the trials that have them.
+void print_cover_table(const std::vector<Trial>& trials) {
+  CoverTrial mean;
+  double count = 0.0;
+  for (const Trial& trial : trials) count += trial.cover ? 1.0 : 0.0;
+  if (count == 0.0) return;
+  for (const Trial& trial : trials) {
+    if (!trial.cover) continue;
+    for (ClassAgreement CoverTrial::*of :
+         {&CoverTrial::rules, &CoverTrial::painted, &CoverTrial::own_rules, &CoverTrial::own}) {
+      (mean.*of).iou += ((*trial.cover).*of).iou / count;
+      (mean.*of).right += ((*trial.cover).*of).right / count;
+    }
+  }
+  fmt::print(
+      "| mean IoU / right | rules by climate | with paint | rules by own lines | with paint |\n"
+      "|---|---|---|---|---|\n| {:.0f} runs | {} |\n",
+      count, cover_row(mean));
+}
+
 int measure_registration(int argc, char** argv) {
   tools::CommandLine line("register_trial", "Measures how well paintings are registered.");
   tools::CommandOptions& command = line.options();
@@ -144,6 +181,9 @@ int measure_registration(int argc, char** argv) {
   command.add_option(
       "--paint", options.paint,
       "Folder of the scenes' paintings, REGION_NUMBER.png: registered by them as well");
+  command.add_flag("--classes", options.classes,
+                   "With --paint: how well classes agree with out_REGION_NUMBER/guidance.exr "
+                   "beside the paintings");
   command.add_flag("--known", options.known, "Kind of view and noise of 3 px are told");
   if (const std::string help = line.read({argv + 1, argv + argc}); !help.empty()) {
     fmt::print("{}", help);
@@ -182,12 +222,17 @@ int measure_registration(int argc, char** argv) {
             percentile(trial.view_px, 0.9), median(trial.all_px), percentile(trial.all_px, 0.9),
             median(trial.still_px), median(trial.moved_px), trial.found, trial.wrong, trial.thrown,
             trial.sigma_px, trial.rounds, trial.matches);
+        if (trial.cover)
+          fmt::print("  treeline {:.0f}, snow line {:.0f}{}: IoU / right {}\n",
+                     trial.cover->lines.treeline_m, trial.cover->lines.snowline_m,
+                     trial.cover->lines.winter ? ", winter" : "", cover_row(*trial.cover));
         std::fflush(stdout);
         trials.push_back(trial);
       }
     }
   }
   print_table(trials);
+  print_cover_table(trials);
   return 0;
 }
 

@@ -7,10 +7,14 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "base/angle.h"
+#include "base/land_cover_class.h"
 #include "base/statistics.h"
 #include "tools/report/report.h"
+#include "tools/report/report_pictures.h"
+#include "tools/report/style_pictures.h"
 
 namespace belvedere::tools {
 namespace {
@@ -134,6 +138,39 @@ Json light_json(const RegisteredLight& light) {
   return Json::object().add("whole", sun_json(light.sun)).add("regions", std::move(regions));
 }
 
+Json cover_json(const RegisteredCover& cover) {
+  const auto line = [](double altitude_m) {
+    return known(altitude_m > 0.0 ? altitude_m : std::numeric_limits<double>::quiet_NaN());
+  };
+  return Json::object()
+      .add("treeline_m", line(cover.lines.treeline_m))
+      .add("snowline_m", line(cover.lines.snowline_m))
+      .add("winter", Json::boolean(cover.lines.winter))
+      .add("treeline_by_climate_m", line(cover.climate.treeline_m))
+      .add("snowline_by_climate_m", line(cover.climate.snowline_m));
+}
+
+// Their shares of the ground.
+ReportTable table_of_classes(const Grid<std::uint8_t>& classes) {
+  ReportTable table({{"colour", ""}, {"class", "class"}, {"share", "share of the ground", ".1%"}});
+  std::array<std::size_t, land_cover_table.size()> count{};
+  std::size_t ground = 0;
+  for (const std::uint8_t id : classes) {
+    if (id >= count.size() || static_cast<LandCoverClass>(id) == LandCoverClass::sky) continue;
+    ++count[id];
+    ++ground;
+  }
+  const std::vector<std::array<std::uint8_t, 3>> colours = class_map_colours();
+  for (const LandCoverClassInfo& info : land_cover_classes()) {
+    const auto id = static_cast<std::size_t>(info.id);
+    if (count[id] == 0) continue;
+    const auto& [red, green, blue] = colours[id];
+    table.row(swatch(glm::vec3(red, green, blue) / 255.F), std::string(info.name),
+              static_cast<double>(count[id]) / static_cast<double>(ground));
+  }
+  return table;
+}
+
 std::string summary_of(const RegisterReportInput& input) {
   const Registration& found = input.registration;
   const auto wrong = std::count_if(found.findings.begin(), found.findings.end(),
@@ -195,6 +232,26 @@ PairWords pair_words(const PairFinding& finding, double sigma_px) {
                               others, finding.near_by == 1 ? "does" : "do")};
   if (moved) return {"moved", "its ground was moved, as other pairs say too"};
   return {"fits", "lies where the others say"};
+}
+
+std::string cover_words(const RegisteredCover& cover) {
+  const auto line = [](const char* what, const char* is, double painted_m, double usual_m) {
+    if (painted_m <= 0.0)
+      return fmt::format(
+          " The paint does not tell where {} {}: by the climate of the place at "
+          "{:.0f} m.",
+          what, is, usual_m);
+    return fmt::format(" Here {} {} at {:.0f} m, by the climate of the place at {:.0f} m.", what,
+                       is, painted_m, usual_m);
+  };
+  const PainterLines& lines = cover.lines;
+  return fmt::format(
+      "The class of each pixel, by class rules with the painter's own lines and by "
+      "the colour of the paint (classes.png).{}{}",
+      line("forest", "ends", lines.treeline_m, cover.climate.treeline_m),
+      lines.winter ? " It is winter: snow lies on everything but forest and steep "
+                     "rock."
+                   : line("snow", "begins", lines.snowline_m, cover.climate.snowline_m));
 }
 
 std::string light_words(const RegisteredLight& light) {
@@ -265,6 +322,7 @@ Json registration_json(const RegisterReportInput& input) {
       .add("painted_places", Json::number(static_cast<double>(input.painted_places)))
       .add("folded", Json::number(static_cast<double>(input.ground.folded)))
       .add("light", light_json(input.light))
+      .add("land_cover", cover_json(input.cover))
       .add("kinds", std::move(kinds))
       .add("pairs", std::move(pairs));
 }
@@ -287,6 +345,11 @@ void write_register_report(const std::string& folder, const RegisterReportInput&
                     input.ground.folded));
   page.section("pairs", "Pairs, worst first", summary_of(input));
   page.table(table_of_pairs(input));
+  if (!input.classes.empty()) {
+    page.section("land_cover", "Land cover", cover_words(input.cover));
+    page.table(table_of_classes(input.classes));
+    page.compare("painting", input.picture, "land_cover", class_picture(input.classes));
+  }
   page.section("light", "Light",
                light_words(input.light) +
                    " Arrows go the way of the light over the ground, up away from the viewer; grey "

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <string>
 #include <vector>
 
 #include "base/grid.h"
 #include "base/text/json.h"
+#include "renderer/register/registered_cover.h"
 #include "renderer/register/registered_ground.h"
 #include "renderer/register/registered_light.h"
 #include "terrain/register/registration.h"
@@ -34,8 +36,12 @@ struct RegisterReportInput {
   Grid<glm::vec3> picture;         // the painting, as large as the ground
   RegisteredGround ground;
   RegisteredLight light;
+  RegisteredCover cover;
+  Grid<std::uint8_t> classes;  // of the picture's pixels
 };
 
+// The lines of the painting's land cover in words, beside those of the climate.
+std::string cover_words(const RegisteredCover& cover);
 // The light of a painting in words: where the sun stands to the viewer, and whether the paint
 // tells.
 std::string light_words(const RegisteredLight& light);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/land_cover_class.h"
 #include "base/parallel.h"
 #include "base/statistics.h"
 #include "terrain/shape/hillshade.h"
@@ -104,6 +105,15 @@ Grid<glm::vec3> to_picture(const Grid<Rgb8>& colours) {
 Grid<glm::vec3> label_picture(const Grid<std::uint8_t>& labels) {
   Grid<glm::vec3> out(labels.width(), labels.height());
   std::transform(labels.begin(), labels.end(), out.begin(), label_colour);
+  return out;
+}
+
+std::vector<std::array<std::uint8_t, 3>> class_map_colours() {
+  std::vector<std::array<std::uint8_t, 3>> out(256, {0, 0, 0});
+  for (const LandCoverClassInfo& info : land_cover_classes())
+    out[static_cast<std::size_t>(info.id)] = {static_cast<std::uint8_t>(info.rgb >> 16U),
+                                              static_cast<std::uint8_t>(info.rgb >> 8U & 255U),
+                                              static_cast<std::uint8_t>(info.rgb & 255U)};
   return out;
 }
 

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <string>
+#include <vector>
 
 #include "base/grid.h"
 #include "base/pixel_rect.h"
@@ -43,6 +46,8 @@ Grid<glm::vec3> reduced_picture(const Grid<glm::vec3>& picture, int longest_px);
 Grid<glm::vec3> to_picture(const Grid<Rgb8>& colours);
 // One colour per label, the same in every picture; unused_label is near black.
 Grid<glm::vec3> label_picture(const Grid<std::uint8_t>& labels);
+// Of class maps, by class id, for write_palette_png; other numbers are black.
+std::vector<std::array<std::uint8_t, 3>> class_map_colours();
 // Each pixel as a square of `times` pixels.
 Grid<glm::vec3> enlarged(const Grid<glm::vec3>& picture, int times);
 // From black at 0 through red and yellow to white at `full` and above.

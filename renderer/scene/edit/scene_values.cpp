@@ -99,16 +99,12 @@ bool is_excluded(const SceneSection& section, const SceneKey& key, Scene& scene,
   }
   if (section.name != "exemplar") return false;
   // Keys that cannot be set for an exemplar without a picture, for a model, or for neither.
-  static constexpr std::array<std::string_view, 9> of_pictures = {
+  static constexpr std::array<std::string_view, 10> of_pictures = {
       "altitude_range_m", "distance_range_m", "optional", "found_shadow", "excluded",
-      "stroke_px",        "serves",           "prefer",   "light"};
-  static constexpr std::array<std::string_view, 7> of_no_model = {"altitude_range_m",
-                                                                  "distance_range_m",
-                                                                  "found_shadow",
-                                                                  "excluded",
-                                                                  "width",
-                                                                  "height",
-                                                                  "seed"};
+      "stroke_px",        "serves",           "prefer",   "light",        "classes_from"};
+  static constexpr std::array<std::string_view, 8> of_no_model = {
+      "altitude_range_m", "classes_from", "distance_range_m", "found_shadow",
+      "excluded",         "width",        "height",           "seed"};
   const auto names_it = [&](const auto& keys) {
     return std::find(keys.begin(), keys.end(), key.name) != keys.end();
   };

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "base/random.h"
 #include "renderer/exemplar/harmonize.h"
@@ -257,6 +258,33 @@ TEST_F(Scans, GuidanceOfAnotherSceneNeedsTrust) {
                                                            testing::HasSubstr("trust.png"))));
   const ScannedPainting scan = read(keys + "\ntrust = \"trust.png\"").front();
   EXPECT_LT(scan.painted.base(30, 40).x, 0.6F) << "fitted to its own paint";
+}
+
+TEST_F(Scans, ClassesOfARegistrationAreCorrectedByThePaint) {
+  GuidanceBuffers guidance;
+  guidance.depth_m = guidance.altitude_m = Grid<float>(scan_width, scan_height, 1500.F);
+  guidance.land_cover = Grid<LandCoverClass>(scan_width, scan_height);
+  for (int y = 0; y < scan_height; ++y)
+    for (int x = 0; x < scan_width; ++x) {
+      if (y < 20) guidance.depth_m(x, y) = std::numeric_limits<float>::infinity();
+      guidance.land_cover(x, y) = y < 20   ? LandCoverClass::sky
+                                  : x < 48 ? LandCoverClass::snow
+                                           : LandCoverClass::rock;
+    }
+  for (int y = 40; y < 46; ++y)
+    for (int x = 20; x < 26; ++x) guidance.land_cover(x, y) = LandCoverClass::rock;
+  write_guidance(folder_ / "guidance.exr", guidance, {});
+  const auto label = [&](const std::string& keys) {
+    const LoadedScene scene = parse_scene(
+        "version = 1\n[camera]\nposition = [0, 0]\n[[exemplar]]\npicture = \"a.png\"\nguidance = "
+        "\"guidance.exr\"\n" +
+            keys,
+        "s.toml", folder_.path(), {});
+    return read_scans(scene, silent_progress()).front().painted.exemplar.guides.label(23, 43);
+  };
+  EXPECT_EQ(label(""), 8) << "the paint is that of snow";
+  EXPECT_EQ(label("classes_from = \"guidance\""), 7);
+  EXPECT_EQ(label("classes = \"classes.png\""), 8);
 }
 
 TEST_F(Scans, SeveralPaintingsAreHarmonizedWhereTheSceneSaysSo) {

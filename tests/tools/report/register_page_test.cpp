@@ -57,6 +57,15 @@ RegisterReportInput example() {
   return input;
 }
 
+TEST(RegisterPage, SaysWhereForestEndsAndSnowBegins) {
+  RegisteredCover cover{{1650.0, 0.0, false}, {1910.0, 3080.0, false}};
+  EXPECT_THAT(cover_words(cover), AllOf(HasSubstr("forest ends at 1650 m, by the climate of the "
+                                                  "place at 1910 m"),
+                                        HasSubstr("does not tell where snow begins")));
+  cover.lines.winter = true;
+  EXPECT_THAT(cover_words(cover), HasSubstr("It is winter"));
+}
+
 TEST(RegisterPage, SaysWhereTheLightComesFrom) {
   RegisteredLight light;
   light.bearing_deg = 180.0;  // the viewer looks south

@@ -10,11 +10,13 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/text/json.h"
+#include "renderer/exemplar/classes_by_paint.h"
 #include "renderer/exemplar/uncertain_places.h"
 #include "renderer/image/icc/painting_file.h"
 #include "renderer/image/output_file.h"
 #include "renderer/image/png_palette.h"
 #include "renderer/register/register_by_paint.h"
+#include "renderer/register/registered_cover.h"
 #include "renderer/register/registered_ground.h"
 #include "renderer/register/registered_light.h"
 #include "renderer/register/registered_scene.h"
@@ -61,18 +63,10 @@ Scene scene_with_terrain(const RegisterOptions& options, Scene scene, const Dem&
   return scene;
 }
 
-// The light of the painting on the ground that the scene shows.
-RegisteredLight light_of(const Scene& scene, std::shared_ptr<const Dem> dem,
-                         const Grid<glm::vec3>& painting, Progress& progress) {
-  LoadedScene loaded;
-  loaded.scene = scene;
-  const GuidanceBuffers guidance = trace_registered_guidance(
-      loaded, std::move(dem), {painting.width(), painting.height()}, {.progress = progress});
-  return find_registered_light(painting, guidance, scene.camera.position.value());
-}
-
-// The sections of a scene file that a registration is about; all others are at their defaults.
-std::string registered_sections(const std::string& text) {
+// The sections of a scene file that a registration is about, and the lines of the land cover; all
+// others are at their defaults.
+std::string registered_sections(const Scene& scene) {
+  const std::string text = write_scene(scene);
   std::string out, line;
   bool wanted = true;
   for (std::istringstream lines(text); std::getline(lines, line);) {
@@ -85,6 +79,9 @@ std::string registered_sections(const std::string& text) {
     }
     if (wanted) out += line + "\n";
   }
+  if (!scene.land_cover.settings.empty()) out += "\n[land_cover.settings]\n";
+  for (const auto& [name, value] : scene.land_cover.settings)
+    out += fmt::format("{} = {}\n", name, value);
   return out;
 }
 
@@ -116,8 +113,37 @@ Grid<std::uint8_t> trust_of_pixels(const Grid<float>& sigma_px, glm::ivec2 paint
 struct RegisteredPainting {
   glm::ivec2 size_px{0};
   Scene scene;
+  Grid<std::uint8_t> classes;
   RegisterReportInput report;
 };
+
+// Every so many pixels of a mask.
+Grid<std::uint8_t> reduced_classes(const Grid<std::uint8_t>& mask, int width, int height) {
+  Grid<std::uint8_t> out(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      out(x, y) = mask((2 * x + 1) * mask.width() / (2 * width),
+                       (2 * y + 1) * mask.height() / (2 * height));
+  return out;
+}
+
+// Land cover and light of the painting on the ground that the scene shows: settings of the scene,
+// and sections of the report. Returns the class of each pixel.
+Grid<std::uint8_t> look_at_paint(const Grid<glm::vec3>& painting, std::shared_ptr<const Dem> dem,
+                                 Scene& scene, RegisterReportInput& report, Progress& progress) {
+  LoadedScene loaded;
+  loaded.scene = scene;
+  GuidanceBuffers guidance = trace_registered_guidance(
+      loaded, dem, {report.picture.width(), report.picture.height()}, {.progress = progress});
+  report.cover = find_registered_cover(report.picture, report.ground.sigma_px, guidance, loaded,
+                                       *dem, progress);
+  cover_scene(report.cover, scene);
+  loaded.scene = scene;
+  renew_land_cover(loaded, *dem, guidance, silent_progress());
+  report.light = find_registered_light(report.picture, guidance, scene.camera.position.value());
+  light_scene(report.light, scene);
+  return classes_by_paint(painting, places_of(guidance));
+}
 
 RegisteredPainting register_painting(const RegisterCommand& options, Progress& progress) {
   RegisteredPainting out;
@@ -148,8 +174,8 @@ RegisteredPainting register_painting(const RegisterCommand& options, Progress& p
   report.ground = trace_registered(view);
   report.ground.folded = folded_facets(view);
   out.scene = scene_with_terrain(options, registered, dem);
-  report.light = light_of(out.scene, drawn, report.picture, progress);
-  light_scene(report.light, out.scene);
+  out.classes = look_at_paint(painting, drawn, out.scene, report, progress);
+  report.classes = reduced_classes(out.classes, report.picture.width(), report.picture.height());
   return out;
 }
 
@@ -157,7 +183,7 @@ int run(const RegisterCommand& options) {
   check_dems_exist(options);
   check_output_folder(options.out);
   const auto in_folder = [&](const char* name) { return (fs::path(options.out) / name).string(); };
-  for (const char* name : {"registered.toml", "trust.png", "index.html"})
+  for (const char* name : {"registered.toml", "trust.png", "classes.png", "index.html"})
     check_not_read(in_folder(name), "--out", {options.painting, options.pairs});
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
@@ -165,9 +191,10 @@ int run(const RegisterCommand& options) {
   const RegisterReportInput& input = found.report;
   write_text_file(in_folder("registered.toml"),
                   fmt::format("# {} registered to its terrain by belvedere exemplar register.\n{}",
-                              input.painting, registered_sections(write_scene(found.scene))));
+                              input.painting, registered_sections(found.scene)));
   image_io::write_grey_png(in_folder("trust.png"),
                            trust_of_pixels(input.ground.sigma_px, found.size_px));
+  image_io::write_palette_png(in_folder("classes.png"), found.classes, class_map_colours());
   write_register_report(options.out, input);
   progress.end();
   if (options.json) {
@@ -198,8 +225,9 @@ Action add_exemplar_register(CommandOptions& command) {
       "Places that are recognized in it: a .csv with columns x_px, y_px, lon, lat, name "
       "and optionally sure");
   command
-      .add_option("--out", options->out,
-                  "Folder for registered.toml, trust.png and the report; created if missing")
+      .add_option(
+          "--out", options->out,
+          "Folder for registered.toml, trust.png, classes.png and the report; created if missing")
       .required()
       .type_name("DIR");
   command.add_flag("--pairs-only", options->pairs_only,
@@ -207,9 +235,9 @@ Action add_exemplar_register(CommandOptions& command) {
   command.footer(
       "Finds the place of every pixel of a painting from some forty places that a person\n"
       "recognizes in it, without a first estimate of the view: the view itself, where the\n"
-      "painter moved the ground, and where the sun stands. Pairs that do not agree with the\n"
-      "others are named. The result is a scene, whose guidance serves the painting as an\n"
-      "exemplar.\n"
+      "painter moved the ground, where the sun stands, forest ends and snow begins, and the\n"
+      "class of each pixel. Pairs that do not agree with the others are named. The result is\n"
+      "a scene, whose guidance serves the painting as an exemplar.\n"
       "\n"
       "  belvedere exemplar register painting.jpg dem.tif --pairs pairs.csv --out registered");
   return [options] { return run(*options); };

@@ -23,6 +23,7 @@
 #include "tools/cli/terminal.h"
 #include "tools/options/options.h"
 #include "tools/options/run_options.h"
+#include "tools/report/report_pictures.h"
 #include "tools/report/segment_page.h"
 
 namespace belvedere::tools {
@@ -37,20 +38,11 @@ struct SegmentOptions : RunOptions {
   bool numbers = false;
 };
 
-std::array<std::uint8_t, 3> bytes_of(std::uint32_t rgb) {
-  return {static_cast<std::uint8_t>(rgb >> 16), static_cast<std::uint8_t>(rgb >> 8 & 255U),
-          static_cast<std::uint8_t>(rgb & 255U)};
-}
-
 // Classes in the colours of class maps; numbers of groups in the average colours of their paint.
 Colours colours_of(const SegmentOptions& options, const Grid<std::uint8_t>& mask,
                    const Grid<glm::vec3>& picture) {
+  if (!options.numbers) return class_map_colours();
   Colours colours(256, {0, 0, 0});
-  if (!options.numbers) {
-    for (const LandCoverClassInfo& info : land_cover_classes())
-      colours[static_cast<std::size_t>(info.id)] = bytes_of(info.rgb);
-    return colours;
-  }
   std::vector<glm::dvec3> sum(256, glm::dvec3(0.0));
   std::vector<double> pixels(256, 0.0);
   for (std::size_t i = 0; i < mask.size(); ++i) {

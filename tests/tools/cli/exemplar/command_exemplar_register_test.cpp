@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/image/label_image.h"
 #include "terrain/io/crs.h"
 #include "tests/grids.h"
 #include "tests/terrain/register/synthetic_view.h"
@@ -64,6 +65,9 @@ TEST_F(ExemplarRegister, WritesASceneAReportAndTrust) {
   const Grid<std::uint16_t> trust = read_grey(path("registered/trust.png"));
   EXPECT_EQ(trust.width(), 300);
   EXPECT_GT(trust(150, 120), 60);
+  const Grid<std::uint8_t> classes = read_class_mask(path("registered/classes.png"));
+  EXPECT_EQ(classes.height(), trust.height());
+  EXPECT_THAT(read_bytes(path("registered/index.html")), HasSubstr("Land cover"));
   // The scene is one that the program takes.
   const Outcome checked = run({"check", path("registered/registered.toml"), "--data", path("")});
   EXPECT_EQ(checked.status, 0) << checked.err;

@@ -1,0 +1,300 @@
+#include "renderer/exemplar/classes_by_paint.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "base/filter.h"
+#include "base/land_cover_class.h"
+#include "base/math_exact.h"
+#include "base/parallel.h"
+#include "base/statistics.h"
+#include "renderer/image/oklab.h"
+#include "texture/synthesis/guide_stack.h"
+
+namespace belvedere {
+namespace {
+
+constexpr int max_compared_px = 1400;  // of the picture that is compared; wider ones are reduced
+constexpr double place_share = 5.0 / 1200.0;  // of the width: how far places may be off
+constexpr double paint_share = 1.2 / 1200.0;  // of the width: what one stroke says of its neighbour
+constexpr float altitude_weight = 0.3F;       // of the shares of classes at an altitude
+constexpr float even_weight = 0.04F;          // of all classes alike
+constexpr double belt_m = 50.0;               // height of the belts in which classes are counted
+constexpr double min_class_share = 0.002;     // of the ground: a class with less has no histogram
+constexpr int class_rounds = 6;
+constexpr int axis_bins = 14;  // of each axis of OKLab …
+constexpr double beyond_axis =
+    0.005;  // … and the share of pixels below the first, or above the last
+constexpr double unseen_colour = 1e-5;  // probability of a colour that a class does not show
+constexpr double unlikely = 1e-9;       // probability that no paint outweighs
+constexpr auto sky_number = static_cast<std::uint8_t>(LandCoverClass::sky);
+
+bool stays(std::uint8_t id) {
+  return id == static_cast<std::uint8_t>(LandCoverClass::water) ||
+         id == static_cast<std::uint8_t>(LandCoverClass::settlement);
+}
+
+// The painting in OKLab and the map's labels, in the size in which they are compared.
+struct Compared {
+  Grid<glm::vec3> oklab;
+  Grid<std::uint8_t> labels;
+  Grid<float> altitude_m;
+};
+
+// The mean colour of a rectangle's pixels.
+glm::vec3 mean_oklab(const Grid<glm::vec3>& painting, int x0, int x1, int y0, int y1) {
+  glm::dvec3 sum(0.0);
+  for (int y = y0; y < y1; ++y)
+    for (int x = x0; x < x1; ++x) sum += to_oklab(painting(x, y));
+  return glm::vec3(sum / static_cast<double>((x1 - x0) * (y1 - y0)));
+}
+
+Compared compare_at(const Grid<glm::vec3>& painting, const PlaceClasses& places) {
+  const int width = std::min({max_compared_px, painting.width(), places.labels.width()});
+  const int height = std::clamp(static_cast<int>(std::lround(static_cast<double>(width) *
+                                                             painting.height() / painting.width())),
+                                1, std::min(painting.height(), places.labels.height()));
+  Compared out{Grid<glm::vec3>(width, height), Grid<std::uint8_t>(width, height),
+               Grid<float>(width, height)};
+  const auto from = [](int k, int count, int of) {
+    return static_cast<int>(static_cast<std::int64_t>(k) * of / count);
+  };
+  parallel_rows(height, [&](int y) {
+    const int row = from(2 * y + 1, 2 * height, places.labels.height());
+    for (int x = 0; x < width; ++x) {
+      out.oklab(x, y) = mean_oklab(
+          painting, from(x, width, painting.width()), from(x + 1, width, painting.width()),
+          from(y, height, painting.height()), from(y + 1, height, painting.height()));
+      const int column = from(2 * x + 1, 2 * width, places.labels.width());
+      out.labels(x, y) = places.labels(column, row);
+      out.altitude_m(x, y) = places.altitude_m(column, row);
+    }
+  });
+  return out;
+}
+
+// The classes with enough ground, and the sky, in the order of their ids.
+std::vector<std::uint8_t> classes_of(const Grid<std::uint8_t>& labels) {
+  std::array<std::size_t, 256> count{};
+  for (const std::uint8_t label : labels) ++count[label];
+  const double ground =
+      static_cast<double>(labels.size() - count[sky_number] - count[unused_label]);
+  std::vector<std::uint8_t> out;
+  for (const LandCoverClassInfo& info : land_cover_classes()) {
+    const auto id = static_cast<std::uint8_t>(info.id);
+    const auto pixels = static_cast<double>(count[id]);
+    if (pixels > 0.0 && (id == sky_number || stays(id) || pixels >= min_class_share * ground))
+      out.push_back(id);
+  }
+  return out;
+}
+
+// A value of each class at each pixel.
+using OfClasses = std::vector<Grid<float>>;
+
+// The shares of classes in each belt of altitude, of all but the sky.
+class Belts {
+ public:
+  Belts(const Compared& compared, const std::vector<std::uint8_t>& classes) {
+    std::array<std::size_t, 256> slot;
+    slot.fill(classes.size());
+    for (std::size_t k = 0; k < classes.size(); ++k)
+      if (classes[k] != sky_number) slot[classes[k]] = k;
+    float lowest = std::numeric_limits<float>::max(), highest = -lowest;
+    for (std::size_t i = 0; i < compared.labels.size(); ++i) {
+      if (slot[compared.labels[i]] == classes.size()) continue;
+      lowest = std::min(lowest, compared.altitude_m[i]);
+      highest = std::max(highest, compared.altitude_m[i]);
+    }
+    lowest_m_ = static_cast<double>(std::min(lowest, highest));
+    const auto count =
+        static_cast<std::size_t>(std::max(0.0, static_cast<double>(highest) - lowest_m_) / belt_m) +
+        1;
+    shares_.assign(classes.size(), std::vector<float>(count, 0.F));
+    std::vector<float> all(count, 0.F);
+    for (std::size_t i = 0; i < compared.labels.size(); ++i) {
+      const std::size_t k = slot[compared.labels[i]];
+      if (k == classes.size()) continue;
+      const std::size_t belt = belt_of(compared.altitude_m[i]);
+      shares_[k][belt] += 1.F;
+      all[belt] += 1.F;
+    }
+    for (std::vector<float>& shares : shares_)
+      for (std::size_t belt = 0; belt < count; ++belt)
+        if (all[belt] > 0.F) shares[belt] /= all[belt];
+  }
+
+  float share(std::size_t k, float altitude_m) const { return shares_[k][belt_of(altitude_m)]; }
+
+ private:
+  std::size_t belt_of(float altitude_m) const {
+    const double above = std::max(0.0, static_cast<double>(altitude_m) - lowest_m_) / belt_m;
+    return std::min(static_cast<std::size_t>(above), shares_.front().size() - 1);
+  }
+
+  double lowest_m_ = 0.0;
+  std::vector<std::vector<float>> shares_;
+};
+
+// What the map says: probabilities of the classes. Pixels far from any label have none.
+OfClasses map_probabilities(const Compared& compared, const std::vector<std::uint8_t>& classes) {
+  const double sigma = place_share * compared.labels.width();
+  OfClasses out;
+  Grid<float> ground(compared.labels.width(), compared.labels.height(), 0.F);
+  for (const std::uint8_t id : classes) {
+    Grid<float> own(ground.width(), ground.height());
+    for (std::size_t i = 0; i < own.size(); ++i) own[i] = compared.labels[i] == id ? 1.F : 0.F;
+    out.push_back(gaussian_blur(own, sigma));
+    for (std::size_t i = 0; i < own.size() && id != sky_number; ++i) ground[i] += out.back()[i];
+  }
+  const Belts belts(compared, classes);
+  const auto even = 1.F / static_cast<float>(classes.size());
+  parallel_rows(ground.height(), [&](int y) {
+    for (int x = 0; x < ground.width(); ++x) {
+      const std::size_t i = ground.index(x, y);
+      const bool on_ground = compared.labels[i] != sky_number && compared.labels[i] != unused_label;
+      const float altitude = on_ground ? altitude_weight : 0.F;
+      for (std::size_t k = 0; k < classes.size(); ++k) {
+        if (classes[k] == sky_number) continue;
+        out[k][i] = (1.F - altitude - even_weight) * out[k][i] + ground[i] * even_weight * even;
+        if (on_ground) out[k][i] += ground[i] * altitude * belts.share(k, compared.altitude_m[i]);
+      }
+    }
+  });
+  return out;
+}
+
+// The bin of each pixel's colour.
+Grid<std::uint16_t> colour_bins(const Compared& compared) {
+  std::array<double, 3> from{}, scale{};
+  for (int c = 0; c < 3; ++c) {
+    std::vector<float> values;
+    for (std::size_t i = 0; i < compared.labels.size(); ++i)
+      if (compared.labels[i] != unused_label) values.push_back(compared.oklab[i][c]);
+    const auto axis = static_cast<std::size_t>(c);
+    from[axis] = static_cast<double>(value_at_share(values, beyond_axis));
+    scale[axis] =
+        axis_bins /
+        std::max(static_cast<double>(value_at_share(values, 1.0 - beyond_axis)) - from[axis], 1e-6);
+  }
+  Grid<std::uint16_t> out(compared.labels.width(), compared.labels.height());
+  parallel_rows(out.height(), [&](int y) {
+    for (int x = 0; x < out.width(); ++x) {
+      int bin = 0;
+      for (int c = 0; c < 3; ++c) {
+        const auto axis = static_cast<std::size_t>(c);
+        const double at = (static_cast<double>(compared.oklab(x, y)[c]) - from[axis]) * scale[axis];
+        bin = bin * axis_bins + static_cast<int>(std::clamp(at, 0.0, axis_bins - 1.0));
+      }
+      out(x, y) = static_cast<std::uint16_t>(bin);
+    }
+  });
+  return out;
+}
+
+// ln of the probability of each bin's colour in a class, whose pixels have these probabilities.
+std::vector<float> log_histogram(const Grid<float>& probability, const Grid<std::uint16_t>& bin) {
+  std::vector<double> counts(axis_bins * axis_bins * axis_bins, 0.0);
+  for (std::size_t i = 0; i < bin.size(); ++i)
+    counts[bin[i]] += static_cast<double>(probability[i]);
+  for (const int step : {1, axis_bins, axis_bins * axis_bins}) {
+    const std::vector<double> sharp = counts;
+    for (int k = 0; k < axis_bins * axis_bins * axis_bins; ++k) {
+      const int along = k / step % axis_bins;
+      const auto at = [&](int to) { return sharp[static_cast<std::size_t>(to)]; };
+      counts[static_cast<std::size_t>(k)] = 0.5 * at(k) + 0.25 * (along > 0 ? at(k - step) : 0.0) +
+                                            0.25 * (along + 1 < axis_bins ? at(k + step) : 0.0);
+    }
+  }
+  double sum = 0.0;
+  for (const double count : counts) sum += count;
+  std::vector<float> out;
+  for (const double count : counts)
+    out.push_back(static_cast<float>(exact::log(count / std::max(sum, 1e-9) + unseen_colour)));
+  return out;
+}
+
+// From logarithms to probabilities whose sum is 1.
+void normalize(OfClasses& values) {
+  parallel_rows(values.front().height(), [&](int y) {
+    for (int x = 0; x < values.front().width(); ++x) {
+      const std::size_t i = values.front().index(x, y);
+      float largest = values.front()[i];
+      for (const Grid<float>& of : values) largest = std::max(largest, of[i]);
+      float sum = 0.F;
+      for (Grid<float>& of : values) {
+        of[i] = static_cast<float>(exact::exp(static_cast<double>(of[i] - largest)));
+        sum += of[i];
+      }
+      for (Grid<float>& of : values) of[i] /= sum;
+    }
+  });
+}
+
+OfClasses class_probabilities(const Compared& compared, const std::vector<std::uint8_t>& classes) {
+  const OfClasses by_map = map_probabilities(compared, classes);
+  const Grid<std::uint16_t> bin = colour_bins(compared);
+  OfClasses out = by_map;
+  const double blur = paint_share * compared.labels.width();
+  for (int round = 0; round < class_rounds; ++round) {
+    parallel_ranges(out.size(), std::size_t{1}, [&](std::size_t from, std::size_t to) {
+      for (std::size_t k = from; k < to; ++k) {
+        const std::vector<float> colour = log_histogram(out[k], bin);
+        for (std::size_t i = 0; i < bin.size(); ++i)
+          out[k][i] = colour[bin[i]] +
+                      static_cast<float>(exact::log(static_cast<double>(by_map[k][i]) + unlikely));
+      }
+    });
+    for (Grid<float>& of : out) of = gaussian_blur(of, blur);
+    normalize(out);
+  }
+  return out;
+}
+
+// Water, settlement and unused pixels as on the map, the first two nowhere else.
+void keep_as_on_map(const Grid<std::uint8_t>& labels, const std::vector<std::uint8_t>& classes,
+                    OfClasses& probability) {
+  for (std::size_t i = 0; i < labels.size(); ++i)
+    for (std::size_t k = 0; k < classes.size(); ++k)
+      if (labels[i] == unused_label || stays(labels[i]) || stays(classes[k]))
+        probability[k][i] = labels[i] == classes[k] ? 1.F : 0.F;
+}
+
+}  // namespace
+
+PlaceClasses places_of(const GuidanceBuffers& guidance) {
+  PlaceClasses out{Grid<std::uint8_t>(guidance.width(), guidance.height()), guidance.altitude_m};
+  for (std::size_t i = 0; i < out.labels.size(); ++i)
+    out.labels[i] =
+        guidance.is_sky(i) ? sky_number : static_cast<std::uint8_t>(guidance.land_cover[i]);
+  return out;
+}
+
+Grid<std::uint8_t> classes_by_paint(const Grid<glm::vec3>& painting, const PlaceClasses& places) {
+  const Compared compared = compare_at(painting, places);
+  const std::vector<std::uint8_t> classes = classes_of(compared.labels);
+  Grid<std::uint8_t> out(painting.width(), painting.height(), unused_label);
+  if (classes.empty()) return out;
+  OfClasses probability = class_probabilities(compared, classes);
+  keep_as_on_map(compared.labels, classes, probability);
+  const double across = static_cast<double>(compared.labels.width()) / out.width();
+  const double down = static_cast<double>(compared.labels.height()) / out.height();
+  parallel_rows(out.height(), [&](int y) {
+    for (int x = 0; x < out.width(); ++x) {
+      float most = 0.F;
+      for (std::size_t k = 0; k < classes.size(); ++k) {
+        const float value =
+            sample_bilinear(probability[k], (x + 0.5) * across - 0.5, (y + 0.5) * down - 0.5);
+        if (!(value > most)) continue;
+        most = value;
+        out(x, y) = classes[k];
+      }
+    }
+  });
+  return out;
+}
+
+}  // namespace belvedere
