@@ -1,11 +1,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <memory>
-#include <sstream>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -27,6 +25,7 @@
 #include "terrain/register/registration.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/exemplar/register_options.h"
+#include "tools/cli/exemplar/registered_scene_text.h"
 #include "tools/cli/file_names.h"
 #include "tools/cli/terminal.h"
 #include "tools/report/register_page.h"
@@ -37,8 +36,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 6> about = {"terrain", "deform",        "camera",
-                                                   "sun",     "light.regions", "output"};
 constexpr int register_report_px = 1400;  // longest side of the pictures of the report
 // Of the ground that is drawn to look for it in the paint, and for the report.
 constexpr std::size_t max_drawn_cells = 1'500'000;
@@ -61,28 +58,6 @@ Scene scene_with_terrain(const RegisterOptions& options, Scene scene, const Dem&
   if (crs.starts_with("EPSG:")) scene.terrain.dem.crs = crs;
   scene.deform.allow_folds = true;  // the report counts them
   return scene;
-}
-
-// The sections of a scene file that a registration is about, and the lines of the land cover; all
-// others are at their defaults.
-std::string registered_sections(const Scene& scene) {
-  const std::string text = write_scene(scene);
-  std::string out, line;
-  bool wanted = true;
-  for (std::istringstream lines(text); std::getline(lines, line);) {
-    if (line.starts_with("[")) {
-      const std::string name = line.substr(line.find_first_not_of('['));
-      wanted = std::any_of(about.begin(), about.end(), [&](std::string_view section) {
-        return name.starts_with(section) &&
-               (name[section.size()] == ']' || name[section.size()] == '.');
-      });
-    }
-    if (wanted) out += line + "\n";
-  }
-  if (!scene.land_cover.settings.empty()) out += "\n[land_cover.settings]\n";
-  for (const auto& [name, value] : scene.land_cover.settings)
-    out += fmt::format("{} = {}\n", name, value);
-  return out;
 }
 
 std::vector<std::string> folders_of(const std::vector<std::string>& files) {
@@ -191,7 +166,7 @@ int run(const RegisterCommand& options) {
   const RegisterReportInput& input = found.report;
   write_text_file(in_folder("registered.toml"),
                   fmt::format("# {} registered to its terrain by belvedere exemplar register.\n{}",
-                              input.painting, registered_sections(found.scene)));
+                              input.painting, registered_scene_text(found.scene)));
   image_io::write_grey_png(in_folder("trust.png"),
                            trust_of_pixels(input.ground.sigma_px, found.size_px));
   image_io::write_palette_png(in_folder("classes.png"), found.classes, class_map_colours());
