@@ -1,5 +1,6 @@
 #include "base/matrix/matrix.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -12,6 +13,35 @@ Matrix by_columns(const Matrix& a, const Change& change) {
   Matrix columns = transposed(a);
   for (std::size_t i = 0; i < columns.rows(); ++i) change(columns.row(i));
   return transposed(columns);
+}
+
+// The first entry of each row of a lower triangle that is not 0: blocks without covariance cost
+// nothing.
+std::vector<std::size_t> first_entries(const Matrix& a) {
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < a.rows(); ++i) {
+    const std::span<const double> row = a.row(i).first(i + 1);
+    const auto found = std::find_if(row.begin(), row.end(), [](double v) { return v != 0.0; });
+    out.push_back(static_cast<std::size_t>(found - row.begin()));
+  }
+  return out;
+}
+
+void forward(const Matrix& lower, const std::vector<std::size_t>& first, std::span<double> x) {
+  std::size_t from = 0;
+  while (from < x.size() && x[from] == 0.0) ++from;
+  for (std::size_t i = from; i < x.size(); ++i) {
+    double sum = x[i];
+    for (std::size_t k = std::max(first[i], from); k < i; ++k) sum -= lower(i, k) * x[k];
+    x[i] = sum / lower(i, i);
+  }
+}
+
+void back(const Matrix& lower, const std::vector<std::size_t>& first, std::span<double> x) {
+  for (std::size_t i = x.size(); i-- > 0;) {
+    x[i] /= lower(i, i);
+    for (std::size_t k = first[i]; k < i; ++k) x[k] -= lower(i, k) * x[i];
+  }
 }
 
 }  // namespace
@@ -57,10 +87,11 @@ std::vector<double> product_transposed(const Matrix& a, std::span<const double> 
 
 std::optional<Cholesky> Cholesky::of(Matrix a) {
   const std::size_t n = a.rows();
+  const std::vector<std::size_t> first = first_entries(a);
   for (std::size_t k = 0; k < n; ++k) {
     for (std::size_t i = k; i < n; ++i) {
       double sum = a(i, k);
-      for (std::size_t j = 0; j < k; ++j) sum -= a(i, j) * a(k, j);
+      for (std::size_t j = std::max(first[i], first[k]); j < k; ++j) sum -= a(i, j) * a(k, j);
       if (i == k) {
         if (!(sum > 0.0) || !std::isfinite(sum)) return std::nullopt;
         a(k, k) = std::sqrt(sum);
@@ -74,18 +105,11 @@ std::optional<Cholesky> Cholesky::of(Matrix a) {
 }
 
 void Cholesky::substitute_forward(std::span<double> x) const {
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    double sum = x[i];
-    for (std::size_t k = 0; k < i; ++k) sum -= lower_(i, k) * x[k];
-    x[i] = sum / lower_(i, i);
-  }
+  forward(lower_, first_entries(lower_), x);
 }
 
 void Cholesky::substitute_back(std::span<double> x) const {
-  for (std::size_t i = x.size(); i-- > 0;) {
-    x[i] /= lower_(i, i);
-    for (std::size_t k = 0; k < i; ++k) x[k] -= lower_(i, k) * x[i];
-  }
+  back(lower_, first_entries(lower_), x);
 }
 
 std::vector<double> Cholesky::whitened(std::span<const double> x) const {
@@ -95,7 +119,8 @@ std::vector<double> Cholesky::whitened(std::span<const double> x) const {
 }
 
 Matrix Cholesky::whitened(const Matrix& a) const {
-  return by_columns(a, [&](std::span<double> column) { substitute_forward(column); });
+  const std::vector<std::size_t> first = first_entries(lower_);
+  return by_columns(a, [&](std::span<double> column) { forward(lower_, first, column); });
 }
 
 std::vector<double> Cholesky::solve(std::span<const double> x) const {
@@ -105,9 +130,10 @@ std::vector<double> Cholesky::solve(std::span<const double> x) const {
 }
 
 Matrix Cholesky::solve(const Matrix& a) const {
+  const std::vector<std::size_t> first = first_entries(lower_);
   return by_columns(a, [&](std::span<double> column) {
-    substitute_forward(column);
-    substitute_back(column);
+    forward(lower_, first, column);
+    back(lower_, first, column);
   });
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/mat2x2.hpp>
+#include <glm/matrix.hpp>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -18,6 +20,23 @@ namespace belvedere {
 namespace {
 
 constexpr float unknown_value = std::numeric_limits<float>::quiet_NaN();
+
+// The normal of ground that handles carry with them.
+glm::vec3 carried(const HandleField& handles, glm::dvec2 position, glm::vec3 normal) {
+  const glm::dvec2 low = handles.lowest(), high = handles.highest();
+  if (handles.is_identity() || position.x < low.x || position.y < low.y || position.x > high.x ||
+      position.y > high.y)
+    return normal;
+  constexpr double step_m = 5.0;
+  const auto change = [&](glm::dvec2 step) {
+    return (handles.move(position + step).position - handles.move(position - step).position) /
+           (2.0 * step_m);
+  };
+  const glm::dmat2 moved(change({step_m, 0.0}), change({0.0, step_m}));
+  const double z = static_cast<double>(normal.z);
+  const glm::dvec2 plan = glm::transpose(glm::inverse(moved)) * glm::dvec2(normal);
+  return glm::vec3(glm::normalize(glm::dvec3(plan, z)));
+}
 
 glm::vec3 normal_at(const Dem& dem, glm::dvec2 position, double exaggeration) {
   const glm::dvec2 cell = dem.transform.to_cell(position.x, position.y);
@@ -71,10 +90,11 @@ RegisteredGround trace_registered(const RegisteredView& view) {
       out.altitude_m(x, y) = static_cast<float>(at->altitude_m);
       out.distance_m(x, y) = static_cast<float>(at->distance_m);
       out.position(x, y) = at->position;
-      out.normal(x, y) = normal_at(
-          view.dem(), at->position,
+      const double exaggeration =
           view_exaggeration(registration.frame, registration.view,
-                            view_distance_m(registration.frame, registration.view, at->position)));
+                            view_distance_m(registration.frame, registration.view, at->position));
+      out.normal(x, y) = carried(view.deformation().handles(), at->position,
+                                 normal_at(view.dem(), at->position, exaggeration));
       const bool same =
           x % run_px != 0 && !std::isnan(out.sigma_px(x - 1, y)) &&
           std::max(at->distance_m, distance) < neighbours * std::min(at->distance_m, distance);

@@ -16,7 +16,7 @@ struct RegisteredGround {
                            // pixels of the painting, without that of the view
   std::size_t folded = 0;  // folded_facets() of the view, where that is asked for
   Grid<glm::dvec2> position = {};  // CRS
-  Grid<glm::vec3> normal = {};     // of the exaggerated ground, as it lies on the map
+  Grid<glm::vec3> normal = {};     // of the exaggerated ground, where handles moved it
 };
 
 // Of all pixels of a view, without folded facets.

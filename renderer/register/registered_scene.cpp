@@ -93,6 +93,14 @@ Scene registered_scene(const Registration& found, glm::ivec2 painting_px) {
   camera.height_m = frame.valley_m + view_drop_m(frame, view, middle_m) - level * middle_m -
                     BendProfile(bend).drop_m(middle_m);
 
+  for (const DeformHandle& handle : handles_of(found.mountains)) {
+    scene.deform.handles.push_back({.name = "",
+                                    .position = handle.centre,
+                                    .position_lonlat = {},
+                                    .core_m = handle.core_m,
+                                    .move_m = {handle.move_m.x, handle.move_m.y},
+                                    .handle = handle});
+  }
   scene.deform.ground.field = found.displacement;
   scene.deform.ground.field.places.clear();
   for (const DisplacedPlace& place : found.displacement.places)

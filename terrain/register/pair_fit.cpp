@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
@@ -17,12 +18,54 @@ namespace {
 
 namespace unknown = view_unknown;
 
-// Residuals, lateral then upward, and their derivatives by the view.
-Residuals displacements(const PairFit& fit, const ViewUnknowns& view) {
+std::size_t count_unknowns(const PairFit& fit) {
+  return unknown::count + MovedMountain::unknowns * fit.mountains.size();
+}
+
+// Derivatives by a mountain's unknowns, of the pairs that it moves. `slopes` has those by the eye,
+// of which a move of the ground is the opposite.
+void add_slopes_of_mountain(const PairFit& fit, std::size_t mountain, const HandleField& handles,
+                            Matrix& slopes) {
+  constexpr double step = 1e-3;  // of a deviation
+  constexpr double farther = 1.2;
   const std::size_t n = fit.pairs.size();
-  Residuals out{std::vector<double>(2 * n), Matrix(2 * n, unknown::count)};
+  const DeformHandle& here = handles.handles()[mountain];
+  std::vector<std::size_t> near;
   for (std::size_t i = 0; i < n; ++i) {
-    const ViewDisplacement seen = displacement_in_view(fit.frame, view, fit.pairs[i]);
+    const glm::dvec2 line = fit.pairs[i].position - here.centre;
+    if (exact::hypot(line.x, line.y) < farther * here.radius_m) near.push_back(i);
+  }
+  for (std::size_t k = 0; k < MovedMountain::unknowns; ++k) {
+    const auto stepped = [&](double by) {
+      std::vector<MovedMountain> mountains = fit.mountains;
+      mountains[mountain].at[k] += by;
+      return HandleField(handles_of(mountains));
+    };
+    const HandleField ahead = stepped(step), behind = stepped(-step);
+    const std::size_t column = unknown::count + MovedMountain::unknowns * mountain + k;
+    for (const std::size_t i : near) {
+      const glm::dvec2 at = fit.pairs[i].position;
+      const HandleField::Moved a = ahead.move(at), b = behind.move(at);
+      const glm::dvec2 moved = (a.position - b.position) / (2.0 * step * fit.frame.extent_m);
+      const double raised = (a.raise_m - b.raise_m) / (2.0 * step);
+      for (const std::size_t row : {i, n + i})
+        slopes(row, column) =
+            -slopes(row, unknown::east) * moved.x - slopes(row, unknown::north) * moved.y;
+      const double distance = view_distance_m(fit.frame, fit.view, handles.move(at).position);
+      slopes(n + i, column) -= view_exaggeration(fit.frame, fit.view, distance) * raised;
+    }
+  }
+}
+
+}  // namespace
+
+Residuals displacements(const PairFit& fit) {
+  const std::size_t n = fit.pairs.size();
+  Residuals out{std::vector<double>(2 * n), Matrix(2 * n, count_unknowns(fit))};
+  const HandleField handles(handles_of(fit.mountains));
+  for (std::size_t i = 0; i < n; ++i) {
+    const ViewDisplacement seen =
+        displacement_in_view(fit.frame, fit.view, moved_by(handles, fit.pairs[i]));
     const auto set = [&](std::size_t row, const ViewNumber& value) {
       out.values[row] = value.value;
       std::copy(value.slope.begin(), value.slope.end(), out.slopes.row(row).begin());
@@ -30,7 +73,27 @@ Residuals displacements(const PairFit& fit, const ViewUnknowns& view) {
     set(i, seen.lateral_m);
     set(n + i, seen.upward_m);
   }
+  for (std::size_t i = 0; i < fit.mountains.size(); ++i)
+    add_slopes_of_mountain(fit, i, handles, out.slopes);
   return out;
+}
+
+namespace {
+
+std::vector<double> unknowns_of(const PairFit& fit) {
+  std::vector<double> out(fit.view.begin(), fit.view.end());
+  for (const MovedMountain& mountain : fit.mountains)
+    out.insert(out.end(), mountain.at.begin(), mountain.at.end());
+  return out;
+}
+
+PairFit with_unknowns(PairFit fit, std::span<const double> at) {
+  std::copy_n(at.begin(), unknown::count, fit.view.begin());
+  for (std::size_t i = 0; i < fit.mountains.size(); ++i)
+    std::copy_n(at.begin() + static_cast<std::ptrdiff_t>(unknown::count +
+                                                         MovedMountain::unknowns * i),
+                MovedMountain::unknowns, fit.mountains[i].at.begin());
+  return fit;
 }
 
 // Of displacements() if the ground moves as the field says and pixels are clicked with its noise.
@@ -58,9 +121,10 @@ ViewNumber weighed(const ViewNumber& prior, double sigma_px) {
   return prior * ViewNumber(2.0 / sigma_px);
 }
 
-// Inverse covariance of the view's unknowns before there are pairs.
+// Inverse covariance of the unknowns before there are pairs.
 Matrix prior_precision(const PairFit& fit, double sigma_px) {
-  Matrix precision(unknown::count, unknown::count);
+  const std::size_t count = count_unknowns(fit);
+  Matrix precision(count, count);
   constexpr double min_precision = 1e-4;
   for (const ViewNumber& prior : view_priors(fit.frame, fit.view)) {
     const ViewNumber scaled = weighed(prior, sigma_px);
@@ -69,15 +133,26 @@ Matrix prior_precision(const PairFit& fit, double sigma_px) {
         precision(i, k) += scaled.slope[i] * scaled.slope[k];
   }
   for (std::size_t i = 0; i < unknown::count; ++i) precision(i, i) += min_precision;
+  for (std::size_t i = unknown::count; i < count; ++i) precision(i, i) += 1.0;
   return precision;
 }
 
 }  // namespace
 
+ControlPair moved_by(const HandleField& handles, ControlPair pair) {
+  if (handles.is_identity()) return pair;
+  const HandleField::Moved moved = handles.move(pair.position);
+  pair.position = moved.position;
+  pair.altitude_m += moved.raise_m;
+  return pair;
+}
+
 std::vector<DisplacedPlace> displaced_places(const PairFit& fit) {
   std::vector<DisplacedPlace> places;
+  const HandleField handles(handles_of(fit.mountains));
   for (std::size_t i = 0; i < fit.pairs.size(); ++i) {
-    const ViewDisplacement seen = displacement_in_view(fit.frame, fit.view, fit.pairs[i]);
+    const ViewDisplacement seen =
+        displacement_in_view(fit.frame, fit.view, moved_by(handles, fit.pairs[i]));
     const glm::dvec2 noise_px = fit.noise_px[i] / std::sqrt(fit.weights[i]);
     places.push_back({fit.pairs[i].position,
                       {seen.lateral_m.value, seen.upward_m.value},
@@ -86,47 +161,58 @@ std::vector<DisplacedPlace> displaced_places(const PairFit& fit) {
   return places;
 }
 
-ViewUnknowns refitted_view(const PairFit& fit, double sigma_px) {
+std::optional<PairFit> refitted(const PairFit& fit, double sigma_px) {
   const Cholesky factors = factors_of_pairs(fit.field);
+  const std::size_t count = count_unknowns(fit);
   const auto residuals = [&](std::span<const double> at) {
-    ViewUnknowns view;
-    std::copy(at.begin(), at.end(), view.begin());
-    const Residuals moved = displacements(fit, view);
+    const PairFit there = with_unknowns(fit, at);
+    if (!are_apart(handles_of(there.mountains)))
+      return Residuals{{std::numeric_limits<double>::quiet_NaN()}, Matrix(1, count)};
+    const Residuals moved = displacements(there);
     const std::vector<double> white = factors.whitened(moved.values);
     const Matrix slopes = factors.whitened(moved.slopes);
-    const std::vector<ViewNumber> priors = view_priors(fit.frame, view);
-    Residuals out{white, Matrix(white.size() + priors.size(), unknown::count)};
+    const std::vector<ViewNumber> priors = view_priors(fit.frame, there.view);
+    Residuals out{white, Matrix(white.size() + priors.size() + count - unknown::count, count)};
     for (std::size_t i = 0; i < white.size(); ++i)
       std::copy(slopes.row(i).begin(), slopes.row(i).end(), out.slopes.row(i).begin());
-    for (std::size_t i = 0; i < priors.size(); ++i) {
-      const ViewNumber prior = weighed(priors[i], sigma_px);
+    for (const ViewNumber& expected : priors) {
+      const ViewNumber prior = weighed(expected, sigma_px);
+      std::copy(prior.slope.begin(), prior.slope.end(),
+                out.slopes.row(out.values.size()).begin());
       out.values.push_back(prior.value);
-      std::copy(prior.slope.begin(), prior.slope.end(), out.slopes.row(white.size() + i).begin());
+    }
+    for (std::size_t k = unknown::count; k < count; ++k) {
+      out.slopes(out.values.size(), k) = 1.0;
+      out.values.push_back(at[k]);
     }
     return out;
   };
   constexpr int steps = 15;
-  const LeastSquaresFit found = fit_least_squares({fit.view.begin(), fit.view.end()}, residuals,
+  const LeastSquaresFit found = fit_least_squares(unknowns_of(fit), residuals,
                                                   {.max_steps = steps, .tolerance = 1e-8});
-  ViewUnknowns view;
-  std::copy(found.at.begin(), found.at.end(), view.begin());
-  return view;
+  PairFit out = with_unknowns(fit, found.at);
+  if (!is_plausible(out.frame, out.view, out.pairs)) return std::nullopt;
+  out.field.places = displaced_places(out);
+  return out;
 }
 
 Matrix view_covariance(const PairFit& fit, double sigma_px) {
-  Matrix precision =
-      normal_matrix(factors_of_pairs(fit.field).whitened(displacements(fit, fit.view).slopes));
+  Matrix precision = normal_matrix(factors_of_pairs(fit.field).whitened(displacements(fit).slopes));
   const Matrix prior = prior_precision(fit, sigma_px);
-  for (std::size_t i = 0; i < unknown::count; ++i)
-    for (std::size_t k = 0; k < unknown::count; ++k) precision(i, k) += prior(i, k);
+  for (std::size_t i = 0; i < precision.rows(); ++i)
+    for (std::size_t k = 0; k < precision.rows(); ++k) precision(i, k) += prior(i, k);
   const std::optional<Cholesky> factors = Cholesky::of(std::move(precision));
   if (!factors) throw Error(ErrorKind::bug, "registration", "no view is likely");
-  return factors->inverse();
+  const Matrix all = factors->inverse();
+  Matrix out(unknown::count, unknown::count);
+  for (std::size_t i = 0; i < unknown::count; ++i)
+    for (std::size_t k = 0; k < unknown::count; ++k) out(i, k) = all(i, k);
+  return out;
 }
 
 PairJudgement judge_pairs(const PairFit& fit, double sigma_px) {
   const std::size_t n = fit.pairs.size();
-  const Residuals moved = displacements(fit, fit.view);
+  const Residuals moved = displacements(fit);
   std::vector<std::vector<std::size_t>> groups;
   for (std::size_t i = 0; i < n; ++i) groups.push_back({i, n + i});
   PairJudgement out;
@@ -154,10 +240,13 @@ PairJudgement judge_pairs(const PairFit& fit, double sigma_px) {
       const double honest_variance = square(size_by_others) * share + square(noise_m);
       const double deviations2 = square(honest) / honest_variance;
       square_honest += deviations2;
-      constexpr double heavy_tail =
-          3.0;  // Student's t, so that wrong pairs do not choose the field
-      score -= 0.5 * exact::log(honest_variance * square(px_per_m)) +
-               2.0 * exact::log(1.0 + deviations2 / heavy_tail);
+      // Student's t, so that wrong pairs do not choose the field; of the noise without its weight,
+      // so that weights have no part in it.
+      constexpr double heavy_tail = 3.0;
+      const double scored_variance =
+          square(size_by_others) * share + square(noise_m) * fit.weights[i];
+      score -= 0.5 * exact::log(scored_variance * square(px_per_m)) +
+               2.0 * exact::log(1.0 + square(honest) / scored_variance / heavy_tail);
     };
     add(0, place.noise.lateral_m, fit.noise_px[i].x);
     add(1, place.noise.upward_m, fit.noise_px[i].y);
@@ -174,13 +263,11 @@ PairJudgement refine_pairs(PairFit& fit, double sigma_px, int rounds) {
   fit.field.places = displaced_places(fit);
   PairJudgement best = judge_pairs(fit, sigma_px);
   for (int round = 0; round < rounds; ++round) {
-    PairFit next = fit;
-    next.view = refitted_view(fit, sigma_px);
-    if (!is_plausible(fit.frame, next.view, fit.pairs)) break;
-    next.field.places = displaced_places(next);
-    PairJudgement judgement = judge_pairs(next, sigma_px);
+    std::optional<PairFit> next = refitted(fit, sigma_px);
+    if (!next) break;
+    PairJudgement judgement = judge_pairs(*next, sigma_px);
     if (judgement.score < best.score) break;
-    fit = std::move(next);
+    fit = *std::move(next);
     best = std::move(judgement);
   }
   return best;

@@ -11,7 +11,10 @@
 #include "base/error.h"
 #include "base/math.h"
 #include "base/math_exact.h"
+#include "terrain/register/find_mountains.h"
 #include "terrain/register/pair_fit.h"
+#include "terrain/register/prevent_folds.h"
+#include "terrain/register/weighed_pairs.h"
 
 namespace belvedere {
 namespace {
@@ -57,25 +60,13 @@ double view_distance_px(const PairFit& fit, const ControlPair& pair) {
 // Where the field and the view show a place.
 glm::dvec2 predicted_pixel(const PairFit& fit, const DisplacementField& field,
                            const ControlPair& pair) {
-  const ViewPixel at =
-      project_in_view(fit.frame, fit.view, pair.position, pair.altitude_m, field.at(pair.position));
+  const ControlPair moved = moved_by(HandleField(handles_of(fit.mountains)), pair);
+  const ViewPixel at = project_in_view(fit.frame, fit.view, moved.position, moved.altitude_m,
+                                       field.at(pair.position));
   return {at.u.value, at.v.value};
 }
 
-// A fit whose first pairs are those of `index`, in their order; places found in the paint follow.
-struct FittedPairs {
-  PairFit fit;
-  std::vector<std::size_t> index;
-  PairJudgement judgement;
-};
-
-double mean_score(const FittedPairs& fitted) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < fitted.index.size(); ++i) sum += fitted.judgement.scores[i];
-  return sum / static_cast<double>(fitted.index.size());
-}
-
-void add_pair(FittedPairs& fitted, const std::vector<ControlPair>& pairs, std::size_t index,
+void add_pair(WeighedPairs& fitted, const std::vector<ControlPair>& pairs, std::size_t index,
               double sigma_px) {
   const auto at = static_cast<std::ptrdiff_t>(fitted.index.size());
   fitted.fit.pairs.insert(fitted.fit.pairs.begin() + at, pairs[index]);
@@ -84,33 +75,8 @@ void add_pair(FittedPairs& fitted, const std::vector<ControlPair>& pairs, std::s
   fitted.index.push_back(index);
 }
 
-// Of Student's t with 4 degrees of freedom, two values at once; hardly any beyond all doubt.
-double weight_of(double square_deviations) {
-  constexpr double freedom = 4.0, hopeless = 30.0, hardly_any = 0.01;
-  if (square_deviations > hopeless) return hardly_any;
-  return std::min((freedom + 2.0) / (freedom + square_deviations), 1.0);
-}
-
-void weigh_by_agreement(FittedPairs& fitted, double sigma_px, int rounds) {
-  constexpr double min_weight_of_pairs = 0.25;
-  PairFit& fit = fitted.fit;
-  fit.field.places = displaced_places(fit);
-  for (int round = 0; round < rounds; ++round) {
-    const ViewUnknowns view = refitted_view(fit, sigma_px);
-    if (is_plausible(fit.frame, view, fit.pairs)) fit.view = view;
-    fit.field.places = displaced_places(fit);
-    fitted.judgement = judge_pairs(fit, sigma_px);
-    if (round + 1 == rounds) break;
-    for (std::size_t i = 0; i < fit.pairs.size(); ++i) {
-      const double weight = weight_of(fitted.judgement.square_deviations[i]);
-      fit.weights[i] = i < fitted.index.size() ? std::max(weight, min_weight_of_pairs) : weight;
-    }
-    fit.field.places = displaced_places(fit);
-  }
-}
-
 // Pairs that were thrown out and agree now.
-bool take_back(FittedPairs& fitted, const std::vector<ControlPair>& pairs, double sigma_px) {
+bool take_back(WeighedPairs& fitted, const std::vector<ControlPair>& pairs, double sigma_px) {
   constexpr double near_px = 14.0;
   const DisplacementField field(fitted.fit.field);
   bool any = false;
@@ -124,9 +90,14 @@ bool take_back(FittedPairs& fitted, const std::vector<ControlPair>& pairs, doubl
   return any;
 }
 
-void take_result(Registration& out, const FittedPairs& fitted,
+void take_result(Registration& out, const WeighedPairs& fitted,
                  const std::vector<ControlPair>& pairs) {
-  const PairFit& fit = fitted.fit;
+  PairFit fit = fitted.fit;
+  for (PairFinding& finding : out.findings) finding.would_fold = false;
+  const std::vector<std::size_t> held_back = prevent_folds(fit, out.sigma_px / out.scale);
+  out.held_back = held_back.size();
+  for (const std::size_t i : held_back)
+    if (i < fitted.index.size()) out.findings[fitted.index[i]].would_fold = true;
   const DisplacementField field(fit.field);
   constexpr double near_by = 2.0;  // of the field's reach
   for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -147,9 +118,19 @@ void take_result(Registration& out, const FittedPairs& fitted,
   }
   out.frame = fit.frame;
   out.view = fit.view;
+  out.mountains = fit.mountains;
   out.displacement = fit.field;
   out.score = mean_score(fitted);
   out.view_covariance = view_covariance(fit, out.sigma_px / out.scale);
+}
+
+ViewPixel registered_view_pixel(const Registration& registration, const DisplacementField& field,
+                                glm::dvec2 position, double altitude_m) {
+  HandleField::Moved moved{position, 0.0};
+  if (!registration.mountains.empty())
+    moved = HandleField(handles_of(registration.mountains)).move(position);
+  return project_in_view(registration.frame, registration.view, moved.position,
+                         altitude_m + moved.raise_m, field.at(position));
 }
 
 void check_sigma(std::optional<double> sigma_px) {
@@ -172,7 +153,7 @@ Registration register_pairs(std::span<const ControlPair> given, glm::ivec2 paint
   std::vector<ControlPair> pairs(given.begin(), given.end());
   for (ControlPair& pair : pairs) pair.pixel /= out.scale;
   out.kinds = fit_views(pairs, glm::dvec2(painting_px) / out.scale, parameters.view, progress);
-  PairFit fit{pairs, {}, {}, out.kinds.front().frame, out.kinds.front().view, {}};
+  PairFit fit{pairs, {}, {}, out.kinds.front().frame, out.kinds.front().view, {}, {}};
   std::vector<std::size_t> index;  // of fit.pairs in pairs
   for (std::size_t i = 0; i < pairs.size(); ++i) index.push_back(i);
   const std::optional<double> sigma =
@@ -221,18 +202,21 @@ std::optional<Registration> refine_registration(const Registration& registration
   const double sigma = registration.sigma_px / scale;
   std::vector<ControlPair> pairs(given.begin(), given.end());
   for (ControlPair& pair : pairs) pair.pixel /= scale;
-  FittedPairs start;
+  WeighedPairs start;
   start.fit.frame = registration.frame;
   start.fit.view = registration.view;
+  start.fit.mountains = registration.mountains;
   for (std::size_t i = 0; i < pairs.size(); ++i)
     if (!registration.findings[i].wrong) add_pair(start, pairs, i, sigma);
   const DisplacementField field(registration.displacement);
+  const HandleField handles(handles_of(registration.mountains));
   for (const PaintedPlace& match : painted) {
     ControlPair place = match.place;
     place.pixel /= scale;
     const glm::dvec2 noise = glm::max(match.sigma_px / scale, glm::dvec2(sigma));
     const glm::dvec2 off = predicted_pixel(start.fit, field, place) - place.pixel;
-    const ViewDisplacement seen = displacement_in_view(start.fit.frame, start.fit.view, place);
+    const ViewDisplacement seen =
+        displacement_in_view(start.fit.frame, start.fit.view, moved_by(handles, place));
     const Displacement unsure = field.deviation(place.position);
     const double deviations2 =
         square(off.x) / (square(unsure.lateral_m * seen.px_per_m.lateral_m) + square(noise.x)) +
@@ -241,16 +225,20 @@ std::optional<Registration> refine_registration(const Registration& registration
     start.fit.noise_px.push_back(noise);
     start.fit.weights.push_back(weight_of(deviations2));
   }
-  std::optional<FittedPairs> best;
+  std::optional<WeighedPairs> best;
   for (const double length : {0.06, 0.12}) {
-    FittedPairs tried = start;
+    WeighedPairs tried = start;
     tried.fit.field = field_of_extent(start.fit.frame.extent_m, length);
     constexpr int rounds = 4;
     weigh_by_agreement(tried, sigma, rounds);
     if (!is_plausible(tried.fit.frame, tried.fit.view, tried.fit.pairs)) continue;
     if (!best || tried.judgement.score > best->judgement.score) best = std::move(tried);
   }
-  if (!best || mean_score(*best) < registration.score) return std::nullopt;
+  if (!best) return std::nullopt;
+  move_mountains(*best, sigma);
+  constexpr double chance = 1.0;  // of the sum over the pairs
+  if (mean_score(*best) < registration.score - chance / static_cast<double>(best->index.size()))
+    return std::nullopt;
   Registration out = registration;
   const double score = mean_score(*best);
   if (take_back(*best, pairs, sigma)) weigh_by_agreement(*best, sigma, 2);
@@ -269,15 +257,13 @@ std::optional<Registration> refine_registration(const Registration& registration
 
 glm::dvec2 registered_pixel(const Registration& registration, const DisplacementField& field,
                             glm::dvec2 position, double altitude_m) {
-  const ViewPixel at = project_in_view(registration.frame, registration.view, position, altitude_m,
-                                       field.at(position));
+  const ViewPixel at = registered_view_pixel(registration, field, position, altitude_m);
   return registration.scale * glm::dvec2(at.u.value, at.v.value);
 }
 
 double registered_sigma_px(const Registration& registration, const DisplacementField& field,
                            glm::dvec2 position, double altitude_m) {
-  const ViewPixel at = project_in_view(registration.frame, registration.view, position, altitude_m,
-                                       field.at(position));
+  const ViewPixel at = registered_view_pixel(registration, field, position, altitude_m);
   const auto variance = [&](const ViewNumber& part) {
     double sum = 0.0;
     for (std::size_t i = 0; i < unknown::count; ++i)

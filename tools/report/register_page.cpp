@@ -186,6 +186,40 @@ std::string summary_of(const RegisterReportInput& input) {
       view_kind_name(found.frame.kind));
 }
 
+std::string fold_words(const Registration& found) {
+  if (found.held_back == 0) return {};
+  return fmt::format(
+      " {} count{} for less, or the ground would fold over itself.",
+      found.held_back == 1 ? "One pair or patch" : fmt::format("{} pairs or patches", found.held_back),
+      found.held_back == 1 ? "s" : "");
+}
+
+Json mountains_json(const Registration& found) {
+  Json out = Json::array();
+  for (const DeformHandle& handle : handles_of(found.mountains))
+    out.add(Json::object()
+                .add("position", Json::array({known(handle.centre.x), known(handle.centre.y)}))
+                .add("radius_m", known(handle.radius_m))
+                .add("move_m", Json::array({known(handle.move_m.x), known(handle.move_m.y)}))
+                .add("rotate_deg", known(handle.rotate_deg))
+                .add("raise_m", known(handle.raise_m)));
+  return out;
+}
+
+ReportTable table_of_mountains(const Registration& found) {
+  ReportTable table({{"east_m", "east", ".0f", "Of its centre"},
+                     {"north_m", "north", ".0f"},
+                     {"radius_m", "radius, m", ".0f", "Ground beyond it stays"},
+                     {"move_east_m", "moved east, m", ".0f"},
+                     {"move_north_m", "moved north, m", ".0f"},
+                     {"rotate_deg", "turned, °", ".0f", "Clockwise, seen from above"},
+                     {"raise_m", "raised, m", ".0f", "Before exaggeration"}});
+  for (const DeformHandle& handle : handles_of(found.mountains))
+    table.row(handle.centre.x, handle.centre.y, handle.radius_m, handle.move_m.x, handle.move_m.y,
+              handle.rotate_deg, handle.raise_m);
+  return table;
+}
+
 ReportTable table_of_pairs(const RegisterReportInput& input) {
   ReportTable table({{"line", "line", "", "Line of the table of pairs"},
                      {"name", "name"},
@@ -221,6 +255,9 @@ PairWords pair_words(const PairFinding& finding, double sigma_px) {
   if (finding.wrong)
     return {"thrown out", fmt::format("{} {} otherwise: wrong, most likely", others,
                                       finding.near_by == 1 ? "says" : "say")};
+  if (finding.would_fold)
+    return {"held back",
+            "the ground would fold between this pair and those near by: it counts for less"};
   if (finding.doubted) return {"doubtful", "as far off as a wrong pair, but sure: kept"};
   if (moved && finding.others_px > far_off_sigmas * sigma_px)
     return {"moved",
@@ -320,6 +357,8 @@ Json registration_json(const RegisterReportInput& input) {
       .add("sigma_px", known(found.sigma_px))
       .add("others_px", known(median(kept_distances_px(found))))
       .add("painted_places", Json::number(static_cast<double>(input.painted_places)))
+      .add("mountains", mountains_json(found))
+      .add("held_back", Json::number(static_cast<double>(found.held_back)))
       .add("folded", Json::number(static_cast<double>(input.ground.folded)))
       .add("light", light_json(input.light))
       .add("land_cover", cover_json(input.cover))
@@ -343,8 +382,15 @@ void write_register_report(const std::string& folder, const RegisterReportInput&
         fmt::format("{} facets of the ground in the picture are turned over: pairs that are "
                     "near each other move it unlike.",
                     input.ground.folded));
-  page.section("pairs", "Pairs, worst first", summary_of(input));
+  page.section("pairs", "Pairs, worst first",
+               summary_of(input) + fold_words(input.registration));
   page.table(table_of_pairs(input));
+  if (!input.registration.mountains.empty()) {
+    page.section("mountains", "Mountains that were moved as a whole",
+                 "Ground moved away from the viewer and ground that is raised look nearly alike, so "
+                 "these two are less sure than their sum.");
+    page.table(table_of_mountains(input.registration));
+  }
   if (!input.classes.empty()) {
     page.section("land_cover", "Land cover", cover_words(input.cover));
     page.table(table_of_classes(input.classes));

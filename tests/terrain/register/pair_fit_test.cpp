@@ -53,6 +53,30 @@ TEST(PairFit, APairIsJudgedByTheOthers) {
   EXPECT_NEAR(judged.score, sum, 1e-9);
 }
 
+// Derivatives by a mountain's unknowns, by differences.
+TEST(PairFit, AMountainMovesItsPairsAsItsSlopesSay) {
+  PairFit fit = exact_fit(40);
+  fit.mountains = {{{684000.0, 5255000.0},
+                    fit.frame.extent_m,
+                    {0.2, -0.1, 0.8, 0.3, -0.2, 0.9, 0.5}}};
+  const Residuals here = displacements(fit);
+  ASSERT_EQ(here.slopes.columns(), view_unknown::count + MovedMountain::unknowns);
+  std::size_t moved = 0;
+  for (std::size_t k = 0; k < MovedMountain::unknowns; ++k) {
+    constexpr double step = 1e-4;
+    PairFit ahead = fit, behind = fit;
+    ahead.mountains[0].at[k] += step;
+    behind.mountains[0].at[k] -= step;
+    const std::vector<double> a = displacements(ahead).values, b = displacements(behind).values;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      const double slope = (a[i] - b[i]) / (2.0 * step);
+      EXPECT_NEAR(here.slopes(i, view_unknown::count + k), slope, 0.5 + 1e-3 * std::abs(slope));
+      moved += std::abs(slope) > 10.0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(moved, 20U);
+}
+
 // Six times as many pairs, at most half the variance.
 TEST(PairFit, PairsMakeTheViewMoreCertain) {
   const PairFit few = exact_fit(10), many = exact_fit(60);

@@ -34,6 +34,9 @@ TEST(RegisterPage, SaysOfEachPairWhatWasFound) {
   PairFinding sure = finding(false, 90.0, 90.0, 0);
   sure.doubted = true;
   EXPECT_THAT(words(sure), HasSubstr("sure: kept"));
+  PairFinding folding = finding(false, 90.0, 90.0, 1);
+  folding.would_fold = true;
+  EXPECT_THAT(words(folding), HasSubstr("would fold"));
 }
 
 RegisterReportInput example() {
@@ -102,6 +105,22 @@ TEST(RegisterPage, IsAPageWithThePairsAndPictures) {
   EXPECT_TRUE(std::filesystem::exists(folder / "registered.png"));
   EXPECT_TRUE(std::filesystem::exists(folder / "trust_map.png"));
   EXPECT_TRUE(std::filesystem::exists(folder / "light.png"));
+}
+
+TEST(RegisterPage, NamesMountainsThatWereMovedAndPairsThatWouldFoldTheGround) {
+  const test::Folder folder;
+  RegisterReportInput input = example();
+  write_register_report(folder / "", input);
+  const std::string plain = test::read_bytes(folder / "index.html");
+  EXPECT_EQ(plain.find("moved as a whole"), std::string::npos);
+  EXPECT_EQ(plain.find("fold over itself"), std::string::npos);
+  input.registration.mountains = {{{5000.0, 7000.0}, 40000.0, {0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0}}};
+  input.registration.held_back = 2;
+  write_register_report(folder / "", input);
+  EXPECT_THAT(test::read_bytes(folder / "index.html"),
+              AllOf(HasSubstr("moved as a whole"), HasSubstr("2 pairs or patches count for less")));
+  EXPECT_THAT(test::read_bytes(folder / "report.json"),
+              AllOf(HasSubstr("\"mountains\""), HasSubstr("\"rotate_deg\"")));
 }
 
 }  // namespace
