@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -175,14 +176,21 @@ Moments moments_of(const std::vector<double>& shares, int reach) {
   return out;
 }
 
-std::optional<PaintMatch> expected_shift(const Grid<float>& explained, glm::ivec2 reach,
-                                         double samples, double prior) {
+// Of each shift, with its prior.
+Grid<double> log_likelihoods(const Grid<float>& explained, glm::ivec2 reach, double samples,
+                             double prior) {
   Grid<double> log_likelihood(explained.width(), explained.height());
   for (int y = 0; y < explained.height(); ++y)
     for (int x = 0; x < explained.width(); ++x)
       log_likelihood(x, y) =
           -0.5 * samples * exact::log(1.0 - static_cast<double>(explained(x, y))) -
           0.5 * (square(1.0 * (x - reach.x)) + square(1.0 * (y - reach.y))) / square(prior);
+  return log_likelihood;
+}
+
+std::optional<PaintMatch> expected_shift(const Grid<float>& explained, glm::ivec2 reach,
+                                         double samples, double prior) {
+  const Grid<double> log_likelihood = log_likelihoods(explained, reach, samples, prior);
   const double highest = *std::max_element(log_likelihood.begin(), log_likelihood.end());
   std::vector<double> across(static_cast<std::size_t>(explained.width()));
   std::vector<double> along(static_cast<std::size_t>(explained.height()));
@@ -209,6 +217,14 @@ std::optional<PaintMatch> expected_shift(const Grid<float>& explained, glm::ivec
   without_prior(x, out.shift_px.x, out.sigma_px.x);
   without_prior(y, out.shift_px.y, out.sigma_px.y);
   return out;
+}
+
+double evidence_of(const Grid<float>& explained, glm::ivec2 reach, double samples, double prior) {
+  const Grid<double> log_likelihood = log_likelihoods(explained, reach, samples, prior);
+  const double highest = *std::max_element(log_likelihood.begin(), log_likelihood.end());
+  double sum = 0.0;
+  for (const double each : log_likelihood) sum += exact::exp(each - highest);
+  return highest + exact::log(sum / static_cast<double>(log_likelihood.size()));
 }
 
 }  // namespace
@@ -242,6 +258,28 @@ std::vector<PaintMatch> match_paint(const Grid<glm::vec3>& paint, const Register
   std::vector<PaintMatch> out;
   for (const std::optional<PaintMatch>& match : found)
     if (match) out.push_back(*match);
+  return out;
+}
+
+Grid<double> paint_evidence(const Grid<glm::vec3>& paint, const RegisteredGround& ground,
+                            const MatchPaintParameters& parameters) {
+  const Grid<Factors> picture = factors_of(ground);
+  const std::array<Channel, 3> channels =
+      padded_channels(paint, glm::ivec2(parameters.half_px) + parameters.reach_px);
+  const int spacing = parameters.spacing_px;
+  Grid<double> out(paint.width() / spacing, paint.height() / spacing,
+                   std::numeric_limits<double>::quiet_NaN());
+  parallel_rows(out.height(), [&](int row) {
+    for (int column = 0; column < out.width(); ++column) {
+      const glm::ivec2 middle = spacing * glm::ivec2(column, row) + spacing / 2;
+      if (std::isnan(ground.altitude_m(middle.x, middle.y))) continue;
+      const std::optional<Patch> patch = patch_at(picture, middle, parameters.half_px);
+      if (!patch) continue;
+      out(column, row) = evidence_of(
+          explained_shares(*patch, channels, middle, parameters.reach_px), parameters.reach_px,
+          patch->area / parameters.independent_px2, parameters.prior_px);
+    }
+  });
   return out;
 }
 

@@ -37,4 +37,9 @@ struct PaintMatch {
 std::vector<PaintMatch> match_paint(const Grid<glm::vec3>& paint, const RegisteredGround& ground,
                                     const MatchPaintParameters& parameters);
 
+// How well the paint shows the ground where it is registered: for patches on a lattice, ln of the
+// mean of that likelihood over the shifts of the prior; NaN where the ground's picture has sky.
+Grid<double> paint_evidence(const Grid<glm::vec3>& paint, const RegisteredGround& ground,
+                            const MatchPaintParameters& parameters);
+
 }  // namespace belvedere

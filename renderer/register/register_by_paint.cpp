@@ -27,6 +27,13 @@ constexpr std::array<Round, 3> rounds = {
      {600, {.half_px = 22, .reach_px = {15, 12}, .spacing_px = 23, .prior_px = 4.0}},
      {600, {.half_px = 17, .reach_px = {11, 9}, .spacing_px = 20, .prior_px = 3.0}}}};
 
+glm::ivec2 reduced_size(glm::ivec2 painting_px, int width_px) {
+  return {width_px, std::max(1, width_px * painting_px.y / painting_px.x)};
+}
+
+// 50 px² of a painting 1200 px wide: a stroke.
+double independent_px2(int width_px) { return 50.0 * (width_px / 1200.0) * (width_px / 1200.0); }
+
 // Means of the painting in OKLab, of that size.
 Grid<glm::vec3> reduced_paint(const Grid<glm::vec3>& painting, glm::ivec2 size) {
   const auto range = [](int i, int count, int whole) {
@@ -66,35 +73,102 @@ std::vector<PaintedPlace> painted_places(const std::vector<PaintMatch>& matches,
   return out;
 }
 
+// How well the paint shows the registered ground, if that is it.
+class ValleyEvidence {
+ public:
+  ValleyEvidence(const Registration& registration, const Grid<glm::vec3>& painting,
+                 Progress& progress)
+      : registration_(registration),
+        painting_px_(painting.width(), painting.height()),
+        paint_(reduced_paint(painting, reduced_size(painting_px_, width_px))),
+        progress_(progress) {}
+
+  Grid<double> of(const DrawnGround& ground) const {
+    MatchPaintParameters parameters{
+        .half_px = 10, .reach_px = {3, 3}, .spacing_px = 10, .prior_px = 2.0};
+    parameters.independent_px2 = independent_px2(width_px);
+    const RegisteredView view(registration_, registered_scene(registration_, painting_px_),
+                              ground.dem, {paint_.width(), paint_.height()}, progress_);
+    return paint_evidence(paint_, trace_registered(view), parameters);
+  }
+
+ private:
+  static constexpr int width_px = 400;
+  const Registration& registration_;
+  glm::ivec2 painting_px_;
+  Grid<glm::vec3> paint_;
+  Progress& progress_;
+};
+
+// By how much `other` shows better, where both have ground.
+double gained_evidence(const Grid<double>& one, const Grid<double>& other) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < one.size(); ++i)
+    if (!std::isnan(one[i]) && !std::isnan(other[i])) sum += other[i] - one[i];
+  return sum;
+}
+
+// The ground whose valleys are as wide as the paint shows best; as on the map unless another is
+// clearly likelier: first by 300 m, and if so by 150 and 450 m too.
+DrawnGround likeliest_ground(const Registration& registration, const Grid<glm::vec3>& painting,
+                             const DrawnGround& map, Progress& progress) {
+  constexpr double min_gain = 8.0;
+  constexpr std::array<double, 3> valleys_m = {300.0, 150.0, 450.0};
+  const ValleyEvidence evidence(registration, painting, progress);
+  const Grid<double> of_map = evidence.of(map);
+  DrawnGround best = map;
+  double best_gain = min_gain;
+  for (const double width : valleys_m) {
+    DrawnGround wide = draw_ground(map.dem, width, progress);
+    if (wide.goes_to.empty()) break;
+    const double gain = gained_evidence(of_map, evidence.of(wide));
+    if (gain > best_gain) {
+      best = std::move(wide);
+      best_gain = gain;
+    } else if (width == valleys_m.front()) {
+      break;
+    }
+  }
+  return best;
+}
+
 }  // namespace
 
 PaintRegistration register_by_paint(const Registration& from_pairs,
                                     std::span<const ControlPair> pairs,
                                     const Grid<glm::vec3>& painting, const Dem& dem,
                                     Progress& progress) {
-  PaintRegistration out{from_pairs};
+  PaintRegistration out{.registration = from_pairs};
   const glm::ivec2 painting_px(painting.width(), painting.height());
+  DrawnGround ground = draw_ground(dem, 0.0, progress);
+  out.ground = ground;
   for (const Round& round : rounds) {
     const int width = round.width_px;
     if (painting.width() < width) continue;
-    const glm::ivec2 size(width, std::max(1, width * painting.height() / painting.width()));
+    const bool first = &round == &rounds.front();
+    const glm::ivec2 size = reduced_size(painting_px, width);
     const double px = static_cast<double>(painting.width()) / width;
-    RegisteredGround ground = trace_registered(RegisteredView(
-        out.registration, registered_scene(out.registration, painting_px), dem, size, progress));
-    for (float& sigma : ground.sigma_px) sigma /= static_cast<float>(px);
+    RegisteredGround seen = trace_registered(
+        RegisteredView(out.registration, registered_scene(out.registration, painting_px),
+                       ground.dem, size, progress));
+    for (float& sigma : seen.sigma_px) sigma /= static_cast<float>(px);
     MatchPaintParameters parameters = round.match;
-    constexpr double independent_px2 = 50.0;  // of a painting 1200 px wide: a stroke
-    parameters.independent_px2 = independent_px2 * (width / 1200.0) * (width / 1200.0);
+    parameters.independent_px2 = independent_px2(width);
     const std::vector<PaintMatch> matches =
-        match_paint(reduced_paint(painting, size), ground, parameters);
+        match_paint(reduced_paint(painting, size), seen, parameters);
     constexpr std::size_t min_matches = 8;
     if (matches.size() < min_matches) continue;
+    Registration start = out.registration;
+    start.valleys_m = ground.valleys_m;
     std::optional<Registration> better =
-        refine_registration(out.registration, pairs, painted_places(matches, ground, px));
-    if (!better) continue;
-    out.registration = *std::move(better);
-    out.matches = matches.size();
-    ++out.rounds;
+        refine_registration(start, ground.drawn(pairs), painted_places(matches, seen, px));
+    if (better) {
+      out.registration = *std::move(better);
+      out.matches = matches.size();
+      ++out.rounds;
+      out.ground = ground;
+    }
+    if (first) ground = likeliest_ground(out.registration, painting, ground, progress);
   }
   return out;
 }

@@ -101,6 +101,7 @@ Scene registered_scene(const Registration& found, glm::ivec2 painting_px) {
                                     .move_m = {handle.move_m.x, handle.move_m.y},
                                     .handle = handle});
   }
+  scene.generalize.valleys.width_m = static_cast<float>(found.valleys_m);
   scene.deform.ground.field = found.displacement;
   scene.deform.ground.field.places.clear();
   for (const DisplacedPlace& place : found.displacement.places)

@@ -203,9 +203,8 @@ std::vector<MovedMountain> propose_mountains(const PairFit& fit) {
         }))
       found.push_back(*best);
   }
-  std::stable_sort(found.begin(), found.end(), [](const FoundMountain& a, const FoundMountain& b) {
-    return a.gain > b.gain;
-  });
+  std::stable_sort(found.begin(), found.end(),
+                   [](const FoundMountain& a, const FoundMountain& b) { return a.gain > b.gain; });
   std::vector<MovedMountain> out;
   for (const FoundMountain& each : found) out.push_back(each.mountain);
   return out;

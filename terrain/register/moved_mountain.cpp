@@ -18,9 +18,8 @@ DeformHandle handle_of(const MovedMountain& mountain) {
   const auto& x = mountain.at;
   DeformHandle out;
   out.centre = mountain.expected + centre * L * glm::dvec2(x[0], x[1]);
-  out.radius_m =
-      L * std::clamp(radius * exact::exp(std::clamp(radius_spread * x[2], -3.0, 3.0)), min_radius,
-                     max_radius);
+  out.radius_m = L * std::clamp(radius * exact::exp(std::clamp(radius_spread * x[2], -3.0, 3.0)),
+                                min_radius, max_radius);
   out.core_m = core * out.radius_m;
   const double limit = max_of_fold * (out.radius_m - out.core_m) / widths_to_fold;
   const glm::dvec2 wanted = MovedMountain::move * L * glm::dvec2(x[3], x[4]);

@@ -20,8 +20,8 @@ namespace belvedere {
 struct MovedMountain {
   static constexpr std::size_t unknowns = 7;  // centre (2), radius, move (2), turn, raise
   static constexpr double move = 0.03, raise = 0.005;
-  glm::dvec2 expected{0.0};                   // its centre, CRS
-  double extent_m = 1.0;                      // L
+  glm::dvec2 expected{0.0};  // its centre, CRS
+  double extent_m = 1.0;     // L
   std::array<double, unknowns> at = {};
 };
 

@@ -90,9 +90,9 @@ std::vector<double> unknowns_of(const PairFit& fit) {
 PairFit with_unknowns(PairFit fit, std::span<const double> at) {
   std::copy_n(at.begin(), unknown::count, fit.view.begin());
   for (std::size_t i = 0; i < fit.mountains.size(); ++i)
-    std::copy_n(at.begin() + static_cast<std::ptrdiff_t>(unknown::count +
-                                                         MovedMountain::unknowns * i),
-                MovedMountain::unknowns, fit.mountains[i].at.begin());
+    std::copy_n(
+        at.begin() + static_cast<std::ptrdiff_t>(unknown::count + MovedMountain::unknowns * i),
+        MovedMountain::unknowns, fit.mountains[i].at.begin());
   return fit;
 }
 
@@ -177,8 +177,7 @@ std::optional<PairFit> refitted(const PairFit& fit, double sigma_px) {
       std::copy(slopes.row(i).begin(), slopes.row(i).end(), out.slopes.row(i).begin());
     for (const ViewNumber& expected : priors) {
       const ViewNumber prior = weighed(expected, sigma_px);
-      std::copy(prior.slope.begin(), prior.slope.end(),
-                out.slopes.row(out.values.size()).begin());
+      std::copy(prior.slope.begin(), prior.slope.end(), out.slopes.row(out.values.size()).begin());
       out.values.push_back(prior.value);
     }
     for (std::size_t k = unknown::count; k < count; ++k) {
@@ -188,8 +187,8 @@ std::optional<PairFit> refitted(const PairFit& fit, double sigma_px) {
     return out;
   };
   constexpr int steps = 15;
-  const LeastSquaresFit found = fit_least_squares(unknowns_of(fit), residuals,
-                                                  {.max_steps = steps, .tolerance = 1e-8});
+  const LeastSquaresFit found =
+      fit_least_squares(unknowns_of(fit), residuals, {.max_steps = steps, .tolerance = 1e-8});
   PairFit out = with_unknowns(fit, found.at);
   if (!is_plausible(out.frame, out.view, out.pairs)) return std::nullopt;
   out.field.places = displaced_places(out);

@@ -39,11 +39,12 @@ struct PairJudgement {
 // A pair at the place that handles move its ground to.
 ControlPair moved_by(const HandleField& handles, ControlPair pair);
 
-// How far the pairs' ground is displaced beside what mountains move, m: lateral of all, then upward;
-// and the derivatives by the view's unknowns, then by those of each mountain.
+// How far the pairs' ground is displaced beside what mountains move, m: lateral of all, then
+// upward; and the derivatives by the view's unknowns, then by those of each mountain.
 Residuals displacements(const PairFit& fit);
 
-// What the view and moved mountains leave to the field: where the pairs lie, how far they moved, and their noise.
+// What the view and moved mountains leave to the field: where the pairs lie, how far they moved,
+// and their noise.
 std::vector<DisplacedPlace> displaced_places(const PairFit& fit);
 
 // Each pair by the others. One deviation of the view's priors weighs like two pixels of sigma_px.

@@ -72,7 +72,7 @@ std::vector<glm::dvec2> folds_of(const PairFit& fit) {
 }
 
 // Of the places near a position that of the least agreement; nothing if none is near.
-std::optional<std::size_t> most_doubtful(const PairFit& fit, const PairJudgement& judgement,
+std::optional<std::size_t> doubtful_place(const PairFit& fit, const PairJudgement& judgement,
                                           glm::dvec2 position) {
   constexpr double near = 1.5;  // of length or reach
   constexpr double no_weight = 1e-4;
@@ -99,7 +99,7 @@ std::vector<std::size_t> prevent_folds(PairFit& fit, double sigma_px) {
     const PairJudgement judgement = judge_pairs(fit, sigma_px);
     std::set<std::size_t> now;
     for (const glm::dvec2 fold : folds)
-      if (const auto place = most_doubtful(fit, judgement, fold)) now.insert(*place);
+      if (const auto place = doubtful_place(fit, judgement, fold)) now.insert(*place);
     for (const std::size_t i : now) fit.weights[i] *= lighter;
     out.merge(now);
     fit.field.places = displaced_places(fit);

@@ -133,6 +133,42 @@ ViewPixel registered_view_pixel(const Registration& registration, const Displace
                          altitude_m + moved.raise_m, field.at(position));
 }
 
+std::vector<ControlPair> at_fitted_size(std::span<const ControlPair> given, double scale) {
+  std::vector<ControlPair> pairs(given.begin(), given.end());
+  for (ControlPair& pair : pairs) pair.pixel /= scale;
+  return pairs;
+}
+
+// The pairs that were kept and places found in the paint, weighed as the registration has them.
+WeighedPairs start_of(const Registration& registration, const std::vector<ControlPair>& pairs,
+                      std::span<const PaintedPlace> painted) {
+  const double sigma = registration.sigma_px / registration.scale;
+  WeighedPairs start;
+  start.fit.frame = registration.frame;
+  start.fit.view = registration.view;
+  start.fit.mountains = registration.mountains;
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    if (!registration.findings[i].wrong) add_pair(start, pairs, i, sigma);
+  const DisplacementField field(registration.displacement);
+  const HandleField handles(handles_of(registration.mountains));
+  for (const PaintedPlace& match : painted) {
+    ControlPair place = match.place;
+    place.pixel /= registration.scale;
+    const glm::dvec2 noise = glm::max(match.sigma_px / registration.scale, glm::dvec2(sigma));
+    const glm::dvec2 off = predicted_pixel(start.fit, field, place) - place.pixel;
+    const ViewDisplacement seen =
+        displacement_in_view(start.fit.frame, start.fit.view, moved_by(handles, place));
+    const Displacement unsure = field.deviation(place.position);
+    const double deviations2 =
+        square(off.x) / (square(unsure.lateral_m * seen.px_per_m.lateral_m) + square(noise.x)) +
+        square(off.y) / (square(unsure.upward_m * seen.px_per_m.upward_m) + square(noise.y));
+    start.fit.pairs.push_back(place);
+    start.fit.noise_px.push_back(noise);
+    start.fit.weights.push_back(weight_of(deviations2));
+  }
+  return start;
+}
+
 void check_sigma(std::optional<double> sigma_px) {
   if (sigma_px && !(*sigma_px >= 0.1 && *sigma_px <= 100.0))
     throw Error(ErrorKind::usage, "sigma_px", fmt::format("{}", *sigma_px), "0.1 to 100");
@@ -198,33 +234,9 @@ Registration register_pairs(std::span<const ControlPair> given, glm::ivec2 paint
 std::optional<Registration> refine_registration(const Registration& registration,
                                                 std::span<const ControlPair> given,
                                                 std::span<const PaintedPlace> painted) {
-  const double scale = registration.scale;
-  const double sigma = registration.sigma_px / scale;
-  std::vector<ControlPair> pairs(given.begin(), given.end());
-  for (ControlPair& pair : pairs) pair.pixel /= scale;
-  WeighedPairs start;
-  start.fit.frame = registration.frame;
-  start.fit.view = registration.view;
-  start.fit.mountains = registration.mountains;
-  for (std::size_t i = 0; i < pairs.size(); ++i)
-    if (!registration.findings[i].wrong) add_pair(start, pairs, i, sigma);
-  const DisplacementField field(registration.displacement);
-  const HandleField handles(handles_of(registration.mountains));
-  for (const PaintedPlace& match : painted) {
-    ControlPair place = match.place;
-    place.pixel /= scale;
-    const glm::dvec2 noise = glm::max(match.sigma_px / scale, glm::dvec2(sigma));
-    const glm::dvec2 off = predicted_pixel(start.fit, field, place) - place.pixel;
-    const ViewDisplacement seen =
-        displacement_in_view(start.fit.frame, start.fit.view, moved_by(handles, place));
-    const Displacement unsure = field.deviation(place.position);
-    const double deviations2 =
-        square(off.x) / (square(unsure.lateral_m * seen.px_per_m.lateral_m) + square(noise.x)) +
-        square(off.y) / (square(unsure.upward_m * seen.px_per_m.upward_m) + square(noise.y));
-    start.fit.pairs.push_back(place);
-    start.fit.noise_px.push_back(noise);
-    start.fit.weights.push_back(weight_of(deviations2));
-  }
+  const double sigma = registration.sigma_px / registration.scale;
+  const std::vector<ControlPair> pairs = at_fitted_size(given, registration.scale);
+  const WeighedPairs start = start_of(registration, pairs, painted);
   std::optional<WeighedPairs> best;
   for (const double length : {0.06, 0.12}) {
     WeighedPairs tried = start;

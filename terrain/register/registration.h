@@ -46,11 +46,12 @@ struct Registration {
   ViewUnknowns view = {};
   std::vector<MovedMountain> mountains;
   DisplacementParameters displacement;
-  double sigma_px = 0.0;   // of clicks, in pixels of the painting: as given, or estimated
-  double score = 0.0;      // mean ln of how likely each kept pair is by the others
+  double valleys_m = 0.0;     // by which the painter widened them; places lie on that ground
+  double sigma_px = 0.0;      // of clicks, in pixels of the painting: as given, or estimated
+  double score = 0.0;         // mean ln of how likely each kept pair is by the others
   std::size_t held_back = 0;  // pairs and places in the paint that count for less, or the ground
                               // would fold
-  Matrix view_covariance;  // of the view's unknowns, given the pairs that were kept
+  Matrix view_covariance;     // of the view's unknowns, given the pairs that were kept
   std::vector<PairFinding> findings;  // of all pairs, in their order
   std::vector<FittedView> kinds;      // the views from the pairs alone, best first
 };

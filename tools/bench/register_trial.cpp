@@ -46,6 +46,7 @@ struct Trial {
   int rounds = 0;
   std::size_t matches = 0;
   std::optional<CoverTrial> cover;
+  double valleys_m = 0.0;
 };
 
 Trial run_trial(const SecretScene& scene, const SecretPairs& secret, const TrialOptions& options,
@@ -60,14 +61,17 @@ Trial run_trial(const SecretScene& scene, const SecretPairs& secret, const Trial
   const glm::ivec2 size(scene.camera.width, scene.camera.height);
   Registration found = register_pairs(secret.pairs, size, parameters);
   Trial out;
+  DrawnGround ground;
   if (!options.paint.empty()) {
     const Grid<glm::vec3> painting =
         read_painting(fmt::format("{}/{}.png", options.paint, name), silent_progress());
-    const PaintRegistration by_paint =
+    PaintRegistration by_paint =
         register_by_paint(found, secret.pairs, painting, *scene.dem, silent_progress());
     found = by_paint.registration;
+    ground = std::move(by_paint.ground);
     out.rounds = by_paint.rounds;
     out.matches = by_paint.matches;
+    out.valleys_m = found.valleys_m;
     const std::string truth = fmt::format("{}/out_{}/guidance.exr", options.paint, name);
     if (options.classes)
       out.cover = try_cover(found, painting, std::make_shared<const Dem>(*scene.dem), truth);
@@ -85,8 +89,10 @@ Trial run_trial(const SecretScene& scene, const SecretPairs& secret, const Trial
     const ViewPixel pixel = project_in_view(alone.frame, alone.view, at.position, at.altitude_m);
     out.view_px.push_back(
         glm::length(glm::dvec2(pixel.u.value, pixel.v.value) * found.scale - at.pixel));
+    ControlPair place{.position = at.position, .altitude_m = at.altitude_m};
+    place = ground.drawn(place);
     const double off =
-        glm::length(registered_pixel(found, field, at.position, at.altitude_m) - at.pixel);
+        glm::length(registered_pixel(found, field, place.position, place.altitude_m) - at.pixel);
     out.all_px.push_back(off);
     (scene.on_moved_ground(at.position) ? out.moved_px : out.still_px).push_back(off);
   }
@@ -216,12 +222,12 @@ int measure_registration(int argc, char** argv) {
             "{:10} {:2} {:11} {:2.0f} % moved, {} draw {}: view {:.1f} / {:.0f}, field {:.1f} / "
             "{:.0f}, still {:.1f}, moved {:.1f}, wrong {} of {}, thrown {}, sigma {:.1f}, {} "
             "rounds, "
-            "{} matches\n",
+            "{} matches, valleys {:.0f} of {:.0f} m\n",
             region.name, i, scene.camera.projection, 100.0 * scene.moved_share,
             scene.widened_m > 0.0 ? "wide" : "    ", draw, median(trial.view_px),
             percentile(trial.view_px, 0.9), median(trial.all_px), percentile(trial.all_px, 0.9),
             median(trial.still_px), median(trial.moved_px), trial.found, trial.wrong, trial.thrown,
-            trial.sigma_px, trial.rounds, trial.matches);
+            trial.sigma_px, trial.rounds, trial.matches, trial.valleys_m, scene.widened_m);
         if (trial.cover)
           fmt::print("  treeline {:.0f}, snow line {:.0f}{}: IoU / right {}\n",
                      trial.cover->lines.treeline_m, trial.cover->lines.snowline_m,

@@ -186,12 +186,17 @@ std::string summary_of(const RegisterReportInput& input) {
       view_kind_name(found.frame.kind));
 }
 
-std::string fold_words(const Registration& found) {
-  if (found.held_back == 0) return {};
-  return fmt::format(
-      " {} count{} for less, or the ground would fold over itself.",
-      found.held_back == 1 ? "One pair or patch" : fmt::format("{} pairs or patches", found.held_back),
-      found.held_back == 1 ? "s" : "");
+// What the painter did to the ground beside moving it.
+std::string ground_words(const Registration& found) {
+  std::string out;
+  if (found.valleys_m > 0.0)
+    out = fmt::format(" Large valleys are some {:.0f} m wider than on the map.", found.valleys_m);
+  if (found.held_back == 0) return out;
+  return out + fmt::format(" {} count{} for less, or the ground would fold over itself.",
+                           found.held_back == 1
+                               ? "One pair or patch"
+                               : fmt::format("{} pairs or patches", found.held_back),
+                           found.held_back == 1 ? "s" : "");
 }
 
 Json mountains_json(const Registration& found) {
@@ -358,6 +363,7 @@ Json registration_json(const RegisterReportInput& input) {
       .add("others_px", known(median(kept_distances_px(found))))
       .add("painted_places", Json::number(static_cast<double>(input.painted_places)))
       .add("mountains", mountains_json(found))
+      .add("valleys_m", known(found.valleys_m))
       .add("held_back", Json::number(static_cast<double>(found.held_back)))
       .add("folded", Json::number(static_cast<double>(input.ground.folded)))
       .add("light", light_json(input.light))
@@ -382,13 +388,13 @@ void write_register_report(const std::string& folder, const RegisterReportInput&
         fmt::format("{} facets of the ground in the picture are turned over: pairs that are "
                     "near each other move it unlike.",
                     input.ground.folded));
-  page.section("pairs", "Pairs, worst first",
-               summary_of(input) + fold_words(input.registration));
+  page.section("pairs", "Pairs, worst first", summary_of(input) + ground_words(input.registration));
   page.table(table_of_pairs(input));
   if (!input.registration.mountains.empty()) {
-    page.section("mountains", "Mountains that were moved as a whole",
-                 "Ground moved away from the viewer and ground that is raised look nearly alike, so "
-                 "these two are less sure than their sum.");
+    page.section(
+        "mountains", "Mountains that were moved as a whole",
+        "Ground moved away from the viewer and ground that is raised look nearly alike, so "
+        "these two are less sure than their sum.");
     page.table(table_of_mountains(input.registration));
   }
   if (!input.classes.empty()) {

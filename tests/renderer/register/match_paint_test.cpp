@@ -74,5 +74,29 @@ TEST(MatchPaint, LooksForNoPlacesInTheSky) {
     EXPECT_GE(match.pixel.y, height / 2);
 }
 
+double evidence_at(const Grid<glm::vec3>& paint, const RegisteredGround& ground) {
+  double sum = 0.0;
+  const Grid<double> evidence = paint_evidence(
+      paint, ground, {.half_px = 10, .reach_px = {3, 3}, .spacing_px = 10, .prior_px = 2.0});
+  for (const double each : evidence) sum += std::isnan(each) ? 0.0 : each;
+  return sum;
+}
+
+TEST(MatchPaint, TheEvidenceIsLargestWhereTheGroundIsPainted) {
+  const RegisteredGround ground = hill_ground();
+  const double right = evidence_at(painted_hills({0.0, 0.0}, 0.03F), ground);
+  EXPECT_GT(right, evidence_at(painted_hills({5.0, 0.0}, 0.03F), ground) + 100.0);
+  EXPECT_GT(right, evidence_at(painted_hills({0.0, 0.0}, 0.3F), ground) + 100.0);
+}
+
+TEST(MatchPaint, TheSkyHasNoEvidence) {
+  RegisteredGround ground = hill_ground();
+  for (int y = 0; y < height / 2; ++y)
+    for (int x = 0; x < width; ++x) ground.altitude_m(x, y) = std::nanf("");
+  const Grid<double> evidence = paint_evidence(painted_hills({0.0, 0.0}, 0.03F), ground, example);
+  EXPECT_TRUE(std::isnan(evidence(3, 1)));
+  EXPECT_FALSE(std::isnan(evidence(3, 3)));
+}
+
 }  // namespace
 }  // namespace belvedere

@@ -73,14 +73,20 @@ TEST(RegisteredScene, ShowsPlacesWhereTheRegistrationDoes) {
 
 TEST(RegisteredScene, MountainsThatWereMovedAreHandles) {
   Registration found = synthetic_registration(ViewKind::plane, 1.0);
-  found.mountains = {{{684000.0, 5255000.0},
-                      found.frame.extent_m,
-                      {0.3, 0.0, 0.4, 0.8, -0.5, 1.4, 0.6}},
-                     {{676000.0, 5263000.0}, found.frame.extent_m, {0.0, 0.2, 0.0, -0.7, 0.0}}};
+  found.mountains = {
+      {{684000.0, 5255000.0}, found.frame.extent_m, {0.3, 0.0, 0.4, 0.8, -0.5, 1.4, 0.6}},
+      {{676000.0, 5263000.0}, found.frame.extent_m, {0.0, 0.2, 0.0, -0.7, 0.0}}};
   const Scene scene = registered_scene(found, {1200, 550});
   ASSERT_EQ(scene.deform.handles.size(), 2U);
   EXPECT_NEAR(scene.deform.handles[0].handle.rotate_deg, 35.0, 1e-9);
+  EXPECT_EQ(scene.generalize.valleys.width_m, 0.F);
   EXPECT_LT(worst_px(found, {1200, 550}), 0.3);
+}
+
+TEST(RegisteredScene, WidensTheValleysAsThePainterDid) {
+  Registration found = synthetic_registration(ViewKind::plane, 1.0);
+  found.valleys_m = 300.0;
+  EXPECT_EQ(registered_scene(found, {1200, 550}).generalize.valleys.width_m, 300.F);
 }
 
 TEST(RegisteredScene, OfALargerPaintingAndOfACroppedOne) {

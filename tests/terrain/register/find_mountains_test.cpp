@@ -35,8 +35,7 @@ WeighedPairs painted(const std::vector<DeformHandle>& handles, std::size_t on_co
   for (std::size_t i = 0; i < fit.pairs.size(); ++i) {
     const auto n = static_cast<std::int64_t>(i);
     fit.pairs[i].pixel = test::pixel_of(view, moved_by(field, fit.pairs[i]));
-    fit.pairs[i].pixel +=
-        sigma_px * glm::dvec2(random_normal(3, n, 0), random_normal(3, n, 1));
+    fit.pairs[i].pixel += sigma_px * glm::dvec2(random_normal(3, n, 0), random_normal(3, n, 1));
     out.index.push_back(i);
   }
   fit.frame = view.frame;

@@ -56,9 +56,8 @@ TEST(PairFit, APairIsJudgedByTheOthers) {
 // Derivatives by a mountain's unknowns, by differences.
 TEST(PairFit, AMountainMovesItsPairsAsItsSlopesSay) {
   PairFit fit = exact_fit(40);
-  fit.mountains = {{{684000.0, 5255000.0},
-                    fit.frame.extent_m,
-                    {0.2, -0.1, 0.8, 0.3, -0.2, 0.9, 0.5}}};
+  fit.mountains = {
+      {{684000.0, 5255000.0}, fit.frame.extent_m, {0.2, -0.1, 0.8, 0.3, -0.2, 0.9, 0.5}}};
   const Residuals here = displacements(fit);
   ASSERT_EQ(here.slopes.columns(), view_unknown::count + MovedMountain::unknowns);
   std::size_t moved = 0;

@@ -35,9 +35,9 @@ std::size_t count_folds(const PairFit& fit) {
   DeformParameters parameters;
   parameters.handles = handles_of(fit.mountains);
   parameters.field = fit.field;
-  const glm::dvec2 eye = fit.frame.origin + fit.frame.extent_m *
-                                                glm::dvec2(fit.view[view_unknown::east],
-                                                           fit.view[view_unknown::north]);
+  const glm::dvec2 eye =
+      fit.frame.origin +
+      fit.frame.extent_m * glm::dvec2(fit.view[view_unknown::east], fit.view[view_unknown::north]);
   return find_folds(Grid<float>(220, 220, 1000.F), transform, Deformation(parameters, eye)).size();
 }
 

@@ -116,9 +116,11 @@ TEST(RegisterPage, NamesMountainsThatWereMovedAndPairsThatWouldFoldTheGround) {
   EXPECT_EQ(plain.find("fold over itself"), std::string::npos);
   input.registration.mountains = {{{5000.0, 7000.0}, 40000.0, {0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0}}};
   input.registration.held_back = 2;
+  input.registration.valleys_m = 300.0;
   write_register_report(folder / "", input);
   EXPECT_THAT(test::read_bytes(folder / "index.html"),
-              AllOf(HasSubstr("moved as a whole"), HasSubstr("2 pairs or patches count for less")));
+              AllOf(HasSubstr("moved as a whole"), HasSubstr("2 pairs or patches count for less"),
+                    HasSubstr("300 m wider")));
   EXPECT_THAT(test::read_bytes(folder / "report.json"),
               AllOf(HasSubstr("\"mountains\""), HasSubstr("\"rotate_deg\"")));
 }

@@ -135,16 +135,18 @@ RegisteredPainting register_painting(const RegisterCommand& options, Progress& p
   progress.begin("registering", 0.0);
   report.registration =
       register_pairs(report.pairs, out.size_px, registration_parameters(options), progress);
+  DrawnGround ground{.dem = *drawn};
   if (!options.pairs_only) {
     PaintRegistration by_paint =
         register_by_paint(report.registration, report.pairs, painting, *drawn, progress);
     report.registration = std::move(by_paint.registration);
     report.painted_places = by_paint.matches;
+    ground = std::move(by_paint.ground);
   }
   const Scene registered = registered_scene(report.registration, out.size_px);
   progress.begin("drawing", 0.0);
   report.picture = reduced_picture(painting, register_report_px);
-  const RegisteredView view(report.registration, registered, *drawn,
+  const RegisteredView view(report.registration, registered, ground.dem,
                             {report.picture.width(), report.picture.height()}, progress);
   report.ground = trace_registered(view);
   report.ground.folded = folded_facets(view);
