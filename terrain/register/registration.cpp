@@ -247,10 +247,14 @@ std::optional<Registration> refine_registration(const Registration& registration
     if (!best || tried.judgement.score > best->judgement.score) best = std::move(tried);
   }
   if (!best) return std::nullopt;
+  // Of the sum over the pairs; mountains gain less than what is hopeless.
+  constexpr double chance = 1.0, hopeless = 20.0;
+  const auto loses = [&](double limit) {
+    return mean_score(*best) < registration.score - limit / static_cast<double>(best->index.size());
+  };
+  if (loses(hopeless)) return std::nullopt;
   move_mountains(*best, sigma);
-  constexpr double chance = 1.0;  // of the sum over the pairs
-  if (mean_score(*best) < registration.score - chance / static_cast<double>(best->index.size()))
-    return std::nullopt;
+  if (loses(chance)) return std::nullopt;
   Registration out = registration;
   const double score = mean_score(*best);
   if (take_back(*best, pairs, sigma)) weigh_by_agreement(*best, sigma, 2);
