@@ -205,8 +205,9 @@ std::vector<MovedMountain> propose_mountains(const PairFit& fit) {
   }
   std::stable_sort(found.begin(), found.end(),
                    [](const FoundMountain& a, const FoundMountain& b) { return a.gain > b.gain; });
-  std::vector<MovedMountain> out;
-  for (const FoundMountain& each : found) out.push_back(each.mountain);
+  std::vector<MovedMountain> out(found.size());
+  std::transform(found.begin(), found.end(), out.begin(),
+                 [](const FoundMountain& each) { return each.mountain; });
   return out;
 }
 
