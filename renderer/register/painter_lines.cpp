@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "base/math_exact.h"
@@ -59,36 +60,6 @@ std::size_t group_of(LandCoverClass id) {
 }
 
 using Air = std::array<double, air_terms>;
-
-// The solution of a symmetric positive system by Cholesky's method; right sides by columns.
-// Unknowns without any weight are 0.
-Matrix solved(Matrix a, Matrix b) {
-  const std::size_t n = a.rows();
-  for (std::size_t j = 0; j < n; ++j) {
-    const double own = a(j, j);
-    for (std::size_t k = 0; k < j; ++k) a(j, j) -= a(j, k) * a(j, k);
-    const bool known = a(j, j) > 1e-10 * own && own > 0.0;
-    a(j, j) = known ? std::sqrt(a(j, j)) : 0.0;
-    for (std::size_t i = j + 1; i < n; ++i) {
-      for (std::size_t k = 0; k < j; ++k) a(i, j) -= a(i, k) * a(j, k);
-      a(i, j) = known ? a(i, j) / a(j, j) : 0.0;
-    }
-  }
-  const auto divided = [&](double value, std::size_t j) {
-    return a(j, j) > 0.0 ? value / a(j, j) : 0.0;
-  };
-  for (std::size_t c = 0; c < b.columns(); ++c) {
-    for (std::size_t j = 0; j < n; ++j) {
-      for (std::size_t k = 0; k < j; ++k) b(j, c) -= a(j, k) * b(k, c);
-      b(j, c) = divided(b(j, c), j);
-    }
-    for (std::size_t j = n; j-- > 0;) {
-      for (std::size_t k = j + 1; k < n; ++k) b(j, c) -= a(k, j) * b(k, c);
-      b(j, c) = divided(b(j, c), j);
-    }
-  }
-  return b;
-}
 
 double determinant(const std::array<std::array<double, 3>, 3>& m) {
   return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
@@ -167,7 +138,13 @@ class Colours {
       }
       for (int c = 0; c < 3; ++c) right(g, static_cast<std::size_t>(c)) += colour[c];
     }
-    const Matrix found = solved(std::move(normal), std::move(right));
+    // What nothing tells is 0.
+    constexpr double ridge = 1e-9;  // of the number of samples
+    for (std::size_t k = 0; k < unknowns; ++k)
+      normal(k, k) += ridge * static_cast<double>(of.size());
+    const std::optional<Cholesky> factors = Cholesky::of(std::move(normal));
+    if (!factors) return {.unexplained = std::numeric_limits<double>::max()};
+    const Matrix found = factors->solve(right);
     for (std::size_t g = 0; g < groups; ++g) {
       out.mean[g] /= static_cast<double>(std::max<std::size_t>(out.count[g], 1));
       out.colour[g] = {found(g, 0), found(g, 1), found(g, 2)};
