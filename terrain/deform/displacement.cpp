@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -20,6 +21,7 @@ namespace {
 // Beyond so many lengths the kernel is below 1e-13, beyond so many reaches a weight below 1e-14.
 constexpr double farthest_lengths = 19.0;
 constexpr double farthest_reaches = 8.0;
+constexpr double weight_of_still = 0.15;
 
 double square_distance(glm::dvec2 a, glm::dvec2 b) { return square(a.x - b.x) + square(a.y - b.y); }
 
@@ -86,7 +88,6 @@ std::array<double, 4> catmull_rom(double t) {
 
 double displacement_size_m(const DisplacementParameters& parameters, glm::dvec2 position,
                            std::optional<std::size_t> without) {
-  constexpr double weight_of_still = 0.15;
   double weights = weight_of_still;
   double sum = 0.0;
   for (std::size_t i = 0; i < parameters.places.size(); ++i) {
@@ -127,14 +128,14 @@ DisplacementField::DisplacementField(DisplacementParameters parameters)
   lateral_ = lateral_covariance_->solve(parts_of(places, &Displacement::lateral_m));
   upward_ = upward_covariance_->solve(parts_of(places, &Displacement::upward_m));
   // Each vertex of the ground asks for the field, at a cost of two exponentials a place.
-  constexpr std::size_t min_places = 8;  // fewer are quicker exactly
-  constexpr double nodes_to_a_length = 8.0;
-  // Where sizes no longer differ, by 1e-7, and where the kernel is below 1e-5.
-  constexpr double near_reaches = 6.0, far_lengths = 8.0;
+  constexpr std::size_t min_places = 8;                // fewer are quicker exactly
+  constexpr double near_nodes = 8.0, far_nodes = 4.0;  // to a length
+  // Where sizes no longer differ, by 1e-5, and where the kernel is below 1e-5.
+  constexpr double near_reaches = 5.0, far_lengths = 8.0;
   if (places.size() < min_places) return;
-  const double near_step = std::min(parameters_.length_m, parameters_.reach_m) / nodes_to_a_length;
+  const double near_step = std::min(parameters_.length_m, parameters_.reach_m) / near_nodes;
   near_ = tabulate(near_step, near_reaches * parameters_.reach_m);
-  far_ = tabulate(parameters_.length_m / nodes_to_a_length, far_lengths * parameters_.length_m);
+  far_ = tabulate(parameters_.length_m / far_nodes, far_lengths * parameters_.length_m);
 }
 
 DisplacementField::Nodes DisplacementField::tabulate(double step_m, double margin_m) const {
@@ -147,10 +148,40 @@ DisplacementField::Nodes DisplacementField::tabulate(double step_m, double margi
   const glm::dvec2 count = glm::ceil((high - low + 2.0 * margin_m) / step_m) + 1.0;
   if (count.x * count.y > max_nodes) return {};
   Nodes nodes{low - margin_m, step_m, {static_cast<int>(count.x), static_cast<int>(count.y)}};
+  // displacement_size_m() at the nodes: its weights are products of one by column and one by row.
+  const std::vector<DisplacedPlace>& places = parameters_.places;
+  const auto factors = [&](int nodes_along, int axis) {
+    Matrix out(static_cast<std::size_t>(nodes_along), places.size());
+    for (std::size_t n = 0; n < out.rows(); ++n)
+      for (std::size_t i = 0; i < places.size(); ++i) {
+        const double at = nodes.first[axis] + step_m * static_cast<double>(n);
+        out(n, i) =
+            exact::exp(-0.5 * square((at - places[i].position[axis]) / parameters_.reach_m));
+      }
+    return out;
+  };
+  const Matrix by_column = factors(nodes.values.width(), 0);
+  const Matrix by_row = factors(nodes.values.height(), 1);
+  std::vector<double> beyond;
+  for (const DisplacedPlace& place : places)
+    beyond.push_back(square_beyond_noise(parameters_, place));
   parallel_rows(nodes.values.height(), [&](int y) {
+    const std::span<const double> row = by_row.row(static_cast<std::size_t>(y));
     for (int x = 0; x < nodes.values.width(); ++x) {
-      const Displacement value = exactly_at(nodes.first + step_m * glm::dvec2(x, y));
-      nodes.values(x, y) = {value.lateral_m, value.upward_m};
+      const std::span<const double> column = by_column.row(static_cast<std::size_t>(x));
+      double weights = weight_of_still, sum = 0.0;
+      for (std::size_t i = 0; i < places.size(); ++i) {
+        weights += row[i] * column[i];
+        sum += row[i] * column[i] * beyond[i];
+      }
+      const double size = std::sqrt(square(parameters_.still_m) + sum / weights);
+      const glm::dvec2 at = nodes.first + step_m * glm::dvec2(x, y);
+      glm::dvec2 moved(0.0);
+      for (std::size_t i = 0; i < places.size(); ++i)
+        moved += size * sizes_m_[i] *
+                 matern(square_distance(at, places[i].position) / square(parameters_.length_m)) *
+                 glm::dvec2(lateral_[i], upward_[i]);
+      nodes.values(x, y) = moved;
     }
   });
   return nodes;

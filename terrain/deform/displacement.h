@@ -53,7 +53,7 @@ class DisplacementField {
 
   bool is_identity() const { return parameters_.places.empty(); }
   // The expected displacement: 0 far from all places. Of many places from nodes eight to a reach
-  // near them and eight to a length farther away, within 2e-3 of the largest displacement.
+  // near them and four to a length farther away, within 2e-3 of the largest displacement.
   Displacement at(glm::dvec2 position) const;
   Displacement exactly_at(glm::dvec2 position) const;
   // Its standard deviation, of both parts.
