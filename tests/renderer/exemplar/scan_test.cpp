@@ -260,6 +260,38 @@ TEST_F(Scans, GuidanceOfAnotherSceneNeedsTrust) {
   EXPECT_LT(scan.painted.base(30, 40).x, 0.6F) << "fitted to its own paint";
 }
 
+// The skyline is registered five pixels too low, a river beside its bed.
+TEST_F(Scans, WhatIsNarrowerThanARegistrationIsExactIsNotTrusted) {
+  constexpr int width = 1200, height = 50;
+  Grid<glm::vec3> picture(width, height, glm::vec3(0.5F, 0.4F, 0.3F));
+  GuidanceBuffers guidance;
+  guidance.depth_m = Grid<float>(width, height, 900.F);
+  guidance.land_cover = Grid<LandCoverClass>(width, height, LandCoverClass::rock);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      if (y < 20) picture(x, y) = glm::vec3(0.3F, 0.5F, 0.8F);
+      if (y < 25) guidance.depth_m(x, y) = std::numeric_limits<float>::infinity();
+      if (y < 25) guidance.land_cover(x, y) = LandCoverClass::sky;
+      const bool river = x >= 300 && x < 302, lake = x >= 600 && x < 640;
+      if (y >= 30 && (river || lake)) guidance.land_cover(x, y) = LandCoverClass::water;
+    }
+  write_png8(folder_ / "a.png", picture, {});
+  write_guidance(folder_ / "guidance.exr", guidance, {});
+  Grid<glm::vec3> sure(width, height, glm::vec3(1.F));
+  write_grey("trust.png", sure);
+  const LoadedScene scene = parse_scene(
+      "version = 1\n[camera]\nposition = [0, 0]\n[[exemplar]]\npicture = \"a.png\"\nguidance = "
+      "\"guidance.exr\"\ntrust = \"trust.png\"",
+      "s.toml", folder_.path(), {});
+  const ScannedPainting scan = read_scans(scene, silent_progress()).front();
+  const Grid<std::uint8_t>& labels = scan.painted.exemplar.guides.label;
+  EXPECT_EQ(labels(300, 40), unused_label);
+  EXPECT_EQ(labels(620, 40), static_cast<std::uint8_t>(LandCoverClass::water));
+  EXPECT_EQ(labels(900, 40), static_cast<std::uint8_t>(LandCoverClass::rock));
+  ASSERT_FALSE(scan.sky.empty());
+  for (const auto& [height_share, colour] : scan.sky) EXPECT_NEAR(colour.z, 0.8F, 0.01F);
+}
+
 TEST_F(Scans, ClassesOfARegistrationAreCorrectedByThePaint) {
   GuidanceBuffers guidance;
   guidance.depth_m = guidance.altitude_m = Grid<float>(scan_width, scan_height, 1500.F);
