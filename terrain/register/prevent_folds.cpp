@@ -7,6 +7,7 @@
 #include <glm/matrix.hpp>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "base/math_exact.h"
 #include "base/parallel.h"
@@ -71,7 +72,8 @@ std::vector<glm::dvec2> folds_of(const PairFit& fit) {
   return out;
 }
 
-// Of the places near a position that of the least agreement; nothing if none is near.
+// Of the places near a position that of the least agreement, a sure one only if there is no other;
+// nothing if none is near.
 std::optional<std::size_t> doubtful_place(const PairFit& fit, const PairJudgement& judgement,
                                           glm::dvec2 position) {
   constexpr double near = 1.5;  // of length or reach
@@ -81,7 +83,10 @@ std::optional<std::size_t> doubtful_place(const PairFit& fit, const PairJudgemen
   for (std::size_t i = 0; i < fit.pairs.size(); ++i) {
     const glm::dvec2 line = fit.pairs[i].position - position;
     if (exact::hypot(line.x, line.y) > limit || fit.weights[i] < no_weight) continue;
-    if (!out || judgement.square_deviations[i] > judgement.square_deviations[*out]) out = i;
+    const auto doubt = [&](std::size_t k) {
+      return std::pair(!fit.pairs[k].sure, judgement.square_deviations[k]);
+    };
+    if (!out || doubt(i) > doubt(*out)) out = i;
   }
   return out;
 }

@@ -260,10 +260,14 @@ PairWords pair_words(const PairFinding& finding, double sigma_px) {
   if (finding.wrong)
     return {"thrown out", fmt::format("{} {} otherwise: wrong, most likely", others,
                                       finding.near_by == 1 ? "says" : "say")};
+  if (finding.doubted)
+    return {"doubtful", finding.would_fold
+                            ? "as far off as a wrong pair, but sure: kept, as far as "
+                              "the ground does not fold"
+                            : "as far off as a wrong pair, but sure: kept"};
   if (finding.would_fold)
     return {"held back",
             "the ground would fold between this pair and those near by: it counts for less"};
-  if (finding.doubted) return {"doubtful", "as far off as a wrong pair, but sure: kept"};
   if (moved && finding.others_px > far_off_sigmas * sigma_px)
     return {"moved",
             finding.near_by == 0
