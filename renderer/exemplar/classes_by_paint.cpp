@@ -11,7 +11,7 @@
 #include "base/math_exact.h"
 #include "base/parallel.h"
 #include "base/statistics.h"
-#include "renderer/image/oklab.h"
+#include "renderer/image/rows/reduced_oklab.h"
 #include "texture/synthesis/guide_stack.h"
 
 namespace belvedere {
@@ -44,20 +44,12 @@ struct Compared {
   Grid<float> altitude_m;
 };
 
-// The mean colour of a rectangle's pixels.
-glm::vec3 mean_oklab(const Grid<glm::vec3>& painting, int x0, int x1, int y0, int y1) {
-  glm::dvec3 sum(0.0);
-  for (int y = y0; y < y1; ++y)
-    for (int x = x0; x < x1; ++x) sum += to_oklab(painting(x, y));
-  return glm::vec3(sum / static_cast<double>((x1 - x0) * (y1 - y0)));
-}
-
 Compared compare_at(const Grid<glm::vec3>& painting, const PlaceClasses& places) {
   const int width = std::min({max_compared_px, painting.width(), places.labels.width()});
   const int height = std::clamp(static_cast<int>(std::lround(static_cast<double>(width) *
                                                              painting.height() / painting.width())),
                                 1, std::min(painting.height(), places.labels.height()));
-  Compared out{Grid<glm::vec3>(width, height), Grid<std::uint8_t>(width, height),
+  Compared out{reduced_oklab(painting, {width, height}), Grid<std::uint8_t>(width, height),
                Grid<float>(width, height)};
   const auto from = [](int k, int count, int of) {
     return static_cast<int>(static_cast<std::int64_t>(k) * of / count);
@@ -65,9 +57,6 @@ Compared compare_at(const Grid<glm::vec3>& painting, const PlaceClasses& places)
   parallel_rows(height, [&](int y) {
     const int row = from(2 * y + 1, 2 * height, places.labels.height());
     for (int x = 0; x < width; ++x) {
-      out.oklab(x, y) = mean_oklab(
-          painting, from(x, width, painting.width()), from(x + 1, width, painting.width()),
-          from(y, height, painting.height()), from(y + 1, height, painting.height()));
       const int column = from(2 * x + 1, 2 * width, places.labels.width());
       out.labels(x, y) = places.labels(column, row);
       out.altitude_m(x, y) = places.altitude_m(column, row);
@@ -103,16 +92,16 @@ class Belts {
     slot.fill(classes.size());
     for (std::size_t k = 0; k < classes.size(); ++k)
       if (classes[k] != sky_number) slot[classes[k]] = k;
-    float lowest = std::numeric_limits<float>::max(), highest = -lowest;
+    float min_m = std::numeric_limits<float>::max(), max_m = -min_m;
     for (std::size_t i = 0; i < compared.labels.size(); ++i) {
       if (slot[compared.labels[i]] == classes.size()) continue;
-      lowest = std::min(lowest, compared.altitude_m[i]);
-      highest = std::max(highest, compared.altitude_m[i]);
+      min_m = std::min(min_m, compared.altitude_m[i]);
+      max_m = std::max(max_m, compared.altitude_m[i]);
     }
-    lowest_m_ = static_cast<double>(std::min(lowest, highest));
-    const auto count =
-        static_cast<std::size_t>(std::max(0.0, static_cast<double>(highest) - lowest_m_) / belt_m) +
-        1;
+    min_altitude_m_ = static_cast<double>(std::min(min_m, max_m));
+    const auto count = static_cast<std::size_t>(
+                           std::max(0.0, static_cast<double>(max_m) - min_altitude_m_) / belt_m) +
+                       1;
     shares_.assign(classes.size(), std::vector<float>(count, 0.F));
     std::vector<float> all(count, 0.F);
     for (std::size_t i = 0; i < compared.labels.size(); ++i) {
@@ -131,11 +120,11 @@ class Belts {
 
  private:
   std::size_t belt_of(float altitude_m) const {
-    const double above = std::max(0.0, static_cast<double>(altitude_m) - lowest_m_) / belt_m;
+    const double above = std::max(0.0, static_cast<double>(altitude_m) - min_altitude_m_) / belt_m;
     return std::min(static_cast<std::size_t>(above), shares_.front().size() - 1);
   }
 
-  double lowest_m_ = 0.0;
+  double min_altitude_m_ = 0.0;
   std::vector<std::vector<float>> shares_;
 };
 
@@ -284,12 +273,12 @@ Grid<std::uint8_t> classes_by_paint(const Grid<glm::vec3>& painting, const Place
   const double down = static_cast<double>(compared.labels.height()) / out.height();
   parallel_rows(out.height(), [&](int y) {
     for (int x = 0; x < out.width(); ++x) {
-      float most = 0.F;
+      float likeliest = 0.F;
       for (std::size_t k = 0; k < classes.size(); ++k) {
         const float value =
             sample_bilinear(probability[k], (x + 0.5) * across - 0.5, (y + 0.5) * down - 0.5);
-        if (!(value > most)) continue;
-        most = value;
+        if (!(value > likeliest)) continue;
+        likeliest = value;
         out(x, y) = classes[k];
       }
     }

@@ -55,7 +55,6 @@ struct Raw {
   bool painted = false;   // so does the picture: what guidance says of its light is exact
   Grid<std::uint8_t> labels;  // class ids, sky included; unused_label is never copied
   Grid<float> deviation_px;   // of the places of pixels; empty: they are known
-  int skyline_px = 0;         // by how many pixels the skyline may be too low
 };
 
 Grid<float> read_share(const std::string& path, const Grid<glm::vec3>& picture) {
@@ -203,7 +202,7 @@ Raw read_raw(const SceneExemplar& settings, const LoadedScene& scene, Progress& 
     if (settings.classes.empty()) {  // a mask that was drawn is exact
       const double best_px = best_registration * raw.picture.width();
       for (float& px : deviation_px) px = std::max(px, static_cast<float>(best_px));
-      raw.skyline_px = static_cast<int>(std::ceil(2.0 * best_px));
+      raw.labels = certain_sky(std::move(raw.labels), static_cast<int>(std::ceil(2.0 * best_px)));
     }
     raw.labels = certain_labels(raw.labels, deviation_px);
   }
@@ -241,12 +240,9 @@ void learn_sky(const Raw& raw, ScannedPainting& scan) {
   constexpr int bands = 5;
   int top = raw.picture.height();
   int bottom = -1;
-  const auto is_sky = [&](int x, int y) {
-    return raw.labels(x, y) == sky_label && raw.labels.clamped(x, y + raw.skyline_px) == sky_label;
-  };
   for (int y = 0; y < raw.picture.height(); ++y)
     for (int x = 0; x < raw.picture.width(); ++x)
-      if (is_sky(x, y)) {
+      if (raw.labels(x, y) == sky_label) {
         top = std::min(top, y);
         bottom = std::max(bottom, y);
       }
@@ -255,7 +251,7 @@ void learn_sky(const Raw& raw, ScannedPainting& scan) {
   std::vector<glm::vec3> all;
   for (int y = top; y <= bottom; ++y)
     for (int x = 0; x < raw.picture.width(); ++x) {
-      if (!is_sky(x, y)) continue;
+      if (raw.labels(x, y) != sky_label) continue;
       colours[static_cast<std::size_t>((y - top) * bands / (bottom - top + 1))].push_back(
           raw.picture(x, y));
       all.push_back(raw.picture(x, y));

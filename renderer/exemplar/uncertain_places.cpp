@@ -106,4 +106,14 @@ Grid<std::uint8_t> certain_labels(const Grid<std::uint8_t>& labels,
   return out;
 }
 
+Grid<std::uint8_t> certain_sky(Grid<std::uint8_t> labels, int skyline_px) {
+  constexpr auto sky = static_cast<std::uint8_t>(LandCoverClass::sky);
+  // From above, so that rows below are still as they were.
+  for (int y = 0; y < labels.height(); ++y)
+    for (int x = 0; x < labels.width(); ++x)
+      if (labels(x, y) == sky && labels.clamped(x, y + skyline_px) != sky)
+        labels(x, y) = unused_label;
+  return labels;
+}
+
 }  // namespace belvedere

@@ -28,4 +28,8 @@ void average_over_places(const Grid<float>& deviation_px, GuideStack& guides);
 Grid<std::uint8_t> certain_labels(const Grid<std::uint8_t>& labels,
                                   const Grid<float>& deviation_px);
 
+// unused_label where sky (label 0) may be ground, because the skyline may be that many pixels too
+// low.
+Grid<std::uint8_t> certain_sky(Grid<std::uint8_t> labels, int skyline_px);
+
 }  // namespace belvedere

@@ -220,11 +220,11 @@ class Search {
   }
 
   // The best of a line's altitudes, if it gains enough.
-  void scan(double PainterLines::*line, double lowest_m, double highest_m) {
+  void scan(double PainterLines::*line, double min_m, double max_m) {
     const double before = best_;
     const double usual = lines_.*line;
     double found_m = usual;
-    for (double at = lowest_m; at <= highest_m; at += first_step_m)
+    for (double at = min_m; at <= max_m; at += first_step_m)
       if (gains(line, at)) found_m = at;
     lines_.*line = found_m;
     if (before - best_ >= min_gain) return;
@@ -262,15 +262,15 @@ class Search {
 
 }  // namespace
 
-PainterLines find_painter_lines(std::span<const PaintSample> samples, double lowest_m,
-                                double highest_m, ClassesOfLines classes_of) {
+PainterLines find_painter_lines(std::span<const PaintSample> samples, double min_m, double max_m,
+                                ClassesOfLines classes_of) {
   if (samples.size() < min_samples) return {};
   const Colours colours(samples);
   Search search(colours, classes_of);
-  search.scan(&PainterLines::treeline_m, lowest_m, highest_m);
-  search.scan(&PainterLines::snowline_m, lowest_m, highest_m);
+  search.scan(&PainterLines::treeline_m, min_m, max_m);
+  search.scan(&PainterLines::snowline_m, min_m, max_m);
   // Snow that was taken for other ground may have pulled at the first line.
-  if (search.lines().snowline_m > 0.0) search.scan(&PainterLines::treeline_m, lowest_m, highest_m);
+  if (search.lines().snowline_m > 0.0) search.scan(&PainterLines::treeline_m, min_m, max_m);
   search.refine(&PainterLines::treeline_m);
   search.refine(&PainterLines::snowline_m);
   PainterLines out = search.lines();

@@ -27,14 +27,14 @@ struct PaintSample {
 // The classes of the samples by rules with some lines.
 using ClassesOfLines = FunctionRef<std::vector<LandCoverClass>(const PainterLines& lines)>;
 
-// The lines from lowest_m to highest_m that explain the colours of a painting best. Given the
+// The lines from min_m to max_m that explain the colours of a painting best. Given the
 // classes, the colour of a sample is linear in its normal (so that any light will do), its distance
 // and ln distance, besides a constant of its class: the lines leave the least determinant of the
 // covariance of what remains. A treeline counts only with forest darker than meadows, a snow line
 // only with snow clearly paler than all other open ground and not yellower than stone. A line that
 // gains less than half a percent is left to the rules. `winter` if meadows are as pale and as
 // colourless as snow, and snow on them explains the colours as well.
-PainterLines find_painter_lines(std::span<const PaintSample> samples, double lowest_m,
-                                double highest_m, ClassesOfLines classes_of);
+PainterLines find_painter_lines(std::span<const PaintSample> samples, double min_m, double max_m,
+                                ClassesOfLines classes_of);
 
 }  // namespace belvedere

@@ -8,8 +8,7 @@
 #include <vector>
 
 #include "base/math_exact.h"
-#include "base/parallel.h"
-#include "renderer/image/oklab.h"
+#include "renderer/image/rows/reduced_oklab.h"
 #include "renderer/register/match_paint.h"
 #include "renderer/register/registered_ground.h"
 #include "renderer/register/registered_scene.h"
@@ -33,28 +32,6 @@ glm::ivec2 reduced_size(glm::ivec2 painting_px, int width_px) {
 
 // 50 px² of a painting 1200 px wide: a stroke.
 double independent_px2(int width_px) { return 50.0 * (width_px / 1200.0) * (width_px / 1200.0); }
-
-// Means of the painting in OKLab, of that size.
-Grid<glm::vec3> reduced_paint(const Grid<glm::vec3>& painting, glm::ivec2 size) {
-  const auto range = [](int i, int count, int whole) {
-    const std::int64_t from = std::int64_t{i} * whole / count;
-    const std::int64_t to = (std::int64_t{i + 1} * whole + count - 1) / count;
-    return std::pair(static_cast<int>(from), static_cast<int>(to));
-  };
-  Grid<glm::vec3> out(size.x, size.y);
-  parallel_rows(size.y, [&](int y) {
-    const auto [top, bottom] = range(y, size.y, painting.height());
-    for (int x = 0; x < size.x; ++x) {
-      const auto [left, right] = range(x, size.x, painting.width());
-      glm::dvec3 sum(0.0);
-      for (int v = top; v < bottom; ++v)
-        for (int u = left; u < right; ++u) sum += glm::dvec3(painting(u, v));
-      out(x, y) = glm::vec3(
-          to_oklab(glm::vec3(sum / static_cast<double>((bottom - top) * (right - left)))));
-    }
-  });
-  return out;
-}
 
 std::vector<PaintedPlace> painted_places(const std::vector<PaintMatch>& matches,
                                          const RegisteredGround& ground, double px) {
@@ -80,7 +57,7 @@ class ValleyEvidence {
                  Progress& progress)
       : registration_(registration),
         painting_px_(painting.width(), painting.height()),
-        paint_(reduced_paint(painting, reduced_size(painting_px_, width_px))),
+        paint_(reduced_oklab(painting, reduced_size(painting_px_, width_px))),
         progress_(progress) {}
 
   Grid<double> of(const DrawnGround& ground) const {
@@ -155,7 +132,7 @@ PaintRegistration register_by_paint(const Registration& from_pairs,
     MatchPaintParameters parameters = round.match;
     parameters.independent_px2 = independent_px2(width);
     const std::vector<PaintMatch> matches =
-        match_paint(reduced_paint(painting, size), seen, parameters);
+        match_paint(reduced_oklab(painting, size), seen, parameters);
     constexpr std::size_t min_matches = 8;
     if (matches.size() < min_matches) continue;
     Registration start = out.registration;

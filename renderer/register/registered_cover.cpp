@@ -23,7 +23,7 @@ namespace {
 constexpr std::size_t max_samples = 12'000;
 constexpr std::size_t max_rule_cells = 400'000;  // of the ground on which lines are tried
 constexpr double known_share = 0.01;             // of the width
-constexpr double lowest_share = 0.02;  // of the ground below the lowest line that is tried
+constexpr double min_line_share = 0.02;  // of the ground below the lowest line that is tried
 
 // Pixels of known ground, evenly spaced.
 std::vector<std::size_t> sampled_pixels(const Grid<float>& sigma_px,
@@ -62,7 +62,7 @@ void set_lines(const PainterLines& lines, std::vector<std::pair<std::string, dou
   if (lines.winter) set_parameter(settings, "winter", 1.0);
 }
 
-// The rules of a scene on a ground, to be applied with one line after the other.
+// The class rules of a scene on a terrain, for trying tree and snow lines.
 class RuleTrial {
  public:
   RuleTrial(const LoadedScene& scene, const Dem& dem)
@@ -124,7 +124,7 @@ RegisteredCover find_registered_cover(const Grid<glm::vec3>& painting, const Gri
   RegisteredCover out;
   out.climate = trial.climate();
   out.lines = find_painter_lines(
-      samples, static_cast<double>(value_at_share(altitudes, lowest_share)),
+      samples, static_cast<double>(value_at_share(altitudes, min_line_share)),
       static_cast<double>(*std::max_element(altitudes.begin(), altitudes.end())),
       [&](const PainterLines& lines) { return trial.classes(lines, positions); });
   return out;

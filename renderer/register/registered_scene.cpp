@@ -52,6 +52,15 @@ double width_deg(const Registration& found, double width_px) {
 
 }  // namespace
 
+SceneHandle scene_handle(const DeformHandle& handle) {
+  return {.name = "",
+          .position = handle.centre,
+          .position_lonlat = {},
+          .core_m = handle.core_m,
+          .move_m = {handle.move_m.x, handle.move_m.y},
+          .handle = handle};
+}
+
 Scene registered_scene(const Registration& found, glm::ivec2 painting_px) {
   const ViewFrame& frame = found.frame;
   const ViewUnknowns& view = found.view;
@@ -93,14 +102,8 @@ Scene registered_scene(const Registration& found, glm::ivec2 painting_px) {
   camera.height_m = frame.valley_m + view_drop_m(frame, view, middle_m) - level * middle_m -
                     BendProfile(bend).drop_m(middle_m);
 
-  for (const DeformHandle& handle : handles_of(found.mountains)) {
-    scene.deform.handles.push_back({.name = "",
-                                    .position = handle.centre,
-                                    .position_lonlat = {},
-                                    .core_m = handle.core_m,
-                                    .move_m = {handle.move_m.x, handle.move_m.y},
-                                    .handle = handle});
-  }
+  for (const DeformHandle& handle : handles_of(found.mountains))
+    scene.deform.handles.push_back(scene_handle(handle));
   scene.generalize.valleys.width_m = static_cast<float>(found.valleys_m);
   scene.deform.ground.field = found.displacement;
   scene.deform.ground.field.places.clear();

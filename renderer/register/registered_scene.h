@@ -14,4 +14,7 @@ namespace belvedere {
 // pairs' distances the bend keeps its inclination and exaggeration its value.
 Scene registered_scene(const Registration& registration, glm::ivec2 painting_px);
 
+// A handle as scenes state it.
+SceneHandle scene_handle(const DeformHandle& handle);
+
 }  // namespace belvedere

@@ -61,6 +61,31 @@ void check_displacement(const DisplacementParameters& p) {
   }
 }
 
+// matern() from cubics between values and slopes at equal steps, within 1e-9.
+class TabulatedMatern {
+ public:
+  TabulatedMatern() {
+    for (int i = 0; i <= count; ++i) {
+      const double t = i / steps, decay = exact::exp(-t);
+      value_.push_back((1.0 + t) * decay);
+      slope_.push_back(-t * decay / steps);
+    }
+  }
+  double at(double square_of_lengths) const {
+    const double t = std::sqrt(3.0 * square_of_lengths) * steps;
+    if (!(t < count)) return 0.0;
+    const auto i = static_cast<std::size_t>(t);
+    const double x = t - static_cast<double>(i), y = 1.0 - x;
+    return y * y * ((1.0 + 2.0 * x) * value_[i] + x * slope_[i]) +
+           x * x * ((1.0 + 2.0 * y) * value_[i + 1] - y * slope_[i + 1]);
+  }
+
+ private:
+  static constexpr double steps = 64.0;  // to a unit of t
+  static constexpr int count = 64 * 33;  // to farthest_lengths
+  std::vector<double> value_, slope_;
+};
+
 Cholesky with_noise(Matrix covariance, const std::vector<DisplacedPlace>& places,
                     double Displacement::*part) {
   for (std::size_t i = 0; i < places.size(); ++i) covariance(i, i) += square(places[i].noise.*part);
@@ -165,6 +190,7 @@ DisplacementField::Nodes DisplacementField::tabulate(double step_m, double margi
   std::vector<double> beyond;
   for (const DisplacedPlace& place : places)
     beyond.push_back(square_beyond_noise(parameters_, place));
+  const TabulatedMatern kernel;
   parallel_rows(nodes.values.height(), [&](int y) {
     const std::span<const double> row = by_row.row(static_cast<std::size_t>(y));
     for (int x = 0; x < nodes.values.width(); ++x) {
@@ -179,7 +205,7 @@ DisplacementField::Nodes DisplacementField::tabulate(double step_m, double margi
       glm::dvec2 moved(0.0);
       for (std::size_t i = 0; i < places.size(); ++i)
         moved += size * sizes_m_[i] *
-                 matern(square_distance(at, places[i].position) / square(parameters_.length_m)) *
+                 kernel.at(square_distance(at, places[i].position) / square(parameters_.length_m)) *
                  glm::dvec2(lateral_[i], upward_[i]);
       nodes.values(x, y) = moved;
     }

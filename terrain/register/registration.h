@@ -30,7 +30,7 @@ struct RegistrationParameters {
 struct PairFinding {
   bool wrong = false;       // thrown out
   bool doubted = false;     // as far off as a wrong one, but sure
-  bool would_fold = false;  // counts for less, since the ground would fold
+  bool would_fold = false;  // counts for less, because the ground would fold
   double view_px = 0.0;     // its distance from the view alone, in pixels of the painting
   double others_px = 0.0;   // from where all other pairs say that it is
   double deviations = 0.0;  // the same in standard deviations, as if it alone said that its ground
@@ -49,8 +49,8 @@ struct Registration {
   double valleys_m = 0.0;     // by which the painter widened them; places lie on that ground
   double sigma_px = 0.0;      // of clicks, in pixels of the painting: as given, or estimated
   double score = 0.0;         // mean ln of how likely each kept pair is by the others
-  std::size_t held_back = 0;  // pairs and places in the paint that count for less, or the ground
-                              // would fold
+  std::size_t held_back = 0;  // pairs and places in the paint that count for less, because the
+                              // ground would fold
   Matrix view_covariance;     // of the view's unknowns, given the pairs that were kept
   std::vector<PairFinding> findings;  // of all pairs, in their order
   std::vector<FittedView> kinds;      // the views from the pairs alone, best first

@@ -12,6 +12,7 @@
 #include "base/filter.h"
 #include "base/random.h"
 #include "base/statistics.h"
+#include "renderer/register/registered_scene.h"
 #include "renderer/scene/scene_file.h"
 #include "terrain/generalize/widen_valleys.h"
 #include "terrain/io/crs.h"
@@ -275,12 +276,7 @@ std::string secret_scene_text(const SecretScene& secret, const SecretRegion& reg
     scene.deform.summits.push_back(
         {.name = "", .position = summit.centre, .position_lonlat = {}, .summit = summit});
   for (const DeformHandle& handle : secret.deform.handles)
-    scene.deform.handles.push_back({.name = "",
-                                    .position = handle.centre,
-                                    .position_lonlat = {},
-                                    .core_m = handle.core_m,
-                                    .move_m = {handle.move_m.x, handle.move_m.y},
-                                    .handle = handle});
+    scene.deform.handles.push_back(scene_handle(handle));
   return write_scene(scene);
 }
 

@@ -192,7 +192,7 @@ std::string ground_words(const Registration& found) {
   if (found.valleys_m > 0.0)
     out = fmt::format(" Large valleys are some {:.0f} m wider than on the map.", found.valleys_m);
   if (found.held_back == 0) return out;
-  return out + fmt::format(" {} count{} for less, or the ground would fold over itself.",
+  return out + fmt::format(" {} count{} for less, because the ground would fold over itself.",
                            found.held_back == 1
                                ? "One pair or patch"
                                : fmt::format("{} pairs or patches", found.held_back),
@@ -267,7 +267,7 @@ PairWords pair_words(const PairFinding& finding, double sigma_px) {
                             : "as far off as a wrong pair, but sure: kept"};
   if (finding.would_fold)
     return {"held back",
-            "the ground would fold between this pair and those near by: it counts for less"};
+            "counts for less, because the ground would fold between it and the pairs near by"};
   if (moved && finding.others_px > far_off_sigmas * sigma_px)
     return {"moved",
             finding.near_by == 0

@@ -56,5 +56,15 @@ TEST(UncertainPlaces, ClassesAreUsedWhereTheyAreCertain) {
   EXPECT_EQ(certain(112, 30), 5);
 }
 
+TEST(CertainSky, EndsThatFarAboveTheSkyline) {
+  Grid<std::uint8_t> labels(2, 10, 0);
+  for (int y = 6; y < 10; ++y) labels(0, y) = 7;
+  const Grid<std::uint8_t> out = certain_sky(labels, 2);
+  for (int y = 0; y < 10; ++y) {
+    EXPECT_EQ(out(0, y), y < 4 ? 0 : y < 6 ? unused_label : 7) << y;
+    EXPECT_EQ(out(1, y), 0) << "no ground below it";
+  }
+}
+
 }  // namespace
 }  // namespace belvedere
