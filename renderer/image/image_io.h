@@ -6,11 +6,11 @@
 #include "base/grid.h"
 #include "base/image.h"
 // Reads and writes pictures of any format.
+#include "base/files/output_file.h"
 #include "renderer/image/exr/exr_reader.h"
 #include "renderer/image/exr/exr_writer.h"
 #include "renderer/image/image_file.h"
 #include "renderer/image/oiio_file.h"
-#include "renderer/image/output_file.h"
 #include "renderer/image/tiff_file.h"
 
 namespace belvedere {

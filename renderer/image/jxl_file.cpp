@@ -16,10 +16,10 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/files/output_file.h"
 #include "base/parallel.h"
 #include "renderer/image/exif.h"
 #include "renderer/image/image_file_parts.h"
-#include "renderer/image/output_file.h"
 #include "renderer/image/provenance.h"
 
 namespace belvedere {

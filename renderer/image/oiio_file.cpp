@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/files/output_file.h"
 #include "base/parallel.h"
 #include "renderer/image/cielab.h"
 #include "renderer/image/image_file_parts.h"
-#include "renderer/image/output_file.h"
 #include "renderer/image/png_check.h"
 #include "renderer/image/png_palette.h"
 #include "renderer/image/provenance.h"

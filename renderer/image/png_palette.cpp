@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/files/output_file.h"
 #include "renderer/image/image_file_parts.h"
-#include "renderer/image/output_file.h"
 #include "renderer/image/png_check.h"
 
 namespace belvedere::image_io {

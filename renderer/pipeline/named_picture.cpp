@@ -7,9 +7,9 @@
 #include <glm/common.hpp>
 #include <iterator>
 
+#include "base/files/output_file.h"
 #include "base/grid_part.h"
 #include "base/text/hex_colour.h"
-#include "renderer/image/output_file.h"
 #include "renderer/image/rows/picture_files.h"
 #include "renderer/labels/drawing_svg.h"
 #include "renderer/labels/label_drawing.h"

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/files/file_guard.h"
 #include "renderer/image/layers/layer_file.h"
-#include "renderer/image/output_file.h"
 #include "renderer/pipeline/named_picture.h"
 #include "renderer/pipeline/output_colour.h"
 #include "renderer/pipeline/scene_paint.h"
@@ -50,6 +50,27 @@ void refuse_beyond_memory(const LoadedScene& loaded, const SheetRequest& request
 
 }  // namespace
 
+std::vector<std::string> result_names(const Scene& scene, const SheetRequest& request) {
+  std::vector<std::string> names;
+  if (request.panorama) {
+    const bool whole =
+        region_of(scene, request) == PixelRect{0, 0, scene.output.width, scene.output.height};
+    const std::string second = second_picture(scene, whole);
+    for (const std::string& extension : scene.output.formats)
+      names.push_back("panorama." + extension);
+    if (scene.labels.any())
+      names.insert(names.end(), {"labels.svg", "labels.csv", "labels.geojson"});
+    if (!second.empty())
+      for (const std::string& extension : scene.output.formats)
+        names.push_back(second + "." + extension);
+    if (scene.margin && whole) names.emplace_back("margin.svg");
+  }
+  if (!request.channels || !request.channels->empty()) names.emplace_back("guidance.exr");
+  if (request.matches) names.emplace_back("match.exr");
+  for (const std::string& extension : request.layers) names.push_back(layer_format(extension).file);
+  return names;
+}
+
 void render(const LoadedScene& loaded, const std::string& out_folder, const Run& run,
             const SheetRequest& request) {
   const RunLimits limits(run);
@@ -58,7 +79,8 @@ void render(const LoadedScene& loaded, const std::string& out_folder, const Run&
   require_inputs(loaded);
   read_output_colour(loaded);
   const std::vector<PixelRect> pieces = pieces_of(region_with_halos(loaded, request), request);
-  check_output_folder(out_folder);
+  file_guard().writes_into(out_folder, "--out", request.replace,
+                           result_names(loaded.scene, request));
 
   if (!request.resume && holds_work(work_folder_of(out_folder)))
     run.progress.note(
@@ -106,7 +128,9 @@ void make_part(const LoadedScene& loaded, const std::string& folder, int part, i
 void join_parts(const LoadedScene& loaded, const std::string& folder, int parts,
                 const std::string& out_folder, const Run& run, const SheetRequest& request) {
   const RunLimits limits(run);
-  check_output_folder(out_folder);
+  require_inputs(loaded);
+  file_guard().writes_into(out_folder, "--out", request.replace,
+                           result_names(loaded.scene, request));
   const WorkFolder work(work_folder_of(folder), identify(loaded, request), WorkMode::join);
   write_sheet_files(loaded, request, work, out_folder, run, {.folder = folder, .parts = parts});
 }

@@ -32,6 +32,8 @@ void make_part(const LoadedScene& scene, const std::string& folder, int part, in
 void join_parts(const LoadedScene& scene, const std::string& folder, int parts,
                 const std::string& out_folder, const Run& run, const SheetRequest& request = {});
 
+// Names of the files that a request makes; further names of profiles follow from the data.
+std::vector<std::string> result_names(const Scene& scene, const SheetRequest& request);
 // The folder of the pieces of a run.
 std::string work_folder_of(const std::string& out_folder);
 

@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/files/output_file.h"
 #include "renderer/image/image_io.h"
-#include "renderer/image/output_file.h"
 #include "renderer/labels/drawing_svg.h"
 #include "renderer/labels/label_files.h"
 #include "renderer/labels/sheet_painter.h"

@@ -26,8 +26,10 @@ LoadedScene at_width(const LoadedScene& scene, int width_px) {
 }
 
 std::vector<LockedProduct> render_and_hash(const LoadedScene& scene, const std::string& out_folder,
-                                           const Run& run) {
-  render(scene, out_folder, run);
+                                           const Run& run, bool replace) {
+  SheetRequest request;
+  request.replace = replace;
+  render(scene, out_folder, run, request);
   std::vector<LockedProduct> products;
   for (const std::string& name : product_names(scene.scene))
     products.push_back({.file = name, .channels = hash_picture(out_folder + "/" + name).channels});

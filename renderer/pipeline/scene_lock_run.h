@@ -17,6 +17,6 @@ LoadedScene at_width(const LoadedScene& scene, int width_px);
 // Renders the unchanged scene into a folder and hashes the products. The picture formats are
 // lossless, so all are hashed.
 std::vector<LockedProduct> render_and_hash(const LoadedScene& scene, const std::string& out_folder,
-                                           const Run& run);
+                                           const Run& run, bool replace = false);
 
 }  // namespace belvedere

@@ -20,6 +20,7 @@ struct SheetRequest {
       {};                // also panorama.EXT in these formats (renderer/image/layers/layer_file.h)
   bool matches = false;  // also match.exr: which texel each pixel was copied from
   std::optional<PixelRect> part = {};  // of the sheet, px; absent: all of it
+  bool replace = false;                // also files in the folder of results that others wrote
   bool resume = false;                 // continue from the pieces of an earlier run
   int piece_px = 0;                    // side of a piece, 64…4096; 0: 1024. Changes no pixel
   int block_px = 0;  // side of the squares that are computed and painted at once, 64…4096; 0: by

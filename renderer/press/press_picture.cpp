@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/files/file_guard.h"
 #include "renderer/image/icc/press_colour.h"
 #include "renderer/image/image_io.h"
 
@@ -35,9 +36,9 @@ PressPicture picture_of(const std::string& file, const ImageInfo& info) {
 PressPicture find_press_picture(const std::string& path) {
   if (!fs::exists(path)) throw Error(ErrorKind::input, path, "does not exist", allowed);
   if (!fs::is_directory(path)) return picture_of(path, read_image_info(path));
-  for (const char* name : {"panorama.tif", "panorama.jxl", "panorama.png"}) {
+  for (const std::string& name :
+       newest_results(path, {"panorama.tif", "panorama.jxl", "panorama.png"})) {
     const std::string file = (fs::path(path) / name).string();
-    if (!fs::exists(file)) continue;
     const ImageInfo info = read_image_info(file);
     if (!is_inks(info)) return picture_of(file, info);
   }

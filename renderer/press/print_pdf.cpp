@@ -25,11 +25,11 @@ class JSON;
 #include <utility>
 
 #include "base/error.h"
+#include "base/files/output_file.h"
 #include "base/parallel.h"
 #include "base/text/markup.h"
 #include "renderer/image/display_conversion.h"
 #include "renderer/image/image_io.h"
-#include "renderer/image/output_file.h"
 #include "renderer/image/provenance.h"
 #include "renderer/press/vector_page.h"
 

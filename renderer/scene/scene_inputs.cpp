@@ -4,10 +4,12 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/files/file_guard.h"
 #include "base/text/embedded.h"
 #include "renderer/scene/scene_file.h"
 #include "renderer/scene/scene_schema.h"
 #include "terrain/io/http_access.h"
+#include "terrain/io/raster_parts.h"
 
 namespace belvedere {
 namespace {
@@ -127,6 +129,15 @@ std::vector<SceneInput> scene_inputs(const LoadedScene& scene) {
     }
   }
   return inputs;
+}
+
+void guard_inputs(const LoadedScene& scene) {
+  for (const SceneInput& input : scene_inputs(scene)) {
+    if (input.path.empty()) continue;
+    file_guard().reads(input.path, input.key);
+    if (!input.path.ends_with(".vrt")) continue;
+    for (const std::string& part : raster_parts(input.path)) file_guard().reads(part, input.key);
+  }
 }
 
 std::vector<std::string> source_credits(const LoadedScene& scene) {

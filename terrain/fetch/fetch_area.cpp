@@ -15,6 +15,7 @@
 
 #include "base/cache/content_hash.h"
 #include "base/error.h"
+#include "base/files/file_guard.h"
 #include "terrain/fetch/fetch_record.h"
 #include "terrain/io/byte_raster_rows.h"
 #include "terrain/io/crs.h"
@@ -309,6 +310,9 @@ FetchedArea fetch_area(const FetchParameters& parameters, const std::string& fol
   const MapSource source = source_of_kind(parameters.elevation, MapSourceKind::elevation);
   if (!parameters.land_cover.empty())
     source_of_kind(parameters.land_cover, MapSourceKind::land_cover);  // fails early
+  std::vector<std::string> names = {elevation_file, record_file};
+  if (!parameters.land_cover.empty()) names.emplace_back(cover_file);
+  file_guard().writes_into(folder, "--out", parameters.replace, names);
   const WorkPlace position(folder);
   const std::int64_t clock = std::chrono::duration_cast<std::chrono::seconds>(
                                  std::chrono::system_clock::now().time_since_epoch())

@@ -2,11 +2,7 @@
 
 #include <fmt/core.h>
 
-#include <filesystem>
-#include <fstream>
-#include <system_error>
-
-#include "base/error.h"
+#include "base/files/output_file.h"
 #include "base/text/json.h"
 #include "terrain/io/crs.h"
 
@@ -55,18 +51,7 @@ std::string fetch_record(const FetchParameters& parameters, const FetchedArea& a
 
 void write_fetch_record(const std::string& path, const FetchParameters& parameters,
                         const FetchedArea& area, const RecordHead& head) {
-  const std::string temporary = path + ".tmp";
-  const std::string text = fetch_record(parameters, area, head);
-  std::ofstream file(temporary, std::ios::binary);
-  file << text;
-  file.close();
-  std::error_code problem;
-  if (file) std::filesystem::rename(temporary, path, problem);
-  if (file && !problem) return;
-  std::error_code ignored;
-  std::filesystem::remove(temporary, ignored);
-  throw Error(ErrorKind::output, path,
-              "cannot write the file" + (problem ? ": " + problem.message() : std::string()));
+  write_text_file(path, fetch_record(parameters, area, head));
 }
 
 }  // namespace belvedere

@@ -25,6 +25,7 @@ struct FetchParameters {
   std::string mirror;  // replaces the sources' servers; empty: none
   bool refresh =
       false;  // asks servers again for file properties; else known ones are valid for 30 days
+  bool replace = false;         // also files in the folder that others wrote
   std::int64_t now_unix_s = 0;  // current time; 0: by the machine's clock
   HttpOptions http_options;
 };

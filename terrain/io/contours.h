@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "terrain/io/raster.h"
 
@@ -22,5 +23,7 @@ struct ContourSummary {
 // when all is written. Throws Error(usage) for an invalid interval, Error(output) naming the file.
 ContourSummary write_contours(const std::string& path, const Raster<float>& raster,
                               const ContourParameters& parameters);
+// The files that it writes: for .shp several.
+std::vector<std::string> contour_files(const std::string& path);
 
 }  // namespace belvedere

@@ -69,5 +69,7 @@ void write_raster(const std::string& path, const Raster<float>& raster,
                   std::optional<double> nodata = {});
 // GeoTIFF of bytes, 0 for voids.
 void write_raster(const std::string& path, const Raster<std::uint8_t>& raster);
+// The files that it writes: for .asc also a .prj.
+std::vector<std::string> raster_files(const std::string& path);
 
 }  // namespace belvedere

@@ -11,10 +11,10 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/files/output_file.h"
 #include "base/random.h"
 #include "base/statistics.h"
 #include "renderer/image/icc/painting_file.h"
-#include "renderer/image/output_file.h"
 #include "renderer/register/register_by_paint.h"
 #include "terrain/register/registration.h"
 #include "tools/bench/cover_trial.h"

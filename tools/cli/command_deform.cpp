@@ -10,9 +10,9 @@
 
 #include "base/cache/cache.h"
 #include "base/error.h"
+#include "base/files/output_file.h"
 #include "base/text/json.h"
 #include "renderer/image/image_io.h"
-#include "renderer/image/output_file.h"
 #include "renderer/scene/draft.h"
 #include "renderer/trace/sketch/relief_sketch.h"
 #include "renderer/world/generalize_view.h"
@@ -23,7 +23,6 @@
 #include "terrain/shape/valley_floor.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/deform_options.h"
-#include "tools/cli/file_names.h"
 #include "tools/cli/labels/located_places.h"
 #include "tools/cli/terminal.h"
 #include "tools/options/options.h"
@@ -273,7 +272,6 @@ int run(const DeformOptions& options) {
                 has_table ? "one output file for both a table and a picture"
                           : "--out without --search-bend or --locate FILE",
                 "--search-bend --out FILE.png, or --locate FILE --out TABLE.csv");
-  if (!options.out.empty()) check_place(options.out);
   const LoadedScene scene = load(options);
   const RunLimits limits(make_run(options.scene));
   const Cache cache = make_cache(options.scene);

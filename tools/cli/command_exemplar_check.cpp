@@ -163,8 +163,6 @@ std::string describe_command(const ExemplarCheckOptions& options) {
 int run(const ExemplarCheckOptions& options) {
   const bool of_files = !options.pictures.empty();
   check_scene_or_files(options);
-
-  if (!options.report.empty()) check_output_folder(options.report);
   const RunLimits limits(make_run(options.scene));
   TerminalProgress progress(options.scene.quiet);
   if (of_files) progress.begin("reading", 0.0);
@@ -239,7 +237,8 @@ Action add_exemplar_check(CommandOptions& command) {
       .add_option("--report", options->report,
                   "Also writes a folder with index.html: the paintings, a swatch of each class, "
                   "coverage charts")
-      .type_name("DIR");
+      .type_name("DIR")
+      .files(FileUse::folder);
   command.footer(
       "For each class: number of texels, and how many of them lie well inside; how many pixels "
       "they serve before strokes\n"

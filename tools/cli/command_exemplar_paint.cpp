@@ -6,6 +6,7 @@
 
 #include "base/cache/cache.h"
 #include "base/error.h"
+#include "base/files/file_guard.h"
 #include "base/text/json.h"
 #include "renderer/exemplar/exemplar_files.h"
 #include "tools/cli/commands.h"
@@ -25,6 +26,7 @@ struct ExemplarPaintOptions {
   std::optional<double> dots_per_inch;
   std::optional<std::uint64_t> seed;
   int tile_size = 32;
+  bool force = false;
 };
 
 void refuse_example_sheet_options(const ExemplarPaintOptions& options) {
@@ -60,6 +62,13 @@ AvailableTexels paint_example_sheet_of(const ExemplarPaintOptions& options, cons
 
 int run(const ExemplarPaintOptions& options) {
   const bool example_sheet = options.scene.scene.empty();
+  const std::vector<std::string> names = {"painting.tif",
+                                          "ground.tif",
+                                          "painting.png",
+                                          "guidance.exr",
+                                          example_sheet ? "sheet.toml" : "scene.toml",
+                                          "coverage.json"};
+  file_guard().writes_into(options.out, "--out", options.force, names);
   TerminalProgress progress(options.scene.quiet);
   const Cache cache = make_cache(options.scene);
   const Run run = make_run(options.scene, options.tile_size, progress, cache);
@@ -75,8 +84,7 @@ int run(const ExemplarPaintOptions& options) {
     // A view may lack classes; only an example sheet should have everything.
     print_out(available_text(available, example_sheet ? gaps : std::vector<TexelShortage>{},
                              example_sheet));
-    for (const char* name : {"painting.tif", "ground.tif", "painting.png", "guidance.exr",
-                             example_sheet ? "sheet.toml" : "scene.toml", "coverage.json"})
+    for (const std::string& name : names)
       print_out((std::filesystem::path(options.out) / name).string() + "\n");
   }
   return 0;
@@ -90,7 +98,8 @@ Action add_exemplar_paint(CommandOptions& command) {
                     "A scene whose view is painted. Default: an example sheet of synthetic views");
   command.add_option("--out", options->out, "Folder for the results; created if missing")
       .type_name("DIR")
-      .required();
+      .required()
+      .files(FileUse::later);
   command
       .add_option(
           "--season", options->season,
@@ -114,6 +123,7 @@ Action add_exemplar_paint(CommandOptions& command) {
       .add_option("--plan", options->plan,
                   "A sheet.toml: paints that example sheet instead of the built-in one")
       .type_name("FILE");
+  command.add_force(options->force);
   command
       .add_option("--tile", options->tile_size,
                   "Side of the tiles that threads work on, in pixels. Changes no pixel")

@@ -96,8 +96,6 @@ Grid<float> make_mask(const GeneralizeOptions& options, const Dem& dem, glm::dve
 int run(const GeneralizeOptions& options) {
   const GeneralizeParameters bands = resolve_bands(options);
   check_dem_name(options.out);
-  check_place(options.out);
-  if (!options.report.empty()) check_output_folder(options.report);
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
   progress.begin("reading", 0.0);

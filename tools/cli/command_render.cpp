@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <utility>
@@ -7,6 +8,7 @@
 #include "base/cache/cache.h"
 #include "base/text/json.h"
 #include "renderer/image/layers/layer_file.h"
+#include "renderer/image/picture_formats.h"
 #include "renderer/pipeline/named_picture.h"
 #include "renderer/pipeline/pipeline.h"
 #include "renderer/world/coarse_ground_scene.h"
@@ -29,20 +31,19 @@ struct RenderOptions {
   bool match = false;
   std::vector<std::string> layers;
   std::string channels;
+  bool force = false;
 };
 
-using Job = void (*)(const LoadedScene&, const std::string& out_folder, const Run&,
-                     const SheetRequest&);
-using Results = std::vector<std::string> (*)(
-    const Scene&, bool whole_sheet);  // names of the pictures that a job makes
+enum class Wanted { guidance, picture };
 
-int run_job(const RenderOptions& options, Job job, Results results) {
+int run_job(const RenderOptions& options, Wanted wanted) {
   LoadedScene scene = load(options.scene);
   if (options.draft) scene = make_draft_scene(std::move(scene));
   const std::string folder = options.out.empty() ? scene.name : options.out;
   TerminalProgress progress(options.scene.quiet);
   const Cache cache = make_cache(options.scene);
   SheetRequest request;
+  request.panorama = wanted == Wanted::picture;
   request.resume = options.resume;
   request.piece_px = options.piece_px;
   if (!options.part.empty()) {
@@ -51,20 +52,25 @@ int run_job(const RenderOptions& options, Job job, Results results) {
   }
   request.matches = options.match;
   request.layers = options.layers;
+  request.replace = options.force;
   if (!options.channels.empty()) request.channels = read_guidance_choice(options.channels);
-  job(scene, folder, make_run(options.scene, options.tile_size, progress, cache), request);
+  render(scene, folder, make_run(options.scene, options.tile_size, progress, cache), request);
   progress.end();
 
-  const SceneOutput& output = scene.scene.output;
-  const bool whole =
-      region_of(scene.scene, request) == PixelRect{0, 0, output.width, output.height};
-  std::vector<std::string> names = results(scene.scene, whole);
-  if (!request.channels || !request.channels->empty()) names.emplace_back("guidance.exr");
-  if (request.matches) names.emplace_back("match.exr");
-  for (const std::string& extension : request.layers) names.push_back(layer_format(extension).file);
   std::vector<std::string> paths;
-  for (const std::string& name : names)
-    paths.push_back((std::filesystem::path(folder) / name).string());
+  for (const std::string& name : result_names(scene.scene, request))
+    if (const std::filesystem::path path = std::filesystem::path(folder) / name;
+        std::filesystem::exists(path))
+      paths.push_back(path.string());
+  for (const PictureFormat& format : picture_formats())
+    if (const std::string path =
+            (std::filesystem::path(folder) / fmt::format("panorama.{}", format.extension)).string();
+        request.panorama && std::filesystem::exists(path) &&
+        std::find(paths.begin(), paths.end(), path) == paths.end() && !options.scene.quiet)
+      print_error(
+          fmt::format("note: {} is of an earlier run; pdf, proof and web take the pictures "
+                      "of this one\n",
+                      path));
   if (options.scene.json) {
     Json files = Json::array();
     for (const std::string& path : paths)
@@ -84,17 +90,15 @@ int run_job(const RenderOptions& options, Job job, Results results) {
   return 0;
 }
 
-enum class Drafts { no, yes };
-
-Action add_job(CommandOptions& command, const char* footer, Drafts drafts, Job job,
-               Results results) {
+Action add_job(CommandOptions& command, const char* footer, Wanted wanted) {
   const auto options = std::make_shared<RenderOptions>();
   add_scene_options(command, options->scene);
   add_locked_option(command, options->scene);
   command
       .add_option("--out", options->out,
                   "Folder for the results; created if missing. Default: named like the scene")
-      .type_name("DIR");
+      .type_name("DIR")
+      .files(FileUse::later);
   command
       .add_option("--tile", options->tile_size,
                   "Side of the tiles that threads work on, in pixels. Changes no pixel")
@@ -115,24 +119,25 @@ Action add_job(CommandOptions& command, const char* footer, Drafts drafts, Job j
   command.add_flag(
       "--resume", options->resume,
       "Resumes a run that was stopped in this folder; the files are the same as without the stop");
+  command.add_force(options->force);
   command
       .add_option("--channels", options->channels,
                   "Channels of guidance.exr, such as Z,landcover.id; none: no file. Default: all, "
                   "40 bytes per pixel")
       .type_name("NAME,…|none");
-  if (drafts == Drafts::yes)
+  if (wanted == Wanted::picture)
     command.add_flag("--match", options->match,
                      "Also writes match.exr: which texel of which picture each pixel was copied "
                      "from, for synthesize --replay");
-  if (drafts == Drafts::yes) add_layers_option(command, options->layers);
-  if (drafts == Drafts::yes)
+  if (wanted == Wanted::picture) add_layers_option(command, options->layers);
+  if (wanted == Wanted::picture)
     command.add_flag(
         "--draft", options->draft,
         "A quick preview, in seconds: a third of the pixels per side, one ray per "
         "pixel, fewer sky directions, at most 2.5 million cells of ground, only strokes "
         "without copied texture");
   command.footer(footer);
-  return [options, job, results] { return run_job(*options, job, results); };
+  return [options, wanted] { return run_job(*options, wanted); };
 }
 
 }  // namespace
@@ -151,16 +156,7 @@ Action add_render(CommandOptions& command) {
       "output.height=550\n"
       "  belvedere render scenes/karwendel.toml --data ../data --channels Z,landcover.id --match\n"
       "  belvedere render scenes/karwendel.toml --data ../data --part 800,300,400,400 --out proof",
-      Drafts::yes, render, [](const Scene& scene, bool whole_sheet) {
-        std::vector<std::string> names;
-        for (const std::string& extension : scene.output.formats)
-          names.push_back("panorama." + extension);
-        if (scene.labels.any()) names.emplace_back("labels.svg");
-        if (const std::string second = second_picture(scene, whole_sheet); !second.empty())
-          for (const std::string& extension : scene.output.formats)
-            names.push_back(second + "." + extension);
-        return names;
-      });
+      Wanted::picture);
 }
 
 Action add_guidance(CommandOptions& command) {
@@ -168,7 +164,7 @@ Action add_guidance(CommandOptions& command) {
       command,
       "The channels and their units are described in the header: belvedere info guidance.exr\n\n"
       "  belvedere guidance scenes/karwendel.toml --data ../data --out karwendel",
-      Drafts::no, render_guidance, [](const Scene&, bool) { return std::vector<std::string>(); });
+      Wanted::guidance);
 }
 
 }  // namespace belvedere::tools

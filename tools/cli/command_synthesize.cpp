@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "base/error.h"
+#include "base/files/file_guard.h"
 #include "base/memory_limit.h"
 #include "base/parallel.h"
 #include "base/text/json.h"
@@ -31,6 +32,7 @@ struct SynthesizeOptions : RunOptions {
   std::vector<std::tuple<std::string, std::string, std::string, double>> guides;
   std::vector<std::pair<int, int>> fallback;
   std::string out;
+  bool force = false;
   std::string match;
   std::string replay;
   std::string report;
@@ -183,20 +185,21 @@ int run_sweep(const SynthesizeOptions& options, const SynthesisInputs& inputs, P
 
 int run(SynthesizeOptions& options) {
   const MemoryLimit memory(static_cast<std::uint64_t>(options.memory_mib) << 20);
-  if (!options.replay.empty()) return run_replay(options);
+  if (!options.replay.empty()) {
+    file_guard().writes(options.out, "--out");
+    return run_replay(options);
+  }
   if (options.sweeps.empty()) {
     check_picture_name(options.out);
-    check_place(options.out);
+    file_guard().writes(options.out, "--out");
   } else {
     const std::string extension = lower_extension(options.out);
     if (extension == ".png" || extension == ".tif" || extension == ".tiff" || extension == ".exr" ||
         extension == ".jpg")
       throw Error(ErrorKind::usage, "--out " + options.out, "is not the name of a folder",
                   "with --sweep, a folder for all results");
-    check_output_folder(options.out);
+    file_guard().writes_into(options.out, "--out", options.force);
   }
-  check_place(options.match);
-  if (!options.report.empty()) check_output_folder(options.report);
   for (const auto& [name, source, target, weight] : options.guides)
     options.files.guides.push_back({name, source, target, weight});
   for (const auto& [from, to] : options.fallback) {
@@ -262,6 +265,7 @@ int run(SynthesizeOptions& options) {
 Action add_synthesize(CommandOptions& command) {
   const auto options = std::make_shared<SynthesizeOptions>();
   SynthesisParameters& parameters = options->parameters;
+  command.add_force(options->force);
   command
       .add_option("--picture", options->files.pictures,
                   "The painting (PNG, TIFF, JPEG); may be repeated")
@@ -287,19 +291,22 @@ Action add_synthesize(CommandOptions& command) {
       .add_option("--out", options->out,
                   "The result: .png (8 bit) or .tif (16 bit); with --replay also .exr")
       .type_name("FILE")
-      .required();
+      .required()
+      .files(FileUse::later);
   const Option match =
       command
           .add_option(
               "--match", options->match,
               "Also writes where each pixel was copied from: OpenEXR with channels exemplar, x, y")
-          .type_name("FILE");
+          .type_name("FILE")
+          .files(FileUse::writes);
   const Option report =
       command
           .add_option("--report", options->report,
                       "Also writes a folder with index.html: quality of the result, origin of its "
                       "pixels, cost of each guide, worst places")
-          .type_name("DIR");
+          .type_name("DIR")
+          .files(FileUse::folder);
   command
       .add_option(
           "--exclude", options->files.exclusions,

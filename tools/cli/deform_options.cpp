@@ -86,12 +86,14 @@ void add_handle(const std::string& text, std::size_t i, std::vector<std::string>
 void add_deform_options(CommandOptions& command, DeformOptions& options) {
   add_scene_options(command, options.scene,
                     "A scene file, or a DEM (GeoTIFF, ESRI ASCII …). Default: the built-in demo");
-  command.add_option(
-      "OUT", options.dem_out,
-      "Writes the deformed ground as a DEM: GeoTIFF, or ESRI ASCII for the extension .asc");
+  command
+      .add_option(
+          "OUT", options.dem_out,
+          "Writes the deformed ground as a DEM: GeoTIFF, or ESRI ASCII for the extension .asc")
+      .files(FileUse::writes, raster_files);
   const auto one = [&](const char* name, std::string& value, const char* meaning,
                        const char* type) {
-    command.add_option(name, value, meaning).type_name(type);
+    return command.add_option(name, value, meaning).type_name(type);
   };
   const auto many = [&](const char* name, std::vector<std::string>& values, const char* meaning,
                         const char* type) {
@@ -131,7 +133,8 @@ void add_deform_options(CommandOptions& command, DeformOptions& options) {
       "--locate FILE: the table, instead of "
       "printing "
       "it",
-      "FILE");
+      "FILE")
+      .files(FileUse::writes);
 }
 
 glm::dvec2 parse_pair(const std::string& text, const char* option) {
@@ -171,6 +174,7 @@ LoadedScene load(const DeformOptions& options) {
   const std::string text = fmt::format("version = 1\n[[terrain.sources]]\nfile = {}\n",
                                        json_quoted(dem.filename().string()));
   LoadedScene loaded = parse_scene(text, scene.scene, dem.parent_path().string(), scene.files);
+  guard_inputs(loaded);
   const DeformParameters ground = loaded.scene.deform.written();
   const bool by_distance = ground.bend.radius_m > 0.0 || ground.bend.far_amount_per_m > 0.0 ||
                            !ground.bend.points.empty() || ground.earth_curvature ||

@@ -61,7 +61,8 @@ void add_generalize_options(CommandOptions& command, GeneralizeOptions& options)
                   "The DEM: GeoTIFF, ESRI ASCII, HGT …; grid and coordinates are kept")
       .required();
   command.add_option("OUT", options.out, "The result, altitudes in metres: .tif or .asc")
-      .required();
+      .required()
+      .files(FileUse::writes, raster_files);
   add_elevation_options(command, options.elevation);
   std::vector<std::string> names;
   for (const GeneralizePreset& preset : generalize_presets()) names.emplace_back(preset.name);
@@ -138,7 +139,8 @@ void add_generalize_options(CommandOptions& command, GeneralizeOptions& options)
       .add_option(
           "--report", options.report,
           "Also writes a folder with a page of pictures and numbers: index.html, report.json")
-      .type_name("DIR");
+      .type_name("DIR")
+      .files(FileUse::folder);
   add_run_options(command, options, "altitude");
   command.footer(
       "Bands halve in size from one weight to the next. The last holds landforms of 1 to 2 cells "

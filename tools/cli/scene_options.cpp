@@ -102,6 +102,7 @@ LoadedScene load(const SceneOptions& options) {
   if (!options.scene.empty()) {
     LoadedScene scene = read_scene(options.scene, options.files);
     tell_notes(scene, options);
+    guard_inputs(scene);
     if (options.locked)
       require_locked_inputs(scene, read_lock(lock_path(options.scene)), options.scene);
     return scene;
@@ -111,6 +112,7 @@ LoadedScene load(const SceneOptions& options) {
   const std::string demo(embedded_file("scenes/demo/demo.toml"));
   LoadedScene scene = parse_scene(demo, "demo.toml", ".", options.files);
   tell_notes(scene, options);
+  guard_inputs(scene);
   return scene;
 }
 

@@ -182,7 +182,6 @@ void lay_channels(const ReplayFiles& files, const MatchField& matches,
 }  // namespace
 
 ReplayResult replay_layers(const ReplayFiles& files, Progress& progress) {
-  check_place(files.out);
   progress.begin("reading", 0.0);
   const StoredMatches stored = read_matches(files.match);
   std::vector<ImageInfo> infos;

@@ -24,12 +24,14 @@ void add_terrain_operators(CommandOptions& command, TerrainOperators& operators)
   command
       .add_option("--hillshade", operators.hillshade,
                   "Also writes the result's shaded relief, .tif")
-      .type_name("FILE");
+      .type_name("FILE")
+      .files(FileUse::writes);
   const Option contours =
       command
           .add_option("--contours", operators.contours,
                       "Also writes the result's contour lines, .gpkg, .geojson or .shp")
-          .type_name("FILE");
+          .type_name("FILE")
+          .files(FileUse::writes, contour_files);
   command
       .add_option("--contour-interval", operators.contour_interval_m,
                   "Metres between contour lines")

@@ -4,15 +4,31 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
+#include <map>
 #include <sstream>
 
 #include "base/error.h"
+#include "base/files/file_guard.h"
 
 namespace belvedere::tools {
+
+struct FileUses {
+  struct Use {
+    FileUse use = FileUse::reads;
+    std::vector<std::string> (*all)(const std::string& path) = nullptr;
+  };
+  std::map<const CLI::Option*, Use> of;
+};
+
 namespace {
 
 // Where the help's right column begins.
 constexpr int meaning_column = 34;
+
+const std::string force_meaning =
+    "Also replaces files in a folder of results that this program did not write or that were "
+    "changed since";
 
 // CLI11 puts constraints behind the name of the value: "HOW:{off,common}", "N:INT in [8 - 4096]".
 void describe_value(const CLI::Option& option, OptionDescription& out) {
@@ -61,7 +77,59 @@ CommandDescription describe_command(const CLI::App& command, const std::string& 
   return out;
 }
 
+// The path in a word: all of it, or what stands behind the "=" of a setting or before that of a
+// name.
+std::vector<std::string> paths_in(const std::string& word) {
+  const std::size_t equals = word.find('=');
+  if (equals == std::string::npos) return {word};
+  return {word, word.substr(0, equals), word.substr(equals + 1)};
+}
+
+// Of the command that was named: inputs first, so that results are compared with all of them.
+void declare_files(const CLI::App& app, const FileUses& uses) {
+  const auto use_of = [&](const CLI::Option* option) {
+    const auto found = uses.of.find(option);
+    return found == uses.of.end() ? FileUses::Use{} : found->second;
+  };
+  FileGuard& guard = file_guard();
+  const std::vector<const CLI::Option*> options = app.get_options();
+  for (const CLI::Option* option : options) {
+    if (use_of(option).use != FileUse::reads) continue;
+    for (const std::string& word : option->results())
+      for (const std::string& path : paths_in(word)) guard.reads(path, option->get_name());
+  }
+  const CLI::Option* force = app.get_option_no_throw("--force");
+  const bool replace = force != nullptr && force->count() > 0;
+  for (const CLI::Option* option : options) {
+    const std::string name = option->get_name();
+    const auto [use, all] = use_of(option);
+    for (const std::string& path : option->results()) {
+      const auto only_own = [&](const std::filesystem::path& file) {
+        guard.writes_into(file.parent_path().string(), name, replace, {{file.filename().string()}});
+      };
+      if (use == FileUse::writes) {
+        guard.writes(path, name);
+        // What the user did not name is replaced like what a folder holds.
+        if (all != nullptr)
+          for (const std::string& one : all(path))
+            if (one != path) only_own(one);
+      }
+      if (use == FileUse::page) only_own(path);
+      if (use == FileUse::folder) guard.writes_into(path, name, replace);
+    }
+  }
+  for (const CLI::App* command : app.get_subcommands()) declare_files(*command, uses);
+}
+
 }  // namespace
+
+Option& Option::files(FileUse use, std::vector<std::string> (*all)(const std::string& path)) {
+  uses_->of[option_] = {use, all};
+  if ((use == FileUse::page || use == FileUse::folder || all != nullptr) &&
+      command_->get_option_no_throw("--force") == nullptr)
+    command_->add_flag("--force", force_meaning);
+  return *this;
+}
 
 Option& Option::type_name(const std::string& name) {
   option_->type_name(name);
@@ -161,7 +229,7 @@ Option& Option::excludes(std::initializer_list<Option> others) {
 
 template <OptionValue T>
 Option CommandOptions::add_option(const std::string& names, T& value, const std::string& meaning) {
-  return Option(app_->add_option(names, value, meaning));
+  return Option(app_->add_option(names, value, meaning), app_, uses_);
 }
 template Option CommandOptions::add_option(const std::string&, std::string&, const std::string&);
 template Option CommandOptions::add_option(const std::string&, int&, const std::string&);
@@ -202,12 +270,16 @@ template Option CommandOptions::add_option(
     const std::string&);
 
 Option CommandOptions::add_flag(const std::string& names, bool& value, const std::string& meaning) {
-  return Option(app_->add_flag(names, value, meaning));
+  return Option(app_->add_flag(names, value, meaning), app_, uses_);
 }
+
+void CommandOptions::add_force(bool& force) { add_flag("--force", force, force_meaning); }
 
 void CommandOptions::footer(const std::string& text) { app_->footer(text); }
 
-Option CommandOptions::option(const std::string& name) { return Option(app_->get_option(name)); }
+Option CommandOptions::option(const std::string& name) {
+  return Option(app_->get_option(name), app_, uses_);
+}
 
 bool CommandOptions::has_option(const std::string& name) const {
   return app_->get_option_no_throw(name) != nullptr;
@@ -215,7 +287,7 @@ bool CommandOptions::has_option(const std::string& name) const {
 
 CommandOptions CommandOptions::add_command(const std::string& name, const std::string& meaning) {
   app_->require_subcommand(1);
-  return CommandOptions(app_->add_subcommand(name, meaning));
+  return CommandOptions(app_->add_subcommand(name, meaning), uses_);
 }
 
 bool CommandOptions::is_named() const { return app_->parsed(); }
@@ -226,7 +298,9 @@ CommandDescription CommandOptions::describe(const std::string& before) const {
 
 CommandLine::CommandLine(const std::string& name, const std::string& description,
                          const std::string& version)
-    : app_(std::make_unique<CLI::App>(description, name)), options_(app_.get()) {
+    : app_(std::make_unique<CLI::App>(description, name)),
+      uses_(std::make_shared<FileUses>()),
+      options_(app_.get(), uses_) {
   if (!version.empty()) app_->set_version_flag("--version", version);
   app_->get_formatter()->column_width(meaning_column);
 }
@@ -250,6 +324,7 @@ std::string CommandLine::read(const std::vector<std::string>& words) {
     throw Error(ErrorKind::usage, "command line", problem.what(),
                 fmt::format("see {} --help{}", name, of_commands));
   }
+  declare_files(*app_, *uses_);
   return {};
 }
 

@@ -36,15 +36,31 @@ concept OptionValue =
           std::vector<std::tuple<int, int, double>>,
           std::vector<std::tuple<std::string, std::string, std::string, double>>>;
 
+// What a command does with the files that an option names. All words of an option that name a file
+// are inputs, unless it says otherwise; CommandLine::read() tells file_guard() of both.
+enum class FileUse {
+  reads,   // files that are there are inputs
+  edits,   // a file that is read and saved: neither
+  writes,  // a result, replaced if it is there
+  page,    // an HTML page, which is replaced only if this program wrote it
+  folder,  // a folder of pages and pictures, likewise
+  later,   // results that the command declares itself, when it knows their names
+};
+struct FileUses;  // of the options of a program
+
 // Settings of a command's option. A handle, to be copied: it identifies the option for needs() and
 // excludes().
 class Option {
  public:
-  explicit Option(CLI::Option* option) : option_(option) {}
+  Option(CLI::Option* option, CLI::App* command, std::shared_ptr<FileUses> uses)
+      : option_(option), command_(command), uses_(std::move(uses)) {}
 
   Option& type_name(const std::string& name);  // name of its value in the help: "DIR"
   Option& show_default();                      // the help shows its present value
   Option& required(bool is = true);
+  // What may hold files of others brings --force along: pages, folders, and results that consist
+  // of several files, of which `all` gives the paths.
+  Option& files(FileUse use, std::vector<std::string> (*all)(const std::string& path) = nullptr);
   Option& environment(
       const std::string& variable);  // where its value comes from when it is not given
 
@@ -72,19 +88,24 @@ class Option {
 
  private:
   CLI::Option* option_;
+  CLI::App* command_;
+  std::shared_ptr<FileUses> uses_;
 };
 
 // The options of a command, and the commands of a program. A handle: what it adds lives as long as
 // its CommandLine.
 class CommandOptions {
  public:
-  explicit CommandOptions(CLI::App* app) : app_(app) {}
+  CommandOptions(CLI::App* app, std::shared_ptr<FileUses> uses)
+      : app_(app), uses_(std::move(uses)) {}
 
   // Binds a value, which must outlive the command line; its present value is the default. Names:
   // "--out", "--quiet,-q"; without dashes it is a positional argument: "SCENE".
   template <OptionValue T>
   Option add_option(const std::string& names, T& value, const std::string& meaning);
   Option add_flag(const std::string& names, bool& value, const std::string& meaning);
+  // --force, for results that the command declares itself.
+  void add_force(bool& force);
   // Text of the help below the options.
   void footer(const std::string& text);
 
@@ -102,6 +123,7 @@ class CommandOptions {
 
  private:
   CLI::App* app_;
+  std::shared_ptr<FileUses> uses_;
 };
 
 // The command line of a program.
@@ -115,11 +137,12 @@ class CommandLine {
   CommandOptions& options() { return options_; }
   // Sets the values that options are bound to. words: without the program's name. Returns the
   // output of --help or --version; empty where neither is asked for. Throws Error(usage) for an
-  // invalid line.
+  // invalid line, and what file_guard() throws for its files.
   std::string read(const std::vector<std::string>& words);
 
  private:
   std::unique_ptr<CLI::App> app_;
+  std::shared_ptr<FileUses> uses_;
   CommandOptions options_;
 };
 

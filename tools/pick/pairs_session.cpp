@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "renderer/image/output_file.h"
+#include "base/files/output_file.h"
 
 namespace belvedere::tools {
 namespace {

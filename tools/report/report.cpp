@@ -7,10 +7,11 @@
 #include <filesystem>
 #include <utility>
 
+#include "base/files/file_guard.h"
+#include "base/files/output_file.h"
 #include "base/text/embedded.h"
 #include "base/text/markup.h"
 #include "renderer/image/image_io.h"
-#include "renderer/image/output_file.h"
 #include "tools/report/data_uri.h"
 
 namespace belvedere::tools {

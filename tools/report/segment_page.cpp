@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/files/output_file.h"
 #include "base/land_cover_class.h"
 #include "base/text/base64.h"
 #include "base/text/embedded.h"
 #include "base/text/json.h"
 #include "base/text/markup.h"
-#include "renderer/image/output_file.h"
 #include "texture/segment/segment.h"
 #include "tools/report/data_uri.h"
 

@@ -5,8 +5,8 @@
 #include <iterator>
 
 #include "base/error.h"
+#include "base/files/output_file.h"
 #include "base/text/letters.h"
-#include "renderer/image/output_file.h"
 #include "renderer/pipeline/pipeline.h"
 #include "renderer/scene/draft.h"
 #include "tools/studio/job.h"

@@ -12,11 +12,12 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "base/files/file_guard.h"
+#include "base/files/output_file.h"
 #include "base/text/embedded.h"
 #include "base/text/json.h"
 #include "base/text/markup.h"
 #include "renderer/image/image_io.h"
-#include "renderer/image/output_file.h"
 #include "renderer/scene/scene_file.h"
 #include "tools/web/read_out.h"
 #include "tools/web/tile_pyramid.h"
@@ -26,13 +27,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The largest of the folder's pictures in RGB: a printer's TIFF may be CMYK.
+// The largest of the pictures in RGB that the folder's newest run made: a printer's TIFF may be
+// CMYK.
 std::string picture_of(const std::string& folder) {
   std::string best;
   int widest = 0;
-  for (const char* name : {"panorama.png", "panorama.tif", "panorama.jxl"}) {
+  for (const std::string& name :
+       newest_results(folder, {"panorama.png", "panorama.tif", "panorama.jxl"})) {
     const std::string path = (fs::path(folder) / name).string();
-    if (!fs::exists(path)) continue;
     const ImageInfo info = read_image_info(path);
     if (info.parts[0].channels.size() != 3 || info.width <= widest) continue;
     best = path;
@@ -116,13 +118,13 @@ void write_web_page(const std::vector<WebPicture>& pictures, const std::string& 
       throw Error(
           ErrorKind::usage, files[k], fmt::format("{} × {} pixels", other.width, other.height),
           fmt::format("{} × {} as {}: pictures of one view", first.width, first.height, files[0]));
-  check_output_folder(folder);
+  file_guard().writes_into(folder, "--out", parameters.replace);
 
   Json entries = Json::array();
   for (std::size_t k = 0; k < files.size(); ++k) {
     const std::string tiles = fmt::format("tiles/{}", k);
     // An earlier page may have left more of them.
-    fs::remove_all(fs::path(folder) / tiles);
+    file_guard().remove_own((fs::path(folder) / tiles).string());
     fs::create_directories(fs::path(folder) / tiles);
     const TilePyramid pyramid =
         write_tile_pyramid(files[k], (fs::path(folder) / tiles).string(),

@@ -18,6 +18,7 @@ struct WebParameters {
   int tile_px = 512;
   int quality = 88;           // of JPEG, 1…100
   int ground_cells = 400000;  // of positions; 9 bytes each
+  bool replace = false;       // also files in the folder that others wrote
 };
 
 // Writes FOLDER/index.html, panorama.js and tiles/: a page that works from a file, without a

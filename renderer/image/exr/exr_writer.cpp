@@ -17,11 +17,11 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/files/output_file.h"
 #include "base/parallel.h"
 #include "renderer/image/deflate.h"
 #include "renderer/image/exr/exr_head.h"
 #include "renderer/image/exr/half_floats.h"
-#include "renderer/image/output_file.h"
 #include "renderer/image/provenance.h"
 
 namespace belvedere {

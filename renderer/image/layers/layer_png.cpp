@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "base/error.h"
-#include "renderer/image/output_file.h"
 
 namespace belvedere {
 namespace {

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/files/output_file.h"
 #include "base/text/markup.h"
 #include "renderer/image/deflate.h"
 #include "renderer/image/layers/layer_png.h"
-#include "renderer/image/output_file.h"
 
 namespace belvedere {
 namespace {

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/files/output_file.h"
 #include "renderer/image/icc/device_colour.h"
 #include "renderer/image/layers/layer_png.h"
-#include "renderer/image/output_file.h"
 
 namespace belvedere {
 namespace {

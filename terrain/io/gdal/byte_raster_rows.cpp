@@ -5,18 +5,16 @@
 #include <ogr_spatialref.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <system_error>
+#include <optional>
 #include <utility>
 
 #include "base/error.h"
+#include "base/files/output_file.h"
 #include "base/random.h"
 #include "base/text/letters.h"
 #include "terrain/io/gdal/gdal_files.h"
 
 namespace belvedere {
-
-namespace fs = std::filesystem;
 
 namespace {
 
@@ -34,13 +32,12 @@ std::uint64_t hash_on(std::uint64_t h, const std::uint8_t* bytes, std::size_t co
 
 struct ByteRasterRows::State {
   std::string path;
-  std::string temporary;
+  std::optional<OutputFile> file;
   int width = 0, height = 0;
   int next_row = 0;
   std::vector<std::uint64_t> hashes;
   Dataset dataset;
   bool prepared = false;
-  bool committed = false;
 
   [[noreturn]] void fail(const std::string& reason) const {
     throw Error(ErrorKind::output, path, reason);
@@ -62,9 +59,7 @@ ByteRasterRows::ByteRasterRows(const std::string& path, const ByteRasterLayout& 
   if (layout.bands.empty() || s.width < 1 || s.height < 1)
     throw Error(ErrorKind::bug, path, "no cells to write");
   register_gdal();
-  const fs::path target(path);
-  s.temporary =
-      (target.parent_path() / target.stem()).string() + ".tmp" + target.extension().string();
+  s.file.emplace(path);
   s.hashes.assign(layout.bands.size(), 0);
   CPLStringList options;
   for (const char* option : {"TILED=YES", "COMPRESS=DEFLATE", "PREDICTOR=2", "BIGTIFF=IF_SAFER",
@@ -72,8 +67,9 @@ ByteRasterRows::ByteRasterRows(const std::string& path, const ByteRasterLayout& 
     options.AddString(option);
   options.AddString(layout.is_colour ? "PHOTOMETRIC=RGB" : "PHOTOMETRIC=MINISBLACK");
   const GdalErrors errors;
-  s.dataset.reset(GDALCreate(GDALGetDriverByName("GTiff"), s.temporary.c_str(), s.width, s.height,
-                             static_cast<int>(layout.bands.size()), GDT_Byte, options.List()));
+  s.dataset.reset(GDALCreate(GDALGetDriverByName("GTiff"), s.file->temporary().c_str(), s.width,
+                             s.height, static_cast<int>(layout.bands.size()), GDT_Byte,
+                             options.List()));
   s.check(s.dataset != nullptr, errors);
   const GeoTransform& t = layout.frame.transform;
   double affine[6] = {t.origin_x, t.cell_x, 0.0, t.origin_y, 0.0, -t.cell_y};
@@ -107,12 +103,7 @@ ByteRasterRows::ByteRasterRows(const std::string& path, const ByteRasterLayout& 
   }
 }
 
-ByteRasterRows::~ByteRasterRows() {
-  if (state_->committed) return;
-  state_->dataset.reset();
-  std::error_code ignored;
-  fs::remove(state_->temporary, ignored);
-}
+ByteRasterRows::~ByteRasterRows() = default;
 
 void ByteRasterRows::write(int y0, const std::vector<Grid<std::uint8_t>>& bands) {
   State& s = *state_;
@@ -143,7 +134,7 @@ void ByteRasterRows::prepare() {
   s.dataset.reset();
   s.check(true, errors);
   // Reads the written file back: a full disk is not always reported.
-  const Dataset back(GDALOpen(s.temporary.c_str(), GA_ReadOnly));
+  const Dataset back(GDALOpen(s.file->temporary().c_str(), GA_ReadOnly));
   s.check(back != nullptr, errors);
   std::vector<std::uint8_t> rows;
   for (std::size_t i = 0; i < s.hashes.size(); ++i) {
@@ -161,16 +152,14 @@ void ByteRasterRows::prepare() {
     }
     if (h != s.hashes[i]) s.fail("the file was not written correctly; check free disk space");
   }
+  s.file->prepare();
   s.prepared = true;
 }
 
 void ByteRasterRows::commit() {
   State& s = *state_;
   prepare();
-  std::error_code fault;
-  fs::rename(s.temporary, s.path, fault);
-  if (fault) s.fail("cannot replace the file: " + fault.message());
-  s.committed = true;
+  s.file->commit();
 }
 
 }  // namespace belvedere

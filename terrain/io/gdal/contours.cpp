@@ -8,11 +8,13 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <vector>
 
 #include "base/error.h"
+#include "base/files/output_file.h"
 #include "base/grid.h"
 #include "base/text/letters.h"
 #include "terrain/io/gdal/gdal_files.h"
@@ -109,6 +111,14 @@ ContourSummary write_lines(const std::string& path, const char* driver, const Ra
 
 }  // namespace
 
+std::vector<std::string> contour_files(const std::string& path) {
+  if (lower_extension(path) != ".shp") return {path};
+  std::vector<std::string> out;
+  for (const char* extension : {".shp", ".shx", ".dbf", ".prj", ".cpg"})
+    out.push_back(fs::path(path).replace_extension(extension).string());
+  return out;
+}
+
 ContourSummary write_contours(const std::string& path, const Raster<float>& raster,
                               const ContourParameters& parameters) {
   if (!(parameters.interval_m > 0.0) || !std::isfinite(parameters.interval_m)) {
@@ -120,16 +130,20 @@ ContourSummary write_contours(const std::string& path, const Raster<float>& rast
   if (raster.cells.empty()) throw Error(ErrorKind::output, path, "no cells to write");
   register_gdal();
   // A shapefile is several files: all are made in a folder of their own, then moved.
-  const fs::path folder = target.parent_path() / (target.filename().string() + ".tmp");
+  std::string folder = (target.parent_path() / ".belvedere-XXXXXX").string();
   try {
-    fs::remove_all(folder);
-    if (!fs::create_directory(folder))
-      throw Error(ErrorKind::output, path, "cannot create the folder");
+    if (::mkdtemp(folder.data()) == nullptr)
+      throw Error(ErrorKind::output, path, "cannot create a folder beside it");
     const ContourSummary summary =
-        write_lines((folder / target.filename()).string(), driver, raster, parameters);
-    std::vector<fs::path> files;
-    for (const auto& entry : fs::directory_iterator(folder)) files.push_back(entry.path());
-    for (const fs::path& file : files) fs::rename(file, target.parent_path() / file.filename());
+        write_lines((fs::path(folder) / target.filename()).string(), driver, raster, parameters);
+    std::vector<std::unique_ptr<OutputFile>> files;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      files.push_back(
+          std::make_unique<OutputFile>((target.parent_path() / entry.path().filename()).string()));
+      fs::rename(entry.path(), files.back()->temporary());
+    }
+    for (const auto& file : files) file->prepare();
+    for (const auto& file : files) file->commit();
     fs::remove_all(folder);
     return summary;
   } catch (const std::exception& exception) {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/files/output_file.h"
 #include "base/text/letters.h"
 #include "terrain/io/gdal/gdal_files.h"
 #include "terrain/io/raster_file.h"
@@ -153,22 +154,15 @@ void check_written(const std::string& path, const Grid<T>& cells, T void_value) 
   }
 }
 
-// The temporary name keeps the extension, which determines the format, and is in the same folder,
-// so that a rename suffices.
-std::string temporary_beside(const fs::path& target, const char* extension) {
-  return (target.parent_path() / target.stem()).string() + ".tmp" + extension;
-}
-
 // write() makes the temporary files; either all of them are renamed, or none.
 template <class Write>
-void write_and_rename(const std::string& path,
-                      const std::vector<std::pair<std::string, fs::path>>& files, Write&& write) {
+void write_and_rename(const std::string& path, const std::vector<OutputFile*>& files,
+                      Write&& write) {
   try {
     write();
-    for (const auto& [part, target] : files) fs::rename(part, target);
+    for (OutputFile* file : files) file->prepare();
+    for (OutputFile* file : files) file->commit();
   } catch (const std::exception& exception) {
-    std::error_code ignored;
-    for (const auto& [part, target] : files) fs::remove(part, ignored);
     const auto* error = dynamic_cast<const Error*>(&exception);
     throw Error(ErrorKind::output, path, error != nullptr ? error->found() : exception.what(),
                 error != nullptr ? error->allowed() : "");
@@ -176,6 +170,11 @@ void write_and_rename(const std::string& path,
 }
 
 }  // namespace
+
+std::vector<std::string> raster_files(const std::string& path) {
+  if (lower_extension(path) != ".asc") return {path};
+  return {path, fs::path(path).replace_extension(".prj").string()};
+}
 
 void write_raster(const std::string& path, const Raster<float>& raster,
                   std::optional<double> nodata) {
@@ -187,16 +186,15 @@ void write_raster(const std::string& path, const Raster<float>& raster,
   const float written_void = choose_void(raster.cells, nodata, ascii);
   const Grid<float> cells = with_written_voids(raster.cells, written_void);
   register_gdal();
-  const fs::path target(path);
-  const std::string part = temporary_beside(target, target.extension().c_str());
-  const std::string part_prj = temporary_beside(target, ".prj");
-  std::vector<std::pair<std::string, fs::path>> files{{part, target}};
-  if (ascii && !raster.crs.empty())
-    files.emplace_back(part_prj, fs::path(target).replace_extension(".prj"));
+  OutputFile file(path);
+  std::optional<OutputFile> prj;
+  std::vector<OutputFile*> files{&file};
+  if (ascii && !raster.crs.empty()) files.push_back(&prj.emplace(raster_files(path).back()));
   write_and_rename(path, files, [&] {
+    const std::string& part = file.temporary();
     ascii ? write_ascii(part, raster, cells, written_void)
           : write_geotiff(part, raster, cells, static_cast<double>(written_void));
-    if (files.size() > 1) write_prj(part_prj, raster.crs);
+    if (prj) write_prj(prj->temporary(), raster.crs);
     check_written(part, cells, written_void);
   });
 }
@@ -207,11 +205,10 @@ void write_raster(const std::string& path, const Raster<std::uint8_t>& raster) {
     throw Error(ErrorKind::output, path, "unknown file extension", ".tif or .tiff");
   if (raster.cells.empty()) throw Error(ErrorKind::output, path, "no cells to write");
   register_gdal();
-  const fs::path target(path);
-  const std::string part = temporary_beside(target, target.extension().c_str());
-  write_and_rename(path, {{part, target}}, [&] {
-    write_geotiff(part, raster, raster.cells, 0.0);
-    check_written(part, raster.cells, std::uint8_t{0});
+  OutputFile file(path);
+  write_and_rename(path, {&file}, [&] {
+    write_geotiff(file.temporary(), raster, raster.cells, 0.0);
+    check_written(file.temporary(), raster.cells, std::uint8_t{0});
   });
 }
 

@@ -217,7 +217,8 @@ std::function<int()> add_figure(CommandOptions& command) {
       .add_option("--out", options->out,
                   "Folder for sheet.png, each of its pictures, and index.html")
       .type_name("DIR")
-      .required();
+      .required()
+      .files(FileUse::folder);
   command
       .add_option("--width", options->width_px,
                   "Width of the picture in pixels, its height in proportion. Default: the scene's")

@@ -150,7 +150,8 @@ std::function<int()> add_sweep(CommandOptions& command) {
       .add_option("--out", options->out,
                   "Folder for the pictures, sheet.png, index.html and report.json")
       .type_name("DIR")
-      .required();
+      .required()
+      .files(FileUse::folder);
   command.add_flag("--draft", options->draft,
                    "Drafts as of render --draft: a third of the pixels per side, only strokes");
   command.footer(

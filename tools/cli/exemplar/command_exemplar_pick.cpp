@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/files/file_guard.h"
 #include "base/parallel.h"
 #include "renderer/image/icc/painting_file.h"
 #include "renderer/labels/label_points.h"
@@ -63,7 +64,7 @@ std::string next_command(const PickOptions& options) {
 
 int run_pick(const PickOptions& options) {
   check_dems_exist(options);
-  check_not_read(options.pairs, "--pairs", {options.painting});
+  file_guard().writes(options.pairs, "--pairs");
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
   progress.begin("reading", 0.0);
@@ -92,6 +93,7 @@ Action add_exemplar_pick(CommandOptions& command) {
       command, *options,
       "The pairs that are picked, a .csv that is made if it is missing; each click "
       "is written at once");
+  command.option("--pairs").files(FileUse::edits);
   command
       .add_option("--names", options->names,
                   "Names of summits and other places: a .csv, GeoPackage, GeoJSON … as for labels")

@@ -6,12 +6,12 @@
 #include <memory>
 
 #include "base/error.h"
+#include "base/files/output_file.h"
 #include "base/parallel.h"
 #include "base/text/json.h"
 #include "renderer/exemplar/classes_by_paint.h"
 #include "renderer/exemplar/uncertain_places.h"
 #include "renderer/image/icc/painting_file.h"
-#include "renderer/image/output_file.h"
 #include "renderer/image/png_palette.h"
 #include "renderer/register/register_by_paint.h"
 #include "renderer/register/registered_cover.h"
@@ -158,10 +158,7 @@ RegisteredPainting register_painting(const RegisterCommand& options, Progress& p
 
 int run(const RegisterCommand& options) {
   check_dems_exist(options);
-  check_output_folder(options.out);
   const auto in_folder = [&](const char* name) { return (fs::path(options.out) / name).string(); };
-  for (const char* name : {"registered.toml", "trust.png", "classes.png", "index.html"})
-    check_not_read(in_folder(name), "--out", {options.painting, options.pairs});
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
   const RegisteredPainting found = register_painting(options, progress);
@@ -206,7 +203,8 @@ Action add_exemplar_register(CommandOptions& command) {
           "--out", options->out,
           "Folder for registered.toml, trust.png, classes.png and the report; created if missing")
       .required()
-      .type_name("DIR");
+      .type_name("DIR")
+      .files(FileUse::folder);
   command.add_flag("--pairs-only", options->pairs_only,
                    "Do not look for the ground's relief in the paint");
   command.footer(

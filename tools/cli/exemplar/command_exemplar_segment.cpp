@@ -82,15 +82,11 @@ Agreement agreement_with(const SegmentOptions& options, const PaintingSegments& 
 }
 
 int run(const SegmentOptions& options) {
-  for (const std::string* path : {&options.out, &options.page})
-    if (!path->empty()) check_place(*path);
   if (lower_extension(options.out) != ".png")
     throw Error(ErrorKind::usage, "--out", options.out, "a .png");
   const std::string page_extension = options.page.empty() ? ".html" : lower_extension(options.page);
   if (page_extension != ".html" && page_extension != ".htm")
     throw Error(ErrorKind::usage, "--report", options.page, "a .html");
-  check_not_read(options.out, "--out", {options.painting, options.compare});
-  check_not_read(options.page, "--report", {options.painting, options.compare});
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
   progress.begin("reading", 0.0);
@@ -160,12 +156,14 @@ Action add_exemplar_segment(CommandOptions& command) {
       .add_option("--out", options->out,
                   "The mask: a .png whose numbers are classes, for `classes` of an [[exemplar]]")
       .required()
-      .type_name("MASK");
+      .type_name("MASK")
+      .files(FileUse::writes);
   command
       .add_option("--report", options->page,
                   "Also writes a page (.html) to merge, split and name the groups with clicks, and "
                   "to save the mask")
-      .type_name("PAGE");
+      .type_name("PAGE")
+      .files(FileUse::page);
   command
       .add_option("--groups", options->theta,
                   "Limit of the dissimilarity within a group, such as 1.1; a larger value makes "

@@ -7,7 +7,6 @@
 #include "renderer/image/image_io.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/features/swatches.h"
-#include "tools/cli/file_names.h"
 #include "tools/cli/terminal.h"
 #include "tools/options/options.h"
 
@@ -22,9 +21,6 @@ struct SwatchesOptions {
 int run(const SwatchesOptions& options) {
   const FeatureStyle style = load_feature_style(options.style);
   const std::filesystem::path folder = options.out;
-  check_place((folder / "swatch.png").string());
-  std::error_code ignored;
-  std::filesystem::create_directories(folder, ignored);
   for (std::size_t k = 0; k < style.kinds.size(); ++k) {
     const Grid<glm::vec3> swatch = make_swatch(style, static_cast<int>(k));
     if (swatch.empty()) continue;
@@ -44,7 +40,8 @@ Action add_features_swatches(CommandOptions& command) {
       .show_default();
   command.add_option("--out", options->out, "Folder for a picture of each kind; created if missing")
       .required()
-      .type_name("DIR");
+      .type_name("DIR")
+      .files(FileUse::folder);
   command.footer(
       "Paints each kind of a style as in the foreground of a sheet, summer left, winter right, at "
       "8 pixels per mm, to check a style\n"

@@ -100,7 +100,9 @@ Action add_fetch(CommandOptions& command) {
           "--out", options->out,
           "The folder for elevation.tif, land_cover.tif and fetched.toml; created if missing")
       .required()
-      .type_name("DIR");
+      .type_name("DIR")
+      .files(FileUse::later);
+  command.add_force(options->fetch.replace);
   add_run_options(command, options->run);
   command.footer(
       "Requests the parts of tiles that lie in the area from the servers of Copernicus DEM GLO-30 "

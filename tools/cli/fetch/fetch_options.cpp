@@ -106,6 +106,7 @@ FetchParameters fetch_parameters(const FetchOptions& options) {
     (read_map_source(name).kind == MapSourceKind::elevation ? parameters.elevation
                                                             : parameters.land_cover) = name;
   if (options.no_land_cover) parameters.land_cover.clear();
+  parameters.replace = options.replace;
   parameters.cell_m = options.cell_m;
   parameters.cover_cell_m = options.cover_cell_m;
   parameters.mirror = options.mirror;

@@ -19,6 +19,7 @@ struct FetchOptions {
   double cover_cell_m = 0.0;
   std::string mirror;
   bool refresh = false;
+  bool replace = false;  // also files in the folder that others wrote
   HttpOptions http_options;
 };
 

@@ -9,11 +9,11 @@
 
 #include "base/cache/cache.h"
 #include "base/error.h"
+#include "base/files/file_guard.h"
 #include "base/text/json.h"
 #include "renderer/labels/labels.h"
 #include "renderer/pipeline/scene_labels.h"
 #include "tools/cli/commands.h"
-#include "tools/cli/file_names.h"
 #include "tools/cli/scene_options.h"
 #include "tools/cli/terminal.h"
 #include "tools/options/options.h"
@@ -25,6 +25,7 @@ namespace fs = std::filesystem;
 
 struct LabelsOptions {
   SceneOptions scene;
+  bool force = false;
   std::vector<std::string> points;
   std::vector<std::string> shapes;
   std::vector<std::string> tracks;
@@ -56,7 +57,8 @@ int run(const LabelsOptions& options) {
     job.summits = usual_summits;
   require_fonts(load_label_style(job.style));
   const fs::path folder = options.out;
-  check_place((folder / "labels.svg").string());
+  file_guard().writes_into(options.out, "--out", options.force,
+                           {{"labels.svg", "labels.csv", "labels.geojson"}});
 
   const BareView bare = make_bare_view(scene, progress, cache);
   const LabelSheet sheet = make_label_sheet(scene, job, bare, progress);
@@ -151,7 +153,9 @@ Action add_labels(CommandOptions& command) {
       .type_name("FILE");
   command.add_option("--out", options->out, "Folder for the results; created if missing")
       .required()
-      .type_name("DIR");
+      .type_name("DIR")
+      .files(FileUse::later);
+  command.add_force(options->force);
   command.footer(
       "Writes labels.svg (over the picture, text as text), labels.csv and labels.geojson: each "
       "point's pixel, distance, and whether\n"

@@ -6,9 +6,9 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/files/output_file.h"
 #include "base/parallel.h"
 #include "base/text/json.h"
-#include "renderer/image/output_file.h"
 #include "terrain/io/byte_raster_rows.h"
 #include "terrain/layers/layer_apply.h"
 #include "terrain/layers/layer_coverage.h"
@@ -55,15 +55,12 @@ std::string legend_text(const std::string& name) {
   return out;
 }
 
-// All names are different, and none is an input.
-void check_names(const LayersApplyOptions& options, const std::string& legend) {
-  std::set<std::string> names = {options.layers, options.dem};
-  for (const std::string& path : {options.out, options.colour, options.shares, legend}) {
-    if (path.empty()) continue;
-    check_place(path);
-    if (!names.insert(path).second)
-      throw Error(ErrorKind::usage, path, "the same file twice", "different files");
-  }
+std::string legend_path(const std::string& classes) {
+  return std::filesystem::path(classes).replace_extension(".legend.toml").string();
+}
+
+std::vector<std::string> classes_files(const std::string& path) {
+  return {path, legend_path(path)};
 }
 
 std::string as_text(const LayersApplyOptions& options, const SurfaceLayers& layers, const Dem& dem,
@@ -98,9 +95,6 @@ Json as_json(const LayersApplyOptions& options, const SurfaceLayers& layers, con
 }
 
 int run(const LayersApplyOptions& options) {
-  const std::string legend =
-      std::filesystem::path(options.out).replace_extension(".legend.toml").string();
-  check_names(options, legend);
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
   const SurfaceLayers layers = read_surface_layers(options.layers);
@@ -145,7 +139,7 @@ int run(const LayersApplyOptions& options) {
   classes.prepare();
   if (colour) colour->prepare();
   if (shares) shares->prepare();
-  write_text_file(legend, legend_text(file_name(options.out)));
+  write_text_file(legend_path(options.out), legend_text(file_name(options.out)));
   classes.commit();
   if (colour) colour->commit();
   if (shares) shares->commit();
@@ -174,16 +168,19 @@ Action add_layers_apply(CommandOptions& command) {
           "--out", options->out,
           "The classes: a GeoTIFF of bytes, with a legend beside it, so that scenes can read it")
       .required()
-      .type_name("TIF");
+      .type_name("TIF")
+      .files(FileUse::writes, classes_files);
   command
       .add_option("--colour", options->colour,
                   "The colours of the layers, blended by their coverage: a GeoTIFF")
-      .type_name("TIF");
+      .type_name("TIF")
+      .files(FileUse::writes);
   command
       .add_option(
           "--shares", options->shares,
           "How much of each cell each layer covers: a GeoTIFF with a band for each, 255 is all")
-      .type_name("TIF");
+      .type_name("TIF")
+      .files(FileUse::writes);
   add_ground_climate(command, options->climate);
   LayerDrawingParameters& drawing = options->apply.drawing;
   command

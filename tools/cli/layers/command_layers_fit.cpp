@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/files/output_file.h"
 #include "base/parallel.h"
 #include "base/text/json.h"
-#include "renderer/image/output_file.h"
 #include "terrain/climate/stations.h"
 #include "terrain/cover/ground_variables.h"
 #include "terrain/cover/layer_inputs.h"
@@ -52,13 +52,8 @@ void check_options(const LayersFitOptions& options) {
     refuse("--model", options.model, "product, additive");
   if (options.functions == "histogram" && options.model != "product")
     refuse("--functions", "histograms are functions of a product", "--model product");
-  std::set<std::string> read = {options.from.dem,  options.from.image,   options.from.classes,
-                                options.from.mask, options.from.regions, options.climate.stations};
-  if (read.contains(options.out))
-    refuse(options.out, "is also an input", "another name for the result");
   if (!options.out.ends_with(".toml"))
     refuse(options.out, "is not the name of a layers file", "NAME.layers.toml");
-  check_place(options.out);
 }
 
 std::vector<std::string> inputs_of(const LayersFitOptions& options, const Dem& dem) {
@@ -215,7 +210,8 @@ Action add_layers_fit(CommandOptions& command) {
       .add_option("--out", options->out,
                   "The layers: a .toml file of about ten KB, which no longer needs the picture")
       .required()
-      .type_name("TOML");
+      .type_name("TOML")
+      .files(FileUse::writes);
   add_ground_climate(command, options->climate);
   command
       .add_option("--mask", options->from.mask,
@@ -246,7 +242,8 @@ Action add_layers_fit(CommandOptions& command) {
       .add_option("--report", options->report,
                   "A folder for a page on the fit and how it does on ground not used for it; takes "
                   "a minute")
-      .type_name("DIR");
+      .type_name("DIR")
+      .files(FileUse::folder);
   command
       .add_option("--threads", options->threads,
                   "Processor threads; 0, the default, takes all. Changes no bit")

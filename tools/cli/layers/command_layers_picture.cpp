@@ -5,13 +5,11 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/text/json.h"
-#include "renderer/image/output_file.h"
 #include "terrain/io/byte_raster_rows.h"
 #include "terrain/layers/layer_coverage.h"
 #include "terrain/layers/layer_picture.h"
 #include "terrain/layers/layers_file.h"
 #include "tools/cli/commands.h"
-#include "tools/cli/file_names.h"
 #include "tools/cli/layers/ground_climate_options.h"
 #include "tools/cli/terminal.h"
 #include "tools/options/options.h"
@@ -35,9 +33,6 @@ Grid<std::uint8_t> band(const Grid<glm::vec3>& rows, int c) {
 }
 
 int run(const LayersPictureOptions& options) {
-  check_place(options.out);
-  if (options.out == options.dem || options.out == options.layers)
-    throw Error(ErrorKind::usage, options.out, "the same file twice", "another file name");
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
   const LayerPictureParameters& parameters = options.picture;
@@ -87,7 +82,8 @@ Action add_layers_picture(CommandOptions& command) {
   add_elevation_options(command, options->elevation);
   command.add_option("--out", options->out, "The picture: a GeoTIFF of three bands")
       .required()
-      .type_name("TIF");
+      .type_name("TIF")
+      .files(FileUse::writes);
   command
       .add_option("--finer", picture.finer,
                   "Pixels per cell of the DEM, across and down; 1 to 16. Default: 4")

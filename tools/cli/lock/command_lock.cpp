@@ -6,8 +6,9 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/files/file_guard.h"
+#include "base/files/output_file.h"
 #include "base/text/json.h"
-#include "renderer/image/output_file.h"
 #include "renderer/image/provenance.h"
 #include "renderer/pipeline/scene_lock_run.h"
 #include "renderer/scene/scene_lock.h"
@@ -62,7 +63,7 @@ std::string describe_changes(const SceneLock& old, const SceneLock& now) {
 
 int run_lock(LockOptions options) {
   const std::string path = lock_path(options.scene.scene);
-  check_output_folder(std::filesystem::path(path).parent_path().string());
+  file_guard().writes(path, "SCENE");
   const std::optional<SceneLock> old = old_lock(path, options.update);
   // Locked with the same settings as before, unless the command line gives others.
   if (old && options.scene.files.settings.empty()) options.scene.files.settings = old->settings;

@@ -10,8 +10,8 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/files/output_file.h"
 #include "base/text/json.h"
-#include "renderer/image/output_file.h"
 #include "renderer/image/provenance.h"
 #include "renderer/pipeline/scene_lock_run.h"
 #include "renderer/scene/scene_lock.h"
@@ -31,6 +31,7 @@ struct VerifyOptions {
   SceneOptions scene;  // what the scenes share
   std::vector<std::string> scenes;
   std::string out, against, junit, page;
+  bool force = false;
 };
 
 void compare(Verification& result, const VerifyOptions& options) {
@@ -50,7 +51,7 @@ void compare(Verification& result, const VerifyOptions& options) {
 
   TerminalProgress progress(options.scene.quiet);
   const std::vector<LockedProduct> products =
-      render_and_hash(scene, result.folder, make_run(one, Run{}.tile_px, progress));
+      render_and_hash(scene, result.folder, make_run(one, Run{}.tile_px, progress), options.force);
   progress.end();
   result.width = lock.width;
   result.height = lock.height;
@@ -119,10 +120,6 @@ std::string as_json(const std::vector<Verification>& all) {
 }
 
 int run_verify(const VerifyOptions& options) {
-  // Unwritable results are reported before the work.
-  for (const std::string& file : {options.junit, options.page})
-    if (!file.empty()) check_output_folder(fs::path(file).parent_path().string());
-  if (!options.out.empty()) check_output_folder(options.out);
   if (!options.against.empty() && !fs::is_directory(options.against))
     throw Error(ErrorKind::input, options.against, "no such folder",
                 "a folder made by belvedere verify --out");
@@ -149,20 +146,24 @@ Action add_verify(CommandOptions& command) {
   command.add_option("SCENE", options->scenes, "Scene files, each with its lock file beside it")
       .required();
   add_file_options(command, options->scene);
+  command.add_force(options->force);
   command
       .add_option("--out", options->out, "Keeps the pictures of each scene in a folder of its name")
-      .type_name("DIR");
+      .type_name("DIR")
+      .files(FileUse::later);
   command
       .add_option(
           "--against", options->against,
           "Pictures of an earlier run, as --out kept them: the page then shows the differences")
       .type_name("DIR");
   command.add_option("--junit", options->junit, "Writes the results as JUnit XML, for CI services")
-      .type_name("FILE");
+      .type_name("FILE")
+      .files(FileUse::writes);
   command
       .add_option("--report", options->page,
                   "Writes a self-contained page of the differences, with pictures")
-      .type_name("FILE");
+      .type_name("FILE")
+      .files(FileUse::page);
   add_run_options(command, options->scene);
   command.footer(
       "Renders each scene at the size and with the settings of its lock, and compares every "

@@ -10,16 +10,15 @@
 #include "base/angle.h"
 #include "base/cache/cache.h"
 #include "base/error.h"
+#include "base/files/output_file.h"
 #include "base/text/json.h"
 #include "renderer/compose/proposals.h"
 #include "renderer/compose/proposed_scene.h"
 #include "renderer/compose/region_climate.h"
 #include "renderer/compose/view_changes.h"
-#include "renderer/image/output_file.h"
 #include "terrain/io/crs.h"
 #include "terrain/io/raster_io.h"
 #include "tools/cli/commands.h"
-#include "tools/cli/file_names.h"
 #include "tools/cli/new/contact_sheet.h"
 #include "tools/cli/new/new_options.h"
 #include "tools/cli/new/new_scene.h"
@@ -197,8 +196,6 @@ int make_new_scene(const NewOptions& options) {
                 "needs the other of the two",
                 "--land-cover FILE --legend nlcd, corine, esa_worldcover, fbfm40 or a file");
   const SheetFormat format = read_format(options.format);
-  check_place(options.out);
-  if (!options.pictures.empty()) check_output_folder(options.pictures);
   allow_servers(options.common);
   TerminalProgress progress(options.common.quiet);
   const Cache cache = make_cache(options.common);

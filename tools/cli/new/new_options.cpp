@@ -7,13 +7,17 @@ void add_new_options(CommandOptions& command, NewOptions& options) {
   command.add_option(
       "DEM", options.dems,
       "Elevation of the region: one file, or several that are joined; or use --at to fetch it");
-  command.add_option("--out", options.out, "The scene file to write").type_name("FILE").required();
+  command.add_option("--out", options.out, "The scene file to write")
+      .type_name("FILE")
+      .required()
+      .files(FileUse::writes);
   command.add_flag("--force", options.force, "Replaces an existing scene file");
   command
       .add_option(
           "--pictures", options.pictures,
           "Renders small pictures of all proposals to this folder, with the sheet proposals.png")
-      .type_name("DIR");
+      .type_name("DIR")
+      .files(FileUse::folder);
   command.add_option("--choose", options.choose, "Number of the proposal to write")
       .type_name("N")
       .show_default()

@@ -71,6 +71,7 @@ void fetch_data(const NewOptions& options, SceneFileNames& names, const Cache& c
   FetchOptions wanted = options.fetch;
   wanted.http_options.silence_s = options.common.http_silence_s;
   if (!options.cover.file.empty()) wanted.no_land_cover = true;
+  wanted.replace = options.force;
   const fs::path folder = fetch_folder(options);
   const FetchedArea area =
       fetch_area(fetch_parameters(wanted), folder.string(), cache, progress, sources_for_scenes);

@@ -101,7 +101,10 @@ std::function<int()> add_pdf(CommandOptions& command) {
       .range(0.0, 100.0)
       .show_default();
   command.add_option("--title", pdf.title, "Title of the document").type_name("TEXT");
-  command.add_option("--out", options->out, "The PDF").required().type_name("FILE");
+  command.add_option("--out", options->out, "The PDF")
+      .required()
+      .type_name("FILE")
+      .files(FileUse::writes);
   command.add_flag("--quiet", options->quiet, "No progress");
   command.footer(
       "With a press profile the file is PDF/X-4: CMYK, output intent, page boxes. Without one it "
@@ -117,7 +120,6 @@ std::function<int()> add_pdf(CommandOptions& command) {
       options->pdf.press = read_press_profile(options->press.profile);
     options->pdf.device = options->press.device();
     if (!options->paper.empty()) options->pdf.pages.paper_mm = paper_size(options->paper);
-    check_place(options->out);
     TerminalProgress progress(options->quiet);
     const PdfReport report = write_print_pdf(options->out, picture, options->pdf, progress);
     progress.end();

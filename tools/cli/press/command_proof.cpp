@@ -4,7 +4,6 @@
 #include <memory>
 
 #include "base/text/json.h"
-#include "renderer/image/output_file.h"
 #include "renderer/press/proof.h"
 #include "tools/cli/press/press_commands.h"
 #include "tools/cli/press/press_options.h"
@@ -75,7 +74,8 @@ std::function<int()> add_proof(CommandOptions& command) {
       .range(0.0, 400.0);
   command.add_option("--out", options->out, "Folder for the two pictures")
       .required()
-      .type_name("DIR");
+      .type_name("DIR")
+      .files(FileUse::folder);
   command.add_flag("--json", options->json, "The figures as JSON");
   command.add_flag("--quiet", options->quiet, "No progress");
   command.footer(
@@ -87,7 +87,6 @@ std::function<int()> add_proof(CommandOptions& command) {
   return [options] {
     const PressPicture picture = find_press_picture(options->picture);
     const std::vector<std::uint8_t> press = read_press_profile(options->press.profile);
-    check_output_folder(options->out);
     TerminalProgress progress(options->quiet);
     const std::string stem =
         (std::filesystem::path(options->out) / std::filesystem::path(picture.file).stem()).string();

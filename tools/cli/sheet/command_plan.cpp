@@ -9,7 +9,8 @@
 
 #include "base/cache/cache.h"
 #include "base/error.h"
-#include "renderer/image/output_file.h"
+#include "base/files/file_guard.h"
+#include "base/files/output_file.h"
 #include "renderer/pipeline/pipeline.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/scene_options.h"
@@ -22,6 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct PlanOptions {
+  bool force = false;
   SceneOptions scene;               // of plan; part and join read what the plan recorded
   std::vector<std::string> layers;  // the same
   std::string folder;
@@ -111,7 +113,9 @@ Action add_plan(CommandOptions& command) {
       .add_option(
           "--out", options->folder,
           "Folder that every machine can access; created if missing. Default: named like the scene")
-      .type_name("DIR");
+      .type_name("DIR")
+      .files(FileUse::later);
+  command.add_force(options->force);
   command.add_option("--parts", options->parts, "Number of parts of the sheet")
       .type_name("N")
       .show_default()
@@ -127,6 +131,7 @@ Action add_plan(CommandOptions& command) {
   return [options] {
     const LoadedScene scene = load(options->scene);
     const std::string folder = options->folder.empty() ? scene.name : options->folder;
+    file_guard().writes_into(folder, "--out", options->force, {{"order.txt"}});
     TerminalProgress progress(options->scene.quiet);
     const Cache cache = make_cache(options->scene);
     Order order{absolute(options->scene.scene),
@@ -164,14 +169,17 @@ Action add_join(CommandOptions& command) {
   const auto options = std::make_shared<PlanOptions>();
   add_shared_folder(command, *options);
   command.add_option("--out", options->out, "Folder for the results. Default: that of the plan")
-      .type_name("DIR");
+      .type_name("DIR")
+      .files(FileUse::later);
+  command.add_force(options->force);
   command.footer(
       "Names the parts that are missing. The pieces are kept; remove the folder's .belvedere once "
       "the files are good.\n"
       "\n"
       "  belvedere join karwendel");
   return [options] {
-    const Order order = read_order(options->folder);
+    Order order = read_order(options->folder);
+    order.request.replace = options->force;
     TerminalProgress progress(options->scene.quiet);
     const Cache cache = make_cache(options->scene);
     join_parts(load_order(order, options->scene), options->folder, order.parts,

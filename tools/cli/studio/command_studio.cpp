@@ -81,6 +81,7 @@ int run_studio(const StudioOptions& options) {
 Action add_studio(CommandOptions& command) {
   const auto options = std::make_shared<StudioOptions>();
   add_scene_options(command, *options, "A scene file, or a DEM of which a scene is made beside it");
+  command.option("SCENE").files(FileUse::edits);
   add_page_options(command, options->page);
   add_source_options(command, options->fetch);
   command.footer(

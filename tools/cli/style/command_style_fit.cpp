@@ -66,11 +66,8 @@ Json as_json(const StyleFitOptions& options, const Style& style, std::size_t byt
 }
 
 int run(const StyleFitOptions& options) {
-  check_place(options.out);
   if (lower_extension(options.out) != ".toml")
     throw Error(ErrorKind::usage, "--out", options.out, "a .toml file");
-  check_not_read(options.out, "--out", {options.painting, options.classes});
-  if (!options.report.empty()) check_output_folder(options.report);
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
   progress.begin("reading", 0.0);
@@ -122,11 +119,13 @@ Action add_style_fit(CommandOptions& command) {
       .type_name("MASK");
   command.add_option("--out", options->out, "Style file to write: .toml, about 20 kB")
       .required()
-      .type_name("STYLE");
+      .type_name("STYLE")
+      .files(FileUse::writes);
   command
       .add_option("--report", options->report,
                   "Also write a page: colours, strokes to scale, what was derived and from what")
-      .type_name("DIR");
+      .type_name("DIR")
+      .files(FileUse::folder);
   command.add_option("--name", options->name, "Name of the style. Default: the name of the file")
       .type_name("NAME");
   command

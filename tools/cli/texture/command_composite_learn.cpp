@@ -4,9 +4,9 @@
 #include <memory>
 
 #include "base/error.h"
+#include "base/files/output_file.h"
 #include "base/parallel.h"
 #include "base/text/json.h"
-#include "renderer/image/output_file.h"
 #include "texture/composite/composite_figures.h"
 #include "texture/composite/learn_composite.h"
 #include "texture/composite/make_composite.h"
@@ -153,9 +153,6 @@ CompositeParameters parameters_of(const CompositeLearnOptions& options) {
 }
 
 int run(const CompositeLearnOptions& options) {
-  check_place(options.out);
-  check_not_read(options.out, "--out", {options.crop, options.labels});
-  if (!options.report.empty()) check_output_folder(options.report);
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
   const TextureCrop crop = read_crop(options.crop, "");
@@ -210,7 +207,8 @@ Action add_composite_learn(CommandOptions& command) {
       .type_name("PICTURE");
   command.add_option("--out", options->out, "The model: a text file of about 15 KB")
       .required()
-      .type_name("COMPOSITE");
+      .type_name("COMPOSITE")
+      .files(FileUse::writes);
   command
       .add_option("--types", options->composite.learn.types,
                   "Maximum number of statistics per texture, 16 to 200. Default: 40")
@@ -224,7 +222,8 @@ Action add_composite_learn(CommandOptions& command) {
   command
       .add_option("--report", options->report,
                   "Writes a page with the crop beside the composite, and all figures")
-      .type_name("FOLDER");
+      .type_name("FOLDER")
+      .files(FileUse::folder);
   command.footer(
       "One texture model of a picture with sky above water beside rock would mix them all. A "
       "composite learns each texture by itself, the paint\n"

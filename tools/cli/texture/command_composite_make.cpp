@@ -9,7 +9,6 @@
 #include "base/parallel.h"
 #include "base/text/json.h"
 #include "base/text/letters.h"
-#include "renderer/image/output_file.h"
 #include "texture/composite/composite_window.h"
 #include "texture/composite/make_composite.h"
 #include "texture/composite/make_label_map.h"
@@ -80,14 +79,8 @@ int run(const CompositeMakeOptions& options) {
                                      : "both --size and --labels are given",
                 "one of them: a label image has its own size");
   check_texture_name(options.out);
-  check_not_read(options.out, "--out", {options.model, options.labels});
-  check_not_read(options.map, "--map", {options.model, options.labels});
-  if (!options.report.empty()) check_output_folder(options.report);
-  if (!options.map.empty()) {
-    check_place(options.map);
-    if (lower_extension(options.map) != ".png")
-      throw Error(ErrorKind::usage, "--map", options.map, "a .png");
-  }
+  if (!options.map.empty() && lower_extension(options.map) != ".png")
+    throw Error(ErrorKind::usage, "--map", options.map, "a .png");
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
   const CompositeModel model = read_composite(options.model);
@@ -129,7 +122,8 @@ Action add_composite_make(CommandOptions& command) {
       .type_name("COMPOSITE");
   command.add_option("--out", options->out, "The picture: .png or .tif")
       .required()
-      .type_name("PICTURE");
+      .type_name("PICTURE")
+      .files(FileUse::writes);
   command
       .add_option("--size", options->size,
                   "Width and height, in pixels; the label map is synthesized too")
@@ -151,11 +145,13 @@ Action add_composite_make(CommandOptions& command) {
   command
       .add_option("--map", options->map,
                   "Also writes the labels in their colours, to be edited and passed to --labels")
-      .type_name("PICTURE");
+      .type_name("PICTURE")
+      .files(FileUse::writes);
   command.add_option("--seed", options->seed, "Random seed. Default: 1").type_name("N");
   add_run_options(command, *options);
   command.add_option("--report", options->report, "Writes a page with the labels beside the result")
-      .type_name("FOLDER");
+      .type_name("FOLDER")
+      .files(FileUse::folder);
   command.footer(
       "  belvedere composite make coast.composite --size 1600x1000 --map labels.png --out "
       "another_coast.png\n"

@@ -7,7 +7,6 @@
 #include "base/parallel.h"
 #include "base/text/json.h"
 #include "renderer/image/image_io.h"
-#include "renderer/image/output_file.h"
 #include "texture/statistical/photometric.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/file_names.h"
@@ -69,8 +68,6 @@ void write_report(const TextureCorrectOptions& options, const Grid<glm::vec3>& s
 
 int run(const TextureCorrectOptions& options) {
   check_texture_name(options.out);
-  check_not_read(options.out, "--out", {options.source, options.target});
-  if (!options.report.empty()) check_output_folder(options.report);
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
   progress.begin("reading", 0.0);
@@ -123,7 +120,8 @@ Action add_texture_correct(CommandOptions& command) {
       .type_name("PICTURE");
   command.add_option("--out", options->out, "The corrected picture: .png or .tif")
       .required()
-      .type_name("PICTURE");
+      .type_name("PICTURE")
+      .files(FileUse::writes);
   command
       .add_option("--regions", options->regions,
                   "Number of regions of similar colour that are paired. Default: 3")
@@ -134,7 +132,8 @@ Action add_texture_correct(CommandOptions& command) {
       .add_option("--report", options->report,
                   "Writes a page with the picture before and after beside the other, and the "
                   "distances of their colours")
-      .type_name("FOLDER");
+      .type_name("FOLDER")
+      .files(FileUse::folder);
   command.footer(
       "Pairs regions of similar colour of both pictures, and gives each the distributions of hue, "
       "saturation and\n"

@@ -10,7 +10,6 @@
 #include "base/masks/erosion.h"
 #include "base/text/json.h"
 #include "renderer/image/image_io.h"
-#include "renderer/image/output_file.h"
 #include "renderer/image/png_palette.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/file_names.h"
@@ -76,8 +75,6 @@ void write_report(const TextureErodeOptions& options, const Grid<std::uint8_t>& 
 }
 
 int run(const TextureErodeOptions& options) {
-  check_output_folder(options.out);
-  if (!options.report.empty()) check_output_folder(options.report);
   TerminalProgress progress(options.quiet);
   const Grid<std::uint8_t> labels = read_labels(options);
   const auto label = static_cast<std::uint8_t>(options.label >= 0 ? options.label : 255);
@@ -131,7 +128,8 @@ Action add_texture_erode(CommandOptions& command) {
       .type_name("PICTURE");
   command.add_option("--out", options->out, "Folder of the series: MASK_01.png, MASK_02.png …")
       .required()
-      .type_name("FOLDER");
+      .type_name("FOLDER")
+      .files(FileUse::folder);
   command.add_option("--steps", options->erosion.levels, "Number of masks. Default: 8")
       .range(1, 99)
       .type_name("N");
@@ -152,7 +150,8 @@ Action add_texture_erode(CommandOptions& command) {
   command.add_option("--seed", options->erosion.seed, "Random seed of the borders. Default: 1")
       .type_name("N");
   command.add_option("--report", options->report, "Writes a page with the mask beside the steps")
-      .type_name("FOLDER");
+      .type_name("FOLDER")
+      .files(FileUse::folder);
   command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
   command.add_flag("--json", options->json, "Print the result as JSON");
   command.footer(

@@ -7,7 +7,6 @@
 #include "base/grid_part.h"
 #include "base/parallel.h"
 #include "base/text/json.h"
-#include "renderer/image/output_file.h"
 #include "texture/statistical/make_texture.h"
 #include "texture/statistical/model_file.h"
 #include "tools/cli/commands.h"
@@ -68,8 +67,6 @@ void write_report(const TextureFillOptions& options, const Grid<glm::vec3>& befo
 
 int run(const TextureFillOptions& options) {
   check_texture_name(options.out);
-  check_not_read(options.out, "--out", {options.picture, options.hole, options.model});
-  if (!options.report.empty()) check_output_folder(options.report);
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
   const CliqueModel model = read_model(options.model);
@@ -121,13 +118,15 @@ Action add_texture_fill(CommandOptions& command) {
       .type_name("MODEL");
   command.add_option("--out", options->out, "The picture: .png or .tif")
       .required()
-      .type_name("PICTURE");
+      .type_name("PICTURE")
+      .files(FileUse::writes);
   command.add_option("--seed", options->seed, "Random seed. Default: 1").type_name("N");
   add_run_options(command, *options);
   command
       .add_option("--report", options->report,
                   "Writes a page with the part that changed, before and after")
-      .type_name("FOLDER");
+      .type_name("FOLDER")
+      .files(FileUse::folder);
   command.footer(
       "Removes lettering, frames and figures from a scan, or lets a wood grow over a clearing. "
       "Nothing outside the mask changes;\n"

@@ -3,9 +3,9 @@
 #include <memory>
 
 #include "base/error.h"
+#include "base/files/output_file.h"
 #include "base/parallel.h"
 #include "base/text/json.h"
-#include "renderer/image/output_file.h"
 #include "texture/statistical/choose_seed.h"
 #include "texture/statistical/learn_by_sampling.h"
 #include "texture/statistical/light_half.h"
@@ -146,9 +146,6 @@ void write_report(const TextureLearnOptions& options, const TextureCrop& crop,
 }
 
 int run(const TextureLearnOptions& options) {
-  check_place(options.out);
-  check_not_read(options.out, "--out", {options.crop, options.mask});
-  if (!options.report.empty()) check_output_folder(options.report);
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
   TextureCrop crop = read_crop(options.crop, options.mask);
@@ -197,7 +194,8 @@ Action add_texture_learn(CommandOptions& command) {
       .type_name("PICTURE");
   command.add_option("--out", options->out, "The model: a text file of about 1.5 KB")
       .required()
-      .type_name("MODEL");
+      .type_name("MODEL")
+      .files(FileUse::writes);
   command
       .add_option("--mask", options->mask,
                   "Mask of the texture in the crop: a grey picture of its size, 0 is left out")
@@ -230,7 +228,8 @@ Action add_texture_learn(CommandOptions& command) {
   command
       .add_option("--report", options->report,
                   "Writes a page with the crop beside the texture, and all figures")
-      .type_name("FOLDER");
+      .type_name("FOLDER")
+      .files(FileUse::folder);
   command.footer(
       "The model describes only how neighbouring pixels differ, near and far: meadow, distant "
       "forest, scree, water and sky come out\n"

@@ -5,7 +5,6 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/text/json.h"
-#include "renderer/image/output_file.h"
 #include "texture/statistical/make_texture.h"
 #include "texture/statistical/model_file.h"
 #include "tools/cli/commands.h"
@@ -62,8 +61,6 @@ int run(const TextureMakeOptions& options) {
                                      : "both --size and --window are given",
                 "one of them");
   check_texture_name(options.out);
-  check_not_read(options.out, "--out", {options.model});
-  if (!options.report.empty()) check_output_folder(options.report);
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
   const CliqueModel model = read_model(options.model);
@@ -99,7 +96,8 @@ Action add_texture_make(CommandOptions& command) {
       .type_name("MODEL");
   command.add_option("--out", options->out, "The picture: .png or .tif")
       .required()
-      .type_name("PICTURE");
+      .type_name("PICTURE")
+      .files(FileUse::writes);
   command.add_option("--size", options->size, "Width and height, in pixels")
       .list('x', 2)
       .range(1, 1 << 20)
@@ -116,7 +114,8 @@ Action add_texture_make(CommandOptions& command) {
   command
       .add_option("--report", options->report,
                   "Writes a page with the texture and a description of its model")
-      .type_name("FOLDER");
+      .type_name("FOLDER")
+      .files(FileUse::folder);
   command.footer(
       "Nothing is copied and nothing repeats, at any size.\n"
       "\n"

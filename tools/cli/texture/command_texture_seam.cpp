@@ -7,7 +7,6 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/text/json.h"
-#include "renderer/image/output_file.h"
 #include "texture/statistical/texture_seam.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/file_names.h"
@@ -80,8 +79,6 @@ int run(const TextureSeamOptions& options) {
   if (options.pictures.size() < 2)
     throw Error(ErrorKind::usage, "command line", "one picture", "two or more to join");
   check_texture_name(options.out);
-  check_not_read(options.out, "--out", options.pictures);
-  if (!options.report.empty()) check_output_folder(options.report);
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
   Cloth joined = read_cloth(options, options.pictures.front());
@@ -145,7 +142,8 @@ Action add_texture_seam(CommandOptions& command) {
       .type_name("PICTURE");
   command.add_option("--out", options->out, "The picture: .png or .tif")
       .required()
-      .type_name("PICTURE");
+      .type_name("PICTURE")
+      .files(FileUse::writes);
   command.add_flag("--down", options->down,
                    "From top to bottom instead; the pictures then have one width");
   command
@@ -161,7 +159,8 @@ Action add_texture_seam(CommandOptions& command) {
       .add_option("--report", options->report,
                   "Writes a page with the pictures before and after joining, and the visibility of "
                   "the seams")
-      .type_name("FOLDER");
+      .type_name("FOLDER")
+      .files(FileUse::folder);
   command.footer(
       "Each picture is extended over the seam by its own texture model, up to a ragged border that "
       "is synthesized by a model of both.\n"

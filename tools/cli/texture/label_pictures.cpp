@@ -12,7 +12,6 @@
 #include "base/filter.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/label_image.h"
-#include "renderer/image/output_file.h"
 #include "texture/statistical/label_borders.h"
 
 namespace belvedere::tools {

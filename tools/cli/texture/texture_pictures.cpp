@@ -9,7 +9,6 @@
 #include "base/error.h"
 #include "base/text/letters.h"
 #include "renderer/image/image_io.h"
-#include "renderer/image/output_file.h"
 #include "texture/statistical/band_pyramid.h"
 #include "tools/cli/file_names.h"
 #include "tools/report/report_pictures.h"
@@ -73,7 +72,6 @@ void note_rounding(const std::string& read, const std::string& out, Progress& pr
 }
 
 void check_texture_name(const std::string& path) {
-  check_place(path);
   if (const std::string extension = lower_extension(path);
       extension != ".png" && extension != ".tif" && extension != ".tiff")
     throw Error(ErrorKind::usage, "--out", path, "a .png or a .tif");

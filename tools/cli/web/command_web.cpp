@@ -42,7 +42,8 @@ Action add_web(CommandOptions& command) {
   const auto options = std::make_shared<WebOptions>();
   command.add_option("DIR", options->from, "A folder written by belvedere render").required();
   command.add_option("--out", options->out, "Folder of the page. Default: DIR/web")
-      .type_name("DIR");
+      .type_name("DIR")
+      .files(FileUse::later);
   command.add_option(
       "--name", options->name,
       "Name of the picture beside others, such as Summer. Default: its folder's name");
@@ -58,6 +59,7 @@ Action add_web(CommandOptions& command) {
       .type_name("N")
       .show_default()
       .range(100, 20000000);
+  command.add_force(options->page.replace);
   command.add_option("--threads", options->threads, "Number of threads; 0: all")
       .type_name("N")
       .range(0, 1024);

@@ -5,10 +5,11 @@
 namespace belvedere {
 
 // A file that appears complete or not at all: written under a temporary name in the same folder
-// (`x.tif` as `x.tmp.tif`, because image libraries go by the extension), then renamed. Until
-// commit() an older file of that name is unchanged; without it the temporary file is removed.
-// While it lives, another run that writes the same file is refused. Throws Error(output) with the
-// system's reason.
+// that no file has (hidden, of the same extension, by which image libraries go), then renamed.
+// Until commit() an older file of that name is unchanged; without it the temporary file is removed.
+// A symbolic link is followed, an older file's mode and owner are kept; a read-only file, an input
+// of the run and what file_guard() protects are refused. While it lives, another run that writes
+// the same file is refused. Throws Error(output) with the system's reason.
 class OutputFile {
  public:
   explicit OutputFile(std::string path);
@@ -28,17 +29,19 @@ class OutputFile {
   [[noreturn]] void fail(const std::string& reason) const;
 
  private:
-  std::string path_;
-  std::string temporary_;
-  int lock_ = -1;  // the temporary file, locked
+  void lock();
+  void unlock();
+
+  std::string path_;       // as named, for messages
+  std::string target_;     // where its links lead
+  std::string temporary_;  // beside the target
+  std::string lock_path_;  // holds the name of the temporary file
+  int lock_ = -1;
   bool prepared_ = false;
   bool committed_ = false;
 };
 
 // Writes a text, complete or not at all. Error(output).
 void write_text_file(const std::string& path, const std::string& text);
-
-// Error(output) unless a file can be created in the folder (which is created if missing).
-void check_output_folder(const std::string& folder);
 
 }  // namespace belvedere
