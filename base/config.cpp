@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "base/text/letters.h"
+#include "base/text/text_encoding.h"
 
 // In this version some malformed texts trigger the library's own assertions, which would end the
 // program or, compiled out, be undefined behaviour. Thrown as exceptions they become syntax errors.
@@ -266,6 +267,7 @@ void check_size(std::uintmax_t bytes, const std::string& name) {
 
 ConfigValue parse_config(std::string_view text, const std::string& name) {
   check_size(text.size(), name);
+  text = require_utf8(text, name);
   NestingScan(text, name).run();
   const auto refuse = [&](ConfigPosition position, const std::string& found) {
     throw Error(ErrorKind::usage, config_where(name, position), found,

@@ -109,11 +109,7 @@ int CsvTable::find_any(const std::vector<std::string_view>& names) const {
 }
 
 CsvTable parse_csv(std::string_view text, const std::string& name) {
-  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
-  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
-  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
-    throw Error(ErrorKind::usage, name, "is text in UTF-16",
-                "a file that is saved as UTF-8, or `encoding = \"UTF-16\"` in the scene");
+  text = require_utf8(text, name, "the key `encoding` of its block in the scene");
   CsvTable table;
   table.name = name;
   int line = 1;

@@ -64,6 +64,24 @@ TEST(Config, SyntaxErrorsNameThePlace) {
   EXPECT_THAT(usage_of([] { parse_config("a = 'open\n", "s.toml"); }), StartsWith("s.toml:1:"));
 }
 
+TEST(Config, TextIsUtf8WithOrWithoutAMark) {
+  EXPECT_EQ(as_table(parse_config("\xef\xbb\xbf"
+                                  "a = 1\r\nb = 2\r\n",
+                                  "s.toml"),
+                     "s.toml")
+                .size(),
+            2U);
+  EXPECT_THAT(usage_of([] { parse_config("a = 1\n# W\xf6rner\n", "s.toml"); }),
+              testing::AllOf(StartsWith("s.toml:2:4: "), HasSubstr("iconv")));
+  EXPECT_THAT(usage_of([] {
+                parse_config(std::string("\xff\xfe"
+                                         "a\0=\0",
+                                         6),
+                             "s.toml");
+              }),
+              HasSubstr("UTF-16LE"));
+}
+
 // Headers without a key trigger an assertion inside the library: reported like any other error.
 TEST(Config, BrokenHeadersAreSyntaxErrors) {
   for (const char* header : {"[=a]", "[[[a]]]", "[[ ]]", "[,]", "[\n", "[[\na]]"})
