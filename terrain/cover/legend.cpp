@@ -196,7 +196,7 @@ void add_csv_rows(Legend& legend, const ConfigTable& root, const std::string& na
                   const std::vector<std::string>& folders) {
   const ConfigValue& file = *find(root, "csv");
   const CsvTable table =
-      read_csv(find_beside(as_string(file, name), folders, config_where(name, file.position)));
+      read_csv(find_beside(as_path(file, name), folders, config_where(name, file.position)));
   const auto column = [&](const char* key, int inferred) {
     const ConfigValue* value = find(root, key);
     return value == nullptr ? inferred
