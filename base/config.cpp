@@ -14,6 +14,7 @@
 
 #include "base/error.h"
 #include "base/text/letters.h"
+#include "base/text/missing_file.h"
 #include "base/text/text_encoding.h"
 
 // In this version some malformed texts trigger the library's own assertions, which would end the
@@ -300,11 +301,8 @@ ConfigValue parse_config(std::string_view text, const std::string& name) {
 }
 
 ConfigValue read_config(const std::string& path) {
+  require_file(path, "a TOML file");
   std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored))
-    throw Error(ErrorKind::input, path, "file not found");
-  if (std::filesystem::is_directory(path, ignored))
-    throw Error(ErrorKind::input, path, "is a folder", "a TOML file");
   if (std::filesystem::is_regular_file(path, ignored))
     check_size(std::filesystem::file_size(path, ignored), path);
   std::ifstream file(path, std::ios::binary);

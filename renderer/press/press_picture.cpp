@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/text/missing_file.h"
 #include "renderer/image/icc/press_colour.h"
 #include "renderer/image/image_io.h"
 
@@ -33,7 +34,7 @@ PressPicture picture_of(const std::string& file, const ImageInfo& info) {
 }  // namespace
 
 PressPicture find_press_picture(const std::string& path) {
-  if (!fs::exists(path)) throw Error(ErrorKind::input, path, "does not exist", allowed);
+  if (!fs::exists(path)) throw missing_file(path, allowed);
   if (!fs::is_directory(path)) return picture_of(path, read_image_info(path));
   for (const char* name : {"panorama.tif", "panorama.jxl", "panorama.png"}) {
     const std::string file = (fs::path(path) / name).string();

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "base/text/missing_file.h"
 #include "base/text/text_encoding.h"
 
 namespace belvedere {
@@ -141,8 +142,7 @@ CsvTable parse_csv(std::string_view text, const std::string& name) {
 CsvTable read_csv(const std::string& path, const std::string& encoding) {
   constexpr std::uintmax_t max_bytes = 16U << 20;
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored))
-    throw Error(ErrorKind::input, path, "file not found");
+  if (!std::filesystem::is_regular_file(path, ignored)) throw missing_file(path, "a .csv file");
   if (std::filesystem::file_size(path, ignored) > max_bytes)
     throw Error(ErrorKind::limit, path, "file too large", "at most 16 MiB");
   std::ifstream file(path, std::ios::binary);

@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/text/archive_kind.h"
 #include "base/text/letters.h"
+#include "base/text/missing_file.h"
 #include "base/text/text_encoding.h"
 #include "terrain/io/crs.h"
 
@@ -48,7 +49,7 @@ Dataset open_vector_layers(const VectorSource& source,
   if (const std::string archive = exists ? archive_kind(path) : ""; !archive.empty())
     throw Error(ErrorKind::input, path, "is " + archive, unpack_advice);
   if (driver == nullptr) throw Error(ErrorKind::usage, path, found, allowed);
-  if (!exists) throw Error(ErrorKind::input, path, "file not found");
+  if (!exists) throw missing_file(path, allowed);
   register_gdal();
   const GdalErrors errors;
   const char* const drivers[] = {driver, nullptr};
