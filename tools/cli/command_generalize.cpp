@@ -95,6 +95,8 @@ Grid<float> make_mask(const GeneralizeOptions& options, const Dem& dem, glm::dve
 
 int run(const GeneralizeOptions& options) {
   const GeneralizeParameters bands = resolve_bands(options);
+  check_exists(options.in, "IN");
+  check_exists(options.mask, "--mask");
   check_dem_name(options.out);
   check_place(options.out);
   if (!options.report.empty()) check_output_folder(options.report);

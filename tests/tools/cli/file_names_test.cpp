@@ -2,7 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "tests/files.h"
+#include "tests/tools/program.h"
 
 namespace belvedere::tools {
 namespace {
@@ -21,6 +27,18 @@ TEST(FileNames, APlaceIsTriedBeforeTheWork) {
   EXPECT_EQ(test::error_of([&] { check_place(file + "/out.tif"); }).kind(), ErrorKind::output);
 }
 
+TEST(FileNames, WhatIsReadExists) {
+  const test::Folder folder;
+  const std::string file = folder.write("Mask.png", "x");
+  check_exists("", "--mask");
+  check_exists("https://example.org/dem.tif", "--dem");
+  check_exist({file, folder.path()}, "--mask");
+  const Error error = test::error_of([&] { check_exist({file, folder / "mask.png"}, "--mask"); });
+  EXPECT_EQ(error.kind(), ErrorKind::input);
+  EXPECT_EQ(error.where(), "--mask");
+  EXPECT_NE(error.found().find("mask.png: file not found; there is"), std::string::npos);
+}
+
 TEST(FileNames, WhatIsReadIsNotWrittenOver) {
   const test::Folder folder;
   const std::string read = folder.write("a/crop.png", "read");
@@ -31,6 +49,59 @@ TEST(FileNames, WhatIsReadIsNotWrittenOver) {
   });
   EXPECT_EQ(error.kind(), ErrorKind::usage);
   EXPECT_EQ(std::string(error.what()).find("--out"), 0U) << error.what();
+}
+
+// Options that name inputs are refused with their name before any work, and nothing is written.
+class MissingInputs : public Program {};
+
+TEST_F(MissingInputs, AreNamedWithTheirOptionBeforeTheWork) {
+  const std::string here = write("here.tif", "x");
+  const std::string none = path("none.tif");
+  const std::string out = path("out");
+  const std::vector<std::string> fit = {"layers", "fit",      "--dem", here,    "--classes",
+                                        here,     "--legend", "nlcd",  "--out", out + ".toml"};
+  const std::vector<std::string> apply = {"layers", "apply", here,        "--dem",
+                                          here,     "--out", out + ".tif"};
+  const auto with = [&](std::vector<std::string> words, const std::string& option) {
+    words.insert(words.end(), {option, none});
+    return std::pair(option, std::move(words));
+  };
+  using Words = std::vector<std::string>;
+  std::vector<std::pair<std::string, Words>> all = {
+      with({"labels", "--out", out}, "--under"),
+      with({"labels", "--out", out}, "--points"),
+      with({"labels", "--out", out}, "--shapes"),
+      with({"labels", "--out", out}, "--tracks"),
+      with({"generalize", here, out + ".tif", "--global", "1,1"}, "--mask"),
+      with({"exemplar", "segment", here, "--out", out + ".png"}, "--compare"),
+      with({"exemplar", "register", here, here, "--out", out}, "--pairs"),
+      with({"exemplar", "pick", here, here, "--pairs", out + ".csv"}, "--names"),
+      {"PAINTING", {"exemplar", "segment", none, "--out", out + ".png"}},
+      {"DEM", {"exemplar", "register", here, none, "--pairs", here, "--out", out}},
+      {"MASK", {"texture", "erode", none, "--out", out}},
+      {"IN", {"generalize", none, out + ".tif", "--global", "1,1"}},
+      {"LAYERS", {"layers", "picture", none, "--dem", here, "--out", out + ".tif"}}};
+  for (const char* option : {"--mask", "--stations", "--temperature", "--rain", "--sky-view"})
+    all.push_back(with(fit, option));
+  for (const char* option : {"--stations", "--radiation"}) all.push_back(with(apply, option));
+  for (const auto& [option, words] : all) {
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.status, 3) << option << ": " << outcome.err;
+    EXPECT_NE(outcome.err.find(option + ": " + none + ": file not found"), std::string::npos)
+        << outcome.err;
+    for (const char* extension : {"", ".tif", ".toml", ".png", ".csv"})
+      EXPECT_FALSE(std::filesystem::exists(out + extension)) << option;
+  }
+  // A scene with a style or legend that does not exist is not written.
+  for (const Words& more : {Words{"--style", path("none.toml")}, Words{"--style", "bruegl"},
+                            Words{"--land-cover", here, "--legend", path("none.toml")}}) {
+    Words words = {"new", here, "--out", out + ".toml"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome outcome = run(words);
+    EXPECT_TRUE(outcome.status == 2 || outcome.status == 3) << outcome.err;
+    EXPECT_NE(outcome.err.find(more.back()), std::string::npos) << outcome.err;
+    EXPECT_FALSE(std::filesystem::exists(out + ".toml"));
+  }
 }
 
 }  // namespace

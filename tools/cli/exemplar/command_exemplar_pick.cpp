@@ -62,7 +62,8 @@ std::string next_command(const PickOptions& options) {
 }
 
 int run_pick(const PickOptions& options) {
-  check_dems_exist(options);
+  check_inputs_exist(options);
+  check_exist(options.names, "--names");
   check_not_read(options.pairs, "--pairs", {options.painting});
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);

@@ -157,7 +157,8 @@ RegisteredPainting register_painting(const RegisterCommand& options, Progress& p
 }
 
 int run(const RegisterCommand& options) {
-  check_dems_exist(options);
+  check_inputs_exist(options);
+  check_exists(options.pairs, "--pairs");
   check_output_folder(options.out);
   const auto in_folder = [&](const char* name) { return (fs::path(options.out) / name).string(); };
   for (const char* name : {"registered.toml", "trust.png", "classes.png", "index.html"})

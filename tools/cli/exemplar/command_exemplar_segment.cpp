@@ -82,6 +82,8 @@ Agreement agreement_with(const SegmentOptions& options, const PaintingSegments& 
 }
 
 int run(const SegmentOptions& options) {
+  check_exists(options.painting, "PAINTING");
+  check_exists(options.compare, "--compare");
   for (const std::string* path : {&options.out, &options.page})
     if (!path->empty()) check_place(*path);
   if (lower_extension(options.out) != ".png")

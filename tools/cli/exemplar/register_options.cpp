@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "tools/cli/file_names.h"
 
 namespace belvedere::tools {
 
@@ -59,9 +60,9 @@ RegistrationParameters registration_parameters(const RegisterOptions& options) {
   return out;
 }
 
-void check_dems_exist(const RegisterOptions& options) {
-  for (const std::string& file : options.dems)
-    if (!std::filesystem::exists(file)) throw Error(ErrorKind::input, file, "no such file");
+void check_inputs_exist(const RegisterOptions& options) {
+  check_exists(options.painting, "PAINTING");
+  check_exist(options.dems, "DEM");
 }
 
 }  // namespace belvedere::tools

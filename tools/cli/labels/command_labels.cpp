@@ -38,6 +38,10 @@ struct LabelsOptions {
 constexpr int usual_summits = 30;
 
 int run(const LabelsOptions& options) {
+  check_exist(options.points, "--points");
+  check_exist(options.shapes, "--shapes");
+  check_exist(options.tracks, "--tracks");
+  check_exists(options.under, "--under");
   const LoadedScene scene = load(options.scene);
   const RunLimits limits(make_run(options.scene));
   const Cache cache = make_cache(options.scene);

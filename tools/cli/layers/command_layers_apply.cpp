@@ -100,6 +100,9 @@ Json as_json(const LayersApplyOptions& options, const SurfaceLayers& layers, con
 int run(const LayersApplyOptions& options) {
   const std::string legend =
       std::filesystem::path(options.out).replace_extension(".legend.toml").string();
+  check_exists(options.layers, "LAYERS");
+  check_exists(options.dem, "--dem");
+  check_climate_files(options.climate);
   check_names(options, legend);
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);

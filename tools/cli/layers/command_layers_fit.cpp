@@ -11,6 +11,7 @@
 #include "renderer/image/output_file.h"
 #include "terrain/climate/stations.h"
 #include "terrain/cover/ground_variables.h"
+#include "terrain/cover/land_cover.h"
 #include "terrain/cover/layer_inputs.h"
 #include "terrain/layers/fit/ground_fit.h"
 #include "terrain/layers/layers_file.h"
@@ -58,6 +59,13 @@ void check_options(const LayersFitOptions& options) {
     refuse(options.out, "is also an input", "another name for the result");
   if (!options.out.ends_with(".toml"))
     refuse(options.out, "is not the name of a layers file", "NAME.layers.toml");
+  for (const auto& [path, option] :
+       {std::pair(&options.from.dem, "--dem"), std::pair(&options.from.image, "--image"),
+        std::pair(&options.from.classes, "--classes"), std::pair(&options.from.mask, "--mask"),
+        std::pair(&options.from.regions, "--regions")})
+    check_exists(*path, option);
+  check_climate_files(options.climate);
+  if (!options.from.legend.empty()) read_legend(options.from.legend);  // refuses what is none
   check_place(options.out);
 }
 

@@ -35,6 +35,9 @@ Grid<std::uint8_t> band(const Grid<glm::vec3>& rows, int c) {
 }
 
 int run(const LayersPictureOptions& options) {
+  check_exists(options.layers, "LAYERS");
+  check_exists(options.dem, "--dem");
+  check_climate_files(options.climate);
   check_place(options.out);
   if (options.out == options.dem || options.out == options.layers)
     throw Error(ErrorKind::usage, options.out, "the same file twice", "another file name");

@@ -6,6 +6,7 @@
 #include "terrain/climate/climate.h"
 #include "terrain/climate/default_climate.h"
 #include "terrain/io/raster_io.h"
+#include "tools/cli/file_names.h"
 #include "tools/options/options.h"
 
 namespace belvedere::tools {
@@ -24,6 +25,14 @@ std::optional<RasterSource> monthly(std::string& file) {
 }
 
 }  // namespace
+
+void check_climate_files(const GroundClimateOptions& options) {
+  check_exists(options.stations, "--stations");
+  check_exists(options.files.temperature, "--temperature");
+  check_exists(options.files.rain, "--rain");
+  check_exists(options.files.radiation, "--radiation");
+  check_exists(options.files.sky_view, "--sky-view");
+}
 
 void add_ground_climate(CommandOptions& command, GroundClimateOptions& options) {
   command

@@ -21,6 +21,8 @@ struct GroundClimateOptions {
   std::optional<double> latitude_deg;
 };
 void add_ground_climate(CommandOptions& command, GroundClimateOptions& options);
+// Error(input) that names the option of a file that does not exist.
+void check_climate_files(const GroundClimateOptions& options);
 
 // The inputs among `names` that depend on climate or sun: given by the user, else from stations,
 // else the climate of the place. A raster of 12 bands is monthly, as in a scene. Error(usage) where

@@ -76,6 +76,7 @@ void write_report(const TextureErodeOptions& options, const Grid<std::uint8_t>& 
 }
 
 int run(const TextureErodeOptions& options) {
+  check_exists(options.mask, "MASK");
   check_output_folder(options.out);
   if (!options.report.empty()) check_output_folder(options.report);
   TerminalProgress progress(options.quiet);
