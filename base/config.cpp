@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <filesystem>
@@ -13,6 +14,8 @@
 
 #include "base/error.h"
 #include "base/text/letters.h"
+#include "base/text/missing_file.h"
+#include "base/text/text_encoding.h"
 
 // In this version some malformed texts trigger the library's own assertions, which would end the
 // program or, compiled out, be undefined behaviour. Thrown as exceptions they become syntax errors.
@@ -181,6 +184,17 @@ std::string tidy(std::string_view message) {
   return out;
 }
 
+// Whether a string of a line with a backslash cannot be read: "C:\data", or "C:\", where the
+// backslash belongs to the quotation mark.
+bool is_bad_escape(std::string_view text, ConfigPosition position, const std::string& found) {
+  for (int line = 1; line < position.line; ++line)
+    text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+  const std::string_view line = text.substr(0, text.find('\n'));
+  return line.find('\\') != std::string_view::npos && line.find('"') != std::string_view::npos &&
+         (found.find("parsing string") != std::string::npos ||
+          found.find("unicode scalar") != std::string::npos);
+}
+
 // An assertion has no position. Only texts that contain the bad line trigger it, so the line is
 // found by bisection.
 int line_of_broken_assertion(std::string_view text) {
@@ -266,10 +280,12 @@ void check_size(std::uintmax_t bytes, const std::string& name) {
 
 ConfigValue parse_config(std::string_view text, const std::string& name) {
   check_size(text.size(), name);
+  text = require_utf8(text, name);
   NestingScan(text, name).run();
   const auto refuse = [&](ConfigPosition position, const std::string& found) {
-    throw Error(ErrorKind::usage, config_where(name, position), found,
-                "TOML 1.0 (https://toml.io)");
+    throw Error(
+        ErrorKind::usage, config_where(name, position), found,
+        is_bad_escape(text, position, found) ? backslash_advice() : "TOML 1.0 (https://toml.io)");
   };
   toml::table table;
   try {
@@ -285,11 +301,8 @@ ConfigValue parse_config(std::string_view text, const std::string& name) {
 }
 
 ConfigValue read_config(const std::string& path) {
+  require_file(path, "a TOML file");
   std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored))
-    throw Error(ErrorKind::input, path, "file not found");
-  if (std::filesystem::is_directory(path, ignored))
-    throw Error(ErrorKind::input, path, "is a folder", "a TOML file");
   if (std::filesystem::is_regular_file(path, ignored))
     check_size(std::filesystem::file_size(path, ignored), path);
   std::ifstream file(path, std::ios::binary);
@@ -355,6 +368,39 @@ std::string describe(const ConfigValue& value) {
   return std::visit(Visitor{}, value.value);
 }
 
+std::string misread_path(std::string_view path) {
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
+  if (std::none_of(path.begin(), path.end(), is_control)) return {};
+  constexpr std::array<std::pair<char, std::pair<std::string_view, std::string_view>>, 5> known = {
+      {{'\b', {"\\b", "a backspace"}},
+       {'\t', {"\\t", "a tab"}},
+       {'\n', {"\\n", "a line feed"}},
+       {'\f', {"\\f", "a form feed"}},
+       {'\r', {"\\r", "a carriage return"}}}};
+  std::string written, read, part;
+  const auto add = [&](const std::string& what) { read += (read.empty() ? "" : ", ") + what; };
+  for (const char c : path) {
+    if (!is_control(c)) {
+      written += c;
+      part += c;
+      continue;
+    }
+    if (!part.empty()) add(std::exchange(part, {}));
+    const auto* const found =
+        std::find_if(known.begin(), known.end(), [&](const auto& one) { return one.first == c; });
+    written += found == known.end() ? fmt::format("\\u{:04x}", static_cast<unsigned char>(c))
+                                    : found->second.first;
+    add(std::string(found == known.end() ? "a control character" : found->second.second));
+  }
+  if (!part.empty()) add(part);
+  return fmt::format("\"{}\" was read as {}", written, read);
+}
+
+std::string backslash_advice() {
+  return "for a path with backslashes single quotation marks ('C:\\data\\dem.tif'), / or \\\\: in "
+         "\"…\" a backslash and the next letter stand for another character";
+}
+
 std::string nearest_word(std::string_view word, const std::vector<std::string>& candidates) {
   constexpr std::size_t longest = 64;  // no key is nearly as long; bounds the cost
   if (word.empty() || word.size() > longest) return {};
@@ -383,6 +429,12 @@ const ConfigArray& as_array(const ConfigValue& value, const std::string& name) {
 }
 const std::string& as_string(const ConfigValue& value, const std::string& name) {
   return as<std::string>(value, name, "a string");
+}
+const std::string& as_path(const ConfigValue& value, const std::string& name) {
+  const std::string& path = as_string(value, name);
+  if (const std::string misread = misread_path(path); !misread.empty())
+    refuse_value(value, name, misread, backslash_advice());
+  return path;
 }
 bool as_bool(const ConfigValue& value, const std::string& name) {
   return as<bool>(value, name, "true or false");

@@ -52,6 +52,11 @@ std::string config_where(const std::string& name, ConfigPosition position);
                                std::string allowed);
 // Describes a value for messages: "the string \"abc\"", "the number 3", "a table" …
 std::string describe(const ConfigValue& value);
+// How a path with control characters was read, for messages: "\"data\new.tif\" was read as …";
+// empty for a path without.
+std::string misread_path(std::string_view path);
+// What to write where a backslash is meant.
+std::string backslash_advice();
 // The candidate closest to `word` by edit distance, or an empty string if none is close.
 std::string nearest_word(std::string_view word, const std::vector<std::string>& candidates);
 
@@ -60,6 +65,9 @@ std::string nearest_word(std::string_view word, const std::vector<std::string>& 
 const ConfigTable& as_table(const ConfigValue& value, const std::string& name);
 const ConfigArray& as_array(const ConfigValue& value, const std::string& name);
 const std::string& as_string(const ConfigValue& value, const std::string& name);
+// A string that is a path: also throws for control characters, which "\n" in "data\new.tif"
+// becomes.
+const std::string& as_path(const ConfigValue& value, const std::string& name);
 double as_number(const ConfigValue& value, const std::string& name);
 std::int64_t as_integer(const ConfigValue& value, const std::string& name);
 bool as_bool(const ConfigValue& value, const std::string& name);

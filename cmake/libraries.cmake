@@ -21,6 +21,7 @@ pkg_check_modules(jxl REQUIRED IMPORTED_TARGET libjxl)
 pkg_check_modules(ocio REQUIRED IMPORTED_TARGET OpenColorIO)
 pkg_check_modules(lcms REQUIRED IMPORTED_TARGET lcms2)
 pkg_check_modules(pango REQUIRED IMPORTED_TARGET pangocairo fontconfig)
+pkg_check_modules(glib REQUIRED IMPORTED_TARGET glib-2.0) # below Pango; forms of letters
 pkg_check_modules(qpdf REQUIRED IMPORTED_TARGET libqpdf)
 pkg_check_modules(rsvg REQUIRED IMPORTED_TARGET librsvg-2.0 cairo-pdf)
 pkg_check_modules(lbfgs REQUIRED IMPORTED_TARGET liblbfgs)

@@ -8,6 +8,7 @@
 #include <new>
 
 #include "base/error.h"
+#include "base/text/missing_file.h"
 
 namespace belvedere {
 namespace {
@@ -52,9 +53,7 @@ std::string hash_bytes(std::string_view bytes) {
 }
 
 std::string hash_file(const std::string& path) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored))
-    throw Error(ErrorKind::input, path, "is a folder", "a file");
+  require_file(path, "a readable file");
   std::ifstream file(path, std::ios::binary);
   if (!file) throw Error(ErrorKind::input, path, "cannot open the file", "a readable file");
   ContentHash hash;

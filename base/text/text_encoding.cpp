@@ -1,9 +1,13 @@
 #include "base/text/text_encoding.h"
 
 #include <fmt/core.h>
+#include <glib.h>
 #include <iconv.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
+#include <filesystem>
 #include <memory>
 #include <type_traits>
 
@@ -25,7 +29,106 @@ Converter converter_from(const std::string& encoding, const std::string& path) {
   return Converter(converter);
 }
 
+std::string shell_word(const std::string& text) {
+  return text.find(' ') == std::string::npos ? text : "'" + text + "'";
+}
+
+std::string advice_to_convert(const std::string& encoding, const std::string& name,
+                              const std::string& or_else) {
+  std::filesystem::path to(name);
+  to.replace_filename(to.stem().string() + "_utf8" + to.extension().string());
+  return fmt::format("text saved as UTF-8, for instance by `iconv -f {} -t UTF-8 {} > {}`{}",
+                     encoding, shell_word(name), shell_word(to.string()),
+                     or_else.empty() ? "" : ", or " + or_else);
+}
+
+// "UTF-16LE" … by the byte order mark, or by where zero bytes lie: most letters of a scene or table
+// are ASCII, even in other scripts. Empty for other text.
+std::string wide_encoding(std::string_view text) {
+  using namespace std::string_view_literals;
+  if (text.starts_with("\xff\xfe\0\0"sv)) return "UTF-32LE";
+  if (text.starts_with("\0\0\xfe\xff"sv)) return "UTF-32BE";
+  if (text.starts_with("\xff\xfe"sv)) return "UTF-16LE";
+  if (text.starts_with("\xfe\xff"sv)) return "UTF-16BE";
+  const std::string_view head = text.substr(0, 4096);
+  std::array<std::size_t, 2> zeros{};
+  for (std::size_t i = 0; i < head.size(); ++i) zeros[i % 2] += head[i] == '\0' ? 1 : 0;
+  if (zeros[0] + zeros[1] <= head.size() / 8) return {};
+  if (zeros[0] == 0) return "UTF-16LE";
+  if (zeros[1] == 0) return "UTF-16BE";
+  return {};
+}
+
+// The letter of a byte in Windows-1252, in quotes; empty where it has none.
+std::string western_letter(char byte) {
+  try {
+    return "\"" + text_to_utf8({byte}, "WINDOWS-1252", "") + "\"";
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+// A name in the normal form of composed letters; empty if it is not UTF-8.
+std::string normalized(const std::string& name, GNormalizeMode form) {
+  const std::unique_ptr<char, void (*)(gpointer)> text(
+      g_utf8_normalize(name.data(), static_cast<gssize>(name.size()), form), g_free);
+  return text == nullptr ? std::string() : text.get();
+}
+
 }  // namespace
+
+void refuse_wide_text(std::string_view beginning, const std::string& name,
+                      const std::string& or_else) {
+  const std::string wide = wide_encoding(beginning);
+  if (wide.empty()) return;
+  const std::size_t zero = beginning.find('\0');
+  const bool marked = beginning.find_first_of("\xff\xfe") < 4;
+  throw Error(ErrorKind::usage, name + ":1:1",
+              marked ? fmt::format("the text is {}, as its byte order mark at byte 0 says", wide)
+                     : fmt::format("the text is {}: byte {} is zero, and so on", wide, zero),
+              advice_to_convert(wide, name, or_else));
+}
+
+std::string_view require_utf8(std::string_view text, const std::string& name,
+                              const std::string& or_else) {
+  refuse_wide_text(text, name, or_else);
+  const char* stop = nullptr;
+  if (g_utf8_validate_len(text.data(), text.size(), &stop) != 0) {
+    constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+    if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+    return text;
+  }
+  const auto at = static_cast<std::size_t>(stop - text.data());
+  const std::string_view before = text.substr(0, at);
+  const std::string_view line = before.substr(before.rfind('\n') + 1);  // npos + 1 is 0
+  const auto column = 1 + std::count_if(line.begin(), line.end(), [](char c) {
+                        return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
+                      });
+  const std::string where =
+      fmt::format("{}:{}:{}", name, 1 + std::count(before.begin(), before.end(), '\n'), column);
+  const auto byte = static_cast<unsigned char>(text[at]);
+  if (byte == 0)
+    throw Error(ErrorKind::usage, where, fmt::format("byte {} is zero: this is no text", at),
+                "a text file in UTF-8");
+  const std::string letter = western_letter(text[at]);
+  throw Error(ErrorKind::usage, where,
+              fmt::format("the text is not UTF-8: byte {} is 0x{:02X}{}", at, byte,
+                          letter.empty() ? "" : ", in Windows-1252 " + letter),
+              advice_to_convert("WINDOWS-1252", name, or_else));
+}
+
+std::string folded_letters(const std::string& name) {
+  const std::unique_ptr<char, void (*)(gpointer)> text(
+      g_utf8_casefold(normalized(name, G_NORMALIZE_NFC).c_str(), -1), g_free);
+  return normalized(text.get(), G_NORMALIZE_NFC);
+}
+
+bool same_letters(const std::string& a, const std::string& b) {
+  return a == b || (normalized(a, G_NORMALIZE_NFC) == normalized(b, G_NORMALIZE_NFC) &&
+                    !normalized(a, G_NORMALIZE_NFC).empty());
+}
+
+bool is_composed(const std::string& name) { return normalized(name, G_NORMALIZE_NFC) == name; }
 
 void check_text_encoding(const std::string& encoding, const std::string& path) {
   converter_from(encoding, path);

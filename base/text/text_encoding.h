@@ -1,8 +1,26 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace belvedere {
+
+// The text without a byte order mark. Error(usage) with the line, the column and the byte where it
+// is UTF-16, UTF-32 or of a code page, that is not UTF-8. `or_else`: what else is allowed, added to
+// the advice to convert it.
+std::string_view require_utf8(std::string_view text, const std::string& name,
+                              const std::string& or_else = {});
+// The part of it for UTF-16 and UTF-32, which needs only the beginning of a text.
+void refuse_wide_text(std::string_view beginning, const std::string& name,
+                      const std::string& or_else = {});
+
+// Letters of a file's name without what file systems treat differently: composed and decomposed
+// letters (é as one or two characters), upper and lower case. Empty if it is not UTF-8.
+std::string folded_letters(const std::string& name);
+// Whether both names have the same letters in the same case, composed or not.
+bool same_letters(const std::string& a, const std::string& b);
+// Whether letters with accents are one character each (NFC).
+bool is_composed(const std::string& name);
 
 // Error(usage) that names `path` for an encoding that is not known ("windows-1252", "ISO-8859-1"
 // and whatever else iconv knows).

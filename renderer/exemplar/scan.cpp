@@ -353,8 +353,9 @@ std::vector<ScannedPainting> read_scans(const LoadedScene& scene, Progress& prog
     if (paintings[i].picture.empty()) continue;
     if (find_scene_file(scene, paintings[i].picture).empty()) {
       // Missing files that are not optional were rejected before the work began.
-      progress.note(fmt::format("exemplar {} does not exist and is left out; get it from {}",
-                                paintings[i].picture, paintings[i].get_from));
+      progress.note(fmt::format("exemplar {} does not exist and is left out; get it from {}{}",
+                                paintings[i].picture, paintings[i].get_from,
+                                similar_scene_file_hint(scene, paintings[i].picture)));
       continue;
     }
     raws[i] = read_raw(paintings[i], scene, progress);

@@ -1,5 +1,6 @@
 // The one file that uses OpenColorIO.
 #include "renderer/image/display_conversion.h"
+#include "base/text/missing_file.h"
 
 #include <OpenColorIO/OpenColorIO.h>
 
@@ -107,8 +108,7 @@ ocio::ConstConfigRcPtr read_config_file(const std::string& name) {
     return own;
   }
   if (!std::filesystem::is_regular_file(name)) {
-    throw Error(ErrorKind::input, name, "this OpenColorIO config does not exist",
-                "an .ocio file, named by the scene or by $OCIO");
+    throw missing_file(name, "an OpenColorIO config (.ocio), named by the scene or by $OCIO");
   }
   return ocio::Config::CreateFromFile(name.c_str());
 }

@@ -10,6 +10,7 @@
 
 #include "base/memory_limit.h"
 #include "base/parallel.h"
+#include "base/text/missing_file.h"
 
 namespace belvedere {
 namespace {
@@ -48,6 +49,7 @@ std::string unescape(std::string_view text) {
 namespace image_io {
 
 std::string first_bytes(const std::string& path) {
+  require_file(path, "a picture");
   std::ifstream file(path, std::ios::binary);
   if (!file)
     throw Error(ErrorKind::input, path,

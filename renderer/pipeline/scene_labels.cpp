@@ -135,10 +135,10 @@ std::vector<VectorSource> sources_of(const LoadedScene& scene,
     if (!source.path.empty())
       sources.push_back(std::move(source));
     else if (file.optional)
-      progress.note(file.file + " is missing: its names are left out");
+      progress.note(file.file + " is missing: its names are left out" +
+                    similar_scene_file_hint(scene, file.file));
     else
-      throw Error(ErrorKind::input, file.file, "no such file",
-                  "a file beside the scene, or in a folder given with --data");
+      throw missing_scene_file(scene, file.file);
   }
   return sources;
 }

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/files/file_guard.h"
+#include "base/text/missing_file.h"
 #include "renderer/image/icc/press_colour.h"
 #include "renderer/image/image_io.h"
 
@@ -34,7 +35,7 @@ PressPicture picture_of(const std::string& file, const ImageInfo& info) {
 }  // namespace
 
 PressPicture find_press_picture(const std::string& path) {
-  if (!fs::exists(path)) throw Error(ErrorKind::input, path, "does not exist", allowed);
+  if (!fs::exists(path)) throw missing_file(path, allowed);
   if (!fs::is_directory(path)) return picture_of(path, read_image_info(path));
   for (const std::string& name :
        newest_results(path, {"panorama.tif", "panorama.jxl", "panorama.png"})) {

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "base/error.h"
+#include "base/text/missing_file.h"
 
 namespace belvedere {
 namespace {
@@ -27,9 +28,7 @@ cairo_status_t append(void* to, const unsigned char* bytes, unsigned int count) 
 }  // namespace
 
 std::string svg_as_pdf(const std::string& path, glm::dvec2 size_mm) {
-  if (!std::filesystem::is_regular_file(path))
-    throw Error(ErrorKind::input, path, "does not exist",
-                "an .svg file, as belvedere labels writes it");
+  require_file(path, "an .svg file, as belvedere labels writes it");
   GError* error = nullptr;
   const std::unique_ptr<RsvgHandle, void (*)(gpointer)> drawing(
       rsvg_handle_new_from_file(path.c_str(), &error), g_object_unref);

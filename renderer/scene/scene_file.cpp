@@ -128,6 +128,9 @@ class ValueReader {
   void operator()(std::string* field) const {
     const std::string* text = std::get_if<std::string>(&value_.value);
     if (text == nullptr) wrong(value_);
+    if (key_.text == TextKind::file || key_.text == TextKind::built_in)
+      if (const std::string misread = misread_path(*text); !misread.empty())
+        refuse(value_, key_name_ + ": " + misread, backslash_advice());
     if (std::any_of(text->begin(), text->end(), [](unsigned char c) {
           return (c < 0x20 && c != '\n' && c != '\t') || c == 0x7f;
         }))

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "base/error.h"
 #include "renderer/scene/scene.h"
 
 namespace belvedere {
@@ -52,9 +53,13 @@ std::vector<std::string> source_credits(const LoadedScene& scene);
 // Error(usage) where it leaves the allowed folders, also through a link; an empty string where it
 // does not exist.
 std::string find_scene_file(const LoadedScene& scene, const std::string& file);
-// The same for a name that may also be built in (palette, legend, rules): built-in names are
-// returned unchanged. folder: "palettes", "legends", "layers". Error(input) where the file does not
-// exist.
+// What exists nearly under its name where find_scene_file finds nothing, as similar_path_hint.
+std::string similar_scene_file_hint(const LoadedScene& scene, const std::string& file);
+// Error(input) for a file of the scene that does not exist.
+Error missing_scene_file(const LoadedScene& scene, const std::string& file);
+// As find_scene_file for a name that may also be built in (palette, legend, rules): built-in names
+// are returned unchanged. folder: "palettes", "legends", "layers". Error(input) where the file does
+// not exist.
 std::string find_named_file(const LoadedScene& scene, const std::string& folder,
                             const std::string& name_or_file);
 // Lists all files that the scene needs and that are missing, with origin and where to get them, in

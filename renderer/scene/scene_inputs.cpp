@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/files/file_guard.h"
 #include "base/text/embedded.h"
+#include "base/text/missing_file.h"
 #include "renderer/scene/scene_file.h"
 #include "renderer/scene/scene_schema.h"
 #include "terrain/io/http_access.h"
@@ -83,6 +84,18 @@ std::string find_scene_file(const LoadedScene& scene, const std::string& file) {
   return {};
 }
 
+std::string similar_scene_file_hint(const LoadedScene& scene, const std::string& file) {
+  for (const std::string& folder : scene.allowed_folders)
+    if (std::string hint = similar_path_hint((fs::path(folder) / file).string()); !hint.empty())
+      return hint;
+  return {};
+}
+
+Error missing_scene_file(const LoadedScene& scene, const std::string& file) {
+  return {ErrorKind::input, file, "file not found" + similar_scene_file_hint(scene, file),
+          "a file beside the scene file, or in a folder given with --data"};
+}
+
 std::string find_named_file(const LoadedScene& scene, const std::string& folder,
                             const std::string& name_or_file) {
   const std::vector<std::string> built_in = embedded_names(folder);
@@ -91,7 +104,9 @@ std::string find_named_file(const LoadedScene& scene, const std::string& folder,
     return name_or_file;
   std::string path = find_scene_file(scene, name_or_file);
   if (path.empty())
-    throw Error(ErrorKind::input, name_or_file, "no such file, and no built-in one of that name",
+    throw Error(ErrorKind::input, name_or_file,
+                "file not found, and there is no built-in one of that name" +
+                    similar_scene_file_hint(scene, name_or_file),
                 fmt::format("{}, or a file", fmt::join(built_in, ", ")));
   return path;
 }
@@ -158,7 +173,8 @@ void require_scene_files(const LoadedScene& scene) {
   for (const SceneInput& input : scene_inputs(scene)) {
     if (!input.path.empty() || input.optional) continue;
     ++missing;
-    list += fmt::format("\n  {} ({})", input.file, input.key);
+    list += fmt::format("\n  {} ({}){}", input.file, input.key,
+                        similar_scene_file_hint(scene, input.file));
     if (!input.origin.empty())
       list +=
           "\n"

@@ -8,6 +8,7 @@
 #include "base/config.h"
 #include "base/error.h"
 #include "base/text/json.h"
+#include "base/text/missing_file.h"
 #include "renderer/scene/scene_lock.h"
 
 namespace belvedere {
@@ -133,7 +134,7 @@ SceneLock parse_lock(const std::string& text, const std::string& name) {
 SceneLock read_lock(const std::string& path) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored))
-    throw Error(ErrorKind::input, path, "no such lock file", "a lock made by belvedere lock SCENE");
+    throw missing_file(path, "a lock made by belvedere lock SCENE");
   std::ostringstream text;
   text << std::ifstream(path, std::ios::binary).rdbuf();
   return parse_lock(text.str(), path);

@@ -71,10 +71,9 @@ FeatureSet read_scene_features(const LoadedScene& loaded, const std::string& crs
   if (!scene.any_features()) return {};
   for (const SceneFeatures& block : scene.features) {
     if (!block.enabled || !find_scene_file(loaded, block.source).empty()) continue;
-    if (!block.optional)
-      throw Error(ErrorKind::input, block.source, "no such file",
-                  "a file beside the scene or in a --data folder");
-    progress.note(fmt::format("{} is left out: no such file{}", block.source,
+    if (!block.optional) throw missing_scene_file(loaded, block.source);
+    progress.note(fmt::format("{} is left out: file not found{}{}", block.source,
+                              similar_scene_file_hint(loaded, block.source),
                               block.get_from.empty() ? "" : "; " + block.get_from));
   }
   FeatureSet set = read_feature_set(read_scene_feature_style(loaded), feature_sources(loaded), crs);

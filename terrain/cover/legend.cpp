@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/text/embedded.h"
 #include "base/text/letters.h"
+#include "base/text/missing_file.h"
 #include "terrain/cover/land_cover.h"
 #include "terrain/io/csv.h"
 
@@ -170,12 +171,13 @@ std::string find_beside(const std::string& file, const std::vector<std::string>&
     throw Error(ErrorKind::usage, where, fmt::format("\"{}\"", file),
                 "a file in the legend's folder or in a subfolder");
   }
-  std::string looked;
+  std::string looked, hint;
   for (const std::string& folder : folders) {
     const fs::path here = fs::path(folder.empty() ? "." : folder) / path;
     std::error_code ignored;
     if (!fs::is_regular_file(here, ignored)) {
       looked += (looked.empty() ? "" : ", ") + here.string();
+      if (hint.empty()) hint = similar_path_hint(here.string());
       continue;
     }
     // Links must not lead out either.
@@ -186,7 +188,7 @@ std::string find_beside(const std::string& file, const std::vector<std::string>&
                   fmt::format("\"{}\" leads out of {}", file, root.string()));
     return here.string();
   }
-  throw Error(ErrorKind::input, where, fmt::format("file not found: \"{}\"", file),
+  throw Error(ErrorKind::input, where, fmt::format("file not found: \"{}\"{}", file, hint),
               "a file in one of " + looked);
 }
 
@@ -196,7 +198,7 @@ void add_csv_rows(Legend& legend, const ConfigTable& root, const std::string& na
                   const std::vector<std::string>& folders) {
   const ConfigValue& file = *find(root, "csv");
   const CsvTable table =
-      read_csv(find_beside(as_string(file, name), folders, config_where(name, file.position)));
+      read_csv(find_beside(as_path(file, name), folders, config_where(name, file.position)));
   const auto column = [&](const char* key, int inferred) {
     const ConfigValue* value = find(root, key);
     return value == nullptr ? inferred

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "base/text/missing_file.h"
 #include "base/text/text_encoding.h"
 
 namespace belvedere {
@@ -109,11 +110,7 @@ int CsvTable::find_any(const std::vector<std::string_view>& names) const {
 }
 
 CsvTable parse_csv(std::string_view text, const std::string& name) {
-  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
-  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
-  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
-    throw Error(ErrorKind::usage, name, "is text in UTF-16",
-                "a file that is saved as UTF-8, or `encoding = \"UTF-16\"` in the scene");
+  text = require_utf8(text, name, "the key `encoding` of its block in the scene");
   CsvTable table;
   table.name = name;
   int line = 1;
@@ -145,8 +142,7 @@ CsvTable parse_csv(std::string_view text, const std::string& name) {
 CsvTable read_csv(const std::string& path, const std::string& encoding) {
   constexpr std::uintmax_t max_bytes = 16U << 20;
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored))
-    throw Error(ErrorKind::input, path, "file not found");
+  if (!std::filesystem::is_regular_file(path, ignored)) throw missing_file(path, "a .csv file");
   if (std::filesystem::file_size(path, ignored) > max_bytes)
     throw Error(ErrorKind::limit, path, "file too large", "at most 16 MiB");
   std::ifstream file(path, std::ios::binary);

@@ -64,6 +64,44 @@ TEST(Config, SyntaxErrorsNameThePlace) {
   EXPECT_THAT(usage_of([] { parse_config("a = 'open\n", "s.toml"); }), StartsWith("s.toml:1:"));
 }
 
+// A backslash in "…" begins an escape: what fails on it or contains what it stands for says so.
+TEST(Config, BackslashesInPathsAreExplained) {
+  for (const char* text : {R"(a = "C:\data\dem.tif")", R"(a = "C:\users")", R"(a = "C:\xfer")",
+                           "a = \"new\\\"\nb = 1\n", R"(a = """\d""")"}) {
+    const Error error = test::error_of([&] { parse_config(text, "s.toml"); });
+    EXPECT_EQ(error.where().substr(0, 9), "s.toml:1:") << text;
+    EXPECT_THAT(error.allowed(), HasSubstr("single quotation marks")) << text;
+  }
+  EXPECT_THAT(usage_of([] { parse_config("a = \"open\n", "s.toml"); }),
+              testing::Not(HasSubstr("single quotation")));
+  const ConfigValue root = parse_config("a = \"C:\\new\\tab.tif\"\nb = 'C:\\new'\n", "s.toml");
+  const ConfigTable& table = as_table(root, "s.toml");
+  const Error error = test::error_of([&] { as_path(*find(table, "a"), "s.toml"); });
+  EXPECT_EQ(error.where(), "s.toml:1:5");
+  EXPECT_EQ(error.found(), R"("C:\new\tab.tif" was read as C:, a line feed, ew, a tab, ab.tif)");
+  EXPECT_EQ(as_path(*find(table, "b"), "s.toml"), R"(C:\new)");
+  EXPECT_EQ(misread_path("\x01\x7f"), R"("\u0001\u007f" was read as a control character, )"
+                                      "a control character");
+}
+
+TEST(Config, TextIsUtf8WithOrWithoutAMark) {
+  EXPECT_EQ(as_table(parse_config("\xef\xbb\xbf"
+                                  "a = 1\r\nb = 2\r\n",
+                                  "s.toml"),
+                     "s.toml")
+                .size(),
+            2U);
+  EXPECT_THAT(usage_of([] { parse_config("a = 1\n# W\xf6rner\n", "s.toml"); }),
+              testing::AllOf(StartsWith("s.toml:2:4: "), HasSubstr("iconv")));
+  EXPECT_THAT(usage_of([] {
+                parse_config(std::string("\xff\xfe"
+                                         "a\0=\0",
+                                         6),
+                             "s.toml");
+              }),
+              HasSubstr("UTF-16LE"));
+}
+
 // Headers without a key trigger an assertion inside the library: reported like any other error.
 TEST(Config, BrokenHeadersAreSyntaxErrors) {
   for (const char* header : {"[=a]", "[[[a]]]", "[[ ]]", "[,]", "[\n", "[[\na]]"})

@@ -122,7 +122,8 @@ Action add_exemplar_paint(CommandOptions& command) {
   command
       .add_option("--plan", options->plan,
                   "A sheet.toml: paints that example sheet instead of the built-in one")
-      .type_name("FILE");
+      .type_name("FILE")
+      .files(FileUse::input);
   command.add_force(options->force);
   command
       .add_option("--tile", options->tile_size,

@@ -59,7 +59,8 @@ void add_generalize_options(CommandOptions& command, GeneralizeOptions& options)
   command
       .add_option("IN", options.in,
                   "The DEM: GeoTIFF, ESRI ASCII, HGT …; grid and coordinates are kept")
-      .required();
+      .required()
+      .files(FileUse::input);
   command.add_option("OUT", options.out, "The result, altitudes in metres: .tif or .asc")
       .required()
       .files(FileUse::writes, raster_files);
@@ -97,7 +98,8 @@ void add_generalize_options(CommandOptions& command, GeneralizeOptions& options)
   command
       .add_option("--mask", options.mask,
                   "Raster mask: 0 unchanged, 1 (or 255) generalized; any grid and coordinates")
-      .type_name("FILE");
+      .type_name("FILE")
+      .files(FileUse::input);
   command
       .add_option("--mask-slope", options.mask_slope,
                   "Degrees: ground flatter than the first is unchanged, steeper than the second is "

@@ -10,6 +10,8 @@
 
 #include "base/error.h"
 #include "base/files/file_guard.h"
+#include "base/text/missing_file.h"
+#include "terrain/io/http_access.h"
 
 namespace belvedere::tools {
 
@@ -85,6 +87,13 @@ std::vector<std::string> paths_in(const std::string& word) {
   return {word, word.substr(0, equals), word.substr(equals + 1)};
 }
 
+void require_input(const std::string& path, const std::string& option) {
+  std::error_code ignored;
+  if (is_address(path) || std::filesystem::exists(path, ignored)) return;
+  const Error missing = missing_file(path);
+  throw Error(missing.kind(), option, path + ": " + missing.found(), "an existing file");
+}
+
 // Of the command that was named: inputs first, so that results are compared with all of them.
 void declare_files(const CLI::App& app, const FileUses& uses) {
   const auto use_of = [&](const CLI::Option* option) {
@@ -94,9 +103,12 @@ void declare_files(const CLI::App& app, const FileUses& uses) {
   FileGuard& guard = file_guard();
   const std::vector<const CLI::Option*> options = app.get_options();
   for (const CLI::Option* option : options) {
-    if (use_of(option).use != FileUse::reads) continue;
-    for (const std::string& word : option->results())
+    const FileUse use = use_of(option).use;
+    if (use != FileUse::reads && use != FileUse::input) continue;
+    for (const std::string& word : option->results()) {
+      if (use == FileUse::input) require_input(word, option->get_name());
       for (const std::string& path : paths_in(word)) guard.reads(path, option->get_name());
+    }
   }
   const CLI::Option* force = app.get_option_no_throw("--force");
   const bool replace = force != nullptr && force->count() > 0;

@@ -40,6 +40,7 @@ concept OptionValue =
 // are inputs, unless it says otherwise; CommandLine::read() tells file_guard() of both.
 enum class FileUse {
   reads,   // files that are there are inputs
+  input,   // an input, which has to exist unless it is an address
   edits,   // a file that is read and saved: neither
   writes,  // a result, replaced if it is there
   page,    // an HTML page, which is replaced only if this program wrote it

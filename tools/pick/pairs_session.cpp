@@ -7,14 +7,15 @@
 
 #include "base/error.h"
 #include "base/files/output_file.h"
+#include "base/text/missing_file.h"
 
 namespace belvedere::tools {
 namespace {
 
 std::string read_text(const std::string& path) {
+  require_file(path, "a table of pairs");
   std::ifstream file(path, std::ios::binary);
-  if (!file || !std::filesystem::is_regular_file(path))
-    throw Error(ErrorKind::input, path, "cannot be read", "a table of pairs");
+  if (!file) throw Error(ErrorKind::input, path, "cannot be read", "a table of pairs");
   return {std::istreambuf_iterator<char>(file), {}};
 }
 

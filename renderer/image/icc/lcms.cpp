@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/text/missing_file.h"
 
 namespace belvedere::icc {
 namespace {
@@ -105,6 +106,7 @@ std::uint32_t colours_of(const Profile& profile) {
 }
 
 std::vector<std::uint8_t> read_profile_bytes(const std::string& path) {
+  require_file(path, "an ICC profile (.icc)");
   std::error_code code;
   const std::uintmax_t size = std::filesystem::file_size(path, code);
   if (code)

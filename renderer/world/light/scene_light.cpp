@@ -33,10 +33,9 @@ std::vector<std::vector<std::vector<glm::dvec2>>> areas_of(const LoadedScene& lo
   VectorSource source = given.source;
   source.path = find_scene_file(loaded, given.file);
   if (source.path.empty()) {
-    if (!given.optional)
-      throw Error(ErrorKind::input, given.file, "no such file",
-                  "a file beside the scene or in a --data folder");
-    progress.note(fmt::format("{} is left out: {} is missing{}", key, given.file,
+    if (!given.optional) throw missing_scene_file(loaded, given.file);
+    progress.note(fmt::format("{} is left out: {} is missing{}{}", key, given.file,
+                              similar_scene_file_hint(loaded, given.file),
                               given.get_from.empty() ? "" : "; " + given.get_from));
     return {};
   }

@@ -104,13 +104,17 @@ bool is_at_zero(const MapFeature& feature) {
   return true;
 }
 
-// Transforms the positions of many features at once; drops features with a position that cannot be
-// transformed or outside the box.
-void bring_over(std::vector<MapFeature>&& features, const PointTransform& transform,
-                const std::optional<MapBox>& box, MapFeatures& all) {
+Row positions_of(const std::vector<MapFeature>& features) {
   Row positions;
   for (const MapFeature& feature : features)
     for (const Row& row : feature.parts) positions.insert(positions.end(), row.begin(), row.end());
+  return positions;
+}
+
+// Transforms the positions of many features at once; drops features with a position that cannot be
+// transformed or outside the box.
+void bring_over(std::vector<MapFeature>&& features, Row positions, const PointTransform& transform,
+                const std::optional<MapBox>& box, MapFeatures& all) {
   transform.apply(positions);
   std::size_t next = 0;
   for (MapFeature& feature : features) {
@@ -220,6 +224,7 @@ class Reader {
     std::vector<int> columns;
     std::vector<MapFeature> found = {};
     std::size_t positions = 0;
+    std::string crs = {};  // of the layer
     std::optional<PointTransform> transform =
         {};  // made for the first feature: a layer without features needs no CRS
   };
@@ -275,13 +280,16 @@ class Reader {
   void bring(OGRLayerH layer, Pending& pending) {
     if (pending.found.empty()) return;
     if (!pending.transform) {
-      const std::string own_crs = layer_crs(layer, source_);
-      if (own_crs.empty())
+      pending.crs = layer_crs(layer, source_);
+      if (pending.crs.empty())
         throw Error(ErrorKind::input, path_, "its layer has no CRS", missing_crs_advice);
-      pending.transform.emplace(own_crs, crs_);
+      pending.transform.emplace(pending.crs, crs_);
     }
     const std::size_t before = all_.features.size();
-    bring_over(std::move(pending.found), *pending.transform, query_.box, all_);
+    Row positions = positions_of(pending.found);
+    require_degrees(positions, pending.crs, crs_, source_, pending.found.front().where);
+    bring_over(std::move(pending.found), std::move(positions), *pending.transform, query_.box,
+               all_);
     pending.found.clear();
     pending.positions = 0;
     for (std::size_t i = before; i < all_.features.size(); ++i)
@@ -309,8 +317,8 @@ MapFeatures read_map_features(const VectorSource& source, const MapQuery& query,
   if (crs.empty())
     throw Error(ErrorKind::usage, path, "the terrain has no CRS", "terrain with a CRS");
   const Dataset file = open_vector_layers(
-      source, {".gpx", ".gpkg", ".geojson", ".json", ".shp", ".fgb", ".osm", ".pbf"},
-      "not a vector file", ".gpkg, .geojson, .json, .shp, .fgb, .gpx, .osm or .pbf");
+      source, {".gpx", ".gpkg", ".geojson", ".shp", ".fgb", ".osm", ".pbf"}, "not a vector file",
+      ".gpkg, .geojson, .json, .geojsonl, .ndjson, .shp, .fgb, .gpx, .osm or .pbf");
   return Reader(source, query, crs).read(file.get());
 }
 

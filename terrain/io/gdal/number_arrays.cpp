@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/memory_limit.h"
+#include "base/text/missing_file.h"
 #include "terrain/io/gdal/gdal_files.h"
 
 namespace belvedere {
@@ -66,8 +67,7 @@ NumberArray read_array(GDALMDArrayH array, const std::string& path, const std::s
 std::vector<std::optional<NumberArray>> read_number_arrays(const std::string& path,
                                                            const std::vector<std::string>& names) {
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored))
-    throw Error(ErrorKind::input, path, "file not found");
+  if (!std::filesystem::is_regular_file(path, ignored)) throw missing_file(path, "a netCDF file");
   register_gdal();
   const GdalErrors errors;
   // Only the intended driver: a harmless-looking file must not make GDAL open others.

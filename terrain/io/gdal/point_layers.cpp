@@ -57,8 +57,8 @@ glm::dvec2 position_of(OGRFeatureH feature, const std::string& where) {
 PointTable read_point_layer(const VectorSource& source, const std::string& crs) {
   const std::string& path = source.path;
   const Dataset file =
-      open_vector_layers(source, {".gpkg", ".geojson", ".json", ".shp", ".fgb"},
-                         "not a point table", ".csv, .gpkg, .geojson, .json, .shp or .fgb");
+      open_vector_layers(source, {".gpkg", ".geojson", ".shp", ".fgb"}, "not a point table",
+                         ".csv, .gpkg, .geojson, .json, .geojsonl, .ndjson, .shp or .fgb");
   OGRLayerH layer = choose_layer(file.get(), path);
   const std::string own_crs = layer_crs(layer, source);
   if (own_crs.empty() != crs.empty())
@@ -89,6 +89,8 @@ PointTable read_point_layer(const VectorSource& source, const std::string& crs) 
   }
   if (errors.failed())
     throw Error(ErrorKind::input, path, errors.say("cannot read the whole file"));
+  if (!positions.empty())
+    require_degrees(positions, own_crs, crs, source, table.points.front().where);
   if (!crs.empty()) PointTransform(own_crs, crs).apply(positions);
   for (std::size_t i = 0; i < positions.size(); ++i) {
     if (!std::isfinite(positions[i].x))

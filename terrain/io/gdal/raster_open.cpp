@@ -15,6 +15,7 @@
 #include "base/error.h"
 #include "base/text/archive_kind.h"
 #include "base/text/letters.h"
+#include "base/text/missing_file.h"
 #include "terrain/io/http_access.h"
 #include "terrain/io/raster_parts.h"
 #include "terrain/io/stream_file.h"
@@ -154,8 +155,7 @@ Dataset open_checked(const std::string& path, int nesting) {
   if (is_address(path)) return open_address(path);
   if (is_stream(path)) return open_stream(path);
   std::error_code ignored;
-  if (!fs::is_regular_file(path, ignored))
-    throw Error(ErrorKind::input, path, "file not found", driver_names);
+  if (!fs::is_regular_file(path, ignored)) throw missing_file(path, driver_names);
   make_strict();
   if (lower_extension(path) == ".vrt") check_vrt(path, nesting);
   const CPLStringList allowed = allowed_for(path);

@@ -2,17 +2,20 @@
 
 #include <cpl_conv.h>
 #include <cpl_string.h>
-#include <fmt/core.h>
+#include <fmt/ranges.h>
 #include <gdal.h>
 #include <ogr_srs_api.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
+#include <fstream>
 
 #include "base/error.h"
 #include "base/text/archive_kind.h"
 #include "base/text/letters.h"
+#include "base/text/missing_file.h"
 #include "base/text/text_encoding.h"
 #include "terrain/io/crs.h"
 
@@ -23,15 +26,88 @@ namespace fs = std::filesystem;
 
 struct VectorFormat {
   std::string_view extension;
-  const char* driver;
+  const char* driver;  // of a GeoJSON, whatever its extension: also that of one object a line
 };
-constexpr std::array formats = {
-    VectorFormat{".gpkg", "GPKG"},      VectorFormat{".geojson", "GeoJSON"},
-    VectorFormat{".json", "GeoJSON"},   VectorFormat{".shp", "ESRI Shapefile"},
-    VectorFormat{".fgb", "FlatGeobuf"}, VectorFormat{".gpx", "GPX"},
-    VectorFormat{".osm", "OSM"},        VectorFormat{".pbf", "OSM"}};
+constexpr std::string_view json_driver = "GeoJSON";
+constexpr std::array formats = {VectorFormat{".gpkg", "GPKG"},
+                                VectorFormat{".geojson", "GeoJSON"},
+                                VectorFormat{".json", "GeoJSON"},
+                                VectorFormat{".geojsonl", "GeoJSON"},
+                                VectorFormat{".geojsons", "GeoJSON"},
+                                VectorFormat{".ndjson", "GeoJSON"},
+                                VectorFormat{".shp", "ESRI Shapefile"},
+                                VectorFormat{".fgb", "FlatGeobuf"},
+                                VectorFormat{".gpx", "GPX"},
+                                VectorFormat{".osm", "OSM"},
+                                VectorFormat{".pbf", "OSM"}};
+
+// The first bytes decide: the rest is checked where texts are read.
+std::string first_bytes_of(const std::string& path, std::size_t bytes) {
+  std::string text(bytes, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  return text;
+}
+
+// What is said of a text file whose letters are not UTF-8: line, column and byte, if it is short
+// enough to be read once more.
+void require_utf8_file(const std::string& path) {
+  constexpr std::size_t max_bytes = std::size_t{256} << 20;
+  std::error_code ignored;
+  if (fs::file_size(path, ignored) > max_bytes) return;
+  require_utf8(first_bytes_of(path, max_bytes), path);
+}
+
+constexpr const char* allowed_geojson =
+    "one GeoJSON object, or one a line, as `jq -c '.features[]? // .' FILE > FILE.geojsonl` writes "
+    "several";
+
+// Systems that positions may be in: of the terrain, and Web Mercator, where they then lie near its
+// area.
+std::vector<std::string> likely_systems(glm::dvec2 position, const std::string& crs) {
+  constexpr double web_mercator_m = 20037508.35;  // half of the equator
+  std::vector<std::string> found;
+  if (crs.empty() || crs_traits(crs).geographic) return found;
+  if (doubt_of_place(crs, position).empty()) found.push_back(describe_crs(crs));
+  if (std::abs(position.x) > web_mercator_m || std::abs(position.y) > web_mercator_m) return found;
+  const glm::dvec2 there = PointTransform("EPSG:3857", crs).apply(position);
+  if (std::isfinite(there.x) && std::isfinite(there.y) && doubt_of_place(crs, there).empty() &&
+      found != std::vector<std::string>{"EPSG:3857"})
+    found.emplace_back("EPSG:3857");
+  return found;
+}
 
 }  // namespace
+
+void require_degrees(const std::vector<glm::dvec2>& positions, const std::string& own_crs,
+                     const std::string& crs, const VectorSource& source, const std::string& where) {
+  if (own_crs.empty() || !crs_traits(own_crs).geographic) return;
+  const auto too_large = [](glm::dvec2 at) {
+    constexpr double full_turn = 360.0;
+    return std::abs(at.x) > full_turn || std::abs(at.y) > full_turn;
+  };
+  const auto first = std::find_if(positions.begin(), positions.end(), too_large);
+  const auto count = std::count_if(first, positions.end(), too_large);
+  if (2 * count <= static_cast<std::ptrdiff_t>(positions.size())) return;
+  const std::vector<std::string> likely = likely_systems(*first, crs);
+  const std::string system = likely.empty() ? "EPSG:3857" : likely.front();
+  const std::string file = fs::path(source.path).filename().string();
+  throw Error(
+      ErrorKind::input, where,
+      fmt::format(
+          "these are metres, not degrees: ({:.10g}, {:.10g}) is no longitude and latitude, "
+          "and the file {}{}",
+          first->x, first->y,
+          lower_extension(file).find("json") == std::string::npos
+              ? "says " + describe_crs(own_crs)
+              : "names no other coordinate system",
+          likely.empty() ? "" : fmt::format("; they may be in {}", fmt::join(likely, " or "))),
+      fmt::format("the file's coordinate system: its key `crs` in the scene, for instance crs = "
+                  "\"{}\", or a file in degrees, made by `ogr2ogr -s_srs {} -t_srs EPSG:4326 "
+                  "degrees.geojson {}`",
+                  system, system, file));
+}
 
 Dataset open_vector_layers(const VectorSource& source,
                            const std::vector<std::string_view>& extensions,
@@ -41,17 +117,26 @@ Dataset open_vector_layers(const VectorSource& source,
   const char* driver = nullptr;
   for (const VectorFormat& format : formats)
     if (extension == format.extension &&
-        std::find(extensions.begin(), extensions.end(), format.extension) != extensions.end())
+        std::find(extensions.begin(), extensions.end(),
+                  format.driver == json_driver ? ".geojson" : format.extension) != extensions.end())
       driver = format.driver;
   std::error_code ignored;
   const bool exists = fs::is_regular_file(path, ignored);
   if (const std::string archive = exists ? archive_kind(path) : ""; !archive.empty())
     throw Error(ErrorKind::input, path, "is " + archive, unpack_advice);
   if (driver == nullptr) throw Error(ErrorKind::usage, path, found, allowed);
-  if (!exists) throw Error(ErrorKind::input, path, "file not found");
+  if (!exists) throw missing_file(path, allowed);
   register_gdal();
   const GdalErrors errors;
-  const char* const drivers[] = {driver, nullptr};
+  const bool json = driver == json_driver;
+  const char* const drivers[] = {driver, json ? "GeoJSONSeq" : nullptr, nullptr};
+  // GDAL would read only the first of several lines behind a byte order mark.
+  std::string address = path;
+  if (json) {
+    const std::string head = first_bytes_of(path, 4096);
+    refuse_wide_text(head, path);
+    if (head.starts_with("\xef\xbb\xbf")) address = "/vsisubfile/3," + path;
+  }
   CPLStringList options;
   if (!source.encoding.empty()) {
     check_text_encoding(source.encoding, path);
@@ -62,10 +147,12 @@ Dataset open_vector_layers(const VectorSource& source,
                   "`encoding` for .shp and .csv files only");
     options.SetNameValue("ENCODING", source.encoding.c_str());
   }
-  Dataset file(GDALOpenEx(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
-                          drivers, options.List(), nullptr));
+  Dataset file(GDALOpenEx(address.c_str(),
+                          GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, drivers,
+                          options.List(), nullptr));
   if (file == nullptr)
-    throw Error(ErrorKind::input, path, errors.say(fmt::format("not a readable {} file", driver)));
+    throw Error(ErrorKind::input, path, errors.say(fmt::format("not a readable {} file", driver)),
+                json ? allowed_geojson : "");
   return file;
 }
 
@@ -73,13 +160,18 @@ std::string field_text(OGRFeatureH feature, int column, const std::string& path,
                        const std::string& where) {
   if (column < 0 || OGR_F_IsFieldSetAndNotNull(feature, column) == 0) return {};
   std::string text = OGR_F_GetFieldAsString(feature, column);
-  if (CPLIsUTF8(text.c_str(), -1) != 0 || lower_extension(path) != ".shp") return text;
+  if (CPLIsUTF8(text.c_str(), -1) != 0) return text;
+  const bool shapefile = lower_extension(path) == ".shp";
+  if (lower_extension(path).find("json") != std::string::npos) require_utf8_file(path);
+  const std::string name = OGR_Fld_GetNameRef(OGR_F_GetFieldDefnRef(feature, column));
   throw Error(ErrorKind::input, where,
-              fmt::format("{} is not UTF-8, and the shapefile does not name its encoding",
-                          OGR_Fld_GetNameRef(OGR_F_GetFieldDefnRef(feature, column))),
-              fmt::format("its key `encoding` in the scene, or a text file {}.cpg beside it, with "
-                          "the name of the encoding, such as ISO-8859-1 or windows-1251",
-                          fs::path(path).stem().string()));
+              shapefile ? name + " is not UTF-8, and the shapefile does not name its encoding"
+                        : name + " is not UTF-8",
+              shapefile ? fmt::format("its key `encoding` in the scene, or a text file {}.cpg "
+                                      "beside it, with the name of the encoding, such as "
+                                      "ISO-8859-1 or windows-1251",
+                                      fs::path(path).stem().string())
+                        : "a file whose texts are saved as UTF-8");
 }
 
 std::string layer_crs(OGRLayerH layer, const VectorSource& source) {

@@ -30,5 +30,59 @@ TEST(TextEncoding, UnknownNamesAndWrongBytesAreRefused) {
   EXPECT_THAT(wrong.what(), HasSubstr("byte 3"));
 }
 
+TEST(TextEncoding, Utf8IsReturnedWithoutItsByteOrderMark) {
+  EXPECT_EQ(require_utf8("\xef\xbb\xbf"
+                         "a = \"ö\"\r\n",
+                         "a.toml"),
+            "a = \"ö\"\r\n");
+  EXPECT_EQ(require_utf8("", "a.toml"), "");
+  EXPECT_EQ(require_utf8("𐍈", "a.toml"), "𐍈");
+}
+
+// The position of the first byte that is wrong; columns count letters.
+TEST(TextEncoding, AByteOfACodePageIsNamedWithItsPosition) {
+  const Error error =
+      error_of([] { require_utf8("a = 1\nb = \"Öf\xf6\"\n", "my scene.toml", "its key"); });
+  EXPECT_EQ(error.kind(), ErrorKind::usage);
+  EXPECT_EQ(error.where(), "my scene.toml:2:8");
+  EXPECT_THAT(error.found(), HasSubstr("byte 14 is 0xF6, in Windows-1252 \"ö\""));
+  EXPECT_THAT(error.allowed(),
+              HasSubstr("iconv -f WINDOWS-1252 -t UTF-8 'my scene.toml' > 'my scene_utf8.toml'"));
+  EXPECT_THAT(error.allowed(), HasSubstr("or its key"));
+  // Windows-1252 has no letter 0x81; a text that ends within a letter; half of a surrogate pair.
+  EXPECT_THAT(error_of([] { require_utf8("\x81", "a.csv"); }).found(), HasSubstr("is 0x81"));
+  EXPECT_EQ(error_of([] { require_utf8("ab\xc3", "a.csv"); }).where(), "a.csv:1:3");
+  EXPECT_EQ(error_of([] { require_utf8("\xed\xa0\x80", "a.csv"); }).where(), "a.csv:1:1");
+  EXPECT_THAT(error_of([] {
+                require_utf8({"a = 1\n\n\n\n\0x", 11}, "a.csv");
+              }).found(),
+              HasSubstr("byte 9 is zero"));
+}
+
+TEST(TextEncoding, WideTextIsNamedWithAndWithoutItsMark) {
+  for (const char* encoding : {"UTF-16LE", "UTF-16BE", "UTF-32LE", "UTF-32BE"}) {
+    const bool wide = std::string(encoding).starts_with("UTF-32");
+    const bool little = std::string(encoding).ends_with("LE");
+    const std::size_t size = wide ? 4 : 2;
+    std::string text;
+    for (const char c : std::string("a = 1 # and more text, ASCII\n")) {
+      std::string unit(size, '\0');
+      unit[little ? 0 : size - 1] = c;
+      text += unit;
+    }
+    const std::string mark = little ? std::string("\xff\xfe\0\0", size)
+                                    : std::string("\0\0\xfe\xff", 4).substr(4 - size);
+    const Error marked = error_of([&] { require_utf8(mark + text, "a.toml"); });
+    EXPECT_THAT(marked.what(), HasSubstr(encoding));
+    EXPECT_THAT(marked.what(), HasSubstr("byte order mark"));
+    EXPECT_THAT(marked.what(), HasSubstr(std::string("iconv -f ") + encoding));
+    EXPECT_EQ(marked.where(), "a.toml:1:1");
+    if (wide) continue;  // without a mark it is no text
+    const Error bare = error_of([&] { require_utf8(text, "a.toml"); });
+    EXPECT_THAT(bare.what(), HasSubstr(encoding));
+    EXPECT_THAT(bare.what(), HasSubstr(little ? "byte 1 is zero" : "byte 0 is zero"));
+  }
+}
+
 }  // namespace
 }  // namespace belvedere

@@ -36,7 +36,7 @@ TEST(PressPicture, SaysWhatItCannotTake) {
   };
   EXPECT_THAT(refused(folder / "panorama.tif"), HasSubstr("CMYK"));
   EXPECT_THAT(refused(folder / "panorama.exr"), HasSubstr("linear light"));
-  EXPECT_THAT(refused(folder / "absent.png"), HasSubstr("does not exist"));
+  EXPECT_THAT(refused(folder / "absent.png"), HasSubstr("file not found"));
   EXPECT_THAT(refused(folder.path()), HasSubstr("has no panorama"));
 }
 

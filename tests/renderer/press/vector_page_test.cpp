@@ -29,7 +29,7 @@ TEST(VectorPage, SaysWhatIsNoSvg) {
     return test::message_of(ErrorKind::input, [&] { svg_as_pdf(file, {100, 100}); });
   };
   EXPECT_THAT(refused(folder.write("a.svg", "no drawing")), HasSubstr("cannot be read as SVG"));
-  EXPECT_THAT(refused(folder / "absent.svg"), HasSubstr("does not exist"));
+  EXPECT_THAT(refused(folder / "absent.svg"), HasSubstr("file not found"));
 }
 
 }  // namespace

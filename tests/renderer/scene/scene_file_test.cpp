@@ -139,6 +139,13 @@ TEST(SceneFile, WrongTypesSayWhatIsAllowed) {
   EXPECT_THAT(refused("[synthesis]\nfallback = { shrub = \"shrub\" }\n"),
               HasSubstr("another class"));
   EXPECT_THAT(refused("title = \"a\\u0007b\"\n"), HasSubstr("control characters"));
+  EXPECT_THAT(
+      refused("[[terrain.sources]]\nfile = \"C:\\new.tif\"\n"),
+      AllOf(StartsWith("s.toml:3:8: "),
+            HasSubstr("terrain.sources.0.file: \"C:\\new.tif\" was read as C:, a line feed, "
+                      "ew.tif"),
+            HasSubstr("single quotation marks")));
+  EXPECT_THAT(refused("palette = \"my\\towns.toml\"\n"), HasSubstr("a tab"));
 }
 
 // Every number of the table, at both its ends and beyond: nan, inf, negative sizes, a width of 10⁹.

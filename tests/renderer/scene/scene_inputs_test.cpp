@@ -111,6 +111,27 @@ optional = true
   EXPECT_NO_THROW(require_scene_files(load("[[terrain.sources]]\nfile = \"alps/dem.tif\"\n")));
 }
 
+// A name that is nearly that of an existing file: another case, or letters stored otherwise. Never
+// read as if it were meant.
+TEST_F(SceneFolders, MissingFilesNameWhatIsNearlyCalledSo) {
+  root_.write("data/alps/Zu\u0308rich.tif", "x");
+  const LoadedScene scene = load(
+      "palette = \"Mine.toml\"\n[[terrain.sources]]\nfile = \"Alps/DEM.tif\"\n"
+      "[[terrain.sources]]\nfile = \"alps/Z\u00fcrich.tif\"\n");
+  EXPECT_EQ(find_scene_file(scene, "Alps/DEM.tif"), "");
+  EXPECT_THAT(
+      message_of(ErrorKind::input, [&] { require_scene_files(scene); }),
+      AllOf(HasSubstr("Alps/DEM.tif (terrain.sources.0.file); there is \"" +
+                      path("data/alps/dem.tif")),
+            HasSubstr("(terrain.sources.1.file); there is a file whose name looks the same"),
+            HasSubstr("NFD")));
+  root_.write("scenes/mine.toml", "x");
+  EXPECT_THAT(
+      message_of(ErrorKind::input, [&] { find_named_file(scene, "palettes", "Mine.toml"); }),
+      HasSubstr("mine.toml\": upper and lower case differ"));
+  EXPECT_THAT(missing_scene_file(scene, "alps/Dem.tif").found(), HasSubstr("alps/dem.tif"));
+}
+
 TEST_F(SceneFolders, CreditsAreSaidOnceAndWithTheirLicence) {
   const LoadedScene scene = load(
       "[[terrain.sources]]\nfile = \"alps/dem.tif\"\norigin = \"Tyrol survey\"\nlicence = \"CC0\"\n"

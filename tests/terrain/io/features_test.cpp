@@ -225,6 +225,76 @@ TEST_F(MapFeatureFiles, OpenStreetMapsBinaryFormatHoldsTheSame) {
   }
 }
 
+// One object a line, as GDAL's GeoJSONSeq, with separators (RFC 8142) or without, whatever the
+// extension; the same features as of one collection.
+TEST_F(MapFeatureFiles, GeoJsonMayHaveOneFeatureALine) {
+  const std::string a =
+      R"({"type":"Feature","properties":{"name":"A"},"geometry":{"type":"Point","coordinates":[11,47]}})";
+  const std::string b =
+      R"({"type":"Feature","properties":{"name":"Ö"},"geometry":{"type":"LineString","coordinates":[[11,47],[12,47]]}})";
+  const std::string whole = R"({"type":"FeatureCollection","features":[)" + a + "," + b + "]}";
+  for (const auto& [name, text] : std::vector<std::pair<std::string, std::string>>{
+           {"a.geojson", whole},
+           {"b.geojson", a + "\n" + b + "\n"},
+           {"c.geojsonl", a + "\r\n" + b},
+           {"d.ndjson", "\n" + a + "\n\n" + b + "\n"},
+           {"e.geojsons", "\x1e" + a + "\n\x1e" + b + "\n"},
+           {"f.json", "\xef\xbb\xbf" + a + "\n" + b + "\n"},
+           {"g.geojson", "\xef\xbb\xbf" + whole}}) {
+    const MapFeatures read = read_map_features(write_text(name, text), {.columns = {"name"}}, utm_);
+    ASSERT_EQ(read.features.size(), 2U) << name;
+    EXPECT_THAT(read.features[0].values, ElementsAre("A")) << name;
+    EXPECT_THAT(read.features[1].values, ElementsAre("Ö")) << name;
+  }
+  const auto refused = [&](const std::string& name, const std::string& text,
+                           ErrorKind kind = ErrorKind::input) {
+    const std::string file = write_text(name, text);
+    return message_of(kind, [&] { read_map_features(file, {.columns = {"name"}}, utm_); });
+  };
+  EXPECT_THAT(refused("h.geojsonl", a + "\n" + b.substr(0, 60) + "\n" + a + "\n"),
+              HasSubstr("JSON parsing error"));
+  EXPECT_THAT(refused("i.geojson", whole + "\n" + whole + "\n"), HasSubstr("jq -c"));
+  // Texts of other encodings.
+  EXPECT_THAT(refused("j.geojson",
+                      whole.substr(0, whole.find("Ö")) + "\xd6" + whole.substr(whole.find("Ö") + 2),
+                      ErrorKind::usage),
+              AllOf(HasSubstr("j.geojson:1:"), HasSubstr("0xD6"), HasSubstr("WINDOWS-1252")));
+  std::string wide = "\xff\xfe";
+  for (const char c : a) wide += {c, '\0'};
+  EXPECT_THAT(refused("k.geojson", wide, ErrorKind::usage), HasSubstr("UTF-16LE"));
+}
+
+// Metres in a GeoJSON that names no system. Which system they may be in follows from the terrain's.
+TEST_F(MapFeatureFiles, MetresReadAsDegreesAreRefused) {
+  const auto refused = [&](const std::string& positions, const std::string& crs = "EPSG:32632") {
+    const std::string file = write_text(
+        "m.geojson", R"({"type":"Feature","properties":{},"geometry":{"type":"LineString",)"
+                     R"("coordinates":[)" +
+                         positions + "]}}");
+    return message_of(ErrorKind::input, [&] { read_map_features(file, {}, normalize_crs(crs)); });
+  };
+  const std::string mercator = "[1278000,5990000],[1279000,5991000]";
+  EXPECT_THAT(
+      refused(mercator),
+      AllOf(HasSubstr("these are metres, not degrees: (1278000, 5990000) is no longitude"),
+            HasSubstr("they may be in EPSG:3857"), HasSubstr("-s_srs EPSG:3857 -t_srs EPSG:4326")));
+  EXPECT_THAT(refused(mercator, "EPSG:4326"), HasSubstr("(1278000, 5990000)"));
+  EXPECT_THAT(refused("[685000,5252000],[685100,5252000]"), HasSubstr("EPSG:32632"));
+  EXPECT_THAT(refused("[2600000,1200000],[2600000,1200100]", "EPSG:2056"),
+              AllOf(HasSubstr("they may be in EPSG:2056\n"), HasSubstr("crs = \"EPSG:2056\"")));
+  // The key `crs` of the scene says it.
+  VectorSource source = path("m.geojson");
+  source.crs = "EPSG:2056";
+  EXPECT_EQ(read_map_features(source, {}, utm_).features.size(), 1U);
+  // Single wrong positions leave the others.
+  write_text("n.geojson", R"({"type":"GeometryCollection","geometries":[)"
+                          R"({"type":"LineString","coordinates":[[11,47],[12,47],[12,48]]},)"
+                          R"({"type":"LineString","coordinates":[[11,47],[1279000,5991000]]}]})");
+  const MapFeatures read = read_map_features(path("n.geojson"), {}, utm_);
+  EXPECT_EQ(read.features.size(), 1U);
+  EXPECT_EQ(read.unplaceable, 1U);
+}
+
 TEST_F(MapFeatureFiles, WhatIsWrongIsSaid) {
   const auto message = [&](ErrorKind kind, const std::string& file, const MapQuery& query) {
     return message_of(kind, [&] { read_map_features(file, query, utm_); });

@@ -133,6 +133,10 @@ TEST_F(Points, RefuseWhatGivesNoPlace) {
               HasSubstr("no point layer"));
   EXPECT_THAT(message_of(ErrorKind::input, [&] { read_points(path("none.gpkg"), utm_); }),
               HasSubstr("file not found"));
+  EXPECT_THAT(refused("a.geojson", R"({"type": "Point", "coordinates": [1273000, 6020000]})",
+                      ErrorKind::input),
+              AllOf(HasSubstr("a.geojson, feature 0: these are metres, not degrees"),
+                    HasSubstr("EPSG:3857")));
   const std::string degrees = write_text("b.csv", "lon,lat\n11,47\n");
   EXPECT_THAT(message_of(ErrorKind::usage, [&] { read_points(degrees, ""); }),
               HasSubstr("terrain has no CRS"));

@@ -63,7 +63,6 @@ std::string next_command(const PickOptions& options) {
 }
 
 int run_pick(const PickOptions& options) {
-  check_dems_exist(options);
   file_guard().writes(options.pairs, "--pairs");
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
@@ -97,7 +96,8 @@ Action add_exemplar_pick(CommandOptions& command) {
   command
       .add_option("--names", options->names,
                   "Names of summits and other places: a .csv, GeoPackage, GeoJSON … as for labels")
-      .type_name("FILE");
+      .type_name("FILE")
+      .files(FileUse::input);
   add_page_options(command, options->page);
   command.footer(
       "Opens a page with the painting beside a relief map. A click on a summit in one and a click\n"

@@ -157,7 +157,6 @@ RegisteredPainting register_painting(const RegisterCommand& options, Progress& p
 }
 
 int run(const RegisterCommand& options) {
-  check_dems_exist(options);
   const auto in_folder = [&](const char* name) { return (fs::path(options.out) / name).string(); };
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
@@ -198,6 +197,7 @@ Action add_exemplar_register(CommandOptions& command) {
       command, *options,
       "Places that are recognized in it: a .csv with columns x_px, y_px, lon, lat, name "
       "and optionally sure");
+  command.option("--pairs").files(FileUse::input);
   command
       .add_option(
           "--out", options->out,

@@ -151,7 +151,8 @@ Action add_exemplar_segment(CommandOptions& command) {
   const auto options = std::make_shared<SegmentOptions>();
   command.add_option("PAINTING", options->painting, "A painting or a scan: PNG, TIFF or JPEG")
       .required()
-      .type_name("PICTURE");
+      .type_name("PICTURE")
+      .files(FileUse::input);
   command
       .add_option("--out", options->out,
                   "The mask: a .png whose numbers are classes, for `classes` of an [[exemplar]]")
@@ -183,7 +184,8 @@ Action add_exemplar_segment(CommandOptions& command) {
       .add_option("--compare", options->compare,
                   "A mask drawn by hand, in flat colours or numbers: reports how well the groups "
                   "agree with it")
-      .type_name("MASK");
+      .type_name("MASK")
+      .files(FileUse::input);
   add_run_options(command, *options);
   command.footer(
       "Finds groups of similar paint in a painting, to be merged and named by a person who "

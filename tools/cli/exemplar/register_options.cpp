@@ -10,10 +10,12 @@ void add_register_options(CommandOptions& command, RegisterOptions& options,
                           const std::string& pairs) {
   command.add_option("PAINTING", options.painting, "A painted panorama or its scan")
       .required()
-      .type_name("PICTURE");
+      .type_name("PICTURE")
+      .files(FileUse::input);
   command.add_option("DEM", options.dems, "Elevation of the region that it shows")
       .required()
-      .type_name("DEM");
+      .type_name("DEM")
+      .files(FileUse::input);
   command.add_option("--pairs", options.pairs, pairs).required().type_name("PAIRS");
   command
       .add_option("--sigma", options.sigma_px,
@@ -57,11 +59,6 @@ RegistrationParameters registration_parameters(const RegisterOptions& options) {
     std::erase_if(out.view.kinds,
                   [&](ViewKind kind) { return view_kind_name(kind) != options.projection; });
   return out;
-}
-
-void check_dems_exist(const RegisterOptions& options) {
-  for (const std::string& file : options.dems)
-    if (!std::filesystem::exists(file)) throw Error(ErrorKind::input, file, "no such file");
 }
 
 }  // namespace belvedere::tools

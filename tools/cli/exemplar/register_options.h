@@ -25,7 +25,5 @@ void add_register_options(CommandOptions& command, RegisterOptions& options,
 
 DemParameters dem_parameters(const RegisterOptions& options);
 RegistrationParameters registration_parameters(const RegisterOptions& options);
-// Error(input) for an elevation file that is not there.
-void check_dems_exist(const RegisterOptions& options);
 
 }  // namespace belvedere::tools

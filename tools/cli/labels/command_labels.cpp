@@ -120,17 +120,20 @@ Action add_labels(CommandOptions& command) {
       .add_option("--points", options->points,
                   "Points with names, instead of those of the scene's [labels]: .csv, .gpkg, "
                   ".geojson, .shp, .fgb, .gpx or .osm; may be repeated")
-      .type_name("FILE");
+      .type_name("FILE")
+      .files(FileUse::input);
   command
       .add_option("--tracks", options->tracks,
                   "Tracks to draw, with a profile each: .gpx, .gpkg, .geojson, .shp or .fgb; may "
                   "be repeated")
-      .type_name("FILE");
+      .type_name("FILE")
+      .files(FileUse::input);
   command
       .add_option("--shapes", options->shapes,
                   "Lines and areas whose names are curved along them, valleys and lakes: .gpkg, "
                   ".geojson, .shp or .fgb; may be repeated")
-      .type_name("FILE");
+      .type_name("FILE")
+      .files(FileUse::input);
   command
       .add_option("--style", options->style,
                   "Style of the names: classic, or a .toml file. Default: the scene's")
@@ -150,7 +153,8 @@ Action add_labels(CommandOptions& command) {
   command
       .add_option("--under", options->under,
                   "A picture of the scene that labels.svg shows beneath the names")
-      .type_name("FILE");
+      .type_name("FILE")
+      .files(FileUse::input);
   command.add_option("--out", options->out, "Folder for the results; created if missing")
       .required()
       .type_name("DIR")

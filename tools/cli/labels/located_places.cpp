@@ -14,8 +14,8 @@ namespace belvedere::tools {
 namespace {
 
 bool names_a_file(const std::string& text) {
-  constexpr std::array extensions = {".csv", ".gpkg", ".geojson", ".json", ".shp",
-                                     ".fgb", ".gpx",  ".osm",     ".pbf"};
+  constexpr std::array extensions = {".csv", ".gpkg", ".geojson", ".json", ".geojsonl", ".ndjson",
+                                     ".shp", ".fgb",  ".gpx",     ".osm",  ".pbf"};
   return std::find(extensions.begin(), extensions.end(), lower_extension(text)) != extensions.end();
 }
 
@@ -56,7 +56,7 @@ LocateQuestions sort_questions(const std::vector<std::string>& asked) {
     } catch (const Error& error) {
       throw Error(ErrorKind::usage, "--locate", '"' + text + '"',
                   "E,N: two numbers separated by a comma; or a file of points: .csv, .gpkg, "
-                  ".geojson, .json, .shp, .fgb, .gpx, .osm or .pbf");
+                  ".geojson, .json, .geojsonl, .ndjson, .shp, .fgb, .gpx, .osm or .pbf");
     }
     questions.positions.push_back(text);
   }

@@ -157,11 +157,13 @@ Action add_layers_apply(CommandOptions& command) {
   const auto options = std::make_shared<LayersApplyOptions>();
   command.add_option("LAYERS", options->layers, "The layers: a .toml file (docs/layers.md)")
       .required()
-      .type_name("FILE");
+      .type_name("FILE")
+      .files(FileUse::input);
   command
       .add_option("--dem", options->dem, "The ground: a DEM; the results have its cells, in metres")
       .required()
-      .type_name("FILE");
+      .type_name("FILE")
+      .files(FileUse::input);
   add_elevation_options(command, options->elevation);
   command
       .add_option(

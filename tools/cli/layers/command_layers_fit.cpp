@@ -11,6 +11,7 @@
 #include "base/text/json.h"
 #include "terrain/climate/stations.h"
 #include "terrain/cover/ground_variables.h"
+#include "terrain/cover/land_cover.h"
 #include "terrain/cover/layer_inputs.h"
 #include "terrain/layers/fit/ground_fit.h"
 #include "terrain/layers/layers_file.h"
@@ -54,6 +55,7 @@ void check_options(const LayersFitOptions& options) {
     refuse("--functions", "histograms are functions of a product", "--model product");
   if (!options.out.ends_with(".toml"))
     refuse(options.out, "is not the name of a layers file", "NAME.layers.toml");
+  if (!options.from.legend.empty()) read_legend(options.from.legend);  // refuses what is none
 }
 
 std::vector<std::string> inputs_of(const LayersFitOptions& options, const Dem& dem) {
@@ -192,16 +194,19 @@ int run(const LayersFitOptions& options) {
 
 Action add_layers_fit(CommandOptions& command) {
   const auto options = std::make_shared<LayersFitOptions>();
-  command.add_option("--dem", options->from.dem, "The ground: a DEM").required().type_name("FILE");
+  command.add_option("--dem", options->from.dem, "The ground: a DEM").required().type_name("FILE")
+      .files(FileUse::input);
   add_elevation_options(command, options->from.elevation);
   command
       .add_option("--image", options->from.image,
                   "A satellite image of it: a GeoTIFF (the DEM is resampled to its cells), or PNG "
                   "or JPEG with one pixel per cell of the DEM")
-      .type_name("FILE");
+      .type_name("FILE")
+      .files(FileUse::input);
   command
       .add_option("--classes", options->from.classes, "Instead of a picture: a land-cover raster")
-      .type_name("FILE");
+      .type_name("FILE")
+      .files(FileUse::input);
   command
       .add_option("--legend", options->from.legend,
                   "Meaning of its codes: a legend's name or file (docs/legends.md)")
@@ -216,12 +221,14 @@ Action add_layers_fit(CommandOptions& command) {
   command
       .add_option("--mask", options->from.mask,
                   "Mask: cells above 0 are not learned from (fields, towns)")
-      .type_name("FILE");
+      .type_name("FILE")
+      .files(FileUse::input);
   command
       .add_option("--regions", options->from.regions,
                   "Which colours of the picture form one class, drawn by hand: a .toml file "
                   "(docs/layers_fit.md)")
-      .type_name("FILE");
+      .type_name("FILE")
+      .files(FileUse::input);
   command
       .add_option("--functions", options->functions,
                   "How functions are found: fitted by likelihood (the default), or histogram, as "

@@ -77,8 +77,10 @@ Action add_layers_picture(CommandOptions& command) {
   LayerPictureParameters& picture = options->picture;
   command.add_option("LAYERS", options->layers, "The layers: a .toml file (docs/layers.md)")
       .required()
-      .type_name("FILE");
-  command.add_option("--dem", options->dem, "The ground: a DEM").required().type_name("FILE");
+      .type_name("FILE")
+      .files(FileUse::input);
+  command.add_option("--dem", options->dem, "The ground: a DEM").required().type_name("FILE")
+      .files(FileUse::input);
   add_elevation_options(command, options->elevation);
   command.add_option("--out", options->out, "The picture: a GeoTIFF of three bands")
       .required()

@@ -30,25 +30,30 @@ void add_ground_climate(CommandOptions& command, GroundClimateOptions& options) 
       .add_option("--stations", options.stations,
                   "Weather stations, for temperature and rain: CSV, points or netCDF "
                   "(docs/climate.md). Default: the climate of the place")
-      .type_name("FILE");
+      .type_name("FILE")
+      .files(FileUse::input);
   command
       .add_option(
           "--temperature", options.files.temperature,
           "Alternative: annual mean temperature, °C, a raster of one band; 12 bands: monthly means")
-      .type_name("FILE");
+      .type_name("FILE")
+      .files(FileUse::input);
   command
       .add_option("--rain", options.files.rain,
                   "Alternative: annual precipitation, mm, a raster of one band; 12 bands: monthly")
-      .type_name("FILE");
+      .type_name("FILE")
+      .files(FileUse::input);
   command
       .add_option(
           "--radiation", options.files.radiation,
           "Potential direct radiation of the year, instead of the computed one, MJ/m²: a raster")
-      .type_name("FILE");
+      .type_name("FILE")
+      .files(FileUse::input);
   command
       .add_option("--sky-view", options.files.sky_view,
                   "Sky view factor, 0 … 1, instead of the computed one: a raster")
-      .type_name("FILE");
+      .type_name("FILE")
+      .files(FileUse::input);
   command
       .add_option("--latitude", options.latitude_deg,
                   "Latitude, for a DEM without a coordinate system whose sun or climate is "

@@ -141,11 +141,12 @@ struct Region {
 
 Region read_region(const NewOptions& options, const SheetFormat& format, SceneFileNames& names,
                    const Cache& cache, Progress& progress) {
+  check_files(options);
   ProposedScene about;
   about.title = options.title.empty()
                     ? title_of(options.dems.empty() ? options.out : options.dems.front())
                     : options.title;
-  about.style = options.style.ends_with(".toml") ? names.name(options.style) : options.style;
+  about.style = find_style(options, names);
   about.width_px = format.width_px;
   about.sheet_width_mm = format.sheet_width_mm;
   const DemParameters dem = find_elevation(options, names, cache, progress, about);

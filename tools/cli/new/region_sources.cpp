@@ -9,6 +9,9 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/text/missing_file.h"
+#include "renderer/style/style_file.h"
+#include "terrain/cover/land_cover.h"
 #include "terrain/io/crs.h"
 #include "terrain/io/http_access.h"
 #include "terrain/io/raster_io.h"
@@ -24,10 +27,10 @@ fs::path find_file(const NewOptions& options, const std::string& file) {
   if (is_address(file) || fs::exists(file, ignored)) return file;
   for (const std::string& folder : options.common.files.data_folders)
     if (fs::exists(fs::path(folder) / file, ignored)) return fs::path(folder) / file;
-  throw Error(
-      ErrorKind::input, file, "no such file",
-      options.common.files.data_folders.empty() ? "" : "a local file, here or in a --data folder");
+  throw missing_file(file, "a local file, here or in a --data folder");
 }
+
+bool is_style_file(const std::string& style) { return style.ends_with(".toml"); }
 
 std::optional<std::string> inside(const fs::path& folder, const fs::path& file) {
   std::error_code problem;
@@ -127,6 +130,23 @@ std::string SceneFileNames::name(const std::string& path) {
 std::string SceneFileNames::keep(const std::string& folder, const std::string& name) {
   if (std::find(data_.begin(), data_.end(), folder) == data_.end()) data_.push_back(folder);
   return name;
+}
+
+void check_files(const NewOptions& options) {
+  for (const std::string& file : options.dems) find_file(options, file);
+  const std::string& style = options.style;
+  if (!style.empty()) read_style(is_style_file(style) ? find_file(options, style).string() : style);
+  const NewOptions::Cover& cover = options.cover;
+  if (cover.file.empty()) return;
+  find_file(options, cover.file);
+  read_legend(fs::path(cover.legend).has_extension() ? find_file(options, cover.legend).string()
+                                                     : cover.legend,
+              options.common.files.data_folders);
+}
+
+std::string find_style(const NewOptions& options, SceneFileNames& names) {
+  const std::string& style = options.style;
+  return is_style_file(style) ? names.name(find_file(options, style)) : style;
 }
 
 DemParameters find_elevation(const NewOptions& options, SceneFileNames& names, const Cache& cache,

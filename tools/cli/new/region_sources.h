@@ -31,6 +31,13 @@ class SceneFileNames {
   std::vector<std::string> data_;
 };
 
+// Checks before any work that the files that options name exist, and that style and legend are
+// such.
+void check_files(const NewOptions& options);
+
+// Path of the style file that the scene names, or its built-in name.
+std::string find_style(const NewOptions& options, SceneFileNames& names);
+
 // The elevation of the region: the files of the command line or, with --at, what is fetched for it,
 // with its land cover. `about` receives the scene's keys for them. Throws Error(input) for files
 // that do not exist or are not georeferenced, and the errors of fetch_area.

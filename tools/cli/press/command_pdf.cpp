@@ -82,7 +82,8 @@ std::function<int()> add_pdf(CommandOptions& command) {
   command
       .add_option("--labels", pdf.labels,
                   "An SVG over the whole picture, as belvedere labels writes it: stays vectors")
-      .type_name("FILE");
+      .type_name("FILE")
+      .files(FileUse::input);
   command
       .add_option("--bleed", pdf.pages.bleed_mm, "Bleed: the edge of the picture that is cut away")
       .type_name("MM")

@@ -6,7 +6,8 @@ namespace belvedere::tools {
 void add_press_options(CommandOptions& command, PressOptions& options, bool conversion) {
   command.add_option("--profile", options.profile, "ICC profile of the printing press, CMYK")
       .required()
-      .type_name("FILE");
+      .type_name("FILE")
+      .files(FileUse::input);
   if (!conversion) return;
   command
       .add_option("--intent", options.intent,

@@ -111,12 +111,14 @@ Action add_style_fit(CommandOptions& command) {
       .add_option("PAINTING", options->painting,
                   "Scan of a landscape painting: PNG, TIFF or JPEG, at least 500 pixels wide")
       .required()
-      .type_name("PICTURE");
+      .type_name("PICTURE")
+      .files(FileUse::input);
   command
       .add_option("--classes", options->classes,
                   "Mask of class numbers (see `exemplar segment`), 200 for distant ranges in haze "
                   "colour, 255 for unused pixels. Default: inferred classes")
-      .type_name("MASK");
+      .type_name("MASK")
+      .files(FileUse::input);
   command.add_option("--out", options->out, "Style file to write: .toml, about 20 kB")
       .required()
       .type_name("STYLE")

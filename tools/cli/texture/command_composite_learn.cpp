@@ -197,14 +197,16 @@ Action add_composite_learn(CommandOptions& command) {
       .add_option("CROP", options->crop,
                   "A painting, or a part of one, that shows several textures")
       .required()
-      .type_name("PICTURE");
+      .type_name("PICTURE")
+      .files(FileUse::input);
   command
       .add_option("--labels", options->labels,
                   "Label image of its size in 2 to 16 flat colours, or of grey numbers; number 255 "
                   "is left out.\n"
                   "Each colour is one texture, 48 pixels per side or more")
       .required()
-      .type_name("PICTURE");
+      .type_name("PICTURE")
+      .files(FileUse::input);
   command.add_option("--out", options->out, "The model: a text file of about 15 KB")
       .required()
       .type_name("COMPOSITE")

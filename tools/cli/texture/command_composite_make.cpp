@@ -119,7 +119,8 @@ Action add_composite_make(CommandOptions& command) {
   const auto options = std::make_shared<CompositeMakeOptions>();
   command.add_option("COMPOSITE", options->model, "A model written by `belvedere composite learn`")
       .required()
-      .type_name("COMPOSITE");
+      .type_name("COMPOSITE")
+      .files(FileUse::input);
   command.add_option("--out", options->out, "The picture: .png or .tif")
       .required()
       .type_name("PICTURE")
@@ -133,7 +134,8 @@ Action add_composite_make(CommandOptions& command) {
   command
       .add_option("--labels", options->labels,
                   "Instead: a label map, drawn in the colours (or numbers) of the crop's labels")
-      .type_name("PICTURE");
+      .type_name("PICTURE")
+      .files(FileUse::input);
   command
       .add_option("--window", options->window,
                   "Only this part of the map: column, row, width and height. Windows fit together "

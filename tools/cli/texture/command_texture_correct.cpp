@@ -114,10 +114,12 @@ Action add_texture_correct(CommandOptions& command) {
   const auto options = std::make_shared<TextureCorrectOptions>();
   command.add_option("SOURCE", options->source, "The picture to correct: PNG, TIFF or JPEG")
       .required()
-      .type_name("PICTURE");
+      .type_name("PICTURE")
+      .files(FileUse::input);
   command.add_option("--to", options->target, "The picture whose colours it takes")
       .required()
-      .type_name("PICTURE");
+      .type_name("PICTURE")
+      .files(FileUse::input);
   command.add_option("--out", options->out, "The corrected picture: .png or .tif")
       .required()
       .type_name("PICTURE")

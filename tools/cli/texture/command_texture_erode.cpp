@@ -125,7 +125,8 @@ Action add_texture_erode(CommandOptions& command) {
   const auto options = std::make_shared<TextureErodeOptions>();
   command.add_option("MASK", options->mask, "A grey picture: pixels other than 0 are eroded")
       .required()
-      .type_name("PICTURE");
+      .type_name("PICTURE")
+      .files(FileUse::input);
   command.add_option("--out", options->out, "Folder of the series: MASK_01.png, MASK_02.png …")
       .required()
       .type_name("FOLDER")

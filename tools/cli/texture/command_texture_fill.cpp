@@ -105,17 +105,20 @@ Action add_texture_fill(CommandOptions& command) {
   const auto options = std::make_shared<TextureFillOptions>();
   command.add_option("PICTURE", options->picture, "A painting or a scan")
       .required()
-      .type_name("PICTURE");
+      .type_name("PICTURE")
+      .files(FileUse::input);
   command
       .add_option("--hole", options->hole,
                   "Mask of the pixels to fill: a grey picture of its size, 0 is kept")
       .required()
-      .type_name("PICTURE");
+      .type_name("PICTURE")
+      .files(FileUse::input);
   command
       .add_option("--model", options->model,
                   "Model of the fill, written by `belvedere texture learn`")
       .required()
-      .type_name("MODEL");
+      .type_name("MODEL")
+      .files(FileUse::input);
   command.add_option("--out", options->out, "The picture: .png or .tif")
       .required()
       .type_name("PICTURE")

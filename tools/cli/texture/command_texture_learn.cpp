@@ -191,7 +191,8 @@ Action add_texture_learn(CommandOptions& command) {
       .add_option("CROP", options->crop,
                   "A piece of a painting that shows one texture, 48 pixels per side or more")
       .required()
-      .type_name("PICTURE");
+      .type_name("PICTURE")
+      .files(FileUse::input);
   command.add_option("--out", options->out, "The model: a text file of about 1.5 KB")
       .required()
       .type_name("MODEL")
@@ -199,7 +200,8 @@ Action add_texture_learn(CommandOptions& command) {
   command
       .add_option("--mask", options->mask,
                   "Mask of the texture in the crop: a grey picture of its size, 0 is left out")
-      .type_name("PICTURE");
+      .type_name("PICTURE")
+      .files(FileUse::input);
   command
       .add_option("--types", options->learn.types,
                   "Maximum number of statistics in the model, 16 to 200. Default: 40")

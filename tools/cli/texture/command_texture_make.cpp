@@ -93,7 +93,8 @@ Action add_texture_make(CommandOptions& command) {
   const auto options = std::make_shared<TextureMakeOptions>();
   command.add_option("MODEL", options->model, "A model written by `belvedere texture learn`")
       .required()
-      .type_name("MODEL");
+      .type_name("MODEL")
+      .files(FileUse::input);
   command.add_option("--out", options->out, "The picture: .png or .tif")
       .required()
       .type_name("PICTURE")

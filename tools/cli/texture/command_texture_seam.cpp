@@ -139,7 +139,8 @@ Action add_texture_seam(CommandOptions& command) {
       .add_option("PICTURE", options->pictures,
                   "Two or more pictures of one height, from left to right")
       .required()
-      .type_name("PICTURE");
+      .type_name("PICTURE")
+      .files(FileUse::input);
   command.add_option("--out", options->out, "The picture: .png or .tif")
       .required()
       .type_name("PICTURE")

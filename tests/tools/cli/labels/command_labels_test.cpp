@@ -64,6 +64,7 @@ sheet_width_mm = 400
 };
 
 TEST_F(LabelsCommand, NamesWhatIsSeenAndSaysWhatHidesTheRest) {
+  write("panorama.png", "");
   const Outcome outcome = name({"--points", path("points.csv"), "--under", path("panorama.png")});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.out,
