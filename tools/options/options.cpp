@@ -11,7 +11,6 @@
 #include "base/error.h"
 #include "base/files/file_guard.h"
 #include "base/text/missing_file.h"
-#include "terrain/io/http_access.h"
 
 namespace belvedere::tools {
 
@@ -89,7 +88,7 @@ std::vector<std::string> paths_in(const std::string& word) {
 
 void require_input(const std::string& path, const std::string& option) {
   std::error_code ignored;
-  if (is_address(path) || std::filesystem::exists(path, ignored)) return;
+  if (path.find("://") != std::string::npos || std::filesystem::exists(path, ignored)) return;
   const Error missing = missing_file(path);
   throw Error(missing.kind(), option, path + ": " + missing.found(), "an existing file");
 }
