@@ -64,7 +64,7 @@ std::vector<SceneSection> make_generalize_sections() {
             .range = {0, largest_m},
             .unit = "m",
             .meaning = "From this distance only the background's weights apply. Between the two "
-                       "they blend linearly, rounded over an eighth at both ends.",
+                       "they blend linearly, rounded over an eighth inside both ends.",
             .derived = "0.95 times the distance of the horizon"},
            {.name = "print_detail_px",
             .field = AT(generalize.print_detail_px),
