@@ -14,6 +14,7 @@
 #include "terrain/generalize/generalize_band.h"
 #include "terrain/generalize/generalize_crests.h"
 #include "terrain/generalize/generalize_lakes.h"
+#include "terrain/generalize/mask.h"
 
 namespace belvedere {
 namespace {
@@ -129,8 +130,10 @@ Grid<float> generalize(const Grid<float>& altitude_m, glm::dvec2 cell_m,
   const float crest = skipped < crest_bands ? parameters.crest : 0.F;
   const int reductions =
       crest > 0.F ? std::min(std::max(weights, crest_bands - skipped), possible) : bands;
-  const bool has_lakes =
-      std::any_of(grids.keep.begin(), grids.keep.end(), [](unsigned char k) { return k != 0; });
+  const Grid<unsigned char> kept =
+      grids.mask.empty() ? Grid<unsigned char>() : unchanged_cells(grids.keep, grids.mask);
+  const Grid<unsigned char>& keep = grids.mask.empty() ? grids.keep : kept;
+  const bool keeps = std::any_of(keep.begin(), keep.end(), [](unsigned char k) { return k != 0; });
   progress.begin("generalize", 2.0 * reductions + 1.0);
 
   std::vector<Grid<float>> levels_m;  // [i] is level i + 1: level 0 is the caller's
@@ -138,8 +141,8 @@ Grid<float> generalize(const Grid<float>& altitude_m, glm::dvec2 cell_m,
     levels_m.push_back(reduce(i == 0 ? altitude_m : levels_m.back()));
     progress.advance(1.0);
   }
-  Levels mask = has_lakes ? Levels(grids.mask, without_lakes(grids.mask, grids.keep), bands)
-                          : Levels(grids.mask, bands);
+  Levels mask = keeps ? Levels(grids.mask, without_lakes(grids.mask, keep), bands)
+                      : Levels(grids.mask, bands);
   Levels share(grids.foreground_share, bands);
   Levels amplify(grids.amplification_mask, bands);
 
@@ -150,7 +153,7 @@ Grid<float> generalize(const Grid<float>& altitude_m, glm::dvec2 cell_m,
     band.coarser = &levels_m[static_cast<std::size_t>(i)];
     band.coarser_change = &change;
     band.share = share.at(i);
-    band.keep = i == 0 && has_lakes ? &grids.keep : nullptr;
+    band.keep = i == 0 && keeps ? &keep : nullptr;
     band.mask = mask.at(i);
     band.amplify = amplify.at(i);
     band.pixel_ground = grids.pixel_ground.m_per_pixel.empty() ? nullptr : &grids.pixel_ground;
@@ -171,7 +174,8 @@ Grid<float> generalize(const Grid<float>& altitude_m, glm::dvec2 cell_m,
   }
   levels_m = {};
   if (change.empty()) return altitude_m;
-  if (has_lakes) settle_around_lakes(change, grids.keep);
+  settle_around_kept(change, grids.keep, shore_fade_cells);
+  settle_around_kept(change, unchanged_cells({}, grids.mask), mask_fade_cells);
   parallel_rows(change.height(), [&](int y) {
     const float* a = altitude_m.row(y);
     float* out = change.row(y);

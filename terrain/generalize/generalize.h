@@ -73,10 +73,10 @@ struct GeneralizeGrids {
 // |curvature| · cell / full_curvature, at most 1, then blurred, then raised to the exponent. All
 // grids reach the coarser bands through the Gaussian pyramid. cell_m: width and height of a cell on
 // the ground.
-// Cells of `keep` keep their altitude exactly. To avoid a step at their shore or a plateau above a
-// lowered valley, each band's weight returns to 1 towards them as by a mask, the remaining change
-// of the lake is also subtracted from the land around it, fading over 32 cells, and the rest fades
-// over the last six cells.
+// Cells of `keep`, and those in which the mask is 0, keep their altitude exactly. To avoid a step at
+// their shore or a plateau above a lowered valley, each band's weight returns to 1 towards them as
+// by a mask, the remaining change of the lake is also subtracted from the land around it, fading
+// over 32 cells, and the rest fades over the last six cells, 16 beside a mask's zeros.
 // Needs 7 bytes per cell besides the DEM and these grids, 4 of them for the result. A DEM too small
 // for all bands omits the coarsest. If all weights are 1 or the mask is 0 the input is returned bit
 // for bit. Throws Error(usage) if sets of weights differ in number, Error(bug) if grids differ in

@@ -236,5 +236,36 @@ TEST_F(ViewedGround, TheShareFallsWithDistanceWithoutAJump) {
   EXPECT_NEAR(centre, 0.5, 0.02);
 }
 
+// Operators of every kind leave the ground where the scene's mask is 0.
+TEST_F(ViewedGround, WhereTheMaskIsZeroNothingChangesWhateverActs) {
+  // A valley that falls to the south.
+  for (int y = 0; y < 200; ++y)
+    for (int x = 0; x < 160; ++x) ground_.cells(x, y) += 12.F * static_cast<float>(std::abs(x - 80)) + 2.F * static_cast<float>(200 - y);
+  write_raster(folder_ / "dem.tif", ground_);
+  Raster<float> mask = ground_;
+  for (int y = 0; y < 200; ++y)
+    for (int x = 0; x < 160; ++x) mask.cells(x, y) = y < 90 ? 0.F : 1.F;
+  write_raster(folder_ / "mask.tif", mask);
+  for (const char* what :
+       {"line_integral = true\n", "widen_valleys_m = 600\n",
+        "foreground = [1.5, 2, 0]\n",
+        "line_integral = true\nwiden_valleys_m = 600\nforeground = [1.5, 2, 0]\n"}) {
+    SCOPED_TRACE(what);
+    const std::string settings = std::string("keep_lakes = false\n") + what;
+    const Grid<float> all = seen(scene(settings));
+    const Grid<float> out = seen(scene(settings + "mask = \"mask.tif\"\n"));
+    double changed = 0.0;
+    for (int y = 0; y < 200; ++y)
+      for (int x = 0; x < 160; ++x) {
+        if (y < 90) {
+          ASSERT_EQ(out(x, y), ground_.cells(x, y)) << x << ' ' << y;
+        }
+        changed = std::max(changed, static_cast<double>(std::abs(all(x, y) - ground_.cells(x, y))));
+      }
+    EXPECT_GT(changed, 20.0);
+    EXPECT_LT(std::abs(out(80, 190) - all(80, 190)), 1.F);
+  }
+}
+
 }  // namespace
 }  // namespace belvedere

@@ -109,6 +109,24 @@ TEST(GeneralizeCurvature, MaskZeroReturnsTheOriginalBitForBit) {
   EXPECT_EQ(run(terrain, p, masked(Grid<float>(101, 77, 1.F))), run(terrain, p));
 }
 
+// Coarse bands reach past the edge of a mask; its zeros keep their bits all the same.
+TEST(GeneralizeCurvature, ZerosOfAMaskKeepTheirBits) {
+  const Grid<float> terrain = alpine(257, 130);
+  GeneralizeParameters p = everywhere({1.6F, 2.F, 1.5F, .5F, 0.F}, {0.F, .5F, .5F, .5F, .5F});
+  p.crest = 1.F;
+  Grid<float> hard(257, 130);
+  for (int y = 0; y < 130; ++y) std::fill_n(hard.row(y), 128, 1.F);
+  for (const Grid<float>& mask : {hard, soften_mask(hard)}) {
+    const Grid<float> out = run(terrain, p, masked(mask));
+    for (std::size_t i = 0; i < out.size(); ++i)
+      if (mask[i] == 0.F) {
+        ASSERT_EQ(out[i], terrain[i]) << i;
+      }
+    const Grid<float> all = run(terrain, p);
+    for (int y = 0; y < 130; ++y) EXPECT_NEAR(out(10, y), all(10, y), 0.5) << y;
+  }
+}
+
 TEST(GeneralizeCurvature, HalfMaskLeavesNoSeam) {
   // A crest along the mask's edge: there the change is large, and constant across the edge except
   // for a seam.
