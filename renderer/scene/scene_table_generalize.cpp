@@ -53,6 +53,11 @@ std::vector<SceneSection> make_generalize_sections() {
             .field = AT(generalize.bands.background_valleys),
             .range = {-5, 5},
             .meaning = "The same along valley lines."},
+           {.name = "base",
+            .field = AT(generalize.bands.base),
+            .range = {0, 5},
+            .meaning = "Weight of what is larger than all bands, near and far: 1.2 raises the land "
+                       "as a whole by a fifth of its altitude, 0.8 lowers it."},
            {.name = "foreground_to_m",
             .field = AT(generalize.foreground_to_m),
             .range = {0, largest_m},

@@ -236,7 +236,7 @@ TEST_F(ViewedGround, TheShareFallsWithDistanceWithoutAJump) {
   EXPECT_NEAR(centre, 0.5, 0.02);
 }
 
-// Operators of every kind leave the ground where the scene's mask is 0.
+// Operators of every kind leave the ground where the scene's mask is 0, and the base reaches it.
 TEST_F(ViewedGround, WhereTheMaskIsZeroNothingChangesWhateverActs) {
   // A valley that falls to the south.
   for (int y = 0; y < 200; ++y)
@@ -247,7 +247,7 @@ TEST_F(ViewedGround, WhereTheMaskIsZeroNothingChangesWhateverActs) {
     for (int x = 0; x < 160; ++x) mask.cells(x, y) = y < 90 ? 0.F : 1.F;
   write_raster(folder_ / "mask.tif", mask);
   for (const char* what :
-       {"line_integral = true\n", "widen_valleys_m = 600\n",
+       {"line_integral = true\n", "widen_valleys_m = 600\n", "base = 1.2\n",
         "foreground = [1.5, 2, 0]\n",
         "line_integral = true\nwiden_valleys_m = 600\nforeground = [1.5, 2, 0]\n"}) {
     SCOPED_TRACE(what);

@@ -251,6 +251,7 @@ TEST_F(GeneralizeCommand, WhereTheMaskIsZeroNothingChangesWhateverActs) {
   for (const std::vector<std::string>& what :
        {std::vector<std::string>{"--global", "1,1", "--line-integral"},
         {"--global", "1,1", "--widen-valleys", "600"},
+        {"--global", "1,1", "--base", "1.2"},
         {"--global", "1.5,2,0", "--line-integral", "--widen-valleys", "600"}}) {
     SCOPED_TRACE(testing::PrintToString(what));
     std::vector<std::string> arguments = {path("in.tif"), path("out.tif"), "--mask",
