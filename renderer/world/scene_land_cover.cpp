@@ -308,8 +308,7 @@ CacheKey layer_cover_key(const LoadedScene& loaded, const SurfaceLayers& layers,
   key.add("latitude_deg", loaded.scene.climate.latitude_deg);
   if (climate) {
     for (const auto& [sea_level_c, lapse_k_per_km, rain_mm_at_km, summer_share, gathers, dry_air,
-                sheltered] :
-         climate->nodes)
+                      sheltered] : climate->nodes)
       key.add("sea_level_c", sea_level_c)
           .add("lapse", lapse_k_per_km)
           .add("rain", rain_mm_at_km)

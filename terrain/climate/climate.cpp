@@ -121,11 +121,11 @@ class Maker {
     const bool by_stations = !p_.stations.empty() && stations().has_rain();
     const double side_m =
         std::max(position.width * position.cell_m.x, position.height * position.cell_m.y);
-    const bool told =
-        p_.wind_from_deg.has_value() || by_stations || side_m >= min_map_for_wind_m;
+    const bool told = p_.wind_from_deg.has_value() || by_stations || side_m >= min_map_for_wind_m;
     // A raster already contains the lee.
     const bool by_raster = !by_stations && p_.rain.has_value();
-    Grid<float> share = told && !by_raster && p_.upslope.strength > 0.0 ? wind_share() : Grid<float>();
+    Grid<float> share =
+        told && !by_raster && p_.upslope.strength > 0.0 ? wind_share() : Grid<float>();
     if (by_stations)
       rain_from_stations(share);
     else if (by_raster)
@@ -295,9 +295,10 @@ class Maker {
         plane = level;
       } else {
         share = {};
-        tell(fmt::format("rain: the stations show no windward and lee of a wind from {:.0f}°: with "
-                         "it {:.0f} mm off, without {:.0f}",
-                         climate_.wind_from_deg, level.off_mm, plane.off_mm));
+        tell(
+            fmt::format("rain: the stations show no windward and lee of a wind from {:.0f}°: with "
+                        "it {:.0f} mm off, without {:.0f}",
+                        climate_.wind_from_deg, level.off_mm, plane.off_mm));
       }
     }
     for (int y = 0; y < climate_.nodes.height(); ++y)

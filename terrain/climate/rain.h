@@ -29,8 +29,8 @@ struct RainPlane {
 // out; Error(input) if none is left. `wind_share`: the share of level ground's rain that the wind
 // brings to each station, above 0, as many as stations or none: then the plane is that of level
 // ground, and plane · share fits the stations.
-RainPlane fit_rain(const std::vector<Station>& stations,
-                   const std::vector<double>& wind_share = {}, int bootstrap_samples = 400);
+RainPlane fit_rain(const std::vector<Station>& stations, const std::vector<double>& wind_share = {},
+                   int bootstrap_samples = 400);
 
 // Orographic rain: more on the windward side, less in the lee.
 struct UpslopeParameters {

@@ -3,7 +3,7 @@
 namespace belvedere {
 
 double foreground_share(double distance, double foreground_to, double background_from) {
-  constexpr double rounding = 0.125;  // of the span, inside each of its ends
+  constexpr double rounding = 0.125;                // of the span, inside each of its ends
   constexpr double slope = 1.0 / (1.0 - rounding);  // of the line between the corners
   const double t = (distance - foreground_to) / (background_from - foreground_to);
   // Position along a corner: its parabola rises with slope 0 at the start and `slope` at the end.

@@ -70,16 +70,16 @@ struct GeneralizeGrids {
   PixelGround pixel_ground;
 };
 
-// Equations 1 to 6: A' = ((base - 1) m_xy1 + 1) G_1 + Σ w_xyi L_i with w_xyi = (u_i + v_i c_xyi - 1)
-// m_xyi + 1, u_i and v_i mixed by the foreground share, and u_i + v_i c_xyi times the printable
+// Equations 1 to 6: A' = ((base - 1) m_xy1 + 1) G_1 + Σ w_xyi L_i with w_xyi = (u_i + v_i c_xyi -
+// 1) m_xyi + 1, u_i and v_i mixed by the foreground share, and u_i + v_i c_xyi times the printable
 // share of the band.
 // c_xyi is the plan curvature of the sum of the bands below, already weighted, at the band's size:
 // |curvature| · cell / full_curvature, at most 1, then blurred, then raised to the exponent. All
 // grids reach the coarser bands through the Gaussian pyramid. cell_m: width and height of a cell on
 // the ground.
-// Cells of `keep`, and those in which the mask is 0, keep their altitude exactly. To avoid a step at
-// their shore or a plateau above a lowered valley, each band's weight returns to 1 towards them as
-// by a mask, the remaining change of the lake is also subtracted from the land around it, fading
+// Cells of `keep`, and those in which the mask is 0, keep their altitude exactly. To avoid a step
+// at their shore or a plateau above a lowered valley, each band's weight returns to 1 towards them
+// as by a mask, the remaining change of the lake is also subtracted from the land around it, fading
 // over 32 cells, and the rest fades over the last six cells, 16 beside a mask's zeros.
 // Needs 7 bytes per cell besides the DEM and these grids, 4 of them for the result. A DEM too small
 // for all bands omits the coarsest. If all weights are 1 or the mask is 0 the input is returned bit

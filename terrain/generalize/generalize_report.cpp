@@ -306,9 +306,9 @@ Pits find_pits(const Grid<float>& before_m, const Grid<float>& after_m,
     const auto depth_m = [&](std::int32_t at) {
       return filled[static_cast<std::size_t>(at)] - after_m[static_cast<std::size_t>(at)];
     };
-    const std::int32_t deepest = *std::max_element(
-        cells.begin(), cells.end(),
-        [&](std::int32_t a, std::int32_t b) { return depth_m(a) < depth_m(b); });
+    const std::int32_t deepest =
+        *std::max_element(cells.begin(), cells.end(),
+                          [&](std::int32_t a, std::int32_t b) { return depth_m(a) < depth_m(b); });
     ++pits.count;
     pits.at_feet += feet[static_cast<std::size_t>(deepest)] != 0 ? 1 : 0;
   });

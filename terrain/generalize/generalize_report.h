@@ -71,12 +71,12 @@ Grid<std::uint8_t> slope_feet(const Grid<float>& altitude_m, glm::dvec2 cell_m, 
 // Hollows of a whole terrain, filled to their outlets, and the part of them at the foot of slopes,
 // where masks act.
 struct Pits {
-  std::size_t count = 0;     // pieces of hollows deeper than 0.5 m
-  double hollows_m3 = 0.0;   // volume of water that all hollows would hold
-  double deepest_m = 0.0;    // of all
-  std::size_t at_feet = 0;   // pieces whose deepest cell is at the foot of a slope
-  double at_feet_m3 = 0.0;   // volume in such cells
-  double lowered_m3 = 0.0;   // ground removed in such cells, with an outlet or not
+  std::size_t count = 0;    // pieces of hollows deeper than 0.5 m
+  double hollows_m3 = 0.0;  // volume of water that all hollows would hold
+  double deepest_m = 0.0;   // of all
+  std::size_t at_feet = 0;  // pieces whose deepest cell is at the foot of a slope
+  double at_feet_m3 = 0.0;  // volume in such cells
+  double lowered_m3 = 0.0;  // ground removed in such cells, with an outlet or not
   std::size_t elsewhere() const { return count - at_feet; }
   double elsewhere_m3() const { return hollows_m3 - at_feet_m3; }
 };

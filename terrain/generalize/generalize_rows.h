@@ -41,10 +41,10 @@ void binomial_row(const float* north, const float* here, const float* south, int
 // 0, intermediate only where a curvature |P| / g² is below .02 |L| per cell². The band is that of
 // expand_evenly_row: expand() fills even and odd cells with different taps, so L alternates by a
 // tenth of its curvature from cell to cell, and so would the sign. On nearly level parts of the
-// band there is no fall line. There the band's binomial mean is used by the mean of its P over 3 × 3
-// cells, P + 2/3 (cell_x² (H³)_xx + cell_y² (H³)_yy), which has a sign even where P is 0, along the
-// bottom of a valley and on a ridge. The weight is blended from that to the cell's own in proportion
-// to the curvature. Three rows of the band and three of its binomial mean, padded by 1.
+// band there is no fall line. There the band's binomial mean is used by the mean of its P over 3 ×
+// 3 cells, P + 2/3 (cell_x² (H³)_xx + cell_y² (H³)_yy), which has a sign even where P is 0, along
+// the bottom of a valley and on a ridge. The weight is blended from that to the cell's own in
+// proportion to the curvature. Three rows of the band and three of its binomial mean, padded by 1.
 void convex_share_row(const float* const band[3], const float* const mean[3], int width,
                       float inverse_x, float inverse_y, float* out);
 

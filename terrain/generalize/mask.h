@@ -50,8 +50,8 @@ Grid<float> soften_mask(const Grid<float>& mask);
 // Product of two masks, so that each protects its own area. An empty grid is 1 everywhere.
 Grid<float> combine_masks(Grid<float> a, const Grid<float>& b);
 
-// What a mask promises of every operator: `after` where it is 1 or empty, `before` bit for bit where
-// it is 0, the values between the two in proportion in between.
+// What a mask promises of every operator: `after` where it is 1 or empty, `before` bit for bit
+// where it is 0, the values between the two in proportion in between.
 Grid<float> apply_mask(const Grid<float>& before, Grid<float> after, const Grid<float>& mask);
 
 // 1 in cells that may not change: those of `keep` != 0, and those in which the mask is 0. Either

@@ -155,22 +155,24 @@ void add_ridges(Report& page, const Measures& m) {
 }
 
 void add_pits(Report& page, const Measures& m) {
-  page.section("pits", "Pits",
-               "Where steep slopes meet flat ground, exaggerated medium bands dig moats: hollows "
-               "that would hold water, or removed ground. A good mask brings these figures back "
-               "towards the original's at the foot of slopes. It does not act elsewhere: the second "
-               "number of each pair says how much of the whole terrain's lies there, such as "
-               "valleys that exaggeration has closed.");
-  ReportTable table({{"terrain", "terrain"},
-                     {"pits", "pits over 0.5 m"},
-                     {"pits_elsewhere", "away from the foot of slopes"},
-                     {"hollows_million_m3", "hollows, 10⁶ m³", ".3f"},
-                     {"hollows_elsewhere_million_m3", "away from the foot of slopes, 10⁶ m³", ".3f"},
-                     {"deepest_m", "deepest, m", ".1f"},
-                     {"lowered_million_m3", "ground removed at the foot of slopes, 10⁶ m³", ".3f"}});
+  page.section(
+      "pits", "Pits",
+      "Where steep slopes meet flat ground, exaggerated medium bands dig moats: hollows "
+      "that would hold water, or removed ground. A good mask brings these figures back "
+      "towards the original's at the foot of slopes. It does not act elsewhere: the second "
+      "number of each pair says how much of the whole terrain's lies there, such as "
+      "valleys that exaggeration has closed.");
+  ReportTable table(
+      {{"terrain", "terrain"},
+       {"pits", "pits over 0.5 m"},
+       {"pits_elsewhere", "away from the foot of slopes"},
+       {"hollows_million_m3", "hollows, 10⁶ m³", ".3f"},
+       {"hollows_elsewhere_million_m3", "away from the foot of slopes, 10⁶ m³", ".3f"},
+       {"deepest_m", "deepest, m", ".1f"},
+       {"lowered_million_m3", "ground removed at the foot of slopes, 10⁶ m³", ".3f"}});
   const auto pits = [&](const char* name, const Pits& p) {
-    table.row(name, p.count, p.elsewhere(), p.hollows_m3 / 1e6, p.elsewhere_m3() / 1e6,
-              p.deepest_m, p.lowered_m3 / 1e6);
+    table.row(name, p.count, p.elsewhere(), p.hollows_m3 / 1e6, p.elsewhere_m3() / 1e6, p.deepest_m,
+              p.lowered_m3 / 1e6);
   };
   pits("original", m.original);
   pits("these weights, no mask", m.without_mask);

@@ -151,8 +151,8 @@ TEST_F(ViewedGround, BandsFinerThanThePrintGoAndOthersStay) {
   EXPECT_EQ(seen(scene(print + "0\n"), &limit), ground_.cells);
 }
 
-// Attenuation of a band by distance: its remaining share, cell by cell, falls at most 8/7 as fast as
-// a straight line would.
+// Attenuation of a band by distance: its remaining share, cell by cell, falls at most 8/7 as fast
+// as a straight line would.
 TEST_F(ViewedGround, NoStepWithDistanceIsMuchLargerThanALinearOne) {
   const double near = 5000.0;
   const double far = 11000.0;
@@ -240,7 +240,9 @@ TEST_F(ViewedGround, TheShareFallsWithDistanceWithoutAJump) {
 TEST_F(ViewedGround, WhereTheMaskIsZeroNothingChangesWhateverActs) {
   // A valley that falls to the south.
   for (int y = 0; y < 200; ++y)
-    for (int x = 0; x < 160; ++x) ground_.cells(x, y) += 12.F * static_cast<float>(std::abs(x - 80)) + 2.F * static_cast<float>(200 - y);
+    for (int x = 0; x < 160; ++x)
+      ground_.cells(x, y) +=
+          12.F * static_cast<float>(std::abs(x - 80)) + 2.F * static_cast<float>(200 - y);
   write_raster(folder_ / "dem.tif", ground_);
   Raster<float> mask = ground_;
   for (int y = 0; y < 200; ++y)

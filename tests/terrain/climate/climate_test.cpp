@@ -128,11 +128,10 @@ TEST(Climate, RainIsMetAtItsStationsOnMapsOfAnySize) {
     const Dem dem = make_ridge(km * 1000 / 300, 60);
     for (const bool lee : {false, true}) {
       SCOPED_TRACE(testing::Message() << km << " km" << (lee ? ", with a lee" : ""));
-      const std::vector<Station> stations =
-          stations_on(dem, [&](glm::dvec2 position, double altitude_m, double share) {
-            return (900.0 + 0.1 * altitude_m + 2e-3 * (position.x - 600000.0)) *
-                   (lee ? share : 1.0);
-          });
+      const std::vector<Station> stations = stations_on(dem, [&](glm::dvec2 position,
+                                                                 double altitude_m, double share) {
+        return (900.0 + 0.1 * altitude_m + 2e-3 * (position.x - 600000.0)) * (lee ? share : 1.0);
+      });
       std::string text = "east,north,altitude,rain_mm\n";
       for (const Station& station : stations)
         text += fmt::format("{},{},{},{}\n", station.position.x, station.position.y,
@@ -179,8 +178,8 @@ TEST(Climate, DryPlacesKeepTheirRainOnMapsOfAnySize) {
   const Climate open = make_climate(dem, {}, synthetic, silent_progress());
   const Climate between = make_climate(dem, {}, half, silent_progress());
   for (int x = 10; x < 190; x += 10)
-    EXPECT_NEAR(rain_mm(between.at(x, 30), 1000.0),
-                0.5 * (900.0 + rain_mm(open.at(x, 30), 1000.0)), 0.1)
+    EXPECT_NEAR(rain_mm(between.at(x, 30), 1000.0), 0.5 * (900.0 + rain_mm(open.at(x, 30), 1000.0)),
+                0.1)
         << x;
 }
 

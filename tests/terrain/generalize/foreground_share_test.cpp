@@ -15,7 +15,8 @@ TEST(ForegroundShare, ReachesItsValuesAtTheDistancesGiven) {
   EXPECT_LT(at(1e-3), 1.0);
   EXPECT_GT(at(1.0 - 1e-3), 0.0);
   EXPECT_EQ(at(0.5), 0.5);
-  // 1 - 4 s t² with the slope s = 8/7 to an eighth, the line 1/2 - s (t - 1/2), and its mirror image.
+  // 1 - 4 s t² with the slope s = 8/7 to an eighth, the line 1/2 - s (t - 1/2), and its mirror
+  // image.
   for (const double t : {0.03, 0.1, 0.125}) {
     EXPECT_NEAR(at(t), 1.0 - 32.0 / 7.0 * t * t, 1e-12) << t;
     EXPECT_NEAR(at(1.0 - t), 32.0 / 7.0 * t * t, 1e-12) << t;

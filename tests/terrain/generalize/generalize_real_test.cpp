@@ -144,9 +144,10 @@ Grid<float> even_band(const Grid<float>& terrain) {
   Grid<float> band(terrain.width(), terrain.height());
   for (int y = 2; y + 2 < terrain.height(); ++y)
     for (int x = 2; x + 2 < terrain.width(); ++x)
-      band(x, y) = static_cast<float>(terrain(x, y) - line(y, [&](int v) {
-        return line(x, [&](int u) { return static_cast<double>(coarser(u, v)); });
-      }));
+      band(x, y) = static_cast<float>(
+          terrain(x, y) - line(y, [&](int v) {
+            return line(x, [&](int u) { return static_cast<double>(coarser(u, v)); });
+          }));
   return band;
 }
 
