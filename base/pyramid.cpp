@@ -48,6 +48,37 @@ const float* extended_row(const Grid<float>& grid, int y, std::vector<float>& sp
   return spare.data();
 }
 
+// Taps of the even cells of an expansion; odd ones are means of two.
+struct EvenTaps {
+  float centre, side;
+};
+
+void expand_row_by(EvenTaps taps, const Grid<float>& coarser, int y, int width, float* out) {
+  const int count = coarser.width();
+  std::vector<float> padded(static_cast<std::size_t>(count) + 2);
+  float* column = padded.data() + 1;
+  std::array<std::vector<float>, 2> spare;
+  const float* b = coarser.row(y / 2);
+  const float* c = extended_row(coarser, y / 2 + 1, spare[0]);
+  if (y % 2 == 0) {
+    const float* a = extended_row(coarser, y / 2 - 1, spare[1]);
+    for (int x = 0; x < count; ++x) column[x] = taps.centre * b[x] + taps.side * (a[x] + c[x]);
+  } else {
+    for (int x = 0; x < count; ++x) column[x] = 0.5F * (b[x] + c[x]);
+  }
+  extend_linearly(column, count, 1);
+  for (int x = 0; x < width / 2; ++x) {
+    const float* v = column + x;
+    float* pair = out + std::ptrdiff_t{2} * x;
+    pair[0] = taps.centre * v[0] + taps.side * (v[-1] + v[1]);
+    pair[1] = 0.5F * (v[0] + v[1]);
+  }
+  if (width % 2 == 1) {
+    const float* v = column + width / 2;
+    out[width - 1] = taps.centre * v[0] + taps.side * (v[-1] + v[1]);
+  }
+}
+
 }  // namespace
 
 Grid<float> reduce(const Grid<float>& level) {
@@ -75,29 +106,11 @@ Grid<float> reduce(const Grid<float>& level) {
 }
 
 void expand_row(const Grid<float>& coarser, int y, int width, float* out) {
-  const int count = coarser.width();
-  std::vector<float> padded(static_cast<std::size_t>(count) + 2);
-  float* column = padded.data() + 1;
-  std::array<std::vector<float>, 2> spare;
-  const float* b = coarser.row(y / 2);
-  const float* c = extended_row(coarser, y / 2 + 1, spare[0]);
-  if (y % 2 == 0) {
-    const float* a = extended_row(coarser, y / 2 - 1, spare[1]);
-    for (int x = 0; x < count; ++x) column[x] = 0.8F * b[x] + 0.1F * (a[x] + c[x]);
-  } else {
-    for (int x = 0; x < count; ++x) column[x] = 0.5F * (b[x] + c[x]);
-  }
-  extend_linearly(column, count, 1);
-  for (int x = 0; x < width / 2; ++x) {
-    const float* v = column + x;
-    float* pair = out + std::ptrdiff_t{2} * x;
-    pair[0] = 0.8F * v[0] + 0.1F * (v[-1] + v[1]);
-    pair[1] = 0.5F * (v[0] + v[1]);
-  }
-  if (width % 2 == 1) {
-    const float* v = column + width / 2;
-    out[width - 1] = 0.8F * v[0] + 0.1F * (v[-1] + v[1]);
-  }
+  expand_row_by({0.8F, 0.1F}, coarser, y, width, out);
+}
+
+void expand_evenly_row(const Grid<float>& coarser, int y, int width, float* out) {
+  expand_row_by({0.75F, 0.125F}, coarser, y, width, out);
 }
 
 Grid<float> expand(const Grid<float>& coarser, int width, int height) {

@@ -69,7 +69,9 @@ export const panels = [
   },
   {
     id: "equalizer", label: "Equalizer", groups: [
-      { title: "Bands of landforms", editor: "equalizer" },
+      { title: "Bands of landforms", rows: [
+        { key: "generalize.base", label: "Land as a whole", min: 0, max: 3, step: 0.05 },
+      ], editor: "equalizer" },
       { title: "Distances", rows: [
         { key: "generalize.foreground_to_m", label: "Near up to", ...distance },
         { key: "generalize.background_from_m", label: "Far from", ...distance },

@@ -19,7 +19,7 @@ CoarseGround widened_ground(const CoarseGround& ground, double width_m) {
   WidenValleysParameters parameters;
   parameters.width_m = static_cast<float>(width_m);
   Raster<float> raster{
-      widen_valleys(altitude, lakes, ground.cell_m, parameters, silent_progress()).altitude_m,
+      widen_valleys(altitude, lakes, {}, ground.cell_m, parameters, silent_progress()).altitude_m,
       ground.transform, ground.crs};
   for (std::size_t i = 0; i < altitude.size(); ++i)
     if (!ground.cells[i].known) raster.cells[i] = std::numeric_limits<float>::quiet_NaN();

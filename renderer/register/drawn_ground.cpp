@@ -38,8 +38,9 @@ std::vector<ControlPair> DrawnGround::drawn(std::span<const ControlPair> pairs) 
 DrawnGround draw_ground(const Dem& dem, double valleys_m, Progress& progress) {
   DrawnGround out{.valleys_m = valleys_m, .dem = dem};
   if (valleys_m <= 0.0) return out;
-  WidenedValleys wide = widen_valleys(dem.altitude_m, find_lakes(dem.altitude_m, {}), dem.cell_m(),
-                                      {.width_m = static_cast<float>(valleys_m)}, progress);
+  WidenedValleys wide =
+      widen_valleys(dem.altitude_m, find_lakes(dem.altitude_m, {}), {}, dem.cell_m(),
+                    {.width_m = static_cast<float>(valleys_m)}, progress);
   out.dem.altitude_m = std::move(wide.altitude_m);
   out.goes_to = std::move(wide.goes_to);
   return out;

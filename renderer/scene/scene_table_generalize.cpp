@@ -53,6 +53,11 @@ std::vector<SceneSection> make_generalize_sections() {
             .field = AT(generalize.bands.background_valleys),
             .range = {-5, 5},
             .meaning = "The same along valley lines."},
+           {.name = "base",
+            .field = AT(generalize.bands.base),
+            .range = {0, 5},
+            .meaning = "Weight of what is larger than all bands, near and far: 1.2 raises the land "
+                       "as a whole by a fifth of its altitude, 0.8 lowers it."},
            {.name = "foreground_to_m",
             .field = AT(generalize.foreground_to_m),
             .range = {0, largest_m},
@@ -64,7 +69,7 @@ std::vector<SceneSection> make_generalize_sections() {
             .range = {0, largest_m},
             .unit = "m",
             .meaning = "From this distance only the background's weights apply. Between the two "
-                       "they blend linearly, rounded over an eighth at both ends.",
+                       "they blend linearly, rounded over an eighth inside both ends.",
             .derived = "0.95 times the distance of the horizon"},
            {.name = "print_detail_px",
             .field = AT(generalize.print_detail_px),

@@ -125,9 +125,10 @@ GeneralizedTerrain make_ground(const SceneGeneralize& settings, const SeaParamet
   GeneralizeParameters bands = settings.bands;
   bands.finest_band = dem.halved;
   // First, because it needs the most memory.
-  Grid<float> plain = settings.line_integral
-                          ? generalize_along_slope_lines(dem.altitude_m, dem.cell_m(), {}, progress)
-                          : Grid<float>();
+  Grid<float> plain =
+      settings.line_integral
+          ? generalize_along_slope_lines(dem.altitude_m, seen.mask, dem.cell_m(), {}, progress)
+          : Grid<float>();
   GeneralizeGrids grids;
   if (settings.automatic_mask) {
     grids.amplification_mask = slope_foot_mask(
@@ -145,7 +146,8 @@ GeneralizedTerrain make_ground(const SceneGeneralize& settings, const SeaParamet
   const Grid<unsigned char> lakes = std::move(grids.keep);
   grids = {};
   if (settings.valleys.width_m <= 0.F) return {std::move(out), {}, {}};
-  WidenedValleys wide = widen_valleys(out, lakes, dem.cell_m(), settings.valleys, progress);
+  WidenedValleys wide =
+      widen_valleys(out, lakes, seen.mask, dem.cell_m(), settings.valleys, progress);
   return {std::move(wide.altitude_m), std::move(wide.came_from), std::move(wide.goes_to)};
 }
 

@@ -307,14 +307,15 @@ CacheKey layer_cover_key(const LoadedScene& loaded, const SurfaceLayers& layers,
   // Position and sun follow from the DEM and the latitude.
   key.add("latitude_deg", loaded.scene.climate.latitude_deg);
   if (climate) {
-    for (const auto& [sea_level_c, lapse_k_per_km, rain_mm_at_km, summer_share, gathers, dry_air] :
-         climate->nodes)
+    for (const auto& [sea_level_c, lapse_k_per_km, rain_mm_at_km, summer_share, gathers, dry_air,
+                      sheltered] : climate->nodes)
       key.add("sea_level_c", sea_level_c)
           .add("lapse", lapse_k_per_km)
           .add("rain", rain_mm_at_km)
           .add("summer", summer_share)
           .add("gathers", gathers)
-          .add("dry_air", dry_air);
+          .add("dry_air", dry_air)
+          .add("sheltered", sheltered);
     key.add("nodes_across", climate->nodes.width())
         .add("warmer_k", climate->warmer_k)
         .add("rain_share", climate->rain_share);

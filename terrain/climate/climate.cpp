@@ -36,6 +36,7 @@ void add(PlaceClimate& sum, const PlaceClimate& other, double weight) {
   sum.summer_share += weight * other.summer_share;
   sum.gathers += weight * other.gathers;
   sum.dry_air += weight * other.dry_air;
+  sum.sheltered += weight * other.sheltered;
 }
 
 // The two neighbours of a position on a line of `count` values, and the weight of the second.
@@ -114,24 +115,26 @@ class Maker {
   }
 
   void set_rain() {
+    const MapPosition& position = climate_.position;
+    const double centre_deg = position.latitude_deg.at(0.5 * position.width, 0.5 * position.height);
+    climate_.wind_from_deg = p_.wind_from_deg.value_or(usual_wind_from_deg(centre_deg));
     const bool by_stations = !p_.stations.empty() && stations().has_rain();
+    const double side_m =
+        std::max(position.width * position.cell_m.x, position.height * position.cell_m.y);
+    const bool told = p_.wind_from_deg.has_value() || by_stations || side_m >= min_map_for_wind_m;
+    // A raster already contains the lee.
+    const bool by_raster = !by_stations && p_.rain.has_value();
+    Grid<float> share =
+        told && !by_raster && p_.upslope.strength > 0.0 ? wind_share() : Grid<float>();
     if (by_stations)
-      rain_from_stations();
-    else if (p_.rain)
+      rain_from_stations(share);
+    else if (by_raster)
       rain_from_raster();
     else
       tell(has_dry_country() ? "rain: from latitude, longitude and altitude, less in the dry "
                                "country behind ranges and far from the sea"
                              : "rain: from latitude, longitude and altitude only");
-    const MapPosition& position = climate_.position;
-    const double centre_deg = position.latitude_deg.at(0.5 * position.width, 0.5 * position.height);
-    climate_.wind_from_deg = p_.wind_from_deg.value_or(usual_wind_from_deg(centre_deg));
-    const double side_m =
-        std::max(position.width * position.cell_m.x, position.height * position.cell_m.y);
-    // A raster already contains the lee.
-    const bool told =
-        p_.wind_from_deg.has_value() || by_stations || (side_m >= min_map_for_wind_m && !p_.rain);
-    if (told && p_.upslope.strength > 0.0) share_out_by_wind();
+    if (!share.empty()) share_out_by_wind(std::move(share));
     if (p_.rain_factor != 1.0) change_rain();
   }
 
@@ -145,7 +148,7 @@ class Maker {
 
   bool has_dry_country() const {
     return std::any_of(climate_.nodes.begin(), climate_.nodes.end(),
-                       [](const PlaceClimate& node) { return node.dry_air > 0.0; });
+                       [](const PlaceClimate& node) { return node.sheltered > 0.0; });
   }
 
   glm::dvec2 cell_of_node(int x, int y) const {
@@ -276,14 +279,35 @@ class Maker {
     tell(fmt::format("temperature: falls {:.2f} K/km, set by the scene", *p_.lapse_k_per_km));
   }
 
-  void rain_from_stations() {
-    const RainPlane plane = fit_rain(stations().stations);
+  // Stations have measured windward and lee. Their rain is therefore divided by the share that the
+  // wind brings them before the plane is fitted, so that plane and wind together meet them; if the
+  // plane alone meets them better, they do not know this wind, and `share` is emptied unless the
+  // scene names it.
+  void rain_from_stations(Grid<float>& share) {
+    const std::vector<Station>& all = stations().stations;
+    RainPlane plane = fit_rain(all);
+    if (!share.empty()) {
+      std::vector<double> at_station;
+      for (const Station& station : all) at_station.push_back(share_at(share, station.position));
+      RainPlane level = fit_rain(all, at_station);
+      constexpr double clearly_mm = 1.0;
+      if (p_.wind_from_deg || level.off_mm < plane.off_mm + clearly_mm) {
+        plane = level;
+      } else {
+        share = {};
+        tell(
+            fmt::format("rain: the stations show no windward and lee of a wind from {:.0f}°: with "
+                        "it {:.0f} mm off, without {:.0f}",
+                        climate_.wind_from_deg, level.off_mm, plane.off_mm));
+      }
+    }
     for (int y = 0; y < climate_.nodes.height(); ++y)
       for (int x = 0; x < climate_.nodes.width(); ++x) {
         const glm::dvec2 cell = cell_of_node(x, y);
         const glm::dvec2 position = dem_.transform.to_crs(cell.x, cell.y);
         PlaceClimate& node = climate_.nodes(x, y);
         node.gathers = 1.0;  // the glaciers' correction applies only to the default's rain
+        node.sheltered = 0.0;
         for (std::size_t km = 0; km < node.rain_mm_at_km.size(); ++km)
           node.rain_mm_at_km[km] = plane.at(position, 1000.0 * static_cast<double>(km));
       }
@@ -330,18 +354,41 @@ class Maker {
     tell(fmt::format("rain: times {:g}, set by the scene", p_.rain_factor));
   }
 
-  void share_out_by_wind() {
+  // Share of level ground's rain on the grid of about a kilometre.
+  Grid<float> wind_share() const {
     UpslopeParameters upslope = p_.upslope;
     const MapPosition& position = climate_.position;
     const double turned = climate_.wind_from_deg -
                           position.grid_north_deg.at(0.5 * position.width, 0.5 * position.height);
     upslope.wind_from_deg = turned - 360.0 * std::floor(turned / 360.0);
-    const Grid<float> more = upslope_rain(
+    Grid<float> share = upslope_rain(
         ground_m_, position.cell_m * static_cast<double>(climate_.coarse_cells), upslope);
-    if (climate_.rain_share.empty())
-      climate_.rain_share = Grid<float>(more.width(), more.height(), 1.0F);
-    for (std::size_t i = 0; i < more.size(); ++i)
-      climate_.rain_share[i] *= std::max(min_rain_share, 1.0F + more[i]);
+    for (float& value : share) value = std::max(min_rain_share, 1.0F + value);
+    return share;
+  }
+
+  // As Climate::at does it; 1 beyond the map, whose ground is unknown.
+  double share_at(const Grid<float>& share, glm::dvec2 place) const {
+    const glm::dvec2 cell = dem_.transform.to_cell(place.x, place.y);
+    if (!(cell.x >= -0.5 && cell.y >= -0.5 && cell.x <= dem_.width() - 0.5 &&
+          cell.y <= dem_.height() - 0.5))
+      return 1.0;
+    const glm::dvec2 coarse =
+        (cell + 0.5) / static_cast<double>(climate_.coarse_cells) - glm::dvec2(0.5);
+    return sample(share, coarse.x, coarse.y);
+  }
+
+  // The rain of dry places was measured behind their ranges: there the wind acts no more.
+  void share_out_by_wind(Grid<float> share) {
+    const auto cells = static_cast<double>(climate_.coarse_cells);
+    if (has_dry_country())
+      for (int y = 0; y < share.height(); ++y)
+        for (int x = 0; x < share.width(); ++x) {
+          const double sheltered =
+              climate_.at((x + 0.5) * cells - 0.5, (y + 0.5) * cells - 0.5).sheltered;
+          share(x, y) += static_cast<float>(sheltered) * (1.0F - share(x, y));
+        }
+    climate_.rain_share = std::move(share);
     tell(fmt::format("rain: increased to windward and reduced in the lee of a wind from {:.0f}°{}",
                      climate_.wind_from_deg,
                      p_.wind_from_deg ? "" : ", the usual direction at this latitude"));

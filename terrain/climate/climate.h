@@ -52,9 +52,11 @@ struct Climate {
 
 // Uses the best source for temperature and for rain: stations, else a raster, else the default.
 // Wind redistributes rain (upslope_rain) if the scene names a wind, if there are stations, or if
-// the map is 40 km wide or high; smaller maps are too small for it. Also reports its sources as
-// notes. Throws as read_stations and the readers of rasters do; Error(usage) for values out of
-// range.
+// the map is 40 km wide or high; smaller maps are too small for it. It never acts a second time on
+// rain that was measured in a lee: the fit to stations takes it into account, or does without it
+// where that meets them better; in dry places it fades (PlaceClimate::sheltered); on rasters it
+// does not act. Also reports its sources as notes. Throws as read_stations and the readers of
+// rasters do; Error(usage) for values out of range.
 Climate make_climate(const Dem& dem, const ClimateParameters& parameters,
                      const DefaultClimate& fallback, Progress& progress);
 

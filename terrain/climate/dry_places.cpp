@@ -94,6 +94,7 @@ PlaceClimate dried_climate(const DryCountry& country, const PlaceClimate& climat
   const double part = 1.0 / std::max(1.0, weights);
   PlaceClimate dried = climate;
   dried.dry_air = part * dry_air;
+  dried.sheltered = part * weights;
   for (std::size_t km = 0; km < log_rain.size(); ++km)
     dried.rain_mm_at_km[km] *= exact::exp(part * log_rain[km]);
   return dried;

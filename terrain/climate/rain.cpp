@@ -92,10 +92,16 @@ double RainPlane::at(glm::dvec2 position, double altitude_m) const {
                            mm_per_km.x * away_km.x + mm_per_km.y * away_km.y);
 }
 
-RainPlane fit_rain(const std::vector<Station>& all, int bootstrap_samples) {
+RainPlane fit_rain(const std::vector<Station>& all, const std::vector<double>& wind_share,
+                   int bootstrap_samples) {
   std::vector<Station> stations;
-  for (const Station& station : all)
-    if (!std::isnan(station.rain_mm)) stations.push_back(station);
+  std::vector<double> share;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (std::isnan(all[i].rain_mm)) continue;
+    stations.push_back(all[i]);
+    share.push_back(wind_share.empty() ? 1.0 : wind_share[i]);
+    stations.back().rain_mm /= share.back();
+  }
   if (stations.empty())
     throw Error(ErrorKind::input, "stations", "no station has rain data",
                 "a column rain_mm with numbers");
@@ -115,15 +121,25 @@ RainPlane fit_rain(const std::vector<Station>& all, int bootstrap_samples) {
     rain.push_back(station.rain_mm);
   }
   plane.at_centre_mm = median(rain);
+  const auto set_error = [&] {
+    for (std::size_t i = 0; i < stations.size(); ++i)
+      plane.off_mm +=
+          share[i] / count *
+          std::abs(stations[i].rain_mm - plane.at(stations[i].position, stations[i].altitude_m));
+  };
   std::size_t terms = rows.size() < 4 ? 1 : rows.size() < fewest_stations ? 2 : 4;
   std::optional<Terms> factor;
   // Stations on one line, or all at one altitude, determine fewer terms.
   for (; terms > 1 && !factor; terms = factor ? terms : terms / 2)
     factor = solve_robust(rows, terms);
-  if (!factor) return plane;
+  if (!factor) {
+    set_error();
+    return plane;
+  }
   plane.at_centre_mm = (*factor)[0];
   plane.mm_per_km_up = (*factor)[1];
   if (terms == 4) plane.mm_per_km = {(*factor)[2], (*factor)[3]};
+  set_error();
 
   std::vector<double> gradients;
   std::vector<Row> drawn(rows.size());
@@ -143,7 +159,7 @@ RainPlane fit_rain(const std::vector<Station>& all, int bootstrap_samples) {
     std::vector<Row> others = rows;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
     const Terms without = solve_robust(others, terms).value_or(*factor);
-    const double error = rows[i].rain_mm - foretell(without, rows[i], terms);
+    const double error = share[i] * (rows[i].rain_mm - foretell(without, rows[i], terms));
     sum += error * error;
   }
   plane.left_out_mm = std::sqrt(sum / count);

@@ -17,6 +17,7 @@ struct RainPlane {
   double low_mm_per_km_up = 0.0;   // 95 % of bootstrap samples lie between …
   double high_mm_per_km_up = 0.0;  // … these
   double left_out_mm = 0.0;        // rms error at a station when fitted to the others
+  double off_mm = 0.0;             // mean absolute error at the stations
   int stations = 0;
   // Never below 0.
   double at(glm::dvec2 position, double altitude_m) const;
@@ -25,8 +26,11 @@ struct RainPlane {
 // Robust regression (Huber's weights at 1.345 deviations, the deviation from the median of
 // residuals) of the stations' rain on altitude and, with at least `fewest_stations`, on x and y;
 // with fewer than 4 their median everywhere. x and y are in metres. Stations without rain are left
-// out; Error(input) if none is left.
-RainPlane fit_rain(const std::vector<Station>& stations, int bootstrap_samples = 400);
+// out; Error(input) if none is left. `wind_share`: the share of level ground's rain that the wind
+// brings to each station, above 0, as many as stations or none: then the plane is that of level
+// ground, and plane · share fits the stations.
+RainPlane fit_rain(const std::vector<Station>& stations, const std::vector<double>& wind_share = {},
+                   int bootstrap_samples = 400);
 
 // Orographic rain: more on the windward side, less in the lee.
 struct UpslopeParameters {

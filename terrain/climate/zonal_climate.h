@@ -33,6 +33,8 @@ struct PlaceClimate {
                                           // (terrain/climate/default_climate.h)
   double dry_air = 0.0;  // 0…3: additional demand of plants for water in dry country, relative to
                          // that in a humid climate of this temperature (dry_places.h)
+  double sheltered = 0.0;  // 0…1: share of the table of dry places in the rain, which contains the
+                           // lee of the ranges around
 };
 
 // The built-in stations. Error(usage) gives the line of a malformed station, for a text of the same

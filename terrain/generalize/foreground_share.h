@@ -2,12 +2,11 @@
 
 namespace belvedere {
 
-// u_d of equation 5 as a function of the distance from the viewer: 1 near, 0 far. Between the two
-// it falls linearly, so that generalization changes from one cell to the next by no more than with
-// a linear share. A share that is 1 at foreground_to_m, 0 at background_from_m and nowhere steeper
-// can only be that line (mean value theorem), which has a kink at either end. The kinks are rounded
-// by parabolas over an eighth of the span on both sides of each end, so the share starts to fall
-// that much earlier and ends that much later. Any unit; background_from must exceed foreground_to.
+// u_d of equation 5 as a function of the distance from the viewer: exactly 1 up to foreground_to,
+// 1/2 halfway, exactly 0 from background_from on. Between the two it falls along a line whose kinks
+// are rounded by parabolas over an eighth of the span inside each end. It is therefore 8/7 as steep
+// as a line from end to end, the least for a function without kinks that keeps both ends and turns
+// within an eighth. Any unit; background_from must exceed foreground_to.
 double foreground_share(double distance, double foreground_to, double background_from);
 
 }  // namespace belvedere

@@ -14,13 +14,14 @@
 #include "terrain/generalize/generalize_band.h"
 #include "terrain/generalize/generalize_crests.h"
 #include "terrain/generalize/generalize_lakes.h"
+#include "terrain/generalize/mask.h"
 
 namespace belvedere {
 namespace {
 
-// The stage computes the change, D = A' - A. With D_n = 0 and D_i = expand(D_i+1) + (w_i - 1) L_i
-// it needs no band grids, keeps float precision for small numbers, and unit weights change nothing.
-// An empty grid is a change of 0.
+// The stage computes the change, D = A' - A. With D_n = (base - 1) G_1 and D_i = expand(D_i+1) +
+// (w_i - 1) L_i it needs no band grids, keeps float precision for small numbers, and unit weights
+// change nothing. An empty grid is a change of 0.
 
 // The Gaussian levels of a grid that the caller holds. Finished levels are freed, so that only the
 // finest, which takes the most memory, remains at the end.
@@ -105,6 +106,18 @@ BreakLines break_lines_of(const GeneralizeParameters& parameters, int level, glm
   return lines;
 }
 
+// Change of the lowest Gaussian level; empty if its weight is 1.
+Grid<float> change_of_base(const Grid<float>& base_m, const Grid<float>* mask, float weight) {
+  if (weight == 1.F) return {};
+  Grid<float> change(base_m.width(), base_m.height());
+  parallel_rows(change.height(), [&](int y) {
+    for (int x = 0; x < change.width(); ++x)
+      change(x, y) = (weight - 1.F) * base_m(x, y) *
+                     (mask == nullptr ? 1.F : std::clamp((*mask)(x, y), 0.F, 1.F));
+  });
+  return change;
+}
+
 // The mask for coarser bands: 0 in lakes as well.
 Grid<float> without_lakes(const Grid<float>& mask, const Grid<unsigned char>& keep) {
   Grid<float> out(keep.width(), keep.height());
@@ -129,8 +142,10 @@ Grid<float> generalize(const Grid<float>& altitude_m, glm::dvec2 cell_m,
   const float crest = skipped < crest_bands ? parameters.crest : 0.F;
   const int reductions =
       crest > 0.F ? std::min(std::max(weights, crest_bands - skipped), possible) : bands;
-  const bool has_lakes =
-      std::any_of(grids.keep.begin(), grids.keep.end(), [](unsigned char k) { return k != 0; });
+  const Grid<unsigned char> kept =
+      grids.mask.empty() ? Grid<unsigned char>() : unchanged_cells(grids.keep, grids.mask);
+  const Grid<unsigned char>& keep = grids.mask.empty() ? grids.keep : kept;
+  const bool keeps = std::any_of(keep.begin(), keep.end(), [](unsigned char k) { return k != 0; });
   progress.begin("generalize", 2.0 * reductions + 1.0);
 
   std::vector<Grid<float>> levels_m;  // [i] is level i + 1: level 0 is the caller's
@@ -138,19 +153,23 @@ Grid<float> generalize(const Grid<float>& altitude_m, glm::dvec2 cell_m,
     levels_m.push_back(reduce(i == 0 ? altitude_m : levels_m.back()));
     progress.advance(1.0);
   }
-  Levels mask = has_lakes ? Levels(grids.mask, without_lakes(grids.mask, grids.keep), bands)
-                          : Levels(grids.mask, bands);
+  const int mask_levels = parameters.base == 1.F ? bands : bands + 1;
+  Levels mask = keeps ? Levels(grids.mask, without_lakes(grids.mask, keep), mask_levels)
+                      : Levels(grids.mask, mask_levels);
   Levels share(grids.foreground_share, bands);
   Levels amplify(grids.amplification_mask, bands);
 
-  Grid<float> change;
+  Grid<float> change =
+      change_of_base(bands == 0 ? altitude_m : levels_m[static_cast<std::size_t>(bands) - 1],
+                     mask.at(mask_levels > bands ? bands : 0), parameters.base);
+  if (mask_levels > bands) mask.drop(bands);
   for (int i = bands - 1; i >= 0; --i) {
     Band band;
     band.level = i == 0 ? &altitude_m : &levels_m[static_cast<std::size_t>(i) - 1];
     band.coarser = &levels_m[static_cast<std::size_t>(i)];
     band.coarser_change = &change;
     band.share = share.at(i);
-    band.keep = i == 0 && has_lakes ? &grids.keep : nullptr;
+    band.keep = i == 0 && keeps ? &keep : nullptr;
     band.mask = mask.at(i);
     band.amplify = amplify.at(i);
     band.pixel_ground = grids.pixel_ground.m_per_pixel.empty() ? nullptr : &grids.pixel_ground;
@@ -171,7 +190,8 @@ Grid<float> generalize(const Grid<float>& altitude_m, glm::dvec2 cell_m,
   }
   levels_m = {};
   if (change.empty()) return altitude_m;
-  if (has_lakes) settle_around_lakes(change, grids.keep);
+  settle_around_kept(change, grids.keep, shore_fade_cells);
+  settle_around_kept(change, unchanged_cells({}, grids.mask), mask_fade_cells);
   parallel_rows(change.height(), [&](int y) {
     const float* a = altitude_m.row(y);
     float* out = change.row(y);

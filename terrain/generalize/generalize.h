@@ -29,6 +29,9 @@ struct GeneralizeParameters {
   // foreground share)), high = clamp((b5 + b6 + base - 1200 m) / 700 m, 0, 1), bands unweighted. 0
   // is off; 0…3.
   float crest = 0.F;
+  // Weight of G_1, what remains below the lowest band, in equation 2: one for near and far. It
+  // scales altitudes about 0 m. 0…5; 1 is the identity.
+  float base = 1.F;
 
   // v of equation 4, -5…5, added to u in proportion to c, the strength of the break line. The sign
   // of the band's detail selects the set: convex (ridges) or concave (valleys). As many as
@@ -67,16 +70,17 @@ struct GeneralizeGrids {
   PixelGround pixel_ground;
 };
 
-// Equations 1 to 6: A' = G_1 + Σ w_xyi L_i with w_xyi = (u_i + v_i c_xyi - 1) m_xyi + 1, u_i and
-// v_i mixed by the foreground share, and u_i + v_i c_xyi times the printable share of the band.
+// Equations 1 to 6: A' = ((base - 1) m_xy1 + 1) G_1 + Σ w_xyi L_i with w_xyi = (u_i + v_i c_xyi -
+// 1) m_xyi + 1, u_i and v_i mixed by the foreground share, and u_i + v_i c_xyi times the printable
+// share of the band.
 // c_xyi is the plan curvature of the sum of the bands below, already weighted, at the band's size:
 // |curvature| · cell / full_curvature, at most 1, then blurred, then raised to the exponent. All
 // grids reach the coarser bands through the Gaussian pyramid. cell_m: width and height of a cell on
 // the ground.
-// Cells of `keep` keep their altitude exactly. To avoid a step at their shore or a plateau above a
-// lowered valley, each band's weight returns to 1 towards them as by a mask, the remaining change
-// of the lake is also subtracted from the land around it, fading over 32 cells, and the rest fades
-// over the last six cells.
+// Cells of `keep`, and those in which the mask is 0, keep their altitude exactly. To avoid a step
+// at their shore or a plateau above a lowered valley, each band's weight returns to 1 towards them
+// as by a mask, the remaining change of the lake is also subtracted from the land around it, fading
+// over 32 cells, and the rest fades over the last six cells, 16 beside a mask's zeros.
 // Needs 7 bytes per cell besides the DEM and these grids, 4 of them for the result. A DEM too small
 // for all bands omits the coarsest. If all weights are 1 or the mask is 0 the input is returned bit
 // for bit. Throws Error(usage) if sets of weights differ in number, Error(bug) if grids differ in

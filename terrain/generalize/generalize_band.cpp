@@ -107,6 +107,7 @@ class BandStrip {
         mean_(3, plan.sides ? width_ : 0, 1),
         line_(static_cast<std::size_t>(plan.local ? width_ + 2 * plan.radius : 0), 1.F),
         sides_(static_cast<std::size_t>(plan.sides ? width_ : 0)),
+        even_(sides_.size()),
         gain_(static_cast<std::size_t>(width_)),
         ground_(static_cast<std::size_t>(band.pixel_ground != nullptr ? width_ : 0)),
         next_expanded_(std::max(first - plan.radius - 2, 0)),
@@ -186,12 +187,12 @@ class BandStrip {
     return c;
   }
 
-  // L_i up to row y.
+  // L_i up to row y, without the kernel's alternation.
   void need_detail(int y) {
     for (; next_detail_ <= std::min(y, height_); ++next_detail_) {
       make_extended_row(detail_, next_detail_, [&](int from, float* row) {
-        need_expanded(std::min(std::max(from, next_detail_ < 0 ? 1 : 0), height_ - 1));
-        subtract_row(band_.level->row(from), smooth_[from], width_, row);
+        expand_evenly_row(*band_.coarser, from, width_, even_.data());
+        subtract_row(band_.level->row(from), even_.data(), width_, row);
       });
     }
   }
@@ -244,8 +245,8 @@ class BandStrip {
   RowRing smooth_, below_;  // expand(G_i+1), expand(D_i+1)
   RowRing sum_;             // their sum
   RowRing across_;          // c, blurred along the rows
-  RowRing detail_, mean_;   // L_i and its binomial mean
-  std::vector<float> line_, sides_, gain_, ground_;
+  RowRing detail_, mean_;   // L_i by expand_evenly_row and its binomial mean
+  std::vector<float> line_, sides_, even_, gain_, ground_;
   std::vector<float> ground_posts_;
   std::vector<const float*> around_;
   int next_expanded_, next_sum_, next_line_, next_detail_, next_mean_;

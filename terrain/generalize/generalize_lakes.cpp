@@ -18,9 +18,6 @@ constexpr float surroundings_cells = 32.0F;
 // in blocks, because it is smooth.
 constexpr int block_cells = 4;
 constexpr double mean_cells = 10.0;
-// The remaining change at the shore fades in over this many cells.
-constexpr float shore_cells = 6.0F;
-
 // Beyond the last blur of the subtracted change.
 constexpr int reach_cells = 48;
 
@@ -95,7 +92,8 @@ Grid<float> pull_of_lakes(const Grid<float>& change, const Grid<unsigned char>& 
 
 }  // namespace
 
-void settle_around_lakes(Grid<float>& change, const Grid<unsigned char>& keep) {
+void settle_around_kept(Grid<float>& change, const Grid<unsigned char>& keep, float fade_cells) {
+  if (std::none_of(keep.begin(), keep.end(), [](unsigned char k) { return k != 0; })) return;
   const Squares squares = shore_squares(keep);
   const Grid<float> pull = pull_of_lakes(change, keep, squares);
   parallel_rows(change.height(), [&](int y) {
@@ -106,7 +104,7 @@ void settle_around_lakes(Grid<float>& change, const Grid<unsigned char>& keep) {
       const double u = (x - 0.5 * (block_cells - 1)) / block_cells;
       const double v = (y - 0.5 * (block_cells - 1)) / block_cells;
       change(x, y) =
-          (change(x, y) - sample_bspline(pull, u, v)) * smoothstep(distance / shore_cells);
+          (change(x, y) - sample_bspline(pull, u, v)) * smoothstep(distance / fade_cells);
     }
   });
 }

@@ -13,6 +13,7 @@
 #include "base/statistics.h"
 #include "terrain/generalize/mask.h"
 #include "terrain/shape/hydrology.h"
+#include "terrain/shape/mask_pieces.h"
 
 namespace belvedere {
 namespace {
@@ -284,18 +285,33 @@ Grid<std::uint8_t> slope_feet(const Grid<float>& altitude_m, glm::dvec2 cell_m, 
   return feet;
 }
 
-FootPits foot_pits(const Grid<float>& before_m, const Grid<float>& after_m,
-                   const Grid<std::uint8_t>& feet, glm::dvec2 cell_m) {
+Pits find_pits(const Grid<float>& before_m, const Grid<float>& after_m,
+               const Grid<std::uint8_t>& feet, glm::dvec2 cell_m) {
   const Grid<float> filled = fill_hollows(after_m);
   const double area_m2 = cell_m.x * cell_m.y;
-  FootPits pits;
+  constexpr float min_depth_m = 0.5F;
+  Mask hollow(after_m.width(), after_m.height());
+  Pits pits;
   for (std::size_t i = 0; i < feet.size(); ++i) {
+    const float depth_m = filled[i] - after_m[i];
+    const double volume_m3 = depth_m * area_m2;
+    hollow[i] = depth_m > min_depth_m ? 1 : 0;
+    pits.hollows_m3 += volume_m3;
+    pits.deepest_m = std::max(pits.deepest_m, static_cast<double>(depth_m));
     if (feet[i] == 0) continue;
-    const double depth = static_cast<double>(filled[i]) - after_m[i];
-    pits.hollows_m3 += depth * area_m2;
-    pits.deepest_m = std::max(pits.deepest_m, depth);
+    pits.at_feet_m3 += volume_m3;
     pits.lowered_m3 += std::max(0.0, static_cast<double>(before_m[i]) - after_m[i]) * area_m2;
   }
+  each_piece(hollow, 1, [&](const std::vector<std::int32_t>& cells) {
+    const auto depth_m = [&](std::int32_t at) {
+      return filled[static_cast<std::size_t>(at)] - after_m[static_cast<std::size_t>(at)];
+    };
+    const std::int32_t deepest =
+        *std::max_element(cells.begin(), cells.end(),
+                          [&](std::int32_t a, std::int32_t b) { return depth_m(a) < depth_m(b); });
+    ++pits.count;
+    pits.at_feet += feet[static_cast<std::size_t>(deepest)] != 0 ? 1 : 0;
+  });
   return pits;
 }
 

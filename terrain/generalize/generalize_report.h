@@ -68,13 +68,19 @@ std::vector<RidgeSharpness> ridge_sharpness(const Grid<float>& before_m, const G
 // Where slopes meet flat ground: cells that slope_foot_mask() keeps to more than half.
 Grid<std::uint8_t> slope_feet(const Grid<float>& altitude_m, glm::dvec2 cell_m, int bands);
 
-// Artefacts of amplified bands there.
-struct FootPits {
-  double hollows_m3 = 0.0;  // volume of water that hollows would hold (filled to their outlets)
-  double deepest_m = 0.0;
-  double lowered_m3 = 0.0;  // volume of ground removed, with an outlet or not
+// Hollows of a whole terrain, filled to their outlets, and the part of them at the foot of slopes,
+// where masks act.
+struct Pits {
+  std::size_t count = 0;    // pieces of hollows deeper than 0.5 m
+  double hollows_m3 = 0.0;  // volume of water that all hollows would hold
+  double deepest_m = 0.0;   // of all
+  std::size_t at_feet = 0;  // pieces whose deepest cell is at the foot of a slope
+  double at_feet_m3 = 0.0;  // volume in such cells
+  double lowered_m3 = 0.0;  // ground removed in such cells, with an outlet or not
+  std::size_t elsewhere() const { return count - at_feet; }
+  double elsewhere_m3() const { return hollows_m3 - at_feet_m3; }
 };
-FootPits foot_pits(const Grid<float>& before_m, const Grid<float>& after_m,
-                   const Grid<std::uint8_t>& feet, glm::dvec2 cell_m);
+Pits find_pits(const Grid<float>& before_m, const Grid<float>& after_m,
+               const Grid<std::uint8_t>& feet, glm::dvec2 cell_m);
 
 }  // namespace belvedere

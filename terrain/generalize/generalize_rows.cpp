@@ -163,7 +163,7 @@ void ConvexShareRow(const float* const* band, const float* const* mean, int widt
     // smallest normal float avoids 0/0.
     const float fall =
         (z.p * z.p + z.q * z.q) + 0.01F * ((z.r * z.r + z.t * z.t) + 2.F * z.s * z.s);
-    const float clear = std::abs(own) / (0.22F * fall * std::abs(band[1][x]) + 1.18e-38F);
+    const float clear = std::abs(own) / (0.02F * fall * std::abs(band[1][x]) + 1.18e-38F);
     const float rules = clear < 1.F ? clear : 1.F;
     const float by_own = own < 0.F ? 1.F : 0.F;
     // The transition takes a twentieth of the form, so that the last bit cannot flip the result.

@@ -38,14 +38,13 @@ void power_row(float* values, int width, float exponent);
 void binomial_row(const float* north, const float* here, const float* south, int width, float* out);
 // Weight of the ridge set against the valley set in a band, by the sign of the band's profile
 // curvature, which is opposite to that of P = p²r + 2pqs + q²t: 1 where P < 0 (convex), 0 where P >
-// 0, intermediate only where the form is unclear. expand() fills even and odd cells with different
-// taps, so a band L of long forms alternates by a tenth from cell to cell, and a curvature |P| / g²
-// below .22 |L| per cell² may be due to that. On nearly level parts of the band there is no fall
-// line. In both cases the band's binomial mean, which does not alternate, is used by the mean of
-// its P over 3 × 3 cells, P + 2/3 (cell_x² (H³)_xx + cell_y² (H³)_yy), which has a sign even where
-// P is 0, along the bottom of a valley and on a ridge. The weight is blended from that to the
-// cell's own in proportion to the curvature. Three rows of the band and three of its binomial mean,
-// padded by 1.
+// 0, intermediate only where a curvature |P| / g² is below .02 |L| per cell². The band is that of
+// expand_evenly_row: expand() fills even and odd cells with different taps, so L alternates by a
+// tenth of its curvature from cell to cell, and so would the sign. On nearly level parts of the
+// band there is no fall line. There the band's binomial mean is used by the mean of its P over 3 ×
+// 3 cells, P + 2/3 (cell_x² (H³)_xx + cell_y² (H³)_yy), which has a sign even where P is 0, along
+// the bottom of a valley and on a ridge. The weight is blended from that to the cell's own in
+// proportion to the curvature. Three rows of the band and three of its binomial mean, padded by 1.
 void convex_share_row(const float* const band[3], const float* const mean[3], int width,
                       float inverse_x, float inverse_y, float* out);
 

@@ -15,6 +15,7 @@
 #include "base/math.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
+#include "terrain/generalize/mask.h"
 #include "terrain/shape/derivatives.h"
 
 namespace belvedere {
@@ -367,8 +368,8 @@ void check(const LineIntegralParameters& p) {
 
 }  // namespace
 
-Grid<float> generalize_along_slope_lines(const Grid<float>& altitude_m, double cell_m,
-                                         const LineIntegralParameters& parameters,
+Grid<float> generalize_along_slope_lines(const Grid<float>& altitude_m, const Grid<float>& mask,
+                                         double cell_m, const LineIntegralParameters& parameters,
                                          Progress& progress) {
   check(parameters);
   progress.begin("generalize along slope lines", parameters.iterations + 1.0);
@@ -390,7 +391,7 @@ Grid<float> generalize_along_slope_lines(const Grid<float>& altitude_m, double c
     out = std::move(plain);
     progress.advance(1.0);
   }
-  return out;
+  return apply_mask(altitude_m, std::move(out), mask);
 }
 
 }  // namespace belvedere

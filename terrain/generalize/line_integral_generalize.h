@@ -25,10 +25,10 @@ struct LineIntegralParameters {
                                  // which rounds the ridge; 0…1
 };
 
-// Cells must be finite. Planes and lakes are unchanged. Throws Error(usage) for values out of
-// range.
-Grid<float> generalize_along_slope_lines(const Grid<float>& altitude_m, double cell_m,
-                                         const LineIntegralParameters& parameters,
+// Cells must be finite. Planes and lakes are unchanged. `mask`: apply_mask (mask.h), empty: none.
+// Throws Error(usage) for values out of range.
+Grid<float> generalize_along_slope_lines(const Grid<float>& altitude_m, const Grid<float>& mask,
+                                         double cell_m, const LineIntegralParameters& parameters,
                                          Progress& progress);
 
 }  // namespace belvedere

@@ -112,7 +112,18 @@ Grid<float> read_mask(const RasterSource& source, const RasterFrame& frame, Prog
 Grid<float> soften_mask(const Grid<float>& mask) {
   if (mask.empty()) return {};
   const Grid<float> half = reduce(mask);
-  return expand(expand(reduce(half), half.width(), half.height()), mask.width(), mask.height());
+  Grid<float> soft =
+      expand(expand(reduce(half), half.width(), half.height()), mask.width(), mask.height());
+  const Grid<std::int32_t> nearest = nearest_marked(unchanged_cells({}, mask));
+  constexpr float fade_cells = 6.F;
+  change_cells(soft, [&](float v, int x, int y) {
+    const std::int32_t at = nearest(x, y);
+    if (at < 0) return v;
+    const auto across = static_cast<float>(at % mask.width() - x);
+    const auto down = static_cast<float>(at / mask.width() - y);
+    return v * smoothstep(std::sqrt(across * across + down * down) / fade_cells);
+  });
+  return soft;
 }
 
 Grid<float> combine_masks(Grid<float> a, const Grid<float>& b) {
@@ -121,6 +132,28 @@ Grid<float> combine_masks(Grid<float> a, const Grid<float>& b) {
   if (!a.same_size(b)) throw Error(ErrorKind::bug, "combine_masks", "the masks differ in size");
   change_cells(a, [&](float v, int x, int y) { return v * b(x, y); });
   return a;
+}
+
+Grid<float> apply_mask(const Grid<float>& before, Grid<float> after, const Grid<float>& mask) {
+  if (mask.empty()) return after;
+  if (!after.same_size(before) || !mask.same_size(before))
+    throw Error(ErrorKind::bug, "apply_mask", "the grids differ in size");
+  change_cells(after, [&](float v, int x, int y) {
+    const float m = mask(x, y);
+    const float was = before(x, y);
+    return m <= 0.F ? was : m >= 1.F ? v : was + m * (v - was);
+  });
+  return after;
+}
+
+Grid<std::uint8_t> unchanged_cells(const Grid<std::uint8_t>& keep, const Grid<float>& mask) {
+  if (mask.empty()) return keep;
+  if (!keep.empty() && !keep.same_size(mask))
+    throw Error(ErrorKind::bug, "unchanged_cells", "the grids differ in size");
+  Grid<std::uint8_t> out(mask.width(), mask.height());
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = mask[i] <= 0.F || (!keep.empty() && keep[i] != 0) ? 1 : 0;
+  return out;
 }
 
 }  // namespace belvedere

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <glm/vec2.hpp>
 #include <string>
 
@@ -43,10 +44,18 @@ Grid<float> read_mask(const RasterSource& source, const RasterFrame& frame, Prog
 
 // The mask at the second level of its Gaussian pyramid, with edges about eight cells wide. The
 // finest band uses the mask itself, and a hard edge, as in drawn masks and classes, would put a
-// step into it.
+// step into it. Cells of 0 stay 0: next to them it fades over six cells.
 Grid<float> soften_mask(const Grid<float>& mask);
 
 // Product of two masks, so that each protects its own area. An empty grid is 1 everywhere.
 Grid<float> combine_masks(Grid<float> a, const Grid<float>& b);
+
+// What a mask promises of every operator: `after` where it is 1 or empty, `before` bit for bit
+// where it is 0, the values between the two in proportion in between.
+Grid<float> apply_mask(const Grid<float>& before, Grid<float> after, const Grid<float>& mask);
+
+// 1 in cells that may not change: those of `keep` != 0, and those in which the mask is 0. Either
+// may be empty; both: empty.
+Grid<std::uint8_t> unchanged_cells(const Grid<std::uint8_t>& keep, const Grid<float>& mask);
 
 }  // namespace belvedere

@@ -12,6 +12,7 @@
 #include "base/math.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
+#include "terrain/generalize/mask.h"
 #include "terrain/shape/hydrology.h"
 
 namespace belvedere {
@@ -75,8 +76,9 @@ float distance_to_nearest(const Grid<std::int32_t>& nearest, int x, int y) {
 }
 
 // Displacement of each wall, cells: full at the floor, 0 at fade_height of the ridges around and
-// above.
-Grid<float> find_moves(const Grid<float>& altitude_m, const Valleys& valleys, double cell_m,
+// above, and where the mask is 0.
+Grid<float> find_moves(const Grid<float>& altitude_m, const Valleys& valleys,
+                       const Grid<float>& mask, double cell_m,
                        const WidenValleysParameters& parameters) {
   const int reach = std::max(1, static_cast<int>(std::lround(parameters.reach_m / cell_m)));
   const Grid<float> ridge_m = gaussian_blur(window_maximum(altitude_m, reach), 0.3 * reach);
@@ -92,6 +94,8 @@ Grid<float> find_moves(const Grid<float>& altitude_m, const Valleys& valleys, do
   });
   const int apart = std::max(2, static_cast<int>(std::ceil(1.5 * parameters.width_m / cell_m)));
   const Grid<float> farthest = window_maximum(distance, apart);
+  const Grid<std::int32_t> masked =
+      mask.empty() ? Grid<std::int32_t>() : nearest_marked(unchanged_cells({}, mask));
   Grid<float> moves(altitude_m.width(), altitude_m.height());
   parallel_rows(altitude_m.height(), [&](int y) {
     for (int x = 0; x < altitude_m.width(); ++x) {
@@ -104,6 +108,8 @@ Grid<float> find_moves(const Grid<float>& altitude_m, const Valleys& valleys, do
       const float part = height_m / (parameters.fade_height * depth_m);
       moves(x, y) = valleys.half_width(x, y) * (1.F - smoothstep((part - 0.25F) / 0.75F)) *
                     smoothstep((farthest(x, y) - distance(x, y)) / static_cast<float>(apart));
+      if (!masked.empty() && masked(x, y) >= 0)
+        moves(x, y) *= smoothstep(distance_to_nearest(masked, x, y) / static_cast<float>(apart));
     }
   });
   return moves;
@@ -233,8 +239,8 @@ void check(const Grid<float>& altitude_m, const Grid<std::uint8_t>& keep,
 }  // namespace
 
 WidenedValleys widen_valleys(const Grid<float>& altitude_m, const Grid<std::uint8_t>& keep,
-                             double cell_m, const WidenValleysParameters& parameters,
-                             Progress& progress) {
+                             const Grid<float>& mask, double cell_m,
+                             const WidenValleysParameters& parameters, Progress& progress) {
   check(altitude_m, keep, parameters);
   progress.begin("widen valleys", 4.0);
   if (parameters.width_m <= 0.F || altitude_m.empty()) return {altitude_m, {}, {}};
@@ -245,7 +251,7 @@ WidenedValleys widen_valleys(const Grid<float>& altitude_m, const Grid<std::uint
     return {altitude_m, {}, {}};
   }
   progress.advance(1.0);
-  const Grid<float> moves = find_moves(altitude_m, valleys, cell_m, parameters);
+  const Grid<float> moves = find_moves(altitude_m, valleys, mask, cell_m, parameters);
   const Shift shift = find_shifts(moves, valleys);
   const Grid<float> floor_m = gaussian_blur(valleys.floor_m, floor_smoothing_cells);
   progress.advance(1.0);
@@ -273,8 +279,14 @@ WidenedValleys widen_valleys(const Grid<float>& altitude_m, const Grid<std::uint
     }
   });
   progress.advance(1.0);
-  return {std::move(out), find_origins(moves, valleys, keep),
-          lateral_offsets(moves, valleys, keep)};
+  WidenedValleys wide{apply_mask(altitude_m, std::move(out), mask),
+                      find_origins(moves, valleys, keep), lateral_offsets(moves, valleys, keep)};
+  for (std::size_t i = 0; i < mask.size(); ++i) {
+    const float m = std::clamp(mask[i], 0.F, 1.F);
+    wide.came_from[i] *= m;
+    wide.goes_to[i] *= m;
+  }
+  return wide;
 }
 
 }  // namespace belvedere

@@ -35,10 +35,12 @@ struct WidenedValleys {
   Grid<glm::vec2> goes_to;
 };
 
-// Cells of `keep` != 0 (lakes) stay; empty: none. Creates no new hollows. Cells must be finite.
-// Throws Error(usage) for values out of range, Error(bug) if grids differ in size.
+// Cells of `keep` != 0 (lakes) stay; empty: none. `mask`: apply_mask (mask.h), for displacements as
+// well, which also fade towards cells of 0; empty: none. Creates no new hollows where it is 1.
+// Cells must be finite. Throws Error(usage) for values out of range, Error(bug) if grids differ in
+// size.
 WidenedValleys widen_valleys(const Grid<float>& altitude_m, const Grid<std::uint8_t>& keep,
-                             double cell_m, const WidenValleysParameters& parameters,
-                             Progress& progress);
+                             const Grid<float>& mask, double cell_m,
+                             const WidenValleysParameters& parameters, Progress& progress);
 
 }  // namespace belvedere

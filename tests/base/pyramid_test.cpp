@@ -206,5 +206,21 @@ TEST(Pyramid, SameBitsForAnyThreadCount) {
   EXPECT_EQ(run(1), run(2));
 }
 
+// x² / 2: the kernel adds half its mean square, 0.9 cells² by reducing and 0.8 or 1 by expanding.
+TEST(Pyramid, AnEvenExpansionOfCurvedGroundDoesNotAlternate) {
+  Grid<float> bowl(64, 9);
+  for (int y = 0; y < 9; ++y)
+    for (int x = 0; x < 64; ++x) bowl(x, y) = static_cast<float>(0.5 * x * x);
+  const Grid<float> coarser = reduce(bowl);
+  std::vector<float> even(64);
+  std::vector<float> usual(64);
+  expand_evenly_row(coarser, 4, 64, even.data());
+  expand_row(coarser, 4, 64, usual.data());
+  for (std::size_t x = 8; x < 56; ++x) {
+    EXPECT_NEAR(even[x] - bowl(static_cast<int>(x), 4), 0.95, 1e-3) << x;
+    EXPECT_NEAR(usual[x] - bowl(static_cast<int>(x), 4), x % 2 == 0 ? 0.85 : 0.95, 1e-3) << x;
+  }
+}
+
 }  // namespace
 }  // namespace belvedere

@@ -491,6 +491,7 @@ test("many changes in a row: page, program and text agree, and undo leads back",
     "air.haze",
     "air.range_mist",
     "generalize.crest",
+    "generalize.base",
     "light.shadow_depth",
   ];
   const homes = { camera: "camera", light: "sun", air: "air", generalize: "equalizer" };

@@ -165,7 +165,7 @@ void widen(SecretScene& scene, Draws& draws) {
   scene.drawn_m = scene.dem->altitude_m;
   if (widened < 0.5) return;
   scene.widened_m = width;
-  WidenedValleys wide = widen_valleys(scene.dem->altitude_m, {}, scene.dem->cell_m(),
+  WidenedValleys wide = widen_valleys(scene.dem->altitude_m, {}, {}, scene.dem->cell_m(),
                                       {.width_m = static_cast<float>(width)}, silent_progress());
   scene.drawn_m = std::move(wide.altitude_m);
   scene.goes_to = std::move(wide.goes_to);

@@ -12,8 +12,10 @@
 #include "base/text/json.h"
 #include "base/text/letters.h"
 #include "renderer/image/image_io.h"
+#include "terrain/generalize/destripe.h"
 #include "terrain/generalize/foreground_share.h"
 #include "terrain/generalize/generalize_presets.h"
+#include "terrain/generalize/line_integral_generalize.h"
 #include "terrain/io/dem.h"
 #include "terrain/shape/hydrology.h"
 #include "tools/cli/commands.h"
@@ -124,8 +126,8 @@ int run(const GeneralizeOptions& options) {
 
   const double cell = 0.5 * (cell_m.x + cell_m.y);
   const Grid<float> original_m = options.report.empty() ? Grid<float>() : dem.altitude_m;
-  dem.altitude_m =
-      operate_before_bands(std::move(dem.altitude_m), cell, options.operators, progress);
+  // Of the data, so for masks too.
+  if (options.operators.destripe) dem.altitude_m = destripe(dem.altitude_m, {}, progress);
   GeneralizeGrids grids;
   // First, because it needs the most memory.
   if (masks_slope_feet(options))
@@ -133,8 +135,14 @@ int run(const GeneralizeOptions& options) {
   if (!options.change_lakes) grids.keep = find_lakes(dem.altitude_m, {});
   grids.mask = make_mask(options, dem, cell_m, progress);
   grids.foreground_share = share_by_distance(options, dem, cell_m);
-  Grid<float> result_m = generalize(dem.altitude_m, cell_m, grids, bands, progress);
-  result_m = operate_after_bands(result_m, grids.keep, cell, options.operators, progress);
+  Grid<float> plain_m;
+  if (options.operators.line_integral)
+    plain_m = generalize_along_slope_lines(dem.altitude_m, grids.mask, cell, {}, progress);
+  Grid<float> result_m =
+      generalize(plain_m.empty() ? dem.altitude_m : plain_m, cell_m, grids, bands, progress);
+  plain_m = {};
+  result_m =
+      operate_after_bands(result_m, grids.keep, grids.mask, cell, options.operators, progress);
 
   if (!options.report.empty()) {
     write_generalize_report(options.report,

@@ -41,6 +41,7 @@ std::string describe_operators(const GeneralizeOptions& options,
                                const GeneralizeParameters& bands) {
   const GeneralizeParameters usual;
   std::string out;
+  if (bands.base != usual.base) out += fmt::format(" --base {}", bands.base);
   if (bands.curvature == CurvatureForm::plan) out += " --curvature plan";
   if (bands.full_curvature != usual.full_curvature)
     out += fmt::format(" --full-curvature {}", bands.full_curvature);
@@ -84,6 +85,13 @@ void add_generalize_options(CommandOptions& command, GeneralizeOptions& options)
               "Added along ridges far from the viewer");
   add_weights(command, "--background-valleys", options.background_valleys,
               "Added along valley lines far from the viewer");
+  command
+      .add_option("--base", options.bands.base,
+                  "Weight of what is larger than all bands: raises or lowers the land as a whole, "
+                  "by a share of its altitude")
+      .type_name("W")
+      .show_default()
+      .range(0.0, 5.0);
   const Option viewer = command
                             .add_option("--viewer", options.viewer,
                                         "Position of the viewer, in the DEM's coordinates")

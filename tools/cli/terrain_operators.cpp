@@ -2,8 +2,6 @@
 
 #include <fmt/core.h>
 
-#include "terrain/generalize/destripe.h"
-#include "terrain/generalize/line_integral_generalize.h"
 #include "terrain/generalize/widen_valleys.h"
 #include "terrain/io/contours.h"
 #include "terrain/io/raster_io.h"
@@ -40,22 +38,14 @@ void add_terrain_operators(CommandOptions& command, TerrainOperators& operators)
       .needs(contours);
 }
 
-Grid<float> operate_before_bands(Grid<float> altitude_m, double cell_m,
-                                 const TerrainOperators& operators, Progress& progress) {
-  if (operators.destripe) altitude_m = destripe(altitude_m, {}, progress);
-  if (operators.line_integral)
-    altitude_m = generalize_along_slope_lines(altitude_m, cell_m, {}, progress);
-  return altitude_m;
-}
-
 Grid<float> operate_after_bands(const Grid<float>& altitude_m, const Grid<std::uint8_t>& keep,
-                                double cell_m, const TerrainOperators& operators,
-                                Progress& progress) {
+                                const Grid<float>& mask, double cell_m,
+                                const TerrainOperators& operators, Progress& progress) {
   WidenValleysParameters valleys;
   valleys.width_m = operators.widen_valleys_m;
   return valleys.width_m == 0.F
              ? altitude_m
-             : widen_valleys(altitude_m, keep, cell_m, valleys, progress).altitude_m;
+             : widen_valleys(altitude_m, keep, mask, cell_m, valleys, progress).altitude_m;
 }
 
 void write_products(const Raster<float>& result, const TerrainOperators& operators,

@@ -25,12 +25,10 @@ struct TerrainOperators {
 // --destripe, --line-integral, --widen-valleys, --hillshade, --contours, --contour-interval.
 void add_terrain_operators(CommandOptions& command, TerrainOperators& operators);
 
-// Cells finite, m. `keep`: lakes, which do not change; empty: none.
-Grid<float> operate_before_bands(Grid<float> altitude_m, double cell_m,
-                                 const TerrainOperators& operators, Progress& progress);
+// Cells finite, m. `keep`: lakes, which do not change; `mask`: as of the bands; empty: none.
 Grid<float> operate_after_bands(const Grid<float>& altitude_m, const Grid<std::uint8_t>& keep,
-                                double cell_m, const TerrainOperators& operators,
-                                Progress& progress);
+                                const Grid<float>& mask, double cell_m,
+                                const TerrainOperators& operators, Progress& progress);
 // Hillshade and contours of the result; voids are NaN, its CRS metric.
 void write_products(const Raster<float>& result, const TerrainOperators& operators,
                     Progress& progress);

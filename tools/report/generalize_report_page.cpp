@@ -25,7 +25,7 @@ struct Measures {
   std::vector<std::vector<double>> energy_before_m2, energy_after_m2;  // [slice][band]
   std::vector<AltitudeChange> change;                                  // [slice]
   std::vector<RidgeSharpness> ridges;                                  // [slice]
-  FootPits original, without_mask, with_mask;
+  Pits original, without_mask, with_mask;
   bool own_mask = false;  // with_mask uses the mask of the run, else the automatic one
 };
 
@@ -54,10 +54,10 @@ Measures measure(const GeneralizeReportInput& in, const Grid<float>& share, Prog
   m.change = altitude_change(in.before_m, in.after_m, distance_slices(share, size, slices), slices);
   m.ridges = ridge_sharpness(in.before_m, in.after_m, in.cell_m, share, m.bands, slices);
   const Grid<std::uint8_t> feet = slope_feet(in.before_m, in.cell_m, m.bands);
-  m.original = foot_pits(in.before_m, in.before_m, feet, in.cell_m);
+  m.original = find_pits(in.before_m, in.before_m, feet, in.cell_m);
   m.own_mask = !in.grids.mask.empty() || !in.grids.amplification_mask.empty();
   const auto pits = [&](const GeneralizeGrids& grids) {
-    return foot_pits(in.before_m,
+    return find_pits(in.before_m,
                      generalize(in.before_m, in.cell_m, grids, in.parameters, progress), feet,
                      in.cell_m);
   };
@@ -155,16 +155,24 @@ void add_ridges(Report& page, const Measures& m) {
 }
 
 void add_pits(Report& page, const Measures& m) {
-  page.section("pits", "Pits at the foot of slopes",
-               "Where steep slopes meet flat ground, exaggerated medium bands dig moats: hollows "
-               "that would hold water, or removed ground. A good mask brings both figures back "
-               "towards the original's.");
-  ReportTable table({{"terrain", "terrain"},
-                     {"hollows_million_m3", "hollows, 10⁶ m³", ".3f"},
-                     {"deepest_m", "deepest, m", ".1f"},
-                     {"lowered_million_m3", "ground removed, 10⁶ m³", ".3f"}});
-  const auto pits = [&](const char* name, const FootPits& p) {
-    table.row(name, p.hollows_m3 / 1e6, p.deepest_m, p.lowered_m3 / 1e6);
+  page.section(
+      "pits", "Pits",
+      "Where steep slopes meet flat ground, exaggerated medium bands dig moats: hollows "
+      "that would hold water, or removed ground. A good mask brings these figures back "
+      "towards the original's at the foot of slopes. It does not act elsewhere: the second "
+      "number of each pair says how much of the whole terrain's lies there, such as "
+      "valleys that exaggeration has closed.");
+  ReportTable table(
+      {{"terrain", "terrain"},
+       {"pits", "pits over 0.5 m"},
+       {"pits_elsewhere", "away from the foot of slopes"},
+       {"hollows_million_m3", "hollows, 10⁶ m³", ".3f"},
+       {"hollows_elsewhere_million_m3", "away from the foot of slopes, 10⁶ m³", ".3f"},
+       {"deepest_m", "deepest, m", ".1f"},
+       {"lowered_million_m3", "ground removed at the foot of slopes, 10⁶ m³", ".3f"}});
+  const auto pits = [&](const char* name, const Pits& p) {
+    table.row(name, p.count, p.elsewhere(), p.hollows_m3 / 1e6, p.elsewhere_m3() / 1e6, p.deepest_m,
+              p.lowered_m3 / 1e6);
   };
   pits("original", m.original);
   pits("these weights, no mask", m.without_mask);

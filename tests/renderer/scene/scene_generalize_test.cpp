@@ -34,6 +34,7 @@ void expect_same(const SceneGeneralize& a, const SceneGeneralize& b) {
   EXPECT_EQ(a.bands.blur_cells, b.bands.blur_cells);
   EXPECT_EQ(a.bands.exponent, b.bands.exponent);
   EXPECT_EQ(a.bands.crest, b.bands.crest);
+  EXPECT_EQ(a.bands.base, b.bands.base);
   EXPECT_EQ(a.foreground_to_m, b.foreground_to_m);
   EXPECT_EQ(a.background_from_m, b.background_from_m);
   EXPECT_EQ(a.print_detail_px, b.print_detail_px);
@@ -54,6 +55,7 @@ foreground_ridges = [0, 0.25, 1.5]
 foreground_valleys = [0.1, -0.25, 0.7]
 background_ridges = [0.2, 0.6, -5]
 background_valleys = [0.05, 0, 5]
+base = 0.9
 foreground_to_m = 4000.5
 background_from_m = 9000.25
 print_detail_px = 2.25
@@ -89,6 +91,7 @@ TEST(SceneGeneralizeKeys, EachArrivesWhereItIsMeant) {
   EXPECT_EQ(read.bands.blur_cells, 1.75F);
   EXPECT_EQ(read.bands.exponent, .6F);
   EXPECT_EQ(read.bands.crest, .4F);
+  EXPECT_EQ(read.bands.base, .9F);
   EXPECT_EQ(read.mask_slope_deg, (std::array{3.5, 11.0}));
   EXPECT_TRUE(read.automatic_mask);
   EXPECT_EQ(read.mask, "where.tif");

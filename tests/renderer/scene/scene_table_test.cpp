@@ -85,6 +85,7 @@ TEST(SceneTable, DefaultsAreThoseOfTheStages) {
       {"land_cover.sources.band", RasterSource{}.band},
       {"terrain.synthetic.cell_m", SyntheticParameters{}.cell_m},
       {"land_cover.smallest_patch_m2", PatchParameters{}.smallest_m2},
+      {"generalize.base", GeneralizeParameters{}.base},
       {"generalize.crest", GeneralizeParameters{}.crest},
       {"generalize.widen_valleys_m", WidenValleysParameters{}.width_m},
       {"deform.refraction", DeformParameters{}.refraction},

@@ -1,12 +1,15 @@
 #include "terrain/climate/climate.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "terrain/io/crs.h"
 #include "terrain/io/raster_io.h"
@@ -92,6 +95,94 @@ TEST(Climate, WindSharesRainOutOnLargeMapsOrWhereItIsAskedFor) {
   EXPECT_EQ(usual_wind_from_deg(-45.0), 270.0);
 }
 
+// Stations over the ridge of make_ridge, with the rain of `rain(position, altitude, share)`, where
+// share is what a wind from the west brings by itself.
+template <class Rain>
+std::vector<Station> stations_on(const Dem& dem, Rain&& rain) {
+  const Climate windy = make_climate(
+      dem, {.wind_from_deg = 270.0},
+      [](glm::dvec2) {
+        PlaceClimate even;
+        even.rain_mm_at_km.fill(1000.0);
+        return even;
+      },
+      silent_progress());
+  std::vector<Station> stations;
+  for (int i = 0; i < 24; ++i) {
+    const int x = (2 * i + 1) * dem.width() / 48;
+    const int y = (7 * i + 3) % dem.height();
+    Station station;
+    station.position = dem.transform.to_crs(x, y);
+    station.altitude_m = static_cast<double>(dem.altitude_m(x, y));
+    station.rain_mm = rain(station.position, station.altitude_m,
+                           rain_mm(windy.at(x, y), station.altitude_m) / 1000.0);
+    stations.push_back(station);
+  }
+  return stations;
+}
+
+// Rain of stations is met where they stand, whether they know a lee or not, on maps of any size.
+TEST(Climate, RainIsMetAtItsStationsOnMapsOfAnySize) {
+  const test::Folder folder;
+  for (const int km : {12, 40, 80}) {
+    const Dem dem = make_ridge(km * 1000 / 300, 60);
+    for (const bool lee : {false, true}) {
+      SCOPED_TRACE(testing::Message() << km << " km" << (lee ? ", with a lee" : ""));
+      const std::vector<Station> stations = stations_on(dem, [&](glm::dvec2 position,
+                                                                 double altitude_m, double share) {
+        return (900.0 + 0.1 * altitude_m + 2e-3 * (position.x - 600000.0)) * (lee ? share : 1.0);
+      });
+      std::string text = "east,north,altitude,rain_mm\n";
+      for (const Station& station : stations)
+        text += fmt::format("{},{},{},{}\n", station.position.x, station.position.y,
+                            station.altitude_m, station.rain_mm);
+      const Climate climate = make_climate(dem, {.stations = folder.write("s.csv", text)},
+                                           synthetic, silent_progress());
+      for (const Station& station : stations) {
+        const glm::dvec2 cell = dem.transform.to_cell(station.position.x, station.position.y);
+        ASSERT_NEAR(rain_mm(climate.at(cell.x, cell.y), station.altitude_m), station.rain_mm, 2.0)
+            << cell.x << ' ' << cell.y;
+      }
+      EXPECT_EQ(climate.rain_share.empty(), !lee);
+      EXPECT_THAT(join(climate.sources),
+                  HasSubstr(lee ? "in the lee of a wind" : "show no windward and lee"));
+      // A wind that the scene names acts in any case.
+      EXPECT_FALSE(make_climate(dem, {.stations = folder / "s.csv", .wind_from_deg = 270.0},
+                                synthetic, silent_progress())
+                       .rain_share.empty());
+    }
+  }
+}
+
+// The rain of dry places was measured in the lee of their ranges.
+TEST(Climate, DryPlacesKeepTheirRainOnMapsOfAnySize) {
+  const auto dry = [](glm::dvec2 lonlat) {
+    PlaceClimate place = synthetic(lonlat);
+    place.sheltered = 1.0;
+    return place;
+  };
+  for (const int km : {12, 40, 80})
+    for (const std::optional<double> wind : {std::optional<double>(), std::optional(270.0)}) {
+      const Dem dem = make_ridge(km * 1000 / 300, 60);
+      const Climate climate = make_climate(dem, {.wind_from_deg = wind}, dry, silent_progress());
+      for (int x = 0; x < dem.width(); ++x)
+        ASSERT_NEAR(rain_mm(climate.at(x, 30), 1000.0), 900.0, 1e-3) << km << " km, " << x;
+    }
+  // Half as much table, half as much wind.
+  const Dem dem = make_ridge(200, 60);
+  const auto half = [](glm::dvec2 lonlat) {
+    PlaceClimate place = synthetic(lonlat);
+    place.sheltered = 0.5;
+    return place;
+  };
+  const Climate open = make_climate(dem, {}, synthetic, silent_progress());
+  const Climate between = make_climate(dem, {}, half, silent_progress());
+  for (int x = 10; x < 190; x += 10)
+    EXPECT_NEAR(rain_mm(between.at(x, 30), 1000.0), 0.5 * (900.0 + rain_mm(open.at(x, 30), 1000.0)),
+                0.1)
+        << x;
+}
+
 TEST(Climate, ARasterOfMonthsIsMetAtItsOwnAltitudes) {
   // A raster with the exact values of another climate on this ground: 6 K/km, in tenths of a
   // kelvin.
@@ -134,6 +225,12 @@ TEST(Climate, ARasterOfMonthsIsMetAtItsOwnAltitudes) {
   const Climate wet =
       make_climate(dem, {.rain = source_of(folder / "rain.tif")}, synthetic, silent_progress());
   EXPECT_NEAR(rain_mm(wet.at(20, 15), dem.altitude_m(20, 15)), 640.0, 5.0);
+  // It shows the lee already, also of a wind that the scene names.
+  const Climate windy =
+      make_climate(dem, {.rain = source_of(folder / "rain.tif"), .wind_from_deg = 270.0}, synthetic,
+                   silent_progress());
+  for (const int x : {20, 40, 60, 80})
+    EXPECT_NEAR(rain_mm(windy.at(x, 15), dem.altitude_m(x, 15)), 640.0, 5.0) << x;
 }
 
 TEST(Climate, StationsHaveTheFirstWordAndTellHowSureTheyAre) {

@@ -51,6 +51,8 @@ TEST(DryPlaces, BeyondTheRadiusNothingChanges) {
   const PlaceClimate beyond = dried_climate(country, mild(), 10.91, 0.0);
   EXPECT_EQ(beyond.rain_mm_at_km, mild().rain_mm_at_km);
   EXPECT_EQ(beyond.dry_air, 0.0);
+  EXPECT_EQ(beyond.sheltered, 0.0);
+  EXPECT_EQ(dried_climate(country, mild(), 10.2, 0.0).sheltered, 1.0);
   const PlaceClimate near = dried_climate(country, mild(), 10.8, 0.0);
   EXPECT_LT(near.rain_mm_at_km[0], 800.0);
   EXPECT_GT(near.rain_mm_at_km[0], 600.0);

@@ -109,6 +109,25 @@ TEST(GeneralizeCurvature, MaskZeroReturnsTheOriginalBitForBit) {
   EXPECT_EQ(run(terrain, p, masked(Grid<float>(101, 77, 1.F))), run(terrain, p));
 }
 
+// Coarse bands reach past the edge of a mask; its zeros keep their bits all the same.
+TEST(GeneralizeCurvature, ZerosOfAMaskKeepTheirBits) {
+  const Grid<float> terrain = alpine(257, 130);
+  GeneralizeParameters p = everywhere({1.6F, 2.F, 1.5F, .5F, 0.F}, {0.F, .5F, .5F, .5F, .5F});
+  p.crest = 1.F;
+  p.base = 1.1F;
+  Grid<float> hard(257, 130);
+  for (int y = 0; y < 130; ++y) std::fill_n(hard.row(y), 128, 1.F);
+  for (const Grid<float>& mask : {hard, soften_mask(hard)}) {
+    const Grid<float> out = run(terrain, p, masked(mask));
+    for (std::size_t i = 0; i < out.size(); ++i)
+      if (mask[i] == 0.F) {
+        ASSERT_EQ(out[i], terrain[i]) << i;
+      }
+    const Grid<float> all = run(terrain, p);
+    for (int y = 0; y < 130; ++y) EXPECT_NEAR(out(10, y), all(10, y), 0.5) << y;
+  }
+}
+
 TEST(GeneralizeCurvature, HalfMaskLeavesNoSeam) {
   // A crest along the mask's edge: there the change is large, and constant across the edge except
   // for a seam.
@@ -131,6 +150,38 @@ TEST(GeneralizeCurvature, HalfMaskLeavesNoSeam) {
     naive += std::abs(static_cast<double>(all(127, y)) - terrain(127, y));
   }
   EXPECT_LE(seam, 0.1 * naive);
+}
+
+TEST(GeneralizeCurvature, TheBaseScalesWhatIsLargerThanAllBands) {
+  // Level ground has no bands.
+  GeneralizeParameters p = everywhere({1.F, .5F, 2.F});
+  p.base = 1.25F;
+  for (const float v : run(Grid<float>(65, 40, 800.F), p)) ASSERT_NEAR(v, 1000.F, 1e-3F);
+  // If base and bands have one weight, the ground is scaled as a whole.
+  const Grid<float> terrain = alpine(150, 97);
+  Grid<float> scaled = terrain;
+  for (float& v : scaled) v *= 1.2F;
+  p = everywhere({1.2F, 1.2F, 1.2F});
+  p.base = 1.2F;
+  EXPECT_LE(largest_difference(run(terrain, p), scaled), 2e-3);
+  // By itself it adds (base - 1) G_1, whatever the bands are; 1 is the identity.
+  Grid<float> lowest = reduce(reduce(reduce(terrain)));
+  lowest = expand(lowest, reduce(reduce(terrain)).width(), reduce(reduce(terrain)).height());
+  lowest = expand(lowest, 75, 49);
+  lowest = expand(lowest, 150, 97);
+  p = everywhere({1.F, 1.F, 1.F});
+  p.base = 0.F;
+  Grid<float> difference = run(terrain, p);
+  for (std::size_t i = 0; i < difference.size(); ++i) difference[i] += lowest[i];
+  EXPECT_LE(largest_difference(difference, terrain), 2e-3);
+  p.base = 1.F;
+  EXPECT_EQ(run(terrain, p), terrain);
+  // A preview at half the size sees the same base, also where no band is left.
+  for (const int skipped : {1, 3, 5}) {
+    p.base = 1.5F;
+    p.finest_band = skipped;
+    for (const float v : run(Grid<float>(40, 40, 600.F), p)) ASSERT_NEAR(v, 900.F, 1e-3F);
+  }
 }
 
 TEST(GeneralizeCurvature, BlurTakesSpikesOffBreakLines) {

@@ -153,8 +153,8 @@ TEST(RidgeSharpness, CurvatureKeepsMoreThanAGaussianOfEqualEnergy) {
   EXPECT_GT(sharp[0].kept(), sharp[0].kept_by_gaussian());
 }
 
-TEST(FootPits, OfAMoatOfKnownVolume) {
-  // A plain before a slope; five cells are dug 4 m deep at its foot, one far away.
+TEST(Pits, AreOfTheWholeTerrainAndThoseAtTheFootOfSlopesApart) {
+  // A plain before a slope; five cells are dug 4 m deep at its foot, one 9 m deep far away.
   const Grid<float> before =
       grid_of(60, 40, [](int x, int) { return x < 30 ? 500.0 : 500.0 + (x - 29) * 15.0; });
   Grid<float> after = before;
@@ -163,15 +163,21 @@ TEST(FootPits, OfAMoatOfKnownVolume) {
   Grid<std::uint8_t> feet(60, 40);
   for (int y = 0; y < 40; ++y)
     for (int x = 22; x < 32; ++x) feet(x, y) = 1;
-  const FootPits pits = foot_pits(before, after, feet, report_cell_m);
-  EXPECT_NEAR(pits.hollows_m3, 5 * 4.0 * 625.0, 1e-3);
+  const Pits pits = find_pits(before, after, feet, report_cell_m);
+  EXPECT_NEAR(pits.hollows_m3, (5 * 4.0 + 9.0) * 625.0, 1e-3);
+  EXPECT_NEAR(pits.at_feet_m3, 5 * 4.0 * 625.0, 1e-3);
+  EXPECT_NEAR(pits.elsewhere_m3(), 9.0 * 625.0, 1e-3);
   EXPECT_NEAR(pits.lowered_m3, 5 * 4.0 * 625.0, 1e-3);
-  EXPECT_NEAR(pits.deepest_m, 4.0, 1e-4);
-  EXPECT_EQ(foot_pits(before, before, feet, report_cell_m).hollows_m3, 0.0);
+  EXPECT_NEAR(pits.deepest_m, 9.0, 1e-4);
+  EXPECT_EQ(pits.count, 2U);
+  EXPECT_EQ(pits.elsewhere(), 1U);
+  EXPECT_EQ(find_pits(before, before, feet, report_cell_m).hollows_m3, 0.0);
+  EXPECT_EQ(find_pits(before, before, feet, report_cell_m).count, 0U);
   // A trench with an outlet holds no water, but ground was removed.
   for (int y = 0; y < 40; ++y) after(27, y) = 496.F;
-  const FootPits trench = foot_pits(before, after, feet, report_cell_m);
-  EXPECT_NEAR(trench.hollows_m3, 0.0, 1e-3);
+  const Pits trench = find_pits(before, after, feet, report_cell_m);
+  EXPECT_NEAR(trench.at_feet_m3, 0.0, 1e-3);
+  EXPECT_EQ(trench.at_feet, 0U);
   EXPECT_NEAR(trench.lowered_m3, 40 * 4.0 * 625.0, 1e-3);
 }
 

@@ -152,20 +152,20 @@ float share_at_centre(double height, double p, double r, double mean_r, double m
 }
 
 TEST(ConvexShare, IsOneOrNoneWhereTheFormIsClear) {
-  // Curvature of 1 m per cell² against .22 of 2 m: the surrounding ground has no weight.
+  // Curvature of 1 m per cell² against .02 of 2 m: the surrounding ground has no weight.
   for (const double around : {-1.0, 1.0}) {
     EXPECT_EQ(share_at_centre(2.0, 3.0, -1.0, around, 0.0), 1.F);
     EXPECT_EQ(share_at_centre(2.0, 3.0, 1.0, around, 0.0), 0.F);
-    EXPECT_EQ(share_at_centre(-2.0, 3.0, 0.45, around, 0.0), 0.F);
+    EXPECT_EQ(share_at_centre(-2.0, 3.0, 0.041, around, 0.0), 0.F);
   }
 }
 
 TEST(ConvexShare, GoesToWhatIsAroundWhereTheFormIsNotClear) {
-  // .11 of .22 · 2 m: a quarter by the cell itself.
-  EXPECT_NEAR(share_at_centre(2.0, 3.0, 0.11, -1.0, 0.0), 0.75F, 1e-4F);
-  EXPECT_NEAR(share_at_centre(2.0, 3.0, -0.11, 1.0, 0.0), 0.25F, 1e-4F);
-  EXPECT_EQ(share_at_centre(2.0, 3.0, -0.11, -1.0, 0.0), 1.F);
-  EXPECT_EQ(share_at_centre(2.0, 3.0, 0.11, 1.0, 0.0), 0.F);
+  // .01 of .02 · 2 m: a quarter by the cell itself.
+  EXPECT_NEAR(share_at_centre(2.0, 3.0, 0.01, -1.0, 0.0), 0.75F, 1e-4F);
+  EXPECT_NEAR(share_at_centre(2.0, 3.0, -0.01, 1.0, 0.0), 0.25F, 1e-4F);
+  EXPECT_EQ(share_at_centre(2.0, 3.0, -0.01, -1.0, 0.0), 1.F);
+  EXPECT_EQ(share_at_centre(2.0, 3.0, 0.01, 1.0, 0.0), 0.F);
   // On the crest and along the bottom P is 0, and the curvature across decides.
   EXPECT_EQ(share_at_centre(2.0, 0.0, -1.0, -0.5, 0.25), 1.F);
   EXPECT_EQ(share_at_centre(-2.0, 0.0, 1.0, 0.5, -0.25), 0.F);

@@ -19,7 +19,7 @@ using test::grid_of;
 
 Grid<float> run_along_lines(const Grid<float>& altitude_m,
                             const LineIntegralParameters& parameters = {}) {
-  return generalize_along_slope_lines(altitude_m, cell_m, parameters, silent_progress());
+  return generalize_along_slope_lines(altitude_m, {}, cell_m, parameters, silent_progress());
 }
 
 double largest_difference(const Grid<float>& a, const Grid<float>& b, int margin) {
@@ -117,6 +117,21 @@ TEST(LineIntegral, SaysWhatIsOutOfRange) {
   LineIntegralParameters parameters;
   parameters.length_cells = 0.F;
   EXPECT_THROW(run_along_lines(Grid<float>(8, 8), parameters), Error);
+}
+
+TEST(LineIntegral, TheMaskKeepsTheBitsOfItsZeros) {
+  const Grid<float> ground = grid_of(161, 60, roof);
+  Grid<float> mask(161, 60, 1.F);
+  for (int y = 0; y < 60; ++y)
+    for (int x = 0; x < 60; ++x) mask(x, y) = x < 40 ? 0.F : static_cast<float>(x - 40) / 20.F;
+  const Grid<float> all = run_along_lines(ground);
+  const Grid<float> out = generalize_along_slope_lines(ground, mask, cell_m, {}, silent_progress());
+  for (int y = 0; y < 60; ++y)
+    for (int x = 0; x < 161; ++x)
+      ASSERT_NEAR(out(x, y), ground(x, y) + mask(x, y) * (all(x, y) - ground(x, y)),
+                  x < 40 || x >= 60 ? 0.F : 1e-3F)
+          << x << ' ' << y;
+  EXPECT_GT(largest_difference(all, ground, 5), 5.0);
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ TEST(RealMask, MasksTakeHollowsOffTheFootOfSlopes) {
     const Grid<std::uint8_t> feet =
         slope_feet(*terrain, {cell_m, cell_m}, static_cast<int>(bands.foreground.size()));
     const auto hollows_m3 = [&](const Grid<float>& ground) {
-      return foot_pits(*terrain, ground, feet, {cell_m, cell_m}).hollows_m3;
+      return find_pits(*terrain, ground, feet, {cell_m, cell_m}).at_feet_m3;
     };
     const double original = hollows_m3(*terrain);
     const double dug = hollows_m3(run(*terrain, bands)) - original;

@@ -27,7 +27,7 @@ Grid<glm::vec2> moves_of_a_valley(double river_wave = 0.0) {
   parameters.width_m = 480.F;
   parameters.min_catchment_km2 = 4.F;
   parameters.full_catchment_km2 = 6.F;
-  return widen_valleys(valley, {}, cell_m, parameters, silent_progress()).goes_to;
+  return widen_valleys(valley, {}, {}, cell_m, parameters, silent_progress()).goes_to;
 }
 
 TEST(MovedGround, WhereNothingMovedEveryPlaceIsItself) {

@@ -46,7 +46,7 @@ WidenValleysParameters valleys_of(float width_m) {
 
 Grid<float> widen(const Grid<float>& altitude_m, const WidenValleysParameters& parameters,
                   const Grid<std::uint8_t>& keep = {}) {
-  return widen_valleys(altitude_m, keep, cell_m, parameters, silent_progress()).altitude_m;
+  return widen_valleys(altitude_m, keep, {}, cell_m, parameters, silent_progress()).altitude_m;
 }
 
 // Width of the ground lower than `above_m` above the centreline in this row, m, between the walls'
@@ -66,6 +66,12 @@ double pit_volume(const Grid<float>& z) {
   double sum = 0.0;
   for (std::size_t i = 0; i < z.size(); ++i) sum += filled[i] - z[i];
   return sum;
+}
+
+float largest_offset(const Grid<glm::vec2>& offsets) {
+  float largest = 0.F;
+  for (const glm::vec2& offset : offsets) largest = std::max(largest, glm::length(offset));
+  return largest;
 }
 
 TEST(WidenValleys, OffReturnsTheInput) {
@@ -136,7 +142,7 @@ TEST(WidenValleys, LinesByLakesStay) {
   for (int y = 140; y < 160; ++y)
     for (int x = 108; x < 116; ++x) keep(x, y) = 1;
   const Grid<glm::vec2> ways =
-      widen_valleys(valley, keep, 30.0, valleys_of(480.F), silent_progress()).goes_to;
+      widen_valleys(valley, keep, {}, 30.0, valleys_of(480.F), silent_progress()).goes_to;
   EXPECT_GT(ways(112, 80).x, 7.F);
   EXPECT_EQ(ways(112, 150), glm::vec2(0.F));
   EXPECT_LT(glm::length(ways(117, 150)), 0.5F) << "the shore";
@@ -148,7 +154,7 @@ TEST(WidenValleys, EachCellKnowsWhereItsGroundCameFrom) {
   Grid<std::uint8_t> keep(valley.width(), valley.height());
   keep(95, 100) = 1;
   const WidenedValleys wide =
-      widen_valleys(valley, keep, cell_m, valleys_of(480.F), silent_progress());
+      widen_valleys(valley, keep, {}, cell_m, valleys_of(480.F), silent_progress());
   ASSERT_TRUE(wide.came_from.same_size(valley));
   for (int y = 120; y < 240; y += 10) {
     // Features on the wall 12 cells from the centreline are now 8 cells farther away, half of 480
@@ -170,7 +176,7 @@ TEST(WidenValleys, EachCellKnowsWhereItsGroundCameFrom) {
   }
   EXPECT_EQ(wide.came_from(95, 100), glm::vec2(0.F));
   EXPECT_TRUE(
-      widen_valleys(valley, {}, cell_m, valleys_of(0.F), silent_progress()).came_from.empty());
+      widen_valleys(valley, {}, {}, cell_m, valleys_of(0.F), silent_progress()).came_from.empty());
 }
 
 TEST(WidenValleys, OneOrTwoThreadsAndFaults) {
@@ -207,6 +213,36 @@ TEST(WidenValleys, ARealRangeKeepsItsSummitsAndGetsNoPits) {
   double moved = 0.0;
   for (std::size_t i = 0; i < out.size(); ++i) moved += std::abs(out[i] - part[i]);
   EXPECT_GT(moved / static_cast<double>(out.size()), 1.0);
+}
+
+TEST(WidenValleys, TheMaskKeepsTheGroundOfItsZerosAndHalvesThatOfAHalf) {
+  const Grid<float> valley = make_valley(0.0);
+  const auto masked = [&](const Grid<float>& mask) {
+    return widen_valleys(valley, {}, mask, cell_m, valleys_of(480.F), silent_progress());
+  };
+  const WidenedValleys all = masked({});
+  Grid<float> north(201, 300, 1.F);
+  for (int y = 0; y < 120; ++y) std::fill_n(north.row(y), 201, 0.F);
+  const WidenedValleys part = masked(north);
+  for (int y = 0; y < 300; ++y)
+    for (int x = 0; x < 201; ++x) {
+      if (y < 120) {
+        ASSERT_EQ(part.altitude_m(x, y), valley(x, y)) << x << ' ' << y;
+        ASSERT_EQ(part.came_from(x, y), glm::vec2(0.F)) << x << ' ' << y;
+        ASSERT_EQ(part.goes_to(x, y), glm::vec2(0.F)) << x << ' ' << y;
+      } else if (y > 200) {
+        ASSERT_NEAR(part.altitude_m(x, y), all.altitude_m(x, y), 0.05F) << x << ' ' << y;
+      }
+      // No step along the valley at the mask's edge: walls rise by 15 m from cell to cell.
+      if (y > 0) {
+        ASSERT_LT(std::abs(part.altitude_m(x, y) - part.altitude_m(x, y - 1)), 10.F)
+            << x << ' ' << y;
+      }
+    }
+  EXPECT_GT(largest_offset(all.goes_to), 3.F);
+  const WidenedValleys half = masked(Grid<float>(201, 300, 0.5F));
+  for (std::size_t i = 0; i < valley.size(); ++i)
+    ASSERT_NEAR(half.altitude_m[i], 0.5F * (valley[i] + all.altitude_m[i]), 1e-3F);
 }
 
 }  // namespace

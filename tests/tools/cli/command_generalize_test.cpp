@@ -234,5 +234,44 @@ TEST_F(GeneralizeCommand, DegreesCountAsTheGroundTheyCover) {
   EXPECT_THAT(refused.err, HasSubstr("gdalwarp"));
 }
 
+TEST_F(GeneralizeCommand, WhereTheMaskIsZeroNothingChangesWhateverActs) {
+  Raster<float> dem;
+  dem.transform = {680000.0, 5260000.0, 100.0, 100.0};
+  dem.crs = normalize_crs("EPSG:32632");
+  dem.cells = Grid<float>(120, 150);
+  Raster<float> mask = dem;
+  for (int y = 0; y < 150; ++y)
+    for (int x = 0; x < 120; ++x) {
+      dem.cells(x, y) = static_cast<float>(900.0 + 12.0 * std::abs(x - 60) + 2.0 * (150 - y) +
+                                           20.0 * std::sin(x * 1.9) * std::cos(y * 1.3));
+      mask.cells(x, y) = y < 70 ? 0.F : 255.F;
+    }
+  write_raster(path("in.tif"), dem);
+  write_raster(path("mask.tif"), mask);
+  for (const std::vector<std::string>& what :
+       {std::vector<std::string>{"--global", "1,1", "--line-integral"},
+        {"--global", "1,1", "--widen-valleys", "600"},
+        {"--global", "1,1", "--base", "1.2"},
+        {"--global", "1.5,2,0", "--line-integral", "--widen-valleys", "600"}}) {
+    SCOPED_TRACE(testing::PrintToString(what));
+    std::vector<std::string> arguments = {path("in.tif"), path("out.tif"), "--mask",
+                                          path("mask.tif")};
+    arguments.insert(arguments.end(), what.begin(), what.end());
+    const Outcome outcome = generalize_file(arguments);
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const Raster<float> out = read_raster_file(path("out.tif"));
+    double changed = 0.0;
+    for (int y = 0; y < 150; ++y)
+      for (int x = 0; x < 120; ++x) {
+        if (y < 70) {
+          ASSERT_EQ(out.cells(x, y), dem.cells(x, y)) << x << ' ' << y;
+        }
+        changed =
+            std::max(changed, static_cast<double>(std::abs(out.cells(x, y) - dem.cells(x, y))));
+      }
+    EXPECT_GT(changed, 20.0);
+  }
+}
+
 }  // namespace
 }  // namespace belvedere

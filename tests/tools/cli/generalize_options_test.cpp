@@ -61,12 +61,13 @@ TEST(GeneralizeOptions, TheCommandIsToldWithoutFolders) {
   const GeneralizeOptions options = read_generalize_options(
       "/data/in.tif /out/o.tif --global 1,0.5 --viewer 1,2 --mask /m/mask.tif --mask-slope 2,8 "
       "--automatic-mask --destripe --widen-valleys "
-      "60 --curvature plan --full-curvature 0.4 --blur 2 --exponent 0.6 --change-lakes");
-  EXPECT_EQ(describe_generalize(options, resolve_bands(options)),
-            "belvedere generalize in.tif o.tif --global 1,0.5 --background-global 1,0.5 --viewer "
-            "1,2 --mask mask.tif --mask-slope 2,8 "
-            "--automatic-mask --change-lakes --curvature plan --full-curvature 0.4 --blur 2 "
-            "--exponent 0.6 --destripe --widen-valleys 60");
+      "60 --curvature plan --full-curvature 0.4 --blur 2 --exponent 0.6 --base 1.1 --change-lakes");
+  EXPECT_EQ(
+      describe_generalize(options, resolve_bands(options)),
+      "belvedere generalize in.tif o.tif --global 1,0.5 --background-global 1,0.5 --viewer "
+      "1,2 --mask mask.tif --mask-slope 2,8 "
+      "--automatic-mask --change-lakes --base 1.1 --curvature plan --full-curvature 0.4 --blur 2 "
+      "--exponent 0.6 --destripe --widen-valleys 60");
 }
 
 }  // namespace
