@@ -194,7 +194,9 @@ int run(const LayersFitOptions& options) {
 
 Action add_layers_fit(CommandOptions& command) {
   const auto options = std::make_shared<LayersFitOptions>();
-  command.add_option("--dem", options->from.dem, "The ground: a DEM").required().type_name("FILE")
+  command.add_option("--dem", options->from.dem, "The ground: a DEM")
+      .required()
+      .type_name("FILE")
       .files(FileUse::input);
   add_elevation_options(command, options->from.elevation);
   command

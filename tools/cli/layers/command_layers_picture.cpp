@@ -79,7 +79,9 @@ Action add_layers_picture(CommandOptions& command) {
       .required()
       .type_name("FILE")
       .files(FileUse::input);
-  command.add_option("--dem", options->dem, "The ground: a DEM").required().type_name("FILE")
+  command.add_option("--dem", options->dem, "The ground: a DEM")
+      .required()
+      .type_name("FILE")
       .files(FileUse::input);
   add_elevation_options(command, options->elevation);
   command.add_option("--out", options->out, "The picture: a GeoTIFF of three bands")
