@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <new>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -169,6 +170,7 @@ void write_and_rename(const std::string& path,
   } catch (const std::exception& exception) {
     std::error_code ignored;
     for (const auto& [part, target] : files) fs::remove(part, ignored);
+    if (dynamic_cast<const std::bad_alloc*>(&exception) != nullptr) throw;
     const auto* error = dynamic_cast<const Error*>(&exception);
     throw Error(ErrorKind::output, path, error != nullptr ? error->found() : exception.what(),
                 error != nullptr ? error->allowed() : "");
