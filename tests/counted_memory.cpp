@@ -7,7 +7,6 @@
 #include <cstdlib>
 #include <new>
 
-#include "base/memory/sanitized.h"
 #include "base/memory/zeroed_memory.h"
 
 namespace belvedere::test {
@@ -17,6 +16,18 @@ std::atomic<bool> counting{false};
 std::atomic<std::ptrdiff_t> held{0};
 std::atomic<std::ptrdiff_t> peak{0};
 
+std::atomic<bool> failing{false};
+std::atomic<std::size_t> allocated{0};
+std::atomic<std::size_t> failing_at{0};
+
+void count_allocation() {
+  if (!failing.load(std::memory_order_relaxed)) return;
+  if (allocated.fetch_add(1) + 1 == failing_at.load()) throw std::bad_alloc();
+}
+void count_grid(std::ptrdiff_t bytes) {
+  if (bytes > 0) count_allocation();
+}
+
 void count(std::ptrdiff_t bytes) {
   if (!counting.load(std::memory_order_relaxed)) return;
   const std::ptrdiff_t now = held.fetch_add(bytes) + bytes;
@@ -25,10 +36,8 @@ void count(std::ptrdiff_t bytes) {
   }
 }
 
-// The sanitizers have their own operators.
-#ifndef BELVEDERE_SANITIZED
-#define BELVEDERE_COUNTS_NEW
 void* counted_new(std::size_t bytes) {
+  count_allocation();
   void* memory = std::malloc(bytes == 0 ? 1 : bytes);
   if (memory == nullptr) throw std::bad_alloc();
   count(static_cast<std::ptrdiff_t>(malloc_usable_size(memory)));
@@ -39,7 +48,6 @@ void counted_delete(void* memory) noexcept {
   if (memory != nullptr) count(-static_cast<std::ptrdiff_t>(malloc_usable_size(memory)));
   std::free(memory);
 }
-#endif
 
 }  // namespace
 
@@ -57,12 +65,19 @@ CountedMemory::~CountedMemory() {
 
 std::size_t CountedMemory::peak_bytes() const { return static_cast<std::size_t>(peak.load()); }
 
+void fail_allocation(std::size_t n) {
+  allocated = 0;
+  failing_at = n;
+  failing = true;
+  zeroed_memory_observer = count_grid;
+}
+
+std::size_t allocations() { return allocated.load(); }
+
 }  // namespace belvedere::test
 
-#ifdef BELVEDERE_COUNTS_NEW
 void* operator new(std::size_t bytes) { return belvedere::test::counted_new(bytes); }
 void operator delete(void* memory) noexcept { belvedere::test::counted_delete(memory); }
 void operator delete(void* memory, std::size_t) noexcept {
   belvedere::test::counted_delete(memory);
 }
-#endif

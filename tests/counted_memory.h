@@ -18,4 +18,10 @@ class CountedMemory {
   std::size_t peak_bytes() const;
 };
 
+// Lets one allocation fail: the n-th from now on, with new or for grids, counted from 1. 0: none,
+// they are only counted. For a process that ends afterwards.
+void fail_allocation(std::size_t n);
+// Since then.
+std::size_t allocations();
+
 }  // namespace belvedere::test

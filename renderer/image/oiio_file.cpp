@@ -317,12 +317,15 @@ class PngRows : public PictureRows {
   // libpng prints a message where an open file has too few rows for its first piece of data: the
   // rest of an abandoned file is filled with black.
   ~PngRows() override {
-    std::fill(band_.begin(), band_.end(), std::uint8_t{0});
-    for (bool ok = true; ok && rows_ > 0 && rows_ < height();) {
-      const int end = std::min(rows_ + band_rows, height());
-      ok = file_->write_scanlines(rows_, end, 0, OIIO::TypeDesc::UINT8, band_.data()) &&
-           file_->geterror().empty();
-      rows_ = end;
+    try {
+      std::fill(band_.begin(), band_.end(), std::uint8_t{0});
+      for (bool ok = true; ok && rows_ > 0 && rows_ < height();) {
+        const int end = std::min(rows_ + band_rows, height());
+        ok = file_->write_scanlines(rows_, end, 0, OIIO::TypeDesc::UINT8, band_.data()) &&
+             file_->geterror().empty();
+        rows_ = end;
+      }
+    } catch (const std::bad_alloc&) {  // the file is removed
     }
   }
   PngRows(const PngRows&) = delete;

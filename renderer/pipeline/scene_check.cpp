@@ -23,6 +23,7 @@
 #include "renderer/world/scene_land_cover.h"
 #include "renderer/world/season/scene_climate.h"
 #include "renderer/world/season/scene_season.h"
+#include "renderer/world/viewer_check.h"
 #include "terrain/io/raster_io.h"
 
 namespace belvedere {
@@ -112,6 +113,7 @@ Sight look(const LoadedScene& loaded, Progress& progress, const Cache& cache, bo
   progress.begin("looking", 0.0);
   const Tracer tracer(surface, scene.tracing);
   const std::unique_ptr<const Camera> small_camera = make_camera(camera);
+  check_ground_in_view(*sight.dem, *make_camera(sight.view.camera), tracer, progress);
   sight.classes = trace_classes(terrain, tracer, *small_camera);
   look_at_light(sight, loaded, terrain, tracer, *small_camera, propose, progress);
   return sight;

@@ -14,6 +14,7 @@ class JSON;
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <new>
 #include <optional>
 #include <qpdf/Pl_Flate.hh>
 #include <qpdf/QPDF.hh>
@@ -348,6 +349,8 @@ PdfReport write_print_pdf(const std::string& path, const PressPicture& picture,
     writer.setDeterministicID(true);
     writer.write();
   } catch (const Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& e) {  // exceptions of qpdf
     file.fail(e.what());

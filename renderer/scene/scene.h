@@ -409,7 +409,13 @@ struct Scene {
     return std::any_of(features.begin(), features.end(),
                        [](const SceneFeatures& block) { return block.enabled; });
   }
-  double pixels_per_unit() const { return output.width / output.sheet_width_mm * 0.5; }
+  // Pixels in a unit of paint, 0.5 mm of the sheet. Where a picture has fewer than `min` (15 dpi),
+  // it is painted as on a smaller sheet that has them: strokes would only be ever more for a pixel,
+  // each far below one.
+  double pixels_per_unit() const {
+    constexpr double min = 0.3;
+    return std::max(min, output.width / output.sheet_width_mm * 0.5);
+  }
 };
 
 }  // namespace belvedere

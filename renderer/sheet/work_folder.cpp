@@ -144,7 +144,10 @@ WorkFolder::WorkFolder(std::string folder, const JobIdentity& identity, WorkMode
 
 WorkFolder::~WorkFolder() {
   // A run without results leaves no folder.
-  if (alone_ && !holds_pieces(folder_)) clear();
+  try {
+    if (alone_ && !holds_pieces(folder_)) clear();
+  } catch (const std::bad_alloc&) {  // it stays, and is begun again
+  }
   if (lock_ >= 0) ::close(lock_);
 }
 

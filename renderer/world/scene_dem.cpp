@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/cache/cache.h"
+#include "base/error.h"
 #include "base/filter.h"
 #include "base/math_exact.h"
 #include "base/memory_limit.h"
@@ -172,6 +173,11 @@ std::vector<RasterSource> to_raster_sources(const LoadedScene& scene,
 
 SceneDem open_scene_dem(const LoadedScene& loaded, Progress& progress, const Cache& cache) {
   SceneDem opened = read_scene_dem(loaded, progress, cache);
+  // Ground is facets between the centres of cells.
+  if (opened.dem.width() < 2 || opened.dem.height() < 2)
+    throw Error(ErrorKind::input, "terrain",
+                fmt::format("too small: {} × {} cells", opened.dem.width(), opened.dem.height()),
+                "at least 2 × 2 cells: a larger `extent`, smaller cells (`cell_m`) or more data");
   // Before stripes are removed and the sea is levelled, which both depend on the cells.
   opened.region = region_of_data(opened, scene_sea(loaded.scene.land_cover));
   Sea sea = prepare_scene_dem(opened.dem, loaded, progress);

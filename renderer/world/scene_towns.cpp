@@ -3,24 +3,13 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "renderer/world/scene_position.h"
+#include "renderer/world/viewer_check.h"
 #include "terrain/cover/town_file.h"
-
-#include "base/math_exact.h"
 
 namespace belvedere {
 namespace {
-
-// From the terrain's border, 0 inside.
-double distance_outside_m(const Dem& dem, glm::dvec2 position) {
-  const glm::dvec2 low = dem.transform.to_crs(-0.5, dem.height() - 0.5);
-  const glm::dvec2 high = dem.transform.to_crs(dem.width() - 0.5, -0.5);
-  const double east = std::max({low.x - position.x, position.x - high.x, 0.0});
-  const double north = std::max({low.y - position.y, position.y - high.y, 0.0});
-  return exact::hypot(east, north);
-}
 
 void note_outside(const std::vector<std::string>& names, Progress& progress) {
   constexpr std::size_t max_named = 5;
@@ -54,15 +43,16 @@ std::vector<KnownTown> make_scene_towns(const LoadedScene& loaded, const Dem& de
   }
 
   constexpr double farthest_m = 20000.0;
+  const DataExtent ground = extent_of(dem);
   std::vector<std::string> outside;
   for (const KnownTown& town : towns)
-    if (distance_outside_m(dem, town.position) > 0.0)
+    if (ground.distance_outside_m(town.position) > 0.0)
       outside.push_back(town.name.empty()
                             ? fmt::format("E {:.0f} N {:.0f}", town.position.x, town.position.y)
                             : town.name);
   if (!outside.empty()) note_outside(outside, progress);
   std::erase_if(towns, [&](const KnownTown& town) {
-    return distance_outside_m(dem, town.position) > farthest_m + 5.0 * town.radius_m;
+    return ground.distance_outside_m(town.position) > farthest_m + 5.0 * town.radius_m;
   });
   return towns;
 }

@@ -12,6 +12,7 @@
 #include "renderer/scene/scene_error.h"
 #include "renderer/world/resolve_view.h"
 #include "renderer/world/scene_position.h"
+#include "renderer/world/viewer_check.h"
 #include "terrain/io/raster_io.h"
 
 namespace belvedere {
@@ -104,24 +105,11 @@ View make_view(const Scene& scene, const Dem& dem, Progress& progress,
   view.camera.view_width_m = scene.camera.view_width_m;
   view.camera.shift = {scene.camera.shift[0], scene.camera.shift[1]};
 
-  if (scene.camera.position)
-    view.viewer_xy = *scene.camera.position;
-  else if (scene.camera.position_lonlat)
-    view.viewer_xy =
-        position_of_lonlat(dem, *scene.camera.position_lonlat, "camera.position_lonlat");
-  else
-    throw Error(ErrorKind::usage, "camera", "no position",
-                "camera.position or camera.position_lonlat");
-
+  view.viewer_xy = place_viewer(scene.camera, dem);
   std::optional<ViewTarget> target;
-  if (scene.camera.look_at || scene.camera.look_at_lonlat) {
-    target.emplace();
-    target->position = scene.camera.look_at ? *scene.camera.look_at
-                                            : position_of_lonlat(dem, *scene.camera.look_at_lonlat,
-                                                                 "camera.look_at_lonlat");
-    target->altitude_m = scene.camera.look_at_altitude_m ? *scene.camera.look_at_altitude_m
-                                                         : altitude_m(target->position);
-  }
+  if (const std::optional<glm::dvec2> position = place_target(scene.camera, dem))
+    target = {*position, scene.camera.look_at_altitude_m ? *scene.camera.look_at_altitude_m
+                                                         : altitude_m(*position)};
   std::optional<double> viewer_ground_m;
   if (on_terrain(dem, view.viewer_xy)) viewer_ground_m = altitude_m(view.viewer_xy);
   const LazyValue<std::optional<CoarseGround>> region([&] {

@@ -18,6 +18,7 @@
 #include "renderer/world/scene_dem.h"
 #include "renderer/world/scene_land_cover.h"
 #include "renderer/world/scene_mist.h"
+#include "renderer/world/viewer_check.h"
 
 namespace belvedere {
 
@@ -174,6 +175,7 @@ World make_world(const LoadedScene& loaded, Progress& progress, const Cache& cac
     progress.begin("building the ray tracer", 0.0);
     return Tracer(*surface, scene.tracing);
   });
+  check_ground_in_view(*dem, *camera, *tracer, progress);
   const double horizon_px = skyline_row_px(*camera, *tracer, usual_horizon * scene.output.height);
   MistAir mist = make_scene_mist(scene, view, *terrain, deformation, *camera);
   return {scene,

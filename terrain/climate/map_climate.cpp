@@ -27,7 +27,8 @@ float round_to(double value, double part) {
   return static_cast<float>(std::round(value / part) * part);
 }
 
-// Grid of posts from the first cell of a map to its last.
+// Grid of posts from the first cell of a map to its last, or beyond an only one: a distance between
+// posts of 0 has no position.
 struct Posts {
   int columns;
   int rows;
@@ -40,8 +41,8 @@ Posts place_posts(const Dem& dem, glm::dvec2 cell_m, double apart_m, int max) {
                       2, max);
   };
   Posts posts{along(dem.width(), cell_m.x), along(dem.height(), cell_m.y), 0.0, 0.0};
-  posts.across = static_cast<double>(dem.width() - 1) / (posts.columns - 1);
-  posts.down = static_cast<double>(dem.height() - 1) / (posts.rows - 1);
+  posts.across = static_cast<double>(std::max(1, dem.width() - 1)) / (posts.columns - 1);
+  posts.down = static_cast<double>(std::max(1, dem.height() - 1)) / (posts.rows - 1);
   return posts;
 }
 GeoTransform transform_of(const Posts& posts, GeoTransform cells) {

@@ -79,8 +79,11 @@ class WorkPlace {
                   "cannot create or write the folder: " + problem.message());
   }
   ~WorkPlace() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
+    try {
+      std::error_code ignored;
+      fs::remove_all(path_, ignored);
+    } catch (const std::bad_alloc&) {  // a folder stays
+    }
   }
   WorkPlace(const WorkPlace&) = delete;
   WorkPlace& operator=(const WorkPlace&) = delete;

@@ -11,13 +11,17 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <iostream>
 #include <stdexcept>
 
 #include "base/memory/sanitized.h"
+#include "tests/counted_memory.h"
 #include "tools/cli/program.h"
 
 extern "C" void __gcov_dump() __attribute__((weak));  // there when coverage is measured
+// There under the address sanitizer, which would else look for leaks at exit.
+extern "C" int __lsan_do_recoverable_leak_check() __attribute__((weak));
 
 namespace belvedere::test {
 namespace {
@@ -51,14 +55,18 @@ std::vector<std::string> fields_of(const std::string& bytes) {
   for (std::string& word : words) argv.push_back(word.data());
   const int count = static_cast<int>(argv.size());
   argv.push_back(nullptr);
-  const int status = tools::program_main(count, argv.data());
+  if (const char* n = std::getenv(failing_allocation)) fail_allocation(std::stoul(n));
+  int status = tools::program_main(count, argv.data());
+  if (const char* file = std::getenv(allocations_file)) std::ofstream(file) << allocations();
   std::fflush(nullptr);
   std::cout.flush();
+  if (__lsan_do_recoverable_leak_check != nullptr && __lsan_do_recoverable_leak_check() != 0)
+    status = leak_status;
   if (__gcov_dump != nullptr) __gcov_dump();
   _exit(status);
 }
 
-[[noreturn, maybe_unused]] void serve(int socket) {
+[[noreturn]] void serve(int socket) {
   std::string buffer(1U << 20U, '\0');
   while (true) {
     const ssize_t size = recv(socket, buffer.data(), buffer.size(), 0);
@@ -103,7 +111,6 @@ void prepare_environment(std::vector<std::string>& variables, const std::string&
 }
 
 void start_program_server() {
-#ifndef BELVEDERE_SANITIZED
   std::array<int, 2> ends{};
   if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0) return;
   const int large = 1 << 20;
@@ -119,16 +126,21 @@ void start_program_server() {
   close(ends[1]);
   server = ends[0];
   server_process = child;
-#endif
 }
 
 void stop_program_server() {
-  if (!has_program_server()) return;
+  if (server < 0) return;
   close(server);
   waitpid(server_process, nullptr, 0);
 }
 
-bool has_program_server() { return server >= 0; }
+bool has_program_server() {
+#ifdef BELVEDERE_SANITIZED
+  return false;
+#else
+  return server >= 0;
+#endif
+}
 
 int start_in_server(const std::vector<std::string>& arguments,
                     const std::vector<std::string>& environment, const std::string& out,

@@ -9,11 +9,16 @@
 // in the state of a new process, without threads or open files of the tests.
 namespace belvedere::test {
 
-// In main, before there are threads. Under sanitizers there is no server: what they report at the
-// end of a process would be lost.
+// In main, before there are threads. Under sanitizers tests use processes of their own all the
+// same, unless they need something of this one.
 void start_program_server();
 void stop_program_server();
 bool has_program_server();
+
+// Variables of a run: the allocation that fails, counted from 1, and a file for their number.
+inline constexpr const char* failing_allocation = "BELVEDERE_TEST_FAILING_ALLOCATION";
+inline constexpr const char* allocations_file = "BELVEDERE_TEST_ALLOCATIONS";
+inline constexpr int leak_status = 99;  // exit status of a run that leaks, under a sanitizer
 
 // In a child that becomes the program: stdout and stderr go to files, `variables` ("NAME=value")
 // are added; they must live on.

@@ -87,7 +87,12 @@ TerminalProgress::TerminalProgress(bool quiet)
       begun_(Clock::now()),
       drawn_at_(begun_) {}
 
-TerminalProgress::~TerminalProgress() { end(); }
+TerminalProgress::~TerminalProgress() {
+  try {
+    end();
+  } catch (const std::bad_alloc&) {  // a line is missing
+  }
+}
 
 void TerminalProgress::begin(std::string_view stage, double total) {
   if (interrupted()) throw Error(ErrorKind::interrupted, "", "stopped");

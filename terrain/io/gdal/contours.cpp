@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <new>
 #include <vector>
 
 #include "base/error.h"
@@ -149,6 +150,7 @@ ContourSummary write_contours(const std::string& path, const Raster<float>& rast
   } catch (const std::exception& exception) {
     std::error_code ignored;
     fs::remove_all(folder, ignored);
+    if (dynamic_cast<const std::bad_alloc*>(&exception) != nullptr) throw;
     const auto* error = dynamic_cast<const Error*>(&exception);
     throw Error(ErrorKind::output, path, error != nullptr ? error->found() : exception.what(),
                 error != nullptr ? error->allowed() : "");

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <new>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -162,10 +163,8 @@ void write_and_rename(const std::string& path, const std::vector<OutputFile*>& f
     write();
     for (OutputFile* file : files) file->prepare();
     for (OutputFile* file : files) file->commit();
-  } catch (const std::exception& exception) {
-    const auto* error = dynamic_cast<const Error*>(&exception);
-    throw Error(ErrorKind::output, path, error != nullptr ? error->found() : exception.what(),
-                error != nullptr ? error->allowed() : "");
+  } catch (const Error& error) {
+    throw Error(ErrorKind::output, path, error.found(), error.allowed());
   }
 }
 

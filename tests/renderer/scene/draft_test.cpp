@@ -50,5 +50,16 @@ TEST(Draft, IsNeverLargerThanTheSceneNorTiny) {
   }
 }
 
+// Strokes below a third of a pixel are painted larger instead of in larger numbers.
+TEST(Draft, SmallerPicturesArePaintedAsOnASmallerSheet) {
+  Scene scene;
+  scene.output.sheet_width_mm = 1200.0;
+  for (const auto& [width, pixels_per_unit] :
+       {std::pair{2400, 1.0}, {800, 1.0 / 3.0}, {720, 0.3}, {96, 0.3}}) {
+    scene.output.width = width;
+    EXPECT_DOUBLE_EQ(scene.pixels_per_unit(), pixels_per_unit) << width;
+  }
+}
+
 }  // namespace
 }  // namespace belvedere

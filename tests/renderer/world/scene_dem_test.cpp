@@ -1,11 +1,13 @@
 #include "renderer/world/scene_dem.h"
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/cache/cache.h"
@@ -118,6 +120,22 @@ TEST_F(TerrainOperators, ElevationIsFoundInTheCache) {
   write_raster(folder_ / "clean.tif", valley());
   EXPECT_EQ(read({}, first).altitude_m, valley().cells);
   EXPECT_EQ(cache_entries(kept).size(), 3U);
+}
+
+// Ground is facets between the centres of cells: one row has none.
+TEST_F(TerrainOperators, TwoCellsAcrossAreGroundAndOneIsRefused) {
+  for (const auto& [columns, rows] : {std::pair{1, 1}, {1, 9}, {9, 1}, {2, 2}}) {
+    Raster<float> small{Grid<float>(columns, rows, 700.F), striped_.transform, striped_.crs};
+    write_raster(folder_ / "small.tif", small);
+    const auto open = [&] { return open_scene_dem(scene("small.tif", ""), silent_progress()); };
+    if (columns == 2)
+      EXPECT_EQ(open().dem.width(), 2);
+    else
+      EXPECT_EQ(test::message_of(ErrorKind::input, open),
+                fmt::format("terrain: too small: {} × {} cells\n  allowed: at least 2 × 2 cells: a "
+                            "larger `extent`, smaller cells (`cell_m`) or more data",
+                            columns, rows));
+  }
 }
 
 }  // namespace

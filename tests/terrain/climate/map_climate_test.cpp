@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
+#include <vector>
 
 #include "base/parallel.h"
 #include "terrain/climate/default_climate.h"
@@ -36,6 +38,26 @@ Climate climate_of(const Dem& dem) {
 
 MapPosition position_of(const Dem& dem) {
   return make_map_position(dem.transform, dem.crs, dem.width(), dem.height(), {});
+}
+
+TEST(MapClimate, OneCellAcrossHasTheLinesOfItsPlace) {
+  for (const auto& [width, height] : {std::pair{1, 1}, {1, 9}, {9, 1}}) {
+    const Dem dem = ground(width, height, 90.0, [](double, double) { return 600.0; });
+    const Climate climate = climate_of(dem);
+    const RuleClimate rules = make_map_climate(dem, climate, {});
+    const std::vector<float> altitude(9, 1000.F);
+    for (const ClimateVariable variable : {ClimateVariable::treeline, ClimateVariable::moisture}) {
+      std::vector<float> row(9);
+      fill_climate_row(rules, variable, dem.transform, height - 1, width, altitude.data(),
+                       row.data());
+      const PlaceClimate last = climate.at(width - 1.0, height - 1.0);
+      EXPECT_NEAR(row[static_cast<std::size_t>(width) - 1],
+                  variable == ClimateVariable::treeline ? treeline_m(last)
+                                                        : plant_water_share(last, 1000.0),
+                  0.05)
+          << width << " x " << height;
+    }
+  }
 }
 
 TEST(MapClimate, PostsHoldTheLinesOfTheirPlaces) {

@@ -16,6 +16,7 @@
 #include "renderer/compose/proposed_scene.h"
 #include "renderer/compose/region_climate.h"
 #include "renderer/compose/view_changes.h"
+#include "renderer/world/viewer_check.h"
 #include "terrain/io/crs.h"
 #include "terrain/io/raster_io.h"
 #include "tools/cli/commands.h"
@@ -52,20 +53,14 @@ ViewRequest request_of(const NewOptions& options, const ViewFormat& format,
   out.format = format;
   out.plain = options.plain;
   if (!options.towards.empty()) out.towards_deg = read_direction(options.towards);
-  const std::string degrees = normalize_crs("EPSG:4326");
+  const GeoTransform& t = ground.transform;
+  const DataExtent data{
+      {t.to_crs(-0.5, ground.cells.height() - 0.5), t.to_crs(ground.cells.width() - 0.5, -0.5)},
+      ground.crs};
   const auto position = [&](const std::string& option, glm::dvec2 lonlat) {
-    const glm::dvec2 at = transform_point(degrees, ground.crs, lonlat);
-    const GeoTransform& t = ground.transform;
-    const double width = ground.cells.width() * t.cell_x;
-    const double height = ground.cells.height() * t.cell_y;
     // The viewer may stand outside the data, places that must be visible may not.
-    const double slack = option == "--from" ? 2.0 * ground.side_m : 0.0;
-    if (!(at.x >= t.origin_x - slack && at.x <= t.origin_x + width + slack &&
-          at.y <= t.origin_y + slack && at.y >= t.origin_y - height - slack))
-      throw Error(ErrorKind::usage, option,
-                  fmt::format("{},{} lies outside the data", lonlat.x, lonlat.y),
-                  "longitude before latitude, a position within the region");
-    return at;
+    return place_near_data({option, lonlat, true}, data,
+                           option == "--from" ? 2.0 * ground.side_m : 0.0);
   };
   if (!options.from.empty()) out.from = position("--from", read_lonlat("--from", options.from));
   for (const std::string& text : options.include) {
