@@ -15,6 +15,7 @@
 #include "base/text/letters.h"
 #include "base/text/text_encoding.h"
 #include "terrain/io/crs.h"
+#include "terrain/io/input_parts.h"
 
 namespace belvedere {
 namespace {
@@ -33,6 +34,18 @@ constexpr std::array formats = {
 
 }  // namespace
 
+std::vector<std::string> vector_parts(const std::string& path) {
+  std::vector<std::string> parts = {path};
+  if (lower_extension(path) == ".shp")
+    for (const char* extension : {".dbf", ".shx", ".prj", ".cpg"}) {
+      std::error_code ignored;
+      const std::string part = fs::path(path).replace_extension(extension).string();
+      if (fs::is_regular_file(part, ignored)) parts.push_back(part);
+    }
+  for (std::string& change : database_changes(path)) parts.push_back(std::move(change));
+  return parts;
+}
+
 Dataset open_vector_layers(const VectorSource& source,
                            const std::vector<std::string_view>& extensions,
                            const std::string& found, const std::string& allowed) {
@@ -49,7 +62,6 @@ Dataset open_vector_layers(const VectorSource& source,
     throw Error(ErrorKind::input, path, "is " + archive, unpack_advice);
   if (driver == nullptr) throw Error(ErrorKind::usage, path, found, allowed);
   if (!exists) throw Error(ErrorKind::input, path, "file not found");
-  register_gdal();
   const GdalErrors errors;
   const char* const drivers[] = {driver, nullptr};
   CPLStringList options;
@@ -62,8 +74,8 @@ Dataset open_vector_layers(const VectorSource& source,
                   "`encoding` for .shp and .csv files only");
     options.SetNameValue("ENCODING", source.encoding.c_str());
   }
-  Dataset file(GDALOpenEx(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
-                          drivers, options.List(), nullptr));
+  Dataset file = open_to_read(path, path, GDAL_OF_VECTOR | GDAL_OF_VERBOSE_ERROR, drivers, errors,
+                              options.List());
   if (file == nullptr)
     throw Error(ErrorKind::input, path, errors.say(fmt::format("not a readable {} file", driver)));
   return file;
