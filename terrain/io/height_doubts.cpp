@@ -111,7 +111,7 @@ void note_dropped_cells(const RasterFile& file, Progress& progress) {
         file.wrapped_nodata() && value == static_cast<float>(*file.wrapped_nodata())
             ? fmt::format("{}: cells of {:.0f} are taken as void, because its nodata value {:.0f} "
                           "is outside the range of its cells and becomes that number in them",
-                          file.source().path, value, file.nodata().value_or(0.0))
+                          file.source().path, *file.wrapped_nodata(), file.nodata().value_or(0.0))
             : fmt::format("{}: cells of {:.0f} are taken as void, though its header does not say "
                           "so (`nodata`)",
                           file.source().path, value));
