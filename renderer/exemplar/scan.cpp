@@ -170,7 +170,8 @@ void set_classes(const Grid<std::uint8_t>& ids, GuidanceBuffers& guidance) {
 
 Raw read_raw(const SceneExemplar& settings, const LoadedScene& scene, Progress& progress) {
   Raw raw;
-  raw.picture = read_painting(find_scene_file(scene, settings.picture), progress);
+  Grid<float> alpha;
+  raw.picture = read_painting(find_scene_file(scene, settings.picture), progress, &alpha);
   if (!settings.guidance.empty()) {
     const std::string path = find_scene_file(scene, settings.guidance);
     raw.guidance = read_guidance(path);
@@ -206,6 +207,8 @@ Raw read_raw(const SceneExemplar& settings, const LoadedScene& scene, Progress& 
     }
     raw.labels = certain_labels(raw.labels, deviation_px);
   }
+  for (std::size_t i = 0; i < alpha.size(); ++i)
+    if (alpha[i] < 0.5F) raw.labels[i] = unused_label;  // what is cut out of a picture is not paint
   exclude(settings, scene, raw, progress);
   return raw;
 }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <functional>
 #include <iterator>
 #include <memory>
@@ -23,12 +22,11 @@
 #include "renderer/ground/river_banks.h"
 #include "renderer/ground/river_shores.h"
 #include "terrain/cover/town_file.h"
+#include "terrain/io/input_parts.h"
 #include "terrain/shape/coast.h"
 
 namespace belvedere {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr int head_counts = 4;
 constexpr char inferred_kind[] = "river";  // the word by which a style addresses inferred rivers
@@ -82,15 +80,9 @@ std::vector<Feature> unpack(const PackedRows& packed) {
   return features;
 }
 
-// A shapefile's attributes and CRS are in companion files.
-std::string hash_with_companions(const std::string& path) {
-  std::string all = hash_file(path);
-  const fs::path file(path);
-  for (const char* extension : {".dbf", ".shx", ".prj", ".cpg"}) {
-    std::error_code ignored;
-    const fs::path other = fs::path(file).replace_extension(extension);
-    if (fs::is_regular_file(other, ignored)) all += ' ' + hash_file(other.string());
-  }
+std::string hash_of_parts(const std::string& path) {
+  std::string all;
+  for (const std::string& part : vector_parts(path)) all += hash_file(part) + ' ';
   return all;
 }
 
@@ -105,7 +97,7 @@ CacheKey features_key(const LoadedScene& loaded, const Dem& dem) {
     if (!enabled) continue;
     const std::string path = find_scene_file(loaded, source);
     key.add("file", source)
-        .add("content", path.empty() ? std::string("none") : hash_with_companions(path));
+        .add("content", path.empty() ? std::string("none") : hash_of_parts(path));
     key.add("file_crs", file.crs).add("encoding", file.encoding);
     key.add("layer", layer).add("where", where).add("kind", kind).add("kind_of", kind_of);
     key.add("width_of", width_of).add("level_of", level_of).add("population_of", population_of);

@@ -87,6 +87,11 @@ void check_memory(const std::string& path, std::int64_t width, std::int64_t heig
               "up to " + mib(limit) + " (set by BELVEDERE_MEMORY_MIB)");
 }
 
+void blacken_transparent(Grid<glm::vec3>& picture, const Grid<float>& alpha) {
+  for (std::size_t i = 0; i < alpha.size(); ++i)
+    if (alpha[i] <= 0.F) picture[i] = glm::vec3(0.F);
+}
+
 std::string join_notes(const FileNotes& notes) {
   if (notes.empty()) return {};
   std::string text(notes_mark);

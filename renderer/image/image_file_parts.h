@@ -15,6 +15,8 @@ namespace belvedere::image_io {
 inline constexpr const char* orientation_note = "Orientation";
 // The same for a TIFF of CIE L*a*b*, which is read in sRGB.
 inline constexpr const char* lab_note = "CIE Lab";
+// The page of a TIFF that is read, where it is not the only one or not the first.
+inline constexpr const char* page_note = "Page";
 
 // The first bytes of a file, at most 16, which identify its format. Error(input) where it cannot be
 // opened.
@@ -25,6 +27,9 @@ Error no_grey_picture(const std::string& path);
 // Error(limit) where `bytes`, needed to read this width × height picture, are over
 // memory_budget_bytes().
 void check_memory(const std::string& path, std::int64_t width, std::int64_t height, double bytes);
+
+// Colours under full transparency are not seen, and differ by the program that wrote them.
+void blacken_transparent(Grid<glm::vec3>& picture, const Grid<float>& alpha);
 
 // Notes as one text for formats that have a single description: a first line that marks it, then
 // `key: value` lines with \n and \\ for line feed and backslash. Text without that first line gives

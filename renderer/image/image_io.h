@@ -23,8 +23,9 @@ namespace belvedere {
 // for anything else or a damaged header.
 ImageInfo read_image_info(const std::string& path);
 // A picture of any format of the table (OpenEXR: channels R G B or Y), as in the file: values 0…1
-// for integer formats. Colours are not converted, and not multiplied by alpha. Grey becomes RGB,
-// palettes are looked up, alpha is dropped (`alpha` receives it if given; 1 where the file has
+// for integer formats. Colours are not converted, and not multiplied by alpha; what is fully
+// transparent is black, whatever colour the file hides there. A TIFF's largest page. Grey becomes
+// RGB, palettes are looked up, alpha is dropped (`alpha` receives it if given; 1 where the file has
 // none). Size checked before allocating: Error(limit). Error(input): missing, another format, CMYK,
 // truncated.
 Grid<glm::vec3> read_picture(const std::string& path, Grid<float>* alpha = nullptr);

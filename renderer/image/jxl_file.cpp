@@ -356,10 +356,14 @@ Grid<glm::vec3> read_jxl_picture(const std::string& path, Grid<float>* alpha) {
   JxlReader reader(path, true);
   Grid<glm::vec3> picture(static_cast<int>(reader.info().xsize),
                           static_cast<int>(reader.info().ysize));
-  if (alpha != nullptr) *alpha = Grid<float>(picture.width(), picture.height(), 1.0F);
+  Grid<float> own;
+  Grid<float>& opacity = alpha != nullptr ? *alpha : own;
+  if (alpha != nullptr || reader.info().alpha_bits > 0)
+    opacity = Grid<float>(picture.width(), picture.height(), 1.0F);
   static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
   reader.read<float>(JXL_TYPE_FLOAT, &picture.data()->x,
-                     alpha != nullptr ? alpha->data() : nullptr);
+                     opacity.empty() ? nullptr : opacity.data());
+  image_io::blacken_transparent(picture, opacity);
   return picture;
 }
 

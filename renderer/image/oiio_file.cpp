@@ -1,6 +1,8 @@
 #include "renderer/image/oiio_file.h"
 
 #include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +19,7 @@
 #include "renderer/image/png_check.h"
 #include "renderer/image/png_palette.h"
 #include "renderer/image/provenance.h"
+#include "renderer/image/tiff_file.h"
 
 namespace belvedere {
 namespace {
@@ -30,6 +33,7 @@ class OiioReader {
       : path_(path), format_(format) {
     if (format_ == "png" && !image_io::is_png_complete(path))
       image_io::throw_damaged(path, "a piece is missing or has a wrong checksum");
+    if (format_ == "tiff") page_ = largest_tiff_page(path);
     input_ = OIIO::ImageInput::create(format_);
     if (input_ == nullptr) throw Error(ErrorKind::bug, path, "OpenImageIO cannot read " + format_);
     OIIO::ImageSpec settings;
@@ -42,8 +46,7 @@ class OiioReader {
     if (separated || coding == "CMYK" || coding == "YCbCrK") {
       if (header_only && separated) {
         settings.attribute("oiio:RawColor", 1);
-        input_->close();
-        if (!input_->open(path, spec_, settings)) image_io::throw_damaged(path, input_->geterror());
+        if (!open_page(settings)) image_io::throw_damaged(path, input_->geterror());
         return;
       }
       throw Error(ErrorKind::input, path, "is a CMYK picture",
@@ -52,10 +55,12 @@ class OiioReader {
   }
 
   const OIIO::ImageSpec& spec() const { return spec_; }
+  const TiffPage& page() const { return page_; }
   // The picture's colours are CIE L*a*b*, as stored.
   bool is_lab() const { return photometric() == cie_lab || photometric() == icc_lab; }
-  // A pixel as it is read in floats, in encoded sRGB.
+  // A pixel as it is read in floats, in encoded sRGB; black where it is fully transparent.
   glm::vec3 colour(const float* from) const {
+    if (spec_.alpha_channel >= 0 && from[spec_.alpha_channel] <= 0.F) return glm::vec3(0.F);
     const glm::vec3 as_read =
         spec_.nchannels >= 3 ? glm::vec3(from[0], from[1], from[2]) : glm::vec3(from[0]);
     if (!is_lab()) return as_read;
@@ -83,10 +88,10 @@ class OiioReader {
       const int top = spec_.y;
       const bool ok =
           spec_.tile_width > 0
-              ? input_->read_tiles(0, 0, spec_.x, spec_.x + spec_.width, top + y, top + end, 0, 1,
-                                   0, spec_.nchannels, type, band.data())
-              : input_->read_scanlines(0, 0, top + y, top + end, 0, 0, spec_.nchannels, type,
-                                       band.data());
+              ? input_->read_tiles(page_.index, 0, spec_.x, spec_.x + spec_.width, top + y,
+                                   top + end, 0, 1, 0, spec_.nchannels, type, band.data())
+              : input_->read_scanlines(page_.index, 0, top + y, top + end, 0, 0, spec_.nchannels,
+                                       type, band.data());
       // Reading half a file returns true: only the message reveals it.
       if (const std::string message = input_->geterror(); !ok || !message.empty())
         image_io::throw_damaged(path_, message);
@@ -99,14 +104,22 @@ class OiioReader {
 
   int photometric() const { return spec_.get_int_attribute("tiff:PhotometricInterpretation"); }
 
+  bool open_page(const OIIO::ImageSpec& settings) {
+    input_->close();
+    if (!input_->open(path_, spec_, settings)) return false;
+    if (page_.index == 0) return true;
+    if (!input_->seek_subimage(page_.index, 0)) return false;
+    spec_ = input_->spec();
+    return true;
+  }
+
   // OpenImageIO would convert Lab without its white point, and 8 bits only: it is read as stored.
   void open(OIIO::ImageSpec& settings) {
-    const bool plain = input_->open(path_, spec_, settings);
+    const bool plain = open_page(settings);
     const std::string problem = plain ? std::string() : input_->geterror();
     if (format_ == "tiff" && (!plain || (photometric() >= cie_lab && photometric() <= itu_lab))) {
       settings.attribute("oiio:RawColor", 1);
-      input_->close();
-      const bool raw = input_->open(path_, spec_, settings);
+      const bool raw = open_page(settings);
       const bool whole_steps =
           spec_.format == OIIO::TypeDesc::UINT8 || spec_.format == OIIO::TypeDesc::UINT16;
       if (raw && (photometric() == itu_lab || (is_lab() && !whole_steps)))
@@ -119,6 +132,7 @@ class OiioReader {
 
   std::string path_;
   std::string format_;
+  TiffPage page_;
   OIIO::ImageSpec spec_;
   std::unique_ptr<OIIO::ImageInput> input_;
 };
@@ -197,6 +211,12 @@ ImageInfo read_oiio_info(const std::string& path, const std::string& format) {
   }
   if (const int orientation = orientation_of(spec); orientation != 1)
     info.notes.emplace(image_io::orientation_note, std::to_string(orientation));
+  if (const TiffPage& page = reader.page(); page.index > 0 || page.of_its_size.size() > 1)
+    info.notes.emplace(image_io::page_note,
+                       page.of_its_size.size() > 1
+                           ? fmt::format("{} of {}; pages {} have the same size", page.index + 1,
+                                         page.pages, fmt::join(page.of_its_size, ", "))
+                           : fmt::format("{} of {}, the largest", page.index + 1, page.pages));
   info.dots_per_inch = dots_per_inch(spec);
   if (reader.is_lab()) info.notes.emplace(image_io::lab_note, "read in sRGB");
   if (const OIIO::ParamValue* icc = spec.find_attribute("ICCProfile");

@@ -2,6 +2,7 @@
 
 // The one file that uses libtiff; its tiles are packed on all threads before they are passed to it.
 // See image_io.h for why not OpenImageIO.
+#include <fmt/format.h>
 #include <tiffio.h>
 
 #include <algorithm>
@@ -52,6 +53,17 @@ Tiff open_tiff(const std::string& path, const char* mode, std::string& message) 
   TIFFOpenOptionsSetErrorHandlerExtR(options.get(), keep_message, &message);
   TIFFOpenOptionsSetWarningHandlerExtR(options.get(), ignore_message, nullptr);
   return Tiff(TIFFOpenExt(path.c_str(), mode, options.get()));
+}
+
+// Adobe DNG 1.6: sensor data, before and after demosaicing.
+constexpr std::uint16_t photometric_cfa = 32803, photometric_linear_raw = 34892;
+
+bool is_raw_page(TIFF* tiff) {
+  std::uint16_t photometric = 0;
+  const std::uint8_t* dng_version = nullptr;
+  return (TIFFGetField(tiff, TIFFTAG_PHOTOMETRIC, &photometric) != 0 &&
+          (photometric == photometric_cfa || photometric == photometric_linear_raw)) ||
+         TIFFGetField(tiff, TIFFTAG_DNGVERSION, &dng_version) != 0;
 }
 
 // Horizontal differencing of pixels within a tile (TIFF 6.0, section 14), in place; arithmetic
@@ -263,6 +275,56 @@ double writer_bytes(int width, double pixel_bytes) {
 }
 
 }  // namespace
+
+TiffPage largest_tiff_page(const std::string& path) {
+  std::string ignored;
+  const Tiff tiff = open_tiff(path, "rO", ignored);  // O: no tables of strips
+  TiffPage page;
+  if (tiff == nullptr) return page;
+  // Canon's CR2 has "CR" after the header of a TIFF.
+  bool raw = image_io::first_bytes(path).substr(8, 2) == "CR";
+  std::uint64_t most = 0;
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  bool reduced = false;
+  std::vector<std::uint64_t> within;
+  constexpr int max_pages = 10000;
+  for (int i = 0; i < max_pages; ++i) {
+    std::uint32_t kind = 0;
+    std::uint32_t w = 0;
+    std::uint32_t h = 0;
+    TIFFGetField(tiff.get(), TIFFTAG_SUBFILETYPE, &kind);
+    TIFFGetField(tiff.get(), TIFFTAG_IMAGEWIDTH, &w);
+    TIFFGetField(tiff.get(), TIFFTAG_IMAGELENGTH, &h);
+    raw = raw || is_raw_page(tiff.get());
+    std::uint16_t count = 0;
+    const std::uint64_t* offsets = nullptr;
+    if (TIFFGetField(tiff.get(), TIFFTAG_SUBIFD, &count, &offsets) != 0)
+      within.insert(within.end(), offsets, offsets + count);
+    const std::uint64_t pixels = std::uint64_t{w} * h;
+    if ((kind & FILETYPE_MASK) == 0 && pixels > most) {
+      most = pixels;
+      width = w;
+      height = h;
+      reduced = (kind & FILETYPE_REDUCEDIMAGE) != 0;
+      page.index = i;
+      page.of_its_size.clear();
+    }
+    if ((kind & FILETYPE_MASK) == 0 && w == width && h == height) page.of_its_size.push_back(i + 1);
+    page.pages = i + 1;
+    if (TIFFReadDirectory(tiff.get()) == 0) break;
+  }
+  for (std::size_t i = 0; i < within.size() && !raw; ++i)
+    raw = TIFFSetSubDirectory(tiff.get(), within[i]) != 0 && is_raw_page(tiff.get());
+  if (raw || reduced)
+    throw Error(
+        ErrorKind::input, path,
+        fmt::format("is {}, of which only a preview of {} × {} pixels can be read",
+                    raw ? "a camera's raw file" : "a TIFF without its full picture", width, height),
+        "the developed picture: export it as a TIFF of 16 bits from a raw converter, such "
+        "as darktable or RawTherapee");
+  return page;
+}
 
 std::unique_ptr<PictureRows> open_tiff_inks(const std::string& path, int width, int height,
                                             int bits, const PictureFileOptions& options,

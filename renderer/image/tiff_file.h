@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "base/image.h"
 #include "renderer/image/icc/ink_count.h"
@@ -10,6 +11,17 @@
 #include "renderer/image/rows/picture_rows.h"
 
 namespace belvedere {
+
+// The page that a TIFF is read as: the largest, of several the first; masks of transparency are
+// none.
+struct TiffPage {
+  int index = 0;
+  int pages = 1;
+  std::vector<int> of_its_size = {};  // pages from 1, itself among them
+};
+// Error(input) for a camera's raw file, whose pages are previews of what only its SubIFDs have. A
+// damaged file has its first page, whose reader says what is wrong.
+TiffPage largest_tiff_page(const std::string& path);
 
 // Encoded RGB 0…1 as 16-bit tiled TIFF (deflate with predictor), row by row. Values are clamped to
 // 0…1 and rounded to the nearest step, no dither; NaN is 0. Temporary file, every tile read back

@@ -4,13 +4,13 @@
 #include <optional>
 #include <utility>
 
+#include "base/cache/scratch_folder.h"
 #include "base/grid_part.h"
 #include "renderer/image/display_conversion.h"
 #include "renderer/paint/composite.h"
 #include "renderer/pipeline/copy_plan.h"
 #include "renderer/pipeline/output_colour.h"
 #include "renderer/pipeline/sheet_work.h"
-#include "renderer/sheet/scratch_folder.h"
 #include "renderer/stages/guidance_windows.h"
 #include "renderer/world/scene_features.h"
 

@@ -12,7 +12,7 @@
 #include "renderer/scene/input_hash.h"
 #include "renderer/scene/scene_schema.h"
 #include "terrain/io/http_access.h"
-#include "terrain/io/raster_parts.h"
+#include "terrain/io/input_parts.h"
 
 namespace belvedere {
 namespace {
@@ -74,7 +74,7 @@ std::vector<LockedInput> find_inputs(const LoadedScene& scene) {
       continue;
     }
     for (const std::string& part :
-         is_raster(input.key) ? raster_parts(input.path) : std::vector<std::string>{input.path}) {
+         is_raster(input.key) ? raster_parts(input.path) : vector_parts(input.path)) {
       const std::string name = name_of_part(input, part);
       if (found.contains(name)) continue;  // two sources of one file
       InputHash hash = hash_input(part);

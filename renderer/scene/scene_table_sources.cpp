@@ -20,8 +20,8 @@ std::vector<SceneKey> make_source_keys(bool heights) {
       {.name = "variable",
        .field = source(AT(terrain.sources[i].raster.variable),
                        AT(land_cover.sources[i].raster.variable)),
-       .meaning = "Name of the raster in a file that contains several (netCDF, GeoPackage); "
-                  "without it an error lists them."},
+       .meaning = "Name of the raster in a file that contains several (netCDF, GeoPackage), or "
+                  "number of a page of a TIFF; without it an error lists them."},
       {.name = "crs",
        .field = source(AT(terrain.sources[i].raster.crs), AT(land_cover.sources[i].raster.crs)),
        .meaning =

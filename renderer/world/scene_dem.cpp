@@ -19,7 +19,7 @@
 #include "renderer/ground/scene_ground_map.h"
 #include "terrain/generalize/destripe.h"
 #include "terrain/io/http_access.h"
-#include "terrain/io/raster_parts.h"
+#include "terrain/io/input_parts.h"
 
 namespace belvedere {
 

@@ -108,9 +108,13 @@ std::vector<RasterSource> check_height_sources(const std::vector<RasterSource>& 
 void note_dropped_cells(const RasterFile& file, Progress& progress) {
   for (const float value : file.undeclared_voids())
     progress.note(
-        fmt::format("{}: cells of {:.0f} are taken as void, though its header does not say so "
-                    "(`nodata`)",
-                    file.source().path, value));
+        file.wrapped_nodata() && value == static_cast<float>(*file.wrapped_nodata())
+            ? fmt::format("{}: cells of {:.0f} are taken as void, because its nodata value {:.0f} "
+                          "is outside the range of its cells and becomes that number in them",
+                          file.source().path, *file.wrapped_nodata(), file.nodata().value_or(0.0))
+            : fmt::format("{}: cells of {:.0f} are taken as void, though its header does not say "
+                          "so (`nodata`)",
+                          file.source().path, value));
   if (const RasterFile::Spikes spikes = file.spikes(); spikes.count > 0)
     progress.note(fmt::format(
         "{}: {}{} single cells are taken as void, because they differ from all around them by more "

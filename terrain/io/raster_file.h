@@ -68,6 +68,8 @@ class RasterFile {
   // The same, or Error(input) with the key that sets it.
   const std::string& required_crs() const;
   std::optional<double> nodata() const;  // the scene's, else the file's
+  // What it became in cells whose type does not have it; else none.
+  std::optional<double> wrapped_nodata() const;
   std::string driver() const;
   BandMeaning meaning() const;
   // Metres per foot if the file's CRS counts in feet and nothing says what its heights count in;

@@ -3,8 +3,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "base/cache/scratch_folder.h"
 #include "renderer/image/image_io.h"
-#include "renderer/sheet/scratch_folder.h"
 
 namespace belvedere::tools {
 namespace {

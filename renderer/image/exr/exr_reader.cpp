@@ -312,16 +312,17 @@ Grid<glm::vec3> read_exr_picture(const std::string& path, Grid<float>* alpha) {
     } else {
       targets.push_back({"Y", Imf::FLOAT, first, sizeof(glm::vec3)});
     }
-    if (alpha != nullptr) {
-      *alpha = Grid<float>(out.width(), out.height(), 1.0f);
-      if (find_channel(path, part, "A") != nullptr) {
-        targets.push_back({"A", Imf::FLOAT, reinterpret_cast<char*>(alpha->data()), sizeof(float)});
-      }
-    }
+    Grid<float> own;
+    Grid<float>& opacity = alpha != nullptr ? *alpha : own;
+    const bool has_alpha = find_channel(path, part, "A") != nullptr;
+    if (alpha != nullptr || has_alpha) opacity = Grid<float>(out.width(), out.height(), 1.0f);
+    if (has_alpha)
+      targets.push_back({"A", Imf::FLOAT, reinterpret_cast<char*>(opacity.data()), sizeof(float)});
     read_part(path, p, part, targets);
     if (!colour) {
       for (glm::vec3& v : out) v = glm::vec3(v.x);
     }
+    image_io::blacken_transparent(out, opacity);
     return out;
   }
   throw Error(ErrorKind::input, path, "contains no picture but " + list_channels(parts),

@@ -70,6 +70,8 @@ Grid<glm::vec3> read_painting(const std::string& path, Progress& progress, Grid<
         fmt::format("{}: turned upright according to its Exif orientation; masks and guides "
                     "must match the upright picture of {} × {} pixels",
                     path, picture.width(), picture.height()));
+  if (const auto page = info.notes.find(image_io::page_note); page != info.notes.end())
+    progress.note(fmt::format("{}: is read from page {}", path, page->second));
   if (info.notes.contains(image_io::lab_note))
     progress.note(fmt::format("{}: converted to sRGB from CIE Lab", path));
   try {

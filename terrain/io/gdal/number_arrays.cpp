@@ -68,13 +68,11 @@ std::vector<std::optional<NumberArray>> read_number_arrays(const std::string& pa
                                                            const std::vector<std::string>& names) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) throw missing_file(path, "a netCDF file");
-  register_gdal();
   const GdalErrors errors;
   // Only the intended driver: a harmless-looking file must not make GDAL open others.
   const char* const allowed[] = {"netCDF", nullptr};
-  const Dataset file(GDALOpenEx(path.c_str(),
-                                GDAL_OF_MULTIDIM_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
-                                allowed, nullptr, nullptr));
+  const Dataset file =
+      open_to_read(path, path, GDAL_OF_MULTIDIM_RASTER | GDAL_OF_VERBOSE_ERROR, allowed, errors);
   if (!file) throw Error(ErrorKind::input, path, errors.say("not a netCDF file"));
   const Group root(GDALDatasetGetRootGroup(file.get()), &GDALGroupRelease);
   if (!root) throw Error(ErrorKind::input, path, errors.say("has no arrays"));

@@ -11,6 +11,7 @@
 #include <map>
 #include <set>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include "base/error.h"
@@ -45,6 +46,18 @@ double metres_per_unit(std::string_view unit) {
   return 0.0;
 }
 
+// The number that a value outside the range of the cells becomes when it is stored in them, one
+// range higher or lower: -9999 becomes 55537 in 16 bits without a sign.
+std::optional<double> wrapped_value(GDALDataType type, bool with_sign, double value) {
+  if (GDALDataTypeIsInteger(type) == 0) return {};
+  const double range = std::ldexp(1.0, GDALGetDataTypeSizeBits(type));
+  const double lowest = with_sign ? -range / 2.0 : 0.0;
+  const double end = lowest + range;
+  const double stored = value < lowest ? value + range : value >= end ? value - range : value;
+  if (stored == value || stored < lowest || stored >= end) return {};
+  return stored;
+}
+
 }  // namespace
 
 struct RasterFile::State {
@@ -58,7 +71,9 @@ struct RasterFile::State {
   CellAffine affine;
   std::string crs;
   std::optional<double> nodata;
-  double scale = 1.0;  // of the band's numbers to its unit
+  std::optional<double> wrapped_nodata;  // as the cells have it, if their type has no such number
+  bool signed_bytes = false;             // GDAL reads them as 0…255
+  double scale = 1.0;                    // of the band's numbers to its unit
   double offset = 0.0;
   double vertical_unit_m = 1.0;  // from the file's vertical CRS
   bool has_vertical_crs = false;
@@ -135,6 +150,11 @@ void RasterFile::State::find_numbers() {
     nodata = source.nodata;
   else if (found != 0)
     nodata = own_nodata;
+  const GDALDataType type = GDALGetRasterDataType(band);
+  const char* pixels = GDALGetMetadataItem(band, "PIXELTYPE", "IMAGE_STRUCTURE");
+  signed_bytes = type == GDT_Byte && pixels != nullptr && std::string_view(pixels) == "SIGNEDBYTE";
+  if (nodata)
+    wrapped_nodata = wrapped_value(type, signed_bytes || GDALDataTypeIsSigned(type) != 0, *nodata);
   const double own_scale = GDALGetRasterScale(band, &found);
   if (found != 0 && std::isfinite(own_scale) && own_scale != 0.0) scale = own_scale;
   const double own_offset = GDALGetRasterOffset(band, &found);
@@ -199,6 +219,7 @@ int RasterFile::bands() const { return GDALGetRasterCount(state_->dataset.get())
 const CellAffine& RasterFile::affine() const { return state_->affine; }
 const std::string& RasterFile::crs() const { return state_->crs; }
 std::optional<double> RasterFile::nodata() const { return state_->nodata; }
+std::optional<double> RasterFile::wrapped_nodata() const { return state_->wrapped_nodata; }
 std::vector<float> RasterFile::undeclared_voids() const {
   return {state_->undeclared.begin(), state_->undeclared.end()};
 }
@@ -212,7 +233,7 @@ BandMeaning RasterFile::meaning() const {
   out.palette = means == GCI_PaletteIndex || GDALGetRasterColorTable(s.band) != nullptr;
   out.colour = byte && bands() >= 3 &&
                (means == GCI_RedBand || means == GCI_GreenBand || means == GCI_BlueBand);
-  out.bytes = byte && s.scale == 1.0 && s.offset == 0.0;
+  out.bytes = byte && !s.signed_bytes && s.scale == 1.0 && s.offset == 0.0;
   out.name = lower_case(GDALGetColorInterpretationName(means));
   return out;
 }
@@ -262,6 +283,10 @@ Grid<T> RasterFile::State::read(GDALRasterBandH from, const CellWindow& window, 
                 explain_http(errors.say(remote ? "cannot read the whole file from its server"
                                                : "the file is damaged or truncated")));
   }
+  if constexpr (std::is_signed_v<T>)
+    if (signed_bytes && from == band)
+      for (T& cell : cells)
+        if (cell > T{127}) cell -= T{256};
   return cells;
 }
 
@@ -308,6 +333,10 @@ bool RasterFile::State::is_void(float raw) const {
   if (!std::isfinite(raw) || std::abs(raw) >= 1e30F) return true;
   // Compared as floats: a declared -3.4028234663852886e38 or -9999.9 was also rounded in the cells.
   if (nodata && raw == static_cast<float>(*nodata)) return true;
+  if (wrapped_nodata && raw == static_cast<float>(*wrapped_nodata)) {
+    undeclared.insert(raw);
+    return true;
+  }
   // Black, which tiles have where nothing is known.
   if (encoding && raw == encoding->metres(0, 0, 0)) return true;
   if (raw == -32768.0F || (!nodata && raw == -9999.0F)) return true;

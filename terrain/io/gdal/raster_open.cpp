@@ -17,7 +17,7 @@
 #include "base/text/letters.h"
 #include "base/text/missing_file.h"
 #include "terrain/io/http_access.h"
-#include "terrain/io/raster_parts.h"
+#include "terrain/io/input_parts.h"
 #include "terrain/io/stream_file.h"
 
 namespace belvedere {
@@ -89,10 +89,14 @@ void check_vrt_node(const CPLXMLNode* node, const std::string& path, int nesting
       try {
         const std::string address = address_from_gdal(file.string());
         const bool beside = relative && address.empty();
-        open_checked(!address.empty() ? address
-                     : beside         ? (fs::path(path).parent_path() / file).string()
-                                      : file.string(),
-                     nesting + 1);
+        const std::string from = !address.empty() ? address
+                                 : beside         ? (fs::path(path).parent_path() / file).string()
+                                                  : file.string();
+        open_checked(from, nesting + 1);
+        // The VRT would open it itself, and write beside it.
+        if (is_database_in_use(from))
+          throw Error(ErrorKind::input, from, "is a database in WAL mode or with unsaved changes",
+                      "the GeoPackage itself as a source, instead of the VRT");
       } catch (const Error& error) {
         throw Error(error.kind(), path,
                     fmt::format("its source \"{}\": {}", error.where(), error.found()),
@@ -127,9 +131,8 @@ Dataset open_address(const std::string& address) {
   CPLStringList allowed;
   for (const char* driver : drivers) allowed.AddString(driver);
   const GdalErrors errors;
-  Dataset dataset(GDALOpenEx(address_to_gdal(address).c_str(),
-                             GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
-                             allowed.List(), nullptr, nullptr));
+  Dataset dataset = open_to_read(address_to_gdal(address), address,
+                                 GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR, allowed.List(), errors);
   if (!dataset)
     throw Error(ErrorKind::input, address,
                 explain_http(errors.say("the server response is not a readable raster")),
@@ -144,9 +147,8 @@ Dataset open_stream(const std::string& path) {
   CPLStringList allowed;
   allowed.AddString("GTiff");
   const GdalErrors errors;
-  Dataset dataset(GDALOpenEx(path.c_str(),
-                             GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
-                             allowed.List(), nullptr, nullptr));
+  Dataset dataset =
+      open_to_read(path, path, GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR, allowed.List(), errors);
   if (!dataset) throw Error(ErrorKind::input, path, errors.say("not a readable raster"), "GeoTIFF");
   return dataset;
 }
@@ -160,9 +162,8 @@ Dataset open_checked(const std::string& path, int nesting) {
   if (lower_extension(path) == ".vrt") check_vrt(path, nesting);
   const CPLStringList allowed = allowed_for(path);
   const GdalErrors errors;
-  Dataset dataset(GDALOpenEx(path.c_str(),
-                             GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
-                             allowed.List(), nullptr, nullptr));
+  Dataset dataset =
+      open_to_read(path, path, GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR, allowed.List(), errors);
   if (dataset) return dataset;
   if (const std::string archive = archive_kind(path); !archive.empty())
     throw Error(ErrorKind::input, path, "is " + archive, unpack_advice);
@@ -194,9 +195,10 @@ Dataset open_checked(const std::string& path, int nesting) {
 
 // One of several rasters of a file.
 struct Part {
-  std::string name;     // as the user writes it
-  std::string address;  // GDAL's: "NETCDF:"dem.nc":elevation"
+  std::string name;     // as the user writes it; the number of a page of a TIFF
+  std::string address;  // GDAL's: "NETCDF:"dem.nc":elevation", "GTIFF_DIR:2:dem.tif"
 };
+constexpr std::string_view page_address = "GTIFF_DIR:";
 
 std::vector<Part> parts_of(GDALDatasetH file) {
   const CPLStringList items(GDALGetMetadata(file, "SUBDATASETS"), FALSE);
@@ -205,8 +207,11 @@ std::vector<Part> parts_of(GDALDatasetH file) {
     const std::string_view item = items[i];
     const std::size_t equals = item.find('=');
     if (equals == std::string_view::npos || !item.substr(0, equals).ends_with("_NAME")) continue;
-    parts.push_back(
-        {std::string(item.substr(item.rfind(':') + 1)), std::string(item.substr(equals + 1))});
+    const std::string_view address = item.substr(equals + 1);
+    const std::string_view name = address.starts_with(page_address)
+                                      ? address.substr(page_address.size())
+                                      : address.substr(address.rfind(':') + 1);
+    parts.push_back({std::string(name.substr(0, name.find(':'))), std::string(address)});
   }
   return parts;
 }
@@ -217,16 +222,41 @@ std::string names_of(const std::vector<Part>& parts) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-Dataset open_part(const Part& part, const std::string& path) {
+Dataset open_part(const Part& part, const std::string& path, const Dataset& file) {
   CPLStringList allowed;
   for (const char* driver : drivers) allowed.AddString(driver);
   const GdalErrors errors;
-  Dataset dataset(GDALOpenEx(part.address.c_str(),
-                             GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
-                             allowed.List(), nullptr, nullptr));
+  Dataset dataset = open_to_read(part.address, path, GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR,
+                                 allowed.List(), errors, nullptr, file);
   if (dataset && GDALGetRasterCount(dataset.get()) != 0) return dataset;
   throw Error(ErrorKind::input, path,
               errors.say(fmt::format("\"{}\" is not a readable raster", part.name)));
+}
+
+// Pages of a TIFF are one raster in several sizes, or several rasters: the largest, if it is one.
+Dataset open_largest_page(const std::vector<Part>& pages, const std::string& path,
+                          const Dataset& file) {
+  Dataset largest;
+  std::vector<std::string> names;
+  double cells = 0.0;
+  std::string size;
+  for (const Part& page : pages) {
+    Dataset opened = open_part(page, path, file);
+    const int width = GDALGetRasterXSize(opened.get());
+    const int height = GDALGetRasterYSize(opened.get());
+    const double its = static_cast<double>(width) * height;
+    if (its < cells) continue;
+    if (its > cells) names.clear();
+    names.push_back(page.name);
+    cells = its;
+    size = fmt::format("{} × {}", width, height);
+    largest = std::move(opened);
+  }
+  if (names.size() == 1) return largest;
+  throw Error(ErrorKind::input, path,
+              fmt::format("has several pages, and {} are of the largest size, {} cells: {}",
+                          names.size(), size, fmt::join(names, ", ")),
+              fmt::format("the number of one of them: `variable = \"{}\"`", names.front()));
 }
 
 }  // namespace
@@ -235,6 +265,8 @@ Dataset open_raster(const RasterSource& source) {
   Dataset file = open_checked(source.path, 0);
   const std::vector<Part> parts = parts_of(file.get());
   if (source.variable.empty()) {
+    if (!parts.empty() && parts.front().address.starts_with(page_address))
+      return open_largest_page(parts, source.path, file);
     if (GDALGetRasterCount(file.get()) != 0) return file;
     if (parts.empty()) throw Error(ErrorKind::input, source.path, "contains no raster");
     throw Error(ErrorKind::input, source.path,
@@ -242,7 +274,7 @@ Dataset open_raster(const RasterSource& source) {
                 fmt::format("the name of one of them: `variable = \"{}\"`", parts[0].name));
   }
   for (const Part& part : parts)
-    if (part.name == source.variable) return open_part(part, source.path);
+    if (part.name == source.variable) return open_part(part, source.path, file);
   // A netCDF file with one variable is opened as that variable; only the band has its name.
   GDALRasterBandH band = GDALGetRasterBand(file.get(), 1);
   const char* own = GDALGetMetadataItem(band, "NETCDF_VARNAME", nullptr);
@@ -260,8 +292,11 @@ void gather_parts(const std::string& path, int nesting, std::set<std::string>& p
   if (!parts.insert(path).second || is_address(path)) return;
   const Dataset dataset = open_checked(path, nesting);
   const GdalErrors errors;
+  for (std::string& change : database_changes(path)) parts.insert(std::move(change));
+  const auto& copy = dataset.get_deleter().copy;
   const CPLStringList files(GDALGetFileList(dataset.get()));
   for (int i = 0; i < files.Count(); ++i) {
+    if (copy != nullptr && std::string_view(files[i]).starts_with(copy->path())) continue;
     const std::string address = address_from_gdal(files[i]);
     const std::string part = address.empty() ? files[i] : address;
     // Sources of a VRT are files of their own; x.vrt.ovr and the like belong to it.

@@ -18,6 +18,7 @@
 #include "base/text/missing_file.h"
 #include "base/text/text_encoding.h"
 #include "terrain/io/crs.h"
+#include "terrain/io/input_parts.h"
 
 namespace belvedere {
 namespace {
@@ -109,6 +110,18 @@ void require_degrees(const std::vector<glm::dvec2>& positions, const std::string
                   system, system, file));
 }
 
+std::vector<std::string> vector_parts(const std::string& path) {
+  std::vector<std::string> parts = {path};
+  if (lower_extension(path) == ".shp")
+    for (const char* extension : {".dbf", ".shx", ".prj", ".cpg"}) {
+      std::error_code ignored;
+      const std::string part = fs::path(path).replace_extension(extension).string();
+      if (fs::is_regular_file(part, ignored)) parts.push_back(part);
+    }
+  for (std::string& change : database_changes(path)) parts.push_back(std::move(change));
+  return parts;
+}
+
 Dataset open_vector_layers(const VectorSource& source,
                            const std::vector<std::string_view>& extensions,
                            const std::string& found, const std::string& allowed) {
@@ -126,7 +139,6 @@ Dataset open_vector_layers(const VectorSource& source,
     throw Error(ErrorKind::input, path, "is " + archive, unpack_advice);
   if (driver == nullptr) throw Error(ErrorKind::usage, path, found, allowed);
   if (!exists) throw missing_file(path, allowed);
-  register_gdal();
   const GdalErrors errors;
   const bool json = driver == json_driver;
   const char* const drivers[] = {driver, json ? "GeoJSONSeq" : nullptr, nullptr};
@@ -147,9 +159,8 @@ Dataset open_vector_layers(const VectorSource& source,
                   "`encoding` for .shp and .csv files only");
     options.SetNameValue("ENCODING", source.encoding.c_str());
   }
-  Dataset file(GDALOpenEx(address.c_str(),
-                          GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, drivers,
-                          options.List(), nullptr));
+  Dataset file = open_to_read(address, path, GDAL_OF_VECTOR | GDAL_OF_VERBOSE_ERROR, drivers,
+                              errors, options.List());
   if (file == nullptr)
     throw Error(ErrorKind::input, path, errors.say(fmt::format("not a readable {} file", driver)),
                 json ? allowed_geojson : "");

@@ -124,6 +124,34 @@ TEST_F(Scans, WhatIsExcludedIsNeverCopied) {
   EXPECT_LT(with.ramps[3].ramps[0][2].y, 0.3F * with.ramps[3].ramps[0][2].x);
 }
 
+// A cut-out picture is the same paint whatever colour lies under its transparency.
+TEST_F(Scans, WhatIsTransparentIsNotPaint) {
+  const Grid<glm::vec3> picture = read_picture(folder_ / "a.png");
+  std::vector<ScannedPainting> scans;
+  for (const std::string& hidden : {std::string("\xff\0\xff\0", 4), std::string("\0\xff\0\0", 4)}) {
+    std::string rows;
+    for (int y = 0; y < picture.height(); ++y)
+      for (int x = 0; x < picture.width(); ++x) {
+        if (is_lettering(x, y)) {
+          rows += hidden;
+          continue;
+        }
+        for (int c = 0; c < 3; ++c)
+          rows += static_cast<char>(std::lround(picture(x, y)[c] * 255.F));
+        rows += '\xff';
+      }
+    test::write_bytes(folder_ / "a.png",
+                      test::make_png(picture.width(), picture.height(), 8, 6, rows));
+    scans.push_back(read("").front());
+  }
+  EXPECT_EQ(scans[0].painted.exemplar.guides.label(70, 60), unused_label);
+  EXPECT_EQ(scans[0].painted.exemplar.picture, scans[1].painted.exemplar.picture);
+  EXPECT_EQ(scans[0].painted.base, scans[1].painted.base);
+  EXPECT_EQ(scans[0].ramps[3].ramps[0], scans[1].ramps[3].ramps[0]);
+  for (const glm::vec3& colour : scans[0].ramps[3].ramps[0])
+    EXPECT_GT(colour.y, 0.4F * colour.x) << "of what is seen";
+}
+
 TEST_F(Scans, WhatIsExcludedIsFilledWhereTheSceneSaysSo) {
   // Rock everywhere, with a red title across it that has no class.
   Grid<glm::vec3> picture(160, 120);

@@ -140,11 +140,13 @@ TEST(ReadPicture, AlphaDoesNotTouchColours) {
                     test::make_png(2, 1, 8, 6, "\x64\xc8\x32\x00\x64\xc8\x32\x80"s));
   Grid<float> alpha;
   Grid<glm::vec3> picture = read_picture(folder / "rgba.png", &alpha);
-  for (int x = 0; x < 2; ++x) {
-    EXPECT_NEAR(picture(x, 0).x, 100.0 / 255.0, 1e-7);
-    EXPECT_NEAR(picture(x, 0).y, 200.0 / 255.0, 1e-7);
-    EXPECT_NEAR(picture(x, 0).z, 50.0 / 255.0, 1e-7);
-  }
+  EXPECT_EQ(picture(0, 0), glm::vec3(0.F)) << "what is not seen has no colour";
+  EXPECT_NEAR(picture(1, 0).x, 100.0 / 255.0, 1e-7);
+  EXPECT_NEAR(picture(1, 0).y, 200.0 / 255.0, 1e-7);
+  EXPECT_NEAR(picture(1, 0).z, 50.0 / 255.0, 1e-7);
+  EXPECT_EQ(read_picture(folder / "rgba.png"), picture) << "without alpha as well";
+  read_picture_rows(folder / "rgba.png",
+                    [&](int, const Grid<glm::vec3>& rows) { EXPECT_EQ(rows, picture); });
   EXPECT_EQ(alpha(0, 0), 0.0f);
   EXPECT_NEAR(alpha(1, 0), 128.0 / 255.0, 1e-6);
   test::write_bytes(folder / "ga.png", test::make_png(1, 1, 8, 4, "\x64\x80"s));
@@ -154,6 +156,61 @@ TEST(ReadPicture, AlphaDoesNotTouchColours) {
   test::write_bytes(folder / "grey.png", test::make_png(1, 1, 16, 0, "\x80\x00"s));
   EXPECT_NEAR(read_picture(folder / "grey.png", &alpha)(0, 0).y, 32768.0 / 65535.0, 1e-6);
   EXPECT_EQ(alpha(0, 0), 1.0f);
+}
+
+TEST(ReadPicture, TheLargestPageOfATiffIsRead) {
+  const Folder folder("pages");
+  using Pages = std::vector<test::TiffPageBytes>;
+  const auto info = [&](const Pages& pages) {
+    test::write_bytes(folder / "a.tif", test::make_tiff_pages(pages));
+    return read_image_info(folder / "a.tif");
+  };
+  const auto first = [&] { return std::lround(255.F * read_picture(folder / "a.tif")(0, 0).x); };
+  EXPECT_EQ(info({{.width = 6, .height = 4, .value = 10}}).notes.count("Page"), 0U);
+  EXPECT_EQ(info({{.width = 6, .height = 4, .value = 10}, {.width = 3, .height = 2, .value = 20}})
+                .notes.count("Page"),
+            0U)
+      << "the first is the largest";
+  EXPECT_EQ(first(), 10);
+  const ImageInfo second = info(
+      {{.width = 3, .height = 2, .value = 10, .kind = 1}, {.width = 6, .height = 4, .value = 20}});
+  EXPECT_EQ(second.width, 6);
+  EXPECT_EQ(second.notes.at("Page"), "2 of 2, the largest");
+  EXPECT_EQ(first(), 20);
+  EXPECT_EQ(read_grey(folder / "a.tif")(0, 0), 20);
+  read_picture_rows(folder / "a.tif",
+                    [](int, const Grid<glm::vec3>& rows) { EXPECT_EQ(rows.width(), 6); });
+  EXPECT_EQ(info({{.width = 6, .height = 4, .value = 10}, {.width = 6, .height = 4, .value = 20}})
+                .notes.at("Page"),
+            "1 of 2; pages 1, 2 have the same size");
+  EXPECT_EQ(first(), 10);
+  info({{.width = 3, .height = 2, .value = 10}, {.width = 9, .height = 9, .value = 20, .kind = 4}});
+  EXPECT_EQ(first(), 10) << "the second is a mask";
+}
+
+// NEF and DNG have a preview as their page, and the sensor's numbers in a SubIFD; CR2 a mark.
+TEST(ReadPicture, APreviewOfARawFileIsRefused) {
+  const Folder folder("raw");
+  const test::TiffPageBytes preview{.width = 3, .height = 2, .value = 10, .kind = 1};
+  const test::TiffPageBytes sensor{.width = 6, .height = 4, .value = 20, .photometric = 32803};
+  std::string canon = test::make_tiff_pages({{.width = 3, .height = 2, .value = 10}}, {}, 8);
+  canon.replace(8, 2, "CR");
+  for (const std::string& bytes :
+       {test::make_tiff_pages({preview}, sensor), canon, test::make_tiff_pages({preview}),
+        test::make_tiff_pages({{.width = 3, .height = 2, .value = 1, .photometric = 34892}})}) {
+    test::write_bytes(folder / "a.tif", bytes);
+    for (const auto& read : std::vector<std::function<void()>>{
+             [&] { read_picture(folder / "a.tif"); }, [&] { read_image_info(folder / "a.tif"); }}) {
+      const Error error = test::error_of(read);
+      EXPECT_EQ(error.kind(), ErrorKind::input);
+      EXPECT_NE(error.found().find("preview of 3 × 2 pixels"), std::string::npos);
+      EXPECT_NE(error.allowed().find("raw converter"), std::string::npos);
+    }
+  }
+  // A reduced copy in a SubIFD, as pyramids have it, is none.
+  test::write_bytes(folder / "b.tif",
+                    test::make_tiff_pages({{.width = 6, .height = 4, .value = 7}}, preview));
+  EXPECT_NEAR(read_picture(folder / "b.tif")(5, 3).x, 7.0 / 255.0, 1e-6);
 }
 
 TEST(ReadGrey, GivesTheNumbersOfTheFile) {
@@ -168,7 +225,7 @@ TEST(ReadGrey, GivesTheNumbersOfTheFile) {
   EXPECT_THAT(read_grey(folder / "1.png"), testing::ElementsAre(0, 0, 1, 0, 0, 1, 0, 1));
   test::write_bytes(folder / "ga.png", test::make_png(2, 1, 8, 4, "\x09\x10\x03\x00"s));
   EXPECT_THAT(read_grey(folder / "ga.png"), testing::ElementsAre(9, 3));
-  test::write_bytes(folder / "8.tif", test::make_tiff(3, 2, "\x00\x01\x02\x0a\x0b\xff"s));
+  test::write_bytes(folder / "8.tif", test::make_tiff_pages(3, 2, "\x00\x01\x02\x0a\x0b\xff"s));
   EXPECT_THAT(read_grey(folder / "8.tif"), testing::ElementsAre(0, 1, 2, 10, 11, 255));
 }
 
@@ -235,7 +292,7 @@ TEST(ReadPicture, TruncatedFilesAreFound) {
   write_tiff16(folder / "own.tif", picture, {});
   write_png8(folder / "own.png", picture, {});
   const std::vector<std::pair<std::string, std::string>> files = {
-      {"a.tif", test::make_tiff(40, 40, rows)},
+      {"a.tif", test::make_tiff_pages(40, 40, rows)},
       {"b.tif", test::read_bytes(folder / "own.tif")},
       {"c.png", test::make_png(40, 40, 8, 0, rows)},
       {"d.png", test::read_bytes(folder / "own.png")},

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,51 @@ inline std::string make_png(int width, int height, int bits, int colour_type,
   std::string out = "\x89PNG\r\n\x1a\n" + png_chunk("IHDR", header);
   if (!palette.empty()) out += png_chunk("PLTE", palette);
   return out + png_chunk("IDAT", packed) + png_chunk("IEND", "");
+}
+
+// A directory of a TIFF: a grey picture of one value.
+struct TiffPageBytes {
+  int width, height;
+  int value = 0;
+  int kind = 0;         // NewSubfileType: 1 a reduced copy, 4 a mask
+  int photometric = 1;  // 1: grey, black is 0
+};
+
+// A little-endian TIFF of pages; the one of a single page may have a SubIFD. `room`: bytes between
+// its head and the first directory.
+inline std::string make_tiff_pages(const std::vector<TiffPageBytes>& pages,
+                                   const std::optional<TiffPageBytes>& within = {}, int room = 0) {
+  std::string out = std::string("II*\0", 4) +
+                    little_endian(8 + static_cast<std::uint64_t>(room), 4) +
+                    std::string(static_cast<std::size_t>(room), '\0');
+  // Directories lie one after the other, each with its pixels; `next`: whether one follows it.
+  const auto add = [&](const TiffPageBytes& page, bool next, bool sub) {
+    const std::size_t count = sub ? 10 : 9;
+    const std::size_t pixels = static_cast<std::size_t>(page.width * page.height);
+    const std::size_t data = out.size() + 2 + 12 * count + 4;
+    const auto entry = [&](int tag, int type, std::uint64_t values, std::uint64_t value) {
+      out += little_endian(static_cast<std::uint64_t>(tag), 2) +
+             little_endian(static_cast<std::uint64_t>(type), 2) + little_endian(values, 4) +
+             little_endian(value, 4);
+    };
+    out += little_endian(count, 2);
+    entry(254, 4, 1, static_cast<std::uint64_t>(page.kind));
+    entry(256, 4, 1, static_cast<std::uint64_t>(page.width));
+    entry(257, 4, 1, static_cast<std::uint64_t>(page.height));
+    entry(258, 3, 1, 8);
+    entry(259, 3, 1, 1);
+    entry(262, 3, 1, static_cast<std::uint64_t>(page.photometric));
+    entry(273, 4, 1, data);
+    entry(277, 3, 1, 1);
+    entry(279, 4, 1, pixels);
+    if (sub) entry(330, 4, 1, data + pixels);
+    out += little_endian(next ? data + pixels : 0, 4);
+    out += std::string(pixels, static_cast<char>(page.value));
+  };
+  for (std::size_t i = 0; i < pages.size(); ++i)
+    add(pages[i], i + 1 < pages.size(), within.has_value());
+  if (within) add(*within, false, false);
+  return out;
 }
 
 // A JPEG of 8 × 8 pixels of CMYK.

@@ -166,6 +166,23 @@ TEST_F(LockedScene, AnotherByteOfTheSameSizeIsFoundAlsoBehindAVrt) {
               AllOf(HasSubstr("p.png"), HasSubstr("no such file in the lock")));
 }
 
+TEST_F(LockedScene, FilesBesideAVectorFileAreInputs) {
+  std::string database("SQLite format 3\0", 16);
+  database.resize(100);
+  folder_.write("data/r.gpkg", database);
+  folder_.write("data/s.shp", "");
+  folder_.write("data/s.dbf", "");
+  folder_.write("scene/alps.toml", test::read_bytes(folder_ / "scene/alps.toml") +
+                                       "[[features]]\nfile = \"r.gpkg\"\nkind = \"road\"\n"
+                                       "[[features]]\nfile = \"s.shp\"\nkind = \"road\"\n");
+  const std::vector<LockedInput> before = find_inputs(scene());
+  folder_.write("data/r.gpkg-wal", "changes");
+  folder_.write("data/s.dbf", "names");
+  EXPECT_THAT(describe(compare_inputs(before, find_inputs(scene()))),
+              AllOf(HasSubstr("r.gpkg-wal: not in the lock"), HasSubstr("s.dbf: "),
+                    Not(HasSubstr("s.shp"))));
+}
+
 TEST_F(LockedScene, InputsMoreOrFewerAreNamed) {
   SceneLock lock;
   lock.inputs = find_inputs(scene());

@@ -30,6 +30,19 @@ class HeightDoubts : public RasterFiles {
     parameters.sources[0].crs = crs;
     return parameters;
   }
+  // NAME.vrt of one band of `type` and `nodata` over NAME.asc.
+  void write_band(const std::string& name, const std::string& type, const std::string& nodata,
+                  const std::function<std::string(int, int)>& value,
+                  const std::string& metadata = "") const {
+    write_ascii(name + ".asc", 40, 40, 500000, 5200000, 30, value);
+    write_text(name + ".vrt",
+               "<VRTDataset rasterXSize=\"40\" rasterYSize=\"40\"><GeoTransform>500000,30,0,"
+               "5201200,0,-30</GeoTransform><VRTRasterBand dataType=\"" +
+                   type + "\" band=\"1\">" + metadata + "<NoDataValue>" + nodata +
+                   "</NoDataValue><SimpleSource><SourceFilename relativeToVRT=\"1\">" + name +
+                   ".asc</SourceFilename><SourceBand>1</SourceBand></SimpleSource>"
+                   "</VRTRasterBand></VRTDataset>");
+  }
   // A VRT of 8-bit bands with these colours over ASCII grids of `values`.
   DemParameters colours(const std::vector<std::string>& meanings,
                         const std::vector<int>& values) const {
@@ -75,6 +88,55 @@ TEST_F(HeightDoubts, NumbersOfUnknownHeightsAreVoids) {
   EXPECT_EQ(dem.filled(3, 3), 1);
   EXPECT_EQ(dem.filled(5, 3), 1);
   EXPECT_EQ(dem.filled(8, 3), 0);
+}
+
+// A nodata value outside the range of the cells becomes another number in them:
+// 55537 = 2^16 - 9999.
+TEST_F(HeightDoubts, NodataThatTheCellsCannotHoldIsVoid) {
+  struct Case {
+    const char* type;
+    const char* nodata;
+    std::string stored;
+  };
+  for (const Case& c : {Case{"UInt16", "-9999", "55537"}, Case{"Byte", "-9", "247"},
+                        Case{"UInt32", "-9999", "4294957297"}, Case{"Int16", "55537", "-9999"}}) {
+    write_band("w", c.type, c.nodata, [&](int x, int y) {
+      // With a point: GDAL reads whole numbers of an ASCII grid in 32 bits with a sign.
+      return (x > 10 && x < 15 && y > 10 ? c.stored : std::to_string(100 + x)) + ".0";
+    });
+    KeptNotes notes;
+    const Dem dem = read_dem(dem_of("w.vrt"), notes);
+    EXPECT_EQ(dem.filled(12, 20), 1) << c.type;
+    EXPECT_EQ(dem.filled(5, 20), 0) << c.type;
+    EXPECT_NEAR(dem.altitude_m(12, 20), 112.F, 3.F) << c.type;
+    EXPECT_THAT(notes.text, HasSubstr(std::string("nodata value ") + c.nodata)) << c.type;
+    const RasterSource codes = source_of(path("w.vrt"), "EPSG:32632");
+    EXPECT_EQ(read_codes(codes).cells(12, 20), -1) << c.type;
+  }
+  // More than one range away, it is no number of the cells.
+  write_band("w", "Byte", "-9999",
+             [](int x, int) { return std::to_string(x == 7 ? 241 : 100 + x); });
+  EXPECT_EQ(read_dem(dem_of("w.vrt"), silent_progress()).filled(7, 20), 0);
+}
+
+// GDAL before 3.7 marks signed bytes in the metadata and reads them as 0…255.
+TEST_F(HeightDoubts, SignedBytesHaveASign) {
+  write_band(
+      "s", "Byte", "-1",
+      [](int x, int y) {
+        return std::to_string(x == 7 ? 255 : y == 9 ? 250 : x);
+      },
+      "<Metadata domain=\"IMAGE_STRUCTURE\"><MDI key=\"PIXELTYPE\">SIGNEDBYTE</MDI></Metadata>");
+  const RasterSource source = source_of(path("s.vrt"), "EPSG:32632");
+  const Raster<float> read = read_raster(source);
+  EXPECT_EQ(read.cells(5, 9), -6.F);
+  EXPECT_EQ(read.cells(5, 5), 5.F);
+  EXPECT_TRUE(std::isnan(read.cells(7, 5)));
+  EXPECT_EQ(read_codes(source).cells(5, 9), -1) << "no code is negative";
+  EXPECT_EQ(read_codes(source).cells(5, 5), 5);
+  KeptNotes notes;
+  EXPECT_EQ(read_dem(dem_of("s.vrt"), notes).altitude_m(5, 9), -6.F);
+  EXPECT_EQ(notes.text.find("0…255"), std::string::npos);
 }
 
 TEST_F(HeightDoubts, HeightsOfNoGroundAreNotedWithTheKeysThatHelp) {

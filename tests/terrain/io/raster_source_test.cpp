@@ -82,6 +82,21 @@ TEST_F(RasterOfSeveral, GeoPackageListsItsTablesAndTakesOne) {
   EXPECT_EQ(read_raster(source("two.gpkg", "cover")).cells(7, 2), 22.F);
 }
 
+TEST_F(RasterOfSeveral, OfPagesOfATiffTheLargestIsRead) {
+  if (!has_gdal_translate()) GTEST_SKIP() << "needs GDAL's program gdal_translate";
+  write_two();
+  const std::string more = "-co APPEND_SUBDATASET=YES -a_srs EPSG:32632 ";
+  ASSERT_TRUE(translate("-a_srs EPSG:32632 -outsize 3 2", "dem.asc", "pages.tif"));
+  ASSERT_TRUE(translate(more, "dem.asc", "pages.tif"));
+  EXPECT_EQ(read_raster(source("pages.tif")).cells.width(), 12);
+  EXPECT_EQ(read_raster(source("pages.tif")).cells(7, 2), 1007.F);
+  EXPECT_EQ(read_raster(source("pages.tif", "1")).cells.width(), 3);
+  ASSERT_TRUE(translate(more, "cover.asc", "pages.tif"));
+  EXPECT_THAT(error_of([&] { read_raster(source("pages.tif")); }).what(),
+              AllOf(HasSubstr("12 × 8 cells: 2, 3"), HasSubstr("`variable = \"2\"`")));
+  EXPECT_EQ(read_codes(source("pages.tif", "3")).cells(7, 2), 22);
+}
+
 TEST_F(RasterOfSeveral, AFileOfOneHasNoNames) {
   write_two();
   EXPECT_THAT(error_of([&] { read_raster(source("dem.asc", "dem")); }).what(),

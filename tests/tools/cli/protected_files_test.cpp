@@ -19,8 +19,7 @@ using test::Words;
 using testing::AnyOf;
 using testing::HasSubstr;
 
-class ProtectedFiles : public test::SmallCommands,
-                       public ::testing::WithParamInterface<SmallCase> {
+class ProtectedFiles : public test::SmallCommands, public ::testing::WithParamInterface<SmallCase> {
  protected:
   using Files = std::map<std::string, std::string>;  // path, bytes
 
@@ -77,8 +76,10 @@ TEST_P(ProtectedFiles, AreLeftAlone) {
     bool hard = true;
     for (const std::string& input : inputs()) {
       fs::remove(result);
-      if (hard) fs::create_hard_link(input, result);
-      else fs::create_symlink(input, result);
+      if (hard)
+        fs::create_hard_link(input, result);
+      else
+        fs::create_symlink(input, result);
       hard = !hard;
       refused("a link to an input");
       EXPECT_EQ(read_bytes(input), before.at(input));

@@ -9,12 +9,12 @@
 namespace belvedere {
 namespace {
 
+using test::GridSize;
+using test::SmallCase;
 using ::testing::AnyOf;
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
-using test::GridSize;
-using test::SmallCase;
 
 // A flat one of an ordinary size is a division by nothing as well.
 const std::vector<GridSize> grid_sizes = {
@@ -39,7 +39,8 @@ TEST_P(SmallGrids, EndWithAResultOrAnError) {
     }
   }
 }
-INSTANTIATE_TEST_SUITE_P(Commands, SmallGrids, ::testing::ValuesIn(test::small_cases), test::name_of_case);
+INSTANTIATE_TEST_SUITE_P(Commands, SmallGrids, ::testing::ValuesIn(test::small_cases),
+                         test::name_of_case);
 
 TEST(SmallGridsTable, HasEveryCommand) {
   std::set<std::string> covered = test::without_grids;

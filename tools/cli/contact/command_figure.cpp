@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/cache/cache.h"
+#include "base/cache/scratch_folder.h"
 #include "base/land_cover_class.h"
 #include "base/text/json.h"
 #include "renderer/exemplar/exemplars.h"
@@ -16,7 +17,6 @@
 #include "renderer/pipeline/pipeline.h"
 #include "renderer/pipeline/scene_lock_run.h"
 #include "renderer/pipeline/scene_paint.h"
-#include "renderer/sheet/scratch_folder.h"
 #include "renderer/world/season/scene_season.h"
 #include "renderer/world/world.h"
 #include "tools/cli/contact/contact_commands.h"

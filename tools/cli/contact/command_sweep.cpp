@@ -5,11 +5,11 @@
 #include <utility>
 
 #include "base/cache/cache.h"
+#include "base/cache/scratch_folder.h"
 #include "base/error.h"
 #include "base/text/json.h"
 #include "renderer/image/image_io.h"
 #include "renderer/pipeline/pipeline.h"
-#include "renderer/sheet/scratch_folder.h"
 #include "renderer/world/coarse_ground_scene.h"
 #include "tools/cli/contact/contact_commands.h"
 #include "tools/cli/contact/picture_table.h"

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/cache/scratch_folder.h"
 #include "base/land_cover_class.h"
 #include "renderer/pipeline/copy_plan.h"
 #include "renderer/pipeline/scene_paint.h"
 #include "renderer/pipeline/sheet_memory.h"
-#include "renderer/sheet/scratch_folder.h"
 #include "renderer/stages/lit_picture.h"
 #include "renderer/stages/stages.h"
 #include "renderer/trace/sketch/relief_sketch.h"

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "base/cache/scratch_folder.h"
 #include "base/error.h"
 #include "base/files/file_guard.h"
 #include "base/files/output_file.h"
@@ -12,7 +13,6 @@
 #include "renderer/image/provenance.h"
 #include "renderer/pipeline/scene_lock_run.h"
 #include "renderer/scene/scene_lock.h"
-#include "renderer/sheet/scratch_folder.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/scene_options.h"
 #include "tools/cli/terminal.h"

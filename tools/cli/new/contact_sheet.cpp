@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "base/cache/cache.h"
+#include "base/cache/scratch_folder.h"
 #include "renderer/image/image_io.h"
 #include "renderer/pipeline/pipeline.h"
 #include "renderer/scene/draft.h"
-#include "renderer/sheet/scratch_folder.h"
 #include "renderer/world/scene_dem.h"
 #include "renderer/world/valley_view.h"
 #include "terrain/io/raster_io.h"

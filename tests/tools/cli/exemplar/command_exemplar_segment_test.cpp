@@ -1,10 +1,12 @@
 // `belvedere exemplar segment` as users meet it.
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <filesystem>
 #include <set>
 
 #include "base/random.h"
+#include "tests/renderer/image/picture_bytes.h"
 #include "tests/tools/program.h"
 
 namespace belvedere {
@@ -150,6 +152,27 @@ TEST_F(ExemplarSegment, BadInputIsNamed) {
       "tiny.png", 64, 16, [](int x, int) { return glm::vec3(static_cast<float>(x) / 64.F); });
   refused({"exemplar", "segment", tiny, "--out", path("m.png")}, 3, "64 × 16");
   EXPECT_FALSE(std::filesystem::exists(path("m.png")));
+}
+
+// Cut-out pictures that differ by the colour under their transparency alone.
+TEST_F(ExemplarSegment, HiddenColoursAreNotSeen) {
+  const Grid<glm::vec3> picture = read_picture(write_painting());
+  std::vector<std::string> results;
+  for (const std::string& hidden : {std::string("\xff\0\xff\0", 4), std::string("\0\xff\0\0", 4)}) {
+    std::string rows;
+    for (int y = 0; y < picture.height(); ++y)
+      for (int x = 0; x < picture.width(); ++x) {
+        for (int c = 0; x < 80 && c < 3; ++c)
+          rows += static_cast<char>(std::lround(picture(x, y)[c] * 255.F));
+        rows += x < 80 ? "\xff" : hidden;
+      }
+    write("cut.png", test::make_png(picture.width(), picture.height(), 8, 6, rows));
+    const Outcome outcome = run({"exemplar", "segment", path("cut.png"), "--out", path("m.png"),
+                                 "--report", path("m.html"), "-q"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    results.push_back(read_bytes(path("m.png")) + read_bytes(path("m.html")));
+  }
+  EXPECT_EQ(results[0], results[1]);
 }
 
 }  // namespace

@@ -1,10 +1,12 @@
 // `belvedere style fit` from the command line.
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <filesystem>
 
 #include "base/random.h"
 #include "renderer/style/style_file.h"
+#include "tests/renderer/image/picture_bytes.h"
 #include "tests/tools/program.h"
 
 namespace belvedere {
@@ -74,6 +76,32 @@ TEST_F(StyleFit, MistakesAreToldBeforeAnythingIsWritten) {
   EXPECT_EQ(number.status, 3);
   EXPECT_THAT(number.err, HasSubstr("77 (3600 pixels"));
   EXPECT_FALSE(std::filesystem::exists(path("style.toml")));
+}
+
+// Cut-out pictures that differ by the colour under their transparency alone.
+TEST_F(StyleFit, HiddenColoursAreNotSeen) {
+  const Grid<glm::vec3> picture = read_picture(write_painting());
+  std::vector<std::string> results;
+  for (const std::string& hidden : {std::string("\xff\0\xff\0", 4), std::string("\0\xff\0\0", 4)}) {
+    std::string rows;
+    for (int y = 0; y < picture.height(); ++y)
+      for (int x = 0; x < picture.width(); ++x) {
+        for (int c = 0; x < 80 && c < 3; ++c)
+          rows += static_cast<char>(std::lround(picture(x, y)[c] * 255.F));
+        rows += x < 80 ? "\xff" : hidden;
+      }
+    write("cut.png", test::make_png(picture.width(), picture.height(), 8, 6, rows));
+    for (const bool masked : {true, false}) {
+      std::vector<std::string> fit = {"style", "fit",          path("cut.png"),
+                                      "--out", path("c.toml"), "-q"};
+      if (masked) fit.insert(fit.end(), {"--classes", write_mask()});
+      const Outcome outcome = run(fit);
+      ASSERT_EQ(outcome.status, 0) << outcome.err;
+      if (masked) results.emplace_back();
+      results.back() += read_bytes(path("c.toml"));
+    }
+  }
+  EXPECT_EQ(results[0], results[1]);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "renderer/sheet/scratch_folder.h"
+#include "base/cache/scratch_folder.h"
 
 #include <cerrno>
 #include <cstdlib>
