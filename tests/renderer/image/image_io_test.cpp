@@ -225,7 +225,7 @@ TEST(ReadGrey, GivesTheNumbersOfTheFile) {
   EXPECT_THAT(read_grey(folder / "1.png"), testing::ElementsAre(0, 0, 1, 0, 0, 1, 0, 1));
   test::write_bytes(folder / "ga.png", test::make_png(2, 1, 8, 4, "\x09\x10\x03\x00"s));
   EXPECT_THAT(read_grey(folder / "ga.png"), testing::ElementsAre(9, 3));
-  test::write_bytes(folder / "8.tif", test::make_tiff_pages(3, 2, "\x00\x01\x02\x0a\x0b\xff"s));
+  test::write_bytes(folder / "8.tif", test::make_tiff(3, 2, "\x00\x01\x02\x0a\x0b\xff"s));
   EXPECT_THAT(read_grey(folder / "8.tif"), testing::ElementsAre(0, 1, 2, 10, 11, 255));
 }
 
@@ -292,7 +292,7 @@ TEST(ReadPicture, TruncatedFilesAreFound) {
   write_tiff16(folder / "own.tif", picture, {});
   write_png8(folder / "own.png", picture, {});
   const std::vector<std::pair<std::string, std::string>> files = {
-      {"a.tif", test::make_tiff_pages(40, 40, rows)},
+      {"a.tif", test::make_tiff(40, 40, rows)},
       {"b.tif", test::read_bytes(folder / "own.tif")},
       {"c.png", test::make_png(40, 40, 8, 0, rows)},
       {"d.png", test::read_bytes(folder / "own.png")},
