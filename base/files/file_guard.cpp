@@ -54,15 +54,8 @@ struct Written {
   int run = 0;
   std::string hash;
   std::uintmax_t bytes = 0;
-  std::int64_t changed_ns = 0;  // since 1970
-  std::string name;             // relative to the folder
+  std::string name;  // relative to the folder
 };
-
-std::int64_t time_of_change_ns(const std::string& path) {
-  struct ::stat found {};
-  if (::stat(path.c_str(), &found) != 0) return 0;
-  return std::int64_t{found.st_mtim.tv_sec} * 1'000'000'000 + found.st_mtim.tv_nsec;
-}
 
 std::vector<Written> read_record(const fs::path& folder) {
   std::vector<Written> out;
@@ -74,15 +67,15 @@ std::vector<Written> read_record(const fs::path& folder) {
     words >> one.hash;
     if (one.hash == "run") ++run;
     one.run = run;
-    if (words >> one.bytes >> one.changed_ns && words.get() == ' ' &&
-        std::getline(words, one.name) && !one.name.empty())
+    if (words >> one.bytes && words.get() == ' ' && std::getline(words, one.name) &&
+        !one.name.empty())
       out.push_back(one);
   }
   return out;
 }
 
 std::string to_line(const Written& one) {
-  return fmt::format("{} {} {} {}\n", one.hash, one.bytes, one.changed_ns, one.name);
+  return fmt::format("{} {} {}\n", one.hash, one.bytes, one.name);
 }
 
 // Whether a file is as the program wrote it, in any of its runs: a run that was killed may have
@@ -92,11 +85,9 @@ bool is_own(const fs::path& folder, const std::string& name, const std::vector<W
   std::error_code code;
   const std::uintmax_t bytes = fs::file_size(path, code);
   if (code) return false;
-  const std::int64_t changed_ns = time_of_change_ns(path);
   std::string hash;
   return std::any_of(record.begin(), record.end(), [&](const Written& one) {
     if (one.name != name || one.bytes != bytes) return false;
-    if (one.changed_ns == changed_ns) return true;
     if (hash.empty()) hash = hash_file(path);
     return one.hash == hash;
   });
@@ -218,21 +209,27 @@ void FileGuard::writes(const std::string& path, const std::string& named) {
   require_replaceable(path);
   if (std::error_code ignored; fs::is_directory(path, ignored))
     throw Error(ErrorKind::output, path, "is a folder", "the name of a file");
-  check_output_folder(fs::path(path).parent_path().string());
+  make_folder(fs::path(path).parent_path());
+}
+
+void FileGuard::make_folder(const fs::path& folder) {
+  std::error_code ignored;
+  for (fs::path at = folder; !at.empty() && !fs::exists(at, ignored); at = at.parent_path())
+    made_.push_back(at.string());
+  check_output_folder(folder.string());
 }
 
 void FileGuard::writes_into(const std::string& folder, const std::string& named, bool replace,
                             const std::optional<std::vector<std::string>>& names) {
   const fs::path place(folder.empty() ? "." : folder);
-  check_output_folder(place.string());
+  make_folder(place);
   const std::vector<Written> record = read_record(place);
   for (const std::string& name : names ? *names : pages_in(place)) {
     if (!replace) require_own(place, name, record);
     if (names) writes((place / name).string(), named);
   }
   const std::lock_guard hold(mutex_);
-  folders_[fs::canonical(place).string()] = replace;
-  begin_run(place, record);
+  folders_[fs::canonical(place).string()] = {.replace = replace};
 }
 
 FileGuard::Folders::const_iterator FileGuard::folder_of(const fs::path& target) const {
@@ -258,20 +255,27 @@ void FileGuard::require_replaceable(const std::string& path) const {
   if (const auto input = read_.find(identity_of(path)); input != read_.end())
     throw Error(ErrorKind::usage, path, fmt::format("is also an input ({})", input->second.named),
                 "another file name");
+  if (std::any_of(written_.begin(), written_.end(), [&](const auto& result) {
+        return identity_of(result.first) == identity_of(path);
+      }))
+    return;  // seen before the work
   const fs::path target = fs::weakly_canonical(path);
-  if (const auto folder = folder_of(target); folder != folders_.end() && !folder->second)
+  if (const auto folder = folder_of(target); folder != folders_.end() && !folder->second.replace)
     require_own(folder->first, target.lexically_relative(folder->first).string(),
                 read_record(folder->first));
 }
 
 void FileGuard::record(const std::string& target, const std::string& temporary) {
   const std::lock_guard hold(mutex_);
-  const auto folder = folder_of(target);
-  if (folder == folders_.end()) return;
+  const auto found = folder_of(target);
+  if (found == folders_.end()) return;
+  const auto folder = folders_.find(found->first);
+  // Only now: a run without results leaves nothing.
+  if (!folder->second.begun) begin_run(folder->first, read_record(folder->first));
+  folder->second.begun = true;
   const Written one{
       .hash = hash_file(temporary),
       .bytes = fs::file_size(temporary),
-      .changed_ns = time_of_change_ns(temporary),
       .name = fs::weakly_canonical(target).lexically_relative(folder->first).string()};
   std::ofstream(fs::path(folder->first) / record_name, std::ios::binary | std::ios::app)
       << to_line(one);
@@ -297,6 +301,14 @@ void FileGuard::clear() {
   read_.clear();
   written_.clear();
   folders_.clear();
+  made_.clear();
+}
+
+void FileGuard::remove_empty_folders() {
+  const std::lock_guard hold(mutex_);
+  std::error_code ignored;
+  for (const std::string& folder : made_) fs::remove(folder, ignored);  // not if it holds anything
+  made_.clear();
 }
 
 FileGuard& file_guard() {

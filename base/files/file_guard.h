@@ -15,7 +15,7 @@ namespace belvedere {
 // files are; for use by several threads.
 //
 // A folder of results keeps a record of what was written there, `.belvedere_results`: a line "run"
-// for each run and one for each file, with hash, bytes, time of change and name.
+// for each run and one for each file, with hash, bytes and name.
 class FileGuard {
  public:
   // A file that the run reads, and its companions (`.prj`, `.aux.xml`, `.dbf`, …). `named`: by
@@ -24,7 +24,7 @@ class FileGuard {
   // A file that the run will write. Error(usage) where it is also read or named twice, by whatever
   // path; Error(output) where it is read-only or no file.
   void writes(const std::string& path, const std::string& named);
-  // A folder of results; created if missing, and a run begins in its record. Error(output) where
+  // A folder of results; created if missing. Error(output) where
   // `names` (all pages and pictures of the folder, if none are given) has a file that the program
   // did not write or that was changed since, unless `replace`.
   void writes_into(const std::string& folder, const std::string& named, bool replace,
@@ -36,6 +36,8 @@ class FileGuard {
   void record(const std::string& target, const std::string& temporary);
   // Removes the files of a folder that the program wrote and nobody changed.
   void remove_own(const std::string& folder) const;
+  // Of the folders that were made before the work, those that are empty; for runs that failed.
+  void remove_empty_folders();
   // Forgets everything, for the next run in one process.
   void clear();
 
@@ -44,14 +46,21 @@ class FileGuard {
     std::string path;
     std::string named;
   };
-  // Folder of results that this run writes into, above or at a path; end() if none.
-  using Folders = std::map<std::string, bool>;
+  struct Folder {
+    bool replace = false;  // also files of others
+    bool begun = false;    // its record has this run
+  };
+  using Folders = std::map<std::string, Folder>;  // by canonical path
+  // The folder of results that a file is in or below; end() if none.
   Folders::const_iterator folder_of(const std::filesystem::path& target) const;
+
+  void make_folder(const std::filesystem::path& folder);
 
   mutable std::mutex mutex_;
   std::map<std::string, Named> read_;           // by identity
   std::map<std::string, std::string> written_;  // path, option
-  Folders folders_;                             // canonical path, whether anything may be replaced
+  Folders folders_;
+  std::vector<std::string> made_;  // folders, the innermost first
 };
 
 FileGuard& file_guard();

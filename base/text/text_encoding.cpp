@@ -78,20 +78,20 @@ std::string normalized(const std::string& name, GNormalizeMode form) {
 }  // namespace
 
 void refuse_wide_text(std::string_view beginning, const std::string& name,
-                      const std::string& or_else) {
+                      const std::string& or_else, ErrorKind kind) {
   const std::string wide = wide_encoding(beginning);
   if (wide.empty()) return;
   const std::size_t zero = beginning.find('\0');
   const bool marked = beginning.find_first_of("\xff\xfe") < 4;
-  throw Error(ErrorKind::usage, name + ":1:1",
+  throw Error(kind, name + ":1:1",
               marked ? fmt::format("the text is {}, as its byte order mark at byte 0 says", wide)
                      : fmt::format("the text is {}: byte {} is zero, and so on", wide, zero),
               advice_to_convert(wide, name, or_else));
 }
 
 std::string_view require_utf8(std::string_view text, const std::string& name,
-                              const std::string& or_else) {
-  refuse_wide_text(text, name, or_else);
+                              const std::string& or_else, ErrorKind kind) {
+  refuse_wide_text(text, name, or_else, kind);
   const char* stop = nullptr;
   if (g_utf8_validate_len(text.data(), text.size(), &stop) != 0) {
     constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
@@ -108,10 +108,10 @@ std::string_view require_utf8(std::string_view text, const std::string& name,
       fmt::format("{}:{}:{}", name, 1 + std::count(before.begin(), before.end(), '\n'), column);
   const auto byte = static_cast<unsigned char>(text[at]);
   if (byte == 0)
-    throw Error(ErrorKind::usage, where, fmt::format("byte {} is zero: this is no text", at),
+    throw Error(kind, where, fmt::format("byte {} is zero: this is no text", at),
                 "a text file in UTF-8");
   const std::string letter = western_letter(text[at]);
-  throw Error(ErrorKind::usage, where,
+  throw Error(kind, where,
               fmt::format("the text is not UTF-8: byte {} is 0x{:02X}{}", at, byte,
                           letter.empty() ? "" : ", in Windows-1252 " + letter),
               advice_to_convert("WINDOWS-1252", name, or_else));

@@ -3,16 +3,18 @@
 #include <string>
 #include <string_view>
 
+#include "base/error.h"
+
 namespace belvedere {
 
-// The text without a byte order mark. Error(usage) with the line, the column and the byte where it
-// is UTF-16, UTF-32 or of a code page, that is not UTF-8. `or_else`: what else is allowed, added to
-// the advice to convert it.
+// The text without a byte order mark. Error(kind: usage, or input for data) with the line, the
+// column and the byte where it is UTF-16, UTF-32 or of a code page, that is not UTF-8. `or_else`:
+// what else is allowed, added to the advice to convert it.
 std::string_view require_utf8(std::string_view text, const std::string& name,
-                              const std::string& or_else = {});
+                              const std::string& or_else = {}, ErrorKind kind = ErrorKind::usage);
 // The part of it for UTF-16 and UTF-32, which needs only the beginning of a text.
 void refuse_wide_text(std::string_view beginning, const std::string& name,
-                      const std::string& or_else = {});
+                      const std::string& or_else = {}, ErrorKind kind = ErrorKind::usage);
 
 // Letters of a file's name without what file systems treat differently: composed and decomposed
 // letters (é as one or two characters), upper and lower case. Empty if it is not UTF-8.

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/files/file_guard.h"
 #include "base/files/output_file.h"
 #include "base/memory_limit.h"
 #include "renderer/exemplar/example_painting.h"
@@ -68,6 +69,7 @@ AvailableTexels write_scene_exemplar(const LoadedScene& loaded, const std::strin
   require_scene_files(loaded);
   const SceneOutput& output = loaded.scene.output;
   check_memory("output", paint_bytes_per_pixel * output.width * output.height);
+  check_output_folder(out_folder);
 
   const Palette named = named_palette(loaded);
   const World world = make_world(loaded, progress, run.cache);
@@ -97,6 +99,7 @@ AvailableTexels write_example_sheet(const ExampleSheetPlan& plan, const std::str
                 fmt::format("at least {} pixels per row", ExrWriter::band_rows));
   check_memory("sheet",
                (paint_bytes_per_pixel / rows + kept_bytes_per_pixel) * plan.width * plan.height);
+  check_output_folder(out_folder);
 
   const std::string text = write_example_sheet_plan(plan);
   std::map<std::string, std::string> inputs;

@@ -110,7 +110,7 @@ int CsvTable::find_any(const std::vector<std::string_view>& names) const {
 }
 
 CsvTable parse_csv(std::string_view text, const std::string& name) {
-  text = require_utf8(text, name, "the key `encoding` of its block in the scene");
+  text = require_utf8(text, name, "the key `encoding` of its block in the scene", ErrorKind::input);
   CsvTable table;
   table.name = name;
   int line = 1;

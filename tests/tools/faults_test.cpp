@@ -455,8 +455,8 @@ TEST_F(Faults, FullDiskKeepsTheOldResultWhole) {
   EXPECT_THAT(outcome.err, HasSubstr("guidance"));
   for (std::size_t i = 0; i < files.size(); ++i)
     EXPECT_TRUE(read_bytes(fs::path(path("result")) / files[i]) == old[i]) << files[i];
-  EXPECT_EQ(std::distance(fs::directory_iterator(path("result")), {}), 4)
-      << "a temporary file is left";
+  EXPECT_EQ(std::distance(fs::directory_iterator(path("result")), {}), 5)
+      << "a temporary file is left beside four files and their record";
 }
 
 TEST_F(Faults, AFolderThatCannotBeWrittenIsRefusedBeforeTheWork) {

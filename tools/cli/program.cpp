@@ -11,6 +11,7 @@
 
 #include "base/config.h"
 #include "base/error.h"
+#include "base/files/file_guard.h"
 #include "base/memory/zeroed_memory.h"
 #include "renderer/image/provenance.h"
 #include "tools/cli/commands.h"
@@ -113,8 +114,14 @@ int run_program(const std::vector<std::string>& words) {
     print_out(text);
     return 0;
   }
-  for (const auto& [command, run] : program.actions)
-    if (command.is_named()) return run();
+  try {
+    program.line.declare_files();
+    for (const auto& [command, run] : program.actions)
+      if (command.is_named()) return run();
+  } catch (...) {
+    file_guard().remove_empty_folders();
+    throw;
+  }
   throw Error(ErrorKind::bug, "command line", "a command that does nothing");
 }
 

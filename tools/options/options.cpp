@@ -94,7 +94,7 @@ void require_input(const std::string& path, const std::string& option) {
 }
 
 // Of the command that was named: inputs first, so that results are compared with all of them.
-void declare_files(const CLI::App& app, const FileUses& uses) {
+void declare_files_of(const CLI::App& app, const FileUses& uses) {
   const auto use_of = [&](const CLI::Option* option) {
     const auto found = uses.of.find(option);
     return found == uses.of.end() ? FileUses::Use{} : found->second;
@@ -129,7 +129,7 @@ void declare_files(const CLI::App& app, const FileUses& uses) {
       if (use == FileUse::folder) guard.writes_into(path, name, replace);
     }
   }
-  for (const CLI::App* command : app.get_subcommands()) declare_files(*command, uses);
+  for (const CLI::App* command : app.get_subcommands()) declare_files_of(*command, uses);
 }
 
 }  // namespace
@@ -335,8 +335,9 @@ std::string CommandLine::read(const std::vector<std::string>& words) {
     throw Error(ErrorKind::usage, "command line", problem.what(),
                 fmt::format("see {} --help{}", name, of_commands));
   }
-  declare_files(*app_, *uses_);
   return {};
 }
+
+void CommandLine::declare_files() const { declare_files_of(*app_, *uses_); }
 
 }  // namespace belvedere::tools

@@ -37,7 +37,7 @@ concept OptionValue =
           std::vector<std::tuple<std::string, std::string, std::string, double>>>;
 
 // What a command does with the files that an option names. All words of an option that name a file
-// are inputs, unless it says otherwise; CommandLine::read() tells file_guard() of both.
+// are inputs, unless it says otherwise; CommandLine::declare_files() tells file_guard() of both.
 enum class FileUse {
   reads,   // files that are there are inputs
   input,   // an input, which has to exist unless it is an address
@@ -138,8 +138,11 @@ class CommandLine {
   CommandOptions& options() { return options_; }
   // Sets the values that options are bound to. words: without the program's name. Returns the
   // output of --help or --version; empty where neither is asked for. Throws Error(usage) for an
-  // invalid line, and what file_guard() throws for its files.
+  // invalid line.
   std::string read(const std::vector<std::string>& words);
+  // After it, before the work: tells file_guard() of the files that the line names, inputs first.
+  // Error(input) for a missing input, and what the guard throws.
+  void declare_files() const;
 
  private:
   std::unique_ptr<CLI::App> app_;

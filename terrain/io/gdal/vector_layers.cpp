@@ -57,7 +57,7 @@ void require_utf8_file(const std::string& path) {
   constexpr std::size_t max_bytes = std::size_t{256} << 20;
   std::error_code ignored;
   if (fs::file_size(path, ignored) > max_bytes) return;
-  require_utf8(first_bytes_of(path, max_bytes), path);
+  require_utf8(first_bytes_of(path, max_bytes), path, {}, ErrorKind::input);
 }
 
 constexpr const char* allowed_geojson =
@@ -146,7 +146,7 @@ Dataset open_vector_layers(const VectorSource& source,
   std::string address = path;
   if (json) {
     const std::string head = first_bytes_of(path, 4096);
-    refuse_wide_text(head, path);
+    refuse_wide_text(head, path, {}, ErrorKind::input);
     if (head.starts_with("\xef\xbb\xbf")) address = "/vsisubfile/3," + path;
   }
   CPLStringList options;

@@ -89,10 +89,12 @@ TEST_F(OutputFiles, WhatAKilledRunLeftIsRemoved) {
   int status = 0;
   ::waitpid(child, &status, 0);
   EXPECT_EQ(folder_.count(), 2U) << "the temporary file and the lock";
-  OutputFile next(folder_ / "a.tif");
-  EXPECT_EQ(folder_.count(), 2U);
-  EXPECT_EQ(test::read_bytes(next.temporary()), "");
-  next.commit();
+  {
+    OutputFile next(folder_ / "a.tif");
+    EXPECT_EQ(folder_.count(), 2U);
+    EXPECT_EQ(test::read_bytes(next.temporary()), "");
+    next.commit();
+  }
   EXPECT_EQ(folder_.count(), 1U);
 }
 

@@ -12,6 +12,7 @@
 #include <glm/vec2.hpp>
 
 #include "base/error.h"
+#include "base/files/file_guard.h"
 #include "base/parallel.h"
 #include "base/random.h"
 #include "tests/files.h"

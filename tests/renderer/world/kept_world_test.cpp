@@ -342,7 +342,7 @@ TEST(KeptWorld, RiversOfAMapFollowTheCamera) {
       "features.0={ source = \"river.geojson\", kind = \"river\", crs = \"EPSG:32632\" }";
   KeptWorld kept;
   for (const char* change :
-       {"seed=1", "camera.height_m=9000", "camera.position=[603000, 5199000]", "output.width=24",
+       {"seed=1", "camera.height_m=5000", "camera.position=[603000, 5199000]", "output.width=24",
         "output.sheet_width_mm=24", "deform.exaggeration=2", "features.0.width_mm=4",
         "generalize.foreground=[1, 1, 0.5, 0, 0, 0]"}) {
     SCOPED_TRACE(change);

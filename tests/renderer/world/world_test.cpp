@@ -46,9 +46,11 @@ TEST(World, ItsValuesFitEachOther) {
   EXPECT_LT(world.horizon_px, 40.0);
 }
 
-TEST(World, WhereNoTerrainIsSeenTheHorizonIsTheUsualOne) {
-  const World world = make_world(small_scene({"camera.pitch_deg=60"}), silent_progress());
-  EXPECT_DOUBLE_EQ(world.horizon_px, 0.18 * 80);
+TEST(World, APictureWithoutTerrainIsRefused) {
+  EXPECT_THAT(
+      test::message_of(ErrorKind::usage,
+                       [] { make_world(small_scene({"camera.pitch_deg=60"}), silent_progress()); }),
+      HasSubstr("no ground is in the picture"));
 }
 
 TEST(World, SharesTheTerrainThatIsThere) {

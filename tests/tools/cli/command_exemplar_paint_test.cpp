@@ -100,8 +100,8 @@ TEST_F(ExemplarPaint, FullDiskAndInterruptionKeepTheOldSheetWhole) {
   const auto expect_whole = [&] {
     for (std::size_t i = 0; i < files.size(); ++i)
       EXPECT_TRUE(read_bytes(path(std::string("a/") + files[i])) == old[i]) << files[i];
-    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(path("a")), {}), 6)
-        << "a temporary file is left";
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(path("a")), {}), 7)
+        << "a temporary file is left beside six files and their record";
   };
   const std::vector<std::string> again = {"exemplar", "paint",  "--plan", plan,
                                           "--season", "winter", "--out",  path("a")};

@@ -60,7 +60,7 @@ inline const std::vector<SmallCase> small_cases = {
     {"exemplar register", {{"PICTURE", "DEM", "--pairs", "PAIRS", "--out", "OUT"}}},
     {"exemplar segment", {{"PICTURE", "--out", "OUT/m.png", "--report", "OUT/p.html"}}},
     {"style fit",
-     {{"PICTURE", "--classes", "MASK", "--out", "OUT/s.toml", "--report", "OUT/report"}}},
+     {{"PICTURE", "--classes", "CLASSES", "--out", "OUT/s.toml", "--report", "OUT/report"}}},
     {"layers fit",
      {{"--dem", "DEM", "--classes", "CLASSES", "--legend", "LEGEND", "--out",
        "OUT/l.layers.toml"}}},
@@ -88,7 +88,7 @@ inline const std::set<std::string> without_grids = {
     "completion"};
 inline const std::set<std::string> serving = {"studio", "exemplar pick"};
 
-class SmallCommands : public Program, public ::testing::WithParamInterface<SmallCase> {
+class SmallCommands : public Program {
  protected:
   // The files of one size; the folder OUT is new.
   void write_files(const GridSize& size) {
@@ -116,7 +116,7 @@ class SmallCommands : public Program, public ::testing::WithParamInterface<Small
       return size.flat ? glm::vec3(0.5F) : glm::vec3(0.3F + 0.05F * static_cast<float>(x + y % 3));
     });
     const std::string scene =
-        "version = 1\n[[terrain.sources]]\nfile = \"dem.tif\"\n[land_cover]\nrivers = \"none\"\n"
+        "version = 1\n[[terrain.sources]]\nfile = \"dem.tif\"\n"
         "[camera]\nposition = [680300, 5258000]\nheight_m = 2600\nlook_at = [680300, 5259700]\n"
         "[sampling]\npixel_samples = 1\nshadow_rays = 1\nsky_directions = 0\n"
         "[synthesis]\nenabled = false\n"
@@ -158,7 +158,8 @@ class SmallCommands : public Program, public ::testing::WithParamInterface<Small
   void SetUp() override {
     layers_ = write("two.layers.toml",
                     "version = 1\nname = \"two\"\nground = { class = \"rock\", colour = "
-                    "\"#804020\" }\n[[layers]]\nname = \"grass\"\nclass = \"pasture\"\ncolour = "
+                    "\"#804020\" }\n[[inputs]]\nname = \"altitude\"\nlow = 0\nhigh = "
+                    "4000\n[[layers]]\nname = \"grass\"\nclass = \"pasture\"\ncolour = "
                     "\"#40c040\"\n[layers.functions]\naltitude = { high = 1300 }\n");
     std::string pairs = "x_px,y_px,lon,lat,name\n";
     for (int k = 0; k < 8; ++k)

@@ -118,7 +118,7 @@ TEST_F(LayersApply, NothingIsWrittenWhereSomethingIsWrong) {
   const Outcome twice = run({"layers", "apply", write_layers(), "--dem", dem, "--out",
                              path("c.tif"), "--colour", path("c.tif")});
   EXPECT_EQ(twice.status, 2);
-  EXPECT_THAT(twice.err, HasSubstr("the same file twice"));
+  EXPECT_THAT(twice.err, HasSubstr("is also the result of --out"));
 }
 
 TEST_F(LayersApply, ThreadsChangeNoCell) {
