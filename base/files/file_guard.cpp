@@ -183,7 +183,7 @@ void FileGuard::reads(const std::string& path, const std::string& named) {
   for (const std::string& file : files) {
     if (!fs::is_regular_file(file, ignored)) continue;
     const std::string identity = identity_of(file);
-    read_.try_emplace(identity, Named{file, named});
+    read_.insert_or_assign(identity, Named{file, named});
     for (const auto& [path_of_result, option] : written_)
       if (identity_of(path_of_result) == identity)
         throw Error(ErrorKind::usage, option,
@@ -192,13 +192,19 @@ void FileGuard::reads(const std::string& path, const std::string& named) {
   }
 }
 
+std::string FileGuard::input_of(const std::string& identity) const {
+  const auto found = read_.find(identity);
+  // Numbers of files that are gone are given to others.
+  if (found == read_.end() || identity_of(found->second.path) != identity) return {};
+  return found->second.named;
+}
+
 void FileGuard::writes(const std::string& path, const std::string& named) {
   const std::string identity = identity_of(path);
   {
     const std::lock_guard hold(mutex_);
-    if (const auto found = read_.find(identity); found != read_.end())
-      throw Error(ErrorKind::usage, named,
-                  fmt::format("{} is also an input ({})", path, found->second.named),
+    if (const std::string input = input_of(identity); !input.empty())
+      throw Error(ErrorKind::usage, named, fmt::format("{} is also an input ({})", path, input),
                   "another file name");
     for (const auto& [other, option] : written_)
       if (option != named && identity_of(other) == identity)
@@ -252,8 +258,8 @@ void FileGuard::require_replaceable(const std::string& path) const {
     throw Error(ErrorKind::output, path, "is read-only",
                 "another name, or chmod u+w to allow its replacement");
   const std::lock_guard hold(mutex_);
-  if (const auto input = read_.find(identity_of(path)); input != read_.end())
-    throw Error(ErrorKind::usage, path, fmt::format("is also an input ({})", input->second.named),
+  if (const std::string input = input_of(identity_of(path)); !input.empty())
+    throw Error(ErrorKind::usage, path, fmt::format("is also an input ({})", input),
                 "another file name");
   if (std::any_of(written_.begin(), written_.end(), [&](const auto& result) {
         return identity_of(result.first) == identity_of(path);
@@ -290,7 +296,9 @@ void FileGuard::remove_own(const std::string& folder) const {
   for (const Written& one : record) {
     const fs::path path = fs::path(place->first) / one.name;
     std::error_code ignored;
-    if (path.string().starts_with(canonical.string() + "/") &&
+    const bool writable =
+        (fs::status(path, ignored).permissions() & fs::perms(0222)) != fs::perms::none;
+    if (writable && path.string().starts_with(canonical.string() + "/") &&
         is_own(place->first, one.name, {one}))
       fs::remove(path, ignored);
   }

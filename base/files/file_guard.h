@@ -55,6 +55,8 @@ class FileGuard {
   Folders::const_iterator folder_of(const std::filesystem::path& target) const;
 
   void make_folder(const std::filesystem::path& folder);
+  // By which option or key a file is read; empty if it is not.
+  std::string input_of(const std::string& identity) const;
 
   mutable std::mutex mutex_;
   std::map<std::string, Named> read_;           // by identity

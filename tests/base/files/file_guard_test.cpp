@@ -75,6 +75,14 @@ TEST_F(FileGuards, AnInputThatIsKnownLaterIsComparedWithTheResults) {
               AllOf(HasSubstr("OUT"), HasSubstr("terrain.sources.0.file")));
 }
 
+// Systems give the numbers of deleted files to new ones.
+TEST_F(FileGuards, AnInputThatIsGoneProtectsNothing) {
+  const std::string dem = folder_.write("dem.tif", "cells");
+  file_guard().reads(dem, "DEM");
+  fs::rename(dem, folder_ / "result.tif");  // another file of the same number
+  file_guard().writes(folder_ / "result.tif", "--out");
+}
+
 TEST_F(FileGuards, TwoResultsHaveTwoNames) {
   file_guard().writes(folder_ / "new/a.tif", "--out");
   EXPECT_THAT(refused(ErrorKind::usage,

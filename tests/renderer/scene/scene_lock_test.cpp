@@ -173,8 +173,8 @@ TEST_F(LockedScene, FilesBesideAVectorFileAreInputs) {
   folder_.write("data/s.shp", "");
   folder_.write("data/s.dbf", "");
   folder_.write("scene/alps.toml", test::read_bytes(folder_ / "scene/alps.toml") +
-                                       "[[features]]\nfile = \"r.gpkg\"\nkind = \"road\"\n"
-                                       "[[features]]\nfile = \"s.shp\"\nkind = \"road\"\n");
+                                       "[[features]]\nsource = \"r.gpkg\"\nkind = \"road\"\n"
+                                       "[[features]]\nsource = \"s.shp\"\nkind = \"road\"\n");
   const std::vector<LockedInput> before = find_inputs(scene());
   folder_.write("data/r.gpkg-wal", "changes");
   folder_.write("data/s.dbf", "names");

@@ -53,7 +53,7 @@ inline const std::vector<SmallCase> small_cases = {
     {"deform",
      {{"DEM", "OUT/d.tif", "--exaggeration", "2", "--bend", "2000:10,9000:0", "--viewer",
        "680300,5258000"}}},
-    {"labels", {{"SCENE", "--summits", "3", "--out", "OUT"}}},
+    {"labels", {{"SCENE", "--points", "NAMES", "--out", "OUT"}}},
     {"features check", {{"FEATURED"}}},
     {"exemplar check", {{"--picture", "PICTURE", "--label", "MASK", "--target", "MASK"}}},
     {"exemplar paint", {{"SCENE", "--out", "OUT"}}},
@@ -73,7 +73,7 @@ inline const std::vector<SmallCase> small_cases = {
     {"texture seam", {{"PICTURE", "PICTURE", "--out", "OUT/s.png"}}},
     {"texture fill", {{"PICTURE", "--hole", "MASK", "--model", "MODEL", "--out", "OUT/f.png"}}},
     {"texture correct", {{"PICTURE", "--to", "PICTURE", "--out", "OUT/c.png"}}},
-    {"composite learn", {{"PICTURE", "--labels", "MASK", "--types", "16", "--out", "OUT/c"}}},
+    {"composite learn", {{"PICTURE", "--labels", "CLASSES", "--types", "16", "--out", "OUT/c"}}},
     {"composite make", {{"COMPOSITE", "--labels", "CLASSES", "--out", "OUT/m.png"}}},
     {"web", {{"RENDERED"}}},
     {"pdf", {{"PICTURE", "--width-mm", "100", "--out", "OUT/p.pdf"}}},
@@ -141,6 +141,7 @@ class SmallCommands : public Program {
         {"LEGEND", path("legend.toml")},
         {"LAYERS", layers_},
         {"PAIRS", pairs_},
+        {"NAMES", path("names.csv")},
         {"RENDERED", path("rendered")},
         {"PROFILE", test::press_file},
         {"MODEL", example("texture_model")},
@@ -166,6 +167,7 @@ class SmallCommands : public Program {
       pairs += fmt::format("{:.1f},{:.1f},{:.4f},{:.4f},place {}\n", 0.1 * k, 0.1 * (k % 3),
                            11.39 + 0.001 * k, 47.46 + 0.002 * (k % 4), k);
     pairs_ = write("pairs.csv", pairs);
+    write("names.csv", "name,east,north\nPeak,680300,5259800\n");
     write("track.geojson",
           "{\"type\": \"Feature\", \"properties\": {}, \"geometry\": {\"type\": "
           "\"LineString\", \"coordinates\": [[11.39, 47.46], [11.40, 47.47]]}}");
