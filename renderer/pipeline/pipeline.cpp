@@ -79,6 +79,7 @@ void render(const LoadedScene& loaded, const std::string& out_folder, const Run&
   require_inputs(loaded);
   read_output_colour(loaded);
   const std::vector<PixelRect> pieces = pieces_of(region_with_halos(loaded, request), request);
+  guard_inputs(loaded);
   file_guard().writes_into(out_folder, "--out", request.replace,
                            result_names(loaded.scene, request));
 
@@ -129,6 +130,7 @@ void join_parts(const LoadedScene& loaded, const std::string& folder, int parts,
                 const std::string& out_folder, const Run& run, const SheetRequest& request) {
   const RunLimits limits(run);
   require_inputs(loaded);
+  guard_inputs(loaded);
   file_guard().writes_into(out_folder, "--out", request.replace,
                            result_names(loaded.scene, request));
   const WorkFolder work(work_folder_of(folder), identify(loaded, request), WorkMode::join);

@@ -30,7 +30,6 @@ Palette read_scene_palette(const LoadedScene& loaded, Progress& progress) {
 
 void require_inputs(const LoadedScene& loaded) {
   require_scene_files(loaded);
-  guard_inputs(loaded);
   if (reads_paintings(loaded.scene)) check_paintings(loaded);
 }
 

@@ -44,7 +44,7 @@ struct SceneInput {
 // All of them, in the order of the reference. Built-in palettes, legends and rules are not files.
 std::vector<SceneInput> scene_inputs(const LoadedScene& scene);
 // Tells file_guard() of them, with all that a virtual raster is read from, so that no result
-// replaces one.
+// replaces one in this process.
 void guard_inputs(const LoadedScene& scene);
 // Credits of the data: "origin (licence)", each once, in the order of the inputs.
 std::vector<std::string> source_credits(const LoadedScene& scene);
