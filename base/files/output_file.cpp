@@ -126,8 +126,10 @@ void OutputFile::lock() {
 }
 
 void OutputFile::unlock() {
+  if (lock_ < 0) return;
   ::unlink(lock_path_.c_str());
   ::close(lock_);
+  lock_ = -1;
 }
 
 OutputFile::~OutputFile() {
@@ -150,6 +152,7 @@ void OutputFile::commit() {
   if (std::rename(temporary_.c_str(), target_.c_str()) != 0)
     throw_system(path_, "cannot be replaced", errno);
   committed_ = true;
+  unlock();
   synchronize(folder_of(target_).string(), path_, true);
 }
 

@@ -62,7 +62,7 @@ TEST(Csv, ALineThatNamesTheSeparatorIsNoHeader) {
 }
 
 TEST(Csv, Utf16IsRefusedWithTheRemedy) {
-  EXPECT_THAT(test::message_of(ErrorKind::usage,
+  EXPECT_THAT(test::message_of(ErrorKind::input,
                                [] {
                                  parse_csv(std::string("\xff\xfe"
                                                        "a\0,\0",

@@ -257,11 +257,11 @@ TEST_F(MapFeatureFiles, GeoJsonMayHaveOneFeatureALine) {
   // Texts of other encodings.
   EXPECT_THAT(refused("j.geojson",
                       whole.substr(0, whole.find("Ö")) + "\xd6" + whole.substr(whole.find("Ö") + 2),
-                      ErrorKind::usage),
+                      ErrorKind::input),
               AllOf(HasSubstr("j.geojson:1:"), HasSubstr("0xD6"), HasSubstr("WINDOWS-1252")));
   std::string wide = "\xff\xfe";
   for (const char c : a) wide += {c, '\0'};
-  EXPECT_THAT(refused("k.geojson", wide, ErrorKind::usage), HasSubstr("UTF-16LE"));
+  EXPECT_THAT(refused("k.geojson", wide, ErrorKind::input), HasSubstr("UTF-16LE"));
 }
 
 // Metres in a GeoJSON that names no system. Which system they may be in follows from the terrain's.
