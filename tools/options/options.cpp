@@ -86,6 +86,13 @@ std::vector<std::string> paths_in(const std::string& word) {
   return {word, word.substr(0, equals), word.substr(equals + 1)};
 }
 
+// CLI11's own look-up may not throw, and ends the program where memory is short.
+const CLI::Option* find_option(const CLI::App& app, const std::string& name) {
+  const std::vector<const CLI::Option*> found =
+      app.get_options([&](const CLI::Option* option) { return option->check_name(name); });
+  return found.empty() ? nullptr : found.front();
+}
+
 void require_input(const std::string& path, const std::string& option) {
   std::error_code ignored;
   if (path.find("://") != std::string::npos || std::filesystem::exists(path, ignored)) return;
@@ -109,7 +116,7 @@ void declare_files_of(const CLI::App& app, const FileUses& uses) {
       for (const std::string& path : paths_in(word)) guard.reads(path, option->get_name());
     }
   }
-  const CLI::Option* force = app.get_option_no_throw("--force");
+  const CLI::Option* force = find_option(app, "--force");
   const bool replace = force != nullptr && force->count() > 0;
   for (const CLI::Option* option : options) {
     const std::string name = option->get_name();
@@ -137,7 +144,7 @@ void declare_files_of(const CLI::App& app, const FileUses& uses) {
 Option& Option::files(FileUse use, std::vector<std::string> (*all)(const std::string& path)) {
   uses_->of[option_] = {use, all};
   if ((use == FileUse::page || use == FileUse::folder || all != nullptr) &&
-      command_->get_option_no_throw("--force") == nullptr)
+      find_option(*command_, "--force") == nullptr)
     command_->add_flag("--force", force_meaning);
   return *this;
 }
@@ -293,7 +300,7 @@ Option CommandOptions::option(const std::string& name) {
 }
 
 bool CommandOptions::has_option(const std::string& name) const {
-  return app_->get_option_no_throw(name) != nullptr;
+  return find_option(*app_, name) != nullptr;
 }
 
 CommandOptions CommandOptions::add_command(const std::string& name, const std::string& meaning) {
