@@ -98,7 +98,8 @@ OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
 // so that what a killed run left is removed by the next one. Where a file system has no locks, two
 // runs that write one file are not told apart.
 void OutputFile::lock() {
-  const fs::path folder = folder_of(target_);
+  folder_ = folder_of(target_).string();
+  const fs::path folder = folder_;
   const std::string stem =
       ".belvedere-" + hash_bytes(fs::path(target_).filename().string()).substr(0, 12);
   lock_path_ = (folder / (stem + ".lock")).string();
@@ -143,17 +144,18 @@ void OutputFile::prepare() {
   if (fs::is_directory(target_, ignored)) throw_system(path_, "cannot be replaced", EISDIR);
   // Again: some libraries delete the file and create it in their own way.
   take_over_mode(target_, temporary_);
+  file_guard().record(target_, temporary_);
   prepared_ = true;
 }
 
+// Takes no memory once it is prepared: of several files, none is left behind for want of it.
 void OutputFile::commit() {
   if (!prepared_) prepare();
-  file_guard().record(target_, temporary_);
   if (std::rename(temporary_.c_str(), target_.c_str()) != 0)
     throw_system(path_, "cannot be replaced", errno);
   committed_ = true;
   unlock();
-  synchronize(folder_of(target_).string(), path_, true);
+  synchronize(folder_, path_, true);
 }
 
 void OutputFile::fail(const std::string& reason) const {

@@ -34,6 +34,7 @@ class OutputFile {
 
   std::string path_;       // as named, for messages
   std::string target_;     // where its links lead
+  std::string folder_;     // of the target
   std::string temporary_;  // beside the target
   std::string lock_path_;  // holds the name of the temporary file
   int lock_ = -1;
