@@ -46,7 +46,9 @@ class ProtectedFiles : public test::SmallCommands, public ::testing::WithParamIn
   std::vector<std::string> inputs() const {
     std::vector<std::string> out;
     for (const std::string& word : line_of(GetParam(), GetParam().lines.size() - 1))
-      if (out.empty() && fs::is_regular_file(word) && word.starts_with(path(""))) out = {word};
+      if (out.empty() && fs::is_regular_file(word) && word.starts_with(path("")) &&
+          !word.starts_with(path("out/")))
+        out = {word};
     if (!out.empty() && out[0].ends_with(".toml")) out.push_back(path("dem.tif"));
     return out;
   }
@@ -76,9 +78,10 @@ TEST_P(ProtectedFiles, AreLeftAlone) {
     if (!before.contains(file)) results.push_back(file);
   for (const auto& [file, bytes] : before) EXPECT_EQ(after.at(file), bytes) << file;
   // A report has dozens of pictures.
-  std::erase_if(results, [&](const std::string& file) {
-    return results.size() > 8 && !is_named(file) && !file.ends_with(".html");
-  });
+  if (results.size() > 8)
+    std::erase_if(results, [&, first_one = results.front()](const std::string& file) {
+      return file != first_one && !is_named(file) && !file.ends_with(".html");
+    });
 
   for (const std::string& result : results) {
     SCOPED_TRACE(result);

@@ -55,6 +55,8 @@ inline const std::vector<SmallCase> small_cases = {
        "680300,5258000"}}},
     {"labels", {{"SCENE", "--points", "NAMES", "--out", "OUT"}}},
     {"features check", {{"FEATURED"}}},
+    {"features swatches", {{"--out", "OUT/swatches"}}},
+    {"texture make", {{"MODEL", "--size", "64x64", "--out", "OUT/t.png", "--report", "OUT/r"}}},
     {"exemplar check", {{"--picture", "PICTURE", "--label", "MASK", "--target", "MASK"}}},
     {"exemplar paint", {{"SCENE", "--out", "OUT"}}},
     {"exemplar register", {{"PICTURE", "DEM", "--pairs", "PAIRS", "--out", "OUT"}}},
@@ -83,9 +85,7 @@ inline const std::vector<SmallCase> small_cases = {
 };
 // Commands that read no grid of cells or pixels, and pages that serve until they are interrupted.
 inline const std::set<std::string> without_grids = {
-    "fetch",        "features swatches", "cache list", "cache clear",
-    "texture make", "palette check",     "schema",     "man",
-    "completion"};
+    "fetch", "cache list", "cache clear", "palette check", "schema", "man", "completion"};
 inline const std::set<std::string> serving = {"studio", "exemplar pick"};
 
 class SmallCommands : public Program {
