@@ -13,4 +13,6 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 # What the program links, by name and version, is asked of the machine it was built on.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+# It is loaded at its first call.
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "libopenimageio2.4")
 include(CPack)

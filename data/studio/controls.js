@@ -28,6 +28,8 @@ function kind_of(store, key) {
       whole: number.type === "integer",
     };
   if (part.type === "boolean") return { ...out, kind: "switch" };
+  if (either.some((each) => each.type === "boolean"))
+    return { ...out, kind: "choice", words: [...words, true, false], default: words[0], optional: false };
   if (part.type === "array" && part.items?.enum) return { ...out, kind: "set", words: part.items.enum };
   if (part.type === "array" && (part.maxItems === 2 || Array.isArray(part.items))) return { ...out, kind: "pair" };
   if (words && !auto) return { ...out, kind: "choice", words, open: either.some((each) => each.pattern) };
@@ -200,18 +202,19 @@ function choice_row(store, spec, about) {
   const input = element("select", { id: `control-${++ids}` });
   const words = spec.words?.(store) ?? about.words;
   const none = spec.none ?? (about.optional ? "none" : null);
+  const said = (word) => (typeof word === "boolean" ? (word ? "yes" : "no") : word === "" ? (spec.none ?? "none") : word.replaceAll("_", " "));
   if (none !== null && !words.includes("")) input.append(element("option", { value: "" }, none));
   for (const word of words)
-    input.append(element("option", { value: word }, word === "" ? (spec.none ?? "none") : word.replaceAll("_", " ")));
+    input.append(element("option", { value: String(word) }, said(word)));
   input.addEventListener("change", () => {
     if (input.value === "" && about.optional && !words.includes("")) store.edit([{ key: spec.key, remove: true }], new_step());
-    else set(store, spec.key, input.value);
+    else set(store, spec.key, words.find((word) => String(word) === input.value) ?? input.value);
   });
   const reset = reset_button(store, spec);
   return {
     element: element("div", { class: "row choice" }, label_of(spec, about, input), element("span", { class: "tools" }, reset), input),
     update: () => {
-      const value = store.value(spec.key) ?? about.default ?? "";
+      const value = String(store.value(spec.key) ?? about.default ?? "");
       if (!Array.from(input.options).some((option) => option.value === value)) input.append(element("option", { value }, value));
       input.value = value;
       show_reset(store, spec, about, reset);

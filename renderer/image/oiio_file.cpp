@@ -16,6 +16,7 @@
 #include "base/parallel.h"
 #include "renderer/image/cielab.h"
 #include "renderer/image/image_file_parts.h"
+#include "renderer/image/oiio_late.h"
 #include "renderer/image/png_check.h"
 #include "renderer/image/png_palette.h"
 #include "renderer/image/provenance.h"
@@ -34,6 +35,7 @@ class OiioReader {
     if (format_ == "png" && !image_io::is_png_complete(path))
       image_io::throw_damaged(path, "a piece is missing or has a wrong checksum");
     if (format_ == "tiff") page_ = largest_tiff_page(path);
+    load_oiio();
     input_ = OIIO::ImageInput::create(format_);
     if (input_ == nullptr) throw Error(ErrorKind::bug, path, "OpenImageIO cannot read " + format_);
     OIIO::ImageSpec settings;
@@ -405,6 +407,7 @@ class PngRows : public PictureRows {
 
 std::unique_ptr<PictureRows> open_png8(const std::string& path, int width, int height,
                                        const PictureFileOptions& options) {
+  load_oiio();
   return std::make_unique<PngRows>(path, width, height, options);
 }
 
@@ -419,6 +422,7 @@ void write_png8(const std::string& path, const Grid<glm::vec3>& encoded,
 }
 
 void write_jpeg(const std::string& path, const Grid<glm::vec3>& encoded, int quality) {
+  load_oiio();
   OutputFile file(path);
   const auto output = OIIO::ImageOutput::create("jpeg");
   if (output == nullptr) throw Error(ErrorKind::bug, path, "OpenImageIO cannot write JPEG");

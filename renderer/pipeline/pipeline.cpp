@@ -25,9 +25,9 @@ std::string work_folder_of(const std::string& out_folder) {
 namespace {
 
 void check_request(const Scene& scene, const SheetRequest& request) {
-  if (request.matches && !scene.synthesis.enabled)
-    throw Error(ErrorKind::usage, "--match", "nothing is copied: synthesis.enabled is false",
-                "a scene that copies, or no --match");
+  if (request.matches && !scene.copies())
+    throw Error(ErrorKind::usage, "--match", "nothing is copied: the scene paints its strokes directly",
+                "a scene with an [[exemplar]] or synthesis.enabled = true, or no --match");
   for (const std::string& extension : request.layers) layer_format(extension);
   if (!request.layers.empty() && !scene.output.ocio_config.empty())
     throw Error(ErrorKind::usage, "--layers",
@@ -42,7 +42,7 @@ void check_request(const Scene& scene, const SheetRequest& request) {
 void refuse_beyond_memory(const LoadedScene& loaded, const SheetRequest& request) {
   const Scene& scene = loaded.scene;
   StandingBytes standing{.besides = piece_bytes_of(scene, request)};
-  if (request.panorama && scene.synthesis.enabled) standing.besides += copying_bytes(scene, {});
+  if (request.panorama && scene.copies()) standing.besides += copying_bytes(scene, {});
   const std::optional<Style> style = request.panorama ? named_style(loaded) : std::nullopt;
   choose_block_px(scene, scene.pixels_per_unit(), standing, min_block_px_of(request),
                   style ? &*style : nullptr);

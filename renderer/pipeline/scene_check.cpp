@@ -150,7 +150,7 @@ SceneReport check_scene(const LoadedScene& scene, Progress& progress, const Cach
             count[static_cast<std::size_t>(info.id)] / static_cast<double>(sight.classes.size());
         share > 0.0)
       report.classes.emplace_back(info.id, share);
-  if (!scene.scene.synthesis.enabled) return report;
+  if (!scene.scene.copies()) return report;
 
   const ExemplarClasses exemplars =
       look_at_classes(scene, sight.view, paint.palette, paint.paintings, progress, cache);

@@ -8,7 +8,7 @@ namespace {
 
 bool takes_colours(const Scene& scene) { return scene.synthesis.colours == "painting"; }
 // Colours may be taken from a painting even if its strokes are not used.
-bool reads_paintings(const Scene& scene) { return scene.synthesis.enabled || takes_colours(scene); }
+bool reads_paintings(const Scene& scene) { return scene.copies() || takes_colours(scene); }
 
 }  // namespace
 

@@ -11,7 +11,7 @@
 namespace belvedere {
 
 bool is_copied(const Scene& scene, const SheetRequest& request) {
-  return request.panorama && scene.synthesis.enabled;
+  return request.panorama && scene.copies();
 }
 
 namespace {

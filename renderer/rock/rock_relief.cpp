@@ -84,7 +84,8 @@ PixelRect rocky_part(const GuidanceBuffers& guidance, const WideView& wide, Pixe
   include(extent_of(made, [&](int x, int y) {
     return may_be_bare(guidance, guidance.depth_m.index(x, y), pixels_per_unit);
   }));
-  return rocky;
+  // With the neighbours of its border, which are compared with it: in any window they are the same.
+  return rocky.empty() ? rocky : intersection(made, grown(rocky, 1));
 }
 
 std::uint32_t folded(std::uint32_t id) {

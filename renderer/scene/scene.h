@@ -290,7 +290,7 @@ struct SceneStyle {  // of a painting: see renderer/style
 };
 
 struct SceneSynthesis {
-  bool enabled = true;              // off: everything is painted as strokes
+  std::optional<bool> enabled;      // copies; absent: where the scene has exemplars, see copies()
   std::string colours = "palette";  // whose colours the picture takes: "palette" or "painting"
   std::string harmonize = "off";    // matching colours of several paintings: "off", "common", or to
                                     // the "first", by class or by "regions"
@@ -396,7 +396,7 @@ struct Scene {
   SceneAir air;
   std::string sky = "any";               // a kind of clouds.h
   std::string palette = "summer";        // built-in name or file
-  std::vector<SceneExemplar> exemplars;  // empty: one painted by the program
+  std::vector<SceneExemplar> exemplars;
   SceneStyle style;
   SceneSynthesis synthesis;
   std::string features_style = "classic";  // built-in name or file
@@ -409,6 +409,9 @@ struct Scene {
     return std::any_of(features.begin(), features.end(),
                        [](const SceneFeatures& block) { return block.enabled; });
   }
+  // Whether ground is copied from exemplars. Where only the program's own sheet would be copied, it
+  // is painted directly: that sheet has the same strokes.
+  bool copies() const { return synthesis.enabled.value_or(!exemplars.empty()); }
   // Pixels in a unit of paint, 0.5 mm of the sheet. Where a picture has fewer than `min` (15 dpi),
   // it is painted as on a smaller sheet that has them: strokes would only be ever more for a pixel,
   // each far below one.

@@ -41,13 +41,20 @@ class ValueReader {
     else
       wrong(value_);
   }
+  void operator()(std::optional<bool>* field) const {
+    if (is_auto())
+      field->reset();
+    else if (const bool* flag = std::get_if<bool>(&value_.value))
+      *field = *flag;
+    else
+      wrong(value_);
+  }
   void operator()(int* field) const { *field = static_cast<int>(integer()); }
   void operator()(std::uint64_t* field) const { *field = static_cast<std::uint64_t>(integer()); }
   void operator()(double* field) const { *field = number(value_, key_.range); }
   void operator()(float* field) const { *field = static_cast<float>(number(value_, key_.range)); }
   void operator()(std::optional<double>* field) const {
-    const auto* word = std::get_if<std::string>(&value_.value);
-    if (!key_.derived.empty() && word != nullptr && *word == "auto")
+    if (is_auto())
       field->reset();
     else
       *field = number(value_, key_.range);
@@ -145,6 +152,11 @@ class ValueReader {
                            const std::string& allowed) const {
     throw Error(ErrorKind::usage, origin_.where(at.position), found, allowed);
   }
+  bool is_auto() const {
+    const auto* word = std::get_if<std::string>(&value_.value);
+    return !key_.derived.empty() && word != nullptr && *word == "auto";
+  }
+
   [[noreturn]] void wrong(const ConfigValue& at) const {
     const std::string range = describe_range(key_);
     refuse(at, fmt::format("{} is {}", key_name_, describe(at)),

@@ -21,12 +21,10 @@ class Rules {
   Rules(Scene& scene, const ConfigValue& root, const SceneOrigin& origin)
       : scene_(scene), root_(root), origin_(origin) {}
 
-  // A style brings its palette, and no texels beside its strokes, unless the scene says so.
+  // A style brings its palette, unless the scene says so.
   void style() {
     const bool in_style = !scene_.style.file.empty();
     if (in_style && written("palette") == nullptr) scene_.palette.clear();
-    if (in_style && scene_.exemplars.empty() && written("synthesis.enabled") == nullptr)
-      scene_.synthesis.enabled = false;
     if (!in_style && scene_.palette.empty())
       refuse("palette", "palette is empty, and there is no style whose palette it could be",
              "a palette, or style = \"NAME\"");

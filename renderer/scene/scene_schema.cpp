@@ -91,6 +91,7 @@ std::string describe_type(const SceneKey& key) {
   struct Visitor {
     const SceneKey& key;
     std::string operator()(bool*) const { return "true or false"; }
+    std::string operator()(std::optional<bool>*) const { return "true, false or \"auto\""; }
     std::string operator()(int*) const { return "a whole number"; }
     std::string operator()(std::uint64_t*) const { return "a whole number"; }
     std::string operator()(double*) const { return "a number"; }

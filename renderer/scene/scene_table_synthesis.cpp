@@ -8,8 +8,8 @@ std::vector<SceneSection> make_style_sections() {
   sections.push_back(
       {.name = "style",
        .meaning = "The look of a painting over the finished picture: its colours, strokes and "
-                  "sky. style = \"NAME\" at the top of the file sets file = \"NAME\" here. With "
-                  "a style texture is copied only if an [[exemplar]] is named. See style.md.",
+                  "sky. style = \"NAME\" at the top of the file sets file = \"NAME\" here. See "
+                  "style.md.",
        .keys = {
            {.name = "file",
             .field = AT(style.file),
@@ -64,7 +64,10 @@ std::vector<SceneSection> make_synthesis_sections() {
        .keys = {
            {.name = "enabled",
             .field = AT(synthesis.enabled),
-            .meaning = "false paints everything as strokes, without exemplars."},
+            .meaning = "Whether texture is copied from exemplars; otherwise everything is painted as "
+                       "strokes. true without an [[exemplar]] copies from a sheet that the program "
+                       "paints: its own strokes, at several times the cost.",
+            .derived = "true where the scene has an [[exemplar]]"},
            {.name = "colours",
             .field = AT(synthesis.colours),
             .meaning = "Whose colours the picture takes: the scene's palette, or the paintings' "

@@ -44,18 +44,21 @@ struct SchemaOfField {
         .add("minItems", Json::number(static_cast<double>(min)))
         .add("maxItems", Json::number(static_cast<double>(max)));
   }
+  Json or_auto(Json schema) const {
+    return Json::object().add(
+        "anyOf", Json::array({std::move(schema), typed("string").add("enum", Json::texts({"auto"}))}));
+  }
   Json classes() const { return typed("string").add("enum", Json::texts(ground_class_names())); }
 
   Json operator()(bool*) const { return typed("boolean"); }
+  Json operator()(std::optional<bool>*) const { return or_auto(typed("boolean")); }
   Json operator()(int*) const { return number_schema("integer", key.range); }
   Json operator()(std::uint64_t*) const { return number_schema("integer", key.range); }
   Json operator()(double*) const { return number_schema("number", key.range); }
   Json operator()(float*) const { return number_schema("number", key.range); }
   Json operator()(std::optional<double>*) const {
     if (key.derived.empty()) return number_schema("number", key.range);
-    return Json::object().add("anyOf",
-                              Json::array({number_schema("number", key.range),
-                                           typed("string").add("enum", Json::texts({"auto"}))}));
+    return or_auto(number_schema("number", key.range));
   }
   Json operator()(std::optional<glm::dvec2>*) const { return position(); }
   Json operator()(std::vector<glm::dvec2>*) const {

@@ -194,9 +194,10 @@ Action add_check(CommandOptions& command) {
       "--propose-light", *propose,
       "Print [[light.regions]] that light the ranges in shade, to be appended to the scene");
   command.footer(
-      "Checks the scene's keys, its files, the terrain, the position of the camera, and whether "
-      "the exemplars show\n"
-      "every class that is in the picture. Nothing is painted. Exit status 0: valid.\n"
+      "Checks the scene's keys, its files, the terrain, the position of the camera, and, where "
+      "texture is copied, whether\n"
+      "the exemplars show every class that is in the picture. Nothing is painted. Exit status 0: "
+      "valid.\n"
       "\n"
       "It also evaluates the composition by the measures that belvedere new uses to choose views, "
       "and names those outside\n"

@@ -245,6 +245,7 @@ Action add_exemplar_check(CommandOptions& command) {
       "repeat; sharpness of its paint and length of its strokes; altitudes at which it was "
       "painted; and whether left and\n"
       "right were painted alike (0 … 2; chance is the difference of random halves).\n"
+      "Of a scene that copies nothing it checks the sheet that the program would paint for it.\n"
       "\n"
       "  belvedere exemplar check scenes/karwendel.toml --data ../data\n"
       "  belvedere exemplar check --picture style.png --label style_class.png --guide altitude "

@@ -128,7 +128,7 @@ Action add_job(CommandOptions& command, const char* footer, Wanted wanted) {
   if (wanted == Wanted::picture)
     command.add_flag("--match", options->match,
                      "Also writes match.exr: which texel of which picture each pixel was copied "
-                     "from, for synthesize --replay");
+                     "from, for synthesize --replay. Needs a scene that copies texture");
   if (wanted == Wanted::picture) add_layers_option(command, options->layers);
   if (wanted == Wanted::picture)
     command.add_flag(
@@ -154,8 +154,9 @@ Action add_render(CommandOptions& command) {
       "  belvedere render scenes/karwendel.toml --data ../data --draft --out draft\n"
       "  belvedere render scenes/karwendel.toml --data ../data --set output.width=1200 --set "
       "output.height=550\n"
-      "  belvedere render scenes/karwendel.toml --data ../data --channels Z,landcover.id --match\n"
-      "  belvedere render scenes/karwendel.toml --data ../data --part 800,300,400,400 --out proof",
+      "  belvedere render scenes/karwendel.toml --data ../data --channels Z,landcover.id\n"
+      "  belvedere render scenes/karwendel.toml --data ../data --part 800,300,400,400 --out proof\n"
+      "  belvedere render --match --out demo",
       Wanted::picture);
 }
 

@@ -22,6 +22,9 @@ struct ValueWriter {
   ValueForm form;
 
   std::string operator()(const bool* field) const { return *field ? "true" : "false"; }
+  std::string operator()(const std::optional<bool>* field) const {
+    return *field ? (**field ? "true" : "false") : "";
+  }
   std::string operator()(const int* field) const { return fmt::format("{}", *field); }
   std::string operator()(const std::uint64_t* field) const { return fmt::format("{}", *field); }
   std::string operator()(const double* field) const {

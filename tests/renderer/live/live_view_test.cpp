@@ -107,7 +107,7 @@ TEST(LiveView, SoItIsWhereGroundIsCopiedFromAPainting) {
   std::vector<std::string> settings = tiny;
   settings.emplace_back("output.formats=[\"png\"]");
   const LoadedScene scene = test::painted_scene(folder, settings);
-  ASSERT_TRUE(scene.scene.synthesis.enabled);
+  ASSERT_TRUE(scene.scene.copies());
   expect_as_rendered(scene);
   std::vector<std::string> plain = settings;
   plain.emplace_back("synthesis.enabled=false");

@@ -86,7 +86,7 @@ TEST(Rungs, PreviewsHaveFewRaysAndCoarseGroundAndCopyNothing) {
   EXPECT_EQ(drawn.sampling.shadow_rays, 1);
   EXPECT_EQ(drawn.sampling.sky_directions, 4);
   EXPECT_EQ(drawn.water.mirror, "column");
-  EXPECT_FALSE(drawn.synthesis.enabled);
+  EXPECT_FALSE(drawn.copies());
   EXPECT_EQ(scene_of_rung(test::small_scene({"water.mirror=none"}), rungs().front(), {})
                 .scene.water.mirror,
             "none");

@@ -110,6 +110,27 @@ TEST(RockRelief, OfAPartIsThatOfTheWhole) {
   }
 }
 
+// The wide view misses rock of some pixels. What is compared with its neighbours at its border must
+// not depend on what else the window shows.
+TEST(RockRelief, OfALoneRockIsThatOfTheWhole) {
+  const GuidanceBuffers far = test::make_wall(460, 420, 1.0, LandCoverClass::pasture);
+  GuidanceBuffers g = far;
+  const PixelRect lone{100, 200, 106, 226};
+  for (const PixelRect rock : {lone, PixelRect{440, 20, 446, 46}})
+    for (int y = rock.y0; y < rock.y1; ++y)
+      for (int x = rock.x0; x < rock.x1; ++x) g.land_cover(x, y) = LandCoverClass::rock;
+  const RockParameters p = parameters_of(1.0);
+  const RockRelief whole = make_rock_relief(g, {far, 1, {0, 0}}, p, {0, 0}, silent_progress());
+  const PixelRect kept = grown(lone, 20);
+  const test::Window near = test::window_of(g, grown(kept, rock_near_margin_px(p)));
+  const RockRelief part =
+      make_rock_relief(near.held, {far, 1, {0, 0}}, p, {near.rect.x0, near.rect.y0},
+                       silent_progress(), moved(kept, -near.rect.x0, -near.rect.y0));
+  const RockRelief same = cut(whole, kept);
+  expect_same(part, same);
+  EXPECT_GT(std::count(same.land_cover.begin(), same.land_cover.end(), LandCoverClass::rock), 40);
+}
+
 // Near turf on a wall shows ribs of rock, and interlocks with rock beside it.
 TEST(RockRelief, OfAPartOfNearTurfIsThatOfTheWhole) {
   GuidanceBuffers g = test::make_wall(1000, 760, 1.0, LandCoverClass::alpine_grass);

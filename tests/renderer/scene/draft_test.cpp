@@ -23,13 +23,13 @@ TEST(Draft, IsAThirdOfTheSheetWithOneSampleAndStrokesAlone) {
   EXPECT_DOUBLE_EQ(draft.pixels_per_unit(), scene.pixels_per_unit() / 3.0);
   EXPECT_EQ(draft.sampling.pixel_samples, 1);
   EXPECT_EQ(draft.sampling.sky_directions, 4);
-  EXPECT_FALSE(draft.synthesis.enabled);
+  EXPECT_FALSE(draft.copies());
   EXPECT_EQ(draft.water.mirror, "column");
   // Nothing else of the scene changes.
   Scene rest = draft;
   rest.output = scene.output;
   rest.sampling = scene.sampling;
-  rest.synthesis.enabled = true;
+  rest.synthesis.enabled = scene.synthesis.enabled;
   rest.water.mirror = scene.water.mirror;
   EXPECT_EQ(write_scene(rest), write_scene(scene));
 }

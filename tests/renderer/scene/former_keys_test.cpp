@@ -62,17 +62,31 @@ TEST(StyleKey, ANameAloneIsItsFile) {
   EXPECT_EQ(table.scene.style.contour_lines, 0.7);
 }
 
-TEST(StyleKey, BringsItsPaletteAndNoTexelsUnlessTheSceneSaysSo) {
+TEST(StyleKey, BringsItsPalette) {
   const auto read = [](const std::string& text) {
     return parse_scene("version = 1\n" + text, "scene.toml", ".", {}).scene;
   };
   EXPECT_EQ(read("style = \"a.toml\"\n").palette, "");
-  EXPECT_FALSE(read("style = \"a.toml\"\n").synthesis.enabled);
   EXPECT_EQ(read("style = \"a.toml\"\npalette = \"winter\"\n").palette, "winter");
-  EXPECT_TRUE(read("style = \"a.toml\"\n[synthesis]\nenabled = true\n").synthesis.enabled);
-  EXPECT_TRUE(read("style = \"a.toml\"\n[[exemplar]]\nwidth = 400\n").synthesis.enabled);
-  EXPECT_TRUE(read("").synthesis.enabled);
   EXPECT_THROW(read("palette = \"\"\n"), Error);
+}
+
+// Copying is for paintings: where only the program's own sheet would be copied, its strokes are
+// painted directly, unless the scene says otherwise.
+TEST(SynthesisKey, CopiesWhereTheSceneHasAnExemplar) {
+  const auto copies = [](const std::string& text) {
+    return parse_scene("version = 1\n" + text, "scene.toml", ".", {}).scene.copies();
+  };
+  EXPECT_FALSE(copies(""));
+  EXPECT_FALSE(copies("style = \"a.toml\"\n"));
+  EXPECT_TRUE(copies("[[exemplar]]\nwidth = 400\n"));
+  EXPECT_TRUE(copies("style = \"a.toml\"\n[[exemplar]]\nwidth = 400\n"));
+  EXPECT_TRUE(copies("[[exemplar]]\npicture = \"a.tif\"\nclasses = \"a.png\"\n"));
+  EXPECT_TRUE(copies("[synthesis]\nenabled = true\n"));
+  EXPECT_FALSE(copies("[synthesis]\nenabled = \"auto\"\n"));
+  EXPECT_TRUE(copies("[[exemplar]]\nwidth = 400\n[synthesis]\nenabled = \"auto\"\n"));
+  EXPECT_FALSE(copies("[[exemplar]]\nwidth = 400\n[synthesis]\nenabled = false\n"));
+  EXPECT_THROW(copies("[synthesis]\nenabled = \"yes\"\n"), Error);
 }
 
 }  // namespace

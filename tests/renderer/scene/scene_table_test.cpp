@@ -108,8 +108,10 @@ TEST(SceneTable, DerivedKeysAreAutoWhereNotWritten) {
       ++derived;
       Scene scene;
       const SceneField field = key.field(scene, 0);
-      ASSERT_TRUE(std::holds_alternative<std::optional<double>*>(field)) << key.name;
-      EXPECT_FALSE(**std::get_if<std::optional<double>*>(&field)) << key.name;
+      const auto* flag = std::get_if<std::optional<bool>*>(&field);
+      const auto* number = std::get_if<std::optional<double>*>(&field);
+      ASSERT_TRUE(flag != nullptr || number != nullptr) << key.name;
+      EXPECT_FALSE(flag != nullptr ? (*flag)->has_value() : (*number)->has_value()) << key.name;
       EXPECT_THAT(scene_reference(), HasSubstr(std::string(key.derived))) << key.name;
       const std::string name = join_key(section.name, key.name);
       const auto with = [&](const std::string& value) {
@@ -118,10 +120,12 @@ TEST(SceneTable, DerivedKeysAreAutoWhereNotWritten) {
                                .scene);
       };
       EXPECT_EQ(with("auto"), with("\"auto\"")) << name;
-      EXPECT_NE(with("auto"), with(key.unit == "m" || key.name == "rim_fade_m" ? "1000" : "2"))
-          << name;
+      const char* other = flag != nullptr                                   ? "true"
+                          : key.unit == "m" || key.name == "rim_fade_m" ? "1000"
+                                                                        : "2";
+      EXPECT_NE(with("auto"), with(other)) << name;
     }
-  EXPECT_EQ(derived, 16);
+  EXPECT_EQ(derived, 17);
   EXPECT_THAT(scene_reference(),
               HasSubstr("| `exaggeration` | a number or \"auto\"; 0.1 … 10 | `\"auto\"` |"));
 }

@@ -115,7 +115,7 @@ Grid<glm::vec3> legend(const std::vector<Column>& columns) {
 
 // What the scene copies from, in the same form as its picture.
 std::vector<Column> copied_from(const LoadedScene& loaded, Progress& progress, const Cache& cache) {
-  if (!loaded.scene.synthesis.enabled) return {};
+  if (!loaded.scene.copies()) return {};
   ScenePaint paint = read_scene_paint(loaded, progress);
   const World world = make_world(loaded, progress, cache);
   const Palette palette = palette_for_location(paint.palette, loaded, *world.dem);
@@ -226,7 +226,7 @@ std::function<int()> add_figure(CommandOptions& command) {
       .range(16, 20000);
   command.add_flag("--making", options->making,
                    "Also writes making.png: the ground as measured, generalized and bent, land "
-                   "cover, light, colours, copied paint, strokes.\n"
+                   "cover, light, colours, copied paint if there is any, strokes.\n"
                    "Paints the picture a second time");
   command.footer(
       "Rows of land cover, altitude, distance and paint, a column for each painting that is copied "

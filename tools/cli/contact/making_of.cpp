@@ -81,7 +81,7 @@ void add_paint(std::vector<MakingStep>& steps, const LoadedScene& loaded, const 
   steps.push_back({"classes", "land cover", class_picture(guidance)});
   steps.push_back({"tone", "light and shade", tone_picture(guidance)});
   steps.push_back({"base", "colours of the palette", ground.base->read(sheet).colour});
-  const bool copied = world.scene.synthesis.enabled;
+  const bool copied = world.scene.copies();
   CopyPlan plan =
       copied ? make_copy_plan(loaded, world, paint, ground, position, work, run) : CopyPlan{};
   const DrawnFeatures features =

@@ -21,7 +21,7 @@ TEST(ContactSheet, DraftsAreSmallAndOfCoarserGround) {
   EXPECT_EQ(draft.scene.output.width, 500);
   EXPECT_EQ(draft.scene.output.height, 250);
   EXPECT_EQ(draft.scene.terrain.dem.cell_m, 90.0);
-  EXPECT_FALSE(draft.scene.synthesis.enabled);
+  EXPECT_FALSE(draft.scene.copies());
   EXPECT_EQ(draft.scene.output.formats, std::vector<std::string>{"png"});
 }
 
