@@ -109,26 +109,124 @@ GuidanceBuffers make_buffers(int width, int height) {
   return buffers;
 }
 
-// Traces the primary rays of a block. samples[i] belongs to pixel i.
+// The sample nearest a pixel's centre; of several the first.
+std::size_t central_sample(std::span<const glm::dvec2> positions) {
+  std::size_t best = 0;
+  for (std::size_t k = 1; k < positions.size(); ++k)
+    if (glm::length(positions[k] - glm::dvec2(0.5)) <
+        glm::length(positions[best] - glm::dvec2(0.5)) - 1e-9)
+      best = k;
+  return best;
+}
+
+// A ray through each of some pixels, traced together.
+void trace_pixels(const Tracing& t, std::span<const glm::ivec2> pixels, glm::dvec2 within,
+                  std::span<Seen> seen) {
+  std::array<Ray, trace_block_pixels> rays;
+  std::array<Hit, trace_block_pixels> hits;
+  const std::size_t count = pixels.size();
+  for (std::size_t i = 0; i < count; ++i) rays[i] = t.camera.ray(glm::dvec2(pixels[i]) + within);
+  t.tracer.intersect(std::span(rays).first(count), std::span(hits).first(count));
+  for (std::size_t i = 0; i < count; ++i) {
+    seen[i] = {hits[i], LandCoverClass::sky};
+    if (hits[i].found)
+      seen[i].land_cover =
+          class_at(ground_of(t.terrain, hits[i].window), hits[i].column, hits[i].row);
+  }
+}
+
+// The pixels of a block and those around it, by what their central rays see.
+class BlockSight {
+ public:
+  static constexpr int side = trace_block_px + 2;
+
+  void set(glm::ivec2 at, const Seen& seen) {
+    const std::size_t i = place(at);
+    depth_m_[i] = seen.hit.found ? static_cast<float>(seen.hit.distance_m) : -1.F;
+    land_cover_[i] = seen.land_cover;
+  }
+  // Whether a pixel and the eight around it see one class and one surface: then its further rays
+  // would see the same.
+  bool is_even(glm::ivec2 at) const {
+    constexpr float same_depth = 0.02F;
+    const std::size_t own = place(at);
+    const float tolerance = same_depth * std::abs(depth_m_[own]);
+    for (int y = -1; y <= 1; ++y)
+      for (int x = -1; x <= 1; ++x) {
+        const std::size_t other = place(at + glm::ivec2(x, y));
+        if (land_cover_[other] != land_cover_[own] ||
+            std::abs(depth_m_[other] - depth_m_[own]) > tolerance)
+          return false;
+      }
+    return true;
+  }
+
+ private:
+  static std::size_t place(glm::ivec2 at) {  // from -1 to trace_block_px
+    return static_cast<std::size_t>((at.y + 1) * side + at.x + 1);
+  }
+  std::array<float, side * side> depth_m_{};
+  std::array<LandCoverClass, side * side> land_cover_{};
+};
+
+// The pixels around a block.
+const std::vector<glm::ivec2>& pixels_around_block() {
+  static const std::vector<glm::ivec2> all = [] {
+    std::vector<glm::ivec2> pixels;
+    for (int i = -1; i <= trace_block_px; ++i) {
+      pixels.push_back({i, -1});
+      pixels.push_back({i, trace_block_px});
+    }
+    for (int i = 0; i < trace_block_px; ++i) {
+      pixels.push_back({-1, i});
+      pixels.push_back({trace_block_px, i});
+    }
+    return pixels;
+  }();
+  return all;
+}
+
+// Traces the primary rays of a block. samples[i] belongs to pixel i. One ray a pixel first; the
+// others only where that one and those of the pixels around it do not see the same. What is traced
+// together depends on the block alone.
 using BlockSamples = std::vector<Seen>;  // pixel_samples for each pixel in turn
 void trace_primary(const Tracing& t, glm::ivec2 corner, BlockSamples& samples) {
   const std::size_t per_pixel = t.pixel_positions.size();
+  const std::size_t central = central_sample(t.pixel_positions);
   samples.assign(trace_block_pixels * per_pixel, Seen{});
-  std::array<Ray, trace_block_pixels> rays;
-  std::array<Hit, trace_block_pixels> hits;
-  for (std::size_t k = 0; k < per_pixel; ++k) {
-    for (int i = 0; i < trace_block_pixels; ++i) {
-      rays[static_cast<std::size_t>(i)] =
-          t.camera.ray(glm::dvec2(corner + block_pixel(i)) + t.pixel_positions[k]);
-    }
-    t.tracer.intersect(rays, hits);
-    for (std::size_t i = 0; i < trace_block_pixels; ++i) {
-      Seen& seen = samples[i * per_pixel + k];
-      seen.hit = hits[i];
-      if (hits[i].found)
-        seen.land_cover =
-            class_at(ground_of(t.terrain, hits[i].window), hits[i].column, hits[i].row);
-    }
+  std::array<glm::ivec2, trace_block_pixels> pixels;
+  std::array<Seen, trace_block_pixels> seen;
+  for (int i = 0; i < trace_block_pixels; ++i)
+    pixels[static_cast<std::size_t>(i)] = corner + block_pixel(i);
+  trace_pixels(t, pixels, t.pixel_positions[central], seen);
+  if (per_pixel == 1) {
+    std::copy(seen.begin(), seen.end(), samples.begin());
+    return;
+  }
+  BlockSight sight;
+  for (int i = 0; i < trace_block_pixels; ++i)
+    sight.set(block_pixel(i), seen[static_cast<std::size_t>(i)]);
+  const std::vector<glm::ivec2>& around = pixels_around_block();
+  std::array<glm::ivec2, trace_block_pixels> outside;
+  std::array<Seen, trace_block_pixels> seen_outside;
+  for (std::size_t i = 0; i < around.size(); ++i) outside[i] = corner + around[i];
+  trace_pixels(t, std::span(outside).first(around.size()), t.pixel_positions[central],
+               seen_outside);
+  for (std::size_t i = 0; i < around.size(); ++i) sight.set(around[i], seen_outside[i]);
+
+  std::array<std::size_t, trace_block_pixels> open;
+  std::size_t count = 0;
+  for (int p = 0; p < trace_block_pixels; ++p) {
+    const auto i = static_cast<std::size_t>(p);
+    std::fill_n(samples.begin() + static_cast<std::ptrdiff_t>(i * per_pixel), per_pixel, seen[i]);
+    if (sight.is_even(block_pixel(p))) continue;
+    pixels[count] = corner + block_pixel(p);
+    open[count++] = i;
+  }
+  for (std::size_t k = 0; k < per_pixel && count > 0; ++k) {
+    if (k == central) continue;
+    trace_pixels(t, std::span(pixels).first(count), t.pixel_positions[k], seen);
+    for (std::size_t i = 0; i < count; ++i) samples[open[i] * per_pixel + k] = seen[i];
   }
 }
 
