@@ -56,15 +56,10 @@ void add_close_relief(RockRelief& relief, const GuidanceBuffers& guidance, const
   const PixelRect made = intersection(whole, grown(close, lip_px));
   progress.begin("close ground", 2.0 * made.height());
 
-  const int times = thinned_times(ppu, wide.factor);
-  const GuidanceBuffers thin = thin_out(wide, times);
-  const WideView far{thin, wide.factor * times, thinned_origin(wide, times)};
   const PixelRect sheet_rect = moved(made, origin_px.x, origin_px.y);
-  const PixelRect read = intersection(
-      {0, 0, thin.width(), thin.height()},
-      moved(wide_rect(grown(sheet_rect, reach_px(roofs_reach_units(), ppu)), far.factor),
-            -far.origin_px.x, -far.origin_px.y));
-  const Grid<glm::vec2> fall = smooth_fall_lines(far, ppu, read);
+  const FarView from_afar(wide, ppu, grown(sheet_rect, reach_px(roofs_reach_units(), ppu)));
+  const WideView& far = from_afar.wide();
+  const Grid<glm::vec2>& fall = from_afar.fall();
   const SpurGround ground{far, fall, ppu, parameters.light.seed};
   const IceAround ice = look_around_ice(ground, sheet_rect);
   const CloseBorders borders =

@@ -193,7 +193,7 @@ RockPosition border_place(const RockScene& s, const RockPixel& p, int x, int y, 
                           const SpurHits& hits, float funnel, float wall) {
   glm::vec2 sheet_px(s.origin_px + glm::ivec2(x, y));
   const glm::vec2 fall =
-      s.view.fall[index_on_surface(s.wide, s.origin_px.x + x, s.origin_px.y + y, p.depth_m)];
+      s.view.far.fall()[index_on_surface(s.wide, s.origin_px.x + x, s.origin_px.y + y, p.depth_m)];
   const glm::vec2 reach = fall * (above_units * p.scale);
   RockPosition position;
   position.mapped = s.guidance.land_cover(x, y);
@@ -239,7 +239,7 @@ bool turf_near_rock(const RockScene& s, int x, int y, float depth_m) {
   if (close <= 0.0F || !has_turf_border(g.land_cover(x, y))) return false;
   const glm::vec2 sheet_px(s.origin_px + glm::ivec2(x, y));
   const glm::vec2 way =
-      s.view.fall[index_on_surface(s.wide, s.origin_px.x + x, s.origin_px.y + y, depth_m)] *
+      s.view.far.fall()[index_on_surface(s.wide, s.origin_px.x + x, s.origin_px.y + y, depth_m)] *
       (turf_shift_units * close * static_cast<float>(s.pixels_per_unit));
   for (const float share : {-1.0F, -0.5F, 0.5F, 1.0F})
     if (rock_share(s, sheet_px + share * way, depth_m) > min_rock) return true;
@@ -264,14 +264,14 @@ RockScene look_at_rock(const GuidanceBuffers& guidance, const RockView& view,
                        const RockParameters& parameters, glm::ivec2 origin_px, PixelRect made) {
   const double ppu = parameters.light.pixels_per_unit;
   const std::uint64_t seed = parameters.light.seed;
-  RockScene s{guidance, view, view.far(), parameters, origin_px, ppu, {}, {},
+  RockScene s{guidance, view, view.far.wide(), parameters, origin_px, ppu, {}, {},
               {},       {},   {},         {},         {},        {},  {}, {}};
   const int reach_px = static_cast<int>(std::ceil((above_units + turf_shift_units + 2.0) * ppu));
   const PixelRect asked =
       wide_rect(grown(moved(made, origin_px.x, origin_px.y), reach_px), s.wide.factor);
   s.around = look_around_rock(
       s.wide, ppu,
-      intersection({0, 0, view.thin.width(), view.thin.height()},
+      intersection(view.far.whole(),
                    surface_look(moved(asked, -s.wide.origin_px.x, -s.wide.origin_px.y))));
   s.shadow = blur_on_surface(guidance.shadow, guidance.depth_m, shadow_blur_units * ppu, made);
   s.sky_view = blur_on_surface(guidance.sky_view, guidance.depth_m, sky_blur_units * ppu, made);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "base/parallel.h"
 #include "base/random.h"
@@ -49,7 +50,32 @@ BandPartition part_bands(const SpurGround& ground, PixelRect rect) {
   return bands;
 }
 
+// Null where the pixels are not thinned.
+std::shared_ptr<const GuidanceBuffers> thinned(const WideView& wide, int times) {
+  return times == 1 ? nullptr : std::make_shared<const GuidanceBuffers>(thin_out(wide, times));
+}
+
 }  // namespace
+
+FarView::FarView(const WideView& wide, double pixels_per_unit, PixelRect read)
+    : FarView(thinned(wide, thinned_times(pixels_per_unit, wide.factor)), wide, pixels_per_unit,
+              read) {}
+
+FarView::FarView(std::shared_ptr<const GuidanceBuffers> thin, const WideView& wide,
+                 double pixels_per_unit, PixelRect read)
+    : thin_(std::move(thin)), wide_([&]() -> WideView {
+        if (!thin_) return wide;
+        const int times = thinned_times(pixels_per_unit, wide.factor);
+        return {*thin_, wide.factor * times, thinned_origin(wide, times)};
+      }()) {
+  if (wide_.smooth_fall != nullptr) return;
+  const PixelRect asked =
+      intersection(whole(), moved(wide_rect(read, wide_.factor), -wide_.origin_px.x,
+                                  -wide_.origin_px.y));
+  smoothed_ =
+      std::make_shared<const Grid<glm::vec2>>(smooth_fall_lines(wide_, pixels_per_unit, asked));
+  wide_.smooth_fall = smoothed_.get();
+}
 
 int rock_factor(double pixels_per_unit) {
   return std::max(1, static_cast<int>(std::floor(pixels_per_unit)));
@@ -95,19 +121,14 @@ Warp::Warp(std::uint64_t seed) {
 RockView view_rock(const GuidanceBuffers& guidance, const WideView& wide,
                    const RockParameters& parameters, glm::ivec2 origin_px, PixelRect made) {
   const double ppu = parameters.light.pixels_per_unit;
-  const int times = thinned_times(ppu, wide.factor);
   const PixelRect sheet_rect = moved(made, origin_px.x, origin_px.y);
-  RockView view{
-      thin_out(wide, times),       wide.factor * times,    thinned_origin(wide, times), {}, {}, {},
-      Warp(parameters.light.seed), static_cast<float>(ppu)};
-  const WideView far = view.far();
-  const PixelRect asked = wide_rect(
-      grown(sheet_rect, static_cast<int>(std::ceil(spur_margin_units(*parameters.kind) * ppu))),
-      far.factor);
-  view.fall = smooth_fall_lines(far, ppu,
-                                intersection({0, 0, view.thin.width(), view.thin.height()},
-                                             moved(asked, -far.origin_px.x, -far.origin_px.y)));
-  const SpurGround ground{far, view.fall, ppu, parameters.light.seed};
+  const int margin_px = static_cast<int>(std::ceil(spur_margin_units(*parameters.kind) * ppu));
+  RockView view{FarView(wide, ppu, grown(sheet_rect, margin_px)),
+                {},
+                {},
+                Warp(parameters.light.seed),
+                static_cast<float>(ppu)};
+  const SpurGround ground{view.far.wide(), view.far.fall(), ppu, parameters.light.seed};
   view.bands = part_bands(ground, sheet_rect);
   std::array<bool, spur_bands> bands{};
   for (const BandCell& cell : view.bands.cells) bands[static_cast<std::size_t>(cell.band)] = true;

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <memory>
 #include <vector>
 
 #include "base/guidance_buffers.h"
@@ -46,19 +47,34 @@ struct Warp {
   glm::vec2 operator()(glm::vec2 position, float scale) const;
 };
 
+// A wide view in about one pixel per unit, and its smoothed fall lines: everything that rock reads
+// from afar is smooth over a unit. What the wide view holds already is referred to.
+class FarView {
+ public:
+  // Fall lines of the pixels of `read`, a rectangle of the sheet; of others only if they are there.
+  FarView(const WideView& wide, double pixels_per_unit, PixelRect read);
+
+  const WideView& wide() const { return wide_; }
+  const Grid<glm::vec2>& fall() const { return *wide_.smooth_fall; }
+  PixelRect whole() const { return {0, 0, wide_.seen.width(), wide_.seen.height()}; }
+
+ private:
+  FarView(std::shared_ptr<const GuidanceBuffers> thin, const WideView& wide, double pixels_per_unit,
+          PixelRect read);
+
+  std::shared_ptr<const GuidanceBuffers> thin_;
+  std::shared_ptr<const Grid<glm::vec2>> smoothed_;
+  WideView wide_;
+};
+
 // The spurs of a window of the sheet, and the ground under them.
 struct RockView {
-  GuidanceBuffers thin;  // of the wide view, about one pixel per unit: everything read here is
-                         // smooth over a unit
-  int factor = 1;        // of its pixels
-  glm::ivec2 origin_px{0};
-  Grid<glm::vec2> fall;
+  FarView far;
   BandPartition bands;
   SpurField field;
   Warp warp;
   float pixels_per_unit = 1.0F;
 
-  WideView far() const { return {thin, factor, origin_px}; }
   // The spurs at a position, units of the sheet, in front of a pixel's depth.
   SpurHits at(glm::vec2 position, int band, float depth_m) const {
     return find_spurs(field, band, warp(position, pixels_per_unit), depth_m);

@@ -34,6 +34,11 @@ constexpr double light_work_bytes = 80.0;
 WideView as_wide_view(const Window<GuidanceBuffers>& window) {
   return {window.value, window.scale, window.origin_px()};
 }
+WideView as_wide_view(const Window<GuidanceBuffers>& window, const Window<Grid<glm::vec2>>& fall) {
+  WideView wide = as_wide_view(window);
+  if (!fall.value.empty()) wide.smooth_fall = &fall.value;
+  return wide;
+}
 
 // Shores are searched up and down, farther than anything else.
 Reach base_reach(bool has_water, const BaseParameters& parameters) {
@@ -138,14 +143,32 @@ GroundStages add_ground_stages(StageGraph& graph, GroundInputs given, int tile_p
                                        : traced_channels;
   ground.crested = ground.raised = ground.traced;
   if (in->rock_relief) {
+    // Both read far around their tiles: what they need from there is made once.
+    const int far_scale = ground.far->declaration().scale;
+    if (far_scale == rock_factor(ppu))
+      ground.fall = graph.add_tiles<Grid<glm::vec2>>(
+          {.name = "fall lines",
+           .size_px = ground.far->declaration().size_px,
+           .scale = far_scale,
+           .tile_px = ground.far->declaration().tile_px,
+           .work_bytes_per_pixel = light_work_bytes},
+          one_grid<Grid<glm::vec2>>(),
+          inputs(reads(ground.far, around(smooth_fall_reach(ppu, far_scale)),
+                       some({&B::depth_m, &B::fall_line}))),
+          [ppu](const Tile& tile, const auto& far) {
+            const PixelRect wanted = far.inside(tile.rect);
+            return part_of(smooth_fall_lines(as_wide_view(far), ppu, wanted), wanted);
+          });
+
     // Crests of rock get pinnacles and notches: each column is shifted up or down.
     ground.crests = graph.add_tiles<CrestShift>(
         tiles("crests", light_work_bytes), grids_of(&CrestShift::rows, &CrestShift::front),
         inputs(reads(ground.far, around(crest_view_margin_px(in->rock)), some(far_channels)),
+               reads(ground.fall, around(crest_view_margin_px(in->rock))),
                reads(ground.traced, rows_around(crest_margin_px(ppu)),
                      some({&B::depth_m, &B::front, &B::land_cover, &B::footprint_m}))),
-        [in](const Tile& tile, const auto& far, const auto& near) {
-          return shift_crests(near.value, as_wide_view(far), in->rock, near.origin_px(),
+        [in](const Tile& tile, const auto& far, const auto& fall, const auto& near) {
+          return shift_crests(near.value, as_wide_view(far, fall), in->rock, near.origin_px(),
                               near.inside(tile.rect));
         });
     ground.crested = graph.add_view<GuidanceBuffers>(
@@ -156,22 +179,24 @@ GroundStages add_ground_stages(StageGraph& graph, GroundInputs given, int tile_p
           gather_shifted(traced, crests.value, tile.rect, out);
         });
 
+    const int relief_margin_px = std::max(rock_margin_px(in->rock), close_margin_px(in->rock));
     // Relief of rock that a DEM does not contain, and the borders of rock that follow it.
     ground.relief = graph.add_tiles<RockRelief>(
         tiles("rock relief", light_work_bytes),
         grids_of(&RockRelief::land_cover, &RockRelief::fall_line, &RockRelief::height,
                  &RockRelief::facet, &RockRelief::tone, &RockRelief::cover),
         inputs(
-            reads(ground.far, around(std::max(rock_margin_px(in->rock), close_margin_px(in->rock))),
-                  some(far_channels)),
+            reads(ground.far, around(relief_margin_px), some(far_channels)),
+            reads(ground.fall, around(relief_margin_px)),
             reads(ground.crested,
                   around(std::max(rock_near_margin_px(in->rock), close_near_margin_px(in->rock))),
                   some(rock_channels()))),
-        [in](const Tile& tile, const auto& far, const auto& near) {
+        [in](const Tile& tile, const auto& far, const auto& fall, const auto& near) {
           const PixelRect wanted = near.inside(tile.rect);
-          RockRelief relief = make_rock_relief(near.value, as_wide_view(far), in->rock,
-                                               near.origin_px(), in->run.progress, wanted);
-          add_close_relief(relief, near.value, as_wide_view(far), in->rock, near.origin_px(),
+          const WideView wide = as_wide_view(far, fall);
+          RockRelief relief = make_rock_relief(near.value, wide, in->rock, near.origin_px(),
+                                               in->run.progress, wanted);
+          add_close_relief(relief, near.value, wide, in->rock, near.origin_px(),
                            in->run.progress, wanted);
           return relief;
         });

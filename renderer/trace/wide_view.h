@@ -19,6 +19,9 @@ struct WideView {
   const GuidanceBuffers& seen;
   int factor = 1;
   glm::ivec2 origin_px{0};  // of `seen`, in its own pixels
+  // Of the same pixels, what smooth_fall_lines (renderer/rock/spurs.h) makes of the fall lines;
+  // null: whoever needs it makes it.
+  const Grid<glm::vec2>* smooth_fall = nullptr;
 
   // Column or row of `seen` that contains a column or row of the sheet (0…65535); otherwise the
   // nearest.

@@ -21,8 +21,8 @@ TEST(RockView, LooksAtAPixelAUnit) {
   EXPECT_EQ(thinned_times(8.3, 4), 2);
   const GuidanceBuffers g = test::make_wall(200, 160, 2.0);
   const RockView view = view_rock(g, {g, 1, {0, 0}}, parameters(2.0), {0, 0}, {0, 0, 200, 160});
-  EXPECT_EQ(view.far().factor, 2);
-  EXPECT_EQ(view.thin.width(), 100);
+  EXPECT_EQ(view.far.wide().factor, 2);
+  EXPECT_EQ(view.far.whole().width(), 100);
   EXPECT_NEAR(view.thin.footprint_m(50, 50), 2.0F * g.footprint_m(100, 100), 1e-4F);
 }
 
