@@ -28,6 +28,7 @@
 #include "renderer/stages/lit_picture.h"
 #include "renderer/world/scene_dem.h"
 #include "renderer/world/scene_land_cover.h"
+#include "renderer/world/season/palette_season.h"
 #include "terrain/shape/catchments.h"
 
 namespace belvedere {
@@ -234,8 +235,27 @@ ExampleSheetPlan plan_for(const SceneExemplar& settings, const Scene& scene, con
   plan.height = size.y;
   plan.seed = settings.seed;
   plan.dots_per_inch = 50.8 * scene.pixels_per_unit();  // strokes of the same size as the picture's
-  plan.light_from_deg = view.sun.azimuth_deg - view.camera.azimuth_deg;
+  // In steps, as the palette, so that scenes of one season and size share a sheet.
+  constexpr double step_deg = 15.0;
+  const double light_from_deg = view.sun.azimuth_deg - view.camera.azimuth_deg;
+  plan.light_from_deg = step_deg * std::round(std::remainder(light_from_deg, 360.0) / step_deg);
   return plan;
+}
+
+// The palette of a place at the nearest of some altitudes: paint is copied with its difference to
+// the colour under it, so these altitudes need not be the picture's.
+Palette palette_in_steps(const Palette& of_place) {
+  constexpr double step_m = 50.0;
+  const auto nearest = [](double altitude_m) { return step_m * std::round(altitude_m / step_m); };
+  Palette palette =
+      palette_at_other_altitudes(of_place, nearest(of_place.treeline_m) - of_place.treeline_m);
+  palette.treeline_m = nearest(of_place.treeline_m);
+  for (ClassPalette& ramps : palette.classes)  // without the rounding of two moves
+    for (ClassPalette::Stop& stop : ramps.stops)
+      stop.altitude_m = std::round(stop.altitude_m * 100.0) / 100.0;
+  if (std::isfinite(palette.lakes_freeze_from_m))
+    palette.lakes_freeze_from_m = nearest(palette.lakes_freeze_from_m);
+  return palette;
 }
 
 // The painted sheet, before it is prepared for synthesis.
@@ -337,7 +357,7 @@ PaintedExemplar paint_example_sheet(const SceneExemplar& settings, const Scene& 
                                     const View& view, const Palette& palette, Progress& progress,
                                     const Cache& cache) {
   const ExampleSheetPlan plan = plan_for(settings, scene, view);
-  const ExampleSheetHand hand{palette, scene.light};
+  const ExampleSheetHand hand{palette_in_steps(palette), scene.light};
   const std::string subject =
       fmt::format("{}{}{}, {} × {} texels", scene.title, scene.title.empty() ? "" : ", ",
                   palette.name, plan.width, plan.height);

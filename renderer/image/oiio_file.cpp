@@ -31,11 +31,10 @@ class OiioReader {
  public:
   // `header_only`: CMYK is accepted as well, with its own four channels.
   OiioReader(const std::string& path, const std::string& format, bool header_only = false)
-      : path_(path), format_(format) {
+      : path_((load_oiio(), path)), format_(format) {  // before its first member of OpenImageIO
     if (format_ == "png" && !image_io::is_png_complete(path))
       image_io::throw_damaged(path, "a piece is missing or has a wrong checksum");
     if (format_ == "tiff") page_ = largest_tiff_page(path);
-    load_oiio();
     input_ = OIIO::ImageInput::create(format_);
     if (input_ == nullptr) throw Error(ErrorKind::bug, path, "OpenImageIO cannot read " + format_);
     OIIO::ImageSpec settings;

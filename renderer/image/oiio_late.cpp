@@ -1,5 +1,5 @@
-// OpenImageIO brings 150 further libraries (OpenVDB, OpenCV, FFmpeg), whose relocation takes .2 s of
-// every start of the program; many runs need none of its functions. So the program is not linked
+// OpenImageIO brings 150 further libraries (OpenVDB, OpenCV, FFmpeg), whose relocation takes .2 s
+// of every start of the program; many runs need none of its functions. So the program is not linked
 // with it (CMake: BELVEDERE_LATE_OIIO): each of its functions that oiio_file.cpp calls is a jump to
 // an address which load_oiio() looks up.
 #include "renderer/image/oiio_late.h"
@@ -15,31 +15,31 @@
 #include "base/error.h"
 
 // The linker names what is missing here.
-#define OIIO_FUNCTIONS(F)                                                                          \
-  F("_ZN16OpenImageIO_v2_410ImageInput6createENS_17basic_string_viewIcSt11char_traitsIcEEEb"       \
-    "PKNS_9ImageSpecEPNS_10Filesystem7IOProxyES4_")                                                \
-  F("_ZN16OpenImageIO_v2_410ParamValue11clear_valueEv")                                            \
-  F("_ZN16OpenImageIO_v2_410ParamValue12init_noclearENS_7ustringENS_8TypeDescEiNS0_6InterpEPKv"    \
-    "NS0_4CopyENS0_11FromUstringE")                                                                \
-  F("_ZN16OpenImageIO_v2_410ParamValueaSERKS0_")                                                   \
-  F("_ZN16OpenImageIO_v2_411ImageOutput6createENS_17basic_string_viewIcSt11char_traitsIcEEE"       \
-    "PNS_10Filesystem7IOProxyES4_")                                                                \
-  F("_ZN16OpenImageIO_v2_49ImageSpec9attributeENS_17basic_string_viewIcSt11char_traitsIcEEE"       \
-    "NS_8TypeDescEPKv")                                                                            \
-  F("_ZN16OpenImageIO_v2_49ImageSpec9attributeENS_17basic_string_viewIcSt11char_traitsIcEEES4_")   \
-  F("_ZN16OpenImageIO_v2_49ImageSpecC1ENS_8TypeDescE")                                             \
-  F("_ZN16OpenImageIO_v2_49ImageSpecC1EiiiNS_8TypeDescE")                                          \
-  F("_ZNK16OpenImageIO_v2_410ImageInput8geterrorB5cxx11Eb")                                        \
-  F("_ZNK16OpenImageIO_v2_411ImageOutput8geterrorB5cxx11Eb")                                       \
-  F("_ZNK16OpenImageIO_v2_48TypeDesc8basesizeEv")                                                  \
-  F("_ZNK16OpenImageIO_v2_49ImageSpec11image_bytesEb")                                             \
-  F("_ZNK16OpenImageIO_v2_49ImageSpec14find_attributeENS_17basic_string_viewIcSt11char_traitsIc"   \
-    "EEENS_8TypeDescEb")                                                                           \
-  F("_ZNK16OpenImageIO_v2_49ImageSpec17get_int_attributeENS_17basic_string_viewIcSt11char_traits"  \
-    "IcEEEi")                                                                                      \
-  F("_ZNK16OpenImageIO_v2_49ImageSpec19get_float_attributeENS_17basic_string_viewIcSt11char_"      \
-    "traitsIcEEEf")                                                                                \
-  F("_ZNK16OpenImageIO_v2_49ImageSpec20get_string_attributeENS_17basic_string_viewIcSt11char_"     \
+#define OIIO_FUNCTIONS(F)                                                                         \
+  F("_ZN16OpenImageIO_v2_410ImageInput6createENS_17basic_string_viewIcSt11char_traitsIcEEEb"      \
+    "PKNS_9ImageSpecEPNS_10Filesystem7IOProxyES4_")                                               \
+  F("_ZN16OpenImageIO_v2_410ParamValue11clear_valueEv")                                           \
+  F("_ZN16OpenImageIO_v2_410ParamValue12init_noclearENS_7ustringENS_8TypeDescEiNS0_6InterpEPKv"   \
+    "NS0_4CopyENS0_11FromUstringE")                                                               \
+  F("_ZN16OpenImageIO_v2_410ParamValueaSERKS0_")                                                  \
+  F("_ZN16OpenImageIO_v2_411ImageOutput6createENS_17basic_string_viewIcSt11char_traitsIcEEE"      \
+    "PNS_10Filesystem7IOProxyES4_")                                                               \
+  F("_ZN16OpenImageIO_v2_49ImageSpec9attributeENS_17basic_string_viewIcSt11char_traitsIcEEE"      \
+    "NS_8TypeDescEPKv")                                                                           \
+  F("_ZN16OpenImageIO_v2_49ImageSpec9attributeENS_17basic_string_viewIcSt11char_traitsIcEEES4_")  \
+  F("_ZN16OpenImageIO_v2_49ImageSpecC1ENS_8TypeDescE")                                            \
+  F("_ZN16OpenImageIO_v2_49ImageSpecC1EiiiNS_8TypeDescE")                                         \
+  F("_ZNK16OpenImageIO_v2_410ImageInput8geterrorB5cxx11Eb")                                       \
+  F("_ZNK16OpenImageIO_v2_411ImageOutput8geterrorB5cxx11Eb")                                      \
+  F("_ZNK16OpenImageIO_v2_48TypeDesc8basesizeEv")                                                 \
+  F("_ZNK16OpenImageIO_v2_49ImageSpec11image_bytesEb")                                            \
+  F("_ZNK16OpenImageIO_v2_49ImageSpec14find_attributeENS_17basic_string_viewIcSt11char_traitsIc"  \
+    "EEENS_8TypeDescEb")                                                                          \
+  F("_ZNK16OpenImageIO_v2_49ImageSpec17get_int_attributeENS_17basic_string_viewIcSt11char_traits" \
+    "IcEEEi")                                                                                     \
+  F("_ZNK16OpenImageIO_v2_49ImageSpec19get_float_attributeENS_17basic_string_viewIcSt11char_"     \
+    "traitsIcEEEf")                                                                               \
+  F("_ZNK16OpenImageIO_v2_49ImageSpec20get_string_attributeENS_17basic_string_viewIcSt11char_"    \
     "traitsIcEEES4_")
 
 #define OIIO_NAME(name) name,

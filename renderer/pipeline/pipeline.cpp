@@ -26,7 +26,8 @@ namespace {
 
 void check_request(const Scene& scene, const SheetRequest& request) {
   if (request.matches && !scene.copies())
-    throw Error(ErrorKind::usage, "--match", "nothing is copied: the scene paints its strokes directly",
+    throw Error(ErrorKind::usage, "--match",
+                "nothing is copied: the scene paints its strokes directly",
                 "a scene with an [[exemplar]] or synthesis.enabled = true, or no --match");
   for (const std::string& extension : request.layers) layer_format(extension);
   if (!request.layers.empty() && !scene.output.ocio_config.empty())

@@ -264,8 +264,9 @@ RockScene look_at_rock(const GuidanceBuffers& guidance, const RockView& view,
                        const RockParameters& parameters, glm::ivec2 origin_px, PixelRect made) {
   const double ppu = parameters.light.pixels_per_unit;
   const std::uint64_t seed = parameters.light.seed;
-  RockScene s{guidance, view, view.far.wide(), parameters, origin_px, ppu, {}, {},
-              {},       {},   {},         {},         {},        {},  {}, {}};
+  RockScene s{
+      guidance, view, view.far.wide(), parameters, origin_px, ppu, {}, {}, {}, {}, {}, {}, {}, {},
+      {},       {}};
   const int reach_px = static_cast<int>(std::ceil((above_units + turf_shift_units + 2.0) * ppu));
   const PixelRect asked =
       wide_rect(grown(moved(made, origin_px.x, origin_px.y), reach_px), s.wide.factor);

@@ -69,9 +69,8 @@ FarView::FarView(std::shared_ptr<const GuidanceBuffers> thin, const WideView& wi
         return {*thin_, wide.factor * times, thinned_origin(wide, times)};
       }()) {
   if (wide_.smooth_fall != nullptr) return;
-  const PixelRect asked =
-      intersection(whole(), moved(wide_rect(read, wide_.factor), -wide_.origin_px.x,
-                                  -wide_.origin_px.y));
+  const PixelRect asked = intersection(
+      whole(), moved(wide_rect(read, wide_.factor), -wide_.origin_px.x, -wide_.origin_px.y));
   smoothed_ =
       std::make_shared<const Grid<glm::vec2>>(smooth_fall_lines(wide_, pixels_per_unit, asked));
   wide_.smooth_fall = smoothed_.get();

@@ -394,8 +394,8 @@ struct Scene {
   std::vector<SceneLightRegion> light_regions;
   std::vector<SceneLightCloud> light_clouds;
   SceneAir air;
-  std::string sky = "any";               // a kind of clouds.h
-  std::string palette = "summer";        // built-in name or file
+  std::string sky = "any";         // a kind of clouds.h
+  std::string palette = "summer";  // built-in name or file
   std::vector<SceneExemplar> exemplars;
   SceneStyle style;
   SceneSynthesis synthesis;

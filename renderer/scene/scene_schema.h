@@ -22,8 +22,8 @@ namespace belvedere {
 // The value of a key inside a Scene. Its C++ type decides the type in the file; defaults are those
 // of a fresh Scene.
 using SceneField =
-    std::variant<bool*, std::optional<bool>*, int*, std::uint64_t*, double*, float*, std::string*, std::optional<double>*,
-                 std::optional<glm::dvec2>*, std::array<double, 2>*,
+    std::variant<bool*, std::optional<bool>*, int*, std::uint64_t*, double*, float*, std::string*,
+                 std::optional<double>*, std::optional<glm::dvec2>*, std::array<double, 2>*,
                  std::optional<std::array<double, 4>>*, std::vector<glm::dvec2>*,
                  std::vector<float>*, std::optional<LandCoverClass>*, std::vector<LandCoverClass>*,
                  std::vector<std::string>*, std::vector<std::pair<std::string, double>>*,
@@ -60,8 +60,8 @@ struct SceneKey {
   bool required = false;
   bool lonlat = false;            // a pair of longitude and latitude
   bool raster = false;            // a file that may also lie on a server
-  std::string_view derived = {};  // of an optional number or flag: what is used where the key is absent or
-                                  // "auto"; empty: not applicable
+  std::string_view derived = {};  // of an optional number or flag: what is used where the key is
+                                  // absent or "auto"; empty: not applicable
 };
 
 enum class SectionKind {

@@ -64,9 +64,10 @@ std::vector<SceneSection> make_synthesis_sections() {
        .keys = {
            {.name = "enabled",
             .field = AT(synthesis.enabled),
-            .meaning = "Whether texture is copied from exemplars; otherwise everything is painted as "
-                       "strokes. true without an [[exemplar]] copies from a sheet that the program "
-                       "paints: its own strokes, at several times the cost.",
+            .meaning =
+                "Whether texture is copied from exemplars; otherwise everything is painted as "
+                "strokes. true without an [[exemplar]] copies from a sheet that the program "
+                "paints: its own strokes, at several times the cost.",
             .derived = "true where the scene has an [[exemplar]]"},
            {.name = "colours",
             .field = AT(synthesis.colours),

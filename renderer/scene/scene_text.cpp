@@ -46,7 +46,8 @@ struct SchemaOfField {
   }
   Json or_auto(Json schema) const {
     return Json::object().add(
-        "anyOf", Json::array({std::move(schema), typed("string").add("enum", Json::texts({"auto"}))}));
+        "anyOf",
+        Json::array({std::move(schema), typed("string").add("enum", Json::texts({"auto"}))}));
   }
   Json classes() const { return typed("string").add("enum", Json::texts(ground_class_names())); }
 

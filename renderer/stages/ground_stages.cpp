@@ -196,8 +196,8 @@ GroundStages add_ground_stages(StageGraph& graph, GroundInputs given, int tile_p
           const WideView wide = as_wide_view(far, fall);
           RockRelief relief = make_rock_relief(near.value, wide, in->rock, near.origin_px(),
                                                in->run.progress, wanted);
-          add_close_relief(relief, near.value, wide, in->rock, near.origin_px(),
-                           in->run.progress, wanted);
+          add_close_relief(relief, near.value, wide, in->rock, near.origin_px(), in->run.progress,
+                           wanted);
           return relief;
         });
     ground.raised = graph.add_view<GuidanceBuffers>(

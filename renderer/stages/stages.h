@@ -33,7 +33,7 @@ struct GroundStages {
   Stage<GuidanceBuffers>* wide = nullptr;    // the same in larger pixels, one ray each, for wide
                                              // effects; equal to traced where pixels are no larger
   Stage<GuidanceBuffers>* far = nullptr;     // and for rock, with the widest reach
-  Stage<Grid<glm::vec2>>* fall = nullptr;  // its smoothed fall lines; null: it is thinned first
+  Stage<Grid<glm::vec2>>* fall = nullptr;    // its smoothed fall lines; null: it is thinned first
   Stage<CrestShift>* crests = nullptr;
   Stage<RockRelief>* relief = nullptr;
   Stage<GuidanceBuffers>* crested = nullptr;  // traced channels after the crest shift

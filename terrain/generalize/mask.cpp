@@ -30,8 +30,9 @@ void change_cells(Grid<float>& grid, F&& f) {
   });
 }
 
-Grid<float> smooth_slope(const Grid<float>& altitude_m, glm::dvec2 cell_m, double blur_cells) {
-  return slope_deg(gaussian_blur(altitude_m, blur_cells), cell_m.x, cell_m.y);
+Grid<float> smooth_slope(const Grid<float>& altitude_m, glm::dvec2 cell_m, double blur_cells,
+                         const SlopeBounds& bounds) {
+  return slope_deg(gaussian_blur(altitude_m, blur_cells), cell_m.x, cell_m.y, bounds);
 }
 
 // 1 on flats and around them, fading over some cells: the foot of a slope is concave and steeper
@@ -50,7 +51,8 @@ Grid<float> slope_mask(const Grid<float>& altitude_m, glm::dvec2 cell_m, const S
                 fmt::format("from {}° to {}°", range.original_to_deg, range.generalized_from_deg),
                 "0° ≤ lower < upper < 90°");
   }
-  Grid<float> mask = smooth_slope(altitude_m, cell_m, 1.0);
+  Grid<float> mask =
+      smooth_slope(altitude_m, cell_m, 1.0, {range.original_to_deg, range.generalized_from_deg});
   change_cells(mask, [&](float slope, int, int) {
     return share_between(range.original_to_deg, range.generalized_from_deg, slope);
   });
@@ -71,7 +73,7 @@ Grid<float> class_mask(const Grid<LandCoverClass>& classes, const GeneralizedSha
 
 Grid<float> slope_foot_mask(const Grid<float>& altitude_m, glm::dvec2 cell_m, int reach_cells) {
   const int reach = std::clamp(reach_cells, 2, 256);
-  Grid<float> slope = smooth_slope(altitude_m, cell_m, 1.5);
+  Grid<float> slope = smooth_slope(altitude_m, cell_m, 1.5, {3.0, 20.0});
   Grid<float> near_steep = slope;
   change_cells(near_steep, [](float s, int, int) { return share_between(12.0, 20.0, s); });
   // Fades outwards over the same distance again.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/angle.h"
 #include "base/filter.h"
@@ -52,9 +53,25 @@ Gradient horn(const Window& w, double cell_x_m, double cell_y_m) {
 }  // namespace
 
 Grid<float> slope_deg(const Grid<float>& altitude_m, double cell_x_m, double cell_y_m) {
+  return slope_deg(altitude_m, cell_x_m, cell_y_m, {});
+}
+
+Grid<float> slope_deg(const Grid<float>& altitude_m, double cell_x_m, double cell_y_m,
+                      const SlopeBounds& bounds) {
+  // Half a thousandth of a degree wider, so that rounding changes no slope between the bounds.
+  constexpr double margin_deg = 0.0005;
+  const double low = bounds.low_deg <= 0.0
+                         ? -1.0
+                         : exact::tan(to_radians(std::max(bounds.low_deg - margin_deg, 0.0)));
+  const double high = bounds.high_deg >= 90.0 - margin_deg
+                          ? std::numeric_limits<double>::infinity()
+                          : exact::tan(to_radians(bounds.high_deg + margin_deg));
   return map_windows(altitude_m, [=](const Window& w) {
     const Gradient g = horn(w, cell_x_m, cell_y_m);
-    return to_degrees(exact::atan(std::sqrt(g.east * g.east + g.north * g.north)));
+    const double rise = std::sqrt(g.east * g.east + g.north * g.north);
+    if (rise < low) return 0.0;
+    if (rise > high) return 90.0;
+    return to_degrees(exact::atan(rise));
   });
 }
 

@@ -9,6 +9,13 @@ namespace belvedere {
 
 // Slope by Horn (1981), as gdaldem computes it, 0…90 degrees.
 Grid<float> slope_deg(const Grid<float>& altitude_m, double cell_x_m, double cell_y_m);
+// The same where it lies between two bounds; flatter ground gets 0, steeper 90.
+struct SlopeBounds {
+  double low_deg = 0.0;
+  double high_deg = 90.0;
+};
+Grid<float> slope_deg(const Grid<float>& altitude_m, double cell_x_m, double cell_y_m,
+                      const SlopeBounds& bounds);
 
 // Height above the Gaussian mean, m: blur(inner_m) - blur(outer_m), both standard deviations; 0 for
 // inner_m means the cell itself.

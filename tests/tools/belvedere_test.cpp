@@ -50,8 +50,10 @@ TEST_F(Program, HelpAndVersionAreAnswers) {
 // Its 150 libraries would take .2 s of every start: it is loaded where a picture needs it.
 TEST_F(Program, StartsWithoutOpenImageIO) {
   const std::string list = folder_ / "libraries";
-  ASSERT_EQ(std::system(("LD_TRACE_LOADED_OBJECTS=1 '" + test::build_folder() + "/belvedere' > " + list).c_str()),
-            0);
+  ASSERT_EQ(
+      std::system(
+          ("LD_TRACE_LOADED_OBJECTS=1 '" + test::build_folder() + "/belvedere' > " + list).c_str()),
+      0);
   EXPECT_THAT(read_bytes(list), AllOf(HasSubstr("libembree"), Not(HasSubstr("OpenImageIO"))));
 }
 

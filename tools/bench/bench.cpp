@@ -23,6 +23,7 @@ std::vector<Measurement> bench_files(const Options&);
 std::vector<Measurement> bench_generalize(const Options&);
 std::vector<Measurement> bench_guidance(const Options&);
 std::vector<Measurement> bench_layers(const Options&);
+std::vector<Measurement> bench_picture(const Options&);
 std::vector<Measurement> bench_rock(const Options&);
 std::vector<Measurement> bench_studio(const Options&);
 std::vector<Measurement> bench_synthesis(const Options&);
@@ -47,6 +48,8 @@ const std::vector<Section>& sections() {
       {"synthesis", "painting by example, with one guide and with seven", &bench_synthesis},
       {"texture", "texture models: learning, the flow and the polish", &bench_texture},
       {"studio", "from a change of --scene to its live picture", &bench_studio},
+      {"picture", "the picture of --scene by stage, and what a second thread brings to each",
+       &bench_picture},
       {"files", "writing and reading TIFF, PNG and OpenEXR", &bench_files},
   };
   return all;
@@ -135,7 +138,7 @@ int run(int argc, char** argv) {
       .range(1, 100)
       .show_default();
   command.add_option("--threads", threads, "Threads; 0: all").range(0, 1024);
-  command.add_option("--scene", options.scene, "A scene, for the section studio");
+  command.add_option("--scene", options.scene, "A scene, for the sections studio and picture");
   command.add_option("--data", options.data_folders, "Folder of its data");
   command.add_option("section", only, "The section to run. Default: all");
   if (const std::string help = line.read({argv + (argc > 0 ? 1 : 0), argv + argc}); !help.empty()) {

@@ -10,7 +10,7 @@ namespace belvedere::bench {
 struct Options {
   std::vector<int> sizes = {1024, 4096};  // cells per side of the synthetic terrain
   int repeats = 3;                        // of each measurement; the fastest counts
-  std::string scene;                      // of the section studio
+  std::string scene;                      // of the sections studio and picture
   std::vector<std::string> data_folders;  // with its data
 };
 

@@ -112,6 +112,7 @@ TEST(Exemplars, SheetsAreTheSameFromAColdOrAWarmCacheOrNone) {
   // picture by which seams are evaluated.
   View low_sun;
   low_sun.sun.altitude_deg = 3.0;
+  low_sun.sun.azimuth_deg += 6.0;  // in steps of 15°: scenes of a season share a sheet
   expect_same(sheet(cache, {}, low_sun), none);
   expect_same(sheet(cache, {"synthesis.residual=0.5"}, {}),
               sheet(no_cache(), {"synthesis.residual=0.5"}, {}));

@@ -23,7 +23,7 @@ TEST(RockView, LooksAtAPixelAUnit) {
   const RockView view = view_rock(g, {g, 1, {0, 0}}, parameters(2.0), {0, 0}, {0, 0, 200, 160});
   EXPECT_EQ(view.far.wide().factor, 2);
   EXPECT_EQ(view.far.whole().width(), 100);
-  EXPECT_NEAR(view.thin.footprint_m(50, 50), 2.0F * g.footprint_m(100, 100), 1e-4F);
+  EXPECT_NEAR(view.far.wide().seen.footprint_m(50, 50), 2.0F * g.footprint_m(100, 100), 1e-4F);
 }
 
 // A wall whose distance grows to the right changes from one size of spurs to the next in whole

@@ -120,7 +120,7 @@ TEST(SceneTable, DerivedKeysAreAutoWhereNotWritten) {
                                .scene);
       };
       EXPECT_EQ(with("auto"), with("\"auto\"")) << name;
-      const char* other = flag != nullptr                                   ? "true"
+      const char* other = flag != nullptr                               ? "true"
                           : key.unit == "m" || key.name == "rim_fade_m" ? "1000"
                                                                         : "2";
       EXPECT_NE(with("auto"), with(other)) << name;

@@ -139,5 +139,28 @@ TEST(Derivatives, EqualGdaldem) {
   std::filesystem::remove_all(folder);
 }
 
+// Bounds leave out the angles that nobody asks for, and change no other.
+TEST(Slope, WithinBoundsIsTheSlope) {
+  Grid<float> z(60, 50);
+  for (std::size_t i = 0; i < z.size(); ++i)
+    z[i] = static_cast<float>(30.0 * std::sin(0.13 * static_cast<double>(i % 60)) *
+                              std::cos(0.21 * static_cast<double>(i / 60)));
+  const Grid<float> all = slope_deg(z, 10.0, 10.0);
+  const Grid<float> some = slope_deg(z, 10.0, 10.0, {3.0, 12.0});
+  std::size_t between = 0;
+  for (std::size_t i = 0; i < z.size(); ++i) {
+    if (all[i] < 2.999F) {
+      EXPECT_EQ(some[i], 0.0F);
+    } else if (all[i] > 12.001F) {
+      EXPECT_EQ(some[i], 90.0F);
+    } else {
+      EXPECT_EQ(some[i], all[i]);
+      ++between;
+    }
+  }
+  EXPECT_GT(between, 500U);
+  EXPECT_LT(between, z.size() - 500U);
+}
+
 }  // namespace
 }  // namespace belvedere
