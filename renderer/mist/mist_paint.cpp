@@ -142,7 +142,7 @@ GuidanceBuffers mist_guidance(const MistSight& sight) {
 
 Grid<glm::vec3> lay(Grid<glm::vec3> canvas, const GuidanceBuffers& guidance,
                     std::vector<Stroke> strokes, const StrokeScene& scene, Progress& progress) {
-  Painting painting = begin_painting(std::move(canvas));
+  Painting painting = begin_painting(std::move(canvas), false);
   paint_in_order(painting, guidance, std::move(strokes), scene.parameters.pixels_per_unit, progress,
                  scene.window);
   return std::move(painting.picture);

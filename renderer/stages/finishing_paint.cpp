@@ -37,7 +37,8 @@ FinishedPaint finish_paint(const PaintedGround& painted, const FinishingGround& 
   SheetWindow position{.origin_px = {window.x0, window.y0},
                        .sheet_px = hand.sheet_px,
                        .asked = inside,
-                       .ice = &hand.ice};
+                       .ice = &hand.ice,
+                       .recorded = false};
   position.veil = misty ? &veil : nullptr;
   position.waters_known = hand.features.rivers;
   PaintParts* parts = finished.parts ? &*finished.parts : nullptr;

@@ -188,18 +188,22 @@ PictureStages add_picture_stages(StageGraph& graph, const GroundStages& ground, 
                                     .tile_px = ground.base->declaration().tile_px,
                                     .work_bytes_per_pixel = style_work_bytes};
     };
+    // A style reads far around its tiles: strokes are painted once.
+    picture.below_style = graph.add_tiles<Grid<glm::vec3>>(
+        styled("picture below the style"), one_grid<Grid<glm::vec3>>(),
+        inputs(reads(picture.finished)),
+        [](const Tile&, const auto& finished) { return finished.value.picture; });
     const Reach around_ground = around(style_preparation_margin_px(style.style, style.parameters));
     picture.style_ground = graph.add_tiles<StyleGround>(
         styled("style's ground"),
         grids_of(&StyleGround::colour, &StyleGround::smoothed, &StyleGround::along),
-        inputs(reads(picture.finished, around_ground),
+        inputs(reads(picture.below_style, around_ground),
                reads(ground.lit, around_ground,
                      some({&B::depth_m, &B::land_cover, &B::fall_line, &B::valley_height_m})),
                reads(picture.mist_sight, around_ground, with_grids(&MistSight::share))),
-        [in](const Tile& tile, const auto& finished, const auto& lit, const auto& veil) {
-          return prepare_style(in->style->style, lit.value, finished.value.picture,
-                               veil.value.share, in->style->seen(), lit.origin_px(),
-                               lit.inside(tile.rect));
+        [in](const Tile& tile, const auto& below, const auto& lit, const auto& veil) {
+          return prepare_style(in->style->style, lit.value, below.value, veil.value.share,
+                               in->style->seen(), lit.origin_px(), lit.inside(tile.rect));
         });
     const Reach around_strokes = around(style_laying_margin_px(style.style, style.parameters));
     picture.styled = graph.add_tiles<Grid<glm::vec3>>(

@@ -61,8 +61,9 @@ struct PictureStages {
   Stage<MistSight>* mist_sight = nullptr;  // null: no mist
   Stage<MistPaint>* mist_paint = nullptr;
   Stage<FinishedPaint>* finished = nullptr;
-  Stage<StyleGround>* style_ground = nullptr;  // null: the picture is in no painter's style
-  Stage<Grid<glm::vec3>>* styled = nullptr;    // encoded sRGB
+  Stage<Grid<glm::vec3>>* below_style = nullptr;  // null: the picture is in no painter's style
+  Stage<StyleGround>* style_ground = nullptr;
+  Stage<Grid<glm::vec3>>* styled = nullptr;  // encoded sRGB
   Stage<SheetPicture>* picture = nullptr;
 };
 // plan: null: everything is painted as strokes. Arguments must outlive the graph.

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/glm.hpp>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "base/math.h"
@@ -130,8 +131,40 @@ StrokePosition place_on(const Stroke& stroke,
   return position;
 }
 
+// The columns of a row of the canvas, within the bounds, that hold every pixel whose distance from
+// the stroke's line is at most `distance`.
+std::pair<int, int> columns_near(const Stroke& stroke, glm::ivec2 origin, int row, float distance,
+                                 const PixelRect& bounds) {
+  const float reach = distance + 1.F;  // no rounding may lose a pixel
+  const float y = static_cast<float>(row + origin.y) + 0.5F;
+  float low = 1e30F;
+  float high = -1e30F;
+  for (int i = 0; i + 1 < stroke.point_count; ++i) {
+    const glm::vec2 a = stroke.points[static_cast<std::size_t>(i)];
+    const glm::vec2 b = stroke.points[static_cast<std::size_t>(i) + 1];
+    // The part of the segment between y - reach and y + reach.
+    if (std::min(a.y, b.y) > y + reach || std::max(a.y, b.y) < y - reach) continue;
+    const float rise = b.y - a.y;
+    float from = 0.F;
+    float to = 1.F;
+    if (std::abs(rise) > 1e-3F) {
+      const float t0 = (y - reach - a.y) / rise;
+      const float t1 = (y + reach - a.y) / rise;
+      from = std::clamp(std::min(t0, t1), 0.F, 1.F);
+      to = std::clamp(std::max(t0, t1), 0.F, 1.F);
+    }
+    const float x0 = a.x + from * (b.x - a.x);
+    const float x1 = a.x + to * (b.x - a.x);
+    low = std::min({low, x0, x1});
+    high = std::max({high, x0, x1});
+  }
+  if (low > high) return {bounds.x0, bounds.x0};
+  return {std::max(bounds.x0, static_cast<int>(std::floor(low - reach)) - origin.x),
+          std::min(bounds.x1, static_cast<int>(std::ceil(high + reach)) - origin.x)};
+}
+
 void paint_stroke(const Stroke& stroke, std::uint32_t number, const SheetWindow& window,
-                  const PixelRect& clip, Painting& painting, PaintRecord& record, PaintParts* parts,
+                  const PixelRect& clip, Painting& painting, PaintRecord* record, PaintParts* parts,
                   const GuidanceBuffers& guidance, float pixels_per_unit) {
   const glm::ivec2 origin = window.origin_px;
   const bool stays_ashore = window.waters_known && stroke.gate == StrokeGate::surface &&
@@ -167,7 +200,8 @@ void paint_stroke(const Stroke& stroke, std::uint32_t number, const SheetWindow&
     ridge = stroke.load * ((stroke.seed & 0x100U) != 0U ? ridge_light : -ridge_light);
   }
   for (int y = bounds.y0; y < bounds.y1; ++y) {
-    for (int x = bounds.x0; x < bounds.x1; ++x) {
+    const auto [first, end] = columns_near(stroke, origin, y, widest, bounds);
+    for (int x = first; x < end; ++x) {
       const std::size_t i = canvas.index(x, y);
       const float depth = guidance.depth_m[i];
       switch (stroke.gate) {
@@ -249,7 +283,7 @@ void paint_stroke(const Stroke& stroke, std::uint32_t number, const SheetWindow&
       if (seen_ground != nullptr) seen_ground[i] *= 1.F - alpha;
       if (seen_overhead != nullptr && stroke.depth_m < window.mapped->overhead_m[i])
         seen_overhead[i] *= 1.F - alpha;
-      record.cover(x, y, stroke, number, alpha);
+      if (record != nullptr) record->cover(x, y, stroke, number, alpha);
       if (parts != nullptr) parts->cover(x, y, stroke.part, alpha, colour + tint);
     }
   }
@@ -276,7 +310,7 @@ std::vector<std::uint32_t> by_order(const std::vector<Stroke>& strokes) {
 
 }  // namespace
 
-Painting begin_painting(Grid<glm::vec3> canvas) {
+Painting begin_painting(Grid<glm::vec3> canvas, bool recorded) {
   Painting painting{.picture = std::move(canvas),
                     .sources = {},
                     .under = {},
@@ -284,6 +318,7 @@ Painting begin_painting(Grid<glm::vec3> canvas) {
                     .strokes = {},
                     .seen_ground = {},
                     .seen_overhead = {}};
+  if (!recorded) return painting;
   painting.sources = Grid<std::uint32_t>(painting.picture.width(), painting.picture.height());
   std::iota(painting.sources.begin(), painting.sources.end(), 0U);
   painting.under = painting.sources;
@@ -320,11 +355,13 @@ void paint_in_order(Painting& painting, const GuidanceBuffers& guidance,
                    static_cast<std::size_t>(part.x0 / tile_px);
     const PixelRect tile{asked.x0 + part.x0, asked.y0 + part.y0, asked.x0 + part.x1,
                          asked.y0 + part.y1};
-    PaintRecord record(painting, guidance, tile, window.to_copy_from);
+    std::optional<PaintRecord> record;
+    if (!painting.sources.empty()) record.emplace(painting, guidance, tile, window.to_copy_from);
     for (const std::uint32_t s : tiles[t])
-      paint_stroke(strokes[ranked[s]], first_number + s, window, tile, painting, record, parts,
-                   guidance, static_cast<float>(pixels_per_unit));
-    record.hand_back(painting);
+      paint_stroke(strokes[ranked[s]], first_number + s, window, tile, painting,
+                   record ? &*record : nullptr, parts, guidance,
+                   static_cast<float>(pixels_per_unit));
+    if (record) record->hand_back(painting);
     progress.advance(1.0);
   });
 }

@@ -10,8 +10,8 @@
 
 namespace belvedere {
 
-// A painting with a bare canvas, encoded sRGB.
-Painting begin_painting(Grid<glm::vec3> canvas);
+// A painting with a bare canvas, encoded sRGB; recorded: as in SheetWindow.
+Painting begin_painting(Grid<glm::vec3> canvas, bool recorded = true);
 
 // Paints the strokes in order (ties: as listed) over the canvas. Each tile of the canvas paints the
 // strokes that touch it in that order, so the result does not depend on threads and tiles.

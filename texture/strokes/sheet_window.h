@@ -36,6 +36,8 @@ struct SheetWindow {
                               // and on water; otherwise a pixel counts as the source of paint of
                               // its own class, and water as that of overhanging paint: rivers stay
                               // whole
+  bool recorded = true;       // whether the origin of paint is wanted: Painting::sources, under,
+                              // under_share, strokes; otherwise they stay empty
   const Grid<float>* veil =
       nullptr;  // of the buffers' pixels: share of mist in front, 0…1; null: none
   const MappedGround* mapped =

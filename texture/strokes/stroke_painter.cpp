@@ -121,7 +121,7 @@ Painting paint_strokes(Grid<glm::vec3> canvas, const GuidanceBuffers& guidance,
   if (overhead && !window.mapped->overhead_m.same_size(guidance.depth_m))
     throw Error(ErrorKind::bug, "paint_strokes",
                 "overhead distances and guidance have different sizes");
-  Painting painting = begin_painting(std::move(canvas));
+  Painting painting = begin_painting(std::move(canvas), window.recorded);
   if (window.mapped != nullptr)
     painting.seen_ground = Grid<float>(guidance.width(), guidance.height(), 1.F);
   if (overhead) painting.seen_overhead = painting.seen_ground;

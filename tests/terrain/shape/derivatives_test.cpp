@@ -158,8 +158,8 @@ TEST(Slope, WithinBoundsIsTheSlope) {
       ++between;
     }
   }
-  EXPECT_GT(between, 500U);
-  EXPECT_LT(between, z.size() - 500U);
+  EXPECT_GT(between, 300U);
+  EXPECT_LT(between, z.size() - 300U);
 }
 
 }  // namespace
