@@ -270,7 +270,7 @@ export const lists = {
     ],
   },
   exemplar: {
-    one: "Painting", none: "The program paints one to copy from. Drop a painting on the page to use it.", title: "picture",
+    one: "Painting", none: "Nothing is copied. Drop a painting on the page to copy from it.", title: "picture",
     rows: [
       { key: "light", label: "Serves light" },
       { key: "found_shadow", label: "Dark pixels" },

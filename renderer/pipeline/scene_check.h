@@ -47,8 +47,8 @@ struct SceneReport {
 SceneReport check_scene(const LoadedScene& scene, Progress& progress,
                         const Cache& cache = no_cache(), bool propose = false);
 
-// The exemplars of a scene as for rendering, and the demand of its picture on them, from a small
-// trace of the view.
+// The exemplars of a scene as for rendering (of one that copies nothing the program's own sheet),
+// and the demand of its picture on them, from a small trace of the view.
 struct SceneExemplars {
   std::vector<PaintedExemplar> exemplars;
   GuideStack view;                 // of the small trace

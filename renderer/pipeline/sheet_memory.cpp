@@ -51,7 +51,7 @@ double copying_bytes(const Scene& scene, const std::vector<ScannedPainting>& pai
     if (exemplar.model.empty() && exemplar.picture.empty()) add_sheet(exemplar);
   for (const ScannedPainting& painting : paintings)
     texels += static_cast<double>(painting.painted.picture.size());
-  // A scene without exemplars copies from a sheet that the program paints.
+  // A scene that copies without exemplars does so from a sheet that the program paints.
   const bool may_have_paintings =
       paintings.empty() &&
       std::any_of(scene.exemplars.begin(), scene.exemplars.end(),

@@ -8,7 +8,8 @@ std::vector<SceneSection> make_exemplar_sections() {
       {.name = "exemplar",
        .kind = SectionKind::list,
        .meaning = "One block for each painting to copy from: a picture with its classes, or one "
-                  "that the program paints. Without a block the program paints one.",
+                  "that the program paints. Without a block nothing is copied, unless "
+                  "synthesis.enabled = true.",
        .keys =
            {
                {.name = "picture",
