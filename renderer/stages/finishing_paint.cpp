@@ -38,7 +38,8 @@ FinishedPaint finish_paint(const PaintedGround& painted, const FinishingGround& 
                        .sheet_px = hand.sheet_px,
                        .asked = inside,
                        .ice = &hand.ice,
-                       .recorded = false};
+                       .recorded = false,
+                       .ground = &base.colour};
   position.veil = misty ? &veil : nullptr;
   position.waters_known = hand.features.rivers;
   PaintParts* parts = finished.parts ? &*finished.parts : nullptr;

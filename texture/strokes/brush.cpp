@@ -24,6 +24,10 @@ constexpr float pressed_by = 0.18F;   // share of the stroke over which the brus
 constexpr float load_value = 0.04F;   // ±, encoded sRGB: how much lighter or darker …
 constexpr float load_warmth =
     0.03F;  // … and warmer or cooler a load of paint is than the requested colour
+// A stroke carries the colour of its starting point. Where that differs from the colour of the
+// ground under it by more than this in a channel, it is brought near: across a field or a shadow it
+// would glare.
+constexpr float max_off_ground = 0.07F;
 constexpr float ridge_light = 0.05F;  // encoded sRGB, of a ridge of paint
 
 // A cheap 32-bit hash: it is called millions of times for bristles.
@@ -77,6 +81,12 @@ float gate_bell(float x) {
   const float t2 = t * t;
   const float t4 = t2 * t2;
   return t4 * t4;
+}
+
+glm::vec3 near_ground(const glm::vec3& paint, const glm::vec3& ground) {
+  const glm::vec3 off = paint - ground;
+  const float most = std::max({std::abs(off.x), std::abs(off.y), std::abs(off.z)});
+  return most > max_off_ground ? ground + off * (max_off_ground / most) : paint;
 }
 
 // The pixels of the canvas inside `clip` that a stroke may touch; empty (x0 >= x1 or y0 >= y1) if
@@ -175,6 +185,7 @@ void paint_stroke(const Stroke& stroke, std::uint32_t number, const SheetWindow&
       stroke.standing && !painting.seen_ground.empty() ? painting.seen_ground.data() : nullptr;
   float* const seen_overhead =
       stroke.standing && !painting.seen_overhead.empty() ? painting.seen_overhead.data() : nullptr;
+  const Grid<glm::vec3>* const ground = stroke.part == PaintPart::ground ? window.ground : nullptr;
   const PixelRect bounds = bounds_of(stroke, origin, clip);
   std::array<float, Stroke::max_points> length_before{};
   float length = 0.F;
@@ -279,12 +290,15 @@ void paint_stroke(const Stroke& stroke, std::uint32_t number, const SheetWindow&
       if (stays_ashore && guidance.land_cover[i] == LandCoverClass::water) alpha *= beyond_bank;
       if (stroke.facet != 0 && guidance.rock_facet[i] != stroke.facet) alpha *= beyond_facet;
       if (alpha < 0.004F) continue;
-      canvas[i] += alpha * (colour + tint - canvas[i]);
+      glm::vec3 paint = colour + tint;
+      if (ground != nullptr && guidance.land_cover[i] == guidance.land_cover[stroke.source])
+        paint = near_ground(paint, (*ground)[i]);
+      canvas[i] += alpha * (paint - canvas[i]);
       if (seen_ground != nullptr) seen_ground[i] *= 1.F - alpha;
       if (seen_overhead != nullptr && stroke.depth_m < window.mapped->overhead_m[i])
         seen_overhead[i] *= 1.F - alpha;
       if (record != nullptr) record->cover(x, y, stroke, number, alpha);
-      if (parts != nullptr) parts->cover(x, y, stroke.part, alpha, colour + tint);
+      if (parts != nullptr) parts->cover(x, y, stroke.part, alpha, paint);
     }
   }
 }

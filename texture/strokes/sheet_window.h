@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <vector>
 
 #include "base/grid.h"
@@ -38,6 +39,9 @@ struct SheetWindow {
                               // whole
   bool recorded = true;       // whether the origin of paint is wanted: Painting::sources, under,
                               // under_share, strokes; otherwise they stay empty
+  const Grid<glm::vec3>* ground = nullptr;  // of the buffers' pixels: colours of the bare ground,
+                                            // encoded sRGB, that strokes of its own class stay
+                                            // near; null: they keep their own
   const Grid<float>* veil =
       nullptr;  // of the buffers' pixels: share of mist in front, 0…1; null: none
   const MappedGround* mapped =

@@ -461,5 +461,36 @@ TEST(Brush, ThreadsChangeNoBit) {
   EXPECT_EQ(run(1), run(2));
 }
 
+// A stroke that comes from brighter ground of its class does not glare on darker ground; over
+// another class, and as what stands on the ground, it keeps its colour.
+TEST(Brush, PaintStaysNearTheGroundOfItsClass) {
+  const auto painted = [](PaintPart part, bool other_class, bool held) {
+    GuidanceBuffers g = flat_guidance(60, 40);
+    Stroke stroke;
+    stroke.points = {glm::vec2(10.F, 20.F), glm::vec2(50.F, 20.F)};
+    stroke.point_count = 2;
+    stroke.start_width = stroke.end_width = 10.F;
+    stroke.colour = glm::vec3(0.7F, 0.4F, 0.3F);
+    stroke.depth_m = g.depth_m(30, 20);
+    stroke.part = part;
+    stroke.source = static_cast<std::uint32_t>(g.depth_m.index(12, 20));
+    if (other_class) g.land_cover(30, 20) = LandCoverClass::scree;
+    const Grid<glm::vec3> ground(60, 40, glm::vec3(0.3F));
+    Painting painting = begin_painting(ground, false);
+    SheetWindow window;
+    window.ground = held ? &ground : nullptr;
+    paint_in_order(painting, g, {stroke}, 1.0, silent_progress(), window);
+    EXPECT_TRUE(painting.sources.empty()) << "nothing is recorded";
+    return painting.picture(30, 20);
+  };
+  const auto expect_near = [](const glm::vec3& a, const glm::vec3& b) {
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(a[c], b[c], 0.002F);
+  };
+  expect_near(painted(PaintPart::ground, false, false), {0.7F, 0.4F, 0.3F});
+  expect_near(painted(PaintPart::ground, false, true), {0.37F, 0.3175F, 0.3F});
+  expect_near(painted(PaintPart::ground, true, true), {0.7F, 0.4F, 0.3F});
+  expect_near(painted(PaintPart::trees, false, true), {0.7F, 0.4F, 0.3F});
+}
+
 }  // namespace
 }  // namespace belvedere
