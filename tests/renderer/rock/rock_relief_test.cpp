@@ -113,9 +113,10 @@ TEST(RockRelief, OfAPartIsThatOfTheWhole) {
 // The wide view misses rock of some pixels. What is compared with its neighbours at its border must
 // not depend on what else the window shows.
 TEST(RockRelief, OfALoneRockIsThatOfTheWhole) {
-  const GuidanceBuffers far = test::make_wall(460, 420, 1.0, LandCoverClass::pasture);
+  GuidanceBuffers far = test::make_wall(460, 420, 1.0, LandCoverClass::pasture);
+  for (float& metres : far.footprint_m) metres = 40.0F;  // near turf may be bare anywhere
   GuidanceBuffers g = far;
-  const PixelRect lone{100, 200, 106, 226};
+  const PixelRect lone{60, 60, 190, 380};  // long enough for planes to meet at its border
   for (const PixelRect rock : {lone, PixelRect{440, 20, 446, 46}})
     for (int y = rock.y0; y < rock.y1; ++y)
       for (int x = rock.x0; x < rock.x1; ++x) g.land_cover(x, y) = LandCoverClass::rock;
