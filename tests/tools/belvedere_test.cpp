@@ -49,6 +49,9 @@ TEST_F(Program, HelpAndVersionAreAnswers) {
 
 // Its 150 libraries would take .2 s of every start: it is loaded where a picture needs it.
 TEST_F(Program, StartsWithoutOpenImageIO) {
+#if defined(__clang__) || !defined(NDEBUG)
+  GTEST_SKIP() << "only the release build by GCC loads it late";
+#endif
   const std::string list = folder_ / "libraries";
   ASSERT_EQ(
       std::system(

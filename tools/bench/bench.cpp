@@ -76,14 +76,17 @@ std::string json_text(std::string_view text) {
 
 }  // namespace
 
+Cost spent() {
+  const rusage usage = used();
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now().time_since_epoch();
+  return {wall.count(), seconds(usage.ru_utime) + seconds(usage.ru_stime)};
+}
+
 Cost measure(const std::function<void()>& work) {
-  const rusage before = used();
-  const auto start = std::chrono::steady_clock::now();
+  const Cost before = spent();
   work();
-  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
-  const rusage after = used();
-  return {wall.count(), seconds(after.ru_utime) + seconds(after.ru_stime) -
-                            seconds(before.ru_utime) - seconds(before.ru_stime)};
+  const Cost after = spent();
+  return {after.wall_s - before.wall_s, after.cpu_s - before.cpu_s};
 }
 
 Cost measure_child(const std::function<int()>& work) {

@@ -1,14 +1,12 @@
 #include <fmt/core.h>
-#include <sys/resource.h>
 
 #include <algorithm>
-#include <chrono>
-#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "base/cache/cache.h"
+#include "base/cache/scratch_folder.h"
 #include "base/parallel.h"
 #include "renderer/pipeline/pipeline.h"
 #include "tools/bench/bench.h"
@@ -27,7 +25,7 @@ class StageCosts : public Progress {
     stage_ = stage;
   }
   void end() {
-    const Cost now = used();
+    const Cost now = spent();
     if (!stage_.empty()) {
       Cost& cost = costs_[stage_];
       cost.wall_s += now.wall_s - before_.wall_s;
@@ -39,18 +37,9 @@ class StageCosts : public Progress {
   const std::map<std::string, Cost>& costs() const { return costs_; }
 
  private:
-  static Cost used() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    const auto seconds = [](const timeval& t) {
-      return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-    };
-    const std::chrono::duration<double> wall = std::chrono::steady_clock::now().time_since_epoch();
-    return {wall.count(), seconds(usage.ru_utime) + seconds(usage.ru_stime)};
-  }
   std::map<std::string, Cost> costs_;
   std::string stage_ = "reading the scene";
-  Cost before_ = used();
+  Cost before_ = spent();
 };
 
 }  // namespace
@@ -61,12 +50,11 @@ std::vector<Measurement> bench_picture(const Options& options) {
   std::vector<Measurement> out;
   if (options.scene.empty()) return out;
   const Cache cache({.folder = user_cache_folder()});
-  const std::string folder =
-      (std::filesystem::temp_directory_path() / "belvedere_bench_picture").string();
+  const ScratchFolder folder;
   const LoadedScene scene = read_scene(options.scene, {options.data_folders, {}});
   const auto costs_with = [&](int threads) {
     StageCosts costs;
-    render(scene, folder, {.threads = threads, .progress = costs, .cache = cache},
+    render(scene, folder.path(), {.threads = threads, .progress = costs, .cache = cache},
            {.replace = true});
     costs.end();
     return costs.costs();
@@ -74,7 +62,6 @@ std::vector<Measurement> bench_picture(const Options& options) {
   costs_with(2);
   const std::map<std::string, Cost> one = costs_with(1);
   const std::map<std::string, Cost> two = costs_with(2);
-  std::filesystem::remove_all(folder);
   Cost all_one;
   Cost all_two;
   for (const auto& [stage, cost] : one) all_one.wall_s += cost.wall_s;
