@@ -16,7 +16,6 @@
 #include "base/parallel.h"
 #include "renderer/image/cielab.h"
 #include "renderer/image/image_file_parts.h"
-#include "renderer/image/oiio_late.h"
 #include "renderer/image/png_check.h"
 #include "renderer/image/png_palette.h"
 #include "renderer/image/provenance.h"

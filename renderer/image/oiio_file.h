@@ -10,6 +10,9 @@
 
 namespace belvedere {
 
+// Loads OpenImageIO if the program is not linked with it (oiio_late.cpp), once; what is below does
+// so itself. Throws Error(limit) where it is not installed.
+void load_oiio();
 // Like read_image_info, read_picture and read_grey of image_io.h; format: "png", "tiff" or "jpeg",
 // by its first bytes.
 ImageInfo read_oiio_info(const std::string& path, const std::string& format);

@@ -2,7 +2,7 @@
 // of every start of the program; many runs need none of its functions. So the program is not linked
 // with it (CMake: BELVEDERE_LATE_OIIO): each of its functions that oiio_file.cpp calls is a jump to
 // an address which load_oiio() looks up.
-#include "renderer/image/oiio_late.h"
+#include "renderer/image/oiio_file.h"
 
 #ifdef BELVEDERE_LATE_OIIO
 

@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 
-#include "renderer/image/oiio_late.h"
+#include "renderer/image/oiio_file.h"
 #include "tests/tools/program_server.h"
 
 int main(int argc, char** argv) {

@@ -1,4 +1,4 @@
-#include "renderer/image/oiio_late.h"
+#include "renderer/image/oiio_file.h"
 
 #include <gtest/gtest.h>
 
