@@ -11,10 +11,14 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <map>
+#include <mutex>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
 #include "base/instruction_set.h"
+#include "base/parallel.h"
 #include "renderer/trace/facet_hit.h"
 #include "renderer/trace/traced_part.h"
 
@@ -49,6 +53,36 @@ void check(RTCDevice device, const char* what) {
                                  : ""));
 }
 
+// Embree's device, and with it a task arena of TBB, of an instruction set. Made once and never
+// released: TBB 2021.8 rarely loses a wake-up where arenas are made and destroyed one after the
+// other (oneTBB issue 1281), and then the program waits for ever.
+struct Device {
+  RTCDevice device = nullptr;
+  std::mutex building;  // one structure at a time, by all threads
+  std::atomic<std::ptrdiff_t> bytes{0};
+};
+
+Device& device_for(const std::string& instructions) {
+  static std::mutex making;
+  static std::map<std::pair<std::string, int>, std::unique_ptr<Device>>& all =
+      *new std::map<std::pair<std::string, int>, std::unique_ptr<Device>>;
+  const std::lock_guard lock(making);
+  std::unique_ptr<Device>& kept = all[{instructions, max_threads()}];
+  if (kept != nullptr) return *kept;
+  auto made = std::make_unique<Device>();
+  made->device = rtcNewDevice(("isa=" + instructions).c_str());
+  check(made->device, "starting Embree");
+  rtcSetDeviceMemoryMonitorFunction(
+      made->device,
+      [](void* user, ssize_t bytes, bool) {
+        *static_cast<std::atomic<std::ptrdiff_t>*>(user) += bytes;
+        return true;
+      },
+      &made->bytes);
+  kept = std::move(made);
+  return *kept;
+}
+
 RTCGrid grid_of(unsigned start, unsigned stride, const GridTile& tile) {
   return {start, stride, static_cast<std::uint16_t>(tile.cells_x + 1),
           static_cast<std::uint16_t>(tile.cells_y + 1)};
@@ -74,12 +108,11 @@ struct Tracer::State {
   std::vector<std::vector<RTCGrid>> grids;  // of each part, but for that last tile
   std::vector<float> last_posts;            // of geometry 1, with 4 readable bytes after the end
   RTCGrid last_grid{};
-  std::atomic<std::ptrdiff_t> bytes{0};
+  std::ptrdiff_t bytes = 0;
   std::string description;
 
   ~State() {
     if (scene != nullptr) rtcReleaseScene(scene);
-    if (device != nullptr) rtcReleaseDevice(device);
   }
 
   void attach(const float* vertices, std::size_t count, const RTCGrid* first,
@@ -258,15 +291,10 @@ Tracer::Tracer(const DeformedSurface& surface, const TracerParameters& parameter
   }
   // Embree falls back silently where the processor lacks the requested instructions; this does not.
   const std::string instructions = choose_instruction_set(parameters.instruction_set);
-  state.device = rtcNewDevice(("isa=" + instructions).c_str());
-  check(state.device, "starting Embree");
-  rtcSetDeviceMemoryMonitorFunction(
-      state.device,
-      [](void* user, ssize_t bytes, bool) {
-        *static_cast<std::atomic<std::ptrdiff_t>*>(user) += bytes;
-        return true;
-      },
-      &state.bytes);
+  Device& shared = device_for(instructions);
+  state.device = shared.device;
+  const std::lock_guard lock(shared.building);
+  const std::ptrdiff_t before = shared.bytes;
   state.scene = rtcNewScene(state.device);
   // Compact: 23 bytes per cell instead of 60. Robust: without it rays pass through the edges of
   // cells.
@@ -275,6 +303,7 @@ Tracer::Tracer(const DeformedSurface& surface, const TracerParameters& parameter
   state.description = describe(state.device, instructions, parameters.instruction_set != "any");
   const FlushDenormals flush;
   state.build();
+  state.bytes = shared.bytes - before;
 }
 
 Tracer::~Tracer() = default;
@@ -283,7 +312,7 @@ Tracer& Tracer::operator=(Tracer&&) noexcept = default;
 
 std::string Tracer::description() const { return state_->description; }
 std::size_t Tracer::memory_bytes() const {
-  return static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, state_->bytes.load()));
+  return static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, state_->bytes));
 }
 
 void Tracer::intersect(std::span<const Ray> rays, std::span<Hit> hits) const {
