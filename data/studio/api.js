@@ -59,6 +59,7 @@ export const api = {
     return {
       blob: await response.blob(),
       milliseconds: Number(response.headers.get("X-Belvedere-Milliseconds")),
+      halved: Number(response.headers.get("X-Belvedere-Halved") ?? 0),
       without:
         without === null
           ? null

@@ -18,7 +18,12 @@ export class Equalizer {
     this.set = sets[0];
     this.linked = false;
     this.bands = 0;
+    this.halved = 0; // so many of the finest bands are not in the picture shown
     this.sliders = [];
+    store.on("level", (halved) => {
+      this.halved = halved;
+      this.update();
+    });
     this.preset = element("select", { id: "equalizer-preset", change: () => this.choose_preset() });
     for (const word of store.describe("generalize.preset")?.enum ?? [])
       this.preset.append(element("option", { value: word }, word.replaceAll("_", " ") || "none"));
@@ -101,6 +106,9 @@ export class Equalizer {
       if (document.activeElement !== each.field || Number(each.field.value) !== value) each.field.value = rounded(value, 0.01);
       each.slider.value = value;
       each.slider.setAttribute("aria-valuetext", String(rounded(value, 0.01)));
+      const shown = each.band < bands - this.halved;
+      each.slider.parentElement.classList.toggle("beyond", !shown);
+      each.slider.title = shown ? each.name : `${each.name}: too small for this preview, shown once the picture is drawn as rendered`;
     }
     Array.from(this.tabs.children).forEach((tab, k) => tab.setAttribute("aria-pressed", String(sets[k] === this.set)));
   }
@@ -138,7 +146,7 @@ export class Equalizer {
         field.addEventListener("change", () => {
           if (field.value !== "") this.change(side, band, clamp(Number(field.value), Number(field.min), 5), new_step());
         });
-        this.sliders.push({ side, band, slider, field });
+        this.sliders.push({ side, band, name, slider, field });
         group.append(
           element("div", { class: "band" }, slider, field, element("span", { class: "unit", "aria-hidden": "true" }, String(band + 1))),
         );

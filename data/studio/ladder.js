@@ -8,7 +8,7 @@ const stage_ms = 800; // a rung that takes longer tells what is being done
 export class Ladder {
   constructor(picture, tell) {
     this.picture = picture;
-    this.tell = tell; // {rung, rungs, name, without, milliseconds, working, done, stage, fault}
+    this.tell = tell; // {rung, rungs, name, halved, without, milliseconds, working, done, stage, fault}
     this.rungs = [];
     this.abort = new AbortController();
     this.timer = 0;
@@ -73,13 +73,13 @@ export class Ladder {
     try {
       this.tell({ ...this.about(rung), working: true });
       const started = performance.now();
-      const { blob, milliseconds, without } = await api.picture(rung, revision, signal);
+      const { blob, milliseconds, halved, without } = await api.picture(rung, revision, signal);
       await this.picture.show(blob);
       clearInterval(waits);
       waits = 0;
       this.reached = { revision, rung };
       const about = this.about(rung);
-      this.tell({ ...about, without: without ?? about.without, milliseconds: milliseconds || performance.now() - started });
+      this.tell({ ...about, halved, without: without ?? about.without, milliseconds: milliseconds || performance.now() - started });
       return true;
     } catch (error) {
       this.failed(error, signal);
@@ -111,6 +111,7 @@ export class Ladder {
         ...this.about(last),
         working: !complete,
         done: record.done,
+        halved: complete ? 0 : undefined,
         stage: record.stage,
         milliseconds: performance.now() - started,
       });

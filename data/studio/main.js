@@ -27,6 +27,7 @@ async function start() {
   const ladder = new Ladder(picture, (told) => {
     status.drawn(told);
     if (told.fault) store.tell("fault", told.fault);
+    if (told.halved !== undefined) store.tell("level", told.halved);
   });
   const map = new Map_view(store);
   const check = new Check(store);

@@ -68,7 +68,7 @@ LivePicture LiveView::paint(const LoadedScene& given, const Rung& rung, const Ru
                             const UseTile& use_tile) {
   const RunLimits limits(run);
   const GroundSize& ground = size_of(given);
-  const LoadedScene loaded = scene_of_rung(given, rung, ground);
+  const LoadedScene loaded = scene_of_rung(given, rung);
   SheetRequest request{.panorama = rung.strokes, .block_px = 1024};
   const PixelRect sheet = region_of(loaded.scene, request);
   if (use_tile) request.block_px = live_tile_px;
@@ -111,12 +111,14 @@ LivePicture LiveView::paint(const LoadedScene& given, const Rung& rung, const Ru
                            work.world.surface->origin));
   picture.view = work.world.view;
   picture.crs = work.world.dem->crs;
+  picture.halved = rung.is_last() ? 0 : work.world.dem->halved;
+  if (picture.halved > 0) picture.shortest_m = work.world.dem->cell_m();
   return picture;
 }
 
 LiveView::Ground LiveView::ground(const LoadedScene& given, const Run& run) {
   const RunLimits limits(run);
-  const LoadedScene loaded = scene_of_rung(given, rungs().front(), size_of(given));
+  const LoadedScene loaded = scene_of_rung(given, rungs().front());
   const World world = make_world(loaded, run.progress, run.cache, {}, &coarse_);
   return {world.dem, world.land_cover,
           std::shared_ptr<const Grid<float>>(world.ground.terrain, &world.terrain.generalized_m),

@@ -24,6 +24,10 @@ struct LivePicture {
   GuidanceBuffers seen;
   View view;
   std::string crs;  // of the ground, WKT2
+  // Where the ground is a level of the data's: how often these were halved, and the landforms that
+  // it cannot show, m; else 0.
+  int halved = 0;
+  double shortest_m = 0.0;
 };
 
 // Makes pictures of a scene that changes, one after the other. Values of the world stay in memory,

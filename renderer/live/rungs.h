@@ -15,13 +15,14 @@ struct Rung {
   std::vector<std::string> without;  // what the finished picture has and this one lacks, in words
   int max_width_px = 1000;           // of the picture, 64…4096
   bool strokes = true;  // rock relief, brushwork, mist, features and style; else light and colour
-  // Draws the scene as it is; all others are on ground of about a million cells, with one ray a
-  // pixel and few for the light of the sky, and copy nothing from paintings.
+  // Draws the scene as it is; all others are on a level of the ground of about a million cells
+  // (LivePicture::shortest_m says what that lacks), with one ray a pixel and few for the light of
+  // the sky, and copy nothing from paintings.
   bool is_last() const { return without.empty(); }
 };
 const std::vector<Rung>& rungs();
 
 // The scene as a rung draws it.
-LoadedScene scene_of_rung(const LoadedScene& loaded, const Rung& rung, const GroundSize& ground);
+LoadedScene scene_of_rung(const LoadedScene& loaded, const Rung& rung);
 
 }  // namespace belvedere

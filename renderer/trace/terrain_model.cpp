@@ -51,16 +51,15 @@ TerrainModel make_terrain_model(std::shared_ptr<const Dem> dem, Grid<float> gene
                                 GroundSurroundings surroundings) {
   check_ground(*dem, generalized_m, land_cover.get());
   TerrainModel model;
-  const double cell_m = dem->cell_m();
   const Grid<float>& z = dem->altitude_m;
-  model.detail_smooth_m = gaussian_blur(z, 60.0 / cell_m);
-  model.shape_smooth_m = gaussian_blur(generalized_m, 120.0 / cell_m);
+  model.detail_smooth_m = gaussian_blur(z, dem->blur_cells(60.0));
+  model.shape_smooth_m = gaussian_blur(generalized_m, dem->blur_cells(120.0));
   {
-    const Grid<float> inner_m = gaussian_blur(z, 30.0 / cell_m);
-    model.relief_s_m = relief_to(inner_m, z, 180.0 / cell_m);
-    model.relief_m_m = relief_to(inner_m, z, 750.0 / cell_m);
+    const Grid<float> inner_m = gaussian_blur(z, dem->blur_cells(30.0));
+    model.relief_s_m = relief_to(inner_m, z, dem->blur_cells(180.0));
+    model.relief_m_m = relief_to(inner_m, z, dem->blur_cells(750.0));
   }
-  model.relief_l_m = relief(z, cell_m, 120.0, 1800.0);
+  model.relief_l_m = relief(z, 1.0, dem->blur_cells(120.0), dem->blur_cells(1800.0));
   model.valley_height_m = std::move(surroundings.valley_height_m);
   model.rim_m = std::move(surroundings.rim_m);
   model.flow = std::move(surroundings.flow);

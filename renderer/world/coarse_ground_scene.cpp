@@ -1,6 +1,5 @@
 #include "renderer/world/coarse_ground_scene.h"
 
-#include <cmath>
 #include <utility>
 
 #include "renderer/scene/draft.h"
@@ -26,21 +25,11 @@ GroundSize ground_size_of(const LoadedScene& loaded) {
           0.5 * (frame.transform.cell_x + frame.transform.cell_y)};
 }
 
-LoadedScene with_coarse_ground(LoadedScene loaded, const GroundSize& ground, double max_mcells) {
-  SceneTerrain& terrain = loaded.scene.terrain;
-  if (terrain.synthetic || ground.mcells <= max_mcells) return loaded;
-  constexpr double slightly_more = 0.05;  // of a cell's width
-  terrain.dem.cell_m =
-      ground.cell_m * std::ceil(std::sqrt(ground.mcells / max_mcells) - slightly_more);
-  terrain.max_mcells = 0.0;
-  return loaded;
-}
-
 LoadedScene make_draft_scene(LoadedScene loaded) {
   require_scene_files(loaded);
   loaded.scene = make_draft(std::move(loaded.scene));
-  const GroundSize ground = ground_size_of(loaded);
-  return with_coarse_ground(std::move(loaded), ground, draft_mcells);
+  loaded.scene.terrain.preview_mcells = draft_mcells;
+  return loaded;
 }
 
 }  // namespace belvedere

@@ -12,12 +12,9 @@ struct GroundSize {
   double cell_m = 0.0;
 };
 GroundSize ground_size_of(const LoadedScene& loaded);
-// With cells whole times as wide, so that there are about max_mcells at most; synthetic terrain
-// stays.
-LoadedScene with_coarse_ground(LoadedScene loaded, const GroundSize& ground, double max_mcells);
 
-// A draft (renderer/scene/draft.h) on ground of at most 2.5 million cells. Error(input) listing all
-// files that are missing.
+// A draft (renderer/scene/draft.h) on ground of about 2.5 million cells at most. Error(input)
+// listing all files that are missing.
 LoadedScene make_draft_scene(LoadedScene loaded);
 
 }  // namespace belvedere

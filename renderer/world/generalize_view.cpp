@@ -9,14 +9,17 @@
 #include "base/filter.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
+#include "base/pyramid.h"
 #include "renderer/ground/cached_products.h"
 #include "renderer/world/scene_dem.h"
 #include "renderer/world/scene_land_cover.h"
 #include "terrain/cover/map_cover.h"
 #include "terrain/deform/deform.h"
 #include "terrain/generalize/foreground_share.h"
+#include "terrain/generalize/generalize_crests.h"
 #include "terrain/generalize/line_integral_generalize.h"
 #include "terrain/generalize/mask.h"
+#include "terrain/io/dem_levels.h"
 #include "terrain/shape/hydrology.h"
 #include "terrain/shape/sea.h"
 
@@ -48,8 +51,8 @@ Grid<float> share_by_distance(const Dem& dem, glm::dvec2 viewer_xy,
   return share;
 }
 
-Grid<float> mask_for_scene(const LoadedScene& loaded, const Dem& dem, const LandCover* land_cover,
-                           Progress& progress, const Cache& cache) {
+// The mask by slope, and the drawn one.
+Grid<float> mask_of_ground(const LoadedScene& loaded, const Dem& dem, Progress& progress) {
   const SceneGeneralize& settings = loaded.scene.generalize;
   const glm::dvec2 cell_m{dem.transform.cell_x, dem.transform.cell_y};
   Grid<float> mask;
@@ -64,18 +67,23 @@ Grid<float> mask_for_scene(const LoadedScene& loaded, const Dem& dem, const Land
                       soften_mask(read_mask(
                           source, {dem.transform, dem.width(), dem.height(), dem.crs}, progress)));
   }
-  if (!settings.mask_classes.empty()) {
-    GeneralizedShares shares;
-    shares.fill(1.F);
-    for (const auto& [name, share] : settings.mask_classes)
-      shares[static_cast<std::size_t>(*find_class(name))] = static_cast<float>(share);
-    const LandCover made =
-        land_cover == nullptr ? make_scene_land_cover(loaded, dem, progress, cache) : LandCover();
-    mask = combine_masks(std::move(mask),
-                         soften_mask(class_mask(
-                             (land_cover == nullptr ? made : *land_cover).classes.cells, shares)));
-  }
   return mask;
+}
+
+// With that of the classes.
+Grid<float> mask_for_scene(Grid<float> mask, const LoadedScene& loaded, const Dem& dem,
+                           const LandCover* land_cover, Progress& progress, const Cache& cache) {
+  const SceneGeneralize& settings = loaded.scene.generalize;
+  if (settings.mask_classes.empty()) return mask;
+  GeneralizedShares shares;
+  shares.fill(1.F);
+  for (const auto& [name, share] : settings.mask_classes)
+    shares[static_cast<std::size_t>(*find_class(name))] = static_cast<float>(share);
+  const LandCover made =
+      land_cover == nullptr ? make_scene_land_cover(loaded, dem, progress, cache) : LandCover();
+  return combine_masks(
+      std::move(mask),
+      soften_mask(class_mask((land_cover == nullptr ? made : *land_cover).classes.cells, shares)));
 }
 
 // What goes from scene and view into the generalized ground besides the DEM; cheap compared with
@@ -119,42 +127,57 @@ Grid<std::uint8_t> lakes_of_map(const Dem& dem, const LandCover* land_cover) {
   return lakes;
 }
 
+// All but the mask, which is given.
+GroundMasks find_masks(const SceneGeneralize& settings, const SeaParameters& sea, const Dem& dem,
+                       Grid<float> mask, const Grid<std::uint8_t>& map_lakes, Progress& progress) {
+  GroundMasks out;
+  out.mask = std::move(mask);
+  // First, because it needs the most memory.
+  if (settings.line_integral)
+    out.along_lines_m =
+        generalize_along_slope_lines(dem.altitude_m, out.mask, dem.cell_m(), {}, progress);
+  if (settings.automatic_mask)
+    out.amplify = slope_foot_mask(dem.altitude_m, {dem.transform.cell_x, dem.transform.cell_y},
+                                  1 << std::min<std::size_t>(settings.bands.foreground.size(), 6));
+  if (settings.keep_lakes) out.keep = level_water(dem, sea, map_lakes);
+  return out;
+}
+
 GeneralizedTerrain make_ground(const SceneGeneralize& settings, const SeaParameters& sea,
-                               const Dem& dem, const ViewOfGround& seen, Progress& progress) {
+                               const Dem& dem, const ViewOfGround& seen, const GroundMasks* known,
+                               Progress& progress) {
   const glm::dvec2 cell_m{dem.transform.cell_x, dem.transform.cell_y};
   GeneralizeParameters bands = settings.bands;
   bands.finest_band = dem.halved;
-  // First, because it needs the most memory.
-  Grid<float> plain =
-      settings.line_integral
-          ? generalize_along_slope_lines(dem.altitude_m, seen.mask, dem.cell_m(), {}, progress)
-          : Grid<float>();
+  GroundMasks masks = known != nullptr
+                          ? *known
+                          : find_masks(settings, sea, dem, seen.mask, seen.map_lakes, progress);
   GeneralizeGrids grids;
-  if (settings.automatic_mask) {
-    grids.amplification_mask = slope_foot_mask(
-        dem.altitude_m, cell_m, 1 << std::min<std::size_t>(bands.foreground.size(), 6));
-  }
-  if (settings.keep_lakes) grids.keep = level_water(dem, sea, seen.map_lakes);
+  grids.amplification_mask = std::move(masks.amplify);
+  grids.keep = std::move(masks.keep);
+  grids.unchanged = std::move(masks.unchanged);
+  grids.crests_m = std::move(masks.crests_m);
+  grids.finer_m = std::move(masks.finer_m);
   grids.mask = seen.mask;
   grids.pixel_ground = seen.pixel_ground;
   if (settings.print_detail_px > 0.0)
     bands.print_pixels = static_cast<float>(settings.print_detail_px);
   grids.foreground_share = share_by_distance(dem, seen.viewer_xy, seen.distances);
-  Grid<float> out =
-      generalize(settings.line_integral ? plain : dem.altitude_m, cell_m, grids, bands, progress);
-  plain = {};
+  Grid<float> out = generalize(settings.line_integral ? masks.along_lines_m : dem.altitude_m,
+                               cell_m, grids, bands, progress);
+  masks = {};
   const Grid<unsigned char> lakes = std::move(grids.keep);
   grids = {};
   if (settings.valleys.width_m <= 0.F) return {std::move(out), {}, {}};
   WidenedValleys wide =
-      widen_valleys(out, lakes, seen.mask, dem.cell_m(), settings.valleys, progress);
+      widen_valleys(out, lakes, seen.mask, dem.cell_m(), settings.valleys, progress, dem.halved);
   return {std::move(wide.altitude_m), std::move(wide.came_from), std::move(wide.goes_to)};
 }
 
 // All inputs of make_ground. Every key of [generalize] counts, as written by a scene with nothing
 // else in it, so that none can be forgotten.
 CacheKey ground_key(const LoadedScene& loaded, const Dem& dem, const SeaParameters& sea,
-                    const ViewOfGround& seen) {
+                    const ViewOfGround& seen, bool by_data) {
   Scene settings;
   settings.generalize = loaded.scene.generalize;
   const auto& [mask, pixel_ground, viewer_xy, distances, map_lakes] = seen;
@@ -164,6 +187,7 @@ CacheKey ground_key(const LoadedScene& loaded, const Dem& dem, const SeaParamete
   CacheKeyText key;
   key.add("settings", write_scene(settings)).add("mask", mask).add("viewer", viewer_xy);
   if (!map_lakes.empty()) key.add("lakes", map_lakes);
+  if (by_data) key.add("masks", "of the data");
   key.add("m_per_pixel", m_per_pixel).add("step_cells", step);
   add_sea(key, sea);
   add_dem(key, dem);
@@ -219,21 +243,69 @@ PixelGround ground_m_per_pixel(const Dem& dem, const View& view) {
   return {std::move(coarse), step_cells};
 }
 
+namespace {
+
+// Cells of a level under which one of the data is marked.
+Grid<std::uint8_t> any_below(const Grid<std::uint8_t>& marked, int level) {
+  Grid<std::uint8_t> out(level_cells(marked.width(), level), level_cells(marked.height(), level));
+  const int half = (1 << level) / 2;
+  for (int y = 0; y < marked.height(); ++y)
+    for (int x = 0; x < marked.width(); ++x)
+      if (marked(x, y) != 0)
+        out(std::min((x + half) >> level, out.width() - 1),
+            std::min((y + half) >> level, out.height() - 1)) = 1;
+  return out;
+}
+
+}  // namespace
+
+GroundMasks preview_masks(const LoadedScene& loaded, const Dem& data, int level,
+                          const LandCover* land_cover, Progress& progress) {
+  GroundMasks masks =
+      find_masks(loaded.scene.generalize, scene_sea(loaded.scene.land_cover), data,
+                 mask_of_ground(loaded, data, progress), lakes_of_map(data, land_cover), progress);
+  const Grid<float>& z = masks.along_lines_m.empty() ? data.altitude_m : masks.along_lines_m;
+  masks.crests_m = crests_of_data(z, level);
+  masks.finer_m = finer_bands(z, level);
+  if (!masks.mask.empty()) masks.unchanged = any_below(unchanged_cells({}, masks.mask), level);
+  const auto unit = [](Grid<float> grid) {
+    for (float& v : grid) v = std::clamp(v, 0.F, 1.F);  // borders are extended linearly
+    return grid;
+  };
+  for (int i = 0; i < level; ++i) {
+    masks.mask = unit(reduce(masks.mask));
+    masks.amplify = unit(reduce(masks.amplify));
+    masks.along_lines_m = reduce(masks.along_lines_m);
+  }
+  if (!masks.keep.empty()) {
+    Grid<float> share(masks.keep.width(), masks.keep.height());
+    std::transform(masks.keep.begin(), masks.keep.end(), share.begin(),
+                   [](std::uint8_t keep) { return keep != 0 ? 1.F : 0.F; });
+    for (int i = 0; i < level; ++i) share = reduce(share);
+    masks.keep = Grid<std::uint8_t>(share.width(), share.height());
+    std::transform(share.begin(), share.end(), masks.keep.begin(),
+                   [](float part) { return static_cast<std::uint8_t>(part >= 0.5F ? 1 : 0); });
+  }
+  return masks;
+}
+
 GeneralizedTerrain generalize_for_view(const LoadedScene& loaded, const Dem& dem,
                                        const LandCover* land_cover, const View& view,
                                        Progress& progress, const Cache& cache,
-                                       const SeaParameters* given_sea) {
+                                       const SeaParameters* given_sea, const GroundMasks* masks) {
   const SeaParameters sea = given_sea != nullptr ? *given_sea : scene_sea(loaded.scene.land_cover);
   const SceneGeneralize& settings = loaded.scene.generalize;
-  ViewOfGround seen{.mask = mask_for_scene(loaded, dem, land_cover, progress, cache),
-                    .pixel_ground = {},
-                    .viewer_xy = view.viewer_xy,
-                    .distances = view.generalize,
-                    .map_lakes = lakes_of_map(dem, land_cover)};
+  ViewOfGround seen{
+      .mask = mask_for_scene(masks != nullptr ? masks->mask : mask_of_ground(loaded, dem, progress),
+                             loaded, dem, land_cover, progress, cache),
+      .pixel_ground = {},
+      .viewer_xy = view.viewer_xy,
+      .distances = view.generalize,
+      .map_lakes = masks != nullptr ? Grid<std::uint8_t>() : lakes_of_map(dem, land_cover)};
   if (settings.print_detail_px > 0.0) seen.pixel_ground = ground_m_per_pixel(dem, view);
   return cached<GeneralizedTerrain>(
-      cache, [&] { return ground_key(loaded, dem, sea, seen); }, progress,
-      [&](Progress& watcher) { return make_ground(settings, sea, dem, seen, watcher); });
+      cache, [&] { return ground_key(loaded, dem, sea, seen, masks != nullptr); }, progress,
+      [&](Progress& watcher) { return make_ground(settings, sea, dem, seen, masks, watcher); });
 }
 
 }  // namespace belvedere

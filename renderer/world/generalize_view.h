@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/vec2.hpp>
+#include <vector>
 
 #include "base/cache/cache.h"
 #include "base/progress.h"
@@ -14,6 +15,21 @@
 
 namespace belvedere {
 
+// Where ground is generalized, from the cells of the data.
+struct GroundMasks {
+  Grid<float> mask;              // by slope, and drawn: GeneralizeGrids::mask
+  Grid<float> amplify;           // GeneralizeGrids::amplification_mask
+  Grid<std::uint8_t> keep;       // GeneralizeGrids::keep
+  Grid<std::uint8_t> unchanged;  // GeneralizeGrids::unchanged, of previews
+  Grid<float> along_lines_m;  // what is generalized instead of the DEM, smoothed along slope lines
+  Grid<float> crests_m;       // GeneralizeGrids::crests_m, of previews
+  std::vector<Grid<float>> finer_m;  // GeneralizeGrids::finer_m, of previews
+};                                   // each is empty where the scene has none
+// Those of a preview: made of the data, because their openings and dilations count cells, and then
+// brought to the level of the preview. `land_cover` may be null.
+GroundMasks preview_masks(const LoadedScene& loaded, const Dem& data, int level,
+                          const LandCover* land_cover, Progress& progress);
+
 struct GeneralizedTerrain {
   Grid<float> altitude_m;
   Grid<glm::vec2> came_from;  // WidenedValleys::came_from; empty where no ground moved
@@ -24,11 +40,12 @@ struct GeneralizedTerrain {
 // print's detail, and by masks. `land_cover` is used if the scene masks by class; null: it is then
 // made. Its cells are the DEM's. The cache keeps it: of the view it depends on the viewer's
 // position, and on the camera only if the print's detail is limited. `sea`: of a window of a larger
-// DEM, its own.
+// DEM, its own. `masks`: of a preview.
 GeneralizedTerrain generalize_for_view(const LoadedScene& loaded, const Dem& dem,
                                        const LandCover* land_cover, const View& view,
                                        Progress& progress, const Cache& cache = no_cache(),
-                                       const SeaParameters* sea = nullptr);
+                                       const SeaParameters* sea = nullptr,
+                                       const GroundMasks* masks = nullptr);
 
 // Maximum pixels per metre of ground at `place`, from differences over ±step_m; 0 behind the
 // viewer.

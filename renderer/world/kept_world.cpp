@@ -42,6 +42,7 @@ std::string dem_key(const LoadedScene& loaded) {
             scene.features_style = loaded.scene.features_style;
             scene.features = loaded.scene.features;
           }));
+  key.add("preview_mcells", loaded.scene.terrain.preview_mcells);
   add_files(key, loaded);
   return key.str();
 }
@@ -83,6 +84,20 @@ std::string generalize_key(const LoadedScene& loaded, const View& view) {
       .add("background_from_m", view.generalize.background_from_m);
   if (loaded.scene.generalize.print_detail_px > 0.0)
     key.add("camera", camera_key(loaded, view)).add("bend", deform_key(view));
+  return key.str();
+}
+
+std::string masks_key(const LoadedScene& loaded) {
+  const SceneGeneralize& settings = loaded.scene.generalize;
+  CacheKeyText key;
+  key.add("settings", written([&](Scene& scene) {
+            scene.generalize.mask = settings.mask;
+            scene.generalize.mask_slope_deg = settings.mask_slope_deg;
+            scene.generalize.automatic_mask = settings.automatic_mask;
+            scene.generalize.keep_lakes = settings.keep_lakes;
+            scene.generalize.line_integral = settings.line_integral;
+          }))
+      .add("bands", static_cast<std::uint64_t>(settings.bands.foreground.size()));
   return key.str();
 }
 

@@ -9,6 +9,7 @@
 #include "renderer/trace/terrain_model.h"
 #include "renderer/trace/tracer.h"
 #include "renderer/trace/water/water_ground.h"
+#include "renderer/world/generalize_view.h"
 #include "renderer/world/scene_dem.h"
 #include "renderer/world/view.h"
 #include "terrain/cover/land_cover.h"
@@ -31,6 +32,7 @@ struct KeptWorld {
   Kept<LandCover> bare_cover;  // before a map and rivers are laid over it for a camera
   Kept<LandCover> land_cover;
   Kept<GroundSurroundings> surroundings;
+  Kept<GroundMasks> masks;
   Kept<TerrainModel> terrain;
   Kept<std::shared_ptr<const WaterGround>> waters;
   Kept<const DeformedSurface> surface;
@@ -52,6 +54,7 @@ std::shared_ptr<T> keep_or_make(Kept<T>* kept, const std::string& key, const Mak
 std::string dem_key(const LoadedScene& loaded);    // settings, and the files' sizes and times
 std::string cover_key(const LoadedScene& loaded);  // of the land cover on a DEM of that key
 std::string generalize_key(const LoadedScene& loaded, const View& view);
+std::string masks_key(const LoadedScene& loaded);  // of the masks on a ground of these keys
 std::string camera_key(const LoadedScene& loaded, const View& view);
 std::string deform_key(const View& view);
 

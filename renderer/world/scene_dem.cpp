@@ -161,6 +161,18 @@ CoarseAltitudes region_of_data(const SceneDem& opened, const SeaParameters& sea)
   return out;
 }
 
+// The level of a preview. Synthetic terrain, which is small, stays.
+void make_preview(SceneDem& opened, const SceneTerrain& terrain) {
+  if (terrain.synthetic) return;
+  opened.levels.reset();
+  const Dem& dem = opened.dem;
+  const int level = preview_level({dem.transform, dem.width(), dem.height(), dem.crs},
+                                  1e6 * terrain.preview_mcells);
+  if (level == 0) return;
+  opened.data = std::make_shared<const Dem>(std::move(opened.dem));
+  opened.dem = halved_dem(*opened.data, level);
+}
+
 }  // namespace
 
 std::vector<RasterSource> to_raster_sources(const LoadedScene& scene,
@@ -187,10 +199,16 @@ SceneDem open_scene_dem(const LoadedScene& loaded, Progress& progress, const Cac
         "sea: {:.1f} % of the terrain, at {:.1f} m{}", 100.0 * sea.share, sea.level_m,
         sea.noise_m >= 0.3 ? fmt::format(", levelled from ± {:.1f} m", sea.noise_m) : ""));
   if (opened.levels) opened.sea = std::move(sea);
+  if (loaded.scene.terrain.preview_mcells > 0.0) make_preview(opened, loaded.scene.terrain);
   return opened;
 }
 
 GroundAltitude ground_altitude_of(const SceneDem& scene) {
+  if (scene.data)
+    return [&dem = *scene.data](glm::dvec2 position) {
+      const glm::dvec2 cell = dem.transform.to_cell(position.x, position.y);
+      return static_cast<double>(sample_bilinear(dem.altitude_m, cell.x, cell.y));
+    };
   if (!scene.levels) return {};
   return [&scene](glm::dvec2 position) {
     const RasterFrame& frame = scene.levels->frame();

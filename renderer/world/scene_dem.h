@@ -16,7 +16,7 @@
 namespace belvedere {
 
 // A scene's DEM. If it has more cells than its ground may take, `dem` is the whole in coarser ones,
-// and finer windows are made from the levels.
+// and finer windows are made from the levels; a preview has no windows.
 struct SceneDem {
   Dem dem;
   std::shared_ptr<DemLevels> levels;  // null: dem has all cells
@@ -25,6 +25,8 @@ struct SceneDem {
   // The data at reduced resolution, with their sea: the same whether `dem` holds them whole or in
   // coarser cells.
   CoarseAltitudes region = {};
+  // Of a preview, whose `dem` is a level of these: the cells of the data; else null.
+  std::shared_ptr<const Dem> data = {};
 };
 // Altitudes of the data themselves; for make_view.
 GroundAltitude ground_altitude_of(const SceneDem& scene);

@@ -62,9 +62,13 @@ BareView make_bare_view(const LoadedScene& loaded, Progress& progress, const Cac
   bare.view =
       make_view(loaded.scene, opened.dem, progress, ground_altitude_of(opened), &opened.region);
   bare.dem = std::move(opened.dem);
+  std::optional<GroundMasks> masks;
+  if (opened.data)
+    masks = preview_masks(loaded, *opened.data, bare.dem.halved - opened.data->halved, nullptr,
+                          progress);
   bare.camera = make_camera(bare.view.camera);
-  GeneralizedTerrain generalized =
-      generalize_for_view(loaded, bare.dem, nullptr, bare.view, progress, cache);
+  GeneralizedTerrain generalized = generalize_for_view(
+      loaded, bare.dem, nullptr, bare.view, progress, cache, nullptr, masks ? &*masks : nullptr);
   bare.generalized_m = std::move(generalized.altitude_m);
   bare.goes_to = std::move(generalized.goes_to);
   bend_again(bare, bare.view.deform.bend);

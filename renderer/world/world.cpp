@@ -129,8 +129,16 @@ World make_world(const LoadedScene& loaded, Progress& progress, const Cache& cac
   add_key([&] { return generalize_key(loaded, view); });
   if (opened->levels) add_key([&] { return camera_key(loaded, view) + deform_key(view); });
   const std::shared_ptr<TerrainModel> terrain = keep_or_make(slot(&KeptWorld::terrain), key, [&] {
-    GeneralizedTerrain generalized =
-        generalize_for_view(loaded, *dem, land_cover.get(), view, progress, cache);
+    std::shared_ptr<const GroundMasks> masks;
+    if (opened->data)
+      masks = keep_or_make(slot(&KeptWorld::masks), of_surroundings + masks_key(loaded), [&] {
+        return preview_masks(loaded, *opened->data, dem->halved - opened->data->halved,
+                             land_cover.get(), progress);
+      });
+    if (kept == nullptr) opened->data.reset();
+    GeneralizedTerrain generalized = generalize_for_view(loaded, *dem, land_cover.get(), view,
+                                                         progress, cache, nullptr, masks.get());
+    masks.reset();
     const std::shared_ptr<GroundSurroundings> surroundings =
         keep_or_make(slot(&KeptWorld::surroundings), of_surroundings, [&] {
           return cached<GroundSurroundings>(

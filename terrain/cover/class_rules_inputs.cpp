@@ -140,7 +140,7 @@ void make_shape_inputs(const Dem& dem, const Sea& found, const std::vector<bool>
   if (is_needed(valley_height) || needs_floor)
     grid(valley_height) = height_above_valley(z, cell, 900.0);
   {
-    const Grid<float> smooth = gaussian_blur(z, slope_smooth_m / cell);
+    const Grid<float> smooth = gaussian_blur(z, dem.blur_cells(slope_smooth_m));
     const bool needs_sun = is_needed(sun) && climate.sun.empty();
     if (is_needed(slope) || is_needed(slope_smooth) || needs_floor || needs_sun)
       grid(slope) = slope_deg(smooth, cell_x, cell_y);
@@ -167,16 +167,17 @@ void make_shape_inputs(const Dem& dem, const Sea& found, const std::vector<bool>
     }
   }
   if (is_needed(relief_180) || is_needed(relief_750)) {
-    const Grid<float> inner = gaussian_blur(z, 30.0 / cell);
+    const Grid<float> inner = gaussian_blur(z, dem.blur_cells(30.0));
     for (const auto& [variable, outer_m] :
          {std::pair{relief_180, 180.0}, std::pair{relief_750, 750.0}}) {
       if (!is_needed(variable)) continue;
-      grid(variable) = gaussian_blur(z, outer_m / cell);
+      grid(variable) = gaussian_blur(z, dem.blur_cells(outer_m));
       each_cell(grid(variable),
                 [&, v = variable](int x, int y) { return inner(x, y) - grid(v)(x, y); });
     }
   }
-  if (is_needed(relief_1800)) grid(relief_1800) = relief(z, cell, 120.0, 1800.0);
+  if (is_needed(relief_1800))
+    grid(relief_1800) = relief(z, 1.0, dem.blur_cells(120.0), dem.blur_cells(1800.0));
   if (needs_floor) {
     const auto steepest = static_cast<float>(parameter_or(parameters, "floor_slope_deg", 5.5));
     const auto highest = static_cast<float>(parameter_or(parameters, "floor_highest_m", 1450.0));
@@ -300,7 +301,7 @@ Grid<float> rock_above(const Grid<LandCoverClass>& classes, const Dem& dem, doub
       window_maximum(above, steps + 1);  // most of a map has no rock near and can be skipped
 
   // Unit vectors uphill, one cell long; 0 on flat ground.
-  const Grid<float> smooth = gaussian_blur(dem.altitude_m, 60.0 / dem.cell_m());
+  const Grid<float> smooth = gaussian_blur(dem.altitude_m, dem.blur_cells(60.0));
   Grid<glm::vec2> uphill(width, height);
   parallel_rows(height, [&](int y) {
     for (int x = 0; x < width; ++x) {

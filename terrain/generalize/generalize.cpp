@@ -67,7 +67,7 @@ void check(const Grid<float>& altitude_m, const GeneralizeGrids& grids,
                 "0 to 16");
   const auto fits = [&](const auto& grid) { return grid.empty() || grid.same_size(altitude_m); };
   if (!fits(grids.foreground_share) || !fits(grids.keep) || !fits(grids.mask) ||
-      !fits(grids.amplification_mask)) {
+      !fits(grids.unchanged) || !fits(grids.amplification_mask) || !fits(grids.crests_m)) {
     throw Error(ErrorKind::bug, "generalize",
                 "a foreground, lake or mask grid differs in size from the DEM");
   }
@@ -130,6 +130,20 @@ Grid<float> without_lakes(const Grid<float>& mask, const Grid<unsigned char>& ke
 
 }  // namespace
 
+std::vector<Grid<float>> finer_bands(const Grid<float>& altitude_m, int halvings) {
+  std::vector<Grid<float>> out;
+  Grid<float> level = altitude_m;
+  for (int i = 0; i < halvings && max_bands(level.width(), level.height()) > 0; ++i) {
+    Grid<float> coarser = reduce(level);
+    const Grid<float> smooth = expand(coarser, level.width(), level.height());
+    for (std::size_t at = 0; at < level.size(); ++at) level[at] -= smooth[at];
+    for (int left = i; left < halvings; ++left) level = reduce(level);
+    out.push_back(std::move(level));
+    level = std::move(coarser);
+  }
+  return out;
+}
+
 Grid<float> generalize(const Grid<float>& altitude_m, glm::dvec2 cell_m,
                        const GeneralizeGrids& grids, const GeneralizeParameters& parameters,
                        Progress& progress) {
@@ -139,12 +153,17 @@ Grid<float> generalize(const Grid<float>& altitude_m, glm::dvec2 cell_m,
   const int possible = max_bands(altitude_m.width(), altitude_m.height());
   const int bands = std::min(weights, possible);
   // The lowest of the crest bands needs a level below it.
-  const float crest = skipped < crest_bands ? parameters.crest : 0.F;
+  const bool knows_crests = !grids.crests_m.empty();
+  const float crest = skipped < crest_bands && !knows_crests ? parameters.crest : 0.F;
   const int reductions =
       crest > 0.F ? std::min(std::max(weights, crest_bands - skipped), possible) : bands;
-  const Grid<unsigned char> kept =
-      grids.mask.empty() ? Grid<unsigned char>() : unchanged_cells(grids.keep, grids.mask);
-  const Grid<unsigned char>& keep = grids.mask.empty() ? grids.keep : kept;
+  // Without the lakes; empty: none.
+  const Grid<unsigned char> unchanged =
+      grids.unchanged.empty() ? unchanged_cells({}, grids.mask) : grids.unchanged;
+  Grid<unsigned char> kept = unchanged;
+  for (std::size_t i = 0; i < kept.size() && !grids.keep.empty(); ++i)
+    kept[i] = kept[i] != 0 || grids.keep[i] != 0 ? 1 : 0;
+  const Grid<unsigned char>& keep = unchanged.empty() ? grids.keep : kept;
   const bool keeps = std::any_of(keep.begin(), keep.end(), [](unsigned char k) { return k != 0; });
   progress.begin("generalize", 2.0 * reductions + 1.0);
 
@@ -154,8 +173,9 @@ Grid<float> generalize(const Grid<float>& altitude_m, glm::dvec2 cell_m,
     progress.advance(1.0);
   }
   const int mask_levels = parameters.base == 1.F ? bands : bands + 1;
-  Levels mask = keeps ? Levels(grids.mask, without_lakes(grids.mask, keep), mask_levels)
-                      : Levels(grids.mask, mask_levels);
+  Levels mask = keeps && !grids.keep.empty()
+                    ? Levels(grids.mask, without_lakes(grids.mask, grids.keep), mask_levels)
+                    : Levels(grids.mask, mask_levels);
   Levels share(grids.foreground_share, bands);
   Levels amplify(grids.amplification_mask, bands);
 
@@ -188,10 +208,38 @@ Grid<float> generalize(const Grid<float>& altitude_m, glm::dvec2 cell_m,
     std::move(levels_m.begin(), levels_m.end(), std::back_inserter(levels));
     add_crests(change, std::move(levels), skipped, share.at(0), mask.at(0), amplify.at(0), crest);
   }
+  if (knows_crests && parameters.crest > 0.F) {
+    if (change.empty()) change = Grid<float>(altitude_m.width(), altitude_m.height());
+    add_crests(change, grids.crests_m, share.at(0), mask.at(0), amplify.at(0), parameters.crest);
+  }
+  const int known = std::min({skipped, static_cast<int>(grids.finer_m.size()),
+                              static_cast<int>(parameters.foreground.size())});
+  for (int i = 0; i < known; ++i) {
+    const Grid<float>& finer = grids.finer_m[static_cast<std::size_t>(i)];
+    const Grid<float> none((finer.width() + 1) / 2, (finer.height() + 1) / 2);
+    const Grid<float> no_change;
+    Band band;
+    band.level = &finer;
+    band.coarser = &none;
+    band.coarser_change = &no_change;
+    band.share = share.at(0);
+    band.keep = keeps ? &keep : nullptr;
+    band.mask = mask.at(0);
+    band.amplify = amplify.at(0);
+    band.pixel_ground = grids.pixel_ground.m_per_pixel.empty() ? nullptr : &grids.pixel_ground;
+    BandWeights of_all = weights_of(parameters, i - skipped, 0.5 * (cell_m.x + cell_m.y));
+    for (WeightSet* set : {&of_all.near, &of_all.far}) set->ridges = set->valleys = 0.F;
+    const Grid<float> added = add_band(band, of_all, break_lines_of(parameters, 0, cell_m));
+    if (change.empty()) {
+      change = added;
+    } else if (!added.empty()) {
+      for (std::size_t at = 0; at < change.size(); ++at) change[at] += added[at];
+    }
+  }
   levels_m = {};
   if (change.empty()) return altitude_m;
-  settle_around_kept(change, grids.keep, shore_fade_cells);
-  settle_around_kept(change, unchanged_cells({}, grids.mask), mask_fade_cells);
+  settle_around_kept(change, grids.keep, shore_fade_cells, skipped);
+  settle_around_kept(change, unchanged, mask_fade_cells, skipped);
   parallel_rows(change.height(), [&](int y) {
     const float* a = altitude_m.row(y);
     float* out = change.row(y);

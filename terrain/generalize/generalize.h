@@ -64,11 +64,23 @@ struct GeneralizeGrids {
   Grid<float> foreground_share;  // u_d of equation 5: 1 near, 0 far; empty: 1 everywhere
   Grid<unsigned char> keep;      // != 0 keeps its altitude exactly (lakes)
   Grid<float> mask;              // m of equation 6: 1 generalized, 0 original; empty: 1 everywhere
+  // Of a halved DEM: != 0 where the mask was 0 in a cell of the data; empty: as in the mask.
+  Grid<unsigned char> unchanged = {};
   // 1 where bands may be exaggerated, 0 where weights are limited to 1: prevents moats and still
   // lets flats be smoothed; empty: 1 everywhere.
   Grid<float> amplification_mask;
   PixelGround pixel_ground;
+  // Of a halved DEM: crests_of_data; empty: crests are found in these cells, without the bands that
+  // these lack.
+  Grid<float> crests_m = {};
+  // Of a halved DEM: what is left in its cells of each band that is finer than they are, the finest
+  // first (finer_bands); empty: nothing.
+  std::vector<Grid<float>> finer_m = {};
 };
+
+// What a DEM that is halved so many times still shows of the bands it lacks, the finest first: the
+// bands' mean over its cells, which is not quite 0 because the pyramid's kernel is not ideal.
+std::vector<Grid<float>> finer_bands(const Grid<float>& altitude_m, int halvings);
 
 // Equations 1 to 6: A' = ((base - 1) m_xy1 + 1) G_1 + Σ w_xyi L_i with w_xyi = (u_i + v_i c_xyi -
 // 1) m_xyi + 1, u_i and v_i mixed by the foreground share, and u_i + v_i c_xyi times the printable

@@ -58,53 +58,69 @@ float shore_distance(const Squares& squares, int x, int y) {
   return std::sqrt(static_cast<float>(squares(x, y)));
 }
 
+// The lengths above in cells of a halved DEM.
+struct Lengths {
+  explicit Lengths(int halved)
+      : surroundings(std::ldexp(surroundings_cells, -halved)),
+        mean(std::ldexp(mean_cells, -halved)),
+        block(std::max(1, block_cells >> halved)),
+        last(std::ldexp(1.5 * block_cells, -halved) / block) {}
+  float surroundings;
+  double mean;
+  int block;
+  double last;  // blur, blocks
+};
+
 // The change subtracted around lakes, in blocks of block_cells: the mean change of the lake cells
 // nearby, fading with the distance. The last blur rounds the kinks of the distance halfway between
 // two shores.
 Grid<float> pull_of_lakes(const Grid<float>& change, const Grid<unsigned char>& keep,
-                          const Squares& squares) {
-  Grid<float> sum((change.width() + block_cells - 1) / block_cells,
-                  (change.height() + block_cells - 1) / block_cells);
+                          const Squares& squares, const Lengths& lengths) {
+  const int block_side = lengths.block;
+  Grid<float> sum((change.width() + block_side - 1) / block_side,
+                  (change.height() + block_side - 1) / block_side);
   Grid<float> count(sum.width(), sum.height());
   parallel_rows(sum.height(), [&](int block) {
-    for (int y = block * block_cells; y < std::min((block + 1) * block_cells, change.height());
-         ++y) {
+    for (int y = block * block_side; y < std::min((block + 1) * block_side, change.height()); ++y) {
       for (int x = 0; x < change.width(); ++x) {
         if (keep(x, y) == 0) continue;
-        sum(x / block_cells, block) += change(x, y);
-        count(x / block_cells, block) += 1.F;
+        sum(x / block_side, block) += change(x, y);
+        count(x / block_side, block) += 1.F;
       }
     }
   });
-  Grid<float> pull = gaussian_blur(sum, mean_cells / block_cells);
-  count = gaussian_blur(count, mean_cells / block_cells);
+  Grid<float> pull = gaussian_blur(sum, lengths.mean / block_side);
+  count = gaussian_blur(count, lengths.mean / block_side);
   parallel_rows(pull.height(), [&](int y) {
     for (int x = 0; x < pull.width(); ++x) {
-      const int centre_x = std::min(x * block_cells + block_cells / 2, change.width() - 1);
-      const int centre_y = std::min(y * block_cells + block_cells / 2, change.height() - 1);
+      const int centre_x = std::min(x * block_side + block_side / 2, change.width() - 1);
+      const int centre_y = std::min(y * block_side + block_side / 2, change.height() - 1);
       const float fade =
-          1.F - smoothstep(shore_distance(squares, centre_x, centre_y) / surroundings_cells);
+          1.F - smoothstep(shore_distance(squares, centre_x, centre_y) / lengths.surroundings);
       pull(x, y) = count(x, y) > 0.F ? fade * pull(x, y) / count(x, y) : 0.F;
     }
   });
-  return gaussian_blur(pull, 1.5);
+  return gaussian_blur(pull, lengths.last);
 }
 
 }  // namespace
 
-void settle_around_kept(Grid<float>& change, const Grid<unsigned char>& keep, float fade_cells) {
+void settle_around_kept(Grid<float>& change, const Grid<unsigned char>& keep, float fade_cells,
+                        int halved) {
   if (std::none_of(keep.begin(), keep.end(), [](unsigned char k) { return k != 0; })) return;
+  const Lengths lengths(halved);
+  const int block = lengths.block;
+  const float fade = std::ldexp(fade_cells, -halved);
   const Squares squares = shore_squares(keep);
-  const Grid<float> pull = pull_of_lakes(change, keep, squares);
+  const Grid<float> pull = pull_of_lakes(change, keep, squares, lengths);
   parallel_rows(change.height(), [&](int y) {
     for (int x = 0; x < change.width(); ++x) {
       const float distance = shore_distance(squares, x, y);
       if (distance >= static_cast<float>(reach_cells)) continue;
-      // Block centres lie at 1.5, 5.5, 9.5… cells.
-      const double u = (x - 0.5 * (block_cells - 1)) / block_cells;
-      const double v = (y - 0.5 * (block_cells - 1)) / block_cells;
-      change(x, y) =
-          (change(x, y) - sample_bspline(pull, u, v)) * smoothstep(distance / fade_cells);
+      // Block centres of four cells lie at 1.5, 5.5, 9.5… cells.
+      const double u = (x - 0.5 * (block - 1)) / block;
+      const double v = (y - 0.5 * (block - 1)) / block;
+      change(x, y) = (change(x, y) - sample_bspline(pull, u, v)) * smoothstep(distance / fade);
     }
   });
 }

@@ -142,13 +142,13 @@ Shift find_shifts(const Grid<float>& moves, const Valleys& valleys) {
 // Source of the ground of each cell. The same displacement, but water and banks stay next to the
 // centreline, and cells of the new floor take the cover of the bank.
 Grid<glm::vec2> find_origins(const Grid<float>& moves, const Valleys& valleys,
-                             const Grid<std::uint8_t>& keep) {
+                             const Grid<std::uint8_t>& keep, float water) {
   Grid<glm::vec2> out(moves.width(), moves.height());
   parallel_rows(moves.height(), [&](int y) {
     for (int x = 0; x < moves.width(); ++x) {
       const float distance = distance_to_nearest(valleys.centreline, x, y);
-      if (distance <= water_cells || (!keep.empty() && keep(x, y) != 0)) continue;
-      const float share = std::min(moves(x, y), distance - water_cells) / distance;
+      if (distance <= water || (!keep.empty() && keep(x, y) != 0)) continue;
+      const float share = std::min(moves(x, y), distance - water) / distance;
       out(x, y) = share * glm::vec2(valleys.centreline(x, y) % moves.width() - x,
                                     valleys.centreline(x, y) / moves.width() - y);
     }
@@ -240,7 +240,8 @@ void check(const Grid<float>& altitude_m, const Grid<std::uint8_t>& keep,
 
 WidenedValleys widen_valleys(const Grid<float>& altitude_m, const Grid<std::uint8_t>& keep,
                              const Grid<float>& mask, double cell_m,
-                             const WidenValleysParameters& parameters, Progress& progress) {
+                             const WidenValleysParameters& parameters, Progress& progress,
+                             int halved) {
   check(altitude_m, keep, parameters);
   progress.begin("widen valleys", 4.0);
   if (parameters.width_m <= 0.F || altitude_m.empty()) return {altitude_m, {}, {}};
@@ -253,7 +254,8 @@ WidenedValleys widen_valleys(const Grid<float>& altitude_m, const Grid<std::uint
   progress.advance(1.0);
   const Grid<float> moves = find_moves(altitude_m, valleys, mask, cell_m, parameters);
   const Shift shift = find_shifts(moves, valleys);
-  const Grid<float> floor_m = gaussian_blur(valleys.floor_m, floor_smoothing_cells);
+  const Grid<float> floor_m =
+      gaussian_blur(valleys.floor_m, std::ldexp(floor_smoothing_cells, -halved));
   progress.advance(1.0);
   const Grid<float> depth_m = fill_hollows(altitude_m);
   Grid<float> out(altitude_m.width(), altitude_m.height());
@@ -280,7 +282,8 @@ WidenedValleys widen_valleys(const Grid<float>& altitude_m, const Grid<std::uint
   });
   progress.advance(1.0);
   WidenedValleys wide{apply_mask(altitude_m, std::move(out), mask),
-                      find_origins(moves, valleys, keep), lateral_offsets(moves, valleys, keep)};
+                      find_origins(moves, valleys, keep, std::ldexp(water_cells, -halved)),
+                      lateral_offsets(moves, valleys, keep)};
   for (std::size_t i = 0; i < mask.size(); ++i) {
     const float m = std::clamp(mask[i], 0.F, 1.F);
     wide.came_from[i] *= m;

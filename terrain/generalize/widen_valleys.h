@@ -39,8 +39,11 @@ struct WidenedValleys {
 // well, which also fade towards cells of 0; empty: none. Creates no new hollows where it is 1.
 // Cells must be finite. Throws Error(usage) for values out of range, Error(bug) if grids differ in
 // size.
+// halved: how many times the cells of the data were halved to these; water and the steps of
+// centrelines are as wide as some cells of the data.
 WidenedValleys widen_valleys(const Grid<float>& altitude_m, const Grid<std::uint8_t>& keep,
                              const Grid<float>& mask, double cell_m,
-                             const WidenValleysParameters& parameters, Progress& progress);
+                             const WidenValleysParameters& parameters, Progress& progress,
+                             int halved = 0);
 
 }  // namespace belvedere

@@ -11,6 +11,13 @@
 #include "terrain/io/height_doubts.h"
 
 namespace belvedere {
+
+double Dem::blur_cells(double sigma_m) const {
+  const double cells = sigma_m / cell_m();
+  if (halved == 0) return cells;
+  return std::sqrt(std::max(0.0, cells * cells - 0.3 * (1.0 - std::ldexp(1.0, -2 * halved))));
+}
+
 namespace {
 
 std::size_t count_voids(const Grid<float>& altitude_m) {

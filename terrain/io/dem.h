@@ -33,6 +33,9 @@ struct Dem {
   int height() const { return altitude_m.height(); }
   // Mean side of a cell, m.
   double cell_m() const { return 0.5 * (transform.cell_x + transform.cell_y); }
+  // Standard deviation, cells, of the Gaussian that these cells need for one of sigma_m in the
+  // data: halving has blurred them by a variance of .3 (4^halved - 1) cells of the data.
+  double blur_cells(double sigma_m) const;
 };
 
 struct DemParameters {

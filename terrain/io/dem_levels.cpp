@@ -10,7 +10,9 @@
 
 #include "base/error.h"
 #include "base/filter.h"
+#include "base/math_exact.h"
 #include "base/parallel.h"
+#include "base/pyramid.h"
 #include "terrain/io/height_doubts.h"
 
 namespace belvedere {
@@ -110,6 +112,44 @@ int coarsest_level(const RasterFrame& frame, double max_cells) {
          std::min(level_cells(frame.width, level), level_cells(frame.height, level)) > fewest_cells)
     ++level;
   return level;
+}
+
+int preview_level(const RasterFrame& frame, double max_cells) {
+  constexpr double a_third_more = 0.2;  // halvings
+  const double cells = static_cast<double>(frame.width) * frame.height;
+  if (!(max_cells > 0.0) || cells <= max_cells) return 0;
+  return std::max(0,
+                  static_cast<int>(std::ceil(0.5 * exact::log2(cells / max_cells) - a_third_more)));
+}
+
+Dem halved_dem(const Dem& dem, int times) {
+  if (times < 1) return dem;
+  Dem out;
+  out.altitude_m = reduce(dem.altitude_m);
+  for (int i = 1; i < times; ++i) out.altitude_m = reduce(out.altitude_m);
+  const int step = 1 << times;
+  const Grid<float>& z = dem.altitude_m;
+  out.filled = Grid<std::uint8_t>(out.width(), out.height());
+  parallel_rows(out.height(), [&](int y) {
+    for (int x = 0; x < out.width(); ++x) {
+      const float level_m = z(step * x, step * y);
+      out.filled(x, y) = dem.filled(step * x, step * y);
+      int level = 0;
+      int cells = 0;
+      for (int v = step * y - step / 2; v < std::min(step * y + step / 2, dem.height()); ++v)
+        for (int u = step * x - step / 2; u < std::min(step * x + step / 2, dem.width()); ++u) {
+          if (u < 0 || v < 0) continue;
+          ++cells;
+          level += z(u, v) == level_m ? 1 : 0;
+        }
+      if (4 * level >= 3 * cells) out.altitude_m(x, y) = level_m;
+    }
+  });
+  const RasterFrame frame = level_frame({dem.transform, dem.width(), dem.height(), dem.crs}, times);
+  out.transform = frame.transform;
+  out.crs = dem.crs;
+  out.halved = dem.halved + times;
+  return out;
 }
 
 double reading_bytes(const RasterFrame& frame) {

@@ -22,6 +22,11 @@ int level_cells(int cells, int level);
 // The level at which the whole takes a quarter of `max_cells`, which leaves the rest to windows; 0
 // if all cells of the data fit.
 int coarsest_level(const RasterFrame& frame, double max_cells);
+// The level for previews: that with `max_cells` cells, or up to a third more.
+int preview_level(const RasterFrame& frame, double max_cells);
+// A DEM halved so many times. Water, where most cells below a coarser one are at one altitude,
+// keeps that altitude.
+Dem halved_dem(const Dem& dem, int times);
 // Minimum memory for reading, besides the whole at its coarsest level: strips of rows, whole width.
 double reading_bytes(const RasterFrame& frame);
 // The transform of a level.

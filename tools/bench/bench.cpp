@@ -24,6 +24,7 @@ std::vector<Measurement> bench_generalize(const Options&);
 std::vector<Measurement> bench_guidance(const Options&);
 std::vector<Measurement> bench_layers(const Options&);
 std::vector<Measurement> bench_picture(const Options&);
+std::vector<Measurement> bench_preview(const Options&);
 std::vector<Measurement> bench_rock(const Options&);
 std::vector<Measurement> bench_studio(const Options&);
 std::vector<Measurement> bench_synthesis(const Options&);
@@ -50,6 +51,7 @@ const std::vector<Section>& sections() {
       {"studio", "from a change of --scene to its live picture", &bench_studio},
       {"picture", "the picture of --scene by stage, and what a second thread brings to each",
        &bench_picture},
+      {"preview", "how far the ground of previews of --scene is from the print's", &bench_preview},
       {"files", "writing and reading TIFF, PNG and OpenEXR", &bench_files},
   };
   return all;

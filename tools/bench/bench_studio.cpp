@@ -41,7 +41,7 @@ double quantile(std::vector<double> values, double share) {
 
 // The bound: primary rays of the picture of a rung, prepared and without anything done with them.
 Cost bare_rays(const LoadedScene& scene, const Rung& rung, int repeats) {
-  const LoadedScene drawn = scene_of_rung(scene, rung, ground_size_of(scene));
+  const LoadedScene drawn = scene_of_rung(scene, rung);
   const World world = make_world(drawn, silent_progress());
   std::vector<Ray> rays;
   const glm::ivec2 size = world.camera->size();

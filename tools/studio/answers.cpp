@@ -126,7 +126,7 @@ Json rungs_json(const LoadedScene& scene) {
   Json out = Json::array();
   for (std::size_t i = 0; i < rungs().size(); ++i) {
     const Rung& rung = rungs()[i];
-    const SceneOutput& size = scene_of_rung(scene, rung, {}).scene.output;
+    const SceneOutput& size = scene_of_rung(scene, rung).scene.output;
     out.add(Json::object()
                 .add("rung", Json::number(static_cast<double>(i)))
                 .add("name", Json::text(rung.name))

@@ -60,7 +60,11 @@ HttpAnswer StudioState::picture(const HttpRequest& request) {
                                   : picture_answer(jpeg_bytes(made->colour), "image/jpeg");
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begun;
   out.headers["X-Belvedere-Revision"] = fmt::format("{}", now.revision);
-  out.headers["X-Belvedere-Without"] = fmt::format("{}", fmt::join(rung.without, ", "));
+  std::vector<std::string> without = rung.without;
+  if (made->halved > 0)
+    without.insert(without.begin(), fmt::format("landforms below {:.0f} m", made->shortest_m));
+  out.headers["X-Belvedere-Without"] = fmt::format("{}", fmt::join(without, ", "));
+  out.headers["X-Belvedere-Halved"] = fmt::format("{}", made->halved);
   out.headers["X-Belvedere-Milliseconds"] = fmt::format("{:.0f}", took.count());
   return out;
 }
@@ -82,7 +86,7 @@ HttpAnswer StudioState::tiles(const HttpRequest& request) {
     };
     try {
       const Rung& rung = rungs().back();
-      const SceneOutput size = scene_of_rung(scene, rung, {}).scene.output;
+      const SceneOutput size = scene_of_rung(scene, rung).scene.output;
       double made_px = 0.0;
       std::vector<std::string> told;
       const auto use = [&](PixelRect rect, const Grid<glm::vec3>& colour) {

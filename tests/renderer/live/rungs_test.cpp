@@ -13,7 +13,7 @@ namespace {
 
 using testing::IsEmpty;
 
-// A scene of a file, which unlike synthetic terrain can be read in coarser cells.
+// A scene of a file, whose ground unlike synthetic terrain has coarser levels.
 LoadedScene file_scene(const std::vector<std::string>& settings = {}) {
   return parse_scene(
       "version = 1\n[[terrain.sources]]\nfile = \"a.tif\"\n[camera]\nposition = [0, 0]\n[output]\n"
@@ -46,14 +46,13 @@ TEST(Rungs, SayWhatTheyLeaveOut) {
     };
     EXPECT_EQ(says("strokes"), !rung.strokes) << rung.name;
     EXPECT_EQ(says("rock relief"), !rung.strokes) << rung.name;
-    EXPECT_EQ(says("fine ground"), !rung.is_last()) << rung.name;
   }
 }
 
 TEST(Rungs, TheLastDrawsTheSceneAsItIs) {
   for (const LoadedScene& scene :
        {test::small_scene(), file_scene({"output.width=800", "output.height=320"})}) {
-    const LoadedScene drawn = scene_of_rung(scene, rungs().back(), {100.0, 10.0});
+    const LoadedScene drawn = scene_of_rung(scene, rungs().back());
     EXPECT_EQ(write_scene(drawn.scene), write_scene(scene.scene));
     EXPECT_EQ(drawn.folder, scene.folder);
   }
@@ -61,18 +60,17 @@ TEST(Rungs, TheLastDrawsTheSceneAsItIs) {
 
 TEST(Rungs, LargeSheetsAreDrawnSmallerInTheirShape) {
   const Scene drawn =
-      scene_of_rung(file_scene(), {.name = {}, .without = {}, .max_width_px = 400}, {}).scene;
+      scene_of_rung(file_scene(), {.name = {}, .without = {}, .max_width_px = 400}).scene;
   EXPECT_EQ(drawn.output.width, 400);
   EXPECT_EQ(drawn.output.height, 160);
   EXPECT_EQ(drawn.output.sheet_width_mm, file_scene().scene.output.sheet_width_mm)
       << "strokes keep their size on the sheet";
   const Scene small =
-      scene_of_rung(test::small_scene(), {.name = {}, .without = {}, .max_width_px = 400}, {})
-          .scene;
+      scene_of_rung(test::small_scene(), {.name = {}, .without = {}, .max_width_px = 400}).scene;
   EXPECT_EQ(small.output.width, 96) << "none is drawn larger";
   EXPECT_EQ(small.output.height, 80);
   const Scene flat = scene_of_rung(file_scene({"output.height=20"}),
-                                   {.name = {}, .without = {}, .max_width_px = 100}, {})
+                                   {.name = {}, .without = {}, .max_width_px = 100})
                          .scene;
   EXPECT_EQ(flat.output.height, 16) << "the smallest picture there is";
 }
@@ -81,17 +79,16 @@ TEST(Rungs, PreviewsHaveFewRaysAndCoarseGroundAndCopyNothing) {
   const LoadedScene scene =
       test::small_scene({"sampling.pixel_samples=9", "sampling.shadow_rays=6",
                          "sampling.sky_directions=24", "synthesis.enabled=true"});
-  const Scene drawn = scene_of_rung(scene, rungs().front(), {}).scene;
+  const Scene drawn = scene_of_rung(scene, rungs().front()).scene;
   EXPECT_EQ(drawn.sampling.pixel_samples, 1);
   EXPECT_EQ(drawn.sampling.shadow_rays, 1);
   EXPECT_EQ(drawn.sampling.sky_directions, 4);
   EXPECT_EQ(drawn.water.mirror, "column");
   EXPECT_FALSE(drawn.copies());
-  EXPECT_EQ(scene_of_rung(test::small_scene({"water.mirror=none"}), rungs().front(), {})
-                .scene.water.mirror,
-            "none");
-  EXPECT_EQ(scene_of_rung(file_scene(), rungs().front(), {9.0, 30.0}).scene.terrain.dem.cell_m,
-            90.0);
+  EXPECT_EQ(
+      scene_of_rung(test::small_scene({"water.mirror=none"}), rungs().front()).scene.water.mirror,
+      "none");
+  EXPECT_EQ(drawn.terrain.preview_mcells, 1.0);
 }
 
 }  // namespace

@@ -15,33 +15,6 @@ namespace {
 
 using test::small_scene;
 
-LoadedScene scene_of_files() {
-  LoadedScene loaded = small_scene();
-  loaded.scene.terrain.synthetic.reset();
-  return loaded;
-}
-
-TEST(CoarseGroundScene, CellsAreWholeTimesAsWideAndAboutAsManyAsAllowed) {
-  const auto cell_m = [](double mcells, double max_mcells) {
-    return with_coarse_ground(scene_of_files(), {mcells, 30.0}, max_mcells)
-        .scene.terrain.dem.cell_m;
-  };
-  EXPECT_EQ(cell_m(9.0, 1.0), 90.0);
-  EXPECT_EQ(cell_m(9.06, 1.0), 90.0) << "slightly more than allowed";
-  EXPECT_EQ(cell_m(10.0, 1.0), 120.0);
-  EXPECT_EQ(cell_m(9.0, 2.5), 60.0);
-}
-
-TEST(CoarseGroundScene, GroundThatIsSmallEnoughStays) {
-  EXPECT_EQ(with_coarse_ground(scene_of_files(), {1.0, 30.0}, 1.0).scene.terrain.dem.cell_m, 0.0);
-}
-
-TEST(CoarseGroundScene, HasNoWindowsOfFinerCells) {
-  LoadedScene loaded = scene_of_files();
-  loaded.scene.terrain.max_mcells = 5.0;
-  EXPECT_EQ(with_coarse_ground(loaded, {9.0, 30.0}, 1.0).scene.terrain.max_mcells, 0.0);
-}
-
 TEST(CoarseGroundScene, TheSizeOfTheGroundIsThatOfItsFiles) {
   const GroundSize synthetic = ground_size_of(test::small_scene());
   EXPECT_DOUBLE_EQ(synthetic.mcells, 0.0144);
@@ -65,14 +38,12 @@ TEST(CoarseGroundScene, TheSizeOfTheGroundIsThatOfItsFiles) {
             ErrorKind::input);
 }
 
-TEST(CoarseGroundScene, SyntheticTerrainKeepsItsCellsAndItsSizeIsThatOfItsGrid) {
+TEST(CoarseGroundScene, TheSizeOfSyntheticTerrainIsThatOfItsGrid) {
   const LoadedScene loaded = small_scene();
   const auto& made = *loaded.scene.terrain.synthetic;
   const GroundSize size = ground_size_of(loaded);
   EXPECT_DOUBLE_EQ(size.mcells, 1e-6 * made.width * made.height);
   EXPECT_EQ(size.cell_m, made.cell_m);
-  const LoadedScene coarse = with_coarse_ground(loaded, size, 1e-6);
-  EXPECT_EQ(write_scene(coarse.scene), write_scene(loaded.scene));
 }
 
 TEST(CoarseGroundScene, ADraftOfSmallGroundIsADraftAlone) {

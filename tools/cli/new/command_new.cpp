@@ -96,16 +96,17 @@ std::string as_json(const ViewSearch& search, const std::vector<Candidate>& prop
          "\n";
 }
 
-// One cell size for all drafts, so that land cover is computed once: two pixels at the nearest
-// lower edge, and no more cells than can be prepared in half a second. 0: those of the data.
-double draft_cell_m(const CoarseGround& ground, const std::vector<Candidate>& proposals,
+// Millions of cells of all drafts, so that land cover is computed once: two pixels wide at the
+// nearest lower edge, and no more than can be prepared in half a second. 0: those of the data.
+double draft_mcells(const CoarseGround& ground, const std::vector<Candidate>& proposals,
                     int width_px) {
   constexpr double pixels = 2.0, worth_it = 1.3, max_cells = 0.5e6;
   double min = 1e9;
   for (const Candidate& c : proposals)
     min = std::min(min, pixels * c.view.near_m * to_radians(c.view.field_of_view_deg) / width_px);
   min = std::max(min, ground.side_m / std::sqrt(max_cells));
-  return min > worth_it * ground.source_cell_m ? std::floor(min) : 0.0;
+  const double side = ground.side_m / min;
+  return min > worth_it * ground.source_cell_m ? 1e-6 * side * side : 0.0;
 }
 
 void note_limits(const CoarseGround& ground, const Massifs& massifs, Progress& progress) {
@@ -227,9 +228,9 @@ int make_new_scene(const NewOptions& options) {
     std::vector<std::string> captions;
     ContactSheetParameters look;
     if (format.picture.aspect > 4.0) look = {.width_px = 1200, .columns = 1};
-    const double cell_m = draft_cell_m(ground, proposals, look.width_px);
+    const double mcells = draft_mcells(ground, proposals, look.width_px);
     for (std::size_t i = 0; i < scenes.size(); ++i) {
-      drafts.push_back(make_small_draft(scenes[i], look.width_px, cell_m));
+      drafts.push_back(make_small_draft(scenes[i], look.width_px, mcells));
       const std::string gain =
           won(proposals[i]) > 0.0 ? fmt::format(", gained {:.1f}", won(proposals[i])) : "";
       captions.push_back(fmt::format("{}  merit {:.1f}{}  azimuth {:.0f}, {:.0f} km", i + 1,

@@ -12,6 +12,7 @@
 #include "renderer/scene/draft.h"
 #include "renderer/world/scene_dem.h"
 #include "renderer/world/valley_view.h"
+#include "terrain/io/http_access.h"
 #include "terrain/io/raster_io.h"
 #include "tools/cli/contact/picture_table.h"
 
@@ -24,16 +25,19 @@ std::string terrain_of(const LoadedScene& loaded) {
   return write_scene(terrain);
 }
 
-// Reads the shared ground of all drafts once, into a file: resampling data to the cells of drafts
-// takes longer than reading the result.
+// Data on a server are not in the cache: the shared ground of all drafts is read once, into a file.
 void share_ground(std::vector<LoadedScene>& drafts, const std::string& folder, const Cache& cache) {
+  const std::vector<SceneSource>& sources = drafts.front().scene.terrain.sources;
+  if (std::none_of(sources.begin(), sources.end(),
+                   [](const SceneSource& source) { return is_address(source.file); }))
+    return;
   const auto other = [&](const LoadedScene& draft) {
     return terrain_of(draft) != terrain_of(drafts.front());
   };
-  if (drafts.size() < 2 || drafts.front().scene.terrain.sources.empty() ||
-      std::any_of(drafts.begin(), drafts.end(), other))
-    return;
-  const Dem dem = make_scene_dem(drafts.front(), silent_progress(), cache);
+  if (drafts.size() < 2 || std::any_of(drafts.begin(), drafts.end(), other)) return;
+  LoadedScene whole = drafts.front();
+  whole.scene.terrain.preview_mcells = 0.0;
+  const Dem dem = make_scene_dem(whole, silent_progress(), cache);
   const std::string name = "ground_of_all_drafts.tif";
   write_raster((std::filesystem::path(folder) / name).string(),
                Raster<float>{known_altitude(dem), dem.transform, dem.crs});
@@ -49,7 +53,7 @@ void share_ground(std::vector<LoadedScene>& drafts, const std::string& folder, c
 
 }  // namespace
 
-LoadedScene make_small_draft(LoadedScene scene, int width_px, double cell_m) {
+LoadedScene make_small_draft(LoadedScene scene, int width_px, double mcells) {
   const int height_px = std::max(
       64, static_cast<int>(std::lround(static_cast<double>(width_px) * scene.scene.output.height /
                                        scene.scene.output.width)));
@@ -57,7 +61,7 @@ LoadedScene make_small_draft(LoadedScene scene, int width_px, double cell_m) {
   scene.scene.output.width = width_px;
   scene.scene.output.height = height_px;
   scene.scene.output.formats = {"png"};
-  scene.scene.terrain.dem.cell_m = std::max(scene.scene.terrain.dem.cell_m, cell_m);
+  scene.scene.terrain.preview_mcells = mcells;
   return scene;
 }
 

@@ -15,9 +15,9 @@ struct ContactSheetParameters {
   int columns = 2;     // of the sheet
 };
 
-// The scene as a small draft: few pixels, only strokes, ground in cells of `cell_m` (0: those of
-// the data).
-LoadedScene make_small_draft(LoadedScene scene, int width_px, double cell_m);
+// The scene as a small draft: few pixels, only strokes, ground of about `mcells` million cells (0:
+// all).
+LoadedScene make_small_draft(LoadedScene scene, int width_px, double mcells);
 
 // Renders each scene (drafts, as make_small_draft makes them) and writes the sheet as PNG; each
 // picture's name is below it.

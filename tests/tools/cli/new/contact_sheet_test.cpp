@@ -17,10 +17,10 @@ TEST(ContactSheet, DraftsAreSmallAndOfCoarserGround) {
   LoadedScene scene = test::small_scene();
   scene.scene.output.width = 2400;
   scene.scene.output.height = 1200;
-  const LoadedScene draft = make_small_draft(scene, 500, 90.0);
+  const LoadedScene draft = make_small_draft(scene, 500, 0.5);
   EXPECT_EQ(draft.scene.output.width, 500);
   EXPECT_EQ(draft.scene.output.height, 250);
-  EXPECT_EQ(draft.scene.terrain.dem.cell_m, 90.0);
+  EXPECT_EQ(draft.scene.terrain.preview_mcells, 0.5);
   EXPECT_FALSE(draft.scene.copies());
   EXPECT_EQ(draft.scene.output.formats, std::vector<std::string>{"png"});
 }
@@ -68,7 +68,7 @@ TEST(ContactSheet, SharedGroundIsTheGround) {
                     "height_m = 6000\nazimuth_deg = " +
                         azimuth + "\n[output]\nwidth = 480\nheight = 240\nsheet_width_mm = 480\n",
                     "hills.toml", folder.path(), {}),
-        96, 250.0);
+        96, 0.004);
   };
   write_contact_sheet(folder / "alone.png", {draft("0")}, {"1"}, {});
   write_contact_sheet(folder / "both.png", {draft("0"), draft("20")}, {"1", "2"}, {});
