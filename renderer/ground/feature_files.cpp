@@ -31,7 +31,9 @@ MapBox box_of(const Dem& dem) {
 }
 
 FeatureStyle read_scene_feature_style(const LoadedScene& loaded) {
-  return load_feature_style(find_named_file(loaded, "features", loaded.scene.features_style));
+  const std::string file = find_named_file(loaded, "features", loaded.scene.features_style);
+  return *loaded.kept->get<FeatureStyle>("feature style " + file, {file},
+                                         [&] { return load_feature_style(file); });
 }
 
 std::vector<FeatureSource> feature_sources(const LoadedScene& loaded) {

@@ -234,10 +234,21 @@ GroundMap read_ground_map(const LoadedScene& loaded, const Dem& dem, Progress& p
                           const Cache& cache) {
   if (!loaded.scene.any_features()) return {};
   const FeatureStyle style = read_scene_feature_style(loaded);
-  const PackedRows packed = cached<PackedRows>(
-      cache, [&] { return features_key(loaded, dem); }, progress,
-      [&](Progress& watcher) { return pack(read_ground_features(loaded, style, dem, watcher)); });
-  return sort_out(loaded, style, unpack(packed), box_of(dem), progress);
+  const MapBox box = box_of(dem);
+  Scene named;
+  named.features = loaded.scene.features;
+  named.features_style = loaded.scene.features_style;
+  const CacheKeyText key =
+      CacheKeyText().add("map", write_scene(named)).add("crs", dem.crs).add("low", box.low).add(
+          "high", box.high);
+  std::vector<std::string> files;
+  for (const FeatureSource& source : feature_sources(loaded)) files.push_back(source.file.path);
+  return *loaded.kept->get<GroundMap>(key.str(), files, [&] {
+    const PackedRows packed = cached<PackedRows>(
+        cache, [&] { return features_key(loaded, dem); }, progress,
+        [&](Progress& watcher) { return pack(read_ground_features(loaded, style, dem, watcher)); });
+    return sort_out(loaded, style, unpack(packed), box, progress);
+  });
 }
 
 void level_scene_lakes(Dem& dem, const LoadedScene& loaded, Progress& progress, const Cache& cache,
@@ -351,6 +362,14 @@ void lay_ground_map(LandCover& cover, const LoadedScene& loaded, const Dem& dem,
     }
   }
   lay_inferred_rivers(cover, loaded, dem, seen);
+}
+
+std::shared_ptr<const MapCover> areas_of_map(const LoadedScene& loaded, const Dem& dem,
+                                             const Cache& cache) {
+  const GroundMap map = read_ground_map(loaded, dem, silent_progress(), cache);
+  if (map.areas.empty()) return nullptr;
+  const MapBox box = box_of(dem);
+  return std::make_shared<const MapCover>(map.areas, std::vector<CoverRiver>(), box.low, box.high);
 }
 
 void lay_inferred_rivers(LandCover& cover, const LoadedScene& loaded, const Dem& dem,

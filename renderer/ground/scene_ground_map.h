@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -45,6 +46,10 @@ void level_scene_lakes(Dem& dem, const LoadedScene& loaded, Progress& progress,
 void lay_ground_map(LandCover& cover, const LoadedScene& loaded, const Dem& dem, Progress& progress,
                     const Cache& cache = no_cache(), Catchments* catchments = nullptr,
                     const SeenFrom* seen = nullptr);
+
+// The areas alone, lakes among them; null where the map has none.
+std::shared_ptr<const MapCover> areas_of_map(const LoadedScene& loaded, const Dem& dem,
+                                             const Cache& cache = no_cache());
 
 // Only the last of these: rivers inferred by rules, in the scene's style.
 void lay_inferred_rivers(LandCover& cover, const LoadedScene& loaded, const Dem& dem,

@@ -17,12 +17,12 @@ namespace {
 
 // Nothing where the scene names nothing, or all its files are optional and missing.
 std::shared_ptr<const SheetPainter> names_of(const LoadedScene& loaded,
-                                             const Grid<float>& luminance, const Run& run) {
+                                             const Grid<float>& luminance,
+                                             const LazyValue<BareView>& bare, const Run& run) {
   if (!loaded.scene.labels.any()) return nullptr;
   const LabelJob job = label_job(loaded, run.progress);
   if (job.empty()) return nullptr;
-  const BareView bare = make_bare_view(loaded, run.progress, run.cache);
-  LabelSheet sheet = make_label_sheet(loaded, job, bare, run.progress);
+  LabelSheet sheet = make_label_sheet(loaded, job, bare.get(), run.progress);
   if (luminance.size() > 0) choose_inks(sheet, luminance);
   return std::make_shared<SheetPainter>(label_drawing(sheet));
 }
@@ -54,8 +54,8 @@ Grid<LayerPixel> paint_alone(const SheetPainter& painter, const PaintedRows& pai
 
 void write_layer_files(const LoadedScene& loaded, const SheetRequest& request,
                        const JoinedPieces& joined, const PaintedRows& painted,
-                       const Grid<float>& luminance, const std::string& out_folder,
-                       const Run& run) {
+                       const Grid<float>& luminance, const LazyValue<BareView>& bare,
+                       const std::string& out_folder, const Run& run) {
   if (request.layers.empty()) return;
   const Scene& scene = loaded.scene;
   const PixelRect region = joined.region;
@@ -79,7 +79,7 @@ void write_layer_files(const LoadedScene& loaded, const SheetRequest& request,
            return make_layer(layer, plane, rows_of(layer_plane_names()[about_plane], y0, y1));
          }});
   }
-  if (const std::shared_ptr<const SheetPainter> painter = names_of(loaded, luminance, run)) {
+  if (const std::shared_ptr<const SheetPainter> painter = names_of(loaded, luminance, bare, run)) {
     sheet.layers.push_back({"names", "Names", true, [painter, region, painted](int y0, int y1) {
                               return paint_alone(
                                   *painter, painted,

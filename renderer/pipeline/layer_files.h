@@ -7,6 +7,8 @@
 #include "renderer/pipeline/sheet_pieces.h"
 #include "renderer/scene/scene_file.h"
 #include "renderer/sheet/joined_pieces.h"
+#include "renderer/world/lazy_value.h"
+#include "renderer/world/valley_view.h"
 
 namespace belvedere {
 
@@ -16,6 +18,7 @@ namespace belvedere {
 // region_with_halos; `luminance`: of PictureLegend.
 void write_layer_files(const LoadedScene& loaded, const SheetRequest& request,
                        const JoinedPieces& joined, const PaintedRows& painted,
-                       const Grid<float>& luminance, const std::string& out_folder, const Run& run);
+                       const Grid<float>& luminance, const LazyValue<BareView>& bare,
+                       const std::string& out_folder, const Run& run);
 
 }  // namespace belvedere

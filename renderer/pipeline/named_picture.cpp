@@ -127,12 +127,13 @@ PixelRect region_with_halos(const LoadedScene& loaded, const SheetRequest& reque
 
 void write_named_picture(const LoadedScene& loaded, PixelRect region, const PaintedRows& painted,
                          const PictureLegend& legend, const OutputColour& colour,
-                         const FileNotes& notes, const std::string& out_folder, const Run& run) {
+                         const FileNotes& notes, const LazyValue<BareView>& lazy_bare,
+                         const std::string& out_folder, const Run& run) {
   const Scene& scene = loaded.scene;
   const bool whole = region == PixelRect{0, 0, scene.output.width, scene.output.height};
   const std::string stem = second_picture(scene, whole);
   if (!scene.labels.any() && stem.empty()) return;
-  const BareView bare = make_bare_view(loaded, run.progress, run.cache);
+  const BareView& bare = lazy_bare.get();
   const LabelJob job = label_job(loaded, run.progress);
   LabelSheet sheet;
   if (!job.empty()) {
@@ -140,7 +141,7 @@ void write_named_picture(const LoadedScene& loaded, PixelRect region, const Pain
     if (legend.luminance.size() > 0) choose_inks(sheet, legend.luminance);
     const std::vector<std::string>& formats = scene.output.formats;
     const bool has_png = std::find(formats.begin(), formats.end(), "png") != formats.end();
-    write_label_files(sheet, bare.dem.crs, out_folder, has_png && whole ? "panorama.png" : "",
+    write_label_files(sheet, bare.dem->crs, out_folder, has_png && whole ? "panorama.png" : "",
                       run.progress);
   } else {
     sheet = empty_label_sheet(load_label_style(job.style), bare.camera->size(),

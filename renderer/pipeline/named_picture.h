@@ -12,6 +12,8 @@
 #include "renderer/pipeline/output_colour.h"
 #include "renderer/pipeline/sheet_pieces.h"
 #include "renderer/scene/scene_file.h"
+#include "renderer/world/lazy_value.h"
+#include "renderer/world/valley_view.h"
 
 namespace belvedere {
 
@@ -58,6 +60,7 @@ glm::dvec2 legend_swatch_px(const LoadedScene& loaded);
 // them. `painted`: of region_with_halos.
 void write_named_picture(const LoadedScene& loaded, PixelRect region, const PaintedRows& painted,
                          const PictureLegend& legend, const OutputColour& colour,
-                         const FileNotes& notes, const std::string& out_folder, const Run& run);
+                         const FileNotes& notes, const LazyValue<BareView>& lazy_bare,
+                         const std::string& out_folder, const Run& run);
 
 }  // namespace belvedere

@@ -3,7 +3,9 @@
 #include <fmt/core.h>
 
 #include <filesystem>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -89,8 +91,8 @@ void render(const LoadedScene& loaded, const std::string& out_folder, const Run&
         "the pieces of an interrupted run are discarded; --resume would have continued from them");
   WorkFolder work(work_folder_of(out_folder), identify(loaded, request),
                   request.resume ? WorkMode::resume : WorkMode::begin);
-  make_pieces(loaded, request, pieces, work, run);
-  write_sheet_files(loaded, request, work, out_folder, run);
+  std::optional<BareView> seen = make_pieces(loaded, request, pieces, work, run);
+  write_sheet_files(loaded, request, work, out_folder, run, {}, std::move(seen));
   work.clear();
 }
 

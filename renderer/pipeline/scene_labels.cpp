@@ -10,6 +10,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/cache/cache_key.h"
 #include "base/error.h"
 #include "base/files/output_file.h"
 #include "renderer/image/image_io.h"
@@ -101,6 +102,11 @@ void require_points_on_terrain(const std::vector<LabelPoint>& points, const Dem&
     require_on_terrain(points.front().where, "points", points.size(), positions, dem);
 }
 
+LabelStyle label_style_of(const LoadedScene& scene, const LabelJob& job) {
+  return *scene.kept->get<LabelStyle>("label style " + job.style, {job.style},
+                                      [&] { return load_label_style(job.style); });
+}
+
 NamesRead read_names(const LabelJob& job, const LabelStyle& style, const Dem& dem,
                      Progress& progress) {
   NamesRead names;
@@ -123,6 +129,25 @@ NamesRead read_names(const LabelJob& job, const LabelStyle& style, const Dem& de
   if (!names.ways.empty())
     require_on_terrain(names.ways.front().where, "ways", names.ways.size(), positions, dem);
   return names;
+}
+
+// The same, read once for a coordinate system.
+NamesRead names_of(const LoadedScene& scene, const LabelJob& job, const LabelStyle& style,
+                   const Dem& dem, Progress& progress) {
+  CacheKeyText key;
+  key.add("names in", dem.crs).add("style", job.style);
+  key.add("low", dem.transform.to_crs(0, 0)).add("high", dem.transform.to_crs(dem.width(), dem.height()));
+  std::vector<std::string> files;
+  for (const std::vector<VectorSource>* kind : {&job.points, &job.shapes, &job.tracks}) {
+    key.add("files", static_cast<std::uint64_t>(kind->size()));
+    for (const VectorSource& file : *kind) {
+      const auto& [path, crs, encoding] = file;
+      key.add("file", path).add("crs", crs).add("encoding", encoding);
+      files.push_back(path);
+    }
+  }
+  return *scene.kept->get<NamesRead>(key.str(), files,
+                                     [&] { return read_names(job, style, dem, progress); });
 }
 
 std::vector<VectorSource> sources_of(const LoadedScene& scene,
@@ -170,22 +195,22 @@ LabelJob label_job(const LoadedScene& scene, Progress& progress) {
 
 void check_names(const LoadedScene& scene, const Dem& dem) {
   const LabelJob job = label_job(scene, silent_progress());
-  const LabelStyle style = load_label_style(job.style);
-  read_names(job, style, dem, silent_progress());
+  const LabelStyle style = label_style_of(scene, job);
+  names_of(scene, job, style, dem, silent_progress());
   if (!job.empty() || scene.scene.margin) require_fonts(style);
 }
 
 LabelSheet make_label_sheet(const LoadedScene& scene, const LabelJob& job, const BareView& bare,
                             Progress& progress) {
-  const LabelStyle style = load_label_style(job.style);
-  auto [points, shapes, lines] = read_names(job, style, bare.dem, progress);
+  const LabelStyle style = label_style_of(scene, job);
+  auto [points, shapes, lines] = names_of(scene, job, style, *bare.dem, progress);
   const std::size_t named = points.size();
   if (job.summits > 0) {
     progress.begin("looking for summits", 0.0);
     const std::vector<Summit> summits =
-        find_summits(known_altitude(bare.dem), {.min_prominence_m = job.min_prominence_m});
+        find_summits(known_altitude(*bare.dem), {.min_prominence_m = job.min_prominence_m});
     const std::vector<LabelPoint> unnamed =
-        unnamed_summits(summits, bare.dem.transform, bare.dem.cell_m(), points, style);
+        unnamed_summits(summits, bare.dem->transform, bare.dem->cell_m(), points, style);
     points.insert(points.end(), unnamed.begin(), unnamed.end());
   }
   if (points.empty() && lines.empty() && shapes.empty())
@@ -194,8 +219,8 @@ LabelSheet make_label_sheet(const LoadedScene& scene, const LabelJob& job, const
 
   progress.begin("finding positions", 0.0);
   const GeoMap map = bare.geo_map();
-  const DrawnGround ground{bare.dem.altitude_m, bare.generalized_m, bare.dem.transform,
-                           bare.dem.cell_m(), map};
+  const DrawnGround ground{bare.dem->altitude_m, *bare.generalized_m, bare.dem->transform,
+                           bare.dem->cell_m(), map};
   std::vector<LabelMark> marks = find_marks(ground, points, style);
   // The most prominent visible summits of the DEM; named ones are all listed.
   std::size_t kept = named;
@@ -233,11 +258,11 @@ LabelSheet locate_points(const std::vector<std::string>& files, const BareView& 
   std::vector<LabelPoint> points;
   for (const std::string& file : files)
     append(points,
-           read_label_points(file, bare.dem.crs, sheet.style, progress, NamesAre::optional));
-  require_points_on_terrain(points, bare.dem);
+           read_label_points(file, bare.dem->crs, sheet.style, progress, NamesAre::optional));
+  require_points_on_terrain(points, *bare.dem);
   const GeoMap map = bare.geo_map();
-  const DrawnGround ground{bare.dem.altitude_m, bare.generalized_m, bare.dem.transform,
-                           bare.dem.cell_m(), map};
+  const DrawnGround ground{bare.dem->altitude_m, *bare.generalized_m, bare.dem->transform,
+                           bare.dem->cell_m(), map};
   const std::vector<LabelMark> marks = find_marks(ground, points, sheet.style);
   for (std::size_t i = 0; i < points.size(); ++i) {
     Label& label = sheet.labels.emplace_back();

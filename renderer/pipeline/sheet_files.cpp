@@ -18,6 +18,7 @@
 #include "renderer/pipeline/sheet_job.h"
 #include "renderer/sheet/guidance_pack.h"
 #include "renderer/sheet/joined_pieces.h"
+#include "renderer/world/lazy_value.h"
 
 namespace belvedere {
 namespace {
@@ -138,7 +139,7 @@ std::optional<MatchWriter> write_match_file(const SheetRequest& request, const J
 
 void write_sheet_files(const LoadedScene& loaded, const SheetRequest& request,
                        const WorkFolder& work, const std::string& out_folder, const Run& run,
-                       const PlanOfParts& plan) {
+                       const PlanOfParts& plan, std::optional<BareView> seen) {
   const Scene& scene = loaded.scene;
   const PixelRect region = region_of(scene, request);
   const PixelRect made = region_with_halos(loaded, request);
@@ -192,11 +193,14 @@ void write_sheet_files(const LoadedScene& loaded, const SheetRequest& request,
                               around.read("panorama", y0, y1, {plane_of(rows)});
                               return rows;
                             }};
-  write_layer_files(loaded, request, joined, painted, legend.luminance, out_folder, run);
+  const LazyValue<BareView> bare([&] {
+    return seen ? std::move(*seen) : make_bare_view(loaded, run.progress, run.cache);
+  });
+  write_layer_files(loaded, request, joined, painted, legend.luminance, bare, out_folder, run);
   if (const std::optional<InkCoverage> ink = panorama.ink())
     run.progress.note(ink_note("panorama.tif", *ink));
   commit();
-  write_named_picture(loaded, region, painted, legend, colour, file_notes, out_folder, run);
+  write_named_picture(loaded, region, painted, legend, colour, file_notes, bare, out_folder, run);
 }
 
 }  // namespace belvedere

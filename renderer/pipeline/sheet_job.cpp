@@ -111,12 +111,13 @@ Grid<glm::vec3> paint_in_blocks(Stage<SheetPicture>& picture, PixelRect piece, i
 
 }  // namespace
 
-void make_pieces(const LoadedScene& loaded, const SheetRequest& request,
-                 std::span<const PixelRect> pieces, const WorkFolder& work, const Run& run) {
+std::optional<BareView> make_pieces(const LoadedScene& loaded, const SheetRequest& request,
+                                    std::span<const PixelRect> pieces, const WorkFolder& work,
+                                    const Run& run) {
   std::vector<PixelRect> missing;
   std::copy_if(pieces.begin(), pieces.end(), std::back_inserter(missing),
                [&](const PixelRect& piece) { return !is_made(work, request, piece); });
-  if (missing.empty() && work.has_bytes(notes_bytes)) return;
+  if (missing.empty() && work.has_bytes(notes_bytes)) return std::nullopt;
 
   const bool few = pieces.size() <= 4;
   RepeatedStages progress(run.progress, few);
@@ -179,6 +180,9 @@ void make_pieces(const LoadedScene& loaded, const SheetRequest& request,
     if (!few) run.progress.advance(1.0);
   }
   writer.finish();
+  const bool names = request.panorama && (loaded.scene.labels.any() || loaded.scene.margin);
+  if (!names || !sheet.world.terrain.windows.empty()) return std::nullopt;
+  return bare_view_of(sheet.world);
 }
 
 void make_plan(const LoadedScene& loaded, const SheetRequest& request, const WorkFolder& work,

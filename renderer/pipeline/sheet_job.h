@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 
@@ -7,12 +8,14 @@
 #include "renderer/pipeline/sheet_pieces.h"
 #include "renderer/scene/scene_file.h"
 #include "renderer/sheet/work_folder.h"
+#include "renderer/world/valley_view.h"
 
 namespace belvedere {
 
 // Makes those pieces that are not in the work folder yet, and the notes of the headers. Makes the
-// world only if a piece is missing.
-void make_pieces(const LoadedScene& loaded, const SheetRequest& request,
+// world only if a piece is missing; what of it names need comes back, if the picture has names or a
+// margin and its ground no finer windows.
+std::optional<BareView> make_pieces(const LoadedScene& loaded, const SheetRequest& request,
                  std::span<const PixelRect> pieces, const WorkFolder& work, const Run& run);
 // Shared values of all pieces, so that others can make them: notes, and how the ground is copied.
 void make_plan(const LoadedScene& loaded, const SheetRequest& request, const WorkFolder& work,
@@ -33,9 +36,9 @@ struct PlanOfParts {
   int parts = 0;  // 0: no plan
 };
 // Joins the pieces of a request to its files in `out_folder`, row by row. Error(input) naming the
-// pieces that are missing.
+// pieces that are missing. seen: of the pieces' world, if it is known.
 void write_sheet_files(const LoadedScene& loaded, const SheetRequest& request,
                        const WorkFolder& work, const std::string& out_folder, const Run& run,
-                       const PlanOfParts& plan = {});
+                       const PlanOfParts& plan = {}, std::optional<BareView> seen = {});
 
 }  // namespace belvedere

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
+#include "renderer/scene/kept_files.h"
 #include "renderer/scene/scene.h"
 
 namespace belvedere {
@@ -21,6 +23,7 @@ struct LoadedScene {
   std::vector<std::string> notes;            // keys that were read under a former name
   std::vector<std::string> allowed_folders;  // the scene's folder first, then the --data folders,
                                              // in their order; some may not exist
+  std::shared_ptr<KeptFiles> kept = std::make_shared<KeptFiles>();  // what was read of its files
 };
 
 // TOML to Scene, strict. Error(usage) for an unknown key, a wrong type, a value out of range, keys

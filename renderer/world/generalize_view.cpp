@@ -110,13 +110,13 @@ Grid<unsigned char> level_water(const Dem& dem, const SeaParameters& sea,
 }
 
 // Cells of a map's lakes whose neighbours are at the same altitude.
-Grid<std::uint8_t> lakes_of_map(const Dem& dem, const LandCover* land_cover) {
-  if (land_cover == nullptr || land_cover->map == nullptr) return {};
+Grid<std::uint8_t> lakes_of_map(const Dem& dem, const MapCover* areas) {
+  if (areas == nullptr) return {};
   const Grid<float>& z = dem.altitude_m;
   Grid<std::uint8_t> lakes(z.width(), z.height(), 0);
   parallel_rows(z.height(), [&](int y) {
     for (int x = 0; x < z.width(); ++x) {
-      if (!land_cover->map->is_still(dem.transform.to_crs(x, y))) continue;
+      if (!areas->is_still(dem.transform.to_crs(x, y))) continue;
       int level = 0;
       for (const glm::ivec2 step :
            {glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1), glm::ivec2(0, -1)})
@@ -260,10 +260,10 @@ Grid<std::uint8_t> any_below(const Grid<std::uint8_t>& marked, int level) {
 }  // namespace
 
 GroundMasks preview_masks(const LoadedScene& loaded, const Dem& data, int level,
-                          const LandCover* land_cover, Progress& progress) {
+                          const MapCover* areas, Progress& progress) {
   GroundMasks masks =
       find_masks(loaded.scene.generalize, scene_sea(loaded.scene.land_cover), data,
-                 mask_of_ground(loaded, data, progress), lakes_of_map(data, land_cover), progress);
+                 mask_of_ground(loaded, data, progress), lakes_of_map(data, areas), progress);
   const Grid<float>& z = masks.along_lines_m.empty() ? data.altitude_m : masks.along_lines_m;
   masks.crests_m = crests_of_data(z, level);
   masks.finer_m = finer_bands(z, level);
@@ -292,8 +292,11 @@ GroundMasks preview_masks(const LoadedScene& loaded, const Dem& data, int level,
 GeneralizedTerrain generalize_for_view(const LoadedScene& loaded, const Dem& dem,
                                        const LandCover* land_cover, const View& view,
                                        Progress& progress, const Cache& cache,
-                                       const SeaParameters* given_sea, const GroundMasks* masks) {
-  const SeaParameters sea = given_sea != nullptr ? *given_sea : scene_sea(loaded.scene.land_cover);
+                                       const GroundGiven& given) {
+  const SeaParameters sea =
+      given.sea != nullptr ? *given.sea : scene_sea(loaded.scene.land_cover);
+  const GroundMasks* masks = given.masks;
+  const MapCover* areas = land_cover != nullptr ? land_cover->map.get() : given.areas;
   const SceneGeneralize& settings = loaded.scene.generalize;
   ViewOfGround seen{
       .mask = mask_for_scene(masks != nullptr ? masks->mask : mask_of_ground(loaded, dem, progress),
@@ -301,7 +304,7 @@ GeneralizedTerrain generalize_for_view(const LoadedScene& loaded, const Dem& dem
       .pixel_ground = {},
       .viewer_xy = view.viewer_xy,
       .distances = view.generalize,
-      .map_lakes = masks != nullptr ? Grid<std::uint8_t>() : lakes_of_map(dem, land_cover)};
+      .map_lakes = masks != nullptr ? Grid<std::uint8_t>() : lakes_of_map(dem, areas)};
   if (settings.print_detail_px > 0.0) seen.pixel_ground = ground_m_per_pixel(dem, view);
   return cached<GeneralizedTerrain>(
       cache, [&] { return ground_key(loaded, dem, sea, seen, masks != nullptr); }, progress,

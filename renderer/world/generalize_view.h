@@ -26,9 +26,16 @@ struct GroundMasks {
   std::vector<Grid<float>> finer_m;  // GeneralizeGrids::finer_m, of previews
 };                                   // each is empty where the scene has none
 // Those of a preview: made of the data, because their openings and dilations count cells, and then
-// brought to the level of the preview. `land_cover` may be null.
+// brought to the level of the preview. `areas`: of the map, may be null.
 GroundMasks preview_masks(const LoadedScene& loaded, const Dem& data, int level,
-                          const LandCover* land_cover, Progress& progress);
+                          const MapCover* areas, Progress& progress);
+
+// What generalize_for_view need not find itself; null: it does.
+struct GroundGiven {
+  const SeaParameters* sea = nullptr;  // of a window of a larger DEM, its own
+  const GroundMasks* masks = nullptr;  // of a preview
+  const MapCover* areas = nullptr;     // of the map, whose lakes keep their level, without cover
+};
 
 struct GeneralizedTerrain {
   Grid<float> altitude_m;
@@ -39,13 +46,11 @@ struct GeneralizedTerrain {
 // A DEM generalized as the scene requests for one view: by the distance from the viewer, by the
 // print's detail, and by masks. `land_cover` is used if the scene masks by class; null: it is then
 // made. Its cells are the DEM's. The cache keeps it: of the view it depends on the viewer's
-// position, and on the camera only if the print's detail is limited. `sea`: of a window of a larger
-// DEM, its own. `masks`: of a preview.
+// position, and on the camera only if the print's detail is limited.
 GeneralizedTerrain generalize_for_view(const LoadedScene& loaded, const Dem& dem,
                                        const LandCover* land_cover, const View& view,
                                        Progress& progress, const Cache& cache = no_cache(),
-                                       const SeaParameters* sea = nullptr,
-                                       const GroundMasks* masks = nullptr);
+                                       const GroundGiven& given = {});
 
 // Maximum pixels per metre of ground at `place`, from differences over ±step_m; 0 behind the
 // viewer.

@@ -190,7 +190,7 @@ TerrainModel make_window(const TerrainModel& whole, const Nested& nested, const 
       make_window_cover(making.loaded, window_ground, known, quiet, making.cache);
   seen = std::move(seen_here);
   GeneralizedTerrain ground = generalize_for_view(making.loaded, *halo, &cover, making.view, quiet,
-                                                  making.cache, &window_ground.sea);
+                                                  making.cache, {.sea = &window_ground.sea});
   TerrainModel model = make_terrain_model(halo, std::move(ground.altitude_m),
                                           std::make_shared<const LandCover>(cover),
                                           whole.exaggeration, window_ground.catchments.get());

@@ -116,7 +116,9 @@ CacheKey rule_cover_key(const LoadedScene& loaded, const ClassRules& rules,
 }
 
 ClassRules read_scene_rules(const LoadedScene& loaded) {
-  return read_class_rules(find_named_file(loaded, "layers", loaded.scene.land_cover.rules));
+  const std::string file = find_named_file(loaded, "layers", loaded.scene.land_cover.rules);
+  return *loaded.kept->get<ClassRules>("rules " + file, {file},
+                                       [&] { return read_class_rules(file); });
 }
 
 bool takes_climate(const LoadedScene& loaded, const ClassRules& rules, const Dem& dem) {
@@ -326,8 +328,9 @@ CacheKey layer_cover_key(const LoadedScene& loaded, const SurfaceLayers& layers,
 }
 
 SurfaceLayers read_scene_layers(const LoadedScene& loaded) {
-  SurfaceLayers layers =
-      read_surface_layers(find_scene_file(loaded, loaded.scene.land_cover.layers));
+  const std::string file = find_scene_file(loaded, loaded.scene.land_cover.layers);
+  SurfaceLayers layers = *loaded.kept->get<SurfaceLayers>(
+      "layers " + file, {file}, [&] { return read_surface_layers(file); });
   set_layer_parameters(layers, loaded.scene.land_cover.settings);
   return layers;
 }

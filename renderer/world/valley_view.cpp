@@ -10,9 +10,12 @@
 #include "base/angle.h"
 #include "base/error.h"
 #include "base/math_exact.h"
+#include "renderer/ground/scene_ground_map.h"
 #include "renderer/trace/camera.h"
 #include "renderer/world/generalize_view.h"
 #include "renderer/world/scene_dem.h"
+#include "renderer/world/world.h"
+#include "terrain/cover/map_cover.h"
 
 namespace belvedere {
 namespace {
@@ -56,21 +59,37 @@ std::optional<SightLine> shown(const Camera& camera, double azimuth_deg) {
 
 }  // namespace
 
+BareView bare_view_of(const World& world) {
+  const std::shared_ptr<const TerrainModel>& terrain = world.ground.terrain;
+  return {world.view,
+          world.dem,
+          {terrain, &terrain->generalized_m},
+          {terrain, &terrain->goes_to},
+          world.deformation,
+          world.ground.surface,
+          make_camera(world.view.camera),
+          world.ground.tracer};
+}
+
 BareView make_bare_view(const LoadedScene& loaded, Progress& progress, const Cache& cache) {
   BareView bare;
   SceneDem opened = open_scene_dem(loaded, progress, cache);
   bare.view =
       make_view(loaded.scene, opened.dem, progress, ground_altitude_of(opened), &opened.region);
-  bare.dem = std::move(opened.dem);
+  const auto dem = std::make_shared<const Dem>(std::move(opened.dem));
+  bare.dem = dem;
+  bare.camera = make_camera(bare.view.camera);
+  // Lakes of the map keep their level, as in the picture.
+  const std::shared_ptr<const MapCover> areas = areas_of_map(loaded, *dem, cache);
   std::optional<GroundMasks> masks;
   if (opened.data)
-    masks = preview_masks(loaded, *opened.data, bare.dem.halved - opened.data->halved, nullptr,
+    masks = preview_masks(loaded, *opened.data, dem->halved - opened.data->halved, areas.get(),
                           progress);
-  bare.camera = make_camera(bare.view.camera);
-  GeneralizedTerrain generalized = generalize_for_view(
-      loaded, bare.dem, nullptr, bare.view, progress, cache, nullptr, masks ? &*masks : nullptr);
-  bare.generalized_m = std::move(generalized.altitude_m);
-  bare.goes_to = std::move(generalized.goes_to);
+  GeneralizedTerrain generalized =
+      generalize_for_view(loaded, *dem, nullptr, bare.view, progress, cache,
+                          {.masks = masks ? &*masks : nullptr, .areas = areas.get()});
+  bare.generalized_m = std::make_shared<const Grid<float>>(std::move(generalized.altitude_m));
+  bare.goes_to = std::make_shared<const Grid<glm::vec2>>(std::move(generalized.goes_to));
   bend_again(bare, bare.view.deform.bend);
   return bare;
 }
@@ -79,10 +98,10 @@ void bend_again(BareView& bare, const BendCurve& bend) {
   bare.view.deform.bend = bend;
   bare.deformation = Deformation(bare.view.deform, bare.view.viewer_xy);
   bare.tracer.reset();
-  bare.surface = std::make_unique<DeformedSurface>(deform(bare.generalized_m, bare.dem.transform,
-                                                          glm::dvec3(bare.view.viewer_xy, 0.0),
-                                                          bare.deformation));
-  bare.tracer = std::make_unique<Tracer>(*bare.surface);
+  bare.surface = std::make_shared<const DeformedSurface>(
+      deform(*bare.generalized_m, bare.dem->transform, glm::dvec3(bare.view.viewer_xy, 0.0),
+             bare.deformation));
+  bare.tracer = std::make_shared<const Tracer>(*bare.surface);
 }
 
 std::vector<SightLine> sight_lines(const CameraParameters& parameters, int count) {
@@ -126,7 +145,7 @@ Grid<float> known_altitude(const Dem& dem) {
 }
 
 ValleySight make_valley_sight(const BareView& bare) {
-  return {known_altitude(bare.dem), bare.dem.transform, bare.deformation, bare.view.camera.eye.z,
+  return {known_altitude(*bare.dem), bare.dem->transform, bare.deformation, bare.view.camera.eye.z,
           sight_lines(bare.view.camera, sight_line_count)};
 }
 

@@ -14,22 +14,26 @@
 
 namespace belvedere {
 
+struct World;
+
 // A scene's ground and view without colour, light and land cover: enough to locate things, and
 // ready in seconds.
 struct BareView {
   View view;
-  Dem dem;
-  Grid<float> generalized_m;
-  Grid<glm::vec2> goes_to;  // as GeneralizedTerrain has it
+  std::shared_ptr<const Dem> dem;
+  std::shared_ptr<const Grid<float>> generalized_m;
+  std::shared_ptr<const Grid<glm::vec2>> goes_to;  // as GeneralizedTerrain has it
   Deformation deformation;
-  std::unique_ptr<DeformedSurface> surface;  // keeps its address: the tracer reads it
-  std::unique_ptr<Camera> camera;
-  std::unique_ptr<Tracer> tracer;
+  std::shared_ptr<const DeformedSurface> surface;  // keeps its address: the tracer reads it
+  std::unique_ptr<const Camera> camera;
+  std::shared_ptr<const Tracer> tracer;
 
   GeoMap geo_map() const {
-    return {dem.altitude_m, goes_to, dem.transform, deformation, *surface, *camera, *tracer};
+    return {dem->altitude_m, *goes_to, dem->transform, deformation, *surface, *camera, *tracer};
   }
 };
+// Of a world whose ground has no finer windows; it may be gone afterwards.
+BareView bare_view_of(const World& world);
 BareView make_bare_view(const LoadedScene& loaded, Progress& progress,
                         const Cache& cache = no_cache());
 // The same ground under another bend.

@@ -133,11 +133,11 @@ World make_world(const LoadedScene& loaded, Progress& progress, const Cache& cac
     if (opened->data)
       masks = keep_or_make(slot(&KeptWorld::masks), of_surroundings + masks_key(loaded), [&] {
         return preview_masks(loaded, *opened->data, dem->halved - opened->data->halved,
-                             land_cover.get(), progress);
+                             land_cover->map.get(), progress);
       });
     if (kept == nullptr) opened->data.reset();
     GeneralizedTerrain generalized = generalize_for_view(loaded, *dem, land_cover.get(), view,
-                                                         progress, cache, nullptr, masks.get());
+                                                         progress, cache, {.masks = masks.get()});
     masks.reset();
     const std::shared_ptr<GroundSurroundings> surroundings =
         keep_or_make(slot(&KeptWorld::surroundings), of_surroundings, [&] {

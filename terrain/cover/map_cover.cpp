@@ -229,7 +229,7 @@ glm::dvec2 MapCover::position_of(int column, int row) const {
   return low_ + box_m_ * glm::dvec2(column + sample_offset, row + sample_offset);
 }
 
-std::int32_t MapCover::find(glm::dvec2 position) const {
+std::int32_t MapCover::find(glm::dvec2 position, bool areas_alone) const {
   const double x = (position.x - low_.x) / box_m_;
   const double y = (position.y - low_.y) / box_m_;
   if (!(x >= 0.0 && y >= 0.0 && position.x < high_.x && position.y < high_.y)) return none;
@@ -243,6 +243,10 @@ std::int32_t MapCover::find(glm::dvec2 position) const {
     const std::uint32_t shape = pieces_[i - 1].shape;
     const bool is_river_line = shapes_[shape].is_river_line;
     bool inside = false;
+    if (is_river_line && areas_alone) {
+      while (i > first_[box] && pieces_[i - 1].shape == shape) --i;
+      continue;
+    }
     for (; i > first_[box] && pieces_[i - 1].shape == shape; --i) {
       const std::uint32_t number = pieces_[i - 1].edge;
       if (number == own_position) {
@@ -266,7 +270,7 @@ LandCoverClass MapCover::at(glm::dvec2 position) const {
 }
 
 bool MapCover::is_still(glm::dvec2 position) const {
-  const std::int32_t shape = find(position);
+  const std::int32_t shape = find(position, true);
   return shape != none && shapes_[static_cast<std::size_t>(shape)].still;
 }
 

@@ -37,7 +37,8 @@ class MapCover {
 
   // The class on top; sky where the map has nothing.
   LandCoverClass at(glm::dvec2 position) const;
-  // Whether the topmost shape there is a lake.
+  // Whether the topmost area there is a lake; rivers, whose width may depend on the view, do not
+  // count.
   bool is_still(glm::dvec2 position) const;
   // The shapes as given.
   const std::vector<CoverRiver>& centrelines() const { return centrelines_; }
@@ -64,7 +65,7 @@ class MapCover {
   static constexpr std::uint32_t own_position = 0xFFFFFFFFU;
   static constexpr std::int32_t none = -1;
 
-  std::int32_t find(glm::dvec2 position) const;
+  std::int32_t find(glm::dvec2 position, bool areas_alone = false) const;
   glm::dvec2 position_of(int column, int row) const;
 
   std::vector<CoverRiver> centrelines_;

@@ -44,9 +44,8 @@ CrestTerms find_crests(std::vector<Grid<float>> levels, int first) {  // the fin
   return crests;
 }
 
-// What the crest adds at strength 1.
-float sharpening_m(float detail_m, float ground_m) {
-  return unit((ground_m - 1200.F) / 700.F) * std::clamp(detail_m, 0.F, 60.F);
+float sharpening_m(float strength, float detail_m, float ground_m) {
+  return strength * unit((ground_m - 1200.F) / 700.F) * std::clamp(detail_m, 0.F, 60.F);
 }
 
 }  // namespace
@@ -60,7 +59,7 @@ Grid<float> crests_of_data(const Grid<float>& altitude_m, int halvings) {
   const CrestTerms crests = find_crests(std::move(levels), 1);
   Grid<float> out(crests.ground_m.width(), crests.ground_m.height());
   for (std::size_t i = 0; i < crests.detail_m.size(); ++i)
-    out[i] = sharpening_m(crests.detail_m[i], crests.ground_m[i]);
+    out[i] = sharpening_m(1.F, crests.detail_m[i], crests.ground_m[i]);
   for (int i = 1; i < halvings; ++i) out = reduce(out);
   return out;
 }
@@ -96,7 +95,7 @@ void add_crests(Grid<float>& change, std::vector<Grid<float>> levels, int halved
     float* out = change.row(y);
     for (int x = 0; x < width; ++x) {
       const float near = share == nullptr ? 1.F : unit((*share)(x, y));
-      float added = strength * sharpening_m(detail[x], ground[x]) * (1.F - 0.2F * (1.F - near));
+      float added = sharpening_m(strength, detail[x], ground[x]) * (1.F - 0.2F * (1.F - near));
       if (mask != nullptr) added *= unit((*mask)(x, y));
       if (amplify != nullptr) added *= unit((*amplify)(x, y));
       out[x] += added;

@@ -142,7 +142,7 @@ void report_places(const BareView& bare, const DeformOptions& options, Report& r
 }
 
 Grid<glm::vec3> sketch(const BareView& bare, const Grid<std::uint8_t>& floor) {
-  return make_relief_sketch(bare.generalized_m, bare.dem.transform, floor, bare.deformation,
+  return make_relief_sketch(*bare.generalized_m, bare.dem->transform, floor, bare.deformation,
                             *bare.tracer, *bare.camera, bare.view.sun_direction);
 }
 
@@ -173,7 +173,7 @@ void search(BareView& bare, const ValleySight& sight, const DeformOptions& optio
                                .add("points", std::move(points)));
   if (options.out.empty()) return;
   progress.begin("drawing the comparison", 0.0);
-  const Grid<std::uint8_t> floor = find_valley_floor(known_altitude(bare.dem), bare.dem.cell_m());
+  const Grid<std::uint8_t> floor = find_valley_floor(known_altitude(*bare.dem), bare.dem->cell_m());
   const Grid<glm::vec3> before = sketch(bare, floor);
   bend_again(bare, found.curve);
   const Grid<glm::vec3> after = sketch(bare, floor);
@@ -198,7 +198,7 @@ void examine(const LoadedScene& loaded, const DeformOptions& options, Report& re
   const bool positions = !options.locate.empty() || !options.at.empty();
   if (options.search_bend && !positions) shrink(scene);
   BareView bare = make_bare_view(scene, progress, cache);
-  report_folds(bare.generalized_m, bare.dem.transform, bare.deformation, report);
+  report_folds(*bare.generalized_m, bare.dem->transform, bare.deformation, report);
   if (positions) report_places(bare, options, report, progress);
   if (positions && !options.search_bend) return;
   const ValleySight sight = make_valley_sight(bare);

@@ -7,14 +7,19 @@ namespace belvedere {
 
 std::optional<Style> named_style(const LoadedScene& loaded) {
   if (loaded.scene.style.file.empty()) return std::nullopt;
-  Style style = read_style(find_named_file(loaded, "styles", loaded.scene.style.file));
-  return loaded.scene.style.winter ? winter_style(std::move(style)) : style;
+  const std::string file = find_named_file(loaded, "styles", loaded.scene.style.file);
+  const bool winter = loaded.scene.style.winter;
+  return *loaded.kept->get<Style>((winter ? "winter style " : "style ") + file, {file}, [&] {
+    Style style = read_style(file);
+    return winter ? winter_style(std::move(style)) : style;
+  });
 }
 
 Palette named_palette(const LoadedScene& loaded) {
   if (loaded.scene.palette.empty())
     if (const std::optional<Style> style = named_style(loaded)) return style->palette;
-  return read_palette(find_named_file(loaded, "palettes", loaded.scene.palette));
+  const std::string file = find_named_file(loaded, "palettes", loaded.scene.palette);
+  return *loaded.kept->get<Palette>("palette " + file, {file}, [&] { return read_palette(file); });
 }
 
 StylePaintParameters to_style_parameters(const Scene& scene, double pixels_per_unit,

@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "renderer/world/scene_dem.h"
 #include "renderer/world/scene_land_cover.h"
+#include "renderer/world/valley_view.h"
 #include "renderer/world/world.h"
 #include "tests/files.h"
 #include "tests/notes.h"
@@ -189,13 +190,29 @@ TEST_F(GroundMaps, CoastLinesBoundTheSea) {
   EXPECT_EQ(sea.at(at(25, 55).x, at(25, 55).y), water);
 }
 
+// The lake is too small to be found in the elevation model, and a river crosses it.
+TEST_F(GroundMaps, NamesStandOnTheGroundOfThePicture) {
+  write(area("lake", 31.0, 50.0, 33.0, 54.0) + ", " + river());
+  const LoadedScene loaded = scene(
+      "[camera]\nposition = [692000, 5236000]\nazimuth_deg = 0\npitch_deg = -20\nheight_m = "
+      "9000\n[output]\nwidth = 96\nheight = 64\n[generalize]\nforeground = [1, 1, 1, 2, 2, 0]\n");
+  const World world = make_world(loaded, silent_progress());
+  const BareView bare = make_bare_view(loaded, silent_progress());
+  EXPECT_EQ(*bare.generalized_m, world.terrain.generalized_m);
+  EXPECT_EQ(bare.surface->vertices_m, world.surface->vertices_m);
+  EXPECT_EQ(bare_view_of(world).view.camera.eye, bare.view.camera.eye);
+  const LoadedScene without = scene("enabled = false\n[camera]\nposition = [692000, 5236000]\n");
+  EXPECT_NE(make_scene_dem(without, silent_progress()).altitude_m, bare.dem->altitude_m)
+      << "the lake is level";
+}
+
 TEST_F(GroundMaps, ACoastLineThatEndsOnTheTerrainIsSaidAndLeftOut) {
   write(feature("\"kind\": \"coastline\"", "LineString",
                 "[" + positions({{60, -5}, {60, 40}}) + "]"));
   const LoadedScene loaded = scene();
-  const Dem dem = make_scene_dem(loaded, silent_progress());
   Notes notes;
-  EXPECT_TRUE(read_ground_map(loaded, dem, notes).areas.empty());
+  const Dem dem = make_scene_dem(loaded, notes);
+  EXPECT_TRUE(read_ground_map(loaded, dem, silent_progress()).areas.empty());
   EXPECT_THAT(notes.all, Contains(AllOf(HasSubstr("a coastline begins or ends on the terrain"),
                                         HasSubstr("are left out"))));
 }

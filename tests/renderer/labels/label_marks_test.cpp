@@ -20,7 +20,7 @@ class LabelMarks : public testing::Test {
  protected:
   std::vector<LabelMark> marks_of(const std::vector<LabelPoint>& points) const {
     return find_marks(
-        {bare_.dem.altitude_m, bare_.generalized_m, bare_.dem.transform, bare_.dem.cell_m(), map_},
+        {bare_.dem->altitude_m, *bare_.generalized_m, bare_.dem->transform, bare_.dem->cell_m(), map_},
         points, style_);
   }
   LabelPoint point(glm::dvec2 position, const char* kind = "summit") const {
@@ -31,9 +31,9 @@ class LabelMarks : public testing::Test {
     return p;
   }
   std::vector<Summit> summits() const {
-    return find_summits(bare_.generalized_m, {.min_prominence_m = 60.0});
+    return find_summits(*bare_.generalized_m, {.min_prominence_m = 60.0});
   }
-  glm::dvec2 position_of(const Summit& s) const { return bare_.dem.transform.to_crs(s.x, s.y); }
+  glm::dvec2 position_of(const Summit& s) const { return bare_.dem->transform.to_crs(s.x, s.y); }
 
   const BareView bare_ =
       make_bare_view(test::small_scene({"output.width=960", "output.height=800",
@@ -76,10 +76,10 @@ TEST_F(LabelMarks, StandOnTheEdgeThatIsSeenFromAbove) {
                            fmt::format("camera.pitch_deg={}", pitch_deg)}),
         silent_progress());
     const GeoMap map = high.geo_map();
-    const DrawnGround ground{high.dem.altitude_m, high.generalized_m, high.dem.transform,
-                             high.dem.cell_m(), map};
-    for (const Summit& summit : find_summits(high.generalized_m, {.min_prominence_m = 60.0})) {
-      const LabelPoint file_point = point(high.dem.transform.to_crs(summit.x, summit.y));
+    const DrawnGround ground{high.dem->altitude_m, *high.generalized_m, high.dem->transform,
+                             high.dem->cell_m(), map};
+    for (const Summit& summit : find_summits(*high.generalized_m, {.min_prominence_m = 60.0})) {
+      const LabelPoint file_point = point(high.dem->transform.to_crs(summit.x, summit.y));
       const LabelMark mark = find_marks(ground, {file_point}, style_)[0];
       if (mark.state != MarkState::seen) continue;
       const auto top = map.to_image(mark.drawn_position);
@@ -100,11 +100,11 @@ TEST_F(LabelMarks, StandOnTheEdgeThatIsSeenFromAbove) {
 
 // As profiles of tracks have it: bilinear, exactly the cell's own value at its centre.
 TEST_F(LabelMarks, AltitudesBetweenCellsAreInterpolated) {
-  const Grid<float>& z = bare_.dem.altitude_m;
+  const Grid<float>& z = bare_.dem->altitude_m;
   for (int y = z.height() / 4; y < 3 * z.height() / 4; y += 13)
     for (int x = z.width() / 4; x < 3 * z.width() / 4; x += 11) {
       const auto altitude = [&](double column, double row) {
-        return marks_of({point(bare_.dem.transform.to_crs(column, row), "town")})[0].dem_altitude_m;
+        return marks_of({point(bare_.dem->transform.to_crs(column, row), "town")})[0].dem_altitude_m;
       };
       EXPECT_NEAR(altitude(x, y), z(x, y), 1e-3);
       EXPECT_NEAR(altitude(x + .5, y), .5 * (z(x, y) + z(x + 1, y)), 1e-2);
@@ -117,8 +117,8 @@ TEST_F(LabelMarks, AltitudesBetweenCellsAreInterpolated) {
 TEST_F(LabelMarks, ClimbFromNearbyAndNotFromAfar) {
   const std::vector<Summit> found = summits();
   ASSERT_FALSE(found.empty());
-  const DrawnGround ground{bare_.dem.altitude_m, bare_.generalized_m, bare_.dem.transform,
-                           bare_.dem.cell_m(), map_};
+  const DrawnGround ground{bare_.dem->altitude_m, *bare_.generalized_m, bare_.dem->transform,
+                           bare_.dem->cell_m(), map_};
   const glm::dvec2 top = position_of(found[0]);
   const glm::dvec2 near = top + glm::dvec2(180.0, -90.0);
   EXPECT_EQ(climb(ground, near, 400.0), top);
@@ -156,7 +156,7 @@ TEST_F(LabelMarks, OutsideIsSaid) {
       make_bare_view(test::small_scene({"camera.azimuth_deg=90"}), silent_progress());
   const GeoMap map = aside.geo_map();
   const std::vector<LabelMark> marks = find_marks(
-      {aside.dem.altitude_m, aside.generalized_m, aside.dem.transform, aside.dem.cell_m(), map},
+      {aside.dem->altitude_m, *aside.generalized_m, aside.dem->transform, aside.dem->cell_m(), map},
       {point({500.0, 500.0}, "town"), point({6500.0, 11000.0}, "town")}, style_);
   EXPECT_EQ(marks[0].state, MarkState::behind_eye);
   EXPECT_EQ(marks[1].state, MarkState::outside_picture);

@@ -18,8 +18,8 @@ using testing::HasSubstr;
 class Tracks : public testing::Test {
  protected:
   Track track_of(std::vector<glm::dvec2> positions, const Grid<float>* dem = nullptr) const {
-    const DrawnGround ground{dem != nullptr ? *dem : bare_.dem.altitude_m, bare_.generalized_m,
-                             bare_.dem.transform, bare_.dem.cell_m(), map_};
+    const DrawnGround ground{dem != nullptr ? *dem : bare_.dem->altitude_m, *bare_.generalized_m,
+                             bare_.dem->transform, bare_.dem->cell_m(), map_};
     return find_tracks(ground, {{"tour", "tour.gpx, feature 0", std::move(positions)}})[0];
   }
   const BareView bare_ = make_bare_view(
@@ -30,11 +30,11 @@ class Tracks : public testing::Test {
 
 // Up and down a roof of 1:10 on 4 km: the ascent is known.
 TEST_F(Tracks, LengthAndAscentOfARoof) {
-  Grid<float> roof(bare_.dem.width(), bare_.dem.height());
+  Grid<float> roof(bare_.dem->width(), bare_.dem->height());
   for (int y = 0; y < roof.height(); ++y)
     for (int x = 0; x < roof.width(); ++x)
       roof(x, y) = 1000.F - 10.F * static_cast<float>(std::abs(x - 60));  // 100 m a cell
-  const double centre = bare_.dem.transform.to_crs(60.0, 0.0).x;
+  const double centre = bare_.dem->transform.to_crs(60.0, 0.0).x;
   const Track track = track_of(
       {{centre - 2000.0, 6000.0}, {centre + 2000.0, 6000.0}, {centre - 1000.0, 6000.0}}, &roof);
   EXPECT_NEAR(track.length_m, 7000.0, 1e-6);

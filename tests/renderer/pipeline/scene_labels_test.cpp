@@ -374,7 +374,7 @@ TEST_F(ManyNames, TheSameBytesForOneThreadAndTwo) {
     const ThreadLimit limit(threads);
     const LabelSheet sheet = make_label_sheet(*loaded_, job_, *bare_, silent_progress());
     return std::array{labels_svg(sheet, ""), labels_csv(sheet),
-                      labels_geojson(sheet, bare_->dem.crs)};
+                      labels_geojson(sheet, bare_->dem->crs)};
   };
   const auto one = files(1);
   EXPECT_EQ(one, files(2));

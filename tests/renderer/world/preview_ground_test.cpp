@@ -57,7 +57,7 @@ class PreviewGround : public testing::Test {
     if (opened.data)
       masks = preview_masks(scene, *opened.data, opened.dem.halved, nullptr, silent_progress());
     return generalize_for_view(scene, opened.dem, nullptr, view, silent_progress(), no_cache(),
-                               nullptr, opened.data ? &masks : nullptr)
+                               {.masks = opened.data ? &masks : nullptr})
         .altitude_m;
   }
   const test::Folder folder_;

@@ -29,9 +29,9 @@ constexpr std::uint64_t tile_bytes =
 Grid<glm::vec3> relief(const BareView& bare, const Grid<float>& altitude_m,
                        const Deformation& deformation) {
   const DeformedSurface surface =
-      deform(altitude_m, bare.dem.transform, glm::dvec3(bare.view.viewer_xy, 0.0), deformation);
+      deform(altitude_m, bare.dem->transform, glm::dvec3(bare.view.viewer_xy, 0.0), deformation);
   const Tracer tracer(surface);
-  return make_relief_sketch(altitude_m, bare.dem.transform, {}, deformation, tracer, *bare.camera,
+  return make_relief_sketch(altitude_m, bare.dem->transform, {}, deformation, tracer, *bare.camera,
                             bare.view.sun_direction);
 }
 
@@ -43,9 +43,9 @@ void add_ground(std::vector<MakingStep>& steps, const LoadedScene& loaded, const
     steps.push_back({file, caption, relief(bare, altitude_m, deformation)});
     run.progress.advance(1.0);
   };
-  add("measured", "the ground as measured", bare.dem.altitude_m, Deformation());
-  add("generalized", "generalized for this view", bare.generalized_m, Deformation());
-  add("bent", "raised, moved and bent", bare.generalized_m, bare.deformation);
+  add("measured", "the ground as measured", bare.dem->altitude_m, Deformation());
+  add("generalized", "generalized for this view", *bare.generalized_m, Deformation());
+  add("bent", "raised, moved and bent", *bare.generalized_m, bare.deformation);
 }
 
 Grid<glm::vec3> class_picture(const GuidanceBuffers& guidance) {

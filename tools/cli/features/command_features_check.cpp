@@ -123,10 +123,10 @@ int run(const FeaturesCheckOptions& options) {
   require_scene_files(scene);
   read_scene_feature_style(scene);
   const BareView bare = make_bare_view(scene, progress, make_cache(options.scene));
-  const FeatureSet set = read_scene_features(scene, bare.dem.crs, silent_progress());
+  const FeatureSet set = read_scene_features(scene, bare.dem->crs, silent_progress());
   progress.begin("laying features on the ground", 0.0);
-  const GroundSight sight(bare.dem.transform, *bare.surface, *bare.camera, *bare.tracer,
-                          bare.goes_to);
+  const GroundSight sight(bare.dem->transform, *bare.surface, *bare.camera, *bare.tracer,
+                          *bare.goes_to);
   const DrawnFeatures drawn = draw_features(
       set, sight, {.px_per_mm = scene.scene.output.width / scene.scene.output.sheet_width_mm});
   progress.end();
@@ -138,7 +138,7 @@ int run(const FeaturesCheckOptions& options) {
                                                std::vector<std::size_t>(set.style.kinds.size(), 0));
   for (const Feature& feature : set.features)
     beside[static_cast<std::size_t>(feature.source)][static_cast<std::size_t>(feature.kind)] +=
-        lies_beside(feature, bare.dem) ? 1 : 0;
+        lies_beside(feature, *bare.dem) ? 1 : 0;
   if (options.scene.json) {
     print_out(to_json(set, drawn, taken).str() + "\n");
   } else {
@@ -155,7 +155,7 @@ int run(const FeaturesCheckOptions& options) {
     print_out(text);
   }
   // After the table, which counts the kinds.
-  check_extents(set, bare.dem);
+  check_extents(set, *bare.dem);
   return 0;
 }
 

@@ -64,7 +64,7 @@ int run(const LabelsOptions& options) {
   const LabelSheet sheet = make_label_sheet(scene, job, bare, progress);
   const std::string under =
       options.under.empty() ? "" : fs::relative(options.under, folder).generic_string();
-  write_label_files(sheet, bare.dem.crs, folder.string(), under, progress);
+  write_label_files(sheet, bare.dem->crs, folder.string(), under, progress);
   progress.end();
 
   std::array<std::size_t, 5> states{};

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace belvedere {
+
+// What was read from the files of a scene, so that each is read once: shared by all copies of a
+// scene. Thread-safe; two threads that miss the same value both read it, and the first one stays.
+class KeptFiles {
+ public:
+  // What `read` returns, a T, or what it returned for the same key (which says what is read, and
+  // how) while none of the files has changed in size or time since.
+  template <class T, class Read>
+  std::shared_ptr<const T> get(const std::string& key, const std::vector<std::string>& files,
+                               const Read& read) {
+    const std::vector<Stamp> stamps = stamps_of(files);
+    if (std::shared_ptr<const void> kept = find(key, stamps))
+      return std::static_pointer_cast<const T>(std::move(kept));
+    return std::static_pointer_cast<const T>(
+        keep(key, stamps, std::make_shared<const T>(read())));
+  }
+
+ private:
+  using Stamp = std::pair<std::uint64_t, std::int64_t>;  // bytes, time
+  struct Entry {
+    std::vector<Stamp> stamps;
+    std::shared_ptr<const void> value;
+  };
+  static std::vector<Stamp> stamps_of(const std::vector<std::string>& files);
+  std::shared_ptr<const void> find(const std::string& key, const std::vector<Stamp>& stamps);
+  std::shared_ptr<const void> keep(const std::string& key, const std::vector<Stamp>& stamps,
+                                   std::shared_ptr<const void> value);
+
+  std::mutex mutex_;
+  std::map<std::string, Entry> entries_;
+};
+
+}  // namespace belvedere
