@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/files/kept_files.h"
 #include "terrain/io/crs.h"
 
 namespace belvedere {

@@ -13,6 +13,7 @@
 
 #include "base/cache/cache.h"
 #include "base/cache/content_hash.h"
+#include "base/files/kept_files.h"
 #include "base/masks/polygon.h"
 #include "base/memory_limit.h"
 #include "base/parallel.h"
@@ -238,9 +239,11 @@ GroundMap read_ground_map(const LoadedScene& loaded, const Dem& dem, Progress& p
   Scene named;
   named.features = loaded.scene.features;
   named.features_style = loaded.scene.features_style;
-  const CacheKeyText key =
-      CacheKeyText().add("map", write_scene(named)).add("crs", dem.crs).add("low", box.low).add(
-          "high", box.high);
+  const CacheKeyText key = CacheKeyText()
+                               .add("map", write_scene(named))
+                               .add("crs", dem.crs)
+                               .add("low", box.low)
+                               .add("high", box.high);
   std::vector<std::string> files;
   for (const FeatureSource& source : feature_sources(loaded)) files.push_back(source.file.path);
   return *loaded.kept->get<GroundMap>(key.str(), files, [&] {

@@ -12,6 +12,7 @@
 
 #include "base/cache/cache_key.h"
 #include "base/error.h"
+#include "base/files/kept_files.h"
 #include "base/files/output_file.h"
 #include "renderer/image/image_io.h"
 #include "renderer/labels/drawing_svg.h"
@@ -136,7 +137,8 @@ NamesRead names_of(const LoadedScene& scene, const LabelJob& job, const LabelSty
                    const Dem& dem, Progress& progress) {
   CacheKeyText key;
   key.add("names in", dem.crs).add("style", job.style);
-  key.add("low", dem.transform.to_crs(0, 0)).add("high", dem.transform.to_crs(dem.width(), dem.height()));
+  key.add("low", dem.transform.to_crs(0, 0))
+      .add("high", dem.transform.to_crs(dem.width(), dem.height()));
   std::vector<std::string> files;
   for (const std::vector<VectorSource>* kind : {&job.points, &job.shapes, &job.tracks}) {
     key.add("files", static_cast<std::uint64_t>(kind->size()));

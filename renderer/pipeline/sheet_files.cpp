@@ -193,9 +193,8 @@ void write_sheet_files(const LoadedScene& loaded, const SheetRequest& request,
                               around.read("panorama", y0, y1, {plane_of(rows)});
                               return rows;
                             }};
-  const LazyValue<BareView> bare([&] {
-    return seen ? std::move(*seen) : make_bare_view(loaded, run.progress, run.cache);
-  });
+  const LazyValue<BareView> bare(
+      [&] { return seen ? std::move(*seen) : make_bare_view(loaded, run.progress, run.cache); });
   write_layer_files(loaded, request, joined, painted, legend.luminance, bare, out_folder, run);
   if (const std::optional<InkCoverage> ink = panorama.ink())
     run.progress.note(ink_note("panorama.tif", *ink));

@@ -16,7 +16,8 @@ namespace belvedere {
 // world only if a piece is missing; what of it names need comes back, if the picture has names or a
 // margin and its ground no finer windows.
 std::optional<BareView> make_pieces(const LoadedScene& loaded, const SheetRequest& request,
-                 std::span<const PixelRect> pieces, const WorkFolder& work, const Run& run);
+                                    std::span<const PixelRect> pieces, const WorkFolder& work,
+                                    const Run& run);
 // Shared values of all pieces, so that others can make them: notes, and how the ground is copied.
 void make_plan(const LoadedScene& loaded, const SheetRequest& request, const WorkFolder& work,
                const Run& run);

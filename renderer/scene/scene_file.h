@@ -5,10 +5,12 @@
 #include <vector>
 
 #include "base/error.h"
-#include "renderer/scene/kept_files.h"
 #include "renderer/scene/scene.h"
 
 namespace belvedere {
+
+class KeptFiles;  // base/files/kept_files.h
+std::shared_ptr<KeptFiles> make_kept_files();
 
 struct SceneFileOptions {
   std::vector<std::string> data_folders;  // --data: further folders files may come from
@@ -23,7 +25,7 @@ struct LoadedScene {
   std::vector<std::string> notes;            // keys that were read under a former name
   std::vector<std::string> allowed_folders;  // the scene's folder first, then the --data folders,
                                              // in their order; some may not exist
-  std::shared_ptr<KeptFiles> kept = std::make_shared<KeptFiles>();  // what was read of its files
+  std::shared_ptr<KeptFiles> kept = make_kept_files();  // what was read of its files
 };
 
 // TOML to Scene, strict. Error(usage) for an unknown key, a wrong type, a value out of range, keys

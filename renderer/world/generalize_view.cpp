@@ -293,8 +293,7 @@ GeneralizedTerrain generalize_for_view(const LoadedScene& loaded, const Dem& dem
                                        const LandCover* land_cover, const View& view,
                                        Progress& progress, const Cache& cache,
                                        const GroundGiven& given) {
-  const SeaParameters sea =
-      given.sea != nullptr ? *given.sea : scene_sea(loaded.scene.land_cover);
+  const SeaParameters sea = given.sea != nullptr ? *given.sea : scene_sea(loaded.scene.land_cover);
   const GroundMasks* masks = given.masks;
   const MapCover* areas = land_cover != nullptr ? land_cover->map.get() : given.areas;
   const SceneGeneralize& settings = loaded.scene.generalize;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/cache/cache.h"
+#include "base/files/kept_files.h"
 #include "base/pixel_rect.h"
 #include "renderer/ground/cached_products.h"
 #include "renderer/ground/refined_cover.h"

@@ -315,6 +315,7 @@ const pictures = {
     image(response, bytes, {
       "X-Belvedere-Revision": scene.revision,
       "X-Belvedere-Without": without.join(", "),
+      "X-Belvedere-Halved": without.length > 0 ? 2 : 0,
       "X-Belvedere-Milliseconds": Math.round(performance.now() - started),
     });
   },

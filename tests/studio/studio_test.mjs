@@ -202,6 +202,22 @@ test("a slider, an upright slider of the equalizer and a number field", async ()
   assert.deepEqual(await value("generalize.foreground"), bands);
 });
 
+test("sliders of landforms too small for a preview are grey while it is shown", async () => {
+  await panel("equalizer");
+  const bands = await value("generalize.foreground");
+  await page.evaluate(() => {
+    window.grey = 0;
+    const count = () => (window.grey = Math.max(window.grey, document.querySelectorAll(".band.beyond").length));
+    new MutationObserver(count).observe(document.querySelector(".bands"), { subtree: true, attributes: true });
+  });
+  await drag(".band input[type=range]", 0, -30);
+  await changed("generalize.foreground", bands);
+  await finished();
+  assert.equal(await page.evaluate(() => window.grey), 4);
+  assert.equal(await page.$$eval(".band.beyond", (found) => found.length), 0);
+  await undo();
+});
+
 test("a value out of range is told at its control and changes nothing", async () => {
   await panel("camera");
   const row = "[data-key='camera.field_of_view_deg']";

@@ -1,5 +1,6 @@
 #include "renderer/world/style/scene_style.h"
 
+#include "base/files/kept_files.h"
 #include "renderer/style/style_file.h"
 #include "renderer/style/winter_style.h"
 

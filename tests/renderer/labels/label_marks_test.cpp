@@ -19,9 +19,9 @@ namespace {
 class LabelMarks : public testing::Test {
  protected:
   std::vector<LabelMark> marks_of(const std::vector<LabelPoint>& points) const {
-    return find_marks(
-        {bare_.dem->altitude_m, *bare_.generalized_m, bare_.dem->transform, bare_.dem->cell_m(), map_},
-        points, style_);
+    return find_marks({bare_.dem->altitude_m, *bare_.generalized_m, bare_.dem->transform,
+                       bare_.dem->cell_m(), map_},
+                      points, style_);
   }
   LabelPoint point(glm::dvec2 position, const char* kind = "summit") const {
     LabelPoint p;
@@ -104,7 +104,8 @@ TEST_F(LabelMarks, AltitudesBetweenCellsAreInterpolated) {
   for (int y = z.height() / 4; y < 3 * z.height() / 4; y += 13)
     for (int x = z.width() / 4; x < 3 * z.width() / 4; x += 11) {
       const auto altitude = [&](double column, double row) {
-        return marks_of({point(bare_.dem->transform.to_crs(column, row), "town")})[0].dem_altitude_m;
+        return marks_of({point(bare_.dem->transform.to_crs(column, row), "town")})[0]
+            .dem_altitude_m;
       };
       EXPECT_NEAR(altitude(x, y), z(x, y), 1e-3);
       EXPECT_NEAR(altitude(x + .5, y), .5 * (z(x, y) + z(x + 1, y)), 1e-2);

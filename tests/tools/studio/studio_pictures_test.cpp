@@ -31,6 +31,7 @@ TEST_F(StudioTest, EveryRungHasItsPicture) {
     EXPECT_EQ(answer.type, i + 1 == all.size() ? "image/png" : "image/jpeg");
     EXPECT_EQ(answer.headers.at("X-Belvedere-Revision"), "1");
     EXPECT_EQ(answer.headers.at("X-Belvedere-Without").empty(), rungs()[i].without.empty());
+    EXPECT_EQ(answer.headers.at("X-Belvedere-Halved"), "0") << "synthetic terrain is small";
     EXPECT_GE(std::stod(answer.headers.at("X-Belvedere-Milliseconds")), 0.0);
     const Grid<glm::vec3> picture = decoded(answer);
     EXPECT_EQ(picture.width(), all[i]["width"]);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -11,8 +10,8 @@
 
 namespace belvedere {
 
-// What was read from the files of a scene, so that each is read once: shared by all copies of a
-// scene. Thread-safe; two threads that miss the same value both read it, and the first one stays.
+// What was read from files, so that each is read once; copies of a scene share one. Thread-safe;
+// two threads that miss the same value both read it, and the first one stays.
 class KeptFiles {
  public:
   // What `read` returns, a T, or what it returned for the same key (which says what is read, and
@@ -23,8 +22,7 @@ class KeptFiles {
     const std::vector<Stamp> stamps = stamps_of(files);
     if (std::shared_ptr<const void> kept = find(key, stamps))
       return std::static_pointer_cast<const T>(std::move(kept));
-    return std::static_pointer_cast<const T>(
-        keep(key, stamps, std::make_shared<const T>(read())));
+    return std::static_pointer_cast<const T>(keep(key, stamps, std::make_shared<const T>(read())));
   }
 
  private:
@@ -41,5 +39,6 @@ class KeptFiles {
   std::mutex mutex_;
   std::map<std::string, Entry> entries_;
 };
+std::shared_ptr<KeptFiles> make_kept_files();
 
 }  // namespace belvedere

@@ -1,4 +1,4 @@
-#include "renderer/scene/kept_files.h"
+#include "base/files/kept_files.h"
 
 #include <gtest/gtest.h>
 

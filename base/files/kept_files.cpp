@@ -1,8 +1,10 @@
-#include "renderer/scene/kept_files.h"
+#include "base/files/kept_files.h"
 
 #include <filesystem>
 
 namespace belvedere {
+
+std::shared_ptr<KeptFiles> make_kept_files() { return std::make_shared<KeptFiles>(); }
 
 std::vector<KeptFiles::Stamp> KeptFiles::stamps_of(const std::vector<std::string>& files) {
   std::vector<Stamp> stamps;
