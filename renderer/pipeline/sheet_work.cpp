@@ -23,7 +23,8 @@ std::string paint_key(const LoadedScene& loaded, const SheetRequest& request) {
   settings.style = loaded.scene.style;
   settings.exemplars = loaded.scene.exemplars;
   settings.synthesis = loaded.scene.synthesis;
-  return write_scene(settings) + (request.panorama ? "picture\n" : "ground\n") + dem_key(loaded);
+  return write_scene(settings) + (request.panorama ? "picture\n" : "ground\n") + files_key(loaded) +
+         dem_key(loaded);
 }
 
 ScenePaint read_paint(const LoadedScene& loaded, const SheetRequest& request, Progress& progress) {

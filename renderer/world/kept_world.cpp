@@ -1,8 +1,12 @@
 #include "renderer/world/kept_world.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <initializer_list>
+#include <string_view>
 
 #include "base/cache/cache_key.h"
+#include "base/memory_limit.h"
 #include "renderer/world/style/scene_style.h"
 
 namespace belvedere {
@@ -17,9 +21,11 @@ std::string written(const Take& take) {
   return write_scene(settings);
 }
 
-// Files may be replaced while a program runs.
-void add_files(CacheKeyText& key, const LoadedScene& loaded) {
+// Those that a test of their keys chooses. Files may be replaced while a program runs.
+template <class Takes>
+void add_files(CacheKeyText& key, const LoadedScene& loaded, const Takes& takes) {
   for (const SceneInput& input : scene_inputs(loaded)) {
+    if (!takes(std::string_view(input.key))) continue;
     std::error_code none;
     key.add("file", input.path)
         .add("bytes", static_cast<std::uint64_t>(std::filesystem::file_size(input.path, none)))
@@ -29,12 +35,17 @@ void add_files(CacheKeyText& key, const LoadedScene& loaded) {
   }
 }
 
+// A section of a scene, which its files' keys begin with.
+bool is_of(std::string_view key, std::initializer_list<std::string_view> sections) {
+  return std::any_of(sections.begin(), sections.end(),
+                     [&](std::string_view section) { return key.starts_with(section); });
+}
+
 }  // namespace
 
 std::string dem_key(const LoadedScene& loaded) {
   CacheKeyText key;
   key.add("settings", written([&](Scene& scene) {
-            scene.seed = loaded.scene.seed;
             scene.terrain = loaded.scene.terrain;
             scene.land_cover.sea = loaded.scene.land_cover.sea;
             scene.land_cover.sea_level_m = loaded.scene.land_cover.sea_level_m;
@@ -42,8 +53,9 @@ std::string dem_key(const LoadedScene& loaded) {
             scene.features_style = loaded.scene.features_style;
             scene.features = loaded.scene.features;
           }));
-  key.add("preview_mcells", loaded.scene.terrain.preview_mcells);
-  add_files(key, loaded);
+  key.add("preview_mcells", loaded.scene.terrain.preview_mcells)
+      .add("memory", memory_budget_bytes());
+  add_files(key, loaded, [](std::string_view of) { return is_of(of, {"terrain", "features"}); });
   return key.str();
 }
 
@@ -59,6 +71,16 @@ std::string cover_key(const LoadedScene& loaded) {
           }));
   // Winter palettes lay snow.
   key.add("winter", named_palette(loaded).winter ? 1 : 0);
+  add_files(key, loaded, [](std::string_view of) {
+    return !is_of(of, {"terrain", "features", "generalize", "palette", "style", "exemplar",
+                       "labels", "output", "margin"});
+  });
+  return key.str();
+}
+
+std::string files_key(const LoadedScene& loaded) {
+  CacheKeyText key;
+  add_files(key, loaded, [](std::string_view) { return true; });
   return key.str();
 }
 
@@ -82,6 +104,7 @@ std::string generalize_key(const LoadedScene& loaded, const View& view) {
       .add("viewer", view.viewer_xy)
       .add("foreground_to_m", view.generalize.foreground_to_m)
       .add("background_from_m", view.generalize.background_from_m);
+  add_files(key, loaded, [](std::string_view of) { return is_of(of, {"generalize"}); });
   if (loaded.scene.generalize.print_detail_px > 0.0)
     key.add("camera", camera_key(loaded, view)).add("bend", deform_key(view));
   return key.str();
@@ -98,6 +121,7 @@ std::string masks_key(const LoadedScene& loaded) {
             scene.generalize.line_integral = settings.line_integral;
           }))
       .add("bands", static_cast<std::uint64_t>(settings.bands.foreground.size()));
+  add_files(key, loaded, [](std::string_view of) { return is_of(of, {"generalize"}); });
   return key.str();
 }
 

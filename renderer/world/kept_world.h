@@ -51,7 +51,8 @@ std::shared_ptr<T> keep_or_make(Kept<T>* kept, const std::string& key, const Mak
 }
 
 // The keys: texts that are equal only if the values are.
-std::string dem_key(const LoadedScene& loaded);    // settings, and the files' sizes and times
+std::string dem_key(const LoadedScene& loaded);    // settings, and their files' sizes and times
+std::string files_key(const LoadedScene& loaded);  // of all files
 std::string cover_key(const LoadedScene& loaded);  // of the land cover on a DEM of that key
 std::string generalize_key(const LoadedScene& loaded, const View& view);
 std::string masks_key(const LoadedScene& loaded);  // of the masks on a ground of these keys
