@@ -10,6 +10,7 @@
 #include "renderer/trace/tracer.h"
 #include "renderer/trace/water/water_ground.h"
 #include "renderer/world/generalize_view.h"
+#include "renderer/world/lazy_value.h"
 #include "renderer/world/scene_dem.h"
 #include "renderer/world/view.h"
 #include "terrain/cover/land_cover.h"
@@ -34,7 +35,7 @@ struct KeptWorld {
   Kept<GroundSurroundings> surroundings;
   Kept<GroundMasks> masks;
   Kept<TerrainModel> terrain;
-  Kept<std::shared_ptr<const WaterGround>> waters;
+  Kept<const LazyValue<std::shared_ptr<const WaterGround>>> waters;
   Kept<const DeformedSurface> surface;
   Kept<const Tracer> tracer;
 };

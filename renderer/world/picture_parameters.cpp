@@ -94,7 +94,7 @@ BaseParameters to_base_parameters(const World& world, const Palette& palette,
   parameters.air.sky = find_sky_kind(world.scene.sky);
   parameters.sky_seed = sky_seed(world);
   parameters.water = world.scene.water;
-  parameters.waters = world.waters ? world.waters : find_water_ground(world.terrain);
+  parameters.waters = world.waters->get();
   parameters.sides = find_sides(world);
   parameters.tint = make_ground_tint(world.terrain, palette, world.scene.land_cover.colour_share);
   return parameters;

@@ -162,9 +162,12 @@ World make_world(const LoadedScene& loaded, Progress& progress, const Cache& cac
     }
     return made;
   });
-  std::shared_ptr<const WaterGround> waters;
-  if (kept != nullptr)
-    waters = *keep_or_make(&kept->waters, key, [&] { return find_water_ground(*terrain); });
+  auto waters =
+      std::make_shared<const LazyWaters>([&of = *terrain] { return find_water_ground(of); });
+  if (kept != nullptr) {
+    if (kept->waters.value == nullptr || kept->waters.key != key) kept->waters = {key, waters};
+    waters = kept->waters.value;
+  }
   // What differs between views of one ground.
   terrain->land_cover = land_cover;
   terrain->exaggeration = view.deform.exaggeration;

@@ -10,6 +10,7 @@
 #include "renderer/trace/guidance.h"
 #include "renderer/trace/tracer.h"
 #include "renderer/trace/water/water_ground.h"
+#include "renderer/world/lazy_value.h"
 #include "renderer/world/scene_dem.h"
 #include "renderer/world/view.h"
 #include "terrain/cover/land_cover.h"
@@ -28,6 +29,9 @@ struct TracedGround {
   std::shared_ptr<const Tracer> tracer;  // reads the surface
 };
 
+// Found where paint asks for it first.
+using LazyWaters = LazyValue<std::shared_ptr<const WaterGround>>;
+
 // A scene prepared for its first pixel, each value made from those above it. Kept together because
 // any part of the picture needs all of it; constant after it is made (make_world).
 struct World {
@@ -43,7 +47,7 @@ struct World {
   const TerrainModel& terrain;  // of `ground`, as the next two
   const std::shared_ptr<const DeformedSurface> surface;
   const Tracer& tracer;
-  const std::shared_ptr<const WaterGround> waters;  // of the terrain; null: not known yet
+  const std::shared_ptr<const LazyWaters> waters;  // of the terrain
   const double horizon_px;                          // row of the skyline's median
   const MistAir mist;
 };
