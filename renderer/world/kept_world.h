@@ -9,7 +9,6 @@
 #include "renderer/trace/terrain_model.h"
 #include "renderer/trace/tracer.h"
 #include "renderer/trace/water/water_ground.h"
-#include "renderer/world/generalize_view.h"
 #include "renderer/world/lazy_value.h"
 #include "renderer/world/scene_dem.h"
 #include "renderer/world/view.h"
@@ -17,6 +16,8 @@
 #include "terrain/deform/deform.h"
 
 namespace belvedere {
+
+struct GroundMasks;  // generalize_view.h
 
 // A value with the text of everything that it was made from.
 template <class T>
