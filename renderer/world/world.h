@@ -48,7 +48,7 @@ struct World {
   const std::shared_ptr<const DeformedSurface> surface;
   const Tracer& tracer;
   const std::shared_ptr<const LazyWaters> waters;  // of the terrain
-  const double horizon_px;                          // row of the skyline's median
+  const double horizon_px;                         // row of the skyline's median
   const MistAir mist;
 };
 
