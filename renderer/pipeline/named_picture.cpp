@@ -50,8 +50,8 @@ void copy_swatch(const Grid<glm::vec3>& swatch, PixelRect to, int y0, Grid<glm::
 // The scale of the scene's style, without names.
 LabelSheet bare_sheet(const LoadedScene& loaded) {
   const Scene& scene = loaded.scene;
-  return empty_label_sheet(load_label_style(find_named_file(loaded, "labels", scene.labels.style)),
-                           {scene.output.width, scene.output.height}, scene.output.sheet_width_mm);
+  return empty_label_sheet(read_label_style(loaded), {scene.output.width, scene.output.height},
+                           scene.output.sheet_width_mm);
 }
 
 // The piece of the picture below features: snow in winter, else a meadow.
@@ -144,7 +144,7 @@ void write_named_picture(const LoadedScene& loaded, PixelRect region, const Pain
     write_label_files(sheet, bare.dem->crs, out_folder, has_png && whole ? "panorama.png" : "",
                       run.progress);
   } else {
-    sheet = empty_label_sheet(load_label_style(job.style), bare.camera->size(),
+    sheet = empty_label_sheet(read_label_style(loaded), bare.camera->size(),
                               scene.output.sheet_width_mm);
   }
   if (stem.empty()) return;

@@ -103,9 +103,10 @@ void require_points_on_terrain(const std::vector<LabelPoint>& points, const Dem&
     require_on_terrain(points.front().where, "points", points.size(), positions, dem);
 }
 
-LabelStyle label_style_of(const LoadedScene& scene, const LabelJob& job) {
-  return *scene.kept->get<LabelStyle>("label style " + job.style, {job.style},
-                                      [&] { return load_label_style(job.style); });
+// Of a job, which may have another style than its scene.
+LabelStyle style_of(const LoadedScene& scene, const std::string& file) {
+  return *scene.kept->get<LabelStyle>("label style " + file, {file},
+                                      [&] { return load_label_style(file); });
 }
 
 NamesRead read_names(const LabelJob& job, const LabelStyle& style, const Dem& dem,
@@ -195,16 +196,20 @@ LabelJob label_job(const LoadedScene& scene, Progress& progress) {
           .style = find_named_file(scene, "labels", labels.style)};
 }
 
+LabelStyle read_label_style(const LoadedScene& scene) {
+  return style_of(scene, find_named_file(scene, "labels", scene.scene.labels.style));
+}
+
 void check_names(const LoadedScene& scene, const Dem& dem) {
   const LabelJob job = label_job(scene, silent_progress());
-  const LabelStyle style = label_style_of(scene, job);
+  const LabelStyle style = style_of(scene, job.style);
   names_of(scene, job, style, dem, silent_progress());
   if (!job.empty() || scene.scene.margin) require_fonts(style);
 }
 
 LabelSheet make_label_sheet(const LoadedScene& scene, const LabelJob& job, const BareView& bare,
                             Progress& progress) {
-  const LabelStyle style = label_style_of(scene, job);
+  const LabelStyle style = style_of(scene, job.style);
   auto [points, shapes, lines] = names_of(scene, job, style, *bare.dem, progress);
   const std::size_t named = points.size();
   if (job.summits > 0) {

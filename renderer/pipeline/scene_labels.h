@@ -26,6 +26,9 @@ struct LabelJob {
 // Those of a scene's [labels]; optional files that are missing are left out with a note.
 LabelJob label_job(const LoadedScene& scene, Progress& progress);
 
+// The style of a scene's names.
+LabelStyle read_label_style(const LoadedScene& scene);
+
 // Reads the files of a scene's [labels] and discards them, so that errors in them, or missing
 // fonts, are reported before hours of work. Throws Error as make_label_sheet does.
 void check_names(const LoadedScene& scene, const Dem& dem);

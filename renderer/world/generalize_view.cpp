@@ -16,7 +16,6 @@
 #include "terrain/cover/map_cover.h"
 #include "terrain/deform/deform.h"
 #include "terrain/generalize/foreground_share.h"
-#include "terrain/generalize/generalize_crests.h"
 #include "terrain/generalize/line_integral_generalize.h"
 #include "terrain/generalize/mask.h"
 #include "terrain/io/dem_levels.h"
@@ -129,13 +128,13 @@ Grid<std::uint8_t> lakes_of_map(const Dem& dem, const MapCover* areas) {
 
 // All but the mask, which is given.
 GroundMasks find_masks(const SceneGeneralize& settings, const SeaParameters& sea, const Dem& dem,
-                       Grid<float> mask, const Grid<std::uint8_t>& map_lakes, Progress& progress) {
+                       const Grid<float>& mask, const Grid<std::uint8_t>& map_lakes,
+                       Progress& progress) {
   GroundMasks out;
-  out.mask = std::move(mask);
   // First, because it needs the most memory.
   if (settings.line_integral)
     out.along_lines_m =
-        generalize_along_slope_lines(dem.altitude_m, out.mask, dem.cell_m(), {}, progress);
+        generalize_along_slope_lines(dem.altitude_m, mask, dem.cell_m(), {}, progress);
   if (settings.automatic_mask)
     out.amplify = slope_foot_mask(dem.altitude_m, {dem.transform.cell_x, dem.transform.cell_y},
                                   1 << std::min<std::size_t>(settings.bands.foreground.size(), 6));
@@ -156,7 +155,6 @@ GeneralizedTerrain make_ground(const SceneGeneralize& settings, const SeaParamet
   grids.amplification_mask = std::move(masks.amplify);
   grids.keep = std::move(masks.keep);
   grids.unchanged = std::move(masks.unchanged);
-  grids.crests_m = std::move(masks.crests_m);
   grids.finer_m = std::move(masks.finer_m);
   grids.mask = seen.mask;
   grids.pixel_ground = seen.pixel_ground;
@@ -261,12 +259,14 @@ Grid<std::uint8_t> any_below(const Grid<std::uint8_t>& marked, int level) {
 
 GroundMasks preview_masks(const LoadedScene& loaded, const Dem& data, int level,
                           const MapCover* areas, Progress& progress) {
-  GroundMasks masks =
-      find_masks(loaded.scene.generalize, scene_sea(loaded.scene.land_cover), data,
-                 mask_of_ground(loaded, data, progress), lakes_of_map(data, areas), progress);
-  const Grid<float>& z = masks.along_lines_m.empty() ? data.altitude_m : masks.along_lines_m;
-  masks.crests_m = crests_of_data(z, level);
-  masks.finer_m = finer_bands(z, level);
+  Grid<float> mask = mask_of_ground(loaded, data, progress);
+  GroundMasks masks = find_masks(loaded.scene.generalize, scene_sea(loaded.scene.land_cover), data,
+                                 mask, lakes_of_map(data, areas), progress);
+  masks.mask = std::move(mask);
+  if (data.halved == 0) {  // else the finest bands are not known
+    const Grid<float>& z = masks.along_lines_m.empty() ? data.altitude_m : masks.along_lines_m;
+    masks.finer_m = finer_bands(z, level);
+  }
   if (!masks.mask.empty()) masks.unchanged = any_below(unchanged_cells({}, masks.mask), level);
   const auto unit = [](Grid<float> grid) {
     for (float& v : grid) v = std::clamp(v, 0.F, 1.F);  // borders are extended linearly

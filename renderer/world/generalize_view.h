@@ -22,7 +22,6 @@ struct GroundMasks {
   Grid<std::uint8_t> keep;       // GeneralizeGrids::keep
   Grid<std::uint8_t> unchanged;  // GeneralizeGrids::unchanged, of previews
   Grid<float> along_lines_m;  // what is generalized instead of the DEM, smoothed along slope lines
-  Grid<float> crests_m;       // GeneralizeGrids::crests_m, of previews
   std::vector<Grid<float>> finer_m;  // GeneralizeGrids::finer_m, of previews
 };                                   // each is empty where the scene has none
 // Those of a preview: made of the data, because their openings and dilations count cells, and then

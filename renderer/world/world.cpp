@@ -129,6 +129,7 @@ World make_world(const LoadedScene& loaded, Progress& progress, const Cache& cac
   add_key([&] { return generalize_key(loaded, view); });
   if (opened->levels) add_key([&] { return camera_key(loaded, view) + deform_key(view); });
   const std::shared_ptr<TerrainModel> terrain = keep_or_make(slot(&KeptWorld::terrain), key, [&] {
+    if (kept != nullptr) kept->waters = {};  // read the one before
     std::shared_ptr<const GroundMasks> masks;
     if (opened->data)
       masks = keep_or_make(slot(&KeptWorld::masks), of_surroundings + masks_key(loaded), [&] {

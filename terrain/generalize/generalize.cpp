@@ -67,7 +67,7 @@ void check(const Grid<float>& altitude_m, const GeneralizeGrids& grids,
                 "0 to 16");
   const auto fits = [&](const auto& grid) { return grid.empty() || grid.same_size(altitude_m); };
   if (!fits(grids.foreground_share) || !fits(grids.keep) || !fits(grids.mask) ||
-      !fits(grids.unchanged) || !fits(grids.amplification_mask) || !fits(grids.crests_m)) {
+      !fits(grids.unchanged) || !fits(grids.amplification_mask)) {
     throw Error(ErrorKind::bug, "generalize",
                 "a foreground, lake or mask grid differs in size from the DEM");
   }
@@ -153,17 +153,21 @@ Grid<float> generalize(const Grid<float>& altitude_m, glm::dvec2 cell_m,
   const int possible = max_bands(altitude_m.width(), altitude_m.height());
   const int bands = std::min(weights, possible);
   // The lowest of the crest bands needs a level below it.
-  const bool knows_crests = !grids.crests_m.empty();
-  const float crest = skipped < crest_bands && !knows_crests ? parameters.crest : 0.F;
+  const float crest = skipped < crest_bands ? parameters.crest : 0.F;
   const int reductions =
       crest > 0.F ? std::min(std::max(weights, crest_bands - skipped), possible) : bands;
   // Without the lakes; empty: none.
   const Grid<unsigned char> unchanged =
       grids.unchanged.empty() ? unchanged_cells({}, grids.mask) : grids.unchanged;
-  Grid<unsigned char> kept = unchanged;
-  for (std::size_t i = 0; i < kept.size() && !grids.keep.empty(); ++i)
-    kept[i] = kept[i] != 0 || grids.keep[i] != 0 ? 1 : 0;
-  const Grid<unsigned char>& keep = unchanged.empty() ? grids.keep : kept;
+  Grid<unsigned char> both;
+  if (!unchanged.empty() && !grids.keep.empty()) {
+    both = unchanged;
+    for (std::size_t i = 0; i < both.size(); ++i)
+      both[i] = both[i] != 0 || grids.keep[i] != 0 ? 1 : 0;
+  }
+  const Grid<unsigned char>& keep = unchanged.empty()    ? grids.keep
+                                    : grids.keep.empty() ? unchanged
+                                                         : both;
   const bool keeps = std::any_of(keep.begin(), keep.end(), [](unsigned char k) { return k != 0; });
   progress.begin("generalize", 2.0 * reductions + 1.0);
 
@@ -207,10 +211,6 @@ Grid<float> generalize(const Grid<float>& altitude_m, glm::dvec2 cell_m,
     if (skipped > 0) levels.push_back(altitude_m);
     std::move(levels_m.begin(), levels_m.end(), std::back_inserter(levels));
     add_crests(change, std::move(levels), skipped, share.at(0), mask.at(0), amplify.at(0), crest);
-  }
-  if (knows_crests && parameters.crest > 0.F) {
-    if (change.empty()) change = Grid<float>(altitude_m.width(), altitude_m.height());
-    add_crests(change, grids.crests_m, share.at(0), mask.at(0), amplify.at(0), parameters.crest);
   }
   const int known = std::min({skipped, static_cast<int>(grids.finer_m.size()),
                               static_cast<int>(parameters.foreground.size())});

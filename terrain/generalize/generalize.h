@@ -70,9 +70,6 @@ struct GeneralizeGrids {
   // lets flats be smoothed; empty: 1 everywhere.
   Grid<float> amplification_mask;
   PixelGround pixel_ground;
-  // Of a halved DEM: crests_of_data; empty: crests are found in these cells, without the bands that
-  // these lack.
-  Grid<float> crests_m = {};
   // Of a halved DEM: what is left in its cells of each band that is finer than they are, the finest
   // first (finer_bands); empty: nothing.
   std::vector<Grid<float>> finer_m = {};

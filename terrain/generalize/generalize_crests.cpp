@@ -44,38 +44,7 @@ CrestTerms find_crests(std::vector<Grid<float>> levels, int first) {  // the fin
   return crests;
 }
 
-float sharpening_m(float strength, float detail_m, float ground_m) {
-  return strength * unit((ground_m - 1200.F) / 700.F) * std::clamp(detail_m, 0.F, 60.F);
-}
-
 }  // namespace
-
-Grid<float> crests_of_data(const Grid<float>& altitude_m, int halvings) {
-  const int possible = max_bands(altitude_m.width(), altitude_m.height());
-  if (possible < 1 || halvings < 1) return {};
-  std::vector<Grid<float>> levels;
-  for (int i = 0; i < std::min(crest_bands, possible); ++i)
-    levels.push_back(reduce(i == 0 ? altitude_m : levels.back()));
-  const CrestTerms crests = find_crests(std::move(levels), 1);
-  Grid<float> out(crests.ground_m.width(), crests.ground_m.height());
-  for (std::size_t i = 0; i < crests.detail_m.size(); ++i)
-    out[i] = sharpening_m(1.F, crests.detail_m[i], crests.ground_m[i]);
-  for (int i = 1; i < halvings; ++i) out = reduce(out);
-  return out;
-}
-
-void add_crests(Grid<float>& change, const Grid<float>& crests_m, const Grid<float>* share,
-                const Grid<float>* mask, const Grid<float>* amplify, float strength) {
-  parallel_rows(change.height(), [&](int y) {
-    for (int x = 0; x < change.width(); ++x) {
-      const float near = share == nullptr ? 1.F : unit((*share)(x, y));
-      float added = strength * crests_m(x, y) * (1.F - 0.2F * (1.F - near));
-      if (mask != nullptr) added *= unit((*mask)(x, y));
-      if (amplify != nullptr) added *= unit((*amplify)(x, y));
-      change(x, y) += added;
-    }
-  });
-}
 
 void add_crests(Grid<float>& change, std::vector<Grid<float>> levels, int halved,
                 const Grid<float>* share, const Grid<float>* mask, const Grid<float>* amplify,
@@ -94,8 +63,10 @@ void add_crests(Grid<float>& change, std::vector<Grid<float>> levels, int halved
     }
     float* out = change.row(y);
     for (int x = 0; x < width; ++x) {
+      const float high = unit((ground[x] - 1200.F) / 700.F);
       const float near = share == nullptr ? 1.F : unit((*share)(x, y));
-      float added = sharpening_m(strength, detail[x], ground[x]) * (1.F - 0.2F * (1.F - near));
+      float added =
+          strength * high * std::clamp(detail[x], 0.F, 60.F) * (1.F - 0.2F * (1.F - near));
       if (mask != nullptr) added *= unit((*mask)(x, y));
       if (amplify != nullptr) added *= unit((*amplify)(x, y));
       out[x] += added;

@@ -16,10 +16,4 @@ void add_crests(Grid<float>& change, std::vector<Grid<float>> levels, int halved
 // Number of bands that this needs.
 constexpr int crest_bands = 4;
 
-// b2, b3 and b4 of the data where they are crests, which `crest` multiplies (GeneralizeParameters),
-// brought to the level of a DEM that is halved so many times (1…16) and lacks the finest of them.
-Grid<float> crests_of_data(const Grid<float>& altitude_m, int halvings);
-void add_crests(Grid<float>& change, const Grid<float>& crests_m, const Grid<float>* share,
-                const Grid<float>* mask, const Grid<float>* amplify, float strength);
-
 }  // namespace belvedere

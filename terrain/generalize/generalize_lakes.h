@@ -9,7 +9,7 @@ namespace belvedere {
 // the edge of a mask, where the ground goes on, the change must not show.
 constexpr float shore_fade_cells = 6.0F;
 constexpr float mask_fade_cells = 16.0F;
-// Lengths are in cells of the data, of which these are halved so many times.
+// Lengths are in cells of the data; halved: number of halvings from the data to these cells.
 void settle_around_kept(Grid<float>& change, const Grid<unsigned char>& keep, float fade_cells,
                         int halved = 0);
 

@@ -39,8 +39,8 @@ struct WidenedValleys {
 // well, which also fade towards cells of 0; empty: none. Creates no new hollows where it is 1.
 // Cells must be finite. Throws Error(usage) for values out of range, Error(bug) if grids differ in
 // size.
-// halved: how many times the cells of the data were halved to these; water and the steps of
-// centrelines are as wide as some cells of the data.
+// halved: number of halvings from the data to these cells (Dem::halved); widths of water and banks
+// are in cells of the data.
 WidenedValleys widen_valleys(const Grid<float>& altitude_m, const Grid<std::uint8_t>& keep,
                              const Grid<float>& mask, double cell_m,
                              const WidenValleysParameters& parameters, Progress& progress,

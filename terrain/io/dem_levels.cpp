@@ -116,10 +116,13 @@ int coarsest_level(const RasterFrame& frame, double max_cells) {
 
 int preview_level(const RasterFrame& frame, double max_cells) {
   constexpr double a_third_more = 0.2;  // halvings
+  constexpr int fewest_cells = 16;      // on a side
   const double cells = static_cast<double>(frame.width) * frame.height;
   if (!(max_cells > 0.0) || cells <= max_cells) return 0;
-  return std::max(0,
-                  static_cast<int>(std::ceil(0.5 * exact::log2(cells / max_cells) - a_third_more)));
+  int level = static_cast<int>(std::ceil(0.5 * exact::log2(cells / max_cells) - a_third_more));
+  while (level > 0 && level_cells(std::min(frame.width, frame.height), level) < fewest_cells)
+    --level;
+  return level;
 }
 
 Dem halved_dem(const Dem& dem, int times) {
@@ -129,11 +132,11 @@ Dem halved_dem(const Dem& dem, int times) {
   for (int i = 1; i < times; ++i) out.altitude_m = reduce(out.altitude_m);
   const int step = 1 << times;
   const Grid<float>& z = dem.altitude_m;
-  out.filled = Grid<std::uint8_t>(out.width(), out.height());
+  if (!dem.filled.empty()) out.filled = Grid<std::uint8_t>(out.width(), out.height());
   parallel_rows(out.height(), [&](int y) {
     for (int x = 0; x < out.width(); ++x) {
       const float level_m = z(step * x, step * y);
-      out.filled(x, y) = dem.filled(step * x, step * y);
+      if (!dem.filled.empty()) out.filled(x, y) = dem.filled(step * x, step * y);
       int level = 0;
       int cells = 0;
       for (int v = step * y - step / 2; v < std::min(step * y + step / 2, dem.height()); ++v)

@@ -390,6 +390,31 @@ TEST(KeptWorld, AFileThatChangedIsReadAgain) {
             ErrorKind::input);
 }
 
+// The beds of water refer to the ground they lie in, also after a run that was cancelled while it
+// made another ground.
+TEST(KeptWorld, WaterIsThatOfItsOwnGround) {
+  class Cancelled : public Progress {
+   public:
+    void begin(std::string_view stage, double) override {
+      if (stage == "generalize") throw Error(ErrorKind::interrupted, "picture", "cancelled");
+    }
+  };
+  const LoadedScene scene = hills({"land_cover.sea_level_m=1100"});
+  KeptWorld kept;
+  const auto expect_own_waters = [&] {
+    const World world = make_world(scene, silent_progress(), no_cache(), {}, &kept);
+    ASSERT_NE(world.waters->get(), nullptr);
+    EXPECT_EQ(world.waters->get()->terrain, &world.terrain);
+  };
+  expect_own_waters();
+  const auto other = kept.terrain.value;  // its place in memory stays taken
+  Cancelled cancelled;
+  EXPECT_THROW(make_world(hills({"land_cover.sea_level_m=1100", "generalize.crest=1"}), cancelled,
+                          no_cache(), {}, &kept),
+               Error);
+  expect_own_waters();
+}
+
 // ---- keys
 
 TEST(KeptWorld, KeysDifferWhereTheirValuesMay) {
