@@ -8,16 +8,10 @@ std::shared_ptr<KeptFiles> make_kept_files() { return std::make_shared<KeptFiles
 
 std::vector<KeptFiles::Stamp> KeptFiles::stamps_of(const std::vector<std::string>& files) {
   std::vector<Stamp> stamps;
-  const auto add = [&](const std::filesystem::path& file) {
+  for (const std::string& file : files) {
     std::error_code none;
     stamps.emplace_back(std::filesystem::file_size(file, none),
                         std::filesystem::last_write_time(file, none).time_since_epoch().count());
-  };
-  for (const std::string& file : files) {
-    const std::filesystem::path path(file);
-    add(path);
-    if (path.extension() == ".shp")  // its attributes
-      add(std::filesystem::path(path).replace_extension(".dbf"));
   }
   return stamps;
 }

@@ -245,7 +245,8 @@ GroundMap read_ground_map(const LoadedScene& loaded, const Dem& dem, Progress& p
                                .add("low", box.low)
                                .add("high", box.high);
   std::vector<std::string> files;
-  for (const FeatureSource& source : feature_sources(loaded)) files.push_back(source.file.path);
+  for (const FeatureSource& source : feature_sources(loaded))
+    for (std::string& part : vector_parts(source.file.path)) files.push_back(std::move(part));
   return *loaded.kept->get<GroundMap>(key.str(), files, [&] {
     const PackedRows packed = cached<PackedRows>(
         cache, [&] { return features_key(loaded, dem); }, progress,

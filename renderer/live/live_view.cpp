@@ -53,7 +53,8 @@ Grid<glm::vec3> read_tiles(PixelRect sheet, const Read& read, const LiveView::Us
 }  // namespace
 
 const GroundSize& LiveView::size_of(const LoadedScene& loaded) {
-  return *keep_or_make(&size_, dem_key(loaded), [&] { return ground_size_of(loaded); });
+  return *keep_or_make(&size_, dem_key(loaded), silent_progress(),
+                       [&](Progress&) { return ground_size_of(loaded); });
 }
 
 // Ground that is much finer than the previews' would take a gigabyte between two pictures that take

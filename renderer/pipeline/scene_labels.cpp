@@ -19,6 +19,7 @@
 #include "renderer/labels/label_files.h"
 #include "renderer/labels/sheet_painter.h"
 #include "terrain/io/crs.h"
+#include "terrain/io/input_parts.h"
 #include "terrain/shape/summits.h"
 
 namespace belvedere {
@@ -146,7 +147,7 @@ NamesRead names_of(const LoadedScene& scene, const LabelJob& job, const LabelSty
     for (const VectorSource& file : *kind) {
       const auto& [path, crs, encoding] = file;
       key.add("file", path).add("crs", crs).add("encoding", encoding);
-      files.push_back(path);
+      for (std::string& part : vector_parts(path)) files.push_back(std::move(part));
     }
   }
   return *scene.kept->get<NamesRead>(key.str(), files,

@@ -41,17 +41,19 @@ KeptPaint* kept_paint(const LoadedScene& loaded, const SheetRequest& request,
 ScenePaint paint_for(const LoadedScene& loaded, const SheetRequest& request, KeptPaint* kept,
                      Progress& progress) {
   if (kept == nullptr) return read_paint(loaded, request, progress);
-  return *keep_or_make(&kept->read, paint_key(loaded, request),
-                       [&] { return read_paint(loaded, request, progress); });
+  return *keep_or_make(
+      &kept->read, paint_key(loaded, request), progress,
+      [&](Progress& watcher) { return read_paint(loaded, request, watcher); });
 }
 
 // Paint is read before the world, so that wrong files are refused early; the dependencies of its
 // colours are known after it.
 Palette located_palette(const LoadedScene& loaded, const SheetRequest& request,
                         const ScenePaint& paint, const World& world, KeptPaint* kept) {
-  const auto make = [&] { return palette_for_location(paint.palette, loaded, *world.dem); };
-  if (kept == nullptr) return make();
-  return *keep_or_make(&kept->located, paint_key(loaded, request) + cover_key(loaded), make);
+  return *keep_or_make(
+      kept == nullptr ? nullptr : &kept->located,
+      kept == nullptr ? "" : paint_key(loaded, request) + cover_key(loaded), silent_progress(),
+      [&](Progress&) { return palette_for_location(paint.palette, loaded, *world.dem); });
 }
 
 int block_px_for(const World& world, const ScenePaint& paint, const SheetView& view,
@@ -81,7 +83,7 @@ std::shared_ptr<const GuidanceBuffers> kept_rays(const LoadedScene& loaded, cons
                                                  const Run& run) {
   if (parameters.kept_rays == nullptr) return nullptr;
   return keep_or_make(parameters.kept_rays, rays_key(loaded, world, *parameters.kept),
-                      [&] { return trace_view(world, view, sheet, run); });
+                      run.progress, [&](Progress&) { return trace_view(world, view, sheet, run); });
 }
 
 GroundInputs inputs_for(const ScenePaint& paint, const World& world, const SheetView& view,

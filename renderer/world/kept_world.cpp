@@ -8,6 +8,7 @@
 #include "base/cache/cache_key.h"
 #include "base/memory_limit.h"
 #include "renderer/world/style/scene_style.h"
+#include "terrain/io/input_parts.h"
 
 namespace belvedere {
 namespace {
@@ -21,17 +22,24 @@ std::string written(const Take& take) {
   return write_scene(settings);
 }
 
+// A file with those that are read beside it, found without opening any but virtual rasters.
+std::vector<std::string> parts_of(const std::string& path) {
+  return path.ends_with(".vrt") ? raster_parts(path) : vector_parts(path);
+}
+
 // Those that a test of their keys chooses. Files may be replaced while a program runs.
 template <class Takes>
 void add_files(CacheKeyText& key, const LoadedScene& loaded, const Takes& takes) {
   for (const SceneInput& input : scene_inputs(loaded)) {
     if (!takes(std::string_view(input.key))) continue;
-    std::error_code none;
-    key.add("file", input.path)
-        .add("bytes", static_cast<std::uint64_t>(std::filesystem::file_size(input.path, none)))
-        .add("time",
-             static_cast<std::int64_t>(
-                 std::filesystem::last_write_time(input.path, none).time_since_epoch().count()));
+    for (const std::string& part : parts_of(input.path)) {
+      std::error_code none;
+      key.add("file", part)
+          .add("bytes", static_cast<std::uint64_t>(std::filesystem::file_size(part, none)))
+          .add("time",
+               static_cast<std::int64_t>(
+                   std::filesystem::last_write_time(part, none).time_since_epoch().count()));
+    }
   }
 }
 

@@ -62,14 +62,14 @@ std::shared_ptr<const LandCover> make_cover(const LoadedScene& loaded, const Dem
   if (kept == nullptr)
     return std::make_shared<const LandCover>(
         make_scene_land_cover(loaded, dem, progress, cache, &catchments, &seen));
-  const std::shared_ptr<const LandCover> bare = keep_or_make(&kept->bare_cover, key, [&] {
-    return make_bare_patches(loaded, dem, progress, cache, &catchments).cover;
-  });
+  const std::shared_ptr<const LandCover> bare = keep_or_make(&kept->bare_cover, key, progress, [&](Progress& watcher) {
+        return make_bare_patches(loaded, dem, watcher, cache, &catchments).cover;
+      });
   const bool has_lines = loaded.scene.any_features() || !bare->inferred_rivers.empty();
   const std::string seen_as = has_lines ? camera_key(loaded, view) + deform_key(view) : "";
   const std::shared_ptr<const LandCover> before =
       kept->land_cover.key.starts_with(key) ? kept->land_cover.value : nullptr;
-  return keep_or_make(&kept->land_cover, key + seen_as, [&] {
+  return keep_or_make(&kept->land_cover, key + seen_as, progress, [&](Progress& watcher) {
     if (before != nullptr && !loaded.scene.any_features()) {
       LandCover cover = *before;
       cover.inferred_rivers = bare->inferred_rivers;
@@ -77,7 +77,7 @@ std::shared_ptr<const LandCover> make_cover(const LoadedScene& loaded, const Dem
       return cover;
     }
     LandCover cover = *bare;
-    lay_ground_map(cover, loaded, dem, progress, cache, &catchments, &seen);
+    lay_ground_map(cover, loaded, dem, watcher, cache, &catchments, &seen);
     return cover;
   });
 }
@@ -92,16 +92,19 @@ World make_world(const LoadedScene& loaded, Progress& progress, const Cache& cac
   const auto slot = [kept](auto KeptWorld::*value) {
     return kept == nullptr ? nullptr : &(kept->*value);
   };
-  std::string key = kept == nullptr ? "" : dem_key(loaded);
-  const auto add_key = [&](auto&& make_key) {
-    if (kept != nullptr) key += make_key();
+  // Of each value, what it is made from.
+  const auto key_of = [kept](auto&& make_key) {
+    return kept == nullptr ? std::string() : make_key();
   };
 
   // The ground as measured; the levels of a DEM larger than memory stay for its windows.
+  const std::string of_dem = key_of([&] { return dem_key(loaded); });
   const std::shared_ptr<SceneDem> opened =
-      known.dem ? std::make_shared<SceneDem>() : keep_or_make(slot(&KeptWorld::dem), key, [&] {
-        return open_scene_dem(loaded, progress, cache);
-      });
+      known.dem
+          ? std::make_shared<SceneDem>()
+          : keep_or_make(slot(&KeptWorld::dem), of_dem, progress, [&](Progress& watcher) {
+              return open_scene_dem(loaded, watcher, cache);
+            });
   const std::shared_ptr<const Dem> dem =
       known.dem ? std::move(known.dem) : std::shared_ptr<const Dem>(opened, &opened->dem);
 
@@ -116,57 +119,72 @@ World make_world(const LoadedScene& loaded, Progress& progress, const Cache& cac
   // Land cover. Class rules and the terrain's model both need the drainage: it is computed once.
   std::unique_ptr<Catchments> catchments = std::move(known.catchments);
   if (!known.land_cover && !catchments) catchments = std::make_unique<Catchments>(*dem);
-  add_key([&] { return cover_key(loaded); });
+  const std::string of_cover = key_of([&] { return of_dem + cover_key(loaded); });
   const std::shared_ptr<const LandCover> land_cover =
       known.land_cover
           ? std::move(known.land_cover)
-          : make_cover(loaded, *dem, view, seen, *catchments, progress, cache, kept, key);
+          : make_cover(loaded, *dem, view, seen, *catchments, progress, cache, kept, of_cover);
 
-  // The ground for this view: generalized, with finer windows where the DEM is larger than memory.
-  const std::string of_surroundings = key;
+  // The ground for this view. Classes change it only if it is masked by them.
+  const std::string of_shape = key_of([&] {
+    return of_dem + generalize_key(loaded, view) +
+           (scene.generalize.mask_classes.empty() ? "" : of_cover);
+  });
+  const std::shared_ptr<GeneralizedTerrain> generalized = keep_or_make(
+      slot(&KeptWorld::generalized), of_shape, progress, [&](Progress& watcher) {
+        std::shared_ptr<const GroundMasks> masks;
+        if (opened->data)
+          masks = keep_or_make(slot(&KeptWorld::masks),
+                               key_of([&] { return of_dem + masks_key(loaded); }), watcher,
+                               [&](Progress& inner) {
+                                 return preview_masks(loaded, *opened->data,
+                                                      dem->halved - opened->data->halved,
+                                                      land_cover->map.get(), inner);
+                               });
+        if (kept == nullptr) opened->data.reset();
+        return generalize_for_view(loaded, *dem, land_cover.get(), view, watcher, cache,
+                                   {.masks = masks.get()});
+      });
+
+  // All that a pixel may need of it, with finer windows where the DEM is larger than memory.
+  const std::string of_windows = key_of([&] {
+    return opened->levels ? of_cover + camera_key(loaded, view) + deform_key(view) : "";
+  });
   const std::optional<Deformation> local =
       deformation.is_local() ? std::optional(deformation) : std::nullopt;
-  add_key([&] { return generalize_key(loaded, view); });
-  if (opened->levels) add_key([&] { return camera_key(loaded, view) + deform_key(view); });
-  const std::shared_ptr<TerrainModel> terrain = keep_or_make(slot(&KeptWorld::terrain), key, [&] {
-    if (kept != nullptr) kept->waters = {};  // read the one before
-    std::shared_ptr<const GroundMasks> masks;
-    if (opened->data)
-      masks = keep_or_make(slot(&KeptWorld::masks), of_surroundings + masks_key(loaded), [&] {
-        return preview_masks(loaded, *opened->data, dem->halved - opened->data->halved,
-                             land_cover->map.get(), progress);
+  const std::string of_terrain = of_shape + of_cover + of_windows;
+  const std::shared_ptr<TerrainModel> terrain = keep_or_make(
+      slot(&KeptWorld::terrain), of_terrain, progress, [&](Progress& watcher) {
+        if (kept != nullptr) kept->waters = {};  // read the one before
+        const std::shared_ptr<GroundSurroundings> surroundings = keep_or_make(
+            slot(&KeptWorld::surroundings), of_cover, watcher, [&](Progress& inner) {
+              return cached<GroundSurroundings>(
+                  cache, [&] { return surroundings_key(loaded, *dem, *land_cover); }, inner,
+                  [&](Progress&) { return find_surroundings(*dem, *land_cover, catchments.get()); });
+            });
+        const auto take = [kept](auto& value) { return kept == nullptr ? std::move(value) : value; };
+        TerrainModel made =
+            make_terrain_model(dem, take(generalized->altitude_m), land_cover,
+                               view.deform.exaggeration, take(*surroundings));
+        made.came_from = take(generalized->came_from);
+        made.goes_to = take(generalized->goes_to);
+        made.local = local;
+        if (opened->levels) {
+          const RasterFrame& frame = opened->levels->frame();
+          const GroundPlan plan = plan_ground(frame, *dem, view, opened->max_cells);
+          watcher.note(describe(plan, frame));
+          add_ground_windows(
+              made, plan,
+              {loaded, view, deformation, opened->sea, *opened->levels, watcher, cache, seen});
+          if (kept == nullptr) opened->levels.reset();  // no longer needed
+        }
+        return made;
       });
-    if (kept == nullptr) opened->data.reset();
-    GeneralizedTerrain generalized = generalize_for_view(loaded, *dem, land_cover.get(), view,
-                                                         progress, cache, {.masks = masks.get()});
-    masks.reset();
-    const std::shared_ptr<GroundSurroundings> surroundings =
-        keep_or_make(slot(&KeptWorld::surroundings), of_surroundings, [&] {
-          return cached<GroundSurroundings>(
-              cache, [&] { return surroundings_key(loaded, *dem, *land_cover); }, progress,
-              [&](Progress&) { return find_surroundings(*dem, *land_cover, catchments.get()); });
-        });
-    TerrainModel made = make_terrain_model(
-        dem, std::move(generalized.altitude_m), land_cover, view.deform.exaggeration,
-        kept == nullptr ? std::move(*surroundings) : *surroundings);
-    made.came_from = std::move(generalized.came_from);
-    made.goes_to = std::move(generalized.goes_to);
-    made.local = local;
-    if (opened->levels) {
-      const RasterFrame& frame = opened->levels->frame();
-      const GroundPlan plan = plan_ground(frame, *dem, view, opened->max_cells);
-      progress.note(describe(plan, frame));
-      add_ground_windows(
-          made, plan,
-          {loaded, view, deformation, opened->sea, *opened->levels, progress, cache, seen});
-      if (kept == nullptr) opened->levels.reset();  // no longer needed
-    }
-    return made;
-  });
   auto waters =
       std::make_shared<const LazyWaters>([&of = *terrain] { return find_water_ground(of); });
   if (kept != nullptr) {
-    if (kept->waters.value == nullptr || kept->waters.key != key) kept->waters = {key, waters};
+    if (kept->waters.value == nullptr || kept->waters.key != of_terrain)
+      kept->waters = {of_terrain, waters};
     waters = kept->waters.value;
   }
   // What differs between views of one ground.
@@ -175,18 +193,20 @@ World make_world(const LoadedScene& loaded, Progress& progress, const Cache& cac
   terrain->local = local;
 
   // Bent, with its ray-tracing structure. Folded ground is refused before the tracer is built.
-  add_key([&] { return deform_key(view); });
+  const std::string of_surface =
+      key_of([&] { return of_shape + of_windows + deform_key(view); });
   const std::shared_ptr<const DeformedSurface> surface =
-      keep_or_make(slot(&KeptWorld::surface), key, [&] {
+      keep_or_make(slot(&KeptWorld::surface), of_surface, progress, [&](Progress&) {
         if (kept != nullptr) kept->tracer = {};  // reads the one before
         return deform_ground(*terrain, glm::dvec3(view.viewer_xy, 0.0), deformation);
       });
   check_folds(scene.deform, *terrain, deformation, *camera, progress);
-  add_key([&] { return scene.tracing.instruction_set; });
-  const std::shared_ptr<const Tracer> tracer = keep_or_make(slot(&KeptWorld::tracer), key, [&] {
-    progress.begin("building the ray tracer", 0.0);
-    return Tracer(*surface, scene.tracing);
-  });
+  const std::shared_ptr<const Tracer> tracer =
+      keep_or_make(slot(&KeptWorld::tracer), of_surface + scene.tracing.instruction_set, progress,
+                   [&](Progress& watcher) {
+                     watcher.begin("building the ray tracer", 0.0);
+                     return Tracer(*surface, scene.tracing);
+                   });
   check_ground_in_view(*dem, *camera, *tracer, progress);
   const double horizon_px = skyline_row_px(*camera, *tracer, usual_horizon * scene.output.height);
   MistAir mist = make_scene_mist(scene, view, *terrain, deformation, *camera);

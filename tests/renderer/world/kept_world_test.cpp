@@ -256,12 +256,35 @@ TEST(KeptWorld, WeightsGeneralizeAgainAndClassesStay) {
         << change;
 }
 
-TEST(KeptWorld, ClassesAreMadeAgainOnTheSameTerrain) {
+TEST(KeptWorld, ClassesAreMadeAgainOnTheSameGround) {
   for (const char* change : {"land_cover.settings.treeline_m=1000", "season.date=\"02-01\"",
-                             "land_cover.smallest_patch_m2=400000", "palette=winter"})
-    EXPECT_THAT(stages_after(change),
-                ElementsAre("class rules", "generalize", "building the ray tracer"))
-        << change;
+                             "land_cover.smallest_patch_m2=400000", "palette=winter", "seed=9"})
+    EXPECT_THAT(stages_after(change), ElementsAre("class rules")) << change;
+}
+
+TEST(KeptWorld, GroundThatIsMaskedByClassesFollowsThem) {
+  const std::string masked = "generalize.mask_classes={ forest = 0 }";
+  KeptWorld kept;
+  { const World first = make_world(hills({masked}), silent_progress(), no_cache(), {}, &kept); }
+  ToldStages stages;
+  const World second = make_world(hills({masked, "land_cover.settings.treeline_m=1000"}), stages,
+                                  no_cache(), {}, &kept);
+  EXPECT_THAT(stages.all, ElementsAre("class rules", "generalize", "building the ray tracer"));
+}
+
+TEST(KeptWorld, NotesAreToldAgainWithTheValuesThatAreKept) {
+  struct ToldNotes : Progress {
+    void note(std::string_view text) override { all.emplace_back(text); }
+    std::vector<std::string> all;
+  };
+  const LoadedScene scene = hills({"land_cover.sea_level_m=1100"});
+  KeptWorld kept;
+  ToldNotes first;
+  { const World world = make_world(scene, first, no_cache(), {}, &kept); }
+  ASSERT_THAT(first.all, testing::Contains(testing::StartsWith("sea: ")));
+  ToldNotes again;
+  const World world = make_world(scene, again, no_cache(), {}, &kept);
+  EXPECT_EQ(again.all, first.all);
 }
 
 TEST(KeptWorld, AnotherTerrainIsAnotherWorld) {
@@ -276,6 +299,11 @@ TEST(KeptWorld, HoldsOneValueOfEachKind) {
   ASSERT_NE(tracer, nullptr);
   EXPECT_EQ(tracer.use_count(), 2) << "the world is gone";
   { const World world = make_world(hills({"seed=2"}), silent_progress(), no_cache(), {}, &kept); }
+  EXPECT_EQ(kept.tracer.value, tracer) << "a seed touches no ground";
+  {
+    const World world =
+        make_world(hills({"deform.exaggeration=2"}), silent_progress(), no_cache(), {}, &kept);
+  }
   EXPECT_NE(kept.tracer.value, tracer);
   EXPECT_EQ(tracer.use_count(), 1) << "the tracer before is not kept";
 }
@@ -416,6 +444,30 @@ TEST(KeptWorld, WaterIsThatOfItsOwnGround) {
 }
 
 // ---- keys
+
+// Sources of virtual rasters, and the files beside a shapefile.
+TEST(KeptWorld, FilesBesideThoseThatASceneNamesCount) {
+  const test::Folder folder;
+  write_slope(folder / "part.tif", 500.F);
+  folder.write("slope.tif.vrt", R"(<VRTDataset rasterXSize="40" rasterYSize="40">
+  <GeoTransform>600000, 100, 0, 5204000, 0, -100</GeoTransform>
+  <VRTRasterBand dataType="Float32" band="1"><SimpleSource>
+    <SourceFilename relativeToVRT="1">part.tif</SourceFilename><SourceBand>1</SourceBand>
+  </SimpleSource></VRTRasterBand></VRTDataset>)");
+  folder.write("rivers.shp", "");
+  folder.write("rivers.dbf", "");
+  const LoadedScene scene = slope_scene(
+      folder.path(), {"terrain.sources.0.file=\"slope.tif.vrt\"",
+                      "features.0={ source = \"rivers.shp\", kind = \"river\" }"});
+  std::string before = dem_key(scene);
+  for (const char* part : {"part.tif", "rivers.dbf"}) {
+    std::filesystem::last_write_time(
+        folder / part, std::filesystem::file_time_type::clock::now() + std::chrono::hours(1));
+    const std::string after = dem_key(scene);
+    EXPECT_NE(after, before) << part;
+    before = after;
+  }
+}
 
 TEST(KeptWorld, KeysDifferWhereTheirValuesMay) {
   const LoadedScene scene = hills();
