@@ -377,6 +377,17 @@ std::vector<ScannedPainting> read_scans(const LoadedScene& scene, Progress& prog
   return scans;
 }
 
+double painting_texels(const LoadedScene& scene) {
+  double texels = 0.0;
+  for (const SceneExemplar& settings : scene.scene.exemplars) {
+    const std::string path = find_scene_file(scene, settings.picture);
+    if (path.empty()) continue;
+    const ImageInfo info = read_image_info(path);
+    texels += static_cast<double>(info.width) * info.height;
+  }
+  return texels;
+}
+
 void check_paintings(const LoadedScene& scene) {
   read_texture_models(scene);
   for (const SceneExemplar& settings : scene.scene.exemplars) {

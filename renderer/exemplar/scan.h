@@ -29,6 +29,9 @@ struct ScannedPainting {
 // whose file is missing is noted.
 std::vector<ScannedPainting> read_scans(const LoadedScene& scene, Progress& progress);
 
+// Pixels of the scene's paintings together, by the headers of the files that exist.
+double painting_texels(const LoadedScene& scene);
+
 // Error(input) with the name of the file if a painting cannot be read whole or its guides have
 // another size, Error(limit) if it takes too much memory: to be called before the work begins.
 void check_paintings(const LoadedScene& scene);

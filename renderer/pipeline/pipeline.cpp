@@ -41,11 +41,11 @@ void check_request(const Scene& scene, const SheetRequest& request) {
                 "at least one channel");
 }
 
-// Before the work; the size of ground and scanned paintings is not known yet.
+// Before the work: paintings count by their headers, and ground is fitted to the memory.
 void refuse_beyond_memory(const LoadedScene& loaded, const SheetRequest& request) {
   const Scene& scene = loaded.scene;
   StandingBytes standing{.besides = piece_bytes_of(scene, request)};
-  if (request.panorama && scene.copies()) standing.besides += copying_bytes(scene, {});
+  if (request.panorama && scene.copies()) standing.besides += copying_bytes(scene, painting_texels(loaded));
   const std::optional<Style> style = request.panorama ? named_style(loaded) : std::nullopt;
   choose_block_px(scene, scene.pixels_per_unit(), standing, min_block_px_of(request),
                   style ? &*style : nullptr);

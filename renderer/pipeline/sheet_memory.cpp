@@ -41,22 +41,16 @@ double copying_bytes(const std::vector<PaintedExemplar>& exemplars) {
   return standing_bytes_per_texel * texels;
 }
 
-double copying_bytes(const Scene& scene, const std::vector<ScannedPainting>& paintings) {
-  double texels = 0.0;
+double copying_bytes(const Scene& scene, double painting_texels) {
+  double texels = painting_texels;
   const auto add_sheet = [&](const SceneExemplar& settings) {
     const glm::ivec2 size = example_sheet_size(settings, scene.output);
     texels += static_cast<double>(size.x) * size.y;
   };
   for (const SceneExemplar& exemplar : scene.exemplars)
     if (exemplar.model.empty() && exemplar.picture.empty()) add_sheet(exemplar);
-  for (const ScannedPainting& painting : paintings)
-    texels += static_cast<double>(painting.painted.picture.size());
   // A scene that copies without exemplars does so from a sheet that the program paints.
-  const bool may_have_paintings =
-      paintings.empty() &&
-      std::any_of(scene.exemplars.begin(), scene.exemplars.end(),
-                  [](const SceneExemplar& exemplar) { return !exemplar.picture.empty(); });
-  if (texels == 0.0 && !may_have_paintings) add_sheet({});
+  if (texels == 0.0) add_sheet({});
   return standing_bytes_per_texel * texels;
 }
 

@@ -23,8 +23,8 @@ struct StandingBytes {
 };
 double ground_bytes(const World& world);
 double copying_bytes(const std::vector<PaintedExemplar>& exemplars);
-// The same before an example sheet is painted; `paintings` as they were read, none: not read yet.
-double copying_bytes(const Scene& scene, const std::vector<ScannedPainting>& paintings);
+// The same before an example sheet is painted; of all paintings together.
+double copying_bytes(const Scene& scene, double painting_texels);
 
 inline constexpr int largest_block_px = 1024;
 inline constexpr int min_block_px = 128;

@@ -1,5 +1,6 @@
 #include "renderer/pipeline/sheet_work.h"
 
+#include <numeric>
 #include <utility>
 
 #include "renderer/pipeline/sheet_memory.h"
@@ -61,7 +62,12 @@ int block_px_for(const World& world, const ScenePaint& paint, const SheetView& v
   if (request.block_px > 0) return request.block_px;
   const Scene& scene = world.scene;
   StandingBytes standing{.ground = ground_bytes(world), .besides = piece_bytes_of(scene, request)};
-  if (is_copied(scene, request)) standing.besides += copying_bytes(scene, paint.paintings);
+  if (is_copied(scene, request))
+    standing.besides += copying_bytes(
+        scene, std::accumulate(paint.paintings.begin(), paint.paintings.end(), 0.0,
+                               [](double texels, const ScannedPainting& painting) {
+                                 return texels + static_cast<double>(painting.painted.picture.size());
+                               }));
   return choose_block_px(scene, view.pixels_per_unit, standing, min_block_px_of(request),
                          paint.style ? &*paint.style : nullptr);
 }

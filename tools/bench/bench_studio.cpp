@@ -31,6 +31,8 @@ constexpr Gesture gestures[] = {
     {"exaggeration", "deform.exaggeration", 1.4, 0.02},
     {"bend", "deform.bend.crest_m", 82000.0, 500.0},
     {"equalizer", "generalize.crest", 0.5, 0.02},
+    {"treeline", "land_cover.settings.treeline_m", 1500.0, 10.0},
+    {"seed", "seed", 2.0, 1.0},
 };
 constexpr int steps_per_repeat = 4;
 

@@ -5,6 +5,8 @@
 #include <cstdint>
 
 #include "base/memory_limit.h"
+#include "renderer/exemplar/scan.h"
+#include "renderer/image/image_io.h"
 #include "tests/files.h"
 #include "tests/scenes.h"
 
@@ -69,24 +71,30 @@ TEST(SheetMemory, SmallPartsHaveSmallTiles) {
 
 TEST(SheetMemory, AllThatIsCopiedFromIsCounted) {
   const auto bytes = [](const std::vector<std::string>& settings) {
-    return copying_bytes(print_of(settings), {});
+    return copying_bytes(print_of(settings), 0.0);
   };
   // A texel for eight pixels of the sheet.
   const double sheet = bytes({});
   EXPECT_NEAR(sheet, 20e6 * 85.0, 0.01 * sheet);
   EXPECT_NEAR(bytes({"exemplar=[{ width = 1000, height = 500 }]"}), 0.5e6 * 85.0, 1.0);
-  // The size of a painting is not known before it is read; a missing one leaves the sheet that is
-  // painted instead.
+  // A painting that is missing leaves the sheet that is painted instead.
   const std::string painting =
-      "exemplar=[{ picture = \"p.tif\", classes = \"c.tif\", optional = true }]";
-  EXPECT_EQ(bytes({painting}), 0.0);
-  EXPECT_EQ(copying_bytes(print_of({painting}), std::vector<ScannedPainting>(1)), sheet);
-  std::vector<ScannedPainting> read(1);
-  read[0].painted.picture = Grid<glm::vec3>(300, 200);
-  EXPECT_EQ(copying_bytes(print_of({painting}), read), 300.0 * 200.0 * 85.0);
+      "exemplar=[{ picture = \"p.png\", classes = \"c.tif\", optional = true }]";
+  EXPECT_EQ(bytes({painting}), sheet);
+  EXPECT_EQ(copying_bytes(print_of({painting}), 300.0 * 200.0), 300.0 * 200.0 * 85.0);
   std::vector<PaintedExemplar> exemplars(1);
   exemplars[0].picture = Grid<glm::vec3>(300, 200);
   EXPECT_EQ(copying_bytes(exemplars), 300.0 * 200.0 * 85.0);
+}
+
+// A scene whose painting alone is larger than memory is refused by its header.
+TEST(SheetMemory, PaintingsCountBeforeTheyAreRead) {
+  const test::Folder folder;
+  write_png8(folder / "p.png", Grid<glm::vec3>(300, 200, glm::vec3(0.5F)), {});
+  LoadedScene scene = test::small_scene({"exemplar=[{ picture = \"p.png\", classes = \"c.png\" }]"});
+  EXPECT_EQ(painting_texels(scene), 0.0) << "it is missing";
+  scene.allowed_folders = {folder.path()};
+  EXPECT_EQ(painting_texels(scene), 300.0 * 200.0);
 }
 
 }  // namespace
