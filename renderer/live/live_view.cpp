@@ -52,14 +52,16 @@ Grid<glm::vec3> read_tiles(PixelRect sheet, const Read& read, const LiveView::Us
 
 }  // namespace
 
-const GroundSize& LiveView::size_of(const LoadedScene& loaded) {
-  return *keep_or_make(&size_, dem_key(loaded), silent_progress(),
-                       [&](Progress&) { return ground_size_of(loaded); });
+GroundSize LiveView::size_of(const LoadedScene& loaded) {
+  return *SceneValues(loaded, &paint_, silent_progress())
+              .make<GroundSize>(
+                  "size", [](Scene& to, const Scene& from) { to.terrain = from.terrain; }, {},
+                  [](const Making& m) { return ground_size_of(m.scene); });
 }
 
 // Ground that is much finer than the previews' would take a gigabyte between two pictures that take
 // long anyway.
-KeptWorld* LiveView::kept_for(const Rung& rung, const GroundSize& ground) {
+ValueStore* LiveView::kept_for(const Rung& rung, const GroundSize& ground) {
   constexpr double small_mcells = 2.0;
   if (!rung.is_last()) return &coarse_;
   return ground.mcells <= small_mcells ? &fine_ : nullptr;
@@ -68,7 +70,7 @@ KeptWorld* LiveView::kept_for(const Rung& rung, const GroundSize& ground) {
 LivePicture LiveView::paint(const LoadedScene& given, const Rung& rung, const Run& run,
                             const UseTile& use_tile) {
   const RunLimits limits(run);
-  const GroundSize& ground = size_of(given);
+  const GroundSize ground = size_of(given);
   const LoadedScene loaded = scene_of_rung(given, rung);
   SheetRequest request{.panorama = rung.strokes, .block_px = 1024};
   const PixelRect sheet = region_of(loaded.scene, request);
@@ -80,7 +82,7 @@ LivePicture LiveView::paint(const LoadedScene& given, const Rung& rung, const Ru
                                        .tile_px = use_tile ? 0 : 1024,
                                        .kept = kept_for(rung, ground),
                                        .kept_paint = &paint_,
-                                       .kept_rays = rung.strokes ? nullptr : &rays_};
+                                       .keep_rays = !rung.strokes};
   SheetWork work(loaded, request, parameters, run, run);
   LivePicture picture;
   if (rung.strokes) {

@@ -10,10 +10,9 @@
 #include "base/pixel_rect.h"
 #include "base/run.h"
 #include "renderer/live/rungs.h"
-#include "renderer/pipeline/sheet_work.h"
 #include "renderer/scene/scene_file.h"
 #include "renderer/world/derived_values.h"
-#include "renderer/world/kept_world.h"
+#include "renderer/world/scene_values.h"
 #include "renderer/world/view.h"
 
 namespace belvedere {
@@ -52,14 +51,12 @@ class LiveView {
   Ground ground(const LoadedScene& loaded, const Run& run);
 
  private:
-  const GroundSize& size_of(const LoadedScene& loaded);
-  KeptWorld* kept_for(const Rung& rung, const GroundSize& ground);
+  GroundSize size_of(const LoadedScene& loaded);
+  ValueStore* kept_for(const Rung& rung, const GroundSize& ground);
 
-  Kept<const GroundSize> size_;
-  KeptWorld coarse_;
-  KeptWorld fine_;  // of the last rung, if its ground is small
-  KeptPaint paint_;
-  Kept<const GuidanceBuffers> rays_;  // of the last picture in light and colour
+  ValueStore coarse_;
+  ValueStore fine_;   // of the last rung, if its ground is small
+  ValueStore paint_;  // of all rungs, with the size of the ground
 };
 
 }  // namespace belvedere

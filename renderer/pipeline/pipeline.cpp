@@ -45,7 +45,8 @@ void check_request(const Scene& scene, const SheetRequest& request) {
 void refuse_beyond_memory(const LoadedScene& loaded, const SheetRequest& request) {
   const Scene& scene = loaded.scene;
   StandingBytes standing{.besides = piece_bytes_of(scene, request)};
-  if (request.panorama && scene.copies()) standing.besides += copying_bytes(scene, painting_texels(loaded));
+  if (request.panorama && scene.copies())
+    standing.besides += copying_bytes(scene, painting_texels(loaded));
   const std::optional<Style> style = request.panorama ? named_style(loaded) : std::nullopt;
   choose_block_px(scene, scene.pixels_per_unit(), standing, min_block_px_of(request),
                   style ? &*style : nullptr);

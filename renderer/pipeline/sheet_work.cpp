@@ -17,44 +17,52 @@ bool is_copied(const Scene& scene, const SheetRequest& request) {
 
 namespace {
 
-// Everything that paint is read from.
-std::string paint_key(const LoadedScene& loaded, const SheetRequest& request) {
-  Scene settings;
-  settings.palette = loaded.scene.palette;
-  settings.style = loaded.scene.style;
-  settings.exemplars = loaded.scene.exemplars;
-  settings.synthesis = loaded.scene.synthesis;
-  return write_scene(settings) + (request.panorama ? "picture\n" : "ground\n") + files_key(loaded) +
-         dem_key(loaded);
-}
-
 ScenePaint read_paint(const LoadedScene& loaded, const SheetRequest& request, Progress& progress) {
   return request.panorama ? read_scene_paint(loaded, progress)
                           : ScenePaint{{}, read_scene_palette(loaded, progress)};
 }
 
 // Paint that copies is used up.
-KeptPaint* kept_paint(const LoadedScene& loaded, const SheetRequest& request,
-                      const SheetWorkParameters& parameters) {
-  return is_copied(loaded.scene, request) ? nullptr : parameters.kept_paint;
+SceneValues paint_values(const LoadedScene& loaded, const SheetRequest& request,
+                         const SheetWorkParameters& parameters, Progress& progress) {
+  return {loaded, is_copied(loaded.scene, request) ? nullptr : parameters.kept_paint, progress};
 }
 
-ScenePaint paint_for(const LoadedScene& loaded, const SheetRequest& request, KeptPaint* kept,
-                     Progress& progress) {
-  if (kept == nullptr) return read_paint(loaded, request, progress);
-  return *keep_or_make(
-      &kept->read, paint_key(loaded, request), progress,
-      [&](Progress& watcher) { return read_paint(loaded, request, watcher); });
+void reads_of_paint(Scene& to, const Scene& from) {
+  to.palette = from.palette;
+  to.style = from.style;
+  to.exemplars = from.exemplars;
+  to.synthesis = from.synthesis;
+}
+
+Value<ScenePaint> paint_for(const LoadedScene& loaded, const SheetRequest& request,
+                            const SheetWorkParameters& parameters, Progress& progress) {
+  return paint_values(loaded, request, parameters, progress)
+      .make<ScenePaint>("paint", reads_of_paint,
+                        {{"", request.panorama ? "of a picture" : "of the ground"}},
+                        [&](const Making& m) { return read_paint(m.scene, request, m.progress); });
 }
 
 // Paint is read before the world, so that wrong files are refused early; the dependencies of its
 // colours are known after it.
 Palette located_palette(const LoadedScene& loaded, const SheetRequest& request,
-                        const ScenePaint& paint, const World& world, KeptPaint* kept) {
-  return *keep_or_make(
-      kept == nullptr ? nullptr : &kept->located,
-      kept == nullptr ? "" : paint_key(loaded, request) + cover_key(loaded), silent_progress(),
-      [&](Progress&) { return palette_for_location(paint.palette, loaded, *world.dem); });
+                        const ValueInput& read, const Palette& palette, const World& world,
+                        const SheetWorkParameters& parameters) {
+  const std::string of_dem = parameters.kept == nullptr ? "" : parameters.kept->key("dem");
+  return *paint_values(loaded, request, parameters, silent_progress())
+              .make<Palette>(
+                  "located palette",
+                  [](Scene& to, const Scene& from) {
+                    to.palette = from.palette;
+                    to.season = from.season;
+                    to.synthesis.colours = from.synthesis.colours;
+                    to.land_cover = from.land_cover;
+                    to.climate = from.climate;
+                  },
+                  {read, {"", of_dem}},
+                  [&](const Making& m) {
+                    return palette_for_location(palette, m.scene, *world.dem);
+                  });
 }
 
 int block_px_for(const World& world, const ScenePaint& paint, const SheetView& view,
@@ -66,30 +74,35 @@ int block_px_for(const World& world, const ScenePaint& paint, const SheetView& v
     standing.besides += copying_bytes(
         scene, std::accumulate(paint.paintings.begin(), paint.paintings.end(), 0.0,
                                [](double texels, const ScannedPainting& painting) {
-                                 return texels + static_cast<double>(painting.painted.picture.size());
+                                 return texels +
+                                        static_cast<double>(painting.painted.picture.size());
                                }));
   return choose_block_px(scene, view.pixels_per_unit, standing, min_block_px_of(request),
                          paint.style ? &*paint.style : nullptr);
 }
 
-// Everything that the results of rays depend on.
-std::string rays_key(const LoadedScene& loaded, const World& world, const KeptWorld& kept) {
-  Scene settings;
-  settings.sun = loaded.scene.sun;
-  settings.sampling = loaded.scene.sampling;
-  settings.light_regions = loaded.scene.light_regions;
-  settings.light_clouds = loaded.scene.light_clouds;
-  return write_scene(settings) + camera_key(loaded, world.view) + kept.tracer.key +
-         kept.land_cover.key;
-}
-
+// Results of rays of the whole sheet, of the picture before if only paint differs; else null.
 std::shared_ptr<const GuidanceBuffers> kept_rays(const LoadedScene& loaded, const World& world,
                                                  const SheetView& view, PixelRect sheet,
                                                  const SheetWorkParameters& parameters,
                                                  const Run& run) {
-  if (parameters.kept_rays == nullptr) return nullptr;
-  return keep_or_make(parameters.kept_rays, rays_key(loaded, world, *parameters.kept),
-                      run.progress, [&](Progress&) { return trace_view(world, view, sheet, run); });
+  if (!parameters.keep_rays) return nullptr;
+  ValueStore& store = *parameters.kept;
+  return SceneValues(loaded, &store, run.progress)
+      .make<const GuidanceBuffers>(
+          "rays",
+          [](Scene& to, const Scene& from) {
+            to.sun = from.sun;
+            to.sampling = from.sampling;
+            to.light_regions = from.light_regions;
+            to.light_clouds = from.light_clouds;
+          },
+          {{"tracer", store.key("tracer")},
+           {"terrain", store.key("terrain")},
+           {"land cover", store.key("land cover")},
+           content_of(world.view.camera)},
+          [&](const Making&) { return trace_view(world, view, sheet, run); })
+      .value;
 }
 
 GroundInputs inputs_for(const ScenePaint& paint, const World& world, const SheetView& view,
@@ -108,14 +121,19 @@ GroundInputs inputs_for(const ScenePaint& paint, const World& world, const Sheet
 
 SheetWork::SheetWork(const LoadedScene& loaded, const SheetRequest& request,
                      const SheetWorkParameters& parameters, const Run& run, const Run& stage_run)
-    : paint(paint_for(loaded, request, kept_paint(loaded, request, parameters), run.progress)),
+    : SheetWork(loaded, request, parameters, run, stage_run,
+                paint_for(loaded, request, parameters, run.progress)) {}
+
+SheetWork::SheetWork(const LoadedScene& loaded, const SheetRequest& request,
+                     const SheetWorkParameters& parameters, const Run& run, const Run& stage_run,
+                     const Value<ScenePaint>& read)
+    : paint(read.key.empty() ? std::move(*read) : *read),
       world(make_world(loaded, run.progress, run.cache, {}, parameters.kept)),
       position{parameters.scratch_folder, kept_tile_bytes()},
       view(view_of(world)),
       block_px(block_px_for(world, paint, view, request)),
       graph(position, stage_run.progress) {
-  paint.palette =
-      located_palette(loaded, request, paint, world, kept_paint(loaded, request, parameters));
+  paint.palette = located_palette(loaded, request, read, paint.palette, world, parameters);
   const int tile_px = parameters.tile_px > 0
                           ? parameters.tile_px
                           : choose_tile_px(block_px, region_of(world.scene, request));

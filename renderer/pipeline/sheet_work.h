@@ -8,24 +8,18 @@
 #include "renderer/scene/scene_file.h"
 #include "renderer/sheet/work_folder.h"
 #include "renderer/stages/stages.h"
-#include "renderer/world/kept_world.h"
+#include "renderer/world/scene_values.h"
 #include "renderer/world/world.h"
 
 namespace belvedere {
-
-// Paint for the next picture of a scene that copies nothing, like KeptWorld.
-struct KeptPaint {
-  Kept<const ScenePaint> read;
-  Kept<const Palette> located;  // adapted to the terrain's climate
-};
 
 struct SheetWorkParameters {
   std::string scratch_folder;  // for tiles beyond kept_tile_bytes(); empty: temporary files
   bool rock_relief = true;     // false, for previews: slopes as smooth as the DEM, without ribs
   int tile_px = 0;             // of the stages, 64…4096; 0: by memory. Changes no pixel
-  KeptWorld* kept = nullptr;   // values of the world before
-  KeptPaint* kept_paint = nullptr;
-  Kept<const GuidanceBuffers>* kept_rays = nullptr;  // of the whole sheet; needs `kept`
+  ValueStore* kept = nullptr;  // values of the world before
+  ValueStore* kept_paint = nullptr;  // and of its paint, if the scene copies nothing
+  bool keep_rays = false;            // of the whole sheet; needs `kept`
 };
 
 // What the stages of a sheet are made of, and the ground stages. The members refer to each other by
@@ -44,6 +38,11 @@ struct SheetWork {
   int block_px;  // what is painted at once
   StageGraph graph;
   GroundStages ground = {};
+
+ private:
+  SheetWork(const LoadedScene& loaded, const SheetRequest& request,
+            const SheetWorkParameters& parameters, const Run& run, const Run& stage_run,
+            const Value<ScenePaint>& read);
 };
 
 // Whether the ground of a request is copied from paintings.

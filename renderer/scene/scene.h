@@ -53,8 +53,8 @@ struct SceneTerrain {
   std::optional<SyntheticParameters> synthetic;
   DemParameters dem;        // without sources
   double max_mcells = 0.0;  // millions of cells that the ground may have; 0: limited by memory
-  // Of previews, and no key of scene files: the ground is the level of the data's pyramid with about
-  // so many millions of cells, without finer windows. 0: not a preview.
+  // Of previews, and no key of scene files: the ground is the level of the data's pyramid with
+  // about so many millions of cells, without finer windows. 0: not a preview.
   double preview_mcells = 0.0;
 };
 

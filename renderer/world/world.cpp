@@ -13,11 +13,12 @@
 #include "renderer/world/generalize_view.h"
 #include "renderer/world/ground_plan.h"
 #include "renderer/world/ground_windows.h"
-#include "renderer/world/kept_world.h"
 #include "renderer/world/light/scene_light.h"
 #include "renderer/world/scene_dem.h"
 #include "renderer/world/scene_land_cover.h"
 #include "renderer/world/scene_mist.h"
+#include "renderer/world/scene_values.h"
+#include "renderer/world/style/scene_style.h"
 #include "renderer/world/viewer_check.h"
 
 namespace belvedere {
@@ -53,60 +54,72 @@ CacheKey surroundings_key(const LoadedScene& loaded, const Dem& dem, const LandC
   return make_cache_key(CachedProduct::ground_surroundings, key, subject_of(loaded));
 }
 
-// The cells of the cover do not depend on the camera; how wide rivers are drawn does.
-std::shared_ptr<const LandCover> make_cover(const LoadedScene& loaded, const Dem& dem,
-                                            const View& view, const SeenFrom& seen,
-                                            Catchments& catchments, Progress& progress,
-                                            const Cache& cache, KeptWorld* kept,
-                                            const std::string& key) {
-  if (kept == nullptr)
-    return std::make_shared<const LandCover>(
-        make_scene_land_cover(loaded, dem, progress, cache, &catchments, &seen));
-  const std::shared_ptr<const LandCover> bare = keep_or_make(&kept->bare_cover, key, progress, [&](Progress& watcher) {
-        return make_bare_patches(loaded, dem, watcher, cache, &catchments).cover;
-      });
-  const bool has_lines = loaded.scene.any_features() || !bare->inferred_rivers.empty();
-  const std::string seen_as = has_lines ? camera_key(loaded, view) + deform_key(view) : "";
-  const std::shared_ptr<const LandCover> before =
-      kept->land_cover.key.starts_with(key) ? kept->land_cover.value : nullptr;
-  return keep_or_make(&kept->land_cover, key + seen_as, progress, [&](Progress& watcher) {
-    if (before != nullptr && !loaded.scene.any_features()) {
-      LandCover cover = *before;
-      cover.inferred_rivers = bare->inferred_rivers;
-      lay_inferred_rivers(cover, loaded, dem, &seen);
-      return cover;
-    }
-    LandCover cover = *bare;
-    lay_ground_map(cover, loaded, dem, watcher, cache, &catchments, &seen);
-    return cover;
-  });
+// What values read of the scene.
+
+void reads_of_dem(Scene& to, const Scene& from) {
+  to.terrain = from.terrain;
+  to.land_cover.sea = from.land_cover.sea;
+  to.land_cover.sea_level_m = from.land_cover.sea_level_m;
+  to.generalize.destripe = from.generalize.destripe;
+  to.features_style = from.features_style;
+  to.features = from.features;
 }
+
+// … and whether the palette is one of winter, which lays snow.
+void reads_of_cover(Scene& to, const Scene& from, bool winter) {
+  to.seed = from.seed;
+  to.land_cover = from.land_cover;
+  to.season = from.season;
+  to.climate = from.climate;
+  to.features_style = from.features_style;
+  to.features = from.features;
+  to.palette = winter ? "winter" : "summer";
+}
+
+// Of what is laid over the classes, for a camera.
+void reads_of_lines(Scene& to, const Scene& from) {
+  to.seed = from.seed;
+  to.features_style = from.features_style;
+  to.features = from.features;
+  to.output = from.output;
+}
+
+void reads_of_masks(Scene& to, const Scene& from) {
+  to.land_cover.sea = from.land_cover.sea;
+  to.land_cover.sea_level_m = from.land_cover.sea_level_m;
+  to.generalize.mask = from.generalize.mask;
+  to.generalize.mask_slope_deg = from.generalize.mask_slope_deg;
+  to.generalize.automatic_mask = from.generalize.automatic_mask;
+  to.generalize.keep_lakes = from.generalize.keep_lakes;
+  to.generalize.line_integral = from.generalize.line_integral;
+  to.generalize.bands.foreground.assign(from.generalize.bands.foreground.size(), 1.F);
+}
+
+void reads_of_generalized(Scene& to, const Scene& from) {
+  to.land_cover.sea = from.land_cover.sea;
+  to.land_cover.sea_level_m = from.land_cover.sea_level_m;
+  to.generalize = from.generalize;
+}
+
+void reads_everything(Scene& to, const Scene& from) { to = from; }
 
 }  // namespace
 
 World make_world(const LoadedScene& loaded, Progress& progress, const Cache& cache,
-                 KnownTerrain known, KeptWorld* kept) {
+                 KnownTerrain known, ValueStore* store) {
   const Scene& scene = loaded.scene;
+  const SceneValues values(loaded, store, progress);
   // Missing instruction sets are reported before the work.
   in_section("sampling", [&] { return choose_instruction_set(scene.tracing.instruction_set); });
-  const auto slot = [kept](auto KeptWorld::*value) {
-    return kept == nullptr ? nullptr : &(kept->*value);
-  };
-  // Of each value, what it is made from.
-  const auto key_of = [kept](auto&& make_key) {
-    return kept == nullptr ? std::string() : make_key();
-  };
 
   // The ground as measured; the levels of a DEM larger than memory stay for its windows.
-  const std::string of_dem = key_of([&] { return dem_key(loaded); });
-  const std::shared_ptr<SceneDem> opened =
-      known.dem
-          ? std::make_shared<SceneDem>()
-          : keep_or_make(slot(&KeptWorld::dem), of_dem, progress, [&](Progress& watcher) {
-              return open_scene_dem(loaded, watcher, cache);
-            });
+  const Value<SceneDem> opened =
+      known.dem ? Value<SceneDem>{{}, std::make_shared<SceneDem>()}
+                : values.make<SceneDem>("dem", reads_of_dem, {}, [&](const Making& m) {
+                    return open_scene_dem(m.scene, m.progress, cache);
+                  });
   const std::shared_ptr<const Dem> dem =
-      known.dem ? std::move(known.dem) : std::shared_ptr<const Dem>(opened, &opened->dem);
+      known.dem ? std::move(known.dem) : std::shared_ptr<const Dem>(opened.value, &opened->dem);
 
   // Viewer and light.
   const View view =
@@ -115,98 +128,116 @@ World make_world(const LoadedScene& loaded, Progress& progress, const Cache& cac
   std::shared_ptr<const LightField> light_field = make_light_field(loaded, *dem, view, progress);
   const Deformation deformation(view.deform, view.viewer_xy);
   const SeenFrom seen{*camera, deformation};
+  const ValueInput of_camera = content_of(view.camera);
+  const ValueInput of_deform = content_of(view.deform, view.viewer_xy);
 
   // Land cover. Class rules and the terrain's model both need the drainage: it is computed once.
   std::unique_ptr<Catchments> catchments = std::move(known.catchments);
   if (!known.land_cover && !catchments) catchments = std::make_unique<Catchments>(*dem);
-  const std::string of_cover = key_of([&] { return of_dem + cover_key(loaded); });
-  const std::shared_ptr<const LandCover> land_cover =
-      known.land_cover
-          ? std::move(known.land_cover)
-          : make_cover(loaded, *dem, view, seen, *catchments, progress, cache, kept, of_cover);
+  Value<LandCover> bare;
+  Value<const LandCover> drawn{{}, known.land_cover};
+  if (!known.land_cover) {
+    const bool winter = named_palette(loaded).winter;
+    bare = values.make<LandCover>(
+        "classes", [winter](Scene& to, const Scene& from) { reads_of_cover(to, from, winter); },
+        {opened},
+        [&](const Making& m) {
+          return make_bare_patches(m.scene, *dem, m.progress, cache, catchments.get()).cover;
+        });
+    // Rivers are drawn for a camera; the cells do not depend on it.
+    const bool has_lines = scene.any_features() || !bare->inferred_rivers.empty();
+    drawn = values.make<const LandCover>(
+        "land cover", has_lines ? SceneValues::Reads(reads_of_lines) : reads_nothing,
+        has_lines ? std::vector<ValueInput>{bare, of_camera, of_deform}
+                  : std::vector<ValueInput>{bare},
+        [&](const Making& m) {
+          LandCover cover = values.keeps() ? *bare : std::move(*bare);
+          lay_ground_map(cover, m.scene, *dem, m.progress, cache, catchments.get(), &seen);
+          return cover;
+        });
+  }
+  const std::shared_ptr<const LandCover> land_cover = drawn.value;
 
-  // The ground for this view. Classes change it only if it is masked by them.
-  const std::string of_shape = key_of([&] {
-    return of_dem + generalize_key(loaded, view) +
-           (scene.generalize.mask_classes.empty() ? "" : of_cover);
-  });
-  const std::shared_ptr<GeneralizedTerrain> generalized = keep_or_make(
-      slot(&KeptWorld::generalized), of_shape, progress, [&](Progress& watcher) {
-        std::shared_ptr<const GroundMasks> masks;
+  // The ground for this view. Classes change it only if it is masked by them, and the camera only
+  // if the print's detail is limited.
+  std::vector<ValueInput> of_shape = {opened, content_of(view.generalize, view.viewer_xy)};
+  if (!scene.generalize.mask_classes.empty()) of_shape.push_back(bare);
+  View of_viewer;
+  of_viewer.viewer_xy = view.viewer_xy;
+  of_viewer.generalize = view.generalize;
+  if (scene.generalize.print_detail_px > 0.0) {
+    of_shape.insert(of_shape.end(), {of_camera, of_deform});
+    of_viewer = view;
+  }
+  const auto generalized = values.make<GeneralizedTerrain>(
+      "generalized", reads_of_generalized, of_shape, [&](const Making& m) {
+        Value<const GroundMasks> masks;
         if (opened->data)
-          masks = keep_or_make(slot(&KeptWorld::masks),
-                               key_of([&] { return of_dem + masks_key(loaded); }), watcher,
-                               [&](Progress& inner) {
-                                 return preview_masks(loaded, *opened->data,
-                                                      dem->halved - opened->data->halved,
-                                                      land_cover->map.get(), inner);
-                               });
-        if (kept == nullptr) opened->data.reset();
-        return generalize_for_view(loaded, *dem, land_cover.get(), view, watcher, cache,
-                                   {.masks = masks.get()});
+          masks = values.make_with<const GroundMasks>(
+              "masks", reads_of_masks, {opened}, m.progress, [&](const Making& n) {
+                return preview_masks(n.scene, *opened->data, dem->halved - opened->data->halved,
+                                     land_cover->map.get(), n.progress);
+              });
+        if (!values.keeps()) opened->data.reset();
+        return generalize_for_view(m.scene, *dem, land_cover.get(), of_viewer, m.progress, cache,
+                                   {.masks = masks.value.get()});
       });
 
   // All that a pixel may need of it, with finer windows where the DEM is larger than memory.
-  const std::string of_windows = key_of([&] {
-    return opened->levels ? of_cover + camera_key(loaded, view) + deform_key(view) : "";
-  });
+  const bool has_windows = opened->levels != nullptr;
   const std::optional<Deformation> local =
       deformation.is_local() ? std::optional(deformation) : std::nullopt;
-  const std::string of_terrain = of_shape + of_cover + of_windows;
-  const std::shared_ptr<TerrainModel> terrain = keep_or_make(
-      slot(&KeptWorld::terrain), of_terrain, progress, [&](Progress& watcher) {
-        if (kept != nullptr) kept->waters = {};  // read the one before
-        const std::shared_ptr<GroundSurroundings> surroundings = keep_or_make(
-            slot(&KeptWorld::surroundings), of_cover, watcher, [&](Progress& inner) {
+  std::vector<ValueInput> of_terrain = {generalized, bare};
+  if (has_windows) of_terrain.insert(of_terrain.end(), {opened, of_camera, of_deform});
+  const auto terrain = values.make<TerrainModel>(
+      "terrain", has_windows ? reads_everything : reads_nothing, of_terrain, [&](const Making& m) {
+        const auto surroundings = values.make_with<GroundSurroundings>(
+            "surroundings", reads_nothing, {opened, bare}, m.progress, [&](const Making& n) {
               return cached<GroundSurroundings>(
-                  cache, [&] { return surroundings_key(loaded, *dem, *land_cover); }, inner,
-                  [&](Progress&) { return find_surroundings(*dem, *land_cover, catchments.get()); });
+                  cache, [&] { return surroundings_key(n.scene, *dem, *land_cover); }, n.progress,
+                  [&](Progress&) {
+                    return find_surroundings(*dem, *land_cover, catchments.get());
+                  });
             });
-        const auto take = [kept](auto& value) { return kept == nullptr ? std::move(value) : value; };
-        TerrainModel made =
-            make_terrain_model(dem, take(generalized->altitude_m), land_cover,
-                               view.deform.exaggeration, take(*surroundings));
+        const auto take = [&](auto& value) { return values.keeps() ? value : std::move(value); };
+        TerrainModel made = make_terrain_model(dem, take(generalized->altitude_m), land_cover,
+                                               view.deform.exaggeration, take(*surroundings));
         made.came_from = take(generalized->came_from);
         made.goes_to = take(generalized->goes_to);
         made.local = local;
-        if (opened->levels) {
+        if (has_windows) {
           const RasterFrame& frame = opened->levels->frame();
           const GroundPlan plan = plan_ground(frame, *dem, view, opened->max_cells);
-          watcher.note(describe(plan, frame));
+          m.progress.note(describe(plan, frame));
           add_ground_windows(
               made, plan,
-              {loaded, view, deformation, opened->sea, *opened->levels, watcher, cache, seen});
-          if (kept == nullptr) opened->levels.reset();  // no longer needed
+              {m.scene, view, deformation, opened->sea, *opened->levels, m.progress, cache, seen});
+          if (!values.keeps()) opened->levels.reset();  // no longer needed
         }
         return made;
       });
-  auto waters =
-      std::make_shared<const LazyWaters>([&of = *terrain] { return find_water_ground(of); });
-  if (kept != nullptr) {
-    if (kept->waters.value == nullptr || kept->waters.key != of_terrain)
-      kept->waters = {of_terrain, waters};
-    waters = kept->waters.value;
-  }
+  const auto waters =
+      values.make<const LazyWaters>("waters", reads_nothing, {terrain}, [&](const Making&) {
+        return LazyWaters([&of = *terrain] { return find_water_ground(of); });
+      });
   // What differs between views of one ground.
   terrain->land_cover = land_cover;
   terrain->exaggeration = view.deform.exaggeration;
   terrain->local = local;
 
   // Bent, with its ray-tracing structure. Folded ground is refused before the tracer is built.
-  const std::string of_surface =
-      key_of([&] { return of_shape + of_windows + deform_key(view); });
-  const std::shared_ptr<const DeformedSurface> surface =
-      keep_or_make(slot(&KeptWorld::surface), of_surface, progress, [&](Progress&) {
-        if (kept != nullptr) kept->tracer = {};  // reads the one before
+  const auto surface = values.make<const DeformedSurface>(
+      "surface", reads_nothing,
+      {has_windows ? ValueInput(terrain) : ValueInput(generalized), of_deform}, [&](const Making&) {
         return deform_ground(*terrain, glm::dvec3(view.viewer_xy, 0.0), deformation);
       });
   check_folds(scene.deform, *terrain, deformation, *camera, progress);
-  const std::shared_ptr<const Tracer> tracer =
-      keep_or_make(slot(&KeptWorld::tracer), of_surface + scene.tracing.instruction_set, progress,
-                   [&](Progress& watcher) {
-                     watcher.begin("building the ray tracer", 0.0);
-                     return Tracer(*surface, scene.tracing);
-                   });
+  const auto tracer = values.make<const Tracer>(
+      "tracer", [](Scene& to, const Scene& from) { to.tracing = from.tracing; }, {surface},
+      [&](const Making& m) {
+        m.progress.begin("building the ray tracer", 0.0);
+        return Tracer(*surface, m.scene.scene.tracing);
+      });
   check_ground_in_view(*dem, *camera, *tracer, progress);
   const double horizon_px = skyline_row_px(*camera, *tracer, usual_horizon * scene.output.height);
   MistAir mist = make_scene_mist(scene, view, *terrain, deformation, *camera);
@@ -217,11 +248,11 @@ World make_world(const LoadedScene& loaded, Progress& progress, const Cache& cac
           std::move(light_field),
           land_cover,
           deformation,
-          {terrain, surface, tracer},
+          {terrain.value, surface.value, tracer.value},
           *terrain,
-          surface,
+          surface.value,
           *tracer,
-          std::move(waters),
+          waters.value,
           horizon_px,
           std::move(mist)};
 }

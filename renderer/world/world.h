@@ -59,13 +59,13 @@ struct KnownTerrain {
   std::unique_ptr<Catchments> catchments = nullptr;  // drainage of the DEM
 };
 
-struct KeptWorld;  // kept_world.h
+class ValueStore;  // scene_values.h
 
 // Reads, generalizes and bends the terrain, sets up camera and sun, builds the acceleration
 // structure. Throws Error for any problem of scene or data as early as possible: the machine's
-// instruction set first, the camera's position before land cover is made. `kept`: values of the
-// world before, and then of this one; null: none are.
+// instruction set first, the camera's position before land cover is made. `store`: values of
+// the world before, and then of this one; null: none are kept.
 World make_world(const LoadedScene& loaded, Progress& progress, const Cache& cache = no_cache(),
-                 KnownTerrain known = {}, KeptWorld* kept = nullptr);
+                 KnownTerrain known = {}, ValueStore* store = nullptr);
 
 }  // namespace belvedere

@@ -91,7 +91,8 @@ TEST(SheetMemory, AllThatIsCopiedFromIsCounted) {
 TEST(SheetMemory, PaintingsCountBeforeTheyAreRead) {
   const test::Folder folder;
   write_png8(folder / "p.png", Grid<glm::vec3>(300, 200, glm::vec3(0.5F)), {});
-  LoadedScene scene = test::small_scene({"exemplar=[{ picture = \"p.png\", classes = \"c.png\" }]"});
+  LoadedScene scene =
+      test::small_scene({"exemplar=[{ picture = \"p.png\", classes = \"c.png\" }]"});
   EXPECT_EQ(painting_texels(scene), 0.0) << "it is missing";
   scene.allowed_folders = {folder.path()};
   EXPECT_EQ(painting_texels(scene), 300.0 * 200.0);

@@ -33,7 +33,7 @@ TEST(SheetWork, WithoutRockReliefTheGroundIsThatOfTheRays) {
 
 TEST(SheetWork, TakesOverValuesOfTheWorldBefore) {
   const LoadedScene loaded = rocks();
-  KeptWorld kept;
+  ValueStore kept;
   std::weak_ptr<const Dem> dem;
   {
     const SheetWork work(loaded, guidance_alone(), {.scratch_folder = {}, .kept = &kept}, {}, {});

@@ -1,4 +1,4 @@
-#include "renderer/world/kept_world.h"
+#include "renderer/world/scene_values.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -174,7 +174,7 @@ const std::vector<std::vector<std::string>>& changeable() {
 }
 
 // Makes a world of a scene with kept values and one without, and compares them.
-void expect_same_world(const LoadedScene& scene, KeptWorld& kept) {
+void expect_same_world(const LoadedScene& scene, ValueStore& kept) {
   const World one = make_world(scene, silent_progress(), no_cache(), {}, &kept);
   const World other = make_world(scene, silent_progress());
   expect_same_ground(one, other);
@@ -184,7 +184,7 @@ void expect_same_world(const LoadedScene& scene, KeptWorld& kept) {
 }
 
 // Every row is turned once, one after the other, so that worlds have more and more of them.
-TEST(KeptWorld, ValuesAreThoseOfAWorldThatIsMadeAtOnceInAnyOrderOfChanges) {
+TEST(SceneValues, ValuesAreThoseOfAWorldThatIsMadeAtOnceInAnyOrderOfChanges) {
   std::vector<std::size_t> order;
   std::vector<std::string> settings;
   for (const std::vector<std::string>& row : changeable()) {
@@ -193,7 +193,7 @@ TEST(KeptWorld, ValuesAreThoseOfAWorldThatIsMadeAtOnceInAnyOrderOfChanges) {
     order.insert(order.begin() + place, order.size());
     settings.push_back(row.front());
   }
-  KeptWorld kept;
+  ValueStore kept;
   for (const std::size_t row : order) {
     settings[row] = changeable()[row].back();
     SCOPED_TRACE(settings[row]);
@@ -203,8 +203,8 @@ TEST(KeptWorld, ValuesAreThoseOfAWorldThatIsMadeAtOnceInAnyOrderOfChanges) {
 }
 
 // Each alone, there and back.
-TEST(KeptWorldLong, NoChangeIsOverlooked) {
-  KeptWorld kept;
+TEST(SceneValuesLong, NoChangeIsOverlooked) {
+  ValueStore kept;
   for (const std::vector<std::string>& row : changeable())
     for (const std::string& setting : row) {
       SCOPED_TRACE(setting);
@@ -216,22 +216,22 @@ TEST(KeptWorldLong, NoChangeIsOverlooked) {
 // ---- what a change makes again
 
 std::vector<std::string> stages_after(const std::string& change) {
-  static KeptWorld kept;
+  static ValueStore kept;
   { const World first = make_world(hills(), silent_progress(), no_cache(), {}, &kept); }
   ToldStages stages;
   const World second = make_world(hills({change}), stages, no_cache(), {}, &kept);
   return stages.all;
 }
 
-TEST(KeptWorld, AtFirstEverythingIsMade) {
-  KeptWorld kept;
+TEST(SceneValues, AtFirstEverythingIsMade) {
+  ValueStore kept;
   ToldStages stages;
   const World world = make_world(hills(), stages, no_cache(), {}, &kept);
   EXPECT_THAT(stages.all, ElementsAre("synthetic terrain", "class rules", "generalize",
                                       "building the ray tracer"));
 }
 
-TEST(KeptWorld, LightCameraAndColoursMakeNothingAgain) {
+TEST(SceneValues, LightCameraAndColoursMakeNothingAgain) {
   for (const char* change :
        {"title=\"Hills\"", "sun.azimuth_deg=100", "camera.height_m=4500", "camera.azimuth_deg=20",
         "camera.pitch_deg=-30", "camera.field_of_view_deg=30", "palette=autumn", "light.sun=1",
@@ -239,7 +239,7 @@ TEST(KeptWorld, LightCameraAndColoursMakeNothingAgain) {
     EXPECT_THAT(stages_after(change), IsEmpty()) << change;
 }
 
-TEST(KeptWorld, BentGroundNeedsOnlyItsRayTracer) {
+TEST(SceneValues, BentGroundNeedsOnlyItsRayTracer) {
   for (const char* change :
        {"deform.bend.radius_m=60000", "deform.exaggeration=1.5",
         "deform.handles=[{ position = [6000, 5000], radius_m = 3000, raise_m = 400 }]"})
@@ -249,22 +249,22 @@ TEST(KeptWorld, BentGroundNeedsOnlyItsRayTracer) {
               ElementsAre("building the ray tracer"));
 }
 
-TEST(KeptWorld, WeightsGeneralizeAgainAndClassesStay) {
+TEST(SceneValues, WeightsGeneralizeAgainAndClassesStay) {
   for (const char* change : {"generalize.foreground=[1, 1.3, 1, 0.6, 0, 0]",
                              "generalize.foreground_to_m=20000", "camera.position=[5000,-4000]"})
     EXPECT_THAT(stages_after(change), ElementsAre("generalize", "building the ray tracer"))
         << change;
 }
 
-TEST(KeptWorld, ClassesAreMadeAgainOnTheSameGround) {
+TEST(SceneValues, ClassesAreMadeAgainOnTheSameGround) {
   for (const char* change : {"land_cover.settings.treeline_m=1000", "season.date=\"02-01\"",
                              "land_cover.smallest_patch_m2=400000", "palette=winter", "seed=9"})
     EXPECT_THAT(stages_after(change), ElementsAre("class rules")) << change;
 }
 
-TEST(KeptWorld, GroundThatIsMaskedByClassesFollowsThem) {
+TEST(SceneValues, GroundThatIsMaskedByClassesFollowsThem) {
   const std::string masked = "generalize.mask_classes={ forest = 0 }";
-  KeptWorld kept;
+  ValueStore kept;
   { const World first = make_world(hills({masked}), silent_progress(), no_cache(), {}, &kept); }
   ToldStages stages;
   const World second = make_world(hills({masked, "land_cover.settings.treeline_m=1000"}), stages,
@@ -272,13 +272,13 @@ TEST(KeptWorld, GroundThatIsMaskedByClassesFollowsThem) {
   EXPECT_THAT(stages.all, ElementsAre("class rules", "generalize", "building the ray tracer"));
 }
 
-TEST(KeptWorld, NotesAreToldAgainWithTheValuesThatAreKept) {
+TEST(SceneValues, NotesAreToldAgainWithTheValuesThatAreKept) {
   struct ToldNotes : Progress {
     void note(std::string_view text) override { all.emplace_back(text); }
     std::vector<std::string> all;
   };
   const LoadedScene scene = hills({"land_cover.sea_level_m=1100"});
-  KeptWorld kept;
+  ValueStore kept;
   ToldNotes first;
   { const World world = make_world(scene, first, no_cache(), {}, &kept); }
   ASSERT_THAT(first.all, testing::Contains(testing::StartsWith("sea: ")));
@@ -287,29 +287,29 @@ TEST(KeptWorld, NotesAreToldAgainWithTheValuesThatAreKept) {
   EXPECT_EQ(again.all, first.all);
 }
 
-TEST(KeptWorld, AnotherTerrainIsAnotherWorld) {
+TEST(SceneValues, AnotherTerrainIsAnotherWorld) {
   const auto all = {"synthetic terrain", "class rules", "generalize", "building the ray tracer"};
   EXPECT_THAT(stages_after("terrain.synthetic.seed=8"), ElementsAreArray(all));
 }
 
-TEST(KeptWorld, HoldsOneValueOfEachKind) {
-  KeptWorld kept;
+TEST(SceneValues, HoldsOneValueOfEachKind) {
+  ValueStore kept;
   { const World world = make_world(hills(), silent_progress(), no_cache(), {}, &kept); }
-  const std::shared_ptr<const Tracer> tracer = kept.tracer.value;
+  const std::shared_ptr<void> tracer = kept.find("tracer", kept.key("tracer"))->value;
   ASSERT_NE(tracer, nullptr);
   EXPECT_EQ(tracer.use_count(), 2) << "the world is gone";
   { const World world = make_world(hills({"seed=2"}), silent_progress(), no_cache(), {}, &kept); }
-  EXPECT_EQ(kept.tracer.value, tracer) << "a seed touches no ground";
+  EXPECT_EQ(kept.find("tracer", kept.key("tracer"))->value, tracer) << "a seed touches no ground";
   {
     const World world =
         make_world(hills({"deform.exaggeration=2"}), silent_progress(), no_cache(), {}, &kept);
   }
-  EXPECT_NE(kept.tracer.value, tracer);
+  EXPECT_NE(kept.find("tracer", kept.key("tracer"))->value, tracer);
   EXPECT_EQ(tracer.use_count(), 1) << "the tracer before is not kept";
 }
 
-TEST(KeptWorld, AfterAnErrorTheNextWorldIsRight) {
-  KeptWorld kept;
+TEST(SceneValues, AfterAnErrorTheNextWorldIsRight) {
+  ValueStore kept;
   const std::string fold =
       "deform.handles=[{ position = [6000, 6000], radius_m = 3000, core_m = 1000, move_m = [2500, "
       "0] }]";
@@ -359,7 +359,7 @@ height = 40
 
 // Rivers are as wide as the camera needs them, and lie in the cover that ground is made from. The
 // climate of the place is taken from the cache, whose keys are others.
-TEST(KeptWorld, RiversOfAMapFollowTheCamera) {
+TEST(SceneValues, RiversOfAMapFollowTheCamera) {
   const test::Folder folder;
   write_slope(folder / "slope.tif", 500.F);
   folder.write("river.geojson",
@@ -368,7 +368,7 @@ TEST(KeptWorld, RiversOfAMapFollowTheCamera) {
                    "coordinates": [[600200, 5200300], [602000, 5202000], [603500, 5203800]]}}]})");
   const std::string river =
       "features.0={ source = \"river.geojson\", kind = \"river\", crs = \"EPSG:32632\" }";
-  KeptWorld kept;
+  ValueStore kept;
   for (const char* change :
        {"seed=1", "camera.height_m=5000", "camera.position=[603000, 5199000]", "output.width=24",
         "output.sheet_width_mm=24", "deform.exaggeration=2", "features.0.width_mm=4",
@@ -390,13 +390,11 @@ TEST(KeptWorld, RiversOfAMapFollowTheCamera) {
   }
 }
 
-TEST(KeptWorld, AFileThatChangedIsReadAgain) {
+TEST(SceneValues, AFileThatChangedIsReadAgain) {
   const test::Folder folder;
   write_slope(folder / "slope.tif", 500.F);
   const LoadedScene scene = slope_scene(folder.path());
-  const std::string before = dem_key(scene);
-  EXPECT_EQ(dem_key(scene), before);
-  KeptWorld kept;
+  ValueStore kept;
   {
     const World world = make_world(scene, silent_progress(), test::shared_cache(), {}, &kept);
     EXPECT_EQ(world.dem->altitude_m(0, 0), 500.F);
@@ -404,7 +402,6 @@ TEST(KeptWorld, AFileThatChangedIsReadAgain) {
   write_slope(folder / "slope.tif", 700.F);
   std::filesystem::last_write_time(
       folder / "slope.tif", std::filesystem::file_time_type::clock::now() + std::chrono::hours(1));
-  EXPECT_NE(dem_key(scene), before);
   ToldStages stages;
   const World world = make_world(scene, stages, test::shared_cache(), {}, &kept);
   EXPECT_EQ(world.dem->altitude_m(0, 0), 700.F);
@@ -420,7 +417,7 @@ TEST(KeptWorld, AFileThatChangedIsReadAgain) {
 
 // The beds of water refer to the ground they lie in, also after a run that was cancelled while it
 // made another ground.
-TEST(KeptWorld, WaterIsThatOfItsOwnGround) {
+TEST(SceneValues, WaterIsThatOfItsOwnGround) {
   class Cancelled : public Progress {
    public:
     void begin(std::string_view stage, double) override {
@@ -428,14 +425,15 @@ TEST(KeptWorld, WaterIsThatOfItsOwnGround) {
     }
   };
   const LoadedScene scene = hills({"land_cover.sea_level_m=1100"});
-  KeptWorld kept;
+  ValueStore kept;
   const auto expect_own_waters = [&] {
     const World world = make_world(scene, silent_progress(), no_cache(), {}, &kept);
     ASSERT_NE(world.waters->get(), nullptr);
     EXPECT_EQ(world.waters->get()->terrain, &world.terrain);
   };
   expect_own_waters();
-  const auto other = kept.terrain.value;  // its place in memory stays taken
+  const auto other =
+      kept.find("terrain", kept.key("terrain"))->value;  // its place in memory stays taken
   Cancelled cancelled;
   EXPECT_THROW(make_world(hills({"land_cover.sea_level_m=1100", "generalize.crest=1"}), cancelled,
                           no_cache(), {}, &kept),
@@ -446,7 +444,7 @@ TEST(KeptWorld, WaterIsThatOfItsOwnGround) {
 // ---- keys
 
 // Sources of virtual rasters, and the files beside a shapefile.
-TEST(KeptWorld, FilesBesideThoseThatASceneNamesCount) {
+TEST(SceneValues, FilesBesideThoseThatASceneNamesCount) {
   const test::Folder folder;
   write_slope(folder / "part.tif", 500.F);
   folder.write("slope.tif.vrt", R"(<VRTDataset rasterXSize="40" rasterYSize="40">
@@ -456,38 +454,85 @@ TEST(KeptWorld, FilesBesideThoseThatASceneNamesCount) {
   </SimpleSource></VRTRasterBand></VRTDataset>)");
   folder.write("rivers.shp", "");
   folder.write("rivers.dbf", "");
-  const LoadedScene scene = slope_scene(
-      folder.path(), {"terrain.sources.0.file=\"slope.tif.vrt\"",
-                      "features.0={ source = \"rivers.shp\", kind = \"river\" }"});
-  std::string before = dem_key(scene);
+  const LoadedScene scene =
+      slope_scene(folder.path(), {"terrain.sources.0.file=\"slope.tif.vrt\"",
+                                  "features.0={ source = \"rivers.shp\", kind = \"river\" }"});
+  ValueStore kept;
+  const SceneValues values(scene, &kept, silent_progress());
+  int made = 0;
+  const auto make = [&] {
+    return *values.make<int>(
+        "files",
+        [](Scene& to, const Scene& from) {
+          to.terrain = from.terrain;
+          to.features = from.features;
+        },
+        {}, [&](const Making&) { return ++made; });
+  };
+  ASSERT_EQ(make(), 1);
+  EXPECT_EQ(make(), 1);
+  int count = 1;
   for (const char* part : {"part.tif", "rivers.dbf"}) {
     std::filesystem::last_write_time(
         folder / part, std::filesystem::file_time_type::clock::now() + std::chrono::hours(1));
-    const std::string after = dem_key(scene);
-    EXPECT_NE(after, before) << part;
-    before = after;
+    EXPECT_EQ(make(), ++count) << part;
+    EXPECT_EQ(make(), count) << part;
   }
 }
 
-TEST(KeptWorld, KeysDifferWhereTheirValuesMay) {
-  const LoadedScene scene = hills();
-  const std::string dem = dem_key(scene);
-  EXPECT_NE(dem_key(hills({"terrain.synthetic.seed=8"})), dem);
-  EXPECT_NE(dem_key(hills({"land_cover.sea_level_m=900"})), dem);
-  EXPECT_EQ(dem_key(hills({"camera.height_m=4000", "palette=winter", "seed=9"})), dem);
-  EXPECT_NE(cover_key(hills({"season.date=02-01"})), cover_key(scene));
-  EXPECT_NE(cover_key(hills({"climate.lapse_k_per_km=5"})), cover_key(scene));
-  EXPECT_EQ(cover_key(hills({"sun.azimuth_deg=10"})), cover_key(scene));
-  const World world = make_world(scene, silent_progress());
-  View moved = world.view;
-  moved.deform.handles.push_back({});
-  EXPECT_NE(deform_key(moved), deform_key(world.view));
-  EXPECT_EQ(generalize_key(scene, moved), generalize_key(scene, world.view));
-  const LoadedScene detailed = hills({"generalize.print_detail_px=2"});
-  EXPECT_NE(generalize_key(detailed, moved), generalize_key(detailed, world.view))
-      << "how much the print shows depends on where ground is drawn";
-  moved.camera.pitch_deg += 1.0;
-  EXPECT_NE(camera_key(scene, moved), camera_key(scene, world.view));
+// ---- declared parts
+
+TEST(SceneValues, AMakerSeesOnlyThePartsThatItDeclared) {
+  const LoadedScene scene =
+      hills({"seed=9", "deform.exaggeration=2", "title=\"Hills\"", "palette=\"none.toml\""});
+  const SceneValues values(scene, nullptr, silent_progress());
+  values.make<int>(
+      "seed", [](Scene& to, const Scene& from) { to.seed = from.seed; }, {},
+      [&](const Making& m) {
+        EXPECT_EQ(m.scene.scene.seed, 9U);
+        EXPECT_EQ(m.scene.scene.palette, Scene().palette);
+        EXPECT_EQ(m.scene.scene.output.width, Scene().output.width);
+        EXPECT_FALSE(m.scene.scene.terrain.synthetic.has_value());
+        EXPECT_EQ(m.scene.name, scene.name);
+        return 0;
+      });
+}
+
+TEST(SceneValues, AreMadeAgainWhereAPartOrAnInputDiffers) {
+  ValueStore kept;
+  int made = 0;
+  const auto make = [&](const LoadedScene& scene, const std::string& input) {
+    SceneValues(scene, &kept, silent_progress())
+        .make<int>(
+            "sun", [](Scene& to, const Scene& from) { to.sun = from.sun; }, {{"", input}},
+            [&](const Making&) { return ++made; });
+    return made;
+  };
+  EXPECT_EQ(make(hills(), "a"), 1);
+  EXPECT_EQ(make(hills({"camera.height_m=4000", "seed=5", "title=\"Hills\""}), "a"), 1);
+  EXPECT_EQ(make(hills({"sun.azimuth_deg=10"}), "a"), 2);
+  EXPECT_EQ(make(hills({"sun.azimuth_deg=10"}), "b"), 3);
+}
+
+// What is made from a value goes with it: it may point at it.
+TEST(SceneValues, AValueThatIsMadeAgainTakesItsReadersWithIt) {
+  ValueStore kept;
+  const auto make = [&](const std::string& of_ground, bool all) {
+    const LoadedScene scene = hills();
+    const SceneValues values(scene, &kept, silent_progress());
+    const auto one = [](const Making&) { return 1; };
+    const auto ground = values.make<int>("ground", reads_nothing, {{"", of_ground}}, one);
+    if (!all) return;
+    const auto surface = values.make<int>("surface", reads_nothing, {ground}, one);
+    values.make<int>("tracer", reads_nothing, {surface}, one);
+    values.make<int>("sky", reads_nothing, {}, one);
+  };
+  make("a", true);
+  EXPECT_FALSE(kept.key("tracer").empty());
+  make("b", false);
+  EXPECT_EQ(kept.key("surface"), "");
+  EXPECT_EQ(kept.key("tracer"), "");
+  EXPECT_FALSE(kept.key("sky").empty());
 }
 
 }  // namespace
