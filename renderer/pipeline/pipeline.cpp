@@ -79,8 +79,8 @@ void render(const LoadedScene& loaded, const std::string& out_folder, const Run&
             const SheetRequest& request) {
   const RunLimits limits(run);
   check_request(loaded.scene, request);
-  refuse_beyond_memory(loaded, request);
   require_inputs(loaded);
+  refuse_beyond_memory(loaded, request);
   read_output_colour(loaded);
   const std::vector<PixelRect> pieces = pieces_of(region_with_halos(loaded, request), request);
   guard_inputs(loaded);

@@ -39,7 +39,7 @@ Value<ScenePaint> paint_for(const LoadedScene& loaded, const SheetRequest& reque
                             const SheetWorkParameters& parameters, Progress& progress) {
   return paint_values(loaded, request, parameters, progress)
       .make<ScenePaint>("paint", reads_of_paint,
-                        {{"", request.panorama ? "of a picture" : "of the ground"}},
+                        {{"request", request.panorama ? "of a picture" : "of the ground"}},
                         [&](const Making& m) { return read_paint(m.scene, request, m.progress); });
 }
 
@@ -59,7 +59,7 @@ Palette located_palette(const LoadedScene& loaded, const SheetRequest& request,
                     to.land_cover = from.land_cover;
                     to.climate = from.climate;
                   },
-                  {read, {"", of_dem}},
+                  {read, {"dem", of_dem}},
                   [&](const Making& m) {
                     return palette_for_location(palette, m.scene, *world.dem);
                   });

@@ -19,7 +19,7 @@ struct SheetWorkParameters {
   int tile_px = 0;             // of the stages, 64…4096; 0: by memory. Changes no pixel
   ValueStore* kept = nullptr;  // values of the world before
   ValueStore* kept_paint = nullptr;  // and of its paint, if the scene copies nothing
-  bool keep_rays = false;            // of the whole sheet; needs `kept`
+  bool keep_rays = false;            // of the whole sheet; needs `kept`, and no rock_relief
 };
 
 // What the stages of a sheet are made of, and the ground stages. The members refer to each other by

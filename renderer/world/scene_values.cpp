@@ -39,6 +39,19 @@ void ValueStore::forget(const std::string& name) {
     forget(std::string(next->first));
 }
 
+std::string ValueStore::draw() const {
+  const auto box = [](std::string name) {
+    std::string id = name;
+    std::replace(id.begin(), id.end(), ' ', '_');
+    return id + '[' + name + ']';
+  };
+  std::string drawing = "flowchart LR\n";
+  for (const auto& [name, kept] : kept_)
+    for (const ValueInput& input : kept.inputs)
+      drawing += "  " + box(input.name) + " --> " + box(name) + '\n';
+  return drawing;
+}
+
 LoadedScene SceneValues::part_of(const Reads& reads) const {
   LoadedScene part = loaded_;
   part.scene = {};
@@ -77,7 +90,7 @@ ValueInput content_of(const CameraParameters& camera) {
       .add("field_of_view_deg", field_of_view_deg)
       .add("shift", shift)
       .add("view_width_m", view_width_m);
-  return {"", key.str()};
+  return {"camera", key.str()};
 }
 
 ValueInput content_of(const GeneralizeDistances& distances, glm::dvec2 viewer_xy) {
@@ -85,7 +98,7 @@ ValueInput content_of(const GeneralizeDistances& distances, glm::dvec2 viewer_xy
   key.add("viewer", viewer_xy)
       .add("foreground_to_m", distances.foreground_to_m)
       .add("background_from_m", distances.background_from_m);
-  return {"", key.str()};
+  return {"viewer", key.str()};
 }
 
 ValueInput content_of(const DeformParameters& deform, glm::dvec2 viewer_xy) {
@@ -130,7 +143,7 @@ ValueInput content_of(const DeformParameters& deform, glm::dvec2 viewer_xy) {
         .add("upward_m", moved.upward_m)
         .add("lateral_noise_m", noise.lateral_m)
         .add("upward_noise_m", noise.upward_m);
-  return {"", key.str()};
+  return {"bend", key.str()};
 }
 
 }  // namespace belvedere

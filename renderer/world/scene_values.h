@@ -20,7 +20,7 @@ namespace belvedere {
 // What a value is made from: another value by its name, and a text that is equal only if what is
 // read of it is.
 struct ValueInput {
-  std::string name;  // empty: not a value of the store
+  std::string name;  // of a value of the store, or of what it stands for in drawings
   std::string key;
 };
 
@@ -43,6 +43,8 @@ class ValueStore {
   void keep(const std::string& name, Kept made) { kept_[name] = std::move(made); }
   // Drops a value and all that were made from it, before memory is taken for the next.
   void forget(const std::string& name);
+  // The values and what they are made from as a Mermaid diagram.
+  std::string draw() const;
 
  private:
   std::map<std::string, Kept> kept_;

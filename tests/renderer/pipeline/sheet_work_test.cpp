@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "renderer/rock/crest_shift.h"  // Clang asks for the whole type
+#include "tests/files.h"
+#include "tests/paths.h"
 #include "tests/scenes.h"
 
 namespace belvedere {
@@ -41,6 +43,24 @@ TEST(SheetWork, TakesOverValuesOfTheWorldBefore) {
   }
   const SheetWork next(loaded, guidance_alone(), {.scratch_folder = {}, .kept = &kept}, {}, {});
   EXPECT_EQ(next.world.dem, dem.lock());
+}
+
+// Those of a scene by rules, with rivers, in a preview in light and colour.
+TEST(SheetWork, TheArchitecturePageDrawsTheValues) {
+  ValueStore kept;
+  const SheetWork work(rocks(), guidance_alone(),
+                       {.scratch_folder = {},
+                        .rock_relief = false,
+                        .kept = &kept,
+                        .kept_paint = &kept,
+                        .keep_rays = true},
+                       {}, {});
+  const std::string page = test::read_bytes(test::source_folder() + "/docs/architecture.md");
+  const std::string begin = "flowchart LR\n";
+  const std::size_t first = page.find(begin);
+  ASSERT_NE(first, std::string::npos) << kept.draw();
+  EXPECT_EQ(page.substr(first, page.find("```", first) - first), kept.draw())
+      << "put the current drawing into the page";
 }
 
 TEST(SheetWork, PaintsSquaresOfTheRequestedSize) {
