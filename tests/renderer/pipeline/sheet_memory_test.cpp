@@ -87,7 +87,7 @@ TEST(SheetMemory, AllThatIsCopiedFromIsCounted) {
   EXPECT_EQ(copying_bytes(exemplars), 300.0 * 200.0 * 85.0);
 }
 
-// A scene whose painting alone is larger than memory is refused by its header.
+// Their sizes come from the headers of the files.
 TEST(SheetMemory, PaintingsCountBeforeTheyAreRead) {
   const test::Folder folder;
   write_png8(folder / "p.png", Grid<glm::vec3>(300, 200, glm::vec3(0.5F)), {});
