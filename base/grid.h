@@ -1,13 +1,15 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstring>
+#include <glm/vec3.hpp>
 #include <type_traits>
 #include <vector>
 
-#include "base/memory/parallel_fill.h"
 #include "base/memory/zeroed_memory.h"
+#include "base/parallel.h"
 
 namespace belvedere {
 
@@ -102,5 +104,28 @@ class Grid {
   int height_ = 0;
   Values values_;
 };
+
+// The values of a rectangle of a grid, which must lie inside it.
+template <class T>
+Grid<T> part_of(const Grid<T>& grid, PixelRect rect) {
+  Grid<T> part(rect.width(), rect.height());
+  parallel_ranges(rect.height(), 64, [&](int begin, int end) {
+    for (int y = begin; y != end; ++y)
+      std::copy_n(grid.row(rect.y0 + y) + rect.x0, rect.width(), part.row(y));
+  });
+  return part;
+}
+
+// Copies a grid to where column x0 and row y0 of another begin; it must lie inside.
+template <class T>
+void copy_part(Grid<T>& whole, const Grid<T>& part, int x0, int y0) {
+  parallel_ranges(part.height(), 64, [&](int begin, int end) {
+    for (int y = begin; y != end; ++y)
+      std::copy_n(part.row(y), part.width(), whole.row(y0 + y) + x0);
+  });
+}
+
+// Scene-linear RGB with sRGB (Rec. 709) primaries; 1 is diffuse white.
+using Image = Grid<glm::vec3>;
 
 }  // namespace belvedere

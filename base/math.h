@@ -1,6 +1,7 @@
 #pragma once
 
 #include <concepts>
+#include <numbers>
 
 namespace belvedere {
 
@@ -30,5 +31,10 @@ template <std::floating_point T>
 constexpr T smoothstep(T low, T high, T x) {
   return smoothstep((x - low) / (high - low));
 }
+
+// Angles carry their unit in the name: `_deg` in scene files and parameters, `_rad` inside
+// formulas.
+constexpr double to_radians(double degrees) { return degrees * (std::numbers::pi / 180.0); }
+constexpr double to_degrees(double radians) { return radians * (180.0 / std::numbers::pi); }
 
 }  // namespace belvedere

@@ -2,7 +2,7 @@
 # Names are relative to data/, or scenes/… for scenes.
 function(belvedere_embed target)
   set(out ${CMAKE_CURRENT_BINARY_DIR}/embedded_files.cpp)
-  set(body "// Made by cmake/embed.cmake.\n#include \"base/text/embedded_table.h\"\nnamespace belvedere {\nconst EmbeddedFile embedded_files[] = {\n")
+  set(body "// Made by cmake/embed.cmake.\n#include \"base/text/embedded.h\"\nnamespace belvedere {\nconst EmbeddedFile embedded_files[] = {\n")
   foreach(file ${ARGN})
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${file})
     file(READ ${PROJECT_SOURCE_DIR}/${file} text)

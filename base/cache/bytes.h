@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "base/function_ref.h"
+#include "base/parallel.h"
 #include "base/grid.h"
 #include "base/memory/zeroed_memory.h"
 

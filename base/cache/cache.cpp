@@ -1,10 +1,5 @@
 #include "base/cache/cache.h"
 
-#include <fcntl.h>
-#include <fmt/core.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -12,9 +7,13 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <fcntl.h>
 #include <filesystem>
+#include <fmt/core.h>
 #include <fstream>
+#include <sys/stat.h>
 #include <system_error>
+#include <unistd.h>
 #include <utility>
 
 #include "base/cache/content_hash.h"
@@ -391,6 +390,17 @@ std::uint64_t default_cache_limit(const std::string& folder) {
   std::uint64_t own = 0;  // its space counts as free for the cache
   for (const Found& entry : files_in(folder, is_entry_name, problem)) own += entry.bytes;
   return std::min(max, (static_cast<std::uint64_t>(space.available) + own) / 10);
+}
+
+void CacheKeyText::put(double number) { text_ += fmt::format("{:a}", number); }
+
+// With its length, so that one text cannot be read as two values.
+void CacheKeyText::put(std::string_view text) {
+  text_ += fmt::format("{}\"{}\"", text.size(), text);
+}
+
+void CacheKeyText::put_grid(int width, int height, std::string_view cells) {
+  text_ += fmt::format("{}x{} {}", width, height, hash_bytes(cells));
 }
 
 }  // namespace belvedere

@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 #include "base/noise.h"
-#include "base/random_streams.h"
+#include "base/random.h"
 
 namespace belvedere {
 namespace {

@@ -1,11 +1,13 @@
 #include "base/memory/zeroed_memory.h"
 
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
 #include <malloc.h>
 #include <sys/mman.h>
 
-#include <cstdlib>
-
 #include "base/memory/sanitized.h"
+#include "base/parallel.h"
 
 namespace belvedere {
 namespace {
@@ -61,6 +63,62 @@ void free_zeroed(void* memory, std::size_t bytes) noexcept {
     munmap(memory, bytes);
   else
     std::free(memory);
+}
+
+namespace {
+
+constexpr std::size_t min_bytes =
+    std::size_t{16} << 20;  // the size from which blocks come from the system (zeroed_memory.cpp)
+constexpr std::size_t share_bytes = std::size_t{4} << 20;  // per task: two large pages
+constexpr std::size_t pattern_bytes = std::size_t{16} << 10;
+
+// Calls f(begin, end) for shares of 0…bytes.
+template <class F>
+void share(std::size_t bytes, F&& f) {
+  const std::size_t shares = (bytes + share_bytes - 1) / share_bytes;
+  isolated([&] {
+    parallel_ranges(shares, std::size_t{1}, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i != end; ++i)
+        f(i * share_bytes, std::min(bytes, (i + 1) * share_bytes));
+    });
+  });
+}
+
+}  // namespace
+
+void copy_in_parallel(void* to, const void* from, std::size_t bytes) {
+  if (bytes == 0) return;
+  if (bytes < min_bytes) {
+    std::memcpy(to, from, bytes);
+    return;
+  }
+  share(bytes, [&](std::size_t begin, std::size_t end) {
+    std::memcpy(static_cast<unsigned char*>(to) + begin,
+                static_cast<const unsigned char*>(from) + begin, end - begin);
+  });
+}
+
+void fill_in_parallel(void* to, const void* value, std::size_t value_bytes, std::size_t count) {
+  if (count == 0 || value_bytes == 0) return;
+  auto* const bytes = static_cast<unsigned char*>(to);
+  const std::size_t total = value_bytes * count;
+  // The pattern is a whole number of values; copies of it fill the rest.
+  const std::size_t pattern =
+      value_bytes * std::clamp<std::size_t>(pattern_bytes / value_bytes, 1, count);
+  for (std::size_t at = 0; at < pattern; at += value_bytes)
+    std::memcpy(bytes + at, value, value_bytes);
+  const auto repeat = [&](std::size_t begin, std::size_t end) {
+    while (begin < end) {
+      const std::size_t within = begin % pattern;
+      const std::size_t part = std::min(pattern - within, end - begin);
+      if (begin >= pattern) std::memcpy(bytes + begin, bytes + within, part);
+      begin += part;
+    }
+  };
+  if (total < min_bytes)
+    repeat(0, total);
+  else
+    share(total, repeat);
 }
 
 }  // namespace belvedere

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "base/text/embedded_table.h"
 
 namespace belvedere {
 

@@ -13,4 +13,12 @@ std::string_view embedded_file(std::string_view name);
 // All names in a folder, without folder and extension: embedded_names("legends") has "nlcd".
 std::vector<std::string> embedded_names(std::string_view folder);
 
+// The table that cmake/embed.cmake generates; embedded.cpp reads it.
+struct EmbeddedFile {
+  const char* name;
+  const char* text;
+};
+extern const EmbeddedFile embedded_files[];
+extern const unsigned embedded_file_count;
+
 }  // namespace belvedere

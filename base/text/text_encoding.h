@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -32,5 +34,16 @@ void check_text_encoding(const std::string& encoding, const std::string& path);
 // text in it.
 std::string text_to_utf8(const std::string& text, const std::string& encoding,
                          const std::string& path);
+
+// ASCII letters A to Z in lower case, independent of the locale; other bytes unchanged.
+std::string lower_case(std::string text);
+// The extension of a file's name in lower case, with its point: ".tif".
+std::string lower_extension(const std::string& path);
+// A number in groups of three digits: "1 234 567".
+std::string grouped(std::size_t number);
+
+// Bytes as base64 and back (RFC 4648, section 4); nothing for malformed text.
+std::string base64(std::string_view bytes);
+std::optional<std::string> base64_bytes(std::string_view text);
 
 }  // namespace belvedere

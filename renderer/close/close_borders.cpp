@@ -12,7 +12,6 @@
 #include "base/noise.h"
 #include "base/parallel.h"
 #include "base/random.h"
-#include "base/random_streams.h"
 #include "renderer/paint/picture_filter.h"
 #include "renderer/paint/picture_noise.h"
 #include "renderer/rock/rock_ground.h"

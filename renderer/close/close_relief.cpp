@@ -9,7 +9,6 @@
 #include "renderer/close/close_borders.h"
 #include "renderer/close/close_look.h"
 #include "renderer/paint/picture_filter.h"
-#include "renderer/rock/extent.h"
 #include "renderer/rock/rock_view.h"
 
 namespace belvedere {

@@ -10,7 +10,6 @@
 #include "base/math.h"
 #include "base/parallel.h"
 #include "base/random.h"
-#include "base/random_streams.h"
 #include "renderer/paint/picture_filter.h"
 #include "renderer/paint/picture_noise.h"
 #include "renderer/rock/rock_ground.h"

@@ -6,7 +6,6 @@
 
 #include "base/parallel.h"
 #include "base/random.h"
-#include "base/random_streams.h"
 
 namespace belvedere {
 namespace {

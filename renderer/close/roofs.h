@@ -4,7 +4,7 @@
 #include <glm/vec2.hpp>
 #include <optional>
 
-#include "base/function_ref.h"
+#include "base/parallel.h"
 #include "base/pixel_rect.h"
 #include "renderer/rock/spurs.h"
 

@@ -14,7 +14,7 @@
 #include "base/statistics.h"
 #include "terrain/io/height_doubts.h"
 #include "terrain/io/raster_io.h"
-#include "terrain/io/raster_thinned.h"
+#include "terrain/io/block_means.h"
 #include "terrain/io/surface_raster.h"
 
 namespace belvedere {

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "base/angle.h"
+#include "base/math.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
 

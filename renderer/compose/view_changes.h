@@ -3,7 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "renderer/compose/coarse_ground.h"
 #include "renderer/compose/view_candidates.h"
+#include "terrain/deform/deform.h"
 
 namespace belvedere {
 
@@ -30,5 +32,17 @@ Candidate with_changes(const ViewSearch& search, const std::vector<WideGround>& 
 // The unusual changes of a candidate, with their improvement: "valleys 450 m wider improve floor 19
 // to 59 %"; empty if none.
 std::string describe_changes(const ViewSearch& search, const Candidate& candidate);
+
+// A coarse ground with the changes that a scene makes before it is raised as a whole and bent. The
+// reference values of evaluation stay the region's: its side, relief, plateau and distances to the
+// rim.
+
+// Its valleys widened by this many metres (terrain/generalize/widen_valleys.h); lakes are
+// unchanged.
+CoarseGround widened_ground(const CoarseGround& ground, double width_m);
+
+// Its summits raised individually.
+CoarseGround raised_ground(const CoarseGround& ground,
+                           const std::vector<SummitExaggeration>& summits);
 
 }  // namespace belvedere

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "base/angle.h"
 #include "base/math.h"
 #include "base/math_exact.h"
 #include "base/statistics.h"

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "base/angle.h"
 #include "base/math.h"
 #include "base/math_exact.h"
 #include "base/statistics.h"

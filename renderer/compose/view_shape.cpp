@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "base/angle.h"
 #include "base/math.h"
 #include "base/math_exact.h"
 

@@ -1,15 +1,17 @@
 #include "renderer/exemplar/available_texels.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
+#include <fmt/core.h>
 #include <numbers>
 #include <numeric>
 
-#include "base/guidance_channels.h"
+#include "base/config.h"
+#include "base/error.h"
+#include "base/guidance_buffers.h"
 #include "base/math_exact.h"
-#include "renderer/exemplar/texel_names.h"
+#include "base/text/embedded.h"
+#include "base/text/json.h"
 
 namespace belvedere {
 namespace {
@@ -137,6 +139,178 @@ std::vector<TexelShortage> find_gaps(const AvailableTexels& available, const Nee
     require(true, available.by_altitude[forest][a], floors.altitude * scale,
             [&] { return "forest, " + altitude_name(a); });
   return gaps;
+}
+
+namespace {
+
+std::size_t read_class_name(const std::string& word, const ConfigValue& at,
+                            const std::string& name) {
+  const auto id = find_class(word);
+  if (!id || *id == LandCoverClass::sky)
+    refuse_value(at, name, "the class \"" + word + "\"", "a land-cover class");
+  return static_cast<std::size_t>(*id);
+}
+
+// "1.11": needed bins, one character per bin.
+template <std::size_t count>
+void read_flags(const ConfigValue& value, const std::string& name, std::array<bool, count>& flags) {
+  const std::string& text = as_string(value, name);
+  if (text.size() != count || text.find_first_not_of("1.") != std::string::npos)
+    refuse_value(value, name, describe(value),
+                 fmt::format("{} characters, 1 for needed and . for not needed", count));
+  for (std::size_t i = 0; i < count; ++i) flags[i] = text[i] == '1';
+}
+
+}  // namespace
+
+NeededTexels parse_needed_texels(std::string_view text, const std::string& name) {
+  const ConfigValue root = parse_config(text, name);
+  const ConfigTable& table = as_table(root, name);
+  NeededTexels demand;
+  for (const ConfigEntry& entry : table) {
+    const std::size_t id = read_class_name(entry.key, entry.value, name);
+    const ConfigTable& of_class = as_table(entry.value, name);
+    demand.texels[id] = true;
+    allow_only(of_class, {"light", "direction", "shadow", "border"}, name);
+    if (const ConfigValue* light = find(of_class, "light")) {
+      const ConfigArray& rows = as_array(*light, name);
+      if (rows.size() != AvailableTexels::tones)
+        refuse_value(*light, name, fmt::format("{} rows", rows.size()),
+                     "one row for each of the five tones");
+      for (std::size_t t = 0; t < rows.size(); ++t) read_flags(rows[t], name, demand.light[id][t]);
+    }
+    if (const ConfigValue* direction = find(of_class, "direction"))
+      read_flags(*direction, name, demand.direction[id]);
+    if (const ConfigValue* shadow = find(of_class, "shadow"))
+      demand.shadow[id] = as_bool(*shadow, name);
+    if (const ConfigValue* border = find(of_class, "border"))
+      for (const ConfigValue& other : as_array(*border, name)) {
+        const std::size_t beside = read_class_name(as_string(other, name), other, name);
+        demand.border[id][beside] = demand.border[beside][id] = true;
+      }
+  }
+  return demand;
+}
+
+const NeededTexels& built_in_needed_texels() {
+  static const NeededTexels demand =
+      parse_needed_texels(embedded_file("sheet/needed_texels.toml"), "sheet/needed_texels.toml");
+  return demand;
+}
+
+std::string distance_name(std::size_t bin) {
+  const auto km = [](float m) { return static_cast<int>(m / 1000.F); };
+  const auto& bounds = AvailableTexels::distance_bounds_m;
+  if (bin == 0) return fmt::format("nearer than {} km", km(bounds[0]));
+  if (bin == bounds.size()) return fmt::format("beyond {} km", km(bounds.back()));
+  return fmt::format("{}–{} km", km(bounds[bin - 1]), km(bounds[bin]));
+}
+
+std::string direction_name(std::size_t bin) {
+  static constexpr std::array<const char*, AvailableTexels::directions> names = {
+      "right", "down right", "down", "down left", "left", "up left", "up", "up right"};
+  return names[bin];
+}
+
+std::string altitude_name(std::size_t bin) {
+  const auto& bounds = AvailableTexels::altitude_bounds_m;
+  if (bin == 0) return fmt::format("below {:.0f} m", bounds[0]);
+  if (bin == bounds.size()) return fmt::format("above {:.0f} m", bounds.back());
+  return fmt::format("{:.0f}–{:.0f} m", bounds[bin - 1], bounds[bin]);
+}
+
+namespace {
+
+template <class Counts>
+Json counts_json(const Counts& counts) {
+  Json list = Json::array();
+  for (const auto count : counts) list.add(Json::number(static_cast<double>(count)));
+  return list;
+}
+
+// Thousands of texels, narrow enough for tables.
+std::string thousands(std::int64_t count) {
+  if (count == 0) return "·";
+  if (count < 1000) return fmt::format("{:.2f}", static_cast<double>(count) / 1000.0);
+  return fmt::format("{:.0f}", static_cast<double>(count) / 1000.0);
+}
+
+}  // namespace
+
+std::string available_json(const AvailableTexels& available,
+                           const std::vector<TexelShortage>& gaps) {
+  Json classes = Json::object();
+  for (int k = 1; k < land_cover_class_count; ++k) {
+    const auto id = static_cast<std::size_t>(k);
+    Json light = Json::array();
+    for (const auto& row : available.by_light[id]) light.add(counts_json(row));
+    Json border = Json::object();
+    for (int other = 1; other < land_cover_class_count; ++other)
+      if (available.border[id][static_cast<std::size_t>(other)] > 0)
+        border.add(class_name(static_cast<LandCoverClass>(other)),
+                   Json::number(
+                       static_cast<double>(available.border[id][static_cast<std::size_t>(other)])));
+    classes.add(
+        class_name(static_cast<LandCoverClass>(k)),
+        Json::object()
+            .add("texels", Json::number(static_cast<double>(available.texels[id])))
+            .add("in_cast_shadow", Json::number(static_cast<double>(available.in_cast_shadow[id])))
+            .add("by_tone_and_distance", std::move(light))
+            .add("by_direction", counts_json(available.by_direction[id]))
+            .add("by_altitude", counts_json(available.by_altitude[id]))
+            .add("border", std::move(border)));
+  }
+  Json lacking = Json::array();
+  for (const TexelShortage& gap : gaps)
+    lacking.add(Json::object()
+                    .add("what", Json::text(gap.what))
+                    .add("found", Json::number(gap.found))
+                    .add(gap.too_much ? "at_most" : "wanted", Json::number(gap.needed)));
+  return Json::object()
+             .add("pixels", Json::number(static_cast<double>(available.pixels)))
+             .add("ground", Json::number(static_cast<double>(available.ground())))
+             .add("at_silhouette", Json::number(static_cast<double>(available.at_silhouette)))
+             .add("tone_bounds", Json::array({Json::number(0.2), Json::number(0.4),
+                                              Json::number(0.6), Json::number(0.8)}))
+             .add("distance_bounds_m", counts_json(AvailableTexels::distance_bounds_m))
+             .add("altitude_bounds_m", counts_json(AvailableTexels::altitude_bounds_m))
+             .add("classes", std::move(classes))
+             .add("gaps", std::move(lacking))
+             .str() +
+         "\n";
+}
+
+std::string available_text(const AvailableTexels& available, const std::vector<TexelShortage>& gaps,
+                           bool judge) {
+  const double ground = std::max(1.0, static_cast<double>(available.ground()));
+  std::string out = fmt::format(
+      "Thousands of texels, {:.2f} million in total; tones from dark to "
+      "light\n\n{:14}{:>7}{:>7}{:>7}   {}\n",
+      ground / 1e6, "class", "share", "all", "shadow", "tones at each distance");
+  for (int k = 1; k < land_cover_class_count; ++k) {
+    const auto id = static_cast<std::size_t>(k);
+    out += fmt::format("{:14}{:6.1f}%{:>7}{:>7}  ", class_name(static_cast<LandCoverClass>(k)),
+                       100.0 * static_cast<double>(available.texels[id]) / ground,
+                       thousands(available.texels[id]), thousands(available.in_cast_shadow[id]));
+    for (std::size_t d = 0; d < AvailableTexels::distances; ++d) {
+      out += " |";
+      for (std::size_t t = 0; t < AvailableTexels::tones; ++t)
+        out += fmt::format("{:>5}", thousands(available.by_light[id][t][d]));
+    }
+    out += "\n";
+  }
+  out += "\nDistances: ";
+  for (std::size_t d = 0; d < AvailableTexels::distances; ++d)
+    out += (d == 0 ? "" : ", ") + distance_name(d);
+  out += "\n";
+  if (!judge) return out;
+  if (gaps.empty()) return out + "All minimum counts are met.\n";
+  out += fmt::format("\n{} minimum counts are not met:\n", gaps.size());
+  for (const TexelShortage& gap : gaps)
+    out += gap.too_much
+               ? fmt::format("  {}: {:.0f}, at most {:.0f}\n", gap.what, gap.found, gap.needed)
+               : fmt::format("  {}: {:.0f} of {:.0f}\n", gap.what, gap.found, gap.needed);
+  return out;
 }
 
 }  // namespace belvedere

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -85,5 +86,10 @@ std::string available_json(const AvailableTexels& available,
 // judge: whether shortages are listed.
 std::string available_text(const AvailableTexels& available, const std::vector<TexelShortage>& gaps,
                            bool judge);
+
+// Names of the bins of AvailableTexels.
+std::string distance_name(std::size_t bin);
+std::string direction_name(std::size_t bin);
+std::string altitude_name(std::size_t bin);
 
 }  // namespace belvedere

@@ -11,8 +11,8 @@
 #include "base/math_exact.h"
 #include "base/parallel.h"
 #include "base/statistics.h"
-#include "renderer/image/rows/reduced_oklab.h"
-#include "texture/synthesis/guide_stack.h"
+#include "renderer/image/rows/picture_rows.h"
+#include "texture/synthesis/exemplar.h"
 
 namespace belvedere {
 namespace {

@@ -1,10 +1,9 @@
 #include "renderer/exemplar/example_sheet.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fmt/core.h>
 #include <map>
 #include <memory>
 #include <string>
@@ -15,12 +14,12 @@
 
 #include "base/cache/cache.h"
 #include "base/error.h"
-#include "base/grid_part.h"
-#include "base/guidance_channels.h"
+#include "base/grid.h"
+#include "base/guidance_buffers.h"
 #include "base/parallel.h"
-#include "base/random_streams.h"
+#include "base/random.h"
 #include "renderer/exemplar/available_texels.h"
-#include "renderer/exemplar/seam_picture.h"
+#include "renderer/exemplar/uncertain_places.h"
 #include "renderer/ground/cached_products.h"
 #include "renderer/image/srgb.h"
 #include "renderer/paint/composite.h"
@@ -28,10 +27,41 @@
 #include "renderer/stages/lit_picture.h"
 #include "renderer/world/scene_dem.h"
 #include "renderer/world/scene_land_cover.h"
-#include "renderer/world/season/palette_season.h"
-#include "terrain/shape/catchments.h"
+#include "renderer/world/season/scene_season.h"
+#include "terrain/shape/hydrology.h"
+#include "texture/strokes/stroke_painter.h"
 
 namespace belvedere {
+
+ExamplePainting paint_example(const World& world, const Palette& palette, LitPicture picture,
+                              const ExampleLayers& layers, Progress& progress) {
+  const StrokeParameters strokes = to_stroke_parameters(world, palette);
+  const SheetWindow whole{.to_copy_from = true};
+  ExamplePainting example;
+  Painting ground_layer = paint_strokes(
+      picture.base.colour, picture.guidance, picture.base,
+      {.sky = layers.sky, .ground = true, .accents = true, .breaks = false, .upright = false},
+      strokes, progress, whole);
+  example.ground_layer = std::move(ground_layer.picture);
+  picture.guidance.ground_from = std::move(ground_layer.sources);
+  if (layers.painting) {
+    Painting painting = paint_strokes(picture.base.colour, picture.guidance, picture.base,
+                                      {.sky = layers.sky}, strokes, progress, whole);
+    example.painting = blend_edges(painting.picture, picture.guidance);
+    picture.guidance.painted_class = picture.guidance.land_cover;
+    for (std::size_t i = 0; i < painting.sources.size(); ++i)
+      picture.guidance.painted_class[i] = picture.guidance.land_cover[painting.sources[i]];
+    picture.guidance.painted_from = std::move(painting.sources);
+    picture.guidance.stroke = std::move(painting.strokes);
+  }
+  example.guidance = std::move(picture.guidance);
+  return example;
+}
+
+PaintedClasses classes_of_paint(const GuidanceBuffers& guidance, const Grid<std::uint32_t>& from) {
+  return find_painted_classes(from, guidance, encode_srgb(guidance.base));
+}
+
 namespace {
 
 const glm::vec3 paper{0.957F, 0.937F, 0.886F};  // encoded sRGB

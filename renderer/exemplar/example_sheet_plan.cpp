@@ -8,7 +8,7 @@
 
 #include "base/config.h"
 #include "base/error.h"
-#include "base/random_streams.h"
+#include "base/random.h"
 #include "base/text/embedded.h"
 #include "base/text/json.h"
 

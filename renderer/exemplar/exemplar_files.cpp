@@ -12,7 +12,6 @@
 #include "base/files/file_guard.h"
 #include "base/files/output_file.h"
 #include "base/memory_limit.h"
-#include "renderer/exemplar/example_painting.h"
 #include "renderer/exemplar/example_sheet.h"
 #include "renderer/image/display_conversion.h"
 #include "renderer/image/guidance_io.h"
@@ -20,7 +19,7 @@
 #include "renderer/image/provenance.h"
 #include "renderer/world/season/scene_season.h"
 #include "renderer/world/style/scene_style.h"
-#include "renderer/world/world_notes.h"
+#include "renderer/world/world.h"
 
 namespace belvedere {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "base/parallel.h"
 #include "base/statistics.h"
-#include "texture/synthesis/guide_stack.h"
+#include "texture/synthesis/exemplar.h"
 
 namespace belvedere {
 namespace {

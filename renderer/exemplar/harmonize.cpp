@@ -16,7 +16,7 @@
 #include "base/parallel.h"
 #include "renderer/image/oklab.h"
 #include "texture/statistical/photometric.h"
-#include "texture/synthesis/guide_stack.h"
+#include "texture/synthesis/exemplar.h"
 
 namespace belvedere {
 namespace {

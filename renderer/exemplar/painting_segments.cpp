@@ -10,7 +10,7 @@
 #include "base/land_cover_class.h"
 #include "base/parallel.h"
 #include "renderer/image/oklab.h"
-#include "texture/synthesis/guide_stack.h"
+#include "texture/synthesis/exemplar.h"
 
 namespace belvedere {
 namespace {

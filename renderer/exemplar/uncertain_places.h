@@ -3,7 +3,8 @@
 #include <cstdint>
 
 #include "base/grid.h"
-#include "texture/synthesis/guide_stack.h"
+#include "renderer/paint/composite.h"
+#include "texture/synthesis/exemplar.h"
 
 namespace belvedere {
 
@@ -31,5 +32,12 @@ Grid<std::uint8_t> certain_labels(const Grid<std::uint8_t>& labels,
 // unused_label where sky (label 0) may be ground, because the skyline may be that many pixels too
 // low.
 Grid<std::uint8_t> certain_sky(Grid<std::uint8_t> labels, int skyline_px);
+
+// What synthesis compares: the part of a painting that the residual carries over, picture -
+// residual · base, because a seam shows where that part jumps and not where light does. Each label
+// is stretched to the same contrast about mid grey: otherwise low-contrast strokes would be torn
+// apart to satisfy guides.
+Grid<Rgb8> seam_picture(const PaintedExemplar& painted, const Grid<std::uint8_t>& labels,
+                        double residual);
 
 }  // namespace belvedere

@@ -2,9 +2,8 @@
 
 #include <vector>
 
-#include "renderer/features/drawn_parts.h"
-#include "renderer/features/feature_set.h"
-#include "renderer/features/ground_sight.h"
+#include "renderer/features/line_samples.h"
+#include "renderer/features/feature_style.h"
 
 namespace belvedere {
 

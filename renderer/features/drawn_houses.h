@@ -2,10 +2,9 @@
 
 #include <vector>
 
-#include "renderer/features/drawn_parts.h"
-#include "renderer/features/feature_set.h"
+#include "renderer/features/line_samples.h"
+#include "renderer/features/feature_style.h"
 #include "renderer/features/footprint.h"
-#include "renderer/features/ground_sight.h"
 
 namespace belvedere {
 

@@ -12,7 +12,7 @@
 #include "base/math.h"
 #include "base/noise.h"
 #include "base/parallel.h"
-#include "base/random_streams.h"
+#include "base/random.h"
 #include "texture/strokes/stroke_parts.h"
 
 namespace belvedere {

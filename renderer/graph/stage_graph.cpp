@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "renderer/trace/wide_view.h"
+#include "renderer/trace/camera.h"
 
 namespace belvedere {
 namespace {

@@ -1,14 +1,35 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <vector>
 
+#include "base/grid.h"
 #include "base/pixel_rect.h"
-#include "renderer/graph/planes.h"
 
 namespace belvedere {
+
+// The grids of a product, of any type, as a store of tiles copies them. Values must be trivially
+// copyable.
+struct Plane {
+  std::byte* values = nullptr;
+  std::size_t value_bytes = 0;
+  int width = 0;
+  int height = 0;
+  std::size_t row_bytes() const { return value_bytes * static_cast<std::size_t>(width); }
+  std::size_t bytes() const { return row_bytes() * static_cast<std::size_t>(height); }
+};
+using Planes = std::vector<Plane>;
+
+template <class T>
+Plane plane_of(Grid<T>& grid) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  return {grid.empty() ? nullptr : reinterpret_cast<std::byte*>(grid.data()), sizeof(T),
+          grid.width(), grid.height()};
+}
 
 // Fixed tiles of one product of the sheet, kept until they are dropped: in memory up to the store's
 // share, then in an unnamed scratch file, so that nothing is left of it however the program ends.
@@ -67,5 +88,11 @@ class TileStore {
   std::int64_t slots_ = 0;
   int file_ = -1;
 };
+
+// Reads or writes all bytes at a position of an open file, despite interruptions and partial
+// transfers. Returns 0 or an errno: no space where no more can be written, a read error where the
+// file ends early.
+int write_bytes_at(int file, const std::byte* bytes, std::size_t count, std::uint64_t at);
+int read_bytes_at(int file, std::byte* bytes, std::size_t count, std::uint64_t at);
 
 }  // namespace belvedere

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "base/progress.h"
-#include "renderer/features/feature_set.h"
+#include "renderer/features/feature_style.h"
 #include "renderer/scene/scene_file.h"
 #include "terrain/io/dem.h"
 

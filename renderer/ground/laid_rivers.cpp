@@ -1,9 +1,8 @@
 #include "renderer/ground/laid_rivers.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
+#include <fmt/core.h>
 #include <glm/geometric.hpp>
 #include <utility>
 
@@ -11,9 +10,9 @@
 #include "base/filter.h"
 #include "base/math.h"
 #include "base/math_exact.h"
+#include "base/parallel.h"
 #include "base/pixel_rect.h"
 #include "renderer/ground/cached_products.h"
-#include "renderer/ground/packed_rows.h"
 
 namespace belvedere {
 namespace {
@@ -183,6 +182,44 @@ std::vector<double> units_across(const CoverRiver& river, double pixels_per_unit
     units[i] = ((1.0 - t) * across[k] + t * across[next]) / pixels_per_unit;
   }
   return units;
+}
+
+namespace {
+
+LandCoverClass nearest_class(const LandCover& cover, glm::dvec2 position) {
+  const glm::dvec2 at = cover.classes.transform.to_cell(position.x, position.y);
+  return cover.classes.cells.clamped(static_cast<int>(std::lround(at.x)),
+                                     static_cast<int>(std::lround(at.y)));
+}
+
+}  // namespace
+
+void refine_by_rules(LandCover& cover, const LandCover& rules, const CoverRefinement& refine) {
+  Grid<LandCoverClass>& cells = cover.classes.cells;
+  parallel_rows(cells.height(), [&](int y) {
+    for (int x = 0; x < cells.width(); ++x) {
+      const LandCoverClass seen = nearest_class(rules, cover.classes.transform.to_crs(x, y));
+      for (const auto& [to, from] : refine)
+        if (cells(x, y) == from && seen == to) {
+          cells(x, y) = to;
+          break;
+        }
+    }
+  });
+}
+
+std::vector<CoverRiver> refine_rivers(std::vector<CoverRiver> rivers, const LandCover& cover,
+                                      const CoverRefinement& refine) {
+  const auto to_water = [](const auto& row) { return row.first == LandCoverClass::water; };
+  if (std::none_of(refine.begin(), refine.end(), to_water)) return {};
+  for (CoverRiver& river : rivers)
+    for (std::size_t i = 0; i < river.positions.size(); ++i) {
+      const LandCoverClass here = nearest_class(cover, river.positions[i]);
+      const auto allows = [&](const auto& row) { return to_water(row) && row.second == here; };
+      if (here != LandCoverClass::water && std::none_of(refine.begin(), refine.end(), allows))
+        river.half_width_m[i] = 0.F;
+    }
+  return rivers;
 }
 
 }  // namespace belvedere

@@ -1,15 +1,17 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "base/cache/cache.h"
 #include "base/progress.h"
 #include "renderer/scene/scene_file.h"
 #include "renderer/trace/camera.h"
+#include "terrain/cover/land_cover.h"
 #include "terrain/cover/map_cover.h"
 #include "terrain/deform/deform.h"
 #include "terrain/io/dem.h"
-#include "terrain/shape/catchments.h"
+#include "terrain/shape/hydrology.h"
 #include "terrain/shape/river_centrelines.h"
 
 namespace belvedere {
@@ -47,5 +49,16 @@ CoverRiver widen_for_view(CoverRiver river, const RiverLook& look, const Dem& de
 // linear.
 std::vector<double> units_across(const CoverRiver& river, double pixels_per_unit, const Dem& dem,
                                  const SeenFrom& seen);
+
+// {to, from} of `refine` in [land_cover]: classes that a raster does not distinguish.
+using CoverRefinement = std::vector<std::pair<LandCoverClass, LandCoverClass>>;
+
+// Cells of class `from` where the rules give `to` become `to`.
+void refine_by_rules(LandCover& cover, const LandCover& rules, const CoverRefinement& refine);
+
+// Inferred rivers where a raster's class may become water, and where it is water; elsewhere their
+// width is 0. None if no class may.
+std::vector<CoverRiver> refine_rivers(std::vector<CoverRiver> rivers, const LandCover& cover,
+                                      const CoverRefinement& refine);
 
 }  // namespace belvedere

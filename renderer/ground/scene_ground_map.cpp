@@ -19,11 +19,10 @@
 #include "base/parallel.h"
 #include "renderer/ground/cached_products.h"
 #include "renderer/ground/feature_files.h"
-#include "renderer/ground/packed_rows.h"
 #include "renderer/ground/river_banks.h"
 #include "renderer/ground/river_shores.h"
-#include "terrain/cover/town_file.h"
-#include "terrain/io/input_parts.h"
+#include "terrain/cover/towns.h"
+#include "terrain/io/raster_file.h"
 #include "terrain/shape/coast.h"
 
 namespace belvedere {

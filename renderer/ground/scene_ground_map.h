@@ -12,7 +12,7 @@
 #include "terrain/cover/map_cover.h"
 #include "terrain/cover/towns.h"
 #include "terrain/io/dem.h"
-#include "terrain/shape/catchments.h"
+#include "terrain/shape/hydrology.h"
 #include "terrain/shape/known_lakes.h"
 
 namespace belvedere {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "base/image.h"
+#include "base/grid.h"
 #include "renderer/image/icc/device_colour.h"
 
 namespace belvedere {

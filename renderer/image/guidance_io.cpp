@@ -11,7 +11,7 @@
 #include <variant>
 
 #include "base/error.h"
-#include "base/guidance_channels.h"
+#include "base/guidance_buffers.h"
 #include "base/parallel.h"
 
 namespace belvedere {

@@ -10,7 +10,7 @@
 namespace belvedere {
 
 // Guidance buffers as one multi-part tiled OpenEXR: parts, channels and types as in the table of
-// base/guidance_channels.h. A part holds channels that are used together, so that a reader unpacks
+// base/guidance_buffers.h. A part holds channels that are used together, so that a reader unpacks
 // no more than it needs. The header's note "legend" has a line `id name rrggbb` for each class.
 
 // Writes rows from top to bottom, streamed: besides the given rows, memory holds some packed tiles

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/image.h"
+#include "base/grid.h"
 #include "renderer/image/image_file.h"
 
 // Shared by the files of the formats.

@@ -4,7 +4,6 @@
 #include <string>
 
 #include "base/grid.h"
-#include "base/image.h"
 // Reads and writes pictures of any format.
 #include "base/files/output_file.h"
 #include "renderer/image/exr/exr_reader.h"

@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "base/image.h"
+#include "base/grid.h"
 #include "renderer/image/image_file.h"
 #include "renderer/image/rows/picture_rows.h"
 

@@ -13,8 +13,8 @@
 #include "base/filter.h"
 #include "base/land_cover_class.h"
 #include "renderer/image/image_io.h"
-#include "renderer/image/png_check.h"
-#include "texture/synthesis/guide_stack.h"
+#include "renderer/image/png_palette.h"
+#include "texture/synthesis/exemplar.h"
 
 namespace belvedere {
 namespace {

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "base/text/archive_kind.h"
+#include "base/text/missing_file.h"
 #include "renderer/image/exr/exr_reader.h"
 #include "renderer/image/exr/exr_writer.h"
 #include "renderer/image/image_file_parts.h"

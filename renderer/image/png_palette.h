@@ -22,4 +22,12 @@ void write_grey_png(const std::string& path, const Grid<std::uint8_t>& grey);
 void write_palette_png(const std::string& path, const Grid<std::uint8_t>& numbers,
                        const std::vector<std::array<std::uint8_t, 3>>& colours);
 
+// Whether a PNG is complete, with all checksums right.
+bool is_png_complete(const std::string& path);
+struct PngKind {
+  int bits = 8;  // a channel, 1…16
+  bool palette = false;
+};
+PngKind read_png_kind(const std::string& path);
+
 }  // namespace belvedere::image_io

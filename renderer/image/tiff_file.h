@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "base/image.h"
-#include "renderer/image/icc/ink_count.h"
+#include "base/grid.h"
+#include "renderer/image/icc/press_colour.h"
 #include "renderer/image/image_file.h"
 #include "renderer/image/rows/picture_rows.h"
 

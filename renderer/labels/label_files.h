@@ -1,7 +1,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "renderer/labels/drawing.h"
 #include "renderer/labels/labels.h"
 
 namespace belvedere {
@@ -22,5 +24,18 @@ std::string places_csv(const LabelSheet& sheet);
 // labels_csv as GeoJSON (RFC 7946), positions in longitude and latitude. `crs`: the scene's;
 // Error(usage) where it is empty.
 std::string labels_geojson(const LabelSheet& sheet, const std::string& crs);
+
+struct DrawnGroup {
+  std::string name;  // "tracks", or the kind of names
+  std::vector<DrawnShape> shapes;
+};
+
+// Tracks (hidden pieces dashed, then edges, then visible pieces) and placed names with marks and
+// leaders, a group for each kind, in drawing order. Leaders of all kinds come before the first
+// name, so that none crosses the letters of another.
+std::vector<DrawnGroup> draw_labels(const LabelSheet& sheet);
+
+// All groups as one drawing of the picture's size.
+Drawing label_drawing(const LabelSheet& sheet);
 
 }  // namespace belvedere

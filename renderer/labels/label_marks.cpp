@@ -27,7 +27,7 @@ struct SeenCell {
 // drawn above it: from the top one goes to the highest visible position in the picture among the
 // nearest cells, while the ground falls. Where it rises again, or the path leaves the search
 // radius, the slope belongs to the ground behind, and the edge is the top itself.
-ImagePosition upper_edge(const DrawnGround& ground, glm::dvec2 start, glm::dvec2 top,
+ImagePosition upper_edge(const LocatedGround& ground, glm::dvec2 start, glm::dvec2 top,
                          const ImagePosition& seen_top, double max_m) {
   const Grid<float>& z = ground.generalized_m;
   const glm::dvec2 from = ground.transform.to_cell(top.x, top.y);
@@ -51,7 +51,7 @@ ImagePosition upper_edge(const DrawnGround& ground, glm::dvec2 start, glm::dvec2
   }
 }
 
-LabelMark find_mark(const DrawnGround& ground, const LabelPoint& point,
+LabelMark find_mark(const LocatedGround& ground, const LabelPoint& point,
                     const LabelKindStyle& kind) {
   LabelMark mark;
   mark.drawn_position = point.position;
@@ -92,7 +92,7 @@ std::string_view name_of(MarkState state) {
   return names[static_cast<std::size_t>(state)];
 }
 
-std::optional<glm::dvec2> climb(const DrawnGround& ground, glm::dvec2 position, double max_m) {
+std::optional<glm::dvec2> climb(const LocatedGround& ground, glm::dvec2 position, double max_m) {
   const Grid<float>& z = ground.generalized_m;
   const glm::dvec2 start = ground.transform.to_cell(position.x, position.y);
   int x = static_cast<int>(std::lround(start.x));
@@ -117,7 +117,7 @@ std::optional<glm::dvec2> climb(const DrawnGround& ground, glm::dvec2 position, 
   }
 }
 
-std::vector<LabelMark> find_marks(const DrawnGround& ground, const std::vector<LabelPoint>& points,
+std::vector<LabelMark> find_marks(const LocatedGround& ground, const std::vector<LabelPoint>& points,
                                   const LabelStyle& style) {
   std::vector<LabelMark> marks(points.size());
   parallel_ranges<std::size_t>(points.size(), 1, [&](std::size_t begin, std::size_t end) {

@@ -31,7 +31,7 @@ struct LabelMark {
 
 // Input for marks: the generalized ground, whose tops are drawn, with the map to the picture. All
 // must outlive it.
-struct DrawnGround {
+struct LocatedGround {
   const Grid<float>& altitude_m;     // of the DEM
   const Grid<float>& generalized_m;  // as drawn, before it is bent
   GeoTransform transform;
@@ -43,10 +43,10 @@ struct DrawnGround {
 // going up, always to the highest cell of those within three columns and rows; of level ones the
 // first. The position itself where the top is farther away than max_m; nothing where it lies
 // outside the terrain.
-std::optional<glm::dvec2> climb(const DrawnGround& ground, glm::dvec2 position, double max_m);
+std::optional<glm::dvec2> climb(const LocatedGround& ground, glm::dvec2 position, double max_m);
 
 // The mark of each point, in parallel; the same for any number of threads.
-std::vector<LabelMark> find_marks(const DrawnGround& ground, const std::vector<LabelPoint>& points,
+std::vector<LabelMark> find_marks(const LocatedGround& ground, const std::vector<LabelPoint>& points,
                                   const LabelStyle& style);
 
 }  // namespace belvedere

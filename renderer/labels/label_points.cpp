@@ -14,7 +14,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/text/letters.h"
+#include "base/text/text_encoding.h"
 #include "terrain/io/crs.h"
 #include "terrain/io/features.h"
 #include "terrain/io/points.h"

@@ -83,7 +83,7 @@ std::vector<glm::dvec2> longest_run(const std::vector<Seen>& row) {
   return length_of(run) > length_of(best) ? run : best;
 }
 
-ShapeRun run_of_line(const DrawnGround& ground, const LabelShape& shape) {
+ShapeRun run_of_line(const LocatedGround& ground, const LabelShape& shape) {
   ShapeRun out;
   const double metres = ground.cell_m / ground.transform.cell_x;
   for (const std::vector<glm::dvec2>& part : shape.parts) {
@@ -98,7 +98,7 @@ ShapeRun run_of_line(const DrawnGround& ground, const LabelShape& shape) {
   return out;
 }
 
-ShapeRun run_of_area(const DrawnGround& ground, const LabelShape& shape) {
+ShapeRun run_of_area(const LocatedGround& ground, const LabelShape& shape) {
   std::vector<std::vector<glm::dvec2>> rings;
   for (const std::vector<glm::dvec2>& part : shape.parts) {
     std::vector<glm::dvec2> ring;
@@ -121,7 +121,7 @@ ShapeRun run_of_area(const DrawnGround& ground, const LabelShape& shape) {
   return out;
 }
 
-LabelMark mark_of(const DrawnGround& ground, const LabelShape& shape,
+LabelMark mark_of(const LocatedGround& ground, const LabelShape& shape,
                   const std::vector<glm::dvec2>& line) {
   LabelMark mark;
   mark.drawn_position = shape.point.position;
@@ -150,7 +150,7 @@ LabelMark mark_of(const DrawnGround& ground, const LabelShape& shape,
 }
 
 // How wide an area is seen in the row of a pixel that shows it.
-double seen_width(const DrawnGround& ground, const LabelShape& shape, glm::dvec2 pixel) {
+double seen_width(const LocatedGround& ground, const LabelShape& shape, glm::dvec2 pixel) {
   constexpr double widest_px = 4000.0;  // wide enough for any name
   const auto reach = [&](double step) {
     double way = 0.0;
@@ -345,7 +345,7 @@ std::vector<glm::dvec2> centreline(const std::vector<std::vector<glm::dvec2>>& r
   return line;
 }
 
-std::vector<ShapeRun> find_shape_runs(const DrawnGround& ground,
+std::vector<ShapeRun> find_shape_runs(const LocatedGround& ground,
                                       const std::vector<LabelShape>& shapes) {
   std::vector<ShapeRun> runs(shapes.size());
   parallel_ranges<std::size_t>(shapes.size(), 1, [&](std::size_t begin, std::size_t end) {

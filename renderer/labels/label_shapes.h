@@ -35,7 +35,7 @@ struct ShapeRun {
 // For a line its longest visible piece; for an area the centres of its sections across its longest
 // direction in the picture, where they are visible. In parallel; the same for any number of
 // threads.
-std::vector<ShapeRun> find_shape_runs(const DrawnGround& ground,
+std::vector<ShapeRun> find_shape_runs(const LocatedGround& ground,
                                       const std::vector<LabelShape>& shapes);
 
 // The line through an area's centre, px: for each of 48 sections across its longest direction the

@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "base/text/config_reader.h"
 #include "base/text/embedded.h"
-#include "base/text/letters.h"
+#include "base/text/text_encoding.h"
 
 namespace belvedere {
 namespace {
@@ -103,7 +103,6 @@ LabelStyle read_style(const ConfigValue& document, const std::string& name) {
   read.number("version", version, 1.0, 1.0);
   if (version != 1.0) throw Error(ErrorKind::usage, name, "no version", "version = 1");
   read.number("min_px", style.min_px, 0.0, 1000.0);
-  read.number("least_px", style.min_px, 0.0, 1000.0);  // renamed in version 0.2
   read.number("gap_mm", style.gap_mm, 0.0, 100.0);
   read.number("row_mm", style.row_mm, 0.5, 200.0);
   read.number("longest_leader_mm", style.longest_leader_mm, 0.0, 1000.0);

@@ -25,7 +25,7 @@ struct Sample {
 
 bool in_picture(const Sample& sample) { return sample.drawn && sample.drawn->in_picture; }
 
-std::vector<Sample> sample_line(const DrawnGround& ground, const MapLine& line) {
+std::vector<Sample> sample_line(const LocatedGround& ground, const MapLine& line) {
   const double metres = ground.cell_m / ground.transform.cell_x;
   std::vector<Sample> samples;
   double from_start_m = 0.0;
@@ -122,7 +122,7 @@ std::vector<TrackRun> runs_of(const std::vector<Sample>& samples) {
   return all;
 }
 
-Track find_track(const DrawnGround& ground, const MapLine& line) {
+Track find_track(const LocatedGround& ground, const MapLine& line) {
   const std::vector<Sample> samples = sample_line(ground, line);
   Track track;
   track.name = line.name;
@@ -152,7 +152,7 @@ double round_step(double span, int count) {
 
 }  // namespace
 
-std::vector<Track> find_tracks(const DrawnGround& ground, const std::vector<MapLine>& lines) {
+std::vector<Track> find_tracks(const LocatedGround& ground, const std::vector<MapLine>& lines) {
   std::vector<Track> tracks(lines.size());
   parallel_ranges<std::size_t>(lines.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) tracks[i] = find_track(ground, lines[i]);

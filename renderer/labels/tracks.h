@@ -6,7 +6,7 @@
 
 #include "renderer/labels/drawing.h"
 #include "renderer/labels/label_marks.h"
-#include "terrain/io/lines.h"
+#include "terrain/io/points.h"
 
 namespace belvedere {
 
@@ -33,7 +33,7 @@ inline constexpr double climb_step_m = 10.0;  // more than the noise of a DEM
 // Lays tracks on the drawn ground, sampled twice per cell. A run ends where a track leaves the
 // picture or the terrain. Gaps of less than 3 px do not split a visible run: a track along a ridge
 // would be all dashes. In parallel; the same for any number of threads.
-std::vector<Track> find_tracks(const DrawnGround& ground, const std::vector<MapLine>& lines);
+std::vector<Track> find_tracks(const LocatedGround& ground, const std::vector<MapLine>& lines);
 
 // Elevation profile of a track: 180 × 50 mm, with round numbers on both axes. A track with fewer
 // than two positions on the terrain has an empty one.

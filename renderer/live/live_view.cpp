@@ -5,16 +5,47 @@
 #include <utility>
 
 #include "base/cache/scratch_folder.h"
-#include "base/grid_part.h"
+#include "base/grid.h"
 #include "renderer/image/display_conversion.h"
 #include "renderer/paint/composite.h"
 #include "renderer/pipeline/copy_plan.h"
-#include "renderer/pipeline/output_colour.h"
+#include "renderer/pipeline/scene_paint.h"
 #include "renderer/pipeline/sheet_work.h"
-#include "renderer/stages/guidance_windows.h"
+#include "renderer/scene/draft.h"
+#include "renderer/stages/lit_picture.h"
 #include "renderer/world/scene_features.h"
 
 namespace belvedere {
+namespace {
+
+constexpr double preview_mcells = 1.0;
+
+}  // namespace
+
+const std::vector<Rung>& rungs() {
+  static const std::vector<std::string> without_forms = {"rock relief", "strokes"};
+  static const std::vector<Rung> all = {
+      {.name = "light and colour", .without = without_forms, .max_width_px = 360, .strokes = false},
+      {.name = "larger", .without = without_forms, .strokes = false},
+      {.name = "strokes", .without = {"fine light"}},
+      {.name = "as rendered", .without = {}}};
+  return all;
+}
+
+LoadedScene scene_of_rung(const LoadedScene& loaded, const Rung& rung) {
+  LoadedScene out = loaded;
+  Scene& scene = out.scene;
+  scene.output = with_width(scene.output, std::min(scene.output.width, rung.max_width_px));
+  if (rung.is_last()) return out;
+  scene.terrain.preview_mcells = preview_mcells;
+  scene.sampling.pixel_samples = 1;
+  scene.sampling.shadow_rays = 1;
+  scene.sampling.sky_directions = std::min(scene.sampling.sky_directions, 4);
+  if (scene.water.mirror == "traced") scene.water.mirror = "column";
+  scene.synthesis.enabled = false;
+  return out;
+}
+
 namespace {
 
 using B = GuidanceBuffers;

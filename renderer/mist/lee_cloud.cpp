@@ -5,11 +5,9 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "base/angle.h"
 #include "base/math.h"
 #include "base/math_exact.h"
 #include "base/random.h"
-#include "base/random_streams.h"
 
 namespace belvedere {
 namespace {

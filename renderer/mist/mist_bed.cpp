@@ -7,7 +7,7 @@
 #include "base/filter.h"
 #include "base/math.h"
 #include "base/parallel.h"
-#include "base/random_streams.h"
+#include "base/random.h"
 
 namespace belvedere {
 namespace {

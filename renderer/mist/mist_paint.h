@@ -5,10 +5,9 @@
 #include "base/grid.h"
 #include "base/progress.h"
 #include "renderer/mist/mist_sight.h"
-#include "renderer/paint/air_parameters.h"
+#include "renderer/paint/air.h"
 #include "renderer/paint/palette.h"
 #include "texture/strokes/base_picture.h"
-#include "texture/strokes/sheet_window.h"
 
 namespace belvedere {
 

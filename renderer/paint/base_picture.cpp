@@ -5,31 +5,75 @@
 #include <glm/common.hpp>
 
 #include "base/error.h"
-#include "base/grid_part.h"
-#include "base/guidance_channels.h"
+#include "base/grid.h"
+#include "base/guidance_buffers.h"
 #include "base/math.h"
 #include "base/parallel.h"
-#include "base/random_streams.h"
+#include "base/random.h"
 #include "renderer/paint/air.h"
-#include "renderer/paint/fields.h"
 #include "renderer/paint/forest_cover.h"
 #include "renderer/paint/ground/base_surroundings.h"
-#include "renderer/paint/ground/forest_hues.h"
 #include "renderer/paint/ground/meadow_hues.h"
-#include "renderer/paint/ground/scree_fans.h"
-#include "renderer/paint/ground_hues.h"
+#include "renderer/paint/ground/slope_walk.h"
+#include "renderer/paint/ground/ground_tint.h"
 #include "renderer/paint/light.h"
 #include "renderer/paint/picture_filter.h"
 #include "renderer/paint/picture_noise.h"
-#include "renderer/paint/range_edges.h"
-#include "renderer/paint/reflection.h"
-#include "renderer/paint/sky.h"
 #include "renderer/paint/terrain_end.h"
-#include "renderer/paint/town_ground.h"
+#include "renderer/paint/water/water_image.h"
+#include "renderer/paint/sky.h"
 #include "renderer/paint/water/water_surface.h"
 #include "texture/strokes/parcels.h"
 
 namespace belvedere {
+namespace {
+
+constexpr float garden_share = 0.80F;           // share in a village: houses stand in greenery …
+constexpr float town_garden_share = 0.30F;      // … and in the centre of a town
+constexpr glm::vec3 pale{0.74F, 0.70F, 0.60F};  // yards, walls and lanes in full light
+constexpr float pale_share = 0.35F;
+constexpr float pale_from = 0.02F;  // density of houses from which the ground is pale …
+constexpr float pale_to = 0.18F;    // … and fully so
+
+}  // namespace
+
+glm::vec3 town_ground_colour(const Palette& palette, glm::vec3 street, float built,
+                             double altitude_m, double light, float drift, float metres_per_unit) {
+  const float green = garden_share + (town_garden_share - garden_share) * unit(built);
+  const glm::vec3 lawn =
+      palette.winter ? glm::vec3(1.0F) : 1.0F + (crop_colour(Crop::grass) - 1.0F) * drift;
+  const LandCoverClass gardens =
+      palette.winter ? LandCoverClass::snow : LandCoverClass::valley_floor;
+  const glm::vec3 ground =
+      glm::mix(street, lawn * palette_colour(palette, gardens, altitude_m, light - 0.08), green);
+  if (palette.winter) return ground;
+  const float place = village_share(metres_per_unit) * smoothstep(pale_from, pale_to, built);
+  return glm::mix(ground, pale * (0.55F + 0.60F * static_cast<float>(light)), pale_share * place);
+}
+
+namespace {
+
+constexpr float melting_units = 5.0F;  // fields that look narrower than this merge into bands
+
+}  // namespace
+
+glm::vec3 field_colour(const Parcel& parcel, float slope_deg, float metres_per_unit, float air,
+                       float drift) {
+  const float level = unit((5.5F - slope_deg) / 2.5F);
+  const float units = metres_per_unit > 0.0F ? parcel.width_m / metres_per_unit : 100.0F;
+  const float apart =
+      (0.55F + 0.60F * unit(units / melting_units - 1.0F)) * (1.0F - 0.35F * std::min(air, 1.0F));
+  const glm::vec3 crop = crop_colour(parcel.crop) * (1.0F + 0.035F * parcel.shade);
+  glm::vec3 colour = glm::mix(mean_crop_colour(), crop, apart);
+  const float edge = unit(1.0F - parcel.border_m / (0.10F * parcel.width_m));
+  colour *= 1.0F - edge * apart * (parcel.hedged ? 0.13F : 0.05F);
+  const float lane = unit(1.0F - parcel.lane_m / (0.06F * parcel.width_m));
+  if (!parcel.hedged)
+    colour = glm::mix(colour, glm::vec3(1.02F, 0.99F, 1.05F), 0.55F * lane * apart);
+  colour = glm::mix(crop_colour(Crop::hay), colour, level);
+  return 1.0F + (colour - 1.0F) * drift;
+}
+
 namespace {
 
 constexpr double tone_step = 0.17;  // offset of the darker and the lighter picture

@@ -6,10 +6,9 @@
 #include <string>
 
 #include "base/error.h"
-#include "base/guidance_channels.h"
+#include "base/guidance_buffers.h"
 #include "base/parallel.h"
 #include "renderer/image/srgb.h"
-#include "renderer/image/srgb_table.h"
 
 namespace belvedere {
 namespace {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "base/guidance_buffers.h"
-#include "base/image.h"
+#include "base/grid.h"
 #include "texture/strokes/brush.h"
 #include "texture/synthesis/exemplar.h"
 #include "texture/synthesis/match_field.h"

@@ -5,11 +5,11 @@
 #include <glm/vec3.hpp>
 #include <map>
 
-#include "base/guidance_channels.h"
+#include "base/guidance_buffers.h"
 #include "base/math.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
-#include "base/random_streams.h"
+#include "base/random.h"
 #include "renderer/paint/ground/slope_walk.h"
 #include "renderer/paint/picture_noise.h"
 

@@ -6,9 +6,9 @@
 #include "base/grid.h"
 #include "base/guidance_buffers.h"
 #include "base/pixel_rect.h"
-#include "renderer/paint/ground_hues.h"
+#include "renderer/paint/ground/ground_tint.h"
 #include "renderer/paint/palette.h"
-#include "renderer/trace/wide_view.h"
+#include "renderer/trace/camera.h"
 
 namespace belvedere {
 

@@ -10,8 +10,7 @@
 #include <vector>
 
 #include "base/guidance_buffers.h"
-#include "base/guidance_channels.h"
-#include "texture/synthesis/guide_stack.h"
+#include "texture/synthesis/exemplar.h"
 
 namespace belvedere {
 

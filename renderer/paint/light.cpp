@@ -5,11 +5,11 @@
 #include <glm/geometric.hpp>
 
 #include "base/error.h"
-#include "base/guidance_channels.h"
+#include "base/guidance_buffers.h"
 #include "base/math.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
-#include "base/random_streams.h"
+#include "base/random.h"
 #include "renderer/image/srgb.h"
 #include "renderer/paint/air.h"
 #include "renderer/paint/ground/snow_relief.h"

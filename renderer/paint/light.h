@@ -10,9 +10,9 @@
 #include "base/guidance_buffers.h"
 #include "base/pixel_rect.h"
 #include "base/progress.h"
-#include "renderer/paint/air_parameters.h"
+#include "renderer/paint/air.h"
 #include "renderer/trace/light_field.h"
-#include "renderer/trace/wide_view.h"
+#include "renderer/trace/camera.h"
 
 namespace belvedere {
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/grid_part.h"
+#include "base/grid.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
 

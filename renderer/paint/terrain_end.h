@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <glm/vec2.hpp>
+
+#include "base/guidance_buffers.h"
 
 namespace belvedere {
 
@@ -34,5 +37,34 @@ struct SidePlace {
 float side_share(const TerrainSides& sides, const SidePlace& place);
 // `noise` of deviation about 1 makes the line ragged.
 TerrainEnd with_sides(TerrainEnd end, float side, float noise);
+
+// Edges where one range stands in front of another: mist lightens the far side, the near side
+// darkens, and accents of light are set on the edge.
+
+// Logarithm of the depth (m, at least 1). The sky counts as slightly farther than the terrain up to
+// `reach_px` below it, so that the skyline gets no halo.
+Grid<float> log_depths(const GuidanceBuffers& guidance, int reach_px);
+
+// Effect of the edge on a pixel whose log depth exceeds the mean around it by `behind`. `far` and
+// `raised` as in air_share: mist lies in valleys, crests stay clear. `strength` is
+// AirParameters::range_mist, 0…3.
+struct RangeEdge {
+  float mist = 0.0F;  // share of the colour between ranges
+  float dark = 0.0F;  // 0…1, of the near side
+};
+RangeEdge range_edge(float behind, float far, float raised, float strength);
+
+// Mist in the hollows of far ranges, of unlike depth: deep here, none there. The first is where it
+// may lie, 0…1 for every pixel of a window of the sheet; the second its share of the colour there,
+// before farness: less on level floors, whose rivers and places stay in view.
+Grid<float> hollow_mist_places(std::uint64_t seed, glm::ivec2 origin_px, int width, int height,
+                               double pixels_per_unit);
+float hollow_mist(float place, float relief_l_m, float slope_deg, float strength);
+
+// Light on the nearer side of a depth edge, ridges and hollows: -1 hollow … +1 edge. Reads
+// `step_px` to each side, up to three times. The skyline gets no accents: a light rim against the
+// sky looks cut out.
+float accent_at(const GuidanceBuffers& guidance, const Grid<float>& log_depth, int x, int y,
+                int step_px);
 
 }  // namespace belvedere

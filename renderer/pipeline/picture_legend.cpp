@@ -16,7 +16,7 @@
 #include "base/error.h"
 #include "renderer/labels/paint_halo.h"
 #include "renderer/stages/lit_picture.h"
-#include "renderer/trace/camera_reduced.h"
+#include "renderer/trace/camera.h"
 
 namespace belvedere {
 namespace {

@@ -1,8 +1,9 @@
 #include "renderer/pipeline/pipeline.h"
 
-#include <fmt/core.h>
-
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <fmt/core.h>
 #include <optional>
 #include <span>
 #include <utility>
@@ -12,10 +13,9 @@
 #include "base/files/file_guard.h"
 #include "renderer/image/layers/layer_file.h"
 #include "renderer/pipeline/named_picture.h"
-#include "renderer/pipeline/output_colour.h"
 #include "renderer/pipeline/scene_paint.h"
 #include "renderer/pipeline/sheet_job.h"
-#include "renderer/pipeline/sheet_memory.h"
+#include "renderer/pipeline/sheet_pieces.h"
 #include "renderer/world/style/scene_style.h"
 
 namespace belvedere {
@@ -139,6 +139,37 @@ void join_parts(const LoadedScene& loaded, const std::string& folder, int parts,
                            result_names(loaded.scene, request));
   const WorkFolder work(work_folder_of(folder), identify(loaded, request), WorkMode::join);
   write_sheet_files(loaded, request, work, out_folder, run, {.folder = folder, .parts = parts});
+}
+
+std::vector<std::string> product_names(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const std::string& extension : scene.output.formats)
+    names.push_back("panorama." + extension);
+  names.emplace_back("guidance.exr");
+  return names;
+}
+
+LoadedScene at_width(const LoadedScene& scene, int width_px) {
+  constexpr int min_px = 16;  // limit of a scene
+  LoadedScene out = scene;
+  const double scale = static_cast<double>(width_px) / scene.scene.output.width;
+  out.scene.output.width = width_px;
+  out.scene.output.height =
+      std::max(min_px, static_cast<int>(std::lround(scene.scene.output.height * scale)));
+  return out;
+}
+
+std::vector<LockedProduct> render_and_hash(const LoadedScene& scene, const std::string& out_folder,
+                                           const Run& run, bool replace) {
+  SheetRequest request;
+  request.replace = replace;
+  render(scene, out_folder, run, request);
+  std::vector<LockedProduct> products;
+  for (const std::string& name : product_names(scene.scene))
+    products.push_back({.file = name, .channels = hash_picture(out_folder + "/" + name).channels});
+  std::sort(products.begin(), products.end(),
+            [](const LockedProduct& a, const LockedProduct& b) { return a.file < b.file; });
+  return products;
 }
 
 }  // namespace belvedere

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "base/run.h"
 #include "renderer/pipeline/sheet_pieces.h"
 #include "renderer/scene/scene_file.h"
+#include "renderer/scene/scene_lock.h"
 
 namespace belvedere {
 
@@ -36,5 +38,16 @@ void join_parts(const LoadedScene& scene, const std::string& folder, int parts,
 std::vector<std::string> result_names(const Scene& scene, const SheetRequest& request);
 // The folder of the pieces of a run.
 std::string work_folder_of(const std::string& out_folder);
+
+// Names of the files that rendering a scene writes.
+std::vector<std::string> product_names(const Scene& scene);
+
+// The scene at another width, px, its height in proportion; strokes keep their size on the sheet.
+LoadedScene at_width(const LoadedScene& scene, int width_px);
+
+// Renders the unchanged scene into a folder and hashes the products. The picture formats are
+// lossless, so all are hashed.
+std::vector<LockedProduct> render_and_hash(const LoadedScene& scene, const std::string& out_folder,
+                                           const Run& run, bool replace = false);
 
 }  // namespace belvedere

@@ -10,7 +10,7 @@
 #include <limits>
 #include <utility>
 
-#include "base/cache/cache_key.h"
+#include "base/cache/cache.h"
 #include "base/error.h"
 #include "base/files/kept_files.h"
 #include "base/files/output_file.h"
@@ -19,7 +19,7 @@
 #include "renderer/labels/label_files.h"
 #include "renderer/labels/sheet_painter.h"
 #include "terrain/io/crs.h"
-#include "terrain/io/input_parts.h"
+#include "terrain/io/raster_file.h"
 #include "terrain/shape/summits.h"
 
 namespace belvedere {
@@ -227,7 +227,7 @@ LabelSheet make_label_sheet(const LoadedScene& scene, const LabelJob& job, const
 
   progress.begin("finding positions", 0.0);
   const GeoMap map = bare.geo_map();
-  const DrawnGround ground{bare.dem->altitude_m, *bare.generalized_m, bare.dem->transform,
+  const LocatedGround ground{bare.dem->altitude_m, *bare.generalized_m, bare.dem->transform,
                            bare.dem->cell_m(), map};
   std::vector<LabelMark> marks = find_marks(ground, points, style);
   // The most prominent visible summits of the DEM; named ones are all listed.
@@ -269,7 +269,7 @@ LabelSheet locate_points(const std::vector<std::string>& files, const BareView& 
            read_label_points(file, bare.dem->crs, sheet.style, progress, NamesAre::optional));
   require_points_on_terrain(points, *bare.dem);
   const GeoMap map = bare.geo_map();
-  const DrawnGround ground{bare.dem->altitude_m, *bare.generalized_m, bare.dem->transform,
+  const LocatedGround ground{bare.dem->altitude_m, *bare.generalized_m, bare.dem->transform,
                            bare.dem->cell_m(), map};
   const std::vector<LabelMark> marks = find_marks(ground, points, sheet.style);
   for (std::size_t i = 0; i < points.size(); ++i) {

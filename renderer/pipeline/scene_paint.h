@@ -1,10 +1,12 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "base/progress.h"
 #include "renderer/exemplar/scan.h"
+#include "renderer/image/display_conversion.h"
 #include "renderer/paint/palette.h"
 #include "renderer/scene/scene_file.h"
 #include "renderer/style/style.h"
@@ -27,5 +29,18 @@ Palette read_scene_palette(const LoadedScene& scene, Progress& progress);
 // passes nothing that rendering refuses: missing files, and paintings that cannot be read whole, if
 // their colours or strokes are used. Cheap compared with reading them.
 void require_inputs(const LoadedScene& scene);
+
+// Colour conversion of the panorama's files: read before the work begins, so that an invalid file
+// costs no rendering time.
+struct OutputColour {
+  DisplayParameters display;  // working space to encoded sRGB
+  std::vector<std::uint8_t>
+      profile;              // of the device or space that the TIFF is converted to; empty: sRGB
+  DeviceParameters device;  // how it is converted
+  double ink_limit_percent = 0.0;  // of a press; 0: the profile's limit
+};
+// The scene's OpenColorIO config and ICC profile of RGB or CMYK, each tested on a pixel.
+// Error(input) naming the file where one is invalid.
+OutputColour read_output_colour(const LoadedScene& scene);
 
 }  // namespace belvedere

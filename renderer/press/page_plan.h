@@ -2,6 +2,7 @@
 
 #include <glm/vec2.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace belvedere {
@@ -44,5 +45,11 @@ struct MarkLine {
   glm::dvec2 to_mm;
 };
 std::vector<MarkLine> crop_marks(const PrintPage& page);
+
+constexpr double points_per_mm = 72.0 / 25.4;
+
+// An SVG file as one page of PDF of that size, its drawing stretched over it: text and lines stay
+// vectors, fonts are embedded. Error(input) where it is missing or not SVG.
+std::string svg_as_pdf(const std::string& path, glm::dvec2 size_mm);
 
 }  // namespace belvedere

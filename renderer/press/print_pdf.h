@@ -7,7 +7,7 @@
 #include "base/progress.h"
 #include "renderer/image/icc/press_colour.h"
 #include "renderer/press/page_plan.h"
-#include "renderer/press/press_picture.h"
+#include "renderer/press/proof.h"
 
 namespace belvedere {
 

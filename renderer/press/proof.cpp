@@ -2,13 +2,56 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fmt/core.h>
 
+#include "base/error.h"
+#include "base/files/file_guard.h"
 #include "base/parallel.h"
+#include "base/text/missing_file.h"
+#include "renderer/image/icc/press_colour.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/rows/picture_files.h"
-#include "renderer/image/srgb_table.h"
+#include "renderer/image/srgb.h"
 
 namespace belvedere {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* allowed =
+    "an RGB picture (TIFF, PNG, JPEG XL, JPEG), or the folder of a rendered scene";
+
+bool is_inks(const ImageInfo& info) {
+  return !info.parts.empty() && !info.parts.front().channels.empty() &&
+         info.parts.front().channels.front().name == "C";
+}
+
+PressPicture picture_of(const std::string& file, const ImageInfo& info) {
+  if (is_inks(info) || is_cmyk_profile(info.icc_profile))
+    throw Error(ErrorKind::input, file, "is a CMYK picture", allowed);
+  if (info.format == "openexr")
+    throw Error(ErrorKind::input, file, "contains linear light instead of device colours", allowed);
+  PressPicture out{file, info.width, info.height, info.dots_per_inch, info.icc_profile};
+  if (!out.profile.empty() && !is_rgb_profile(out.profile))
+    out.profile.clear();  // a grey profile: its numbers are used unchanged
+  return out;
+}
+
+}  // namespace
+
+PressPicture find_press_picture(const std::string& path) {
+  if (!fs::exists(path)) throw missing_file(path, allowed);
+  if (!fs::is_directory(path)) return picture_of(path, read_image_info(path));
+  for (const std::string& name :
+       newest_results(path, {"panorama.tif", "panorama.jxl", "panorama.png"})) {
+    const std::string file = (fs::path(path) / name).string();
+    const ImageInfo info = read_image_info(file);
+    if (!is_inks(info)) return picture_of(file, info);
+  }
+  throw Error(ErrorKind::input, path, "has no panorama.tif, .jxl or .png in RGB", allowed);
+}
+
 namespace {
 
 constexpr double bins_a_delta_e = 100.0;
@@ -100,6 +143,45 @@ ProofReport write_proof(const PressPicture& picture, const std::vector<std::uint
   deltas.report(report);
   report.ink = ink.coverage();
   return report;
+}
+
+namespace {
+
+std::vector<PaletteColour> colours_of(const Palette& palette) {
+  std::vector<PaletteColour> out;
+  const auto add = [&](std::string where, glm::vec3 colour) {
+    out.push_back({std::move(where), colour, {}, 0.0});
+  };
+  for (const LandCoverClassInfo& info : land_cover_classes())
+    for (const ClassPalette::Stop& stop : palette.classes[static_cast<std::size_t>(info.id)].stops)
+      for (std::size_t t = 0; t < ramp_tones.size(); ++t)
+        add(fmt::format("{} at {:.0f} m, tone {}", info.name, stop.altitude_m, ramp_tones[t]),
+            stop.ramp[t]);
+  for (const auto& [height, colour] : palette.sky) add(fmt::format("sky at {}", height), colour);
+  add("clouds in light", palette.cloud_light);
+  add("clouds in shade", palette.cloud_shade);
+  add("haze near", palette.haze_near);
+  add("haze far", palette.haze_far);
+  add("mist between ranges", palette.range_mist);
+  for (std::size_t i = 0; i < palette.growth.leaves.size(); ++i)
+    add(fmt::format("leaves {}", i + 1), palette.growth.leaves[i]);
+  if (palette.growth.larch_share > 0.0) add("larches", palette.growth.larch);
+  return out;
+}
+
+}  // namespace
+
+std::vector<PaletteColour> print_palette(const Palette& palette,
+                                         const std::vector<std::uint8_t>& press) {
+  std::vector<PaletteColour> colours = colours_of(palette);
+  Grid<glm::vec3> row(static_cast<int>(colours.size()), 1);
+  for (std::size_t i = 0; i < colours.size(); ++i) row[i] = colours[i].colour;
+  const ProofRows rows = SoftProof(press, {.device = {RenderingIntent::relative, false}}).make(row);
+  for (std::size_t i = 0; i < colours.size(); ++i) {
+    colours[i].printed = rows.shown[i];
+    colours[i].delta_e = rows.delta_e[i];
+  }
+  return colours;
 }
 
 }  // namespace belvedere

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "base/function_ref.h"
+#include "base/parallel.h"
 #include "base/land_cover_class.h"
 
 namespace belvedere {

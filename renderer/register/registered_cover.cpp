@@ -11,11 +11,11 @@
 #include "base/statistics.h"
 #include "renderer/image/oklab.h"
 #include "renderer/world/scene_land_cover.h"
-#include "renderer/world/season/scene_climate.h"
+#include "renderer/world/season/scene_season.h"
 #include "terrain/climate/map_climate.h"
 #include "terrain/climate/map_position.h"
 #include "terrain/cover/class_rules.h"
-#include "terrain/register/highest_cells.h"
+#include "terrain/register/control_pairs.h"
 
 namespace belvedere {
 namespace {

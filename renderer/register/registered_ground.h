@@ -1,12 +1,54 @@
 #pragma once
 
 #include <cstddef>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <memory>
 
 #include "base/grid.h"
-#include "renderer/register/registered_view.h"
+#include "base/progress.h"
+#include "renderer/scene/scene.h"
+#include "renderer/trace/camera.h"
+#include "renderer/trace/geo_map.h"
+#include "renderer/trace/tracer.h"
+#include "renderer/world/view.h"
+#include "terrain/deform/deform.h"
+#include "terrain/io/dem.h"
+#include "terrain/register/registration.h"
 
 namespace belvedere {
+
+// The terrain as a registration shows it, prepared for tracing: owns the deformed surface, its
+// acceleration structure and the camera. Immutable; all calls are safe from any thread.
+class RegisteredView {
+ public:
+  // scene: registered_scene() of the registration; dem, which must outlive the view: its terrain,
+  // or a coarser one; size_px: of the picture, which may be smaller than the painting.
+  RegisteredView(const Registration& registration, const Scene& scene, const Dem& dem,
+                 glm::ivec2 size_px, Progress& progress);
+  RegisteredView(const RegisteredView&) = delete;
+  RegisteredView& operator=(const RegisteredView&) = delete;
+
+  const Registration& registration() const { return registration_; }
+  const Dem& dem() const { return dem_; }
+  glm::ivec2 size_px() const { return camera_->size(); }
+  const Camera& camera() const { return *camera_; }
+  const Deformation& deformation() const { return deformation_; }
+  // Between the ground and pixels of size_px().
+  const GeoMap& map() const { return map_; }
+
+ private:
+  RegisteredView(const Registration& registration, const Dem& dem, const View& view);
+
+  const Registration registration_;
+  const Dem& dem_;
+  const Deformation deformation_;
+  const DeformedSurface surface_;
+  const std::unique_ptr<const Camera> camera_;
+  const Tracer tracer_;
+  const Grid<glm::vec2> nothing_moved_ = {};
+  const GeoMap map_;
+};
 
 // What a registration says of each pixel of a painting, at any size; NaN where it shows sky.
 struct RegisteredGround {
@@ -34,5 +76,15 @@ Grid<glm::vec3> contours_over(const Grid<glm::vec3>& painting, const RegisteredG
 
 // From pale, trusted, to dark red at limit_px and beyond; sky is blue.
 Grid<glm::vec3> trust_picture(const Grid<float>& sigma_px, double limit_px);
+
+// The scene whose picture shows every place where the painting shows it: its camera, deformation
+// and output size, without the terrain's sources. What a registration leaves open is chosen as
+// painters do: ground is level at the farthest pair of a cylinder (height of the eye, pitch and
+// bend trade off exactly), and the eye is so high that the bend only lowers the ground. Beyond the
+// pairs' distances the bend keeps its inclination and exaggeration its value.
+Scene registered_scene(const Registration& registration, glm::ivec2 painting_px);
+
+// A handle as scenes state it.
+SceneHandle scene_handle(const DeformHandle& handle);
 
 }  // namespace belvedere

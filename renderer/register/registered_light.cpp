@@ -7,12 +7,12 @@
 #include <glm/common.hpp>
 #include <utility>
 
-#include "base/angle.h"
+#include "base/math.h"
 #include "base/math_exact.h"
 #include "base/statistics.h"
 #include "renderer/world/picture_parameters.h"
 #include "renderer/world/world.h"
-#include "texture/synthesis/guide_stack.h"
+#include "texture/synthesis/exemplar.h"
 
 namespace belvedere {
 namespace {

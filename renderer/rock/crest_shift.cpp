@@ -10,7 +10,7 @@
 #include "base/math.h"
 #include "base/parallel.h"
 #include "renderer/paint/picture_filter.h"
-#include "renderer/rock/extent.h"
+#include "renderer/rock/rock_view.h"
 
 namespace belvedere {
 namespace {

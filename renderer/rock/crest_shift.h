@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "base/grid.h"
-#include "base/guidance_channels.h"
+#include "base/guidance_buffers.h"
 #include "base/progress.h"
 #include "renderer/rock/rock_view.h"
 

@@ -6,7 +6,7 @@
 #include "base/grid.h"
 #include "base/land_cover_class.h"
 #include "base/pixel_rect.h"
-#include "renderer/trace/wide_view.h"
+#include "renderer/trace/camera.h"
 
 namespace belvedere {
 

@@ -9,17 +9,15 @@
 #include <utility>
 #include <vector>
 
-#include "base/guidance_channels.h"
+#include "base/guidance_buffers.h"
 #include "base/math.h"
 #include "base/parallel.h"
 #include "base/random.h"
-#include "base/random_streams.h"
 #include "renderer/paint/picture_filter.h"
 #include "renderer/paint/picture_noise.h"
-#include "renderer/rock/extent.h"
+#include "renderer/rock/rock_view.h"
 #include "renderer/rock/rock_ground.h"
 #include "renderer/rock/rock_light.h"
-#include "renderer/rock/rock_view.h"
 
 namespace belvedere {
 namespace {

@@ -3,10 +3,10 @@
 #include <cstdint>
 
 #include "base/grid.h"
-#include "base/guidance_channels.h"
+#include "base/guidance_buffers.h"
 #include "base/progress.h"
 #include "renderer/rock/rock_view.h"
-#include "renderer/trace/wide_view.h"
+#include "renderer/trace/camera.h"
 
 namespace belvedere {
 

@@ -7,7 +7,6 @@
 
 #include "base/parallel.h"
 #include "base/random.h"
-#include "base/random_streams.h"
 #include "renderer/paint/picture_noise.h"
 
 namespace belvedere {

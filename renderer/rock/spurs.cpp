@@ -8,7 +8,6 @@
 #include "base/noise.h"
 #include "base/parallel.h"
 #include "base/random.h"
-#include "base/random_streams.h"
 #include "renderer/paint/picture_filter.h"
 #include "renderer/rock/spur_peaks.h"
 

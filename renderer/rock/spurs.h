@@ -9,7 +9,7 @@
 #include "base/pixel_rect.h"
 #include "renderer/paint/rock_kinds.h"
 #include "renderer/rock/spur_peaks.h"
-#include "renderer/trace/wide_view.h"
+#include "renderer/trace/camera.h"
 
 namespace belvedere {
 

@@ -10,7 +10,6 @@
 
 #include "base/config.h"
 #include "base/error.h"
-#include "renderer/scene/former_keys.h"
 #include "renderer/scene/scene_rules.h"
 #include "renderer/scene/scene_schema.h"
 #include "renderer/scene/scene_settings.h"
@@ -403,11 +402,10 @@ LoadedScene load(ConfigValue root, const std::string& name, const std::string& f
   loaded.allowed_folders.insert(loaded.allowed_folders.end(), options.data_folders.begin(),
                                 options.data_folders.end());
   const SceneOrigin origin{.file = name, .settings = options.settings};
-  loaded.notes = rename_former_keys(root);
   spread_style(root);
   SceneOrigin present = origin;
   for (std::string& setting : present.settings)
-    setting = with_style_file(with_present_key(setting, loaded.notes));
+    setting = with_style_file(setting);
   apply_settings(root, present);
   SceneReader(loaded, origin).read(root);
   apply_scene_rules(loaded.scene, root, origin);

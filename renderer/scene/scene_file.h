@@ -22,7 +22,6 @@ struct LoadedScene {
   Scene scene;                               // file names as written
   std::string folder;                        // of the scene file
   std::string name;                          // file name without extension
-  std::vector<std::string> notes;            // keys that were read under a former name
   std::vector<std::string> allowed_folders;  // the scene's folder first, then the --data folders,
                                              // in their order; some may not exist
   std::shared_ptr<KeptFiles> kept = make_kept_files();  // what was read of its files

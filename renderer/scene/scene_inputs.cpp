@@ -10,7 +10,7 @@
 #include "renderer/scene/scene_file.h"
 #include "renderer/scene/scene_schema.h"
 #include "terrain/io/http_access.h"
-#include "terrain/io/input_parts.h"
+#include "terrain/io/raster_file.h"
 
 namespace belvedere {
 namespace {

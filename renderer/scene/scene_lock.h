@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/image/picture_hash.h"
+#include "renderer/image/picture_diff.h"
 #include "renderer/scene/scene_file.h"
 
 namespace belvedere {
@@ -73,5 +73,15 @@ std::string describe(const std::vector<LockDifference>& differences);
 // Error(input) that lists every input that differs from the lock. scene_path: of the scene file.
 void require_locked_inputs(const LoadedScene& scene, const SceneLock& lock,
                            const std::string& scene_path);
+
+// What identifies the content of a file.
+struct InputHash {
+  std::uint64_t bytes = 0;  // its size
+  std::string hash;         // hash_file of its bytes
+};
+
+// For a file that a scene reads, by its path or, where servers may be asked, its address. A remote
+// file is then downloaded whole, once per process. Error(input) where it cannot be read.
+InputHash hash_input(const std::string& path);
 
 }  // namespace belvedere

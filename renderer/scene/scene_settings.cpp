@@ -207,4 +207,26 @@ void set_scene_value(ConfigValue& root, const std::string& key, ConfigValue valu
   });
 }
 
+void spread_style(ConfigValue& root) {
+  auto* table = std::get_if<ConfigTable>(&root.value);
+  if (table == nullptr) return;
+  for (ConfigEntry& entry : *table) {
+    if (entry.key != "style" || !std::holds_alternative<std::string>(entry.value.value)) continue;
+    ConfigEntry file{"file", entry.key_position, std::move(entry.value)};
+    entry.value = ConfigValue{.value = ConfigTable{}, .position = entry.key_position};
+    std::get<ConfigTable>(entry.value.value).push_back(std::move(file));
+  }
+}
+
+std::string with_style_file(const std::string& setting) {
+  const std::size_t equals = setting.find('=');
+  const std::size_t last = setting.find_last_not_of(" \t", equals == 0 ? 0 : equals - 1);
+  const std::size_t first = setting.find_first_not_of(" \t");
+  if (equals == std::string::npos || equals == 0 || last == std::string::npos) return setting;
+  if (setting.substr(first, last + 1 - first) != "style") return setting;
+  const std::size_t value = setting.find_first_not_of(" \t", equals + 1);
+  if (value != std::string::npos && setting[value] == '{') return setting;  // the table itself
+  return "style.file" + setting.substr(equals);
+}
+
 }  // namespace belvedere

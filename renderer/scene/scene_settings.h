@@ -28,4 +28,10 @@ void apply_settings(ConfigValue& root, const SceneOrigin& origin);
 // The same for one value that is already parsed. Errors name its key, "deform.handles.0.move_m".
 void set_scene_value(ConfigValue& root, const std::string& key, ConfigValue value);
 
+// Expands the short form `style = "NAME"` at the top of a parsed scene to the table `[style]` with
+// `file = "NAME"`.
+void spread_style(ConfigValue& root);
+// The same for the "key=value" of a --set.
+std::string with_style_file(const std::string& setting);
+
 }  // namespace belvedere

@@ -5,7 +5,7 @@
 
 #include "base/text/json.h"
 #include "renderer/image/picture_formats.h"
-#include "renderer/scene/edit/scene_values.h"
+#include "renderer/scene/edit/scene_edit.h"
 #include "renderer/scene/scene_file.h"
 #include "renderer/scene/scene_schema.h"
 #include "renderer/trace/camera.h"

@@ -1,7 +1,11 @@
 #pragma once
 
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "base/guidance_buffers.h"
-#include "renderer/graph/planes.h"
+#include "renderer/graph/tile_store.h"
 
 namespace belvedere {
 
@@ -20,5 +24,14 @@ GuidanceBuffers sheet_guidance_like(glm::dvec3 origin_m);
 PackedGuidance blank_packed(const GuidanceBuffers& like, int width, int height);
 // The values of `packed`, as numbers; `like` determines the channels.
 GuidanceBuffers unpack_guidance(const PackedGuidance& packed, const GuidanceBuffers& like);
+
+// The channels of a guidance file, by their names in the file ("Z", "landcover.id"); nothing: all
+// of them. A vector is included whole: one of its components names it.
+using GuidanceChoice = std::optional<std::vector<std::string>>;
+
+// "Z,landcover.id", or "none" for no file. Error(usage) listing the available channels.
+GuidanceChoice read_guidance_choice(const std::string& text);
+// Empties the channels that are not chosen.
+void keep_chosen(GuidanceBuffers& guidance, const GuidanceChoice& choice);
 
 }  // namespace belvedere

@@ -15,7 +15,7 @@
 #include <system_error>
 
 #include "base/error.h"
-#include "renderer/graph/file_bytes.h"
+#include "renderer/graph/tile_store.h"
 #include "renderer/image/provenance.h"
 
 namespace belvedere {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "base/pixel_rect.h"
-#include "renderer/graph/planes.h"
+#include "renderer/graph/tile_store.h"
 
 namespace belvedere {
 

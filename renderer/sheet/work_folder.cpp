@@ -1,19 +1,22 @@
 #include "renderer/sheet/work_folder.h"
 
-#include <fcntl.h>
-#include <fmt/core.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
+#include <algorithm>
 #include <cerrno>
+#include <cstddef>
+#include <fcntl.h>
 #include <filesystem>
+#include <fmt/core.h>
 #include <fstream>
 #include <sstream>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <system_error>
+#include <unistd.h>
+#include <utility>
 
 #include "base/error.h"
 #include "renderer/image/provenance.h"
+#include "renderer/sheet/piece_file.h"
 
 namespace belvedere {
 namespace {
@@ -223,6 +226,51 @@ void begin_shared_work(const std::string& folder, const JobIdentity& identity) {
     require_same(folder, job_from_text(read_text(known)), identity);
   else
     write_identity(folder, identity);
+}
+
+namespace {
+
+Planes from_row(const Planes& planes, int row) {
+  Planes rows = planes;
+  for (Plane& plane : rows) plane.values += plane.row_bytes() * static_cast<std::size_t>(row);
+  return rows;
+}
+
+}  // namespace
+
+void JoinedPieces::read(const std::string& product, int y0, int y1, const Planes& to) const {
+  for (const PixelRect& piece : pieces) {
+    if (piece.y0 >= y1 || piece.y1 <= y0) continue;
+    const int first = std::max(y0, piece.y0);
+    read_piece_rows(work.path(product, piece), work.key(product, piece), first,
+                    std::min(y1, piece.y1), region.x0, from_row(to, first - y0));
+  }
+}
+
+namespace {
+
+constexpr std::size_t max_bytes_beside = std::size_t{256} << 20U;
+
+}  // namespace
+
+PieceWriter::~PieceWriter() {
+  if (writing_.valid()) writing_.wait();
+}
+
+void PieceWriter::keep(const std::string& product, PixelRect rect, const Planes& planes,
+                       std::shared_ptr<const void> holder) {
+  finish();
+  std::size_t bytes = 0;
+  for (const Plane& plane : planes) bytes += plane.bytes();
+  writing_ = std::async(std::launch::async,
+                        [&work = work_, product, rect, planes, kept = std::move(holder)] {
+                          work.keep(product, rect, planes);
+                        });
+  if (bytes > max_bytes_beside) finish();
+}
+
+void PieceWriter::finish() {
+  if (writing_.valid()) writing_.get();
 }
 
 }  // namespace belvedere

@@ -1,8 +1,13 @@
 #pragma once
 
+#include <future>
 #include <map>
+#include <memory>
 #include <string>
+#include <vector>
 
+#include "base/pixel_rect.h"
+#include "renderer/graph/tile_store.h"
 #include "renderer/sheet/piece_file.h"
 
 namespace belvedere {
@@ -60,5 +65,38 @@ bool holds_work(const std::string& folder);
 // Writes the identity of a job to a new folder for WorkMode::join; Error(usage) where another job
 // is there.
 void begin_shared_work(const std::string& folder, const JobIdentity& identity);
+
+// The finished pieces of a part of the sheet, read as rows over its whole width.
+struct JoinedPieces {
+  const WorkFolder& work;
+  std::vector<PixelRect> pieces;  // that cover the region, and perhaps more
+  PixelRect region;               // px of the sheet
+
+  // Rows [y0, y1) of the sheet of a product, into planes of the region's width and that many rows.
+  // Error(input) where a piece is incomplete.
+  void read(const std::string& product, int y0, int y1, const Planes& to) const;
+};
+
+// Writes finished pieces to disk while the next ones are made: a piece is copied, hashed and
+// flushed, which takes up to a tenth of its making. One piece is being written at a time; for large
+// ones, which would take too much memory beside the next, the caller waits.
+class PieceWriter {
+ public:
+  explicit PieceWriter(const WorkFolder& work) : work_(work) {}
+  ~PieceWriter();  // waits; errors are then lost: call finish() first
+  PieceWriter(const PieceWriter&) = delete;
+  PieceWriter& operator=(const PieceWriter&) = delete;
+
+  // `holder` keeps the planes' values alive until they are written. Throws the error of the
+  // previous piece.
+  void keep(const std::string& product, PixelRect rect, const Planes& planes,
+            std::shared_ptr<const void> holder);
+  // Waits until all is written; throws its error.
+  void finish();
+
+ private:
+  const WorkFolder& work_;
+  std::future<void> writing_;
+};
 
 }  // namespace belvedere

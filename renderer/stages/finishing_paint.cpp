@@ -3,7 +3,7 @@
 #include <glm/common.hpp>
 #include <utility>
 
-#include "base/grid_part.h"
+#include "base/grid.h"
 #include "renderer/features/house_strokes.h"
 #include "renderer/features/paint_features.h"
 

@@ -2,6 +2,9 @@
 
 #include <glm/vec2.hpp>
 #include <memory>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "base/guidance_buffers.h"
 #include "base/run.h"
@@ -12,6 +15,8 @@
 #include "renderer/style/style.h"
 #include "renderer/world/picture_parameters.h"
 #include "renderer/world/world.h"
+
+// What the declarations of stages (stages.h) share.
 
 namespace belvedere {
 
@@ -50,5 +55,22 @@ GroundInputs make_unlit_inputs(const World& world, const SheetView& view, const 
 // For a scene whose world is not made yet: to compute the memory of its stages.
 GroundInputs estimate_ground_inputs(const Scene& scene, double pixels_per_unit,
                                     const Style* style = nullptr);
+
+// Measured, per pixel of a window while strokes are laid on it.
+inline constexpr double stroke_work_bytes = 67.0;
+
+// The inputs of a stage, in the order of its function's arguments.
+template <class... Inputs>
+std::tuple<Inputs...> inputs(Inputs... input) {
+  return {std::move(input)...};
+}
+
+// Guidance channels that strokes read.
+inline std::vector<GuidanceMember> stroke_channels() {
+  using B = GuidanceBuffers;
+  return {&B::depth_m,   &B::position_m,  &B::land_cover, &B::fall_line,
+          &B::slope_deg, &B::footprint_m, &B::relief_s_m, &B::built,
+          &B::grain,     &B::rock_facet,  &B::tone};
+}
 
 }  // namespace belvedere

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/grid_part.h"
+#include "base/grid.h"
 #include "renderer/close/close_relief.h"
 #include "renderer/features/drawn_features.h"
 #include "renderer/mist/mist_sight.h"
@@ -13,13 +13,11 @@
 #include "renderer/paint/guides.h"
 #include "renderer/rock/crest_shift.h"
 #include "renderer/stages/finishing_paint.h"
-#include "renderer/stages/guidance_windows.h"
-#include "renderer/stages/sheet_ice.h"
+#include "renderer/stages/lit_picture.h"
 #include "renderer/stages/sheet_style.h"
-#include "renderer/stages/stage_inputs.h"
+#include "renderer/stages/ground_inputs.h"
 #include "renderer/style/paint_style.h"
-#include "renderer/trace/camera_reduced.h"
-#include "renderer/trace/wide_view.h"
+#include "renderer/trace/camera.h"
 #include "texture/sheet/synthesis_tile.h"
 
 namespace belvedere {

@@ -6,10 +6,10 @@
 
 #include "base/error.h"
 #include "base/filter.h"
-#include "base/guidance_channels.h"
+#include "base/guidance_buffers.h"
 #include "base/noise.h"
 #include "base/parallel.h"
-#include "base/random_streams.h"
+#include "base/random.h"
 #include "renderer/paint/light.h"
 
 namespace belvedere {

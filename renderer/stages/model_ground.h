@@ -11,7 +11,7 @@
 #include "base/pixel_rect.h"
 #include "renderer/paint/composite.h"
 #include "texture/statistical/make_texture.h"
-#include "texture/synthesis/guide_stack.h"
+#include "texture/synthesis/exemplar.h"
 
 namespace belvedere {
 

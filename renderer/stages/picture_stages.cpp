@@ -3,14 +3,14 @@
 #include <utility>
 #include <vector>
 
-#include "base/grid_part.h"
+#include "base/grid.h"
 #include "renderer/features/drawn_features.h"
 #include "renderer/mist/mist_sight.h"
 #include "renderer/rock/crest_shift.h"
 #include "renderer/stages/finishing_paint.h"
-#include "renderer/stages/guidance_windows.h"
+#include "renderer/stages/lit_picture.h"
 #include "renderer/stages/sheet_style.h"
-#include "renderer/stages/stage_inputs.h"
+#include "renderer/stages/ground_inputs.h"
 #include "renderer/stages/stages.h"
 #include "renderer/style/paint_style.h"
 #include "texture/sheet/synthesis_tile.h"

@@ -10,7 +10,7 @@
 #include "renderer/stages/picture_layers.h"
 #include "renderer/world/lazy_value.h"
 #include "texture/strokes/ice/ice_plan.h"
-#include "texture/synthesis/guide_stack.h"
+#include "texture/synthesis/exemplar.h"
 
 // The stages of a sheet, from the first rays to the finished picture. Each is declared once, in
 // order: those of the ground in ground_stages.cpp, those of the paint over it in

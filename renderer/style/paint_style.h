@@ -2,6 +2,7 @@
 
 #include "base/pixel_rect.h"
 #include "renderer/style/style_ground.h"
+#include "renderer/style/style_strokes.h"
 
 namespace belvedere {
 
@@ -30,5 +31,17 @@ Grid<glm::vec3> paint_style(const Style& style, const GuidanceBuffers& guidance,
                             const StylePaintParameters& parameters, glm::ivec2 origin_px,
                             PixelRect wanted);
 int style_margin_px(const Style& style, const StylePaintParameters& parameters);
+
+// Finishes the painted canvas: adds part of the render's fine detail that strokes covered (trees,
+// cracks, houses), shades the relief of the paint with light from the upper left, and adds the
+// weave of the canvas. `canvas_rect` is the rectangle of the sheet that `canvas` covers; it reaches
+// style_finish_margin_px around `wanted` or to the sheet's edge. Returns encoded sRGB of `wanted`,
+// which lies style_detail_margin_px inside the window.
+Grid<glm::vec3> finish_style(const Style& style, const StyleWindow& window,
+                             const StyleCanvas& canvas, PixelRect canvas_rect,
+                             const StylePaintParameters& parameters, PixelRect wanted);
+// Margins around `wanted`: of the canvas, and of the window.
+int style_finish_margin_px(const StylePaintParameters& parameters);
+int style_detail_margin_px(const StylePaintParameters& parameters);
 
 }  // namespace belvedere

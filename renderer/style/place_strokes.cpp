@@ -10,7 +10,7 @@
 #include "base/math_exact.h"
 #include "base/noise.h"
 #include "base/parallel.h"
-#include "base/random_streams.h"
+#include "base/random.h"
 #include "renderer/image/oklab.h"
 #include "renderer/style/stroke_direction.h"
 #include "renderer/style/style_strokes.h"

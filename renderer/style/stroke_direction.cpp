@@ -7,7 +7,7 @@
 #include "base/math.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
-#include "base/random_streams.h"
+#include "base/random.h"
 #include "renderer/paint/picture_filter.h"
 #include "renderer/paint/picture_noise.h"
 #include "renderer/style/fit/missing_classes.h"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/math.h"
-#include "base/random_streams.h"
+#include "base/random.h"
 #include "base/statistics.h"
 #include "renderer/paint/picture_noise.h"
 

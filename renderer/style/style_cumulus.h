@@ -3,7 +3,7 @@
 #include <array>
 
 #include "base/grid.h"
-#include "renderer/style/style_parameters.h"
+#include "renderer/style/style.h"
 
 namespace belvedere {
 

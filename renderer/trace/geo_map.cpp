@@ -6,8 +6,8 @@
 #include <span>
 
 #include "base/filter.h"
-#include "renderer/trace/facet_hit.h"
-#include "terrain/generalize/moved_ground.h"
+#include "renderer/trace/traced_part.h"
+#include "terrain/generalize/widen_valleys.h"
 
 namespace belvedere {
 

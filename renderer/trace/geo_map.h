@@ -36,7 +36,7 @@ class GeoMap {
  public:
   // altitude_m: the undeformed, ungeneralized DEM, with as many cells as the surface has posts.
   // goes_to: where each cell's content is drawn after valleys were widened
-  // (terrain/generalize/moved_ground.h); empty where nothing moved.
+  // (terrain/generalize/widen_valleys.h); empty where nothing moved.
   GeoMap(const Grid<float>& altitude_m, const Grid<glm::vec2>& goes_to,
          const GeoTransform& transform, const Deformation& deformation,
          const DeformedSurface& surface, const Camera& camera, const Tracer& tracer);

@@ -3,13 +3,14 @@
 #include <glm/vec3.hpp>
 #include <memory>
 
-#include "base/angle.h"
+#include "base/grid.h"
 #include "base/guidance_buffers.h"
+#include "base/math.h"
 #include "base/pixel_rect.h"
 #include "base/progress.h"
 #include "renderer/trace/camera.h"
+#include "renderer/trace/guidance_rays.h"
 #include "renderer/trace/light_field.h"
-#include "renderer/trace/sampling.h"
 #include "renderer/trace/sun.h"
 #include "renderer/trace/terrain_model.h"
 #include "renderer/trace/tracer.h"
@@ -31,7 +32,7 @@ struct GuidanceParameters {
 };
 
 // Traces a rectangle of the picture: the channels of ChannelMaker::trace
-// (base/guidance_channels.h). The buffers have the rectangle's size. position_m is relative to
+// (base/guidance_buffers.h). The buffers have the rectangle's size. position_m is relative to
 // surface.origin, which becomes origin_m. ridge is relief_s / (|relief_s| + 10 m), -1…1. Terrain
 // without a known class counts as rock. Any split of the picture into rectangles gives the same
 // bits, except silhouette and sky_view, which read neighbours and need a margin of
@@ -44,5 +45,14 @@ GuidanceBuffers trace_guidance(const TerrainModel& terrain, const DeformedSurfac
 
 // How far a pixel's values reach into its neighbourhood.
 constexpr int guidance_margin_px() { return 2; }
+
+// Depth discontinuity 0…1 of each pixel towards its four neighbours: clamp(14 · log(depth ratio),
+// 0, 1), so that 7 % is a full silhouette; the nearer side carries it. Depth in metres along the
+// ray, +inf is sky; against the sky it is 1. Only the part of the log ratio that no smooth surface
+// explains counts. In perspective the *inverse* depth of a plane is linear in the picture at any
+// angle, so each side's inverse depth is extrapolated linearly to the other, and the larger of the
+// two predicted steps is subtracted: a second difference. A plane, a crease or the edge of a
+// plateau is not a silhouette.
+Grid<float> find_silhouettes(const Grid<float>& depth_m);
 
 }  // namespace belvedere

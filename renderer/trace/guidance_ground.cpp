@@ -5,13 +5,13 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
-#include "base/angle.h"
+#include "base/math.h"
 #include "base/math_exact.h"
 #include "base/noise.h"
-#include "base/random_streams.h"
+#include "base/random.h"
 #include "terrain/cover/map_cover.h"
-#include "terrain/generalize/moved_ground.h"
-#include "terrain/layers/layer_relief.h"
+#include "terrain/generalize/widen_valleys.h"
+#include "terrain/layers/layer_noise.h"
 
 namespace belvedere {
 namespace {

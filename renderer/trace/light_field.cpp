@@ -13,7 +13,7 @@
 #include "base/masks/polygon.h"
 #include "base/math.h"
 #include "base/noise.h"
-#include "base/random_streams.h"
+#include "base/random.h"
 
 namespace belvedere {
 namespace {

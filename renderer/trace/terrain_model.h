@@ -10,7 +10,7 @@
 #include "terrain/cover/land_cover.h"
 #include "terrain/deform/deform.h"
 #include "terrain/io/dem.h"
-#include "terrain/shape/catchments.h"
+#include "terrain/shape/hydrology.h"
 
 namespace belvedere {
 
@@ -63,5 +63,27 @@ TerrainModel make_terrain_model(std::shared_ptr<const Dem> dem, Grid<float> gene
 TerrainModel make_terrain_model(std::shared_ptr<const Dem> dem, Grid<float> generalized_m,
                                 std::shared_ptr<const LandCover> land_cover, double exaggeration,
                                 GroundSurroundings surroundings);
+
+// Values from the wide surroundings of each position, which take longest to compute for a terrain
+// model; fields as there (terrain_model.h). They depend only on elevation and land cover, not on
+// the view, so they can be reused between pictures.
+struct GroundSurroundings {
+  Grid<float> valley_height_m;
+  Grid<float> rim_m;
+  Grid<float> flow;
+  FloorPlan floor_plan;
+};
+
+// `catchments`: as for make_terrain_model.
+GroundSurroundings find_surroundings(const Dem& dem, const LandCover& land_cover,
+                                     Catchments* catchments = nullptr);
+
+// How far every post is from the end of the known terrain, m: by this distance ground fades
+// (renderer/paint/terrain_end.h). It is the distance on the ground to the nearest edge of the data,
+// plus a lift where a mountain stands far above the whole region: a high body that faded would hang
+// as a ghost above nearer, clear ground. The lift falls with the distance from the mountain, but
+// more slowly than the distance to the edge grows, so that no ground is nearer to the end than
+// ground behind it.
+Grid<float> rim_distance(const Dem& dem);
 
 }  // namespace belvedere

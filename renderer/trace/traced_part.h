@@ -1,14 +1,32 @@
 #pragma once
 
+#include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
 
 #include "base/grid.h"
 #include "base/pixel_rect.h"
+#include "renderer/trace/camera.h"
 #include "terrain/deform/deform.h"
 
 namespace belvedere {
+
+// Where a ray hit the terrain. Embree gives only the facet; distance and position are computed from
+// its posts in double, so they are the same on every instruction set.
+struct Hit {
+  bool found = false;
+  double distance_m = 0.0;  // along the unit direction
+  double column = 0.0;      // fractional vertex of the grid, barycentric in the undeformed grid:
+                            // position before deformation
+  double row = 0.0;
+  int window = 0;  // grid index: 0 the surface's own, n its n-th window
+  // Normal of the deformed facet towards its upper side, of length twice its area: the unit normal
+  // is needed for few hits only.
+  glm::dvec3 facet_area{0.0};
+
+  glm::dvec3 facet_normal() const { return glm::normalize(facet_area); }
+};
 
 // Cells passed to the tracer's structure together: their first post and their number.
 struct GridTile {
@@ -53,5 +71,15 @@ struct TracedPart {
 // `tile_cells` squared. The posts stay the surface's. Throws Error(bug) for a window outside the
 // surface before it.
 std::vector<TracedPart> make_traced_parts(const DeformedSurface& surface, int tile_cells);
+
+// The exact hit, in double, from the facet that float tracing reported: `in_tile` is its position
+// in the tile, 0…1. The ray's origin is relative to the surface's. Fills all of `hit` but its
+// window. False where in double the ray misses the facet (it grazed an edge).
+bool resolve_facet(const TracedPart& part, const GridTile& tile, glm::vec2 in_tile, const Ray& ray,
+                   Hit& hit);
+
+// A position on a surface, column and row within its posts: on one of the two triangles of its
+// cell, whose common side runs from north-east to south-west.
+glm::dvec3 on_facet(const Grid<glm::vec3>& posts, glm::dvec2 at);
 
 }  // namespace belvedere

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "renderer/trace/camera.h"
-#include "renderer/trace/hit.h"
+#include "renderer/trace/traced_part.h"
 #include "terrain/deform/deform.h"
 
 namespace belvedere {

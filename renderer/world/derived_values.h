@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "renderer/paint/air_parameters.h"
+#include "renderer/paint/air.h"
 
 namespace belvedere {
 

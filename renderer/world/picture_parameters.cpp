@@ -7,10 +7,10 @@
 #include <limits>
 #include <utility>
 
-#include "base/angle.h"
+#include "base/math.h"
 #include "base/random.h"
 #include "renderer/paint/clouds/clouds.h"
-#include "renderer/world/season/scene_climate.h"
+#include "renderer/world/season/scene_season.h"
 #include "terrain/climate/map_position.h"
 
 namespace belvedere {

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "renderer/compose/coarse_ground.h"
+#include "renderer/compose/view_layout.h"
+#include "renderer/compose/view_shape.h"
 #include "renderer/scene/scene.h"
 #include "renderer/trace/camera.h"
 #include "renderer/trace/sun.h"
@@ -56,5 +58,18 @@ SunPosition resolve_sun(const SceneSun& sun, double view_azimuth_deg,
 ViewDistances resolve_distances(const Scene& scene, const Deformation& deformation,
                                 const CameraParameters& camera, const LazyRegion& region,
                                 std::vector<DerivedValue>& derived);
+
+// A partly specified view.
+struct GivenView {
+  glm::dvec2 viewer{0.0};
+  std::optional<double> azimuth_deg;  // without it the best of 24 directions
+  double field_of_view_deg = 44.0;
+  double aspect = 2.0;
+  bool cylinder = false;
+  LayoutGiven resolved;
+};
+// Completes it: the horizon as far away as the data allow, then the layout of proposals. Nothing
+// where there are no data in that direction.
+std::optional<ViewShape> complete_view(const CoarseGround& ground, const GivenView& given);
 
 }  // namespace belvedere

@@ -1,9 +1,8 @@
 #include "renderer/world/scene_dem.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
+#include <fmt/core.h>
 #include <glm/common.hpp>
 #include <limits>
 #include <optional>
@@ -17,9 +16,11 @@
 #include "base/memory_limit.h"
 #include "renderer/ground/cached_products.h"
 #include "renderer/ground/scene_ground_map.h"
+#include "renderer/scene/draft.h"
 #include "terrain/generalize/destripe.h"
 #include "terrain/io/http_access.h"
-#include "terrain/io/input_parts.h"
+#include "terrain/io/raster_file.h"
+#include "terrain/io/raster_io.h"
 
 namespace belvedere {
 
@@ -276,6 +277,31 @@ void add_dem(CacheKeyText& key, const Dem& dem) {
       .add("origin_y", origin_y)
       .add("cell_x", cell_x)
       .add("cell_y", cell_y);
+}
+
+namespace {
+
+constexpr double draft_mcells = 2.5;
+
+}  // namespace
+
+GroundSize ground_size_of(const LoadedScene& loaded) {
+  const SceneTerrain& terrain = loaded.scene.terrain;
+  if (terrain.synthetic) {
+    const SyntheticParameters& made = *terrain.synthetic;
+    return {1e-6 * made.width * made.height, made.cell_m};
+  }
+  const RasterFrame frame = choose_frame(to_raster_sources(loaded, terrain.sources),
+                                         terrain.dem.crs, terrain.dem.cell_m, terrain.dem.extent);
+  return {1e-6 * frame.width * frame.height,
+          0.5 * (frame.transform.cell_x + frame.transform.cell_y)};
+}
+
+LoadedScene make_draft_scene(LoadedScene loaded) {
+  require_scene_files(loaded);
+  loaded.scene = make_draft(std::move(loaded.scene));
+  loaded.scene.terrain.preview_mcells = draft_mcells;
+  return loaded;
 }
 
 }  // namespace belvedere

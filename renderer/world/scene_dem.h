@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "base/cache/cache.h"
-#include "base/cache/cache_key.h"
 #include "base/progress.h"
 #include "renderer/compose/coarse_ground.h"
 #include "renderer/scene/scene_file.h"
@@ -57,5 +56,18 @@ SeaParameters scene_sea(const SceneLandCover& settings);
 void add_sea(CacheKeyText& key, const SeaParameters& sea);
 // The DEM's values in cache keys of dependent results.
 void add_dem(CacheKeyText& key, const Dem& dem);
+
+// Scenes on coarser ground than their data, for previews.
+
+// Cells of a scene's DEM, from the headers of its files. Error(input) where one cannot be read.
+struct GroundSize {
+  double mcells = 0.0;  // millions
+  double cell_m = 0.0;
+};
+GroundSize ground_size_of(const LoadedScene& loaded);
+
+// A draft (renderer/scene/draft.h) on ground of about 2.5 million cells at most. Error(input)
+// listing all files that are missing.
+LoadedScene make_draft_scene(LoadedScene loaded);
 
 }  // namespace belvedere

@@ -4,7 +4,7 @@
 
 #include "base/progress.h"
 #include "renderer/features/drawn_features.h"
-#include "renderer/features/feature_set.h"
+#include "renderer/features/feature_style.h"
 #include "renderer/scene/scene_file.h"
 #include "renderer/world/picture_parameters.h"
 

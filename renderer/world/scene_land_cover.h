@@ -16,7 +16,7 @@
 #include "terrain/cover/land_cover_patches.h"
 #include "terrain/io/dem.h"
 #include "terrain/layers/layer_drawing.h"
-#include "terrain/shape/catchments.h"
+#include "terrain/shape/hydrology.h"
 #include "terrain/shape/sea.h"
 
 namespace belvedere {

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "renderer/world/scene_position.h"
+#include "renderer/world/view.h"
 #include "renderer/world/viewer_check.h"
-#include "terrain/cover/town_file.h"
+#include "terrain/cover/towns.h"
 
 namespace belvedere {
 namespace {

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <utility>
 
-#include "base/cache/cache_key.h"
+#include "base/cache/cache.h"
 #include "base/memory_limit.h"
-#include "terrain/io/input_parts.h"
+#include "terrain/io/raster_file.h"
 
 namespace belvedere {
 namespace {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "base/angle.h"
+#include "base/math.h"
 #include "base/error.h"
 #include "base/math_exact.h"
 #include "renderer/ground/scene_ground_map.h"

@@ -3,6 +3,8 @@
 #include <functional>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "base/progress.h"
@@ -43,5 +45,13 @@ using GroundAltitude = std::function<double(glm::dvec2 position)>;
 // `region`: the reduced data, from which open values are derived; null: the DEM's.
 View make_view(const Scene& scene, const Dem& dem, Progress& progress,
                const GroundAltitude& ground_m = {}, const CoarseAltitudes* region = nullptr);
+
+// Positions of a scene, in the DEM's CRS. `key` is the scene's, for messages. Throw Error(usage)
+// where a terrain has no CRS.
+glm::dvec2 position_of_lonlat(const Dem& dem, glm::dvec2 lonlat, const std::string& key);
+// The position in whichever of the two forms is given; `key` names the table that holds both.
+// Error(usage) where it has neither.
+glm::dvec2 resolve_place(const Dem& dem, const std::optional<glm::dvec2>& position,
+                         const std::optional<glm::dvec2>& position_lonlat, const std::string& key);
 
 }  // namespace belvedere

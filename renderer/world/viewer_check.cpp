@@ -1,21 +1,22 @@
 #include "renderer/world/viewer_check.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <fmt/core.h>
 #include <glm/common.hpp>
 #include <limits>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "base/error.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
 #include "renderer/ground/feature_files.h"
+#include "terrain/deform/fold.h"
 #include "terrain/io/crs.h"
 
 namespace belvedere {
@@ -178,6 +179,46 @@ void check_ground_in_view(const Dem& dem, const Camera& camera, const Tracer& tr
                 "a direction, a pitch and a height that show ground");
   if (outside_m > data.diagonal_m())
     progress.note(fmt::format("the viewer is {}, which are in {}", place, written(data)));
+}
+
+namespace {
+
+// The key of what folds the ground.
+std::string place_of(const FoldSummary& summary, const SceneDeform& scene) {
+  if (!summary.handle) return "deform.field";
+  const std::string& name = scene.handles[*summary.handle].name;
+  return fmt::format("deform.handles.{}{}", *summary.handle, name.empty() ? "" : " (" + name + ")");
+}
+
+}  // namespace
+
+void check_folds(const SceneDeform& scene, const TerrainModel& terrain,
+                 const Deformation& deformation, const Camera& camera, Progress& progress) {
+  const std::vector<Fold> folds =
+      find_folds(terrain.generalized_m, terrain.dem->transform, deformation);
+  if (folds.empty()) return;
+  std::vector<Fold> in_picture;
+  for (const Fold& fold : folds) {
+    const double altitude = static_cast<double>(terrain.generalized_m(fold.column, fold.row));
+    const auto at = camera.project(deformation.point({fold.position, altitude}));
+    if (at && at->x >= 0.0 && at->y >= 0.0 && at->x <= camera.size().x && at->y <= camera.size().y)
+      in_picture.push_back(fold);
+  }
+  const bool refuse = !in_picture.empty() && !scene.allow_folds;
+  for (const FoldSummary& summary :
+       summarize_folds(refuse ? in_picture : folds, deformation.parameters())) {
+    const std::string where = place_of(summary, scene);
+    const std::string found = fmt::format("folds the ground{} around E {:.0f} N {:.0f}, {} facets",
+                                          refuse ? " in the picture" : "", summary.centre.x,
+                                          summary.centre.y, summary.facets);
+    if (refuse)
+      throw Error(ErrorKind::usage, where, found,
+                  summary.handle ? "a smaller move_m, rotate_deg or scale, a larger radius_m, a "
+                                   "smaller core_m, or deform.allow_folds = true"
+                                 : "places that are displaced less unlike their neighbours, or "
+                                   "deform.allow_folds = true");
+    progress.note(where + " " + found);
+  }
 }
 
 }  // namespace belvedere

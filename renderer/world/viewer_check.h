@@ -7,7 +7,9 @@
 #include "base/progress.h"
 #include "renderer/scene/scene.h"
 #include "renderer/trace/camera.h"
+#include "renderer/trace/guidance.h"
 #include "renderer/trace/tracer.h"
+#include "terrain/deform/deform.h"
 #include "terrain/io/dem.h"
 #include "terrain/io/features.h"
 
@@ -46,5 +48,10 @@ std::optional<glm::dvec2> place_target(const SceneCamera& camera, const Dem& dem
 // Error(usage) for a picture without any ground; a note on a viewer far outside the data.
 void check_ground_in_view(const Dem& dem, const Camera& camera, const Tracer& tracer,
                           Progress& progress);
+
+// Where handles fold the ground: Error(usage) naming the handle, the position and a remedy if that
+// is in the picture, unless the scene allows it; a note otherwise.
+void check_folds(const SceneDeform& scene, const TerrainModel& terrain,
+                 const Deformation& deformation, const Camera& camera, Progress& progress);
 
 }  // namespace belvedere

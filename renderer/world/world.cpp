@@ -1,27 +1,87 @@
 #include "renderer/world/world.h"
 
+#include <algorithm>
+#include <fmt/core.h>
+#include <glm/geometric.hpp>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include "base/cache/cache.h"
+#include "base/filter.h"
 #include "base/instruction_set.h"
+#include "base/random.h"
 #include "renderer/ground/cached_products.h"
 #include "renderer/ground/scene_ground_map.h"
+#include "renderer/image/provenance.h"
 #include "renderer/paint/sky.h"
 #include "renderer/scene/scene_error.h"
-#include "renderer/trace/ground_surroundings.h"
-#include "renderer/world/fold_check.h"
+#include "renderer/scene/scene_lock.h"
+#include "renderer/trace/terrain_model.h"
 #include "renderer/world/generalize_view.h"
-#include "renderer/world/ground_plan.h"
 #include "renderer/world/ground_windows.h"
 #include "renderer/world/light/scene_light.h"
 #include "renderer/world/scene_dem.h"
 #include "renderer/world/scene_land_cover.h"
-#include "renderer/world/scene_mist.h"
 #include "renderer/world/scene_values.h"
 #include "renderer/world/style/scene_style.h"
+#include "renderer/world/view.h"
 #include "renderer/world/viewer_check.h"
+#include "terrain/io/raster_io.h"
 
 namespace belvedere {
+namespace {
+
+MistParameters to_parameters(const SceneMist& given, const Dem& dem, std::size_t number) {
+  MistParameters mist = given.look;
+  mist.kind = given.kind == "valley" ? MistKind::valley
+              : given.kind == "lee"  ? MistKind::lee
+                                     : MistKind::sea;
+  mist.to_m = given.to_m.value_or(mist.to_m);
+  const bool thin = mist.kind == MistKind::valley;
+  mist.visibility_m = given.visibility_m.value_or(thin ? 500.0 : mist.visibility_m);
+  mist.patches = given.patches.value_or(thin ? 0.35 : mist.patches);
+  if (given.position || given.position_lonlat)
+    mist.position = resolve_place(dem, given.position, given.position_lonlat,
+                                  fmt::format("air.mist.{}", number));
+  return mist;
+}
+
+}  // namespace
+
+MistAir make_scene_mist(const Scene& scene, const View& view, const TerrainModel& terrain,
+                        const Deformation& deformation, const Camera& camera) {
+  MistAir air;
+  if (scene.air.mist.empty()) return air;
+  const Dem& dem = *terrain.dem;
+  air.seed = scene.seed;
+  air.rim_fade_m = view.air.rim_fade_m;
+  bool floors = false;
+  for (std::size_t k = 0; k < scene.air.mist.size(); ++k) {
+    const MistParameters mist = to_parameters(scene.air.mist[k], dem, k);
+    if (mist.kind == MistKind::lee) {
+      const glm::dvec2 cell = dem.transform.to_cell(mist.position->x, mist.position->y);
+      const double ground_m = sample_bilinear(terrain.generalized_m, cell.x, cell.y);
+      const std::optional<LeeCloud> cloud = make_lee_cloud(
+          mist, ground_m, deformation, camera, stream_seed(scene.seed, Stream::mist_layers, k));
+      if (cloud) air.clouds.push_back(*cloud);
+      continue;
+    }
+    floors = floors || mist.kind == MistKind::valley;
+    air.layers.push_back(mist);
+  }
+  if (air.layers.empty()) return air;
+  air.ground = make_mist_ground(terrain.generalized_m, terrain.rim_m, dem.transform, floors);
+  const double right = dem.width() - 1.0;
+  const double bottom = dem.height() - 1.0;
+  for (const glm::dvec2 corner : {glm::dvec2(0.0), glm::dvec2(right, 0.0), glm::dvec2(0.0, bottom),
+                                  glm::dvec2(right, bottom)}) {
+    const glm::dvec2 position = dem.transform.to_crs(corner.x, corner.y);
+    air.farthest_m =
+        std::max(air.farthest_m, glm::length(deformation.point({position, 0.0}) - camera.eye()));
+  }
+  return air;
+}
 
 void each_field(auto& bytes, FieldsOf<FloorPlan> auto& plan) {
   auto& [built, grain] = plan;
@@ -255,6 +315,23 @@ World make_world(const LoadedScene& loaded, Progress& progress, const Cache& cac
           waters.value,
           horizon_px,
           std::move(mist)};
+}
+
+FileNotes make_world_notes(const LoadedScene& loaded, const World& world) {
+  Provenance provenance = make_provenance(write_scene(loaded.scene), {});
+  for (const SceneInput& input : scene_inputs(loaded))
+    if (!input.path.empty()) provenance.inputs[input.file] = hash_input(input.path).hash;
+  provenance.instruction_set = world.tracer.description();
+  FileNotes notes = to_notes(provenance);
+  const CameraParameters& camera = world.view.camera;
+  notes["belvedere:camera"] =
+      fmt::format("{} eye {:.3f} {:.3f} {:.3f} azimuth {:.6f} pitch {:.6f} field {:.4f}",
+                  camera.projection, camera.eye.x, camera.eye.y, camera.eye.z, camera.azimuth_deg,
+                  camera.pitch_deg, camera.field_of_view_deg);
+  notes["belvedere:crs"] = world.dem->crs.empty() ? "none" : describe_crs(world.dem->crs);
+  notes["belvedere:sun"] = fmt::format("azimuth {:.4f} altitude {:.4f}", world.view.sun.azimuth_deg,
+                                       world.view.sun.altitude_deg);
+  return notes;
 }
 
 }  // namespace belvedere

@@ -4,10 +4,13 @@
 
 #include "base/cache/cache.h"
 #include "base/progress.h"
+#include "renderer/image/image_io.h"
 #include "renderer/mist/mist_sight.h"
+#include "renderer/scene/scene.h"
 #include "renderer/scene/scene_file.h"
 #include "renderer/trace/camera.h"
 #include "renderer/trace/guidance.h"
+#include "renderer/trace/terrain_model.h"
 #include "renderer/trace/tracer.h"
 #include "renderer/trace/water/water_ground.h"
 #include "renderer/world/lazy_value.h"
@@ -16,7 +19,7 @@
 #include "terrain/cover/land_cover.h"
 #include "terrain/deform/deform.h"
 #include "terrain/io/dem.h"
-#include "terrain/shape/catchments.h"
+#include "terrain/shape/hydrology.h"
 
 namespace belvedere {
 
@@ -67,5 +70,14 @@ class ValueStore;  // scene_values.h
 // the world before, and then of this one; null: none are kept.
 World make_world(const LoadedScene& loaded, Progress& progress, const Cache& cache = no_cache(),
                  KnownTerrain known = {}, ValueStore* store = nullptr);
+
+// The header of every file of a picture: provenance (scene, versions, hashes of the inputs),
+// camera, coordinate system, sun.
+FileNotes make_world_notes(const LoadedScene& loaded, const World& world);
+
+// The mist of a scene over its terrain; empty where it has none. Throws Error(usage) for invalid
+// positions.
+MistAir make_scene_mist(const Scene& scene, const View& view, const TerrainModel& terrain,
+                        const Deformation& deformation, const Camera& camera);
 
 }  // namespace belvedere

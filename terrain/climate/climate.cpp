@@ -11,7 +11,6 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/statistics.h"
-#include "terrain/climate/lapse_rate.h"
 #include "terrain/climate/stations.h"
 #include "terrain/io/block_means.h"
 #include "terrain/io/raster_io.h"

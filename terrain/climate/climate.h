@@ -13,7 +13,7 @@
 #include "terrain/climate/rain.h"
 #include "terrain/climate/zonal_climate.h"
 #include "terrain/io/dem.h"
-#include "terrain/io/raster_source.h"
+#include "terrain/io/raster_io.h"
 
 namespace belvedere {
 

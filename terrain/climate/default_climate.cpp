@@ -1,18 +1,105 @@
 #include "terrain/climate/default_climate.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <tuple>
+#include <utility>
 
-#include "base/angle.h"
 #include "base/math.h"
 #include "base/math_exact.h"
 #include "base/text/embedded.h"
-#include "terrain/climate/climate_table.h"
-#include "terrain/climate/dry_places.h"
+#include "terrain/climate/rule_climate.h"
 #include "terrain/climate/map_position.h"
-#include "terrain/climate/snow_balance.h"
+#include "terrain/climate/water_balance.h"
 
 namespace belvedere {
+namespace {
+
+constexpr double min_dry_air = 0.05;  // on coasts with fog too, whose air is hardly dry
+constexpr double max_dry_air = 3.0;
+
+// The dry air with which plants could use a place's evaporation at its floor.
+double dry_air_of(const DryPlace& place, PlaceClimate climate) {
+  climate.dry_air = 0.0;
+  const double mild_mm = plant_water_demand_mm(climate, place.floor_m);
+  climate.dry_air = 1.0;
+  const double dry_mm = plant_water_demand_mm(climate, place.floor_m);
+  return std::clamp((place.evaporation_mm - mild_mm) / std::max(1.0, dry_mm - mild_mm), min_dry_air,
+                    max_dry_air);
+}
+
+}  // namespace
+
+std::vector<DryPlace> dry_places_from_toml(const std::string& text, const std::string& name) {
+  std::vector<DryPlace> places;
+  for_each_row(text, name,
+               {"places", "place", 9,
+                "name, latitude, longitude, radius, two altitudes, rain, evaporation, cause"},
+               [&](const ClimateRow& row) {
+                 DryPlace place;
+                 place.name = row.text(0);
+                 place.latitude_deg = row.number(1, -90.0, 90.0);
+                 place.longitude_deg = row.number(2, -180.0, 180.0);
+                 place.radius_km = row.number(3, 20.0, 700.0);
+                 place.floor_m = row.number(4, -450.0, 6000.0);
+                 place.wet_from_m = row.number(5, place.floor_m + 1.0, 7000.0);
+                 place.rain_mm = row.number(6, 1.0, 600.0);
+                 place.evaporation_mm = row.number(7, 300.0, 3000.0);
+                 places.push_back(std::move(place));
+               });
+  return places;
+}
+
+std::vector<DryPlace> read_dry_places() {
+  const std::string name = "climate/dry_places.toml";
+  return dry_places_from_toml(std::string(embedded_file(name)), name);
+}
+
+DryCountry make_dry_country(std::vector<DryPlace> places) {
+  DryCountry country;
+  for (const DryPlace& place : places)
+    country.positions.push_back(earth_position_km(place.longitude_deg, place.latitude_deg));
+  country.places = std::move(places);
+  return country;
+}
+
+PlaceClimate dried_climate(const DryCountry& country, const PlaceClimate& climate,
+                           double longitude_deg, double latitude_deg) {
+  const std::array<double, 3> here = earth_position_km(longitude_deg, latitude_deg);
+  double weights = 0.0;
+  double dry_air = 0.0;
+  std::array<double, std::tuple_size_v<decltype(climate.rain_mm_at_km)>> log_rain{};
+  for (std::size_t i = 0; i < country.places.size(); ++i) {
+    const DryPlace& place = country.places[i];
+    // All of the effect up to half of the radius, none from it on.
+    const double way_km = std::sqrt(squared_chord_km2(here, country.positions[i]));
+    const double weight = smoothstep(2.0 * (1.0 - way_km / place.radius_km));
+    if (weight <= 0.0) continue;
+    weights += weight;
+    dry_air += weight * dry_air_of(place, climate);
+    const double drier =
+        exact::log(std::min(1.0, place.rain_mm / std::max(1.0, rain_mm(climate, place.floor_m))));
+    // Rain is linear between whole kilometres: all of the effect up to the first above the floor.
+    const double floor_km = std::ceil(1e-3 * place.floor_m);
+    const double wet_from_km = std::max(1e-3 * place.wet_from_m, floor_km + 0.5);
+    for (std::size_t km = 0; km < log_rain.size(); ++km) {
+      const double share =
+          std::clamp((wet_from_km - static_cast<double>(km)) / (wet_from_km - floor_km), 0.0, 1.0);
+      log_rain[km] += weight * share * drier;
+    }
+  }
+  if (weights <= 0.0) return climate;
+  // Where places overlap, their mean.
+  const double part = 1.0 / std::max(1.0, weights);
+  PlaceClimate dried = climate;
+  dried.dry_air = part * dry_air;
+  dried.sheltered = part * weights;
+  for (std::size_t km = 0; km < log_rain.size(); ++km)
+    dried.rain_mm_at_km[km] *= exact::exp(part * log_rain[km]);
+  return dried;
+}
+
 namespace {
 
 // A factor below a third or above three cannot come from the form of hollows; then the climate at

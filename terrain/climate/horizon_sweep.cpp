@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/angle.h"
+#include "base/math.h"
 
 namespace belvedere {
 

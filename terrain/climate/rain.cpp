@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "base/angle.h"
+#include "base/math.h"
 #include "base/error.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"

@@ -1,15 +1,15 @@
 #include "terrain/climate/zonal_climate.h"
 
-#include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <fmt/core.h>
 
-#include "base/angle.h"
 #include "base/error.h"
+#include "base/math.h"
 #include "base/math_exact.h"
 #include "base/text/embedded.h"
-#include "terrain/climate/climate_table.h"
+#include "terrain/climate/rule_climate.h"
 #include "terrain/climate/map_position.h"
 
 // Universal kriging (Cressie 1993): a value is a trend of latitude and altitude plus a sum over
@@ -17,6 +17,7 @@
 // 2L²) (rational quadratic). It uses only sums and quotients, is smooth at the poles and across the
 // date line, because d is the chord through the Earth, and stays positive definite with altitude as
 // a fourth axis.
+
 namespace belvedere {
 namespace {
 
@@ -277,6 +278,16 @@ Months monthly_rain_mm(const PlaceClimate& climate, double altitude_m) {
   Months months{};
   for (std::size_t m = 0; m < 12; ++m) months[m] = month * (1.0 + swing * wave[m]);
   return months;
+}
+
+double treeline_m(const PlaceClimate& climate, double warmer_k,
+                  const TreelineParameters& parameters) {
+  return highest_m([&](double m) {
+    Months months = monthly_c(climate, m);
+    for (double& t : months) t += warmer_k;
+    const GrowingSeason season = growing_season(months, parameters.limit_c);
+    return season.days >= parameters.min_days && season.mean_c >= parameters.min_mean_c;
+  });
 }
 
 }  // namespace belvedere

@@ -13,7 +13,7 @@
 #include "terrain/cover/rule_program.h"
 #include "terrain/cover/towns.h"
 #include "terrain/io/dem.h"
-#include "terrain/shape/catchments.h"
+#include "terrain/shape/hydrology.h"
 #include "terrain/shape/sea.h"
 
 namespace belvedere {

@@ -6,12 +6,11 @@
 #include <glm/vec2.hpp>
 #include <numeric>
 
-#include "base/angle.h"
+#include "base/math.h"
 #include "base/filter.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
 #include "base/random.h"
-#include "base/random_streams.h"
 #include "base/rising_queue.h"
 #include "terrain/cover/ground_lakes.h"
 #include "terrain/cover/ground_variables.h"

@@ -10,7 +10,7 @@
 #include "terrain/cover/rule_ground.h"
 #include "terrain/cover/towns.h"
 #include "terrain/io/dem.h"
-#include "terrain/shape/catchments.h"
+#include "terrain/shape/hydrology.h"
 #include "terrain/shape/sea.h"
 
 // Inputs of class rules from the terrain. Private to class_rules.

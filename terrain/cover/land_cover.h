@@ -104,4 +104,11 @@ struct LandCoverParameters {
 LandCover read_land_cover(const LandCoverParameters& parameters, const RasterFrame& frame,
                           Progress& progress);
 
+// An orthophoto (red, green and blue, 8 bits, encoded sRGB) on the cells of a frame: averaged where
+// it is finer, smoothly interpolated where it is coarser, unknown where it has no data.
+// Error(input) if it has fewer than three bands or values beyond 255, and if it does not cover any
+// of a frame that it must_overlap.
+Raster<GroundColour> read_ground_image(const std::string& path, const RasterFrame& frame,
+                                       bool must_overlap, Progress& progress);
+
 }  // namespace belvedere

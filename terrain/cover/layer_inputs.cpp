@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 #include "base/filter.h"
-#include "base/grid_part.h"
+#include "base/grid.h"
 #include "base/lines/bspline.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
@@ -19,7 +19,7 @@
 #include "terrain/io/block_means.h"
 #include "terrain/shape/derivatives.h"
 #include "terrain/shape/hydrology.h"
-#include "terrain/shape/surroundings.h"
+#include "terrain/shape/valley_floor.h"
 
 namespace belvedere {
 namespace {

@@ -8,7 +8,7 @@
 #include "base/config.h"
 #include "base/error.h"
 #include "base/text/embedded.h"
-#include "base/text/letters.h"
+#include "base/text/text_encoding.h"
 #include "base/text/missing_file.h"
 #include "terrain/cover/land_cover.h"
 #include "terrain/io/csv.h"

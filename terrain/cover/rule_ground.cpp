@@ -4,11 +4,11 @@
 #include <utility>
 
 #include "base/filter.h"
-#include "base/grid_part.h"
+#include "base/grid.h"
 #include "base/math.h"
 #include "base/noise.h"
 #include "base/parallel.h"
-#include "base/random_streams.h"
+#include "base/random.h"
 
 namespace belvedere {
 namespace {

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/random_streams.h"
+#include "base/random.h"
 #include "base/text/embedded.h"
 #include "terrain/cover/class_rules_inputs.h"
 #include "terrain/cover/ground_variables.h"

@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "base/grid.h"
+#include "base/progress.h"
 #include "terrain/io/raster.h"
+#include "terrain/io/vector_source.h"
 
 namespace belvedere {
 
@@ -61,5 +63,17 @@ std::vector<TownSite> find_town_sites(const TownGround& ground, const TownParame
 // Depth of each cell in a town: 1 at its centre, 0 at its edge, down to -4 four radii outside.
 // Linked towns extend along the road between them.
 Grid<float> town_field(const std::vector<TownSite>& sites, const TownGround& ground);
+
+// Radius of a circle with the area of a town of that population: √(population · 170 m² / π). 170 m²
+// of built-up ground per person is the mean of the eight towns that scenes/karwendel.toml has by
+// radius, from 100 (Mittenwald) to 220 (Hall in Tirol).
+double town_radius_m(double population);
+
+// Towns from a table of points (terrain/io/points.h) with columns name, and radius_m or population;
+// radius_m takes precedence. `crs`: the scene's. Rows with neither, or 0, are left out, with a note
+// of their number. Throws Error(usage) if both columns are missing, and for sizes that are not
+// numbers or beyond largest_town_radius_m; else as read_points does.
+std::vector<KnownTown> read_towns(const VectorSource& source, const std::string& crs,
+                                  Progress& progress);
 
 }  // namespace belvedere

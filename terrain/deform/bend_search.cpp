@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "base/angle.h"
+#include "base/math.h"
 #include "base/error.h"
 #include "base/filter.h"
 #include "base/math_exact.h"

@@ -11,7 +11,6 @@
 #include "terrain/deform/bend_curve.h"
 #include "terrain/deform/displacement.h"
 #include "terrain/deform/handles.h"
-#include "terrain/deform/monotone_curve.h"
 #include "terrain/io/raster.h"
 
 namespace belvedere {
@@ -145,5 +144,10 @@ DeformedSurface deform(const Grid<float>& altitude_m, const GeoTransform& transf
                        glm::dvec3 origin, const Deformation& deformation);
 DeformedSurface deform(const Grid<float>& altitude_m, const GeoTransform& transform,
                        glm::dvec2 viewer_xy, glm::dvec3 origin, const DeformParameters& parameters);
+
+// Inverse of the deformation: the point (x, y, altitude) that it moves to `deformed`, if there is
+// one; within a millimetre where handles and summits raise the ground, else exact up to rounding.
+// Used to find the real air along a line of sight.
+std::optional<glm::dvec3> undeform(const Deformation& deformation, glm::dvec3 deformed);
 
 }  // namespace belvedere

@@ -4,7 +4,6 @@
 
 #include "base/cache/cache.h"
 #include "base/progress.h"
-#include "terrain/fetch/fetch_record.h"
 #include "terrain/fetch/fetched_area.h"
 
 namespace belvedere {

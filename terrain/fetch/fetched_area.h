@@ -1,12 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <glm/vec2.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "terrain/fetch/http_client.h"
+#include "terrain/fetch/remote_file.h"
 #include "terrain/fetch/map_source.h"
 #include "terrain/fetch/tile_mosaic.h"
 #include "terrain/io/raster_io.h"
@@ -50,5 +51,14 @@ struct FetchedArea {
   std::uint64_t questions = 0;           // requests sent to servers
   std::uint64_t bytes = 0;               // received
 };
+
+// Text at the start of a record, for direct use by its reader.
+using RecordHead = std::function<std::string(const FetchedArea&)>;
+// TOML with the provenance of every map and tile, after the head.
+std::string fetch_record(const FetchParameters& parameters, const FetchedArea& area,
+                         const RecordHead& head = {});
+// Writes it atomically. Error(output).
+void write_fetch_record(const std::string& path, const FetchParameters& parameters,
+                        const FetchedArea& area, const RecordHead& head = {});
 
 }  // namespace belvedere

@@ -1,23 +1,213 @@
 #include "terrain/generalize/generalize.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <fmt/core.h>
 #include <iterator>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "base/error.h"
+#include "base/filter.h"
+#include "base/grid.h"
+#include "base/math.h"
 #include "base/parallel.h"
 #include "base/pyramid.h"
 #include "terrain/generalize/generalize_band.h"
-#include "terrain/generalize/generalize_crests.h"
-#include "terrain/generalize/generalize_lakes.h"
 #include "terrain/generalize/mask.h"
 
 namespace belvedere {
 namespace {
+
+// Reduces the change A' - A to 0 in cells of `keep` != 0, to little next to them, and keeps all of
+// it farther away: what remains at their border fades in over fade_cells. Shores are short; across
+// the edge of a mask, where the ground goes on, the change must not show.
+constexpr float shore_fade_cells = 6.0F;
+constexpr float mask_fade_cells = 16.0F;
+
+// The change that a kept lake would have had is also subtracted from the land around it, fading
+// over this many cells: otherwise a lowered valley would leave its lake on a plateau.
+constexpr float surroundings_cells = 32.0F;
+// That change is averaged with this standard deviation, so that there are no seams between lakes;
+// in blocks, because it is smooth.
+constexpr int block_cells = 4;
+constexpr double mean_cells = 10.0;
+// Beyond the last blur of the subtracted change.
+constexpr int reach_cells = 48;
+
+// Squared distance from each cell to its nearest lake cell, cells²; out_of_reach beyond
+// reach_cells. Computed in strips, because the nearest cells themselves would take twice the
+// memory.
+using Squares = Grid<std::uint16_t>;
+constexpr int out_of_reach = 65535;
+
+Squares shore_squares(const Grid<unsigned char>& keep) {
+  const int width = keep.width();
+  const int height = keep.height();
+  Squares squares(width, height);
+  constexpr int strip = 256;
+  for (int first = 0; first < height; first += strip) {
+    const int last = std::min(first + strip, height);
+    const int top = std::max(first - reach_cells, 0);
+    Grid<unsigned char> around(width, std::min(last + reach_cells, height) - top);
+    std::copy_n(keep.row(top), around.size(), around.data());
+    const Grid<std::int32_t> nearest = nearest_marked(around);
+    parallel_rows(last - first, [&](int i) {
+      const int y = first - top + i;
+      for (int x = 0; x < width; ++x) {
+        const std::int32_t shore = nearest(x, y);
+        const std::int64_t across = shore % width - x;
+        const std::int64_t down = shore / width - y;
+        const std::int64_t square = across * across + down * down;
+        const bool reached = shore >= 0 && square <= reach_cells * reach_cells;
+        squares(x, first + i) = static_cast<std::uint16_t>(reached ? square : out_of_reach);
+      }
+    });
+  }
+  return squares;
+}
+
+// Distance from a cell to its nearest lake cell, cells; more than reach_cells if it is unknown.
+float shore_distance(const Squares& squares, int x, int y) {
+  return std::sqrt(static_cast<float>(squares(x, y)));
+}
+
+// The lengths above in cells of a halved DEM.
+struct Lengths {
+  explicit Lengths(int halved)
+      : surroundings(std::ldexp(surroundings_cells, -halved)),
+        mean(std::ldexp(mean_cells, -halved)),
+        block(std::max(1, block_cells >> halved)),
+        last(std::ldexp(1.5 * block_cells, -halved) / block) {}
+  float surroundings;
+  double mean;
+  int block;
+  double last;  // blur, blocks
+};
+
+// The change subtracted around lakes, in blocks of block_cells: the mean change of the lake cells
+// nearby, fading with the distance. The last blur rounds the kinks of the distance halfway between
+// two shores.
+Grid<float> pull_of_lakes(const Grid<float>& change, const Grid<unsigned char>& keep,
+                          const Squares& squares, const Lengths& lengths) {
+  const int block_side = lengths.block;
+  Grid<float> sum((change.width() + block_side - 1) / block_side,
+                  (change.height() + block_side - 1) / block_side);
+  Grid<float> count(sum.width(), sum.height());
+  parallel_rows(sum.height(), [&](int block) {
+    for (int y = block * block_side; y < std::min((block + 1) * block_side, change.height()); ++y) {
+      for (int x = 0; x < change.width(); ++x) {
+        if (keep(x, y) == 0) continue;
+        sum(x / block_side, block) += change(x, y);
+        count(x / block_side, block) += 1.F;
+      }
+    }
+  });
+  Grid<float> pull = gaussian_blur(sum, lengths.mean / block_side);
+  count = gaussian_blur(count, lengths.mean / block_side);
+  parallel_rows(pull.height(), [&](int y) {
+    for (int x = 0; x < pull.width(); ++x) {
+      const int centre_x = std::min(x * block_side + block_side / 2, change.width() - 1);
+      const int centre_y = std::min(y * block_side + block_side / 2, change.height() - 1);
+      const float fade =
+          1.F - smoothstep(shore_distance(squares, centre_x, centre_y) / lengths.surroundings);
+      pull(x, y) = count(x, y) > 0.F ? fade * pull(x, y) / count(x, y) : 0.F;
+    }
+  });
+  return gaussian_blur(pull, lengths.last);
+}
+
+// Lengths are in cells of the data; halved: number of halvings from the data to these cells.
+void settle_around_kept(Grid<float>& change, const Grid<unsigned char>& keep, float fade_cells,
+                        int halved = 0) {
+  if (std::none_of(keep.begin(), keep.end(), [](unsigned char k) { return k != 0; })) return;
+  const Lengths lengths(halved);
+  const int block = lengths.block;
+  const float fade = std::ldexp(fade_cells, -halved);
+  const Squares squares = shore_squares(keep);
+  const Grid<float> pull = pull_of_lakes(change, keep, squares, lengths);
+  parallel_rows(change.height(), [&](int y) {
+    for (int x = 0; x < change.width(); ++x) {
+      const float distance = shore_distance(squares, x, y);
+      if (distance >= static_cast<float>(reach_cells)) continue;
+      // Block centres of four cells lie at 1.5, 5.5, 9.5… cells.
+      const double u = (x - 0.5 * (block - 1)) / block;
+      const double v = (y - 0.5 * (block - 1)) / block;
+      change(x, y) = (change(x, y) - sample_bspline(pull, u, v)) * smoothstep(distance / fade);
+    }
+  });
+}
+
+// Number of bands that this needs.
+constexpr int crest_bands = 4;
+
+float unit(float v) { return std::clamp(v, 0.F, 1.F); }
+
+// b2 + b3 + .6 b4 and b5 + b6 + … + base, the terms of GeneralizeParameters::crest, both at the
+// finest level given; from level 1 one row of expand brings them to level 0.
+struct CrestTerms {
+  Grid<float> detail_m;
+  Grid<float> ground_m;
+};
+
+CrestTerms find_crests(std::vector<Grid<float>> levels, int first) {  // the finest level given
+  CrestTerms crests;
+  const int top = std::min(static_cast<int>(levels.size()), crest_bands - first + 1) - 1;
+  crests.ground_m = levels[static_cast<std::size_t>(top)];
+  for (int i = top - 1; i >= 0; --i) {
+    const Grid<float>& coarser = levels[static_cast<std::size_t>(i) + 1];
+    const float weight = i + first == crest_bands - 1 ? 0.6F : 1.F;
+    // The finest is not needed again and becomes the detail, row by row.
+    Grid<float> detail = i == 0 ? std::move(levels[0]) : levels[static_cast<std::size_t>(i)];
+    const int width = detail.width();
+    Grid<float> ground(width, detail.height());
+    parallel_rows(detail.height(), [&](int y) {
+      std::vector<float> below(static_cast<std::size_t>(width));
+      std::vector<float> smooth(static_cast<std::size_t>(width));
+      expand_change_row(crests.detail_m, y, width, below.data());
+      expand_row(coarser, y, width, smooth.data());
+      for (int x = 0; x < width; ++x) detail(x, y) = below[x] + weight * (detail(x, y) - smooth[x]);
+      expand_row(crests.ground_m, y, width, ground.row(y));
+    });
+    crests.detail_m = std::move(detail);
+    crests.ground_m = std::move(ground);
+  }
+  return crests;
+}
+
+// Adds the sharpening of high crests to a change: strength · high · clamp(b2 + b3 + .6 b4, 0, 60 m)
+// · (1 - .2 (1 - share)) · mask · amplify (see GeneralizeParameters). levels[i] is Gaussian level i
+// + 1 of the altitudes; there is at least one. If the DEM was halved `halved` times, levels[i] is
+// level `halved` + i of the original: missing bands add nothing. Null: 1.
+void add_crests(Grid<float>& change, std::vector<Grid<float>> levels, int halved,
+                const Grid<float>* share, const Grid<float>* mask, const Grid<float>* amplify,
+                float strength) {
+  const CrestTerms crests = find_crests(std::move(levels), std::max(halved, 1));
+  const int width = change.width();
+  parallel_rows(change.height(), [&](int y) {
+    std::vector<float> detail(static_cast<std::size_t>(width));
+    std::vector<float> ground(static_cast<std::size_t>(width));
+    if (halved == 0) {
+      expand_change_row(crests.detail_m, y, width, detail.data());
+      expand_row(crests.ground_m, y, width, ground.data());
+    } else {
+      if (!crests.detail_m.empty()) std::copy_n(crests.detail_m.row(y), width, detail.begin());
+      std::copy_n(crests.ground_m.row(y), width, ground.begin());
+    }
+    float* out = change.row(y);
+    for (int x = 0; x < width; ++x) {
+      const float high = unit((ground[x] - 1200.F) / 700.F);
+      const float near = share == nullptr ? 1.F : unit((*share)(x, y));
+      float added =
+          strength * high * std::clamp(detail[x], 0.F, 60.F) * (1.F - 0.2F * (1.F - near));
+      if (mask != nullptr) added *= unit((*mask)(x, y));
+      if (amplify != nullptr) added *= unit((*amplify)(x, y));
+      out[x] += added;
+    }
+  });
+}
 
 // The stage computes the change, D = A' - A. With D_n = (base - 1) G_1 and D_i = expand(D_i+1) +
 // (w_i - 1) L_i it needs no band grids, keeps float precision for small numbers, and unit weights

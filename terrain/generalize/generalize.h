@@ -5,7 +5,7 @@
 
 #include "base/grid.h"
 #include "base/progress.h"
-#include "terrain/generalize/pixel_ground.h"
+#include "terrain/generalize/generalize_band.h"
 
 namespace belvedere {
 

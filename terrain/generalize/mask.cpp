@@ -1,9 +1,8 @@
 #include "terrain/generalize/mask.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
+#include <fmt/core.h>
 #include <utility>
 #include <vector>
 
@@ -156,6 +155,19 @@ Grid<std::uint8_t> unchanged_cells(const Grid<std::uint8_t>& keep, const Grid<fl
   for (std::size_t i = 0; i < out.size(); ++i)
     out[i] = mask[i] <= 0.F || (!keep.empty() && keep[i] != 0) ? 1 : 0;
   return out;
+}
+
+double foreground_share(double distance, double foreground_to, double background_from) {
+  constexpr double rounding = 0.125;                // of the span, inside each of its ends
+  constexpr double slope = 1.0 / (1.0 - rounding);  // of the line between the corners
+  const double t = (distance - foreground_to) / (background_from - foreground_to);
+  // Position along a corner: its parabola rises with slope 0 at the start and `slope` at the end.
+  const auto corner = [](double along) { return slope * along * along / (2.0 * rounding); };
+  if (t <= 0.0) return 1.0;
+  if (t < rounding) return 1.0 - corner(t);
+  if (t <= 1.0 - rounding) return 0.5 - slope * (t - 0.5);
+  if (t < 1.0) return corner(1.0 - t);
+  return 0.0;
 }
 
 }  // namespace belvedere

@@ -1,10 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
-#include "base/function_ref.h"
 #include "base/grid.h"
+#include "base/parallel.h"
+#include "base/progress.h"
+#include "terrain/io/raster.h"
+#include "terrain/io/raster_io.h"
 
 namespace belvedere {
 
@@ -37,5 +41,12 @@ Grid<float> block_means(const Grid<float>& values, int factor);
 // The same of values that are not in a grid: fill_row(y, row) writes a row of `width` of them.
 Grid<float> block_means(int width, int height, int factor,
                         FunctionRef<void(int y, float* row)> fill_row);
+
+// A preview of a file that is too large to read: at most `longest` of its cells per side, evenly
+// spaced, unchanged from the file (or only from its overviews, if it has some). In the file's own
+// CRS; metres, voids NaN. Nothing if its cells are rotated. Notes what was taken as void
+// though no header says so. Throws as in raster_io.h.
+std::optional<Raster<float>> read_thinned(const RasterSource& source, int longest,
+                                          Progress& progress = silent_progress());
 
 }  // namespace belvedere

@@ -8,7 +8,7 @@
 #include "base/progress.h"
 #include "terrain/io/block_means.h"
 #include "terrain/io/dem.h"
-#include "terrain/io/raster_windows.h"
+#include "terrain/io/raster_io.h"
 
 namespace belvedere {
 

@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "base/statistics.h"
 #include "terrain/io/crs.h"
-#include "terrain/io/height_encoding.h"
+#include "terrain/io/raster_file.h"
 #include "terrain/io/http_access.h"
 
 namespace belvedere {

@@ -5,7 +5,7 @@
 
 #include "base/progress.h"
 #include "terrain/io/raster_file.h"
-#include "terrain/io/raster_source.h"
+#include "terrain/io/raster_io.h"
 
 namespace belvedere {
 

@@ -1,16 +1,18 @@
 #include "terrain/io/points.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <fmt/core.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <utility>
 
 #include "base/error.h"
-#include "base/text/letters.h"
+#include "base/text/text_encoding.h"
 #include "terrain/io/crs.h"
 #include "terrain/io/csv.h"
+#include "terrain/io/features.h"
 #include "terrain/io/raster_file.h"
 
 namespace belvedere {
@@ -83,6 +85,23 @@ int PointTable::find(std::string_view column) const {
 PointTable read_points(const VectorSource& source, const std::string& crs) {
   return lower_extension(source.path) == ".csv" ? read_csv_points(source, crs)
                                                 : read_point_layer(source, crs);
+}
+
+std::vector<MapLine> read_lines(const VectorSource& source, const std::string& crs) {
+  const std::string& path = source.path;
+  MapFeatures file = read_map_features(source, {.also = {"name"}}, crs);
+  if (file.unplaceable > 0)
+    throw Error(ErrorKind::input, path,
+                fmt::format("{} of its features have positions outside the valid area of {}",
+                            file.unplaceable, describe_crs(crs)));
+  std::vector<MapLine> lines;
+  for (MapFeature& feature : file.features)
+    if (feature.shape == MapShape::line)
+      lines.push_back({.name = feature.values[0],
+                       .where = feature.where,
+                       .positions = std::move(feature.parts.front())});
+  if (lines.empty()) throw Error(ErrorKind::input, path, "has no lines", "tracks, routes or lines");
+  return lines;
 }
 
 }  // namespace belvedere

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <memory>
@@ -8,7 +9,7 @@
 #include <vector>
 
 #include "base/grid.h"
-#include "terrain/io/raster_source.h"
+#include "terrain/io/raster_io.h"
 
 namespace belvedere {
 
@@ -103,5 +104,51 @@ class RasterFile {
 inline glm::dvec2 centre_of(const RasterFile& file) {
   return file.affine().to_crs({0.5 * file.width(), 0.5 * file.height()});
 }
+
+// Tiles of map services hold heights as colours of 8 bits:
+//   height_m = base_m + step_m · (65536 red + 256 green + blue)
+struct HeightEncoding {
+  double base_m = 0.0;
+  double step_m = 1.0;
+
+  float metres(std::uint8_t red, std::uint8_t green, std::uint8_t blue) const {
+    return static_cast<float>(base_m + step_m * (65536.0 * red + 256.0 * green + blue));
+  }
+};
+
+// "terrarium" (Mapzen's Terrain Tiles) or "mapbox" (Mapbox Terrain-RGB); nothing for other words.
+inline std::optional<HeightEncoding> height_encoding(const std::string& name) {
+  if (name == "terrarium") return HeightEncoding{-32768.0, 1.0 / 256.0};
+  if (name == "mapbox") return HeightEncoding{-10000.0, 0.1};
+  return std::nullopt;
+}
+
+// For messages: what to write where colours encode heights.
+constexpr const char* encoding_advice =
+    "if its colours encode heights, `encoding = \"terrarium\"` or \"mapbox\" (--encoding where "
+    "there is no scene)";
+
+// All files that a raster is read from, itself first: its sidecar files (.prj, .tfw, .hdr, .aux.xml
+// …), changes beside a database (-wal), and for a VRT its sources with their sidecar files. Each
+// once, in alphabetical order. A URL has only itself. Opens them as raster_io.h does.
+std::vector<std::string> raster_parts(const std::string& path);
+// The same of vectors and tables: those of a shapefile (.dbf, .shx, .prj, .cpg), and changes beside
+// a database. Opens nothing.
+std::vector<std::string> vector_parts(const std::string& path);
+
+// An array of numbers with named dimensions, as in netCDF files; the last dimension is contiguous.
+struct NumberArray {
+  std::string name;
+  std::vector<std::string> dimensions;
+  std::vector<std::size_t> sizes;
+  std::vector<double> values;  // scaled as specified by the file; NaN if missing
+  std::string unit;            // "degC", "days since 1801-10-01"; empty if not given
+};
+
+// The named arrays of a netCDF file, in the requested order; nothing for names that the file lacks.
+// Throws Error(input) naming the file: missing, of another format, damaged; Error(limit), before
+// allocating, if an array would not fit into memory.
+std::vector<std::optional<NumberArray>> read_number_arrays(const std::string& path,
+                                                           const std::vector<std::string>& names);
 
 }  // namespace belvedere

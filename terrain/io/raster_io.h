@@ -2,16 +2,36 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "base/grid.h"
+#include "base/pixel_rect.h"
 #include "base/progress.h"
 #include "terrain/io/crs.h"
 #include "terrain/io/raster.h"
-#include "terrain/io/raster_source.h"
 
 namespace belvedere {
+
+// One raster file and its settings in a scene.
+struct RasterSource {
+  std::string path;
+  int band = 1;               // from 1; of the raster `variable`
+  std::string variable = {};  // name of the raster in a file of several; empty: the only one
+  // How colours encode the heights (height_encoding.h); empty: the values are heights.
+  std::string encoding = {};
+  std::string
+      crs;  // overrides or supplies the file's CRS ("EPSG:26911" or WKT); empty: the file's own
+  double unit_to_m = 0.0;        // metres per unit of the values; 0: by the band's unit (feet are
+                                 // recognized), metres if it has none
+  std::optional<double> nodata;  // overrides the file's
+  // Altitudes beyond these are void: for files with plausible-looking wrong values.
+  std::optional<double> lowest_m, highest_m;
+  // Cells that are higher or lower than all eight around them by more than this are void; 0: kept.
+  double max_spike_m = 0.0;
+};
 
 // A file's metadata, without reading its cells.
 struct RasterInfo {
@@ -71,5 +91,27 @@ void write_raster(const std::string& path, const Raster<float>& raster,
 void write_raster(const std::string& path, const Raster<std::uint8_t>& raster);
 // The files that it writes: for .asc also a .prj.
 std::vector<std::string> raster_files(const std::string& path);
+
+// The result of warp_rasters for a frame, window by window, equal to the bit for any window: for
+// frames that are larger than memory. The files stay open; not thread-safe. Throws as warp_rasters
+// does.
+class RasterWindows {
+ public:
+  RasterWindows(const std::vector<RasterSource>& sources, const RasterFrame& frame);
+  ~RasterWindows();
+  RasterWindows(const RasterWindows&) = delete;
+  RasterWindows& operator=(const RasterWindows&) = delete;
+
+  const RasterFrame& frame() const { return frame_; }
+  // Values in metres, voids NaN. The window must lie inside the frame.
+  Grid<float> read(const PixelRect& window);
+  // Notes on the cells that were taken as void so far though no header says so.
+  void note_dropped(Progress& progress) const;
+
+ private:
+  struct State;
+  RasterFrame frame_;
+  std::unique_ptr<State> state_;
+};
 
 }  // namespace belvedere

@@ -9,9 +9,8 @@
 #include "base/error.h"
 #include "base/filter.h"
 #include "base/parallel.h"
-#include "terrain/layers/lake_beds.h"
+#include "terrain/layers/layer_noise.h"
 #include "terrain/layers/layer_coverage.h"
-#include "terrain/layers/layer_relief.h"
 
 namespace belvedere {
 namespace {

@@ -6,14 +6,14 @@
 #include <utility>
 
 #include "base/filter.h"
-#include "base/grid_part.h"
+#include "base/grid.h"
 #include "base/parallel.h"
 #include "terrain/climate/map_climate.h"
 #include "terrain/climate/radiation.h"
 #include "terrain/cover/ground_lakes.h"
 #include "terrain/cover/ground_variables.h"
 #include "terrain/io/raster_io.h"
-#include "terrain/shape/surroundings.h"
+#include "terrain/shape/valley_floor.h"
 
 namespace belvedere {
 namespace {

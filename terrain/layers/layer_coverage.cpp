@@ -9,9 +9,7 @@
 #include "base/error.h"
 #include "base/math_exact.h"
 #include "base/random.h"
-#include "base/random_streams.h"
 #include "terrain/layers/layer_noise.h"
-#include "terrain/layers/layer_relief.h"
 
 namespace belvedere {
 namespace {

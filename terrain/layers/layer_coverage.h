@@ -8,7 +8,6 @@
 
 #include "base/pixel_rect.h"
 #include "terrain/io/raster.h"
-#include "terrain/layers/layer_expressions.h"
 #include "terrain/layers/surface_layers.h"
 
 namespace belvedere {

@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "base/math_exact.h"
-#include "base/random_streams.h"
+#include "base/random.h"
 #include "terrain/layers/layer_noise.h"
 
 namespace belvedere {

@@ -3,11 +3,15 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <string>
 #include <vector>
 
 #include "base/pixel_rect.h"
+#include "terrain/cover/land_cover.h"
+#include "terrain/io/dem.h"
 #include "terrain/io/raster.h"
 #include "terrain/layers/surface_layers.h"
+#include "terrain/shape/hydrology.h"
 
 namespace belvedere {
 
@@ -65,5 +69,33 @@ struct NoiseAtPosition {
 };
 NoiseAtPosition layer_noise_at(const LayerNoise& noise, std::uint64_t seed, glm::dvec2 position_m,
                                double cell_m);
+
+// Relief that surface layers add to the ground: bumps of noise (SurfaceLayer::roughness_m) and lake
+// beds. A picture from above raises its raster by them (layer_surface); a picture with arbitrary
+// pixel positions queries single positions.
+
+// Hash of a layer's name, for streams of its own.
+std::uint64_t seed_of_name(const std::string& name);
+// The noise of bumps of this length, between -1 and 1, individual for each layer.
+LayerNoise bump_noise(double length_m);
+std::uint64_t bump_seed(const SurfaceLayer& layer, std::uint64_t seed);
+
+// Slope of the bumps at a position of the CRS, per metre east and north: the gradient of the sum of
+// share · height · noise. Only parts longer than pixel_m (> 0) are included, so that far ground is
+// smooth. The mean over level ground is 0.
+glm::dvec2 bump_slope(const GroundRelief& relief, glm::dvec2 position_m, double pixel_m);
+
+// A DEM contains only a lake's surface. Synthetic beds from its shape: a bowl that deepens from the
+// shore and is deepest where the shore is farthest.
+struct LakeBedParameters {
+  LakeParameters lakes;
+  double shore_slope = 0.16;  // rise over run at the shore; > 0
+  double deepest_m = 150.0;   // maximum depth; > 0
+};
+
+// Depth of the water at each cell, m; 0 on land. A lake whose farthest position from the shore is
+// at distance d has the depth D = min(deepest, slope · d / 2) there, and D (1 - (1 - t)²) at the
+// distance t d.
+Grid<float> lake_depth_m(const Dem& dem, const LakeBedParameters& parameters = {});
 
 }  // namespace belvedere

@@ -11,11 +11,11 @@
 
 #include "base/config.h"
 #include "base/error.h"
-#include "base/text/base64.h"
+#include "base/text/text_encoding.h"
 #include "base/text/hex_colour.h"
 #include "terrain/cover/ground_variables.h"
 #include "terrain/cover/layers_document.h"
-#include "terrain/layers/layer_expressions.h"
+#include "terrain/layers/surface_layers.h"
 
 namespace belvedere {
 namespace {

@@ -1,12 +1,11 @@
 #include "terrain/register/control_pairs.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <string_view>
 #include <utility>
 
@@ -162,6 +161,35 @@ std::string control_pairs_text(std::span<const ControlPair> pairs) {
   for (const ControlPair& pair : pairs)
     out += fmt::format("{},{},{},{},{},{}\n", pair.pixel.x, pair.pixel.y, pair.lonlat.x,
                        pair.lonlat.y, csv_field(pair.name), pair.sure ? "1" : "");
+  return out;
+}
+
+Dem highest_cells(const Dem& dem, std::size_t max_cells) {
+  int n = 1;
+  const auto cells = [&] {
+    return static_cast<std::size_t>(dem.width() / n) * static_cast<std::size_t>(dem.height() / n);
+  };
+  while (cells() > max_cells) ++n;
+  if (n == 1) return dem;
+  Dem out;
+  out.crs = dem.crs;
+  out.transform = dem.transform;
+  out.transform.cell_x *= n;
+  out.transform.cell_y *= n;
+  out.altitude_m = Grid<float>(dem.width() / n, dem.height() / n);
+  out.filled = Grid<std::uint8_t>(dem.width() / n, dem.height() / n);
+  for (int y = 0; y < out.height(); ++y)
+    for (int x = 0; x < out.width(); ++x) {
+      float highest = dem.altitude_m(n * x, n * y);
+      bool filled = true;
+      for (int dy = 0; dy < n; ++dy)
+        for (int dx = 0; dx < n; ++dx) {
+          highest = std::max(highest, dem.altitude_m(n * x + dx, n * y + dy));
+          filled = filled && !dem.filled.empty() && dem.filled(n * x + dx, n * y + dy) != 0;
+        }
+      out.altitude_m(x, y) = highest;
+      out.filled(x, y) = filled ? 1 : 0;
+    }
   return out;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <glm/vec2.hpp>
 #include <span>
 #include <string>
@@ -40,5 +41,9 @@ std::vector<ControlPair> parse_control_pairs(const std::string& text, const std:
                                              const ControlPairsFormat& format = {});
 // Pairs as such a text, by their pixel and lonlat, of which no digit is lost.
 std::string control_pairs_text(std::span<const ControlPair> pairs);
+
+// A DEM whose cells are the highest of n × n, n the smallest that leaves at most so many cells: the
+// skyline keeps its summits.
+Dem highest_cells(const Dem& dem, std::size_t max_cells);
 
 }  // namespace belvedere

@@ -2,8 +2,7 @@
 
 #include <vector>
 
-#include "terrain/register/moved_mountain.h"
-#include "terrain/register/weighed_pairs.h"
+#include "terrain/register/pair_fit.h"
 
 namespace belvedere {
 

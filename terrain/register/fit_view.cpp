@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "base/math_exact.h"
-#include "base/matrix/least_squares.h"
+#include "base/matrix/matrix.h"
 #include "base/statistics.h"
 
 namespace belvedere {

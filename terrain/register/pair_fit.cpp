@@ -10,10 +10,89 @@
 #include "base/error.h"
 #include "base/math.h"
 #include "base/math_exact.h"
-#include "base/matrix/least_squares.h"
-#include "terrain/register/leave_out.h"
+#include "base/matrix/matrix.h"
 
 namespace belvedere {
+
+DeformHandle handle_of(const MovedMountain& mountain) {
+  constexpr double centre = 0.03, radius = 0.11, radius_spread = 0.35, core = 0.4;
+  constexpr double turn_deg = 25.0;
+  constexpr double min_radius = 0.04, max_radius = 0.4, max_turn_deg = 170.0;
+  // A core that moves by its belt's width / 1.9 folds the belt.
+  constexpr double widths_to_fold = 1.9, max_of_fold = 0.95;
+  const double extent = mountain.extent_m;
+  const auto& x = mountain.at;
+  DeformHandle out;
+  out.centre = mountain.expected + centre * extent * glm::dvec2(x[0], x[1]);
+  out.radius_m =
+      extent * std::clamp(radius * exact::exp(std::clamp(radius_spread * x[2], -3.0, 3.0)),
+                          min_radius, max_radius);
+  out.core_m = core * out.radius_m;
+  const double limit = max_of_fold * (out.radius_m - out.core_m) / widths_to_fold;
+  const glm::dvec2 wanted = MovedMountain::move * extent * glm::dvec2(x[3], x[4]);
+  out.move_m = wanted / std::sqrt(1.0 + (square(wanted.x) + square(wanted.y)) / square(limit));
+  out.rotate_deg = std::clamp(turn_deg * x[5], -max_turn_deg, max_turn_deg);
+  out.raise_m = MovedMountain::raise * extent * x[6];
+  return out;
+}
+
+std::vector<DeformHandle> handles_of(std::span<const MovedMountain> mountains) {
+  std::vector<DeformHandle> out;
+  for (const MovedMountain& mountain : mountains) out.push_back(handle_of(mountain));
+  return out;
+}
+
+bool are_apart(std::span<const DeformHandle> handles) {
+  for (std::size_t i = 0; i < handles.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) {
+      const glm::dvec2 line = handles[i].centre - handles[k].centre;
+      if (exact::hypot(line.x, line.y) <= 1.01 * (handles[i].core_m + handles[k].core_m))
+        return false;
+    }
+  return true;
+}
+
+namespace {
+
+Cholesky factors_of(Matrix matrix, const char* what) {
+  std::optional<Cholesky> factors = Cholesky::of(std::move(matrix));
+  if (!factors) throw Error(ErrorKind::bug, what, "is not positive definite");
+  return *std::move(factors);
+}
+
+Matrix sum(Matrix a, const Matrix& b, double factor) {
+  for (std::size_t i = 0; i < a.rows(); ++i)
+    for (std::size_t k = 0; k < a.columns(); ++k) a(i, k) += factor * b(i, k);
+  return a;
+}
+
+}  // namespace
+
+std::vector<LeftOut> leave_out(const Matrix& covariance, const Matrix& slopes,
+                               const Matrix& precision, std::span<const double> residuals,
+                               std::span<const std::vector<std::size_t>> groups) {
+  const Cholesky factors = factors_of(covariance, "covariance");
+  const std::vector<double> solved = factors.solve(residuals);
+  // C⁻¹ by Woodbury's identity.
+  const Matrix by_slopes = factors.solve(slopes);
+  const Cholesky posterior =
+      factors_of(sum(product(transposed(slopes), by_slopes), precision, 1.0), "precision");
+  const Matrix inverse =
+      sum(factors.inverse(), product(by_slopes, posterior.solve(transposed(by_slopes))), -1.0);
+  std::vector<LeftOut> out;
+  for (const std::vector<std::size_t>& group : groups) {
+    Matrix block(group.size(), group.size());
+    std::vector<double> of_group;
+    for (std::size_t i = 0; i < group.size(); ++i) {
+      of_group.push_back(solved[group[i]]);
+      for (std::size_t k = 0; k < group.size(); ++k) block(i, k) = inverse(group[i], group[k]);
+    }
+    const Cholesky block_factors = factors_of(std::move(block), "observations");
+    out.push_back({block_factors.solve(of_group), block_factors.inverse()});
+  }
+  return out;
+}
+
 namespace {
 
 namespace unknown = view_unknown;
@@ -275,6 +354,40 @@ PairJudgement refine_pairs(PairFit& fit, double sigma_px, int rounds) {
 DisplacementParameters field_of_extent(double extent_m, double length) {
   constexpr double reach = 0.05, still = 0.0006, max = 0.04;
   return {length * extent_m, reach * extent_m, still * extent_m, max * extent_m, {}};
+}
+
+double mean_score(const WeighedPairs& weighed) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < weighed.index.size(); ++i) sum += weighed.judgement.scores[i];
+  return sum / static_cast<double>(weighed.index.size());
+}
+
+double weight_of(double square_deviations) {
+  constexpr double freedom = 4.0, hopeless = 30.0, hardly_any = 0.01;
+  if (square_deviations > hopeless) return hardly_any;
+  return std::min((freedom + 2.0) / (freedom + square_deviations), 1.0);
+}
+
+void weigh_by_agreement(WeighedPairs& weighed, double sigma_px, int rounds) {
+  constexpr double min_weight_of_pairs = 0.25;
+  PairFit fit = weighed.fit;
+  fit.field.places = displaced_places(fit);
+  double best_score = -std::numeric_limits<double>::infinity();
+  for (int round = 0; round < rounds; ++round) {
+    if (std::optional<PairFit> next = refitted(fit, sigma_px)) fit = *std::move(next);
+    PairJudgement judgement = judge_pairs(fit, sigma_px);
+    const std::vector<double> square_deviations = judgement.square_deviations;
+    if (judgement.score > best_score) {
+      best_score = judgement.score;
+      weighed.fit = fit;
+      weighed.judgement = std::move(judgement);
+    }
+    for (std::size_t i = 0; i < fit.pairs.size(); ++i) {
+      const double weight = weight_of(square_deviations[i]);
+      fit.weights[i] = i < weighed.index.size() ? std::max(weight, min_weight_of_pairs) : weight;
+    }
+    fit.field.places = displaced_places(fit);
+  }
 }
 
 }  // namespace belvedere

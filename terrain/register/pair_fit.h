@@ -1,18 +1,40 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <glm/vec2.hpp>
 #include <optional>
+#include <span>
 #include <vector>
 
-#include "base/matrix/least_squares.h"
 #include "base/matrix/matrix.h"
 #include "terrain/deform/displacement.h"
+#include "terrain/deform/handles.h"
 #include "terrain/register/control_pairs.h"
 #include "terrain/register/fit_view.h"
-#include "terrain/register/moved_mountain.h"
 #include "terrain/register/view_model.h"
 
 namespace belvedere {
+
+// A mountain that the painter moved as a whole, as unknowns of a fit. All unknowns are expected to
+// be 0 with a standard deviation of 1, L being the extent of the pairs:
+//   centre     0.03 L to the east and north of the expected place
+//   radius     0.11 L exp(0.35 x), the core 0.4 of it
+//   move       0.03 L to the east and north, up to what folds no ground
+//   turn       25°
+//   raise      0.005 L
+struct MovedMountain {
+  static constexpr std::size_t unknowns = 7;  // centre (2), radius, move (2), turn, raise
+  static constexpr double move = 0.03, raise = 0.005;
+  glm::dvec2 expected{0.0};  // its centre, CRS
+  double extent_m = 1.0;     // L
+  std::array<double, unknowns> at = {};
+};
+
+DeformHandle handle_of(const MovedMountain& mountain);
+std::vector<DeformHandle> handles_of(std::span<const MovedMountain> mountains);
+// Whether handles may stand side by side: HandleField takes them.
+bool are_apart(std::span<const DeformHandle> handles);
 
 // A view and a field for the pairs that count.
 struct PairFit {
@@ -63,5 +85,38 @@ PairJudgement refine_pairs(PairFit& fit, double sigma_px, int rounds);
 
 // A field as painters need it, of that length in extents.
 DisplacementParameters field_of_extent(double extent_m, double length);
+
+// What the others say about a group of observations that is left out.
+struct LeftOut {
+  std::vector<double> residuals;  // observed less predicted
+  Matrix covariance;              // of them, noise included
+};
+
+// Leaves out each group in turn, in closed form. Observations y = f(θ) + ε, ε of that covariance,
+// θ of that prior precision (inverse covariance); `residuals` are y - f(θ) at the θ most likely by
+// all, `slopes` the derivatives of f there. With C⁻¹ the inverse of covariance + slopes
+// precision⁻¹ slopesᵀ, a group g has residuals ([C⁻¹]_gg)⁻¹ [covariance⁻¹ residuals]_g and
+// covariance ([C⁻¹]_gg)⁻¹: exactly what a fit without the group gives if f is linear. Groups hold
+// different indices of observations. Throws Error(bug) for matrices that are not positive definite.
+std::vector<LeftOut> leave_out(const Matrix& covariance, const Matrix& slopes,
+                               const Matrix& precision, std::span<const double> residuals,
+                               std::span<const std::vector<std::size_t>> groups);
+
+// A fit whose first pairs are those of `index`, in their order; places found in the paint follow.
+struct WeighedPairs {
+  PairFit fit;
+  std::vector<std::size_t> index;
+  PairJudgement judgement;
+};
+
+// Mean score of the pairs themselves.
+double mean_score(const WeighedPairs& weighed);
+
+// Of Student's t with 4 degrees of freedom, two values at once; hardly any beyond all doubt.
+double weight_of(double square_deviations);
+
+// Weights by agreement with the others, the view and mountains in turn; the likeliest of these
+// rounds counts. Pairs keep a quarter of their weight.
+void weigh_by_agreement(WeighedPairs& weighed, double sigma_px, int rounds);
 
 }  // namespace belvedere

@@ -11,7 +11,7 @@
 #include "terrain/deform/displacement.h"
 #include "terrain/register/control_pairs.h"
 #include "terrain/register/fit_view.h"
-#include "terrain/register/moved_mountain.h"
+#include "terrain/register/pair_fit.h"
 
 namespace belvedere {
 
@@ -88,5 +88,12 @@ glm::dvec2 registered_pixel(const Registration& registration, const Displacement
 // field's, and the view's, of which all is unsure where there are few pairs.
 double registered_sigma_px(const Registration& registration, const DisplacementField& field,
                            glm::dvec2 position, double altitude_m);
+
+// A painter stretches and squeezes the ground, but does not lay it over itself. Where the field
+// would leave less than a fifth of the area that the handles of mountains leave, or let the ground
+// fall by more than 0.8 m a metre away from the viewer, the place near by that agrees least with
+// the others gets less weight until it does not; a sure pair only if there is no other. Sets the
+// field's places by that. Returns the indices of the places with less weight, ascending.
+std::vector<std::size_t> prevent_folds(PairFit& fit, double sigma_px);
 
 }  // namespace belvedere

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "base/parallel.h"
@@ -332,6 +333,16 @@ Grid<std::uint8_t> find_lakes(const Grid<float>& altitude_m, const LakeParameter
     }
   });
   return grown;
+}
+
+const Grid<float>& Catchments::km2() {
+  if (km2_.empty()) km2_ = flow_accumulation_km2(dem_.altitude_m, dem_.cell_m(), dem_.entries);
+  return km2_;
+}
+
+Grid<float> Catchments::take_km2() {
+  km2();
+  return std::exchange(km2_, {});
 }
 
 }  // namespace belvedere

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstdint>
-
+#include <utility>
 #include <vector>
 
 #include "base/grid.h"
@@ -44,5 +44,25 @@ Grid<std::uint8_t> find_lakes(const Grid<float>& altitude_m, const LakeParameter
 Grid<float> river_mask(const Grid<float>& catchment_km2, double cell_m);
 // The half-width itself, m; 0 below 75 km².
 double river_half_width_m(double catchment_km2);
+
+// Catchment areas of a DEM, computed on first use and kept, because class rules and the terrain
+// model both need them and drainage runs on one thread. The DEM must outlive it. Not thread-safe.
+class Catchments {
+ public:
+  explicit Catchments(const Dem& dem) : dem_(dem) {}
+  // Whether km2() was computed.
+  Catchments(const Dem& dem, Grid<float> km2) : dem_(dem), km2_(std::move(km2)) {}
+  Catchments(const Catchments&) = delete;
+  Catchments& operator=(const Catchments&) = delete;
+
+  // flow_accumulation_km2() of the DEM with its entries.
+  const Grid<float>& km2();
+  // The same for the last caller; releases it.
+  Grid<float> take_km2();
+
+ private:
+  const Dem& dem_;
+  Grid<float> km2_;
+};
 
 }  // namespace belvedere

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <glm/vec2.hpp>
@@ -36,5 +37,39 @@ std::vector<RiverCentreline> infer_rivers_of_ground(
     const Grid<float>& catchment_km2, const Grid<float>& altitude_m, const GeoTransform& transform,
     const std::function<RiverBed(int x, int y)>& bed,
     const InferredRiverParameters& parameters = {});
+
+// A river as positions on a grid, a cell apart, downstream.
+struct RiverLine {
+  std::vector<glm::dvec2> positions;  // cells
+  std::vector<double> half_width_m;   // as drawn, at each position
+  std::vector<bool> held;             // fixed: open water
+};
+
+// On level ground a DEM has no channels: drainage crosses it in straight lines and right angles.
+// Where the ground is level around a river, its line is rounded and meanders with an amplitude that
+// grows with the river: bends some twenty drawn widths long, superposed on larger ones. The
+// amplitude is limited by the extent of the level ground on all sides, and the ends are fixed.
+// Bends depend only on the seed and the position on the map.
+void bend_on_level_ground(RiverLine& river, const Grid<float>& altitude_m,
+                          const GeoTransform& transform, std::uint64_t seed);
+
+inline constexpr std::size_t no_reach = static_cast<std::size_t>(-1);
+
+// One cell of a river and its neighbours along it.
+struct RiverReach {
+  glm::dvec2 position;        // cells
+  double half_width_m = 0.0;  // set by the caller
+  float catchment_km2 = 0.F;
+  std::size_t downstream = no_reach;
+  std::size_t upstream = no_reach;  // the larger one at a confluence
+};
+
+// All cells with at least `min_km2`, in the order of the grid, linked to the neighbour with the
+// next larger catchment.
+std::vector<RiverReach> find_reaches(const Grid<float>& catchment_km2, double min_km2);
+
+// Moves each cell, and its width, towards the mean of the cells above and below it; springs and
+// mouths are fixed. A tributary follows its mouth, without effect on the main river.
+void smooth_reaches(std::vector<RiverReach>& reaches);
 
 }  // namespace belvedere

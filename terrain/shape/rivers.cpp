@@ -10,7 +10,7 @@
 
 #include "base/math_exact.h"
 #include "terrain/shape/hydrology.h"
-#include "terrain/shape/river_reaches.h"
+#include "terrain/shape/inferred_rivers.h"
 
 namespace belvedere {
 namespace {

@@ -13,9 +13,8 @@
 #include "base/math.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
-#include "base/random_streams.h"
+#include "base/random.h"
 #include "terrain/synthetic/synthetic_erosion.h"
-#include "terrain/synthetic/synthetic_noise.h"
 #include "terrain/synthetic/synthetic_plan.h"
 #include "terrain/synthetic/synthetic_valleys.h"
 

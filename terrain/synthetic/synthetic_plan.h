@@ -1,8 +1,12 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "base/random.h"
+
+// Noise for synthetic terrain; a pure function of seed and position, so it does not depend on grid,
+// tiles or threads.
 
 namespace belvedere::synthetic {
 
@@ -79,5 +83,17 @@ class Plan {
   std::uint64_t seed_;
   int valleys_ = 1;
 };
+
+// Cells are stored as 32-bit indices, which halves their memory; a grid is indexed with
+// std::size_t.
+inline std::size_t at(std::int32_t cell) { return static_cast<std::size_t>(cell); }
+
+// Gradient noise (Perlin 2002) with one lattice point per unit, mean 0, about -1…1.
+float gradient_noise(std::uint64_t seed, double x, double y);
+// A sum of `octaves` of it, each with half the length and `gain` times the amplitude of the
+// previous, divided by the sum of the amplitudes.
+float fractal_noise(std::uint64_t seed, double x, double y, int octaves, float gain = 0.5F);
+// Ridged multifractal (Musgrave 1998), 0…1: crests at 1, and more detail on crests than in hollows.
+float ridged_noise(std::uint64_t seed, double x, double y, int octaves, float gain = 0.5F);
 
 }  // namespace belvedere::synthetic

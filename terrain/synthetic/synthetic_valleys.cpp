@@ -11,8 +11,6 @@
 #include "base/parallel.h"
 #include "base/rising_queue.h"
 #include "terrain/shape/spill_level.h"
-#include "terrain/synthetic/synthetic_noise.h"
-#include "terrain/synthetic/synthetic_parts.h"
 #include "terrain/synthetic/synthetic_plan.h"
 
 namespace belvedere::synthetic {

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "base/repeated_stages.h"
 
 namespace belvedere {
 namespace {

@@ -10,7 +10,7 @@
 #include "base/text/json.h"
 #include "renderer/image/image_io.h"
 #include "tests/renderer/exemplar/painting_figures.h"
-#include "texture/composite/composite_figures.h"
+#include "texture/composite/learn_composite.h"
 #include "texture/statistical/model_file.h"
 #include "texture/statistical/texture_figures.h"
 #include "tools/cli/texture/texture_pictures.h"

@@ -11,7 +11,7 @@
 #include "base/config.h"
 #include "base/error.h"
 #include "base/math_exact.h"
-#include "base/text/base64.h"
+#include "base/text/text_encoding.h"
 #include "base/text/json.h"
 #include "texture/statistical/model_file.h"
 

@@ -7,7 +7,7 @@
 
 #include "base/math_exact.h"
 #include "base/parallel.h"
-#include "base/random_streams.h"
+#include "base/random.h"
 #include "texture/statistical/make_texture.h"
 
 namespace belvedere {

@@ -6,9 +6,7 @@
 #include <vector>
 
 #include "texture/quality/picture_measures.h"
-#include "texture/quality/seam_visibility.h"
 #include "texture/synthesis/exemplar.h"
-#include "texture/synthesis/guide_stack.h"
 #include "texture/synthesis/match_field.h"
 
 namespace belvedere {

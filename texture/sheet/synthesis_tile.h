@@ -4,7 +4,7 @@
 
 #include "base/progress.h"
 #include "texture/sheet/synthesis_plan.h"
-#include "texture/synthesis/guide_stack.h"
+#include "texture/synthesis/exemplar.h"
 #include "texture/synthesis/match_field.h"
 
 namespace belvedere {

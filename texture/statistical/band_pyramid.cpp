@@ -8,7 +8,7 @@
 
 #include "base/math_exact.h"
 #include "base/parallel.h"
-#include "base/random_streams.h"
+#include "base/random.h"
 
 namespace belvedere {
 namespace {

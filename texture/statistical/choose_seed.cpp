@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "base/angle.h"
+#include "base/math.h"
 #include "base/math_exact.h"
 #include "texture/statistical/make_texture.h"
 #include "texture/statistical/texture_figures.h"

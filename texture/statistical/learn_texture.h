@@ -1,13 +1,44 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "base/progress.h"
 #include "texture/statistical/band_pyramid.h"
 #include "texture/statistical/clique_model.h"
-#include "texture/statistical/learning_round.h"
+#include "texture/statistical/difference_histogram.h"
 
 namespace belvedere {
+
+// The common part of both learning methods in each round (Zalesny et al. 2005, steps 3 to 5): count
+// all types in the texture made, and find the one whose histogram is farthest from the crop's.
+
+// A clique type that may be added, with the crop's distribution.
+struct CliqueCandidate {
+  Clique clique;
+  HistogramGroups groups;
+  bool in = false;
+};
+
+// For the given types, from the crop at their level.
+std::vector<CliqueCandidate> make_candidates(const BandPicture& example, const BandSpace& bands,
+                                             const std::vector<CliqueType>& types);
+
+// Result of learning a level.
+struct LearnedLevel {
+  int level = 0;
+  int types = 0;             // of this level
+  double held_out_l1 = 0.0;  // mean over the types not included
+  double worst_l2 = 0.0;     // of these
+};
+
+// Distances from the crop for the types not included.
+struct LearningRound {
+  LearnedLevel told;      // without its level; `types`: those included
+  std::size_t worst = 0;  // candidates.size(): all are included, or none differs
+};
+LearningRound evaluate_candidates(const std::vector<CliqueCandidate>& candidates,
+                                  const BandPicture& made, const BandSpace& bands);
 
 struct LearnParameters {
   int types = 40;    // max, 16…200: 28 are nearly as good, 60 slightly better
@@ -41,5 +72,17 @@ CliqueModel begin_model(const Grid<Rgb8>& crop, const Grid<std::uint8_t>& states
 // with all pairs of bands.
 std::vector<CliqueType> candidate_types(int level, int reach);
 int reach_at(const LearnParameters& parameters, int level);
+
+// The published method unchanged (Zalesny et al. 2005, steps 1–6): one level, all clique types up
+// to sampled_reach_px, initial noise, and only the sampler to make a texture after each added type.
+// A reference for small crops: it takes half a minute where the flow takes a second. `types` and
+// `enough` of the parameters apply; textures of the model are made by sampling
+// (CliqueModel::sampled). Errors as learn_texture, and Error(limit) for crops over 256 pixels on a
+// side.
+LearnedTexture learn_by_sampling(const Grid<Rgb8>& crop, const Grid<std::uint8_t>& states,
+                                 const LearnParameters& parameters,
+                                 Progress& progress = silent_progress());
+inline constexpr int sampled_reach_px = 12;
+inline constexpr int max_sampled_px = 256;
 
 }  // namespace belvedere

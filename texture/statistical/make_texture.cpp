@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/grid_part.h"
+#include "base/grid.h"
 #include "base/parallel.h"
 #include "texture/statistical/label_borders.h"
 

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <cstddef>
 
-#include "base/angle.h"
+#include "base/math.h"
 #include "base/math_exact.h"
 #include "base/noise.h"
 #include "base/parallel.h"
-#include "base/random_streams.h"
+#include "base/random.h"
 
 namespace belvedere {
 namespace {

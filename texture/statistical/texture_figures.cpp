@@ -7,7 +7,7 @@
 #include <numbers>
 #include <unordered_set>
 
-#include "base/grid_part.h"
+#include "base/grid.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
 #include "base/random.h"

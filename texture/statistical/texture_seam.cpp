@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/grid_part.h"
+#include "base/grid.h"
 #include "base/noise.h"
-#include "base/random_streams.h"
+#include "base/random.h"
 #include "texture/statistical/learn_texture.h"
 
 namespace belvedere {

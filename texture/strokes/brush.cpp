@@ -2,18 +2,131 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <glm/geometric.hpp>
 #include <glm/glm.hpp>
 #include <numeric>
 #include <optional>
 #include <utility>
 
+#include "base/grid.h"
+#include "base/guidance_buffers.h"
 #include "base/math.h"
 #include "base/parallel.h"
-#include "texture/strokes/paint_record.h"
+#include "base/pixel_rect.h"
+#include "texture/strokes/stroke.h"
 
 namespace belvedere {
 namespace {
+
+// The origin of the paint on the pixels of one tile: the class with the thickest paint, the second
+// most visible class, and the stroke on top. A layer of another class hides the paint below by its
+// opacity, one of the same class adds to it; of three classes on one pixel the thinnest is dropped,
+// of several strokes of one class all but the thickest.
+class PaintRecord {
+ public:
+  // Starts from the current state of the painting: two classes with their shares, and one thick
+  // layer where a stroke is on top. to_copy_from: as in SheetWindow. Without it paint of other
+  // classes on water is not recorded: a brook overhung by grass is still one line.
+  PaintRecord(const Painting& painting, const GuidanceBuffers& guidance, PixelRect tile,
+              bool to_copy_from);
+
+  // A stroke, number `number`, lays paint of opacity alpha on pixel x, y of the canvas.
+  void cover(int x, int y, const Stroke& stroke, std::uint32_t number, float alpha);
+
+  // Writes sources, under, under_share and strokes of the tile.
+  void hand_back(Painting& painting) const;
+
+ private:
+  // Of one class.
+  struct Paint {
+    std::uint32_t source;  // origin of its thickest stroke
+    float share;           // 0…1; 0: none
+    float source_share;    // … of that stroke alone
+    void thin(float by);
+    void add(std::uint32_t from, float alpha);
+  };
+  struct Layers {
+    Paint top;
+    Paint under;           // of the other class
+    std::uint32_t stroke;  // number of the stroke on top
+    float stroke_share;    // 0…1
+  };
+
+  const GuidanceBuffers& guidance_;
+  PixelRect tile_;
+  bool to_copy_from_;
+  Grid<Layers> layers_;
+};
+
+PaintRecord::PaintRecord(const Painting& painting, const GuidanceBuffers& guidance, PixelRect tile,
+                         bool to_copy_from)
+    : guidance_(guidance),
+      tile_(tile),
+      to_copy_from_(to_copy_from),
+      layers_(tile.x1 - tile.x0, tile.y1 - tile.y0) {
+  for (int y = tile.y0; y < tile.y1; ++y)
+    for (int x = tile.x0; x < tile.x1; ++x) {
+      const float under = static_cast<float>(painting.under_share(x, y)) / 255.F;
+      layers_(x - tile.x0, y - tile.y0) = {
+          .top = {painting.sources(x, y), 1.F - under, 1.F - under},
+          .under = {painting.under(x, y), under, under},
+          .stroke = painting.strokes(x, y),
+          .stroke_share = 1.F};
+    }
+}
+
+void PaintRecord::Paint::thin(float by) {
+  share *= by;
+  source_share *= by;
+}
+
+void PaintRecord::Paint::add(std::uint32_t from, float alpha) {
+  share += alpha;
+  if (alpha < source_share) return;
+  source = from;
+  source_share = alpha;
+}
+
+void PaintRecord::cover(int x, int y, const Stroke& stroke, std::uint32_t number, float alpha) {
+  Layers& here = layers_(x - tile_.x0, y - tile_.y0);
+  here.stroke_share *= 1.F - alpha;
+  if (alpha > here.stroke_share) {
+    here.stroke = number;
+    here.stroke_share = alpha;
+  }
+  if (!to_copy_from_ && guidance_.land_cover(x, y) == LandCoverClass::water) return;
+  const LandCoverClass paint = guidance_.land_cover[stroke.source];
+  here.top.thin(1.F - alpha);
+  here.under.thin(1.F - alpha);
+  if (guidance_.land_cover[here.top.source] == paint) {
+    here.top.add(stroke.source, alpha);
+    return;
+  }
+  if (here.under.share > 0.F && guidance_.land_cover[here.under.source] == paint)
+    here.under.add(stroke.source, alpha);
+  else if (alpha > here.under.share)
+    here.under = {stroke.source, alpha, alpha};
+  if (here.under.share > here.top.share) std::swap(here.top, here.under);
+}
+
+void PaintRecord::hand_back(Painting& painting) const {
+  for (int y = tile_.y0; y < tile_.y1; ++y)
+    for (int x = tile_.x0; x < tile_.x1; ++x) {
+      const Layers& here = layers_(x - tile_.x0, y - tile_.y0);
+      const auto own = static_cast<std::uint32_t>(painting.sources.index(x, y));
+      const bool is_own =
+          !to_copy_from_ && guidance_.land_cover[own] == guidance_.land_cover[here.top.source];
+      painting.sources[own] = is_own ? own : here.top.source;
+      const float known =
+          here.top.share + here.under.share;  // > 0: the layers of the two thickest classes
+      const auto share = static_cast<std::uint8_t>(std::lround(255.F * here.under.share / known));
+      painting.under[own] = share > 0 ? here.under.source : own;
+      painting.under_share[own] = share;
+      painting.strokes[own] = here.stroke;
+    }
+}
 
 constexpr int tile_px = 128;
 constexpr float beyond_bank =

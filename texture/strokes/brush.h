@@ -5,7 +5,7 @@
 
 #include "base/guidance_buffers.h"
 #include "base/progress.h"
-#include "texture/strokes/sheet_window.h"
+#include "texture/strokes/base_picture.h"
 #include "texture/strokes/stroke.h"
 
 namespace belvedere {

@@ -8,7 +8,6 @@
 #include "base/math_exact.h"
 #include "base/noise.h"
 #include "base/random.h"
-#include "base/random_streams.h"
 
 namespace belvedere {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "base/random_streams.h"
+#include "base/random.h"
 #include "texture/strokes/stroke.h"
 #include "texture/strokes/stroke_seeds.h"
 

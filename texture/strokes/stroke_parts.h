@@ -5,7 +5,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "base/random_streams.h"
+#include "base/random.h"
 #include "texture/strokes/class_strokes.h"
 #include "texture/strokes/stroke_seeds.h"
 

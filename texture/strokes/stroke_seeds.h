@@ -8,9 +8,7 @@
 #include "base/guidance_buffers.h"
 #include "base/parallel.h"
 #include "base/random.h"
-#include "base/random_streams.h"
 #include "texture/strokes/base_picture.h"
-#include "texture/strokes/sheet_window.h"
 #include "texture/strokes/stroke.h"
 
 namespace belvedere {

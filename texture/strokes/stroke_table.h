@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/random_streams.h"
+#include "base/random.h"
 #include "texture/strokes/stroke.h"
 #include "texture/strokes/stroke_seeds.h"
 

@@ -1,5 +1,5 @@
 #include "texture/synthesis/class_texels.h"
-#include "base/text/letters.h"
+#include "base/text/text_encoding.h"
 
 #include <fmt/core.h>
 

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "texture/synthesis/exemplar.h"
-#include "texture/synthesis/guide_stack.h"
 
 namespace belvedere {
 

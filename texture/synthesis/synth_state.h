@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "base/random.h"
-#include "base/random_streams.h"
 #include "texture/synthesis/synth_kernel.h"
 #include "texture/synthesis/synth_lists.h"
 #include "texture/synthesis/synth_pieces.h"

@@ -7,8 +7,6 @@
 #include "renderer/image/guidance_io.h"
 #include "renderer/register/registered_ground.h"
 #include "renderer/register/registered_light.h"
-#include "renderer/register/registered_scene.h"
-#include "renderer/register/registered_view.h"
 
 namespace belvedere::bench {
 namespace {

@@ -7,12 +7,12 @@
 #include <glm/geometric.hpp>
 #include <optional>
 
-#include "base/angle.h"
+#include "base/math.h"
 #include "base/error.h"
 #include "base/filter.h"
 #include "base/random.h"
 #include "base/statistics.h"
-#include "renderer/register/registered_scene.h"
+#include "renderer/register/registered_ground.h"
 #include "renderer/scene/scene_file.h"
 #include "terrain/generalize/widen_valleys.h"
 #include "terrain/io/crs.h"

@@ -1,18 +1,24 @@
-#include <fmt/core.h>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <fmt/core.h>
+#include <glm/vec2.hpp>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <sstream>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "base/cache/cache.h"
 #include "base/error.h"
 #include "base/files/output_file.h"
 #include "base/text/json.h"
+#include "base/text/text_encoding.h"
 #include "renderer/image/image_io.h"
+#include "renderer/labels/label_files.h"
+#include "renderer/pipeline/scene_labels.h"
 #include "renderer/scene/draft.h"
 #include "renderer/trace/sketch/relief_sketch.h"
 #include "renderer/world/generalize_view.h"
@@ -23,15 +29,87 @@
 #include "terrain/shape/valley_floor.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/deform_options.h"
-#include "tools/cli/labels/located_places.h"
 #include "tools/cli/terminal.h"
 #include "tools/options/options.h"
 
 namespace belvedere::tools {
 namespace {
 
+// Arguments of `deform --locate`: positions as "E,N", and files of points.
+struct LocateQuestions {
+  std::vector<std::string> positions;
+  std::vector<std::string> files;
+};
+
+// A table of all points of the files, for spreadsheets, and the same as JSON.
+struct LocatedTable {
+  std::string csv;
+  Json json = Json::array();
+};
+// A position in JSON: [x, y].
+Json pair_json(glm::dvec2 p);
+
+bool names_a_file(const std::string& text) {
+  constexpr std::array extensions = {".csv", ".gpkg", ".geojson", ".json", ".geojsonl", ".ndjson",
+                                     ".shp", ".fgb",  ".gpx",     ".osm",  ".pbf"};
+  return std::find(extensions.begin(), extensions.end(), lower_extension(text)) != extensions.end();
+}
+
+Json json_of(const LabelSheet& sheet, const Label& label) {
+  const LabelMark& mark = label.mark;
+  Json entry = Json::object()
+                   .add("name", Json::text(label.point.name))
+                   .add("kind", Json::text(sheet.kind_of(label).name))
+                   .add("where", Json::text(label.point.where))
+                   .add("place", pair_json(label.point.position))
+                   .add("outcome", Json::text(std::string(name_of(mark.state))))
+                   .add("visible", Json::boolean(mark.state == MarkState::seen));
+  if (label.point.altitude_m) entry.add("altitude_file_m", Json::number(*label.point.altitude_m));
+  if (!std::isnan(mark.dem_altitude_m))
+    entry.add("altitude_dem_m", Json::number(mark.dem_altitude_m));
+  if (mark.state != MarkState::outside_terrain && mark.state != MarkState::behind_eye)
+    entry.add("pixel", pair_json(mark.pixel))
+        .add("distance_m", Json::number(mark.distance_m))
+        .add("in_picture", Json::boolean(mark.state != MarkState::outside_picture));
+  if (mark.in_front) entry.add("hiding_place", pair_json(mark.in_front->position));
+  if (!label.hidden_by.empty()) entry.add("hidden_by", Json::text(label.hidden_by));
+  return entry;
+}
+
+Json pair_json(glm::dvec2 p) { return Json::array({Json::number(p.x), Json::number(p.y)}); }
+
+// "681500,5237300" is a position; a name with the extension of a file of points is a file. Throws
+// Error(usage) for anything else.
+LocateQuestions sort_questions(const std::vector<std::string>& asked) {
+  LocateQuestions questions;
+  for (const std::string& text : asked) {
+    if (names_a_file(text)) {
+      questions.files.push_back(text);
+      continue;
+    }
+    try {
+      parse_pair(text, "--locate");
+    } catch (const Error& error) {
+      throw Error(ErrorKind::usage, "--locate", '"' + text + '"',
+                  "E,N: two numbers separated by a comma; or a file of points: .csv, .gpkg, "
+                  ".geojson, .json, .geojsonl, .ndjson, .shp, .fgb, .gpx, .osm or .pbf");
+    }
+    questions.positions.push_back(text);
+  }
+  return questions;
+}
+
+LocatedTable locate_files(const BareView& bare, const std::vector<std::string>& files,
+                          Progress& progress) {
+  const LabelSheet sheet = locate_points(files, bare, progress);
+  LocatedTable table;
+  table.csv = places_csv(sheet);
+  for (const Label& label : sheet.labels) table.json.add(json_of(sheet, label));
+  return table;
+}
+
 // What is printed: lines of text and the same as JSON members, side by side.
-struct Report {
+struct DeformReport {
   std::string text;
   std::string table;  // CSV, for files of points
   Json json = Json::object();
@@ -40,7 +118,7 @@ struct Report {
 std::string percent(double share) { return fmt::format("{:.1f} %", 100.0 * share); }
 
 void report_folds(const Grid<float>& altitude_m, const GeoTransform& transform,
-                  const Deformation& deformation, Report& report) {
+                  const Deformation& deformation, DeformReport& report) {
   Json folds = Json::array();
   for (const FoldSummary& fold :
        summarize_folds(find_folds(altitude_m, transform, deformation), deformation.parameters())) {
@@ -71,7 +149,7 @@ std::string describe(const BendDistortion& d) {
       d.largest_deg, d.mean_deg, d.bending_deg_per_10km);
 }
 
-void report_valleys(const BareView& bare, const ValleySight& sight, Report& report) {
+void report_valleys(const BareView& bare, const ValleySight& sight, DeformReport& report) {
   const BendProfile own(bare.view.deform.bend);
   const double share = sight.visible_share(own);
   const double unbent = sight.visible_share(BendProfile({}));
@@ -86,7 +164,7 @@ void report_valleys(const BareView& bare, const ValleySight& sight, Report& repo
       .add("distortion", distortion_json(distortion));
 }
 
-void report_places(const BareView& bare, const DeformOptions& options, Report& report,
+void report_places(const BareView& bare, const DeformOptions& options, DeformReport& report,
                    Progress& progress) {
   const GeoMap map = bare.geo_map();
   Json located = Json::array();
@@ -147,7 +225,7 @@ Grid<glm::vec3> sketch(const BareView& bare, const Grid<std::uint8_t>& floor) {
 }
 
 // The keys go to stdout, the comparison to a picture.
-void search(BareView& bare, const ValleySight& sight, const DeformOptions& options, Report& report,
+void search(BareView& bare, const ValleySight& sight, const DeformOptions& options, DeformReport& report,
             Progress& progress) {
   const BendFound found = search_bend(sight,
                                       {.max_inclination_deg = options.max_distortion_deg,
@@ -192,7 +270,7 @@ void shrink(LoadedScene& scene) {
   output = with_width(output, std::min(output.width, width_px));
 }
 
-void examine(const LoadedScene& loaded, const DeformOptions& options, Report& report,
+void examine(const LoadedScene& loaded, const DeformOptions& options, DeformReport& report,
              Progress& progress, const Cache& cache) {
   LoadedScene scene = loaded;
   const bool positions = !options.locate.empty() || !options.at.empty();
@@ -206,7 +284,7 @@ void examine(const LoadedScene& loaded, const DeformOptions& options, Report& re
   if (options.search_bend) search(bare, sight, options, report, progress);
 }
 
-void write_dem(const LoadedScene& loaded, const DeformOptions& options, Report& report,
+void write_dem(const LoadedScene& loaded, const DeformOptions& options, DeformReport& report,
                Progress& progress, const Cache& cache) {
   const SceneDem opened = make_scene_dem_and_region(loaded, progress, cache);
   const Dem& dem = opened.dem;
@@ -277,7 +355,7 @@ int run(const DeformOptions& options) {
   const Cache cache = make_cache(options.scene);
   TerminalProgress progress(options.scene.quiet);
   require_scene_files(scene);
-  Report report;
+  DeformReport report;
   if (!options.dem_out.empty()) write_dem(scene, options, report, progress, cache);
   if (options.dem_out.empty() || asks_view) examine(scene, options, report, progress, cache);
   if (!report.table.empty() && !options.out.empty()) {

@@ -7,16 +7,14 @@
 #include <tuple>
 
 #include "base/error.h"
-#include "base/text/letters.h"
+#include "base/text/text_encoding.h"
 #include "renderer/exemplar/texture_models.h"
 #include "renderer/pipeline/scene_check.h"
 #include "tools/cli/commands.h"
-#include "tools/cli/file_names.h"
 #include "tools/cli/scene_options.h"
 #include "tools/cli/synthesis_files.h"
 #include "tools/cli/terminal.h"
 #include "tools/options/options.h"
-#include "tools/report/exemplar_report_page.h"
 #include "tools/report/exemplar_verdict.h"
 
 namespace belvedere::tools {

@@ -5,7 +5,7 @@
 
 #include "base/text/json.h"
 #include "renderer/image/image_io.h"
-#include "renderer/image/picture_hash.h"
+#include "renderer/image/picture_diff.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/terminal.h"
 #include "tools/options/options.h"

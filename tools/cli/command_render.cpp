@@ -11,7 +11,7 @@
 #include "renderer/image/picture_formats.h"
 #include "renderer/pipeline/named_picture.h"
 #include "renderer/pipeline/pipeline.h"
-#include "renderer/world/coarse_ground_scene.h"
+#include "renderer/world/scene_dem.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/scene_options.h"
 #include "tools/cli/terminal.h"

@@ -1,7 +1,8 @@
 #include "tools/cli/commands.h"
 
-#include "tools/cli/contact/contact_commands.h"
-#include "tools/cli/press/press_commands.h"
+#include <filesystem>
+
+#include "tools/cli/press/press_options.h"
 
 namespace belvedere::tools {
 
@@ -130,6 +131,10 @@ const std::vector<CommandGroup>& command_groups() {
       {"palette", "Palettes: whether a press can print them"},
       {"composite", "Pictures of several textures: their arrangement and their filling"}};
   return groups;
+}
+
+std::string file_name(const std::string& path) {
+  return std::filesystem::path(path).filename().string();
 }
 
 }  // namespace belvedere::tools

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace belvedere::tools {
@@ -71,5 +72,14 @@ Action add_texture_learn(CommandOptions& command);
 Action add_texture_make(CommandOptions& command);
 Action add_verify(CommandOptions& command);
 Action add_web(CommandOptions& command);
+
+class CommandOptions;
+
+// Commands whose result is one sheet of several pictures of a scene; rows of commands.cpp.
+std::function<int()> add_figure(CommandOptions& command);
+std::function<int()> add_sweep(CommandOptions& command);
+
+// Without its folders, so that messages and headers are the same wherever files are.
+std::string file_name(const std::string& path);
 
 }  // namespace belvedere::tools

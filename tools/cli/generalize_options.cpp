@@ -4,9 +4,8 @@
 
 #include "base/error.h"
 #include "terrain/generalize/generalize_presets.h"
-#include "tools/cli/file_names.h"
+#include "tools/cli/commands.h"
 #include "tools/options/options.h"
-#include "tools/options/refuse.h"
 
 namespace belvedere::tools {
 namespace {

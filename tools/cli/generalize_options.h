@@ -6,9 +6,8 @@
 
 #include "terrain/generalize/generalize.h"
 #include "terrain/generalize/mask.h"
-#include "tools/cli/elevation_options.h"
 #include "tools/cli/terrain_operators.h"
-#include "tools/options/run_options.h"
+#include "tools/options/options.h"
 
 namespace belvedere::tools {
 

@@ -1,10 +1,15 @@
 #include "tools/cli/man_page.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cctype>
+#include <fmt/format.h>
 #include <sstream>
+
+#include "renderer/image/provenance.h"
+#include "tools/cli/commands.h"
+#include "tools/cli/program.h"
+#include "tools/cli/terminal.h"
+#include "tools/options/options.h"
 
 namespace belvedere::tools {
 namespace {
@@ -120,6 +125,17 @@ std::string man_page(const CommandDescription& program, const std::string& versi
   out += ".SH COMMANDS\n";
   for (const CommandDescription& command : program.commands) add_command(command, out);
   return out + ".SH EXIT STATUS\n" + shown(program.footer);
+}
+
+Action add_man(CommandOptions& command) {
+  command.footer(
+      "An installed program provides it as: man belvedere\n"
+      "\n"
+      "  belvedere man | man -l -");
+  return [] {
+    print_out(man_page(describe_program(), "belvedere " + program_version()));
+    return 0;
+  };
 }
 
 }  // namespace belvedere::tools

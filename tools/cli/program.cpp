@@ -16,7 +16,6 @@
 #include "renderer/image/provenance.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/terminal.h"
-#include "tools/options/former_options.h"
 #include "tools/options/options.h"
 
 namespace belvedere::tools {
@@ -100,14 +99,11 @@ void require_command(const CommandDescription& program, const std::vector<std::s
 
 int run_program(const std::vector<std::string>& words) {
   Program program;
-  std::vector<std::string> notes;
-  const std::vector<std::string> arguments = with_present_names(words, notes);
-  for (const std::string& note : notes) print_error("note: " + note + "\n");
   std::string text;
   try {
-    text = program.line.read(arguments);
+    text = program.line.read(words);
   } catch (const Error&) {
-    require_command(program.line.options().describe(), arguments);
+    require_command(program.line.options().describe(), words);
     throw;
   }
   if (!text.empty()) {

@@ -88,20 +88,10 @@ void allow_servers(const SceneOptions& options) {
                      }});
 }
 
-namespace {
-
-void tell_notes(const LoadedScene& scene, const SceneOptions& options) {
-  if (options.quiet) return;
-  for (const std::string& note : scene.notes) print_error("note: " + note + "\n");
-}
-
-}  // namespace
-
 LoadedScene load(const SceneOptions& options) {
   allow_servers(options);
   if (!options.scene.empty()) {
     LoadedScene scene = read_scene(options.scene, options.files);
-    tell_notes(scene, options);
     guard_inputs(scene);
     if (options.locked)
       require_locked_inputs(scene, read_lock(lock_path(options.scene)), options.scene);
@@ -111,7 +101,6 @@ LoadedScene load(const SceneOptions& options) {
     throw Error(ErrorKind::usage, "--locked", "the built-in demo has no lock file", "a scene file");
   const std::string demo(embedded_file("scenes/demo/demo.toml"));
   LoadedScene scene = parse_scene(demo, "demo.toml", ".", options.files);
-  tell_notes(scene, options);
   guard_inputs(scene);
   return scene;
 }

@@ -4,7 +4,7 @@
 
 #include "base/run.h"
 #include "renderer/scene/scene_file.h"
-#include "tools/options/run_options.h"
+#include "tools/options/options.h"
 
 namespace belvedere::tools {
 

@@ -1,8 +1,14 @@
 #include "tools/cli/shell_completion.h"
 
 #include <fmt/format.h>
+#include <memory>
+#include <string>
 
 #include "base/error.h"
+#include "tools/cli/commands.h"
+#include "tools/cli/program.h"
+#include "tools/cli/terminal.h"
+#include "tools/options/options.h"
 
 namespace belvedere::tools {
 namespace {
@@ -280,6 +286,21 @@ std::string shell_completion(const CommandDescription& program, const std::strin
     if (shell == known.name) return known.script(program);
   throw Error(ErrorKind::usage, "shell", "\"" + shell + "\"",
               fmt::format("{}", fmt::join(completed_shells(), ", ")));
+}
+
+Action add_completion(CommandOptions& command) {
+  const auto shell = std::make_shared<std::string>();
+  command.add_option("SHELL", *shell, "The shell").required().one_of(completed_shells());
+  command.footer(
+      "An installed program includes all of them. Without installation:\n"
+      "\n"
+      "  belvedere completion bash > ~/.local/share/bash-completion/completions/belvedere\n"
+      "  belvedere completion fish > ~/.config/fish/completions/belvedere.fish\n"
+      "  belvedere completion zsh > ~/.zfunc/_belvedere      where ~/.zfunc is part of $fpath");
+  return [shell] {
+    print_out(shell_completion(describe_program(), *shell));
+    return 0;
+  };
 }
 
 }  // namespace belvedere::tools

@@ -13,7 +13,7 @@
 #include "renderer/image/display_conversion.h"
 #include "renderer/image/icc/painting_file.h"
 #include "renderer/image/label_image.h"
-#include "tools/cli/file_names.h"
+#include "tools/cli/commands.h"
 
 namespace belvedere::tools {
 namespace {

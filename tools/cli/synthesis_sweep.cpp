@@ -10,12 +10,11 @@
 
 #include "base/error.h"
 #include "tools/cli/contact/picture_table.h"
-#include "tools/cli/contact/sweep_progress.h"
-#include "tools/options/refuse.h"
-#include "tools/report/picture_text.h"
-#include "tools/report/report.h"
+#include "tools/cli/contact/scene_sweep.h"
+#include "tools/options/options.h"
 #include "tools/report/report_pictures.h"
-#include "tools/report/synthesis_figures.h"
+#include "tools/report/report.h"
+#include "tools/report/synthesis_findings.h"
 
 namespace belvedere::tools {
 namespace {

@@ -7,12 +7,12 @@
 #include <set>
 
 #include "base/error.h"
-#include "base/text/letters.h"
+#include "base/text/text_encoding.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/provenance.h"
-#include "tools/cli/file_names.h"
+#include "tools/cli/commands.h"
 #include "tools/cli/synthesis_files.h"
-#include "tools/options/refuse.h"
+#include "tools/options/options.h"
 
 namespace belvedere::tools {
 namespace {

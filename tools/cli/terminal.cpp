@@ -13,7 +13,7 @@
 
 #include "base/error.h"
 #include "base/text/json.h"
-#include "tools/options/run_options.h"
+#include "tools/options/options.h"
 
 namespace belvedere::tools {
 namespace {

@@ -5,7 +5,7 @@
 #include "terrain/generalize/widen_valleys.h"
 #include "terrain/io/contours.h"
 #include "terrain/io/raster_io.h"
-#include "terrain/shape/hillshade.h"
+#include "terrain/shape/derivatives.h"
 #include "tools/options/options.h"
 
 namespace belvedere::tools {
@@ -61,6 +61,28 @@ void write_products(const Raster<float>& result, const TerrainOperators& operato
         write_contours(operators.contours, result, {operators.contour_interval_m, 0.0});
     progress.note(fmt::format("{} contour lines, {:.0f} km", lines.lines, lines.length / 1000.0));
   }
+}
+
+void add_elevation_options(CommandOptions& command, ElevationOptions& options) {
+  command
+      .add_option("--encoding", options.encoding,
+                  "How the colours of map tiles encode heights: terrarium or mapbox (Terrain-RGB). "
+                  "Default: the values are heights")
+      .type_name("NAME")
+      .one_of({"terrarium", "mapbox"});
+  command
+      .add_option("--variable", options.variable,
+                  "Name of the raster with heights in a file that contains several (netCDF, "
+                  "GeoPackage)")
+      .type_name("NAME");
+}
+
+RasterSource elevation_source(const std::string& path, const ElevationOptions& options) {
+  RasterSource source;
+  source.path = path;
+  source.encoding = options.encoding;
+  source.variable = options.variable;
+  return source;
 }
 
 }  // namespace belvedere::tools

@@ -6,6 +6,8 @@
 #include "base/grid.h"
 #include "base/progress.h"
 #include "terrain/io/raster.h"
+#include "terrain/io/raster_io.h"
+#include "tools/options/options.h"
 
 namespace belvedere::tools {
 
@@ -32,5 +34,14 @@ Grid<float> operate_after_bands(const Grid<float>& altitude_m, const Grid<std::u
 // Hillshade and contours of the result; voids are NaN, its CRS metric.
 void write_products(const Raster<float>& result, const TerrainOperators& operators,
                     Progress& progress);
+
+// Options of every command that reads elevation without a scene: what a scene says in the keys of
+// terrain.sources.
+struct ElevationOptions {
+  std::string encoding, variable;
+};
+void add_elevation_options(CommandOptions& command, ElevationOptions& options);
+
+RasterSource elevation_source(const std::string& path, const ElevationOptions& options);
 
 }  // namespace belvedere::tools

@@ -1,10 +1,9 @@
 #include "tools/options/options.h"
 
-#include <fmt/core.h>
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <fmt/core.h>
 #include <map>
 #include <sstream>
 
@@ -346,5 +345,15 @@ std::string CommandLine::read(const std::vector<std::string>& words) {
 }
 
 void CommandLine::declare_files() const { declare_files_of(*app_, *uses_); }
+
+void add_run_options(CommandOptions& command, RunOptions& options, const std::string& unchanged) {
+  command
+      .add_option("--threads", options.threads,
+                  "Processor threads; 0, the default, takes all. Changes no " + unchanged)
+      .type_name("N")
+      .range(0, 4096);
+  command.add_flag("--quiet,-q", options.quiet, "No progress, no notes");
+  command.add_flag("--json", options.json, "The result as JSON on standard output");
+}
 
 }  // namespace belvedere::tools

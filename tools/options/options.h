@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/error.h"
 #include "tools/options/program_description.h"
 
 // Of CLI11, whose long headers are included in options.cpp only.
@@ -149,5 +150,21 @@ class CommandLine {
   std::shared_ptr<FileUses> uses_;
   CommandOptions options_;
 };
+
+// Run settings that most commands share.
+struct RunOptions {
+  int threads = 0;  // 0: all
+  bool quiet = false;
+  bool json = false;
+};
+// --threads, --quiet and --json. `unchanged`: what the number of threads does not change, "pixel".
+void add_run_options(CommandOptions& command, RunOptions& options,
+                     const std::string& unchanged = "pixel");
+
+// Refuses a command line that does not make sense.
+[[noreturn]] inline void refuse(const std::string& where, const std::string& found,
+                                const std::string& allowed) {
+  throw Error(ErrorKind::usage, where, found, allowed);
+}
 
 }  // namespace belvedere::tools

@@ -6,7 +6,6 @@
 
 #include "base/math_exact.h"
 #include "renderer/register/registered_ground.h"
-#include "renderer/register/registered_scene.h"
 
 namespace belvedere::tools {
 namespace {

@@ -11,8 +11,7 @@
 
 #include "base/error.h"
 #include "renderer/register/pair_proposals.h"
-#include "renderer/register/registered_view.h"
-#include "renderer/register/seen_lines.h"
+#include "renderer/register/registered_ground.h"
 #include "terrain/io/dem.h"
 #include "terrain/register/registration.h"
 

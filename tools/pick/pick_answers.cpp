@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/angle.h"
+#include "base/math.h"
 #include "base/statistics.h"
 #include "tools/report/register_page.h"
 

@@ -12,15 +12,14 @@
 
 #include "base/error.h"
 #include "terrain/io/crs.h"
-#include "terrain/register/highest_cells.h"
+#include "terrain/register/control_pairs.h"
 #include "tools/pick/pairs_fitter.h"
 #include "tools/pick/pairs_session.h"
 #include "tools/pick/pick_answers.h"
-#include "tools/pick/picture_tiles.h"
 #include "tools/pick/relief_map.h"
 #include "tools/studio/answers.h"
 #include "tools/studio/page_answers.h"
-#include "tools/studio/request_body.h"
+#include "tools/studio/http_server.h"
 
 namespace belvedere::tools {
 namespace {

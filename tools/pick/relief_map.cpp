@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fmt/core.h>
 #include <glm/common.hpp>
+#include <mutex>
+#include <utility>
 #include <vector>
 
+#include "base/grid.h"
 #include "base/statistics.h"
-#include "terrain/shape/hillshade.h"
+#include "terrain/shape/derivatives.h"
 #include "tools/report/report_pictures.h"
 
 namespace belvedere::tools {
@@ -70,6 +74,23 @@ ReliefMap relief_map(const Dem& dem, int longest_px) {
       out.picture(x, y) =
           tint_at(std::clamp(share, 0.F, 1.F)) * std::min(1.F, darkest + (1.2F - darkest) * light);
     }
+  return out;
+}
+
+PictureTiles picture_tiles(const Grid<glm::vec3>& picture, const TileParameters& parameters) {
+  constexpr int strip_px = 64;
+  PictureTiles out;
+  std::mutex mutex;
+  const auto read = [&](const TakeRows& take) {
+    for (int y = 0; y < picture.height(); y += strip_px)
+      take(part_of(picture, {0, y, picture.width(), std::min(y + strip_px, picture.height())}));
+  };
+  const auto keep = [&](int level, int column, int row, const Grid<glm::vec3>& tile) {
+    std::string bytes = jpeg_bytes(tile, parameters.quality);
+    const std::lock_guard lock(mutex);
+    out.files[fmt::format("{}/{}_{}.jpg", level, column, row)] = std::move(bytes);
+  };
+  out.pyramid = cut_into_tiles(picture.width(), picture.height(), parameters.tile_px, read, keep);
   return out;
 }
 

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <map>
+#include <string>
 
 #include "base/grid.h"
 #include "terrain/io/dem.h"
+#include "tools/web/tile_pyramid.h"
 
 namespace belvedere::tools {
 
@@ -15,5 +18,13 @@ struct ReliefMap {
   int cells_per_px = 1;  // along a side; at the right and lower border fewer
 };
 ReliefMap relief_map(const Dem& dem, int longest_px = 4096);
+
+// A picture of encoded RGB as a pyramid of tiles in memory, to be served: JPEG by their names
+// "LEVEL/COLUMN_ROW.jpg".
+struct PictureTiles {
+  TilePyramid pyramid;
+  std::map<std::string, std::string> files;
+};
+PictureTiles picture_tiles(const Grid<glm::vec3>& picture, const TileParameters& parameters = {});
 
 }  // namespace belvedere::tools

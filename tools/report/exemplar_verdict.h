@@ -8,6 +8,7 @@
 #include "base/text/json.h"
 #include "texture/quality/exemplar_survey.h"
 #include "texture/synthesis/class_texels.h"
+#include "texture/synthesis/exemplar.h"
 
 namespace belvedere::tools {
 
@@ -50,5 +51,14 @@ std::string describe_needed_texels(const NeededClassTexels& demand);
 
 std::string findings_text(const ExemplarFindings& findings);
 Json findings_json(const ExemplarFindings& findings);
+
+// The findings of `exemplar check` with pictures, in a relocatable folder without network access:
+// index.html, report.json, each painting beside its classes, a swatch of every class, and for each
+// guide the values at which a class was painted and, where `asked` has labels (those that pixels
+// copy from) and the guide, the values asked for. exemplars: those of the findings. Throws
+// Error(output).
+void write_exemplar_report(const std::string& folder, const std::vector<Exemplar>& exemplars,
+                           const GuideStack& asked, const ExemplarFindings& findings,
+                           const std::string& command);
 
 }  // namespace belvedere::tools

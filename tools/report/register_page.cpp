@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "base/angle.h"
+#include "base/math.h"
 #include "base/land_cover_class.h"
 #include "base/statistics.h"
 #include "tools/report/report.h"

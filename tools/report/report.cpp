@@ -12,7 +12,7 @@
 #include "base/text/embedded.h"
 #include "base/text/markup.h"
 #include "renderer/image/image_io.h"
-#include "tools/report/data_uri.h"
+#include "tools/report/report_pictures.h"
 
 namespace belvedere::tools {
 

@@ -2,12 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <vector>
 
+#include "base/cache/scratch_folder.h"
 #include "base/land_cover_class.h"
 #include "base/parallel.h"
 #include "base/statistics.h"
-#include "terrain/shape/hillshade.h"
+#include "base/text/hex_colour.h"
+#include "base/text/text_encoding.h"
+#include "renderer/image/image_io.h"
+#include "renderer/labels/sheet_painter.h"
+#include "terrain/shape/derivatives.h"
 
 namespace belvedere::tools {
 namespace {
@@ -170,6 +177,57 @@ PixelRect best_window(const Grid<float>& score, const Grid<float>& where, int si
     if (y0 + height >= score.height()) break;
   }
   return best;
+}
+
+namespace {
+
+constexpr int capital_px = 7;  // at scale 1
+
+TextStyle type_of(int scale) { return {.family = "sans-serif", .size_px = 9.0 * scale}; }
+
+}  // namespace
+
+int text_width(const std::string& text, int scale) {
+  return text.empty()
+             ? 0
+             : static_cast<int>(std::ceil(TextMeasure().measure(text, type_of(scale)).width_px));
+}
+
+void draw_text(Grid<glm::vec3>& picture, int x, int y, const std::string& text, glm::vec3 colour,
+               int scale) {
+  if (text.empty()) return;
+  const DrawnText line{.text = text,
+                       .type = type_of(scale),
+                       .at = {x, y + capital_px * scale},
+                       .colour = hex_colour(colour)};
+  SheetPainter({.size_px = {picture.width(), picture.height()}, .shapes = {line}})
+      .paint(picture, {0, 0});
+}
+
+namespace {
+
+// The writers write files.
+template <class Write>
+std::string bytes_of(const char* extension, const Write& write) {
+  const ScratchFolder folder;
+  const std::string path = folder.path() + "/picture." + extension;
+  write(path);
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+}  // namespace
+
+std::string jpeg_bytes(const Grid<glm::vec3>& picture, int quality) {
+  return bytes_of("jpg", [&](const std::string& path) { write_jpeg(path, picture, quality); });
+}
+
+std::string png_bytes(const Grid<glm::vec3>& picture) {
+  return bytes_of("png", [&](const std::string& path) { write_png8(path, picture, {}); });
+}
+
+std::string png_address(const Grid<glm::vec3>& picture) {
+  return "data:image/png;base64," + base64(png_bytes(picture));
 }
 
 }  // namespace belvedere::tools

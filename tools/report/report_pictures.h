@@ -60,4 +60,26 @@ float percentile(const Grid<float>& values, double share);
 // .5 are ignored while another has more; an empty `where` is 1.
 PixelRect best_window(const Grid<float>& score, const Grid<float>& where, int side);
 
+// Text in pictures, in the system's plain font: Error(input) where no fonts are installed.
+inline constexpr int text_height = 8;  // of capitals and descenders, px, at scale 1
+// Width of the text in pixels.
+int text_width(const std::string& text, int scale);
+// `x`, `y`: the upper left corner of the first letter; parts outside the picture are cut off.
+// Encoded sRGB.
+void draw_text(Grid<glm::vec3>& picture, int x, int y, const std::string& text, glm::vec3 colour,
+               int scale);
+
+// Captions on sheets of pictures.
+inline constexpr int caption_scale = 2;
+inline constexpr int caption_line_px = text_height * caption_scale + 6;
+
+// The bytes of a picture file, encoded sRGB: JPEG where it may be quick, PNG where it must be
+// exact.
+std::string jpeg_bytes(const Grid<glm::vec3>& picture, int quality = 90);
+std::string png_bytes(const Grid<glm::vec3>& picture);
+
+// For self-contained pages: a picture of encoded RGB, 0…1, as a data URI:
+// "data:image/png;base64,…".
+std::string png_address(const Grid<glm::vec3>& picture);
+
 }  // namespace belvedere::tools

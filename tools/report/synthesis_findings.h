@@ -1,15 +1,29 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "base/pixel_rect.h"
 #include "texture/quality/quality.h"
 #include "texture/synthesis/class_texels.h"
-#include "tools/report/synthesis_report_input.h"
+#include "texture/synthesis/match_field.h"
+#include "texture/synthesis/synthesize.h"
+#include "tools/report/report.h"
 
 namespace belvedere::tools {
+
+// Input of a report on a synthesis.
+struct SynthesisReportInput {
+  std::string title;    // name of the result
+  std::string command;  // command that makes it, without folders
+  const std::vector<Exemplar>& exemplars;
+  const GuideStack& target;
+  const SynthesisParameters& parameters;  // as the result was made with
+  const MatchField& matches;
+  std::function<std::string(std::uint8_t)> class_name;
+};
 
 inline constexpr int worst_place_side = 64;  // pixels
 
@@ -49,5 +63,21 @@ SynthesisFindings look_at_synthesis(const SynthesisReportInput& input, Progress&
 
 // Cost of that guide by pixel, at its weight.
 Grid<float> guide_cost_map(const SynthesisReportInput& input, const std::string& guide);
+
+// A figure of the quality of a synthesis, its meaning, and its good range.
+struct QualityFigure {
+  std::string key;    // in JSON
+  std::string name;   // on pages
+  std::string brief;  // at the head of a column
+  double value = 0.0;
+  double min = 0.0;
+  double max = 0.0;
+  bool good() const { return value >= min && value <= max; }
+};
+// Figures of a whole picture; those of classes by the worst of them.
+std::vector<QualityFigure> key_figures(const SynthesisQuality& quality);
+// Class by class, with available and needed texels.
+ReportTable class_table(const SynthesisQuality& quality, const std::vector<ClassTexels>& supplies,
+                        const std::function<std::string(std::uint8_t)>& class_name);
 
 }  // namespace belvedere::tools

@@ -8,10 +8,8 @@
 
 #include "base/error.h"
 #include "base/text/markup.h"
-#include "tools/report/picture_text.h"
-#include "tools/report/report.h"
 #include "tools/report/report_pictures.h"
-#include "tools/report/synthesis_figures.h"
+#include "tools/report/report.h"
 #include "tools/report/synthesis_findings.h"
 
 namespace belvedere::tools {

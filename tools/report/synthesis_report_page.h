@@ -3,7 +3,7 @@
 #include <string>
 
 #include "base/progress.h"
-#include "tools/report/synthesis_report_input.h"
+#include "tools/report/synthesis_findings.h"
 
 namespace belvedere::tools {
 

@@ -9,14 +9,13 @@
 
 #include "base/config.h"
 #include "base/text/embedded.h"
-#include "renderer/compose/proposals.h"
 #include "renderer/compose/proposed_scene.h"
-#include "renderer/pipeline/view_judgement.h"
-#include "renderer/scene/edit/scene_values.h"
+#include "renderer/pipeline/scene_check.h"
+#include "renderer/scene/edit/scene_edit.h"
 #include "renderer/scene/edit/toml_layout.h"
 #include "renderer/scene/scene_schema.h"
 #include "terrain/io/crs.h"
-#include "terrain/shape/hillshade.h"
+#include "terrain/shape/derivatives.h"
 
 namespace belvedere::tools {
 namespace {

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "renderer/pipeline/view_judgement.h"
-#include "tools/report/encoded_picture.h"
+#include "renderer/pipeline/scene_check.h"
+#include "tools/report/report_pictures.h"
 #include "tools/studio/job.h"
-#include "tools/studio/request_body.h"
+#include "tools/studio/http_server.h"
 #include "tools/studio/studio_state.h"
 
 namespace belvedere::tools {

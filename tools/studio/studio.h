@@ -5,7 +5,7 @@
 
 #include "base/run.h"
 #include "tools/studio/http_server.h"
-#include "tools/studio/studio_parameters.h"
+#include "tools/studio/studio_state.h"
 
 namespace belvedere::tools {
 

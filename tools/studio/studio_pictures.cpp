@@ -1,10 +1,21 @@
-#include <fmt/format.h>
-
+#include <charconv>
 #include <chrono>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <iterator>
 
-#include "tools/report/encoded_picture.h"
+#include "base/error.h"
+#include "base/files/output_file.h"
+#include "base/text/text_encoding.h"
+#include "renderer/pipeline/pipeline.h"
+#include "renderer/scene/draft.h"
+#include "terrain/fetch/fetch_area.h"
+#include "tools/report/report_pictures.h"
+#include "tools/studio/http_server.h"
 #include "tools/studio/job.h"
 #include "tools/studio/studio_state.h"
+#include "tools/web/web_page.h"
 
 namespace belvedere::tools {
 namespace {
@@ -157,6 +168,175 @@ HttpAnswer StudioState::proposal_picture(const std::string& name) {
   Rung rung = rungs().front();
   rung.max_width_px = thumbnail_px;
   return picture_answer(jpeg_bytes(quick.paint_beside(scene, rung, run).colour), "image/jpeg");
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// What the page of a rendered picture may load and run: it has its scripts in itself, and asks
+// nothing of the program.
+constexpr const char* rendered_policy =
+    "default-src 'none'; script-src 'self' 'unsafe-inline'; style-src 'self' 'unsafe-inline'; "
+    "img-src 'self' blob: data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+
+// Of the page of a rendered picture.
+std::string page_folder(const std::string& folder) { return (fs::path(folder) / "web").string(); }
+
+std::string read_bytes(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// What a file is good for, by its name.
+std::string kind_of(const std::string& name) {
+  const std::string extension = lower_extension(name);
+  static constexpr std::pair<const char*, const char*> kinds[] = {
+      {".gpx", "track"},    {".geojson", "features"}, {".gpkg", "features"}, {".shp", "features"},
+      {".kml", "features"}, {".tif", "terrain"},      {".tiff", "terrain"},  {".asc", "terrain"},
+      {".hgt", "terrain"},  {".jpg", "painting"},     {".jpeg", "painting"}, {".png", "painting"},
+      {".toml", "scene"}};
+  for (const auto& [known, kind] : kinds)
+    if (extension == known) return kind;
+  return "other";
+}
+
+}  // namespace
+
+// The page of the last rendered picture; nothing outside its folder.
+HttpAnswer StudioState::rendered(const std::string& name) {
+  const Job::Report report = render->report();
+  if (report.state != Job::State::done) return not_found("file");
+  const fs::path folder = fs::weakly_canonical(page_folder(report.folder));
+  const fs::path path = fs::weakly_canonical(folder / name);
+  if (!path.string().starts_with(folder.string() + "/") || !fs::is_regular_file(path))
+    return not_found("file");
+  return {.type = media_type(path.string()),
+          .body = read_bytes(path),
+          .headers = {{"Content-Security-Policy", rendered_policy}}};
+}
+
+HttpAnswer StudioState::start_render(const HttpRequest& request) {
+  LoadedScene scene = moment(request).scene;
+  SceneOutput& output = scene.scene.output;
+  const int width = read_number_member(request.body, "width", output.width);
+  if (width < 16 || width > 65535)
+    throw Error(ErrorKind::usage, "width", fmt::format("{}", width), "16 … 65535 px");
+  output = with_width(output, width);
+  const fs::path folder = fs::path(scene.folder) / (scene.name + "_rendered");
+  // The live pictures make room.
+  quick.cancel();
+  exact.cancel();
+  render->start(folder.string(), run, [scene, folder = folder.string()](const Run& given) {
+    belvedere::render(scene, folder, given);
+    write_web_page({{folder, scene.name}}, page_folder(folder), {}, given.progress);
+    return std::string();
+  });
+  return json_answer(render_json(), 202);
+}
+
+Json StudioState::render_json() const {
+  const Job::Report report = render->report();
+  Json out = job_json(report);
+  if (report.state == Job::State::done) out.add("page", Json::text("render/index.html"));
+  return out;
+}
+
+HttpAnswer StudioState::take_file(const HttpRequest& request) {
+  const std::string name = request.value("name");
+  if (name.empty() || name.size() > 200 || name.front() == '.' ||
+      name.find_first_of(std::string("/\\\0", 3)) != std::string::npos)
+    throw Error(ErrorKind::usage, "name", fmt::format("\"{}\"", name),
+                "the name of a file, without folders");
+  fs::path path;
+  {
+    const std::lock_guard guard(mutex);
+    path = fs::path(session.scene().folder) / name;
+  }
+  if (fs::exists(fs::symlink_status(path)))  // a link to nowhere is a file too
+    throw Error(ErrorKind::output, name, "a file of that name is there already",
+                "another name; no file is replaced");
+  write_text_file(path.string(), request.body);
+  return json_answer(
+      Json::object().add("file", Json::text(name)).add("kind", Json::text(kind_of(name))));
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Numbers in a text, with this between them and spaces beside it; one or two.
+std::vector<double> read_numbers(const std::string& text, char between, const char* member,
+                                 const char* allowed) {
+  std::vector<double> numbers;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  const auto skip_spaces = [&] {
+    while (at != end && *at == ' ') ++at;
+  };
+  for (bool more = true; more;) {
+    skip_spaces();
+    double number = 0.0;
+    const std::from_chars_result read = std::from_chars(at, end, number);
+    at = read.ptr;
+    skip_spaces();
+    more = at != end && *at == between;
+    if (read.ec != std::errc() || numbers.size() == 2 || (at != end && !more))
+      throw Error(ErrorKind::usage, member, fmt::format("\"{}\"", text.substr(0, 80)), allowed);
+    numbers.push_back(number);
+    if (more) ++at;
+  }
+  return numbers;
+}
+
+}  // namespace
+
+// A position and a size as `fetch` takes them. The folder below the scene's is named by them alone.
+HttpAnswer StudioState::start_fetch(const HttpRequest& request) {
+  const std::string scene = moment(request).scene.folder;
+  WantedPlace place;
+  constexpr const char* position = "longitude and latitude in degrees: 11.4, 47.35";
+  const std::string where = read_text_member(request.body, "place");
+  const std::vector<double> at = read_numbers(where, ',', "place", position);
+  if (at.size() != 2)
+    throw Error(ErrorKind::usage, "place", fmt::format("\"{}\"", where), position);
+  place.at_lonlat = {at[0], at[1]};
+  const std::vector<double> size = read_numbers(read_text_member(request.body, "size", "60"), 'x',
+                                                "size", "kilometres: 60, or 80x50");
+  place.size_km = {size.front(), size.back()};
+  place.land_cover = read_text_member(request.body, "land_cover", "yes") == "yes";
+  // Refuses at once what is out of range.
+  constexpr double any_cell_m = 30.0;
+  FetchParameters area;
+  area.at_lonlat = place.at_lonlat;
+  area.size_km = place.size_km;
+  fetch_frame(area, any_cell_m);
+  if (!open_place)
+    throw Error(ErrorKind::usage, "place", "this studio does not fetch maps",
+                "files dropped on the page");
+  const fs::path folder =
+      fs::path(scene) / fmt::format("place_{:.4f}_{:.4f}_{:g}x{:g}", place.at_lonlat.x,
+                                    place.at_lonlat.y, place.size_km.x, place.size_km.y);
+  if (fs::is_symlink(fs::symlink_status(folder)))
+    throw Error(ErrorKind::output, folder.string(), "is a link", "a folder, or nothing");
+  place.folder = folder.string();
+  fetch->start(place.folder, run, [place, open = open_place](const Run& given) {
+    try {
+      return open(place, given);
+    } catch (...) {
+      std::error_code ignored;
+      fs::remove(place.folder, ignored);  // only where nothing is in it
+      throw;
+    }
+  });
+  return json_answer(fetch_json(), 202);
+}
+
+Json StudioState::fetch_json() const {
+  const Job::Report report = fetch->report();
+  Json out = job_json(report);
+  if (report.state == Job::State::done) out.add("text", Json::text(report.result));
+  return out;
 }
 
 }  // namespace belvedere::tools

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <glm/vec2.hpp>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -17,9 +18,25 @@
 #include "tools/studio/page_answers.h"
 #include "tools/studio/picture_queue.h"
 #include "tools/studio/scene_session.h"
-#include "tools/studio/studio_parameters.h"
 
 namespace belvedere::tools {
+
+// An area whose maps are to be fetched.
+struct WantedPlace {
+  glm::dvec2 at_lonlat{0.0};  // its centre, °
+  glm::dvec2 size_km{60.0};   // west to east, south to north
+  bool land_cover = true;
+  std::string folder;  // for the maps, below the scene's
+};
+// Fetches the maps of a place, and returns the text of a scene of them, as `new` proposes it.
+using OpenPlace = std::function<std::string(const WantedPlace& place, const Run& run)>;
+
+struct StudioParameters {
+  std::string scene;  // path
+  SceneFileOptions files;
+  int port = 0;               // 0: any that is free
+  OpenPlace open_place = {};  // nothing: places are refused
+};
 
 class Job;
 

@@ -7,11 +7,11 @@
 #include <memory>
 #include <vector>
 
-#include "base/grid_part.h"
+#include "base/grid.h"
 #include "base/parallel.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/oiio_file.h"
-#include "renderer/image/rows/row_reducer.h"
+#include "renderer/image/rows/picture_rows.h"
 #include "renderer/paint/composite.h"
 
 namespace belvedere::tools {

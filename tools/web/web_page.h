@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "base/grid.h"
 #include "base/progress.h"
 
 namespace belvedere::tools {
@@ -28,5 +29,26 @@ struct WebParameters {
 // folder without a picture.
 void write_web_page(const std::vector<WebPicture>& pictures, const std::string& folder,
                     const WebParameters& parameters, Progress& progress);
+
+// The ground under the pixels of a picture, every step-th of them, for pages: at the centres of
+// squares of `step_px`.
+struct ReadOut {
+  int step_px = 1;
+  Grid<float> distance_m;  // infinite for sky
+  Grid<float> altitude_m;
+  Grid<float> class_id;
+  Grid<double> longitude_deg;  // WGS 84, position on the map, before bend and handles
+  Grid<double> latitude_deg;
+  bool has_places = false;  // the terrain has a coordinate system
+};
+
+// From a guidance file, at most about `max_cells` of it, whatever its size. Error(input) for a file
+// without distances or classes.
+ReadOut sample_read_out(const std::string& guidance_file, int max_cells);
+
+// As a JavaScript object: planes of whole numbers in base64, low byte first. class: 8 bits, 255 for
+// sky; altitude: 16 bits, m + 1000; distance: 16 bits, 10 m; longitude and latitude: 16 bits, in
+// 1/65535 of the extent.
+std::string read_out_script(const ReadOut& read_out);
 
 }  // namespace belvedere::tools

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/angle.h"
-#include "base/guidance_channels.h"
+#include "base/math.h"
+#include "base/guidance_buffers.h"
 #include "base/masks/label_blur.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
@@ -17,7 +17,7 @@
 #include "base/statistics.h"
 #include "renderer/image/oklab.h"
 #include "renderer/trace/sun.h"
-#include "texture/synthesis/guide_stack.h"
+#include "texture/synthesis/exemplar.h"
 
 namespace belvedere {
 namespace {

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "base/grid.h"
-#include "base/image.h"
 #include "renderer/image/image_file.h"
 
 namespace belvedere {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "base/image.h"
+#include "base/grid.h"
 #include "renderer/image/image_file.h"
 #include "renderer/image/rows/picture_rows.h"
 

@@ -9,7 +9,7 @@
 #include "base/parallel.h"
 #include "renderer/image/icc/press_colour.h"
 #include "renderer/image/picture_formats.h"
-#include "renderer/image/rows/row_reducer.h"
+#include "renderer/image/rows/picture_rows.h"
 #include "renderer/image/tiff_file.h"
 
 namespace belvedere {

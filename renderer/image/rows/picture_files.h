@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "base/image.h"
+#include "base/grid.h"
 #include "renderer/image/display_conversion.h"
-#include "renderer/image/icc/ink_count.h"
+#include "renderer/image/icc/press_colour.h"
 #include "renderer/image/image_file.h"
 
 namespace belvedere {

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <string>
+#include <vector>
 
 #include "base/grid.h"
-#include "base/image.h"
 
 namespace belvedere {
 
@@ -49,5 +51,30 @@ class PictureRows {
 
 // All rows at once, finish(), commit().
 void write_whole(PictureRows& file, const Grid<glm::vec3>& picture);
+
+// Reduces a picture by a whole factor while its rows arrive: each pixel is the mean of factor ×
+// factor, at the right and lower border of the available ones. Sums are in double, row by row, so
+// that the split into rows changes no bit.
+class RowReducer {
+ public:
+  // factor ≥ 1
+  RowReducer(int width, int height, int factor);
+  // The reduced rows that are complete with these: often none, which is an empty picture.
+  Image reduce(const Image& rows);
+
+  int width() const { return (width_ + factor_ - 1) / factor_; }
+  int height() const { return (height_ + factor_ - 1) / factor_; }
+
+ private:
+  int width_;
+  int height_;
+  int factor_;
+  int next_row_ = 0;
+  std::vector<glm::dvec3> sums_;  // of the current row
+};
+
+// A picture (encoded sRGB) reduced to a size no larger than its own, in OKLab: the colour of the
+// mean of the pixels that each result pixel touches.
+Grid<glm::vec3> reduced_oklab(const Grid<glm::vec3>& picture, glm::ivec2 size);
 
 }  // namespace belvedere

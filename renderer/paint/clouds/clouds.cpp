@@ -10,7 +10,6 @@
 
 #include "base/error.h"
 #include "base/random.h"
-#include "base/random_streams.h"
 
 namespace belvedere {
 namespace {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "renderer/paint/air_parameters.h"
+#include "renderer/paint/air.h"
 #include "renderer/trace/camera.h"
 
 namespace belvedere {

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/grid_part.h"
+#include "base/grid.h"
 #include "base/parallel.h"
-#include "base/random_streams.h"
+#include "base/random.h"
 #include "renderer/paint/air.h"
 #include "renderer/paint/picture_filter.h"
 #include "renderer/paint/picture_noise.h"
-#include "renderer/paint/range_edges.h"
+#include "renderer/paint/terrain_end.h"
 
 namespace belvedere {
 namespace {

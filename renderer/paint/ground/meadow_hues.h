@@ -3,7 +3,7 @@
 #include <glm/vec3.hpp>
 
 #include "base/guidance_buffers.h"
-#include "renderer/paint/ground_hues.h"
+#include "renderer/paint/ground/ground_tint.h"
 
 namespace belvedere {
 
@@ -37,5 +37,17 @@ MeadowMix meadow_mix(LandCoverClass id, const MeadowPosition& position, const Pa
 // Factor of the colour, encoded sRGB. strength 0…3: AirParameters::hue_drift times the palette's
 // share.
 glm::vec3 meadow_hue(const MeadowMix& mix, float strength);
+
+// How relief changes a wood: trees in gullies stand close, dark and blue; on ribs and shoulders
+// they are lighter and warmer. Light alone shows this weakly, because crowns hide the ground.
+struct ForestTurn {
+  float tone = 0.0F;       // added to the light
+  glm::vec3 factor{1.0F};  // of the colour, encoded sRGB
+};
+// relief_s_m and relief_m_m: height above the mean of the ground around, small and middle forms.
+// light: the tone, 0…1; shade is not darkened further, because a wood would lose its forms there.
+// strength: as hue_drift, 0…3.
+ForestTurn forest_turn(float relief_s_m, float relief_m_m, float light, const Patches& patches,
+                       float strength);
 
 }  // namespace belvedere

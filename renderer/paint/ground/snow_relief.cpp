@@ -9,7 +9,6 @@
 #include "base/math.h"
 #include "base/math_exact.h"
 #include "base/random.h"
-#include "base/random_streams.h"
 #include "renderer/paint/picture_noise.h"
 
 namespace belvedere {

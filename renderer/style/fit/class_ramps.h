@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "renderer/style/fit/light_law.h"
-#include "renderer/style/fit/style_colours.h"
 #include "renderer/style/fit/style_painting.h"
 
 namespace belvedere {

@@ -11,9 +11,8 @@
 #include "base/parallel.h"
 #include "base/pixel_rect.h"
 #include "base/random.h"
-#include "base/random_streams.h"
 #include "base/statistics.h"
-#include "renderer/style/fit/clean_mask.h"
+#include "renderer/style/fit/style_painting.h"
 
 namespace belvedere {
 namespace {

@@ -268,7 +268,7 @@ void fit_changes(const SkyRest& rest, StyleSky& sky) {
 }  // namespace
 
 FittedSky fit_sky(const Grid<glm::vec3>& colours, const Grid<std::uint8_t>& mask,
-                  const SkyParameters& parameters) {
+                  const SkyFitParameters& parameters) {
   FittedSky out;
   PixelRect box{mask.width(), mask.height(), 0, 0};
   std::size_t count = 0;

@@ -9,7 +9,7 @@
 
 namespace belvedere {
 
-struct SkyParameters {
+struct SkyFitParameters {
   int columns = 3;  // of the grid of medians
   int rows = 5;
   std::size_t min_texels = 600;      // of a sky
@@ -28,6 +28,6 @@ struct FittedSky {
 // autocorrelation has fallen to one half, and the quantiles of their amounts. An axis has the
 // length of one standard deviation and points towards light.
 FittedSky fit_sky(const Grid<glm::vec3>& colours, const Grid<std::uint8_t>& mask,
-                  const SkyParameters& parameters = {});
+                  const SkyFitParameters& parameters = {});
 
 }  // namespace belvedere

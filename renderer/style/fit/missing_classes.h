@@ -5,7 +5,6 @@
 
 #include "renderer/style/fit/class_ramps.h"
 #include "renderer/style/fit/light_law.h"
-#include "renderer/style/fit/style_colours.h"
 #include "renderer/style/fit/style_painting.h"
 
 namespace belvedere {

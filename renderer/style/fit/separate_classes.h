@@ -3,7 +3,6 @@
 #include <array>
 #include <span>
 
-#include "renderer/style/fit/style_colours.h"
 #include "renderer/style/fit/style_painting.h"
 
 namespace belvedere {

@@ -4,7 +4,7 @@
 
 #include "renderer/paint/palette.h"
 #include "renderer/scene/scene_file.h"
-#include "renderer/style/style_parameters.h"
+#include "renderer/style/style.h"
 
 namespace belvedere {
 
@@ -19,5 +19,11 @@ Palette named_palette(const LoadedScene& loaded);
 // (StyleSight).
 StylePaintParameters to_style_parameters(const Scene& scene, double pixels_per_unit,
                                          glm::ivec2 sheet_px);
+
+// The style with open ground under snow. Classes that the palette "winter" shows white take the
+// style's snow, different from it as in that palette (OKLab), and the strokes of its snow; forest
+// becomes darker or lighter as there. Sky, air, rock and water stay the painting's; twigs are those
+// of the palette "winter".
+Style winter_style(Style style);
 
 }  // namespace belvedere

@@ -11,7 +11,7 @@
 #include "base/error.h"
 #include "base/files/output_file.h"
 #include "base/random.h"
-#include "base/text/letters.h"
+#include "base/text/text_encoding.h"
 #include "terrain/io/gdal/gdal_files.h"
 
 namespace belvedere {

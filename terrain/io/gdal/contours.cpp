@@ -17,7 +17,7 @@
 #include "base/error.h"
 #include "base/files/output_file.h"
 #include "base/grid.h"
-#include "base/text/letters.h"
+#include "base/text/text_encoding.h"
 #include "terrain/io/gdal/gdal_files.h"
 
 namespace belvedere {

@@ -1,4 +1,4 @@
-#include "terrain/io/number_arrays.h"
+#include "terrain/io/raster_file.h"
 
 #include <fmt/core.h>
 #include <gdal.h>

@@ -16,11 +16,10 @@
 
 #include "base/error.h"
 #include "base/memory_limit.h"
-#include "base/text/letters.h"
+#include "base/text/text_encoding.h"
 #include "terrain/io/crs.h"
 #include "terrain/io/gdal/gdal_files.h"
 #include "terrain/io/gdal/raster_open.h"
-#include "terrain/io/height_encoding.h"
 #include "terrain/io/http_access.h"
 
 namespace belvedere {

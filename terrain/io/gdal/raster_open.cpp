@@ -13,11 +13,10 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/text/archive_kind.h"
-#include "base/text/letters.h"
 #include "base/text/missing_file.h"
+#include "base/text/text_encoding.h"
 #include "terrain/io/http_access.h"
-#include "terrain/io/input_parts.h"
+#include "terrain/io/raster_file.h"
 #include "terrain/io/stream_file.h"
 
 namespace belvedere {

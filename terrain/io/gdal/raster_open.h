@@ -1,7 +1,7 @@
 #pragma once
 
 #include "terrain/io/gdal/gdal_files.h"
-#include "terrain/io/raster_source.h"
+#include "terrain/io/raster_io.h"
 
 namespace belvedere {
 

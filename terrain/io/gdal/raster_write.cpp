@@ -16,7 +16,7 @@
 
 #include "base/error.h"
 #include "base/files/output_file.h"
-#include "base/text/letters.h"
+#include "base/text/text_encoding.h"
 #include "terrain/io/gdal/gdal_files.h"
 #include "terrain/io/raster_file.h"
 #include "terrain/io/raster_io.h"

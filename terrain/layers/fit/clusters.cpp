@@ -11,7 +11,6 @@
 #include "base/math_exact.h"
 #include "base/parallel.h"
 #include "base/random.h"
-#include "base/random_streams.h"
 #include "terrain/layers/fit/fit_cells.h"
 
 namespace belvedere {

@@ -7,7 +7,6 @@
 #include "base/math_exact.h"
 #include "base/parallel.h"
 #include "base/random.h"
-#include "base/random_streams.h"
 
 namespace belvedere {
 

@@ -10,9 +10,9 @@
 #include <glm/vec3.hpp>
 #include <utility>
 
-#include "base/angle.h"
+#include "base/math.h"
 #include "base/error.h"
-#include "base/grid_part.h"
+#include "base/grid.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
 #include "terrain/cover/layer_inputs.h"

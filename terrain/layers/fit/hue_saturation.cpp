@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <glm/common.hpp>
 
-#include "base/angle.h"
+#include "base/math.h"
 #include "base/filter.h"
 #include "base/math_exact.h"
 

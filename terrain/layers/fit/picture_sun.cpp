@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "base/angle.h"
+#include "base/math.h"
 #include "base/filter.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"

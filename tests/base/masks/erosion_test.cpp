@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/grid_part.h"
+#include "base/grid.h"
 #include "base/noise.h"
 
 namespace belvedere {

@@ -1,9 +1,11 @@
 #include "base/matrix/matrix.h"
 
-#include <gtest/gtest.h>
-
+#include <array>
 #include <cmath>
+#include <gtest/gtest.h>
 #include <vector>
+
+#include "terrain/register/view_model.h"
 
 namespace belvedere {
 namespace {
@@ -65,5 +67,86 @@ TEST(Matrix, WhatIsNotPositiveDefiniteHasNoFactors) {
   EXPECT_FALSE(Cholesky::of(a));
 }
 
+using Two = Dual<2>;
+
+TEST(Dual, DerivativesAreThoseOfTheFormula) {
+  const auto formula = [](auto x, auto y) {
+    return sqrt(x * x + y) / exp(y) + log(x) * sin(x * y) - cos(y) + atan2(y, x) - x;
+  };
+  const double x = 1.3, y = 0.7, h = 1e-6;
+  const Two f = formula(Two::unknown(x, 0), Two::unknown(y, 1));
+  const auto value = [&](double at_x, double at_y) { return formula(Two(at_x), Two(at_y)).value; };
+  EXPECT_NEAR(f.value,
+              std::sqrt(x * x + y) / std::exp(y) + std::log(x) * std::sin(x * y) - std::cos(y) +
+                  std::atan2(y, x) - x,
+              1e-14);
+  EXPECT_NEAR(f.slope[0], (value(x + h, y) - value(x - h, y)) / (2.0 * h), 1e-9);
+  EXPECT_NEAR(f.slope[1], (value(x, y + h) - value(x, y - h)) / (2.0 * h), 1e-9);
+}
+
+Residuals residuals_of(std::span<const Two> rows) {
+  Residuals out{std::vector<double>(rows.size()), Matrix(rows.size(), 2)};
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    out.values[i] = rows[i].value;
+    for (std::size_t k = 0; k < 2; ++k) out.slopes(i, k) = rows[i].slope[k];
+  }
+  return out;
+}
+
+// One residual that nothing can change: half its square, or half the logarithm that robust ones
+// have.
+TEST(LeastSquares, TheCostIsHalfTheSum) {
+  const auto apart = [](std::span<const double> at) {
+    return residuals_of(std::array{Two(2.0), Two::unknown(at[0], 0), Two::unknown(at[1], 1)});
+  };
+  EXPECT_NEAR(fit_least_squares({3.0, -1.0}, apart).cost, 2.0, 1e-12);
+  EXPECT_NEAR(fit_least_squares({3.0, -1.0}, apart, {.robust = 1}).cost, 0.5 * std::log(5.0),
+              1e-12);
+}
+
+// Rosenbrock's valley as two residuals; its least cost, 0, is at (1, 1).
+TEST(LeastSquares, FollowsACurvedValleyToItsEnd) {
+  const auto valley = [](std::span<const double> at) {
+    const Two x = Two::unknown(at[0], 0);
+    const Two y = Two::unknown(at[1], 1);
+    return residuals_of(std::array{Two(10.0) * (y - x * x), Two(1.0) - x});
+  };
+  const LeastSquaresFit fit = fit_least_squares({-1.2, 1.0}, valley);
+  EXPECT_NEAR(fit.at[0], 1.0, 1e-8);
+  EXPECT_NEAR(fit.at[1], 1.0, 1e-8);
+  EXPECT_LT(fit.cost, 1e-16);
+  EXPECT_LE(fit.steps, 40);
+}
+
+// A line through 19 points with three far off.
+TEST(LeastSquares, RobustResidualsIgnoreWhatLiesFarOff) {
+  const auto line = [](std::span<const double> at) {
+    const Two level = Two::unknown(at[0], 0);
+    const Two slope = Two::unknown(at[1], 1);
+    std::vector<Two> rows;
+    for (int i = 0; i < 19; ++i) {
+      const double x = 0.5 * i;
+      const double y = 2.0 + 3.0 * x + (i % 7 == 3 ? 400.0 : 0.0);
+      rows.push_back((level + slope * Two(x) - Two(y)) / Two(0.1));
+    }
+    return residuals_of(rows);
+  };
+  const LeastSquaresFit robust = fit_least_squares({0.0, 2.0}, line, {.robust = 19});
+  EXPECT_NEAR(robust.at[0], 2.0, 1e-3);
+  EXPECT_NEAR(robust.at[1], 3.0, 1e-3);
+  const LeastSquaresFit plain = fit_least_squares({0.0, 2.0}, line);
+  EXPECT_GT(std::abs(plain.at[0] - 2.0), 10.0);
+}
+
+TEST(LeastSquares, AnUnknownWithoutEffectKeepsItsValue) {
+  const auto function = [](std::span<const double> at) {
+    return residuals_of(std::array{Two::unknown(at[0], 0) - Two(4.0)});
+  };
+  const LeastSquaresFit fit = fit_least_squares({1.0, 7.0}, function);
+  EXPECT_NEAR(fit.at[0], 4.0, 1e-9);
+  EXPECT_EQ(fit.at[1], 7.0);
+}
+
 }  // namespace
+
 }  // namespace belvedere

@@ -84,5 +84,48 @@ TEST(TextEncoding, WideTextIsNamedWithAndWithoutItsMark) {
   }
 }
 
+TEST(Letters, AreMadeSmall) {
+  EXPECT_EQ(lower_case("Grüße AZ az @[ 09"), "grüße az az @[ 09");
+  EXPECT_EQ(lower_extension("Folder.X/Dem.TIF"), ".tif");
+  EXPECT_EQ(lower_extension("folder.x/dem"), "");
+  EXPECT_EQ(lower_extension("x.tar.GZ"), ".gz");
+  EXPECT_EQ(lower_extension("x.ÄÖ"), ".ÄÖ")
+      << "letters of other alphabets are left alone, whatever the locale";
+}
+
+TEST(Letters, LongNumbersAreGrouped) {
+  EXPECT_EQ(grouped(0), "0");
+  EXPECT_EQ(grouped(999), "999");
+  EXPECT_EQ(grouped(1000), "1 000");
+  EXPECT_EQ(grouped(1234567), "1 234 567");
+}
+
+// RFC 4648, section 10.
+TEST(Base64, IsThePublishedOneBothWays) {
+  const std::pair<const char*, const char*> vectors[] = {{"", ""},
+                                                         {"f", "Zg=="},
+                                                         {"fo", "Zm8="},
+                                                         {"foo", "Zm9v"},
+                                                         {"foob", "Zm9vYg=="},
+                                                         {"fooba", "Zm9vYmE="},
+                                                         {"foobar", "Zm9vYmFy"}};
+  for (const auto& [bytes, text] : vectors) {
+    EXPECT_EQ(base64(bytes), text);
+    EXPECT_EQ(base64_bytes(text), bytes);
+  }
+}
+
+TEST(Base64, AllBytesComeBack) {
+  std::string all;
+  for (int k = 0; k < 256; ++k) all += static_cast<char>(k);
+  EXPECT_EQ(base64_bytes(base64(all)), all);
+}
+
+TEST(Base64, OtherTextsAreNone) {
+  for (const char* text : {"Z", "Zg", "Zg=", "Zh==", "Zm9=", "Zm 9", "Zm9v\n", "=Zm9", "Zg==Zg=="})
+    EXPECT_FALSE(base64_bytes(text)) << text;
+}
+
 }  // namespace
+
 }  // namespace belvedere

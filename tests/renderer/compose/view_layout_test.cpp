@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "base/angle.h"
+#include "base/math.h"
 #include "renderer/compose/view_measures.h"
 #include "tests/renderer/compose/synthetic_region.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <memory>
 
-#include "base/angle.h"
+#include "base/math.h"
 #include "renderer/trace/camera.h"
 
 namespace belvedere {

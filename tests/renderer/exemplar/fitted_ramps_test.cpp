@@ -15,7 +15,7 @@
 #include "renderer/paint/light.h"
 #include "tests/renderer/exemplar/painted_hills.h"
 #include "texture/strokes/stroke_painter.h"
-#include "texture/synthesis/guide_stack.h"
+#include "texture/synthesis/exemplar.h"
 
 namespace belvedere {
 namespace {

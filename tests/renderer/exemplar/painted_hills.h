@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "base/guidance_buffers.h"
-#include "base/guidance_channels.h"
 #include "base/noise.h"
 #include "base/pixel_rect.h"
 

@@ -14,7 +14,7 @@
 #include "renderer/image/oklab.h"
 #include "tests/paths.h"
 #include "texture/segment/segment_figures.h"
-#include "texture/synthesis/guide_stack.h"
+#include "texture/synthesis/exemplar.h"
 
 namespace belvedere {
 namespace {

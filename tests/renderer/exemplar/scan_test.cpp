@@ -1,5 +1,4 @@
 #include "renderer/exemplar/scan.h"
-#include "renderer/exemplar/scan_palette.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,11 +11,11 @@
 
 #include "base/random.h"
 #include "renderer/exemplar/harmonize.h"
-#include "renderer/exemplar/seam_picture.h"
+#include "renderer/exemplar/uncertain_places.h"
 #include "renderer/image/guidance_io.h"
 #include "renderer/image/image_io.h"
 #include "tests/renderer/image/picture_bytes.h"
-#include "texture/synthesis/guide_stack.h"
+#include "texture/synthesis/exemplar.h"
 #include "texture/synthesis/synthesize.h"
 
 namespace belvedere {

@@ -19,7 +19,7 @@ using test::TestGround;
 
 FeatureStyle house_style(const std::string& more = "") {
   return parse_feature_style(
-      "version = 1\n[kinds.house]\ndraw = \"building\"\nshrink = 0\nleast_px = 0\nwidth_mm = "
+      "version = 1\n[kinds.house]\ndraw = \"building\"\nshrink = 0\nmin_px = 0\nwidth_mm = "
       "0.01\n" +
           more,
       "test.toml");

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/grid_part.h"
+#include "base/grid.h"
 #include "tests/files.h"
 
 namespace belvedere {

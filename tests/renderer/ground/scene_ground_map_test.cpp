@@ -112,7 +112,7 @@ TEST_F(GroundMaps, RiversLieInTheirValleysAndGuessedOnesGiveWay) {
     EXPECT_FALSE(has_water(known, row, 31.6, 35.0)) << "where the map has it, row " << row;
   }
   EXPECT_FALSE(has_water(known, 110, 85, 95)) << "an inferred river";
-  const LandCover both = cover(scene("snap_m = 1000\nkeep_guesses = true\n"));
+  const LandCover both = cover(scene("snap_m = 1000\nkeep_inferred = true\n"));
   EXPECT_TRUE(has_water(both, 110, 85, 95));
   EXPECT_TRUE(has_water(both, 60, 29, 31));
 }

@@ -12,7 +12,7 @@
 #include <variant>
 
 #include "base/error.h"
-#include "base/guidance_channels.h"
+#include "base/guidance_buffers.h"
 #include "base/random.h"
 #include "tests/files.h"
 #include "tests/paths.h"

@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "tests/renderer/image/picture_bytes.h"
-#include "texture/synthesis/guide_stack.h"
+#include "texture/synthesis/exemplar.h"
 
 namespace belvedere {
 namespace {

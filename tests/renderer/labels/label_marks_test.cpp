@@ -76,7 +76,7 @@ TEST_F(LabelMarks, StandOnTheEdgeThatIsSeenFromAbove) {
                            fmt::format("camera.pitch_deg={}", pitch_deg)}),
         silent_progress());
     const GeoMap map = high.geo_map();
-    const DrawnGround ground{high.dem->altitude_m, *high.generalized_m, high.dem->transform,
+    const LocatedGround ground{high.dem->altitude_m, *high.generalized_m, high.dem->transform,
                              high.dem->cell_m(), map};
     for (const Summit& summit : find_summits(*high.generalized_m, {.min_prominence_m = 60.0})) {
       const LabelPoint file_point = point(high.dem->transform.to_crs(summit.x, summit.y));
@@ -118,7 +118,7 @@ TEST_F(LabelMarks, AltitudesBetweenCellsAreInterpolated) {
 TEST_F(LabelMarks, ClimbFromNearbyAndNotFromAfar) {
   const std::vector<Summit> found = summits();
   ASSERT_FALSE(found.empty());
-  const DrawnGround ground{bare_.dem->altitude_m, *bare_.generalized_m, bare_.dem->transform,
+  const LocatedGround ground{bare_.dem->altitude_m, *bare_.generalized_m, bare_.dem->transform,
                            bare_.dem->cell_m(), map_};
   const glm::dvec2 top = position_of(found[0]);
   const glm::dvec2 near = top + glm::dvec2(180.0, -90.0);

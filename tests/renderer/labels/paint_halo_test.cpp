@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <glm/common.hpp>
 
-#include "base/grid_part.h"
+#include "base/grid.h"
 #include "base/random.h"
 
 namespace belvedere {

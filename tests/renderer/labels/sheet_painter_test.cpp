@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string>
 
-#include "base/grid_part.h"
+#include "base/grid.h"
 #include "base/parallel.h"
 #include "base/random.h"
 #include "base/text/hex_colour.h"

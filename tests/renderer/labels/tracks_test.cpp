@@ -18,7 +18,7 @@ using testing::HasSubstr;
 class Tracks : public testing::Test {
  protected:
   Track track_of(std::vector<glm::dvec2> positions, const Grid<float>* dem = nullptr) const {
-    const DrawnGround ground{dem != nullptr ? *dem : bare_.dem->altitude_m, *bare_.generalized_m,
+    const LocatedGround ground{dem != nullptr ? *dem : bare_.dem->altitude_m, *bare_.generalized_m,
                              bare_.dem->transform, bare_.dem->cell_m(), map_};
     return find_tracks(ground, {{"tour", "tour.gpx, feature 0", std::move(positions)}})[0];
   }

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/grid_part.h"
+#include "base/grid.h"
 
 namespace belvedere {
 namespace {

@@ -1,12 +1,11 @@
 #include "renderer/mist/mist_sight.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
+#include <gtest/gtest.h>
 #include <memory>
 
-#include "base/grid_part.h"
+#include "base/grid.h"
 #include "base/parallel.h"
 #include "tests/renderer/trace/synthetic_ground.h"
 
@@ -197,5 +196,105 @@ TEST(MistSight, WithoutMistNothingIsSeen) {
   EXPECT_EQ(sight.share, Grid<float>(16, 16, 0.F));
 }
 
+constexpr double metres_per_unit = 20.0;
+
+TEST(MistBillows, WithoutStrengthTheSurfaceIsFlat) {
+  MistBillows flat(1, 0.0, 90.0);
+  EXPECT_TRUE(flat.flat());
+  EXPECT_EQ(flat.height_m({1234.0, 77.0}, metres_per_unit), 0.0);
+}
+
+TEST(MistBillows, HeapsStayWithinTheirReachAndAboutTheSurface) {
+  for (const double metres : {3.0, 20.0, 70.0}) {
+    MistBillows billows(3, 1.0, 90.0);
+    double low = 1e9, high = -1e9, sum = 0.0;
+    int count = 0;
+    for (int y = 0; y < 120; ++y)
+      for (int x = 0; x < 120; ++x, ++count) {
+        const double height = billows.height_m({x * 11.0 * metres, y * 11.0 * metres}, metres);
+        low = std::min(low, height), high = std::max(high, height), sum += height;
+      }
+    EXPECT_LE(high, billows.reach_m());
+    EXPECT_GE(low, -billows.reach_m());
+    EXPECT_GT(high - low, 0.5 * std::min(90.0, 0.085 * MistBillows::length_m(metres)));
+    EXPECT_LT(std::abs(sum / count), 0.12 * (high - low)) << metres;
+  }
+}
+
+TEST(MistBillows, TwiceTheStrengthIsTwiceTheHeight) {
+  MistBillows one(5, 1.0, 90.0);
+  MistBillows two(5, 2.0, 90.0);
+  for (const double x : {10.0, 400.0, 9000.0})
+    EXPECT_NEAR(two.height_m({x, 50.0}, metres_per_unit),
+                2.0 * one.height_m({x, 50.0}, metres_per_unit), 1e-9);
+}
+
+// Octaves fade in and out with distance, without a jump.
+TEST(MistBillows, DistanceChangesThemSmoothly) {
+  MistBillows billows(7, 1.0, 90.0);
+  double before = billows.height_m({5000.0, 7000.0}, 5.0);
+  double largest = 0.0;
+  for (double metres = 5.0; metres < 80.0; metres *= 1.005) {
+    const double height = billows.height_m({5000.0, 7000.0}, metres);
+    largest = std::max(largest, std::abs(height - before));
+    before = height;
+  }
+  EXPECT_LT(largest, 3.0);
+}
+
+// A pure function of the position, whatever was evaluated before.
+TEST(MistBillows, AnswersHangOnThePlaceAlone) {
+  MistBillows one(9, 1.0, 90.0);
+  MistBillows other(9, 1.0, 90.0);
+  for (int k = 0; k < 50; ++k) one.height_m({k * 991.0, k * 317.0}, 5.0 + k);
+  EXPECT_EQ(one.height_m({650123.0, 5230456.0}, 17.0), other.height_m({650123.0, 5230456.0}, 17.0));
+}
+
+TEST(MistProfile, OverTheSightAFiftiethIsLeft) {
+  const MistProfile mist = make_mist_profile(800.0, 0.0);
+  EXPECT_NEAR(std::exp(-optical_depth(mist, 800.0, 100.0, 100.0)), 0.02, 1e-12);
+}
+
+TEST(MistProfile, NothingLiesAboveTheSurface) {
+  const MistProfile mist = make_mist_profile(300.0, 80.0);
+  EXPECT_EQ(extinction_at(mist, 0.0), 0.0);
+  EXPECT_EQ(extinction_at(mist, -5.0), 0.0);
+  EXPECT_EQ(optical_depth(mist, 1000.0, -400.0, -1.0), 0.0);
+  EXPECT_EQ(optical_depth(mist, 1000.0, -1.0, -1.0), 0.0);
+}
+
+// Straight down through the edge and beyond: full · (depth - edge / 2).
+TEST(MistProfile, StraightDownItIsTheIntegralOfARamp) {
+  const MistProfile mist{0.01, 80.0};
+  EXPECT_NEAR(optical_depth(mist, 40.0, 0.0, 40.0), 0.01 * 40.0 * 40.0 / 160.0, 1e-12);
+  EXPECT_NEAR(optical_depth(mist, 300.0, 0.0, 300.0), 0.01 * (300.0 - 40.0), 1e-12);
+  EXPECT_NEAR(optical_depth(mist, 500.0, -200.0, 300.0), 0.01 * (300.0 - 40.0), 1e-12);
+}
+
+// However a path is divided, the sum is the same, and equal to that of many small steps by the
+// midpoint rule.
+TEST(MistProfile, AWayIsTheSumOfItsParts) {
+  const MistProfile mist{0.012, 60.0};
+  const double length = 700.0;
+  const double from = -90.0;
+  const double to = 210.0;
+  const auto below = [&](double t) { return from + (to - from) * t / length; };
+  double parts = 0.0;
+  double fine = 0.0;
+  for (int k = 0; k < 7; ++k)
+    parts += optical_depth(mist, 100.0, below(100.0 * k), below(100.0 * (k + 1)));
+  for (int k = 0; k < 70000; ++k) fine += 0.01 * extinction_at(mist, below(0.01 * (k + 0.5)));
+  EXPECT_NEAR(parts, optical_depth(mist, length, from, to), 1e-12);
+  EXPECT_NEAR(fine, optical_depth(mist, length, from, to), 1e-6);
+  EXPECT_NEAR(optical_depth(mist, length, to, from), optical_depth(mist, length, from, to), 1e-12);
+}
+
+TEST(MistProfile, LevelWaysAgreeWithNearlyLevelOnes) {
+  const MistProfile mist{0.012, 60.0};
+  EXPECT_NEAR(optical_depth(mist, 900.0, 30.0, 30.0), optical_depth(mist, 900.0, 29.99, 30.01),
+              1e-9);
+}
+
 }  // namespace
+
 }  // namespace belvedere

@@ -1,17 +1,19 @@
 #include "renderer/paint/base_picture.h"
-#include "renderer/paint/ground/base_surroundings.h"
-
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <gtest/gtest.h>
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "renderer/paint/ground/base_surroundings.h"
 #include "renderer/paint/sky.h"
 #include "tests/renderer/exemplar/painted_hills.h"
 #include "tests/renderer/paint/hills_print.h"
+#include "tests/renderer/paint/near_colours.h"
+#include "texture/strokes/parcels.h"
 
 namespace belvedere {
 namespace {
@@ -452,5 +454,95 @@ TEST(Base, MissingToneIsAnError) {
   EXPECT_THROW(picture_of(g), Error);
 }
 
+using test::expect_near;
+
+// A position in the centre of a field.
+Parcel open_field(Crop crop) {
+  return {.crop = crop,
+          .shade = 0.0F,
+          .border_m = 45.0F,
+          .width_m = 90.0F,
+          .lane_m = 400.0F,
+          .hedged = false};
+}
+
+TEST(Fields, AreCropsNearByAndOneColourFarAway) {
+  const glm::vec3 apart = crop_colour(Crop::ripe) - mean_crop_colour();
+  const auto colour = [](float metres_per_unit, float air) {
+    return field_colour(open_field(Crop::ripe), 0.0F, metres_per_unit, air, 1.0F);
+  };
+  expect_near(colour(0.0F, 0.0F), mean_crop_colour() + 1.15F * apart);
+  expect_near(colour(9.0F, 0.0F), mean_crop_colour() + 1.15F * apart);
+  expect_near(colour(12.0F, 0.0F), mean_crop_colour() + 0.85F * apart);
+  expect_near(colour(90.0F, 0.0F), mean_crop_colour() + 0.55F * apart);
+  expect_near(colour(90.0F, 1.0F), mean_crop_colour() + 0.55F * 0.65F * apart);
+}
+
+TEST(Fields, GiveWayToHayTowardsTheSlopes) {
+  const auto colour = [](float slope_deg) {
+    return field_colour(open_field(Crop::ripe), slope_deg, 0.0F, 0.0F, 1.0F);
+  };
+  EXPECT_EQ(colour(3.0F), colour(0.0F));
+  expect_near(colour(4.25F), 0.5F * (colour(0.0F) + crop_colour(Crop::hay)));
+  expect_near(colour(5.5F), crop_colour(Crop::hay));
+}
+
+TEST(Fields, HaveDarkBordersAndPaleLanes) {
+  Parcel parcel = open_field(Crop::clover);
+  const glm::vec3 centre = field_colour(parcel, 0.0F, 18.0F, 0.0F, 1.0F);
+  parcel.border_m = 0.0F;
+  expect_near(field_colour(parcel, 0.0F, 18.0F, 0.0F, 1.0F), centre * (1.0F - 0.05F * 0.55F));
+  parcel.hedged = true;
+  expect_near(field_colour(parcel, 0.0F, 18.0F, 0.0F, 1.0F), centre * (1.0F - 0.13F * 0.55F));
+  Parcel lane = open_field(Crop::clover);
+  lane.lane_m = 0.0F;
+  const float share = 0.55F * 0.55F;
+  expect_near(field_colour(lane, 0.0F, 18.0F, 0.0F, 1.0F),
+              centre * (1.0F - share) + glm::vec3(1.02F, 0.99F, 1.05F) * share);
+}
+
+TEST(Fields, AreAsStrongAsHueDriftSays) {
+  EXPECT_EQ(field_colour(open_field(Crop::ploughed), 0.0F, 0.0F, 0.0F, 0.0F), glm::vec3(1.0F));
+  const glm::vec3 once = field_colour(open_field(Crop::ploughed), 0.0F, 0.0F, 0.0F, 1.0F);
+  expect_near(field_colour(open_field(Crop::ploughed), 0.0F, 0.0F, 0.0F, 2.0F),
+              1.0F + 2.0F * (once - 1.0F));
+}
+
+using test::expect_near;
+
+constexpr glm::vec3 street(0.5F, 0.4F, 0.3F);
+
+TEST(TownGround, HasMoreGardensInAVillageThanInATown) {
+  const Palette palette = read_palette("summer");
+  const glm::vec3 lawn = crop_colour(Crop::grass) *
+                         palette_colour(palette, LandCoverClass::valley_floor, 700.0, 0.6 - 0.08);
+  expect_near(town_ground_colour(palette, street, 0.0F, 700.0, 0.6, 1.0F, 50.0F),
+              glm::mix(street, lawn, 0.80F));
+  expect_near(town_ground_colour(palette, street, 1.0F, 700.0, 0.6, 1.0F, 50.0F),
+              glm::mix(street, lawn, 0.30F));
+  EXPECT_EQ(town_ground_colour(palette, street, 5.0F, 700.0, 0.6, 1.0F, 50.0F),
+            town_ground_colour(palette, street, 1.0F, 700.0, 0.6, 1.0F, 50.0F));
+}
+
+// Where villages are drawn house by house, a place reads as one pale patch with a soft edge.
+TEST(TownGround, IsPaleAroundHousesThatAreDrawnOneByOne) {
+  const Palette palette = read_palette("summer");
+  const auto at = [&](float built, float metres_per_unit) {
+    return town_ground_colour(palette, street, built, 700.0, 0.6, 1.0F, metres_per_unit);
+  };
+  const glm::vec3 pale = glm::vec3(0.74F, 0.70F, 0.60F) * (0.55F + 0.60F * 0.6F);
+  expect_near(at(0.4F, 8.0F), glm::mix(at(0.4F, 50.0F), pale, 0.35F));
+  EXPECT_EQ(at(0.01F, 8.0F), at(0.01F, 50.0F)) << "single houses stand in meadows";
+  expect_near(at(0.10F, 8.0F), glm::mix(at(0.10F, 50.0F), pale, 0.35F * 0.5F));
+}
+
+TEST(TownGround, LiesUnderSnowInWinter) {
+  const Palette palette = read_palette("winter");
+  const glm::vec3 snow = palette_colour(palette, LandCoverClass::snow, 700.0, 0.6 - 0.08);
+  expect_near(town_ground_colour(palette, street, 0.0F, 700.0, 0.6, 1.0F, 50.0F),
+              glm::mix(street, snow, 0.80F));
+}
+
 }  // namespace
+
 }  // namespace belvedere

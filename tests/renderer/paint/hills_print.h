@@ -1,6 +1,6 @@
 #pragma once
 
-#include "renderer/trace/wide_view.h"
+#include "renderer/trace/camera.h"
 #include "tests/renderer/exemplar/painted_hills.h"
 
 namespace belvedere::test {

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "base/random_streams.h"
+#include "base/random.h"
 #include "renderer/paint/picture_filter.h"
 #include "renderer/paint/picture_noise.h"
 #include "tests/renderer/exemplar/painted_hills.h"

@@ -12,7 +12,6 @@
 
 #include "base/parallel.h"
 #include "base/random.h"
-#include "renderer/labels/label_drawing.h"
 #include "renderer/labels/label_files.h"
 #include "renderer/labels/sheet_painter.h"
 #include "renderer/world/world.h"

@@ -8,8 +8,8 @@
 #include <map>
 #include <memory>
 
-#include "base/grid_part.h"
-#include "base/guidance_channels.h"
+#include "base/grid.h"
+#include "base/guidance_buffers.h"
 #include "base/parallel.h"
 #include "renderer/image/guidance_io.h"
 #include "renderer/image/image_io.h"

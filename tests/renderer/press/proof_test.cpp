@@ -1,18 +1,19 @@
 #include "renderer/press/proof.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 #include <vector>
 
 #include "base/error.h"
 #include "base/parallel.h"
 #include "renderer/image/display_conversion.h"
 #include "renderer/image/image_io.h"
+#include "renderer/image/rows/picture_files.h"
 #include "tests/files.h"
 #include "tests/renderer/image/icc/press_profile.h"
+#include "tests/renderer/image/rows/write_pictures.h"
 
 namespace belvedere {
 namespace {
@@ -86,5 +87,58 @@ TEST_F(Proof, SameBytesForAnyThreads) {
               test::read_bytes(folder_ / (std::string("more") + file)));
 }
 
+using testing::HasSubstr;
+
+TEST(PressPicture, IsThePictureOfAFolderThatIsRgb) {
+  const test::Folder folder;
+  const Image picture(20, 10, glm::vec3(0.5F));
+  test::write_pictures(folder / "panorama", {"tif", "png", "exr"}, picture);
+  EXPECT_EQ(find_press_picture(folder.path()).file, folder / "panorama.tif");
+  EXPECT_EQ(find_press_picture(folder.path()).width, 20);
+  EXPECT_NEAR(find_press_picture(folder.path()).dots_per_inch, 300.0, 1e-3);
+  test::write_pictures(folder / "panorama", {"tif"}, picture, {{}, test::press_profile()});
+  EXPECT_EQ(find_press_picture(folder.path()).file, folder / "panorama.png")
+      << "the TIFF is CMYK now";
+}
+
+TEST(PressPicture, SaysWhatItCannotTake) {
+  const test::Folder folder;
+  const Image picture(20, 10, glm::vec3(0.5F));
+  test::write_pictures(folder / "panorama", {"tif", "exr"}, picture, {{}, test::press_profile()});
+  const auto refused = [&](const std::string& path) {
+    return test::message_of(ErrorKind::input, [&] { find_press_picture(path); });
+  };
+  EXPECT_THAT(refused(folder / "panorama.tif"), HasSubstr("CMYK"));
+  EXPECT_THAT(refused(folder / "panorama.exr"), HasSubstr("linear light"));
+  EXPECT_THAT(refused(folder / "absent.png"), HasSubstr("file not found"));
+  EXPECT_THAT(refused(folder.path()), HasSubstr("has no panorama"));
+}
+
+TEST(PalettePress, FindsTheColourThatNoInksMake) {
+  Palette palette = read_palette("summer");
+  ClassPalette& pasture = palette.classes[static_cast<std::size_t>(LandCoverClass::pasture)];
+  pasture.stops = {{1234.0, ToneRamp{glm::vec3(0.3F), glm::vec3(0.5F), glm::vec3(0.0F, 1.0F, 0.0F),
+                                     glm::vec3(0.9F)}}};
+  const std::vector<PaletteColour> colours = print_palette(palette, test::press_profile());
+  const auto found = std::find_if(colours.begin(), colours.end(), [](const PaletteColour& one) {
+    return one.where == "pasture at 1234 m, tone 0.66";
+  });
+  ASSERT_NE(found, colours.end());
+  EXPECT_GT(found->delta_e, 10.0);
+  EXPECT_GT(found->printed.x, 0.05F);
+  EXPECT_LT((found - 1)->delta_e, 2.0) << "a grey";
+  EXPECT_LT((found + 1)->delta_e, 2.0);
+}
+
+// Each ramp has its four tones at each altitude; sky is no ramp.
+TEST(PalettePress, HasEveryColourOfThePalette) {
+  const Palette palette = read_palette("winter");
+  std::size_t expected = palette.sky.size() + 5 + palette.growth.leaves.size() +
+                         (palette.growth.larch_share > 0.0 ? 1 : 0);
+  for (const ClassPalette& one : palette.classes) expected += 4 * one.stops.size();
+  EXPECT_EQ(print_palette(palette, test::press_profile()).size(), expected);
+}
+
 }  // namespace
+
 }  // namespace belvedere

@@ -1,11 +1,15 @@
 #include "renderer/register/registered_ground.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
 #include <limits>
+#include <memory>
 
-#include "renderer/register/registered_scene.h"
+#include "renderer/scene/scene_file.h"
+#include "renderer/trace/camera.h"
+#include "renderer/world/view.h"
+#include "terrain/io/crs.h"
 #include "terrain/io/raster_io.h"
 #include "tests/grids.h"
 #include "tests/terrain/register/synthetic_view.h"
@@ -74,5 +78,127 @@ TEST(RegisteredGround, TrustFadesToTheLimit) {
   EXPECT_GT(picture(2, 0).z, 0.75F);
 }
 
+// Ground of the DEM is seen where the painting has it, at half its size.
+TEST(RegisteredView, ShowsPlacesWhereThePaintingDoes) {
+  const Dem dem = make_dem({test::grid_of(200, 200, [](int, int y) { return 1500.0 - 5.0 * y; }),
+                            {660000.0, 5280000.0, 250.0, 250.0},
+                            normalize_crs("EPSG:32632")});
+  std::vector<ControlPair> pairs = test::synthetic_places(40);
+  for (ControlPair& pair : pairs)
+    pair.altitude_m = 1500.0 - 5.0 * dem.transform.to_cell(0.0, pair.position.y).y;
+  test::paint(test::synthetic_view(ViewKind::plane, pairs), pairs);
+  const Registration found = register_pairs(pairs, {1200, 550});
+  const RegisteredView view(found, registered_scene(found, {1200, 550}), dem, {600, 275},
+                            silent_progress());
+  EXPECT_EQ(view.size_px(), glm::ivec2(600, 275));
+  int in_picture = 0;
+  for (const ControlPair& pair : pairs) {
+    const auto at = view.map().to_image(pair.position);
+    ASSERT_TRUE(at);
+    EXPECT_LT(glm::length(2.0 * at->pixel - pair.pixel), 1.0);
+    if (!at->visible) continue;
+    ++in_picture;
+    const auto back = view.map().to_geo(at->pixel);
+    ASSERT_TRUE(back);
+    EXPECT_LT(glm::length(back->position - pair.position), 1.0);
+  }
+  EXPECT_GT(in_picture, 10);
+}
+
+// Level ground around the places of synthetic_view.h.
+Dem level_dem() {
+  return make_dem({Grid<float>(200, 200, 500.F),
+                   {660000.0, 5280000.0, 250.0, 250.0},
+                   normalize_crs("EPSG:32632")});
+}
+
+// A registration without any fit: a view that is not as priors expect, and ground that is moved.
+Registration synthetic_registration(ViewKind kind, double scale) {
+  const std::vector<ControlPair> places = test::synthetic_places(40);
+  const test::SyntheticView synthetic = test::synthetic_view(kind, places);
+  Registration out;
+  out.scale = scale;
+  out.frame = synthetic.frame;
+  out.view = synthetic.view;
+  out.view[view_unknown::exaggeration + 1] = 0.25;
+  out.view[view_unknown::exaggeration + 2] = -0.1;
+  out.view[view_unknown::drop + 2] = 0.15;
+  out.view[view_unknown::bend] = 0.1;
+  out.view[view_unknown::bend + 1] = -0.2;
+  out.displacement = {
+      .length_m = 4000.0, .reach_m = 1500.0, .still_m = 20.0, .max_m = 1200.0, .places = {}};
+  for (const ControlPair& place : places)
+    out.displacement.places.push_back({place.position, {10.0, -5.0}, {30.0, 30.0}});
+  out.displacement.places[7].moved = {500.0, 200.0};
+  out.displacement.places[21].moved = {-300.0, 100.0};
+  return out;
+}
+
+// The largest distance between where the registration and where its scene show places.
+double worst_px(const Registration& found, glm::ivec2 painting_px) {
+  Scene scene = registered_scene(found, painting_px);
+  // As a file tells it.
+  scene.terrain.sources.emplace_back().file = "dem.tif";
+  const Scene read = parse_scene(write_scene(scene), "registered.toml", ".", {}).scene;
+  const Dem dem = level_dem();
+  const View view = make_view(read, dem, silent_progress());
+  const Deformation deformation(view.deform, view.viewer_xy);
+  const std::unique_ptr<Camera> camera = make_camera(view.camera);
+  const DisplacementField field(found.displacement);
+  double worst = 0.0;
+  for (const ControlPair& place : test::synthetic_places(300, 4)) {
+    const auto drawn = camera->project(deformation.point({place.position, place.altitude_m}));
+    EXPECT_TRUE(drawn);
+    if (!drawn) continue;
+    worst = std::max(worst, glm::length(*drawn - registered_pixel(found, field, place.position,
+                                                                  place.altitude_m)));
+  }
+  return worst;
+}
+
+TEST(RegisteredScene, ShowsPlacesWhereTheRegistrationDoes) {
+  for (const ViewKind kind : {ViewKind::cylinder, ViewKind::panini, ViewKind::plane})
+    EXPECT_LT(worst_px(synthetic_registration(kind, 1.0), {1200, 550}), 0.3)
+        << view_kind_name(kind);
+}
+
+TEST(RegisteredScene, MountainsThatWereMovedAreHandles) {
+  Registration found = synthetic_registration(ViewKind::plane, 1.0);
+  found.mountains = {
+      {{684000.0, 5255000.0}, found.frame.extent_m, {0.3, 0.0, 0.4, 0.8, -0.5, 1.4, 0.6}},
+      {{676000.0, 5263000.0}, found.frame.extent_m, {0.0, 0.2, 0.0, -0.7, 0.0}}};
+  const Scene scene = registered_scene(found, {1200, 550});
+  ASSERT_EQ(scene.deform.handles.size(), 2U);
+  EXPECT_NEAR(scene.deform.handles[0].handle.rotate_deg, 35.0, 1e-9);
+  EXPECT_EQ(scene.generalize.valleys.width_m, 0.F);
+  EXPECT_LT(worst_px(found, {1200, 550}), 0.3);
+}
+
+TEST(RegisteredScene, WidensTheValleysAsThePainterDid) {
+  Registration found = synthetic_registration(ViewKind::plane, 1.0);
+  found.valleys_m = 300.0;
+  EXPECT_EQ(registered_scene(found, {1200, 550}).generalize.valleys.width_m, 300.F);
+}
+
+TEST(RegisteredScene, OfALargerPaintingAndOfACroppedOne) {
+  for (const ViewKind kind : {ViewKind::cylinder, ViewKind::panini, ViewKind::plane}) {
+    Registration found = synthetic_registration(kind, 2.5);
+    found.frame.cropped = true;
+    found.view[view_unknown::middle] = 0.11;
+    found.view[view_unknown::middle + 1] = -0.04;
+    EXPECT_LT(worst_px(found, {3000, 1375}), 0.75) << view_kind_name(kind);
+  }
+}
+
+TEST(RegisteredScene, TheBendOnlyLowersTheGround) {
+  const Scene scene =
+      registered_scene(synthetic_registration(ViewKind::cylinder, 1.0), {1200, 550});
+  const BendProfile bend(scene.deform.ground.bend);
+  for (const BendPoint& point : scene.deform.ground.bend.points)
+    EXPECT_GE(bend.drop_m(point.distance_m), -1e-6);
+  EXPECT_NEAR(*scene.deform.ground.bend.points.back().inclination_deg, 0.0, 2.0);
+}
+
 }  // namespace
+
 }  // namespace belvedere

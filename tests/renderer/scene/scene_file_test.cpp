@@ -346,7 +346,7 @@ TEST(SceneFile, WrittenScenesReadBack) {
         "[[exemplar]]\nseed = 4\n[[exemplar]]\npicture = \"p.png\"\nclasses = \"c.png\"\nlicence = "
         "\"x\\ty\\nz\"\n"
         "[synthesis]\nweights = { tone = 3.3 }\nfallback = { shrub = \"forest\", scree = \"rock\" "
-        "}\nunlikeness = { \"forest/shrub\" = 0.3 "
+        "}\nclass_dissimilarity = { \"forest/shrub\" = 0.3 "
         "}\n"}) {
     const Scene scene = scene_of(text);
     const std::string written = write_scene(scene);

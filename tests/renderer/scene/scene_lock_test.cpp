@@ -6,7 +6,6 @@
 #include <filesystem>
 
 #include "renderer/image/provenance.h"
-#include "renderer/scene/input_hash.h"
 #include "terrain/io/raster_io.h"
 #include "tests/files.h"
 

@@ -1,10 +1,13 @@
 #include "renderer/sheet/work_folder.h"
 
+#include <cstdint>
+#include <filesystem>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <memory>
 
-#include <filesystem>
-
+#include "base/error.h"
+#include "base/grid.h"
 #include "tests/files.h"
 #include "tests/small_disk.h"
 
@@ -163,5 +166,81 @@ TEST_F(WorkFolderTest, WhatIsDoneIsRemoved) {
 
 TEST(JobIdentity, ComesBackFromItsText) { EXPECT_EQ(job_from_text(to_text(job)), job); }
 
+TEST(JoinedPieces, RowsOfARegionComeFromAllPiecesThatTouchThem) {
+  const test::Folder folder;
+  const WorkFolder work(folder / "work", {{"scene", "a"}}, WorkMode::begin);
+  Grid<std::uint16_t> sheet(50, 40);
+  for (std::size_t i = 0; i < sheet.size(); ++i) sheet[i] = static_cast<std::uint16_t>(i);
+  JoinedPieces joined{work, {}, {5, 3, 47, 38}};
+  for (int y = 0; y < 40; y += 16)
+    for (int x = 0; x < 47; x += 16) {
+      const PixelRect piece = intersection(joined.region, {x, y, x + 16, y + 16});
+      joined.pieces.push_back(piece);
+      Grid<std::uint16_t> own = part_of(sheet, piece);
+      work.keep("panorama", piece, {plane_of(own)});
+    }
+  for (const auto& [y0, y1] : {std::pair{3, 38}, {3, 4}, {14, 33}, {31, 38}}) {
+    Grid<std::uint16_t> rows(42, y1 - y0);
+    joined.read("panorama", y0, y1, {plane_of(rows)});
+    EXPECT_EQ(rows, part_of(sheet, {5, y0, 47, y1}));
+  }
+  Grid<std::uint16_t> rows(42, 1);
+  test::message_of(ErrorKind::input, [&] { joined.read("guidance", 3, 4, {plane_of(rows)}); });
+}
+
+const JobIdentity scene_job{{"scene", "a"}};
+const PixelRect piece_rect{0, 0, 64, 48};
+const PixelRect next{64, 0, 128, 48};
+
+std::shared_ptr<Grid<float>> made(float value) {
+  return std::make_shared<Grid<float>>(64, 48, value);
+}
+
+TEST(PieceWriter, BringsPiecesToDiskAndKeepsTheirValuesUntilThen) {
+  const test::Folder folder;
+  const WorkFolder work(folder / "work", scene_job, WorkMode::begin);
+  {
+    PieceWriter writer(work);
+    for (const PixelRect& rect : {piece_rect, next}) {
+      auto values = made(rect == piece_rect ? 1.F : 2.F);
+      writer.keep("panorama", rect, {plane_of(*values)}, values);
+    }
+    writer.finish();
+  }
+  EXPECT_TRUE(work.has("panorama", piece_rect));
+  Grid<float> read(64, 48);
+  read_piece_rows(work.path("panorama", next), work.key("panorama", next), 0, 48, 64,
+                  {plane_of(read)});
+  EXPECT_EQ(read, *made(2.F));
+}
+
+TEST(PieceWriter, WaitsWhenItGoes) {
+  const test::Folder folder;
+  const WorkFolder work(folder / "work", scene_job, WorkMode::begin);
+  {
+    auto values = made(1.F);
+    PieceWriter writer(work);
+    writer.keep("panorama", piece_rect, {plane_of(*values)}, values);
+  }
+  EXPECT_TRUE(work.has("panorama", piece_rect));
+}
+
+TEST(PieceWriter, SaysWhatCouldNotBeWritten) {
+  const test::Folder folder;
+  const WorkFolder work(folder / "work", scene_job, WorkMode::begin);
+  PieceWriter writer(work);
+  // Errors of a piece are thrown with the next one, those of the last at the end.
+  std::filesystem::remove_all(folder / "work");
+  const auto values = made(1.F);
+  writer.keep("panorama", piece_rect, {plane_of(*values)}, values);
+  test::message_of(ErrorKind::output,
+                   [&] { writer.keep("panorama", next, {plane_of(*values)}, values); });
+  writer.keep("panorama", next, {plane_of(*values)}, values);
+  const std::string message = test::message_of(ErrorKind::output, [&] { writer.finish(); });
+  EXPECT_NE(message.find("cannot be created"), std::string::npos) << message;
+  writer.finish();
+}
+
 }  // namespace
+
 }  // namespace belvedere

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "base/guidance_channels.h"
+#include "base/guidance_buffers.h"
 #include "renderer/image/srgb.h"
 #include "renderer/paint/composite.h"
 #include "renderer/paint/light.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "base/grid_part.h"
+#include "base/grid.h"
 #include "base/parallel.h"
 #include "renderer/stages/lit_picture.h"
 #include "tests/files.h"

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "base/error.h"
-#include "base/grid_part.h"
+#include "base/grid.h"
 #include "tests/texture/statistical/texture_crops.h"
 #include "texture/statistical/learn_texture.h"
 

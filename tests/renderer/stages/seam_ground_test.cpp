@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "base/grid_part.h"
+#include "base/grid.h"
 #include "base/noise.h"
 #include "base/parallel.h"
 #include "tests/texture/statistical/texture_crops.h"

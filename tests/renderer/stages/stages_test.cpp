@@ -10,14 +10,13 @@
 #include <utility>
 #include <vector>
 
-#include "base/grid_part.h"
-#include "renderer/stages/guidance_windows.h"
+#include "base/grid.h"
 #include "renderer/stages/lit_picture.h"
 #include "tests/files.h"
 #include "tests/paths.h"
 #include "tests/scenes.h"
 #include "tests/shared_cache.h"
-#include "texture/sheet/plan_data.h"
+#include "texture/sheet/synthesis_plan.h"
 
 namespace belvedere {
 namespace {

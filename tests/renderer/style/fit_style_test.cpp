@@ -1,5 +1,6 @@
 #include "renderer/style/fit_style.h"
 
+#include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,7 +8,7 @@
 #include "base/parallel.h"
 #include "renderer/style/style_file.h"
 #include "tests/renderer/style/synthetic_painting.h"
-#include "texture/synthesis/guide_stack.h"
+#include "texture/synthesis/exemplar.h"
 
 namespace belvedere {
 namespace {
@@ -96,5 +97,75 @@ TEST(FitStyle, RefusesMasksThatDoNotFit) {
               HasSubstr("no class of the ground"));
 }
 
+ClassRamps scaled_summer(double scale) {
+  ClassRamps ramps = palette_ramps(read_palette("summer"));
+  for (LabRamp& ramp : ramps)
+    for (glm::dvec3& colour : ramp) colour *= scale;
+  return ramps;
+}
+
+TEST(LightenRamps, ADarkPaintingReachesTheGoal) {
+  const ClassRamps dark = scaled_summer(0.7);
+  const LightenedRamps out = lighten_ramps(dark, 0.56, 0.97, LightLaw{});
+  EXPECT_GE(ground_lightness(out.ramps), 0.56);
+  EXPECT_LT(ground_lightness(out.ramps), 0.58);
+  EXPECT_LT(out.power, 1.0);
+  // One power of lightness keeps the order of lightness.
+  for (std::size_t c = 1; c < dark.size(); ++c)
+    for (std::size_t k = 0; k < 4; ++k)
+      EXPECT_NEAR(out.ramps[c][k].x, 0.97 * std::pow(dark[c][k].x / 0.97, out.power), 1e-6);
+}
+
+TEST(LightenRamps, TheLightestEndStays) {
+  ClassRamps dark = scaled_summer(0.7);
+  dark[index_of(LandCoverClass::snow)][3].x = 0.97;
+  const LightenedRamps out = lighten_ramps(dark, 0.56, 0.97, LightLaw{});
+  EXPECT_NEAR(out.ramps[index_of(LandCoverClass::snow)][3].x, 0.97, 1e-12);
+}
+
+TEST(LightenRamps, ALightPaintingStaysAsItIs) {
+  const ClassRamps light = scaled_summer(1.0);
+  const LightenedRamps out = lighten_ramps(light, 0.5, 0.97, LightLaw{});
+  EXPECT_EQ(out.power, 1.0);
+  EXPECT_EQ(out.ramps, light);
+}
+
+TEST(LightenRamps, EndsWhereNoPowerIsEnough) {
+  EXPECT_GE(lighten_ramps(scaled_summer(0.1), 0.9, 0.97, LightLaw{}).power, 0.42);
+}
+
+using enum LandCoverClass;
+
+TEST(FitAir, FarAirOfTheMaskGoesBeforeGuesses) {
+  test::Landscape landscape = test::make_landscape();
+  const StylePainting inferred = prepare_painting(landscape.picture, landscape.mask);
+  const glm::dvec3 horizon(0.85, -0.01, -0.02);
+  const StyleAir without = fit_air(inferred, horizon);
+  EXPECT_FALSE(without.far_seen);
+  EXPECT_NEAR(without.mist.y, 0.5 * (without.far.y + horizon.y), 1e-12);
+  for (int y = 24; y < 34; ++y)
+    for (int x = 0; x < landscape.mask.width(); ++x) {
+      landscape.mask(x, y) = far_air_label;
+      landscape.picture(x, y) = from_oklab({0.7, -0.03, -0.08});
+    }
+  const StyleAir with = fit_air(prepare_painting(landscape.picture, landscape.mask), horizon);
+  EXPECT_TRUE(with.far_seen);
+  EXPECT_NEAR(with.far.z, 0.5 * -0.08 + 0.5 * horizon.z, 2e-3);
+  EXPECT_GE(with.far.x, with.near.x + 0.06 - 1e-12);
+}
+
+TEST(FitAir, LeavesAreColoursOfLitVegetation) {
+  const test::Landscape landscape = test::make_landscape();
+  const StyleAir air = fit_air(prepare_painting(landscape.picture, landscape.mask), std::nullopt);
+  for (const glm::dvec3& leaf : air.leaves) {
+    EXPECT_LT(leaf.y, -0.03);
+    EXPECT_GT(leaf.z, 0.03);
+    EXPECT_GT(leaf.x, 0.5);
+  }
+  EXPECT_GE(air.haze, 0.7);
+  EXPECT_LE(air.haze, 1.25);
+}
+
 }  // namespace
+
 }  // namespace belvedere

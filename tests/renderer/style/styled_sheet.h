@@ -4,11 +4,11 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "base/grid_part.h"
+#include "base/grid.h"
 #include "base/guidance_buffers.h"
 #include "base/random.h"
 #include "renderer/image/oklab.h"
-#include "renderer/style/style_parameters.h"
+#include "renderer/style/style.h"
 
 namespace belvedere::test {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "base/angle.h"
+#include "base/math.h"
 #include "base/noise.h"
 #include "renderer/trace/guidance.h"
 

@@ -12,7 +12,7 @@
 #include <memory>
 #include <vector>
 
-#include "base/angle.h"
+#include "base/math.h"
 #include "renderer/trace/guidance_rays.h"
 #include "tests/renderer/trace/synthetic_ground.h"
 

@@ -1,12 +1,13 @@
 #include "renderer/trace/terrain_model.h"
 
-#include <gtest/gtest.h>
-
+#include <algorithm>
 #include <cmath>
+#include <gtest/gtest.h>
 #include <utility>
 
 #include "base/error.h"
-#include "base/guidance_channels.h"
+#include "base/guidance_buffers.h"
+#include "renderer/paint/terrain_end.h"
 #include "renderer/trace/camera.h"
 #include "renderer/trace/guidance_ground.h"
 
@@ -84,5 +85,136 @@ TEST(TerrainModel, FlowIsReadWhereTheGroundCameFrom) {
   EXPECT_NEAR(flow_at(20.0, 29.0), std::log10(20.0 * cell_m * cell_m), 1e-5);
 }
 
+constexpr double ring_cell_m = 30.0;
+
+template <class Altitude>
+Dem dem_of(int width, int height, Altitude&& altitude) {
+  Raster<float> raster;
+  raster.transform = {650000.0, 5320000.0, ring_cell_m, ring_cell_m};
+  raster.cells = Grid<float>(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) raster.cells(x, y) = static_cast<float>(altitude(x, y));
+  return make_dem(std::move(raster));
+}
+
+LandCover cover_of(const Dem& dem, LandCoverClass id) {
+  LandCover cover;
+  cover.classes.transform = dem.transform;
+  cover.classes.cells = Grid<LandCoverClass>(dem.width(), dem.height(), id);
+  return cover;
+}
+
+TEST(GroundSurroundings, HeightAboveAValleyIsThatAboveItsFloor) {
+  // A trough: 300 m deep, its floor five cells wide, flanks of 10 m per cell.
+  const Dem dem = dem_of(81, 60, [](int x, int) {
+    return 500.0 + std::clamp(10.0 * (std::abs(x - 40) - 2), 0.0, 300.0);
+  });
+  const GroundSurroundings found = find_surroundings(dem, cover_of(dem, LandCoverClass::pasture));
+  EXPECT_NEAR(found.valley_height_m(40, 30), 0.0, 0.5);
+  EXPECT_NEAR(found.valley_height_m(50, 30), 80.0, 0.5);
+  EXPECT_NEAR(found.valley_height_m(31, 30), 70.0, 0.5);
+}
+
+TEST(GroundSurroundings, TheRimIsTheBorderAndVoidsThatReachIt) {
+  Dem dem = dem_of(40, 30, [](int x, int y) { return 500.0 + x + 2.0 * y; });
+  const LandCover cover = cover_of(dem, LandCoverClass::pasture);
+  const GroundSurroundings whole = find_surroundings(dem, cover);
+  for (int y = 0; y < 30; ++y)
+    for (int x = 0; x < 40; ++x)
+      EXPECT_NEAR(whole.rim_m(x, y),
+                  ring_cell_m * std::min(std::min(x, 39 - x), std::min(y, 29 - y)), 1e-3)
+          << x << ' ' << y;
+  dem.filled = Grid<std::uint8_t>(40, 30, 0);
+  dem.filled(20, 15) = 1;                              // a void inside known terrain
+  for (int x = 0; x <= 9; ++x) dem.filled(x, 14) = 1;  // a void that reaches the border
+  const GroundSurroundings voids = find_surroundings(dem, cover);
+  EXPECT_NEAR(voids.rim_m(20, 15), ring_cell_m * std::hypot(11.0, 1.0), 1e-3);
+  EXPECT_EQ(voids.rim_m(9, 14), 0.F);
+  EXPECT_NEAR(voids.rim_m(12, 18), ring_cell_m * 5.0, 1e-3);
+}
+
+TEST(GroundSurroundings, CatchmentsThatAreThereAreTaken) {
+  const Dem dem = dem_of(9, 60, [](int, int y) { return 500.0 - 3.0 * y; });
+  const LandCover cover = cover_of(dem, LandCoverClass::settlement);
+  Catchments catchments(dem);
+  catchments.km2();
+  const GroundSurroundings found = find_surroundings(dem, cover, &catchments);
+  EXPECT_EQ(found.flow, find_surroundings(dem, cover).flow);
+  for (int y = 0; y < 60; ++y)
+    EXPECT_NEAR(found.flow(4, y), std::log10(ring_cell_m * ring_cell_m * (y + 1)), 1e-5) << y;
+  // Everything is town.
+  for (const float built : found.floor_plan.built) EXPECT_NEAR(built, 1.F, 1e-4F);
+}
+
+constexpr double rim_cell_m = 90.0;
+constexpr int rim_posts = 300;
+constexpr double rim_side_m = rim_posts * rim_cell_m;
+constexpr double fade_of_side = 0.03;
+
+// Hills of a few hundred metres and, by the northern edge, one mountain of `height_m`, `summit`
+// rows from it.
+Dem hills_with_mountain(double height_m, int summit) {
+  Raster<float> raster;
+  raster.transform = {460000.0, 3110000.0, rim_cell_m, rim_cell_m};
+  raster.cells = Grid<float>(rim_posts, rim_posts);
+  for (int y = 0; y < rim_posts; ++y)
+    for (int x = 0; x < rim_posts; ++x) {
+      const double hills = 200.0 * std::sin(0.11 * x + 0.05 * y);
+      const double off_m = rim_cell_m * std::hypot(x - 150, y - summit);
+      raster.cells(x, y) =
+          static_cast<float>(4500.0 + hills + height_m * std::exp(-off_m / 1500.0));
+    }
+  return make_dem(std::move(raster));
+}
+
+// Share of a position's colour that the end of the terrain leaves.
+float kept_of(float rim_m, double fade_m) {
+  const TerrainEnd end = terrain_end_at(rim_m, fade_m, 0.0F);
+  return (1.0F - end.air) * (1.0F - end.dissolved);
+}
+
+TEST(TerrainRim, IsTheDistanceToTheEdgeWhereNothingStandsOut) {
+  const Dem dem = hills_with_mountain(0.0, 10);
+  const Grid<float> rim = rim_distance(dem);
+  for (int y = 0; y < rim_posts; ++y)
+    for (int x = 0; x < rim_posts; ++x) {
+      const int last = rim_posts - 1;
+      ASSERT_NEAR(rim(x, y), rim_cell_m * std::min(std::min(x, last - x), std::min(y, last - y)),
+                  0.01)
+          << x << ' ' << y;
+    }
+}
+
+TEST(TerrainRim, ATallMountainAtTheEdgeKeepsItsColour) {
+  const double fade_m = fade_of_side * rim_side_m;
+  for (const int summit : {2, 6, 12, 40}) {
+    const Dem dem = hills_with_mountain(3000.0, summit);
+    const Grid<float> rim = rim_distance(dem);
+    EXPECT_GE(kept_of(rim(150, summit), fade_m), 0.75F) << summit << " rows from the edge";
+    EXPECT_LT(kept_of(rim(20, 1), fade_m), 0.2F) << "far from it ground still fades";
+  }
+}
+
+// Lines of sight to the north, straight and aslant: what lies farther is never clearer.
+TEST(TerrainRim, NoGroundFadesMoreThanGroundBehindIt) {
+  const double fade_m = fade_of_side * rim_side_m;
+  for (const int summit : {2, 12, 40}) {
+    const Grid<float> rim = rim_distance(hills_with_mountain(3000.0, summit));
+    for (const double aslant : {-0.9, -0.4, 0.0, 0.4, 0.9})
+      for (int from = 100; from < 200; from += 3) {
+        float nearer = 1.0F;
+        for (int step = 0; step < 100; ++step) {
+          const int x = from + static_cast<int>(std::lround(aslant * step));
+          const int y = 100 - step;
+          if (!rim.contains(x, y)) break;
+          const float kept = kept_of(rim(x, y), fade_m);
+          ASSERT_LE(kept, nearer + 0.03F) << x << ' ' << y << ", summit in row " << summit;
+          nearer = std::min(nearer, kept);
+        }
+      }
+  }
+}
+
 }  // namespace
+
 }  // namespace belvedere

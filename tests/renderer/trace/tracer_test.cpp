@@ -9,7 +9,7 @@
 #include <limits>
 #include <optional>
 
-#include "base/angle.h"
+#include "base/math.h"
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/random.h"

@@ -10,7 +10,7 @@
 
 #include "base/pyramid.h"
 #include "renderer/world/scene_dem.h"
-#include "terrain/generalize/foreground_share.h"
+#include "terrain/generalize/mask.h"
 #include "terrain/io/raster_io.h"
 #include "tests/files.h"
 

@@ -181,7 +181,7 @@ TEST_F(SceneFeaturesInPictures, TheyAndMistAreLayersOfTheirOwn) {
   EXPECT_GT(clear.features, 0.005);
   EXPECT_LT(clear.edges, 0.1) << "layers say nearly all of it";
   painted(scene(std::string(block) +
-                "[[air.mist]]\nkind = \"sea\"\nto_m = 980\nsight_m = 500\nbillows = 0.2\n"),
+                "[[air.mist]]\nkind = \"sea\"\nto_m = 980\nvisibility_m = 500\nbillows = 0.2\n"),
           "misty", {.layers = {"ora"}});
   const LaidLayers misty = lay_layers(folder_ / "misty", true);
   EXPECT_GT(misty.mist, 0.1);

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "base/angle.h"
+#include "base/math.h"
 #include "tests/files.h"
 #include "tests/scenes.h"
 

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <limits>
 
-#include "base/angle.h"
+#include "base/math.h"
 #include "base/random.h"
 
 namespace belvedere {

@@ -10,8 +10,7 @@
 
 #include "base/parallel.h"
 #include "terrain/climate/default_climate.h"
-#include "terrain/climate/life_zones.h"
-#include "terrain/climate/snow_balance.h"
+#include "terrain/climate/zonal_climate.h"
 #include "terrain/climate/water_balance.h"
 #include "terrain/io/crs.h"
 

@@ -1,10 +1,13 @@
 #include "terrain/climate/rule_climate.h"
 
-#include <gtest/gtest.h>
-
 #include <array>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <string>
+#include <vector>
 
 #include "base/error.h"
+#include "tests/files.h"
 
 namespace belvedere {
 namespace {
@@ -80,5 +83,34 @@ TEST(RuleClimate, WithoutAPlaceItIsTheNorthernAlps) {
   EXPECT_EQ(row[0], no_season_snow_m);
 }
 
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr ClimateTable huts{"huts", "hut", 2, "name, altitude"};
+
+std::vector<std::string> names_of(const std::string& text) {
+  std::vector<std::string> names;
+  for_each_row(text, "huts.toml", huts, [&](const ClimateRow& row) {
+    names.push_back(row.text(0) + std::to_string(static_cast<int>(row.number(1, 0.0, 9000.0))));
+  });
+  return names;
+}
+std::string message(const std::string& text) {
+  return test::error_of([&] { names_of(text); }).what();
+}
+
+TEST(ClimateTable, RowsComeInOrder) {
+  EXPECT_THAT(names_of("version = 1\nhuts = [[\"A\", 1200], [\"B\", 3]]\n"),
+              ElementsAre("A1200", "B3"));
+}
+
+TEST(ClimateTable, SaysWhichRowIsWrong) {
+  EXPECT_THAT(message("version = 2\nhuts = []\n"), HasSubstr("not a table of huts"));
+  EXPECT_THAT(message("version = 1\nhuts = [\n[\"A\"],\n]\n"),
+              testing::AllOf(HasSubstr("huts.toml:3"), HasSubstr("name, altitude")));
+  EXPECT_THAT(message("version = 1\nhuts = [[\"A\", 9001]]\n"), HasSubstr("0 to 9000"));
+}
+
 }  // namespace
+
 }  // namespace belvedere

@@ -1,17 +1,16 @@
 #include "terrain/climate/zonal_climate.h"
 
+#include <algorithm>
+#include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-
-#include "base/angle.h"
 #include "base/error.h"
+#include "base/math.h"
 #include "terrain/climate/default_climate.h"
-#include "terrain/climate/life_zones.h"
-#include "terrain/climate/snow_balance.h"
+#include "terrain/climate/water_balance.h"
 #include "tests/terrain/climate/published_lines.h"
+#include "tests/terrain/climate/synthetic_months.h"
 
 namespace belvedere {
 namespace {
@@ -186,5 +185,22 @@ TEST(ZonalClimate, BadStationsNameTheirLine) {
   EXPECT_THROW(make_climate_field({}), Error);
 }
 
+using test::constant;
+using test::seasons;
+
+TEST(Treeline, IsWhereTheExcessIsNone) {
+  PlaceClimate position;
+  position.sea_level_c = seasons(11.0, 10.0);
+  position.lapse_k_per_km.fill(5.5);
+  const double line = treeline_m(position);
+  EXPECT_NEAR(treeline_excess_k(monthly_c(position, line)), 0.0, 1e-4);
+  // A kelvin is worth 1000 / 5.5 m.
+  EXPECT_NEAR(treeline_m(position, 1.0) - line, 1000.0 / 5.5, 0.05);
+  // Without seasons: 6.4 °C.
+  position.sea_level_c = constant(28.4);
+  EXPECT_NEAR(treeline_m(position), 4000.0, 0.05);
+}
+
 }  // namespace
+
 }  // namespace belvedere

@@ -1,4 +1,4 @@
-#include "terrain/cover/ground_image.h"
+#include "terrain/cover/land_cover.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

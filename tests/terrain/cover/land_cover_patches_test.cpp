@@ -1,8 +1,8 @@
 #include "terrain/cover/land_cover_patches.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
 #include <string>
 #include <vector>
 
@@ -103,5 +103,80 @@ TEST(LandCoverPatches, WhereEverythingIsSmallNothingGoes) {
   EXPECT_EQ(picture(remove_small_patches(drawn(rows), {.smallest_m2 = 1e6}).cover), rows);
 }
 
+using enum LandCoverClass;
+
+// A round snowfield of a radius on scree, in cells of a size, with a lake that covers its eastern
+// part beyond `lake_m`.
+LandCover snowfield(double cell_m, double radius_m, double lake_m = 1e9) {
+  const int side = static_cast<int>(1600.0 / cell_m);
+  LandCover cover{
+      {Grid<LandCoverClass>(side, side, scree), {680000.0, 5240000.0, cell_m, cell_m}, ""}};
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x) {
+      const double east = (x + .5) * cell_m - 800.0;
+      const double south = (y + .5) * cell_m - 800.0;
+      if (east > lake_m)
+        cover.classes.cells(x, y) = water;
+      else if (east * east + south * south <= radius_m * radius_m)
+        cover.classes.cells(x, y) = snow;
+    }
+  return cover;
+}
+
+double radius_m(const LandCover& cover) {
+  const Grid<LandCoverClass>& cells = cover.classes.cells;
+  const double area = static_cast<double>(std::count(cells.begin(), cells.end(), snow)) *
+                      std::pow(cover.classes.transform.cell_x, 2.0);
+  return std::sqrt(area / 3.14159265);
+}
+
+TEST(LandCoverErosion, AStepIsFiftyMetresInCellsOfAnySize) {
+  for (const double cell_m : {10.0, 20.0, 40.0}) {
+    double left = 0.0;
+    for (const std::uint64_t seed : {1, 2, 3})
+      left += radius_m(erode_land_cover(snowfield(cell_m, 600.0), {{snow, 3}}, seed)) / 3.0;
+    EXPECT_NEAR(left, 600.0 - 150.0, 30.0) << cell_m;
+  }
+}
+
+TEST(LandCoverErosion, WhatLiesAroundTakesThePlaceAndShoresStay) {
+  const LandCover before = snowfield(20.0, 600.0, 200.0);
+  const LandCover after = erode_land_cover(before, {{snow, 2}}, 1);
+  bool shore = true;
+  for (int y = 0; y < 80; ++y)
+    for (int x = 0; x < 80; ++x) {
+      const LandCoverClass was = before.classes.cells(x, y);
+      const LandCoverClass is = after.classes.cells(x, y);
+      EXPECT_TRUE(was == snow || is == was);
+      EXPECT_TRUE(was != snow || is == snow || is == scree);
+      if (x == 49 && std::abs(y - 40) < 8)
+        shore = shore && is == snow;  // far from scree, beside the lake
+    }
+  EXPECT_TRUE(shore);
+  EXPECT_LT(radius_m(after), radius_m(before));
+}
+
+TEST(LandCoverErosion, NothingNamedNothingChanged) {
+  const LandCover cover = snowfield(20.0, 300.0);
+  EXPECT_EQ(erode_land_cover(cover, {}, 1).classes.cells, cover.classes.cells);
+  EXPECT_EQ(erode_land_cover(cover, {{snow, 0}}, 1).classes.cells, cover.classes.cells);
+  EXPECT_EQ(erode_land_cover(cover, {{forest, 5}}, 1).classes.cells, cover.classes.cells);
+}
+
+// A window of the ground, on the same cells, erodes as the whole does.
+TEST(LandCoverErosion, AWindowAgreesWithTheWhole) {
+  const LandCover whole = snowfield(20.0, 600.0);
+  LandCover window{
+      {Grid<LandCoverClass>(50, 50), {680000.0 + 20 * 20.0, 5240000.0 - 2 * 20.0, 20.0, 20.0}, ""}};
+  for (int y = 0; y < 50; ++y)
+    for (int x = 0; x < 50; ++x) window.classes.cells(x, y) = whole.classes.cells(x + 20, y + 2);
+  const LandCover all = erode_land_cover(whole, {{snow, 1}}, 4);
+  const LandCover part = erode_land_cover(window, {{snow, 1}}, 4);
+  for (int y = 12; y < 38; ++y)
+    for (int x = 12; x < 38; ++x)
+      EXPECT_EQ(part.classes.cells(x, y), all.classes.cells(x + 20, y + 2)) << x << " " << y;
+}
+
 }  // namespace
+
 }  // namespace belvedere

@@ -8,7 +8,7 @@
 #include <functional>
 
 #include "base/error.h"
-#include "base/grid_part.h"
+#include "base/grid.h"
 #include "base/random.h"
 #include "terrain/cover/ground_variables.h"
 

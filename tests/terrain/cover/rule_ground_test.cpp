@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "base/grid_part.h"
+#include "base/grid.h"
 #include "terrain/cover/class_rules.h"
 #include "terrain/cover/class_rules_inputs.h"
 #include "tests/terrain/cover/class_rules_ground.h"

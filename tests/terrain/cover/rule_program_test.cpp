@@ -7,9 +7,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "base/grid_part.h"
+#include "base/grid.h"
 #include "base/noise.h"
-#include "base/random_streams.h"
+#include "base/random.h"
 #include "terrain/cover/ground_variables.h"
 
 namespace belvedere {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "base/angle.h"
+#include "base/math.h"
 #include "base/error.h"
 #include "base/parallel.h"
 #include "terrain/shape/valley_floor.h"

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-#include "base/angle.h"
+#include "base/math.h"
 #include "base/error.h"
 
 namespace belvedere {

@@ -11,7 +11,7 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "terrain/io/raster_io.h"
-#include "terrain/synthetic/synthetic_noise.h"
+#include "terrain/synthetic/synthetic_plan.h"
 #include "tests/grids.h"
 #include "tests/paths.h"
 

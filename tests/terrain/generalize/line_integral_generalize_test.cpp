@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "base/filter.h"
 #include "base/parallel.h"
-#include "terrain/synthetic/synthetic_noise.h"
+#include "terrain/synthetic/synthetic_plan.h"
 #include "tests/terrain/generalize/synthetic_relief.h"
 
 namespace belvedere {

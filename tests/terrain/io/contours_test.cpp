@@ -9,7 +9,7 @@
 #include "base/filter.h"
 #include "terrain/generalize/line_integral_generalize.h"
 #include "terrain/io/raster_io.h"
-#include "terrain/synthetic/synthetic_noise.h"
+#include "terrain/synthetic/synthetic_plan.h"
 #include "tests/terrain/io/raster_files.h"
 
 namespace belvedere {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <vector>
 
-#include "base/grid_part.h"
+#include "base/grid.h"
 #include "base/progress.h"
 #include "base/pyramid.h"
-#include "terrain/io/raster_windows.h"
+#include "terrain/io/raster_io.h"
 #include "tests/terrain/io/raster_files.h"
 
 namespace belvedere {

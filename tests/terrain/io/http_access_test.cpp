@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "terrain/io/crs.h"
-#include "terrain/io/input_parts.h"
+#include "terrain/io/raster_file.h"
 #include "terrain/io/raster_io.h"
 #include "tests/http_server.h"
 #include "tests/terrain/io/raster_files.h"

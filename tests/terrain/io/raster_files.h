@@ -12,7 +12,7 @@
 
 #include "terrain/io/crs.h"
 #include "terrain/io/raster.h"
-#include "terrain/io/raster_source.h"
+#include "terrain/io/raster_io.h"
 #include "tests/files.h"
 
 namespace belvedere {

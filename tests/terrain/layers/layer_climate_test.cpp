@@ -9,10 +9,10 @@
 #include <numbers>
 
 #include "base/error.h"
-#include "base/grid_part.h"
+#include "base/grid.h"
 #include "base/parallel.h"
 #include "terrain/climate/map_climate.h"
-#include "terrain/climate/sun_year.h"
+#include "terrain/climate/radiation.h"
 #include "terrain/cover/class_rules.h"
 #include "terrain/io/raster_io.h"
 #include "terrain/layers/layer_coverage.h"

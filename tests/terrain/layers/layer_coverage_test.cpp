@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "base/grid_part.h"
+#include "base/grid.h"
 #include "base/random.h"
 #include "tests/terrain/layers/metres.h"
 

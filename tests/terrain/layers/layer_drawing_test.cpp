@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "base/grid_part.h"
+#include "base/grid.h"
 #include "tests/terrain/layers/metres.h"
 
 namespace belvedere {

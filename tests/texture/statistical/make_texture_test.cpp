@@ -9,7 +9,7 @@
 
 #include "base/cache/content_hash.h"
 #include "base/error.h"
-#include "base/grid_part.h"
+#include "base/grid.h"
 #include "base/parallel.h"
 #include "tests/files.h"
 #include "tests/texture/statistical/texture_crops.h"

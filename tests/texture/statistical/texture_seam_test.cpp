@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "base/grid_part.h"
+#include "base/grid.h"
 #include "base/parallel.h"
 #include "tests/texture/statistical/texture_crops.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/random_streams.h"
+#include "base/random.h"
 #include "tests/texture/strokes/stroke_picture.h"
 #include "texture/strokes/brush.h"
 #include "texture/strokes/stroke_painter.h"

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <string>
 
 #include "tests/files.h"
 
@@ -51,5 +52,57 @@ TEST(Exemplar, SidesHaveALimit) {
               HasSubstr("32767"));
 }
 
+using testing::AllOf;
+using testing::HasSubstr;
+
+GuideStack stack_of(int width, int height) {
+  GuideStack stack;
+  stack.label = Grid<std::uint8_t>(width, height, 3);
+  stack.guides = {{"altitude", Grid<std::uint8_t>(width, height, 10)},
+                  {"tone", Grid<std::uint8_t>(width, height, 20)}};
+  return stack;
+}
+
+std::string refused_guides(const GuideStack& stack) {
+  return test::message_of(ErrorKind::usage, [&] { check_guide_stack(stack, "the target"); });
+}
+
+TEST(GuideStack, FindsGuidesByTheirNames) {
+  const GuideStack stack = stack_of(4, 3);
+  EXPECT_EQ(stack.width(), 4);
+  EXPECT_EQ(stack.height(), 3);
+  EXPECT_EQ(stack.find("altitude"), &stack.guides[0].values);
+  EXPECT_EQ(stack.find("tone"), &stack.guides[1].values);
+  EXPECT_EQ(stack.find("slope"), nullptr);
+}
+
+TEST(GuideStack, NeedsLabelsAndNothingElse) {
+  GuideStack stack = stack_of(4, 3);
+  EXPECT_NO_THROW(check_guide_stack(stack, "the target"));
+  stack.depth_m = Grid<float>(4, 3, 1000.F);
+  EXPECT_NO_THROW(check_guide_stack(stack, "the target"));
+  stack.guides.clear();
+  EXPECT_NO_THROW(check_guide_stack(stack, "the target"));
+  EXPECT_THAT(refused_guides({}), AllOf(HasSubstr("the target"), HasSubstr("no labels")));
+}
+
+TEST(GuideStack, EveryGridIsAsLargeAsTheLabels) {
+  GuideStack stack = stack_of(4, 3);
+  stack.guides[1].values = Grid<std::uint8_t>(3, 4);
+  EXPECT_THAT(refused_guides(stack), AllOf(HasSubstr("\"tone\" of 3 × 4"), HasSubstr("4 × 3")));
+  stack = stack_of(4, 3);
+  stack.depth_m = Grid<float>(4, 2);
+  EXPECT_THAT(refused_guides(stack), AllOf(HasSubstr("depths of 4 × 2"), HasSubstr("4 × 3")));
+}
+
+TEST(GuideStack, EveryGuideHasANameOfItsOwn) {
+  GuideStack stack = stack_of(4, 3);
+  stack.guides[1].name = "altitude";
+  EXPECT_THAT(refused_guides(stack), HasSubstr("two guides named \"altitude\""));
+  stack.guides[1].name = "";
+  EXPECT_THAT(refused_guides(stack), HasSubstr("without a name"));
+}
+
 }  // namespace
+
 }  // namespace belvedere

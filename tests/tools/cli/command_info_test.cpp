@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "renderer/image/picture_hash.h"
+#include "renderer/image/picture_diff.h"
 #include "tests/tools/program.h"
 
 namespace belvedere {

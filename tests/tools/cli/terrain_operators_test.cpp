@@ -1,9 +1,8 @@
 #include "tools/cli/terrain_operators.h"
 
+#include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include <cmath>
 
 #include "terrain/io/raster_io.h"
 #include "tests/files.h"
@@ -65,5 +64,20 @@ TEST(TerrainOperators, ProductsLieInTheGridOfTheResult) {
   EXPECT_EQ(folder.count(), 2U);
 }
 
+TEST(ElevationOptions, SayWhatASceneSaysOfItsSources) {
+  const auto read = [](const std::string& line) {
+    return elevation_source("a.nc",
+                            test::read_options<ElevationOptions>(add_elevation_options, line));
+  };
+  const RasterSource source = read("--encoding mapbox --variable height");
+  EXPECT_EQ(source.path, "a.nc");
+  EXPECT_EQ(source.encoding, "mapbox");
+  EXPECT_EQ(source.variable, "height");
+  EXPECT_EQ(read("").encoding, "");
+  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { read("--encoding png"); }),
+              testing::HasSubstr("terrarium"));
+}
+
 }  // namespace
+
 }  // namespace belvedere::tools

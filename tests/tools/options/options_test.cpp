@@ -1,10 +1,10 @@
 #include "tools/options/options.h"
 
+#include <cstdlib>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
+#include "base/error.h"
 #include "tests/files.h"
 #include "tests/tools/read_options.h"
 
@@ -286,5 +286,24 @@ TEST_F(Tree, IsDescribed) {
   EXPECT_EQ(paint.options[3].value, "");
 }
 
+RunOptions read_run_options(const std::string& line) {
+  return test::read_options<RunOptions>(
+      [](CommandOptions& command, RunOptions& options) { add_run_options(command, options); },
+      line);
+}
+
+TEST(RunOptions, AreThreadsQuietAndJson) {
+  const RunOptions none = read_run_options("");
+  EXPECT_EQ(none.threads, 0);
+  EXPECT_FALSE(none.quiet || none.json);
+  const RunOptions all = read_run_options("--threads 3 -q --json");
+  EXPECT_EQ(all.threads, 3);
+  EXPECT_TRUE(all.quiet && all.json);
+  EXPECT_TRUE(read_run_options("--quiet").quiet);
+  EXPECT_THAT(test::message_of(ErrorKind::usage, [] { read_run_options("--threads -1"); }),
+              testing::HasSubstr("--threads"));
+}
+
 }  // namespace
+
 }  // namespace belvedere::tools

@@ -1,4 +1,4 @@
-#include "tools/report/generalize_figures.h"
+#include "tools/report/generalize_report_page.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,15 @@
 #include "tools/report/report_pictures.h"
 
+#include <algorithm>
+#include <cmath>
 #include <gtest/gtest.h>
-
 #include <set>
+#include <thread>
 #include <tuple>
+#include <vector>
+
+#include "renderer/image/image_io.h"
+#include "tests/files.h"
 
 namespace belvedere::tools {
 namespace {
@@ -91,5 +97,85 @@ TEST(ReportPictures, BestWindowHasMost) {
   EXPECT_EQ(best_window(score, {}, 100), (PixelRect{0, 0, 40, 20}));
 }
 
+constexpr glm::vec3 paper(1.F);
+
+// Columns and rows of a picture that ink touches.
+struct Ink {
+  int left = 1000, right = -1, top = 1000, bottom = -1;
+};
+Ink ink_of(const std::string& text, int scale, int x = 0, int y = 0) {
+  Grid<glm::vec3> picture(300, 40, paper);
+  draw_text(picture, x, y, text, glm::vec3(0.F), scale);
+  Ink ink;
+  for (int v = 0; v < picture.height(); ++v)
+    for (int u = 0; u < picture.width(); ++u)
+      if (picture(u, v).x < 0.5F)
+        ink = {std::min(ink.left, u), std::max(ink.right, u), std::min(ink.top, v),
+               std::max(ink.bottom, v)};
+  return ink;
+}
+
+TEST(PictureText, StandsInTheRoomItIsSaidToTake) {
+  EXPECT_EQ(text_width("", 3), 0);
+  EXPECT_GT(text_width("AB", 1), text_width("A", 1));
+  EXPECT_NEAR(text_width("altitude 0.3", 2), 2 * text_width("altitude 0.3", 1), 2);
+  for (const int scale : {1, 2, 3}) {
+    const Ink ink = ink_of("Höhe 12", scale, 5, 3);
+    EXPECT_GE(ink.left, 5);
+    EXPECT_LT(ink.right, 5 + text_width("Höhe 12", scale));
+    EXPECT_GT(ink.right, 5 + text_width("Höhe 1", scale) - 2 * scale);
+    EXPECT_LE(ink.bottom, 3 + text_height * scale);
+    EXPECT_GT(ink.bottom, 3 + 5 * scale);
+  }
+}
+
+TEST(PictureText, WhatLiesOutsideIsCutOff) {
+  EXPECT_GE(ink_of("LLLLLLLLLLLL", 2, 280, -6).right, 298);
+  EXPECT_EQ(ink_of("L", 1, 400, 100).right, -1);
+  EXPECT_EQ(ink_of("", 1).right, -1);
+}
+
+Grid<glm::vec3> colours(int width, int height) {
+  Grid<glm::vec3> picture(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) picture(x, y) = glm::vec3(x, y, (x + y) % 200) / 255.F;
+  return picture;
+}
+
+TEST(EncodedPicture, PngKeepsEveryValue) {
+  const test::Folder folder;
+  const Grid<glm::vec3> picture = colours(60, 40);
+  const std::string bytes = png_bytes(picture);
+  EXPECT_EQ(bytes.substr(1, 3), "PNG");
+  const Grid<glm::vec3> read = read_picture(folder.write("a.png", bytes));
+  ASSERT_TRUE(read.same_size(picture));
+  for (std::size_t i = 0; i < read.size(); ++i)
+    for (int c = 0; c < 3; ++c) ASSERT_NEAR(read[i][c], picture[i][c], 1e-6F);
+}
+
+TEST(EncodedPicture, JpegIsCloseAndSmaller) {
+  const test::Folder folder;
+  const Grid<glm::vec3> picture = colours(60, 40);
+  const std::string bytes = jpeg_bytes(picture);
+  EXPECT_EQ(bytes.substr(0, 2), "\xff\xd8");
+  EXPECT_LT(jpeg_bytes(picture, 50).size(), bytes.size());
+  const Grid<glm::vec3> read = read_picture(folder.write("a.jpg", bytes));
+  ASSERT_TRUE(read.same_size(picture));
+  double sum = 0.0;
+  for (std::size_t i = 0; i < read.size(); ++i) sum += std::abs(read[i].y - picture[i].y);
+  EXPECT_LT(sum / static_cast<double>(read.size()), 0.02);
+}
+
+TEST(EncodedPicture, SeveralAtOnceDoNotMeet) {
+  std::vector<std::string> made(8);
+  std::vector<std::thread> threads;
+  for (std::size_t i = 0; i < made.size(); ++i)
+    threads.emplace_back([&, i] { made[i] = png_bytes(colours(20 + static_cast<int>(i), 16)); });
+  for (std::thread& thread : threads) thread.join();
+  for (std::size_t i = 0; i < made.size(); ++i)
+    EXPECT_EQ(made[i], png_bytes(colours(20 + static_cast<int>(i), 16)));
+}
+
 }  // namespace
+
 }  // namespace belvedere::tools

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/land_cover_class.h"
-#include "base/random_streams.h"
+#include "base/random.h"
 
 namespace belvedere {
 

@@ -15,20 +15,17 @@
 #include "renderer/image/image_io.h"
 #include "renderer/paint/guides.h"
 #include "renderer/pipeline/pipeline.h"
-#include "renderer/pipeline/scene_lock_run.h"
 #include "renderer/pipeline/scene_paint.h"
 #include "renderer/world/season/scene_season.h"
 #include "renderer/world/world.h"
-#include "tools/cli/contact/contact_commands.h"
+#include "tools/cli/commands.h"
 #include "tools/cli/contact/making_of.h"
 #include "tools/cli/contact/picture_table.h"
-#include "tools/cli/file_names.h"
 #include "tools/cli/scene_options.h"
 #include "tools/cli/terminal.h"
 #include "tools/options/options.h"
-#include "tools/report/picture_text.h"
-#include "tools/report/report.h"
 #include "tools/report/report_pictures.h"
+#include "tools/report/report.h"
 
 namespace belvedere::tools {
 namespace {

@@ -9,7 +9,7 @@
 #include "base/land_cover_class.h"
 #include "renderer/pipeline/copy_plan.h"
 #include "renderer/pipeline/scene_paint.h"
-#include "renderer/pipeline/sheet_memory.h"
+#include "renderer/pipeline/sheet_pieces.h"
 #include "renderer/stages/lit_picture.h"
 #include "renderer/stages/stages.h"
 #include "renderer/trace/sketch/relief_sketch.h"

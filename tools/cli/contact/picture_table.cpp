@@ -1,5 +1,5 @@
 #include "tools/cli/contact/picture_table.h"
-#include "tools/report/picture_text.h"
+#include "tools/report/report_pictures.h"
 
 #include <algorithm>
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "tools/options/refuse.h"
+#include "tools/options/options.h"
 
 namespace belvedere::tools {
 namespace {

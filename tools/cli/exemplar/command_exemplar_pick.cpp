@@ -15,7 +15,6 @@
 #include "terrain/io/crs.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/exemplar/register_options.h"
-#include "tools/cli/file_names.h"
 #include "tools/cli/studio/serve_page.h"
 #include "tools/cli/terminal.h"
 #include "tools/pick/picking.h"

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "renderer/scene/scene.h"
 #include "terrain/io/dem.h"
 #include "terrain/register/registration.h"
 #include "tools/options/options.h"
-#include "tools/options/run_options.h"
 
 namespace belvedere::tools {
 
@@ -25,5 +25,9 @@ void add_register_options(CommandOptions& command, RegisterOptions& options,
 
 DemParameters dem_parameters(const RegisterOptions& options);
 RegistrationParameters registration_parameters(const RegisterOptions& options);
+
+// The sections of a scene file that a registration is about, and the lines of the land cover; all
+// others are at their defaults.
+std::string registered_scene_text(const Scene& scene);
 
 }  // namespace belvedere::tools

@@ -14,11 +14,9 @@
 #include "terrain/layers/layer_coverage.h"
 #include "terrain/layers/layers_file.h"
 #include "tools/cli/commands.h"
-#include "tools/cli/file_names.h"
 #include "tools/cli/layers/ground_climate_options.h"
 #include "tools/cli/terminal.h"
 #include "tools/options/options.h"
-#include "tools/options/run_options.h"
 
 namespace belvedere::tools {
 namespace {

@@ -13,7 +13,6 @@
 #include "tools/cli/layers/ground_climate_options.h"
 #include "tools/cli/terminal.h"
 #include "tools/options/options.h"
-#include "tools/options/run_options.h"
 
 namespace belvedere::tools {
 namespace {

@@ -7,7 +7,7 @@
 #include "base/progress.h"
 #include "terrain/io/dem.h"
 #include "terrain/layers/layer_climate.h"
-#include "tools/cli/elevation_options.h"
+#include "tools/cli/terrain_operators.h"
 
 namespace belvedere::tools {
 

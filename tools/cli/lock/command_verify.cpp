@@ -14,7 +14,7 @@
 #include "base/files/output_file.h"
 #include "base/text/json.h"
 #include "renderer/image/provenance.h"
-#include "renderer/pipeline/scene_lock_run.h"
+#include "renderer/pipeline/pipeline.h"
 #include "renderer/scene/scene_lock.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/scene_options.h"

@@ -1,4 +1,14 @@
 #include "tools/cli/new/new_options.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fmt/core.h>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "base/error.h"
 #include "tools/options/options.h"
 
 namespace belvedere::tools {
@@ -117,6 +127,150 @@ void add_new_options(CommandOptions& command, NewOptions& options) {
       "  belvedere new --at 11.4,47.35 --size 60 --out karwendel.toml\n"
       "  belvedere new my_dem.tif --out scene.toml --towards south --format 3:1 --include "
       "\"Innsbruck|11.39,47.27\"");
+}
+
+namespace {
+
+std::string small_letters(std::string text) {
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return text;
+}
+
+std::optional<double> number(std::string_view text) {
+  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
+  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (problem != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
+    return std::nullopt;
+  return value;
+}
+
+// Two numbers with one sign between them.
+std::optional<glm::dvec2> pair_of(std::string_view text, char sign) {
+  const std::size_t at = text.find(sign);
+  if (at == std::string_view::npos) return std::nullopt;
+  const std::optional<double> a = number(text.substr(0, at));
+  const std::optional<double> b = number(text.substr(at + 1));
+  if (!a || !b) return std::nullopt;
+  return glm::dvec2(*a, *b);
+}
+
+struct Direction {
+  std::string_view letters, name;
+};
+constexpr std::array<Direction, 16> directions = {{{"n", "north"},
+                                                   {"nne", "north-northeast"},
+                                                   {"ne", "northeast"},
+                                                   {"ene", "east-northeast"},
+                                                   {"e", "east"},
+                                                   {"ese", "east-southeast"},
+                                                   {"se", "southeast"},
+                                                   {"sse", "south-southeast"},
+                                                   {"s", "south"},
+                                                   {"ssw", "south-southwest"},
+                                                   {"sw", "southwest"},
+                                                   {"wsw", "west-southwest"},
+                                                   {"w", "west"},
+                                                   {"wnw", "west-northwest"},
+                                                   {"nw", "northwest"},
+                                                   {"nnw", "north-northwest"}}};
+
+// Long side of A0, mm; each further one is shorter by the root of two, rounded down as in ISO 216.
+constexpr std::array<int, 8> paper_long_mm = {1189, 841, 594, 420, 297, 210, 148, 105};
+
+void check_aspect(const std::string& text, double aspect) {
+  constexpr double min = 0.5, max = 12.0;
+  if (!(aspect >= min && aspect <= max))
+    throw Error(ErrorKind::usage, "--format",
+                fmt::format("\"{}\" is {:.2f} times as wide as it is high", text, aspect),
+                "from 1:2 to 12:1, such as 1:1, 2:1, 5:1");
+}
+
+}  // namespace
+
+double read_direction(const std::string& text) {
+  const std::string word = small_letters(text);
+  for (std::size_t i = 0; i < directions.size(); ++i)
+    if (word == directions[i].letters || word == directions[i].name)
+      return 22.5 * static_cast<double>(i);
+  const std::optional<double> degrees = number(word);
+  if (!degrees || *degrees < -360.0 || *degrees > 360.0)
+    throw Error(ErrorKind::usage, "--towards", fmt::format("\"{}\" is not a direction", text),
+                "N, NE, southwest … or an azimuth in degrees, clockwise from north: 225");
+  return *degrees < 0.0 ? *degrees + 360.0 : *degrees;
+}
+
+glm::dvec2 read_lonlat(const std::string& option, const std::string& text) {
+  const std::optional<glm::dvec2> position = pair_of(text, ',');
+  if (!position || std::abs(position->x) > 180.0 || std::abs(position->y) > 90.0)
+    throw Error(ErrorKind::usage, option, fmt::format("\"{}\" is not a position", text),
+                "longitude and latitude in degrees: 11.4,47.27");
+  return *position;
+}
+
+NamedPlace read_named_place(const std::string& text) {
+  const std::size_t bar = text.rfind('|');
+  if (bar != std::string::npos)
+    return {text.substr(0, bar), read_lonlat("--include", text.substr(bar + 1))};
+  if (!pair_of(text, ','))
+    throw Error(ErrorKind::usage, "--include",
+                fmt::format("\"{}\" is a name, and the program has no gazetteer", text),
+                fmt::format("the name with its longitude and latitude: \"{}|11.4,47.27\"", text));
+  return {"", read_lonlat("--include", text)};
+}
+
+SheetFormat read_format(const std::string& text) {
+  SheetFormat out;
+  const std::string word = small_letters(text);
+  if (word == "cylinder" || word == "360") {
+    constexpr double usual = 10.0;
+    out.picture = {.aspect = usual, .full_turn = true};
+    out.width_px = 6000;
+    out.sheet_width_mm = 3000.0;
+    return out;
+  }
+  if (word.starts_with("cylinder ")) {
+    const SheetFormat shape = read_format(word.substr(9));
+    constexpr double min = 5.0;
+    if (shape.picture.aspect < min)
+      throw Error(ErrorKind::usage, "--format",
+                  fmt::format("\"{}\" is too high for a full circle", text), "5:1 … 12:1");
+    out = shape;
+    out.picture.full_turn = true;
+    return out;
+  }
+  if (const std::optional<glm::dvec2> sides = pair_of(word, ':');
+      sides && sides->x > 0.0 && sides->y > 0.0) {
+    out.picture.aspect = sides->x / sides->y;
+    check_aspect(text, out.picture.aspect);
+    return out;
+  }
+  if (const std::optional<glm::dvec2> pixels = pair_of(word, 'x');
+      pixels && pixels->x >= 64.0 && pixels->y >= 64.0 && pixels->x <= 65535.0) {
+    out.picture.aspect = pixels->x / pixels->y;
+    check_aspect(text, out.picture.aspect);
+    out.width_px = static_cast<int>(pixels->x);
+    return out;
+  }
+  if (word.size() >= 2 && word[0] == 'a' && word[1] >= '0' &&
+      word[1] < '0' + static_cast<int>(paper_long_mm.size()) - 1) {
+    const auto size = static_cast<std::size_t>(word[1] - '0');
+    const double longer = paper_long_mm[size];
+    const double shorter = paper_long_mm[size + 1];
+    const std::string rest = word.substr(2);
+    const bool upright = rest == " upright" || rest == "-upright";
+    if (rest.empty() || upright) {
+      out.picture.aspect = upright ? shorter / longer : longer / shorter;
+      out.sheet_width_mm = upright ? shorter : longer;
+      return out;
+    }
+  }
+  throw Error(
+      ErrorKind::usage, "--format", fmt::format("\"{}\" is not a format", text),
+      "2:1, 3:1 …; A2, \"A2 upright\"; 2400x1200; cylinder, \"cylinder 8:1\" for a full circle");
 }
 
 }  // namespace belvedere::tools

@@ -5,7 +5,6 @@
 
 #include "base/text/json.h"
 #include "renderer/press/proof.h"
-#include "tools/cli/press/press_commands.h"
 #include "tools/cli/press/press_options.h"
 #include "tools/cli/terminal.h"
 #include "tools/options/options.h"

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "renderer/image/icc/device_colour.h"
@@ -17,5 +18,12 @@ struct PressOptions {
 };
 // --profile, and with `conversion` also --intent and --no-black-point.
 void add_press_options(CommandOptions& command, PressOptions& options, bool conversion);
+
+class CommandOptions;
+
+// Commands for printers (docs/press.md); rows of commands.cpp.
+std::function<int()> add_palette_check(CommandOptions& command);
+std::function<int()> add_pdf(CommandOptions& command);
+std::function<int()> add_proof(CommandOptions& command);
 
 }  // namespace belvedere::tools

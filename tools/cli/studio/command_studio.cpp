@@ -8,12 +8,10 @@
 #include "base/error.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/new/new_options.h"
-#include "tools/cli/new/new_scene.h"
 #include "tools/cli/scene_options.h"
 #include "tools/cli/studio/serve_page.h"
 #include "tools/cli/terminal.h"
 #include "tools/options/options.h"
-#include "tools/options/refuse.h"
 #include "tools/studio/studio.h"
 
 namespace belvedere::tools {

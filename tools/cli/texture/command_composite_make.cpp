@@ -5,20 +5,16 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/grid_part.h"
+#include "base/grid.h"
 #include "base/parallel.h"
 #include "base/text/json.h"
-#include "base/text/letters.h"
-#include "texture/composite/composite_window.h"
+#include "base/text/text_encoding.h"
 #include "texture/composite/make_composite.h"
 #include "texture/composite/make_label_map.h"
 #include "tools/cli/commands.h"
-#include "tools/cli/file_names.h"
 #include "tools/cli/terminal.h"
-#include "tools/cli/texture/label_pictures.h"
 #include "tools/cli/texture/texture_pictures.h"
 #include "tools/options/options.h"
-#include "tools/options/run_options.h"
 #include "tools/report/report.h"
 #include "tools/report/report_pictures.h"
 

@@ -12,10 +12,8 @@
 #include "renderer/image/image_io.h"
 #include "renderer/image/png_palette.h"
 #include "tools/cli/commands.h"
-#include "tools/cli/file_names.h"
 #include "tools/cli/terminal.h"
 #include "tools/options/options.h"
-#include "tools/options/run_options.h"
 #include "tools/report/report.h"
 
 namespace belvedere::tools {

@@ -4,17 +4,15 @@
 #include <memory>
 
 #include "base/filter.h"
-#include "base/grid_part.h"
+#include "base/grid.h"
 #include "base/parallel.h"
 #include "base/text/json.h"
 #include "texture/statistical/make_texture.h"
 #include "texture/statistical/model_file.h"
 #include "tools/cli/commands.h"
-#include "tools/cli/file_names.h"
 #include "tools/cli/terminal.h"
 #include "tools/cli/texture/texture_pictures.h"
 #include "tools/options/options.h"
-#include "tools/options/run_options.h"
 #include "tools/report/report.h"
 
 namespace belvedere::tools {

@@ -8,12 +8,9 @@
 #include "texture/statistical/make_texture.h"
 #include "texture/statistical/model_file.h"
 #include "tools/cli/commands.h"
-#include "tools/cli/file_names.h"
 #include "tools/cli/terminal.h"
-#include "tools/cli/texture/begin_options.h"
 #include "tools/cli/texture/texture_pictures.h"
 #include "tools/options/options.h"
-#include "tools/options/run_options.h"
 #include "tools/report/report.h"
 #include "tools/report/report_pictures.h"
 

@@ -9,11 +9,9 @@
 #include "base/text/json.h"
 #include "texture/statistical/texture_seam.h"
 #include "tools/cli/commands.h"
-#include "tools/cli/file_names.h"
 #include "tools/cli/terminal.h"
 #include "tools/cli/texture/texture_pictures.h"
 #include "tools/options/options.h"
-#include "tools/options/run_options.h"
 #include "tools/report/report.h"
 
 namespace belvedere::tools {

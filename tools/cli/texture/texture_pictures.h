@@ -3,10 +3,12 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <string>
+#include <vector>
 
 #include "base/grid.h"
 #include "base/progress.h"
 #include "base/text/json.h"
+#include "texture/statistical/clique_model.h"
 #include "texture/statistical/texture_figures.h"
 #include "texture/synthesis/exemplar.h"
 
@@ -47,5 +49,48 @@ void check_texture_name(const std::string& path);
 
 // Adds the five distances to the JSON output.
 Json with_figures(Json object, const TextureFigures& figures);
+
+// A picture of labels: for each pixel the index of its label in `names`, or no_label
+// (texture/statistical/label_borders.h). A name is a flat colour, "#0000ff", or a number, "3", as
+// in the picture.
+struct LabelPicture {
+  Grid<std::uint8_t> labels;
+  std::vector<std::string> names;
+};
+
+// Drawn in flat colours or as numbers (renderer/image/label_image.h). Names that occur, in
+// ascending order.
+LabelPicture read_label_picture(const std::string& path, Progress& progress = silent_progress());
+
+// The labels of a drawing by the names of a composite: Error(input) for a name that the composite
+// lacks, by more than max_lossy_steps. Unknown pixels take the nearest label.
+Grid<std::uint8_t> read_drawn_labels(const std::string& path, const std::vector<std::string>& names,
+                                     Progress& progress = silent_progress());
+
+// A PNG that reads back as these labels.
+void write_label_picture(const std::string& path, const Grid<std::uint8_t>& labels,
+                         const std::vector<std::string>& names);
+Grid<glm::vec3> label_colours(const Grid<std::uint8_t>& labels,
+                              const std::vector<std::string>& names);
+
+class CommandOptions;
+
+// The initial noise of a texture, if the user chooses it: --begin, --begin-px.
+struct BeginOptions {
+  std::string kind;  // white, streaks, discs; empty: the program chooses
+  double px = 8.0;   // half length of streaks, radius of discs, 1…256
+};
+// `meaning`: help text of --begin.
+void add_begin_options(CommandOptions& command, BeginOptions& options, const std::string& meaning);
+
+struct TextureBegin {
+  TextureSeed seed = TextureSeed::white;
+  float px = 0.F;  // 0 of white noise
+};
+TextureBegin begin_of(const BeginOptions& options);
+
+const char* name_of(TextureSeed seed);
+// Describes the noise: "streaks of 12 px", "white, polished".
+std::string describe_begin(TextureSeed seed, float px, bool polish);
 
 }  // namespace belvedere::tools

@@ -11,7 +11,7 @@
 #include "base/random.h"
 #include "renderer/trace/sun.h"
 #include "tests/renderer/exemplar/painted_hills.h"
-#include "texture/synthesis/guide_stack.h"
+#include "texture/synthesis/exemplar.h"
 
 namespace belvedere {
 namespace {

@@ -1,5 +1,6 @@
 #include "renderer/paint/ground/slope_walk.h"
 
+#include <cmath>
 #include <gtest/gtest.h>
 
 #include "tests/renderer/exemplar/painted_hills.h"
@@ -71,5 +72,86 @@ TEST(SlopeWalk, APlaceIsOfItsOwnSurface) {
   EXPECT_EQ(place_left(wide, start, up).x, 100.0F);
 }
 
+using enum LandCoverClass;
+
+// Rock above row 40, grass from row 80 on, scree between; the slope falls straight down.
+GuidanceBuffers fan(int width = 120, int height = 120) {
+  GuidanceBuffers g = test::make_slope(width, height, scree, {0.0F, 0.0F, 1.0F}, 32.0F);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      if (y < 40 || y >= 80) g.land_cover(x, y) = y < 40 ? rock : alpine_grass;
+  return g;
+}
+
+TEST(ScreeFans, KnowTheirPlaceBetweenWallAndFoot) {
+  const GuidanceBuffers g = fan();
+  const ScreeFans fans = make_scree_fans(g, {g}, {}, {0, 0});
+  EXPECT_LT(fans.position(60, 41), 0.1F);
+  EXPECT_NEAR(fans.position(60, 60), 0.5F, 0.06F);
+  EXPECT_GT(fans.position(60, 78), 0.9F);
+  EXPECT_EQ(fans.position(60, 20), 0.0F) << "no scree";
+  for (int y = 41; y < 79; ++y)
+    EXPECT_GE(fans.position(60, y), fans.position(60, y - 1) - 1e-6F) << y;
+}
+
+TEST(ScreeFans, StreaksRunDownTheSlopeAndHaveDeviationOne) {
+  GuidanceBuffers g = test::make_slope(400, 300, scree, {0.0F, 0.0F, 1.0F}, 32.0F);
+  const ScreeFans fans = make_scree_fans(g, {g}, {}, {0, 0});
+  double down = 0.0;
+  double across = 0.0;
+  double squares = 0.0;
+  int count = 0;
+  for (int y = 60; y < 230; ++y)
+    for (int x = 20; x < 380; ++x) {
+      down += std::abs(fans.streak(x, y + 5) - fans.streak(x, y));
+      across += std::abs(fans.streak(x + 5, y) - fans.streak(x, y));
+      squares += static_cast<double>(fans.streak(x, y)) * static_cast<double>(fans.streak(x, y));
+      ++count;
+    }
+  EXPECT_LT(down, 0.5 * across);
+  EXPECT_NEAR(std::sqrt(squares / count), 1.0, 0.15);
+}
+
+TEST(ScreeFans, AreGreyAtTheWallAndGrownOverAtTheFoot) {
+  const ScreeTurn wall = scree_turn(0.0F, 0.0F, 0.0F, 1.0F);
+  const ScreeTurn centre = scree_turn(0.6F, 0.0F, 0.0F, 1.0F);
+  const ScreeTurn foot = scree_turn(1.0F, 0.0F, 0.0F, 1.0F);
+  EXPECT_GT(wall.factor.b - wall.factor.r, 0.1F);
+  EXPECT_LT(centre.factor.b, centre.factor.r);
+  EXPECT_GT(centre.tone, wall.tone + 0.05F);
+  EXPECT_EQ(wall.grown, 0.0F);
+  EXPECT_EQ(centre.grown, 0.0F);
+  EXPECT_NEAR(foot.grown, 0.75F, 1e-6F);
+  const ScreeTurn off = scree_turn(1.0F, 1.0F, 8.0F, 0.0F);
+  EXPECT_EQ(off.tone, 0.0F);
+  EXPECT_EQ(off.factor, glm::vec3(1.0F));
+  EXPECT_EQ(off.grown, 0.0F);
+}
+
+TEST(ScreeFans, NearConesAreFresherThanWhatLiesBetween) {
+  EXPECT_EQ(near_scree_hue(true, 0.0F), glm::vec3(1.0F));
+  EXPECT_EQ(near_scree_hue(false, 0.0F), glm::vec3(1.0F));
+  for (int k = 0; k < 3; ++k)
+    EXPECT_GT(near_scree_hue(true, 1.0F)[k], near_scree_hue(false, 1.0F)[k] + 0.04F);
+}
+
+TEST(ScreeFans, PartEqualsWhole) {
+  GuidanceBuffers g = fan(300, 120);
+  for (auto& d : g.fall_line) d = glm::vec2(0.28F, 0.96F);
+  const ScreeFans whole = make_scree_fans(g, {g}, {}, {0, 0});
+  const PixelRect kept{110, 50, 190, 78};
+  const PixelRect part = test::with_margin(kept, scree_fans_margin_px(1.0), 300, 120);
+  ASSERT_GT(part.x0, 0);
+  const GuidanceBuffers held = test::cut(g, part);
+  const ScreeFans fans =
+      make_scree_fans(held, {held, 1, {part.x0, part.y0}}, {}, {part.x0, part.y0});
+  for (int y = kept.y0; y < kept.y1; ++y)
+    for (int x = kept.x0; x < kept.x1; ++x) {
+      ASSERT_EQ(fans.position(x - part.x0, y - part.y0), whole.position(x, y));
+      ASSERT_EQ(fans.streak(x - part.x0, y - part.y0), whole.streak(x, y));
+    }
+}
+
 }  // namespace
+
 }  // namespace belvedere

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "renderer/paint/water_look.h"
+#include "renderer/paint/water/water_surface.h"
 
 namespace belvedere::test {
 

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "tests/renderer/style/synthetic_painting.h"
-#include "texture/synthesis/guide_stack.h"
+#include "texture/synthesis/exemplar.h"
 
 namespace belvedere {
 namespace {

@@ -9,7 +9,6 @@
 
 #include "tests/texture/strokes/stroke_picture.h"
 #include "texture/strokes/ice/ice_ground.h"
-#include "texture/strokes/ice/ice_ways.h"
 #include "texture/strokes/stroke_parts.h"
 
 namespace belvedere {

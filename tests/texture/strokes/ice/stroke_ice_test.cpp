@@ -7,7 +7,7 @@
 
 #include "base/random.h"
 #include "tests/texture/strokes/stroke_picture.h"
-#include "texture/strokes/ice/ice_flow.h"
+#include "texture/strokes/ice/ice_ground.h"
 #include "texture/strokes/stroke_painter.h"
 
 namespace belvedere {

@@ -68,7 +68,7 @@ TEST_F(MakingOf, ShowsGroundLargerThanMemory) {
   write_raster(path("dem.tif"), raster);
   const std::string file =
       write("s.toml",
-            "version = 1\n[[terrain.sources]]\nfile = \"dem.tif\"\n[terrain]\nmost_mcells = 0.06\n"
+            "version = 1\n[[terrain.sources]]\nfile = \"dem.tif\"\n[terrain]\nmax_mcells = 0.06\n"
             "[camera]\nposition = [606000, 5185000]\nheight_m = 4000\npitch_deg = "
             "-24\n[synthesis]\nenabled = false\n"
             "[output]\nwidth = 100\nheight = 60\nsheet_width_mm = 100\n");
