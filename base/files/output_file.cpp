@@ -1,18 +1,18 @@
 #include "base/files/output_file.h"
 
-#include <fcntl.h>
-#include <fmt/core.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
+#include <fcntl.h>
 #include <filesystem>
+#include <fmt/core.h>
 #include <fstream>
 #include <iterator>
 #include <random>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <system_error>
+#include <unistd.h>
 #include <utility>
 
 #include "base/cache/content_hash.h"
@@ -175,6 +175,26 @@ void write_text_file(const std::string& path, const std::string& text) {
   stream.close();
   if (!stream) file.fail("writing failed");
   file.commit();
+}
+
+ScratchFolder::ScratchFolder() {
+  std::error_code problem;
+  const std::filesystem::path position = std::filesystem::temp_directory_path(problem);
+  if (problem)
+    throw Error(ErrorKind::output, "TMPDIR", "no folder for temporary files: " + problem.message());
+  path_ = (position / "belvedere-XXXXXX").string();
+  if (::mkdtemp(path_.data()) == nullptr)
+    throw Error(ErrorKind::output, position.string(),
+                "cannot create a folder in it: " + std::generic_category().message(errno),
+                "another folder, named by the variable TMPDIR");
+}
+
+ScratchFolder::~ScratchFolder() {
+  try {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  } catch (const std::bad_alloc&) {  // a folder stays
+  }
 }
 
 }  // namespace belvedere

@@ -45,4 +45,19 @@ class OutputFile {
 // Writes a text, complete or not at all. Error(output).
 void write_text_file(const std::string& path, const std::string& text);
 
+// A temporary folder of the run in the system's usual location ($TMPDIR), removed with the object.
+class ScratchFolder {
+ public:
+  // Error(output) where it cannot be created.
+  ScratchFolder();
+  ~ScratchFolder();
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
 }  // namespace belvedere

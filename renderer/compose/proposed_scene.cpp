@@ -10,7 +10,7 @@
 #include "base/parallel.h"
 #include "base/text/json.h"
 #include "renderer/compose/view_changes.h"
-#include "renderer/compose/view_defaults.h"
+#include "renderer/compose/view_shape.h"
 #include "renderer/compose/view_score.h"
 
 namespace belvedere {

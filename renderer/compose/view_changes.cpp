@@ -8,7 +8,7 @@
 
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "renderer/compose/view_defaults.h"
+#include "renderer/compose/view_shape.h"
 #include "terrain/generalize/widen_valleys.h"
 
 namespace belvedere {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/land_cover_class.h"
-#include "base/masks/label_patches.h"
+#include "base/masks/label_blur.h"
 
 namespace belvedere {
 namespace {

@@ -14,7 +14,7 @@
 #include "base/error.h"
 #include "base/filter.h"
 #include "base/parallel.h"
-#include "renderer/image/oklab.h"
+#include "renderer/image/srgb.h"
 #include "texture/statistical/photometric.h"
 #include "texture/synthesis/exemplar.h"
 

@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "base/land_cover_class.h"
 #include "base/parallel.h"
-#include "renderer/image/oklab.h"
+#include "renderer/image/srgb.h"
 #include "texture/synthesis/exemplar.h"
 
 namespace belvedere {

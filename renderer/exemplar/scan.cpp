@@ -22,7 +22,7 @@
 #include "renderer/image/icc/painting_file.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/label_image.h"
-#include "renderer/image/oklab.h"
+#include "renderer/image/srgb.h"
 #include "renderer/paint/composite.h"
 #include "renderer/paint/guides.h"
 

@@ -9,7 +9,6 @@
 #include "renderer/scene/scene_file.h"
 #include "texture/statistical/clique_model.h"
 #include "texture/synthesis/exemplar.h"
-#include "texture/synthesis/synthesis_parameters.h"
 
 namespace belvedere {
 

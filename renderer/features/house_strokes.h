@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "renderer/features/drawn_features.h"
-#include "texture/strokes/stroke.h"
+#include "texture/strokes/brush.h"
 #include "texture/strokes/stroke_seeds.h"
 
 namespace belvedere {

@@ -20,7 +20,7 @@
 #include "renderer/ground/cached_products.h"
 #include "renderer/ground/feature_files.h"
 #include "renderer/ground/river_banks.h"
-#include "renderer/ground/river_shores.h"
+#include "renderer/ground/laid_rivers.h"
 #include "terrain/cover/towns.h"
 #include "terrain/io/raster_file.h"
 #include "terrain/shape/coast.h"

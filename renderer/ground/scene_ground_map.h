@@ -13,7 +13,7 @@
 #include "terrain/cover/towns.h"
 #include "terrain/io/dem.h"
 #include "terrain/shape/hydrology.h"
-#include "terrain/shape/known_lakes.h"
+#include "terrain/cover/ground_lakes.h"
 
 namespace belvedere {
 

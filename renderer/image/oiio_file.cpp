@@ -14,7 +14,7 @@
 #include "base/error.h"
 #include "base/files/output_file.h"
 #include "base/parallel.h"
-#include "renderer/image/oklab.h"
+#include "renderer/image/srgb.h"
 #include "renderer/image/image_file_parts.h"
 #include "renderer/image/png_palette.h"
 #include "renderer/image/provenance.h"

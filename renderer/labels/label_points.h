@@ -9,8 +9,8 @@
 #include "base/progress.h"
 #include "renderer/labels/label_style.h"
 #include "terrain/io/raster.h"
-#include "terrain/io/vector_source.h"
-#include "terrain/shape/summits.h"
+#include "terrain/io/features.h"
+#include "terrain/shape/valley_floor.h"
 
 namespace belvedere {
 

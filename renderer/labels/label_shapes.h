@@ -8,7 +8,7 @@
 #include "renderer/labels/label_marks.h"
 #include "renderer/labels/label_points.h"
 #include "renderer/labels/label_style.h"
-#include "terrain/io/vector_source.h"
+#include "terrain/io/features.h"
 
 namespace belvedere {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include "base/cache/scratch_folder.h"
+#include "base/files/output_file.h"
 #include "base/grid.h"
 #include "renderer/image/display_conversion.h"
 #include "renderer/paint/composite.h"

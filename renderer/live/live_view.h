@@ -10,7 +10,7 @@
 #include "base/pixel_rect.h"
 #include "base/run.h"
 #include "renderer/scene/scene_file.h"
-#include "renderer/world/derived_values.h"
+#include "renderer/world/resolve_view.h"
 #include "renderer/world/scene_dem.h"
 #include "renderer/world/scene_values.h"
 #include "renderer/world/view.h"

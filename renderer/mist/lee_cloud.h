@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "renderer/mist/mist_parameters.h"
+#include "renderer/mist/mist_bed.h"
 #include "renderer/paint/picture_noise.h"
 #include "renderer/trace/camera.h"
 #include "terrain/deform/deform.h"

@@ -20,7 +20,7 @@
 #include "renderer/paint/composite.h"
 #include "renderer/pipeline/scene_labels.h"
 #include "renderer/stages/picture_layers.h"
-#include "renderer/world/valley_view.h"
+#include "renderer/world/world.h"
 
 namespace belvedere {
 namespace {

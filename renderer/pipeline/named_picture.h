@@ -8,13 +8,13 @@
 #include "base/run.h"
 #include "renderer/image/image_file.h"
 #include "renderer/labels/margin.h"
-#include "renderer/labels/paint_halo.h"
+#include "renderer/labels/sheet_painter.h"
 #include "renderer/pipeline/scene_paint.h"
 #include "renderer/pipeline/sheet_pieces.h"
 #include "renderer/scene/scene_file.h"
 #include "renderer/sheet/work_folder.h"
 #include "renderer/world/lazy_value.h"
-#include "renderer/world/valley_view.h"
+#include "renderer/world/world.h"
 
 namespace belvedere {
 

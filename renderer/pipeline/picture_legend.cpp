@@ -14,7 +14,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "renderer/labels/paint_halo.h"
+#include "renderer/labels/sheet_painter.h"
 #include "renderer/stages/lit_picture.h"
 #include "renderer/trace/camera.h"
 

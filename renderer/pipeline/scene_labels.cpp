@@ -20,7 +20,7 @@
 #include "renderer/labels/sheet_painter.h"
 #include "terrain/io/crs.h"
 #include "terrain/io/raster_file.h"
-#include "terrain/shape/summits.h"
+#include "terrain/shape/valley_floor.h"
 
 namespace belvedere {
 namespace {

@@ -8,8 +8,8 @@
 #include "base/progress.h"
 #include "renderer/labels/labels.h"
 #include "renderer/scene/scene_file.h"
-#include "renderer/world/valley_view.h"
-#include "terrain/io/vector_source.h"
+#include "renderer/world/world.h"
+#include "terrain/io/features.h"
 
 namespace belvedere {
 

@@ -22,7 +22,7 @@
 #include "renderer/pipeline/scene_labels.h"
 #include "renderer/pipeline/sheet_pieces.h"
 #include "renderer/pipeline/sheet_work.h"
-#include "renderer/sheet/guidance_pack.h"
+#include "renderer/sheet/piece_file.h"
 #include "renderer/sheet/work_folder.h"
 #include "renderer/stages/stages.h"
 #include "renderer/world/lazy_value.h"

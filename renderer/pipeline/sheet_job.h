@@ -8,7 +8,7 @@
 #include "renderer/pipeline/sheet_pieces.h"
 #include "renderer/scene/scene_file.h"
 #include "renderer/sheet/work_folder.h"
-#include "renderer/world/valley_view.h"
+#include "renderer/world/world.h"
 
 namespace belvedere {
 

@@ -10,7 +10,7 @@
 #include "renderer/paint/composite.h"
 #include "renderer/pipeline/scene_paint.h"
 #include "renderer/scene/scene_file.h"
-#include "renderer/sheet/guidance_pack.h"
+#include "renderer/sheet/piece_file.h"
 #include "renderer/sheet/work_folder.h"
 #include "renderer/world/world.h"
 

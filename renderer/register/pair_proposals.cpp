@@ -11,7 +11,7 @@
 #include "base/filter.h"
 #include "base/math.h"
 #include "base/math_exact.h"
-#include "terrain/shape/summits.h"
+#include "terrain/shape/valley_floor.h"
 
 namespace belvedere {
 namespace {

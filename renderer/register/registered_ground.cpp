@@ -17,7 +17,7 @@
 #include "base/parallel.h"
 #include "base/statistics.h"
 #include "terrain/deform/bend_curve.h"
-#include "terrain/deform/fold.h"
+#include "terrain/deform/deform.h"
 
 namespace belvedere {
 namespace {

@@ -10,14 +10,14 @@
 #include <vector>
 
 #include "base/land_cover_class.h"
-#include "renderer/mist/mist_parameters.h"
+#include "renderer/mist/mist_bed.h"
 #include "renderer/paint/air.h"
 #include "renderer/paint/guides.h"
 #include "renderer/paint/light.h"
 #include "renderer/paint/water/water_surface.h"
 #include "renderer/trace/camera.h"
 #include "renderer/trace/guidance_rays.h"
-#include "renderer/trace/sun.h"
+#include "renderer/trace/light_field.h"
 #include "renderer/trace/tracer.h"
 #include "terrain/climate/climate.h"
 #include "terrain/cover/land_cover_patches.h"
@@ -25,7 +25,7 @@
 #include "terrain/generalize/generalize.h"
 #include "terrain/generalize/widen_valleys.h"
 #include "terrain/io/dem.h"
-#include "terrain/io/vector_source.h"
+#include "terrain/io/features.h"
 #include "terrain/synthetic/synthetic.h"
 #include "texture/synthesis/synthesize.h"
 

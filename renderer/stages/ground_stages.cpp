@@ -12,7 +12,7 @@
 #include "renderer/paint/ground/base_surroundings.h"
 #include "renderer/paint/guides.h"
 #include "renderer/rock/crest_shift.h"
-#include "renderer/stages/finishing_paint.h"
+#include "renderer/stages/copied_ground.h"
 #include "renderer/stages/lit_picture.h"
 #include "renderer/stages/sheet_style.h"
 #include "renderer/stages/ground_inputs.h"

@@ -7,7 +7,7 @@
 #include "renderer/features/drawn_features.h"
 #include "renderer/mist/mist_sight.h"
 #include "renderer/rock/crest_shift.h"
-#include "renderer/stages/finishing_paint.h"
+#include "renderer/stages/copied_ground.h"
 #include "renderer/stages/lit_picture.h"
 #include "renderer/stages/sheet_style.h"
 #include "renderer/stages/ground_inputs.h"

@@ -12,7 +12,6 @@
 #include "renderer/style/fit/style_painting.h"
 #include "renderer/style/fit/fit_brushwork.h"
 #include "renderer/style/fit/fit_sky.h"
-#include "renderer/style/fit/light_law.h"
 #include "renderer/style/fit/separate_classes.h"
 #include "renderer/style/style.h"
 

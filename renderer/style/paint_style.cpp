@@ -7,7 +7,7 @@
 #include "base/grid.h"
 #include "base/parallel.h"
 #include "base/random.h"
-#include "renderer/image/oklab.h"
+#include "renderer/image/srgb.h"
 #include "renderer/paint/picture_filter.h"
 #include "renderer/paint/picture_noise.h"
 #include "renderer/style/stroke_direction.h"

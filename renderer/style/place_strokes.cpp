@@ -11,7 +11,7 @@
 #include "base/noise.h"
 #include "base/parallel.h"
 #include "base/random.h"
-#include "renderer/image/oklab.h"
+#include "renderer/image/srgb.h"
 #include "renderer/style/stroke_direction.h"
 #include "renderer/style/style_strokes.h"
 

@@ -10,7 +10,7 @@
 #include "base/text/config_reader.h"
 #include "base/text/embedded.h"
 #include "base/text/hex_colour.h"
-#include "renderer/image/oklab.h"
+#include "renderer/image/srgb.h"
 
 namespace belvedere {
 namespace {

@@ -15,7 +15,7 @@
 #include "base/math_exact.h"
 #include "base/parallel.h"
 #include "base/random.h"
-#include "renderer/image/oklab.h"
+#include "renderer/image/srgb.h"
 #include "renderer/paint/picture_filter.h"
 #include "renderer/paint/picture_noise.h"
 #include "renderer/style/style_cumulus.h"

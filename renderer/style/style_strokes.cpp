@@ -9,7 +9,7 @@
 #include "base/math.h"
 #include "base/parallel.h"
 #include "base/random.h"
-#include "renderer/image/oklab.h"
+#include "renderer/image/srgb.h"
 #include "renderer/style/stroke_direction.h"
 
 // Dark strokes along silhouettes.

@@ -11,7 +11,6 @@
 #include "renderer/trace/camera.h"
 #include "renderer/trace/guidance_rays.h"
 #include "renderer/trace/light_field.h"
-#include "renderer/trace/sun.h"
 #include "renderer/trace/terrain_model.h"
 #include "renderer/trace/tracer.h"
 #include "terrain/deform/deform.h"

@@ -14,7 +14,7 @@
 #include "base/math.h"
 #include "base/math_exact.h"
 #include "renderer/compose/massifs.h"
-#include "renderer/compose/view_defaults.h"
+#include "renderer/compose/view_shape.h"
 #include "renderer/compose/view_measures.h"
 #include "renderer/compose/view_reach.h"
 #include "renderer/compose/view_score.h"

@@ -2,20 +2,40 @@
 
 #include <glm/vec2.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "renderer/compose/coarse_ground.h"
 #include "renderer/compose/view_layout.h"
 #include "renderer/compose/view_shape.h"
+#include "renderer/paint/air.h"
 #include "renderer/scene/scene.h"
 #include "renderer/trace/camera.h"
-#include "renderer/trace/sun.h"
-#include "renderer/world/derived_values.h"
+#include "renderer/trace/light_field.h"
 #include "renderer/world/lazy_value.h"
 #include "terrain/deform/deform.h"
 #include "terrain/io/dem.h"
 
 namespace belvedere {
+
+// A value of a view that its scene leaves open, as it could be written.
+struct DerivedValue {
+  std::string key;  // dotted
+  std::string value;
+  std::string why;
+};
+
+// Distances between which generalization changes from the foreground's to the background's.
+struct GeneralizeDistances {
+  double foreground_to_m = 32000.0;
+  double background_from_m = 90000.0;
+};
+
+// Values derived from the distance of a view's horizon.
+struct ViewDistances {
+  AirParameters air;
+  GeneralizeDistances generalize;
+};
 
 // Values that a scene leaves open are derived from its region, by the rules that propose views
 // (renderer/compose). Given values are unchanged, and derived ones are rounded to what one would

@@ -11,7 +11,7 @@
 
 #include "base/error.h"
 #include "renderer/ground/feature_files.h"
-#include "renderer/ground/river_shores.h"
+#include "renderer/ground/laid_rivers.h"
 #include "terrain/io/crs.h"
 
 namespace belvedere {

@@ -11,8 +11,8 @@
 #include "renderer/compose/coarse_ground.h"
 #include "renderer/scene/scene.h"
 #include "renderer/trace/camera.h"
-#include "renderer/trace/sun.h"
-#include "renderer/world/derived_values.h"
+#include "renderer/trace/light_field.h"
+#include "renderer/world/resolve_view.h"
 #include "terrain/deform/deform.h"
 #include "terrain/io/dem.h"
 

@@ -16,7 +16,7 @@
 #include "base/math_exact.h"
 #include "base/parallel.h"
 #include "renderer/ground/feature_files.h"
-#include "terrain/deform/fold.h"
+#include "terrain/deform/deform.h"
 #include "terrain/io/crs.h"
 
 namespace belvedere {

@@ -15,7 +15,7 @@
 #include "base/random.h"
 #include "base/statistics.h"
 #include "base/text/text_encoding.h"
-#include "terrain/climate/growing_season.h"
+#include "terrain/climate/zonal_climate.h"
 #include "terrain/io/crs.h"
 #include "terrain/io/raster_file.h"
 #include "terrain/io/points.h"

@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "base/math.h"
-#include "terrain/climate/growing_season.h"
+#include "terrain/climate/zonal_climate.h"
 
 namespace belvedere {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "base/filter.h"
 #include "base/masks/erosion.h"
-#include "base/masks/label_patches.h"
+#include "base/masks/label_blur.h"
 
 namespace belvedere {
 namespace {

@@ -8,7 +8,7 @@
 #include "base/grid.h"
 #include "base/progress.h"
 #include "terrain/io/raster.h"
-#include "terrain/io/vector_source.h"
+#include "terrain/io/features.h"
 
 namespace belvedere {
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -149,5 +150,31 @@ DeformedSurface deform(const Grid<float>& altitude_m, const GeoTransform& transf
 // one; within a millimetre where handles and summits raise the ground, else exact up to rounding.
 // Used to find the real air along a line of sight.
 std::optional<glm::dvec3> undeform(const Deformation& deformation, glm::dvec3 deformed);
+
+// A facet of the surface (see renderer/trace/tracer.h: the cell's north-western or south-eastern
+// triangle) that handles or the field fold over in plan: its orientation is reversed or its posts
+// are collinear. There the ground covers itself.
+struct Fold {
+  int column = 0;  // of the cell's north-western post
+  int row = 0;
+  bool south_east = false;
+  glm::dvec2 position{0.0};  // undeformed centre of the facet, CRS
+  glm::dvec2 moved{0.0};     // its position in the deformed world
+};
+
+// All of them, by rows. Without handles and field there are none, as all other steps move points
+// only up and down.
+std::vector<Fold> find_folds(const Grid<float>& altitude_m, const GeoTransform& transform,
+                             const Deformation& deformation);
+
+// Summary for messages, by the handle within whose radius they lie, the one whose centre is nearest
+// in radii; all others are of the field, if there is one.
+struct FoldSummary {
+  std::optional<std::size_t> handle;  // index in DeformParameters::handles; none: of the field
+  std::size_t facets = 0;
+  glm::dvec2 centre{0.0};  // undeformed position of the fold nearest to the mean of them all
+};
+std::vector<FoldSummary> summarize_folds(const std::vector<Fold>& folds,
+                                         const DeformParameters& deform);
 
 }  // namespace belvedere

@@ -17,7 +17,7 @@
 #include "base/error.h"
 #include "base/files/file_guard.h"
 #include "terrain/fetch/fetched_area.h"
-#include "terrain/io/byte_raster_rows.h"
+#include "terrain/io/raster_file.h"
 #include "terrain/io/crs.h"
 #include "terrain/io/http_access.h"
 

@@ -13,7 +13,7 @@
 #include "base/error.h"
 #include "terrain/io/crs.h"
 #include "terrain/io/raster_file.h"
-#include "terrain/io/stream_file.h"
+#include "terrain/io/http_access.h"
 
 namespace belvedere {
 namespace {

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "base/parallel.h"
-#include "terrain/io/height_doubts.h"
+#include "terrain/io/dem.h"
 #include "terrain/io/raster_file.h"
 
 namespace belvedere {

@@ -13,7 +13,7 @@
 #include "base/math_exact.h"
 #include "base/parallel.h"
 #include "base/pyramid.h"
-#include "terrain/io/height_doubts.h"
+#include "terrain/io/dem.h"
 
 namespace belvedere {
 namespace {

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "terrain/io/vector_source.h"
+#include "terrain/io/features.h"
 
 namespace belvedere {
 

@@ -10,7 +10,7 @@
 #include "base/memory_limit.h"
 #include "base/parallel.h"
 #include "terrain/io/crs.h"
-#include "terrain/io/height_doubts.h"
+#include "terrain/io/dem.h"
 #include "terrain/io/resample.h"
 #include "terrain/io/raster_file.h"
 #include "terrain/io/raster_io.h"

@@ -6,7 +6,7 @@
 #include "base/grid.h"
 #include "base/progress.h"
 #include "texture/composite/composite_model.h"
-#include "texture/statistical/label_borders.h"
+#include "texture/statistical/clique_model.h"
 #include "texture/statistical/learn_texture.h"
 #include "texture/synthesis/exemplar.h"
 

@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "base/grid.h"
 #include "base/parallel.h"
-#include "texture/statistical/label_borders.h"
+#include "texture/statistical/clique_model.h"
 
 namespace belvedere {
 namespace {

@@ -6,7 +6,6 @@
 
 #include "base/grid.h"
 #include "texture/synthesis/exemplar.h"
-#include "texture/synthesis/match_field.h"
 
 namespace belvedere {
 

@@ -7,7 +7,6 @@
 
 #include "texture/quality/picture_measures.h"
 #include "texture/synthesis/exemplar.h"
-#include "texture/synthesis/match_field.h"
 
 namespace belvedere {
 

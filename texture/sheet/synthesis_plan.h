@@ -10,7 +10,6 @@
 #include "base/progress.h"
 #include "texture/synthesis/exemplar.h"
 #include "texture/synthesis/synth_setup.h"
-#include "texture/synthesis/synthesis_parameters.h"
 
 namespace belvedere {
 

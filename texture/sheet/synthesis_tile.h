@@ -5,7 +5,6 @@
 #include "base/progress.h"
 #include "texture/sheet/synthesis_plan.h"
 #include "texture/synthesis/exemplar.h"
-#include "texture/synthesis/match_field.h"
 
 namespace belvedere {
 

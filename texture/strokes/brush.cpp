@@ -15,7 +15,6 @@
 #include "base/math.h"
 #include "base/parallel.h"
 #include "base/pixel_rect.h"
-#include "texture/strokes/stroke.h"
 
 namespace belvedere {
 namespace {

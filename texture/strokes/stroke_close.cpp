@@ -3,7 +3,7 @@
 #include <glm/common.hpp>
 #include <optional>
 
-#include "texture/strokes/stroke_kinds.h"
+#include "texture/strokes/class_strokes.h"
 #include "texture/strokes/stroke_parts.h"
 
 // Ground detail for close views only: single stones and tufts of grass. The number of stones and

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "texture/strokes/parcels.h"
-#include "texture/strokes/stroke_kinds.h"
+#include "texture/strokes/class_strokes.h"
 #include "texture/strokes/stroke_parts.h"
 #include "texture/strokes/stroke_trees.h"
 

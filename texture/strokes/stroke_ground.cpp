@@ -3,7 +3,6 @@
 #include <limits>
 
 #include "texture/strokes/class_strokes.h"
-#include "texture/strokes/stroke_kinds.h"
 #include "texture/strokes/stroke_parts.h"
 
 namespace belvedere {

@@ -7,7 +7,7 @@
 #include "base/guidance_buffers.h"
 #include "base/progress.h"
 #include "texture/strokes/base_picture.h"
-#include "texture/strokes/stroke.h"
+#include "texture/strokes/brush.h"
 #include "texture/strokes/stroke_table.h"
 
 namespace belvedere {

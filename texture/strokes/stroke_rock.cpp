@@ -3,7 +3,7 @@
 #include <cmath>
 #include <optional>
 
-#include "texture/strokes/stroke_kinds.h"
+#include "texture/strokes/class_strokes.h"
 #include "texture/strokes/stroke_parts.h"
 #include "texture/strokes/stroke_trees.h"
 

@@ -9,7 +9,7 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "texture/strokes/base_picture.h"
-#include "texture/strokes/stroke.h"
+#include "texture/strokes/brush.h"
 
 namespace belvedere {
 

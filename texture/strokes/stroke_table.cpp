@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "texture/strokes/stroke_kinds.h"
+#include "texture/strokes/class_strokes.h"
 
 namespace belvedere {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/random.h"
-#include "texture/strokes/stroke.h"
+#include "texture/strokes/brush.h"
 #include "texture/strokes/stroke_seeds.h"
 
 namespace belvedere {

@@ -3,9 +3,12 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "base/error.h"
 #include "base/grid.h"
 
 namespace belvedere {
@@ -61,5 +64,67 @@ struct Exemplar {
 // Throws Error(usage) if picture and guides differ in size or are empty, Error(limit) over the
 // largest side.
 void check_exemplar(const Exemplar& exemplar);
+
+struct SynthesisParameters {
+  std::uint64_t seed = 1;
+  int levels = 6;  // 1…8, fewer if the smallest side would be under 16
+  std::vector<std::pair<std::string, double>>
+      weights;  // by guide name; absent: 1; 0 switches a guide off; 0…100
+  std::map<std::uint8_t, std::uint8_t>
+      fallback;           // class → class to copy from if no exemplar has any texel of it
+  int neighbourhood = 7;  // side of the patches that are compared, pixels: 3, 5, 7, 9 or 11; about
+                          // the size of the painting's elements
+  double reuse = 1.0;     // strength of the reuse penalty, 0…10
+  int copy_cap = 240;  // max size of a copied piece, texels at level 0; 16…100000; never exceeded
+  // Weight of the classes around a pixel (squared differences of class counts over 17 × 17 pixels),
+  // 0…100.
+  double surroundings = 1.0;
+  std::string surroundings_of = "commonest";  // which of the other classes around count: the
+                                              // "commonest" or "all", and each by its share
+  // Dissimilarity of two classes as surroundings, 0 (interchangeable) … 1, by pair of labels in
+  // either order; absent: 1.
+  std::map<std::pair<std::uint8_t, std::uint8_t>, double> class_dissimilarity;
+  int patch_radius() const { return neighbourhood / 2; }
+  int tile =
+      0;  // side of the tiles of one step, 0 (whole rows) or even; does not change the result
+};
+
+// The texel and exemplar from which each target pixel is copied: the state of synthesis and also a
+// product.
+struct Match {
+  static constexpr std::uint16_t none =
+      0xffff;  // exemplar of a pixel without a texel (its class exists nowhere)
+  std::uint16_t exemplar = none;
+  std::uint16_t x = 0;
+  std::uint16_t y = 0;
+  bool operator==(const Match&) const = default;
+};
+
+using MatchField = Grid<Match>;
+
+// Copies any layer of the exemplars, at its own bit depth, through a match field. layers[i] belongs
+// to exemplar i. Pixels without a match take `missing`'s value there, or T{} where `missing` is
+// empty. Throws Error(usage) if `missing` has another size, Error(input) if a match points outside
+// its layer.
+template <class T>
+Grid<T> replay(const MatchField& matches, const std::vector<const Grid<T>*>& layers,
+               const Grid<T>& missing) {
+  if (!missing.empty() && !missing.same_size(matches)) {
+    throw Error(ErrorKind::usage, "match field", "the values for missing pixels have another size",
+                "the size of the match field");
+  }
+  Grid<T> out(matches.width(), matches.height());
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    const Match m = matches[i];
+    if (m.exemplar == Match::none) {
+      if (!missing.empty()) out[i] = missing[i];
+    } else if (m.exemplar < layers.size() && layers[m.exemplar]->contains(m.x, m.y)) {
+      out[i] = (*layers[m.exemplar])(m.x, m.y);
+    } else {
+      throw Error(ErrorKind::input, "match field", "a match points outside the exemplars");
+    }
+  }
+  return out;
+}
 
 }  // namespace belvedere

@@ -13,7 +13,7 @@
 
 #include "base/parallel.h"
 #include "base/random.h"
-#include "texture/synthesis/synth_bins.h"
+#include "texture/synthesis/synth_lists.h"
 #include "texture/synthesis/synth_state.h"
 
 // Shared by the parts of a level; internal.

@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "texture/synthesis/large_pages.h"
-#include "texture/synthesis/match_field.h"
+#include "texture/synthesis/exemplar.h"
 #include "texture/synthesis/synth_level.h"
 
 namespace belvedere::synth {

@@ -9,7 +9,6 @@
 #include "base/progress.h"
 #include "texture/synthesis/exemplar.h"
 #include "texture/synthesis/synth_state.h"
-#include "texture/synthesis/synthesis_parameters.h"
 
 // Preparation before the first level: the pairing of guides and the numbers of classes.
 namespace belvedere::synth {

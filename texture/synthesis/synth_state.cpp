@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-#include "texture/synthesis/synth_bins.h"
+#include "texture/synthesis/synth_lists.h"
 
 namespace belvedere::synth {
 namespace {

@@ -5,8 +5,6 @@
 
 #include "base/progress.h"
 #include "texture/synthesis/exemplar.h"
-#include "texture/synthesis/match_field.h"
-#include "texture/synthesis/synthesis_parameters.h"
 
 namespace belvedere {
 

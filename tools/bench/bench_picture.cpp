@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/cache/cache.h"
-#include "base/cache/scratch_folder.h"
+#include "base/files/output_file.h"
 #include "base/parallel.h"
 #include "renderer/paint/picture_filter.h"
 #include "renderer/paint/ribs.h"

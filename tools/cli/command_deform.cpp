@@ -23,7 +23,7 @@
 #include "renderer/trace/sketch/relief_sketch.h"
 #include "renderer/world/generalize_view.h"
 #include "renderer/world/scene_dem.h"
-#include "renderer/world/valley_view.h"
+#include "renderer/world/world.h"
 #include "terrain/io/raster_io.h"
 #include "terrain/io/surface_raster.h"
 #include "terrain/shape/valley_floor.h"

@@ -9,7 +9,6 @@
 #include "renderer/image/exr/match_file.h"
 #include "renderer/image/image_io.h"
 #include "texture/synthesis/exemplar.h"
-#include "texture/synthesis/match_field.h"
 
 namespace belvedere::tools {
 

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "base/error.h"
-#include "tools/cli/contact/picture_table.h"
 #include "tools/cli/contact/scene_sweep.h"
 #include "tools/options/options.h"
 #include "tools/report/report_pictures.h"

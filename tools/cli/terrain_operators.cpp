@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include "terrain/generalize/widen_valleys.h"
-#include "terrain/io/contours.h"
 #include "terrain/io/raster_io.h"
 #include "terrain/shape/derivatives.h"
 #include "tools/options/options.h"

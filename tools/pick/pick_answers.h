@@ -10,7 +10,6 @@
 #include "renderer/register/pair_proposals.h"
 #include "terrain/io/dem.h"
 #include "tools/pick/pairs_fitter.h"
-#include "tools/pick/pairs_session.h"
 #include "tools/web/tile_pyramid.h"
 
 namespace belvedere::tools {

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "terrain/layers/fit/colour_regions.h"
-#include "terrain/layers/fit/held_out.h"
+#include "terrain/layers/fit/ground_fit.h"
 #include "terrain/layers/fit/hue_saturation.h"
 #include "terrain/layers/layer_coverage.h"
 #include "tools/report/report.h"

@@ -9,7 +9,6 @@
 #include "base/text/json.h"
 #include "renderer/register/registered_cover.h"
 #include "renderer/register/registered_ground.h"
-#include "renderer/register/registered_light.h"
 #include "terrain/register/registration.h"
 
 namespace belvedere::tools {

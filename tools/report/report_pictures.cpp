@@ -6,7 +6,7 @@
 #include <iterator>
 #include <vector>
 
-#include "base/cache/scratch_folder.h"
+#include "base/files/output_file.h"
 #include "base/land_cover_class.h"
 #include "base/parallel.h"
 #include "base/statistics.h"

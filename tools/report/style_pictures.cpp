@@ -12,7 +12,7 @@
 #include "base/math_exact.h"
 #include "base/noise.h"
 #include "base/random.h"
-#include "renderer/image/oklab.h"
+#include "renderer/image/srgb.h"
 #include "renderer/style/fit/style_painting.h"
 #include "tools/report/report.h"
 #include "tools/report/report_pictures.h"

@@ -13,11 +13,9 @@
 #include "base/run.h"
 #include "renderer/scene/scene_file.h"
 #include "tools/studio/answers.h"
-#include "tools/studio/file_owner.h"
-#include "tools/studio/http_server.h"
-#include "tools/studio/page_answers.h"
-#include "tools/studio/picture_queue.h"
 #include "tools/studio/scene_session.h"
+#include "tools/studio/http_server.h"
+#include "tools/studio/picture_queue.h"
 
 namespace belvedere::tools {
 

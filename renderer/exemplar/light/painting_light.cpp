@@ -15,8 +15,8 @@
 #include "base/parallel.h"
 #include "base/pixel_rect.h"
 #include "base/statistics.h"
-#include "renderer/image/oklab.h"
-#include "renderer/trace/sun.h"
+#include "renderer/image/srgb.h"
+#include "renderer/trace/light_field.h"
 #include "texture/synthesis/exemplar.h"
 
 namespace belvedere {

@@ -13,7 +13,7 @@
 #include "base/parallel.h"
 #include "base/statistics.h"
 #include "renderer/exemplar/uncertain_places.h"
-#include "renderer/image/oklab.h"
+#include "renderer/image/srgb.h"
 #include "texture/synthesis/exemplar.h"
 
 namespace belvedere {

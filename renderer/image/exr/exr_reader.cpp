@@ -1,7 +1,5 @@
 #include "renderer/image/exr/exr_reader.h"
 
-// Sizes are taken from our own reading of the header: opening a file with the library allocates
-// tables of the size it claims.
 #include <Iex.h>
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
@@ -13,17 +11,21 @@
 #include <ImfStringAttribute.h>
 #include <ImfTileDescriptionAttribute.h>
 #include <ImfVersion.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <half.h>
 #include <utility>
 
 #include "base/error.h"
 #include "renderer/image/image_file_parts.h"
+
+// Sizes are taken from our own reading of the header: opening a file with the library allocates
+// tables of the size it claims.
 
 namespace belvedere {
 namespace {
@@ -357,6 +359,23 @@ std::vector<Grid<float>> read_sampled_channels(const std::string& path,
 
 Grid<std::uint32_t> read_id_channel(const std::string& path, const std::string& channel) {
   return read_one<std::uint32_t>(path, channel, true);
+}
+
+void to_halves(const float* from, std::size_t step, std::size_t count, std::uint16_t* to) {
+  for (std::size_t i = 0; i < count; ++i, from += step) {
+    const float v = std::isfinite(*from) ? std::clamp(*from, -static_cast<float>(HALF_MAX),
+                                                      static_cast<float>(HALF_MAX))
+                                         : *from;
+    to[i] = half(v).bits();
+  }
+}
+
+void from_halves(const std::uint16_t* from, std::size_t count, float* to, std::size_t step) {
+  for (std::size_t i = 0; i < count; ++i, to += step) {
+    half value;
+    value.setBits(from[i]);
+    *to = static_cast<float>(value);
+  }
 }
 
 }  // namespace belvedere

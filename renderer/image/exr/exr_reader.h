@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -24,5 +25,11 @@ Grid<std::uint32_t> read_id_channel(const std::string& path, const std::string& 
 // absent channel gives an empty grid. Memory holds a row of tiles.
 std::vector<Grid<float>> read_sampled_channels(const std::string& path,
                                                const std::vector<std::string>& channels, int step);
+
+// Numbers as the 16 bits of OpenEXR files, rounded to the nearest; finite numbers beyond ±65504 are
+// clamped. `count` values each step apart.
+void to_halves(const float* from, std::size_t step, std::size_t count, std::uint16_t* to);
+// The exact inverse.
+void from_halves(const std::uint16_t* from, std::size_t count, float* to, std::size_t step);
 
 }  // namespace belvedere

@@ -29,7 +29,7 @@
 #include "base/files/output_file.h"
 #include "base/parallel.h"
 #include "renderer/image/deflate.h"
-#include "renderer/image/exr/half_floats.h"
+#include "renderer/image/exr/exr_reader.h"
 #include "renderer/image/image_file.h"
 #include "renderer/image/provenance.h"
 

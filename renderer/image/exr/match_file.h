@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "renderer/image/exr/exr_writer.h"
-#include "texture/synthesis/match_field.h"
+#include "texture/synthesis/exemplar.h"
 
 namespace belvedere {
 

@@ -17,7 +17,7 @@
 #include "base/text/markup.h"
 #include "renderer/image/deflate.h"
 #include "renderer/image/exr/exr_writer.h"
-#include "renderer/image/exr/half_floats.h"
+#include "renderer/image/exr/exr_reader.h"
 #include "renderer/image/layers/layer_png.h"
 #include "renderer/image/layers/layered_sheet.h"
 #include "renderer/image/layers/psd_file.h"

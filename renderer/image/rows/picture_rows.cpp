@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "renderer/image/oklab.h"
+#include "renderer/image/srgb.h"
 
 namespace belvedere {
 

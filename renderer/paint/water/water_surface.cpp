@@ -9,7 +9,7 @@
 #include "base/colour/water_colour.h"
 #include "base/math.h"
 #include "base/random.h"
-#include "renderer/image/oklab.h"
+#include "renderer/image/srgb.h"
 
 namespace belvedere {
 namespace {

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "renderer/style/fit/class_ramps.h"
-#include "renderer/style/fit/light_law.h"
 #include "renderer/style/fit/style_painting.h"
 
 namespace belvedere {

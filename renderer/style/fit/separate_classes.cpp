@@ -8,7 +8,7 @@
 
 #include "base/math_exact.h"
 #include "base/statistics.h"
-#include "renderer/style/fit/light_law.h"
+#include "renderer/style/fit/class_ramps.h"
 
 namespace belvedere {
 namespace {

@@ -14,7 +14,7 @@
 #include "base/math_exact.h"
 #include "base/parallel.h"
 #include "base/statistics.h"
-#include "renderer/image/oklab.h"
+#include "renderer/image/srgb.h"
 #include "terrain/layers/fit/clusters.h"
 #include "texture/synthesis/exemplar.h"
 

@@ -14,7 +14,7 @@
 #include "base/math.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
-#include "renderer/trace/sun.h"
+#include "renderer/trace/light_field.h"
 #include "renderer/world/view.h"
 #include "terrain/io/features.h"
 #include "terrain/io/raster_io.h"

@@ -1,7 +1,7 @@
 #include "renderer/world/style/scene_style.h"
 
 #include "base/files/kept_files.h"
-#include "renderer/image/oklab.h"
+#include "renderer/image/srgb.h"
 #include "renderer/paint/light.h"
 #include "renderer/style/fit/style_painting.h"
 #include "renderer/style/stroke_direction.h"

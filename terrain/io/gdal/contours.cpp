@@ -1,4 +1,4 @@
-#include "terrain/io/contours.h"
+#include "terrain/io/raster_io.h"
 
 #include <cpl_string.h>
 #include <fmt/core.h>

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "base/cache/scratch_folder.h"
+#include "base/files/output_file.h"
 
 namespace belvedere {
 

@@ -17,7 +17,6 @@
 #include "base/text/text_encoding.h"
 #include "terrain/io/http_access.h"
 #include "terrain/io/raster_file.h"
-#include "terrain/io/stream_file.h"
 
 namespace belvedere {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "terrain/io/gdal/gdal_files.h"
-#include "terrain/io/vector_source.h"
+#include "terrain/io/features.h"
 
 namespace belvedere {
 

@@ -12,7 +12,6 @@
 #include "base/filter.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
-#include "renderer/image/oklab.h"
 #include "renderer/image/srgb.h"
 #include "renderer/style/fit/paint_figures.h"
 

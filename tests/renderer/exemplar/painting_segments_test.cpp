@@ -11,7 +11,7 @@
 #include "base/land_cover_class.h"
 #include "base/random.h"
 #include "renderer/image/image_io.h"
-#include "renderer/image/oklab.h"
+#include "renderer/image/srgb.h"
 #include "tests/paths.h"
 #include "texture/segment/segment_figures.h"
 #include "texture/synthesis/exemplar.h"

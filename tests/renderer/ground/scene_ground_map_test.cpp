@@ -12,7 +12,6 @@
 #include "base/error.h"
 #include "renderer/world/scene_dem.h"
 #include "renderer/world/scene_land_cover.h"
-#include "renderer/world/valley_view.h"
 #include "renderer/world/world.h"
 #include "tests/files.h"
 #include "tests/notes.h"

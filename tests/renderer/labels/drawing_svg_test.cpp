@@ -1,11 +1,10 @@
 #include "renderer/labels/drawing_svg.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <OpenImageIO/imageio.h>
 #include <cstdlib>
 #include <glm/geometric.hpp>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include "renderer/labels/sheet_painter.h"
 #include "tests/files.h"
@@ -105,5 +104,25 @@ TEST(DrawingSvg, LibrsvgDrawsWhatThePictureHas) {
   }
 }
 
+using test::bent;
+using test::sans;
+
+// The first of Hebrew letters stands at the right.
+TEST(PlacedText, KnowsWhichLettersStandWhere) {
+  const TextMeasure measure;
+  if (!TextMeasure::has_family(sans)) GTEST_SKIP() << "DejaVu is not installed";
+  const std::vector<PlacedLetter> hebrew = place_letters(bent("הר חרמון"), measure);
+  ASSERT_EQ(hebrew.size(), 8U);
+  EXPECT_EQ(hebrew.back().letter.text, "ה");
+  EXPECT_EQ(hebrew.front().letter.text, "ן");
+  EXPECT_GT(hebrew.back().at.x, hebrew.front().at.x + 100.0);
+}
+
+TEST(PlacedText, NothingStandsOnALineThatIsTooShort) {
+  EXPECT_TRUE(
+      place_letters(bent("Ein viel zu langer Name für diese kurze Linie"), TextMeasure()).empty());
+}
+
 }  // namespace
+
 }  // namespace belvedere

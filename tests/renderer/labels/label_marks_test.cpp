@@ -8,8 +8,8 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "renderer/world/valley_view.h"
-#include "terrain/shape/summits.h"
+#include "renderer/world/world.h"
+#include "terrain/shape/valley_floor.h"
 #include "tests/scenes.h"
 
 namespace belvedere {

@@ -9,7 +9,7 @@
 
 #include "base/parallel.h"
 #include "base/random.h"
-#include "renderer/world/valley_view.h"
+#include "renderer/world/world.h"
 #include "tests/files.h"
 #include "tests/scenes.h"
 

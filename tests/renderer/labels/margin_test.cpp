@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "renderer/world/valley_view.h"
+#include "renderer/world/world.h"
 #include "tests/scenes.h"
 
 namespace belvedere {

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "renderer/labels/drawing_svg.h"
-#include "renderer/world/valley_view.h"
+#include "renderer/world/world.h"
 #include "tests/scenes.h"
 
 namespace belvedere {

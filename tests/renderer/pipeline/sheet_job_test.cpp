@@ -20,7 +20,7 @@
 #include "tests/texture/statistical/texture_crops.h"
 #include "texture/statistical/learn_texture.h"
 #include "texture/statistical/model_file.h"
-#include "texture/synthesis/match_field.h"
+#include "texture/synthesis/exemplar.h"
 
 namespace belvedere {
 namespace {

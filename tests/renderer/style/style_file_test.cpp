@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "base/text/embedded.h"
-#include "renderer/image/oklab.h"
+#include "renderer/image/srgb.h"
 #include "renderer/style/fit_style.h"
 #include "tests/files.h"
 #include "tests/renderer/style/synthetic_painting.h"

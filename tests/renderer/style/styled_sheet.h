@@ -7,7 +7,7 @@
 #include "base/grid.h"
 #include "base/guidance_buffers.h"
 #include "base/random.h"
-#include "renderer/image/oklab.h"
+#include "renderer/image/srgb.h"
 #include "renderer/style/style.h"
 
 namespace belvedere::test {

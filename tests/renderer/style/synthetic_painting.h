@@ -10,7 +10,7 @@
 #include "base/land_cover_class.h"
 #include "base/noise.h"
 #include "base/random.h"
-#include "renderer/image/oklab.h"
+#include "renderer/image/srgb.h"
 
 namespace belvedere::test {
 

@@ -388,7 +388,7 @@ TEST(Guidance, RefusesParametersOutOfRange) {
                Error);
 }
 
-constexpr float sky = std::numeric_limits<float>::infinity();
+constexpr float sky_m = std::numeric_limits<float>::infinity();
 
 // Depth along the ray of a perspective picture for a level plain, the eye 500 m above it, the
 // horizon at row `horizon`; 1000 pixels of focal length; columns from -width/2.
@@ -400,7 +400,7 @@ Grid<float> plain(int width, int height, double horizon) {
       const double side = (x + 0.5 - width / 2.0) / 1000.0;
       depth(x, y) =
           down > 0.0 ? static_cast<float>(500.0 / down * std::sqrt(1.0 + down * down + side * side))
-                     : sky;
+                     : sky_m;
     }
   }
   return depth;
@@ -474,7 +474,7 @@ TEST(Silhouettes, EverythingIsNearerThanTheSky) {
     EXPECT_EQ(found(x, 19), 0.F);
     EXPECT_LT(found(x, 25), 0.01F);
   }
-  const Grid<float> nothing = find_silhouettes(Grid<float>(5, 5, sky));
+  const Grid<float> nothing = find_silhouettes(Grid<float>(5, 5, sky_m));
   EXPECT_EQ(*std::max_element(nothing.begin(), nothing.end()), 0.F);
 }
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "terrain/climate/growing_season.h"
+#include "terrain/climate/zonal_climate.h"
 
 namespace belvedere::test {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "terrain/io/byte_raster_rows.h"
+#include "terrain/io/raster_file.h"
 #include "tests/files.h"
 
 namespace belvedere {

@@ -1,4 +1,4 @@
-#include "terrain/io/contours.h"
+#include "terrain/io/raster_io.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,6 @@
 
 #include "base/filter.h"
 #include "terrain/generalize/line_integral_generalize.h"
-#include "terrain/io/raster_io.h"
 #include "terrain/synthetic/synthetic_plan.h"
 #include "tests/terrain/io/raster_files.h"
 

@@ -9,7 +9,7 @@
 #include "base/math.h"
 #include "base/random.h"
 #include "base/statistics.h"
-#include "terrain/deform/fold.h"
+#include "terrain/deform/deform.h"
 #include "tests/files.h"
 #include "tests/grids.h"
 #include "tests/terrain/register/synthetic_view.h"

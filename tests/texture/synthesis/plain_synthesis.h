@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "texture/synthesis/exemplar.h"
-#include "texture/synthesis/match_field.h"
 
 namespace belvedere::test {
 

@@ -14,7 +14,7 @@
 
 #include "base/random.h"
 #include "tests/texture/synthesis/noise_plane.h"
-#include "texture/synthesis/synth_bins.h"
+#include "texture/synthesis/synth_lists.h"
 #include "texture/synthesis/synth_level.h"
 
 namespace belvedere::synth {

@@ -7,7 +7,7 @@
 
 #include "texture/strokes/ice/ice_ground.h"
 #include "texture/strokes/ice/ice_plan.h"
-#include "texture/strokes/stroke_kinds.h"
+#include "texture/strokes/class_strokes.h"
 #include "texture/strokes/stroke_parts.h"
 
 namespace belvedere {

@@ -10,8 +10,7 @@
 #include "base/guidance_buffers.h"
 #include "texture/strokes/base_picture.h"
 #include "texture/strokes/ice/ice_ground.h"
-#include "texture/strokes/ice/ice_way.h"
-#include "texture/strokes/stroke.h"
+#include "texture/strokes/brush.h"
 #include "texture/strokes/stroke_seeds.h"
 
 namespace belvedere {

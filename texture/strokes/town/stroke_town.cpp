@@ -14,7 +14,7 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "texture/strokes/parcels.h"
-#include "texture/strokes/stroke_kinds.h"
+#include "texture/strokes/class_strokes.h"
 #include "texture/strokes/stroke_parts.h"
 #include "texture/strokes/stroke_seeds.h"
 

@@ -5,7 +5,7 @@
 
 #include "base/math.h"
 #include "base/math_exact.h"
-#include "texture/strokes/stroke_kinds.h"
+#include "texture/strokes/class_strokes.h"
 #include "texture/strokes/stroke_parts.h"
 
 namespace belvedere {

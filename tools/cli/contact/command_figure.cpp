@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/cache/cache.h"
-#include "base/cache/scratch_folder.h"
+#include "base/files/output_file.h"
 #include "base/land_cover_class.h"
 #include "base/text/json.h"
 #include "renderer/exemplar/exemplars.h"
@@ -20,7 +20,7 @@
 #include "renderer/world/world.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/contact/making_of.h"
-#include "tools/cli/contact/picture_table.h"
+#include "tools/cli/contact/scene_sweep.h"
 #include "tools/cli/scene_options.h"
 #include "tools/cli/terminal.h"
 #include "tools/options/options.h"

@@ -5,14 +5,13 @@
 #include <utility>
 
 #include "base/cache/cache.h"
-#include "base/cache/scratch_folder.h"
+#include "base/files/output_file.h"
 #include "base/error.h"
 #include "base/text/json.h"
 #include "renderer/image/image_io.h"
 #include "renderer/pipeline/pipeline.h"
 #include "renderer/world/scene_dem.h"
 #include "tools/cli/commands.h"
-#include "tools/cli/contact/picture_table.h"
 #include "tools/cli/contact/scene_sweep.h"
 #include "tools/cli/scene_options.h"
 #include "tools/cli/terminal.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/cache/scratch_folder.h"
+#include "base/files/output_file.h"
 #include "base/land_cover_class.h"
 #include "renderer/pipeline/copy_plan.h"
 #include "renderer/pipeline/scene_paint.h"
@@ -15,8 +15,8 @@
 #include "renderer/trace/sketch/relief_sketch.h"
 #include "renderer/world/scene_features.h"
 #include "renderer/world/season/scene_season.h"
-#include "renderer/world/valley_view.h"
-#include "tools/cli/contact/picture_table.h"
+#include "renderer/world/world.h"
+#include "tools/cli/contact/scene_sweep.h"
 #include "tools/report/report_pictures.h"
 
 namespace belvedere::tools {

@@ -16,7 +16,6 @@
 #include "renderer/register/register_by_paint.h"
 #include "renderer/register/registered_cover.h"
 #include "renderer/register/registered_ground.h"
-#include "renderer/register/registered_light.h"
 #include "renderer/scene/scene_file.h"
 #include "terrain/register/control_pairs.h"
 #include "terrain/register/registration.h"

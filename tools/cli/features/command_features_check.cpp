@@ -12,7 +12,7 @@
 #include "renderer/features/drawn_features.h"
 #include "renderer/ground/feature_files.h"
 #include "renderer/world/scene_features.h"
-#include "renderer/world/valley_view.h"
+#include "renderer/world/world.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/scene_options.h"
 #include "tools/cli/terminal.h"

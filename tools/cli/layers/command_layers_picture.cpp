@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/text/json.h"
-#include "terrain/io/byte_raster_rows.h"
+#include "terrain/io/raster_file.h"
 #include "terrain/layers/layer_coverage.h"
 #include "terrain/layers/layer_picture.h"
 #include "terrain/layers/layers_file.h"

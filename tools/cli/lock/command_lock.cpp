@@ -5,10 +5,9 @@
 #include <memory>
 #include <optional>
 
-#include "base/cache/scratch_folder.h"
+#include "base/files/output_file.h"
 #include "base/error.h"
 #include "base/files/file_guard.h"
-#include "base/files/output_file.h"
 #include "base/text/json.h"
 #include "renderer/image/provenance.h"
 #include "renderer/pipeline/pipeline.h"

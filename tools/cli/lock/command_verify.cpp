@@ -9,9 +9,8 @@
 #include <optional>
 #include <set>
 
-#include "base/cache/scratch_folder.h"
-#include "base/error.h"
 #include "base/files/output_file.h"
+#include "base/error.h"
 #include "base/text/json.h"
 #include "renderer/image/provenance.h"
 #include "renderer/pipeline/pipeline.h"

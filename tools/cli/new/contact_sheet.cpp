@@ -6,15 +6,15 @@
 #include <utility>
 
 #include "base/cache/cache.h"
-#include "base/cache/scratch_folder.h"
+#include "base/files/output_file.h"
 #include "renderer/image/image_io.h"
 #include "renderer/pipeline/pipeline.h"
 #include "renderer/scene/draft.h"
 #include "renderer/world/scene_dem.h"
-#include "renderer/world/valley_view.h"
+#include "renderer/world/world.h"
 #include "terrain/io/http_access.h"
 #include "terrain/io/raster_io.h"
-#include "tools/cli/contact/picture_table.h"
+#include "tools/cli/contact/scene_sweep.h"
 
 namespace belvedere::tools {
 namespace {

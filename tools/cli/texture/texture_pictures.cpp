@@ -15,7 +15,7 @@
 #include "renderer/image/image_io.h"
 #include "renderer/image/label_image.h"
 #include "texture/statistical/band_pyramid.h"
-#include "texture/statistical/label_borders.h"
+#include "texture/statistical/clique_model.h"
 #include "tools/cli/commands.h"
 #include "tools/options/options.h"
 #include "tools/report/report_pictures.h"

@@ -51,7 +51,7 @@ void check_texture_name(const std::string& path);
 Json with_figures(Json object, const TextureFigures& figures);
 
 // A picture of labels: for each pixel the index of its label in `names`, or no_label
-// (texture/statistical/label_borders.h). A name is a flat colour, "#0000ff", or a number, "3", as
+// (texture/statistical/clique_model.h). A name is a flat colour, "#0000ff", or a number, "3", as
 // in the picture.
 struct LabelPicture {
   Grid<std::uint8_t> labels;

@@ -9,7 +9,7 @@
 #include "base/noise.h"
 #include "base/parallel.h"
 #include "base/random.h"
-#include "renderer/trace/sun.h"
+#include "renderer/trace/light_field.h"
 #include "tests/renderer/exemplar/painted_hills.h"
 #include "texture/synthesis/exemplar.h"
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "renderer/stages/lit_picture.h"
-#include "renderer/trace/sun.h"
+#include "renderer/trace/light_field.h"
 #include "renderer/world/world.h"
 #include "tests/files.h"
 #include "tests/renderer/trace/synthetic_ground.h"

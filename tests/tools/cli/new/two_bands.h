@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "terrain/io/byte_raster_rows.h"
+#include "terrain/io/raster_file.h"
 
 namespace belvedere::test {
 

@@ -1,4 +1,4 @@
-#include "renderer/image/exr/half_floats.h"
+#include "renderer/image/exr/exr_reader.h"
 
 #include <gtest/gtest.h>
 
