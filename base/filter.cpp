@@ -11,7 +11,7 @@
 
 #include "base/grid.h"
 #include "base/lines/blur_lines.h"
-#include "base/lines/bspline.h"
+#include "base/pyramid.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
 

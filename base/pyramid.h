@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "base/grid.h"
@@ -38,5 +39,17 @@ LaplacianPyramid make_laplacian_pyramid(const Grid<float>& values, int bands);
 std::vector<Grid<float>> make_gaussian_pyramid(const Grid<float>& values, int levels);
 // Maximum number of bands for a grid of this size: the limit of make_laplacian_pyramid.
 int max_bands(int width, int height);
+
+// Weights of the four coefficients of a uniform cubic B-spline at a position t in 0…1 after the
+// second (their sum is 1), and their derivatives by t.
+constexpr std::array<double, 4> bspline_weights(double t) {
+  const double u = 1.0 - t;
+  return {u * u * u / 6.0, (4.0 - 6.0 * t * t + 3.0 * t * t * t) / 6.0,
+          (4.0 - 6.0 * u * u + 3.0 * u * u * u) / 6.0, t * t * t / 6.0};
+}
+constexpr std::array<double, 4> bspline_slopes(double t) {
+  const double u = 1.0 - t;
+  return {-0.5 * u * u, t * (1.5 * t - 2.0), u * (2.0 - 1.5 * u), 0.5 * t * t};
+}
 
 }  // namespace belvedere

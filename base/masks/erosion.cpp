@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/noise.h"
 #include "base/random.h"
 
 namespace belvedere {

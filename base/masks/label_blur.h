@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <vector>
 
 #include "base/grid.h"
@@ -30,7 +29,7 @@ struct LabelPatches {
 template <class T, class ByCorners>
 LabelPatches<T> find_patches(const Grid<T>& cells, ByCorners by_corners) {
   std::vector<std::uint32_t> parent(cells.size());
-  std::iota(parent.begin(), parent.end(), 0U);
+  for (std::size_t i = 0; i < parent.size(); ++i) parent[i] = static_cast<std::uint32_t>(i);
   const auto root = [&](std::uint32_t i) {
     while (parent[i] != i) i = parent[i] = parent[parent[i]];
     return i;

@@ -10,7 +10,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
-#include "base/colour/symmetric_matrix.h"
+#include "base/matrix/matrix.h"
 #include "base/error.h"
 #include "base/filter.h"
 #include "base/parallel.h"

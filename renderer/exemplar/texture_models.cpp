@@ -8,9 +8,9 @@
 #include <glm/common.hpp>
 
 #include "base/error.h"
-#include "texture/composite/composite_model.h"
-#include "texture/statistical/model_file.h"
-#include "texture/synthesis/class_texels.h"
+#include "texture/composite/make_composite.h"
+#include "texture/statistical/clique_model.h"
+#include "texture/synthesis/exemplar.h"
 
 namespace belvedere {
 namespace {

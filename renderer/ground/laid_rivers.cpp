@@ -12,10 +12,9 @@
 #include "base/filter.h"
 #include "base/math.h"
 #include "base/math_exact.h"
-#include "base/noise.h"
+#include "base/random.h"
 #include "base/parallel.h"
 #include "base/pixel_rect.h"
-#include "base/random.h"
 #include "renderer/ground/cached_products.h"
 
 namespace belvedere {

@@ -8,9 +8,8 @@
 #include <utility>
 
 #include "base/math.h"
-#include "base/noise.h"
-#include "base/parallel.h"
 #include "base/random.h"
+#include "base/parallel.h"
 
 namespace belvedere {
 namespace {

@@ -19,7 +19,7 @@
 #include "base/files/output_file.h"
 #include "base/parallel.h"
 #include "renderer/image/exif.h"
-#include "renderer/image/image_file_parts.h"
+#include "renderer/image/image_file.h"
 #include "renderer/image/provenance.h"
 
 namespace belvedere {

@@ -15,7 +15,7 @@
 #include "base/files/output_file.h"
 #include "base/parallel.h"
 #include "renderer/image/srgb.h"
-#include "renderer/image/image_file_parts.h"
+#include "renderer/image/image_file.h"
 #include "renderer/image/png_palette.h"
 #include "renderer/image/provenance.h"
 #include "renderer/image/tiff_file.h"

@@ -12,7 +12,7 @@
 #include "base/error.h"
 #include "base/files/output_file.h"
 #include "renderer/image/deflate.h"
-#include "renderer/image/image_file_parts.h"
+#include "renderer/image/image_file.h"
 
 // Checks a PNG without libpng, which prints messages where data is missing, and does not notice a
 // missing end of file.

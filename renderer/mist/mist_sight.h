@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "base/grid.h"
-#include "renderer/mist/lee_cloud.h"
-#include "renderer/mist/mist_bed.h"
+#include "renderer/mist/mist_bodies.h"
 #include "renderer/paint/picture_noise.h"
 #include "renderer/trace/camera.h"
 #include "renderer/trace/tracer.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/lines/bspline.h"
+#include "base/pyramid.h"
 #include "base/parallel.h"
 #include "base/random.h"
 

@@ -9,12 +9,12 @@
 
 namespace belvedere {
 
-// As in base/noise.cpp: the deviation of a B-spline is its spacing / sqrt(3).
+// As in base/random.cpp: the deviation of a B-spline is its spacing / sqrt(3).
 constexpr double spacing_per_sigma = 1.7320508075688772;
 // A lattice coordinate outside every picture, for empty cache entries.
 constexpr std::int64_t nowhere = INT64_MIN;
 
-// The noise of base/noise.h evaluated for whole pictures: same values up to float rounding, many
+// The noise of base/random.h evaluated for whole pictures: same values up to float rounding, many
 // times faster. Both are pure functions of seed and absolute position, so they do not depend on how
 // a picture is split into parts.
 

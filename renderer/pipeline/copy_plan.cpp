@@ -19,7 +19,7 @@
 #include "renderer/scene/scene_rules.h"
 #include "renderer/stages/lit_picture.h"
 #include "renderer/trace/camera.h"
-#include "texture/synthesis/class_texels.h"
+#include "texture/synthesis/exemplar.h"
 
 namespace belvedere {
 namespace {

@@ -13,7 +13,7 @@
 #include "renderer/stages/picture_layers.h"
 #include "renderer/stages/stages.h"
 #include "terrain/io/http_access.h"
-#include "texture/sheet/synthesis_plan.h"
+#include "texture/sheet/synthesis_sheet.h"
 
 namespace belvedere {
 namespace {

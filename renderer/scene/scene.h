@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/land_cover_class.h"
-#include "renderer/mist/mist_bed.h"
+#include "renderer/mist/mist_bodies.h"
 #include "renderer/paint/air.h"
 #include "renderer/paint/guides.h"
 #include "renderer/paint/light.h"

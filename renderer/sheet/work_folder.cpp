@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <fcntl.h>
 #include <filesystem>
+#include <future>
 #include <fmt/core.h>
 #include <fstream>
 #include <sstream>
@@ -253,8 +254,15 @@ constexpr std::size_t max_bytes_beside = std::size_t{256} << 20U;
 
 }  // namespace
 
+struct PieceWriter::Writing {
+  std::future<void> done;
+};
+
+PieceWriter::PieceWriter(const WorkFolder& work)
+    : work_(work), writing_(std::make_unique<Writing>()) {}
+
 PieceWriter::~PieceWriter() {
-  if (writing_.valid()) writing_.wait();
+  if (writing_->done.valid()) writing_->done.wait();
 }
 
 void PieceWriter::keep(const std::string& product, PixelRect rect, const Planes& planes,
@@ -262,7 +270,7 @@ void PieceWriter::keep(const std::string& product, PixelRect rect, const Planes&
   finish();
   std::size_t bytes = 0;
   for (const Plane& plane : planes) bytes += plane.bytes();
-  writing_ = std::async(std::launch::async,
+  writing_->done = std::async(std::launch::async,
                         [&work = work_, product, rect, planes, kept = std::move(holder)] {
                           work.keep(product, rect, planes);
                         });
@@ -270,7 +278,7 @@ void PieceWriter::keep(const std::string& product, PixelRect rect, const Planes&
 }
 
 void PieceWriter::finish() {
-  if (writing_.valid()) writing_.get();
+  if (writing_->done.valid()) writing_->done.get();
 }
 
 }  // namespace belvedere

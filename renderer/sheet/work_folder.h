@@ -1,6 +1,5 @@
 #pragma once
 
-#include <future>
 #include <map>
 #include <memory>
 #include <string>
@@ -82,7 +81,7 @@ struct JoinedPieces {
 // ones, which would take too much memory beside the next, the caller waits.
 class PieceWriter {
  public:
-  explicit PieceWriter(const WorkFolder& work) : work_(work) {}
+  explicit PieceWriter(const WorkFolder& work);
   ~PieceWriter();  // waits; errors are then lost: call finish() first
   PieceWriter(const PieceWriter&) = delete;
   PieceWriter& operator=(const PieceWriter&) = delete;
@@ -96,7 +95,8 @@ class PieceWriter {
 
  private:
   const WorkFolder& work_;
-  std::future<void> writing_;
+  struct Writing;
+  std::unique_ptr<Writing> writing_;
 };
 
 }  // namespace belvedere

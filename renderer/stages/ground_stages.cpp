@@ -11,7 +11,7 @@
 #include "renderer/mist/mist_sight.h"
 #include "renderer/paint/ground/base_surroundings.h"
 #include "renderer/paint/guides.h"
-#include "renderer/rock/crest_shift.h"
+#include "renderer/rock/rock_ground.h"
 #include "renderer/stages/copied_ground.h"
 #include "renderer/stages/lit_picture.h"
 #include "renderer/stages/sheet_style.h"

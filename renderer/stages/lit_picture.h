@@ -10,7 +10,7 @@
 #include "renderer/graph/stage_graph.h"
 #include "renderer/paint/base_picture.h"
 #include "renderer/paint/palette.h"
-#include "renderer/rock/crest_shift.h"
+#include "renderer/rock/rock_ground.h"
 #include "renderer/rock/rock_relief.h"
 #include "renderer/stages/ground_inputs.h"
 #include "renderer/world/picture_parameters.h"

@@ -7,9 +7,8 @@
 #include "base/error.h"
 #include "base/filter.h"
 #include "base/guidance_buffers.h"
-#include "base/noise.h"
-#include "base/parallel.h"
 #include "base/random.h"
+#include "base/parallel.h"
 #include "renderer/paint/light.h"
 
 namespace belvedere {

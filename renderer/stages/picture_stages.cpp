@@ -6,7 +6,7 @@
 #include "base/grid.h"
 #include "renderer/features/drawn_features.h"
 #include "renderer/mist/mist_sight.h"
-#include "renderer/rock/crest_shift.h"
+#include "renderer/rock/rock_ground.h"
 #include "renderer/stages/copied_ground.h"
 #include "renderer/stages/lit_picture.h"
 #include "renderer/stages/sheet_style.h"

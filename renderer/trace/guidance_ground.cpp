@@ -7,7 +7,6 @@
 
 #include "base/math.h"
 #include "base/math_exact.h"
-#include "base/noise.h"
 #include "base/random.h"
 #include "terrain/cover/map_cover.h"
 #include "terrain/generalize/widen_valleys.h"

@@ -15,7 +15,6 @@
 #include "base/masks/polygon.h"
 #include "base/math.h"
 #include "base/math_exact.h"
-#include "base/noise.h"
 #include "base/random.h"
 
 namespace belvedere {

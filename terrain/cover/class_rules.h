@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/grid.h"
 #include "base/progress.h"
 #include "terrain/climate/rule_climate.h"
 #include "terrain/cover/land_cover.h"
@@ -15,6 +16,8 @@
 #include "terrain/io/dem.h"
 #include "terrain/shape/hydrology.h"
 #include "terrain/shape/sea.h"
+
+// Ice of class rules. Private to them.
 
 namespace belvedere {
 
@@ -55,5 +58,30 @@ std::vector<TownSite> find_rule_towns(const ClassRules& rules,
 // leave open, and settlements. With them, parts of the DEM get the same result as the whole.
 ClassRuleParameters parameters_for_parts(const ClassRules& rules,
                                          const ClassRuleParameters& parameters, const Dem& whole);
+
+namespace class_rules {
+
+// Ice that flows into a window of a larger DEM.
+struct IceEntry {
+  std::int32_t cell = 0;  // of the window's grid, where it enters
+  float km2 = 0.F;        // area of snow field it comes from
+};
+
+struct RuleIce {
+  Grid<float> covered;    // glaciers, 0…1
+  Grid<float> km2;        // area of snow field whose ice flows through each cell
+  Grid<float> surface_m;  // surface of the ice
+};
+
+// Accumulation minus melt (`balance`) flows downhill, and ice fills the valleys it flows through
+// until it has melted: tongues. On refined cells it flows and melts as on those of the data, in
+// streams narrower than a cell.
+RuleIce flowing_ice(const Grid<float>& balance, const Dem& dem,
+                    const std::vector<IceEntry>& entries = {});
+
+// The ice of the ground around a window that flows across the window's edge.
+std::vector<IceEntry> find_ice_entries(const RuleGround& around, const Dem& window);
+
+}  // namespace class_rules
 
 }  // namespace belvedere

@@ -11,7 +11,7 @@
 #include "base/error.h"
 #include "base/filter.h"
 #include "base/grid.h"
-#include "base/lines/bspline.h"
+#include "base/pyramid.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
 #include "base/statistics.h"

@@ -6,9 +6,8 @@
 #include "base/filter.h"
 #include "base/grid.h"
 #include "base/math.h"
-#include "base/noise.h"
-#include "base/parallel.h"
 #include "base/random.h"
+#include "base/parallel.h"
 
 namespace belvedere {
 namespace {

@@ -11,7 +11,7 @@
 #include "base/config.h"
 #include "base/grid.h"
 #include "base/land_cover_class.h"
-#include "base/noise.h"
+#include "base/random.h"
 #include "base/pixel_rect.h"
 #include "terrain/cover/rule_expression.h"
 #include "terrain/io/raster.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/filter.h"
-#include "base/lines/bspline.h"
+#include "base/pyramid.h"
 #include "base/random.h"
 #include "terrain/shape/mask_pieces.h"
 

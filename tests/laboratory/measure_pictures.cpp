@@ -11,7 +11,7 @@
 #include "renderer/image/image_io.h"
 #include "tests/renderer/exemplar/painting_figures.h"
 #include "texture/composite/learn_composite.h"
-#include "texture/statistical/model_file.h"
+#include "texture/statistical/clique_model.h"
 #include "texture/statistical/texture_figures.h"
 #include "tools/cli/texture/texture_pictures.h"
 

@@ -5,7 +5,7 @@
 
 #include "base/grid.h"
 #include "base/progress.h"
-#include "texture/composite/composite_model.h"
+#include "texture/composite/make_composite.h"
 #include "texture/statistical/clique_model.h"
 #include "texture/statistical/learn_texture.h"
 #include "texture/synthesis/exemplar.h"

@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/random.h"
-#include "texture/sheet/synthesis_plan.h"
+#include "texture/sheet/plan_data.h"
 #include "texture/synthesis/synth_level.h"
 #include "texture/synthesis/synthesize.h"
 

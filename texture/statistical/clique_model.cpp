@@ -1,10 +1,19 @@
 #include "texture/statistical/clique_model.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <fmt/format.h>
+#include <optional>
+#include <string_view>
+#include <vector>
 
+#include "base/config.h"
+#include "base/error.h"
 #include "base/math_exact.h"
+#include "base/text/json.h"
+#include "base/text/text_encoding.h"
 
 namespace belvedere {
 namespace {
@@ -137,5 +146,181 @@ Grid<std::uint8_t> near_borders(const Grid<std::uint8_t>& labels, int px) {
     }
   return px <= 1 ? border : widened(border, px - 1);
 }
+
+namespace {
+
+constexpr int version = 1;
+constexpr std::size_t clique_bytes = 4 + clique_knots;
+constexpr int max_levels = 4;
+constexpr std::array<std::string_view, 3> seed_names = {"white", "streaks", "discs"};
+
+template <class Values>
+std::string numbers(const Values& values) {
+  return fmt::format("[{}]", fmt::join(values, ", "));
+}
+
+std::string clique_text(const std::vector<Clique>& cliques) {
+  std::string bytes;
+  for (const Clique& clique : cliques) {
+    const CliqueType& t = clique.type;
+    for (const int value : {t.level, t.dx, t.dy, 3 * t.head + t.tail})
+      bytes += static_cast<char>(value);
+    for (const std::int8_t code : clique.codes) bytes += static_cast<char>(code);
+  }
+  return base64(bytes);
+}
+
+class Reader {
+ public:
+  Reader(const ConfigValue& root, const std::string& name)
+      : root_(as_table(root, name)), name_(name) {
+    allow_only(root_,
+               {"belvedere_texture", "levels", "mean", "axes", "low", "high", "seed", "seed_px",
+                "direction_deg", "direction_spread", "polish", "method", "crop_hash", "crop_size",
+                "types"},
+               name);
+  }
+
+  [[noreturn]] void refuse(const ConfigValue& at, const std::string& found,
+                           const std::string& allowed) const {
+    throw Error(ErrorKind::usage, config_where(name_, at.position), found, allowed);
+  }
+  const ConfigValue& get(const char* key) const {
+    const ConfigValue* value = find(root_, key);
+    if (value == nullptr)
+      throw Error(ErrorKind::usage, name_, fmt::format("\"{}\" is missing", key),
+                  "a texture model written by `belvedere texture learn`");
+    return *value;
+  }
+  double number(const char* key, double low, double high) const {
+    return in_range(get(key), key, low, high);
+  }
+  template <std::size_t N>
+  std::array<double, N> list(const char* key, double low, double high) const {
+    const ConfigValue& value = get(key);
+    const ConfigArray& array = as_array(value, name_);
+    if (array.size() != N)
+      refuse(value, fmt::format("{} numbers in \"{}\"", array.size(), key), fmt::format("{}", N));
+    std::array<double, N> out{};
+    for (std::size_t i = 0; i < N; ++i) out[i] = in_range(array[i], key, low, high);
+    return out;
+  }
+  const std::string& text(const char* key) const { return as_string(get(key), name_); }
+  bool flag(const char* key) const { return as_bool(get(key), name_); }
+
+ private:
+  double in_range(const ConfigValue& value, const char* key, double low, double high) const {
+    const double number = as_number(value, name_);
+    if (!(number >= low && number <= high))
+      refuse(value, fmt::format("{} in \"{}\"", number, key), fmt::format("{} to {}", low, high));
+    return number;
+  }
+
+  const ConfigTable& root_;
+  const std::string& name_;
+};
+
+std::vector<Clique> read_cliques(const Reader& read, int levels) {
+  const ConfigValue& at = read.get("types");
+  const std::optional<std::string> bytes = base64_bytes(read.text("types"));
+  if (!bytes || bytes->empty() || bytes->size() % clique_bytes != 0)
+    read.refuse(at, "the types are damaged", "the unchanged text");
+  std::vector<Clique> cliques;
+  for (std::size_t i = 0; i < bytes->size(); i += clique_bytes) {
+    const auto byte = [&](std::size_t k) { return static_cast<std::int8_t>((*bytes)[i + k]); };
+    Clique clique;
+    clique.type = {byte(0), byte(1), byte(2), byte(3) / 3, byte(3) % 3};
+    const CliqueType& t = clique.type;
+    const bool known = t.level >= 0 && t.level <= levels && t.dy >= 0 && byte(3) >= 0 &&
+                       byte(3) < 9 && std::abs(t.dx) <= 32 && t.dy <= 32;
+    for (std::size_t k = 0; k < clique_knots; ++k) clique.codes[k] = byte(4 + k);
+    bool rising = true;
+    for (std::size_t k = 1; k < clique_knots; ++k)
+      rising = rising && clique.codes[k] >= clique.codes[k - 1];
+    if (!known || !rising || clique.codes[0] < -127)
+      read.refuse(at, fmt::format("type {} is damaged", i / clique_bytes), "the unchanged text");
+    cliques.push_back(clique);
+  }
+  return cliques;
+}
+
+}  // namespace
+
+std::string model_text(const CliqueModel& model) {
+  std::vector<int> axes;
+  for (const auto& axis : model.bands.axes) axes.insert(axes.end(), axis.begin(), axis.end());
+  std::string out =
+      "# A texture as statistics of pixel pairs; `belvedere texture make` paints with it.\n";
+  out += fmt::format("belvedere_texture = {}\n", version);
+  out += fmt::format("crop_size = [{}, {}]\ncrop_hash = {}\n", model.crop_width, model.crop_height,
+                     json_quoted(model.crop_hash));
+  out += fmt::format("seed = \"{}\"          # white, streaks or discs: what it begins with\n",
+                     seed_names[static_cast<std::size_t>(model.seed)]);
+  out += fmt::format("seed_px = {}\ndirection_deg = {}\ndirection_spread = {}\npolish = {}\n",
+                     model.seed_px, model.direction_deg, model.direction_spread, model.polish);
+  if (model.sampled) out += "method = \"paper\"     # sampled from noise, as published\n";
+  out += fmt::format("levels = {}\nmean = {}\naxes = {}\nlow = {}\nhigh = {}\n", model.levels,
+                     numbers(model.bands.mean), numbers(axes), numbers(model.bands.low),
+                     numbers(model.bands.high));
+  out += fmt::format("types = \"{}\"\n", clique_text(model.cliques));
+  return out;
+}
+
+CliqueModel parse_model(const ConfigValue& root, const std::string& name) {
+  const ConfigValue* of =
+      root.is_table() ? find(as_table(root, name), "belvedere_texture") : nullptr;
+  if (of == nullptr)
+    throw Error(ErrorKind::usage, name, "not a texture model",
+                "a file written by `belvedere texture learn`");
+  if (const std::int64_t found = as_integer(*of, name); found != version)
+    throw Error(ErrorKind::usage, config_where(name, of->position),
+                fmt::format("version {} of texture models", found), fmt::format("{}", version));
+  const Reader read(root, name);
+  CliqueModel model;
+  model.levels = static_cast<int>(read.number("levels", 0, max_levels));
+  const auto mean = read.list<3>("mean", 0.0, 255.0);
+  const auto axes = read.list<9>("axes", -32767.0, 32767.0);
+  const auto low = read.list<3>("low", -1000.0, 1000.0);
+  const auto high = read.list<3>("high", -1000.0, 1000.0);
+  for (std::size_t b = 0; b < 3; ++b) {
+    model.bands.mean[b] = static_cast<float>(mean[b]);
+    model.bands.low[b] = static_cast<float>(low[b]);
+    model.bands.high[b] = static_cast<float>(high[b]);
+    for (std::size_t c = 0; c < 3; ++c)
+      model.bands.axes[b][c] = static_cast<std::int16_t>(axes[3 * b + c]);
+    if (!(low[b] < high[b]))
+      read.refuse(read.get("high"), fmt::format("{} is not above {}", high[b], low[b]), "a range");
+  }
+  const std::string& seed = read.text("seed");
+  std::size_t kind = 0;
+  while (kind < seed_names.size() && seed_names[kind] != seed) ++kind;
+  if (kind == seed_names.size())
+    read.refuse(read.get("seed"), json_quoted(seed),
+                fmt::format("{}", fmt::join(seed_names, ", ")));
+  model.seed = static_cast<TextureSeed>(kind);
+  model.seed_px = static_cast<float>(read.number("seed_px", 0.0, 256.0));
+  model.direction_deg = static_cast<float>(read.number("direction_deg", 0.0, 180.0));
+  model.direction_spread = static_cast<float>(read.number("direction_spread", 0.0, 1.0));
+  model.polish = read.flag("polish");
+  if (const ConfigValue* method = find(as_table(root, name), "method")) {
+    if (as_string(*method, name) != "paper")
+      read.refuse(*method, json_quoted(as_string(*method, name)), "paper, or no method");
+    model.sampled = true;
+    if (model.levels != 0)
+      read.refuse(*method, fmt::format("{} levels above the picture", model.levels),
+                  "0 with this method");
+  }
+  const auto size = read.list<2>("crop_size", 1.0, 1e6);
+  model.crop_width = static_cast<int>(size[0]);
+  model.crop_height = static_cast<int>(size[1]);
+  model.crop_hash = read.text("crop_hash");
+  model.cliques = read_cliques(read, model.levels);
+  return model;
+}
+
+CliqueModel parse_model(const std::string& text, const std::string& name) {
+  return parse_model(parse_config(text, name), name);
+}
+CliqueModel read_model(const std::string& path) { return parse_model(read_config(path), path); }
 
 }  // namespace belvedere

@@ -13,7 +13,6 @@
 
 #include "base/error.h"
 #include "base/grid.h"
-#include "base/noise.h"
 #include "base/random.h"
 #include "texture/statistical/learn_texture.h"
 

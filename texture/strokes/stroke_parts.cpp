@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/math_exact.h"
-#include "base/noise.h"
 #include "base/random.h"
 
 namespace belvedere {

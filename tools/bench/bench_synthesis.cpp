@@ -7,9 +7,8 @@
 #include <vector>
 
 #include "base/math.h"
-#include "base/noise.h"
-#include "base/parallel.h"
 #include "base/random.h"
+#include "base/parallel.h"
 #include "texture/statistical/learn_texture.h"
 #include "texture/statistical/make_texture.h"
 #include "texture/synthesis/synthesize.h"

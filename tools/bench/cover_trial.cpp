@@ -6,7 +6,7 @@
 #include "renderer/exemplar/classes_by_paint.h"
 #include "renderer/image/guidance_io.h"
 #include "renderer/register/registered_ground.h"
-#include "renderer/register/registered_cover.h"
+#include "renderer/register/registered_guidance.h"
 
 namespace belvedere::bench {
 namespace {

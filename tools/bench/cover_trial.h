@@ -5,7 +5,7 @@
 #include <string>
 
 #include "base/grid.h"
-#include "renderer/register/registered_cover.h"
+#include "renderer/register/registered_guidance.h"
 #include "terrain/register/registration.h"
 
 namespace belvedere::bench {

@@ -12,7 +12,7 @@
 #include "base/text/json.h"
 #include "base/text/text_encoding.h"
 #include "renderer/image/provenance.h"
-#include "texture/synthesis/class_texels.h"
+#include "texture/synthesis/exemplar.h"
 #include "texture/synthesis/synthesize.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/synthesis_files.h"

@@ -19,6 +19,7 @@ struct Command {
   const char* name;                        // the name that users type
   const char* meaning;                     // one line of help
   Action (*add)(CommandOptions& command);  // adds options and footer to it
+  const char* heading = nullptr;           // in the help; null: that of its group
 };
 const std::vector<Command>& all_commands();
 
@@ -26,6 +27,7 @@ const std::vector<Command>& all_commands();
 struct CommandGroup {
   const char* name;
   const char* meaning;
+  const char* heading;  // in the help
 };
 const std::vector<CommandGroup>& command_groups();
 
@@ -42,6 +44,7 @@ Action add_exemplar_pick(CommandOptions& command);
 Action add_exemplar_register(CommandOptions& command);
 Action add_exemplar_segment(CommandOptions& command);
 Action add_fetch(CommandOptions& command);
+Action add_figure(CommandOptions& command);
 Action add_generalize(CommandOptions& command);
 Action add_guidance(CommandOptions& command);
 Action add_info(CommandOptions& command);
@@ -56,7 +59,10 @@ Action add_lock(CommandOptions& command);
 Action add_man(CommandOptions& command);
 Action add_new(CommandOptions& command);
 Action add_part(CommandOptions& command);
+Action add_palette_check(CommandOptions& command);
+Action add_pdf(CommandOptions& command);
 Action add_plan(CommandOptions& command);
+Action add_proof(CommandOptions& command);
 Action add_render(CommandOptions& command);
 Action add_schema(CommandOptions& command);
 Action add_studio(CommandOptions& command);
@@ -70,14 +76,9 @@ Action add_texture_fill(CommandOptions& command);
 Action add_texture_seam(CommandOptions& command);
 Action add_texture_learn(CommandOptions& command);
 Action add_texture_make(CommandOptions& command);
+Action add_sweep(CommandOptions& command);
 Action add_verify(CommandOptions& command);
 Action add_web(CommandOptions& command);
-
-class CommandOptions;
-
-// Commands whose result is one sheet of several pictures of a scene; rows of commands.cpp.
-std::function<int()> add_figure(CommandOptions& command);
-std::function<int()> add_sweep(CommandOptions& command);
 
 // Without its folders, so that messages and headers are the same wherever files are.
 std::string file_name(const std::string& path);

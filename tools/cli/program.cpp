@@ -45,7 +45,8 @@ CommandOptions& group_of(const std::string& name, CommandOptions& program, Group
   if (const auto found = made.find(name); found != made.end()) return found->second;
   for (const CommandGroup& group : command_groups())
     if (name == group.name)
-      return made.emplace(name, program.add_command(group.name, group.meaning)).first->second;
+      return made.emplace(name, program.add_command(group.name, group.meaning, group.heading))
+          .first->second;
   throw Error(ErrorKind::bug, "command table", "there is no group " + name);
 }
 
@@ -59,7 +60,8 @@ struct Program {
     Groups groups;
     for (const Command& row : all_commands()) {
       CommandOptions command =
-          group_of(row.group, line.options(), groups).add_command(row.name, row.meaning);
+          group_of(row.group, line.options(), groups)
+              .add_command(row.name, row.meaning, row.heading != nullptr ? row.heading : "Commands");
       const Action action = row.add(command);
       actions.emplace_back(command, action);
     }

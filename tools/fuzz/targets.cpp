@@ -46,9 +46,9 @@
 #include "terrain/layers/fit/colour_regions.h"
 #include "terrain/layers/layers_file.h"
 #include "terrain/register/control_pairs.h"
-#include "texture/composite/composite_model.h"
+#include "texture/composite/make_composite.h"
 #include "texture/sheet/synthesis_plan.h"
-#include "texture/statistical/model_file.h"
+#include "texture/statistical/clique_model.h"
 
 namespace belvedere {
 namespace {

@@ -302,9 +302,10 @@ bool CommandOptions::has_option(const std::string& name) const {
   return find_option(*app_, name) != nullptr;
 }
 
-CommandOptions CommandOptions::add_command(const std::string& name, const std::string& meaning) {
+CommandOptions CommandOptions::add_command(const std::string& name, const std::string& meaning,
+                                           const std::string& heading) {
   app_->require_subcommand(1);
-  return CommandOptions(app_->add_subcommand(name, meaning), uses_);
+  return CommandOptions(app_->add_subcommand(name, meaning)->group(heading), uses_);
 }
 
 bool CommandOptions::is_named() const { return app_->parsed(); }

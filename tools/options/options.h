@@ -116,7 +116,9 @@ class CommandOptions {
   bool has_option(const std::string& name) const;
 
   // A subcommand with its own options. Exactly one of the subcommands then has to be given.
-  CommandOptions add_command(const std::string& name, const std::string& meaning);
+  // heading: above it in the help of this command.
+  CommandOptions add_command(const std::string& name, const std::string& meaning,
+                             const std::string& heading = "Commands");
   // Whether the parsed line names this command.
   bool is_named() const;
 

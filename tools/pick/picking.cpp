@@ -20,7 +20,6 @@
 #include "terrain/register/control_pairs.h"
 #include "terrain/shape/derivatives.h"
 #include "tools/pick/pairs_fitter.h"
-#include "tools/pick/pick_answers.h"
 #include "tools/report/report_pictures.h"
 #include "tools/studio/answers.h"
 #include "tools/studio/http_server.h"

@@ -7,7 +7,6 @@
 
 #include "base/text/json.h"
 #include "texture/quality/exemplar_survey.h"
-#include "texture/synthesis/class_texels.h"
 #include "texture/synthesis/exemplar.h"
 
 namespace belvedere::tools {

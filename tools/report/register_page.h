@@ -7,7 +7,7 @@
 
 #include "base/grid.h"
 #include "base/text/json.h"
-#include "renderer/register/registered_cover.h"
+#include "renderer/register/registered_guidance.h"
 #include "renderer/register/registered_ground.h"
 #include "terrain/register/registration.h"
 

@@ -10,7 +10,6 @@
 
 #include "base/land_cover_class.h"
 #include "base/math_exact.h"
-#include "base/noise.h"
 #include "base/random.h"
 #include "renderer/image/srgb.h"
 #include "renderer/style/fit/style_painting.h"

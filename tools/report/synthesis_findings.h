@@ -7,7 +7,6 @@
 
 #include "base/pixel_rect.h"
 #include "texture/quality/quality.h"
-#include "texture/synthesis/class_texels.h"
 #include "texture/synthesis/exemplar.h"
 #include "texture/synthesis/synthesize.h"
 #include "tools/report/report.h"

@@ -15,7 +15,7 @@
 #include "tools/studio/answers.h"
 #include "tools/studio/scene_session.h"
 #include "tools/studio/http_server.h"
-#include "tools/studio/picture_queue.h"
+#include "tools/studio/job.h"
 
 namespace belvedere::tools {
 

@@ -22,7 +22,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "renderer/image/image_file_parts.h"
+#include "renderer/image/image_file.h"
 
 // Sizes are taken from our own reading of the header: opening a file with the library allocates
 // tables of the size it claims.

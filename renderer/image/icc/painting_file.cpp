@@ -10,7 +10,7 @@
 #include "base/parallel.h"
 #include "renderer/image/icc/device_colour.h"
 #include "renderer/image/icc/lcms.h"
-#include "renderer/image/image_file_parts.h"
+#include "renderer/image/image_file.h"
 #include "renderer/image/image_io.h"
 
 namespace belvedere {

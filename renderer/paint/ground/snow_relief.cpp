@@ -42,7 +42,7 @@ glm::dvec2 snow_wind(glm::dvec3 sun_direction) {
   return {away.x * aside.x - away.y * aside.y, away.x * aside.y + away.y * aside.x};
 }
 
-// Noise of deviation about 1 with its gradient; lattice and B-spline as in base/noise.h, without
+// Noise of deviation about 1 with its gradient; lattice and B-spline as in base/random.h, without
 // the variance correction between lattice points.
 class SnowRelief::Field {
  public:

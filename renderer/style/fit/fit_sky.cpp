@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "base/colour/symmetric_matrix.h"
+#include "base/matrix/matrix.h"
 #include "base/filter.h"
 #include "base/land_cover_class.h"
 #include "base/parallel.h"

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <optional>
 
-#include "base/colour/symmetric_matrix.h"
+#include "base/matrix/matrix.h"
 #include "base/math_exact.h"
 #include "base/statistics.h"
 

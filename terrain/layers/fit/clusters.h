@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "terrain/layers/fit/hue_saturation.h"
+#include "terrain/layers/fit/fit_measures.h"
 
 namespace belvedere {
 

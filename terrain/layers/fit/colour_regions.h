@@ -12,7 +12,7 @@
 
 #include "base/grid.h"
 #include "terrain/layers/fit/ground_fit.h"
-#include "terrain/layers/fit/hue_saturation.h"
+#include "terrain/layers/fit/fit_measures.h"
 
 namespace belvedere {
 

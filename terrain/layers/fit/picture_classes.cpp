@@ -14,7 +14,7 @@
 #include "base/math.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
-#include "terrain/layers/fit/hue_saturation.h"
+#include "terrain/layers/fit/fit_measures.h"
 
 namespace belvedere {
 namespace {

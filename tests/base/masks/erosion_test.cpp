@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/grid.h"
-#include "base/noise.h"
+#include "base/random.h"
 
 namespace belvedere {
 namespace {

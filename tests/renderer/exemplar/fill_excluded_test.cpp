@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-#include "base/noise.h"
+#include "base/random.h"
 #include "tests/texture/statistical/texture_crops.h"
 #include "texture/synthesis/exemplar.h"
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "base/guidance_buffers.h"
-#include "base/noise.h"
+#include "base/random.h"
 #include "base/pixel_rect.h"
 
 namespace belvedere::test {

@@ -7,9 +7,9 @@
 #include "tests/files.h"
 #include "tests/scenes.h"
 #include "tests/texture/statistical/texture_crops.h"
-#include "texture/composite/composite_model.h"
+#include "texture/composite/make_composite.h"
 #include "texture/statistical/learn_texture.h"
-#include "texture/statistical/model_file.h"
+#include "texture/statistical/clique_model.h"
 
 namespace belvedere {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/math_exact.h"
-#include "base/noise.h"
+#include "base/random.h"
 #include "tests/renderer/exemplar/painted_hills.h"
 
 namespace belvedere {

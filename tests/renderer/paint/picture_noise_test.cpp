@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "base/noise.h"
+#include "base/random.h"
 #include "tests/renderer/exemplar/painted_hills.h"
 
 namespace belvedere {

@@ -19,7 +19,7 @@
 #include "tests/shared_cache.h"
 #include "tests/texture/statistical/texture_crops.h"
 #include "texture/statistical/learn_texture.h"
-#include "texture/statistical/model_file.h"
+#include "texture/statistical/clique_model.h"
 #include "texture/synthesis/exemplar.h"
 
 namespace belvedere {

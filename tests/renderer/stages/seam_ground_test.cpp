@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/grid.h"
-#include "base/noise.h"
+#include "base/random.h"
 #include "base/parallel.h"
 #include "tests/texture/statistical/texture_crops.h"
 

@@ -16,6 +16,7 @@
 #include "tests/paths.h"
 #include "tests/scenes.h"
 #include "tests/shared_cache.h"
+#include "texture/sheet/plan_data.h"
 #include "texture/sheet/synthesis_plan.h"
 
 namespace belvedere {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/noise.h"
+#include "base/random.h"
 #include "base/parallel.h"
 #include "tests/texture/statistical/texture_crops.h"
 

@@ -8,7 +8,6 @@
 
 #include "base/grid.h"
 #include "base/land_cover_class.h"
-#include "base/noise.h"
 #include "base/random.h"
 #include "renderer/image/srgb.h"
 

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "base/math.h"
-#include "base/noise.h"
+#include "base/random.h"
 #include "renderer/trace/guidance.h"
 
 namespace belvedere {

@@ -1,4 +1,4 @@
-#include "terrain/cover/rule_ice.h"
+#include "terrain/cover/class_rules.h"
 
 #include <gtest/gtest.h>
 

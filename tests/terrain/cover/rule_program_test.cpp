@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "base/grid.h"
-#include "base/noise.h"
 #include "base/random.h"
 #include "terrain/cover/ground_variables.h"
 

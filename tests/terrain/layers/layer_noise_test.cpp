@@ -55,7 +55,7 @@ TEST(LayerNoise, IsAFunctionOfThePlaceAlone) {
     for (int x = 0; x < 40; ++x) ASSERT_NEAR(other(x, y), whole(x + 16, y + 8), 1e-5);
 }
 
-// The Gaussian field is that of base/noise.h, octave by octave.
+// The Gaussian field is that of base/random.h, octave by octave.
 TEST(LayerNoise, GaussianRowsAreGaussianNoise) {
   const GeoTransform transform{600'000.0, 5'200'000.0, 10.0, 10.0};
   const PixelRect cells{5, 9, 80, 70};

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
-#include "base/noise.h"
+#include "base/random.h"
 #include "base/parallel.h"
 
 namespace belvedere {

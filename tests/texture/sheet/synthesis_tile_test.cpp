@@ -8,7 +8,7 @@
 #include "base/parallel.h"
 #include "tests/texture/sheet/sheet_samples.h"
 #include "texture/quality/quality.h"
-#include "texture/sheet/synthesis_plan.h"
+#include "texture/sheet/plan_data.h"
 
 namespace belvedere {
 namespace {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/noise.h"
 #include "base/random.h"
 #include "tests/texture/statistical/texture_crops.h"
 

@@ -10,7 +10,7 @@
 #include "tests/files.h"
 #include "tests/texture/statistical/texture_crops.h"
 #include "texture/statistical/make_texture.h"
-#include "texture/statistical/model_file.h"
+#include "texture/statistical/clique_model.h"
 #include "texture/statistical/texture_figures.h"
 
 namespace belvedere {

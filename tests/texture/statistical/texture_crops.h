@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "base/noise.h"
 #include "base/random.h"
 #include "texture/synthesis/exemplar.h"
 

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/noise.h"
 #include "base/random.h"
 #include "tests/texture/strokes/stroke_picture.h"
 

@@ -1,4 +1,4 @@
-#include "tools/cli/generalize_options.h"
+#include "tools/cli/command_generalize.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

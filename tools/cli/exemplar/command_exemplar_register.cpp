@@ -14,7 +14,7 @@
 #include "renderer/image/icc/painting_file.h"
 #include "renderer/image/png_palette.h"
 #include "renderer/register/register_by_paint.h"
-#include "renderer/register/registered_cover.h"
+#include "renderer/register/registered_guidance.h"
 #include "renderer/register/registered_ground.h"
 #include "renderer/scene/scene_file.h"
 #include "terrain/register/control_pairs.h"

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "base/noise.h"
+#include "base/random.h"
 #include "base/progress.h"
 #include "renderer/features/drawn_features.h"
 #include "renderer/features/house_strokes.h"

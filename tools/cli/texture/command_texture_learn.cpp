@@ -10,7 +10,7 @@
 #include "texture/statistical/learn_texture.h"
 #include "texture/statistical/photometric.h"
 #include "texture/statistical/make_texture.h"
-#include "texture/statistical/model_file.h"
+#include "texture/statistical/clique_model.h"
 #include "texture/statistical/texture_figures.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/terminal.h"

@@ -6,7 +6,7 @@
 #include "base/parallel.h"
 #include "base/text/json.h"
 #include "texture/statistical/make_texture.h"
-#include "texture/statistical/model_file.h"
+#include "texture/statistical/clique_model.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/terminal.h"
 #include "tools/cli/texture/texture_pictures.h"

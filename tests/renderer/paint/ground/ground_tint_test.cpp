@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <memory>
 
-#include "base/noise.h"
+#include "base/random.h"
 #include "renderer/image/srgb.h"
 
 namespace belvedere {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/noise.h"
 #include "base/random.h"
 #include "tests/renderer/style/synthetic_painting.h"
 

@@ -1,0 +1,378 @@
+#include <algorithm>
+#include <fmt/core.h>
+#include <fmt/format.h>
+#include <memory>
+#include <utility>
+
+#include "base/error.h"
+#include "base/files/output_file.h"
+#include "base/grid.h"
+#include "base/parallel.h"
+#include "base/text/json.h"
+#include "base/text/text_encoding.h"
+#include "texture/composite/learn_composite.h"
+#include "texture/composite/make_composite.h"
+#include "texture/composite/make_label_map.h"
+#include "tools/cli/commands.h"
+#include "tools/cli/terminal.h"
+#include "tools/cli/texture/texture_pictures.h"
+#include "tools/options/options.h"
+#include "tools/report/report.h"
+#include "tools/report/report_pictures.h"
+
+namespace belvedere::tools {
+namespace {
+
+struct CompositeLearnOptions : RunOptions {
+  std::string crop, labels, out, report;
+  BeginOptions begin;
+  CompositeParameters composite;
+};
+
+// Results of a run, for all forms of output.
+struct CompositeFindings {
+  CompositeModel model;
+  std::size_t bytes = 0;
+  std::vector<std::string> names;
+  std::vector<std::size_t> pixels;  // of each label in the crop
+  Grid<std::uint8_t> map;           // made, of the crop's size
+  LabelMapFigures map_figures;
+  Grid<Rgb8> filled;  // the crop's own map
+  Grid<Rgb8> made;    // the synthesized one
+  LayoutFigures filled_figures;
+  LayoutFigures made_figures;
+};
+
+std::string border_text(const CompositeFindings& found) {
+  const auto wanted = border_shares(found.model.map);
+  std::string out;
+  for (std::size_t s = 0; s < label_scales; ++s)
+    out += fmt::format("{}{:.4f} of {:.4f}", s == 0 ? "" : ", ", found.map_figures.borders[s],
+                       wanted[s]);
+  return out;
+}
+
+std::string as_text(const CompositeLearnOptions& options, const CompositeFindings& found) {
+  std::string out =
+      fmt::format("{}: {} labels{}, {} bytes\n", options.out, found.model.labels.size(),
+                  found.model.transition ? " and a transition" : "", found.bytes);
+  for (std::size_t k = 0; k < found.names.size(); ++k)
+    out += fmt::format("  {:<10} {} pixels, {} types\n", found.names[k], found.pixels[k],
+                       found.model.labels[k].model.cliques.size());
+  out +=
+      fmt::format("  a synthesized map  pairs {:.3f}, borders' patterns {:.3f}, by height {:.3f}\n",
+                  found.map_figures.pairs, found.map_figures.rings, found.map_figures.profile);
+  out += fmt::format("  its borders    1, 2, 4, 8, 16 px apart: {}\n", border_text(found));
+  out += fmt::format(
+      "  colours by height, pairs far apart: {:.3f}, {:.3f} over the crop's map; {:.3f}, {:.3f} "
+      "over the synthesized one\n",
+      found.filled_figures.profile, found.filled_figures.far_pairs, found.made_figures.profile,
+      found.made_figures.far_pairs);
+  return out;
+}
+
+Json as_json(const CompositeLearnOptions& options, const CompositeFindings& found) {
+  const auto layout = [](const LayoutFigures& f) {
+    return Json::object()
+        .add("profile", Json::number(f.profile))
+        .add("far_pairs", Json::number(f.far_pairs));
+  };
+  Json labels = Json::array();
+  for (std::size_t k = 0; k < found.names.size(); ++k)
+    labels.add(Json::object()
+                   .add("name", Json::text(found.names[k]))
+                   .add("pixels", Json::number(static_cast<double>(found.pixels[k])))
+                   .add("types", Json::number(static_cast<double>(
+                                     found.model.labels[k].model.cliques.size()))));
+  return Json::object()
+      .add("out", Json::text(options.out))
+      .add("bytes", Json::number(static_cast<double>(found.bytes)))
+      .add("labels", std::move(labels))
+      .add("transition", Json::boolean(found.model.transition.has_value()))
+      .add("map", Json::object()
+                      .add("pairs", Json::number(found.map_figures.pairs))
+                      .add("rings", Json::number(found.map_figures.rings))
+                      .add("profile", Json::number(found.map_figures.profile)))
+      .add("filled", layout(found.filled_figures))
+      .add("made", layout(found.made_figures));
+}
+
+void write_report(const CompositeLearnOptions& options, const TextureCrop& crop,
+                  const LabelPicture& labels, const CompositeFindings& found) {
+  Report report(options.report);
+  report.section("pictures", "Crop and composite",
+                 "The crop with its labels, and what is made from the model alone: over the crop's "
+                 "own map, and over a synthesized one. Look at borders first: they should be as "
+                 "ragged, and labels should lie as in the crop.");
+  report.picture("crop", to_picture(crop.picture), "the crop");
+  report.picture("labels", label_colours(labels.labels, labels.names), "its labels");
+  report.next_row();
+  report.picture("filled", to_picture(found.filled), "made over the crop's labels");
+  report.next_row();
+  report.picture("made", to_picture(found.made), "made over synthesized labels");
+  report.picture("map", label_colours(found.map, found.names), "synthesized labels");
+  report.section("labels", "Labels");
+  ReportTable table({{"label", "label"}, {"pixels", "pixels"}, {"types", "types"}});
+  for (std::size_t k = 0; k < found.names.size(); ++k)
+    table.row(found.names[k], found.pixels[k], found.model.labels[k].model.cliques.size());
+  report.table(table);
+  report.section("distances", "Distances to the crop");
+  report.table(ReportTable({{"made", ""},
+                            {"profile", "colours by height", ".3f"},
+                            {"far_pairs", "pairs 16–128 px apart", ".3f"}})
+                   .row("over the crop's labels", found.filled_figures.profile,
+                        found.filled_figures.far_pairs)
+                   .row("over synthesized labels", found.made_figures.profile,
+                        found.made_figures.far_pairs));
+  report.section("map", "The synthesized map");
+  report.table(
+      ReportTable({{"pairs", "pairs", ".3f"},
+                   {"rings", "borders' patterns", ".3f"},
+                   {"profile", "labels by height", ".3f"}})
+          .row(found.map_figures.pairs, found.map_figures.rings, found.map_figures.profile));
+  report.text(
+      "Borders, as the share of neighbours 1, 2, 4, 8, 16 pixels apart that differ, of the "
+      "crop's: " +
+      border_text(found) + ".");
+  report.write({.title = "Composite texture: " + file_name(options.crop),
+                .lead = fmt::format("A model of {} bytes.", found.bytes),
+                .command = fmt::format("belvedere composite learn {} --labels {} --out {}",
+                                       file_name(options.crop), file_name(options.labels),
+                                       file_name(options.out))});
+}
+
+CompositeParameters parameters_of(const CompositeLearnOptions& options) {
+  CompositeParameters parameters = options.composite;
+  const TextureBegin begin = begin_of(options.begin);
+  parameters.choose = options.begin.kind.empty();
+  parameters.begin = begin.seed;
+  parameters.begin_px = begin.px;
+  return parameters;
+}
+
+int run(const CompositeLearnOptions& options) {
+  const ThreadLimit threads(options.threads);
+  TerminalProgress progress(options.quiet);
+  const TextureCrop crop = read_crop(options.crop, "");
+  if (crop.transparent > 0)
+    progress.note(fmt::format("{} transparent pixels are left out", crop.transparent));
+  const LabelPicture labels = read_label_picture(options.labels, progress);
+  if (!labels.labels.same_size(crop.picture))
+    throw Error(ErrorKind::input, options.labels,
+                fmt::format("{} × {} pixels", labels.labels.width(), labels.labels.height()),
+                fmt::format("the size of {}: {} × {}", options.crop, crop.picture.width(),
+                            crop.picture.height()));
+  CompositeFindings found;
+  found.names = labels.names;
+  for (std::size_t k = 0; k < labels.names.size(); ++k)
+    found.pixels.push_back(static_cast<std::size_t>(
+        std::count(labels.labels.begin(), labels.labels.end(), static_cast<std::uint8_t>(k))));
+  found.model = learn_composite({crop.picture, crop.states, labels.labels, labels.names},
+                                parameters_of(options), progress);
+  const std::string text = composite_text(found.model);
+  found.bytes = text.size();
+  write_text_file(options.out, text);
+
+  found.map =
+      make_label_map(found.model.map, crop.picture.width(), crop.picture.height(), {}, progress);
+  found.map_figures = label_map_figures(found.model.map, found.map);
+  found.filled =
+      make_composite(found.model, read_drawn_labels(options.labels, found.names), {}, progress);
+  found.made = make_composite(found.model, found.map, {}, progress);
+  found.filled_figures = layout_figures(crop.picture, found.filled);
+  found.made_figures = layout_figures(crop.picture, found.made);
+  if (!options.report.empty()) write_report(options, crop, labels, found);
+  progress.end();
+  print_result(options, as_json(options, found), as_text(options, found));
+  return 0;
+}
+
+}  // namespace
+
+Action add_composite_learn(CommandOptions& command) {
+  const auto options = std::make_shared<CompositeLearnOptions>();
+  command
+      .add_option("CROP", options->crop,
+                  "A painting, or a part of one, that shows several textures")
+      .required()
+      .type_name("PICTURE")
+      .files(FileUse::input);
+  command
+      .add_option("--labels", options->labels,
+                  "Label image of its size in 2 to 16 flat colours, or of grey numbers; number 255 "
+                  "is left out.\n"
+                  "Each colour is one texture, 48 pixels per side or more")
+      .required()
+      .type_name("PICTURE")
+      .files(FileUse::input);
+  command.add_option("--out", options->out, "The model: a text file of about 15 KB")
+      .required()
+      .type_name("COMPOSITE")
+      .files(FileUse::writes);
+  command
+      .add_option("--types", options->composite.learn.types,
+                  "Maximum number of statistics per texture, 16 to 200. Default: 40")
+      .range(16, 200)
+      .type_name("N");
+  add_begin_options(command, options->begin,
+                    "Initial noise of all textures, which determines the shape of their dabs: "
+                    "white, streaks or discs.\n"
+                    "Default: for each the noise that comes closest to the crop");
+  add_run_options(command, *options, "bit");
+  command
+      .add_option("--report", options->report,
+                  "Writes a page with the crop beside the composite, and all figures")
+      .type_name("FOLDER")
+      .files(FileUse::folder);
+  command.footer(
+      "One texture model of a picture with sky above water beside rock would mix them all. A "
+      "composite learns each texture by itself, the paint\n"
+      "along their borders, and the arrangement of the labels: what lies side by side, what above "
+      "what, and the shape of borders.\n"
+      "\n"
+      "  belvedere composite learn coast.png --labels coast_labels.png --out coast.composite "
+      "--report coast_report");
+  return [options] { return run(*options); };
+}
+
+namespace {
+
+struct CompositeMakeOptions : RunOptions {
+  std::string model, labels, map, out, report;
+  std::vector<int> size;
+  std::vector<int> window;
+  std::uint64_t seed = 1;
+};
+
+// The requested window, within the map.
+PixelRect window_of(const std::vector<int>& w, const Grid<std::uint8_t>& labels) {
+  const std::int64_t right = std::int64_t{w[0]} + w[2];
+  const std::int64_t below = std::int64_t{w[1]} + w[3];
+  if (w[0] < 0 || w[1] < 0 || w[2] < 1 || w[3] < 1 || right > labels.width() ||
+      below > labels.height())
+    throw Error(
+        ErrorKind::usage, "--window",
+        fmt::format("{} × {} pixels at {}, {}", w[2], w[3], w[0], w[1]),
+        fmt::format("a part of the map of {} × {} pixels", labels.width(), labels.height()));
+  return {w[0], w[1], w[0] + w[2], w[1] + w[3]};
+}
+
+// The label map beside the result, and the share of each label.
+void write_make_report(const CompositeMakeOptions& options, const std::vector<std::string>& names,
+                  const Grid<std::uint8_t>& labels, const Grid<Rgb8>& made) {
+  const std::string file = file_name(options.model);
+  ReportTable table({{"label", "label"}, {"pixels", "pixels"}});
+  for (std::size_t k = 0; k < names.size(); ++k)
+    table.row(names[k], std::count(labels.begin(), labels.end(), static_cast<std::uint8_t>(k)));
+  std::string asked = options.labels.empty()
+                          ? fmt::format("--size {}", fmt::join(options.size, "x"))
+                          : fmt::format("--labels {}", file_name(options.labels));
+  if (!options.window.empty()) asked += fmt::format(" --window {}", fmt::join(options.window, ","));
+  Report report(options.report);
+  report.section("pictures", "Pictures",
+                 "The label map on the left, the result on the right. Look at borders first: they "
+                 "should be as ragged as in a painting.");
+  report.picture("labels", label_colours(labels, names),
+                 options.labels.empty() ? "synthesized labels" : "drawn labels");
+  report.picture("made", to_picture(made), fmt::format("made with seed {}", options.seed));
+  report.section("figures", "Figures");
+  report.table(table);
+  report.write({.title = "Composite texture: " + file,
+                .lead = fmt::format("{} × {} pixels of {} textures.", made.width(), made.height(),
+                                    names.size()),
+                .command = fmt::format("belvedere composite make {} {} --seed {} --out {}", file,
+                                       asked, options.seed, file_name(options.out))});
+}
+
+int run_make(const CompositeMakeOptions& options) {
+  if (options.size.empty() == options.labels.empty())
+    throw Error(ErrorKind::usage, "command line",
+                options.size.empty() ? "neither --size nor --labels is given"
+                                     : "both --size and --labels are given",
+                "one of them: a label image has its own size");
+  check_texture_name(options.out);
+  if (!options.map.empty() && lower_extension(options.map) != ".png")
+    throw Error(ErrorKind::usage, "--map", options.map, "a .png");
+  const ThreadLimit threads(options.threads);
+  TerminalProgress progress(options.quiet);
+  const CompositeModel model = read_composite(options.model);
+  std::vector<std::string> names;
+  for (const CompositeLabel& label : model.labels) names.push_back(label.name);
+  TextureParameters parameters;
+  parameters.seed = options.seed;
+  const Grid<std::uint8_t> labels =
+      options.labels.empty() ? make_label_map(model.map, options.size[0], options.size[1],
+                                              {.seed = options.seed}, progress)
+                             : read_drawn_labels(options.labels, names, progress);
+  const bool whole = options.window.empty();
+  const PixelRect window = whole ? PixelRect{} : window_of(options.window, labels);
+  const Grid<Rgb8> made =
+      whole ? make_composite(model, labels, parameters, progress)
+            : make_composite_window(model, record_composite(model, parameters, progress), labels,
+                                    window, parameters, progress);
+  write_texture(options.out, made,
+                fmt::format("{} seed {}", file_name(options.model), options.seed));
+  if (!options.map.empty()) write_label_picture(options.map, labels, names);
+  if (!options.report.empty())
+    write_make_report(options, names, whole ? labels : part_of(labels, window), made);
+  progress.end();
+  print_result(options,
+               Json::object()
+                   .add("out", Json::text(options.out))
+                   .add("width", Json::number(made.width()))
+                   .add("height", Json::number(made.height())),
+               fmt::format("{}: {}×{} pixels\n", options.out, made.width(), made.height()));
+  return 0;
+}
+
+}  // namespace
+
+Action add_composite_make(CommandOptions& command) {
+  const auto options = std::make_shared<CompositeMakeOptions>();
+  command.add_option("COMPOSITE", options->model, "A model written by `belvedere composite learn`")
+      .required()
+      .type_name("COMPOSITE")
+      .files(FileUse::input);
+  command.add_option("--out", options->out, "The picture: .png or .tif")
+      .required()
+      .type_name("PICTURE")
+      .files(FileUse::writes);
+  command
+      .add_option("--size", options->size,
+                  "Width and height, in pixels; the label map is synthesized too")
+      .list('x', 2)
+      .range(1, 1 << 20)
+      .type_name("WxH");
+  command
+      .add_option("--labels", options->labels,
+                  "Instead: a label map, drawn in the colours (or numbers) of the crop's labels")
+      .type_name("PICTURE")
+      .files(FileUse::input);
+  command
+      .add_option("--window", options->window,
+                  "Only this part of the map: column, row, width and height. Windows fit together "
+                  "to the pixel, in any order; they are\n"
+                  "parts of the window of the whole map, which differs slightly from a picture "
+                  "without --window")
+      .list(',', 4)
+      .type_name("X,Y,W,H");
+  command
+      .add_option("--map", options->map,
+                  "Also writes the labels in their colours, to be edited and passed to --labels")
+      .type_name("PICTURE")
+      .files(FileUse::writes);
+  command.add_option("--seed", options->seed, "Random seed. Default: 1").type_name("N");
+  add_run_options(command, *options);
+  command.add_option("--report", options->report, "Writes a page with the labels beside the result")
+      .type_name("FOLDER")
+      .files(FileUse::folder);
+  command.footer(
+      "  belvedere composite make coast.composite --size 1600x1000 --map labels.png --out "
+      "another_coast.png\n"
+      "  belvedere composite make coast.composite --labels my_labels.png --out my_coast.png\n"
+      "  belvedere composite make coast.composite --labels large.png --window 4096,0,2048,2048 "
+      "--out piece.tif");
+  return [options] { return run_make(*options); };
+}
+
+}  // namespace belvedere::tools
