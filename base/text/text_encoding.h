@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -45,5 +46,15 @@ std::string grouped(std::size_t number);
 // Bytes as base64 and back (RFC 4648, section 4); nothing for malformed text.
 std::string base64(std::string_view bytes);
 std::optional<std::string> base64_bytes(std::string_view text);
+
+// Escapes text for the content or an attribute of a page or SVG file. Characters that XML 1.0
+// cannot contain, such as control characters, become blanks.
+std::string markup_text(std::string_view text);
+
+// Escapes JSON for a page's script: no text in it ends the script or begins another.
+std::string script_json(std::string_view json);
+
+// Fills a template: {word} is replaced by the text of that word, without escaping.
+std::string filled_page(std::string_view page, const std::map<std::string, std::string>& texts);
 
 }  // namespace belvedere

@@ -2,9 +2,13 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <limits>
+#include <string>
+#include <vector>
 
 #include "base/grid.h"
 #include "base/guidance_buffers.h"
+#include "texture/segment/segment.h"
 
 namespace belvedere {
 
@@ -25,5 +29,42 @@ PlaceClasses places_of(const GuidanceBuffers& guidance);
 // not show is not found. Water and settlement, which are narrower than the errors of places, stay
 // as on the map.
 Grid<std::uint8_t> classes_by_paint(const Grid<glm::vec3>& painting, const PlaceClasses& places);
+
+// A painting divided into pieces, to make a mask of its classes.
+struct PaintingSegments {
+  Grid<std::uint16_t> pieces;  // per pixel of the painting; no_piece where it is transparent
+  JoinTree tree;               // of the pieces
+  std::size_t groups = 0;      // number of groups found
+  std::vector<std::uint8_t> inferred;  // the class inferred for each node of the tree: a first
+                                       // estimate, for the user to correct
+};
+inline constexpr std::uint16_t no_piece = std::numeric_limits<std::uint16_t>::max();
+
+// `picture` encoded sRGB, `alpha` empty or of its size. Groups of `theta` are nodes of the tree.
+// Error(input) that names `path`, for pictures under 32 pixels on a side, of one colour, or
+// transparent everywhere.
+PaintingSegments segment_painting(const Grid<glm::vec3>& picture, const Grid<float>& alpha,
+                                  double theta, const std::string& path);
+
+// Appearance of a part of a painting: means over its pixels.
+struct PartLook {
+  glm::dvec3 oklab{0.0};
+  double height = 0.0;      // 0 at the upper edge … 1 at the lower one
+  double upper_edge = 0.0;  // share of the painting's upper edge
+  double across = 0.0;      // mean steps of lightness along rows,
+  double down = 0.0;        // and along columns: larger where strokes are horizontal
+  double rough = 1.0;  // both together relative to the whole painting's: sky is the smoothest part
+                       // of a painting
+};
+// Infers a class id from the appearance: sky is above, smooth, blue or bright; water is blue and
+// low or painted horizontally; snow is bright and grey, forest is dark and green or olive, and so
+// on.
+std::uint8_t infer_class(const PartLook& look);
+
+// The mask value of each pixel: the class of its group of pieces, unused_label for those without.
+Grid<std::uint8_t> class_mask(const PaintingSegments& segments, const Partition& groups,
+                              const std::vector<std::uint8_t>& classes);
+// The inferred class of each group of a cut through the tree.
+std::vector<std::uint8_t> inferred_class_of(const PaintingSegments& segments, std::size_t count);
 
 }  // namespace belvedere

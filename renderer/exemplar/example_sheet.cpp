@@ -27,7 +27,7 @@
 #include "renderer/stages/lit_picture.h"
 #include "renderer/world/scene_dem.h"
 #include "renderer/world/scene_land_cover.h"
-#include "renderer/world/season/scene_season.h"
+#include "renderer/world/scene_season.h"
 #include "terrain/shape/hydrology.h"
 #include "texture/strokes/stroke_painter.h"
 

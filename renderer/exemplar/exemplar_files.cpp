@@ -17,8 +17,8 @@
 #include "renderer/image/guidance_io.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/provenance.h"
-#include "renderer/world/season/scene_season.h"
-#include "renderer/world/style/scene_style.h"
+#include "renderer/world/scene_season.h"
+#include "renderer/world/scene_style.h"
 #include "renderer/world/world.h"
 
 namespace belvedere {

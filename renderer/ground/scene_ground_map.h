@@ -6,14 +6,15 @@
 
 #include "base/cache/cache.h"
 #include "base/progress.h"
+#include "renderer/features/feature_style.h"
 #include "renderer/ground/laid_rivers.h"
 #include "renderer/scene/scene_file.h"
+#include "terrain/cover/ground_lakes.h"
 #include "terrain/cover/land_cover.h"
 #include "terrain/cover/map_cover.h"
 #include "terrain/cover/towns.h"
 #include "terrain/io/dem.h"
 #include "terrain/shape/hydrology.h"
-#include "terrain/cover/ground_lakes.h"
 
 namespace belvedere {
 
@@ -54,5 +55,21 @@ std::shared_ptr<const MapCover> areas_of_map(const LoadedScene& loaded, const De
 // Only the last of these: rivers inferred by rules, in the scene's style.
 void lay_inferred_rivers(LandCover& cover, const LoadedScene& loaded, const Dem& dem,
                          const SeenFrom* seen = nullptr);
+
+// The outer edges of a terrain.
+MapBox box_of(const Dem& dem);
+
+// The style named in a scene.
+FeatureStyle read_scene_feature_style(const LoadedScene& loaded);
+
+// The scene's blocks of features as sources, in their order. A missing file is skipped here;
+// callers that need it report it.
+std::vector<FeatureSource> feature_sources(const LoadedScene& loaded);
+
+// Features of a scene's files that become ground, only from blocks that can contain such. Features
+// outside the terrain are only counted and noted. Throws Error(usage) with both extents if all of a
+// file lies outside the terrain: its coordinate system is then probably wrong.
+FeatureSet read_ground_features(const LoadedScene& loaded, const FeatureStyle& style,
+                                const Dem& dem, Progress& progress);
 
 }  // namespace belvedere

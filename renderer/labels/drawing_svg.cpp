@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "base/text/markup.h"
+#include "base/text/text_encoding.h"
 
 namespace belvedere {
 

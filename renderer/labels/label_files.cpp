@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "base/text/json.h"
-#include "base/text/markup.h"
+#include "base/text/text_encoding.h"
 #include "renderer/labels/drawing_svg.h"
 #include "terrain/io/crs.h"
 

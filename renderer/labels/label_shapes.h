@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "base/progress.h"
-#include "renderer/labels/label_marks.h"
 #include "renderer/labels/label_points.h"
 #include "renderer/labels/label_style.h"
 #include "terrain/io/features.h"

@@ -6,7 +6,6 @@
 
 #include "base/grid.h"
 #include "renderer/labels/label_layout.h"
-#include "renderer/labels/label_marks.h"
 #include "renderer/labels/label_points.h"
 #include "renderer/labels/label_shapes.h"
 #include "renderer/labels/label_style.h"

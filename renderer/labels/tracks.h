@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "renderer/labels/drawing.h"
-#include "renderer/labels/label_marks.h"
+#include "renderer/labels/label_points.h"
 #include "terrain/io/points.h"
 
 namespace belvedere {

@@ -16,7 +16,7 @@
 #include "renderer/pipeline/scene_paint.h"
 #include "renderer/pipeline/sheet_job.h"
 #include "renderer/pipeline/sheet_pieces.h"
-#include "renderer/world/style/scene_style.h"
+#include "renderer/world/scene_style.h"
 
 namespace belvedere {
 

@@ -11,7 +11,7 @@
 #include "renderer/compose/view_score.h"
 #include "renderer/paint/composite.h"
 #include "renderer/scene/scene_file.h"
-#include "renderer/world/light/scene_light.h"
+#include "renderer/world/scene_light.h"
 #include "renderer/world/view.h"
 #include "terrain/cover/land_cover_patches.h"
 #include "terrain/io/dem.h"

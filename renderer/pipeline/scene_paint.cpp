@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "renderer/exemplar/scan.h"
 #include "renderer/image/icc/press_colour.h"
-#include "renderer/world/style/scene_style.h"
+#include "renderer/world/scene_style.h"
 
 namespace belvedere {
 namespace {

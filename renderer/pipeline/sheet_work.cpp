@@ -6,8 +6,8 @@
 #include "renderer/pipeline/sheet_pieces.h"
 #include "renderer/stages/lit_picture.h"
 #include "renderer/stages/sheet_style.h"
-#include "renderer/world/season/scene_season.h"
-#include "renderer/world/style/scene_style.h"
+#include "renderer/world/scene_season.h"
+#include "renderer/world/scene_style.h"
 
 namespace belvedere {
 

@@ -28,7 +28,7 @@ class JSON;
 #include "base/error.h"
 #include "base/files/output_file.h"
 #include "base/parallel.h"
-#include "base/text/markup.h"
+#include "base/text/text_encoding.h"
 #include "renderer/image/display_conversion.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/provenance.h"

@@ -16,7 +16,7 @@
 #include "renderer/image/srgb.h"
 #include "renderer/world/picture_parameters.h"
 #include "renderer/world/scene_land_cover.h"
-#include "renderer/world/season/scene_season.h"
+#include "renderer/world/scene_season.h"
 #include "renderer/world/world.h"
 #include "terrain/climate/map_climate.h"
 #include "terrain/climate/map_position.h"

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "terrain/fetch/fetched_area.h"
+#include "terrain/fetch/fetch_area.h"
 
 namespace belvedere {
 

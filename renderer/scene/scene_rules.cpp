@@ -8,7 +8,7 @@
 #include <tuple>
 
 #include "base/error.h"
-#include "renderer/scene/scene_error.h"
+#include "renderer/scene/scene_table.h"
 #include "renderer/trace/camera.h"
 #include "terrain/cover/class_rules.h"
 #include "terrain/generalize/generalize_presets.h"

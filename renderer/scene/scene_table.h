@@ -1,7 +1,10 @@
 #pragma once
 
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "base/error.h"
 #include "renderer/scene/scene_schema.h"
 
 namespace belvedere {
@@ -41,5 +44,16 @@ SceneKey make_vector_crs_key(SceneField (*field)(Scene&, std::size_t),
                              std::string_view name = "crs");
 SceneKey make_encoding_key(SceneField (*field)(Scene&, std::size_t),
                            std::string_view name = "encoding");
+
+// The result of `make`. A stage's errors name its own fields; here the scene's section is put
+// before them: "handles.1" of the deformation becomes "deform.handles.1".
+template <class Make>
+auto in_section(const std::string& section, Make&& make) {
+  try {
+    return std::forward<Make>(make)();
+  } catch (const Error& error) {
+    throw Error(error.kind(), section + "." + error.where(), error.found(), error.allowed());
+  }
+}
 
 }  // namespace belvedere

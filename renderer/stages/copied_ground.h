@@ -11,7 +11,7 @@
 #include "renderer/mist/mist_paint.h"
 #include "renderer/paint/base_picture.h"
 #include "renderer/paint/composite.h"
-#include "renderer/stages/model_ground.h"
+#include "renderer/stages/ground_inputs.h"
 #include "renderer/stages/picture_layers.h"
 #include "renderer/stages/seam_ground.h"
 #include "texture/sheet/synthesis_plan.h"

@@ -10,7 +10,7 @@
 #include "base/land_cover_class.h"
 #include "base/pixel_rect.h"
 #include "renderer/paint/composite.h"
-#include "renderer/stages/model_ground.h"
+#include "renderer/stages/ground_inputs.h"
 #include "texture/statistical/make_texture.h"
 
 namespace belvedere {

@@ -10,7 +10,7 @@
 #include "base/math.h"
 #include "base/random.h"
 #include "renderer/paint/clouds/clouds.h"
-#include "renderer/world/season/scene_season.h"
+#include "renderer/world/scene_season.h"
 #include "terrain/climate/map_position.h"
 
 namespace belvedere {

@@ -16,7 +16,7 @@
 #include "renderer/compose/massifs.h"
 #include "renderer/compose/view_shape.h"
 #include "renderer/compose/view_measures.h"
-#include "renderer/compose/view_reach.h"
+#include "renderer/compose/view_candidates.h"
 #include "renderer/compose/view_score.h"
 #include "renderer/trace/camera.h"
 #include "terrain/deform/deform.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "renderer/compose/coarse_ground.h"
-#include "renderer/compose/view_layout.h"
+#include "renderer/compose/view_candidates.h"
 #include "renderer/compose/view_shape.h"
 #include "renderer/paint/air.h"
 #include "renderer/scene/scene.h"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "renderer/ground/feature_files.h"
+#include "renderer/ground/scene_ground_map.h"
 #include "renderer/ground/laid_rivers.h"
 #include "terrain/io/crs.h"
 

@@ -15,7 +15,7 @@
 #include "terrain/cover/land_cover.h"
 #include "terrain/cover/land_cover_patches.h"
 #include "terrain/io/dem.h"
-#include "terrain/layers/layer_drawing.h"
+#include "terrain/layers/layer_picture.h"
 #include "terrain/shape/hydrology.h"
 #include "terrain/shape/sea.h"
 

@@ -8,7 +8,7 @@
 #include "base/filter.h"
 #include "base/math.h"
 #include "base/math_exact.h"
-#include "renderer/scene/scene_error.h"
+#include "renderer/scene/scene_table.h"
 #include "renderer/world/resolve_view.h"
 #include "renderer/world/viewer_check.h"
 #include "terrain/io/raster_io.h"

@@ -15,7 +15,7 @@
 #include "base/error.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
-#include "renderer/ground/feature_files.h"
+#include "renderer/ground/scene_ground_map.h"
 #include "terrain/deform/deform.h"
 #include "terrain/io/crs.h"
 

@@ -13,7 +13,7 @@
 #include "base/text/embedded.h"
 #include "terrain/cover/class_rules_inputs.h"
 #include "terrain/cover/ground_variables.h"
-#include "terrain/cover/layers_document.h"
+#include "terrain/cover/layer_inputs.h"
 
 namespace belvedere {
 

@@ -11,7 +11,7 @@
 #include "terrain/cover/land_cover.h"
 #include "terrain/cover/layer_inputs.h"
 #include "terrain/io/dem.h"
-#include "terrain/layers/layer_drawing.h"
+#include "terrain/layers/layer_picture.h"
 #include "terrain/layers/surface_layers.h"
 
 namespace belvedere {

@@ -14,7 +14,7 @@
 #include "base/text/text_encoding.h"
 #include "base/text/hex_colour.h"
 #include "terrain/cover/ground_variables.h"
-#include "terrain/cover/layers_document.h"
+#include "terrain/cover/layer_inputs.h"
 #include "terrain/layers/surface_layers.h"
 
 namespace belvedere {

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "base/grid.h"
-#include "texture/segment/clique_partition.h"
 #include "texture/segment/superpixels.h"
 
 namespace belvedere {

@@ -20,7 +20,7 @@
 #include "renderer/labels/label_files.h"
 #include "renderer/pipeline/scene_labels.h"
 #include "renderer/scene/draft.h"
-#include "renderer/trace/sketch/relief_sketch.h"
+#include "renderer/trace/relief_sketch.h"
 #include "renderer/world/generalize_view.h"
 #include "renderer/world/scene_dem.h"
 #include "renderer/world/world.h"

@@ -9,7 +9,7 @@
 #include "base/text/json.h"
 #include "base/text/text_encoding.h"
 #include "renderer/exemplar/complete_sky.h"
-#include "renderer/exemplar/painting_segments.h"
+#include "renderer/exemplar/classes_by_paint.h"
 #include "renderer/image/icc/painting_file.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/label_image.h"

@@ -20,7 +20,7 @@
 #include "terrain/register/control_pairs.h"
 #include "terrain/register/registration.h"
 #include "tools/studio/scene_session.h"
-#include "tools/web/tile_pyramid.h"
+#include "tools/web/web_page.h"
 
 namespace belvedere::tools {
 

@@ -12,7 +12,7 @@
 #include "terrain/io/dem.h"
 #include "terrain/register/registration.h"
 #include "tools/studio/http_server.h"
-#include "tools/web/tile_pyramid.h"
+#include "tools/web/web_page.h"
 
 namespace belvedere::tools {
 

@@ -10,7 +10,7 @@
 #include "base/files/file_guard.h"
 #include "base/files/output_file.h"
 #include "base/text/embedded.h"
-#include "base/text/markup.h"
+#include "base/text/text_encoding.h"
 #include "renderer/image/image_io.h"
 #include "tools/report/report_pictures.h"
 

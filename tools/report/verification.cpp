@@ -6,7 +6,7 @@
 #include <fmt/core.h>
 
 #include "base/error.h"
-#include "base/text/markup.h"
+#include "base/text/text_encoding.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/picture_diff.h"
 #include "renderer/image/picture_formats.h"

@@ -14,7 +14,7 @@
 #include "base/error.h"
 #include "base/files/output_file.h"
 #include "base/parallel.h"
-#include "base/text/markup.h"
+#include "base/text/text_encoding.h"
 #include "renderer/image/deflate.h"
 #include "renderer/image/exr/exr_writer.h"
 #include "renderer/image/exr/exr_reader.h"

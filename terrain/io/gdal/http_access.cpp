@@ -277,7 +277,7 @@ HttpAnswer ask_server(const HttpRequest& request) {
 
 namespace {
 
-struct Stream {
+struct OpenStream {
   std::string path;
   ByteSource source;
   std::exception_ptr failure;
@@ -287,19 +287,19 @@ constexpr std::string_view prefix = "/vsibelvedere/";
 
 // Registered streams: the library opens "12/name.tif" of the path "/vsibelvedere/12/name.tif".
 std::mutex streams_mutex;
-std::map<std::string, Stream*, std::less<>>& streams() {
-  static std::map<std::string, Stream*, std::less<>> all;
+std::map<std::string, OpenStream*, std::less<>>& streams() {
+  static std::map<std::string, OpenStream*, std::less<>> all;
   return all;
 }
 
 // Position of one reader of a stream.
 struct Cursor {
-  Stream* stream;
+  OpenStream* stream;
   std::uint64_t at = 0;
   bool past_end = false;
 };
 
-Stream* find_stream(std::string_view name) {
+OpenStream* find_stream(std::string_view name) {
   if (name.starts_with(prefix)) name.remove_prefix(prefix.size());
   const std::lock_guard lock(streams_mutex);
   const auto found = streams().find(name);
@@ -307,7 +307,7 @@ Stream* find_stream(std::string_view name) {
 }
 
 int stat_stream(void*, const char* name, VSIStatBufL* out, int) {
-  const Stream* stream = find_stream(name);
+  const OpenStream* stream = find_stream(name);
   if (stream == nullptr) return -1;
   *out = {};
   out->st_mode = S_IFREG;
@@ -316,7 +316,7 @@ int stat_stream(void*, const char* name, VSIStatBufL* out, int) {
 }
 
 void* open_stream(void*, const char* name, const char* access) {
-  Stream* stream = find_stream(name);
+  OpenStream* stream = find_stream(name);
   if (stream == nullptr || std::string_view(access).find_first_of("wa+") != std::string_view::npos)
     return nullptr;
   return std::make_unique<Cursor>(Cursor{stream}).release();
@@ -335,7 +335,7 @@ int seek(void* file, vsi_l_offset offset, int whence) {
 
 std::size_t read(void* file, void* to, std::size_t size, std::size_t count) {
   Cursor& cursor = *static_cast<Cursor*>(file);
-  Stream& stream = *cursor.stream;
+  OpenStream& stream = *cursor.stream;
   const std::uint64_t left = cursor.at < stream.source.bytes ? stream.source.bytes - cursor.at : 0;
   const std::uint64_t wanted = static_cast<std::uint64_t>(size) * count;
   const std::uint64_t bytes = std::min(wanted, left);
@@ -378,7 +378,7 @@ void install() {
 }  // namespace
 
 struct StreamFile::State {
-  Stream stream;
+  OpenStream stream;
 };
 
 StreamFile::StreamFile(const std::string& name, ByteSource source)

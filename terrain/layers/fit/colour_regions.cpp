@@ -11,7 +11,7 @@
 #include "base/error.h"
 #include "base/masks/polygon.h"
 #include "base/text/config_reader.h"
-#include "terrain/cover/layers_document.h"
+#include "terrain/cover/layer_inputs.h"
 
 namespace belvedere {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "renderer/compose/view_layout.h"
+#include "renderer/compose/view_candidates.h"
 #include "tests/renderer/compose/synthetic_region.h"
 
 namespace belvedere {

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "base/config.h"
-#include "terrain/fetch/fetched_area.h"
 #include "tests/paths.h"
 #include "tests/terrain/fetch/served_tiles.h"
 

@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "base/text/json.h"
 #include "renderer/features/drawn_features.h"
-#include "renderer/ground/feature_files.h"
+#include "renderer/ground/scene_ground_map.h"
 #include "renderer/world/scene_features.h"
 #include "renderer/world/world.h"
 #include "tools/cli/commands.h"

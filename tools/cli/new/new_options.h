@@ -8,7 +8,7 @@
 #include "base/cache/cache.h"
 #include "base/progress.h"
 #include "renderer/compose/view_shape.h"
-#include "tools/cli/fetch/fetch_options.h"
+#include "tools/cli/command_fetch.h"
 #include "tools/cli/scene_options.h"
 #include "tools/cli/terrain_operators.h"
 
