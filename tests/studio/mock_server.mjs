@@ -8,7 +8,7 @@ import { camera, draw, part, png, relief } from "./mock_picture.mjs";
 import { edit, Fault, parse, schema } from "./mock_scene.mjs";
 
 const token = "0123456789abcdef0123456789abcdef";
-const page = new URL("../../data/studio/", import.meta.url);
+const page = new URL("../../tools/studio/page/", import.meta.url);
 const types = { html: "text/html; charset=utf-8", css: "text/css", js: "text/javascript", svg: "image/svg+xml" };
 const policy =
   "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self'; connect-src 'self'; base-uri 'none'; form-action 'none'";

@@ -71,7 +71,7 @@ ClassAgreement agreement(const Grid<std::uint8_t>& classes, const GuidanceBuffer
 
 // Of a registered painting of that terrain; truth: guidance.exr of the picture that was painted.
 CoverTrial try_cover(const Registration& registration, const Grid<glm::vec3>& painting,
-                     const std::shared_ptr<const Dem>& dem, const std::string& truth) {
+                     const std::shared_ptr<const Dem>& dem, const std::string& truth_file) {
   const GuidanceBuffers truth = read_guidance(truth_file);
   const glm::ivec2 size(painting.width(), painting.height());
   LoadedScene loaded;

@@ -74,7 +74,7 @@ struct ReportHead {
 };
 
 // The results of a command in one form for all: sections, with what is added after each one's
-// begin. The page, data/report/, draws it and alone handles markup and rounding; report.json holds
+// begin. The page, tools/report/page/, draws it and alone handles markup and rounding; report.json holds
 // the same for programs.
 class Report {
  public:
