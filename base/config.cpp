@@ -13,8 +13,8 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/text/text_encoding.h"
 #include "base/text/missing_file.h"
+#include "base/text/text_encoding.h"
 
 // In this version some malformed texts trigger the library's own assertions, which would end the
 // program or, compiled out, be undefined behaviour. Thrown as exceptions they become syntax errors.

@@ -11,9 +11,9 @@
 
 #include "base/grid.h"
 #include "base/lines/blur_lines.h"
-#include "base/pyramid.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
+#include "base/pyramid.h"
 
 // Minimum, maximum and nearest-mark filters: exact, at a cost that does not depend on the radius.
 

@@ -1,7 +1,7 @@
 #include "base/guidance_buffers.h"
 
-#include <algorithm>
 #include <fmt/core.h>
+#include <algorithm>
 #include <limits>
 
 namespace belvedere {

@@ -9,9 +9,9 @@
 #include <type_traits>
 #include <vector>
 
-#include "base/parallel.h"
 #include "base/grid.h"
 #include "base/memory/zeroed_memory.h"
+#include "base/parallel.h"
 
 namespace belvedere {
 

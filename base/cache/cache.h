@@ -17,8 +17,8 @@
 
 #include "base/cache/bytes.h"
 #include "base/cache/content_hash.h"
-#include "base/parallel.h"
 #include "base/grid.h"
+#include "base/parallel.h"
 #include "base/progress.h"
 
 namespace belvedere {

@@ -1,9 +1,9 @@
 #include "base/text/missing_file.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <fmt/core.h>
 #include <fstream>
 #include <set>
 #include <string_view>

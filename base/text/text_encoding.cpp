@@ -1,14 +1,14 @@
 #include "base/text/text_encoding.h"
 
+#include <fmt/core.h>
+#include <glib.h>
+#include <iconv.h>
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <fmt/core.h>
-#include <glib.h>
-#include <iconv.h>
 #include <memory>
 #include <type_traits>
 

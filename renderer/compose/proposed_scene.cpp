@@ -1,17 +1,17 @@
 #include "renderer/compose/proposed_scene.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fmt/core.h>
 
 #include "base/error.h"
 #include "base/math.h"
 #include "base/parallel.h"
 #include "base/text/json.h"
 #include "renderer/compose/view_changes.h"
-#include "renderer/compose/view_shape.h"
 #include "renderer/compose/view_score.h"
+#include "renderer/compose/view_shape.h"
 
 namespace belvedere {
 namespace {

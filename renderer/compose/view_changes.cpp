@@ -1,8 +1,8 @@
 #include "renderer/compose/view_changes.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <limits>
 #include <utility>
 

@@ -1,8 +1,8 @@
 #include "renderer/exemplar/available_texels.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/core.h>
 #include <numbers>
 #include <numeric>
 

@@ -1,9 +1,9 @@
 #include "renderer/exemplar/classes_by_paint.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fmt/core.h>
 #include <limits>
 #include <vector>
 

@@ -1,9 +1,9 @@
 #include "renderer/exemplar/example_sheet.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fmt/core.h>
 #include <map>
 #include <memory>
 #include <string>

@@ -10,9 +10,9 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
-#include "base/matrix/matrix.h"
 #include "base/error.h"
 #include "base/filter.h"
+#include "base/matrix/matrix.h"
 #include "base/parallel.h"
 #include "renderer/image/srgb.h"
 #include "texture/statistical/photometric.h"

@@ -1,9 +1,9 @@
 #include "renderer/exemplar/scan.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fmt/core.h>
 #include <glm/common.hpp>
 #include <limits>
 #include <optional>

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "renderer/features/line_samples.h"
 #include "renderer/features/feature_style.h"
+#include "renderer/features/line_samples.h"
 
 namespace belvedere {
 

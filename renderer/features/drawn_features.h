@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "base/pixel_rect.h"
-#include "renderer/features/line_samples.h"
 #include "renderer/features/feature_style.h"
+#include "renderer/features/line_samples.h"
 #include "renderer/trace/light_field.h"
 #include "terrain/cover/map_cover.h"
 

@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "renderer/features/line_samples.h"
 #include "renderer/features/feature_style.h"
 #include "renderer/features/footprint.h"
+#include "renderer/features/line_samples.h"
 
 namespace belvedere {
 

@@ -1,9 +1,9 @@
 #include "renderer/features/feature_style.h"
 
-#include <algorithm>
-#include <charconv>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <algorithm>
+#include <charconv>
 #include <optional>
 #include <set>
 #include <utility>

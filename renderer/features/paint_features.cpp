@@ -10,8 +10,8 @@
 
 #include "base/error.h"
 #include "base/math.h"
-#include "base/random.h"
 #include "base/parallel.h"
+#include "base/random.h"
 #include "texture/strokes/stroke_parts.h"
 
 namespace belvedere {

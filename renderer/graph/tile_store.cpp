@@ -1,15 +1,15 @@
 #include "renderer/graph/tile_store.h"
 
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <unistd.h>
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <fcntl.h>
 #include <filesystem>
-#include <fmt/core.h>
 #include <numeric>
 #include <system_error>
-#include <unistd.h>
 
 #include "base/error.h"
 #include "base/parallel.h"

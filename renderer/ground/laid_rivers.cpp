@@ -1,9 +1,9 @@
 #include "renderer/ground/laid_rivers.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fmt/core.h>
 #include <glm/geometric.hpp>
 #include <iterator>
 #include <utility>
@@ -12,9 +12,9 @@
 #include "base/filter.h"
 #include "base/math.h"
 #include "base/math_exact.h"
-#include "base/random.h"
 #include "base/parallel.h"
 #include "base/pixel_rect.h"
+#include "base/random.h"
 #include "renderer/ground/cached_products.h"
 
 namespace belvedere {

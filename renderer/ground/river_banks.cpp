@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "base/math.h"
-#include "base/random.h"
 #include "base/parallel.h"
+#include "base/random.h"
 
 namespace belvedere {
 namespace {

@@ -1,8 +1,8 @@
 #include "renderer/ground/scene_ground_map.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/core.h>
 #include <functional>
 #include <iterator>
 #include <memory>

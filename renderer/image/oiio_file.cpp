@@ -14,10 +14,10 @@
 #include "base/error.h"
 #include "base/files/output_file.h"
 #include "base/parallel.h"
-#include "renderer/image/srgb.h"
 #include "renderer/image/image_file.h"
 #include "renderer/image/png_palette.h"
 #include "renderer/image/provenance.h"
+#include "renderer/image/srgb.h"
 #include "renderer/image/tiff_file.h"
 
 namespace belvedere {

@@ -1,10 +1,10 @@
 #include "renderer/image/picture_diff.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
-#include <fmt/core.h>
 #include <limits>
 #include <map>
 #include <string_view>

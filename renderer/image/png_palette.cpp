@@ -1,11 +1,11 @@
 #include "renderer/image/png_palette.h"
 
+#include <png.h>
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
-#include <png.h>
 #include <string_view>
 #include <vector>
 

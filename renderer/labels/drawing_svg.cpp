@@ -1,7 +1,7 @@
 #include "renderer/labels/drawing_svg.h"
 
-#include <cmath>
 #include <fmt/core.h>
+#include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
 #include <memory>

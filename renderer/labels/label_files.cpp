@@ -1,7 +1,7 @@
 #include "renderer/labels/label_files.h"
 
-#include <cmath>
 #include <fmt/core.h>
+#include <cmath>
 #include <iterator>
 #include <optional>
 #include <utility>

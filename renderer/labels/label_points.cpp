@@ -1,11 +1,11 @@
 #include "renderer/labels/label_points.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <glm/geometric.hpp>
 #include <set>
 #include <span>
@@ -338,8 +338,8 @@ std::optional<glm::dvec2> climb(const LocatedGround& ground, glm::dvec2 position
   }
 }
 
-std::vector<LabelMark> find_marks(const LocatedGround& ground, const std::vector<LabelPoint>& points,
-                                  const LabelStyle& style) {
+std::vector<LabelMark> find_marks(const LocatedGround& ground,
+                                  const std::vector<LabelPoint>& points, const LabelStyle& style) {
   std::vector<LabelMark> marks(points.size());
   parallel_ranges<std::size_t>(points.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)

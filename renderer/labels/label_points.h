@@ -89,7 +89,7 @@ struct LocatedGround {
 std::optional<glm::dvec2> climb(const LocatedGround& ground, glm::dvec2 position, double max_m);
 
 // The mark of each point, in parallel; the same for any number of threads.
-std::vector<LabelMark> find_marks(const LocatedGround& ground, const std::vector<LabelPoint>& points,
-                                  const LabelStyle& style);
+std::vector<LabelMark> find_marks(const LocatedGround& ground,
+                                  const std::vector<LabelPoint>& points, const LabelStyle& style);
 
 }  // namespace belvedere

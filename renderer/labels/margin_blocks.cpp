@@ -1,9 +1,9 @@
 #include "renderer/labels/margin_blocks.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fmt/core.h>
 #include <glm/common.hpp>
 #include <iterator>
 

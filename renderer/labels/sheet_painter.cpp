@@ -1,8 +1,8 @@
 #include "renderer/labels/sheet_painter.h"
 
+#include <cairo.h>
 #include <algorithm>
 #include <array>
-#include <cairo.h>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

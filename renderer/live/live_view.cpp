@@ -11,7 +11,7 @@
 #include "renderer/pipeline/copy_plan.h"
 #include "renderer/pipeline/scene_paint.h"
 #include "renderer/pipeline/sheet_work.h"
-#include "renderer/scene/draft.h"
+#include "renderer/scene/scene_settings.h"
 #include "renderer/stages/lit_picture.h"
 #include "renderer/world/scene_features.h"
 

@@ -18,9 +18,9 @@
 #include "renderer/paint/light.h"
 #include "renderer/paint/picture_filter.h"
 #include "renderer/paint/picture_noise.h"
+#include "renderer/paint/sky.h"
 #include "renderer/paint/terrain_end.h"
 #include "renderer/paint/water/water_image.h"
-#include "renderer/paint/sky.h"
 #include "renderer/paint/water/water_surface.h"
 #include "texture/strokes/parcels.h"
 

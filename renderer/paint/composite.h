@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "base/guidance_buffers.h"
 #include "base/grid.h"
+#include "base/guidance_buffers.h"
 #include "texture/strokes/brush.h"
 #include "texture/synthesis/exemplar.h"
 

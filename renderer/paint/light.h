@@ -11,8 +11,8 @@
 #include "base/pixel_rect.h"
 #include "base/progress.h"
 #include "renderer/paint/air.h"
-#include "renderer/trace/light_field.h"
 #include "renderer/trace/camera.h"
+#include "renderer/trace/light_field.h"
 
 namespace belvedere {
 

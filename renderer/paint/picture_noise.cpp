@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "base/pyramid.h"
 #include "base/parallel.h"
+#include "base/pyramid.h"
 #include "base/random.h"
 
 namespace belvedere {

@@ -9,8 +9,8 @@
 
 #include "base/math.h"
 #include "base/math_exact.h"
-#include "base/random.h"
 #include "base/parallel.h"
+#include "base/random.h"
 #include "base/statistics.h"
 #include "renderer/paint/picture_noise.h"
 

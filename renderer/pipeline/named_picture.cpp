@@ -1,8 +1,8 @@
 #include "renderer/pipeline/named_picture.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <filesystem>
-#include <fmt/core.h>
 #include <glm/common.hpp>
 #include <iterator>
 #include <memory>

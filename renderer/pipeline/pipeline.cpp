@@ -1,9 +1,9 @@
 #include "renderer/pipeline/pipeline.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fmt/core.h>
 #include <optional>
 #include <span>
 #include <utility>

@@ -1,8 +1,8 @@
 #include "renderer/pipeline/scene_check.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <memory>
 #include <utility>
 
@@ -11,8 +11,8 @@
 #include "base/math.h"
 #include "base/math_exact.h"
 #include "renderer/compose/massifs.h"
-#include "renderer/compose/view_changes.h"
 #include "renderer/compose/view_candidates.h"
+#include "renderer/compose/view_changes.h"
 #include "renderer/exemplar/exemplars.h"
 #include "renderer/paint/guides.h"
 #include "renderer/pipeline/scene_paint.h"
@@ -21,9 +21,9 @@
 #include "renderer/trace/relief_sketch.h"
 #include "renderer/world/generalize_view.h"
 #include "renderer/world/ground_windows.h"
-#include "renderer/world/scene_light.h"
 #include "renderer/world/scene_dem.h"
 #include "renderer/world/scene_land_cover.h"
+#include "renderer/world/scene_light.h"
 #include "renderer/world/scene_season.h"
 #include "renderer/world/viewer_check.h"
 #include "terrain/io/raster_io.h"

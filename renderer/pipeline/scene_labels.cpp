@@ -228,7 +228,7 @@ LabelSheet make_label_sheet(const LoadedScene& scene, const LabelJob& job, const
   progress.begin("finding positions", 0.0);
   const GeoMap map = bare.geo_map();
   const LocatedGround ground{bare.dem->altitude_m, *bare.generalized_m, bare.dem->transform,
-                           bare.dem->cell_m(), map};
+                             bare.dem->cell_m(), map};
   std::vector<LabelMark> marks = find_marks(ground, points, style);
   // The most prominent visible summits of the DEM; named ones are all listed.
   std::size_t kept = named;
@@ -270,7 +270,7 @@ LabelSheet locate_points(const std::vector<std::string>& files, const BareView& 
   require_points_on_terrain(points, *bare.dem);
   const GeoMap map = bare.geo_map();
   const LocatedGround ground{bare.dem->altitude_m, *bare.generalized_m, bare.dem->transform,
-                           bare.dem->cell_m(), map};
+                             bare.dem->cell_m(), map};
   const std::vector<LabelMark> marks = find_marks(ground, points, sheet.style);
   for (std::size_t i = 0; i < points.size(); ++i) {
     Label& label = sheet.labels.emplace_back();

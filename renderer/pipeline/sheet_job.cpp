@@ -1,8 +1,8 @@
 #include "renderer/pipeline/sheet_job.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/core.h>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -17,9 +17,9 @@
 #include "renderer/paint/composite.h"
 #include "renderer/pipeline/copy_plan.h"
 #include "renderer/pipeline/named_picture.h"
-#include "renderer/pipeline/scene_paint.h"
 #include "renderer/pipeline/picture_legend.h"
 #include "renderer/pipeline/scene_labels.h"
+#include "renderer/pipeline/scene_paint.h"
 #include "renderer/pipeline/sheet_pieces.h"
 #include "renderer/pipeline/sheet_work.h"
 #include "renderer/sheet/piece_file.h"

@@ -1,8 +1,8 @@
 #include "renderer/pipeline/sheet_pieces.h"
 
-#include <algorithm>
 #include <fmt/core.h>
 #include <fmt/format.h>
+#include <algorithm>
 
 #include "base/error.h"
 #include "base/memory_limit.h"

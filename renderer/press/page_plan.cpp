@@ -1,11 +1,11 @@
 #include "renderer/press/page_plan.h"
 
-#include <algorithm>
 #include <cairo-pdf.h>
-#include <cmath>
-#include <filesystem>
 #include <fmt/core.h>
 #include <librsvg/rsvg.h>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <memory>
 
 #include "base/error.h"

@@ -1,9 +1,9 @@
 #include "renderer/press/proof.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fmt/core.h>
 
 #include "base/error.h"
 #include "base/files/file_guard.h"

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "base/parallel.h"
 #include "base/land_cover_class.h"
+#include "base/parallel.h"
 
 namespace belvedere {
 

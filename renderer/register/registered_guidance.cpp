@@ -1,8 +1,8 @@
 #include "renderer/register/registered_guidance.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/core.h>
 #include <glm/common.hpp>
 #include <glm/vec2.hpp>
 #include <string_view>

@@ -15,9 +15,9 @@
 #include "base/random.h"
 #include "renderer/paint/picture_filter.h"
 #include "renderer/paint/picture_noise.h"
-#include "renderer/rock/rock_view.h"
 #include "renderer/rock/rock_ground.h"
 #include "renderer/rock/rock_light.h"
+#include "renderer/rock/rock_view.h"
 
 namespace belvedere {
 namespace {

@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 
 #include "base/math.h"
-#include "base/random.h"
 #include "base/parallel.h"
+#include "base/random.h"
 #include "renderer/paint/picture_filter.h"
 #include "renderer/rock/spur_peaks.h"
 

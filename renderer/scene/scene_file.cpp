@@ -404,8 +404,7 @@ LoadedScene load(ConfigValue root, const std::string& name, const std::string& f
   const SceneOrigin origin{.file = name, .settings = options.settings};
   spread_style(root);
   SceneOrigin present = origin;
-  for (std::string& setting : present.settings)
-    setting = with_style_file(setting);
+  for (std::string& setting : present.settings) setting = with_style_file(setting);
   apply_settings(root, present);
   SceneReader(loaded, origin).read(root);
   apply_scene_rules(loaded.scene, root, origin);

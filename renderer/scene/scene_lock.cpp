@@ -1,8 +1,8 @@
 #include "renderer/scene/scene_lock.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <filesystem>
-#include <fmt/core.h>
 #include <fstream>
 #include <map>
 #include <mutex>

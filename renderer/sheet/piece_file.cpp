@@ -1,20 +1,20 @@
 #include "renderer/sheet/piece_file.h"
 
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <unistd.h>
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <charconv>
 #include <cstdint>
 #include <cstring>
-#include <fcntl.h>
 #include <filesystem>
-#include <fmt/core.h>
 #include <fstream>
 #include <functional>
 #include <glm/vec2.hpp>
 #include <sstream>
 #include <system_error>
-#include <unistd.h>
 #include <utility>
 #include <variant>
 #include <vector>

@@ -1,18 +1,18 @@
 #include "renderer/sheet/work_folder.h"
 
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
 #include <algorithm>
 #include <cerrno>
 #include <cstddef>
-#include <fcntl.h>
 #include <filesystem>
-#include <future>
-#include <fmt/core.h>
 #include <fstream>
+#include <future>
 #include <sstream>
-#include <sys/file.h>
-#include <sys/stat.h>
 #include <system_error>
-#include <unistd.h>
 #include <utility>
 
 #include "base/error.h"
@@ -271,9 +271,9 @@ void PieceWriter::keep(const std::string& product, PixelRect rect, const Planes&
   std::size_t bytes = 0;
   for (const Plane& plane : planes) bytes += plane.bytes();
   writing_->done = std::async(std::launch::async,
-                        [&work = work_, product, rect, planes, kept = std::move(holder)] {
-                          work.keep(product, rect, planes);
-                        });
+                              [&work = work_, product, rect, planes, kept = std::move(holder)] {
+                                work.keep(product, rect, planes);
+                              });
   if (bytes > max_bytes_beside) finish();
 }
 

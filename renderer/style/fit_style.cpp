@@ -1,8 +1,8 @@
 #include "renderer/style/fit_style.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/core.h>
 #include <glm/common.hpp>
 #include <vector>
 

@@ -9,10 +9,10 @@
 #include "base/grid.h"
 #include "base/progress.h"
 #include "renderer/style/fit/class_ramps.h"
-#include "renderer/style/fit/style_painting.h"
 #include "renderer/style/fit/fit_brushwork.h"
 #include "renderer/style/fit/fit_sky.h"
 #include "renderer/style/fit/separate_classes.h"
+#include "renderer/style/fit/style_painting.h"
 #include "renderer/style/style.h"
 
 namespace belvedere {

@@ -8,8 +8,8 @@
 
 #include "base/math.h"
 #include "base/math_exact.h"
-#include "base/random.h"
 #include "base/parallel.h"
+#include "base/random.h"
 #include "renderer/image/srgb.h"
 #include "renderer/style/stroke_direction.h"
 #include "renderer/style/style_strokes.h"

@@ -1,8 +1,8 @@
 #include "renderer/style/style_file.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/core.h>
 #include <glm/common.hpp>
 
 #include "base/config.h"

@@ -1,8 +1,8 @@
 #include "renderer/trace/camera.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/core.h>
 #include <glm/geometric.hpp>
 #include <numbers>
 

@@ -1,9 +1,9 @@
 #include "renderer/trace/terrain_model.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <fmt/core.h>
 #include <utility>
 #include <vector>
 

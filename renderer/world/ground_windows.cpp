@@ -1,9 +1,9 @@
 #include "renderer/world/ground_windows.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fmt/core.h>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <memory>

@@ -1,9 +1,9 @@
 #include "renderer/world/resolve_view.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fmt/core.h>
 #include <functional>
 #include <glm/geometric.hpp>
 #include <string>
@@ -14,10 +14,10 @@
 #include "base/math.h"
 #include "base/math_exact.h"
 #include "renderer/compose/massifs.h"
-#include "renderer/compose/view_shape.h"
-#include "renderer/compose/view_measures.h"
 #include "renderer/compose/view_candidates.h"
+#include "renderer/compose/view_measures.h"
 #include "renderer/compose/view_score.h"
+#include "renderer/compose/view_shape.h"
 #include "renderer/trace/camera.h"
 #include "terrain/deform/deform.h"
 

@@ -1,8 +1,8 @@
 #include "renderer/world/scene_dem.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/core.h>
 #include <glm/common.hpp>
 #include <limits>
 #include <optional>
@@ -16,7 +16,7 @@
 #include "base/memory_limit.h"
 #include "renderer/ground/cached_products.h"
 #include "renderer/ground/scene_ground_map.h"
-#include "renderer/scene/draft.h"
+#include "renderer/scene/scene_settings.h"
 #include "terrain/generalize/destripe.h"
 #include "terrain/io/http_access.h"
 #include "terrain/io/raster_file.h"

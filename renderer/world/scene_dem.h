@@ -66,8 +66,8 @@ struct GroundSize {
 };
 GroundSize ground_size_of(const LoadedScene& loaded);
 
-// A draft (renderer/scene/draft.h) on ground of about 2.5 million cells at most. Error(input)
-// listing all files that are missing.
+// A draft (renderer/scene/scene_settings.h) on ground of about 2.5 million cells at most.
+// Error(input) listing all files that are missing.
 LoadedScene make_draft_scene(LoadedScene loaded);
 
 }  // namespace belvedere

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "base/error.h"
-#include "renderer/ground/scene_ground_map.h"
 #include "renderer/ground/laid_rivers.h"
+#include "renderer/ground/scene_ground_map.h"
 #include "terrain/io/crs.h"
 
 namespace belvedere {

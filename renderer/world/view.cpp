@@ -1,7 +1,7 @@
 #include "renderer/world/view.h"
 
-#include <cmath>
 #include <fmt/core.h>
+#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "base/error.h"

@@ -1,10 +1,10 @@
 #include "renderer/world/viewer_check.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <fmt/core.h>
 #include <glm/common.hpp>
 #include <limits>
 #include <optional>

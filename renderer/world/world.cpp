@@ -1,8 +1,8 @@
 #include "renderer/world/world.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/core.h>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <optional>
@@ -20,17 +20,17 @@
 #include "renderer/ground/scene_ground_map.h"
 #include "renderer/image/provenance.h"
 #include "renderer/paint/sky.h"
-#include "renderer/scene/scene_table.h"
 #include "renderer/scene/scene_lock.h"
+#include "renderer/scene/scene_table.h"
 #include "renderer/trace/camera.h"
 #include "renderer/trace/terrain_model.h"
 #include "renderer/world/generalize_view.h"
 #include "renderer/world/ground_windows.h"
-#include "renderer/world/scene_light.h"
 #include "renderer/world/scene_dem.h"
 #include "renderer/world/scene_land_cover.h"
-#include "renderer/world/scene_values.h"
+#include "renderer/world/scene_light.h"
 #include "renderer/world/scene_style.h"
+#include "renderer/world/scene_values.h"
 #include "renderer/world/view.h"
 #include "renderer/world/viewer_check.h"
 #include "terrain/cover/map_cover.h"

@@ -9,8 +9,8 @@
 #include "base/math.h"
 #include "base/math_exact.h"
 #include "base/text/embedded.h"
-#include "terrain/climate/rule_climate.h"
 #include "terrain/climate/map_position.h"
+#include "terrain/climate/rule_climate.h"
 #include "terrain/climate/water_balance.h"
 
 namespace belvedere {

@@ -7,9 +7,9 @@
 
 #include "base/filter.h"
 #include "base/parallel.h"
-#include "terrain/climate/zonal_climate.h"
 #include "terrain/climate/radiation.h"
 #include "terrain/climate/water_balance.h"
+#include "terrain/climate/zonal_climate.h"
 #include "terrain/io/block_means.h"
 #include "terrain/shape/valley_floor.h"
 

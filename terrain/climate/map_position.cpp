@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "base/math.h"
 #include "base/error.h"
+#include "base/math.h"
 #include "base/math_exact.h"
 #include "terrain/io/crs.h"
 

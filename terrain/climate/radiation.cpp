@@ -1,9 +1,9 @@
 #include "terrain/climate/radiation.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fmt/core.h>
 #include <limits>
 #include <numbers>
 #include <utility>

@@ -8,8 +8,8 @@
 #include <optional>
 #include <vector>
 
-#include "base/math.h"
 #include "base/error.h"
+#include "base/math.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
 #include "base/random.h"

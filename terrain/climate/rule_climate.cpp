@@ -1,9 +1,9 @@
 #include "terrain/climate/rule_climate.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <fmt/core.h>
 #include <span>
 
 #include "base/error.h"

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "base/config.h"
-#include "base/parallel.h"
 #include "base/grid.h"
+#include "base/parallel.h"
 #include "terrain/io/raster.h"
 
 namespace belvedere {

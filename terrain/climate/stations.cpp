@@ -1,12 +1,12 @@
 #include "terrain/climate/stations.h"
 
+#include <fmt/core.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <cmath>
-#include <fmt/core.h>
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -17,8 +17,8 @@
 #include "base/text/text_encoding.h"
 #include "terrain/climate/zonal_climate.h"
 #include "terrain/io/crs.h"
-#include "terrain/io/raster_file.h"
 #include "terrain/io/points.h"
+#include "terrain/io/raster_file.h"
 
 namespace belvedere {
 namespace {

@@ -1,9 +1,9 @@
 #include "terrain/climate/zonal_climate.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <fmt/core.h>
 #include <numbers>
 #include <numeric>
 

@@ -1,10 +1,10 @@
 #include "terrain/cover/class_rules.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/vec2.hpp>
 #include <optional>

@@ -6,8 +6,8 @@
 #include <glm/vec2.hpp>
 #include <numeric>
 
-#include "base/math.h"
 #include "base/filter.h"
+#include "base/math.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
 #include "base/random.h"

@@ -1,11 +1,11 @@
 #include "terrain/cover/land_cover.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <fmt/core.h>
 #include <utility>
 
 #include "base/error.h"

@@ -8,8 +8,8 @@
 #include "base/config.h"
 #include "base/error.h"
 #include "base/text/embedded.h"
-#include "base/text/text_encoding.h"
 #include "base/text/missing_file.h"
+#include "base/text/text_encoding.h"
 #include "terrain/cover/land_cover.h"
 #include "terrain/io/csv.h"
 

@@ -6,8 +6,8 @@
 #include "base/filter.h"
 #include "base/grid.h"
 #include "base/math.h"
-#include "base/random.h"
 #include "base/parallel.h"
+#include "base/random.h"
 
 namespace belvedere {
 namespace {

@@ -11,8 +11,8 @@
 #include "base/config.h"
 #include "base/grid.h"
 #include "base/land_cover_class.h"
-#include "base/random.h"
 #include "base/pixel_rect.h"
+#include "base/random.h"
 #include "terrain/cover/rule_expression.h"
 #include "terrain/io/raster.h"
 

@@ -1,12 +1,12 @@
 #include "terrain/cover/towns.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <unordered_map>

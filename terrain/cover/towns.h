@@ -7,8 +7,8 @@
 
 #include "base/grid.h"
 #include "base/progress.h"
-#include "terrain/io/raster.h"
 #include "terrain/io/features.h"
+#include "terrain/io/raster.h"
 
 namespace belvedere {
 

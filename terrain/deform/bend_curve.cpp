@@ -1,8 +1,8 @@
 #include "terrain/deform/bend_curve.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/core.h>
 
 #include "base/error.h"
 #include "base/math.h"

@@ -7,9 +7,9 @@
 #include <limits>
 #include <utility>
 
-#include "base/math.h"
 #include "base/error.h"
 #include "base/filter.h"
+#include "base/math.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
 #include "terrain/io/block_means.h"

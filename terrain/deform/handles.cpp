@@ -9,8 +9,8 @@
 #include <limits>
 #include <utility>
 
-#include "base/math.h"
 #include "base/error.h"
+#include "base/math.h"
 #include "base/math_exact.h"
 
 namespace belvedere {

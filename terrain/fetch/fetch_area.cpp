@@ -1,16 +1,16 @@
 #include "terrain/fetch/fetch_area.h"
 
+#include <fmt/chrono.h>
+#include <fmt/core.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <ctime>
 #include <filesystem>
-#include <fmt/chrono.h>
-#include <fmt/core.h>
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <system_error>
-#include <unistd.h>
 #include <utility>
 
 #include "base/cache/content_hash.h"

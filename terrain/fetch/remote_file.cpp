@@ -1,10 +1,10 @@
 #include "terrain/fetch/remote_file.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <chrono>
 #include <cstring>
 #include <exception>
-#include <fmt/core.h>
 #include <span>
 #include <thread>
 

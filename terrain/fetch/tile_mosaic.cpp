@@ -1,9 +1,9 @@
 #include "terrain/fetch/tile_mosaic.h"
 
-#include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -12,8 +12,8 @@
 #include "base/cache/content_hash.h"
 #include "base/error.h"
 #include "terrain/io/crs.h"
-#include "terrain/io/raster_file.h"
 #include "terrain/io/http_access.h"
+#include "terrain/io/raster_file.h"
 
 namespace belvedere {
 namespace {

@@ -1,9 +1,9 @@
 #include "terrain/generalize/generalize.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <fmt/core.h>
 #include <iterator>
 #include <string_view>
 #include <utility>

@@ -1,8 +1,8 @@
 #include "terrain/generalize/mask.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/core.h>
 #include <utility>
 #include <vector>
 

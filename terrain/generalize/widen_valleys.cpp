@@ -1,9 +1,9 @@
 #include "terrain/generalize/widen_valleys.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <fmt/core.h>
 #include <glm/geometric.hpp>
 #include <utility>
 

@@ -1,8 +1,8 @@
 #include "terrain/io/dem.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/core.h>
 
 #include "base/error.h"
 #include "base/memory_limit.h"

@@ -1,11 +1,11 @@
 #include "terrain/io/points.h"
 
-#include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <fmt/core.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <utility>
 
 #include "base/error.h"

@@ -11,9 +11,9 @@
 #include "base/parallel.h"
 #include "terrain/io/crs.h"
 #include "terrain/io/dem.h"
-#include "terrain/io/resample.h"
 #include "terrain/io/raster_file.h"
 #include "terrain/io/raster_io.h"
+#include "terrain/io/resample.h"
 
 namespace belvedere {
 namespace {

@@ -9,8 +9,8 @@
 #include "base/error.h"
 #include "base/filter.h"
 #include "base/parallel.h"
-#include "terrain/layers/layer_noise.h"
 #include "terrain/layers/layer_coverage.h"
+#include "terrain/layers/layer_noise.h"
 
 namespace belvedere {
 namespace {

@@ -11,8 +11,8 @@
 
 #include "base/config.h"
 #include "base/error.h"
-#include "base/text/text_encoding.h"
 #include "base/text/hex_colour.h"
+#include "base/text/text_encoding.h"
 #include "terrain/cover/ground_variables.h"
 #include "terrain/cover/layer_inputs.h"
 #include "terrain/layers/surface_layers.h"

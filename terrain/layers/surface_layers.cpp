@@ -1,10 +1,10 @@
 #include "terrain/layers/surface_layers.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <fmt/format.h>
 #include <set>
 #include <utility>
 

@@ -1,11 +1,11 @@
 #include "terrain/register/control_pairs.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <string_view>
 #include <utility>
 

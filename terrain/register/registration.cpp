@@ -1,8 +1,8 @@
 #include "terrain/register/registration.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/core.h>
 #include <glm/common.hpp>
 #include <glm/mat2x2.hpp>
 #include <glm/matrix.hpp>

@@ -10,8 +10,8 @@
 
 #include "base/math.h"
 #include "base/math_exact.h"
-#include "base/random.h"
 #include "base/parallel.h"
+#include "base/random.h"
 
 // Cells of rivers, linked along the drainage.
 

@@ -1,7 +1,7 @@
 #include "base/grid.h"
 
-#include <cstddef>
 #include <gtest/gtest.h>
+#include <cstddef>
 #include <numeric>
 
 namespace belvedere {

@@ -1,9 +1,9 @@
 #include "base/parallel.h"
 
+#include <gtest/gtest.h>
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <gtest/gtest.h>
 #include <stdexcept>
 #include <thread>
 #include <vector>

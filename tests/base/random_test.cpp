@@ -1,10 +1,10 @@
 #include "base/random.h"
 
+#include <gtest/gtest.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <gtest/gtest.h>
 #include <set>
 #include <tuple>
 #include <utility>

@@ -1,11 +1,11 @@
 #include "texture/composite/make_composite.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <fmt/core.h>
 #include <optional>
 #include <vector>
 

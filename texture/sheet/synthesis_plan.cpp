@@ -1,10 +1,10 @@
 #include "texture/sheet/synthesis_plan.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cstring>
-#include <fmt/core.h>
 #include <string>
 #include <string_view>
 #include <utility>

@@ -1,10 +1,10 @@
 #include "texture/statistical/clique_model.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <fmt/format.h>
 #include <optional>
 #include <string_view>
 #include <vector>

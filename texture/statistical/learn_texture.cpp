@@ -1,10 +1,10 @@
 #include "texture/statistical/learn_texture.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
-#include <fmt/core.h>
 #include <vector>
 
 #include "base/cache/content_hash.h"

@@ -6,8 +6,8 @@
 
 #include "base/math.h"
 #include "base/math_exact.h"
-#include "base/random.h"
 #include "base/parallel.h"
+#include "base/random.h"
 
 namespace belvedere {
 namespace {

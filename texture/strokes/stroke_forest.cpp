@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "texture/strokes/parcels.h"
 #include "texture/strokes/class_strokes.h"
+#include "texture/strokes/parcels.h"
 #include "texture/strokes/stroke_parts.h"
 #include "texture/strokes/stroke_trees.h"
 

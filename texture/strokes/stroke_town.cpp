@@ -10,10 +10,10 @@
 
 #include "base/math.h"
 #include "base/math_exact.h"
-#include "base/random.h"
 #include "base/parallel.h"
-#include "texture/strokes/parcels.h"
+#include "base/random.h"
 #include "texture/strokes/class_strokes.h"
+#include "texture/strokes/parcels.h"
 #include "texture/strokes/stroke_parts.h"
 #include "texture/strokes/stroke_seeds.h"
 

@@ -1,9 +1,9 @@
 #include "texture/synthesis/exemplar.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fmt/core.h>
 
 #include "base/error.h"
 #include "base/text/text_encoding.h"

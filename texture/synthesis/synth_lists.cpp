@@ -6,8 +6,8 @@
 #include <numeric>
 #include <utility>
 
+#include "base/memory/zeroed_memory.h"
 #include "base/parallel.h"
-#include "texture/synthesis/large_pages.h"
 
 namespace belvedere::synth {
 

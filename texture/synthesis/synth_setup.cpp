@@ -1,17 +1,17 @@
 #include "texture/synthesis/synth_setup.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <fmt/core.h>
 #include <set>
 
 #include "base/error.h"
+#include "base/memory/zeroed_memory.h"
 #include "base/parallel.h"
 #include "base/random.h"
 #include "texture/synthesis/exemplar.h"
-#include "texture/synthesis/large_pages.h"
 #include "texture/synthesis/synth_kernel.h"
 #include "texture/synthesis/synth_level.h"
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "base/memory/zeroed_memory.h"
 #include "base/parallel.h"
-#include "texture/synthesis/large_pages.h"
 
 namespace belvedere::synth {
 

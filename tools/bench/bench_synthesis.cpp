@@ -1,14 +1,14 @@
+#include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <fmt/core.h>
 #include <functional>
 #include <vector>
 
 #include "base/math.h"
-#include "base/random.h"
 #include "base/parallel.h"
+#include "base/random.h"
 #include "texture/statistical/learn_texture.h"
 #include "texture/statistical/make_texture.h"
 #include "texture/synthesis/synthesize.h"

@@ -1,12 +1,12 @@
 #include "tools/bench/bench_terrain.h"
 
+#include <fmt/core.h>
+#include <unistd.h>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fmt/core.h>
 #include <functional>
 #include <system_error>
-#include <unistd.h>
 
 #include "base/grid.h"
 #include "base/parallel.h"

@@ -1,7 +1,7 @@
+#include <fmt/core.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fmt/core.h>
 #include <glm/vec2.hpp>
 #include <limits>
 #include <memory>
@@ -19,7 +19,7 @@
 #include "renderer/image/image_io.h"
 #include "renderer/labels/label_files.h"
 #include "renderer/pipeline/scene_labels.h"
-#include "renderer/scene/draft.h"
+#include "renderer/scene/scene_settings.h"
 #include "renderer/trace/relief_sketch.h"
 #include "renderer/world/generalize_view.h"
 #include "renderer/world/scene_dem.h"
@@ -225,8 +225,8 @@ Grid<glm::vec3> sketch(const BareView& bare, const Grid<std::uint8_t>& floor) {
 }
 
 // The keys go to stdout, the comparison to a picture.
-void search(BareView& bare, const ValleySight& sight, const DeformOptions& options, DeformReport& report,
-            Progress& progress) {
+void search(BareView& bare, const ValleySight& sight, const DeformOptions& options,
+            DeformReport& report, Progress& progress) {
   const BendFound found = search_bend(sight,
                                       {.max_inclination_deg = options.max_distortion_deg,
                                        .max_bending_deg_per_10km = options.max_bending_deg,

@@ -1,9 +1,9 @@
 #include "tools/cli/command_fetch.h"
 
-#include <algorithm>
 #include <fmt/core.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <algorithm>
 #include <memory>
 
 #include "base/cache/cache.h"

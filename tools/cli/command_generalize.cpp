@@ -1,9 +1,9 @@
 #include "tools/cli/command_generalize.h"
 
-#include <algorithm>
-#include <cmath>
 #include <fmt/core.h>
 #include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <optional>

@@ -1,9 +1,9 @@
+#include <fmt/core.h>
+#include <fmt/format.h>
 #include <algorithm>
 #include <chrono>
 #include <exception>
 #include <filesystem>
-#include <fmt/core.h>
-#include <fmt/format.h>
 #include <memory>
 #include <new>
 #include <optional>

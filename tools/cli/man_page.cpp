@@ -1,8 +1,8 @@
 #include "tools/cli/man_page.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cctype>
-#include <fmt/format.h>
 #include <sstream>
 
 #include "renderer/image/provenance.h"

@@ -59,9 +59,9 @@ struct Program {
     line.options().footer(program_footer);
     Groups groups;
     for (const Command& row : all_commands()) {
-      CommandOptions command =
-          group_of(row.group, line.options(), groups)
-              .add_command(row.name, row.meaning, row.heading != nullptr ? row.heading : "Commands");
+      CommandOptions command = group_of(row.group, line.options(), groups)
+                                   .add_command(row.name, row.meaning,
+                                                row.heading != nullptr ? row.heading : "Commands");
       const Action action = row.add(command);
       actions.emplace_back(command, action);
     }

@@ -11,8 +11,8 @@
 #include "base/error.h"
 #include "tools/cli/contact/scene_sweep.h"
 #include "tools/options/options.h"
-#include "tools/report/report_pictures.h"
 #include "tools/report/report.h"
+#include "tools/report/report_pictures.h"
 #include "tools/report/synthesis_findings.h"
 
 namespace belvedere::tools {

@@ -7,9 +7,9 @@
 #include <glm/geometric.hpp>
 #include <optional>
 
-#include "base/math.h"
 #include "base/error.h"
 #include "base/filter.h"
+#include "base/math.h"
 #include "base/random.h"
 #include "base/statistics.h"
 #include "renderer/register/registered_ground.h"

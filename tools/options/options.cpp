@@ -1,9 +1,9 @@
 #include "tools/options/options.h"
 
+#include <fmt/core.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
-#include <fmt/core.h>
 #include <map>
 #include <sstream>
 

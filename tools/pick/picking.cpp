@@ -1,11 +1,11 @@
 #include "tools/pick/picking.h"
 
+#include <fmt/core.h>
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fmt/core.h>
-#include <fmt/format.h>
 #include <functional>
 #include <glm/common.hpp>
 #include <mutex>

@@ -1,13 +1,13 @@
 #include "tools/report/exemplar_verdict.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <array>
-#include <fmt/core.h>
 
 #include "base/text/text_encoding.h"
 #include "texture/quality/quality.h"
-#include "tools/report/report_pictures.h"
 #include "tools/report/report.h"
+#include "tools/report/report_pictures.h"
 
 namespace belvedere::tools {
 namespace {

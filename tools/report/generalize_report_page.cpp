@@ -1,9 +1,9 @@
 #include "tools/report/generalize_report_page.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fmt/core.h>
 #include <utility>
 #include <vector>
 

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "terrain/layers/fit/colour_regions.h"
-#include "terrain/layers/fit/ground_fit.h"
 #include "terrain/layers/fit/fit_measures.h"
+#include "terrain/layers/fit/ground_fit.h"
 #include "terrain/layers/layer_coverage.h"
 #include "tools/report/report.h"
 #include "tools/report/report_pictures.h"

@@ -9,8 +9,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "base/math.h"
 #include "base/land_cover_class.h"
+#include "base/math.h"
 #include "base/statistics.h"
 #include "tools/report/report.h"
 #include "tools/report/report_pictures.h"

@@ -7,8 +7,8 @@
 
 #include "base/grid.h"
 #include "base/text/json.h"
-#include "renderer/register/registered_guidance.h"
 #include "renderer/register/registered_ground.h"
+#include "renderer/register/registered_guidance.h"
 #include "terrain/register/registration.h"
 
 namespace belvedere::tools {

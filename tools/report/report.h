@@ -74,8 +74,8 @@ struct ReportHead {
 };
 
 // The results of a command in one form for all: sections, with what is added after each one's
-// begin. The page, tools/report/page/, draws it and alone handles markup and rounding; report.json holds
-// the same for programs.
+// begin. The page, tools/report/page/, draws it and alone handles markup and rounding; report.json
+// holds the same for programs.
 class Report {
  public:
   enum class Pictures {

@@ -1,9 +1,9 @@
 #include "tools/report/style_pictures.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fmt/core.h>
 #include <glm/common.hpp>
 #include <glm/vec2.hpp>
 #include <numbers>

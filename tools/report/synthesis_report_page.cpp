@@ -8,8 +8,8 @@
 
 #include "base/error.h"
 #include "base/text/text_encoding.h"
-#include "tools/report/report_pictures.h"
 #include "tools/report/report.h"
+#include "tools/report/report_pictures.h"
 #include "tools/report/synthesis_findings.h"
 
 namespace belvedere::tools {

@@ -1,9 +1,9 @@
 #include "tools/report/verification.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fmt/core.h>
 
 #include "base/error.h"
 #include "base/text/text_encoding.h"

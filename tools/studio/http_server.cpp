@@ -1,16 +1,16 @@
 #include "tools/studio/http_server.h"
 
+#include <fmt/format.h>
+#include <httplib.h>
+#include <unistd.h>
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <fmt/format.h>
-#include <httplib.h>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <string_view>
 #include <thread>
-#include <unistd.h>
 #include <utility>
 #include <vector>
 

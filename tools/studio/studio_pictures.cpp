@@ -1,7 +1,7 @@
+#include <fmt/format.h>
 #include <charconv>
 #include <chrono>
 #include <filesystem>
-#include <fmt/format.h>
 #include <fstream>
 #include <iterator>
 
@@ -9,7 +9,7 @@
 #include "base/files/output_file.h"
 #include "base/text/text_encoding.h"
 #include "renderer/pipeline/pipeline.h"
-#include "renderer/scene/draft.h"
+#include "renderer/scene/scene_settings.h"
 #include "terrain/fetch/fetch_area.h"
 #include "tools/report/report_pictures.h"
 #include "tools/studio/http_server.h"

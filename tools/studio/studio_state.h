@@ -13,9 +13,9 @@
 #include "base/run.h"
 #include "renderer/scene/scene_file.h"
 #include "tools/studio/answers.h"
-#include "tools/studio/scene_session.h"
 #include "tools/studio/http_server.h"
 #include "tools/studio/job.h"
+#include "tools/studio/scene_session.h"
 
 namespace belvedere::tools {
 

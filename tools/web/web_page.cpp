@@ -1,10 +1,10 @@
 #include "tools/web/web_page.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
-#include <fmt/core.h>
 #include <fstream>
 #include <glm/vec2.hpp>
 #include <limits>

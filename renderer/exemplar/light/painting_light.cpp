@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "base/math.h"
 #include "base/guidance_buffers.h"
 #include "base/masks/label_blur.h"
+#include "base/math.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
 #include "base/pixel_rect.h"

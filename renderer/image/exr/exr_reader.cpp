@@ -11,6 +11,7 @@
 #include <ImfStringAttribute.h>
 #include <ImfTileDescriptionAttribute.h>
 #include <ImfVersion.h>
+#include <half.h>
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -18,7 +19,6 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
-#include <half.h>
 #include <utility>
 
 #include "base/error.h"

@@ -1,10 +1,10 @@
 #include "renderer/image/layers/layer_file.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <fmt/core.h>
 #include <fstream>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -16,8 +16,8 @@
 #include "base/parallel.h"
 #include "base/text/text_encoding.h"
 #include "renderer/image/deflate.h"
-#include "renderer/image/exr/exr_writer.h"
 #include "renderer/image/exr/exr_reader.h"
+#include "renderer/image/exr/exr_writer.h"
 #include "renderer/image/layers/layer_png.h"
 #include "renderer/image/layers/layered_sheet.h"
 #include "renderer/image/layers/psd_file.h"

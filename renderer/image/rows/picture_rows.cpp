@@ -1,8 +1,8 @@
 #include "renderer/image/rows/picture_rows.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <cstdint>
-#include <fmt/core.h>
 #include <utility>
 
 #include "base/error.h"

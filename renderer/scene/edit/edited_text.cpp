@@ -1,8 +1,8 @@
 #include "renderer/scene/edit/edited_text.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cctype>
-#include <fmt/format.h>
 #include <utility>
 
 #include "renderer/scene/scene_schema.h"

@@ -1,8 +1,8 @@
 #include "renderer/scene/edit/scene_edit.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
-#include <fmt/format.h>
 #include <variant>
 
 #include "base/config.h"

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "base/matrix/matrix.h"
 #include "base/filter.h"
 #include "base/land_cover_class.h"
+#include "base/matrix/matrix.h"
 #include "base/parallel.h"
 #include "base/pixel_rect.h"
 #include "base/statistics.h"

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <optional>
 
-#include "base/matrix/matrix.h"
 #include "base/math_exact.h"
+#include "base/matrix/matrix.h"
 #include "base/statistics.h"
 
 namespace belvedere {

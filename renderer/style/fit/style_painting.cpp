@@ -1,9 +1,9 @@
 #include "renderer/style/fit/style_painting.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fmt/core.h>
 #include <glm/common.hpp>
 #include <limits>
 #include <vector>

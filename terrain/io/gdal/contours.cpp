@@ -1,16 +1,16 @@
-#include <cmath>
 #include <cpl_string.h>
-#include <cstddef>
-#include <cstdlib>
-#include <filesystem>
 #include <fmt/core.h>
 #include <gdal.h>
 #include <gdal_alg.h>
+#include <ogr_api.h>
+#include <ogr_spatialref.h>
+#include <cmath>
+#include <cstddef>
+#include <cstdlib>
+#include <filesystem>
 #include <limits>
 #include <memory>
 #include <new>
-#include <ogr_api.h>
-#include <ogr_spatialref.h>
 #include <vector>
 
 #include "base/error.h"

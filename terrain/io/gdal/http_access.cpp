@@ -1,12 +1,12 @@
-#include <algorithm>
-#include <atomic>
-#include <charconv>
 #include <cpl_conv.h>
 #include <cpl_http.h>
 #include <cpl_string.h>
 #include <cpl_vsi.h>
-#include <cstdlib>
 #include <fmt/core.h>
+#include <algorithm>
+#include <atomic>
+#include <charconv>
+#include <cstdlib>
 #include <map>
 #include <memory>
 #include <mutex>

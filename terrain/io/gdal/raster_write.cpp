@@ -1,14 +1,14 @@
+#include <cpl_string.h>
+#include <fmt/core.h>
+#include <ogr_spatialref.h>
 #include <algorithm>
 #include <cmath>
-#include <cpl_string.h>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
-#include <fmt/core.h>
 #include <limits>
 #include <memory>
 #include <new>
-#include <ogr_spatialref.h>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -17,8 +17,8 @@
 #include "base/files/output_file.h"
 #include "base/random.h"
 #include "base/text/text_encoding.h"
-#include "terrain/io/raster_file.h"
 #include "terrain/io/gdal/gdal_files.h"
+#include "terrain/io/raster_file.h"
 #include "terrain/io/raster_io.h"
 
 namespace belvedere {

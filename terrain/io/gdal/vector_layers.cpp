@@ -1,25 +1,25 @@
 #include "terrain/io/gdal/vector_layers.h"
 
+#include <cpl_conv.h>
+#include <cpl_string.h>
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+#include <gdal.h>
+#include <ogr_api.h>
+#include <ogr_srs_api.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cpl_conv.h>
-#include <cpl_string.h>
 #include <filesystem>
-#include <fmt/core.h>
-#include <fmt/ranges.h>
 #include <fstream>
-#include <gdal.h>
 #include <memory>
-#include <ogr_api.h>
-#include <ogr_srs_api.h>
 
 #include "base/error.h"
 #include "base/text/missing_file.h"
 #include "base/text/text_encoding.h"
 #include "terrain/io/crs.h"
-#include "terrain/io/raster_file.h"
 #include "terrain/io/points.h"
+#include "terrain/io/raster_file.h"
 
 namespace belvedere {
 namespace {

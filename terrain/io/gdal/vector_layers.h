@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "terrain/io/gdal/gdal_files.h"
 #include "terrain/io/features.h"
+#include "terrain/io/gdal/gdal_files.h"
 
 namespace belvedere {
 

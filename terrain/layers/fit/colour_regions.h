@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "base/grid.h"
-#include "terrain/layers/fit/ground_fit.h"
 #include "terrain/layers/fit/fit_measures.h"
+#include "terrain/layers/fit/ground_fit.h"
 
 namespace belvedere {
 

@@ -1,11 +1,11 @@
 #include "terrain/layers/fit/fit_functions.h"
 
+#include <lbfgs.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <lbfgs.h>
 #include <memory>
 #include <numeric>
 #include <span>
@@ -331,7 +331,8 @@ double sigmoid(double x) {
 // For one class (`own`, indices of cells) against those under it. Parameters: the logit of its
 // bias, then the logits of its knots by input.
 ValueAndGradient product_loss(const FitCells& cells, const std::vector<std::uint32_t>& own,
-                              const std::vector<std::uint32_t>& under, const KnotParameters& knots) {
+                              const std::vector<std::uint32_t>& under,
+                              const KnotParameters& knots) {
   return ProductLoss(cells, own, under, knots);
 }
 

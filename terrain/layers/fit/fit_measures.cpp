@@ -1,11 +1,11 @@
 #include "terrain/layers/fit/fit_measures.h"
 
+#include <lcms2.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <glm/common.hpp>
-#include <lcms2.h>
 #include <limits>
 #include <numeric>
 #include <utility>

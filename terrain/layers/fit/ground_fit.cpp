@@ -1,10 +1,10 @@
 #include "terrain/layers/fit/ground_fit.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <fmt/core.h>
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
 #include <utility>

@@ -1,10 +1,10 @@
 #include "terrain/layers/fit/picture_classes.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <fmt/core.h>
 #include <glm/vec2.hpp>
 #include <string>
 #include <vector>

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
-#include "base/math.h"
 #include "base/filter.h"
+#include "base/math.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
 #include "terrain/climate/horizon_sweep.h"

@@ -1,12 +1,12 @@
 #include "base/cache/cache.h"
 
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <set>
-#include <sys/stat.h>
 #include <thread>
 
 #include "base/cache/content_hash.h"

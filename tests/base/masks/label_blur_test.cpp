@@ -1,9 +1,9 @@
 #include "base/masks/label_blur.h"
 
-#include <cmath>
-#include <cstdlib>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <cmath>
+#include <cstdlib>
 
 #include "base/random.h"
 

@@ -1,11 +1,11 @@
 #include "base/matrix/matrix.h"
 
+#include <gtest/gtest.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <gtest/gtest.h>
 #include <vector>
 
 #include "terrain/register/view_model.h"

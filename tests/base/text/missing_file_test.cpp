@@ -1,8 +1,8 @@
 #include "base/text/missing_file.h"
 
-#include <filesystem>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <filesystem>
 
 #include "tests/files.h"
 

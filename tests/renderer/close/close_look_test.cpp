@@ -1,9 +1,9 @@
 #include "renderer/close/close_look.h"
 
+#include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <gtest/gtest.h>
 
 #include "tests/renderer/close/close_ground.h"
 

@@ -1,8 +1,8 @@
 #include "renderer/compose/proposed_scene.h"
 
-#include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include "base/error.h"
 #include "base/progress.h"

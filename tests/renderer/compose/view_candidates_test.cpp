@@ -1,9 +1,9 @@
 #include "renderer/compose/view_candidates.h"
 
+#include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <gtest/gtest.h>
 
 #include "base/math.h"
 #include "base/parallel.h"

@@ -1,9 +1,9 @@
 #include "renderer/compose/view_changes.h"
 
-#include <algorithm>
-#include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <algorithm>
+#include <cmath>
 
 #include "renderer/compose/proposed_scene.h"
 #include "tests/renderer/compose/synthetic_region.h"

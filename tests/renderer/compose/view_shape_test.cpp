@@ -1,8 +1,8 @@
 #include "renderer/compose/view_shape.h"
 
+#include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>
-#include <gtest/gtest.h>
 #include <memory>
 
 #include "base/math.h"

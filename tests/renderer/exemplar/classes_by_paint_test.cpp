@@ -1,10 +1,10 @@
 #include "renderer/exemplar/classes_by_paint.h"
 
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 #include <algorithm>
 #include <filesystem>
 #include <glm/geometric.hpp>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <set>
 
 #include "base/error.h"

@@ -1,10 +1,10 @@
 #include "renderer/exemplar/example_sheet.h"
 
+#include <gtest/gtest.h>
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <glm/vec2.hpp>
-#include <gtest/gtest.h>
 #include <optional>
 #include <set>
 #include <utility>

@@ -1,8 +1,8 @@
 #include "renderer/exemplar/fill_excluded.h"
 
+#include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>
-#include <gtest/gtest.h>
 #include <numbers>
 
 #include "base/random.h"

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "base/guidance_buffers.h"
-#include "base/random.h"
 #include "base/pixel_rect.h"
+#include "base/random.h"
 
 namespace belvedere::test {
 

@@ -8,8 +8,8 @@
 #include "tests/scenes.h"
 #include "tests/texture/statistical/texture_crops.h"
 #include "texture/composite/make_composite.h"
-#include "texture/statistical/learn_texture.h"
 #include "texture/statistical/clique_model.h"
+#include "texture/statistical/learn_texture.h"
 
 namespace belvedere {
 namespace {

@@ -1,8 +1,8 @@
 #include "renderer/exemplar/uncertain_places.h"
 
+#include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>
-#include <gtest/gtest.h>
 
 namespace belvedere {
 namespace {

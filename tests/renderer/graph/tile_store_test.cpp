@@ -1,12 +1,12 @@
 #include "renderer/graph/tile_store.h"
 
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
 #include <array>
 #include <cerrno>
 #include <cstdint>
-#include <fcntl.h>
-#include <gtest/gtest.h>
 #include <string>
-#include <unistd.h>
 
 #include "tests/files.h"
 

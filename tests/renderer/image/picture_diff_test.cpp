@@ -1,10 +1,10 @@
 #include "renderer/image/picture_diff.h"
 
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 #include <bit>
 #include <cmath>
 #include <functional>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <limits>
 
 #include "base/error.h"

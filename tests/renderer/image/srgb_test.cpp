@@ -1,8 +1,8 @@
 #include "renderer/image/srgb.h"
 
-#include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include "renderer/image/icc/painting_file.h"
 #include "renderer/image/image_io.h"

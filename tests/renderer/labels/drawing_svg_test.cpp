@@ -1,10 +1,10 @@
 #include "renderer/labels/drawing_svg.h"
 
 #include <OpenImageIO/imageio.h>
-#include <cstdlib>
-#include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <cstdlib>
+#include <glm/geometric.hpp>
 
 #include "renderer/labels/sheet_painter.h"
 #include "tests/files.h"

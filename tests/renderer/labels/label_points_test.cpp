@@ -1,10 +1,10 @@
 #include "renderer/labels/label_points.h"
 
-#include <cmath>
 #include <fmt/core.h>
-#include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <utility>
 
 #include "base/progress.h"
@@ -213,7 +213,7 @@ TEST_F(LabelMarks, StandOnTheEdgeThatIsSeenFromAbove) {
         silent_progress());
     const GeoMap map = high.geo_map();
     const LocatedGround ground{high.dem->altitude_m, *high.generalized_m, high.dem->transform,
-                             high.dem->cell_m(), map};
+                               high.dem->cell_m(), map};
     for (const Summit& summit : find_summits(*high.generalized_m, {.min_prominence_m = 60.0})) {
       const LabelPoint file_point = point(high.dem->transform.to_crs(summit.x, summit.y));
       const LabelMark mark = find_marks(ground, {file_point}, style_)[0];
@@ -255,7 +255,7 @@ TEST_F(LabelMarks, ClimbFromNearbyAndNotFromAfar) {
   const std::vector<Summit> found = summits();
   ASSERT_FALSE(found.empty());
   const LocatedGround ground{bare_.dem->altitude_m, *bare_.generalized_m, bare_.dem->transform,
-                           bare_.dem->cell_m(), map_};
+                             bare_.dem->cell_m(), map_};
   const glm::dvec2 top = position_of(found[0]);
   const glm::dvec2 near = top + glm::dvec2(180.0, -90.0);
   EXPECT_EQ(climb(ground, near, 400.0), top);

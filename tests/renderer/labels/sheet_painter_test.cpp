@@ -1,9 +1,9 @@
 #include "renderer/labels/sheet_painter.h"
 
+#include <gtest/gtest.h>
 #include <algorithm>
 #include <cstdint>
 #include <glm/common.hpp>
-#include <gtest/gtest.h>
 #include <string>
 
 #include "base/grid.h"

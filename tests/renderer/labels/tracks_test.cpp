@@ -19,7 +19,7 @@ class Tracks : public testing::Test {
  protected:
   Track track_of(std::vector<glm::dvec2> positions, const Grid<float>* dem = nullptr) const {
     const LocatedGround ground{dem != nullptr ? *dem : bare_.dem->altitude_m, *bare_.generalized_m,
-                             bare_.dem->transform, bare_.dem->cell_m(), map_};
+                               bare_.dem->transform, bare_.dem->cell_m(), map_};
     return find_tracks(ground, {{"tour", "tour.gpx, feature 0", std::move(positions)}})[0];
   }
   const BareView bare_ = make_bare_view(

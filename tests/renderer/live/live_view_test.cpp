@@ -1,9 +1,9 @@
 #include "renderer/live/live_view.h"
 
-#include <atomic>
-#include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <atomic>
+#include <cmath>
 #include <string>
 #include <vector>
 

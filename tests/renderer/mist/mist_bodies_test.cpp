@@ -1,7 +1,7 @@
 #include "renderer/mist/mist_bodies.h"
 
-#include <cmath>
 #include <gtest/gtest.h>
+#include <cmath>
 #include <limits>
 #include <memory>
 

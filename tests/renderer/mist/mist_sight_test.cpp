@@ -1,8 +1,8 @@
 #include "renderer/mist/mist_sight.h"
 
+#include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>
-#include <gtest/gtest.h>
 #include <memory>
 
 #include "base/grid.h"

@@ -1,10 +1,10 @@
 #include "renderer/paint/base_picture.h"
 
+#include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <gtest/gtest.h>
 
 #include "base/error.h"
 #include "base/parallel.h"

@@ -1,10 +1,10 @@
 #include "renderer/paint/sky.h"
 
+#include <gtest/gtest.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <gtest/gtest.h>
 #include <limits>
 #include <optional>
 #include <vector>

@@ -1,7 +1,7 @@
 #include "renderer/paint/terrain_end.h"
 
-#include <cmath>
 #include <gtest/gtest.h>
+#include <cmath>
 #include <limits>
 
 #include "tests/renderer/exemplar/painted_hills.h"

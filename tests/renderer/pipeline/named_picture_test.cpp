@@ -1,11 +1,11 @@
 #include "renderer/pipeline/named_picture.h"
 
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "base/cache/cache.h"
 #include "base/grid.h"

@@ -1,8 +1,8 @@
 #include "renderer/pipeline/scene_paint.h"
 
-#include <filesystem>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <filesystem>
 #include <string>
 #include <vector>
 

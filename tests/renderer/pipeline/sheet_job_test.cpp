@@ -18,8 +18,8 @@
 #include "tests/files.h"
 #include "tests/shared_cache.h"
 #include "tests/texture/statistical/texture_crops.h"
-#include "texture/statistical/learn_texture.h"
 #include "texture/statistical/clique_model.h"
+#include "texture/statistical/learn_texture.h"
 #include "texture/synthesis/exemplar.h"
 
 namespace belvedere {

@@ -1,7 +1,7 @@
 #include "renderer/pipeline/sheet_pieces.h"
 
-#include <cstdint>
 #include <gtest/gtest.h>
+#include <cstdint>
 
 #include "base/grid.h"
 #include "base/memory_limit.h"

@@ -1,8 +1,8 @@
 #include "renderer/press/page_plan.h"
 
-#include <algorithm>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include "base/error.h"
 #include "tests/files.h"

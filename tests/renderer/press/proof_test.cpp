@@ -1,9 +1,9 @@
 #include "renderer/press/proof.h"
 
-#include <algorithm>
-#include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "base/error.h"

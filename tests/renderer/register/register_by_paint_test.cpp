@@ -1,9 +1,9 @@
 #include "renderer/register/register_by_paint.h"
 
+#include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <gtest/gtest.h>
 
 #include "base/filter.h"
 #include "base/random.h"

@@ -1,8 +1,8 @@
 #include "renderer/register/registered_ground.h"
 
+#include <gtest/gtest.h>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <gtest/gtest.h>
 #include <limits>
 #include <memory>
 

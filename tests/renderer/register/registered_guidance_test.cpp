@@ -1,8 +1,8 @@
 #include "renderer/register/registered_guidance.h"
 
-#include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include "renderer/scene/scene_file.h"
 #include "renderer/stages/lit_picture.h"

@@ -1,7 +1,7 @@
 #include "renderer/rock/rock_ground.h"
 
-#include <cmath>
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include "tests/renderer/paint/hills_print.h"
 #include "tests/renderer/rock/rock_wall.h"

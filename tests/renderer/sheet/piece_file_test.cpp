@@ -1,8 +1,8 @@
 #include "renderer/sheet/piece_file.h"
 
-#include <cstdint>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <cstdint>
 
 #include "base/guidance_buffers.h"
 #include "renderer/image/guidance_io.h"

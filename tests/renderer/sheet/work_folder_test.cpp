@@ -1,9 +1,9 @@
 #include "renderer/sheet/work_folder.h"
 
-#include <cstdint>
-#include <filesystem>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <cstdint>
+#include <filesystem>
 #include <memory>
 
 #include "base/error.h"

@@ -1,7 +1,7 @@
 #include "renderer/stages/ground_inputs.h"
 
-#include <cmath>
 #include <gtest/gtest.h>
+#include <cmath>
 #include <limits>
 
 #include "base/error.h"

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "base/grid.h"
-#include "base/random.h"
 #include "base/parallel.h"
+#include "base/random.h"
 #include "tests/texture/statistical/texture_crops.h"
 
 namespace belvedere {

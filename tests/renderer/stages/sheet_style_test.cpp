@@ -1,8 +1,8 @@
 #include "renderer/stages/sheet_style.h"
 
-#include <algorithm>
 #include <fmt/core.h>
 #include <gtest/gtest.h>
+#include <algorithm>
 #include <limits>
 
 #include "base/grid.h"

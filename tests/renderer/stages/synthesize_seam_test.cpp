@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/random.h"
 #include "base/parallel.h"
+#include "base/random.h"
 #include "tests/texture/statistical/texture_crops.h"
 
 namespace belvedere {
@@ -36,7 +36,8 @@ const CliqueModel& border_model() {
 // Meadow next to heath along a bent line, with a piece of sky that belongs to neither.
 struct Bent {
   Grid<Rgb8> picture = test::meadow_crop(square_px, square_px);
-  SeamZone zone{Grid<std::uint8_t>(square_px, square_px, 1), Grid<std::uint8_t>(square_px, square_px)};
+  SeamZone zone{Grid<std::uint8_t>(square_px, square_px, 1),
+                Grid<std::uint8_t>(square_px, square_px)};
   Bent() {
     const Grid<Rgb8> other = heath(square_px, square_px);
     for (int y = 0; y < square_px; ++y)

@@ -1,7 +1,7 @@
 #include "renderer/style/style_ground.h"
 
-#include <cmath>
 #include <gtest/gtest.h>
+#include <cmath>
 #include <limits>
 
 #include "base/filter.h"

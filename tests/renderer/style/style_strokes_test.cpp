@@ -1,7 +1,7 @@
 #include "renderer/style/style_strokes.h"
 
-#include <cmath>
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include "renderer/style/paint_style.h"
 #include "tests/renderer/style/styled_sheet.h"

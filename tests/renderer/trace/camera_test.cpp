@@ -1,9 +1,9 @@
 #include "renderer/trace/camera.h"
 
-#include <cmath>
-#include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
 
 #include "base/error.h"

@@ -1,12 +1,12 @@
 #include "renderer/trace/guidance.h"
 
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
 #include <glm/geometric.hpp>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <limits>
 #include <set>
 #include <string_view>

@@ -1,11 +1,11 @@
 #include "renderer/trace/light_field.h"
 
-#include <algorithm>
-#include <cmath>
 #include <erfa.h>
 #include <fmt/core.h>
-#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <string>
 #include <utility>
 

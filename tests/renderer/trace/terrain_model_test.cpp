@@ -1,10 +1,10 @@
 #include "renderer/trace/terrain_model.h"
 
+#include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
-#include <gtest/gtest.h>
 #include <utility>
 
 #include "base/error.h"

@@ -9,8 +9,8 @@
 #include <limits>
 #include <optional>
 
-#include "base/math.h"
 #include "base/error.h"
+#include "base/math.h"
 #include "base/parallel.h"
 #include "base/random.h"
 #include "terrain/io/raster_io.h"

@@ -1,8 +1,8 @@
 #include "renderer/world/resolve_view.h"
 
-#include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <cmath>
 #include <string>
 #include <vector>
 

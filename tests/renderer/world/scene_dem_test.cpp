@@ -1,16 +1,16 @@
 #include "renderer/world/scene_dem.h"
 
-#include <cmath>
-#include <cstdint>
 #include <fmt/core.h>
 #include <gtest/gtest.h>
+#include <cmath>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "base/cache/cache.h"
-#include "renderer/scene/draft.h"
+#include "renderer/scene/scene_settings.h"
 #include "renderer/world/generalize_view.h"
 #include "terrain/io/raster_io.h"
 #include "tests/files.h"

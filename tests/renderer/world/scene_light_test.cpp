@@ -1,9 +1,9 @@
 #include "renderer/world/scene_light.h"
 
-#include <cmath>
-#include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <string>
 
 #include "renderer/stages/lit_picture.h"

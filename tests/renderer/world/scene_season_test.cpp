@@ -1,9 +1,9 @@
 #include "renderer/world/scene_season.h"
 
-#include <array>
-#include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <array>
+#include <cmath>
 #include <limits>
 #include <string>
 

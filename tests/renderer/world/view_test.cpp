@@ -1,9 +1,9 @@
 #include "renderer/world/view.h"
 
-#include <cmath>
-#include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <optional>
 #include <string>
 

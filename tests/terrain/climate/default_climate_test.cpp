@@ -1,9 +1,9 @@
 #include "terrain/climate/default_climate.h"
 
-#include <algorithm>
-#include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>

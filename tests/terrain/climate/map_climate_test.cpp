@@ -10,8 +10,8 @@
 
 #include "base/parallel.h"
 #include "terrain/climate/default_climate.h"
-#include "terrain/climate/zonal_climate.h"
 #include "terrain/climate/water_balance.h"
+#include "terrain/climate/zonal_climate.h"
 #include "terrain/io/crs.h"
 
 namespace belvedere {

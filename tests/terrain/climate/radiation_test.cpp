@@ -1,11 +1,11 @@
 #include "terrain/climate/radiation.h"
 
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <limits>
 #include <numbers>
 #include <vector>

@@ -1,8 +1,8 @@
 #include "terrain/climate/rule_climate.h"
 
-#include <array>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <array>
 #include <string>
 #include <vector>
 

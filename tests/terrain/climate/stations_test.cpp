@@ -1,8 +1,8 @@
 #include "terrain/climate/stations.h"
 
-#include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
 #include "terrain/climate/water_balance.h"
 
-#include <cmath>
 #include <gtest/gtest.h>
+#include <cmath>
 #include <numeric>
 
 #include "terrain/climate/default_climate.h"

@@ -1,9 +1,9 @@
 #include "terrain/cover/ground_lakes.h"
 
+#include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <gtest/gtest.h>
 #include <utility>
 
 #include "tests/terrain/cover/class_rules_ground.h"

@@ -1,8 +1,8 @@
 #include "terrain/cover/land_cover_patches.h"
 
+#include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>
-#include <gtest/gtest.h>
 #include <string>
 #include <vector>
 

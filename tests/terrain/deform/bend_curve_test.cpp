@@ -1,7 +1,7 @@
 #include "terrain/deform/bend_curve.h"
 
-#include <cmath>
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include "base/error.h"
 #include "base/math.h"

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "base/math.h"
 #include "base/error.h"
+#include "base/math.h"
 #include "base/parallel.h"
 #include "terrain/shape/valley_floor.h"
 

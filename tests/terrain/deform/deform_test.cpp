@@ -1,8 +1,8 @@
 #include "terrain/deform/deform.h"
 
+#include <gtest/gtest.h>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <gtest/gtest.h>
 
 #include "base/math.h"
 #include "base/parallel.h"

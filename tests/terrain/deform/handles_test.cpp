@@ -6,8 +6,8 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-#include "base/math.h"
 #include "base/error.h"
+#include "base/math.h"
 
 namespace belvedere {
 namespace {

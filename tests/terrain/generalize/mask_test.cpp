@@ -1,8 +1,8 @@
 #include "terrain/generalize/mask.h"
 
+#include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>
-#include <gtest/gtest.h>
 #include <string>
 
 #include "terrain/generalize/generalize.h"

@@ -1,11 +1,11 @@
 #include "terrain/generalize/widen_valleys.h"
 
+#include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <functional>
 #include <glm/geometric.hpp>
-#include <gtest/gtest.h>
 #include <string>
 
 #include "base/error.h"

@@ -1,7 +1,7 @@
 #include "terrain/io/block_means.h"
 
-#include <cmath>
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include "base/grid.h"
 #include "terrain/io/raster_io.h"

@@ -1,8 +1,8 @@
 #include "terrain/io/dem.h"
 
-#include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include "base/parallel.h"
 #include "terrain/io/dem_levels.h"

@@ -1,8 +1,8 @@
 #include "terrain/io/http_access.h"
 
-#include <chrono>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <chrono>
 #include <stdexcept>
 #include <thread>
 

@@ -1,11 +1,11 @@
 #include "terrain/io/points.h"
 
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <glm/geometric.hpp>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "terrain/io/crs.h"
 #include "terrain/io/raster_io.h"

@@ -1,21 +1,21 @@
 #include "terrain/io/raster_file.h"
 
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <map>
 
 #include "base/error.h"
 #include "base/random.h"
 #include "terrain/io/block_means.h"
-#include "terrain/io/raster_io.h"
 #include "terrain/io/dem_levels.h"
 #include "terrain/io/features.h"
 #include "terrain/io/points.h"
+#include "terrain/io/raster_io.h"
 #include "tests/files.h"
 #include "tests/terrain/io/raster_files.h"
 

@@ -1,9 +1,9 @@
 #include "terrain/io/resample.h"
 
+#include <gtest/gtest.h>
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
-#include <gtest/gtest.h>
 #include <limits>
 
 #include "terrain/io/crs.h"

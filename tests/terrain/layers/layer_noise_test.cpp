@@ -1,9 +1,9 @@
 #include "terrain/layers/layer_noise.h"
 
+#include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <gtest/gtest.h>
 
 #include "terrain/layers/layer_picture.h"
 

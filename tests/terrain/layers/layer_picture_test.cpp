@@ -1,10 +1,10 @@
 #include "terrain/layers/layer_picture.h"
 
+#include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
-#include <gtest/gtest.h>
 
 #include "base/error.h"
 #include "base/filter.h"

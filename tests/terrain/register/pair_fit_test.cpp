@@ -1,9 +1,9 @@
 #include "terrain/register/pair_fit.h"
 
+#include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <gtest/gtest.h>
 #include <optional>
 
 #include "base/random.h"

@@ -1,9 +1,9 @@
 #include "terrain/register/registration.h"
 
+#include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <gtest/gtest.h>
 
 #include "base/error.h"
 #include "base/math.h"

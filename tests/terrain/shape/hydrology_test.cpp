@@ -1,10 +1,10 @@
 #include "terrain/shape/hydrology.h"
 
+#include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <functional>
-#include <gtest/gtest.h>
 #include <set>
 #include <string>
 #include <tuple>

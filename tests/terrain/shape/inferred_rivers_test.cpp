@@ -1,9 +1,9 @@
 #include "terrain/shape/inferred_rivers.h"
 
+#include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <gtest/gtest.h>
 
 namespace belvedere {
 namespace {

@@ -1,9 +1,9 @@
 #include "terrain/shape/river_centrelines.h"
 
-#include <cmath>
-#include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <cmath>
+#include <glm/geometric.hpp>
 
 #include "base/parallel.h"
 #include "terrain/shape/hydrology.h"

@@ -1,9 +1,9 @@
 #include "terrain/shape/valley_floor.h"
 
-#include <algorithm>
-#include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "terrain/io/dem.h"

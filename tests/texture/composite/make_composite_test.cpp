@@ -1,8 +1,8 @@
 #include "texture/composite/make_composite.h"
 
-#include <algorithm>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include "base/error.h"
 #include "base/grid.h"

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
-#include "base/random.h"
 #include "base/parallel.h"
+#include "base/random.h"
 
 namespace belvedere {
 namespace {

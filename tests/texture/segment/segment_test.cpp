@@ -1,8 +1,8 @@
 #include "texture/segment/segment.h"
 
-#include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include "base/error.h"
 #include "base/parallel.h"

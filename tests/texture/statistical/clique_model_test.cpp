@@ -1,8 +1,8 @@
 #include "texture/statistical/clique_model.h"
 
-#include <cstdlib>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <cstdlib>
 
 #include "base/error.h"
 #include "tests/texture/statistical/texture_crops.h"

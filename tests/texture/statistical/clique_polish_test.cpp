@@ -1,7 +1,7 @@
 #include "texture/statistical/clique_polish.h"
 
-#include <algorithm>
 #include <gtest/gtest.h>
+#include <algorithm>
 #include <set>
 
 #include "base/random.h"

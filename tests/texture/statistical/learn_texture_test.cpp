@@ -1,16 +1,16 @@
 #include "texture/statistical/learn_texture.h"
 
-#include <algorithm>
-#include <cstdlib>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <algorithm>
+#include <cstdlib>
 #include <set>
 
 #include "base/error.h"
 #include "tests/files.h"
 #include "tests/texture/statistical/texture_crops.h"
-#include "texture/statistical/make_texture.h"
 #include "texture/statistical/clique_model.h"
+#include "texture/statistical/make_texture.h"
 #include "texture/statistical/texture_figures.h"
 
 namespace belvedere {

@@ -1,8 +1,8 @@
 #include "texture/statistical/photometric.h"
 
+#include <gtest/gtest.h>
 #include <cmath>
 #include <cstddef>
-#include <gtest/gtest.h>
 
 #include "base/error.h"
 #include "base/parallel.h"

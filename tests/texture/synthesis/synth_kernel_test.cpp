@@ -14,8 +14,8 @@
 
 #include "base/random.h"
 #include "tests/texture/synthesis/noise_plane.h"
-#include "texture/synthesis/synth_lists.h"
 #include "texture/synthesis/synth_level.h"
+#include "texture/synthesis/synth_lists.h"
 
 namespace belvedere::synth {
 namespace {

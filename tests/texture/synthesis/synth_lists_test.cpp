@@ -1,9 +1,9 @@
 #include "texture/synthesis/synth_lists.h"
 
+#include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <gtest/gtest.h>
 #include <limits>
 #include <map>
 #include <numeric>

@@ -1,9 +1,9 @@
 #include "tools/cli/commands.h"
 
-#include <algorithm>
-#include <filesystem>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <algorithm>
+#include <filesystem>
 #include <set>
 #include <string>
 #include <utility>

@@ -1,8 +1,8 @@
 #include "tools/cli/terrain_operators.h"
 
-#include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include "terrain/io/raster_io.h"
 #include "tests/files.h"

@@ -1,8 +1,8 @@
 #include "tools/options/options.h"
 
-#include <cstdlib>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <cstdlib>
 
 #include "base/error.h"
 #include "tests/files.h"

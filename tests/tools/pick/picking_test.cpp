@@ -1,10 +1,10 @@
 #include "tools/pick/picking.h"
 
-#include <algorithm>
-#include <cmath>
 #include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <thread>

@@ -1,8 +1,8 @@
 #include "tools/report/report_pictures.h"
 
+#include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>
-#include <gtest/gtest.h>
 #include <set>
 #include <thread>
 #include <tuple>

@@ -1,9 +1,9 @@
 #include "tools/report/synthesis_findings.h"
 
-#include <algorithm>
-#include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <algorithm>
+#include <cmath>
 
 #include "texture/synthesis/match_cost.h"
 

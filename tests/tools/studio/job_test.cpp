@@ -1,7 +1,7 @@
 #include "tools/studio/job.h"
 
-#include <atomic>
 #include <gtest/gtest.h>
+#include <atomic>
 #include <string>
 #include <thread>
 #include <vector>

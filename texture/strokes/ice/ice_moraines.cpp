@@ -5,9 +5,9 @@
 #include <optional>
 #include <utility>
 
+#include "texture/strokes/class_strokes.h"
 #include "texture/strokes/ice/ice_ground.h"
 #include "texture/strokes/ice/ice_plan.h"
-#include "texture/strokes/class_strokes.h"
 #include "texture/strokes/stroke_parts.h"
 
 namespace belvedere {

@@ -9,8 +9,8 @@
 
 #include "base/guidance_buffers.h"
 #include "texture/strokes/base_picture.h"
-#include "texture/strokes/ice/ice_ground.h"
 #include "texture/strokes/brush.h"
+#include "texture/strokes/ice/ice_ground.h"
 #include "texture/strokes/stroke_seeds.h"
 
 namespace belvedere {

@@ -4,9 +4,9 @@
 #include <glm/geometric.hpp>
 #include <optional>
 
+#include "texture/strokes/class_strokes.h"
 #include "texture/strokes/ice/ice_ground.h"
 #include "texture/strokes/ice/ice_plan.h"
-#include "texture/strokes/class_strokes.h"
 #include "texture/strokes/stroke_parts.h"
 
 namespace belvedere {

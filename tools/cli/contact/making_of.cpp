@@ -1,9 +1,9 @@
 #include "tools/cli/contact/making_of.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <fmt/core.h>
 #include <memory>
 #include <utility>
 

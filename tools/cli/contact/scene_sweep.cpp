@@ -1,8 +1,8 @@
 #include "tools/cli/contact/scene_sweep.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <filesystem>
-#include <fmt/core.h>
 #include <memory>
 #include <utility>
 

@@ -1,8 +1,8 @@
+#include <fmt/core.h>
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <filesystem>
-#include <fmt/core.h>
 #include <glm/vec3.hpp>
 #include <map>
 #include <memory>
@@ -14,9 +14,9 @@
 #include "base/grid.h"
 #include "base/land_cover_class.h"
 #include "base/parallel.h"
-#include "base/text/text_encoding.h"
 #include "base/text/embedded.h"
 #include "base/text/json.h"
+#include "base/text/text_encoding.h"
 #include "renderer/exemplar/classes_by_paint.h"
 #include "renderer/image/icc/painting_file.h"
 #include "renderer/image/image_io.h"

@@ -1,12 +1,12 @@
 #include "tools/cli/exemplar/register_commands.h"
 
+#include <fmt/core.h>
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <cmath>
 #include <filesystem>
-#include <fmt/core.h>
-#include <fmt/format.h>
 #include <memory>
 #include <sstream>
 #include <string_view>

@@ -1,9 +1,9 @@
 #include "tools/cli/features/swatches.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fmt/core.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "base/random.h"
 #include "base/progress.h"
+#include "base/random.h"
 #include "renderer/features/drawn_features.h"
 #include "renderer/features/house_strokes.h"
 #include "renderer/features/paint_features.h"

@@ -1,9 +1,9 @@
+#include <fmt/core.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
-#include <fmt/core.h>
 #include <map>
 #include <memory>
 #include <optional>

@@ -1,7 +1,7 @@
+#include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fmt/core.h>
 #include <memory>
 #include <optional>
 #include <string>

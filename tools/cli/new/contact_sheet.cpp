@@ -9,7 +9,7 @@
 #include "base/files/output_file.h"
 #include "renderer/image/image_io.h"
 #include "renderer/pipeline/pipeline.h"
-#include "renderer/scene/draft.h"
+#include "renderer/scene/scene_settings.h"
 #include "renderer/world/scene_dem.h"
 #include "renderer/world/world.h"
 #include "terrain/io/http_access.h"

@@ -1,9 +1,9 @@
 #include "tools/cli/new/new_options.h"
 
+#include <fmt/core.h>
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fmt/core.h>
 #include <optional>
 #include <string_view>
 #include <utility>

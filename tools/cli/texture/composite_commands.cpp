@@ -1,6 +1,6 @@
-#include <algorithm>
 #include <fmt/core.h>
 #include <fmt/format.h>
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -259,7 +259,7 @@ PixelRect window_of(const std::vector<int>& w, const Grid<std::uint8_t>& labels)
 
 // The label map beside the result, and the share of each label.
 void write_make_report(const CompositeMakeOptions& options, const std::vector<std::string>& names,
-                  const Grid<std::uint8_t>& labels, const Grid<Rgb8>& made) {
+                       const Grid<std::uint8_t>& labels, const Grid<Rgb8>& made) {
   const std::string file = file_name(options.model);
   ReportTable table({{"label", "label"}, {"pixels", "pixels"}});
   for (std::size_t k = 0; k < names.size(); ++k)

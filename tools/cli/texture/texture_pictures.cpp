@@ -1,12 +1,12 @@
 #include "tools/cli/texture/texture_pictures.h"
 
+#include <fmt/core.h>
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstddef>
 #include <cstdlib>
-#include <fmt/core.h>
-#include <fmt/format.h>
 #include <utility>
 
 #include "base/error.h"

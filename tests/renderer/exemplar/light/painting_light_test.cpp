@@ -6,8 +6,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "base/random.h"
 #include "base/parallel.h"
+#include "base/random.h"
 #include "renderer/trace/light_field.h"
 #include "tests/renderer/exemplar/painted_hills.h"
 #include "texture/synthesis/exemplar.h"

@@ -1,9 +1,9 @@
 #include "renderer/exemplar/light/painting_tone.h"
 
+#include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
-#include <gtest/gtest.h>
 #include <vector>
 
 #include "base/parallel.h"

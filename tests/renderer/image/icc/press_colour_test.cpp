@@ -1,10 +1,10 @@
 #include "renderer/image/icc/press_colour.h"
 
-#include <algorithm>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <memory>
 #include <tiffio.h>
+#include <algorithm>
+#include <memory>
 
 #include "base/error.h"
 #include "base/parallel.h"

@@ -1,12 +1,12 @@
 #include "renderer/image/layers/layer_file.h"
 
 #include <OpenImageIO/imageio.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <vector>
 
 #include "base/error.h"

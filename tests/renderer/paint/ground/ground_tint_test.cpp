@@ -1,7 +1,7 @@
 #include "renderer/paint/ground/ground_tint.h"
 
-#include <cmath>
 #include <gtest/gtest.h>
+#include <cmath>
 #include <memory>
 
 #include "base/random.h"

@@ -1,8 +1,8 @@
 #include "renderer/paint/water/water_image.h"
 
+#include <gtest/gtest.h>
 #include <cmath>
 #include <glm/common.hpp>
-#include <gtest/gtest.h>
 #include <limits>
 
 #include "base/error.h"

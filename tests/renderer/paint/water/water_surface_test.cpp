@@ -1,8 +1,8 @@
 #include "renderer/paint/water/water_surface.h"
 
+#include <gtest/gtest.h>
 #include <algorithm>
 #include <glm/geometric.hpp>
-#include <gtest/gtest.h>
 #include <limits>
 #include <memory>
 

@@ -1,10 +1,10 @@
 #include "renderer/scene/edit/scene_edit.h"
 
-#include <algorithm>
-#include <filesystem>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <algorithm>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <set>

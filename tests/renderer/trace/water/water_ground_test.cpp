@@ -1,8 +1,8 @@
 #include "renderer/trace/water/water_ground.h"
 
+#include <gtest/gtest.h>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <gtest/gtest.h>
 #include <memory>
 
 #include "base/error.h"

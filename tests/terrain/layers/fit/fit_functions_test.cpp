@@ -1,8 +1,8 @@
 #include "terrain/layers/fit/fit_functions.h"
 
+#include <gtest/gtest.h>
 #include <cmath>
 #include <cstddef>
-#include <gtest/gtest.h>
 #include <numeric>
 #include <span>
 #include <string>

@@ -1,7 +1,7 @@
 #include "terrain/layers/fit/fit_measures.h"
 
-#include <cmath>
 #include <gtest/gtest.h>
+#include <cmath>
 
 namespace belvedere {
 namespace {

@@ -1,8 +1,8 @@
 #include "terrain/layers/fit/ground_fit.h"
 
+#include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>
-#include <gtest/gtest.h>
 #include <numeric>
 #include <string>
 

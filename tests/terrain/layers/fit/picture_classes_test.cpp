@@ -1,7 +1,7 @@
 #include "terrain/layers/fit/picture_classes.h"
 
-#include <cmath>
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include "base/error.h"
 #include "base/random.h"

@@ -1,9 +1,9 @@
 #include "tools/cli/contact/making_of.h"
 
+#include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <gtest/gtest.h>
 #include <utility>
 #include <vector>
 

@@ -1,8 +1,8 @@
 #include "tools/cli/contact/scene_sweep.h"
 
-#include <algorithm>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include "base/pixel_rect.h"
 #include "tests/files.h"

@@ -1,9 +1,9 @@
-#include <cmath>
-#include <cstdio>
-#include <filesystem>
 #include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
 #include <optional>
 #include <set>
 

@@ -1,9 +1,9 @@
-#include "tools/cli/press/press_commands.h"
+#include "tools/cli/press_commands.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fmt/core.h>
 #include <memory>
 #include <utility>
 
@@ -133,7 +133,7 @@ struct PaletteCheckOptions {
 };
 
 Json verdict_json(const std::string& palette, std::size_t all,
-             const std::vector<PaletteColour>& missed) {
+                  const std::vector<PaletteColour>& missed) {
   Json colours = Json::array();
   for (const PaletteColour& one : missed)
     colours.add(Json::object()
@@ -148,7 +148,7 @@ Json verdict_json(const std::string& palette, std::size_t all,
 }
 
 std::string verdict_text(const std::string& palette, std::size_t all,
-                    const std::vector<PaletteColour>& missed) {
+                         const std::vector<PaletteColour>& missed) {
   std::string out =
       fmt::format("{}: {} of {} colours cannot be printed\n", palette, missed.size(), all);
   for (const PaletteColour& one : missed)
