@@ -16,6 +16,7 @@
 #include "renderer/pipeline/scene_paint.h"
 #include "renderer/pipeline/sheet_job.h"
 #include "renderer/pipeline/sheet_pieces.h"
+#include "renderer/world/scene_dem.h"
 #include "renderer/world/scene_style.h"
 
 namespace belvedere {
@@ -41,10 +42,11 @@ void check_request(const Scene& scene, const SheetRequest& request) {
                 "at least one channel");
 }
 
-// Before the work: paintings count by their headers, and ground is fitted to the memory.
+// Before the work: paintings and ground count by their headers.
 void refuse_beyond_memory(const LoadedScene& loaded, const SheetRequest& request) {
   const Scene& scene = loaded.scene;
-  StandingBytes standing{.besides = piece_bytes_of(scene, request)};
+  StandingBytes standing{.ground = ground_bytes(held_ground_cells(loaded)),
+                         .besides = piece_bytes_of(scene, request)};
   if (request.panorama && scene.copies())
     standing.besides += copying_bytes(scene, painting_texels(loaded));
   const std::optional<Style> style = request.panorama ? named_style(loaded) : std::nullopt;

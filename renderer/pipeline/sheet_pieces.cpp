@@ -35,9 +35,9 @@ double cells_of(const TerrainModel& terrain) {
 
 }  // namespace
 
-double ground_bytes(const World& world) {
-  return standing_bytes_per_cell * cells_of(world.terrain);
-}
+double ground_bytes(const World& world) { return ground_bytes(cells_of(world.terrain)); }
+
+double ground_bytes(double cells) { return standing_bytes_per_cell * cells; }
 
 double copying_bytes(const std::vector<PaintedExemplar>& exemplars) {
   double texels = 0.0;

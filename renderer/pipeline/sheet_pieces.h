@@ -64,6 +64,8 @@ struct StandingBytes {
   double besides = 0.0;  // pictures to copy from with their comparison data, layers of a piece
 };
 double ground_bytes(const World& world);
+// The same before it is made, of so many cells (held_ground_cells).
+double ground_bytes(double cells);
 double copying_bytes(const std::vector<PaintedExemplar>& exemplars);
 // The same before an example sheet is painted; of all paintings together.
 double copying_bytes(const Scene& scene, double painting_texels);

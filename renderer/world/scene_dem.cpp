@@ -297,6 +297,14 @@ GroundSize ground_size_of(const LoadedScene& loaded) {
           0.5 * (frame.transform.cell_x + frame.transform.cell_y)};
 }
 
+double held_ground_cells(const LoadedScene& loaded) {
+  const SceneTerrain& terrain = loaded.scene.terrain;
+  const double cells = 1e6 * ground_size_of(loaded).mcells;
+  if (terrain.synthetic) return cells;
+  const double held = std::min(cells, max_ground_cells(terrain, cells));
+  return terrain.preview_mcells > 0.0 ? std::min(held, 1e6 * terrain.preview_mcells) : held;
+}
+
 LoadedScene make_draft_scene(LoadedScene loaded) {
   require_scene_files(loaded);
   loaded.scene = make_draft(std::move(loaded.scene));

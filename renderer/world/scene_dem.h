@@ -65,6 +65,8 @@ struct GroundSize {
   double cell_m = 0.0;
 };
 GroundSize ground_size_of(const LoadedScene& loaded);
+// Cells that the ground of this scene holds in memory, with its windows; from headers alone.
+double held_ground_cells(const LoadedScene& loaded);
 
 // A draft (renderer/scene/scene_settings.h) on ground of about 2.5 million cells at most.
 // Error(input) listing all files that are missing.

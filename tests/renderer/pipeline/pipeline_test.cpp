@@ -232,6 +232,29 @@ TEST_F(Pipeline, APictureBeyondMemoryIsRefusedWithTheEstimate) {
   }
 }
 
+// The work would begin, were ground or paintings left out of the estimate.
+TEST_F(Pipeline, WhatGroundAndPaintingsLeaveIsKnownBeforeTheWork) {
+  class NoWork : public Progress {
+    void begin(std::string_view stage, double) override {
+      throw Error(ErrorKind::bug, "test", "work begins: " + std::string(stage), "");
+    }
+  } progress;
+  const std::vector<std::string> print = {"output.width=20000", "output.height=8000",
+                                          "output.sheet_width_mm=1200", "synthesis.enabled=false"};
+  const auto kind_of = [&](std::vector<std::string> settings) {
+    settings.insert(settings.end(), print.begin(), print.end());
+    try {
+      render(scene(settings), out("a"), {.memory_bytes = 600U << 20U, .progress = progress});
+    } catch (const Error& error) {
+      return error.kind();
+    }
+    return ErrorKind::usage;
+  };
+  EXPECT_EQ(kind_of({}), ErrorKind::bug);
+  EXPECT_EQ(kind_of({"terrain.synthetic.width=3000", "terrain.synthetic.height=3000"}),
+            ErrorKind::limit);
+}
+
 TEST_F(Pipeline, AnEyeBelowTheGroundIsRefusedWithTheHeight) {
   try {
     render(scene({"camera.position=[9000, 9000]", "camera.height_m=-500"}), out("a"), {});

@@ -7,6 +7,7 @@
 #include "base/memory_limit.h"
 #include "renderer/exemplar/scan.h"
 #include "renderer/image/image_io.h"
+#include "renderer/world/scene_dem.h"
 #include "tests/files.h"
 #include "tests/scenes.h"
 
@@ -103,6 +104,14 @@ TEST(SheetMemory, WhatStandsThereLeavesLessToBlocks) {
   EXPECT_NE(refused.find("at most 2048 MiB"), std::string::npos) << refused;
   // Ground was fitted to the memory: it is not refused for what it leaves.
   EXPECT_LT(block_of(scene, 2048, {.ground = 1700.0 * mib}), 1024);
+}
+
+TEST(SheetMemory, GroundCountsBeforeItIsMade) {
+  const LoadedScene scene = test::small_scene();
+  const double made = ground_bytes(make_world(scene, silent_progress()));
+  const double expected = ground_bytes(held_ground_cells(scene));
+  EXPECT_GE(expected, made);
+  EXPECT_LE(expected, 1.5 * made);
 }
 
 TEST(SheetMemory, WhatIsPaintedAsAWholeIsRefusedSooner) {
