@@ -55,7 +55,7 @@ std::string describe(const ConfigValue& value);
 // How a path with control characters was read, for messages: "\"data\new.tif\" was read as …";
 // empty for a path without.
 std::string misread_path(std::string_view path);
-// What to write where a backslash is meant.
+// Advice how to write a backslash that is meant as one.
 std::string backslash_advice();
 // The candidate closest to `word` by edit distance, or an empty string if none is close.
 std::string nearest_word(std::string_view word, const std::vector<std::string>& candidates);

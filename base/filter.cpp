@@ -156,8 +156,8 @@ class PaddedLine {
   std::unique_ptr<float[]> numbers_;
 };
 
-// Of a halved line: its element j lies over 2 (j - 1). The first and last elements depend only on
-// the replicated border, so replicating the halved line equals halving the replicated line.
+// Length of a halved line: its element j lies over 2 (j - 1). The first and last elements depend
+// only on the replicated border, so replicating the halved line equals halving the replicated line.
 int halved_count(int count) { return (count + 2) / 2 + 2; }
 
 // A line with the room that blurring needs.

@@ -394,7 +394,7 @@ std::uint64_t default_cache_limit(const std::string& folder) {
 
 void CacheKeyText::put(double number) { text_ += fmt::format("{:a}", number); }
 
-// With its length, so that one text cannot be read as two values.
+// Prefixes a text with its length, so that one text cannot be read as two values.
 void CacheKeyText::put(std::string_view text) {
   text_ += fmt::format("{}\"{}\"", text.size(), text);
 }

@@ -50,10 +50,10 @@ class Cache {
   Cache& operator=(const Cache&) = delete;
 
   bool is_on() const { return !parameters_.folder.empty(); }
-  // What was stored with this key, or nothing. A damaged entry is noted and removed.
+  // Returns the entry stored under this key, or nothing. A damaged entry is noted and removed.
   std::optional<Bytes> find(const CacheKey& key, Progress& progress) const;
-  // The same for values, which `read` takes straight from the file. Where the result is false there
-  // was no such entry, or it was damaged, and what was read counts for nothing.
+  // The same for values that `read` takes straight from the file. False if there is no such entry
+  // or it is damaged; discard what was read then.
   bool read(const CacheKey& key, FunctionRef<void(ByteReader&)> read, Progress& progress) const;
   // Parts are concatenated.
   void store(const CacheKey& key, std::span<const std::span<const std::byte>> parts,

@@ -35,7 +35,7 @@ std::string identity_of(const std::string& path) {
       .string();
 }
 
-// What GDAL and OGR read beside a file.
+// The files that GDAL and OGR read beside a file.
 std::vector<std::string> companions_of(const std::string& path) {
   std::vector<std::string> out;
   for (const char* more : {".aux.xml", ".ovr", ".msk", "-wal", "-shm"}) out.push_back(path + more);
@@ -148,15 +148,14 @@ void begin_run(const fs::path& folder, const std::vector<Written>& record) {
 }  // namespace
 
 void check_output_folder(const std::string& folder) {
-  const std::string position = folder.empty() ? "." : folder;
+  const std::string path = folder.empty() ? "." : folder;
   std::error_code code;
-  fs::create_directories(position, code);
-  if (code)
-    throw Error(ErrorKind::output, position, "cannot create this folder: " + code.message());
-  std::string name = position + "/.belvedere-XXXXXX";
+  fs::create_directories(path, code);
+  if (code) throw Error(ErrorKind::output, path, "cannot create this folder: " + code.message());
+  std::string name = path + "/.belvedere-XXXXXX";
   const int file = ::mkstemp(name.data());
   if (file < 0)
-    throw Error(ErrorKind::output, position,
+    throw Error(ErrorKind::output, path,
                 "cannot create a file in this folder: " + std::generic_category().message(errno));
   ::close(file);
   ::unlink(name.c_str());

@@ -9,10 +9,10 @@
 
 namespace belvedere {
 
-// What a run must not replace: files that it reads, files that are read-only, and files in folders
-// of results that the program did not write or that were changed since. Commands declare what they
-// read and write before their work; OutputFile asks again for every file. One for the process, as
-// files are; for use by several threads.
+// Protects files that a run must not replace: its inputs, read-only files, and files in folders of
+// results that the program did not write or that were changed since. Commands declare what they
+// read and write before their work; OutputFile asks again for every file. One per process,
+// thread-safe.
 //
 // A folder of results keeps a record of what was written there, `.belvedere_results`: a line "run"
 // for each run and one for each file, with hash, bytes and name.
@@ -36,7 +36,7 @@ class FileGuard {
   void record(const std::string& target, const std::string& temporary);
   // Removes the files of a folder that the program wrote and nobody changed.
   void remove_own(const std::string& folder) const;
-  // Of the folders that were made before the work, those that are empty; for runs that failed.
+  // Removes the empty ones of the folders that were made before the work; for runs that failed.
   void remove_empty_folders();
   // Forgets everything, for the next run in one process.
   void clear();
@@ -72,7 +72,7 @@ void check_output_folder(const std::string& folder);
 // Where the symbolic links of a path's last name lead, also to a file that does not exist yet.
 std::string link_target(const std::string& path);
 
-// Of `names`, those files in a folder that its newest run wrote; without a record, all that exist.
+// The files of `names` in a folder that its newest run wrote; without a record, all that exist.
 std::vector<std::string> newest_results(const std::string& folder,
                                         const std::vector<std::string>& names);
 

@@ -10,12 +10,12 @@
 
 namespace belvedere {
 
-// What was read from files, so that each is read once; copies of a scene share one. Thread-safe;
-// two threads that miss the same value both read it, and the first one stays.
+// Keeps values read from files, so that each file is read once; copies of a scene share one store.
+// Thread-safe; two threads that miss the same value both read it, and the first one stays.
 class KeptFiles {
  public:
-  // What `read` returns, a T, or what it returned for the same key (which says what is read, and
-  // how) while none of the files has changed in size or time since.
+  // Returns the T that `read` makes, or the kept one of the same key (which names the content and
+  // how it is read) while none of the files has changed in size or time.
   template <class T, class Read>
   std::shared_ptr<const T> get(const std::string& key, const std::vector<std::string>& files,
                                const Read& read) {

@@ -179,12 +179,12 @@ void write_text_file(const std::string& path, const std::string& text) {
 
 ScratchFolder::ScratchFolder() {
   std::error_code problem;
-  const std::filesystem::path position = std::filesystem::temp_directory_path(problem);
+  const std::filesystem::path folder = std::filesystem::temp_directory_path(problem);
   if (problem)
     throw Error(ErrorKind::output, "TMPDIR", "no folder for temporary files: " + problem.message());
-  path_ = (position / "belvedere-XXXXXX").string();
+  path_ = (folder / "belvedere-XXXXXX").string();
   if (::mkdtemp(path_.data()) == nullptr)
-    throw Error(ErrorKind::output, position.string(),
+    throw Error(ErrorKind::output, folder.string(),
                 "cannot create a folder in it: " + std::generic_category().message(errno),
                 "another folder, named by the variable TMPDIR");
 }

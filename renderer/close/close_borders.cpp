@@ -38,7 +38,7 @@ constexpr float most = 1.35F;
 constexpr float outlier_cell = 2.8F;
 constexpr float outlier_share = 0.8F;
 constexpr float outlier_reach = 15.0F;
-// Of what lies around ice.
+// Distances and shares of the ground around ice.
 constexpr double ice_units = 5.0;  // deviations of its shares
 constexpr double white_units = 13.0;
 constexpr float bare_from = 0.10F;    // share of ice around from which turf gives way to rubble

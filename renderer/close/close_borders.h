@@ -14,11 +14,11 @@ struct IceAround {
   Grid<float> ice;    // of glaciers, within some units
   Grid<float> white;  // of snow, too, within a gully's distance
 };
-// Of the wide pixels that `sheet_rect` reads.
+// Computes the shares for the wide pixels that `sheet_rect` reads.
 IceAround look_around_ice(const SpurGround& ground, PixelRect sheet_rect);
 int ice_around_reach(double pixels_per_unit, int factor);  // wide pixels
 
-// What borders of a window of the sheet are read from.
+// Inputs of the borders of classes in a window of the sheet.
 struct CloseBorders {
   const GuidanceBuffers& guidance;
   const SpurGround& ground;

@@ -18,7 +18,7 @@
 
 namespace belvedere {
 
-// What forms a piece of ground has where it is near.
+// Cover of near ground, by the kind of its forms.
 enum class CloseCover : std::uint8_t { other, snow, scree, grass };
 inline constexpr std::size_t close_covers = 4;
 CloseCover close_cover(LandCoverClass id, bool winter);
@@ -66,7 +66,7 @@ float close_forms_reach_units();
 int mean_normal_reach(double pixels_per_unit, int factor);
 int streams_reach(double pixels_per_unit, int factor);
 
-// What forms make of a position in a pixel of that cover.
+// Appearance of the forms at a position in a pixel of that cover.
 struct FormLook {
   float tone = 0.0F;        // added to the ground's own, about -.5…+.5
   std::uint32_t plane = 0;  // of the form that strokes follow; 0: none

@@ -37,7 +37,7 @@ void add_close_relief(RockRelief& relief, const GuidanceBuffers& guidance, const
   const PixelRect whole{0, 0, guidance.width(), guidance.height()};
   if (wanted.empty()) wanted = whole;
   const double ppu = parameters.light.pixels_per_unit;
-  // What lies on a wall has forms, too: debris in its gullies, snow in winter.
+  // Debris in the gullies of a wall, and snow in winter, have relief too.
   const LandCoverClass on_walls = parameters.winter ? LandCoverClass::snow : LandCoverClass::scree;
   const auto on_wall = [&](int x, int y) {
     return guidance.land_cover(x, y) == LandCoverClass::rock &&

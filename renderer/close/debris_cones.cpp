@@ -19,7 +19,7 @@ namespace {
 
 using Class = LandCoverClass;
 
-// Of the stream of close forms; smaller numbers are of roofs.
+// Parts of the random stream of close forms; smaller numbers belong to roofs.
 constexpr std::uint64_t cones_part = 40;
 constexpr std::uint64_t streaks_part = 41;
 constexpr float seed_cell = 13.0F;    // units: spacing of positions that look for a gully
@@ -253,7 +253,7 @@ DebrisCones grow_debris_cones(const SpurGround& ground, PixelRect rect, float am
           static_cast<std::size_t>(x)] = grow_cone(ground, key, low + glm::ivec2(x, y), amount);
   });
   std::erase_if(all, [](const DebrisCone& cone) { return cone.id == 0; });
-  // Of two at one mouth the higher remains.
+  // Of two cones at one mouth, the higher remains.
   const auto yields = [&](const DebrisCone& cone) {
     return std::any_of(all.begin(), all.end(), [&](const DebrisCone& other) {
       const glm::vec2 offset = other.apex - cone.apex;
@@ -372,7 +372,7 @@ DebrisHit debris_at(const DebrisCones& cones, std::uint64_t seed, glm::vec2 posi
       across -= left * 0.5F * channel_depth * (d > 0.0F ? 1.0F : -1.0F) * levee;
       tone += 0.07F * left * levee;
     }
-    // What it brought down lies below it, fresh and light.
+    // The deposit below a channel is fresh and light.
     const float lobe = (best.e - way) * best.width / (3.0F + 5.0F * share);
     const float fresh = smoothstep(0.15F, 0.7F, best.v / channel.to) *
                         (1.0F - smoothstep(0.02F, 0.2F, best.v - channel.to));

@@ -63,8 +63,8 @@ struct CoarseGroundParameters {
   int max_cells = usual_blocks;  // of the longer side, 64…4096
 };
 
-// From the files of a scene, warped to its metric CRS. Throws what read_dem throws for unusable
-// files. Error(input) where there are no data.
+// Reads the ground from the files of a scene, warped to its metric CRS. Throws what read_dem throws
+// for unusable files. Error(input) where there are no data.
 CoarseGround read_coarse_ground(const DemParameters& dem, Progress& progress,
                                 const CoarseGroundParameters& parameters = {});
 // The altitudes that a coarse ground is made of.
@@ -72,7 +72,7 @@ struct CoarseAltitudes {
   Raster<float> blocks;        // means of whole cells; voids are NaN
   double source_cell_m = 0.0;  // of the data
 };
-// From a DEM in memory; filled cells count as voids.
+// Reduces a DEM in memory; filled cells count as voids.
 CoarseAltitudes coarse_altitudes_of(const Dem& dem, const CoarseGroundParameters& parameters = {});
 // `move`: where a point (x, y, altitude) of the ground moves, for ground that is deformed before it
 // is measured; empty: no move.

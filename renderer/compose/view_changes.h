@@ -37,11 +37,11 @@ std::string describe_changes(const ViewSearch& search, const Candidate& candidat
 // reference values of evaluation stay the region's: its side, relief, plateau and distances to the
 // rim.
 
-// Its valleys widened by this many metres (terrain/generalize/widen_valleys.h); lakes are
-// unchanged.
+// The ground with valleys widened by this many metres (terrain/generalize/widen_valleys.h); lakes
+// are unchanged.
 CoarseGround widened_ground(const CoarseGround& ground, double width_m);
 
-// Its summits raised individually.
+// The ground with its summits raised individually.
 CoarseGround raised_ground(const CoarseGround& ground,
                            const std::vector<SummitExaggeration>& summits);
 

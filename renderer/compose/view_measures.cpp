@@ -55,9 +55,9 @@ SkylineMeasures measure_skyline(const std::vector<double>& heights) {
   return out;
 }
 
-// What the lower edge cuts, followed outwards: it cuts a mountain where the ground on it is high
-// above its valleys, whose floor is then outside, and rises farther into the picture. Plateaus, and
-// slopes that fall away from the viewer, begin there.
+// Finds what the lower edge cuts, followed outwards: it cuts a mountain where the ground on it is
+// high above its valleys, whose floor is then outside, and rises farther into the picture.
+// Plateaus, and slopes that fall away from the viewer, begin there.
 class EdgeForm {
  public:
   explicit EdgeForm(const CoarseGround& ground) : ground_(ground) {}

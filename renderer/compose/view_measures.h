@@ -97,7 +97,7 @@ double hump_of(const std::vector<double>& skyline);
 ViewMeasures measure_view(const CoarseGround& ground, const SightModel& sight,
                           const std::vector<Anchor>& anchors);
 
-// Of a view that was laid out. Columns × steps samples.
+// Sampling of a view that was laid out: columns × steps samples.
 struct MeasureParameters {
   int columns = 150, steps = 260;
 };

@@ -57,8 +57,8 @@ double total(const std::vector<ScoreTerm>& terms);
 // most points.
 std::string describe_gains(const std::vector<ScoreTerm>& before,
                            const std::vector<ScoreTerm>& after);
-// Of the anchors inside the picture, the one that gives the highest score as its subject; the first
-// where none is inside.
+// The anchor inside the picture that gives the highest score as its subject; the first where none
+// is inside.
 int leading_anchor(const ViewMeasures& measures, ScoreContext context);
 // Figure of merit: the total relative to the maximum of a picture of the region, 0…10.
 double merit(const std::vector<ScoreTerm>& terms, const ScoreContext& context);

@@ -55,8 +55,8 @@ struct MinTexels {
   double largest_share = 0.30;  // max share of the ground for one class
 };
 
-// What occurs in panoramas: measured on the program's own scenes (docs/exemplars.md). Classes, or
-// lights of a class, that never occur need not be in an example sheet.
+// The texels that occur in panoramas, measured on the program's own scenes (docs/exemplars.md).
+// Classes, or lights of a class, that never occur need not be in an example sheet.
 struct NeededTexels {
   template <class T>
   using ByClass = AvailableTexels::ByClass<T>;

@@ -131,7 +131,7 @@ class Belts {
   std::vector<std::vector<float>> shares_;
 };
 
-// What the map says: probabilities of the classes. Pixels far from any label have none.
+// Probabilities of the classes according to the map. Pixels far from any label have none.
 OfClasses map_probabilities(const Compared& compared, const std::vector<std::uint8_t>& classes) {
   const double sigma = place_share * compared.labels.width();
   OfClasses out;

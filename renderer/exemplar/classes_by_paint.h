@@ -12,13 +12,13 @@
 
 namespace belvedere {
 
-// What the map says of the places that the pixels of a painting show: grids of one size, which may
-// be smaller than the painting.
+// The map at the places that the pixels of a painting show: grids of one size, which may be smaller
+// than the painting.
 struct PlaceClasses {
   Grid<std::uint8_t> labels;  // class ids, sky included; unused_label: nothing is known
   Grid<float> altitude_m;     // of the ground; not read in the sky
 };
-// Those of a painting's guidance.
+// The places of a painting by its guidance.
 PlaceClasses places_of(const GuidanceBuffers& guidance);
 
 // The class of each pixel of a painting (encoded sRGB), by what the map says of places near by and

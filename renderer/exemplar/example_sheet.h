@@ -37,7 +37,7 @@ struct ExampleLayers {
   bool sky = true;       // otherwise the sky keeps the base picture's
 };
 
-// picture: of the whole view. The same bits for any number of threads.
+// Paints a view; `picture` must cover all of it. The same bits for any number of threads.
 ExamplePainting paint_example(const World& world, const Palette& palette, LitPicture picture,
                               const ExampleLayers& layers, Progress& progress);
 
@@ -45,7 +45,7 @@ ExamplePainting paint_example(const World& world, const Palette& palette, LitPic
 // for the residual and labels of an exemplar.
 PaintedClasses classes_of_paint(const GuidanceBuffers& guidance, const Grid<std::uint32_t>& from);
 
-// What an example sheet takes from the picture that will copy it.
+// Properties that an example sheet takes from the picture that will copy it.
 struct ExampleSheetHand {
   Palette palette;
   std::optional<LightParameters> light;  // otherwise each panel's own
@@ -75,7 +75,7 @@ class ExampleSheetPainter {
   std::unique_ptr<State> state_;
 };
 
-// The name of its exemplar, in messages.
+// The name of the exemplar of an example sheet, in messages.
 inline constexpr const char* example_sheet_name = "painted sheet";
 
 // The example sheet that is painted for a picture: with its palette, light and size of strokes, so

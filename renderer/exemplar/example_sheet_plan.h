@@ -35,11 +35,11 @@ struct ExampleSheetPlan {
 
 // The built-in example sheet (data/sheet/).
 ExampleSheetPlan built_in_example_sheet_plan();
-// Strict: Error(usage) with position for unknown keys, a panel that names no terrain or view of the
-// file, incomplete rows.
+// Parses a plan strictly: Error(usage) with position for unknown keys, a panel that names no
+// terrain or view of the file, incomplete rows.
 ExampleSheetPlan parse_example_sheet_plan(std::string_view text, const std::string& name);
 ExampleSheetPlan read_example_sheet_plan(const std::string& path);
-// Reads back to the same plan.
+// The text of a plan, which reads back as the same plan.
 std::string write_example_sheet_plan(const ExampleSheetPlan& plan);
 
 // The rectangle of a panel's picture, surrounded by a margin of bare paper. Rows of panels begin at

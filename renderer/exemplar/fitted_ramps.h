@@ -18,7 +18,7 @@ struct LabelRamps {
   std::vector<ToneRamp> ramps;    // encoded sRGB, one for each distance, interpolated between them,
                                   // beyond them constant
   std::size_t texels = 0;
-  // tone 0…1.
+  // The colour at a tone, 0…1, and a distance.
   glm::vec3 colour(double tone, double distance) const;
 };
 using FittedRamps = std::array<LabelRamps, 256>;  // by label; no ramps if the painting has fewer

@@ -27,8 +27,8 @@ struct LabelledPicture {
 std::vector<Grid<glm::vec3>> harmonize(const std::vector<LabelledPicture>& pictures,
                                        std::optional<std::size_t> reference);
 
-// The same by the scene's setting: "off", "common" (common statistics), "first" (those of the first
-// painting), by label; or "regions": all but the first are matched to the first by regions of
+// Harmonizes by the scene's setting: "off", "common" (common statistics), "first" (those of the
+// first painting), by label; or "regions": all but the first are matched to the first by regions of
 // similar colour, whatever their labels (texture/statistical/photometric.h). Error(usage) for other
 // words.
 std::vector<Grid<glm::vec3>> harmonize_as(const std::string& how,

@@ -12,7 +12,7 @@
 
 namespace belvedere {
 
-// The ground of its classes that a model paints.
+// The ground that a model paints, within its classes.
 enum class ModelLight { any, lit, shaded };
 
 // An [[exemplar]] block that is a texture model (docs/textures.md), or one label of a block that is
@@ -27,9 +27,10 @@ struct SceneTextureModel {
   std::size_t block = 0;  // index of the scene's [[exemplar]] block
 };
 
-// Those of a scene, in order; optional ones that are missing are left out. Labels of a composite
-// are class numbers, as in masks of paintings; each paints its class, or only the classes that the
-// block serves. Error(usage) for an invalid model, or a composite with other labels.
+// Reads the texture models of a scene, in order; optional ones that are missing are left out.
+// Labels of a composite are class numbers, as in masks of paintings; each paints its class, or only
+// the classes that the block serves. Error(usage) for an invalid model, or a composite with other
+// labels.
 std::vector<SceneTextureModel> read_texture_models(const LoadedScene& scene);
 
 // A class that is painted from models, as indices into read_texture_models; the first that serves
@@ -51,8 +52,8 @@ std::vector<ModelledClass> choose_modelled(const std::vector<SceneTextureModel>&
 // A model's colours from dark to light, for pictures that take the colours of their paintings: its
 // mean, shifted along the main axis of its colours by the range of its coarsest pixels.
 LabelRamps model_ramps(const CliqueModel& model);
-// Those of a class that a model serves: if another model serves the other light of it, dark colours
-// are the shaded model's, light ones the lit one's.
+// The ramps of a class that a model serves: if another model serves the other light of it, dark
+// colours are the shaded model's, light ones the lit one's.
 LabelRamps model_ramps(const std::vector<SceneTextureModel>& models, const SceneTextureModel& model,
                        LandCoverClass id);
 

@@ -34,7 +34,7 @@ struct DrawnFeatures {
   int house_reach_px = 0;  // max distance of any house's paint from its foot
 
   bool empty() const { return lines.empty() && houses.empty(); }
-  // Those that may touch a rectangle of the sheet, each once, in order.
+  // The features that may touch a rectangle of the sheet, each once, in order.
   std::vector<std::uint32_t> lines_at(PixelRect rect) const;
   std::vector<std::uint32_t> houses_at(PixelRect rect) const;
 };
@@ -61,7 +61,7 @@ DrawnFeatures draw_features(const FeatureSet& set, const GroundSight& sight,
 // it.
 inline constexpr double clear_below = 2.5;
 
-// Of a scene without features.
+// The features of a scene that has none.
 const DrawnFeatures& no_features();
 
 // Max distance of a kind's paint from its line in the foreground, px: casing, bed and softness

@@ -28,7 +28,7 @@ enum class FeatureDraw : int {
   town       // a place with houses: points with a population, or areas
 };
 
-// What features are made of.
+// Geometry of a kind of features.
 enum class FeatureGeometry : int { line, area, point_or_area, line_or_area };
 
 FeatureGeometry geometry_of(FeatureDraw draw);

@@ -29,7 +29,7 @@ class GroundSight {
   // The drawn ground in the deformed world; nothing outside the terrain.
   std::optional<glm::dvec3> ground(glm::dvec2 position) const;
   std::optional<glm::dvec2> pixel(glm::dvec3 point) const { return camera_.project(point); }
-  // From the eye, along the line of sight of its pixel.
+  // Distance from the eye, along the line of sight of its pixel.
   double distance_m(glm::dvec3 point, glm::dvec2 pixel) const;
   // The view direction of a pixel.
   glm::dvec3 sight_at(glm::dvec2 pixel) const { return camera_.ray(pixel).direction; }

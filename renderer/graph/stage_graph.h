@@ -89,7 +89,7 @@ struct Reach {
 constexpr Reach around(int px) { return {px, px}; }
 constexpr Reach rows_around(int px) { return {0, px}; }
 
-// What is requested of a stage.
+// A request to a stage.
 struct Tile {
   PixelRect rect;     // of its own pixels
   bool wide = false;  // whether its condition holds, so that it reads within its wide reach
@@ -211,7 +211,7 @@ class WindowReader {
   PixelRect rect_;
 };
 
-// What a stage reads: which stage, how far around, and which of its grids (none named: all).
+// An input of a stage: which stage, how far around, and which of its grids (none named: all).
 template <class Product>
 struct Reads {
   Stage<Product>* stage = nullptr;
@@ -263,10 +263,10 @@ StageNode::Condition seen_in(Stage<Product>* stage, Reach reach, Wanted<Product>
 
 class StageGraph {
  public:
-  // `position`: where tiles are kept. Both must outlive the graph. `progress` is polled between
+  // `scratch`: where tiles are kept. Both must outlive the graph. `progress` is polled between
   // tiles for interruption.
-  explicit StageGraph(TileStore::Place& position, Progress& progress)
-      : position_(position), progress_(progress) {}
+  explicit StageGraph(TileStore::Place& scratch, Progress& progress)
+      : scratch_(scratch), progress_(progress) {}
 
   // A stage whose tiles are kept: make(tile, window of each input …) returns a tile.
   template <class Product, class... Inputs, class Make>
@@ -277,15 +277,15 @@ class StageGraph {
   Stage<Product>* add_view(StageNode::Declaration declaration, ProductFormat<Product> format,
                            std::tuple<Inputs...> inputs, Fill fill);
 
-  // What will still be requested, for all stages; everything else is dropped, and only what these
-  // need is made. Requesting more only costs time. Until this is called anything may be requested.
+  // Declares all further requests, for all stages; tiles that they do not need are dropped and no
+  // longer made. Requesting more only costs time. Until this is called anything may be requested.
   struct Request {
     StageNode* stage;
     PixelRect rect;
   };
   void keep_only(std::span<const Request> requests);
 
-  // In the order in which they were added: each after those that it reads.
+  // The stages in the order in which they were added: each after those that it reads.
   const std::vector<std::unique_ptr<StageNode>>& stages() const { return stages_; }
   // The max memory for `output`, or for the tiles of any stage, for a square of the sheet of `side`
   // pixels, bytes.
@@ -301,7 +301,7 @@ class StageGraph {
     stages_.push_back(std::move(stage));
     return added;
   }
-  TileStore::Place& position_;
+  TileStore::Place& scratch_;
   Progress& progress_;
   std::vector<std::unique_ptr<StageNode>> stages_;
 };
@@ -336,14 +336,14 @@ template <class Product, class Inputs, class Make>
 class Tiles final : public Stage<Product> {
  public:
   Tiles(StageNode::Declaration declaration, ProductFormat<Product> format, Inputs inputs, Make make,
-        TileStore::Place& position, Progress& progress)
+        TileStore::Place& scratch, Progress& progress)
       : Stage<Product>(std::move(declaration), sources_of(inputs)),
         format_(std::move(format)),
         inputs_(std::move(inputs)),
         make_(std::move(make)),
         progress_(progress),
         wanted_(this->sheet()),
-        store_(position, this->sheet().x1, this->sheet().y1, this->declaration().tile_px,
+        store_(scratch, this->sheet().x1, this->sheet().y1, this->declaration().tile_px,
                value_bytes(format_)) {}
 
   void prepare(PixelRect rect) override {
@@ -382,8 +382,8 @@ class Tiles final : public Stage<Product> {
         visit_tile(column, row, intersection(rect, store_.rect(column, row)));
   }
 
-  // Of a tile at the border of the wanted part only the part inside; what is requested beyond it
-  // later is made again, with its whole tile.
+  // Only the part of a tile inside the wanted part is made; requests beyond it make the whole tile
+  // again.
   PixelRect part_to_make(PixelRect tile, PixelRect asked) const {
     const PixelRect part = intersection(tile, wanted_);
     return intersection(part, asked) == asked && !this->declaration().whole_tiles ? part : tile;
@@ -439,7 +439,7 @@ Stage<Product>* StageGraph::add_tiles(StageNode::Declaration declaration,
                                       ProductFormat<Product> format, std::tuple<Inputs...> inputs,
                                       Make make) {
   return adopt<Product>(std::make_unique<stages::Tiles<Product, std::tuple<Inputs...>, Make>>(
-      std::move(declaration), std::move(format), std::move(inputs), std::move(make), position_,
+      std::move(declaration), std::move(format), std::move(inputs), std::move(make), scratch_,
       progress_));
 }
 

@@ -74,9 +74,9 @@ int open_scratch(const std::string& folder) {
 
 }  // namespace
 
-TileStore::TileStore(Place& position, int sheet_width, int sheet_height, int tile_px,
+TileStore::TileStore(Place& scratch, int sheet_width, int sheet_height, int tile_px,
                      std::vector<std::size_t> value_bytes)
-    : position_(position),
+    : scratch_(scratch),
       width_(sheet_width),
       height_(sheet_height),
       tile_px_(tile_px),
@@ -90,7 +90,7 @@ TileStore::TileStore(Place& position, int sheet_width, int sheet_height, int til
 }
 
 TileStore::~TileStore() {
-  for (const Tile& tile : tiles_) position_.memory_bytes += tile.memory_bytes;
+  for (const Tile& tile : tiles_) scratch_.memory_bytes += tile.memory_bytes;
   if (file_ >= 0) ::close(file_);
 }
 
@@ -124,8 +124,8 @@ void TileStore::put(int column, int row, PixelRect held, const Planes& planes) {
   }
   drop(column, row);
   Tile& to = tile(column, row);
-  if (bytes <= position_.memory_bytes) {
-    position_.memory_bytes -= bytes;
+  if (bytes <= scratch_.memory_bytes) {
+    scratch_.memory_bytes -= bytes;
     to.memory = std::make_unique_for_overwrite<std::byte[]>(
         bytes);  // first written by the thread that copies a part
     to.memory_bytes = bytes;
@@ -133,7 +133,7 @@ void TileStore::put(int column, int row, PixelRect held, const Planes& planes) {
     for (std::size_t i = 0; i < value_bytes_.size(); at += planes[i].bytes(), ++i)
       copy_block(at, planes[i].values, planes[i].bytes());
   } else {
-    if (file_ < 0) file_ = open_scratch(position_.folder);
+    if (file_ < 0) file_ = open_scratch(scratch_.folder);
     if (free_slots_.empty()) free_slots_.push_back(slots_++);
     to.slot = free_slots_.back();
     free_slots_.pop_back();
@@ -141,7 +141,7 @@ void TileStore::put(int column, int row, PixelRect held, const Planes& planes) {
     for (std::size_t i = 0; i < value_bytes_.size(); at += planes[i].bytes(), ++i)
       if (const int code = write_bytes_at(file_, planes[i].values, planes[i].bytes(), at);
           code != 0)
-        throw_scratch_error(position_.folder, "cannot write a scratch file", code);
+        throw_scratch_error(scratch_.folder, "cannot write a scratch file", code);
   }
   to.held = held;
 }
@@ -168,7 +168,7 @@ void TileStore::get(int column, int row, PixelRect from, int origin_x, int origi
           const std::uint64_t position =
               static_cast<std::uint64_t>(of.slot) * slot_bytes_ + skipped;
           if (const int code = read_bytes_at(file_, rows.get(), bytes, position); code != 0)
-            throw_scratch_error(position_.folder, "cannot read a scratch file", code);
+            throw_scratch_error(scratch_.folder, "cannot read a scratch file", code);
         } else {
           source = of.memory.get() + skipped;
         }
@@ -187,7 +187,7 @@ void TileStore::get(int column, int row, PixelRect from, int origin_x, int origi
 void TileStore::drop(int column, int row) {
   Tile& old = tile(column, row);
   if (old.held.empty()) return;
-  position_.memory_bytes += old.memory_bytes;
+  scratch_.memory_bytes += old.memory_bytes;
   if (old.slot >= 0) free_slots_.push_back(old.slot);
   old = {};
 }

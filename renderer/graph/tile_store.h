@@ -43,8 +43,8 @@ class TileStore {
     std::string folder;
     std::uint64_t memory_bytes = 0;  // still free
   };
-  // value_bytes: of each plane. `position` must outlive the store.
-  TileStore(Place& position, int sheet_width, int sheet_height, int tile_px,
+  // value_bytes: of each plane. `scratch` must outlive the store.
+  TileStore(Place& scratch, int sheet_width, int sheet_height, int tile_px,
             std::vector<std::size_t> value_bytes);
   ~TileStore();
   TileStore(const TileStore&) = delete;
@@ -75,7 +75,7 @@ class TileStore {
   Tile& tile(int column, int row);
   const Tile& tile(int column, int row) const;
 
-  Place& position_;
+  Place& scratch_;
   int width_;
   int height_;
   int tile_px_;

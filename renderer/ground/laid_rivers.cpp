@@ -248,7 +248,8 @@ constexpr double grove_breadth = 0.75;
 constexpr double grove_noise_widths = 15.0;
 constexpr double tuft_noise_widths = 5.0;
 constexpr double bend_widths = 4.0;  // way over which a bend is measured
-// Of curvature times half width, 1 is a full bend: gravel lies already in gentle ones.
+// Gain on curvature times half width, whose product 1 is a full bend: gravel already lies in gentle
+// bends.
 constexpr double shore_bend_gain = 24.0;
 
 struct Site {

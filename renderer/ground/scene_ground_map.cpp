@@ -110,7 +110,8 @@ namespace {
 
 constexpr int head_counts = 4;
 constexpr char inferred_kind[] = "river";  // the word by which a style addresses inferred rivers
-// Of areas and rivers while they are built: MapCover::bytes() four times, original and widened.
+// Memory of areas and rivers per position while they are built: MapCover::bytes() four times,
+// original and widened.
 constexpr double bytes_a_place = 360.0;
 
 // Features that become ground. For each: kind, block, shape, number of parts, and the number of

@@ -16,7 +16,7 @@ struct ExifTags {
 };
 
 std::vector<std::uint8_t> write_exif(const ExifTags& tags);
-// Of any program, in either byte order. Damaged fields read as not stated.
+// Reads the tags of any program, in either byte order. Damaged fields read as not stated.
 ExifTags read_exif(const std::vector<std::uint8_t>& bytes);
 
 }  // namespace belvedere

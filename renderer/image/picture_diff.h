@@ -54,7 +54,7 @@ struct PictureHash {
   std::string whole;  // of size, names and hashes of all channels
 };
 
-// Of a PNG, TIFF, JPEG or OpenEXR file. Exact to the bit: 0 and -0 are two. Error(input) and
+// Hashes a PNG, TIFF, JPEG or OpenEXR file, exact to the bit: 0 and -0 differ. Error(input) and
 // Error(limit) as for reading them.
 PictureHash hash_picture(const std::string& path);
 

@@ -14,7 +14,7 @@ constexpr float straight_to = 0.04045F;  // below it the curve of IEC 61966-2-1 
 // Coefficients of the cubic of each interval in t = 0…1, lowest power first.
 using Cubic = std::array<double, 4>;
 
-// Of the power alone, which the intervals below straight_to only extend.
+// The power function alone; the intervals below straight_to only extend it.
 double power(double encoded) { return exact::pow((encoded + 0.055) / 1.055, 2.4); }
 double slope(double encoded) {
   return 2.4 / 1.055 * exact::pow((encoded + 0.055) / 1.055, 1.4) / intervals;

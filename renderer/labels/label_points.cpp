@@ -83,8 +83,8 @@ bool is_utf8(std::string_view text) {
   return true;
 }
 
-// Of its people: a city of a hundred thousand has rank 1, each further rank about a third of them.
-// Nothing for texts that are no number, as OpenStreetMap has some.
+// Rank by population: a city of a hundred thousand has rank 1, each further rank about a third of
+// the inhabitants. Nothing for texts that are not numbers, as OpenStreetMap has some.
 std::optional<double> rank_of_population(const std::string& text) {
   constexpr std::array from{100000.0, 30000.0, 10000.0, 3000.0, 1000.0, 300.0, 100.0, 30.0};
   double people = 0.0;

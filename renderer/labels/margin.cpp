@@ -35,7 +35,7 @@ double width_of(const std::vector<MarginBlock>& blocks, std::size_t first, std::
   return width;
 }
 
-// Of blocks broken into lines: the widest line and the sum of the heights.
+// Extent of blocks broken into lines: the widest line and the sum of the heights.
 glm::dvec2 extent_of(const std::vector<MarginBlock>& blocks, const std::vector<std::size_t>& ends,
                      double gap, double line_gap) {
   glm::dvec2 extent(0.0);

@@ -18,7 +18,7 @@ namespace belvedere {
 double luminance(glm::vec3 colour);
 double contrast(glm::vec3 a, glm::vec3 b);
 
-// What a halo must reach.
+// Target of a halo.
 struct HaloAim {
   glm::vec3 letters{0.0F};
   double contrast = 4.0;  // of the letters to every colour of the halo

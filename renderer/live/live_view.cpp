@@ -122,7 +122,7 @@ LivePicture LiveView::paint(const LoadedScene& given, const Rung& rung, const Ru
     if (copied) {
       const ScratchFolder scratch;
       const WorkFolder kept(scratch.path(), identify(loaded, request), WorkMode::begin);
-      plan = make_copy_plan(loaded, work.world, work.paint, work.ground, work.position, kept, run);
+      plan = make_copy_plan(loaded, work.world, work.paint, work.ground, work.scratch, kept, run);
     }
     const DrawnFeatures features =
         draw_scene_features(loaded, work.world, work.ground.inputs->strokes.winter, run.progress);

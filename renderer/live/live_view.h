@@ -36,7 +36,7 @@ LoadedScene scene_of_rung(const LoadedScene& loaded, const Rung& rung);
 
 struct LivePicture {
   Grid<glm::vec3> colour;  // encoded sRGB
-  // What is seen in each pixel: depth_m, position_m, altitude_m, land_cover.
+  // The ground seen in each pixel: depth_m, position_m, altitude_m, land_cover.
   GuidanceBuffers seen;
   View view;
   std::string crs;  // of the ground, WKT2

@@ -10,7 +10,7 @@ namespace belvedere {
 // Kinds of clouds in a sky. any: fair, rows, streaks or banks, chosen by the picture's seed.
 enum class SkyKind : std::uint8_t { any, fair, rows, streaks, banks, cumulus, front, evening };
 
-// What distance does to colour. Distances are along the ray.
+// Aerial perspective: the change of colour with distance. Distances are along the ray.
 struct AirParameters {
   double haze = 0.85;  // maximum share of air, 0…1
   double from_m =

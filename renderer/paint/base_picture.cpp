@@ -86,7 +86,7 @@ constexpr float high_m = 260.0F;  // height above the surroundings from which a 
 
 using Class = LandCoverClass;
 
-// What the three tones of a pixel share.
+// Colour terms that the three tones of a pixel share.
 struct PixelColour {
   glm::vec3 added;   // grasses
   glm::vec3 factor;  // drift of hue, warm foreground, fields

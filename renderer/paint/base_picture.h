@@ -20,10 +20,10 @@ namespace belvedere {
 // lines, slopes, footprints, relief of all sizes, smooth normals, heights above the valley, rim,
 // built and grain. `origin_px`, `picture_size`: position of the buffers in the whole picture. Local
 // up to base_margin_px() of base_surroundings.h: a part with that margin equals the whole bit for
-// bit. Only the `wanted` pixels of the buffers (empty: all) are made; the result has their size.
-// With a wide view only that must reach so far; the buffers need no more than base_window(wanted).
-// `image`: the reflections in the water of the wanted pixels, of their size; null: looked up in
-// their columns, unless mirroring is off.
+// bit. Only the `wanted` pixels of the buffers (empty: all) are made; the result has their size. If
+// a wide view is given, only it needs that margin; the buffers need no more than
+// base_window(wanted). `image`: the reflections in the water of the wanted pixels, of their size;
+// null: looked up in their columns, unless mirroring is off.
 BasePicture make_base_picture(const GuidanceBuffers& guidance, const WideView& wide,
                               const Palette& palette, const BaseParameters& parameters,
                               glm::ivec2 origin_px, glm::ivec2 picture_size, Progress& progress,

@@ -37,9 +37,9 @@ Grid<glm::vec3> transfer_residual(const MatchField& matches,
                                   const Grid<float>& target_haze, double residual,
                                   const Grid<LandCoverClass>& shown = {});
 
-// What a texture model made of a picture's pixels, and the model's own light, which the residual
-// removes. Like an exemplar's texel and base, but at the pixel itself. Only where `made` is not 0.
-// All of the picture's size.
+// Paint that a texture model made for pixels of a picture, and the model's own light, which the
+// residual removes. Like an exemplar's texel and base, but at the pixel itself. Valid only where
+// `made` is not 0. All of the picture's size.
 struct ModelPaint {
   Grid<std::uint8_t> made;
   Grid<glm::vec3> texel;  // encoded sRGB

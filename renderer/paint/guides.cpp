@@ -62,7 +62,7 @@ std::uint8_t quantize(float share) {
 // would be a speck of a foreign colour.
 constexpr float carried_colour = 0.06F;
 
-// What remains of a difference when `max` is taken off its largest component; the others scale in
+// The remainder of a difference when `max` is taken off its largest component; the others scale in
 // proportion.
 glm::vec3 beyond(glm::vec3 difference, float max) {
   const float largest =

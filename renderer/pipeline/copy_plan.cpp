@@ -127,7 +127,7 @@ std::string fine_print_note(const Scene& scene) {
 }
 
 CopyPlan make_copy_plan(const LoadedScene& loaded, const World& world, ScenePaint& paint,
-                        const GroundStages& ground, TileStore::Place& position,
+                        const GroundStages& ground, TileStore::Place& scratch,
                         const WorkFolder& work, const Run& run, bool ground_tells) {
   CopyPlan plan;
   if (const std::string note = fine_print_note(world.scene); !note.empty()) run.progress.note(note);
@@ -163,7 +163,7 @@ CopyPlan make_copy_plan(const LoadedScene& loaded, const World& world, ScenePain
       const int factor = 1 << division.level;
       const std::unique_ptr<const Camera> camera = make_reduced_camera(*world.camera, factor);
       const SheetView view = reduced_view(world, *camera, factor);
-      StageGraph graph(position, quiet);
+      StageGraph graph(scratch, quiet);
       const int tile_px = choose_block_px(world.scene, view.pixels_per_unit, standing);
       const GroundStages small =
           add_ground_stages(graph, make_ground_inputs(world, view, paint.palette, told), tile_px);

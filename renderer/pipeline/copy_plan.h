@@ -9,13 +9,13 @@
 
 namespace belvedere {
 
-// How a scene's ground is copied: its exemplars, and the matches of the sheet as a whole, chosen on
-// a reduced picture of it (synthesis.plan_mpx). The plan is kept in the work folder, so that a
-// resumed run or another machine need not compute it again. Classes with too few texels are noted.
-// ground_tells: whether the stages of `ground` report their progress; otherwise the draft is one
-// stage.
+// Plans how a scene's ground is copied: its exemplars, and the matches of the sheet as a whole,
+// chosen on a reduced picture of it (synthesis.plan_mpx). The plan is kept in the work folder, so
+// that a resumed run or another machine need not compute it again. Classes with too few texels are
+// noted. ground_tells: whether the stages of `ground` report their progress; otherwise the draft is
+// one stage.
 CopyPlan make_copy_plan(const LoadedScene& loaded, const World& world, ScenePaint& paint,
-                        const GroundStages& ground, TileStore::Place& position,
+                        const GroundStages& ground, TileStore::Place& scratch,
                         const WorkFolder& work, const Run& run, bool ground_tells = true);
 
 // The warning for a print so fine that a sheet painted by the program has too little to copy;

@@ -18,7 +18,7 @@
 
 namespace belvedere {
 
-// What a margin's legend shows, and what names stand on.
+// Content of a margin's legend, and the luminance that names stand on.
 struct PictureLegend {
   std::vector<LegendEntry> classes;
   std::vector<FeatureSwatch> features;
@@ -50,7 +50,7 @@ std::string second_picture(const Scene& scene, bool whole_sheet = true);
 
 // Whether names are painted, into the second picture or a layer.
 bool shows_names(const Scene& scene, const SheetRequest& request);
-// The requested pixels, and those around a part that halos of names in it are made from.
+// The requested pixels, and those around a part that the halos of its names are made from.
 PixelRect region_with_halos(const LoadedScene& loaded, const SheetRequest& request);
 
 // The size of a swatch of its margin's legend, px.
@@ -58,16 +58,16 @@ glm::dvec2 legend_swatch_px(const LoadedScene& loaded);
 
 // Writes the results of [labels] and [margin] besides the panorama: labels.svg and the tables, and
 // the second picture. A part of a sheet has no margin; its names are where the whole sheet has
-// them. `painted`: of region_with_halos.
+// them. `painted`: the rows of region_with_halos.
 void write_named_picture(const LoadedScene& loaded, PixelRect region, const PaintedRows& painted,
                          const PictureLegend& legend, const OutputColour& colour,
                          const FileNotes& notes, const LazyValue<BareView>& lazy_bare,
                          const std::string& out_folder, const Run& run);
 
 // Writes the requested files of layers, layer after layer from the pieces, a band of rows at a
-// time. If the scene has labels, they are a hidden layer on top: the others make the panorama, with
-// it they make panorama_names. A scene without roads and lifts has no layer of them. `painted`: of
-// region_with_halos; `luminance`: of PictureLegend.
+// time. If the scene has labels, they are a hidden layer on top: the other layers make the
+// panorama, all together panorama_names. A scene without roads and lifts has no layer of them.
+// `painted`: the rows of region_with_halos; `luminance`: of PictureLegend.
 void write_layer_files(const LoadedScene& loaded, const SheetRequest& request,
                        const JoinedPieces& joined, const PaintedRows& painted,
                        const Grid<float>& luminance, const LazyValue<BareView>& bare,

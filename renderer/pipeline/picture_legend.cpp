@@ -25,10 +25,10 @@ constexpr int looked_px = 700;            // width of the overview
 constexpr double min_share = 0.001;       // of its ground
 constexpr double swatch_tone = 0.72;      // lit, but not glaring
 constexpr double open_ground_m = 1200.0;  // altitude of the ground under swatches of features
-// Of a class within a piece: a smaller piece must have that much more of it.
+// A smaller piece must have a share of the class larger by this.
 constexpr double worth_half = 0.15;
 constexpr double min_piece_share = 0.4;  // else a colour tells more
-// What a piece loses per unit of luminance that it differs from the class, and gains at the lower
+// Penalty of a piece per unit of luminance that it differs from the class, and bonus at the lower
 // edge of the picture, where strokes are largest.
 constexpr double unlike = 2.0;
 constexpr double nearness = 0.15;

@@ -19,14 +19,15 @@ struct PictureOverview {
 };
 PictureOverview make_overview(const World& world, const Palette& palette, const Run& run);
 
-// Its luminance, 0…1, as stored in the work folder: width, height and a byte per pixel.
+// The luminance of an overview, 0…1, as stored in the work folder: width, height and a byte per
+// pixel.
 std::string luminance_to_bytes(const PictureOverview& overview);
 Grid<float> luminance_from_bytes(const std::string& bytes);
 
-// The classes of a picture, in the order of their table: those that cover a thousandth of its
-// ground or more, with their mean colour and the piece of the sheet that shows each best: of the
-// class throughout, as light as it mostly is, and near. It has swatch_px, or half of it on each
-// side where the class has no place that wide; none where it fills no piece by 40 %.
+// Finds the classes of a picture, in the order of their table: those that cover a thousandth of its
+// ground or more. Each has its mean colour and its best piece of the sheet, which shows only the
+// class, as light as it mostly is, and near. A piece has swatch_px, or half of it on each side
+// where the class has no place that wide; none where the class fills no piece by 40 %.
 std::vector<LegendEntry> find_legend(const PictureOverview& overview, glm::dvec2 swatch_px);
 
 // The kinds of lines, lifts and houses that are drawn somewhere in the picture, in the order of
@@ -34,8 +35,8 @@ std::vector<LegendEntry> find_legend(const PictureOverview& overview, glm::dvec2
 // are not included.
 std::vector<FeatureSwatch> find_feature_legend(const DrawnFeatures& drawn, const Palette& palette);
 
-// Both as stored in the work folder: "#a0a0a0 10 20 34 35 rock" per line; numbers and colours of a
-// swatch, then its name.
+// Both legends as stored in the work folder: "#a0a0a0 10 20 34 35 rock" per line; numbers and
+// colours of a swatch, then its name.
 std::string legend_to_text(const std::vector<LegendEntry>& legend);
 std::vector<LegendEntry> legend_from_text(const std::string& text);
 std::string swatches_to_text(const std::vector<FeatureSwatch>& swatches);

@@ -10,27 +10,28 @@
 
 namespace belvedere {
 
-// The whole main job: pieces of the sheet, one after the other in their own folder, joined to
-// guidance.exr and the panorama in the formats of output.formats, and to match.exr if requested.
-// Memory does not grow with the sheet. After an interruption the finished pieces remain, and a
-// resumed run continues from them to the same bytes.
+// Renders a scene: makes the pieces of the sheet, one after the other in their own folder, and
+// joins them to guidance.exr and the panorama in the formats of output.formats, and to match.exr if
+// requested. Memory does not grow with the sheet. After an interruption the finished pieces remain,
+// and a resumed run continues from them to the same bytes.
 void render(const LoadedScene& scene, const std::string& out_folder, const Run& run,
             const SheetRequest& request = {});
-// The same, only guidance.
+// Renders guidance alone.
 void render_guidance(const LoadedScene& scene, const std::string& out_folder, const Run& run,
                      const SheetRequest& request = {});
 
-// One sheet by several processes or machines: a shared folder gets the plan, then anyone makes
-// parts 1 … `parts` in any order and any number at once, and one joins them. Each may be run again:
-// complete pieces are not made twice. The same bytes as render() with this request, which is the
-// same for all of them.
+// Renders one sheet by several processes or machines: a shared folder gets the plan, then anyone
+// makes parts 1 … `parts` in any order and any number at once, and one joins them. Each may be run
+// again: complete pieces are not made twice. The bytes are those of render() with the same request,
+// which all of them must use.
 void plan_sheet(const LoadedScene& scene, const std::string& folder, const Run& run,
                 const SheetRequest& request = {});
-// Error(usage) for an invalid part, and where scene, inputs, request or program differ from those
-// of the plan.
+// Makes one part. Error(usage) for an invalid part, and where scene, inputs, request or program
+// differ from those of the plan.
 void make_part(const LoadedScene& scene, const std::string& folder, int part, int parts,
                const Run& run, const SheetRequest& request = {});
-// Of a plan of `parts`. Error(input) naming the parts that are missing or incomplete.
+// Joins the `parts` of a plan to the files of the sheet. Error(input) naming parts that are missing
+// or incomplete.
 void join_parts(const LoadedScene& scene, const std::string& folder, int parts,
                 const std::string& out_folder, const Run& run, const SheetRequest& request = {});
 

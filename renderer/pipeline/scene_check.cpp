@@ -127,7 +127,7 @@ PixelRect whole_picture(const LoadedScene& view) {
   return {0, 0, view.scene.output.width, view.scene.output.height};
 }
 
-// What is needed of a World to determine the classes in its picture; it is refused for the same
+// The parts of a World needed to determine the classes in its picture; refused for the same
 // reasons.
 struct Sight {
   std::shared_ptr<const Dem> dem;

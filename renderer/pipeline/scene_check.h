@@ -21,8 +21,8 @@ namespace belvedere {
 // Evaluates the composition of any scene's picture, by the measures and the table that views are
 // proposed by.
 struct ViewEvaluation {
-  std::vector<ScoreTerm> terms;  // empty if not evaluated …
-  std::string why_not;           // … and why
+  std::vector<ScoreTerm> terms;  // empty if not evaluated
+  std::string why_not;           // the reason, if not evaluated
   double merit = 0.0;            // 0…10
   std::string subject;           // description of the main subject
   double near_m = 0.0;           // where level ground meets the lower edge
@@ -31,9 +31,9 @@ struct ViewEvaluation {
   bool evaluated() const { return !terms.empty(); }
 };
 
-// On the ground as changed by handles, summits and valleys wider by `widen_valleys_m`, under the
-// scene's own bend and exaggeration. Parallel projections are not evaluated: they have neither sky
-// nor horizon.
+// Evaluates a view on the ground as changed by handles, summits and valleys wider by
+// `widen_valleys_m`, under the scene's own bend and exaggeration. Parallel projections are not
+// evaluated: they have neither sky nor horizon.
 ViewEvaluation evaluate_view(const CoarseAltitudes& region, const View& view,
                              double widen_valleys_m = 0.0);
 
@@ -58,8 +58,8 @@ struct SceneReport {
   std::vector<ProposedLight> proposed;  // regions of light that would help, if requested
 };
 
-// Everything about a scene that can be checked without rendering it: files, data, terrain, the
-// camera's position, the palette, and, from a small trace of the view, whether some exemplar has
+// Checks everything about a scene that can be checked without rendering it: files, data, terrain,
+// the camera's position, the palette, and, by a small trace of the view, whether some exemplar has
 // texels of each class in the picture. Nothing is painted, and the ground is the picture's own, so
 // that rendering finds it in the cache. Throws what rendering would throw, and Error(usage) for
 // classes that have neither texels nor a fallback with texels. `propose`: whether to look for
@@ -67,7 +67,7 @@ struct SceneReport {
 SceneReport check_scene(const LoadedScene& scene, Progress& progress,
                         const Cache& cache = no_cache(), bool propose = false);
 
-// The exemplars of a scene as for rendering (of one that copies nothing the program's own sheet),
+// The exemplars of a scene as for rendering (the program's own sheet if the scene copies nothing),
 // and the demand of its picture on them, from a small trace of the view.
 struct SceneExemplars {
   std::vector<PaintedExemplar> exemplars;

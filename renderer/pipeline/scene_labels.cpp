@@ -104,7 +104,7 @@ void require_points_on_terrain(const std::vector<LabelPoint>& points, const Dem&
     require_on_terrain(points.front().where, "points", points.size(), positions, dem);
 }
 
-// Of a job, which may have another style than its scene.
+// The label style of a job, which may differ from that of its scene.
 LabelStyle style_of(const LoadedScene& scene, const std::string& file) {
   return *scene.kept->get<LabelStyle>("label style " + file, {file},
                                       [&] { return load_label_style(file); });
@@ -283,16 +283,16 @@ LabelSheet locate_points(const std::vector<std::string>& files, const BareView& 
 
 void write_label_files(const LabelSheet& sheet, const std::string& crs, const std::string& folder,
                        const std::string& under, Progress& progress) {
-  const std::filesystem::path position = folder;
-  write_text_file((position / "labels.svg").string(), labels_svg(sheet, under));
-  write_text_file((position / "labels.csv").string(), labels_csv(sheet));
+  const std::filesystem::path path = folder;
+  write_text_file((path / "labels.svg").string(), labels_svg(sheet, under));
+  write_text_file((path / "labels.csv").string(), labels_csv(sheet));
   if (crs.empty())
     progress.note(
         "labels.geojson is left out: GeoJSON needs longitude and latitude, but the terrain has no "
         "CRS");
   else
-    write_text_file((position / "labels.geojson").string(), labels_geojson(sheet, crs));
-  for (std::size_t i = 0; i < sheet.tracks.size(); ++i) write_profile(sheet, i, position);
+    write_text_file((path / "labels.geojson").string(), labels_geojson(sheet, crs));
+  for (std::size_t i = 0; i < sheet.tracks.size(); ++i) write_profile(sheet, i, path);
 }
 
 }  // namespace belvedere

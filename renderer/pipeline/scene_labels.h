@@ -23,7 +23,7 @@ struct LabelJob {
   bool empty() const { return points.empty() && shapes.empty() && tracks.empty() && summits == 0; }
 };
 
-// Those of a scene's [labels]; optional files that are missing are left out with a note.
+// The label job of a scene's [labels]; optional files that are missing are left out with a note.
 LabelJob label_job(const LoadedScene& scene, Progress& progress);
 
 // The style of a scene's names.
@@ -33,20 +33,19 @@ LabelStyle read_label_style(const LoadedScene& scene);
 // fonts, are reported before hours of work. Throws Error as make_label_sheet does.
 void check_names(const LoadedScene& scene, const Dem& dem);
 
-// All names of the picture, located on its ground and placed on the whole sheet, whatever part of
-// it is made. Throws Error(usage) where there is nothing to name, and where none of the files'
-// points lies on the terrain: with both extents.
+// Makes all names of the picture, located on its ground and placed on the whole sheet, whatever
+// part of it is made. Throws Error(usage) where there is nothing to name, and, with both extents,
+// where none of the files' points lies on the terrain.
 LabelSheet make_label_sheet(const LoadedScene& scene, const LabelJob& job, const BareView& bare,
                             Progress& progress);
 
-// Positions of the files' points in the picture, without changes, for places_csv: names are neither
-// needed nor set, summits are not moved. Error(usage) with both extents where all lie outside the
-// terrain.
+// Positions of the files' points in the picture, for places_csv: names are neither needed nor set,
+// summits are not moved. Error(usage) with both extents where all lie outside the terrain.
 LabelSheet locate_points(const std::vector<std::string>& files, const BareView& bare,
                          Progress& progress);
 
-// labels.svg, labels.csv, labels.geojson (where the terrain has a CRS), profile_N.svg and
-// profile_N.png of each track. `under`: as of labels_svg.
+// Writes labels.svg, labels.csv, labels.geojson (where the terrain has a CRS), profile_N.svg and
+// profile_N.png of each track. `under`: as for labels_svg.
 void write_label_files(const LabelSheet& sheet, const std::string& crs, const std::string& folder,
                        const std::string& under, Progress& progress);
 

@@ -13,7 +13,7 @@
 
 namespace belvedere {
 
-// Paint of a scene: read, and refused if invalid, before the terrain is.
+// The paint of a scene, read and checked before the terrain is.
 struct ScenePaint {
   std::vector<ScannedPainting> paintings;  // one for each exemplar block; empty where the scene
                                            // copies neither strokes nor colours
@@ -25,12 +25,12 @@ ScenePaint read_scene_paint(const LoadedScene& scene, Progress& progress);
 // from them.
 Palette read_scene_palette(const LoadedScene& scene, Progress& progress);
 
-// All reasons to refuse a scene's files without reading its terrain, in one place, so that a check
-// passes nothing that rendering refuses: missing files, and paintings that cannot be read whole, if
-// their colours or strokes are used. Cheap compared with reading them.
+// Refuses a scene's files without reading its terrain, for all reasons in one place, so that a
+// check passes nothing that rendering refuses: missing files, and paintings that cannot be read
+// whole, if their colours or strokes are used. Cheap compared with reading them.
 void require_inputs(const LoadedScene& scene);
 
-// Colour conversion of the panorama's files: read before the work begins, so that an invalid file
+// Colour conversion of the panorama's files, read before the work begins, so that an invalid file
 // costs no rendering time.
 struct OutputColour {
   DisplayParameters display;  // working space to encoded sRGB

@@ -72,7 +72,8 @@ bool lacks_layers(const WorkFolder& work, PixelRect piece) {
                      [&](std::string_view name) { return !work.has(std::string(name), piece); });
 }
 
-// What every piece needs besides the stages: names that can be placed, notes, and the legend.
+// Prepares what every piece needs besides the stages: names that can be placed, notes, and the
+// legend.
 void prepare_work(const LoadedScene& loaded, const SheetRequest& request, const SheetWork& sheet,
                   const WorkFolder& work, const Run& run) {
   if (request.panorama) check_names(loaded, *sheet.world.dem);
@@ -96,7 +97,7 @@ std::vector<MatchedPicture> pictures_of(const CopyPlan& plan) {
 
 CopyPlan plan_copies(const LoadedScene& loaded, SheetWork& sheet, const WorkFolder& work,
                      const Run& run, bool ground_tells) {
-  return make_copy_plan(loaded, sheet.world, sheet.paint, sheet.ground, sheet.position, work, run,
+  return make_copy_plan(loaded, sheet.world, sheet.paint, sheet.ground, sheet.scratch, work, run,
                         ground_tells);
 }
 

@@ -12,23 +12,24 @@
 
 namespace belvedere {
 
-// Makes those pieces that are not in the work folder yet, and the notes of the headers. Makes the
-// world only if a piece is missing; what of it names need comes back, if the picture has names or a
+// Makes the pieces that are not in the work folder yet, and the notes of the headers. Makes the
+// world only if a piece is missing, and then returns its bare view, if the picture has names or a
 // margin and its ground no finer windows.
 std::optional<BareView> make_pieces(const LoadedScene& loaded, const SheetRequest& request,
                                     std::span<const PixelRect> pieces, const WorkFolder& work,
                                     const Run& run);
-// Shared values of all pieces, so that others can make them: notes, and how the ground is copied.
+// Makes the values that all pieces share, so that others can make the pieces: notes, and how the
+// ground is copied.
 void make_plan(const LoadedScene& loaded, const SheetRequest& request, const WorkFolder& work,
                const Run& run);
 
-// Names in the work folder: the pictures that matches copy from.
+// Names in the work folder. The pictures that matches copy from:
 constexpr const char* matched_bytes = "matched";
-// … and the classes of the whole picture, for a margin's legend.
+// The classes of the whole picture, for a margin's legend:
 constexpr const char* legend_bytes = "legend";
-// … the luminance of a small copy of it, for names.
+// The luminance of a small copy of the whole picture, for names:
 constexpr const char* luminance_bytes = "luminance";
-// … and the kinds of features.
+// The kinds of features, for a margin's legend:
 constexpr const char* feature_legend_bytes = "legend_features";
 
 // The plan's parts, so that missing pieces are reported as the parts to run again.
@@ -37,7 +38,7 @@ struct PlanOfParts {
   int parts = 0;  // 0: no plan
 };
 // Joins the pieces of a request to its files in `out_folder`, row by row. Error(input) naming the
-// pieces that are missing. seen: of the pieces' world, if it is known.
+// pieces that are missing. `seen`: the bare view of the pieces' world, if it is known.
 void write_sheet_files(const LoadedScene& loaded, const SheetRequest& request,
                        const WorkFolder& work, const std::string& out_folder, const Run& run,
                        const PlanOfParts& plan = {}, std::optional<BareView> seen = {});

@@ -129,10 +129,10 @@ SheetWork::SheetWork(const LoadedScene& loaded, const SheetRequest& request,
                      const Value<ScenePaint>& read)
     : paint(read.key.empty() ? std::move(*read) : *read),
       world(make_world(loaded, run.progress, run.cache, {}, parameters.kept)),
-      position{parameters.scratch_folder, kept_tile_bytes()},
+      scratch{parameters.scratch_folder, kept_tile_bytes()},
       view(view_of(world)),
       block_px(block_px_for(world, paint, view, request)),
-      graph(position, stage_run.progress) {
+      graph(scratch, stage_run.progress) {
   paint.palette = located_palette(loaded, request, read, paint.palette, world, parameters);
   const int tile_px = parameters.tile_px > 0
                           ? parameters.tile_px

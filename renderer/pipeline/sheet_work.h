@@ -17,14 +17,14 @@ struct SheetWorkParameters {
   std::string scratch_folder;  // for tiles beyond kept_tile_bytes(); empty: temporary files
   bool rock_relief = true;     // false, for previews: slopes as smooth as the DEM, without ribs
   int tile_px = 0;             // of the stages, 64…4096; 0: by memory. Changes no pixel
-  ValueStore* kept = nullptr;  // values of the world before
-  ValueStore* kept_paint = nullptr;  // and of its paint, if the scene copies nothing
-  bool keep_rays = false;            // of the whole sheet; needs `kept`, and no rock_relief
+  ValueStore* kept = nullptr;  // values of the previous world, to reuse; may be null
+  ValueStore* kept_paint = nullptr;  // the same of its paint, if the scene copies nothing
+  bool keep_rays = false;            // of the whole sheet, in `kept`; needs rock_relief off
 };
 
-// What the stages of a sheet are made of, and the ground stages. The members refer to each other by
-// address. `run` reports the preparation, `stage_run` the stages. Error as read_scene_paint and
-// make_world.
+// Everything that the stages of a sheet are made of, and the ground stages. The members refer to
+// each other by address. `run` reports the preparation, `stage_run` the stages. Error as
+// read_scene_paint and make_world.
 struct SheetWork {
   SheetWork(const LoadedScene& loaded, const SheetRequest& request,
             const SheetWorkParameters& parameters, const Run& run, const Run& stage_run);
@@ -33,9 +33,9 @@ struct SheetWork {
 
   ScenePaint paint;
   World world;
-  TileStore::Place position;
+  TileStore::Place scratch;
   SheetView view;
-  int block_px;  // what is painted at once
+  int block_px;  // side of the squares painted at once
   StageGraph graph;
   GroundStages ground = {};
 

@@ -176,7 +176,7 @@ Moments moments_of(const std::vector<double>& shares, int reach) {
   return out;
 }
 
-// Of each shift, with its prior.
+// Log-likelihood of each shift, prior included.
 Grid<double> log_likelihoods(const Grid<float>& explained, glm::ivec2 reach, double samples,
                              double prior) {
   Grid<double> log_likelihood(explained.width(), explained.height());

@@ -138,7 +138,7 @@ class Colours {
       }
       for (int c = 0; c < 3; ++c) right(g, static_cast<std::size_t>(c)) += colour[c];
     }
-    // What nothing tells is 0.
+    // The ridge makes unknowns that no sample determines 0.
     constexpr double ridge = 1e-9;  // of the number of samples
     for (std::size_t k = 0; k < unknowns; ++k)
       normal(k, k) += ridge * static_cast<double>(of.size());
@@ -232,7 +232,7 @@ class Search {
     best_ = before;
   }
 
-  // About where it stands, in steps of half the length each time.
+  // Searches around the present position, in steps of half the length each time.
   void refine(double PainterLines::*line) {
     if (lines_.*line <= 0.0) return;
     for (double step = first_step_m / 2.0; step >= last_step_m; step /= 2.0)

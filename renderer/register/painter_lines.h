@@ -17,7 +17,7 @@ struct PainterLines {
   bool winter = false;      // snow on everything but forest and steep rock
 };
 
-// What is compared of a pixel of the ground.
+// Features of a pixel of the ground that are compared.
 struct PaintSample {
   glm::dvec3 oklab{0.0};
   glm::dvec3 normal{0.0};

@@ -87,7 +87,7 @@ ProposedPixel propose_pixel(const Registration& registration, const Displacement
 bool is_seen(const RegisteredView& view, const KnownPlace& place) {
   const auto at = view.map().to_image(glm::dvec3(place.position, place.altitude_m));
   if (!at || !at->in_picture) return false;
-  // What the pixels there show: a summit's own ground may cover its top, more so on a coarser DEM.
+  // Pixels around are tried too: a summit's own ground may cover its top, more so on a coarser DEM.
   constexpr double nearer = 0.97;  // ratio of distances
   constexpr int around_px = 1;
   for (int dy = -around_px; dy <= around_px; ++dy)

@@ -28,7 +28,7 @@ struct DrawnGround {
   std::vector<ControlPair> drawn(std::span<const ControlPair> pairs) const;
 };
 
-// As a scene with generalize.widen_valleys_m draws it: lakes stay.
+// Draws the ground as a scene with generalize.widen_valleys_m does: lakes stay.
 DrawnGround draw_ground(const Dem& dem, double valleys_m, Progress& progress);
 
 struct PaintRegistration {

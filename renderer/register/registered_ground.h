@@ -50,7 +50,8 @@ class RegisteredView {
   const GeoMap map_;
 };
 
-// What a registration says of each pixel of a painting, at any size; NaN where it shows sky.
+// The ground that each pixel of a painting shows by its registration, at any size; NaN where it
+// shows sky.
 struct RegisteredGround {
   Grid<float> altitude_m;
   Grid<float> distance_m;  // from the eye
@@ -61,7 +62,7 @@ struct RegisteredGround {
   Grid<glm::vec3> normal = {};     // of the exaggerated ground, where handles moved it
 };
 
-// Of all pixels of a view, without folded facets.
+// Traces all pixels of a view, without folded facets.
 RegisteredGround trace_registered(const RegisteredView& view);
 // Facets of the ground in the picture that the registration turns over.
 std::size_t folded_facets(const RegisteredView& view);

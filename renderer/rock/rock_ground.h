@@ -24,7 +24,8 @@ struct RockAround {
   Grid<float> turf;
   Grid<float> snow;
 };
-// Of wide pixels in `wanted`; others hold 0. Reach: rock_around_reach (wide pixels).
+// Computes the shares for the wide pixels in `wanted`; others hold 0. Reach: rock_around_reach
+// (wide pixels).
 RockAround look_around_rock(const WideView& wide, double pixels_per_unit, PixelRect wanted);
 int rock_around_reach(double pixels_per_unit, int factor);
 

@@ -22,11 +22,11 @@ struct RockRelief {
   Grid<glm::vec2> cover;      // shares of turf and of snow on treads, 0…1
 };
 
-// Of a window of the sheet, pixel by pixel. Needs depth, positions, normals, altitude, land cover,
-// shadow, sky view, slope, fall line and footprint; of the wide view also normals and footprints. A
-// pixel reads the window within rock_near_margin_px, the wide view within rock_margin_px, and is
-// the same in any window. Only the pixels `wanted` (empty: all) are made; the result has their
-// size.
+// Relief of rock in a window of the sheet, pixel by pixel. Needs depth, positions, normals,
+// altitude, land cover, shadow, sky view, slope, fall line and footprint; of the wide view also
+// normals and footprints. A pixel reads the window within rock_near_margin_px, the wide view within
+// rock_margin_px, and is the same in any window. Only the pixels `wanted` (empty: all) are made;
+// the result has their size.
 std::initializer_list<GuidanceMember> rock_channels();
 RockRelief make_rock_relief(const GuidanceBuffers& guidance, const WideView& wide,
                             const RockParameters& parameters, glm::ivec2 origin_px,

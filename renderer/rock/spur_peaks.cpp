@@ -205,7 +205,7 @@ SpurPeaks find_peaks(const SpurCells& cells, float slender, glm::vec2 position, 
                                  .parent = parent};
   peaks::Columns columns;
   HWY_DYNAMIC_DISPATCH(peaks::FindPeaks)(question, columns);
-  // Of equal heights the first in the order of rows wins, independent of the order of lanes.
+  // Ties go to the first in the order of rows, independent of the order of lanes.
   float best_height = -1e9F;
   const auto count = [&](float height, int y, int x) {
     if (height <= -1e9F || height < found.next_height) return;

@@ -35,9 +35,9 @@ namespace belvedere {
 // into it and checks every range; the table there is the reference of keys. Lengths in metres,
 // angles in degrees.
 //
-// What a stage takes from the scene unchanged is a member of the stage's own type, so each default
-// is written once, beside the stage. Where a scene states something in another form (a position by
-// longitude and latitude), the field here takes its default from there.
+// Parameters that a stage takes from the scene unchanged are members of the stage's own type, so
+// each default is written once, beside the stage. Where a scene states something in another form (a
+// position by longitude and latitude), the field here takes its default from there.
 
 struct SceneSource {    // a file and where it comes from
   std::string file;     // relative to the scene file or a --data folder
@@ -53,7 +53,7 @@ struct SceneTerrain {
   std::optional<SyntheticParameters> synthetic;
   DemParameters dem;        // without sources
   double max_mcells = 0.0;  // millions of cells that the ground may have; 0: limited by memory
-  // Of previews, and no key of scene files: the ground is the level of the data's pyramid with
+  // For previews, and no key of scene files: the ground is the level of the data's pyramid with
   // about so many millions of cells, without finer windows. 0: not a preview.
   double preview_mcells = 0.0;
 };
@@ -83,8 +83,8 @@ struct SceneLandCover {
   std::optional<double> sea_level_m;  // where the scene gives it
   std::string towns_file;             // … and a table of further ones; empty: none
   VectorSource towns_source;          // of that file, without path
-  // What a raster does not distinguish: {glacier, rock} turns the raster's rock into glacier where
-  // the rules find a glacier.
+  // Splits classes that a raster does not distinguish: {glacier, rock} turns the raster's rock into
+  // glacier where the rules find a glacier.
   std::vector<std::pair<LandCoverClass, LandCoverClass>> refine;
   std::optional<LandCoverClass> unknown;
   std::optional<LandCoverClass> nodata;

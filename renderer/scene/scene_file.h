@@ -57,7 +57,7 @@ std::vector<std::string> source_credits(const LoadedScene& scene);
 // Error(usage) where it leaves the allowed folders, also through a link; an empty string where it
 // does not exist.
 std::string find_scene_file(const LoadedScene& scene, const std::string& file);
-// What exists nearly under its name where find_scene_file finds nothing, as similar_path_hint.
+// A hint at a file of a similar name where find_scene_file finds nothing, as similar_path_hint.
 std::string similar_scene_file_hint(const LoadedScene& scene, const std::string& file);
 // Error(input) for a file of the scene that does not exist.
 Error missing_scene_file(const LoadedScene& scene, const std::string& file);

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// With all links resolved as far as the path exists; empty where that fails (a loop of links, no
+// The path with all links resolved as far as it exists; empty where that fails (a loop of links, no
 // permission).
 fs::path resolved(const fs::path& path) {
   std::error_code problem;

@@ -9,8 +9,8 @@
 
 namespace belvedere {
 
-// What a scene was made from and the hashes of its pixels, kept beside it, so that another machine
-// or a later version can check whether the result is still the same. `belvedere lock` writes it;
+// The inputs of a scene and the hashes of its pixels, kept beside it, so that another machine or a
+// later version can check whether the result is still the same. `belvedere lock` writes it;
 // --locked and `belvedere verify` read it.
 
 struct LockedInput {
@@ -74,7 +74,7 @@ std::string describe(const std::vector<LockDifference>& differences);
 void require_locked_inputs(const LoadedScene& scene, const SceneLock& lock,
                            const std::string& scene_path);
 
-// What identifies the content of a file.
+// Identifies the content of a file.
 struct InputHash {
   std::uint64_t bytes = 0;  // its size
   std::string hash;         // hash_file of its bytes

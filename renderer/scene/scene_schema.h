@@ -29,7 +29,7 @@ using SceneField =
                  std::vector<std::string>*, std::vector<std::pair<std::string, double>>*,
                  std::vector<std::pair<LandCoverClass, LandCoverClass>>*>;
 
-// What a string contains, so that it can be checked.
+// Kind of content of a string, by which it is checked.
 enum class TextKind {
   plain,     // any words
   choice,    // one of `choices`

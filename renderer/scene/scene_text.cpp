@@ -10,7 +10,7 @@
 #include "renderer/scene/scene_schema.h"
 #include "renderer/trace/camera.h"
 
-// What is derived from the table of scene_sections(): the JSON Schema, the reference.
+// Texts derived from the table of scene_sections(): the JSON Schema and the reference.
 namespace belvedere {
 namespace {
 

@@ -26,16 +26,16 @@ struct PaintDraft {
   Grid<LandCoverClass> land_cover;  // class of the visible paint
   Grid<glm::vec3> base;             // base colour of the stroke's origin, encoded sRGB
   Grid<std::uint32_t> under;        // of a second class in the same pixel: column (low 16 bits) and
-                                    // row of the origin on the sheet …
-  Grid<std::uint8_t> under_share;   // … and its share, in 255ths; 0: none
+                                    // row of the origin on the sheet
+  Grid<std::uint8_t> under_share;   // share of the second class, in 255ths; 0: none
 };
 
 // Strokes of the draft: those of copied ground. Standing objects, breaks and sky are painted over
 // it later.
 inline constexpr StrokeLayers draft_layers{.sky = false, .breaks = false, .upright = false};
 
-// The draft of the pixels that `position` requests; guidance and base picture cover its window,
-// which extends stroke_margin_px of the layers around them.
+// Makes the draft of the pixels that `position` requests; guidance and base picture cover its
+// window, which extends stroke_margin_px of the layers around them.
 PaintDraft make_paint_draft(const GuidanceBuffers& guidance, const BasePicture& base,
                             const StrokeParameters& strokes, const SheetWindow& position,
                             Progress& progress);
@@ -67,7 +67,7 @@ Grid<glm::vec3> copy_ground(const CopyPlan& plan, const GroundPaint& paint, cons
                             const BasePicture& base, const Grid<LandCoverClass>& land_cover,
                             PixelRect window);
 
-// The same before its seams are synthesized, in even light.
+// The paint of a window before its seams are synthesized, in even light.
 PaintBeforeSeams make_paint_before_seams(const CopyPlan& plan, const MatchField& matches,
                                          const ModelPaint& modelled,
                                          const Grid<LandCoverClass>& shown, Grid<float> depth_m);
@@ -83,7 +83,7 @@ struct FinishingGround {
   const Grid<std::int16_t>& crest_rows;  // CrestShift::rows; empty where the scene has no features
   PixelRect window;                      // of the sheet
 };
-// What is below the finishing paint, for the painted pixels.
+// The picture below the finishing paint, for the painted pixels.
 struct PaintedGround {
   const Grid<glm::vec3>& copied;  // encoded sRGB; empty: the base picture
   const MistPaint& mist;          // empty: none

@@ -25,7 +25,7 @@
 #include "texture/statistical/make_texture.h"
 #include "texture/synthesis/exemplar.h"
 
-// What the declarations of stages (stages.h) share.
+// Shared by the declarations of stages (stages.h).
 
 namespace belvedere {
 
@@ -48,7 +48,7 @@ struct GroundInputs {
   bool has_mist = false;
   // Whether crests and rock get the relief that a DEM does not contain; previews leave it out.
   bool rock_relief = true;
-  // Results of rays of the whole sheet that are there already; null: traced tile by tile.
+  // Traced channels of the whole sheet, if they exist already; null: traced tile by tile.
   std::shared_ptr<const GuidanceBuffers> traced = nullptr;
   RockParameters rock = {};
   ToneParameters tone = {};
@@ -56,16 +56,15 @@ struct GroundInputs {
   StrokeParameters strokes = {};
   std::shared_ptr<const SheetStyle> style = nullptr;  // null: painted in none
 };
-// All arguments must outlive the inputs.
-// Does not set BaseParameters::mean_light, whose measurement needs these inputs: see
-// make_ground_inputs of lit_picture.h.
+// Inputs without BaseParameters::mean_light, whose measurement needs them: see make_ground_inputs
+// of lit_picture.h. All arguments must outlive the inputs.
 GroundInputs make_unlit_inputs(const World& world, const SheetView& view, const Palette& palette,
                                const Run& run);
-// For a scene whose world is not made yet: to compute the memory of its stages.
+// Inputs for a scene whose world is not made yet, to compute the memory of its stages.
 GroundInputs estimate_ground_inputs(const Scene& scene, double pixels_per_unit,
                                     const Style* style = nullptr);
 
-// Measured, per pixel of a window while strokes are laid on it.
+// Memory per pixel of a window while strokes are laid on it, measured.
 inline constexpr double stroke_work_bytes = 67.0;
 
 // The inputs of a stage, in the order of its function's arguments.

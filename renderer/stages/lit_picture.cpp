@@ -19,7 +19,7 @@ namespace {
 constexpr int measured_width_px = 480;
 constexpr double no_air_m = 1e9;  // air that begins beyond everything
 
-// Of encoded sRGB, linear: the Y of IEC 61966-2-1.
+// Luminance of encoded sRGB, linear: the Y of IEC 61966-2-1.
 double luminance_of(const glm::vec3& encoded) {
   const auto linear = [](float value) { return srgb_decoded(static_cast<double>(value)); };
   return 0.2126 * linear(encoded.x) + 0.7152 * linear(encoded.y) + 0.0722 * linear(encoded.z);

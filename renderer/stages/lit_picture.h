@@ -34,7 +34,7 @@ struct LitPicture {
 };
 LitPicture make_lit_picture(const World& world, const Palette& palette, PixelRect region,
                             const Run& run);
-// The same of another view of the world, such as a reduced one.
+// A lit picture of another view of the world, such as a reduced one.
 LitPicture make_lit_picture(const World& world, const SheetView& view, const Palette& palette,
                             PixelRect region, const Run& run);
 

@@ -50,7 +50,7 @@ struct PictureLayer {
 };
 // All layers, from the bottom up.
 const std::vector<PictureLayer>& picture_layers();
-// Its pixels, from its plane and that of the masks.
+// The pixels of a layer, from its plane and from that of the masks (`about`).
 Grid<LayerPixel> make_layer(const PictureLayer& layer, const Grid<LayerPixel>& plane,
                             const Grid<LayerPixel>& about);
 inline constexpr std::size_t about_plane = layer_plane_count - 1;

@@ -47,8 +47,8 @@ Grid<Rgb8> synthesize_seam(const Grid<Rgb8>& picture, const SeamZone& zone,
 // (composite.h), so that a seam is where paint changes and not where light does; the light of the
 // position is applied afterwards, as for all paint.
 
-// What seams are learnt from: paint of each class of each source, exemplars first, then texture
-// models; empty where a source has too little of a class.
+// Samples that seams are learnt from: paint of each class of each source, exemplars first, then
+// texture models; empty where a source has too little of a class.
 struct SeamSources {
   std::vector<std::array<SeamSample, land_cover_class_count>> of;
   std::uint64_t seed = 1;
@@ -65,7 +65,8 @@ void add_model_sources(SeamSources& sources, const GroundModels& models, double 
 class SeamModels {
  public:
   explicit SeamModels(const SeamSources* sources) : sources_(sources) {}
-  // Of the paint of two sources, each as source_of; null where there is too little to learn from.
+  // The model of the paint of two sources, each as source_of; null where there is too little to
+  // learn from.
   const CliqueModel* find(std::uint16_t one, std::uint16_t other);
 
  private:

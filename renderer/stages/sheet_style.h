@@ -10,14 +10,14 @@
 
 namespace belvedere {
 
-// What a style needs from the whole sheet: the extent of its sky and the range of distances of its
-// ground.
+// Measures of the whole sheet that a style needs: the extent of its sky and the range of distances
+// of its ground.
 struct StyleSight {
   int sky_rows = 0;  // from the sheet's top down to its lowest sky, px; 0: none
   double near_m = StylePaintParameters{}.near_m;  // 3 % of the ground are nearer,
   double far_m = StylePaintParameters{}.far_m;    // and 3 % are farther than this
 };
-// From the distances of a view of the sheet reduced by the factor `scale`.
+// Measures a view of the sheet, reduced by the factor `scale`, by its distances.
 StyleSight style_sight_of(const Grid<float>& depth_m, int scale);
 
 // A style with its parameters for one sheet.

@@ -24,7 +24,7 @@ struct FinishedPaint;
 struct MistSight;
 struct StyleGround;
 
-// Everything that needs no exemplar.
+// Stages of the ground: everything that needs no exemplar.
 struct GroundStages {
   std::shared_ptr<const GroundInputs> inputs = nullptr;
   std::shared_ptr<const LazyValue<IcePlan>> ice =
@@ -32,13 +32,14 @@ struct GroundStages {
   Stage<GuidanceBuffers>* traced = nullptr;  // results of rays
   Stage<GuidanceBuffers>* wide = nullptr;    // the same in larger pixels, one ray each, for wide
                                              // effects; equal to traced where pixels are no larger
-  Stage<GuidanceBuffers>* far = nullptr;     // and for rock, with the widest reach
-  Stage<Grid<glm::vec2>>* fall = nullptr;    // its smoothed fall lines; null: it is thinned first
+  Stage<GuidanceBuffers>* far = nullptr;     // the same for rock, with the widest reach
+  Stage<Grid<glm::vec2>>* fall =
+      nullptr;  // smoothed fall lines of `far`; null: it is thinned first
   Stage<CrestShift>* crests = nullptr;
   Stage<RockRelief>* relief = nullptr;
   Stage<GuidanceBuffers>* crested = nullptr;  // traced channels after the crest shift
-  Stage<GuidanceBuffers>* raised = nullptr;   // and the relief of rock
-  Stage<GuidanceBuffers>* lit = nullptr;      // and tone
+  Stage<GuidanceBuffers>* raised = nullptr;   // `crested` with the relief of rock
+  Stage<GuidanceBuffers>* lit = nullptr;      // `raised` with tone
   Stage<Grid<float>>* tone = nullptr;
   Stage<BasePicture>* base = nullptr;
   Stage<PaintDraft>* draft = nullptr;

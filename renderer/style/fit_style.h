@@ -26,7 +26,7 @@ struct StyleFitParameters {
   SeparateParameters separate;
   BrushworkParameters brushwork;
   SkyFitParameters sky;
-  // Of the ground of a typical panorama; darker paintings are lightened (A6).
+  // Minimum lightness of the ground of a typical panorama; darker paintings are lightened (A6).
   double min_ground_lightness = 0.56;
 };
 

@@ -25,9 +25,9 @@ struct StyleBrushwork {
   double form = 0.0;                 // mean of cos 2(θ - direction of larger forms): 1 along them
   double coherence = 0.0;            // 0…1: how much neighbouring strokes agree in direction
   double lightness_deviation = 0.0;  // of the residuals' L
-  // Of the sky: share of the strokes' direction left in its mean within Gaussians of sigma 8, 16,
-  // 32 and 64 px of the painting, 0…1, descending: what is lost from one to the next turns on that
-  // scale, what is left at the last is a steady flow. Zeros: not measured.
+  // Steadiness of the sky's strokes: share of their direction left in its mean within Gaussians of
+  // sigma 8, 16, 32 and 64 px of the painting, 0…1, descending: what is lost from one to the next
+  // turns on that scale, what is left at the last is a steady flow. Zeros: not measured.
   std::array<double, 4> steadiness{};
   // Colour of a stroke minus the local mean: a list for each third of lightness, dark to light.
   std::array<std::vector<glm::vec3>, 3> residuals;

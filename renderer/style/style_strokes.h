@@ -49,7 +49,7 @@ struct StyleStroke {
   LandCoverClass id = LandCoverClass::sky;
 };
 
-// What strokes read of a window whose top-left pixel is `origin_px`.
+// Inputs of the strokes in a window whose top-left pixel is `origin_px`.
 struct StyleWindow {
   const GuidanceBuffers& guidance;  // depth_m, land_cover, tone
   const StyleGround& ground;

@@ -95,18 +95,18 @@ std::unique_ptr<Camera> make_panini_camera(const CameraParameters& parameters, d
 // edge of the whole picture. `whole` must outlive it.
 std::unique_ptr<const Camera> make_reduced_camera(const Camera& whole, int factor);
 
-// What a stage reads beyond its own pixels: the same picture in pixels that are `factor` times as
-// wide and high, one ray each. Wide effects (ribs, lanes of forests, mist between ranges, forest
-// around) are smooth over half a unit of the sheet, so a print need not read every pixel of its
-// surroundings; where a unit is less than four pixels the factor is 1 and these are the pixels
+// The surroundings that a stage reads beyond its own pixels: the same picture in pixels `factor`
+// times as wide and high, one ray each. Wide effects (ribs, lanes of forests, mist between ranges,
+// forest around) are smooth over half a unit of the sheet, so a print need not read every pixel of
+// its surroundings; where a unit is less than four pixels the factor is 1 and these are the pixels
 // themselves. Holds depth, position, mapped class and fall line; for rock, normal and footprint (of
 // its own pixels) instead of the position.
 struct WideView {
   const GuidanceBuffers& seen;
   int factor = 1;
   glm::ivec2 origin_px{0};  // of `seen`, in its own pixels
-  // Of the same pixels, what smooth_fall_lines (renderer/rock/spurs.h) makes of the fall lines;
-  // null: whoever needs it makes it.
+  // The fall lines of the same pixels after smooth_fall_lines (renderer/rock/spurs.h); null:
+  // computed by each reader.
   const Grid<glm::vec2>* smooth_fall = nullptr;
 
   // Column or row of `seen` that contains a column or row of the sheet (0…65535); otherwise the

@@ -68,7 +68,7 @@ Grid<float> mask_of_ground(const LoadedScene& loaded, const Dem& dem, Progress& 
   return mask;
 }
 
-// With that of the classes.
+// Multiplies the mask by that of the classes, if the scene masks by class.
 Grid<float> mask_for_scene(Grid<float> mask, const LoadedScene& loaded, const Dem& dem,
                            const LandCover* land_cover, Progress& progress, const Cache& cache) {
   const SceneGeneralize& settings = loaded.scene.generalize;
@@ -84,8 +84,8 @@ Grid<float> mask_for_scene(Grid<float> mask, const LoadedScene& loaded, const De
       soften_mask(class_mask((land_cover == nullptr ? made : *land_cover).classes.cells, shares)));
 }
 
-// What goes from scene and view into the generalized ground besides the DEM; cheap compared with
-// the ground itself.
+// Inputs of the generalized ground from scene and view, besides the DEM; cheap compared with the
+// ground itself.
 struct ViewOfGround {
   Grid<float> mask;
   PixelGround pixel_ground;  // empty where the print's detail is not limited

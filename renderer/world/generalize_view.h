@@ -15,21 +15,21 @@
 
 namespace belvedere {
 
-// Where ground is generalized, from the cells of the data.
+// Masks of generalization, from the cells of the data.
 struct GroundMasks {
-  Grid<float> mask;              // by slope, and drawn: GeneralizeGrids::mask
-  Grid<float> amplify;           // GeneralizeGrids::amplification_mask
-  Grid<std::uint8_t> keep;       // GeneralizeGrids::keep
-  Grid<std::uint8_t> unchanged;  // GeneralizeGrids::unchanged, of previews
-  Grid<float> along_lines_m;  // what is generalized instead of the DEM, smoothed along slope lines
+  Grid<float> mask;                  // by slope, and drawn: GeneralizeGrids::mask
+  Grid<float> amplify;               // GeneralizeGrids::amplification_mask
+  Grid<std::uint8_t> keep;           // GeneralizeGrids::keep
+  Grid<std::uint8_t> unchanged;      // GeneralizeGrids::unchanged, of previews
+  Grid<float> along_lines_m;         // smoothed along slope lines; generalized instead of the DEM
   std::vector<Grid<float>> finer_m;  // GeneralizeGrids::finer_m, of previews
 };                                   // each is empty where the scene has none
-// Those of a preview: made of the data, because their openings and dilations count cells, and then
-// brought to the level of the preview. `areas`: of the map, may be null.
+// The masks of a preview: made from the data, because their openings and dilations count cells, and
+// then reduced to the level of the preview. `areas`: of the map, may be null.
 GroundMasks preview_masks(const LoadedScene& loaded, const Dem& data, int level,
                           const MapCover* areas, Progress& progress);
 
-// What generalize_for_view need not find itself; null: it does.
+// Inputs that generalize_for_view otherwise finds itself (null).
 struct GroundGiven {
   const SeaParameters* sea = nullptr;  // of a window of a larger DEM, its own
   const GroundMasks* masks = nullptr;  // of a preview
@@ -42,17 +42,17 @@ struct GeneralizedTerrain {
   Grid<glm::vec2> goes_to;    // WidenedValleys::goes_to
 };
 
-// A DEM generalized as the scene requests for one view: by the distance from the viewer, by the
+// Generalizes a DEM as the scene requests for one view: by the distance from the viewer, by the
 // print's detail, and by masks. `land_cover` is used if the scene masks by class; null: it is then
-// made. Its cells are the DEM's. The cache keeps it: of the view it depends on the viewer's
+// made. Its cells are the DEM's. The result is cached: of the view it depends on the viewer's
 // position, and on the camera only if the print's detail is limited.
 GeneralizedTerrain generalize_for_view(const LoadedScene& loaded, const Dem& dem,
                                        const LandCover* land_cover, const View& view,
                                        Progress& progress, const Cache& cache = no_cache(),
                                        const GroundGiven& given = {});
 
-// Maximum pixels per metre of ground at `place`, from differences over ±step_m; 0 behind the
-// viewer.
+// Resolution of the picture at `position`: maximum pixels per metre of ground, from differences
+// over ±step_m; 0 behind the viewer.
 double pixels_per_m(const Camera& camera, const Deformation& deformation, glm::dvec2 position,
                     double altitude_m, double step_m);
 

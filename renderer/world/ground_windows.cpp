@@ -289,8 +289,7 @@ PixelRect made_cells(const GroundWindow& window, const RasterFrame& data) {
   return intersection(grown(window.part, ground_halo_cells), {0, 0, frame.width, frame.height});
 }
 
-// What a window needs of the coarser ground, of which `made` is available: cells all around the
-// window's halo.
+// The cells of the coarser ground (`made`: available) that a window needs all around its halo.
 PixelRect kept_for(const GroundWindow& window, const RasterFrame& data, const PixelRect& made) {
   constexpr int beyond = 3;  // cells: glaciers beside the window, and their sources
   const PixelRect halo = made_cells(window, data);

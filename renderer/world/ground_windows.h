@@ -18,8 +18,8 @@
 
 namespace belvedere {
 
-// How a DEM with more cells than its ground may have is stored: the whole in coarse cells, and in
-// it nested windows, each of cells half as wide, where the camera needs finer ones.
+// A DEM with more cells than its ground may have is stored as the whole in coarse cells, and nested
+// windows in it, each of cells half as wide, where the camera needs finer ones.
 struct GroundWindow {
   int level = 0;      // terrain/io/dem_levels.h
   PixelRect part;     // cells of the level whose ground is traced; begins and ends on cells of the
@@ -37,17 +37,17 @@ struct GroundPlan {
 // in cells of 30 m.
 constexpr int ground_halo_cells = 192;
 
-// Windows for a view: cells as fine as a quarter of a pixel, or as `max_cells` (halos counted)
-// allow. Ground outside the picture, whose width is extended by a tenth, needs cells of an eighth
-// of its distance: it may still hide ground or cast shadows. `whole` is the DEM at the coarsest
-// level. Depends on scene and data alone.
+// Plans the windows for a view: cells as fine as a quarter of a pixel, or as `max_cells` (halos
+// counted) allow. Ground outside the picture, whose width is extended by a tenth, needs cells of an
+// eighth of its distance: it may still hide ground or cast shadows. `whole` is the DEM at the
+// coarsest level. Depends on scene and data alone.
 GroundPlan plan_ground(const RasterFrame& frame, const Dem& whole, const View& view,
                        double max_cells);
 
-// A note for the user: cell sizes and up to which distance.
+// A note for the user: the cell sizes and the distance up to which each applies.
 std::string describe(const GroundPlan& plan, const RasterFrame& frame);
 
-// Input of windows.
+// Shared inputs of all windows.
 struct WindowMaking {
   const LoadedScene& loaded;
   const View& view;
@@ -59,13 +59,13 @@ struct WindowMaking {
   const SeenFrom& seen;
 };
 
-// Reads, covers and generalizes each window of the plan with a halo, like the whole, and blends it
-// into the coarser ground: along the edge of its part the coarser values apply, 32 cells inwards
-// its own. Entering rivers keep the whole's values; settlements, climate and the sea are those of
-// the whole. `terrain` is the whole's.
+// Reads each window of the plan with a halo, makes its land cover, generalizes it like the whole,
+// and blends it into the coarser ground: the coarser values apply along the edge of its part, its
+// own from 32 cells inwards. Entering rivers keep the whole's values; settlements, climate and the
+// sea are those of the whole. `terrain` is the whole's.
 void add_ground_windows(TerrainModel& terrain, const GroundPlan& plan, const WindowMaking& making);
 
-// The terrain's generalized ground and that of its windows, deformed and joined.
+// The surface of the terrain's generalized ground and its windows, deformed and joined.
 DeformedSurface deform_ground(const TerrainModel& terrain, glm::dvec3 origin,
                               const Deformation& deformation);
 

@@ -14,7 +14,7 @@
 
 namespace belvedere {
 
-// How the pixels of a picture sample the world: all of them, or fewer that are as many times as
+// Sampling of the world by the pixels of a picture: all of them, or fewer that are as many times as
 // large.
 struct SheetView {
   const Camera& camera;
@@ -22,13 +22,13 @@ struct SheetView {
   double horizon_px;       // row of the skyline's median, as World::horizon_px
 };
 SheetView view_of(const World& world);
-// The same through a camera of make_reduced_camera(*world.camera, factor).
+// The view through a camera of make_reduced_camera(*world.camera, factor).
 SheetView reduced_view(const World& world, const Camera& reduced, int factor);
 
-// The traced channels of a rectangle of the view …
+// Traces all channels of a rectangle of the view.
 GuidanceBuffers trace_view(const World& world, const SheetView& view, PixelRect region,
                            const Run& run);
-// … and those of them that form alone determines (no light), one ray per pixel.
+// Traces only the channels that depend on form and not on light, one ray per pixel.
 GuidanceBuffers trace_forms(const World& world, const Camera& camera, PixelRect region,
                             const Run& run);
 
@@ -37,7 +37,7 @@ RockParameters to_rock_parameters(const World& world, const Palette& palette,
                                   const SheetView& view);
 ToneParameters to_tone_parameters(const World& world, const Palette& palette,
                                   const SheetView& view);
-// Without BaseParameters::mean_light, which is measured on a picture (stages/lit_picture.h).
+// Does not set BaseParameters::mean_light, which is measured on a picture (stages/lit_picture.h).
 BaseParameters to_base_parameters(const World& world, const Palette& palette,
                                   const SheetView& view);
 

@@ -116,7 +116,7 @@ std::optional<ViewShape> complete_view(const CoarseGround& ground, const GivenVi
 
 namespace {
 
-// Of views with parallel lines of sight, and where no ground is in view.
+// Height of viewers with parallel lines of sight, and where no ground is in view.
 constexpr double plain_height_m = 3000.0;
 
 bool is_parallel(const SceneCamera& camera) {

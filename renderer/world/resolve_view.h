@@ -37,9 +37,9 @@ struct ViewDistances {
   GeneralizeDistances generalize;
 };
 
-// Values that a scene leaves open are derived from its region, by the rules that propose views
+// Derives values that a scene leaves open from its region, by the rules that propose views
 // (renderer/compose). Given values are unchanged, and derived ones are rounded to what one would
-// write: a scene that writes them has the same picture. Each step adds what it found to `derived`.
+// write: a scene that writes them has the same picture. Each step adds its findings to `derived`.
 // Where nothing can be found (no ground in view), the ground is neither raised nor bent and
 // distances are those of the Alps.
 
@@ -61,8 +61,8 @@ struct ViewPosition {
 struct ResolvedView {
   SceneCamera camera;               // with its height; without a target with azimuth and pitch
   SceneDeform deform;               // with exaggeration and bend
-  std::optional<double> pitch_deg;  // found for a view with a target, whose tilt produces it …
-  double max_tilt_deg = 0.0;        // … as far as the target stays in the picture
+  std::optional<double> pitch_deg;  // of a view with a target, produced by tilt
+  double max_tilt_deg = 0.0;        // at which the target stays in the picture
 };
 ResolvedView resolve_view(const Scene& scene, const ViewPosition& position,
                           const LazyRegion& region, std::vector<DerivedValue>& derived);
@@ -74,7 +74,7 @@ double resolve_tilt(const SceneCamera& camera, const ResolvedView& resolved, dou
 SunPosition resolve_sun(const SceneSun& sun, double view_azimuth_deg,
                         std::vector<DerivedValue>& derived);
 
-// Air and distances of generalization, from the horizon of the view.
+// Derives air and distances of generalization from the horizon of the view.
 ViewDistances resolve_distances(const Scene& scene, const Deformation& deformation,
                                 const CameraParameters& camera, const LazyRegion& region,
                                 std::vector<DerivedValue>& derived);
@@ -88,8 +88,8 @@ struct GivenView {
   bool cylinder = false;
   LayoutGiven resolved;
 };
-// Completes it: the horizon as far away as the data allow, then the layout of proposals. Nothing
-// where there are no data in that direction.
+// Completes a view: the horizon as far away as the data allow, then the layout of proposals.
+// Nothing where there are no data in that direction.
 std::optional<ViewShape> complete_view(const CoarseGround& ground, const GivenView& given);
 
 }  // namespace belvedere

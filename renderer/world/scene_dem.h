@@ -14,7 +14,7 @@
 
 namespace belvedere {
 
-// A scene's DEM. If it has more cells than its ground may take, `dem` is the whole in coarser ones,
+// A scene's DEM. If it has more cells than its ground may have, `dem` is the whole in coarser ones,
 // and finer windows are made from the levels; a preview has no windows.
 struct SceneDem {
   Dem dem;
@@ -24,25 +24,25 @@ struct SceneDem {
   // The data at reduced resolution, with their sea: the same whether `dem` holds them whole or in
   // coarser cells.
   CoarseAltitudes region = {};
-  // Of a preview, whose `dem` is a level of these: the cells of the data; else null.
+  // The cells of the data, for a preview whose `dem` is a coarser level of them; else null.
   std::shared_ptr<const Dem> data = {};
 };
-// Altitudes of the data themselves; for make_view.
+// The function for altitudes of the data themselves, for make_view.
 GroundAltitude ground_altitude_of(const SceneDem& scene);
 SceneDem open_scene_dem(const LoadedScene& scene, Progress& progress,
                         const Cache& cache = no_cache());
 // Removes stripes, if the scene asks for it and the cells are those of the data, and levels the
 // sea. Returns the sea.
 Sea prepare_scene_dem(Dem& dem, const LoadedScene& scene, Progress& progress);
-// The same for a window, with the sea and the lakes of the whole.
+// Prepares a window like prepare_scene_dem, with the sea and the lakes of the whole.
 SeaParameters prepare_window_dem(Dem& window, const LoadedScene& scene, const Dem& whole,
                                  const Sea& whole_sea, const Cache& cache = no_cache());
 
-// The DEM of a scene: its sources read and mosaicked, or synthetic terrain; stripes removed if the
-// scene asks for it, the sea levelled. The cache keeps synthetic terrain.
+// Makes the DEM of a scene: its sources read and mosaicked, or synthetic terrain; stripes removed
+// if the scene asks for it, the sea levelled. Synthetic terrain is cached.
 Dem make_scene_dem(const LoadedScene& scene, Progress& progress, const Cache& cache = no_cache());
-// With its reduced copy; if it is larger than memory, as the whole in coarser cells, which is
-// noted.
+// Makes the DEM with its reduced copy; if it is larger than memory, as the whole in coarser cells,
+// with a note.
 SceneDem make_scene_dem_and_region(const LoadedScene& scene, Progress& progress,
                                    const Cache& cache = no_cache());
 
@@ -50,11 +50,11 @@ SceneDem make_scene_dem_and_region(const LoadedScene& scene, Progress& progress,
 std::vector<RasterSource> to_raster_sources(const LoadedScene& scene,
                                             const std::vector<SceneSource>& sources);
 
-// The scene's sea settings ([land_cover] sea, sea_level_m), and their values in cache keys of
-// dependent results.
+// The scene's sea settings ([land_cover] sea, sea_level_m); add_sea adds their values to the cache
+// key of a dependent result.
 SeaParameters scene_sea(const SceneLandCover& settings);
 void add_sea(CacheKeyText& key, const SeaParameters& sea);
-// The DEM's values in cache keys of dependent results.
+// Adds the DEM's values to the cache key of a dependent result.
 void add_dem(CacheKeyText& key, const Dem& dem);
 
 // Scenes on coarser ground than their data, for previews.

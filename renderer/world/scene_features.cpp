@@ -21,7 +21,7 @@ std::string features_of(std::size_t count) {
   return count == 1 ? "a feature" : fmt::format("{} features", count);
 }
 
-// What a reading leaves out, in one line; empty if nothing.
+// Counts and reasons of the features that a reading leaves out, in one line; empty if none.
 std::string left_out(const SourceReading& reading) {
   std::string text;
   const auto add = [&](std::size_t count, const std::string& why) {

@@ -10,12 +10,12 @@
 
 namespace belvedere {
 
-// The scene's [[features]], in the terrain's CRS; empty where it has none. Notes what is left out
-// and why.
+// Reads the scene's [[features]], in the terrain's CRS; empty where it has none. Notes what is left
+// out and why.
 FeatureSet read_scene_features(const LoadedScene& loaded, const std::string& crs,
                                Progress& progress);
 
-// The same laid on the drawn ground, ready to be painted. Throws as check_extents does.
+// Lays the features on the drawn ground, ready to be painted. Throws as check_extents does.
 DrawnFeatures draw_scene_features(const LoadedScene& loaded, const World& world, bool winter,
                                   Progress& progress);
 

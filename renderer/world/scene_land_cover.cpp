@@ -379,7 +379,7 @@ LandCover make_modelled_cover(const LoadedScene& loaded, const Dem& dem,
              : make_layer_cover(loaded, dem, context, progress, cache);
 }
 
-// With every patch, however small.
+// The classes with every patch, however small.
 LandCover make_full_classes(const LoadedScene& loaded, const Dem& dem, const CoverContext& context,
                             Progress& progress, const Cache& cache) {
   const SceneLandCover& settings = loaded.scene.land_cover;

@@ -21,26 +21,24 @@
 
 namespace belvedere {
 
-// What windows of a DEM take from the whole.
+// Properties of the whole terrain that windows of its DEM take over.
 struct WholeTerrain {
   const Dem& dem;
   const Sea& sea;
   ClassRuleParameters
       rules;  // with its climate, the altitudes that depend on it, and its settlements
-  std::optional<Climate> climate = {};  // for surface layers that need one …
-  std::shared_ptr<const LazyValue<LayerDrawing>> drawn =
-      {};                                    // … and how classes are drawn from them
+  std::optional<Climate> climate = {};                        // for surface layers that need one
+  std::shared_ptr<const LazyValue<LayerDrawing>> drawn = {};  // how classes are drawn from layers
   std::shared_ptr<const MapCover> map = {};  // areas and rivers, as on the whole's ground
 };
 WholeTerrain know_whole(const LoadedScene& scene, const Dem& dem, const Sea& sea);
-// Input of class rules around windows, computed when a window first needs it: a window from the
-// cache never does.
+// Input of class rules around windows, computed on first use: a window from the cache needs none.
 struct SeenGround {
   std::shared_ptr<const LazyValue<RuleGround>> ground;
   std::string made_from;  // in the keys of dependent results
 };
-// Of the whole, in a rectangle of its cells: all around the next window's halo. Nothing where no
-// rules are used.
+// Input of class rules from the whole terrain, in a rectangle of its cells: all around the next
+// window's halo. Nothing where no rules are used.
 std::optional<SeenGround> see_whole(const LoadedScene& scene, const WholeTerrain& whole,
                                     const PixelRect& kept, const Cache& cache = no_cache());
 struct WindowCover {
@@ -61,18 +59,18 @@ WindowCover make_window_cover(const LoadedScene& scene, const WindowGround& wind
                               const WholeTerrain& whole, Progress& progress,
                               const Cache& cache = no_cache());
 
-// The land cover of a scene: from sources and a legend, or by rules. The cache keeps the result of
-// rules. `catchments`: the DEM's, shared. `seen`: for rivers of maps, which are drawn wide enough
-// to be visible.
+// Makes the land cover of a scene: from sources and a legend, or by rules, whose result is cached.
+// `catchments`: the DEM's, shared. `seen`: for rivers of maps, which are drawn wide enough to be
+// visible.
 LandCover make_scene_land_cover(const LoadedScene& scene, const Dem& dem, Progress& progress,
                                 const Cache& cache = no_cache(), Catchments* catchments = nullptr,
                                 const SeenFrom* seen = nullptr);
-// The same, and the change of each class when small patches were removed ([land_cover]
-// smallest_patch_m2).
+// Makes the land cover, and reports the change of each class by the removal of small patches
+// ([land_cover] smallest_patch_m2).
 PatchResult make_scene_patches(const LoadedScene& scene, const Dem& dem, Progress& progress,
                                const Cache& cache = no_cache(), Catchments* catchments = nullptr,
                                const SeenFrom* seen = nullptr);
-// … and before the scene's map and rivers are laid over it (lay_ground_map).
+// The same before the scene's map and rivers are laid over it (lay_ground_map).
 PatchResult make_bare_patches(const LoadedScene& loaded, const Dem& dem, Progress& progress,
                               const Cache& cache = no_cache(), Catchments* catchments = nullptr);
 

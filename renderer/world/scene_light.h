@@ -35,7 +35,8 @@ struct SeenSlope {
   glm::dvec3 normal{0.0};   // of the slope as drawn, smoothed over about 200 m
   glm::dvec3 start{0.0};    // of rays towards the sun, in the deformed world
 };
-// Of every `step`-th pixel and row. Uses dem and generalized_m of `terrain`.
+// Samples the slopes in view at every `step`-th pixel and row. Uses dem and generalized_m of
+// `terrain`.
 std::vector<SeenSlope> see_slopes(const TerrainModel& terrain, double exaggeration,
                                   const Tracer& tracer, const Camera& camera, int step);
 
@@ -48,18 +49,19 @@ struct SeenRange {
   glm::dvec2 centre{0.0};  // of its visible slopes
   double radius_m = 0.0;   // radius around the centre that holds three quarters of them
   double share = 0.0;      // of all visible slopes, 0…1
-  double lit = 0.0;        // shares of its own slopes: lit …
-  double cast = 0.0;       // … in cast shadow …
-  double away = 0.0;       // … or facing away from the sun
+  double lit = 0.0;        // shares of its own slopes: lit
+  double cast = 0.0;       // in cast shadow
+  double away = 0.0;       // facing away from the sun
   std::vector<std::size_t> slopes = {};
 
   // Most of it is in shade, so that its forms are lost.
   bool in_shade() const { return lit < 0.40; }
 };
-// The highest points first become summits, each at some distance from the previous ones; ranges of
-// less than .02 of the slopes are left out. By falling share. Without light.
+// Finds ranges by their summits: the highest points first, each at some distance from the previous
+// ones; ranges of less than .02 of the slopes are left out. By falling share. Without light.
 std::vector<SeenRange> find_ranges(std::span<const SeenSlope> slopes);
-// Adds the light on them. `sun`: of the picture; `field`: null for uniform light.
+// Adds the shares of light to ranges. `sun`: direction in the picture; `field`: null for uniform
+// light.
 void light_ranges(std::vector<SeenRange>& ranges, std::span<const SeenSlope> slopes,
                   const Tracer& tracer, glm::dvec3 sun, const LightField* field);
 
@@ -69,9 +71,9 @@ struct ProposedLight {
   double lit_before = 0.0;
   double lit_after = 0.0;
 };
-// For ranges in shade, the largest first, six at most: of turns of the sun to both sides the one
-// that lights the ranges of the picture best, if that is a clear improvement. In the order in which
-// they combine with the scene's own regions.
+// Proposes regions for ranges in shade, the largest first, six at most: of turns of the sun to both
+// sides the one that lights the ranges of the picture best, if that is a clear improvement. In the
+// order in which they combine with the scene's own regions.
 std::vector<ProposedLight> propose_light(const LoadedScene& loaded, const Dem& dem,
                                          const View& view, std::span<const SeenSlope> slopes,
                                          const Tracer& tracer);

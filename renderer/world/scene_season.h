@@ -15,8 +15,8 @@ namespace belvedere {
 // The day of the year of a scene's date, 0…364; the 29th of February counts as the 28th.
 std::optional<int> day_of_season(const SceneSeason& season);
 
-// The palette for the place and time of a scene. "summer", "autumn" and "winter" have altitudes of
-// the northern Alps: if rules take the treeline from the climate they move with it. On a date
+// Adapts a palette to the place and time of a scene. "summer", "autumn" and "winter" have altitudes
+// of the northern Alps: if rules take the treeline from the climate they move with it. On a date
 // "summer" turns to "autumn" from the heights down: by how far the day's mean has fallen from the
 // warmest day's (all of 6 K) and below 11.5 °C (all at 6.5 °C), whichever is less; not from
 // midwinter to midsummer. Other palettes, and terrain of unknown position, are unchanged.
@@ -28,7 +28,7 @@ Palette palette_for_location(const Palette& palette, const LoadedScene& loaded, 
 // always or never; terrain of unknown position has no ice.
 double lakes_freeze_from_m(const PlaceClimate& climate);
 
-// Progress of autumn at such daily means: 0…1.
+// Progress of autumn on a day of a year with these daily means: 0…1.
 double autumn_share(const std::array<double, 365>& days_c, int day);
 
 // A palette with its ramps moved up by this height (down if < 0): its altitudes are those of the
@@ -49,7 +49,7 @@ bool names_climate(const Scene& scene);
 // Whether the position of a scene's terrain on the Earth is known: by its coordinate system, or by
 // climate.latitude_deg.
 bool knows_place(const Scene& scene, const Dem& dem);
-// Error(usage) naming climate.latitude_deg where it is not.
+// Error(usage) naming climate.latitude_deg where the position is not known.
 void require_place(const Scene& scene, const Dem& dem);
 
 // The climate of a scene's terrain, from [climate] and built-in values for the place. Its source

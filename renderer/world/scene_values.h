@@ -17,17 +17,17 @@
 
 namespace belvedere {
 
-// What a value is made from: another value by its name, and a text that is equal only if what is
-// read of it is.
+// An input of a value: the name of another value, and a text that is equal only if the parts read
+// of it are equal.
 struct ValueInput {
   std::string name;  // of a value of the store, or of what it stands for in drawings
   std::string key;
 };
 
-// Values of a scene that the next one takes over if what they are made from has not changed, for
-// programs that make many pictures of one scene: one of each name. Results never depend on it. What
-// was made before must be destroyed before the next is made, because values may be changed in
-// place. Not thread-safe.
+// Keeps the values of a scene, one of each name, for programs that make many pictures of one scene:
+// the next one takes a value over if its inputs have not changed. Results never depend on it.
+// Whatever was made before must be destroyed before the next is made, because values may be changed
+// in place. Not thread-safe.
 class ValueStore {
  public:
   struct Kept {
@@ -36,9 +36,9 @@ class ValueStore {
     std::vector<std::string> notes;  // told again whenever it is taken over
     std::vector<ValueInput> inputs;
   };
-  // Null where there is none of that key.
+  // The kept value of that name and key; null where there is none.
   const Kept* find(const std::string& name, const std::string& key) const;
-  // Of a value; empty where there is none of that name.
+  // The key of a value; empty where there is none of that name.
   std::string key(const std::string& name) const;
   void keep(const std::string& name, Kept made) { kept_[name] = std::move(made); }
   // Drops a value and all that were made from it, before memory is taken for the next.
@@ -58,7 +58,7 @@ struct Value : ValueInput {
   T* operator->() const { return value.get(); }
 };
 
-// What a function that makes a value gets besides its inputs.
+// Arguments of a function that makes a value, besides its inputs.
 struct Making {
   const LoadedScene& scene;  // the declared parts; all else has its default and names no file
   Progress& progress;
@@ -69,20 +69,20 @@ struct Making {
 // name, by size and time), and its maker sees no other part, so that a value cannot be stale.
 class SceneValues {
  public:
-  // `store`: null, nothing is kept.
+  // `store`: null to keep nothing.
   SceneValues(const LoadedScene& loaded, ValueStore* store, Progress& progress)
       : loaded_(loaded), store_(store), progress_(progress) {}
   SceneValues(LoadedScene&& temporary, ValueStore* store, Progress& progress) = delete;
 
   bool keeps() const { return store_ != nullptr; }
-  // Takes the parts that a value reads over into a scene of defaults.
+  // Copies the parts that a value reads into a scene of defaults.
   using Reads = std::function<void(Scene& to, const Scene& from)>;
   template <class T, class Make>
   Value<T> make(const std::string& name, const Reads& reads, std::vector<ValueInput> inputs,
                 const Make& make) const {
     return make_with<T>(name, reads, std::move(inputs), progress_, make);
   }
-  // Of a value that is made inside another one, whose `progress` it tells.
+  // Makes a value inside another one, whose `progress` reports it.
   template <class T, class Make>
   Value<T> make_with(const std::string& name, const Reads& reads, std::vector<ValueInput> inputs,
                      Progress& progress, const Make& make) const {
@@ -111,7 +111,7 @@ class SceneValues {
   ValueStore* store_;
   Progress& progress_;
 };
-// For values that read nothing of the scene.
+// The Reads of values that do not depend on the scene.
 void reads_nothing(Scene& to, const Scene& from);
 
 // Parts of a view as inputs.

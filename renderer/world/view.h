@@ -42,7 +42,7 @@ DeformParameters resolve_deform(const SceneDeform& deform, const Dem& dem);
 // only the sky gives light. `ground_m` has more precise altitudes than the DEM, if that is a coarse
 // one of a larger whole; empty: the DEM's.
 using GroundAltitude = std::function<double(glm::dvec2 position)>;
-// `region`: the reduced data, from which open values are derived; null: the DEM's.
+// `region`: the reduced data, from which open values are derived; null: a copy of the DEM.
 View make_view(const Scene& scene, const Dem& dem, Progress& progress,
                const GroundAltitude& ground_m = {}, const CoarseAltitudes* region = nullptr);
 

@@ -15,10 +15,10 @@
 
 namespace belvedere {
 
-// Where viewers stand relative to the data: a picture may be seen from outside of them, but not one
-// of nothing but sky, nor from where mistaken numbers lead.
+// Checks of the viewer's position relative to the data: a picture may be seen from outside of them,
+// but must not show nothing but sky, nor come from mistaken coordinates.
 
-// Data in a CRS, which may be empty.
+// Extent of data in a CRS, which may be empty.
 struct DataExtent {
   MapBox box;
   std::string crs;
@@ -29,7 +29,7 @@ struct DataExtent {
 };
 DataExtent extent_of(const Dem& dem);
 
-// A position as it is written.
+// A position as the user wrote it.
 struct GivenPosition {
   std::string key;  // or option
   glm::dvec2 numbers{0.0};
@@ -45,12 +45,12 @@ glm::dvec2 place_near_data(const GivenPosition& given, const DataExtent& data, d
 glm::dvec2 place_viewer(const SceneCamera& camera, const Dem& dem);
 std::optional<glm::dvec2> place_target(const SceneCamera& camera, const Dem& dem);
 
-// Error(usage) for a picture without any ground; a note on a viewer far outside the data.
+// Refuses a picture without any ground by Error(usage); notes a viewer far outside the data.
 void check_ground_in_view(const Dem& dem, const Camera& camera, const Tracer& tracer,
                           Progress& progress);
 
-// Where handles fold the ground: Error(usage) naming the handle, the position and a remedy if that
-// is in the picture, unless the scene allows it; a note otherwise.
+// Checks whether handles fold the ground: Error(usage) naming the handle, the position and a remedy
+// if that is in the picture, unless the scene allows it; a note otherwise.
 void check_folds(const SceneDeform& scene, const TerrainModel& terrain,
                  const Deformation& deformation, const Camera& camera, Progress& progress);
 

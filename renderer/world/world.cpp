@@ -121,7 +121,7 @@ CacheKey surroundings_key(const LoadedScene& loaded, const Dem& dem, const LandC
   return make_cache_key(CachedProduct::ground_surroundings, key, subject_of(loaded));
 }
 
-// What values read of the scene.
+// The parts of the scene that each value reads.
 
 void reads_of_dem(Scene& to, const Scene& from) {
   to.terrain = from.terrain;
@@ -132,7 +132,7 @@ void reads_of_dem(Scene& to, const Scene& from) {
   to.features = from.features;
 }
 
-// … and whether the palette is one of winter, which lays snow.
+// Also reads whether the palette is one of winter, which lays snow.
 void reads_of_cover(Scene& to, const Scene& from, bool winter) {
   to.seed = from.seed;
   to.land_cover = from.land_cover;
@@ -143,7 +143,7 @@ void reads_of_cover(Scene& to, const Scene& from, bool winter) {
   to.palette = winter ? "winter" : "summer";
 }
 
-// Of what is laid over the classes, for a camera.
+// Reads what lines and strips over the classes depend on, for a camera.
 void reads_of_lines(Scene& to, const Scene& from) {
   to.seed = from.seed;
   to.features_style = from.features_style;
@@ -287,7 +287,7 @@ World make_world(const LoadedScene& loaded, Progress& progress, const Cache& cac
       values.make<const LazyWaters>("waters", reads_nothing, {terrain}, [&](const Making&) {
         return LazyWaters([&of = *terrain] { return find_water_ground(of); });
       });
-  // What differs between views of one ground.
+  // Properties that differ between views of one ground.
   terrain->land_cover = land_cover;
   terrain->exaggeration = view.deform.exaggeration;
   terrain->local = local;

@@ -35,7 +35,7 @@ struct TracedGround {
   std::shared_ptr<const Tracer> tracer;  // reads the surface
 };
 
-// Found where paint asks for it first.
+// The ground of waters, computed when paint first needs it.
 using LazyWaters = LazyValue<std::shared_ptr<const WaterGround>>;
 
 // A scene prepared for its first pixel, each value made from those above it. Kept together because
@@ -58,7 +58,7 @@ struct World {
   const MistAir mist;
 };
 
-// Existing terrain, for several views of one synthetic terrain; what is null is made.
+// Terrain to reuse, for several views of one synthetic terrain; null members are made.
 struct KnownTerrain {
   std::shared_ptr<const Dem> dem = nullptr;
   std::shared_ptr<const LandCover> land_cover = nullptr;
@@ -69,8 +69,8 @@ class ValueStore;  // scene_values.h
 
 // Reads, generalizes and bends the terrain, sets up camera and sun, builds the acceleration
 // structure. Throws Error for any problem of scene or data as early as possible: the machine's
-// instruction set first, the camera's position before land cover is made. `store`: values of
-// the world before, and then of this one; null: none are kept.
+// instruction set first, the camera's position before land cover is made. `store`: holds values of
+// the previous world for reuse and receives those of this one; null: none are kept.
 World make_world(const LoadedScene& loaded, Progress& progress, const Cache& cache = no_cache(),
                  KnownTerrain known = {}, ValueStore* store = nullptr);
 
@@ -99,11 +99,12 @@ struct BareView {
     return {dem->altitude_m, *goes_to, dem->transform, deformation, *surface, *camera, *tracer};
   }
 };
-// Of a world whose ground has no finer windows; it may be gone afterwards.
+// The bare view of a world whose ground has no finer windows; the world may be destroyed
+// afterwards.
 BareView bare_view_of(const World& world);
 BareView make_bare_view(const LoadedScene& loaded, Progress& progress,
                         const Cache& cache = no_cache());
-// The same ground under another bend.
+// Bends the same ground by another curve.
 void bend_again(BareView& bare, const BendCurve& bend);
 
 // The directions in which a camera looks over the land, evenly spaced, and how far down and up it

@@ -45,7 +45,7 @@ SnowGathering make_snow_gathering(const ClimateField& field,
 // At a position, > 0; 1 far from all glaciers.
 double gathers_at(const SnowGathering& gathering, double longitude_deg, double latitude_deg);
 
-// From the built-in stations, glaciers and dry places.
+// The climate interpolated from the built-in stations, glaciers and dry places.
 PlaceClimate default_climate(double longitude_deg, double latitude_deg);
 
 // Dry country behind ranges and far from the sea, which interpolation between stations makes too

@@ -35,7 +35,7 @@ struct MapPosition {
   }
 };
 
-// From the CRS. Without one the whole map lies at `latitude_deg` and its columns run north;
+// Positions by the CRS. Without one the whole map lies at `latitude_deg` and its columns run north;
 // Error(usage) if that is not given either. Values are rounded to 1e-7 degrees, so that the last
 // bits of a projection do not affect a picture.
 MapPosition make_map_position(const GeoTransform& transform, const std::string& crs, int width,
@@ -45,7 +45,7 @@ constexpr double earth_radius_km = 6371.0;
 // A position on the globe, km from its centre: along the equator at 0° and 90° east, and to the
 // north.
 std::array<double, 3> earth_position_km(double longitude_deg, double latitude_deg);
-// Of two of them, through the Earth.
+// Squared distance of two such positions, through the Earth.
 double squared_chord_km2(const std::array<double, 3>& a, const std::array<double, 3>& b);
 
 }  // namespace belvedere

@@ -186,7 +186,7 @@ class Gradients {
         per_two_right_(static_cast<float>(0.5 / cell_m.x)),
         per_two_top_(static_cast<float>(0.5 / cell_m.y)) {}
 
-  // Of a cell that is not void.
+  // The gradient at a cell that is not void.
   [[gnu::always_inline]] Gradient at(int x, int y) const {
     if (static_cast<unsigned>(x - 1) < inner_width_ &&
         static_cast<unsigned>(y - 1) < inner_height_) {

@@ -363,7 +363,7 @@ LapseRate fit_lapse_rate(const std::vector<double>& altitude_m,
           ? rate.k_per_km
           : rates[static_cast<std::size_t>(0.975 * static_cast<double>(rates.size() - 1))];
 
-  // Of many stations a hundred are left out in turn.
+  // Cross-validation leaves out about a hundred stations in turn, however many there are.
   const std::size_t step = 1 + samples.size() / 100;
   double sum = 0.0;
   int left_out = 0;

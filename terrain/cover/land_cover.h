@@ -60,10 +60,10 @@ struct LandCover {
   Raster<GroundColour> colours = {};  // on cells of their own; empty if not requested
   GroundRelief relief = {};           // the same
   // Areas and rivers of a map that lie over the classes, with their own outlines, and below them
-  // inferred rivers; null: none. `classes` includes them in its cells …
+  // inferred rivers; null: none. `classes` includes them in its cells.
   std::shared_ptr<const MapCover> map = {};
   std::shared_ptr<const MapCover> inferred = {};
-  Grid<LandCoverClass> below = {};  // … and these are the cells without them; empty without both
+  Grid<LandCoverClass> below = {};  // the cells without either map; empty where neither exists
   std::vector<CoverRiver> inferred_rivers =
       {};  // lines that rules made, before they are laid over the classes
 
@@ -72,9 +72,9 @@ struct LandCover {
   // raster's cells; lines one cell wide become a little narrower, single cells vanish. Beyond the
   // raster the nearest cells are used. A map at the position takes precedence.
   LandCoverClass at(double x, double y) const;
-  // The same without the map …
+  // The class of the cells alone, without the map.
   LandCoverClass cell_at(double x, double y) const;
-  // … and only the map, including inferred rivers; sky where there is nothing.
+  // The class of the map alone, inferred rivers included; sky where there is nothing.
   LandCoverClass laid_at(glm::dvec2 position) const;
 };
 

@@ -32,8 +32,8 @@ class ValleySight {
   // visible within the picture if the unbent ground sinks by drop_m(distance).
   double visible_share(const BendProfile& bend) const;
   double floor_km2() const { return floor_m2_ * 1e-6; }
-  // From the nearest unbent ground within the picture's frame to the horizon: all but a twentieth
-  // of the ground is nearer. Only floors beyond the former count.
+  // The distances from the nearest unbent ground within the picture's frame to the horizon: all but
+  // a twentieth of the ground is nearer. Only floors beyond the former count.
   double nearest_m() const { return nearest_m_; }
   double farthest_m() const { return farthest_m_; }
 

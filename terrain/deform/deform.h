@@ -32,8 +32,8 @@ struct ExaggerationPoint {
   double factor = 1.0;      // of the exaggeration, 0.05…20
 };
 
-// What happens to a point (x, y, altitude z), in this order; d is the horizontal distance from the
-// viewer to its position after step 1:
+// Moves a point (x, y, altitude z) in this order; d is the horizontal distance from the viewer to
+// its position after step 1:
 //   1. handles move it in plan and raise it;
 //   2. the field, at its undeformed position, turns it about the viewer by lateral / d, clockwise,
 //      and raises it by upward / e(d);

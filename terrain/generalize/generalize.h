@@ -64,19 +64,20 @@ struct GeneralizeGrids {
   Grid<float> foreground_share;  // u_d of equation 5: 1 near, 0 far; empty: 1 everywhere
   Grid<unsigned char> keep;      // != 0 keeps its altitude exactly (lakes)
   Grid<float> mask;              // m of equation 6: 1 generalized, 0 original; empty: 1 everywhere
-  // Of a halved DEM: != 0 where the mask was 0 in a cell of the data; empty: as in the mask.
+  // For a halved DEM: != 0 where the mask was 0 in a cell of the data; empty: as in the mask.
   Grid<unsigned char> unchanged = {};
   // 1 where bands may be exaggerated, 0 where weights are limited to 1: prevents moats and still
   // lets flats be smoothed; empty: 1 everywhere.
   Grid<float> amplification_mask;
   PixelGround pixel_ground;
-  // Of a halved DEM: what is left in its cells of each band that is finer than they are, the finest
-  // first (finer_bands); empty: nothing.
+  // For a halved DEM: the residue in its cells of each band finer than they are, the finest first
+  // (finer_bands); empty: none.
   std::vector<Grid<float>> finer_m = {};
 };
 
-// What a DEM that is halved so many times still shows of the bands it lacks, the finest first: the
-// bands' mean over its cells, which is not quite 0 because the pyramid's kernel is not ideal.
+// The residue in a DEM, halved so many times, of the bands finer than its cells, the finest first:
+// the mean of a band over a cell, which is not quite 0 because the kernel of the pyramid is not
+// ideal.
 std::vector<Grid<float>> finer_bands(const Grid<float>& altitude_m, int halvings);
 
 // Equations 1 to 6: A' = ((base - 1) m_xy1 + 1) G_1 + Σ w_xyi L_i with w_xyi = (u_i + v_i c_xyi -

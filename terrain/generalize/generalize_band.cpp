@@ -56,7 +56,7 @@ std::vector<float> gaussian_taps(double sigma, int radius) {
   return taps;
 }
 
-// What a band has to compute, determined before its rows.
+// The operations that a band needs, determined before its rows.
 struct Plan {
   bool unchanged = false;    // w = 1 everywhere
   bool local = false;        // some v is used

@@ -20,9 +20,10 @@ struct SlopeRange {
   double generalized_from_deg =
       10.0;  // from this slope 1, smoothstep between; above original_to_deg, below 90
 };
-// By the slope (Horn) of the ground smoothed by one cell, so that single rough cells of a plain are
-// ignored. A flat of more than three cells includes five cells around it, fading over some more:
-// where a slope starts the ground is concave, and amplified medium bands would dig there.
+// Mask by the slope (Horn) of the ground smoothed by one cell, so that single rough cells of a
+// plain are ignored. A flat of more than three cells includes five cells around it, fading over
+// some more: where a slope starts the ground is concave, and amplified medium bands would dig
+// there.
 Grid<float> slope_mask(const Grid<float>& altitude_m, glm::dvec2 cell_m, const SlopeRange& range);
 
 // Mask value of each class, 0…1: 0 for lakes and valley floors, 1 for classes that are not listed.
@@ -50,8 +51,8 @@ Grid<float> soften_mask(const Grid<float>& mask);
 // Product of two masks, so that each protects its own area. An empty grid is 1 everywhere.
 Grid<float> combine_masks(Grid<float> a, const Grid<float>& b);
 
-// What a mask promises of every operator: `after` where it is 1 or empty, `before` bit for bit
-// where it is 0, the values between the two in proportion in between.
+// Blends an operator's result by a mask: `after` where the mask is 1 or empty, `before` bit for bit
+// where it is 0, linear in between.
 Grid<float> apply_mask(const Grid<float>& before, Grid<float> after, const Grid<float>& mask);
 
 // 1 in cells that may not change: those of `keep` != 0, and those in which the mask is 0. Either

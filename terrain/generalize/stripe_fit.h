@@ -4,8 +4,8 @@
 
 namespace belvedere {
 
-// What a stripe's error is proportional to: nothing, or the slope of the terrain along or across
-// the stripe.
+// The regressor of a stripe's error: a constant, or the slope of the terrain along or across the
+// stripe.
 enum class Follows { offset, slope_along, slope_across };
 
 // Stripes that run nearly along rows.

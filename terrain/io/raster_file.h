@@ -36,7 +36,7 @@ struct CellAffine {
   bool axis_aligned() const { return x_row == 0.0 && y_column == 0.0; }
 };
 
-// What the file says of the band: heights or colours.
+// The meaning of the band according to the file: heights or colours.
 struct BandMeaning {
   bool palette = false;  // numbers of a table of colours
   bool colour = false;   // red, green or blue of a picture of 8 bits
@@ -69,7 +69,8 @@ class RasterFile {
   // The same, or Error(input) with the key that sets it.
   const std::string& required_crs() const;
   std::optional<double> nodata() const;  // the scene's, else the file's
-  // What it became in cells whose type does not have it; else none.
+  // The nodata value as it was converted to the type of the cells, if that type cannot hold it;
+  // else none.
   std::optional<double> wrapped_nodata() const;
   std::string driver() const;
   BandMeaning meaning() const;
@@ -100,7 +101,7 @@ class RasterFile {
   std::unique_ptr<State> state_;
 };
 
-// In the file's CRS.
+// The centre of a raster, in the file's CRS.
 inline glm::dvec2 centre_of(const RasterFile& file) {
   return file.affine().to_crs({0.5 * file.width(), 0.5 * file.height()});
 }

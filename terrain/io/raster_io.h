@@ -119,7 +119,7 @@ struct ContourParameters {
   double base_m = 0.0;        // altitude of one of the lines
 };
 
-// What was written, for reports: the length falls as terrain is generalized.
+// Summary of the contours written, for reports: their length falls as terrain is generalized.
 struct ContourSummary {
   int lines = 0;
   double length = 0.0;  // in CRS units (m)

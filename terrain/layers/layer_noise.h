@@ -26,7 +26,7 @@ class LayerNoiseRows {
   LayerNoiseRows(const LayerNoise& noise, std::uint64_t seed, const GeoTransform& transform,
                  const PixelRect& cells);
 
-  // Instead a smooth, unbounded Gaussian field of standard deviation 1 everywhere: octaves of
+  // Alternatively a smooth, unbounded Gaussian field of standard deviation 1 everywhere: octaves of
   // normal lattice values. The squares of the weights sum to 1.
   struct GaussianOctave {
     double sigma_m = 1.0;  // as gaussian_noise: the lattice's spacing over √3

@@ -71,9 +71,10 @@ struct LayerSurface {
   Grid<glm::vec3> colour;  // sRGB as encoded, 0…255
 };
 
-// At `factor` × `factor` positions per cell of the DEM: `cells` is a rectangle of that finer
-// raster, which starts where the DEM does. Altitudes between cells are interpolated by spline;
-// finer detail comes from the layers' noise. Any rectangle has the bits of the whole.
+// Evaluates the surface at `factor` × `factor` positions per cell of the DEM: `cells` is a
+// rectangle of that finer raster, which starts where the DEM does. Altitudes between cells are
+// interpolated by spline; finer detail comes from the layers' noise. Any rectangle has the bits of
+// the whole.
 LayerSurface layer_surface(const LayerProgram& program, const LayerGround& ground, int factor,
                            const PixelRect& cells, std::uint64_t seed);
 
@@ -96,8 +97,8 @@ struct LayerDrawing {
   LayerDrawingParameters parameters;
   std::array<float, static_cast<std::size_t>(land_cover_class_count)> factor{};
 };
-// From samples of the region: shares of the classes by their numbers, grids of one size
-// (class_shares); [0], ground without a class, is not drawn.
+// Plans the drawing from samples of the region: shares of the classes by their numbers, grids of
+// one size (class_shares); [0], ground without a class, is not drawn.
 LayerDrawing plan_layer_drawing(const LayerDrawingParameters& parameters,
                                 const std::vector<Grid<float>>& samples);
 

@@ -59,8 +59,8 @@ struct LayerSamples {
 // between them.
 std::array<std::uint8_t, 256> samples_of_knots(const std::vector<std::uint8_t>& knots);
 
-// None (1 in a product, 0 in a sum), a hat, or samples. A hat in an additive model counts as its
-// logarithm, at least -12.
+// The function of an input: none (1 in a product, 0 in a sum), a hat, or samples. A hat in an
+// additive model counts as its logarithm, at least -12.
 using LayerFunction = std::variant<std::monostate, LayerHat, LayerSamples>;
 
 // Noise at world coordinates in -1…1: a sum of octaves, each with half the length and half the

@@ -175,7 +175,7 @@ PairFit with_unknowns(PairFit fit, std::span<const double> at) {
   return fit;
 }
 
-// Of displacements() if the ground moves as the field says and pixels are clicked with its noise.
+// Covariance of displacements(): that of the field, and that of clicked pixels.
 Matrix whole_covariance(const DisplacementParameters& field) {
   const std::size_t n = field.places.size();
   const Matrix ground = displacement_covariance(field);

@@ -65,8 +65,8 @@ ControlPair moved_by(const HandleField& handles, ControlPair pair);
 // upward; and the derivatives by the view's unknowns, then by those of each mountain.
 Residuals displacements(const PairFit& fit);
 
-// What the view and moved mountains leave to the field: where the pairs lie, how far they moved,
-// and their noise.
+// The displacements that the view and moved mountains leave to the field: positions of the pairs,
+// residual displacement and noise.
 std::vector<DisplacedPlace> displaced_places(const PairFit& fit);
 
 // Each pair by the others. One deviation of the view's priors weighs like two pixels of sigma_px.
@@ -86,7 +86,7 @@ PairJudgement refine_pairs(PairFit& fit, double sigma_px, int rounds);
 // A field as painters need it, of that length in extents.
 DisplacementParameters field_of_extent(double extent_m, double length);
 
-// What the others say about a group of observations that is left out.
+// The prediction error of a group of observations left out of the fit.
 struct LeftOut {
   std::vector<double> residuals;  // observed less predicted
   Matrix covariance;              // of them, noise included
@@ -112,7 +112,8 @@ struct WeighedPairs {
 // Mean score of the pairs themselves.
 double mean_score(const WeighedPairs& weighed);
 
-// Of Student's t with 4 degrees of freedom, two values at once; hardly any beyond all doubt.
+// Robust weight under Student's t with 4 degrees of freedom, for the two coordinates together; .01
+// where outliers are beyond doubt.
 double weight_of(double square_deviations);
 
 // Weights by agreement with the others, the view and mountains in turn; the likeliest of these

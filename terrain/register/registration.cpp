@@ -78,8 +78,8 @@ std::vector<glm::dvec2> folds_of(const PairFit& fit) {
   return out;
 }
 
-// Of the places near a position that of the least agreement, a sure one only if there is no other;
-// nothing if none is near.
+// The place near a position that agrees least with the others, a sure one only if there is no
+// other; nothing if none is near.
 std::optional<std::size_t> doubtful_place(const PairFit& fit, const PairJudgement& judgement,
                                           glm::dvec2 position) {
   constexpr double near = 1.5;  // of length or reach
@@ -348,7 +348,8 @@ std::optional<Registration> refine_registration(const Registration& registration
     if (!best || tried.judgement.score > best->judgement.score) best = std::move(tried);
   }
   if (!best) return std::nullopt;
-  // Of the sum over the pairs; mountains gain less than what is hopeless.
+  // Limits of the loss of score, summed over the pairs; moving mountains gains less than
+  // `hopeless`.
   constexpr double chance = 1.0, hopeless = 20.0;
   const auto loses = [&](double limit) {
     return mean_score(*best) < registration.score - limit / static_cast<double>(best->index.size());

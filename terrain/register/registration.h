@@ -26,7 +26,7 @@ struct RegistrationParameters {
                                    // deviation, 0.1…100; absent: estimated
 };
 
-// What becomes of a pair.
+// The judgement of a pair.
 struct PairFinding {
   bool wrong = false;       // thrown out
   bool doubted = false;     // as far off as a wrong one, but sure

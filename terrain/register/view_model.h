@@ -108,7 +108,7 @@ constexpr std::array<double, 3> view_knots = {0.4, 0.8, 1.2};  // x_k
 using ViewUnknowns = std::array<double, view_unknown::count>;
 using ViewNumber = Dual<view_unknown::count>;
 
-// What is known of a view before its unknowns.
+// Constants of a view, known before its unknowns are fitted.
 struct ViewFrame {
   ViewKind kind = ViewKind::cylinder;
   glm::dvec2 size_px{0.0};  // of the picture
@@ -117,7 +117,7 @@ struct ViewFrame {
   double valley_m = 0.0;    // b: a tenth of the pairs lies lower
   bool cropped = false;     // the middle may lie beside the picture's centre
 };
-// Of pairs; at least one.
+// The frame of a picture and its control pairs, of which there is at least one.
 ViewFrame view_frame(ViewKind kind, glm::dvec2 size_px, bool cropped,
                      std::span<const ControlPair> pairs);
 
@@ -150,7 +150,7 @@ ViewDisplacement displacement_in_view(const ViewFrame& frame, const ViewUnknowns
 bool is_plausible(const ViewFrame& frame, const ViewUnknowns& view,
                   std::span<const ControlPair> pairs);
 
-// What pairs cannot tell must not run away: residuals in standard deviations.
+// Regularization of unknowns that the pairs do not determine: residuals in standard deviations.
 std::vector<ViewNumber> view_priors(const ViewFrame& frame, const ViewUnknowns& view);
 
 }  // namespace belvedere

@@ -123,7 +123,7 @@ std::vector<Pass> find_passes(const Grid<float>& altitude_m, const Basins& basin
       for (int x = 0; x < width; ++x) {
         const std::size_t i = altitude_m.index(x, y);
         const std::int32_t basin = basins.of_cell[i];
-        // Of consecutive passes along a border only the lowest is needed.
+        // Consecutive passes along a border are reduced to the lowest.
         const auto look = [&](std::size_t j) {
           const std::int32_t beside = basins.of_cell[j];
           if (basin == beside) return;

@@ -460,11 +460,11 @@ TEST_F(Faults, FullDiskKeepsTheOldResultWhole) {
 }
 
 TEST_F(Faults, AFolderThatCannotBeWrittenIsRefusedBeforeTheWork) {
-  for (const std::string& position :
+  for (const std::string& folder :
        {std::string("/proc/self"), write("file", "in the way") + "/below"}) {
-    const Outcome outcome = run({"render", write_scene_file(), "--out", position});
+    const Outcome outcome = run({"render", write_scene_file(), "--out", folder});
     EXPECT_EQ(outcome.status, 4);
-    EXPECT_THAT(outcome.err, AllOf(HasSubstr(position), Not(HasSubstr(" s)"))));
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr(folder), Not(HasSubstr(" s)"))));
   }
 }
 

@@ -9,7 +9,7 @@
 
 namespace belvedere {
 
-// What a painting is suitable for, measured before anything is copied from it.
+// Survey of what a painting is suitable for, before anything is copied from it.
 
 // Distribution of a guide's values in a class.
 struct GuideTexels {

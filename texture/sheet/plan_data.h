@@ -64,7 +64,7 @@ struct SynthesisPlanData {
   MadeBetweenTiles between_tiles;  // not part of the plan: derived from it
 };
 
-// Of everything that synthesis reads from the exemplars.
+// Hash of everything that synthesis reads from the exemplars.
 std::uint64_t digest_of(const synth::Plane& exemplars);
 // The part of the plan that is made from the exemplars and the counts of the small view. planes: at
 // least levels 0 … the plan's.

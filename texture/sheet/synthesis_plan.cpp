@@ -38,7 +38,7 @@ void check_sheet(const SynthesisSheet& sheet, const GuideStack& small_view) {
   }
 }
 
-// Of all bytes, eight at a time, in fixed chunks.
+// Hash of all bytes, eight at a time, in fixed chunks.
 template <class T>
 std::uint64_t digest_of_values(const std::vector<T>& values) {
   constexpr std::size_t chunk = std::size_t{1} << 20;

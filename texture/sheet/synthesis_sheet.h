@@ -28,7 +28,7 @@ struct SynthesisSheet {
   int columns() const { return (width + tile_px - 1) / tile_px; }
   int rows() const { return (height + tile_px - 1) / tile_px; }
   PixelRect tile(int column, int row) const;
-  // Of the small view: width / 2^level, rounded up.
+  // Size of the small view: width / 2^level, rounded up.
   int plan_width() const { return ((width - 1) >> level) + 1; }
   int plan_height() const { return ((height - 1) >> level) + 1; }
 };

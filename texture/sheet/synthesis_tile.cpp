@@ -152,7 +152,7 @@ LevelMatches make_level(const SynthesisPlanData& plan, const Guides& guides,
   return out;
 }
 
-// Of all guides that a corner or a line is made with.
+// Hash of all guides that a corner or a line is made with.
 std::uint64_t digest_of(const SynthesisSheet& sheet, const Guides& guides,
                         const SynthesisArea& area) {
   std::uint64_t digest = random_bits(area.rect.x0, area.rect.y0, area.rect.x1, area.rect.y1);

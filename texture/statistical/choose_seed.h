@@ -13,7 +13,7 @@ struct SeedTrial {
   TextureSeed seed = TextureSeed::white;
   float px = 0.F;
   bool polish = false;
-  // Of a texture of 128² pixels made with it (TextureFigures):
+  // Figures of a texture of 128² pixels made with this seed (TextureFigures):
   double beyond = 0.0;
   double drawn = 0.0;
   double turned = 0.0;

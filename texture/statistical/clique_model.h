@@ -120,7 +120,7 @@ std::string model_text(const CliqueModel& model);
 // is missing.
 CliqueModel parse_model(const std::string& text, const std::string& name);
 CliqueModel read_model(const std::string& path);
-// From a table within a larger document of that name.
+// Reads a model from a table within a larger document of that name.
 CliqueModel parse_model(const ConfigValue& table, const std::string& name);
 
 }  // namespace belvedere

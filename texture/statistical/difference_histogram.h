@@ -16,8 +16,8 @@ struct DifferenceHistogram {
   std::uint64_t total = 0;
 };
 
-// Of all cliques of a type whose ends both count and of which at least one may change. Integers, so
-// the order of summation does not matter.
+// Histogram of the differences of all cliques of a type whose ends both count and of which at least
+// one may change. Integers, so the order of summation does not matter.
 DifferenceHistogram count_differences(const BandPicture& picture, const BandSpace& bands,
                                       const CliqueType& type);
 

@@ -38,7 +38,7 @@ class PaintRecord {
   void hand_back(Painting& painting) const;
 
  private:
-  // Of one class.
+  // The paint of one class on a pixel.
   struct Paint {
     std::uint32_t source;  // origin of its thickest stroke
     float share;           // 0…1; 0: none

@@ -7,7 +7,7 @@
 
 namespace belvedere {
 
-// What grows on a field. Grass first: most of a valley in the mountains is green.
+// Crops of a field. Grass comes first: most of a mountain valley is green.
 enum class Crop : std::uint8_t { hay, grass, clover, aftermath, ripe, stubble, ploughed };
 inline constexpr std::size_t crop_count = 7;
 

@@ -61,8 +61,8 @@ struct StrokeScene {
   }
   // Where seeds are needed, px of the sheet.
   PixelRect seeded() const;
-  // The cells, of `count` cells of spacing_px along one axis of the sheet, that touch first_px …
-  // end_px, and one more on each side.
+  // The cells that touch first_px to end_px, of `count` cells of spacing_px along one axis of the
+  // sheet, and one more on each side.
   static CellRange cells_within(int first_px, int end_px, float spacing_px, int count);
   // Row-major index on the sheet of a pixel of the buffers.
   std::uint64_t sheet_index(std::size_t i) const;

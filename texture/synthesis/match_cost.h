@@ -26,7 +26,7 @@ Grid<float> seam_cost(const MatchField& matches, const std::vector<Exemplar>& ex
 // Difference between the texel's guide and the pixel's, 0…255.
 Grid<std::uint8_t> guide_error(const MatchField& matches, const std::vector<Exemplar>& exemplars,
                                const GuideStack& target, const std::string& guide);
-// The price of that error at a weight.
+// The price of an error of a guide, at the guide's weight.
 float guide_cost(std::uint8_t error, double weight);
 
 }  // namespace belvedere

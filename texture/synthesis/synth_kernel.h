@@ -152,8 +152,8 @@ PickRun begin_draw(const KernelView& view, std::uint32_t pixel, std::uint64_t ke
                    int widen = 0);
 std::uint32_t finish_draw(const KernelView& view, std::uint32_t pixel, const PickRun& run,
                           Slack slack);
-// Of `fitting_draws`, the one that also matches the existing paint around the pixel best: used by
-// sub-passes. As above where a silhouette cuts the patch.
+// Finishes a draw with the one of `fitting_draws` texels that also matches the existing paint
+// around the pixel best; used by sub-passes. As finish_draw where a silhouette cuts the patch.
 std::uint32_t finish_fitting_draw(const KernelView& view, std::uint32_t pixel, const PickRun& run,
                                   Slack slack);
 
@@ -180,8 +180,8 @@ struct Forbidden {
 inline bool continues(const KernelView& view, std::uint32_t neighbours_texel, int dx, int dy) {
   return !view.has_cuts || !view.texels->is_cut(neighbours_texel, -dx, -dy, view.exemplars->stride);
 }
-// With `all_neighbours` also the offsets of linked neighbours: a pixel that copies none of these is
-// a piece of its own.
+// The texels forbidden to a pixel; with `all_neighbours` also those by the offsets of linked
+// neighbours: a pixel that copies none of these is a piece of its own.
 Forbidden forbidden_texels(const KernelView& view, std::uint32_t pixel,
                            bool all_neighbours = false);
 
@@ -195,8 +195,8 @@ std::uint32_t allowed_texel(const KernelView& view, std::uint32_t pixel, const F
 using SurfaceRows = std::array<std::uint16_t, 2 * largest_patch_radius + 1>;
 SurfaceRows surface_around(const KernelView& view, std::uint32_t pixel);
 
-// The best candidate of every second pixel of row y from x0 on and before x1, into next[0], next[1]
-// …
+// Finds the best candidate of every second pixel of row y from x0 on and before x1, into next[0]
+// onwards.
 void improve_row(const KernelView& view, int x0, int x1, int y, std::uint32_t* next);
 // Patch distance and class mismatches together, as improve_row prices them.
 std::int64_t patch_cost(const KernelView& view, std::uint32_t pixel, std::uint32_t texel);
@@ -204,20 +204,20 @@ std::int64_t patch_cost(const KernelView& view, std::uint32_t pixel, std::uint32
 // once.
 std::int64_t guides_cost(const KernelView& view, std::uint32_t pixel, std::uint32_t texel);
 
-// A whole piece moved: pixels[i] would copy from first_texel + steps[i]. Finds the first texel with
-// the lowest total cost.
+// A sampled pixel of a piece that may be moved as a whole.
 struct PieceSample {
   std::uint32_t pixel = 0;
   int dx = 0;  // from the piece's reference pixel
   int dy = 0;
 };
-// Index into `candidates` (exemplar indices for the reference pixel), or -1 if there is none. Ties
-// go to the first.
+// Finds the cheapest move of a piece, in which each sample copies from a candidate's texel plus its
+// (dx, dy): the index into `candidates` (exemplar indices for the reference pixel), or -1 if there
+// is none. Ties go to the first.
 int best_move(const KernelView& view, const std::vector<PieceSample>& samples,
               const std::vector<std::uint32_t>& candidates);
 
-// The vector instruction sets that this machine supports, best first; and to select one of them (""
-// for the best), for tests.
+// The vector instruction sets that this machine supports, best first. use_vector_target selects one
+// of them ("" for the best), for tests.
 std::vector<std::string> vector_targets();
 void use_vector_target(const std::string& name);
 

@@ -10,14 +10,14 @@ namespace belvedere::synth {
 
 // Initial matches: one pick per pixel.
 void start_from_picks(LevelState& state);
-// Or the coarser level's, upsampled by two; if the class is wrong that of a neighbouring parent,
-// extended; else a pick.
+// Initial matches from the coarser level, upsampled by two; if the class is wrong, that of a
+// neighbouring parent, extended; else a pick.
 void start_from_coarser(LevelState& state, const Plane& coarse_exemplars,
                         const Plane& coarse_target, const std::vector<std::uint32_t>& coarse_match);
 // Counts uses and bins and copies colours for new matches, if no uses were counted before; the
 // start_ functions end with it.
 void count_matches(LevelState& state);
-// The same whatever was counted before.
+// Counts anew, whatever was counted before.
 void recount(LevelState& state);
 // Sets the uses of all matched texels to 0, so that another window can be counted, without touching
 // the others.

@@ -91,7 +91,7 @@ bool same_depth(float a, float b, float ratio) {
   return a == b || std::max(a, b) <= ratio * std::min(a, b);
 }
 
-// Of the coarse texel at (x, y) of a picture.
+// The cuts of the coarse texel at (x, y) of a picture.
 std::uint8_t halved_cuts(const Plane& fine, int picture, int x, int y) {
   const Plane::Part& part = fine.parts[static_cast<std::size_t>(picture)];
   const auto is_cut = [&](int fx, int fy, std::uint8_t side) {

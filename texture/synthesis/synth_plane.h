@@ -44,8 +44,8 @@ struct Plane {
   int guide_count = 0;
   std::vector<std::uint32_t> words;
   std::vector<std::uint8_t> guides;  // guide_count per word
-  // Of exemplars: cut::right, cut::down per word, where a silhouette lies between a texel and its
-  // neighbour; empty: none.
+  // Silhouettes of exemplars: cut::right and cut::down per word, where one lies between a texel and
+  // its neighbour; empty: none.
   std::vector<std::uint8_t> cuts;
 
   std::uint32_t index(int part, int x, int y) const {

@@ -24,7 +24,7 @@ struct Classes {
   int count = 0;
 };
 
-// Of a guide, of surroundings: times the usual price.
+// Largest weight of a guide or of surroundings, relative to the usual price.
 inline constexpr int max_weight = 100;
 
 struct Setup {

@@ -111,7 +111,7 @@ struct LevelState {
   // Target classes without texels on this level become no_class. `links` may be empty.
   LevelState(const LevelSettings& settings, std::shared_ptr<LevelSource> source, Plane& target,
              std::vector<std::uint8_t> links);
-  // With its own source, for the requests of this target.
+  // A state with its own source, for the requests of this target.
   LevelState(const LevelSettings& settings, const std::vector<GuideRole>& guides, int classes,
              const Plane& exemplars, Plane& target, std::vector<std::uint8_t> links,
              const SurroundingsPrice& around_price = no_surroundings());

@@ -56,9 +56,9 @@ class SurroundingsPrice {
 
 inline SurroundingsPrice no_surroundings() { return {0, {}, 0}; }
 
-// The same with all classes of a neighbourhood: the share of each, to a 64th. Equal neighbourhoods
-// have one number, so that a texel needs no more memory than with the most common class alone;
-// Surroundings then contain that number, with its low byte in `others`.
+// Surroundings with all classes of a neighbourhood: the share of each, to a 64th. Equal
+// neighbourhoods have one number, so that a texel needs no more memory than with the most common
+// class alone; Surroundings then contain that number, with its low byte in `others`.
 class ClassShares {
  public:
   static constexpr int steps = 64;

@@ -34,7 +34,7 @@ struct Cost {
   double cpu_s = 0.0;
 };
 Cost measure(const std::function<void()>& work);
-// Of this process so far; its elapsed time has no fixed beginning.
+// The cost of this process so far; its elapsed time has no fixed beginning.
 Cost spent();
 // The same for work done by a child process that is started and waited for.
 Cost measure_child(const std::function<int()>& work);

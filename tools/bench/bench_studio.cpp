@@ -151,7 +151,8 @@ double difference_m(const GuidanceBuffers& a, const GuidanceBuffers& b) {
   return count > 0.0 ? std::sqrt(sum / count) : std::numeric_limits<double>::quiet_NaN();
 }
 
-// What a change of the scene changes, in the cells of a ground of the given width and height.
+// The response of the ground to a change of the scene, in the cells of a ground of the given width
+// and height.
 Grid<float> response(const Ground& without, const Ground& with, const Grid<float>& size) {
   Grid<float> change = with.generalized_m;
   for (std::size_t i = 0; i < change.size(); ++i) change[i] -= without.generalized_m[i];

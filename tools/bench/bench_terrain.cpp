@@ -296,7 +296,7 @@ std::vector<Measurement> bench_files(const Options& options) {
   const std::filesystem::path folder =
       std::filesystem::temp_directory_path() / fmt::format("belvedere-bench-{}", ::getpid());
   std::filesystem::create_directories(folder);
-  const std::string position = folder.string() + "/";
+  const std::string path = folder.string() + "/";
   std::vector<Measurement> out;
   for (const int size : options.sizes) {
     const Grid<glm::vec3> picture = make_picture(size, size / 2);
@@ -308,12 +308,12 @@ std::vector<Measurement> bench_files(const Options& options) {
       std::function<void()> work;
     };
     const std::vector<File> files = {
-        {"tiff_write", 6.0, [&] { write_tiff16(position + "a.tif", picture, {}); }},
-        {"png_write", 3.0, [&] { write_png8(position + "a.png", picture, {}); }},
-        {"exr_write", 6.0, [&] { write_exr(position + "a.exr", picture, {}); }},
-        {"guidance_write", 32.0, [&] { write_guidance(position + "g.exr", guidance, {}); }},
-        {"tiff_read", 6.0, [&] { read_picture(position + "a.tif"); }},
-        {"guidance_read", 32.0, [&] { read_guidance(position + "g.exr"); }},
+        {"tiff_write", 6.0, [&] { write_tiff16(path + "a.tif", picture, {}); }},
+        {"png_write", 3.0, [&] { write_png8(path + "a.png", picture, {}); }},
+        {"exr_write", 6.0, [&] { write_exr(path + "a.exr", picture, {}); }},
+        {"guidance_write", 32.0, [&] { write_guidance(path + "g.exr", guidance, {}); }},
+        {"tiff_read", 6.0, [&] { read_picture(path + "a.tif"); }},
+        {"guidance_read", 32.0, [&] { read_guidance(path + "g.exr"); }},
     };
     for (const File& file : files) {
       const Cost cost = measure_fastest(options.repeats, {file.work})[0];

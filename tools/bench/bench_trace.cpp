@@ -191,7 +191,8 @@ std::vector<Measurement> bench_picture(const Options&);
 
 namespace {
 
-// What each stage costs that a job reports: the time from its beginning to the next one's.
+// Measures the cost of each stage that a job reports: the time from its beginning to the next
+// one's.
 class StageCosts : public Progress {
  public:
   void begin(std::string_view stage, double) override {

@@ -108,7 +108,7 @@ LocatedTable locate_files(const BareView& bare, const std::vector<std::string>& 
   return table;
 }
 
-// What is printed: lines of text and the same as JSON members, side by side.
+// The report that is printed: lines of text and the same as JSON members, side by side.
 struct DeformReport {
   std::string text;
   std::string table;  // CSV, for files of points

@@ -25,7 +25,7 @@ struct FetchOptions {
 
 // --http-silence only if the command lacks it; otherwise the command fills http_options.silence_s.
 void add_fetch_options(CommandOptions& command, FetchOptions& options);
-// Of these, all but --at, --size and --no-land-cover.
+// Adds all of these options except --at, --size and --no-land-cover.
 void add_source_options(CommandOptions& command, FetchOptions& options);
 // The head of the record of fetched data: tables that are ready for a scene beside it.
 std::string sources_for_scenes(const FetchedArea& area);

@@ -363,7 +363,7 @@ int run(const GeneralizeOptions& options) {
 
   const double cell = 0.5 * (cell_m.x + cell_m.y);
   const Grid<float> original_m = options.report.empty() ? Grid<float>() : dem.altitude_m;
-  // Of the data, so for masks too.
+  // Destriping changes the data, and so the masks that are made from them.
   if (options.operators.destripe) dem.altitude_m = destripe(dem.altitude_m, {}, progress);
   GeneralizeGrids grids;
   // First, because it needs the most memory.

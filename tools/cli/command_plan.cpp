@@ -32,7 +32,7 @@ struct PlanOptions {
   int part = 1;
 };
 
-// What a plan records for the parts: scene, data folders, number of parts, layers.
+// The record of a plan for its parts: scene, data folders, number of parts, layers.
 struct Order {
   std::string scene;
   SceneFileOptions files;

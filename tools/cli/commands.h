@@ -80,7 +80,7 @@ Action add_sweep(CommandOptions& command);
 Action add_verify(CommandOptions& command);
 Action add_web(CommandOptions& command);
 
-// Without its folders, so that messages and headers are the same wherever files are.
+// A file's name without its folders, so that messages and headers are the same wherever files are.
 std::string file_name(const std::string& path);
 
 }  // namespace belvedere::tools

@@ -24,8 +24,8 @@ struct SceneOptions : RunOptions {
 // meaning: of the scene, in the command's help.
 void add_scene_options(CommandOptions& command, SceneOptions& options,
                        const std::string& meaning = "The scene file. Default: the built-in demo");
-// Of these, the options of commands with several scenes: --data and --allow-http, and threads,
-// memory, quiet, json.
+// Adds the options of commands with several scenes: --data and --allow-http, and threads, memory,
+// quiet, json.
 void add_file_options(CommandOptions& command, SceneOptions& options);
 void add_run_options(CommandOptions& command, SceneOptions& options);
 // --locked, which load() then enforces.

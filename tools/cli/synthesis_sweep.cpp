@@ -87,7 +87,7 @@ ReportTable table_of(const std::vector<SweepAxis>& axes, const std::vector<Swept
   return table;
 }
 
-// Of each result, class by class.
+// Quality of each result, class by class.
 Json classes_of(const std::vector<SweptResult>& results) {
   Json all = Json::object();
   for (const SweptResult& result : results)

@@ -36,7 +36,8 @@ extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  // What the program would refuse on a small machine: half of what tools/fuzz/run lets it use.
+  // The limit refuses what the program would refuse on a small machine: half of the memory that
+  // tools/fuzz/run lets it use.
   static const belvedere::MemoryLimit limit(std::uint64_t{1} << 30);
   try {
     target->read(std::string(reinterpret_cast<const char*>(data), size));

@@ -99,7 +99,7 @@ void must(bool holds) {
   if (!holds) std::abort();
 }
 
-// What is read must be written so that it reads back as the same.
+// A scene that was read must be written such that it reads back as the same.
 void read_scene_text(const std::string& text) {
   const LoadedScene scene = parse_scene(text, "scene.toml", "/nowhere", {});
   scene_inputs(scene);

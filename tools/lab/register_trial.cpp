@@ -69,7 +69,8 @@ ClassAgreement agreement(const Grid<std::uint8_t>& classes, const GuidanceBuffer
   return out;
 }
 
-// Of a registered painting of that terrain; truth: guidance.exr of the picture that was painted.
+// Compares the classes of a registered painting of that terrain with the truth: guidance.exr of the
+// picture that was painted.
 CoverTrial try_cover(const Registration& registration, const Grid<glm::vec3>& painting,
                      const std::shared_ptr<const Dem>& dem, const std::string& truth_file) {
   const GuidanceBuffers truth = read_guidance(truth_file);

@@ -99,7 +99,8 @@ void require_input(const std::string& path, const std::string& option) {
   throw Error(missing.kind(), option, path + ": " + missing.found(), "an existing file");
 }
 
-// Of the command that was named: inputs first, so that results are compared with all of them.
+// Declares the files of the command that was named: inputs first, so that results are compared with
+// all of them.
 void declare_files_of(const CLI::App& app, const FileUses& uses) {
   const auto use_of = [&](const CLI::Option* option) {
     const auto found = uses.of.find(option);
@@ -126,7 +127,7 @@ void declare_files_of(const CLI::App& app, const FileUses& uses) {
       };
       if (use == FileUse::writes) {
         guard.writes(path, name);
-        // What the user did not name is replaced like what a folder holds.
+        // Results that the user did not name are replaced like the files of a folder.
         if (all != nullptr)
           for (const std::string& one : all(path))
             if (one != path) only_own(one);

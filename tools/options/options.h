@@ -13,7 +13,7 @@
 #include "base/error.h"
 #include "tools/options/program_description.h"
 
-// Of CLI11, whose long headers are included in options.cpp only.
+// Declarations of CLI11, whose long headers are included in options.cpp only.
 namespace CLI {
 class App;
 class Option;
@@ -37,8 +37,8 @@ concept OptionValue =
           std::vector<std::tuple<int, int, double>>,
           std::vector<std::tuple<std::string, std::string, std::string, double>>>;
 
-// What a command does with the files that an option names. All words of an option that name a file
-// are inputs, unless it says otherwise; CommandLine::declare_files() tells file_guard() of both.
+// Use of the files that an option names. All words of an option that name a file are inputs, unless
+// it says otherwise; CommandLine::declare_files() tells file_guard() of both.
 enum class FileUse {
   reads,   // files that are there are inputs
   input,   // an input, which has to exist unless it is an address
@@ -60,8 +60,8 @@ class Option {
   Option& type_name(const std::string& name);  // name of its value in the help: "DIR"
   Option& show_default();                      // the help shows its present value
   Option& required(bool is = true);
-  // What may hold files of others brings --force along: pages, folders, and results that consist
-  // of several files, of which `all` gives the paths.
+  // Options whose target may hold files of others get --force: pages, folders, and results that
+  // consist of several files, of which `all` gives the paths.
   Option& files(FileUse use, std::vector<std::string> (*all)(const std::string& path) = nullptr);
   Option& environment(
       const std::string& variable);  // where its value comes from when it is not given

@@ -140,7 +140,7 @@ void PairsFitter::work() {
       fit_newest(revision, pairs);
     } catch (const Error& caught) {
       error = caught;
-      // What a few pairs leave open may be more than priors close.
+      // Priors may not determine a view that a few pairs leave open.
       if (caught.kind() == ErrorKind::bug && pairs.size() < min_control_pairs)
         error = Error(ErrorKind::input, "pairs", "they do not tell a view",
                       "pairs that are spread over the painting");
@@ -318,7 +318,7 @@ Json place_numbers(const KnownPlace& place) {
                                    std::round(place.altitude_m), std::round(place.prominence_m)});
 }
 
-// What is known of each pair once there are enough to judge them.
+// The findings on each pair once there are enough to judge them.
 Json findings_json(const FittedPairs& fit) {
   const Registration& found = fit.registration;
   Json out = Json::array();

@@ -24,7 +24,7 @@
 
 namespace belvedere::tools {
 
-// What the pairs say of the painting.
+// The registration of the painting by its pairs.
 struct FittedPairs {
   std::uint64_t revision = 0;  // of the pairs
   std::vector<ControlPair> pairs;
@@ -59,7 +59,7 @@ struct PairsFitterInput {
 // pairs end the work for those before.
 class PairsFitter {
  public:
-  // What `input` refers to must outlive the fitter.
+  // Everything that `input` refers to must outlive the fitter.
   explicit PairsFitter(PairsFitterInput input);
   ~PairsFitter();
   PairsFitter(const PairsFitter&) = delete;
@@ -145,9 +145,9 @@ class PairsSession {
   std::vector<std::string> redo_;
 };
 
-// What the page that picks pairs is answered, as JSON: docs/registration.md describes the members.
+// Answers to the page that picks pairs, as JSON: docs/registration.md describes the members.
 
-// What stays the same: the painting, the map and the known places.
+// Constants of a session: the painting, the map and the known places.
 struct PickingSetup {
   std::string painting;
   TilePyramid painting_tiles;

@@ -45,7 +45,7 @@ glm::vec3 tint_at(float share) {
   return tints.back().colour;
 }
 
-// Of altitudes, without the few lowest and highest.
+// Range of altitudes, without the few lowest and highest.
 struct Range {
   float low, high;
 };
@@ -314,7 +314,7 @@ HttpAnswer PickingState::place(const HttpRequest& request) {
   return json_answer(place_json(out));
 }
 
-// What a pixel of the painting may show.
+// Proposes known places that a pixel of the painting may show.
 HttpAnswer PickingState::places(const HttpRequest& request) {
   const glm::dvec2 pixel(number_of(request, "x", 0.0, painting_px.x),
                          number_of(request, "y", 0.0, painting_px.y));

@@ -186,7 +186,7 @@ std::string summary_of(const RegisterReportInput& input) {
       view_kind_name(found.frame.kind));
 }
 
-// What the painter did to the ground beside moving it.
+// Describes how the painter changed the ground besides moving it.
 std::string ground_words(const Registration& found) {
   std::string out;
   if (found.valleys_m > 0.0)

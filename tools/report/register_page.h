@@ -16,7 +16,7 @@ namespace belvedere::tools {
 // Deviation of places in the darkest colour of the map of trust; of a painting 1200 px wide.
 constexpr double trusted_px = 12.0;
 
-// What a registration found of a pair, in a word ("wrong", "moved", "fits" …) and a sentence.
+// The verdict of a registration on a pair, in a word ("wrong", "moved", "fits" …) and a sentence.
 struct PairWords {
   std::string verdict;
   std::string sentence;

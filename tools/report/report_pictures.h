@@ -46,7 +46,7 @@ Grid<glm::vec3> reduced_picture(const Grid<glm::vec3>& picture, int longest_px);
 Grid<glm::vec3> to_picture(const Grid<Rgb8>& colours);
 // One colour per label, the same in every picture; unused_label is near black.
 Grid<glm::vec3> label_picture(const Grid<std::uint8_t>& labels);
-// Of class maps, by class id, for write_palette_png; other numbers are black.
+// Colours of class maps, by class id, for write_palette_png; other numbers are black.
 std::vector<std::array<std::uint8_t, 3>> class_map_colours();
 // Each pixel as a square of `times` pixels.
 Grid<glm::vec3> enlarged(const Grid<glm::vec3>& picture, int times);
@@ -55,9 +55,9 @@ Grid<glm::vec3> heat_picture(const Grid<float>& values, float full);
 // Quantile 0…1; of every n-th value where there are many.
 float percentile(const Grid<float>& values, double share);
 
-// Of square windows of `side` cells (less where the grid is smaller), half a side apart: the one
-// with the largest sum of `score`, the first of equals. Windows where the mean of `where` is below
-// .5 are ignored while another has more; an empty `where` is 1.
+// The best of square windows of `side` cells (less where the grid is smaller), half a side apart:
+// the one with the largest sum of `score`, the first of equals. Windows where the mean of `where`
+// is below .5 are ignored while another has more; an empty `where` is 1.
 PixelRect best_window(const Grid<float>& score, const Grid<float>& where, int side);
 
 // Text in pictures, in the system's plain font: Error(input) where no fonts are installed.

@@ -17,7 +17,7 @@ struct ViewEvaluation;
 
 namespace belvedere::tools {
 
-// What the studio answers, as JSON: docs/studio.md describes the members.
+// Answers of the studio as JSON: docs/studio.md describes the members.
 
 // {"error": …}, with line, column and key where the message has them.
 Json error_json(const Error& error);

@@ -276,7 +276,7 @@ std::optional<bool> read_flag_member(const std::string& body, const std::string&
 
 namespace {
 
-// What a page may load and run: only its own files.
+// Content security policy of pages: they load and run only their own files.
 constexpr const char* page_policy =
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self'; connect-src 'self'; "
     "base-uri 'none'; form-action 'none'; frame-ancestors 'none'";

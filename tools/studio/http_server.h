@@ -89,7 +89,7 @@ int read_number_member(const std::string& body, const std::string& name, int oth
 std::optional<glm::dvec2> read_point_member(const std::string& body, const std::string& name);
 std::optional<bool> read_flag_member(const std::string& body, const std::string& name);
 
-// What the servers of all pages answer alike.
+// Answers that the servers of all pages share.
 
 inline HttpAnswer json_answer(const Json& json, int status = 200) {
   return {.status = status, .body = json.str() + "\n"};
@@ -112,7 +112,7 @@ HttpAnswer page_file(std::initializer_list<const char*> folders, const std::stri
 // Whether a page is still open, by what it asks.
 class PageVisits {
  public:
-  // Of every request. A page that is loaded again closes first.
+  // Records a request; to be called for every one. A page that is loaded again closes first.
   void asked(const HttpRequest& request);
   // Whether the page was closed so many seconds ago, and nothing else was asked for since.
   bool is_left(double wait_s) const;

@@ -59,7 +59,8 @@ class Job {
   std::thread thread_;
 };
 
-// What the studio answers, without the result: docs/studio.md describes the members.
+// The report of a job as the studio answers it, without the result: docs/studio.md describes the
+// members.
 Json job_json(const Job::Report& report);
 
 // The engine of live pictures, used by several threads: one picture at a time, and the newest
@@ -80,7 +81,7 @@ class PictureQueue {
   LiveView::Ground ground(const LoadedScene& scene, const Run& run);
   void cancel() { ++newest_; }
 
-  // What is being done, and how much of that, 0…1; an empty name: nothing.
+  // The present stage, and how much of it is done, 0…1; an empty name: none.
   struct Stage {
     std::string name;
     double done = 0.0;

@@ -174,13 +174,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What the page of a rendered picture may load and run: it has its scripts in itself, and asks
-// nothing of the program.
+// Content security policy of the page of a rendered picture: its scripts are in the page, and it
+// requests nothing from the program.
 constexpr const char* rendered_policy =
     "default-src 'none'; script-src 'self' 'unsafe-inline'; style-src 'self' 'unsafe-inline'; "
     "img-src 'self' blob: data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
-// Of the page of a rendered picture.
+// The folder of the page of a rendered picture.
 std::string page_folder(const std::string& folder) { return (fs::path(folder) / "web").string(); }
 
 std::string read_bytes(const fs::path& path) {
@@ -188,7 +188,7 @@ std::string read_bytes(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// What a file is good for, by its name.
+// The use of a file, by its name.
 std::string kind_of(const std::string& name) {
   const std::string extension = lower_extension(name);
   static constexpr std::pair<const char*, const char*> kinds[] = {

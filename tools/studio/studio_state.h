@@ -38,15 +38,15 @@ struct StudioParameters {
 
 class Job;
 
-// What the studio's files share: studio.cpp finds the answer to a request, studio_pictures.cpp,
-// studio_files.cpp and studio_places.cpp have the longer ones.
+// State shared by the studio's files: studio.cpp finds the answer to a request,
+// studio_pictures.cpp, studio_files.cpp and studio_places.cpp have the longer ones.
 struct StudioState {
   StudioState(const StudioParameters& parameters, const Run& given);
   ~StudioState();
   StudioState(const StudioState&) = delete;
   StudioState& operator=(const StudioState&) = delete;
 
-  // What of the scene a request needs, at one moment.
+  // The scene and its revision at one moment, for a request.
   struct Moment {
     LoadedScene scene;
     std::uint64_t revision = 0;
@@ -56,7 +56,7 @@ struct StudioState {
 
   // The scene after a change, which ends the pictures of the one before.
   HttpAnswer change_scene(const std::function<void()>& change);
-  // What the page asks about the last picture: pointer, values left open, notes.
+  // Keeps what the page asks about the last picture: pointer, values left open, notes.
   void remember(std::shared_ptr<const LivePicture> made, std::vector<std::string> told);
 
   HttpAnswer rendered(const std::string& name);

@@ -44,13 +44,13 @@ struct ReadOut {
   bool has_places = false;  // the terrain has a coordinate system
 };
 
-// From a guidance file, at most about `max_cells` of it, whatever its size. Error(input) for a file
-// without distances or classes.
+// Samples a guidance file, at most about `max_cells` of it, whatever its size. Error(input) for a
+// file without distances or classes.
 ReadOut sample_read_out(const std::string& guidance_file, int max_cells);
 
-// As a JavaScript object: planes of whole numbers in base64, low byte first. class: 8 bits, 255 for
-// sky; altitude: 16 bits, m + 1000; distance: 16 bits, 10 m; longitude and latitude: 16 bits, in
-// 1/65535 of the extent.
+// The samples as a JavaScript object: planes of whole numbers in base64, low byte first. class: 8
+// bits, 255 for sky; altitude: 16 bits, m + 1000; distance: 16 bits, 10 m; longitude and latitude:
+// 16 bits, in 1/65535 of the extent.
 std::string read_out_script(const ReadOut& read_out);
 
 struct TileParameters {

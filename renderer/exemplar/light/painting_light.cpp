@@ -35,7 +35,7 @@ constexpr std::size_t min_class_pixels = 60;
 // LightParameters' .30 to .80, somewhat more as painters fill shade with light.
 constexpr double sky_light = 0.6;
 
-// What is compared of a pixel.
+// Regression sample of a pixel.
 struct LightSample {
   std::size_t label;
   double lightness;

@@ -9,7 +9,7 @@
 
 namespace belvedere {
 
-// Below this trust a sun is not to be believed.
+// Minimum trust of a reliable sun.
 inline constexpr double min_sun_trust = 0.05;
 
 // The sun that explains the lightness of paint best.

@@ -49,7 +49,7 @@ void put_number(std::string& out, Number number) {
 
 constexpr std::size_t longest_name = 31;
 
-// What the library writes, in memory.
+// Keeps the output of the library in memory.
 class TextStream : public Imf::OStream {
  public:
   TextStream() : OStream("header") {}

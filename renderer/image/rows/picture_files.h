@@ -43,7 +43,7 @@ class PictureFiles {
   void write_rows(const Image& linear);
   // Completes all files and checks what was written; only then the older ones are replaced.
   void finish();
-  // Of the rows so far, where a file is CMYK.
+  // Ink coverage of the rows so far, where a file is CMYK.
   std::optional<InkCoverage> ink() const;
 
  private:

@@ -25,7 +25,7 @@ struct SkyParameters {
   std::uint64_t seed = 1;
 };
 
-// What the clouds of a sky share, drawn once from its seed.
+// Properties that the clouds of a sky share, drawn once from its seed.
 struct SkyLook {
   SkyKind kind = SkyKind::fair;  // never `any`
   double amount = 1.0;           // factor on the number of clouds

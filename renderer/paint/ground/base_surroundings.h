@@ -50,8 +50,8 @@ struct BaseParameters {
   std::optional<TerrainSides> sides = {};  // of the data; none: they do not fade at their sides
 };
 
-// What a pixel of the base picture needs from the picture around it. Grids have the size of the
-// buffers, but for `bare` and `sky`.
+// Surroundings that a pixel of the base picture depends on. Grids have the size of the buffers,
+// except `bare` and `sky`.
 struct BaseSurroundings {
   Grid<float> log_depth;
   Grid<float> mean_log_depth;

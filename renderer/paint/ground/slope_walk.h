@@ -25,8 +25,8 @@ struct SlopeSteps {
   int steps;        // maximum
   int noise_steps;  // the noise is summed over this many
 };
-// What lies along the walk. Positions are relative to the pixel, so that rounding does not depend
-// on the part of the picture.
+// Result of a walk. Positions are relative to the pixel, so that rounding does not depend on the
+// part of the picture.
 struct SlopeWalk {
   float noise_sum = 0.0F;   // without the pixel itself
   float left_after = 0.0F;  // steps after which the class ended, to 1/16 of a step; 0: it did not

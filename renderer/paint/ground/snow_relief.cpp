@@ -25,7 +25,7 @@ struct SnowSize {
 };
 enum Size : int { swells, drifts, calm_places };
 constexpr std::array<SnowSize, 3> sizes = {{{12.0, 0.30F}, {4.2, 0.20F}, {46.0, 0.0F}}};
-// Of the two forms whose lower one shows: stretch of each along and across the wind.
+// Snow shows the lower of two forms; these are the stretches of each along and across the wind.
 constexpr glm::dvec2 windward_stretch{1.15, 2.3};
 constexpr glm::dvec2 lee_stretch{0.75, 1.6};
 constexpr float lee_rise =

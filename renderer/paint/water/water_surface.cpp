@@ -29,7 +29,8 @@ namespace {
 // 0 open water … 1 a brook.
 float thinness(float around) { return unit((0.52F - around) / 0.3F); }
 
-// What both kinds of reflection share: banks of brooks, streaks, shallows.
+// The look of water without reflections, shared by both kinds of them: banks of brooks, streaks,
+// shallows.
 WaterLook plain_look(const GuidanceBuffers& g, const Palette& palette, const Mirrored& mirrored,
                      std::size_t i, float around, float streak, const Patches& p) {
   WaterLook look;

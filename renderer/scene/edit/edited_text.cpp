@@ -7,7 +7,7 @@
 
 #include "renderer/scene/scene_schema.h"
 
-// What goes from a text, with its commas, comments and blank lines.
+// Removal of parts of a text, with their commas, comments and blank lines.
 
 namespace belvedere {
 namespace {
@@ -438,7 +438,7 @@ void EditedText::remove_block(std::size_t header) {
     if (others && !others_have_comments) first = header;
   }
   TextSpan span = {parts_[first].whole.begin, end_of_content(end_of_block(header))};
-  // Of the blank lines before and after, one group goes with it.
+  // Removes one group of the blank lines around it.
   const auto blank_at = [&](std::size_t at) {
     return std::find_if(parts_.begin(), parts_.end(), [&](const TomlPart& part) {
       return part.kind == Kind::blank && part.whole.begin == at;

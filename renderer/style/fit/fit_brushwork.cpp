@@ -57,7 +57,7 @@ struct PaintDirection {
   double cos2 = -1.0;
   double sin2 = 0.0;
   double coherence = 0.0;
-  // Of the halved angle: within ±90° of the x axis.
+  // Cosine and sine of the halved angle, within ±90° of the x axis.
   double cosine() const { return std::sqrt(std::max(0.0, 0.5 * (1.0 + cos2))); }
   double sine() const { return std::copysign(std::sqrt(std::max(0.0, 0.5 * (1.0 - cos2))), sin2); }
 };

@@ -56,7 +56,7 @@ ClassRamps with_chroma(ClassRamps ramps, double gain) {
   return ramps;
 }
 
-// Of a typical panorama at the middle tones.
+// Mean chroma of a typical panorama at the middle tones.
 double mean_chroma(const ClassRamps& ramps) {
   double sum = 0.0;
   for (std::size_t c = 1; c < ramps.size(); ++c)

@@ -80,7 +80,7 @@ double ground_lightness(const ClassRamps& ramps);
 
 // Colours outside sRGB are clamped.
 ToneRamp encoded_ramp(const LabRamp& ramp);
-// Of classes with ramps at several altitudes the middle one.
+// The ramps of a palette; of classes with ramps at several altitudes the middle one.
 ClassRamps palette_ramps(const Palette& palette);
 
 constexpr std::size_t index_of(LandCoverClass id) { return static_cast<std::size_t>(id); }

@@ -181,7 +181,8 @@ class Reader {
     std::string refused;
     std::vector<OGRLayerH> understood;
     for (OGRLayerH layer : layers) {
-      // Of several layers, those that lack a column of the filter contain no matches.
+      // A layer that lacks a column of the filter has no matches; the filter is invalid only if no
+      // layer has it.
       const GdalErrors errors;
       if (!query_.where.empty() &&
           OGR_L_SetAttributeFilter(layer, query_.where.c_str()) != OGRERR_NONE) {

@@ -63,7 +63,7 @@ class GdalErrors {
 void register_gdal();
 
 struct CloseDataset {
-  // Of a database with changes beside it: its private copy, removed after the dataset is closed.
+  // The private copy of a database that has changes beside it, removed after the dataset is closed.
   std::shared_ptr<const ScratchFolder> copy = {};
   void operator()(GDALDatasetH dataset) const { GDALClose(dataset); }
 };
@@ -73,7 +73,8 @@ using Dataset = std::unique_ptr<void, CloseDataset>;
 // "-journal", until a program writes them into it: they are part of the data. Paths of those with
 // content, beside the file itself if `path` is a link to it.
 std::vector<std::string> database_changes(const std::string& path);
-// In the mode in which even reading makes files beside it, or with changes beside it.
+// Whether a database is in the mode in which even reading makes files beside it, or has changes
+// beside it.
 bool is_database_in_use(const std::string& path);
 
 // All inputs are opened here. GDAL's name of a file or of something in it ("GPKG:a.gpkg:dem") is

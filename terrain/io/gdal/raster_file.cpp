@@ -141,7 +141,7 @@ void RasterFile::State::find_crs() {
   }
 }
 
-// Of a band of numbers.
+// Reads nodata value, scale and offset of a band of numbers.
 void RasterFile::State::find_numbers() {
   int found = 0;
   const double own_nodata = GDALGetRasterNoDataValue(band, &found);

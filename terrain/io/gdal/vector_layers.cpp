@@ -52,8 +52,8 @@ std::string first_bytes_of(const std::string& path, std::size_t bytes) {
   return text;
 }
 
-// What is said of a text file whose letters are not UTF-8: line, column and byte, if it is short
-// enough to be read once more.
+// Refuses a text file that is not UTF-8, naming line, column and byte if the file is short enough
+// to be read once more.
 void require_utf8_file(const std::string& path) {
   constexpr std::size_t max_bytes = std::size_t{256} << 20;
   std::error_code ignored;

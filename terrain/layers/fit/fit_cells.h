@@ -46,7 +46,7 @@ struct ClassShares {
 };
 // The mean share of each class over the cells that have a label.
 std::vector<double> mean_shares(const ClassShares& shares, std::span<const std::uint8_t> labels);
-// weight · a + (1 - weight) · b.
+// The mixture weight · a + (1 - weight) · b.
 ClassShares mix_shares(const ClassShares& a, const ClassShares& b, double weight);
 // The most likely class of each cell by its share times the class's offset (empty: 1 each); ties to
 // the lower class.

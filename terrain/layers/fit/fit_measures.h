@@ -39,7 +39,7 @@ struct LabColour {
 };
 // CIE L*a*b* under D65 of a colour, which is clamped to 0…255.
 LabColour lab_of_srgb(const glm::dvec3& rgb);
-// CIEDE2000 (Sharma, Wu and Dalal 2005).
+// Colour difference ΔE00 by CIEDE2000 (Sharma, Wu and Dalal 2005).
 double colour_difference(const LabColour& one, const LabColour& other);
 
 struct BlockDifference {
@@ -48,7 +48,7 @@ struct BlockDifference {
   double p95 = 0.0;        // exceeded by one block in twenty
   std::size_t blocks = 0;  // with at least .3 of their cells used
 };
-// Over blocks of the used cells (use != 0; null: all).
+// Colour difference of two pictures over blocks of the used cells (use != 0; null: all).
 BlockDifference block_difference(const Grid<glm::vec3>& picture, const Grid<glm::vec3>& other,
                                  const Grid<std::uint8_t>* use, int block);
 // Mean squared difference in lightness of neighbouring used cells. The ratio of two pictures
@@ -61,7 +61,7 @@ struct HueSaturation {
   double value = 0.0;       // 0…1, max / 255
   bool grey = false;        // channels differ by at most `grey_range`: the hue is meaningless
 };
-// Smith 1978. Channels 0…255.
+// Hue, saturation and value (Smith 1978) of a colour with channels 0…255.
 HueSaturation hue_saturation_of(const glm::dvec3& rgb, double grey_range = 12.0);
 
 // A colour's position in the hue–saturation plane: saturation as radius and hue as angle. Greys are

@@ -78,16 +78,16 @@ std::vector<std::vector<std::uint8_t>> sample_indices(const std::vector<Grid<flo
 struct GroundPrediction {
   ClassShares classes;
   Grid<glm::vec3> even;      // expected colours on level ground (with a picture)
-  Grid<glm::vec3> expected;  // … in the light of the picture's sun
+  Grid<glm::vec3> expected;  // the same in the light of the picture's sun
 };
 GroundPrediction predict_ground(const KnownGround& ground, const GroundFit& fit);
 
-// As a layers file. A class is a layer, its colours are layers under it (P27, P32).
+// The fit as a layers file. A class is a layer, its colours are layers under it (P27, P32).
 SurfaceLayers surface_layers_of(const KnownGround& ground, const GroundFit& fit,
                                 const std::string& name);
 
-// Cross-validation: a division of the ground into parts, each evaluated with a fit to the others. 0
-// … count - 1, the number of the part of a cell.
+// Cross-validation: a division of the ground into `parts`, numbered from 0, each evaluated with a
+// fit to the others.
 struct HoldOut {
   std::string name;
   int parts = 0;

@@ -31,7 +31,7 @@ struct Clouds {
   Grid<std::uint8_t> cloud;      // 1: cloud, with a margin of three cells
   Grid<std::uint8_t> shadow;     // 1: in a cloud's shadow
   int shadow_x = 0;              // cells from a cloud to its shadow, to the east
-  int shadow_y = 0;              // … to the south
+  int shadow_y = 0;              // the same, to the south
   double elsewhere = 0.0;        // best correlation at offsets not near this one
   double match = 0.0;            // correlation at this offset, -1…1
   double sun_azimuth_deg = 0.0;  // 0…360, towards the sun, clockwise from the picture's top

@@ -37,8 +37,8 @@ struct LightAnswer {
   double base = 1.0;
 };
 using LightAnswers = std::vector<std::array<LightAnswer, 3>>;  // of each class
-// By least squares over the used sunlit cells of the class (cos i > .05); a class with fewer than
-// 50 of them uses the response of all classes.
+// Fits the responses by least squares over the used sunlit cells of a class (cos i > .05); a class
+// with fewer than 50 of them uses the response of all classes.
 LightAnswers light_answers(const Grid<glm::vec3>& picture, const Grid<float>& light,
                            const std::vector<std::uint8_t>& labels, int classes,
                            const Grid<std::uint8_t>& use);

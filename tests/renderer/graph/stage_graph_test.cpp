@@ -104,8 +104,8 @@ class StageGraphTest : public testing::TestWithParam<std::uint64_t> {
   }
 
   const test::Folder folder_;
-  TileStore::Place position_{folder_.path(), GetParam()};
-  StageGraph graph_{position_, silent_progress()};
+  TileStore::Place scratch_{folder_.path(), GetParam()};
+  StageGraph graph_{scratch_, silent_progress()};
   std::vector<PixelRect> made;
 };
 
@@ -136,7 +136,7 @@ TEST_P(StageGraphTest, SomeGridsCanBeReadAlone) {
 
 TEST_P(StageGraphTest, WhatWasForgottenIsMadeAgain) {
   Stage<Product>* positions = add_places(graph_);
-  const std::uint64_t free = position_.memory_bytes;
+  const std::uint64_t free = scratch_.memory_bytes;
   expect(positions, sheet);
   const StageGraph::Request one[] = {{positions, {32, 16, 33, 17}}};
   graph_.keep_only(one);
@@ -145,7 +145,7 @@ TEST_P(StageGraphTest, WhatWasForgottenIsMadeAgain) {
   expect(positions, sheet);
   EXPECT_EQ(made.size(), 15U + 14U);
   graph_.keep_only({});
-  EXPECT_EQ(position_.memory_bytes, free);
+  EXPECT_EQ(scratch_.memory_bytes, free);
 }
 
 TEST_P(StageGraphTest, NoMoreIsMadeThanIsAskedFor) {
@@ -193,8 +193,8 @@ TEST_P(StageGraphTest, WholeTilesNeedWhatAllOfThemReaches) {
 // is less to sum.
 TEST_P(StageGraphTest, StagesReadWhatTheyDeclareWhateverTheTiles) {
   const auto picture = [&](int tile_px, PixelRect rect) {
-    TileStore::Place position{folder_.path(), GetParam()};
-    StageGraph graph(position, silent_progress());
+    TileStore::Place scratch{folder_.path(), GetParam()};
+    StageGraph graph(scratch, silent_progress());
     Stage<Numbers>* sums = add_sums(graph, add_numbers(graph, tile_px), {2, 5}, "sums", tile_px);
     Stage<Numbers>* twice = add_sums(graph, sums, around(3), "twice", tile_px);
     const StageGraph::Request request[] = {{twice, rect}};
@@ -221,8 +221,8 @@ TEST_P(StageGraphTest, ARectangleNeedsExactlyWhatItsStagesReach) {
 
 TEST_P(StageGraphTest, HalfTheReachGivesOtherPixels) {
   const auto read = [&](int rows) {
-    TileStore::Place position{folder_.path(), GetParam()};
-    StageGraph graph(position, silent_progress());
+    TileStore::Place scratch{folder_.path(), GetParam()};
+    StageGraph graph(scratch, silent_progress());
     return add_sums(graph, add_numbers(graph), {0, 4}, "sums", 16, Reach{0, rows})->read(sheet);
   };
   EXPECT_TRUE(read(4) == read(9));
@@ -362,7 +362,7 @@ TEST_P(StageGraphTest, AWishToStopIsHeardBetweenTiles) {
       if (--tiles == 0) throw Error(ErrorKind::interrupted, "test", "stopped");
     }
   } progress;
-  StageGraph graph(position_, progress);
+  StageGraph graph(scratch_, progress);
   Stage<Product>* positions = add_places(graph);
   test::message_of(ErrorKind::interrupted, [&] { positions->read(sheet); });
   EXPECT_EQ(made.size(), 3U);

@@ -16,8 +16,8 @@ namespace {
 // Other behaviour of tile stores is tested by the stages that use them (stage_graph_test.cpp).
 TEST(TileStore, AFolderThatCannotBeWrittenIsAnErrorOfTheOutput) {
   const std::string message = test::message_of(ErrorKind::output, [] {
-    TileStore::Place position{"/proc/nowhere", 0};
-    TileStore store(position, 10, 10, 8, {1});
+    TileStore::Place scratch{"/proc/nowhere", 0};
+    TileStore store(scratch, 10, 10, 8, {1});
     Grid<std::uint8_t> values(8, 8);
     store.put(0, 0, {0, 0, 8, 8}, {plane_of(values)});
   });
@@ -26,8 +26,8 @@ TEST(TileStore, AFolderThatCannotBeWrittenIsAnErrorOfTheOutput) {
 
 TEST(TileStore, PlanesAndPlacesThatAreNotTheTilesAreRefused) {
   const test::Folder folder;
-  TileStore::Place position{folder.path(), 1000};
-  TileStore store(position, 10, 10, 8, {1});
+  TileStore::Place scratch{folder.path(), 1000};
+  TileStore store(scratch, 10, 10, 8, {1});
   Grid<std::uint8_t> wrong(7, 8);
   test::message_of(ErrorKind::bug, [&] { store.put(0, 0, {0, 0, 8, 8}, {plane_of(wrong)}); });
   test::message_of(ErrorKind::bug, [&] { store.put(0, 0, {1, 0, 9, 8}, {plane_of(wrong)}); });

@@ -443,13 +443,11 @@ TEST(Output, PlacesWhereNothingCanBeWritten) {
   const Folder folder("place");
   test::write_bytes(folder / "file", "x");
   const Grid<glm::vec3> picture(2, 2);
-  for (const std::string& position : {folder / "file/a", folder / "absent/a", "/proc/a"s}) {
-    EXPECT_EQ(kind_of([&] { write_tiff16(position + ".tif", picture, {}); }), ErrorKind::output)
-        << position;
-    EXPECT_EQ(kind_of([&] { write_png8(position + ".png", picture, {}); }), ErrorKind::output)
-        << position;
-    EXPECT_EQ(kind_of([&] { write_exr(position + ".exr", picture, {}); }), ErrorKind::output)
-        << position;
+  for (const std::string& path : {folder / "file/a", folder / "absent/a", "/proc/a"s}) {
+    EXPECT_EQ(kind_of([&] { write_tiff16(path + ".tif", picture, {}); }), ErrorKind::output)
+        << path;
+    EXPECT_EQ(kind_of([&] { write_png8(path + ".png", picture, {}); }), ErrorKind::output) << path;
+    EXPECT_EQ(kind_of([&] { write_exr(path + ".exr", picture, {}); }), ErrorKind::output) << path;
   }
   EXPECT_EQ(kind_of([&] { check_output_folder(folder / "file/below"); }), ErrorKind::output);
   EXPECT_EQ(kind_of([&] { check_output_folder("/proc/self"); }), ErrorKind::output);

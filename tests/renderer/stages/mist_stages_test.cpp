@@ -21,7 +21,7 @@ constexpr PixelRect sheet{0, 0, 230, 210};
 struct PaintedSheet {
   struct Stages {
     Stages(PaintedSheet& sheet, int tile_px)
-        : graph(sheet.position, silent_progress()),
+        : graph(sheet.scratch, silent_progress()),
           ground(add_ground_stages(
               graph, make_ground_inputs(sheet.world, view_of(sheet.world), sheet.palette, {}),
               tile_px)),
@@ -41,7 +41,7 @@ struct PaintedSheet {
   const Palette palette = read_palette("summer");
   const World world;
   const test::Folder folder;
-  TileStore::Place position{folder.path(), 1U << 24U};
+  TileStore::Place scratch{folder.path(), 1U << 24U};
 };
 
 const std::vector<std::string> misty = {

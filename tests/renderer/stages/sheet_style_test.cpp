@@ -24,7 +24,7 @@ constexpr PixelRect styled_rect{0, 0, 140, 120};
 struct StyledScene {
   struct Stages {
     Stages(StyledScene& scene, const Style* style, int tile_px)
-        : graph(scene.position, silent_progress()),
+        : graph(scene.scratch, silent_progress()),
           ground(add_ground_stages(graph, inputs_of(scene, style), tile_px)),
           picture(add_picture_stages(graph, ground, nullptr)) {}
     static GroundInputs inputs_of(StyledScene& scene, const Style* style) {
@@ -51,7 +51,7 @@ struct StyledScene {
                          "air.mist.0={ kind = \"sea\", to_m = 1100 }"}),
       silent_progress());
   const test::Folder folder;
-  TileStore::Place position{folder.path(), 1U << 24U};
+  TileStore::Place scratch{folder.path(), 1U << 24U};
 };
 
 TEST(SheetStyle, SightHasTheLowestSkyAndMostOfTheDistances) {

@@ -24,8 +24,8 @@ namespace {
 
 // The stages of a sheet, with a given size of tiles.
 struct Sheet {
-  Sheet(const World& world, const Palette& palette, TileStore::Place& position, int tile_px)
-      : graph(position, silent_progress()),
+  Sheet(const World& world, const Palette& palette, TileStore::Place& scratch, int tile_px)
+      : graph(scratch, silent_progress()),
         ground(add_ground_stages(graph, make_ground_inputs(world, view_of(world), palette, {}),
                                  tile_px)) {}
   void keep_only(std::initializer_list<StageGraph::Request> requests) {
@@ -55,13 +55,13 @@ class GroundStagesTest : public testing::TestWithParam<int> {
   const Palette palette_ = read_palette("summer");
   const World world_;
   const test::Folder folder_;
-  TileStore::Place position_{folder_.path(), 1U << 20U};
+  TileStore::Place scratch_{folder_.path(), 1U << 20U};
 };
 
 TEST_P(GroundStagesTest, AnyRectangleEqualsThePictureInOnePiece) {
   const PixelRect sheet{0, 0, 230, 210};
   const LitPicture whole = make_lit_picture(world_, palette_, sheet, {});
-  Sheet tiles(world_, palette_, position_, GetParam());
+  Sheet tiles(world_, palette_, scratch_, GetParam());
   const GroundStages& ground = tiles.ground;
   for (const PixelRect rect :
        {PixelRect{200, 150, 230, 210}, PixelRect{63, 63, 65, 66}, PixelRect{0, 0, 1, 1}, sheet}) {
@@ -83,8 +83,8 @@ TEST_P(GroundStagesTest, AnyRectangleEqualsThePictureInOnePiece) {
 }
 
 TEST_P(GroundStagesTest, TheDraftIsThatOfTheWhole) {
-  Sheet one_tile(world_, palette_, position_, 4096);
-  Sheet many_tiles(world_, palette_, position_, GetParam());
+  Sheet one_tile(world_, palette_, scratch_, 4096);
+  Sheet many_tiles(world_, palette_, scratch_, GetParam());
   const GroundStages& one = one_tile.ground;
   const GroundStages& many = many_tiles.ground;
   const PixelRect rect{40, 90, 190, 200};
@@ -123,7 +123,7 @@ TEST_P(GroundStagesTest, ColoursOfLayersAreThoseOfTheWholeInAnyTiles) {
   };
   const PixelRect rect{40, 90, 190, 200};
   const auto base = [&](const World& of, int tile_px) {
-    return Sheet(of, palette_, position_, tile_px).ground.base->read(rect);
+    return Sheet(of, palette_, scratch_, tile_px).ground.base->read(rect);
   };
   const auto tinted = world("layers");
   const BasePicture whole = base(*tinted, 4096);
@@ -146,7 +146,7 @@ TEST_P(GroundStagesTest, WhatWaterMirrorsIsThatOfTheWholeInAnyTiles) {
         silent_progress(), test::shared_cache())));
   };
   const auto base = [&](const World& of, const PixelRect& rect, int tile_px) {
-    return Sheet(of, palette_, position_, tile_px).ground.base->read(rect);
+    return Sheet(of, palette_, scratch_, tile_px).ground.base->read(rect);
   };
   const PixelRect sheet{0, 0, 230, 210};
   const auto traced = world("traced");
@@ -159,7 +159,7 @@ TEST_P(GroundStagesTest, WhatWaterMirrorsIsThatOfTheWholeInAnyTiles) {
   EXPECT_TRUE(make_lit_picture(*traced, palette_, sheet, {}).base.colour == whole.colour);
   // Only water changes with another kind of reflection.
   const auto column = world("column");
-  Sheet looked_up(*column, palette_, position_, 4096);
+  Sheet looked_up(*column, palette_, scratch_, 4096);
   const Grid<glm::vec3> other = looked_up.ground.base->read(sheet).colour;
   const Grid<LandCoverClass> land_cover = classes_of(looked_up.ground, sheet).land_cover;
   std::size_t differ = 0;
@@ -185,16 +185,16 @@ class PrintGroundTest : public testing::TestWithParam<const char*> {
                    "land_cover.settings.snowline_m=2500", "land_cover.settings.treeline_m=1700",
                    "sampling.sky_directions=2"}),
               silent_progress(), test::shared_cache())),
-          whole(world, palette, position, 4096) {}
+          whole(world, palette, scratch, 4096) {}
     const Palette palette = read_palette("summer");
     const World world;
     const test::Folder folder{"whole"};
-    TileStore::Place position{folder.path(), 1U << 28U};
+    TileStore::Place scratch{folder.path(), 1U << 28U};
     Sheet whole;
   };
   static void TearDownTestSuite() { prints_.clear(); }
   std::unique_ptr<Sheet> tiles_of(int tile_px) {
-    return std::make_unique<Sheet>(print_.world, print_.palette, position_, tile_px);
+    return std::make_unique<Sheet>(print_.world, print_.palette, scratch_, tile_px);
   }
 
   static inline std::map<std::string, std::unique_ptr<Print>> prints_;
@@ -207,7 +207,7 @@ class PrintGroundTest : public testing::TestWithParam<const char*> {
   const GroundStages& one_ = print_.whole.ground;
   const PixelRect sheet_ = one_.base->sheet();
   const test::Folder folder_;
-  TileStore::Place position_{folder_.path(), 1U << 28U};
+  TileStore::Place scratch_{folder_.path(), 1U << 28U};
 };
 
 TEST_P(PrintGroundTest, APartIsThatOfTheWhole) {

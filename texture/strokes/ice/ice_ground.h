@@ -37,7 +37,7 @@ struct IceFlow {
   // Unit direction at a position of the sheet in units, straight down where no ice is near.
   glm::vec2 at(glm::vec2 position_units) const;
 };
-// From a scene that contains the whole sheet.
+// Finds the flow of ice in a scene that contains the whole sheet.
 IceFlow find_ice_flow(const StrokeScene& scene);
 
 // The path of ice downwards from a position, px of the scene's sheet, in steps of step_px, at most
@@ -49,7 +49,7 @@ std::vector<glm::vec2> trace_ice(const StrokeScene& scene, const IceFlow& flow, 
 inline constexpr float same_ice_depth = 0.03F;
 bool same_ice_surface(const StrokeScene& scene, std::size_t a, std::size_t b);
 
-// What a plan of ice reads at a position of the whole sheet, px.
+// Queries of a plan of ice, at positions of the whole sheet, px.
 
 // The path along positions, all of them on the canvas.
 IceWay way_along(const StrokeScene& scene, Stream stream, const StrokeSeed& seed,
@@ -59,8 +59,8 @@ IceWay way_along(const StrokeScene& scene, Stream stream, const StrokeSeed& seed
 // that feeds it; 0 … 1.
 float on_tongue(const StrokeScene& scene, glm::vec2 position);
 
-// What a unit of level ground across the flow measures on the sheet, units, to the right of the
-// flow: short where the ice flows across the picture.
+// The projection on the sheet, in units, of a unit of level ground across the flow, to the right of
+// it: short where the ice flows across the picture.
 glm::vec2 across_flow(const StrokeScene& scene, glm::vec2 position, glm::vec2 flow);
 
 // Slope of the ice, degrees: a mean along some units of the flow.

@@ -22,9 +22,9 @@ struct IcePlan {
   std::vector<IceWay> ways;
 };
 
-// From a picture of the whole sheet; about one pixel per unit is sufficient. Needs depth, position,
-// land cover, fall line, slope, footprint and relief_s. It uses the parameters pixels_per_unit (of
-// this picture) and seed.
+// Plans the ice from a picture of the whole sheet; about one pixel per unit is sufficient. Needs
+// depth, position, land cover, fall line, slope, footprint and relief_s. It uses the parameters
+// pixels_per_unit (of this picture) and seed.
 IcePlan plan_ice(const GuidanceBuffers& guidance, const StrokeParameters& parameters);
 
 // Access of stroke kinds on ice to the plan of the sheet, for any window.

@@ -280,7 +280,7 @@ void open_crevasses(const Ice& row, float lean, StrokeSeed& seed, std::vector<St
   // As wide on the ground as the flow is foreshortened.
   const float seen_along = 0.6F + 0.4F * std::abs(row.down.x);
   for (int n = 0; n < beside; ++n) {
-    // Of very unlike length: rows of equal ones would be the bones of a fish.
+    // Lengths vary widely: rows of equal ones would look like fishbones.
     const float drawn = seed.uniform();
     const float share = 0.25F + 0.65F * drawn * drawn;
     const float length =

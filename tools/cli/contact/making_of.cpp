@@ -84,9 +84,9 @@ void add_paint(std::vector<MakingStep>& steps, const LoadedScene& loaded, const 
   ScenePaint paint = read_scene_paint(loaded, run.progress);
   const World world = make_world(loaded, run.progress, run.cache);
   paint.palette = palette_for_location(paint.palette, loaded, *world.dem);
-  TileStore::Place position{work.folder(), tile_bytes};
+  TileStore::Place tile_scratch{work.folder(), tile_bytes};
   const SheetView view = view_of(world);
-  StageGraph graph(position, run.progress);
+  StageGraph graph(tile_scratch, run.progress);
   const GroundStages ground =
       add_ground_stages(graph, make_ground_inputs(world, view, paint.palette, run),
                         choose_block_px(world.scene, view.pixels_per_unit));
@@ -97,7 +97,7 @@ void add_paint(std::vector<MakingStep>& steps, const LoadedScene& loaded, const 
   steps.push_back({"base", "colours of the palette", ground.base->read(sheet).colour});
   const bool copied = world.scene.copies();
   CopyPlan plan =
-      copied ? make_copy_plan(loaded, world, paint, ground, position, work, run) : CopyPlan{};
+      copied ? make_copy_plan(loaded, world, paint, ground, tile_scratch, work, run) : CopyPlan{};
   const DrawnFeatures features =
       draw_scene_features(loaded, world, ground.inputs->strokes.winter, run.progress);
   const PictureStages picture =
@@ -161,13 +161,13 @@ Grid<glm::vec3> figure_class_picture(const GuideStack& guides) {
   return out;
 }
 
-// What is black and what is white in the pictures of a guide, the same in all columns.
+// Values that are black and white in the pictures of a guide, the same in all columns.
 struct GreyRange {
   float black = 0.F;
   float white = 255.F;
 };
 
-// Of all texels and pixels that are used, so that all steps of a narrow guide are seen.
+// The range of all texels and pixels that are used, so that all steps of a narrow guide are seen.
 GreyRange range_of(const std::vector<Column>& columns, const char* guide) {
   GreyRange range{255.F, 0.F};
   for (const Column& column : columns) {
@@ -217,7 +217,7 @@ Grid<glm::vec3> legend(const std::vector<Column>& columns) {
   return out;
 }
 
-// What the scene copies from, in the same form as its picture.
+// The exemplars that the scene copies from, in the same form as its picture.
 std::vector<Column> copied_from(const LoadedScene& loaded, Progress& progress, const Cache& cache) {
   if (!loaded.scene.copies()) return {};
   ScenePaint paint = read_scene_paint(loaded, progress);

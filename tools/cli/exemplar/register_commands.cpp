@@ -158,7 +158,7 @@ std::string shell_word(const std::string& text) {
   return out + "'";
 }
 
-// What to do with the pairs.
+// The command that registers the painting by these pairs.
 std::string next_command(const PickOptions& options) {
   std::string dems;
   for (const std::string& dem : options.dems) dems += " " + shell_word(dem);
@@ -217,7 +217,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int register_report_px = 1400;  // longest side of the pictures of the report
-// Of the ground that is drawn to look for it in the paint, and for the report.
+// Maximum cells of the ground that is drawn to look for it in the paint, and for the report.
 constexpr std::size_t max_drawn_cells = 1'500'000;
 
 struct RegisterCommand : RegisterOptions {

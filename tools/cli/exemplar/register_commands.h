@@ -11,7 +11,7 @@
 
 namespace belvedere::tools {
 
-// What picking pairs of a painting and registering it by them have in common.
+// Options of the commands that pick pairs of a painting and register it by them.
 struct RegisterOptions : RunOptions {
   std::string painting, pairs, crs, projection = "auto";
   std::vector<std::string> dems;

@@ -337,7 +337,7 @@ double won(const Candidate& candidate) {
   return out;
 }
 
-// What views are looked for in, and the keys of a scene besides its view.
+// The ground in which views are searched, and the keys of a scene besides its view.
 struct Region {
   CoarseGround ground;
   Massifs massifs;

@@ -24,7 +24,7 @@ struct StudioOptions : SceneOptions {
   FetchOptions fetch;  // --at and --size are asked for on the page
 };
 
-// Of a DEM a scene is made beside it, with the first view that `new` proposes.
+// The scene file; for a DEM a scene is made beside it, with the first view that `new` proposes.
 std::string scene_of(const StudioOptions& options, Progress& progress) {
   if (options.scene.empty())
     refuse("SCENE", "no scene is given", "a scene file, or a DEM of which one is made");
@@ -44,7 +44,7 @@ std::string scene_of(const StudioOptions& options, Progress& progress) {
   return made.out;
 }
 
-// Of a place a scene is made of what is fetched for it, as `new --at` does.
+// Makes a scene of a place from the data fetched for it, as `new --at` does.
 std::string scene_of_place(const StudioOptions& options, const std::string& scene,
                            const WantedPlace& place, const Run& run) {
   NewOptions made;
