@@ -1,4 +1,4 @@
-// Serves data/studio and answers the JSON interface of `belvedere studio` (docs/studio.md) with drawn pictures, to work on the page and to
+// Serves tools/studio/page and answers the JSON interface of `belvedere studio` (docs/studio.md) with drawn pictures, to work on the page and to
 // test it without the program:
 //   node tests/studio/mock_server.mjs [PORT]
 import { readFile } from "node:fs/promises";
@@ -53,6 +53,7 @@ height = 1100
 
 const scene = { text: first_text, saved: first_text, revision: 1, undo: [], redo: [], step: "", outside: false };
 let newest = 0; // of the requests for pictures
+let slow_ms = 0; // what each of them takes longer: POST mock/slow
 const jobs = { render: { state: "idle" }, fetch: { state: "idle" } };
 const timers = {};
 
@@ -298,6 +299,10 @@ const answers = {
     scene.outside = true;
     return {};
   },
+  "POST mock/slow": (_, body) => {
+    slow_ms = Number(body);
+    return {};
+  },
 };
 
 const image = (response, bytes, headers = {}) =>
@@ -309,7 +314,7 @@ const pictures = {
     const mine = ++newest;
     const { width, height, without } = rungs()[Number(query.get("rung"))];
     const started = performance.now();
-    await sleep(5 + 30 * Number(query.get("rung")));
+    await sleep(slow_ms + 5 + 30 * Number(query.get("rung")));
     if (mine !== newest) throw superseded();
     const bytes = png(draw(parse(scene.text).values, width, height));
     image(response, bytes, {
@@ -320,6 +325,7 @@ const pictures = {
     });
   },
   "GET api/tiles": async (query, response) => {
+    if (jobs.render.state === "running") throw superseded();
     if (Number(query.get("revision")) !== scene.revision) throw superseded();
     const mine = ++newest;
     const { width, height } = rungs().at(-1);

@@ -440,6 +440,52 @@ const type_in = async (selector, text) => {
 };
 
 const no_place = Boolean(process.env.BELVEDERE_STUDIO) && !process.env.BELVEDERE_PLACE;
+test("a change while the picture is rendered is drawn to the last rung when that is over", async () => {
+  await page.click("#render");
+  await page.click("#render-start");
+  await page.waitForFunction(() => /so far/.test(document.getElementById("render-says").textContent), patience);
+  await page.keyboard.press("Escape");
+  await panel("air");
+  await page.$eval("[data-key='air.haze'] input[type=range]", (slider) => {
+    slider.value = Number(slider.min) + 0.4 * (Number(slider.max) - Number(slider.min));
+    slider.dispatchEvent(new Event("input", { bubbles: true }));
+    slider.dispatchEvent(new Event("change", { bubbles: true }));
+  });
+  await page.waitForFunction(() => /when the rendering is done/.test(document.getElementById("rung").textContent), patience);
+  await page.click("#render");
+  await page.click("#render-cancel");
+  await page.keyboard.press("Escape");
+  await page.waitForFunction((last) => document.body.dataset.rung === last && document.body.dataset.working === "false", patience, "3");
+  await undo();
+  await finished();
+});
+
+const no_mock = Boolean(process.env.BELVEDERE_STUDIO);
+test("a burst of changes is not replayed: the newest is drawn within two pictures", { skip: no_mock }, async () => {
+  const slow_ms = 300;
+  const slow = (ms) => page.evaluate((body) => fetch("mock/slow", { method: "POST", body }), String(ms));
+  await slow(slow_ms);
+  const asked = [];
+  let last_answer = 0;
+  const listen = (response) => {
+    if (!response.url().includes("rung=0")) return;
+    asked.push(Number(new URL(response.url()).searchParams.get("revision")));
+    if (response.ok()) last_answer = Date.now();
+  };
+  page.on("response", listen);
+  const begun = Date.now();
+  for (let k = 0; k < 30; ++k) await drag("#picture", k % 2 ? 40 : -40, 4, 2);
+  const ended = Date.now();
+  while (Date.now() - Math.max(ended, last_answer) < 3 * slow_ms) await sleep(20);
+  page.off("response", listen);
+  assert.equal(asked.at(-1), (await scene()).revision, "the newest is drawn");
+  assert.ok(asked.length <= (ended - begun) / slow_ms + 2, `${asked.length} pictures in ${ended - begun} ms`);
+  assert.ok(last_answer - ended < 2 * (slow_ms + 150), `${last_answer - ended} ms after the last drag`);
+  await slow(0);
+  await finished();
+  for (let k = 0; k < 30; ++k) await undo();
+});
+
 test("a place is fetched and opened as a new scene, in one step of undo", { skip: no_place }, async () => {
   const { text } = await scene();
   await page.click("#fetch");

@@ -17,7 +17,7 @@ void start_from_coarser(LevelState& state, const Plane& coarse_exemplars,
 // Counts uses and bins and copies colours for new matches, if no uses were counted before; the
 // start_ functions end with it.
 void count_matches(LevelState& state);
-// Counts anew, whatever was counted before.
+// Counts again, whatever was counted before.
 void recount(LevelState& state);
 // Sets the uses of all matched texels to 0, so that another window can be counted, without touching
 // the others.

@@ -71,6 +71,7 @@ class Job {
     if (job.state === "failed") this.fault(job.error);
     by_id(this.name).textContent = this.running ? this.working : this.label;
     this.shown(job, was_running && job.state === "done");
+    if (was_running && !this.running) this.ended?.();
     if (this.running) this.timer = setTimeout(() => this.look(), look_ms);
   }
   fault(fault) {
@@ -80,13 +81,14 @@ class Job {
 }
 
 export class Rendering extends Job {
-  constructor(store, status) {
+  // ended: called when a rendering is over, however it ended.
+  constructor(store, status, ended) {
     super("render", {
       start: () => api.render(Number(by_id("render-width").value)),
       state: () => api.job("render"),
       cancel: () => api.job_cancel("render"),
     });
-    Object.assign(this, { store, status, working: "Rendering…", left: "Nothing was left behind." });
+    Object.assign(this, { store, status, ended, working: "Rendering…", left: "Nothing was left behind." });
     by_id("render-width").addEventListener("input", () => this.size());
   }
   open() {

@@ -1,5 +1,6 @@
 // The ladder of pictures: the first rung while the hand moves, finer ones when it rests, the last one tile by tile. A new change aborts
-// all that is finer than the first rung; the first one is quick and always arrives, so that the picture follows the hand.
+// all that is finer than the first rung; the first one is quick and always arrives, so that the picture follows the hand. Changes never
+// wait for it: however many come while it is drawn, the next one drawn is that of the newest.
 import { api } from "./api.js";
 
 const rest_ms = 250; // the hand rests when nothing has changed for so long
@@ -12,7 +13,9 @@ export class Ladder {
     this.rungs = [];
     this.abort = new AbortController();
     this.timer = 0;
-    this.first = false; // the first rung is being drawn
+    this.first = null; // the signal with which first rungs are being drawn
+    this.drawing = null; // … until the newest is there
+    this.wanted = 0; // the newest revision
     this.complete = false; // all of the last one is there
     this.stopped = false;
     this.reached = null; // {revision, rung}: what is drawn
@@ -45,15 +48,26 @@ export class Ladder {
   }
 
   // The first rung of a revision; the finer ones follow when the hand rests.
-  async start(revision) {
+  start(revision) {
+    this.wanted = revision;
+    if (this.first && !this.first.aborted) return this.drawing;
     this.stop();
-    const { signal } = this.abort;
     this.stopped = this.complete = false;
-    this.first = true;
-    const there = this.rungs.length < 2 || (await this.rung(0, revision, signal));
-    this.first = false;
+    this.drawing = this.follow(this.abort.signal);
+    return this.drawing;
+  }
+
+  // First rungs, until that of the newest revision is there.
+  async follow(signal) {
+    this.first = signal;
+    let drawn, there;
+    do {
+      drawn = this.wanted;
+      there = this.rungs.length < 2 || (await this.rung(0, drawn, signal));
+    } while (drawn !== this.wanted && !signal.aborted);
+    if (this.first === signal) this.first = null;
     if (!there || signal.aborted) return;
-    this.timer = setTimeout(() => this.climb(revision, signal), rest_ms);
+    this.timer = setTimeout(() => this.climb(drawn, signal), rest_ms);
   }
 
   async climb(revision, signal, from = 1) {
@@ -65,6 +79,7 @@ export class Ladder {
       await this.tiles(revision, signal);
     } catch (error) {
       this.failed(error, signal);
+      this.waits(error, signal);
     }
   }
 
@@ -119,6 +134,13 @@ export class Ladder {
     this.complete = complete;
     if (!complete && !signal.aborted)
       this.tell({ fault: { message: "The last rung ended early. Change anything, or press U, to draw again." } });
+  }
+
+  // The program draws no last rung while it renders, and tells so by 409: it follows when the rendering is over.
+  waits(error, signal) {
+    if (error.status !== 409 || signal.aborted) return;
+    this.stopped = true;
+    this.tell({ ...this.about(this.reached?.rung ?? 0), waiting: true });
   }
 
   about(rung) {

@@ -35,7 +35,7 @@ async function start() {
   const history = new History(store, status);
   const text = new Text(store);
   const proposals = new Proposals(store, status, ladder);
-  const rendering = new Rendering(store, status);
+  const rendering = new Rendering(store, status, () => ladder.resume(store.state.revision));
   const places = new Places(store, status);
   new Files(store);
   panels.tab("text", "Text");
@@ -122,6 +122,7 @@ async function start() {
 
   panels.show("camera");
   await store.act(async () => state);
+  await store.drawn;
   document.body.dataset.ready = "true";
 }
 

@@ -11,11 +11,17 @@ export class Status {
   }
 
   // What the ladder tells.
-  drawn({ rung, rungs, name, without, milliseconds, working, done, stage, fault }) {
+  drawn({ rung, rungs, name, without, milliseconds, working, waiting, done, stage, fault }) {
     if (fault) {
       document.body.dataset.working = "false";
       this.bar.hidden = true;
       this.rung.textContent = "not drawn";
+      return;
+    }
+    if (waiting) {
+      document.body.dataset.working = "false";
+      this.bar.hidden = true;
+      this.rung.textContent = `${name}; the next when the rendering is done`;
       return;
     }
     const last = rung === rungs - 1;

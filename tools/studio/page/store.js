@@ -13,7 +13,8 @@ export class Store extends EventTarget {
     this.sent = null; // those in flight
     this.busy = false;
     this.waiting = [];
-    this.after = async () => {}; // what follows each change before the next is sent: the first rung
+    this.drawn = Promise.resolve(); // of the newest state, or of one before it that it replaces
+    this.after = async () => {}; // what follows each change: its picture. The next change does not wait for it
   }
 
   tell(kind, detail) {
@@ -97,7 +98,7 @@ export class Store extends EventTarget {
     this.busy = true;
     try {
       this.take(await request());
-      await this.after(this.state.revision);
+      this.draw();
     } catch (error) {
       this.fail(error);
       return false;
@@ -114,7 +115,7 @@ export class Store extends EventTarget {
       const state = await api.set(this.sent.changes, this.sent.step);
       this.sent = null;
       this.take(state);
-      await this.after(state.revision);
+      this.draw();
     } catch (error) {
       this.sent = null;
       // A line would be one of the text that was refused, which nobody sees.
@@ -125,6 +126,9 @@ export class Store extends EventTarget {
     } finally {
       this.leave();
     }
+  }
+  draw() {
+    this.drawn = this.after(this.state.revision).catch((error) => this.fail(error));
   }
   leave() {
     this.busy = false;
