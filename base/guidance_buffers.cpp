@@ -1,6 +1,7 @@
 #include "base/guidance_buffers.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <limits>
 

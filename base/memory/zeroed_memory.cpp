@@ -2,6 +2,7 @@
 
 #include <malloc.h>
 #include <sys/mman.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>

@@ -1,6 +1,7 @@
 #include "base/text/missing_file.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <filesystem>

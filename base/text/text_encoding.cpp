@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <glib.h>
 #include <iconv.h>
+
 #include <algorithm>
 #include <array>
 #include <cerrno>

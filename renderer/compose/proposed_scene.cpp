@@ -1,6 +1,7 @@
 #include "renderer/compose/proposed_scene.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "renderer/compose/view_changes.h"
 
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>

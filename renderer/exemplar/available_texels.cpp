@@ -1,6 +1,7 @@
 #include "renderer/exemplar/available_texels.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>

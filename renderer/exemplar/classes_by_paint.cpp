@@ -1,6 +1,7 @@
 #include "renderer/exemplar/classes_by_paint.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

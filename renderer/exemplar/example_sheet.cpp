@@ -1,6 +1,7 @@
 #include "renderer/exemplar/example_sheet.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

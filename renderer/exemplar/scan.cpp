@@ -1,6 +1,7 @@
 #include "renderer/exemplar/scan.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "renderer/ground/laid_rivers.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "renderer/ground/scene_ground_map.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>

@@ -1,6 +1,7 @@
 #include "renderer/image/picture_diff.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>

@@ -1,6 +1,7 @@
 #include "renderer/image/png_palette.h"
 
 #include <png.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdint>

@@ -1,6 +1,7 @@
 #include "renderer/labels/drawing_svg.h"
 
 #include <fmt/core.h>
+
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>

@@ -1,6 +1,7 @@
 #include "renderer/labels/label_files.h"
 
 #include <fmt/core.h>
+
 #include <cmath>
 #include <iterator>
 #include <optional>

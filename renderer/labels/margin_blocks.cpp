@@ -1,6 +1,7 @@
 #include "renderer/labels/margin_blocks.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "renderer/labels/sheet_painter.h"
 
 #include <cairo.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "renderer/pipeline/named_picture.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <glm/common.hpp>

@@ -1,6 +1,7 @@
 #include "renderer/pipeline/pipeline.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

@@ -1,6 +1,7 @@
 #include "renderer/pipeline/scene_check.h"
 
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <memory>

@@ -1,6 +1,7 @@
 #include "renderer/pipeline/sheet_job.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <memory>

@@ -3,6 +3,7 @@
 #include <cairo-pdf.h>
 #include <fmt/core.h>
 #include <librsvg/rsvg.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

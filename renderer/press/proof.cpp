@@ -1,6 +1,7 @@
 #include "renderer/press/proof.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

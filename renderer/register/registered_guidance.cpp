@@ -1,6 +1,7 @@
 #include "renderer/register/registered_guidance.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>

@@ -1,6 +1,7 @@
 #include "renderer/scene/scene_lock.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <fstream>

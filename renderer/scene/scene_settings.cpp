@@ -1,6 +1,7 @@
 #include "renderer/scene/scene_settings.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>

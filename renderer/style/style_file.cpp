@@ -1,6 +1,7 @@
 #include "renderer/style/style_file.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>

@@ -1,6 +1,7 @@
 #include "renderer/trace/camera.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>

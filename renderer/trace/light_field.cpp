@@ -1,6 +1,7 @@
 #include "renderer/trace/light_field.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>

@@ -1,6 +1,7 @@
 #include "renderer/trace/terrain_model.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

@@ -1,6 +1,7 @@
 #include "renderer/world/ground_windows.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "renderer/world/resolve_view.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "renderer/world/scene_dem.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>

@@ -1,6 +1,7 @@
 #include "renderer/world/scene_light.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

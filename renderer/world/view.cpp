@@ -1,6 +1,7 @@
 #include "renderer/world/view.h"
 
 #include <fmt/core.h>
+
 #include <cmath>
 #include <glm/geometric.hpp>
 

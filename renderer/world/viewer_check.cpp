@@ -1,6 +1,7 @@
 #include "renderer/world/viewer_check.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

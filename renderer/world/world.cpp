@@ -1,6 +1,7 @@
 #include "renderer/world/world.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>

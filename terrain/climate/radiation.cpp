@@ -1,6 +1,7 @@
 #include "terrain/climate/radiation.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

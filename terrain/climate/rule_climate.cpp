@@ -1,6 +1,7 @@
 #include "terrain/climate/rule_climate.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

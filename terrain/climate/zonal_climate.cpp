@@ -1,6 +1,7 @@
 #include "terrain/climate/zonal_climate.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

@@ -1,6 +1,7 @@
 #include "terrain/cover/class_rules.h"
 
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "terrain/cover/land_cover.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>

@@ -1,6 +1,7 @@
 #include "terrain/deform/bend_curve.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 

@@ -1,6 +1,7 @@
 #include "terrain/deform/deform.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>

@@ -1,6 +1,7 @@
 #include "terrain/fetch/remote_file.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cstring>

@@ -1,6 +1,7 @@
 #include "terrain/generalize/generalize.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

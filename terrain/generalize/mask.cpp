@@ -1,6 +1,7 @@
 #include "terrain/generalize/mask.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>

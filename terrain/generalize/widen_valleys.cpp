@@ -1,6 +1,7 @@
 #include "terrain/generalize/widen_valleys.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

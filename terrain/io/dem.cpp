@@ -1,6 +1,7 @@
 #include "terrain/io/dem.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 

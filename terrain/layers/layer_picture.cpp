@@ -1,6 +1,7 @@
 #include "terrain/layers/layer_picture.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "terrain/layers/surface_layers.h"
 
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "terrain/register/registration.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>

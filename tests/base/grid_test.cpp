@@ -1,6 +1,7 @@
 #include "base/grid.h"
 
 #include <gtest/gtest.h>
+
 #include <cstddef>
 #include <numeric>
 

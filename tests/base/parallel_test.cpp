@@ -1,6 +1,7 @@
 #include "base/parallel.h"
 
 #include <gtest/gtest.h>
+
 #include <atomic>
 #include <chrono>
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "base/random.h"
 
 #include <gtest/gtest.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

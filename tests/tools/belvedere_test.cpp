@@ -81,9 +81,8 @@ TEST_F(Program, WrongCommandLinesAreUsageErrors) {
 
 TEST_F(Program, CommandsThatAreMissingOrMisspeltAreAskedFor) {
   const auto said = [&](const std::vector<std::string>& arguments) { return run(arguments).err; };
-  EXPECT_THAT(
-      said({}),
-      HasSubstr("missing subcommand of belvedere\n  allowed: new, studio, fetch, check, render, guidance"));
+  EXPECT_THAT(said({}), HasSubstr("missing subcommand of belvedere\n  allowed: new, studio, fetch, "
+                                  "check, render, guidance"));
   EXPECT_THAT(said({"rendr", "x.toml"}),
               HasSubstr("belvedere has no command \"rendr\"; did you mean \"render\"?"));
   EXPECT_THAT(said({"exemplar"}), HasSubstr("missing subcommand of belvedere exemplar\n  allowed: "

@@ -1,6 +1,7 @@
 #include "texture/composite/learn_composite.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

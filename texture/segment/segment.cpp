@@ -1,6 +1,7 @@
 #include "texture/segment/segment.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "texture/sheet/synthesis_plan.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>

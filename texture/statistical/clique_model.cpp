@@ -1,6 +1,7 @@
 #include "texture/statistical/clique_model.h"
 
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "texture/statistical/learn_texture.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

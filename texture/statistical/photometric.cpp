@@ -1,6 +1,7 @@
 #include "texture/statistical/photometric.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

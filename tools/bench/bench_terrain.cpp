@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 #include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

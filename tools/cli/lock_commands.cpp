@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <exception>

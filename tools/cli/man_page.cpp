@@ -1,6 +1,7 @@
 #include "tools/cli/man_page.h"
 
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <sstream>

@@ -1,6 +1,7 @@
 #include "tools/cli/press_commands.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

@@ -1,6 +1,7 @@
 #include "tools/cli/shell_completion.h"
 
 #include <fmt/format.h>
+
 #include <memory>
 #include <string>
 

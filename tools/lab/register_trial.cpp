@@ -1,6 +1,7 @@
 // How well paintings are registered to their terrain: secret scenes of four regions, pairs with
 // noise and wrong ones, and where 200 other pixels come to lie. Prints a line per run and a table.
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

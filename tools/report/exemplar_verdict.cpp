@@ -1,6 +1,7 @@
 #include "tools/report/exemplar_verdict.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 

@@ -1,6 +1,7 @@
 #include "tools/report/generalize_report_page.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

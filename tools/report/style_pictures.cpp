@@ -1,6 +1,7 @@
 #include "tools/report/style_pictures.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

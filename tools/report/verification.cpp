@@ -1,6 +1,7 @@
 #include "tools/report/verification.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+
 #include <charconv>
 #include <chrono>
 #include <filesystem>

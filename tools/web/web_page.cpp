@@ -1,6 +1,7 @@
 #include "tools/web/web_page.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

@@ -12,6 +12,7 @@
 #include <ImfTileDescriptionAttribute.h>
 #include <ImfVersion.h>
 #include <half.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>

@@ -8,6 +8,7 @@
 #include <ImfStringAttribute.h>
 #include <ImfTileDescriptionAttribute.h>
 #include <ImfVersion.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>

@@ -1,6 +1,7 @@
 #include "renderer/image/layers/layer_file.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdint>

@@ -1,6 +1,7 @@
 #include "renderer/image/rows/picture_rows.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <utility>

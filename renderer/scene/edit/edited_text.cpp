@@ -1,6 +1,7 @@
 #include "renderer/scene/edit/edited_text.h"
 
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <utility>

@@ -1,6 +1,7 @@
 #include "renderer/scene/edit/scene_edit.h"
 
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <variant>

@@ -1,6 +1,7 @@
 #include "renderer/style/fit/style_painting.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

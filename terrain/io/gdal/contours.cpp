@@ -4,6 +4,7 @@
 #include <gdal_alg.h>
 #include <ogr_api.h>
 #include <ogr_spatialref.h>
+
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>

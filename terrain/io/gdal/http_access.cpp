@@ -3,6 +3,7 @@
 #include <cpl_string.h>
 #include <cpl_vsi.h>
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <atomic>
 #include <charconv>

@@ -1,6 +1,7 @@
 #include <cpl_string.h>
 #include <fmt/core.h>
 #include <ogr_spatialref.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

@@ -7,6 +7,7 @@
 #include <gdal.h>
 #include <ogr_api.h>
 #include <ogr_srs_api.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

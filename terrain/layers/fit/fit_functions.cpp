@@ -1,6 +1,7 @@
 #include "terrain/layers/fit/fit_functions.h"
 
 #include <lbfgs.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

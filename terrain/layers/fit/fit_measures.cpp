@@ -1,6 +1,7 @@
 #include "terrain/layers/fit/fit_measures.h"
 
 #include <lcms2.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

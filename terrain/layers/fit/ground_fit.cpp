@@ -1,6 +1,7 @@
 #include "terrain/layers/fit/ground_fit.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

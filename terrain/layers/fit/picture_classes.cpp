@@ -1,6 +1,7 @@
 #include "terrain/layers/fit/picture_classes.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

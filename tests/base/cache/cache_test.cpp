@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "base/matrix/matrix.h"
 
 #include <gtest/gtest.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

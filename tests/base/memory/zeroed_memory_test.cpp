@@ -1,6 +1,7 @@
 #include "base/memory/zeroed_memory.h"
 
 #include <gtest/gtest.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

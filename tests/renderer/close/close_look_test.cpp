@@ -1,6 +1,7 @@
 #include "renderer/close/close_look.h"
 
 #include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>

@@ -1,6 +1,7 @@
 #include "renderer/compose/view_candidates.h"
 
 #include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>

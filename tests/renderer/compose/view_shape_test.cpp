@@ -1,6 +1,7 @@
 #include "renderer/compose/view_shape.h"
 
 #include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <memory>

@@ -1,6 +1,7 @@
 #include "renderer/exemplar/example_sheet.h"
 
 #include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>

@@ -1,6 +1,7 @@
 #include "renderer/exemplar/fill_excluded.h"
 
 #include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -1,6 +1,7 @@
 #include "renderer/exemplar/uncertain_places.h"
 
 #include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
+
 #include <array>
 #include <cerrno>
 #include <cstdint>

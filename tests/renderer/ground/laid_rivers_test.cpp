@@ -1,6 +1,7 @@
 #include "renderer/ground/laid_rivers.h"
 
 #include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>

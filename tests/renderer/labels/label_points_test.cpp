@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <utility>

@@ -1,6 +1,7 @@
 #include "renderer/labels/sheet_painter.h"
 
 #include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <glm/common.hpp>

@@ -1,6 +1,7 @@
 #include "renderer/mist/mist_bodies.h"
 
 #include <gtest/gtest.h>
+
 #include <cmath>
 #include <limits>
 #include <memory>

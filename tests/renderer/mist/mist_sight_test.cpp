@@ -1,6 +1,7 @@
 #include "renderer/mist/mist_sight.h"
 
 #include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <memory>

@@ -1,6 +1,7 @@
 #include "renderer/paint/base_picture.h"
 
 #include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>

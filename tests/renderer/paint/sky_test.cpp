@@ -1,6 +1,7 @@
 #include "renderer/paint/sky.h"
 
 #include <gtest/gtest.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "renderer/paint/terrain_end.h"
 
 #include <gtest/gtest.h>
+
 #include <cmath>
 #include <limits>
 

@@ -1,6 +1,7 @@
 #include "renderer/pipeline/sheet_pieces.h"
 
 #include <gtest/gtest.h>
+
 #include <cstdint>
 
 #include "base/grid.h"

@@ -1,6 +1,7 @@
 #include "renderer/register/register_by_paint.h"
 
 #include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>

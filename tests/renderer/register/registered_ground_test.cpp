@@ -1,6 +1,7 @@
 #include "renderer/register/registered_ground.h"
 
 #include <gtest/gtest.h>
+
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
 #include <cmath>
 
 #include "renderer/scene/scene_file.h"

@@ -1,6 +1,7 @@
 #include "renderer/rock/rock_ground.h"
 
 #include <gtest/gtest.h>
+
 #include <cmath>
 
 #include "tests/renderer/paint/hills_print.h"

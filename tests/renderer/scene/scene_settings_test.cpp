@@ -1,6 +1,7 @@
 #include "renderer/scene/scene_settings.h"
 
 #include <gtest/gtest.h>
+
 #include <utility>
 
 #include "base/error.h"

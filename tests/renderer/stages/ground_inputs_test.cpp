@@ -1,6 +1,7 @@
 #include "renderer/stages/ground_inputs.h"
 
 #include <gtest/gtest.h>
+
 #include <cmath>
 #include <limits>
 

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
+
 #include <algorithm>
 #include <limits>
 

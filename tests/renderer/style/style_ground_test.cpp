@@ -1,6 +1,7 @@
 #include "renderer/style/style_ground.h"
 
 #include <gtest/gtest.h>
+
 #include <cmath>
 #include <limits>
 

@@ -1,6 +1,7 @@
 #include "renderer/style/style_strokes.h"
 
 #include <gtest/gtest.h>
+
 #include <cmath>
 
 #include "renderer/style/paint_style.h"

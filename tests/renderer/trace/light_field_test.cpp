@@ -3,6 +3,7 @@
 #include <erfa.h>
 #include <fmt/core.h>
 #include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>

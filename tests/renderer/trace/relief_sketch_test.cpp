@@ -1,6 +1,7 @@
 #include "renderer/trace/relief_sketch.h"
 
 #include <gtest/gtest.h>
+
 #include <memory>
 #include <set>
 

@@ -1,6 +1,7 @@
 #include "renderer/trace/terrain_model.h"
 
 #include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
+
 #include <cmath>
 #include <cstdint>
 #include <limits>

@@ -1,6 +1,7 @@
 #include "terrain/climate/water_balance.h"
 
 #include <gtest/gtest.h>
+
 #include <cmath>
 #include <numeric>
 

@@ -1,6 +1,7 @@
 #include "terrain/cover/ground_lakes.h"
 
 #include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

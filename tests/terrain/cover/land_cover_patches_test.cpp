@@ -1,6 +1,7 @@
 #include "terrain/cover/land_cover_patches.h"
 
 #include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>

@@ -1,6 +1,7 @@
 #include "terrain/deform/bend_curve.h"
 
 #include <gtest/gtest.h>
+
 #include <cmath>
 
 #include "base/error.h"

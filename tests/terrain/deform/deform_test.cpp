@@ -1,6 +1,7 @@
 #include "terrain/deform/deform.h"
 
 #include <gtest/gtest.h>
+
 #include <cmath>
 #include <glm/geometric.hpp>
 

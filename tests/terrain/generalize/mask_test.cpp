@@ -1,6 +1,7 @@
 #include "terrain/generalize/mask.h"
 
 #include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>

@@ -1,6 +1,7 @@
 #include "terrain/generalize/widen_valleys.h"
 
 #include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

@@ -1,6 +1,7 @@
 #include "terrain/io/block_means.h"
 
 #include <gtest/gtest.h>
+
 #include <cmath>
 
 #include "base/grid.h"

@@ -1,6 +1,7 @@
 #include "terrain/io/resample.h"
 
 #include <gtest/gtest.h>
+
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>

@@ -1,6 +1,7 @@
 #include "terrain/layers/layer_noise.h"
 
 #include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>

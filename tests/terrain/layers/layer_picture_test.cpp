@@ -1,6 +1,7 @@
 #include "terrain/layers/layer_picture.h"
 
 #include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>

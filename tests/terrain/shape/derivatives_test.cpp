@@ -1,6 +1,7 @@
 #include "terrain/shape/derivatives.h"
 
 #include <gtest/gtest.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

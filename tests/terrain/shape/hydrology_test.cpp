@@ -1,6 +1,7 @@
 #include "terrain/shape/hydrology.h"
 
 #include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

@@ -1,6 +1,7 @@
 #include "terrain/shape/inferred_rivers.h"
 
 #include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>

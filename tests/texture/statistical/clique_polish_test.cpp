@@ -1,6 +1,7 @@
 #include "texture/statistical/clique_polish.h"
 
 #include <gtest/gtest.h>
+
 #include <algorithm>
 #include <set>
 

@@ -1,6 +1,7 @@
 #include "texture/statistical/photometric.h"
 
 #include <gtest/gtest.h>
+
 #include <cmath>
 #include <cstddef>
 

@@ -1,6 +1,7 @@
 #include "texture/synthesis/synth_lists.h"
 
 #include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

@@ -1,6 +1,7 @@
 #include "tools/report/report_pictures.h"
 
 #include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <set>

@@ -1,6 +1,7 @@
 #include "tools/studio/job.h"
 
 #include <gtest/gtest.h>
+
 #include <atomic>
 #include <string>
 #include <thread>

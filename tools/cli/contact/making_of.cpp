@@ -1,6 +1,7 @@
 #include "tools/cli/contact/making_of.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <filesystem>

@@ -1,6 +1,7 @@
 #include "tools/cli/contact/scene_sweep.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <memory>

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>

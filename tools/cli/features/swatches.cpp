@@ -1,6 +1,7 @@
 #include "tools/cli/features/swatches.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

@@ -1,6 +1,7 @@
 #include "tools/cli/new/new_options.h"
 
 #include <fmt/core.h>
+
 #include <array>
 #include <charconv>
 #include <cmath>

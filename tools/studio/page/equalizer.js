@@ -87,14 +87,14 @@ export class Equalizer {
   key(side, set = this.set) {
     return `generalize.${side}${set.id}`;
   }
-  neutral() {
-    return this.set.id === "" ? 1 : 0;
+  neutral(set = this.set) {
+    return set.id === "" ? 1 : 0;
   }
   weights(side, set = this.set) {
     const bands = (this.store.value("generalize.foreground") ?? [1, 1, 1, 1, 1, 1]).length;
     const found =
       this.store.value(this.key(side, set)) ?? (side === "background" ? this.store.value(this.key("foreground", set)) : undefined);
-    return Array.from({ length: bands }, (_, band) => found?.[band] ?? (set.id === "" ? 1 : 0));
+    return Array.from({ length: bands }, (_, band) => found?.[band] ?? this.neutral(set));
   }
 
   update() {
@@ -168,7 +168,8 @@ export class Equalizer {
     if (side === "foreground" && !this.linked && near.join() === far.join()) changes.push({ key: this.key("background"), value: far });
     this.store.edit(changes, step);
   }
-  // Each set that the scene has gets the new number of bands; large forms stay what they are.
+  // Each set that the scene has gets the new number of bands. Bands count from the finest, which is the last: one more of neutral weight
+  // in front changes no ground.
   add(by) {
     const bands = clamp(this.weights("foreground").length + by, 1, 12);
     const changes = [];
@@ -176,7 +177,7 @@ export class Equalizer {
       for (const { id } of sides)
         if (set.id === "" || this.store.value(this.key(id, set)) !== undefined) {
           const all = this.weights(id, set);
-          changes.push({ key: this.key(id, set), value: Array.from({ length: bands }, (_, band) => all[band] ?? all.at(-1)) });
+          changes.push({ key: this.key(id, set), value: by > 0 ? [...Array(bands - all.length).fill(this.neutral(set)), ...all] : all.slice(-bands) });
         }
     this.store.edit(changes, new_step());
   }

@@ -1,6 +1,7 @@
 #include "renderer/exemplar/light/painting_tone.h"
 
 #include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <tiffio.h>
+
 #include <algorithm>
 #include <memory>
 

@@ -1,6 +1,7 @@
 #include "renderer/paint/ground/ground_tint.h"
 
 #include <gtest/gtest.h>
+
 #include <cmath>
 #include <memory>
 

@@ -1,6 +1,7 @@
 #include "renderer/paint/ground/slope_walk.h"
 
 #include <gtest/gtest.h>
+
 #include <cmath>
 
 #include "tests/renderer/exemplar/painted_hills.h"

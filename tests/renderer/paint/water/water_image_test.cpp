@@ -1,6 +1,7 @@
 #include "renderer/paint/water/water_image.h"
 
 #include <gtest/gtest.h>
+
 #include <cmath>
 #include <glm/common.hpp>
 #include <limits>

@@ -1,6 +1,7 @@
 #include "renderer/paint/water/water_surface.h"
 
 #include <gtest/gtest.h>
+
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <limits>

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
 #include <numbers>
 
 #include "tests/renderer/style/synthetic_painting.h"

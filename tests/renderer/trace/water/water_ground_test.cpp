@@ -1,6 +1,7 @@
 #include "renderer/trace/water/water_ground.h"
 
 #include <gtest/gtest.h>
+
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <memory>

@@ -1,6 +1,7 @@
 #include "terrain/layers/fit/fit_functions.h"
 
 #include <gtest/gtest.h>
+
 #include <cmath>
 #include <cstddef>
 #include <numeric>

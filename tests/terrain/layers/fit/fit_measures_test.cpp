@@ -1,6 +1,7 @@
 #include "terrain/layers/fit/fit_measures.h"
 
 #include <gtest/gtest.h>
+
 #include <cmath>
 
 namespace belvedere {

@@ -1,6 +1,7 @@
 #include "terrain/layers/fit/ground_fit.h"
 
 #include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>

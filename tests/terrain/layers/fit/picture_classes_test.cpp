@@ -1,6 +1,7 @@
 #include "terrain/layers/fit/picture_classes.h"
 
 #include <gtest/gtest.h>
+
 #include <cmath>
 
 #include "base/error.h"

@@ -1,6 +1,7 @@
 #include "tools/cli/contact/making_of.h"
 
 #include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
