@@ -1,7 +1,7 @@
 # Quick builds: foreign headers are parsed once (a precompiled header), and the .cpp files of a room are compiled some at a time, as one
 # unit (CMake's unity builds). A room is the folder below a layer, terrain/climate say, with the folders in it.
 #
-# Batches ask one thing of the code: what an anonymous namespace names is named once in its room (tools/check_names).
+# Batches ask one thing of the code: what an anonymous namespace names is named once in its room (tools/check).
 # Each file compiles alone all the same: -DBELVEDERE_BATCHES=OFF, and tools/check_all alone.
 option(BELVEDERE_BATCHES "Compile files of a room together, with precompiled headers" ON)
 set(BELVEDERE_BATCH_SIZE 14 CACHE STRING "Files that are compiled as one, at most")

@@ -1,6 +1,6 @@
 // A C library whose sine, logarithm and the like differ in the last bit, as those of two systems do. Preloaded, it answers calls of the
 // program itself with the double next above the true answer, and leaves those of libraries alone (PROJ, OpenColorIO and Embree have bits of
-// their own). tools/test_libm renders with it: a pixel that moves hangs on a function that base/math_exact.h has as well.
+// their own). tools/test_hard libm renders with it: a pixel that moves hangs on a function that base/math_exact.h has as well.
 // With OTHER_LIBM_CALLS=FILE the names of the functions that were called are appended to FILE at the end.
 #define _GNU_SOURCE
 #include <dlfcn.h>
