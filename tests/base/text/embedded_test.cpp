@@ -18,17 +18,20 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-TEST(Embedded, EveryFileOfTheDataFoldersToTheByte) {
+TEST(Embedded, EveryFileOfDataAndPagesToTheByte) {
   int files = 0;
-  for (const char* folder : {"palettes", "legends", "layers", "sheet", "studio", "pick", "report",
-                             "segment", "sources"}) {
-    for (const auto& entry :
-         fs::directory_iterator(fs::path(test::source_folder()) / "data" / folder)) {
-      const std::string name = std::string(folder) + "/" + entry.path().filename().string();
+  const auto look = [&](const std::string& folder, const fs::path& path) {
+    for (const auto& entry : fs::directory_iterator(path)) {
+      const std::string name = folder + "/" + entry.path().filename().string();
       EXPECT_TRUE(embedded_file(name) == test::read_bytes(entry.path())) << name;
       ++files;
     }
-  }
+  };
+  const fs::path root = test::source_folder();
+  for (const char* folder : {"palettes", "legends", "layers", "sheet", "segment", "sources"})
+    look(folder, root / "data" / folder);
+  for (const char* page : {"studio", "pick", "report", "web"})
+    look(page, root / "tools" / page / "page");
   EXPECT_GT(files, 12);
   EXPECT_TRUE(embedded_file("scenes/demo/demo.toml") ==
               test::read_bytes(test::source_folder() + "/scenes/demo/demo.toml"));
