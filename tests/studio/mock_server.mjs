@@ -184,7 +184,8 @@ const answers = {
   },
   "GET api/rungs": () => rungs(),
   "GET api/stage": () => ({ stage: "", done: 0 }),
-  "GET api/pointer": (query) => {
+  "GET api/pointer": async (query) => {
+    await sleep(slow_ms);
     const { viewer, azimuth, field } = camera(parse(scene.text).values);
     const y = Number(query.get("y"));
     if (y < 0.2) return { sky: true };

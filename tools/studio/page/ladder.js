@@ -88,8 +88,9 @@ export class Ladder {
     try {
       this.tell({ ...this.about(rung), working: true });
       const started = performance.now();
+      const seen = this.picture.view(); // the scene may be another one when the answer comes
       const { blob, milliseconds, halved, without } = await api.picture(rung, revision, signal);
-      await this.picture.show(blob);
+      await this.picture.show(blob, seen);
       clearInterval(waits);
       waits = 0;
       this.reached = { revision, rung };

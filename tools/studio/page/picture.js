@@ -47,8 +47,11 @@ export class Picture {
     frame.style.height = `${w / aspect}px`;
   }
 
-  async show(blob) {
-    const seen = view(this.store.settled());
+  // The view of the scene as the program has it.
+  view() {
+    return view(this.store.settled());
+  }
+  async show(blob, seen) {
     const bitmap = await createImageBitmap(blob);
     this.context().drawImage(bitmap, 0, 0, this.canvas.width, this.canvas.height);
     bitmap.close();
