@@ -332,6 +332,39 @@ test("a text with an error is told at its line, and mended", async () => {
   await page.waitForFunction((was) => document.getElementById("text").value === was, patience, text);
 });
 
+test("a draft with an error stays with its message, and undoes nothing that is changed elsewhere", async () => {
+  const haze = await value("air.haze");
+  const { text } = await scene();
+  await panel("text");
+  await page.focus("#text");
+  await keys("Control", "End");
+  await page.keyboard.type("\nnonsense = 3\n");
+  await page.waitForFunction(() => /nonsense/.test(document.getElementById("text-fault").textContent), patience);
+  await panel("air");
+  await page.$eval("[data-key='air.haze'] input[type=range]", (slider) => {
+    slider.value = Number(slider.min) + 0.7 * (Number(slider.max) - Number(slider.min));
+    slider.dispatchEvent(new Event("input", { bubbles: true }));
+    slider.dispatchEvent(new Event("change", { bubbles: true }));
+  });
+  const now = await changed("air.haze", haze);
+  await panel("text");
+  const says = await text_of("#text-fault");
+  assert.match(says, /nonsense/);
+  assert.match(says, /changed beside this draft/);
+  assert.match(await page.$eval("#text", (area) => area.value), /nonsense/);
+  for (let k = 0; k < 16; ++k) await page.keyboard.press("Backspace");
+  await page.focus("#text");
+  await keys("Control", "End");
+  for (let k = 0; k < 15; ++k) await page.keyboard.press("Backspace");
+  await sleep(1200);
+  assert.equal(await value("air.haze"), now, "the slider's value is not undone");
+  await page.click("#text-back");
+  await page.waitForFunction((wanted) => document.getElementById("text").value.includes(`haze = ${wanted}`), patience, now);
+  await undo();
+  assert.equal((await scene()).text, text);
+  await finished();
+});
+
 test("a version is kept and compared by a border", async () => {
   await page.click("#keep");
   await panel("camera");
