@@ -130,7 +130,6 @@ TEST_F(ProposedScenes, WideOnesAreCylinders) {
 }
 
 using testing::AllOf;
-using testing::HasSubstr;
 
 TEST(Proposals, AreTheBestThatDiffer) {
   const CoarseGround ground = test::chain_region();

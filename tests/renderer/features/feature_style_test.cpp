@@ -122,9 +122,6 @@ TEST(FeatureStyle, WhatIsWrongIsSaidAtItsPlace) {
               AllOf(HasSubstr("spring"), HasSubstr("\"classic\", \"ski\"")));
 }
 
-using testing::AllOf;
-using testing::HasSubstr;
-
 class Sources : public testing::Test {
  protected:
   std::string write(const std::string& features) const {

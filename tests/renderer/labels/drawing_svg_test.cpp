@@ -105,9 +105,6 @@ TEST(DrawingSvg, LibrsvgDrawsWhatThePictureHas) {
   }
 }
 
-using test::bent;
-using test::sans;
-
 // The first of Hebrew letters stands at the right.
 TEST(PlacedText, KnowsWhichLettersStandWhere) {
   const TextMeasure measure;

@@ -260,8 +260,6 @@ TEST(LiveView, ItsLastRungRefusesWhatRenderRefuses) {
   live.paint(tiny_scene(), rungs().front(), {});
 }
 
-using testing::IsEmpty;
-
 // A scene of a file, whose ground unlike synthetic terrain has coarser levels.
 LoadedScene file_scene(const std::vector<std::string>& settings = {}) {
   return parse_scene(

@@ -509,8 +509,6 @@ TEST(Fields, AreAsStrongAsHueDriftSays) {
               1.0F + 2.0F * (once - 1.0F));
 }
 
-using test::expect_near;
-
 constexpr glm::vec3 street(0.5F, 0.4F, 0.3F);
 
 TEST(TownGround, HasMoreGardensInAVillageThanInATown) {

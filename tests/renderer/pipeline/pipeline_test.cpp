@@ -232,8 +232,8 @@ TEST_F(Pipeline, APictureBeyondMemoryIsRefusedWithTheEstimate) {
   }
 }
 
-// The work would begin, were ground or paintings left out of the estimate.
-TEST_F(Pipeline, WhatGroundAndPaintingsLeaveIsKnownBeforeTheWork) {
+// The work would begin if the estimate left the ground out.
+TEST_F(Pipeline, WhatGroundLeavesIsKnownBeforeTheWork) {
   class NoWork : public Progress {
     void begin(std::string_view stage, double) override {
       throw Error(ErrorKind::bug, "test", "work begins: " + std::string(stage), "");

@@ -133,8 +133,6 @@ TEST_F(PaintedSceneCheck, AViewStandsForThePixelsOfItsPicture) {
   EXPECT_THAT(looked.exemplars, SizeIs(1));
 }
 
-using testing::HasSubstr;
-
 class ViewJudgementTest : public testing::Test {
  protected:
   ViewEvaluation judge(const std::vector<std::string>& settings = {}) const {

@@ -81,9 +81,6 @@ TEST_F(ScenePaints, ThePaletteIsTheScenesOrThePaintings) {
             forest(read_palette("winter")));
 }
 
-using testing::HasSubstr;
-using testing::IsEmpty;
-
 TEST(OutputColour, IsSrgbWhereTheSceneSaysNothing) {
   const OutputColour colour = read_output_colour(test::small_scene());
   EXPECT_THAT(colour.profile, IsEmpty());

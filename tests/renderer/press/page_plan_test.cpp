@@ -91,7 +91,6 @@ TEST(PagePlan, RefusesWhatCannotBe) {
   EXPECT_THAT(refused({300, 90}, {.bleed_mm = 45.0}), HasSubstr("half"));
 }
 
-using testing::HasSubstr;
 using testing::StartsWith;
 
 TEST(VectorPage, IsAPageOfTheSizeAsked) {

@@ -182,9 +182,7 @@ TEST(SceneLight, WrittenScenesReadBackTheSame) {
 using test::all_meadow;
 using test::make_world;
 using test::small_scene;
-using test::small_scene_text;
 using test::SyntheticWorld;
-using testing::HasSubstr;
 
 // Two cones of 1500 m on a plain, 9 km apart from west to east; the camera is north of them and
 // looks south, so that it sees the sides that a sun in the south leaves dark.

@@ -162,8 +162,6 @@ TEST(View, ATimeGivesTheSunAsTheGridSeesIt) {
   EXPECT_THAT(refused(centre + sun, level("")), HasSubstr("sun.time"));
 }
 
-using testing::HasSubstr;
-
 Dem ground(const std::string& crs) {
   return make_dem({Grid<float>(10, 10, 0.F),
                    {500000.0, 5200000.0, 100.0, 100.0},

@@ -125,11 +125,6 @@ TEST(ViewerCheck, ASliverOfGroundIsGround) {
   EXPECT_THROW(notes_of(south, 0.0, 13.00 - 4.76 + 0.07), Error);
 }
 
-using test::Notes;
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::Not;
 using testing::SizeIs;
 
 const GeoTransform fold_frame{500000.0, 5200000.0, 50.0, 50.0};

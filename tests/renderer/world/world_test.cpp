@@ -132,8 +132,6 @@ TEST(World, RefusesFoldedGroundBeforeTheTracerIsBuilt) {
   EXPECT_THAT(stages.all, ElementsAre("synthetic terrain", "class rules", "generalize"));
 }
 
-using test::small_scene;
-
 FileNotes notes_of(const LoadedScene& loaded) {
   return make_world_notes(loaded, make_world(loaded, silent_progress()));
 }
@@ -184,8 +182,6 @@ TEST(WorldNotes, NameTheCoordinateSystemAndEveryFileThatWasRead) {
   EXPECT_NE(inputs(notes()), inputs(before));
 }
 
-using testing::HasSubstr;
-
 TEST(SceneMist, AScenesMistIsNoneWhereItAsksForNone) {
   const World world = make_world(test::small_scene(), silent_progress());
   EXPECT_TRUE(world.mist.empty());
@@ -221,7 +217,6 @@ TEST(SceneMist, WhatIsMissingIsNamed) {
 }
 
 using testing::AllOf;
-using testing::HasSubstr;
 
 // A level perspective 90° wide: its plane lies half a width before the eye, so that the picture's
 // rim is seen at a slope of (height / width) · cos(angle off the middle).

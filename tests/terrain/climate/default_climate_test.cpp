@@ -134,8 +134,6 @@ TEST(DefaultClimate, BadGlaciersNameTheirLine) {
   EXPECT_THAT(message_of("version = 2\nglaciers = []"), HasSubstr("version = 1"));
 }
 
-using testing::HasSubstr;
-
 // 800 mm everywhere, 10 °C at 0 m.
 PlaceClimate mild() {
   PlaceClimate climate;

@@ -110,8 +110,6 @@ TEST(Stations, AHistoryOfTheClimateGivesItsLastThirtyYears) {
       HasSubstr("terrain has no CRS"));
 }
 
-using testing::HasSubstr;
-
 struct Synthetic {
   std::vector<double> altitude_m, temperature_c;
 };

@@ -203,8 +203,6 @@ TEST(Treeline, IsWhereTheExcessIsNone) {
   EXPECT_NEAR(treeline_m(position), 4000.0, 0.05);
 }
 
-using test::constant;
-
 constexpr double pi = std::numbers::pi;
 
 // Monthly means, in closed form, of mean + swing · cos(2π · waves · (t - phase)), t in years.

@@ -245,8 +245,6 @@ TEST(WidenValleys, TheMaskKeepsTheGroundOfItsZerosAndHalvesThatOfAHalf) {
     ASSERT_NEAR(half.altitude_m[i], 0.5F * (valley[i] + all.altitude_m[i]), 1e-3F);
 }
 
-using test::cell_m;
-
 // A valley along column 100 that falls to the south between walls of 27°, widened by 480 m.
 Grid<glm::vec2> moves_of_a_valley(double river_wave = 0.0) {
   Grid<float> valley(201, 300);

@@ -226,7 +226,6 @@ INSTANTIATE_TEST_SUITE_P(
         RealDem{"oetztal/srtm_oetztal.tif", "", "EPSG:32632", 496, 548, 390.0, 3727.0, 0.0486}));
 
 using testing::AllOf;
-using testing::HasSubstr;
 
 struct KeptNotes : Progress {
   std::string text;

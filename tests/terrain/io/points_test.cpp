@@ -202,9 +202,6 @@ TEST_F(Points, ASourceStatesCrsAndEncoding) {
               HasSubstr("always UTF-8"));
 }
 
-using test::message_of;
-using testing::HasSubstr;
-
 class Lines : public RasterFiles {
  protected:
   std::string utm_ = normalize_crs("EPSG:32632");

@@ -127,7 +127,6 @@ TEST_F(EncodedRaster, WhatIsNotEncodedIsRefused) {
 
 namespace fs = std::filesystem;
 using testing::ElementsAre;
-using testing::HasSubstr;
 
 std::uint32_t big_endian_at(const std::string& bytes, std::size_t at, int count = 4) {
   std::uint32_t out = 0;

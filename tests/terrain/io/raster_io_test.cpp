@@ -445,7 +445,6 @@ TEST_F(RasterIo, KeepsNoMoreBlocksThanASixteenthOfTheMemory) {
 }
 
 using testing::AllOf;
-using testing::HasSubstr;
 
 // Files of several rasters, as GDAL's own program writes them, and grids as text.
 class RasterOfSeveral : public RasterFiles {

@@ -134,9 +134,6 @@ TEST(SnapColours, TakesColoursOfTheTwoSides) {
   EXPECT_EQ(picture(5, 5), red);
 }
 
-using test::is_green;
-using test::two_textures_model;
-
 const TextureParameters quick_window{.rounds = 3, .sweeps = 1};
 
 const CompositeRecord& record() {

@@ -54,9 +54,6 @@ TEST(Exemplar, SidesHaveALimit) {
               HasSubstr("32767"));
 }
 
-using testing::AllOf;
-using testing::HasSubstr;
-
 GuideStack stack_of(int width, int height) {
   GuideStack stack;
   stack.label = Grid<std::uint8_t>(width, height, 3);

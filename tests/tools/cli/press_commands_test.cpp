@@ -67,8 +67,6 @@ TEST_F(PressCommands, PalettesAreChecked) {
   EXPECT_EQ(run({"palette", "check", "spring?", "--profile", test::press_file}).status, 2);
 }
 
-using testing::HasSubstr;
-
 class Pdf : public Program {
  protected:
   void picture() const {

@@ -106,9 +106,6 @@ TEST(ExemplarVerdict, TextAndJsonTellTheSame) {
               AllOf(HasSubstr("\"altitude_covered\": null"), HasSubstr("\"pixels\": 12345")));
 }
 
-using ::testing::AllOf;
-using ::testing::HasSubstr;
-
 TEST(ExemplarReportPage, ShowsThePaintingItsClassesAndCharts) {
   Exemplar painting{
       .name = "p.png", .picture = Grid<Rgb8>(64, 48, Rgb8{10, 200, 30}), .guides = {}};

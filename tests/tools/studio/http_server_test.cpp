@@ -338,8 +338,6 @@ TEST(HttpServer, TokensAreLongAndNeverTheSame) {
   EXPECT_NE(one, random_token());
 }
 
-using testing::HasSubstr;
-
 // The TOML of one value.
 std::string toml_of_json(const std::string& json) {
   const SetBody body = read_set_body(R"({"changes": [{"key": "a.b", "value": )" + json + "}]}");
@@ -453,8 +451,6 @@ TEST(RequestBody, PointsAndFlagsAreThereOrNot) {
   for (const char* name : {"pixel", "text"})
     EXPECT_EQ(test::kind_of([&] { read_flag_member(body, name); }), ErrorKind::usage) << name;
 }
-
-using testing::HasSubstr;
 
 TEST(PageAnswers, FilesComeFromTheFirstFolderThatHasThem) {
   EXPECT_THAT(page_file({"pick", "studio"}, "").body, HasSubstr("Pairs"));

@@ -245,8 +245,6 @@ TEST_F(StudioTest, ProposalsAreChangesThatCanBeMade) {
 }
 
 namespace fs = std::filesystem;
-using nlohmann::json;
-using testing::HasSubstr;
 
 // ---- results of jobs
 
@@ -344,8 +342,6 @@ TEST_F(StudioTest, FilesNeverLeaveTheFolder) {
 }
 
 namespace fs = std::filesystem;
-using nlohmann::json;
-using testing::HasSubstr;
 
 // What fetching does is given by the command.
 class StudioOfPlaces : public StudioTest {

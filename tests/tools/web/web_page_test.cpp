@@ -201,8 +201,6 @@ tell(window.panorama.viewer.width);
     EXPECT_THAT(said, HasSubstr(line));
 }
 
-using testing::HasSubstr;
-
 constexpr int sheet_width = 90;
 constexpr int sheet_height = 70;  // more than a row of tiles
 const glm::dvec3 sheet_origin(680000.0, 5250000.0, 0.0);

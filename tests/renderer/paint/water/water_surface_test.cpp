@@ -298,8 +298,6 @@ TEST(RiverWater, LakesStayAsTheyAre) {
   }
 }
 
-using test::no_noise;
-
 // One pixel of water far from its shores, below one of forest that it reflects if `mirrors` is set.
 struct ForestLake {
   GuidanceBuffers guidance =

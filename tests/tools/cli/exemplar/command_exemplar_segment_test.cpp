@@ -184,9 +184,6 @@ TEST_F(ExemplarSegment, HiddenColoursAreNotSeen) {
   EXPECT_EQ(results[0], results[1]);
 }
 
-using ::testing::AllOf;
-using ::testing::HasSubstr;
-
 class SegmentPage : public Program {
  protected:
   // Sky above, wood and meadow below; made in a few groups.
