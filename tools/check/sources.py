@@ -30,7 +30,7 @@ below = {
     "texture/strokes": "base",
     "renderer/image": "base texture/synthesis",
     "renderer/trace": "base terrain",
-    "renderer/paint": "base texture renderer/image renderer/trace",
+    "renderer/paint": "base terrain/io terrain/deform texture renderer/image renderer/trace",
     "renderer/mist": "base terrain texture/strokes renderer/trace renderer/paint",
     "renderer/features": "base terrain texture/strokes renderer/trace renderer/paint",
     "renderer/compose": "base terrain renderer/trace",

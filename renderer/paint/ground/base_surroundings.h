@@ -16,11 +16,11 @@
 #include "renderer/paint/rock_kinds.h"
 #include "renderer/paint/sky.h"
 #include "renderer/paint/terrain_end.h"
+#include "renderer/paint/water/water_ground.h"
 #include "renderer/paint/water/water_image.h"
 #include "renderer/paint/water/water_surface.h"
 #include "renderer/trace/camera.h"
 #include "renderer/trace/light_field.h"
-#include "renderer/trace/water/water_ground.h"
 
 namespace belvedere {
 

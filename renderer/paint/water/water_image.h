@@ -9,7 +9,7 @@
 #include "renderer/paint/air.h"
 #include "renderer/paint/light.h"
 #include "renderer/paint/palette.h"
-#include "renderer/trace/water/water_ground.h"
+#include "renderer/paint/water/water_ground.h"
 
 namespace belvedere {
 

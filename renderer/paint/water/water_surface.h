@@ -10,8 +10,8 @@
 #include "renderer/paint/ground/ground_tint.h"
 #include "renderer/paint/palette.h"
 #include "renderer/paint/picture_noise.h"
+#include "renderer/paint/water/water_ground.h"
 #include "renderer/paint/water/water_image.h"
-#include "renderer/trace/water/water_ground.h"
 
 namespace belvedere {
 

@@ -1,4 +1,4 @@
-#include "renderer/trace/water/water_ground.h"
+#include "renderer/paint/water/water_ground.h"
 
 #include <gtest/gtest.h>
 
