@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -124,7 +125,35 @@ void draw_plate(const LabelSheet& sheet, const Label& label, std::vector<DrawnSh
                              .colour = kind.light});
 }
 
-void draw_tracks(const LabelSheet& sheet, std::vector<DrawnGroup>& groups) {
+// From the end at the text to the border of the mark.
+DrawnPath draw_leader(const LabelSheet& sheet, const Label& label) {
+  const double radius = .5 * sheet.kind_of(label).mark_mm * sheet.px_per_mm;
+  const glm::dvec2 mark = label.mark.pixel;
+  const glm::dvec2 end = label.spot.leader_end;
+  const glm::dvec2 foot = end.x == mark.x && end.y < mark.y
+                              ? glm::dvec2(mark.x, mark.y - radius)
+                              : mark + radius * glm::normalize(end - mark);
+  return {.points = {end, foot},
+          .fill = {},
+          .stroke = sheet.style.leader,
+          .width_px = sheet.style.leader_mm * sheet.px_per_mm};
+}
+
+// Mark and name.
+void draw_marked(const LabelSheet& sheet, const Label& label, std::vector<DrawnShape>& shapes) {
+  const LabelKindStyle& kind = sheet.kind_of(label);
+  if (kind.position == LabelPlace::on) {
+    draw_plate(sheet, label, shapes);
+    return;
+  }
+  if (label.spot.baseline.empty()) draw_mark(kind, label.mark.pixel, sheet.px_per_mm, shapes);
+  draw_name(sheet, label, shapes);
+}
+
+}  // namespace
+
+std::vector<DrawnGroup> draw_tracks(const LabelSheet& sheet) {
+  std::vector<DrawnGroup> groups;
   const TrackStyle& style = sheet.style.track;
   const double width = style.width_mm * sheet.px_per_mm;
   DrawnGroup hidden{"tracks-hidden", {}}, edges{"tracks-edge", {}}, seen{"tracks", {}};
@@ -144,22 +173,23 @@ void draw_tracks(const LabelSheet& sheet, std::vector<DrawnGroup>& groups) {
     }
   for (DrawnGroup* group : {&hidden, &edges, &seen})
     if (!group->shapes.empty()) groups.push_back(std::move(*group));
+  return groups;
 }
 
-}  // namespace
+std::vector<DrawnShape> draw_label(const LabelSheet& sheet, const Label& label) {
+  std::vector<DrawnShape> shapes;
+  if (!label.spot.placed) return shapes;
+  if (label.spot.has_leader) shapes.push_back(draw_leader(sheet, label));
+  draw_marked(sheet, label, shapes);
+  return shapes;
+}
 
 std::vector<DrawnGroup> draw_labels(const LabelSheet& sheet) {
-  std::vector<DrawnGroup> groups;
-  draw_tracks(sheet, groups);
+  std::vector<DrawnGroup> groups = draw_tracks(sheet);
   DrawnGroup leaders{"leaders", {}};
   for (const Label& label : sheet.labels)
     if (label.spot.placed && label.spot.has_leader) {
-      const double foot = label.mark.pixel.y - .5 * sheet.kind_of(label).mark_mm * sheet.px_per_mm;
-      leaders.shapes.push_back(DrawnPath{
-          .points = {{label.mark.pixel.x, label.spot.leader_top_px}, {label.mark.pixel.x, foot}},
-          .fill = {},
-          .stroke = sheet.style.leader,
-          .width_px = sheet.style.leader_mm * sheet.px_per_mm});
+      leaders.shapes.push_back(draw_leader(sheet, label));
     }
   if (!leaders.shapes.empty()) groups.push_back(std::move(leaders));
   for (std::size_t k = 0; k < sheet.style.kinds.size(); ++k) {
@@ -167,13 +197,7 @@ std::vector<DrawnGroup> draw_labels(const LabelSheet& sheet) {
     DrawnGroup group{kind.name, {}};
     for (const Label& label : sheet.labels) {
       if (!label.spot.placed || label.point.kind != static_cast<int>(k)) continue;
-      if (kind.position == LabelPlace::on) {
-        draw_plate(sheet, label, group.shapes);
-        continue;
-      }
-      if (label.spot.baseline.empty())
-        draw_mark(kind, label.mark.pixel, sheet.px_per_mm, group.shapes);
-      draw_name(sheet, label, group.shapes);
+      draw_marked(sheet, label, group.shapes);
     }
     if (!group.shapes.empty()) groups.push_back(std::move(group));
   }
@@ -201,13 +225,6 @@ std::string quoted_csv(const std::string& text) {
 
 std::string number_or_nothing(double value, int digits) {
   return std::isnan(value) ? std::string() : fmt::format("{:.{}f}", value, digits);
-}
-
-// Whether it was placed in the picture: "placed", "no room", "enough names around", or why it is
-// not visible.
-std::string outcome(const Label& label) {
-  if (label.mark.state != MarkState::seen) return std::string(name_of(label.mark.state));
-  return label.spot.placed ? "placed" : label.spot.crowded ? "enough names around" : "no room";
 }
 
 bool has_pixel(const Label& label) {
@@ -252,9 +269,14 @@ std::string labels_svg(const LabelSheet& sheet, const std::string& under) {
   return out + "</svg>\n";
 }
 
+std::string outcome_of(const Label& label) {
+  if (label.mark.state != MarkState::seen) return std::string(name_of(label.mark.state));
+  return label.spot.placed ? "placed" : label.spot.crowded ? "enough names around" : "no room";
+}
+
 std::string labels_csv(const LabelSheet& sheet) {
   std::string out = std::string(columns) + '\n';
-  for (const Label& label : sheet.labels) out += csv_row(sheet, label, outcome(label)) + '\n';
+  for (const Label& label : sheet.labels) out += csv_row(sheet, label, outcome_of(label)) + '\n';
   return out;
 }
 
@@ -281,7 +303,7 @@ std::string labels_geojson(const LabelSheet& sheet, const std::string& crs) {
                           .add("name", Json::text(label.point.name))
                           .add("kind", Json::text(sheet.kind_of(label).name))
                           .add("rank", Json::number(label.point.rank))
-                          .add("outcome", Json::text(outcome(label)));
+                          .add("outcome", Json::text(outcome_of(label)));
     if (label.point.altitude_m)
       properties.add("altitude_file_m", Json::number(*label.point.altitude_m));
     if (!std::isnan(label.mark.dem_altitude_m))

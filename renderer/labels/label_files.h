@@ -35,6 +35,13 @@ struct DrawnGroup {
 // name, so that none crosses the letters of another.
 std::vector<DrawnGroup> draw_labels(const LabelSheet& sheet);
 
+// What became of a name: "placed", "no room", "enough names around", or why it is not visible.
+std::string outcome_of(const Label& label);
+
+// The tracks, and one placed name with its mark and leader, of the same drawing.
+std::vector<DrawnGroup> draw_tracks(const LabelSheet& sheet);
+std::vector<DrawnShape> draw_label(const LabelSheet& sheet, const Label& label);
+
 // All groups as one drawing of the picture's size.
 Drawing label_drawing(const LabelSheet& sheet);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numeric>
 #include <optional>
@@ -17,7 +18,7 @@ struct Candidate {
   LabelBox text;
   const BentRoom* bent = nullptr;
   bool has_leader = false;
-  double leader_top_px = 0.0;
+  glm::dvec2 leader_end{0.0};
   double cost = 0.0;
 };
 
@@ -47,8 +48,10 @@ LabelBox mark_box(const LabelRequest& request) {
 }
 
 // A leader as a box of no width: it may touch only its own mark and text.
-LabelBox leader_box(const LabelRequest& request, double top_px) {
-  return {request.mark.x - .5, top_px, request.mark.x + .5, request.mark.y - .5 * request.mark_px};
+LabelBox leader_box(const LabelRequest& request, glm::dvec2 end) {
+  return {std::min(request.mark.x, end.x) - .5, std::min(request.mark.y, end.y),
+          std::max(request.mark.x, end.x) + .5,
+          std::max(request.mark.y - .5 * request.mark_px, end.y)};
 }
 
 double side_of(glm::dvec2 a, glm::dvec2 b, glm::dvec2 p) {
@@ -87,10 +90,14 @@ class Layout {
     std::vector<std::size_t> order(requests_.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-      return requests_[a].rank < requests_[b].rank;
+      return order_of(requests_[a]) < order_of(requests_[b]);
     });
     std::vector<LabelSpot> spots(requests_.size());
     for (const std::size_t i : order) {
+      if (requests_[i].by_hand_px) {
+        if (!candidates_[i].empty()) chosen_[i] = candidates_[i].front();
+        continue;
+      }
       spots[i].crowded = is_crowded(i);
       if (!spots[i].crowded && !place_free(i)) place_by_moving_one(i);
     }
@@ -99,7 +106,7 @@ class Layout {
         spots[i] = {.placed = true,
                     .text = c->text,
                     .has_leader = c->has_leader,
-                    .leader_top_px = c->leader_top_px};
+                    .leader_end = c->leader_end};
         if (c->bent != nullptr) {
           spots[i].letters = c->bent->letters;
           spots[i].baseline = c->bent->baseline;
@@ -109,6 +116,10 @@ class Layout {
   }
 
  private:
+  static double order_of(const LabelRequest& request) {
+    return request.by_hand_px ? -1.0 : request.rank;
+  }
+
   // All candidates of a request, best first.
   std::vector<Candidate> candidates_of(const LabelRequest& request) const {
     std::vector<Candidate> all;
@@ -119,6 +130,10 @@ class Layout {
     if (request.mark.x < 0.0 || request.mark.y < 0.0 || request.mark.x > p_.width_px ||
         request.mark.y > p_.height_px)
       return all;
+    if (request.by_hand_px) {
+      all.push_back(by_hand(request));
+      return all;
+    }
     switch (request.position) {
       case LabelPlace::above:
         request.on_skyline ? add_rows(request, all) : add_above(request, all);
@@ -158,6 +173,26 @@ class Layout {
            box.right <= p_.width_px - p_.margin_px && box.bottom <= p_.height_px - p_.margin_px;
   }
 
+  // The one position of a name placed by hand, moved into the picture where its size would put it
+  // outside, with a leader to the nearest point of the text unless that is beside the mark.
+  Candidate by_hand(const LabelRequest& request) const {
+    const glm::dvec2 half(.5 * request.width_px, request.height_px);
+    const glm::dvec2 low = glm::dvec2(p_.margin_px) + half;
+    const glm::dvec2 high =
+        glm::max(low, glm::dvec2(p_.width_px - p_.margin_px - half.x, p_.height_px - p_.margin_px));
+    const glm::dvec2 foot =
+        glm::clamp(request.mark + *request.by_hand_px, glm::dvec2(low.x, low.y), high);
+    Candidate out{.text = {foot.x - half.x, foot.y - half.y, foot.x + half.x, foot.y}};
+    // Inside the ends of the text, so that the line meets a letter.
+    const double inset = std::min(.15 * request.width_px, request.height_px);
+    out.leader_end = {
+        std::clamp(request.mark.x, out.text.left + inset, out.text.right - inset),
+        std::clamp(request.mark.y, out.text.top, out.text.bottom)};
+    out.has_leader = glm::length(out.leader_end - request.mark) >
+                     .5 * request.mark_px + p_.gap_px + .5 * p_.row_px;
+    return out;
+  }
+
   // The text with the centre of its lower edge there; nothing where it would leave the picture.
   Candidate* add(const LabelRequest& request, double centre, double bottom, double cost,
                  std::vector<Candidate>& all) const {
@@ -182,7 +217,7 @@ class Layout {
       if (Candidate* c = add(request, request.mark.x + shift * request.width_px, bottom,
                              cost + 1.5 * std::abs(shift), all)) {
         c->has_leader = foot_of(request) - bottom > .5 * p_.row_px;
-        c->leader_top_px = bottom;
+        c->leader_end = {request.mark.x, bottom};
       }
   }
 
@@ -308,11 +343,11 @@ class Layout {
              (requests_[other].mark_px > 0.0 && leader.overlaps(mark)) ||
              (theirs.has_leader &&
               grown(leader, p_.clearance_px)
-                  .overlaps(leader_box(requests_[other], theirs.leader_top_px)));
+                  .overlaps(leader_box(requests_[other], theirs.leader_end)));
     };
-    if (a.has_leader && lies_on(leader_box(requests_[i], a.leader_top_px), j, b, mark_b))
+    if (a.has_leader && lies_on(leader_box(requests_[i], a.leader_end), j, b, mark_b))
       return true;
-    return b.has_leader && lies_on(leader_box(requests_[j], b.leader_top_px), i, a, mark_a);
+    return b.has_leader && lies_on(leader_box(requests_[j], b.leader_end), i, a, mark_a);
   }
 
   // Names that block a candidate: none, one, or more than one (requests_.size()).

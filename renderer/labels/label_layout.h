@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/vec2.hpp>
+#include <optional>
 #include <vector>
 
 #include "renderer/labels/label_style.h"
@@ -38,6 +39,9 @@ struct LabelRequest {
       {};  // for a name that follows a shape, best first; position and mark are then ignored
   std::vector<glm::dvec2> along = {};  // of LabelPlace::on: the line that it is centred on
   double area_px = 0.0;  // of LabelPlace::beside: width of the area that the name stands beside
+  // Set by hand: from the mark to the centre of the text's lower edge, px. The name stands there
+  // whatever is below it, and the others make room. For a name on a line its own shift.
+  std::optional<glm::dvec2> by_hand_px = {};
 };
 
 struct LabelLayoutParameters {
@@ -62,15 +66,16 @@ struct LabelSpot {
   LabelBox text;                          // for a curved name around all its letters
   std::vector<LabelBox> letters = {};     // of a curved name
   std::vector<glm::dvec2> baseline = {};  // of a curved name; empty: level
-  bool has_leader = false;                // a vertical line from the mark up to leader_top_px
-  double leader_top_px = 0.0;
+  bool has_leader = false;                // a line from the mark to leader_end, px; vertical
+  glm::dvec2 leader_end{0.0};             // unless the name was placed by hand
 };
 
 // Finds positions for names so that no text overlaps another, a mark or a leader, and no leader a
 // text or a mark. Ranks decide: a placed name keeps its position or moves to another free one, but
 // is never dropped for one of lower rank. Names that do not fit are not placed. `skyline_px`: for
 // each column of the picture the row above which there is sky (0 where there is none): names of the
-// skyline are above it, in shared rows. Names beside their marks stay on the same side of
+// skyline are above it, in shared rows. Names placed by hand come first, and all of them are
+// placed. Names beside their marks stay on the same side of
 // `barriers` (rivers, shores) as these where they can. Deterministic.
 std::vector<LabelSpot> place_labels(const std::vector<LabelRequest>& requests,
                                     const std::vector<double>& skyline_px,

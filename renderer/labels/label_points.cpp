@@ -96,6 +96,7 @@ std::optional<double> rank_of_population(const std::string& text) {
 }
 
 constexpr std::array kind_columns{"kind", "type", "natural", "place", "tourism"};
+constexpr std::array by_hand_columns{"dx_mm", "dy_mm"};
 constexpr std::array altitude_columns{"ele", "altitude_m", "altitude", "elevation", "height"};
 
 // The points of a file of any format, for vector files those of all its layers.
@@ -109,12 +110,14 @@ PointTable read_table(const VectorSource& source, const std::string& crs, NamesA
   query.also.emplace_back("rank");
   query.also.emplace_back("population");
   query.also.insert(query.also.end(), altitude_columns.begin(), altitude_columns.end());
+  query.also.insert(query.also.end(), by_hand_columns.begin(), by_hand_columns.end());
   MapFeatures file = read_map_features(source, query, crs);
   PointTable table{.file = path, .columns = {"name"}, .points = {}};
   table.columns.insert(table.columns.end(), kind_columns.begin(), kind_columns.end());
   table.columns.emplace_back("rank");
   table.columns.emplace_back("population");
   table.columns.insert(table.columns.end(), altitude_columns.begin(), altitude_columns.end());
+  table.columns.insert(table.columns.end(), by_hand_columns.begin(), by_hand_columns.end());
   for (MapFeature& feature : file.features)
     if (feature.shape == MapShape::point)
       table.points.push_back({.where = feature.where,
@@ -152,6 +155,8 @@ std::vector<LabelPoint> read_label_points(const VectorSource& source, const std:
   const int rank = table.find("rank");
   const int population = table.find("population");
   const std::vector<int> altitude = columns_of(table, altitude_columns);
+  const int dx_mm = table.find(by_hand_columns[0]);
+  const int dy_mm = table.find(by_hand_columns[1]);
   std::vector<LabelPoint> points;
   std::size_t unnamed = 0;
   std::size_t too_long = 0;
@@ -180,6 +185,9 @@ std::vector<LabelPoint> read_label_points(const VectorSource& source, const std:
     point.rank = number_of(table, row, rank, 1.0, 9.0)
                      .value_or(rank_of_population(text_of(row, population)).value_or(point.rank));
     point.altitude_m = number_of(table, row, filled(row, altitude), -12000.0, 9000.0);
+    const std::optional<double> dx = number_of(table, row, dx_mm, -1000.0, 1000.0);
+    const std::optional<double> dy = number_of(table, row, dy_mm, -1000.0, 1000.0);
+    if (dx || dy) point.by_hand_mm = {dx.value_or(0.0), dy.value_or(0.0)};
     points.push_back(std::move(point));
   }
   if (points.empty() && !table.points.empty())

@@ -24,6 +24,9 @@ struct LabelPoint {
   std::optional<double> altitude_m;  // as the file has it
   glm::dvec2 position{0.0};          // scene CRS
   std::string where;                 // "peaks.csv:3"
+  // Placed by hand: from the mark to the centre of the foot of the name, mm of the sheet, x right,
+  // y down; of a name on a line its shift. Absent: placed by the program.
+  std::optional<glm::dvec2> by_hand_mm = {};
 };
 
 inline constexpr std::size_t longest_name = 80;  // letters: longer names do not fit in a panorama
@@ -36,7 +39,8 @@ std::size_t letters_of(const std::string& text);
 //   name;
 //   kind (or type, natural, place, tourism): a word of the style, else its first kind, with a note
 //   of the missing words; rank, 1 … 9; default by the population (1 from 100 000, 2 from 30 000, 3
-//   from 10 000 …), else 5; ele (or altitude, altitude_m, elevation, height): metres.
+//   from 10 000 …), else 5; ele (or altitude, altitude_m, elevation, height): metres; dx_mm and
+//   dy_mm: by_hand_mm.
 // Points without a name, or one of more than longest_name letters, are left out with a note; all
 // are kept where NamesAre::optional. Throws the errors of these functions, Error(usage) where there
 // is no column of names, no usable name, or a number that is invalid, and Error(input) for names

@@ -131,6 +131,12 @@ std::vector<BentRoom> bent_rooms(Label& label, const LabelKindStyle& kind, TextS
   return rooms;
 }
 
+void shift(BentRoom& room, glm::dvec2 by) {
+  for (glm::dvec2& point : room.baseline) point += by;
+  for (LabelBox& letter : room.letters)
+    letter = {letter.left + by.x, letter.top + by.y, letter.right + by.x, letter.bottom + by.y};
+}
+
 constexpr double dm2_radius_mm = 56.419;  // of a circle of 1 dm²
 
 LabelLayoutParameters layout_parameters(const LabelSheet& sheet) {
@@ -285,6 +291,7 @@ LabelSheet make_labels(const std::vector<LabelPoint>& points, const std::vector<
                            .position = kind.position,
                            .on_skyline = label.mark.on_skyline,
                            .rank = label.point.rank};
+      if (label.point.by_hand_mm) request.by_hand_px = *label.point.by_hand_mm * sheet.px_per_mm;
       if (kind.position == LabelPlace::on) {
         request.mark_px = 0.0;
         const glm::dvec2 plate = plate_px(label.room, type);
@@ -294,6 +301,10 @@ LabelSheet make_labels(const std::vector<LabelPoint>& points, const std::vector<
         if (follows && kind.straight) request.along = cable_over(lines[i]);
       } else {
         if (follows) request.bent = bent_rooms(label, kind, type, lines[i], measure);
+        if (request.by_hand_px && !request.bent.empty()) {
+          request.bent.resize(1);
+          shift(request.bent.front(), *request.by_hand_px);
+        }
         // A name wider than its water stands beside it.
         if (kind.barrier && kind.position == LabelPlace::over && request.bent.empty() &&
             label.mark.width_px > 0.0 && label.room.width_px > label.mark.width_px) {

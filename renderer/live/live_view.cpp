@@ -9,6 +9,7 @@
 #include "renderer/image/display_conversion.h"
 #include "renderer/paint/composite.h"
 #include "renderer/pipeline/copy_plan.h"
+#include "renderer/pipeline/picture_legend.h"
 #include "renderer/pipeline/scene_paint.h"
 #include "renderer/pipeline/sheet_work.h"
 #include "renderer/scene/scene_settings.h"
@@ -25,7 +26,11 @@ constexpr double preview_mcells = 1.0;
 const std::vector<Rung>& rungs() {
   static const std::vector<std::string> without_forms = {"rock relief", "strokes"};
   static const std::vector<Rung> all = {
-      {.name = "light and colour", .without = without_forms, .max_width_px = 360, .strokes = false},
+      {.name = "light and colour",
+       .without = without_forms,
+       .max_width_px = 360,
+       .strokes = false,
+       .names = false},
       {.name = "larger", .without = without_forms, .strokes = false},
       {.name = "strokes", .without = {"fine light"}},
       {.name = "as rendered", .without = {}}};
@@ -90,6 +95,31 @@ GroundSize LiveView::size_of(const LoadedScene& loaded) {
                   [](const Making& m) { return ground_size_of(m.scene); });
 }
 
+namespace {
+
+// Names at the print's size, whatever the size of the picture.
+std::optional<NamedSheet> names_over(const LoadedScene& given, const World& world,
+                                     const LivePicture& picture, const Run& run) {
+  const Scene& scene = given.scene;
+  if ((!scene.labels.any() && !scene.margin) || !world.terrain.windows.empty()) return std::nullopt;
+  BareView bare = bare_view_of(world);
+  bare.view.camera.width = scene.output.width;
+  bare.view.camera.height = scene.output.height;
+  bare.camera = make_camera(bare.view.camera);
+  const PictureOverview overview{
+      .sheet_px = bare.camera->size(),
+      .factor = std::max(1, scene.output.width / picture.colour.width()),
+      .classes = picture.seen.land_cover,
+      .colours = picture.colour};
+  PictureLegend legend;
+  legend.luminance = luminance_from_bytes(luminance_to_bytes(overview));
+  if (scene.margin && scene.margin->legend)
+    legend.classes = find_legend(overview, legend_swatch_px(given));
+  return lay_out_names(given, bare, legend, true, run.progress);
+}
+
+}  // namespace
+
 // Ground that is much finer than the previews' would take a gigabyte between two pictures that take
 // long anyway.
 ValueStore* LiveView::kept_for(const Rung& rung, const GroundSize& ground) {
@@ -103,7 +133,7 @@ LivePicture LiveView::paint(const LoadedScene& given, const Rung& rung, const Ru
   const RunLimits limits(run);
   const GroundSize ground = size_of(given);
   const LoadedScene loaded = scene_of_rung(given, rung);
-  SheetRequest request{.panorama = rung.strokes, .block_px = 1024};
+  SheetRequest request{.panorama = rung.strokes, .part = rung.part, .block_px = 1024};
   const PixelRect sheet = region_of(loaded.scene, request);
   if (use_tile) request.block_px = live_tile_px;
   if (rung.is_last()) require_inputs(loaded);
@@ -147,6 +177,7 @@ LivePicture LiveView::paint(const LoadedScene& given, const Rung& rung, const Ru
   picture.crs = work.world.dem->crs;
   picture.halved = rung.is_last() ? 0 : work.world.dem->halved;
   if (picture.halved > 0) picture.shortest_m = work.world.dem->cell_m();
+  if (rung.names) picture.sheet = names_over(given, work.world, picture, run);
   return picture;
 }
 

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "base/guidance_buffers.h"
 #include "base/pixel_rect.h"
 #include "base/run.h"
+#include "renderer/pipeline/named_picture.h"
 #include "renderer/scene/scene_file.h"
 #include "renderer/world/resolve_view.h"
 #include "renderer/world/scene_dem.h"
@@ -24,6 +26,8 @@ struct Rung {
   std::vector<std::string> without;  // what the finished picture has and this one lacks, in words
   int max_width_px = 1000;           // of the picture, 64…4096
   bool strokes = true;  // rock relief, brushwork, mist, features and style; else light and colour
+  bool names = true;    // LivePicture::sheet
+  std::optional<PixelRect> part = {};  // of the picture, px; absent: all of it
   // Draws the scene as it is; all others are on a level of the ground of about a million cells
   // (LivePicture::shortest_m says what that lacks), with one ray a pixel and few for the light of
   // the sky, and copy nothing from paintings.
@@ -44,6 +48,9 @@ struct LivePicture {
   // it cannot show, m; else 0.
   int halved = 0;
   double shortest_m = 0.0;
+  // Names, tracks and margin at the print's size, on the ground of this picture; none in the first
+  // rung, and where the scene has none.
+  std::optional<NamedSheet> sheet;
 };
 
 // Makes pictures of a scene that changes, one after the other. Values of the world stay in memory,

@@ -97,6 +97,25 @@ MarginContent content_of(const LoadedScene& loaded, const BareView& bare, const 
 
 }  // namespace
 
+NamedSheet lay_out_names(const LoadedScene& loaded, const BareView& bare,
+                         const PictureLegend& legend, bool whole, Progress& progress) {
+  const Scene& scene = loaded.scene;
+  NamedSheet out;
+  const LabelJob job = label_job(loaded, progress);
+  if (!job.empty()) {
+    out.names = make_label_sheet(loaded, job, bare, progress);
+    if (legend.luminance.size() > 0) choose_inks(out.names, legend.luminance);
+  } else {
+    out.names = empty_label_sheet(read_label_style(loaded), bare.camera->size(),
+                                  scene.output.sheet_width_mm);
+  }
+  if (scene.margin && whole)
+    out.margin = lay_out_margin(content_of(loaded, bare, out.names, legend),
+                                out.names.style.margin, out.names.size_px, out.names.px_per_mm,
+                                scene.margin->frame_mm * out.names.px_per_mm);
+  return out;
+}
+
 std::string second_picture(const Scene& scene, bool whole_sheet) {
   if (scene.labels.in_picture && scene.labels.any()) return "panorama_names";
   return scene.margin && whole_sheet ? "panorama_margin" : "";
@@ -139,26 +158,15 @@ void write_named_picture(const LoadedScene& loaded, PixelRect region, const Pain
   const std::string stem = second_picture(scene, whole);
   if (!scene.labels.any() && stem.empty()) return;
   const BareView& bare = lazy_bare.get();
-  const LabelJob job = label_job(loaded, run.progress);
-  LabelSheet sheet;
-  if (!job.empty()) {
-    sheet = make_label_sheet(loaded, job, bare, run.progress);
-    if (legend.luminance.size() > 0) choose_inks(sheet, legend.luminance);
+  const auto [sheet, margin] = lay_out_names(loaded, bare, legend, whole, run.progress);
+  if (!label_job(loaded, silent_progress()).empty()) {
     const std::vector<std::string>& formats = scene.output.formats;
     const bool has_png = std::find(formats.begin(), formats.end(), "png") != formats.end();
     write_label_files(sheet, bare.dem->crs, out_folder, has_png && whole ? "panorama.png" : "",
                       run.progress);
-  } else {
-    sheet = empty_label_sheet(read_label_style(loaded), bare.camera->size(),
-                              scene.output.sheet_width_mm);
   }
   if (stem.empty()) return;
 
-  Margin margin;
-  if (scene.margin && whole)
-    margin =
-        lay_out_margin(content_of(loaded, bare, sheet, legend), sheet.style.margin, sheet.size_px,
-                       sheet.px_per_mm, scene.margin->frame_mm * sheet.px_per_mm);
   const SheetPainter names(scene.labels.in_picture ? label_drawing(sheet) : Drawing());
   const SheetPainter paper_painter(margin.drawing);
   const int width = margin.left + region.width() + margin.right;

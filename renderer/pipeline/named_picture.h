@@ -7,6 +7,7 @@
 #include "base/grid.h"
 #include "base/run.h"
 #include "renderer/image/image_file.h"
+#include "renderer/labels/labels.h"
 #include "renderer/labels/margin.h"
 #include "renderer/labels/sheet_painter.h"
 #include "renderer/pipeline/scene_paint.h"
@@ -24,6 +25,15 @@ struct PictureLegend {
   std::vector<FeatureSwatch> features;
   Grid<float> luminance = {};  // of a small copy of the whole picture; empty: not known
 };
+
+// Everything that is drawn over the picture and around it.
+struct NamedSheet {
+  LabelSheet names;
+  Margin margin;  // empty without [margin], and for a part of the sheet
+};
+// Error as of make_label_sheet. `whole`: the whole sheet is shown.
+NamedSheet lay_out_names(const LoadedScene& loaded, const BareView& bare,
+                         const PictureLegend& legend, bool whole, Progress& progress);
 
 // Rows [y0, y1) of the sheet over the width of `region`, encoded sRGB.
 struct PaintedRows {

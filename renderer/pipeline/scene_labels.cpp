@@ -154,6 +154,40 @@ NamesRead names_of(const LoadedScene& scene, const LabelJob& job, const LabelSty
                                      [&] { return read_names(job, style, dem, progress); });
 }
 
+std::string kinds_of(const LabelStyle& style) {
+  std::string out;
+  for (const LabelKindStyle& kind : style.kinds) out += (out.empty() ? "" : ", ") + kind.name;
+  return out;
+}
+
+// Changes what a cartographer decided about single names, and leaves out those that are hidden.
+void change_by_hand(const std::vector<SceneNameByHand>& changes, const LabelStyle& style,
+                    std::vector<LabelPoint>& points, std::vector<LabelShape>& shapes,
+                    Progress& progress) {
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    const SceneNameByHand& change = changes[i];
+    const int kind = change.kind.empty() ? -1 : style.find(change.kind);
+    if (kind < 0 && !change.kind.empty())
+      throw Error(ErrorKind::usage, fmt::format("labels.by_hand.{}.kind", i),
+                  fmt::format("\"{}\" is no kind of the style {}", change.kind, style.name),
+                  kinds_of(style));
+    bool found = false;
+    const auto apply = [&](LabelPoint& point) {
+      if (point.name != change.name) return false;
+      found = true;
+      if (kind >= 0) point.kind = kind;
+      if (change.rank) point.rank = *change.rank;
+      if (change.dx_mm || change.dy_mm)
+        point.by_hand_mm = {change.dx_mm.value_or(0.0), change.dy_mm.value_or(0.0)};
+      return change.hidden;
+    };
+    std::erase_if(points, apply);
+    std::erase_if(shapes, [&](LabelShape& shape) { return apply(shape.point); });
+    if (!found)
+      progress.note(fmt::format("labels.by_hand.{}: no file names \"{}\"", i, change.name));
+  }
+}
+
 std::vector<VectorSource> sources_of(const LoadedScene& scene,
                                      const std::vector<SceneLabelFile>& files, Progress& progress) {
   std::vector<VectorSource> sources;
@@ -194,7 +228,8 @@ LabelJob label_job(const LoadedScene& scene, Progress& progress) {
           .tracks = sources_of(scene, labels.tracks, progress),
           .summits = labels.summits,
           .min_prominence_m = labels.min_prominence_m,
-          .style = find_named_file(scene, "labels", labels.style)};
+          .style = find_named_file(scene, "labels", labels.style),
+          .by_hand = labels.by_hand};
 }
 
 LabelStyle read_label_style(const LoadedScene& scene) {
@@ -212,15 +247,17 @@ LabelSheet make_label_sheet(const LoadedScene& scene, const LabelJob& job, const
                             Progress& progress) {
   const LabelStyle style = style_of(scene, job.style);
   auto [points, shapes, lines] = names_of(scene, job, style, *bare.dem, progress);
-  const std::size_t named = points.size();
+  std::vector<LabelPoint> unnamed;
   if (job.summits > 0) {
     progress.begin("looking for summits", 0.0);
     const std::vector<Summit> summits =
         find_summits(known_altitude(*bare.dem), {.min_prominence_m = job.min_prominence_m});
-    const std::vector<LabelPoint> unnamed =
-        unnamed_summits(summits, bare.dem->transform, bare.dem->cell_m(), points, style);
-    points.insert(points.end(), unnamed.begin(), unnamed.end());
+    unnamed = unnamed_summits(summits, bare.dem->transform, bare.dem->cell_m(), points, style);
   }
+  // Afterwards, so that a summit whose name is hidden does not get its altitude instead.
+  change_by_hand(job.by_hand, style, points, shapes, progress);
+  const std::size_t named = points.size();
+  points.insert(points.end(), unnamed.begin(), unnamed.end());
   if (points.empty() && lines.empty() && shapes.empty())
     throw Error(ErrorKind::usage, "labels", "nothing to name",
                 "--points FILE with points, --shapes FILE, --summits N or --tracks FILE");

@@ -19,6 +19,7 @@ struct LabelJob {
   int summits = 0;  // of the DEM
   double min_prominence_m = 150.0;
   std::string style = "classic";  // built-in name or file
+  std::vector<SceneNameByHand> by_hand = {};
 
   bool empty() const { return points.empty() && shapes.empty() && tracks.empty() && summits == 0; }
 };

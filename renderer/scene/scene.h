@@ -337,12 +337,21 @@ struct SceneLabelFile {  // a file of named things, or of ways
   bool enabled = true;    // otherwise as if it were not there
 };
 
+struct SceneNameByHand {  // what a cartographer decides about one name
+  std::string name;         // as in its file
+  std::optional<double> dx_mm, dy_mm;  // LabelPoint::by_hand_mm
+  bool hidden = false;
+  std::optional<double> rank;  // 1 … 9
+  std::string kind;            // a word of the style; empty: as in its file
+};
+
 struct SceneLabels {  // names on the picture: see renderer/labels
   std::string style = "classic";
   bool in_picture = false;          // also panorama_names.*, with the names drawn in
   int summits = 0;                  // of the DEM itself
   double min_prominence_m = 150.0;  // of these summits
   std::vector<SceneLabelFile> points, shapes, tracks;
+  std::vector<SceneNameByHand> by_hand;
 
   bool any() const {
     const auto some = [](const std::vector<SceneLabelFile>& files) {

@@ -101,6 +101,42 @@ std::vector<SceneSection> make_labels_sections() {
   sections.back().count = [](const Scene& s) { return s.labels.tracks.size(); };
   sections.back().resize = [](Scene& s, std::size_t n) { s.labels.tracks.resize(n); };
   sections.push_back(
+      {.name = "labels.by_hand",
+       .kind = SectionKind::list,
+       .meaning = "One block for each name that is moved, hidden or changed by hand; the others "
+                  "make room. The studio writes these blocks.",
+       .keys =
+           {
+               {.name = "name",
+                .field = AT(labels.by_hand[i].name),
+                .meaning = "The name, as in its file.",
+                .required = true},
+               {.name = "dx_mm",
+                .field = AT(labels.by_hand[i].dx_mm),
+                .range = {-1000, 1000},
+                .unit = "mm",
+                .meaning = "From its mark to the centre of the foot of the name, to the right on "
+                           "the sheet; of a name along a line its shift. Without dx_mm and dy_mm "
+                           "the program places it."},
+               {.name = "dy_mm",
+                .field = AT(labels.by_hand[i].dy_mm),
+                .range = {-1000, 1000},
+                .unit = "mm",
+                .meaning = "The same downwards; negative above the mark."},
+               {.name = "hidden",
+                .field = AT(labels.by_hand[i].hidden),
+                .meaning = "Leaves the name and its mark out."},
+               {.name = "rank",
+                .field = AT(labels.by_hand[i].rank),
+                .range = {1, 9},
+                .meaning = "Its rank, 1 the most important. Default: as in its file."},
+               {.name = "kind",
+                .field = AT(labels.by_hand[i].kind),
+                .meaning = "Its kind, a word of the style. Default: as in its file."},
+           },
+       .count = [](const Scene& s) { return s.labels.by_hand.size(); },
+       .resize = [](Scene& s, std::size_t n) { s.labels.by_hand.resize(n); }});
+  sections.push_back(
       {.name = "margin",
        .kind = SectionKind::optional,
        .meaning = "Paper around a second picture, with title and legend: around panorama_names if "

@@ -58,8 +58,8 @@ below = {
         "renderer/style renderer/scene renderer/ground renderer/world renderer/labels renderer/press renderer/graph renderer/stages "
         "renderer/exemplar renderer/sheet",
     "renderer/live":
-        "base terrain renderer/image renderer/trace renderer/paint renderer/scene renderer/world renderer/graph renderer/stages "
-        "renderer/sheet renderer/pipeline",
+        "base terrain renderer/image renderer/trace renderer/paint renderer/scene renderer/world renderer/labels renderer/graph "
+        "renderer/stages renderer/sheet renderer/pipeline",
     "tools/options": "base",
     "tools/report": "base terrain texture renderer",
     "tools/web": "base terrain texture renderer",

@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
 
 #include "base/config.h"
 #include "base/text/embedded.h"
+#include "renderer/labels/drawing_svg.h"
+#include "renderer/labels/label_files.h"
 #include "renderer/compose/proposed_scene.h"
 #include "renderer/pipeline/scene_check.h"
 #include "renderer/scene/edit/scene_edit.h"
@@ -16,6 +19,7 @@
 #include "renderer/scene/scene_schema.h"
 #include "terrain/io/crs.h"
 #include "terrain/shape/derivatives.h"
+#include "tools/studio/http_server.h"
 
 namespace belvedere::tools {
 namespace {
@@ -114,6 +118,8 @@ Json scene_json(const SceneSession& session, const std::vector<DerivedValue>& de
       .add("can_undo", Json::boolean(session.can_undo()))
       .add("can_redo", Json::boolean(session.can_redo()))
       .add("text", Json::text(session.text()))
+      .add("drawn_file", Json::text(session.drawn_file()))
+      .add("drawn", Json::raw(is_json(session.drawn()) ? session.drawn() : "null"))
       .add("values", std::move(values))
       .add("derived", std::move(open))
       .add("error", Json::raw("null"))
@@ -157,6 +163,85 @@ Json pointer_json(const LivePicture& picture, glm::dvec2 share) {
   return out;
 }
 
+namespace {
+
+std::string groups_svg(const std::vector<DrawnGroup>& groups) {
+  std::string out;
+  for (const DrawnGroup& group : groups) out += "<g>" + shapes_svg(group.shapes) + "</g>";
+  return out;
+}
+
+Json name_json(const LabelSheet& sheet, const Label& label) {
+  const LabelBox& box = label.spot.text;
+  return Json::object()
+      .add("name", Json::text(label.point.name))
+      .add("text", Json::text(label.text))
+      .add("kind", Json::text(sheet.kind_of(label).name))
+      .add("rank", Json::number(label.point.rank))
+      .add("outcome", Json::text(outcome_of(label)))
+      .add("placed", Json::boolean(label.spot.placed))
+      .add("along", Json::boolean(!label.spot.baseline.empty()))
+      .add("by_hand", label.point.by_hand_mm ? numbers(*label.point.by_hand_mm) : Json::raw("null"))
+      .add("mark", numbers(label.mark.pixel))
+      .add("box", Json::numbers(std::vector{box.left, box.top, box.right, box.bottom}))
+      .add("svg", Json::text(shapes_svg(draw_label(sheet, label))));
+}
+
+}  // namespace
+
+Json sheet_json(const LivePicture& picture) {
+  if (!picture.sheet) return Json::object().add("names", Json::array());
+  const auto& [sheet, margin] = *picture.sheet;
+  Json names = Json::array();
+  for (const Label& label : sheet.labels)
+    if (label.mark.state == MarkState::seen) names.add(name_json(sheet, label));
+  Json kinds = Json::array();
+  for (const LabelKindStyle& kind : sheet.style.kinds) kinds.add(Json::text(kind.name));
+  Json out = Json::object()
+                 .add("width", Json::number(sheet.size_px.x))
+                 .add("height", Json::number(sheet.size_px.y))
+                 .add("px_per_mm", Json::number(sheet.px_per_mm))
+                 .add("kinds", std::move(kinds))
+                 .add("names", std::move(names))
+                 .add("tracks", Json::text(groups_svg(draw_tracks(sheet))));
+  if (!margin.drawing.shapes.empty())
+    out.add("margin", Json::object()
+                          .add("left", Json::number(margin.left))
+                          .add("top", Json::number(margin.top))
+                          .add("width", Json::number(margin.drawing.size_px.x))
+                          .add("height", Json::number(margin.drawing.size_px.y))
+                          .add("paper", Json::text(sheet.style.margin.paper))
+                          .add("svg", Json::text(shapes_svg(margin.drawing.shapes))));
+  return out;
+}
+
+std::string seen_bytes(const LivePicture& picture) {
+  constexpr int max_columns = 360;
+  const GuidanceBuffers& seen = picture.seen;
+  const int step = (seen.width() + max_columns - 1) / max_columns;
+  const int width = seen.width() / step;
+  const int height = seen.height() / step;
+  std::string out;
+  const auto add = [&](auto value) {
+    out.append(reinterpret_cast<const char*>(&value), sizeof(value));
+  };
+  static_assert(std::endian::native == std::endian::little);
+  add(static_cast<std::uint32_t>(width));
+  add(static_cast<std::uint32_t>(height));
+  add(seen.origin_m.x);
+  add(seen.origin_m.y);
+  const auto add_plane = [&](const auto& value_at) {
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x)
+        add(static_cast<float>(value_at(x * step + step / 2, y * step + step / 2)));
+  };
+  add_plane([&](int x, int y) { return seen.position_m(x, y).x; });
+  add_plane([&](int x, int y) { return seen.position_m(x, y).y; });
+  add_plane([&](int x, int y) { return seen.altitude_m(x, y); });
+  add_plane([&](int x, int y) { return seen.depth_m(x, y); });
+  return out;
+}
+
 MapSize map_size(const Dem& dem) {
   constexpr int max_px = 600;
   const int step = std::max(1, (std::max(dem.width(), dem.height()) + max_px - 1) / max_px);
@@ -179,6 +264,7 @@ Json map_json(const LiveView::Ground& ground, const LoadedScene& loaded) {
                                     t.origin_x + size.width * size.step * t.cell_x, t.origin_y}))
                  .add("width", Json::number(size.width))
                  .add("height", Json::number(size.height))
+                 .add("cell_m", Json::number(dem.cell_m() / (1 << dem.halved)))
                  .add("crs", Json::text(dem.crs.empty() ? "" : describe_crs(dem.crs)))
                  .add("viewer", numbers(ground.view.viewer_xy))
                  .add("height_m", Json::number(camera.eye.z))

@@ -25,6 +25,10 @@ Json scene_json(const SceneSession& session, const std::vector<DerivedValue>& de
                 const std::vector<std::string>& notes);
 // All rungs, and the size of each picture.
 Json rungs_json(const LoadedScene& scene);
+// Names, tracks and margin over a picture: sizes in px of the print, drawings as elements of SVG.
+Json sheet_json(const LivePicture& picture);
+// The ground seen, on a grid of at most 360 columns, for what the page draws under the hand.
+std::string seen_bytes(const LivePicture& picture);
 // The ground under a pixel, by its shares of the picture.
 Json pointer_json(const LivePicture& picture, glm::dvec2 share);
 

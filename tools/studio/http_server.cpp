@@ -247,6 +247,22 @@ std::string read_text_member(const std::string& body, const std::string& name,
   return member->get<std::string>();
 }
 
+bool is_json(const std::string& text) { return Value::accept(text); }
+
+std::string read_geojson_member(const std::string& body, const std::string& name) {
+  const Value read = parse_body(body);
+  const auto member = read.find(name);
+  if (member == read.end() || member->is_null()) return {};
+  const auto features = member->find("features");
+  if (!member->is_object() || features == member->end() || !features->is_array())
+    throw not_understood(name + " is no feature collection");
+  if (features->empty()) return {};
+  std::string out = "{\"type\": \"FeatureCollection\", \"features\": [\n";
+  for (std::size_t i = 0; i < features->size(); ++i)
+    out += (*features)[i].dump() + (i + 1 < features->size() ? ",\n" : "\n");
+  return out + "]}\n";
+}
+
 int read_number_member(const std::string& body, const std::string& name, int otherwise) {
   const Value read = parse_body(body);
   const auto member = read.find(name);

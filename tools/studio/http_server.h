@@ -84,6 +84,10 @@ SetBody read_set_body(const std::string& body);
 // A member that is a text, or a whole number; `otherwise` where there is none.
 std::string read_text_member(const std::string& body, const std::string& name,
                              const std::string& otherwise = {});
+bool is_json(const std::string& text);
+// A member that is a GeoJSON feature collection, as text, one feature per line; empty for null and
+// for one without features.
+std::string read_geojson_member(const std::string& body, const std::string& name);
 int read_number_member(const std::string& body, const std::string& name, int otherwise);
 // A member that is a list of two numbers, or true or false; nothing where there is none.
 std::optional<glm::dvec2> read_point_member(const std::string& body, const std::string& name);

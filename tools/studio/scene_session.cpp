@@ -24,7 +24,10 @@ constexpr std::size_t max_steps = 1000;  // of undo; texts of some kilobytes
 
 SceneSession::SceneSession(std::string path, SceneFileOptions options)
     : path_(std::move(path)), options_(std::move(options)), scene_(read_scene(path_, options_)) {
-  text_ = saved_ = read_file();
+  now_.text = read_file();
+  std::ifstream drawn(drawn_path(), std::ios::binary);
+  now_.drawn.assign(std::istreambuf_iterator<char>(drawn), {});
+  saved_ = now_;
 }
 
 std::string SceneSession::read_file() const {
@@ -34,44 +37,64 @@ std::string SceneSession::read_file() const {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
+std::string SceneSession::drawn_file() const {
+  return fs::path(path_).stem().string() + "_drawn.geojson";
+}
+
+std::string SceneSession::drawn_path() const {
+  return (fs::path(path_).parent_path() / drawn_file()).string();
+}
+
 LoadedScene SceneSession::parse(const std::string& text) const {
   const fs::path path(path_);
   return parse_scene(text, path.filename().string(), path.parent_path().string(), options_);
 }
 
-void SceneSession::change_to(const std::string& text) {
-  if (text == text_) return;
-  scene_ = parse(text);
-  text_ = text;
+void SceneSession::change_to(Version version) {
+  if (version == now_) return;
+  LoadedScene scene = parse(version.text);
+  if (version.drawn != now_.drawn) {
+    if (version.drawn.empty())
+      fs::remove(drawn_path());
+    else
+      write_text_file(drawn_path(), version.drawn);
+  }
+  scene_ = std::move(scene);
+  now_ = std::move(version);
   ++revision_;
 }
 
 LoadedScene SceneSession::edited(std::span<const SceneEdit> edits) const {
-  return parse(edit_scene_text(text_, fs::path(path_).filename().string(), edits));
+  return parse(edit_scene_text(now_.text, fs::path(path_).filename().string(), edits));
 }
 
-void SceneSession::edit(std::span<const SceneEdit> edits, const std::string& step) {
-  const std::string before = text_;
-  change_to(edit_scene_text(text_, fs::path(path_).filename().string(), edits));
-  if (text_ == before) return;
-  if (step.empty() || step != last_step_) undo_.push_back(before);
+// A step of undo.
+void SceneSession::take(Version version, const std::string& step) {
+  Version before = now_;
+  change_to(std::move(version));
+  if (now_ == before) return;
+  if (step.empty() || step != last_step_) undo_.push_back(std::move(before));
   if (undo_.size() > max_steps) undo_.erase(undo_.begin());
   redo_.clear();
   last_step_ = step;
 }
 
-void SceneSession::replace(const std::string& text) {
-  const std::string before = text_;
-  change_to(text);
-  if (text_ == before) return;
-  undo_.push_back(before);
-  redo_.clear();
-  last_step_.clear();
+void SceneSession::edit(std::span<const SceneEdit> edits, const std::string& step) {
+  draw(now_.drawn, edits, step);
 }
+
+void SceneSession::draw(const std::string& geojson, std::span<const SceneEdit> edits,
+                        const std::string& step) {
+  take({edit_scene_text(now_.text, fs::path(path_).filename().string(), edits), geojson}, step);
+}
+
+void SceneSession::replace(const std::string& text) { take({text, now_.drawn}, ""); }
+
+void SceneSession::revert() { take(saved_, ""); }
 
 void SceneSession::undo() {
   if (undo_.empty()) return;
-  std::string now = text_;
+  Version now = now_;
   change_to(undo_.back());
   undo_.pop_back();
   redo_.push_back(std::move(now));
@@ -80,7 +103,7 @@ void SceneSession::undo() {
 
 void SceneSession::redo() {
   if (redo_.empty()) return;
-  std::string now = text_;
+  Version now = now_;
   change_to(redo_.back());
   redo_.pop_back();
   undo_.push_back(std::move(now));
@@ -89,21 +112,21 @@ void SceneSession::redo() {
 
 bool SceneSession::is_changed_outside() const {
   std::ifstream file(path_, std::ios::binary);
-  return file && std::string(std::istreambuf_iterator<char>(file), {}) != saved_;
+  return file && std::string(std::istreambuf_iterator<char>(file), {}) != saved_.text;
 }
 
 void SceneSession::save(bool over) {
   if (!over && is_changed_outside())
     throw Error(ErrorKind::output, path_, "another program changed the file",
                 "reload it, or save over it");
-  write_text_file(path_, text_);
-  saved_ = text_;
+  write_text_file(path_, now_.text);
+  saved_ = now_;
 }
 
 void SceneSession::reload() {
   const std::string text = read_file();
   replace(text);
-  saved_ = text;
+  saved_ = now_;
 }
 
 FileOwner::FileOwner(const std::string& path, const std::string& page)

@@ -35,6 +35,7 @@ HttpAnswer StudioState::change_scene(const std::function<void()>& change) {
   if (session.revision() != before) {
     quick.cancel();
     exact.cancel();
+    small.cancel();
   }
   return json_answer(scene_json(session, derived, notes));
 }
@@ -53,6 +54,13 @@ HttpAnswer StudioState::route(const HttpRequest& request) {
         const SetBody body = read_set_body(request.body);
         session.edit(body.edits, body.step);
       });
+    if (name == "draw")
+      return change_scene([&] {
+        const SetBody body = read_set_body(request.body);
+        session.draw(read_geojson_member(request.body, "features"), body.edits, body.step);
+      });
+    if (name == "revert") return change_scene([&] { session.revert(); });
+    if (name == "thumbnail") return thumbnail(request);
     if (name == "text")
       return change_scene([&] { session.replace(read_text_member(request.body, "text")); });
     if (name == "undo") return change_scene([&] { session.undo(); });
@@ -87,6 +95,10 @@ HttpAnswer StudioState::route(const HttpRequest& request) {
     if (name == "picture") return picture(request);
     if (name == "tiles") return tiles(request);
     if (name == "pointer") return pointer(request);
+    if (name == "names") return json_answer(sheet_json(*last_picture(request)));
+    if (name == "seen")
+      return {.type = "application/octet-stream", .body = seen_bytes(*last_picture(request))};
+    if (name == "loupe") return loupe(request);
     if (name == "stage") {
       const PictureQueue::Stage stage = quick.stage();
       return json_answer(Json::object()
@@ -134,6 +146,7 @@ void Studio::run() { state_->server->run(); }
 void Studio::stop() {
   state_->quick.cancel();
   state_->exact.cancel();
+  state_->small.cancel();
   state_->render->cancel();
   state_->fetch->cancel();
   state_->server->stop();

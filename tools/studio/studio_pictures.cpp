@@ -49,9 +49,11 @@ double share_of(const std::string& text, const std::string& name) {
 
 }  // namespace
 
-void StudioState::remember(std::shared_ptr<const LivePicture> made, std::vector<std::string> told) {
+void StudioState::remember(std::shared_ptr<const LivePicture> made, std::uint64_t revision,
+                           std::vector<std::string> told) {
   const std::lock_guard guard(mutex);
   last = std::move(made);
+  last_revision = revision;
   derived = last->view.derived;
   notes = std::move(told);
 }
@@ -67,7 +69,7 @@ HttpAnswer StudioState::picture(const HttpRequest& request) {
   exact.cancel();
   const auto made = std::make_shared<const LivePicture>(
       (rung.is_last() ? exact : quick).paint(now.scene, rung, run, &told));
-  remember(made, std::move(told));
+  remember(made, now.revision, std::move(told));
   HttpAnswer out = rung.is_last() ? picture_answer(png_bytes(made->colour), "image/png")
                                   : picture_answer(jpeg_bytes(made->colour), "image/jpeg");
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begun;
@@ -89,7 +91,7 @@ HttpAnswer StudioState::tiles(const HttpRequest& request) {
                 "the last rung once it is done");
   const Moment now = moment(request);
   HttpAnswer out{.type = "application/octet-stream"};
-  out.stream = [this, scene = now.scene](const SendPart& send) {
+  out.stream = [this, scene = now.scene, revision = now.revision](const SendPart& send) {
     bool gone = false;
     const auto record = [&](const Json& header, const std::string& bytes = "") {
       const std::string text = header.str();
@@ -121,12 +123,50 @@ HttpAnswer StudioState::tiles(const HttpRequest& request) {
       };
       const auto made =
           std::make_shared<const LivePicture>(exact.paint(scene, rung, run, &told, use, tell));
-      remember(made, std::move(told));
+      remember(made, revision, std::move(told));
       record(Json::object().add("bytes", Json::number(0)).add("done", Json::number(1)));
     } catch (const Error& error) {
       record(error_json(error).add("bytes", Json::number(0)));
     }
   };
+  return out;
+}
+
+std::shared_ptr<const LivePicture> StudioState::last_picture(const HttpRequest& request) {
+  const Moment now = moment(request);
+  const std::lock_guard guard(mutex);
+  if (last == nullptr || last_revision != now.revision)
+    throw Error(ErrorKind::interrupted, "picture", "is not drawn yet", "the last one, once it is");
+  return last;
+}
+
+// Waits for the engine of the last rung, and ends what that draws.
+HttpAnswer StudioState::loupe(const HttpRequest& request) {
+  const Moment now = moment(request);
+  const SceneOutput& print = now.scene.scene.output;
+  const auto side = [&](const char* name, int size) {
+    constexpr int max_px = 800;
+    const int wanted = whole_number(request.value(name), name);
+    if (wanted < 16 || wanted > max_px)
+      throw Error(ErrorKind::usage, name, fmt::format("{}", wanted),
+                  fmt::format("16 … {} px", max_px));
+    return std::min(wanted, size);
+  };
+  const glm::ivec2 size(side("width", print.width), side("height", print.height));
+  const auto from = [&](const char* name, int all, int part) {
+    return std::clamp(static_cast<int>(share_of(request.value(name), name) * all) - part / 2, 0,
+                      all - part);
+  };
+  const glm::ivec2 low(from("x", print.width, size.x), from("y", print.height, size.y));
+  const Rung whole{.name = "print",
+                   .without = {},
+                   .max_width_px = print.width,
+                   .names = false,
+                   .part = PixelRect{low.x, low.y, low.x + size.x, low.y + size.y}};
+  const LivePicture made = exact.paint(now.scene, whole, run);
+  HttpAnswer out = picture_answer(png_bytes(made.colour), "image/png");
+  out.headers["X-Belvedere-Left"] = fmt::format("{}", low.x);
+  out.headers["X-Belvedere-Top"] = fmt::format("{}", low.y);
   return out;
 }
 
@@ -160,15 +200,27 @@ HttpAnswer StudioState::proposal_picture(const std::string& name) {
   const Moment now = moment({});
   const std::vector<Proposal> all = proposals(now.scene);
   if (number >= all.size()) return not_found("proposal");
-  LoadedScene scene = now.scene;
+  constexpr int thumbnail_px = 240;
+  return small_picture(all[number].edits, thumbnail_px);
+}
+
+HttpAnswer StudioState::small_picture(std::span<const SceneEdit> edits, int width_px) {
+  std::optional<LoadedScene> scene;
   {
     const std::lock_guard guard(mutex);
-    scene = session.edited(all[number].edits);
+    scene = session.edited(edits);
   }
-  constexpr int thumbnail_px = 240;
   Rung rung = rungs().front();
-  rung.max_width_px = thumbnail_px;
-  return picture_answer(jpeg_bytes(quick.paint_beside(scene, rung, run).colour), "image/jpeg");
+  rung.max_width_px = width_px;
+  return picture_answer(jpeg_bytes(small.paint_beside(*scene, rung, run).colour), "image/jpeg");
+}
+
+HttpAnswer StudioState::thumbnail(const HttpRequest& request) {
+  constexpr int usual_px = 240;
+  const int width = read_number_member(request.body, "width", usual_px);
+  if (width < 64 || width > 1000)
+    throw Error(ErrorKind::usage, "width", fmt::format("{}", width), "64 … 1000 px");
+  return small_picture(read_set_body(request.body).edits, width);
 }
 
 namespace {

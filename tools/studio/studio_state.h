@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -57,7 +58,10 @@ struct StudioState {
   // The scene after a change, which ends the pictures of the one before.
   HttpAnswer change_scene(const std::function<void()>& change);
   // Keeps what the page asks about the last picture: pointer, values left open, notes.
-  void remember(std::shared_ptr<const LivePicture> made, std::vector<std::string> told);
+  void remember(std::shared_ptr<const LivePicture> made, std::uint64_t revision,
+                std::vector<std::string> told);
+  // The last picture; Error(interrupted) where it is not of the revision that is asked about.
+  std::shared_ptr<const LivePicture> last_picture(const HttpRequest& request);
 
   HttpAnswer rendered(const std::string& name);
   HttpAnswer picture(const HttpRequest& request);
@@ -70,6 +74,10 @@ struct StudioState {
   HttpAnswer take_file(const HttpRequest& request);
   std::vector<Proposal> proposals(const LoadedScene& scene);
   HttpAnswer proposal_picture(const std::string& name);
+  HttpAnswer thumbnail(const HttpRequest& request);
+  HttpAnswer loupe(const HttpRequest& request);
+  // The scene with other edits, small and quick.
+  HttpAnswer small_picture(std::span<const SceneEdit> edits, int width_px);
   HttpAnswer route(const HttpRequest& request);
 
   std::mutex mutex;  // of the members below, up to `run`
@@ -77,6 +85,7 @@ struct StudioState {
   std::vector<DerivedValue> derived;
   std::vector<std::string> notes;
   std::shared_ptr<const LivePicture> last;  // under the pointer
+  std::uint64_t last_revision = 0;
   FileOwner owner;
   const Run& run;
   std::mutex proposals_mutex;
@@ -84,6 +93,7 @@ struct StudioState {
   std::vector<Proposal> proposed;
   PictureQueue quick;  // all rungs but the last
   PictureQueue exact;  // the last
+  PictureQueue small;  // thumbnails of other scenes, which leave what the others keep
   const OpenPlace open_place;
   std::unique_ptr<Job> render;
   std::unique_ptr<Job> fetch;

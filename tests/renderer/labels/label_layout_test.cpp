@@ -30,7 +30,7 @@ LabelRequest summit(double x, double y, double rank = 5.0, double width = 80.0) 
 }
 
 LabelBox leader_of(const LabelRequest& request, const LabelSpot& spot) {
-  return {request.mark.x - .5, spot.leader_top_px, request.mark.x + .5,
+  return {request.mark.x - .5, spot.leader_end.y, request.mark.x + .5,
           request.mark.y - .5 * request.mark_px};
 }
 
@@ -49,7 +49,7 @@ TEST(LabelLayout, TheSecondOfTwoNeighboursStandsHigherOnALeader) {
   ASSERT_TRUE(spots[0].placed && spots[1].placed);
   EXPECT_FALSE(spots[1].has_leader) << "the better rank";
   EXPECT_TRUE(spots[0].has_leader);
-  EXPECT_DOUBLE_EQ(spots[0].leader_top_px, spots[0].text.bottom);
+  EXPECT_DOUBLE_EQ(spots[0].leader_end.y, spots[0].text.bottom);
   EXPECT_FALSE(leader_of(requests[0], spots[0]).overlaps(spots[1].text))
       << "which passes beside the other's name";
 }

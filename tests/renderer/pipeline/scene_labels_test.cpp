@@ -221,7 +221,7 @@ TEST_F(ManyNames, NoBoxLiesOverAnother) {
     if (r > 0.0 && sheet_->kind_of(label).mark != LabelMarkShape::none)
       boxes.emplace_back(i, LabelBox{m.x - r, m.y - r, m.x + r, m.y + r});
     if (label.spot.has_leader)
-      boxes.emplace_back(i, LabelBox{m.x - .1, label.spot.leader_top_px, m.x + .1, m.y - r});
+      boxes.emplace_back(i, LabelBox{m.x - .1, label.spot.leader_end.y, m.x + .1, m.y - r});
   }
   std::size_t overlaps = 0;
   for (std::size_t a = 0; a < boxes.size(); ++a)

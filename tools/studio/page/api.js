@@ -40,6 +40,8 @@ export const api = {
   rungs: () => get("api/rungs"),
   stage: () => get("api/stage"),
   map: () => get("api/map"),
+  names: (revision) => get(`api/names?revision=${revision}`),
+  draw: (features, changes, step) => post("api/draw", { features, changes, step }),
   check: (signal) => get("api/check", signal),
   proposals: () => get("api/proposals"),
   set: (changes, step) => post("api/set", { changes, step }),

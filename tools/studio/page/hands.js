@@ -19,9 +19,10 @@ export class Hands {
     this.listen();
   }
 
-  // The next click on the picture is no movement: done(pointed, step) gets its ground and may return what follows the hand, pull(dx, dy).
-  choose(hint, done) {
-    this.pick = { done };
+  // The next click on the picture is no movement: done(pointed, step, share) gets its ground and may return what follows the hand,
+  // pull(dx, dy). left() is called where it is given up.
+  choose(hint, done, left = () => {}) {
+    this.pick = { done, left };
     by_id("hint").textContent = `${hint} Enter takes the middle, Esc leaves it.`;
     by_id("hint").hidden = false;
     this.canvas.classList.add("picking");
@@ -31,6 +32,12 @@ export class Hands {
     this.pick = null;
     by_id("hint").hidden = true;
     this.canvas.classList.remove("picking");
+  }
+
+  give_up() {
+    const { left } = this.pick ?? {};
+    this.leave();
+    left?.();
   }
 
   // ---- pointers
@@ -57,7 +64,7 @@ export class Hands {
     const pointed = await this.ground(event);
     if (!pointed) return this.say("The picture was being drawn: click again.");
     if (pointed.sky) return this.say("There is no ground at this place: click on ground.");
-    held.pull = done(pointed, held.step) ?? (() => {});
+    held.pull = done(pointed, held.step, this.picture.share_of(event)) ?? (() => {});
     if (held.last) held.pull(...held.last);
   }
   moving(event) {
@@ -144,7 +151,7 @@ export class Hands {
     }
     if (event.key === "Escape" && this.pick) {
       event.stopPropagation();
-      return this.leave();
+      return this.give_up();
     }
     if (!actions[event.key]) return;
     event.preventDefault();

@@ -19,6 +19,7 @@ export class Ladder {
     this.complete = false; // all of the last one is there
     this.stopped = false;
     this.reached = null; // {revision, rung}: what is drawn
+    this.drawn = () => {}; // called with the revision of each finished picture but the first, quick one
     this.rest = async () => {}; // called when the hand rests and the first rung is there
   }
 
@@ -94,6 +95,7 @@ export class Ladder {
       clearInterval(waits);
       waits = 0;
       this.reached = { revision, rung };
+      if (rung > 0) this.drawn(revision);
       const about = this.about(rung);
       this.tell({ ...about, halved, without: without ?? about.without, milliseconds: milliseconds || performance.now() - started });
       return true;
@@ -133,6 +135,7 @@ export class Ladder {
       });
     }
     this.complete = complete;
+    if (complete) this.drawn(revision);
     if (!complete && !signal.aborted)
       this.tell({ fault: { message: "The last rung ended early. Change anything, or press U, to draw again." } });
   }

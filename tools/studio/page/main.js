@@ -9,6 +9,8 @@ import { Places, Rendering } from "./jobs.js";
 import { fill_help, listen_keys } from "./keys.js";
 import { Ladder } from "./ladder.js";
 import { Map_view } from "./map.js";
+import { Names } from "./names.js";
+import { Drawing } from "./draw.js";
 import { Panels } from "./panels.js";
 import { panels as table } from "./panels_table.js";
 import { Picture } from "./picture.js";
@@ -30,8 +32,10 @@ async function start() {
     if (told.halved !== undefined) store.tell("level", told.halved);
   });
   const map = new Map_view(store);
+  const names = new Names(store, picture);
+  const drawing = new Drawing(store, picture, hands);
   const check = new Check(store);
-  const panels = new Panels(store, hands);
+  const panels = new Panels(store, hands, { draw: drawing.part });
   const history = new History(store, status);
   const text = new Text(store);
   const proposals = new Proposals(store, status, ladder);
@@ -53,6 +57,7 @@ async function start() {
   };
   store.on("pending", () => ladder.stop_finer());
   store.on("refused", () => ladder.resume(store.state.revision));
+  ladder.drawn = (revision) => names.read(revision);
   ladder.rest = (signal) => Promise.all([map.read(), store.refresh(), check.read(signal)]);
 
   const compare = (on) => {
@@ -87,6 +92,7 @@ async function start() {
     c: ["compare with the kept version", () => picture.kept_text !== null && compare(!picture.comparing())],
     f: ["the picture alone, and back", alone],
     g: ["guides: thirds, and an eighth of sky", guides],
+    n: ["names on the picture", () => names.show(!names.on)],
     t: [
       "text of the scene",
       () => {
@@ -113,7 +119,7 @@ async function start() {
   fill_help({ ...actions, "1 … 9, 0": ["panels", null], Esc: ["leave what is open", null] });
   document.addEventListener("keydown", (event) => {
     if (event.key !== "Escape" || document.querySelector("dialog[open]")) return;
-    hands.leave();
+    hands.give_up();
     document.body.classList.remove("alone");
   });
 

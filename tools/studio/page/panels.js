@@ -11,7 +11,8 @@ import { Sun } from "./sun.js";
 import { weights } from "./weights.js";
 
 export class Panels {
-  constructor(store, hands) {
+  // more: editors that are made elsewhere, by name.
+  constructor(store, hands, more = {}) {
     this.store = store;
     this.hands = hands;
     this.made = new Map(); // id: what is shown in it, each with element, update() and rows
@@ -35,7 +36,7 @@ export class Panels {
         }
         if (group.list) this.add(parts, section, new Blocks(store, hands, group.list));
         if (group.editor === "weights") for (const each of weights(store)) this.add(parts, section, each);
-        else if (group.editor) this.add(parts, section, new editors[group.editor](store));
+        else if (group.editor) this.add(parts, section, more[group.editor] ?? new editors[group.editor](store));
         box.append(section);
       }
       this.made.set(id, parts);
