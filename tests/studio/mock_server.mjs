@@ -51,7 +51,7 @@ width = 2400
 height = 1100
 `;
 
-const scene = { text: first_text, saved: first_text, revision: 1, undo: [], redo: [], step: "", outside: false };
+const scene = { text: first_text, saved: first_text, revision: 1, undo: [], redo: [], step: "", outside: false, drawn: null };
 let newest = 0; // of the requests for pictures
 let slow_ms = 0; // what each of them takes longer: POST mock/slow
 const jobs = { render: { state: "idle" }, fetch: { state: "idle" } };
@@ -89,6 +89,8 @@ function state() {
     can_undo: scene.undo.length > 0,
     can_redo: scene.redo.length > 0,
     text: scene.text,
+    drawn: scene.drawn,
+    drawn_file: "mock_drawn.geojson",
     values,
     derived: [
       { key: "air.from_m", value: "34000", why: "0.45 times the distance of the horizon" },
@@ -159,6 +161,30 @@ const answers = {
     for (const each of changes) text = edit(text, each);
     change(text, step);
     return state();
+  },
+  "POST api/draw": (_, body) => {
+    const { features, changes, step } = JSON.parse(body);
+    const before = scene.drawn;
+    scene.drawn = features;
+    let text = scene.text;
+    for (const each of changes) text = edit(text, each);
+    if (text !== scene.text) change(text, step);
+    else if (JSON.stringify(before) !== JSON.stringify(features)) ++scene.revision;
+    return state();
+  },
+  // One summit, where the scene names a file of points; the engine's SVG stands for a letter.
+  "GET api/names": () => {
+    const { values } = parse(scene.text);
+    if (!values["labels.points.0.file"]) return { names: [] };
+    const at = values["labels.by_hand.0.name"] ? "labels.by_hand.0." : "none.";
+    const px_per_mm = 2;
+    const mark = [300, 200];
+    const by_hand = values[`${at}dx_mm`] === undefined ? null : [values[`${at}dx_mm`], values[`${at}dy_mm`]];
+    const foot = by_hand ? [mark[0] + px_per_mm * by_hand[0], mark[1] + px_per_mm * by_hand[1]] : [300, 190];
+    const box = [foot[0] - 60, foot[1] - 40, foot[0] + 60, foot[1]];
+    const svg = `<text x="${foot[0]}" y="${foot[1]}" font-size="40" text-anchor="middle">Birkkar</text>`;
+    const name = { name: "Birkkar", text: "Birkkar", kind: values[`${at}kind`] ?? "summit", rank: 3, placed: true, along: false, by_hand, mark, box, svg };
+    return { width: 2400, height: 1100, px_per_mm, kinds: ["summit", "hut"], tracks: "", names: values[`${at}hidden`] ? [] : [name] };
   },
   "POST api/text": (_, body) => {
     change(JSON.parse(body).text, "");

@@ -759,3 +759,73 @@ test("nothing was wrong on the way", () => {
     [],
   );
 });
+
+// Changes made behind the page's back, which it then reads.
+async function change_scene(changes) {
+  await page.evaluate((all) => fetch("api/set", { method: "POST", body: JSON.stringify({ changes: all, step: "" }) }), changes);
+  await page.focus("#picture");
+  await page.keyboard.press("u");
+  await finished();
+}
+
+test("names lie over the picture; one that is dragged keeps its millimetres from the mark", async () => {
+  await change_scene([{ key: "labels.points", append: { file: "peaks.csv" } }]);
+  const name = '#names [data-name="Birkkar"]';
+  await page.waitForSelector(name, patience);
+  const { width } = await page.$eval("#names", (each) => each.getBoundingClientRect().toJSON());
+  await drag(`${name} .hold`, 100, -50);
+  await changed("labels.by_hand.0.dx_mm", undefined);
+  const mm = (px) => (px * 2400) / width / 2;
+  assert.ok(Math.abs((await value("labels.by_hand.0.dx_mm")) - mm(100)) < 0.2);
+  assert.ok(Math.abs((await value("labels.by_hand.0.dy_mm")) - (mm(-50) - 5)) < 0.2, "the foot stood 10 px above the mark");
+  await finished();
+  assert.equal(await text_of("#name-tools b"), "Birkkar");
+  await page.focus(name);
+  const before = await value("labels.by_hand.0.dx_mm");
+  await keys("Shift", "ArrowRight");
+  await becomes("labels.by_hand.0.dx_mm", Math.round(10 * (before + 5)) / 10);
+  await finished();
+  await page.focus(name);
+  await page.keyboard.press("Delete");
+  await becomes("labels.by_hand.0.hidden", true);
+  await finished();
+  assert.equal(await page.$(name), null);
+  for (let k = 0; k < 3; ++k) await undo();
+  await finished();
+  assert.equal(await value("labels.by_hand.0.dx_mm"), undefined);
+  await page.keyboard.press("n");
+  assert.ok(await page.$eval("#names", (each) => each.hasAttribute("hidden")));
+  await page.keyboard.press("n");
+  await change_scene([{ key: "labels.points.0", remove: true }]);
+});
+
+test("a lift is drawn by clicks, named, given another point and removed", async () => {
+  await panel("names");
+  await page.select(".drawing select", "lift");
+  await page.type(".drawing input", "7");
+  await page.click("#draw");
+  const box = await (await page.$("#frame")).boundingBox();
+  const at = (x, y) => [box.x + x * box.width, box.y + y * box.height];
+  for (const [x, y, points] of [
+    [0.4, 0.8, 1],
+    [0.5, 0.6, 2],
+    [0.5, 0.6, 0],
+  ]) {
+    await page.mouse.click(...at(x, y));
+    await page.waitForFunction((count) => document.querySelectorAll("#drawn .point").length === count, patience, points);
+  }
+  await changed("features.0.source", undefined);
+  const { drawn, values } = await scene();
+  assert.equal(values["features.0.source"], "mock_drawn.geojson");
+  assert.equal(values["labels.shapes.0.file"], "mock_drawn.geojson");
+  assert.deepEqual([drawn.features.length, drawn.features[0].properties.kind, drawn.features[0].properties.name], [1, "lift", "7"]);
+  assert.equal(drawn.features[0].geometry.coordinates.length, 2);
+  assert.equal(await page.$eval(".drawing input", (each) => each.value), "8", "the next lift has the next number");
+  await finished();
+  await page.waitForSelector(".drawing .remove", patience);
+  await page.click(".drawing .remove");
+  await changed("features.0.source", "mock_drawn.geojson");
+  assert.equal((await scene()).drawn, null);
+  assert.equal(await value("labels.shapes.0.file"), undefined);
+  await finished();
+});

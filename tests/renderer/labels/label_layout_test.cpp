@@ -54,6 +54,36 @@ TEST(LabelLayout, TheSecondOfTwoNeighboursStandsHigherOnALeader) {
       << "which passes beside the other's name";
 }
 
+// Offsets are from the mark to the centre of the foot of the text.
+TEST(LabelLayout, ANamePlacedByHandStaysAndOthersMakeRoom) {
+  std::vector<LabelRequest> requests = {summit(400.0, 300.0, 1.0), summit(430.0, 300.0, 9.0)};
+  requests[1].by_hand_px = glm::dvec2(-30.0, -6.0);  // where the first would have its name
+  const std::vector<LabelSpot> spots = place_labels(requests, no_sky, sheet);
+  ASSERT_TRUE(spots[0].placed && spots[1].placed);
+  EXPECT_DOUBLE_EQ(.5 * (spots[1].text.left + spots[1].text.right), 400.0);
+  EXPECT_DOUBLE_EQ(spots[1].text.bottom, 294.0);
+  EXPECT_FALSE(spots[0].text.overlaps(spots[1].text)) << "although it has the better rank";
+  requests[0].by_hand_px = glm::dvec2(0.0, -6.0);
+  EXPECT_TRUE(place_labels(requests, no_sky, sheet)[0].placed) << "on top of each other, if asked";
+}
+
+TEST(LabelLayout, TheLeaderOfANamePlacedByHandEndsAtItsText) {
+  LabelRequest request = summit(400.0, 300.0);
+  for (const glm::dvec2 by : {glm::dvec2(150.0, -100.0), glm::dvec2(-150.0, 90.0)}) {
+    request.by_hand_px = by;
+    const LabelSpot spot = place_labels({request}, no_sky, sheet)[0];
+    ASSERT_TRUE(spot.has_leader);
+    EXPECT_GE(spot.leader_end.x, spot.text.left);
+    EXPECT_LE(spot.leader_end.x, spot.text.right);
+    EXPECT_DOUBLE_EQ(spot.leader_end.y, by.y < 0.0 ? spot.text.bottom : spot.text.top);
+  }
+  request.by_hand_px = glm::dvec2(0.0, -6.0);
+  EXPECT_FALSE(place_labels({request}, no_sky, sheet)[0].has_leader) << "beside its mark";
+  request.by_hand_px = glm::dvec2(5000.0, 0.0);
+  EXPECT_DOUBLE_EQ(place_labels({request}, no_sky, sheet)[0].text.right, 995.0)
+      << "never outside the picture";
+}
+
 // Names of the skyline are on rows that count from the margin, whatever their summits' heights.
 TEST(LabelLayout, TheSkylinesNamesStandInRowsAboveIt) {
   std::vector<LabelRequest> requests;

@@ -18,6 +18,7 @@
 #include "terrain/io/crs.h"
 #include "terrain/io/raster_io.h"
 #include "tests/files.h"
+#include "tests/notes.h"
 
 namespace belvedere {
 namespace {
@@ -366,6 +367,37 @@ TEST(LabelJob, FilesThatAreOffAreLeftOut) {
       "mine.toml", ".", {});
   EXPECT_TRUE(label_job(off, silent_progress()).empty());
   EXPECT_FALSE(off.scene.labels.any());
+}
+
+TEST_F(ManyNames, OneIsMovedAnotherHiddenByHand) {
+  const auto placed = std::find_if(sheet_->labels.begin(), sheet_->labels.end(),
+                                   [](const Label& label) { return label.spot.placed; });
+  ASSERT_NE(placed, sheet_->labels.end());
+  const std::string moved = placed->point.name;
+  const std::string hidden = std::next(placed)->point.name;
+  LabelJob job = job_;
+  job.by_hand = {{.name = moved, .dx_mm = 12.0, .dy_mm = -20.0, .rank = 2.0, .kind = "hut"},
+                 {.name = hidden, .hidden = true},
+                 {.name = "Nowhere", .hidden = true}};
+  test::Notes notes;
+  const LabelSheet sheet = make_label_sheet(*loaded_, job, *bare_, notes);
+  const auto named = [&](const std::string& name) {
+    return std::find_if(sheet.labels.begin(), sheet.labels.end(),
+                        [&](const Label& label) { return label.point.name == name; });
+  };
+  EXPECT_EQ(named(hidden), sheet.labels.end());
+  const Label& label = *named(moved);
+  EXPECT_EQ(sheet.kind_of(label).name, "hut");
+  EXPECT_EQ(label.point.rank, 2.0);
+  ASSERT_TRUE(label.spot.placed);
+  EXPECT_NEAR(.5 * (label.spot.text.left + label.spot.text.right) - label.mark.pixel.x,
+              12.0 * sheet.px_per_mm, 1e-6);
+  EXPECT_NEAR(label.spot.text.bottom - label.mark.pixel.y, -20.0 * sheet.px_per_mm, 1e-6);
+  EXPECT_THAT(notes.text(), testing::HasSubstr("Nowhere"));
+  job.by_hand = {{.name = moved, .kind = "volcano"}};
+  EXPECT_THAT(
+      test::error_of([&] { make_label_sheet(*loaded_, job, *bare_, silent_progress()); }).what(),
+      testing::AllOf(testing::HasSubstr("labels.by_hand.0.kind"), testing::HasSubstr("summit")));
 }
 
 TEST_F(ManyNames, TheSameBytesForOneThreadAndTwo) {

@@ -269,6 +269,31 @@ TEST_F(SceneSessionTest, ReloadTakesTheFileAndCanBeUndone) {
   EXPECT_EQ(test::read_bytes(path_), mine) << "a file that is gone is written again";
 }
 
+TEST_F(SceneSessionTest, WhatIsDrawnFollowsUndoAsAFileBesideTheScene) {
+  SceneSession session(path_, {});
+  EXPECT_EQ(session.drawn_file(), "hills_drawn.geojson");
+  const std::string file = folder_ / session.drawn_file();
+  const std::vector<SceneEdit> block = {
+      {.key = "features", .value = "{source = \"hills_drawn.geojson\"}", .append = true}};
+  session.draw("{\"one\": 1}\n", block, "");
+  EXPECT_EQ(test::read_bytes(file), "{\"one\": 1}\n");
+  session.draw("{\"two\": 2}\n", {}, "");
+  EXPECT_FALSE(session.is_saved());
+  session.undo();
+  EXPECT_EQ(test::read_bytes(file), "{\"one\": 1}\n");
+  EXPECT_EQ(session.scene().scene.features.size(), 1U);
+  session.undo();
+  EXPECT_FALSE(std::filesystem::exists(file)) << "as it was before";
+  EXPECT_TRUE(session.is_saved());
+  session.redo();
+  session.save(false);
+  session.draw("{\"two\": 2}\n", {}, "");
+  session.revert();
+  EXPECT_EQ(SceneSession(path_, {}).drawn(), "{\"one\": 1}\n") << "it is there in the next session";
+  EXPECT_TRUE(session.is_saved());
+  EXPECT_TRUE(session.can_undo());
+}
+
 TEST_F(SceneSessionTest, OfTwoSessionsTheSecondLearnsOfTheFirst) {
   SceneSession one(path_, {});
   SceneSession two(path_, {});

@@ -3,7 +3,10 @@
 
 #include <atomic>
 #include <chrono>
+#include <cmath>
+#include <cstring>
 #include <filesystem>
+#include <glm/geometric.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -189,6 +192,102 @@ TEST_F(StudioTest, TellsWhatIsUnderThePointer) {
   for (const char* x : {"", "-0.1", "1.1", "nan", "x"})
     EXPECT_EQ(get("api/pointer", {{"x", x}, {"y", "0.5"}}).status, 422) << x;
   got("api/pointer", {{"x", "1"}, {"y", "1"}});
+}
+
+TEST_F(StudioTest, NamesLieOverThePictureInPixelsOfThePrint) {
+  folder_.write("names.csv", "name,kind,east,north\nHill,summit,6000,5000\n");
+  posted("api/set",
+         R"({"changes": [{"key": "labels.points", "append": {"file": "names.csv"}}]})");
+  EXPECT_EQ(get("api/names", {{"revision", "2"}}).status, 409) << "nothing is drawn yet";
+  get("api/picture", {{"rung", "1"}, {"revision", "2"}});
+  const json sheet = got("api/names", {{"revision", "2"}});
+  EXPECT_EQ(sheet["width"], 48);
+  ASSERT_EQ(sheet["names"].size(), 1U);
+  const json& name = sheet["names"][0];
+  EXPECT_EQ(name["name"], "Hill");
+  EXPECT_EQ(name["kind"], "summit");
+  EXPECT_NEAR(name["mark"][0].get<double>(), 24.0, 2.0) << "the camera looks north at it";
+  EXPECT_FALSE(sheet.contains("margin"));
+  set("margin.title", "Hills");
+  get("api/picture", {{"rung", "1"}});
+  EXPECT_THAT(got("api/names")["margin"]["svg"].get<std::string>(), testing::HasSubstr("Hills"));
+}
+
+TEST_F(StudioTest, TheLoupeShowsAPieceOfThePrint) {
+  const HttpAnswer answer =
+      get("api/loupe", {{"x", "0.5"}, {"y", "0.9"}, {"width", "16"}, {"height", "20"}});
+  ASSERT_EQ(answer.status, 200) << answer.body;
+  const Grid<glm::vec3> part = decoded(answer);
+  const Grid<glm::vec3> whole =
+      decoded(get("api/picture", {{"rung", std::to_string(rungs().size() - 1)}}));
+  EXPECT_EQ(answer.headers.at("X-Belvedere-Left"), "16");
+  EXPECT_EQ(answer.headers.at("X-Belvedere-Top"), "20") << "it stays inside the print";
+  EXPECT_EQ(part, part_of(whole, {16, 20, 32, 40}));
+  EXPECT_EQ(get("api/loupe", {{"x", "2"}, {"y", "0"}, {"width", "16"}, {"height", "16"}}).status,
+            422);
+  EXPECT_EQ(get("api/loupe", {{"x", "0"}, {"y", "0"}, {"width", "9999"}, {"height", "16"}}).status,
+            422);
+}
+
+TEST_F(StudioTest, ThumbnailsShowOtherScenesAndChangeNothing) {
+  const std::string rest = get("api/picture", {{"rung", "0"}}).body;
+  const HttpAnswer dark = post(
+      "api/thumbnail", R"({"changes": [{"key": "sun.azimuth_deg", "value": 100}], "width": 64})");
+  ASSERT_EQ(dark.status, 200) << dark.body;
+  EXPECT_EQ(decoded(dark).width(), 48) << "no wider than the print";
+  EXPECT_NE(dark.body, rest);
+  EXPECT_EQ(post("api/thumbnail", R"({"changes": []})").body, rest);
+  EXPECT_EQ(got("api/scene")["revision"], 1);
+  EXPECT_EQ(post("api/thumbnail", R"({"changes": [], "width": 9})").status, 422);
+}
+
+// The ground of each pixel, as the page reads it.
+TEST_F(StudioTest, TellsTheGroundSeenAsOneBinary) {
+  get("api/picture", {{"rung", "0"}, {"revision", "1"}});
+  const std::string bytes = get("api/seen", {{"revision", "1"}}).body;
+  std::uint32_t size[2];
+  std::memcpy(size, bytes.data(), sizeof(size));
+  EXPECT_EQ(size[0], 48U);
+  EXPECT_EQ(size[1], 40U);
+  EXPECT_EQ(bytes.size(), 8U + 16U + 4U * 4U * 48U * 40U);
+  const json ground = got("api/pointer", {{"x", "0.5"}, {"y", "0.7"}});
+  float east = 0.F;
+  double origin = 0.0;
+  std::memcpy(&origin, bytes.data() + 8, sizeof(origin));
+  std::memcpy(&east, bytes.data() + 24 + 4 * (28 * 48 + 24), sizeof(east));
+  EXPECT_NEAR(origin + static_cast<double>(east), ground["position"][0].get<double>(), 1e-6);
+}
+
+// What resorts ask for every summer.
+TEST_F(StudioTest, ANewLiftChangesItsOwnPixelsAlone) {
+  const std::string last = std::to_string(rungs().size() - 1);
+  const Grid<glm::vec3> before = decoded(get("api/picture", {{"rung", last}}));
+  const json state = posted("api/draw", R"({"features": {"type": "FeatureCollection", "features": [
+      {"type": "Feature", "properties": {"kind": "lift", "name": "7"},
+       "geometry": {"type": "LineString", "coordinates": [[5000, 2000], [6500, 5000]]}}]},
+      "changes": [{"key": "features",
+                   "append": {"source": "hills_drawn.geojson", "kind_of": "kind"}}]})");
+  EXPECT_EQ(state["drawn"]["features"].size(), 1U);
+  EXPECT_EQ(state["drawn_file"], "hills_drawn.geojson");
+  const Grid<glm::vec3> after = decoded(get("api/picture", {{"rung", last}}));
+  int changed = 0;
+  for (int y = 0; y < after.height(); ++y)
+    for (int x = 0; x < after.width(); ++x) {
+      if (after(x, y) == before(x, y)) continue;
+      ++changed;
+      const json ground = got("api/pointer", {{"x", std::to_string((x + .5) / after.width())},
+                                              {"y", std::to_string((y + .5) / after.height())}});
+      if (ground["sky"] == true) continue;
+      const glm::dvec2 at(ground["position"][0], ground["position"][1]);
+      const glm::dvec2 from(5000.0, 2000.0);
+      const glm::dvec2 along = glm::normalize(glm::dvec2(1500.0, 3000.0));
+      EXPECT_LT(std::abs(along.x * (at.y - from.y) - along.y * (at.x - from.x)), 1000.0)
+          << x << ", " << y;
+    }
+  EXPECT_GT(changed, 0);
+  EXPECT_LT(changed, 48 * 40 / 8);
+  EXPECT_EQ(posted("api/undo")["drawn"], nullptr);
+  EXPECT_EQ(post("api/draw", R"({"features": 3, "changes": []})").status, 422);
 }
 
 TEST_F(StudioTest, HasAMap) {

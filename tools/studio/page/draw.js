@@ -60,15 +60,11 @@ export class Drawing {
   }
   take(pointed, share) {
     if (!this.points) return;
-    if (!pointed.lonlat) {
-      this.leave();
-      return this.hands.say("The terrain states no coordinate system, so nothing can be drawn on it.");
-    }
     const last = this.points.at(-1);
     const box = this.layer.getBoundingClientRect();
     const again = last && Math.hypot((share[0] - last.share[0]) * box.width, (share[1] - last.share[1]) * box.height) < end_px;
     if (again) return this.end();
-    this.points.push({ position: pointed.position, lonlat: pointed.lonlat, share });
+    this.points.push({ ...pointed, share });
     this.next();
   }
   end() {
@@ -195,7 +191,7 @@ export class Drawing {
       },
       end: async (event) => {
         const pointed = event.type === "pointerup" ? await this.hands.ground(event) : null;
-        if (!pointed?.lonlat) return this.draw();
+        if (!pointed || pointed.sky) return this.draw();
         this.change_points((points) => points.splice(index, between ? 0 : 1, pointed));
       },
     });
@@ -235,9 +231,10 @@ export class Drawing {
   }
 }
 
-// Positions in the terrain's own coordinates stay beside those in degrees, so that the page needs no map projection.
+// Positions in the terrain's own coordinates stay beside those in degrees, so that the page needs no map projection. A terrain that states
+// no coordinate system has its own alone.
 function feature(kind, name, points) {
-  const coordinates = points.map(({ lonlat }) => lonlat.map((degrees) => Number(degrees.toFixed(6))));
+  const coordinates = points.map(({ lonlat, position }) => (lonlat ?? position).map((degrees) => Number(degrees.toFixed(6))));
   const positions = points.map(({ position }) => position.map((metres) => Number(metres.toFixed(1))));
   const { area } = kinds[kind] ?? {};
   return {
