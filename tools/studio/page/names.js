@@ -67,7 +67,7 @@ export class Names {
     if (!sheet?.width) return this.choose(null);
     this.layer.setAttribute("viewBox", `0 0 ${sheet.width} ${sheet.height}`);
     const tracks = drawing("g", { class: "tracks" });
-    tracks.innerHTML = sheet.tracks;
+    tracks.innerHTML = without_styles(sheet.tracks);
     this.layer.replaceChildren(tracks, ...names.filter((name) => name.placed).map((name) => this.name(name)));
     const again = this.chosen && names.find((name) => name.name === this.chosen.name && name.placed);
     this.choose(again ?? null);
@@ -77,7 +77,7 @@ export class Names {
   name(name) {
     const [left, top, right, bottom] = name.box;
     const made = drawing("g", { class: "name" });
-    made.innerHTML = name.svg;
+    made.innerHTML = without_styles(name.svg);
     if (!name.name) return made;
     made.append(drawing("rect", { class: "hold", x: left, y: top, width: right - left, height: bottom - top }));
     made.setAttribute("tabindex", 0);
@@ -158,3 +158,7 @@ export class Names {
     this.tools.lastChild.disabled = this.index_of(name) < 0;
   }
 }
+
+// The page's policy refuses style attributes; SVG has an attribute for each of these properties.
+const without_styles = (svg) =>
+  svg.replace(/ style="([^"]*)"/g, (_, css) => css.replace(/\s*([\w-]+):\s*([^;]*);?/g, (each, name, value) => ` ${name}="${value.trim()}"`));
