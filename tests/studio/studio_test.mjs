@@ -780,12 +780,12 @@ test("names lie over the picture; one that is dragged keeps its millimetres from
   assert.ok(Math.abs((await value("labels.by_hand.0.dy_mm")) - (mm(-50) - 5)) < 0.2, "the foot stood 10 px above the mark");
   await finished();
   assert.equal(await text_of("#name-tools b"), "Birkkar");
-  await page.focus(name);
+  await page.$eval(name, (each) => each.focus());
   const before = await value("labels.by_hand.0.dx_mm");
   await keys("Shift", "ArrowRight");
   await becomes("labels.by_hand.0.dx_mm", Math.round(10 * (before + 5)) / 10);
   await finished();
-  await page.focus(name);
+  await page.$eval(name, (each) => each.focus());
   await page.keyboard.press("Delete");
   await becomes("labels.by_hand.0.hidden", true);
   await finished();

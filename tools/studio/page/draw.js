@@ -61,7 +61,7 @@ export class Drawing {
   take(pointed, share) {
     if (!this.points) return;
     const last = this.points.at(-1);
-    const box = this.layer.getBoundingClientRect();
+    const box = by_id("frame").getBoundingClientRect();
     const again = last && Math.hypot((share[0] - last.share[0]) * box.width, (share[1] - last.share[1]) * box.height) < end_px;
     if (again) return this.end();
     this.points.push({ ...pointed, share });
@@ -156,11 +156,11 @@ export class Drawing {
 
   // The line in hand, or the points of the chosen feature where they are seen; those between points make new ones.
   draw() {
-    const box = this.layer.getBoundingClientRect();
+    const box = by_id("frame").getBoundingClientRect(); // the layer has no size while it is hidden
     const chosen = this.features()[this.chosen];
     const shares = this.points ? this.points.map((each) => each.share) : chosen ? points_of(chosen).map((each) => this.share_of(each.position)) : [];
     this.layer.toggleAttribute("hidden", shares.length === 0);
-    if (shares.length === 0) return;
+    if (shares.length === 0) return this.layer.replaceChildren();
     this.layer.setAttribute("viewBox", `0 0 ${box.width || 1} ${box.height || 1}`);
     const at = shares.map((share) => share && [share[0] * box.width, share[1] * box.height]);
     const line = at.filter(Boolean).map((each) => each.map((px) => px.toFixed(1)).join());
