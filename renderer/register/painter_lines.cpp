@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/matrix.hpp>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -60,12 +61,6 @@ std::size_t group_of(LandCoverClass id) {
 }
 
 using Air = std::array<double, air_terms>;
-
-double determinant(const std::array<std::array<double, 3>, 3>& m) {
-  return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
-         m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
-         m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
-}
 
 // A division of the samples into groups, and how well it explains their colours.
 struct Explanation {
@@ -175,18 +170,15 @@ class Colours {
     const auto count = static_cast<double>(std::max<std::size_t>(rests.size(), 1));
     glm::dvec3 square(0.0);
     for (const glm::dvec3& rest : rests) square += rest * rest / count;
-    std::array<std::array<double, 3>, 3> covariance{};
+    glm::dmat3 covariance(0.0);
     for (glm::dvec3& rest : rests) {
       for (int c = 0; c < 3; ++c) {
         const double limit = clip_deviations * std::sqrt(square[c]);
         rest[c] = std::clamp(rest[c], -limit, limit);
       }
-      for (int a = 0; a < 3; ++a)
-        for (int b = 0; b < 3; ++b)
-          covariance[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)] +=
-              rest[a] * rest[b] / count;
+      covariance += glm::outerProduct(rest, rest) / count;
     }
-    return exact::log(std::max(determinant(covariance), 1e-30));
+    return exact::log(std::max(glm::determinant(covariance), 1e-30));
   }
 
   std::span<const PaintSample> samples_;
