@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <numbers>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 #include "base/error.h"
 #include "base/math.h"
@@ -121,7 +123,7 @@ double year_mean(const Months& months) {
 
 namespace {
 
-constexpr int trend_terms = 6;
+constexpr std::size_t trend_terms = 6;
 constexpr double rain_floor_mm = 30.0;  // makes deserts with 1 and with 10 mm similar
 
 using Site = std::array<double, 4>;
@@ -154,97 +156,47 @@ std::array<double, trend_terms> trend_of(const Site& site) {
   return {1.0, s, s * s, s * s * s, s * s * s * s, site[3]};
 }
 
-// Cholesky factorization of a symmetric, positive definite n × n matrix, in place (lower triangle).
-void factorize(std::vector<double>& a, std::size_t n) {
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = 0; j <= i; ++j) {
-      double sum = a[i * n + j];
-      for (std::size_t k = 0; k < j; ++k) sum -= a[i * n + k] * a[j * n + k];
-      if (i == j) {
-        if (!(sum > 0.0))
-          throw Error(ErrorKind::usage, "climate stations", "several stations at the same position",
-                      "one station per position");
-        a[i * n + i] = std::sqrt(sum);
-      } else {
-        a[i * n + j] = sum / a[j * n + j];
-      }
-    }
-  }
-}
-
-// Solves factor · factorᵀ · x = b for `columns` right-hand sides, row by row in b.
-void solve(const std::vector<double>& factor, std::size_t n, std::vector<double>& b,
-           std::size_t columns) {
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t c = 0; c < columns; ++c) {
-      double sum = b[i * columns + c];
-      for (std::size_t k = 0; k < i; ++k) sum -= factor[i * n + k] * b[k * columns + c];
-      b[i * columns + c] = sum / factor[i * n + i];
-    }
-  for (std::size_t i = n; i-- > 0;)
-    for (std::size_t c = 0; c < columns; ++c) {
-      double sum = b[i * columns + c];
-      for (std::size_t k = i + 1; k < n; ++k) sum -= factor[k * n + i] * b[k * columns + c];
-      b[i * columns + c] = sum / factor[i * n + i];
-    }
+Cholesky factors_of_stations(Matrix matrix) {
+  std::optional<Cholesky> factors = Cholesky::of(std::move(matrix));
+  if (!factors)
+    throw Error(ErrorKind::usage, "climate stations", "several stations at the same position",
+                "one station per position");
+  return *factors;
 }
 
 // Trend by generalized least squares, then weights of its residuals.
 SimilarityField fit(const ClimateSimilarity& similarity, std::vector<Site> sites,
-                    const std::vector<double>& values, int kinds) {
+                    const std::vector<double>& values, std::size_t kinds) {
   const std::size_t n = sites.size();
-  const auto count = static_cast<std::size_t>(kinds);
-  const std::size_t columns = trend_terms + count;
-  std::vector<double> covariance(n * n);
+  Matrix covariance(n, n), terms(n, trend_terms), measured(n, kinds);
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j <= i; ++j)
-      covariance[i * n + j] = similarity_of(similarity, sites[i], sites[j]);
-    covariance[i * n + i] += similarity.own * similarity.own;
+      covariance(i, j) = similarity_of(similarity, sites[i], sites[j]);
+    covariance(i, i) += similarity.own * similarity.own;
+    std::ranges::copy(trend_of(sites[i]), terms.row(i).begin());
+    for (std::size_t c = 0; c < kinds; ++c) measured(i, c) = values[i * kinds + c];
   }
-  factorize(covariance, n);
-  std::vector<double> right(n * columns);
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto trend = trend_of(sites[i]);
-    std::copy(trend.begin(), trend.end(), right.begin() + static_cast<std::ptrdiff_t>(i * columns));
-    for (std::size_t c = 0; c < count; ++c)
-      right[i * columns + trend_terms + c] = values[i * count + c];
-  }
-  solve(covariance, n, right, columns);
-
-  std::vector<double> normal(trend_terms * trend_terms, 0.0);
-  std::vector<double> trend(trend_terms * count, 0.0);
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto f = trend_of(sites[i]);
-    for (std::size_t r = 0; r < trend_terms; ++r) {
-      for (std::size_t c = 0; c < trend_terms; ++c)
-        normal[r * trend_terms + c] += f[r] * right[i * columns + c];
-      for (std::size_t c = 0; c < count; ++c)
-        trend[r * count + c] += f[r] * right[i * columns + trend_terms + c];
-    }
-  }
-  factorize(normal, trend_terms);
-  solve(normal, trend_terms, trend, count);
-  std::vector<double> weights(n * count);
+  const Cholesky factors = factors_of_stations(std::move(covariance));
+  const Matrix weighted_terms = factors.solve(terms);
+  const Matrix by_term = transposed(weighted_terms);
+  Matrix trend = factors_of_stations(product(by_term, terms)).solve(product(by_term, measured));
+  Matrix weights = factors.solve(measured);
+  const Matrix explained = product(weighted_terms, trend);
   for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t c = 0; c < count; ++c) {
-      double left = right[i * columns + trend_terms + c];
-      for (std::size_t r = 0; r < trend_terms; ++r)
-        left -= right[i * columns + r] * trend[r * count + c];
-      weights[i * count + c] = left;
-    }
-  return {similarity, std::move(sites), kinds, std::move(trend), std::move(weights)};
+    for (std::size_t c = 0; c < kinds; ++c) weights(i, c) -= explained(i, c);
+  return {similarity, std::move(sites), std::move(trend), std::move(weights)};
 }
 
-// The values at a position; `kinds` of them are filled.
+// The values at a position, of as many kinds as the field has.
 std::array<double, 4> value_at(const SimilarityField& field, const Site& position) {
-  const auto count = static_cast<std::size_t>(field.kinds);
+  const std::size_t count = field.trend.columns();
   const auto f = trend_of(position);
   std::array<double, 4> values{};
   for (std::size_t c = 0; c < count; ++c)
-    for (std::size_t r = 0; r < trend_terms; ++r) values[c] += f[r] * field.trend[r * count + c];
+    for (std::size_t r = 0; r < trend_terms; ++r) values[c] += f[r] * field.trend(r, c);
   for (std::size_t i = 0; i < field.stations.size(); ++i) {
     const double k = similarity_of(field.similarity, position, field.stations[i]);
-    for (std::size_t c = 0; c < count; ++c) values[c] += k * field.weights[i * count + c];
+    for (std::size_t c = 0; c < count; ++c) values[c] += k * field.weights(i, c);
   }
   return values;
 }

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "base/matrix/matrix.h"
+
 namespace belvedere {
 
 using Months = std::array<double, 12>;  // January … December
@@ -104,10 +106,9 @@ struct ClimateFieldParameters {
 struct SimilarityField {
   ClimateSimilarity similarity;
   std::vector<std::array<double, 4>>
-      stations;  // km from the Earth's centre (x, y, z) and altitude, km
-  int kinds = 0;
-  std::vector<double> trend;    // 6 × kinds
-  std::vector<double> weights;  // stations × kinds
+      stations;    // km from the Earth's centre (x, y, z) and altitude, km
+  Matrix trend;    // 6 × kinds
+  Matrix weights;  // stations × kinds
 };
 struct ClimateField {
   SimilarityField temperature;  // of January, April, July, October
