@@ -89,7 +89,7 @@ std::vector<double> product_transposed(const Matrix& a, std::span<const double> 
   return out;
 }
 
-std::optional<Cholesky> Cholesky::of(Matrix a) {
+std::optional<Cholesky> Cholesky::of(Matrix a, double min_share) {
   const std::size_t n = a.rows();
   const std::vector<std::size_t> first = first_entries(a);
   for (std::size_t k = 0; k < n; ++k) {
@@ -97,7 +97,7 @@ std::optional<Cholesky> Cholesky::of(Matrix a) {
       double sum = a(i, k);
       for (std::size_t j = std::max(first[i], first[k]); j < k; ++j) sum -= a(i, j) * a(k, j);
       if (i == k) {
-        if (!(sum > 0.0) || !std::isfinite(sum)) return std::nullopt;
+        if (!(sum > min_share * a(k, k)) || !std::isfinite(sum)) return std::nullopt;
         a(k, k) = std::sqrt(sum);
       } else {
         a(i, k) = sum / a(k, k);

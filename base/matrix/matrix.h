@@ -50,8 +50,9 @@ std::vector<double> product_transposed(const Matrix& a, std::span<const double> 
 // A symmetric positive definite matrix as L Lᵀ, L lower triangular, for solving equations with it.
 class Cholesky {
  public:
-  // Reads the lower triangle. Nothing if the matrix is not positive definite to working precision.
-  static std::optional<Cholesky> of(Matrix a);
+  // Reads the lower triangle. Nothing if the matrix is not positive definite to working precision,
+  // or if an unknown adds to those before it no more than `min_share` of its diagonal entry.
+  static std::optional<Cholesky> of(Matrix a, double min_share = 0.0);
 
   // L⁻¹ x: uncorrelated and of deviation 1 if the matrix is the covariance of x.
   std::vector<double> whitened(std::span<const double> x) const;

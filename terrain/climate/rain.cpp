@@ -6,11 +6,13 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
 #include "base/math.h"
 #include "base/math_exact.h"
+#include "base/matrix/matrix.h"
 #include "base/parallel.h"
 #include "base/random.h"
 #include "base/statistics.h"
@@ -36,34 +38,21 @@ double foretell(const Terms& factor, const Row& row, std::size_t terms) {
   return sum;
 }
 
-// Weighted least squares by Gaussian elimination with pivoting; nothing if the stations are
-// collinear or all at one altitude.
+// Weighted least squares; nothing if the stations are collinear or all at one altitude.
 std::optional<Terms> solve_weighted(const std::vector<Row>& rows, const std::vector<double>& weight,
                                     std::size_t terms) {
-  std::array<std::array<double, max_terms + 1>, max_terms> a{};
+  Matrix normal(terms, terms);
+  std::vector<double> right(terms, 0.0);
   for (std::size_t i = 0; i < rows.size(); ++i)
     for (std::size_t r = 0; r < terms; ++r) {
-      for (std::size_t c = 0; c < terms; ++c)
-        a[r][c] += weight[i] * rows[i].term[r] * rows[i].term[c];
-      a[r][max_terms] += weight[i] * rows[i].term[r] * rows[i].rain_mm;
+      for (std::size_t c = 0; c <= r; ++c)
+        normal(r, c) += weight[i] * rows[i].term[r] * rows[i].term[c];
+      right[r] += weight[i] * rows[i].term[r] * rows[i].rain_mm;
     }
-  Terms scale{};
-  for (std::size_t r = 0; r < terms; ++r) scale[r] = a[r][r];
-  for (std::size_t p = 0; p < terms; ++p) {
-    std::size_t best = p;
-    for (std::size_t r = p + 1; r < terms; ++r)
-      if (std::abs(a[r][p]) > std::abs(a[best][p])) best = r;
-    std::swap(a[p], a[best]);
-    if (!(std::abs(a[p][p]) > 1e-9 * scale[p])) return {};
-    for (std::size_t r = 0; r < terms; ++r) {
-      if (r == p) continue;
-      const double share = a[r][p] / a[p][p];
-      for (std::size_t c = p; c < terms; ++c) a[r][c] -= share * a[p][c];
-      a[r][max_terms] -= share * a[p][max_terms];
-    }
-  }
+  const std::optional<Cholesky> factors = Cholesky::of(std::move(normal), 1e-9);
+  if (!factors) return {};
   Terms factor{};
-  for (std::size_t r = 0; r < terms; ++r) factor[r] = a[r][max_terms] / a[r][r];
+  std::ranges::copy(factors->solve(right), factor.begin());
   return factor;
 }
 

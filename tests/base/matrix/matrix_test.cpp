@@ -71,6 +71,15 @@ TEST(Matrix, WhatIsNotPositiveDefiniteHasNoFactors) {
   EXPECT_FALSE(Cholesky::of(a));
 }
 
+TEST(Matrix, UnknownsThatFollowFromOthersHaveNoFactors) {
+  Matrix a(2, 2, 1.0);
+  a(1, 1) = 1.0 + 1e-10;
+  EXPECT_TRUE(Cholesky::of(a));
+  EXPECT_FALSE(Cholesky::of(a, 1e-9));
+  a(1, 1) = 1.0 + 1e-8;
+  EXPECT_TRUE(Cholesky::of(a, 1e-9));
+}
+
 using Two = Dual<2>;
 
 TEST(Dual, DerivativesAreThoseOfTheFormula) {
