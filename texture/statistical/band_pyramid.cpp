@@ -3,17 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
+#include <glm/matrix.hpp>
 #include <utility>
 
-#include "base/math_exact.h"
+#include "base/matrix/matrix.h"
 #include "base/parallel.h"
 #include "base/random.h"
 
 namespace belvedere {
 namespace {
-
-using Matrix = std::array<std::array<double, 3>, 3>;
 
 constexpr std::array<float, 4> halving = {.125F, .375F, .375F, .125F};
 
@@ -21,32 +19,9 @@ bool counts(const Grid<std::uint8_t>& states, std::size_t i) {
   return states.empty() || (states[i] & pixel_counts) != 0;
 }
 
-// Eigenvectors of a symmetric matrix as columns, by Jacobi's rotations; the matrix becomes
-// diagonal.
-Matrix jacobi(Matrix& m) {
-  Matrix vectors = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-  for (int sweep = 0; sweep < 30; ++sweep) {
-    for (std::size_t a = 0; a < 2; ++a) {
-      for (std::size_t b = a + 1; b < 3; ++b) {
-        if (std::abs(m[a][b]) < 1e-12) continue;
-        const exact::Turn by = exact::turn(0.5 * exact::atan2(2.0 * m[a][b], m[b][b] - m[a][a]));
-        const auto rotate = [&](double& x, double& y) {
-          const double turned = by.cosine * x - by.sine * y;
-          y = by.sine * x + by.cosine * y;
-          x = turned;
-        };
-        for (std::size_t k = 0; k < 3; ++k) rotate(m[k][a], m[k][b]);
-        for (std::size_t k = 0; k < 3; ++k) rotate(m[a][k], m[b][k]);
-        for (std::size_t k = 0; k < 3; ++k) rotate(vectors[k][a], vectors[k][b]);
-      }
-    }
-  }
-  return vectors;
-}
-
 void find_axes(const Grid<Rgb8>& crop, const Grid<std::uint8_t>& states, BandSpace& space) {
   std::array<double, 3> mean{};
-  Matrix spread{};
+  glm::dmat3 spread(0.0);
   double n = 0.0;
   for (std::size_t i = 0; i < crop.size(); ++i) {
     if (!counts(states, i)) continue;
@@ -57,20 +32,19 @@ void find_axes(const Grid<Rgb8>& crop, const Grid<std::uint8_t>& states, BandSpa
     space.mean[c] = static_cast<float>(mean[c] /= std::max(n, 1.0));
   for (std::size_t i = 0; i < crop.size(); ++i) {
     if (!counts(states, i)) continue;
-    for (std::size_t a = 0; a < 3; ++a)
-      for (std::size_t b = 0; b < 3; ++b)
-        spread[a][b] += (crop[i][a] - mean[a]) * (crop[i][b] - mean[b]) / std::max(n, 1.0);
+    const glm::dvec3 off(crop[i][0] - mean[0], crop[i][1] - mean[1], crop[i][2] - mean[2]);
+    spread += glm::outerProduct(off, off) / std::max(n, 1.0);
   }
-  const Matrix vectors = jacobi(spread);
-  std::array<std::size_t, 3> order = {0, 1, 2};
+  const SymmetricEigen eigen = symmetric_eigen(spread);
+  std::array<int, 3> order = {0, 1, 2};
   std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return spread[a][a] > spread[b][b]; });
+                   [&](int a, int b) { return eigen.values[a] > eigen.values[b]; });
   for (std::size_t band = 0; band < 3; ++band) {
-    const std::size_t of = order[band];
-    const double sign = vectors[0][of] + vectors[1][of] + vectors[2][of] < 0.0 ? -1.0 : 1.0;
-    for (std::size_t c = 0; c < 3; ++c)
-      space.axes[band][c] = static_cast<std::int16_t>(
-          std::lround(sign * vectors[c][of] * static_cast<double>(BandSpace::axis_unit)));
+    const glm::dvec3& axis = eigen.vectors[order[band]];
+    const double sign = axis.x + axis.y + axis.z < 0.0 ? -1.0 : 1.0;
+    for (int c = 0; c < 3; ++c)
+      space.axes[band][static_cast<std::size_t>(c)] = static_cast<std::int16_t>(
+          std::lround(sign * axis[c] * static_cast<double>(BandSpace::axis_unit)));
   }
 }
 
