@@ -450,6 +450,11 @@ double as_number(const ConfigValue& value, const std::string& name) {
   return number;
 }
 
+std::string nearest_word_hint(std::string_view word, const std::vector<std::string>& candidates) {
+  const std::string near = nearest_word(word, candidates);
+  return near.empty() ? "" : "; did you mean \"" + near + "\"?";
+}
+
 const ConfigValue* find(const ConfigTable& table, std::string_view key) {
   const auto entry =
       std::find_if(table.begin(), table.end(), [&](const ConfigEntry& e) { return e.key == key; });
@@ -460,10 +465,8 @@ void allow_only(const ConfigTable& table, const std::vector<std::string>& allowe
                 const std::string& name) {
   for (const ConfigEntry& entry : table) {
     if (std::find(allowed.begin(), allowed.end(), entry.key) != allowed.end()) continue;
-    const std::string near = nearest_word(entry.key, allowed);
     throw Error(ErrorKind::usage, config_where(name, entry.key_position),
-                "unknown key " + in_quotes(entry.key) +
-                    (near.empty() ? "" : "; did you mean \"" + near + "\"?"),
+                "unknown key " + in_quotes(entry.key) + nearest_word_hint(entry.key, allowed),
                 fmt::format("{}", fmt::join(allowed, ", ")));
   }
 }

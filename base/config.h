@@ -59,6 +59,8 @@ std::string misread_path(std::string_view path);
 std::string backslash_advice();
 // The candidate closest to `word` by edit distance, or an empty string if none is close.
 std::string nearest_word(std::string_view word, const std::vector<std::string>& candidates);
+// "; did you mean \"…\"?" with that candidate, for the end of a message; or an empty string.
+std::string nearest_word_hint(std::string_view word, const std::vector<std::string>& candidates);
 
 // Strict access for small documents (legends, palettes, rules). Each throws Error(usage) with
 // position, finding and allowed type.

@@ -15,6 +15,18 @@ std::optional<LandCoverClass> find_class(std::string_view name) {
   return std::nullopt;
 }
 
+std::optional<LandCoverClass> find_ground_class(std::string_view name) {
+  const std::optional<LandCoverClass> found = find_class(name);
+  return found == LandCoverClass::sky ? std::nullopt : found;
+}
+
+std::vector<std::string> ground_class_names() {
+  std::vector<std::string> names;
+  for (const LandCoverClassInfo& info : land_cover_table)
+    if (info.id != LandCoverClass::sky) names.emplace_back(info.name);
+  return names;
+}
+
 ClassPairs with_stand_ins(ClassPairs fallback) {
   const ClassPairs said = fallback;
   for (const LandCoverClassInfo& info : land_cover_table) {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -218,6 +219,9 @@ constexpr bool has_trait(LandCoverClass id, ClassTrait trait) {
 constexpr const auto& land_cover_classes() { return land_cover_table; }
 std::string_view class_name(LandCoverClass id);
 std::optional<LandCoverClass> find_class(std::string_view name);
+// Classes that ground can have: all but the sky.
+std::optional<LandCoverClass> find_ground_class(std::string_view name);
+std::vector<std::string> ground_class_names();
 
 // Pairs of a class and the class it is copied from if no exemplar has it: as the scene sets, else
 // by the stand-ins.

@@ -146,9 +146,8 @@ namespace {
 
 std::size_t read_class_name(const std::string& word, const ConfigValue& at,
                             const std::string& name) {
-  const auto id = find_class(word);
-  if (!id || *id == LandCoverClass::sky)
-    refuse_value(at, name, "the class \"" + word + "\"", "a land-cover class");
+  const auto id = find_ground_class(word);
+  if (!id) refuse_value(at, name, "the class \"" + word + "\"", "a land-cover class");
   return static_cast<std::size_t>(*id);
 }
 

@@ -79,10 +79,9 @@ FeatureKind read_kind(const ConfigEntry& entry, const std::string& name) {
   }
   read.flag("level", kind.level);
   if (const ConfigValue* ground = read.known("ground")) {
-    kind.ground = find_class(as_string(*ground, name));
-    if (!kind.ground || *kind.ground == LandCoverClass::sky)
-      throw Error(ErrorKind::usage, config_where(name, ground->position), describe(*ground),
-                  "a land-cover class, such as \"forest\"");
+    kind.ground = find_ground_class(as_string(*ground, name));
+    if (!kind.ground)
+      refuse_value(*ground, name, describe(*ground), "a land-cover class, such as \"forest\"");
   }
   read.end();
   if (kind.draw == FeatureDraw::area && !kind.ground)
@@ -213,10 +212,9 @@ std::optional<double> metres_of(std::string text) {
 int kind_of_word(const FeatureStyle& style, const std::string& word, const std::string& key) {
   const int kind = style.find(word);
   if (kind >= 0) return kind;
-  const std::string near = nearest_word(word, style.names());
   throw Error(ErrorKind::usage, key,
               fmt::format("the style {} has no kind \"{}\"{}", style.name, word,
-                          near.empty() ? "" : "; did you mean \"" + near + "\"?"),
+                          nearest_word_hint(word, style.names())),
               fmt::format("{}", fmt::join(style.names(), ", ")));
 }
 

@@ -86,10 +86,7 @@ ClassPalette read_class(const ConfigValue& value, const std::string& name) {
 
 void read_classes(const ConfigValue& value, const std::string& name, Palette& palette) {
   const ConfigTable& table = as_table(value, name);
-  std::vector<std::string> names;
-  for (const LandCoverClassInfo& info : land_cover_classes())
-    if (info.id != LandCoverClass::sky) names.emplace_back(info.name);
-  allow_only(table, names, name);
+  allow_only(table, ground_class_names(), name);
   for (const ConfigEntry& entry : table)
     palette.classes[static_cast<std::size_t>(*find_class(entry.key))] =
         read_class(entry.value, name);

@@ -22,11 +22,6 @@ std::string listed(const std::vector<std::string>& names) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-std::string suggestion(const std::string& word, const std::vector<std::string>& candidates) {
-  const std::string near = nearest_word(word, candidates);
-  return near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near);
-}
-
 // One value into its field. `key_name` is the dotted name for messages.
 class ValueReader {
  public:
@@ -102,7 +97,8 @@ class ValueReader {
       const std::string* name = std::get_if<std::string>(&entry.value);
       if (name == nullptr) wrong(entry);
       if (std::find(names.begin(), names.end(), *name) == names.end())
-        refuse(entry, fmt::format("{} has \"{}\"{}", key_name_, *name, suggestion(*name, names)),
+        refuse(entry,
+               fmt::format("{} has \"{}\"{}", key_name_, *name, nearest_word_hint(*name, names)),
                listed(names));
       if (std::find(field->begin(), field->end(), *name) != field->end())
         refuse(entry, fmt::format("{} has \"{}\" twice", key_name_, *name), "each name once");
@@ -116,7 +112,7 @@ class ValueReader {
       if (!names.empty() && std::find(names.begin(), names.end(), entry.key) == names.end())
         throw Error(ErrorKind::usage, origin_.where(entry.key_position),
                     fmt::format("{}: unknown name \"{}\"{}", key_name_, entry.key,
-                                suggestion(entry.key, names)),
+                                nearest_word_hint(entry.key, names)),
                     listed(names));
       field->emplace_back(entry.key, number(entry.value, key_.range));
     }
@@ -208,12 +204,13 @@ class ValueReader {
   LandCoverClass class_of(const ConfigValue& at) const {
     const std::vector<std::string> names = ground_class_names();
     const auto* name = std::get_if<std::string>(&at.value);
-    if (name == nullptr || std::find(names.begin(), names.end(), *name) == names.end())
+    const auto found = name == nullptr ? std::nullopt : find_ground_class(*name);
+    if (!found)
       refuse(at,
              fmt::format("{} has {}, which is not a class{}", key_name_, describe(at),
-                         name == nullptr ? "" : suggestion(*name, names)),
+                         name == nullptr ? "" : nearest_word_hint(*name, names)),
              listed(names));
-    return *find_class(*name);
+    return *found;
   }
 
   void check_text(const std::string& text) const {
@@ -221,13 +218,13 @@ class ValueReader {
     const bool known = std::find(names.begin(), names.end(), text) != names.end();
     if (key_.text == TextKind::choice && !known)
       refuse(value_,
-             fmt::format("{} is {}{}", key_name_, describe(value_), suggestion(text, names)),
+             fmt::format("{} is {}{}", key_name_, describe(value_), nearest_word_hint(text, names)),
              describe_type(key_));
     if (key_.text == TextKind::built_in && !known) {
       if (!text.ends_with(".toml") && !text.ends_with(".csv"))
         refuse(value_,
                fmt::format("{} is {}, which is neither a built-in name nor a .toml or .csv file{}",
-                           key_name_, describe(value_), suggestion(text, names)),
+                           key_name_, describe(value_), nearest_word_hint(text, names)),
                describe_type(key_));
       check_file(text);
     }
@@ -359,7 +356,7 @@ class SceneReader {
     for (const SceneKey& key : section.keys) known.emplace_back(key.name);
     for (const SceneSection* child : children)
       known.emplace_back(child->name.substr(section.name.empty() ? 0 : section.name.size() + 1));
-    std::string hint = suggestion(entry.key, known);
+    std::string hint = nearest_word_hint(entry.key, known);
     if (hint.empty()) {
       // The key exists, but in another table.
       for (const SceneSection& other : scene_sections())

@@ -143,11 +143,4 @@ std::string describe_type(const SceneKey& key) {
   return std::visit(Visitor{key}, key.field(scene, 0));
 }
 
-std::vector<std::string> ground_class_names() {
-  std::vector<std::string> names;
-  for (const LandCoverClassInfo& info : land_cover_classes())
-    if (info.id != LandCoverClass::sky) names.emplace_back(info.name);
-  return names;
-}
-
 }  // namespace belvedere

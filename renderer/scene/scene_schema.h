@@ -106,7 +106,5 @@ std::string describe_range(const SceneKey& key);
 std::string describe_type(const SceneKey& key);
 // The names a built_in or choice key accepts.
 std::vector<std::string> key_choices(const SceneKey& key);
-// Names of the classes that ground can have: all but sky.
-std::vector<std::string> ground_class_names();
 
 }  // namespace belvedere

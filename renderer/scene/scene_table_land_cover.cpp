@@ -2,16 +2,6 @@
 #include "terrain/cover/towns.h"
 
 namespace belvedere {
-namespace {
-
-std::vector<std::string> class_names() {
-  std::vector<std::string> names;
-  for (const LandCoverClassInfo& info : land_cover_classes())
-    if (info.id != LandCoverClass::sky) names.emplace_back(info.name);
-  return names;
-}
-
-}  // namespace
 
 std::vector<SceneSection> make_land_cover_sections() {
   std::vector<SceneSection> sections;
@@ -123,7 +113,7 @@ std::vector<SceneSection> make_land_cover_sections() {
             .meaning = "Classes that retreat, in steps of 50 m on the ground: snow = 2 melts a "
                        "border of about 100 m. Surrounding classes replace them, along ragged "
                        "borders; shores and the edges of settlements do not change.",
-            .choices = class_names()},
+            .choices = ground_class_names()},
        }});
   sections.push_back(
       {.name = "land_cover.sources",

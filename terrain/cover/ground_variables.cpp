@@ -195,10 +195,8 @@ LayerInputKind layer_input_kind(std::string_view name) {
 void require_layer_input(const std::string& name, const std::string& where) {
   if (layer_input_kind(name) != LayerInputKind::none) return;
   const std::vector<std::string> known = layer_input_names();
-  const std::string near = nearest_word(name, known);
   throw Error(ErrorKind::usage, where,
-              fmt::format("unknown input \"{}\"{}", name,
-                          near.empty() ? "" : "; did you mean \"" + near + "\"?"),
+              fmt::format("unknown input \"{}\"{}", name, nearest_word_hint(name, known)),
               fmt::format("{}", fmt::join(known, ", ")));
 }
 

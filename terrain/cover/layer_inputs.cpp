@@ -416,10 +416,7 @@ void LayersReader::fail(ConfigPosition position, const std::string& found,
 void LayersReader::fail_unknown(ConfigPosition position, const std::string& what,
                                 const std::string& word,
                                 const std::vector<std::string>& known) const {
-  const std::string near = nearest_word(word, known);
-  fail(position,
-       fmt::format("unknown {} \"{}\"{}", what, word,
-                   near.empty() ? "" : "; did you mean \"" + near + "\"?"),
+  fail(position, fmt::format("unknown {} \"{}\"{}", what, word, nearest_word_hint(word, known)),
        fmt::format("{}", fmt::join(known, ", ")));
 }
 
@@ -449,12 +446,8 @@ std::string LayersReader::expression(const ConfigValue& value) const {
 
 LandCoverClass as_ground_class(const ConfigValue& value, const std::string& where) {
   const std::string& word = as_string(value, where);
-  const std::optional<LandCoverClass> found = find_class(word);
-  if (found && *found != LandCoverClass::sky) return *found;
-  std::vector<std::string> known;
-  for (const LandCoverClassInfo& info : land_cover_classes())
-    if (info.id != LandCoverClass::sky) known.emplace_back(info.name);
-  LayersReader{where}.fail_unknown(value.position, "class", word, known);
+  if (const std::optional<LandCoverClass> found = find_ground_class(word)) return *found;
+  LayersReader{where}.fail_unknown(value.position, "class", word, ground_class_names());
 }
 
 const ConfigValue& LayersReader::required(const ConfigTable& table, std::string_view key,

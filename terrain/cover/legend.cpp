@@ -18,17 +18,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string class_names() {
-  std::string names;
-  for (const LandCoverClassInfo& info : land_cover_classes())
-    if (info.id != LandCoverClass::sky)
-      names += (names.empty() ? "" : ", ") + std::string(info.name);
-  return names;
-}
+std::string class_names() { return fmt::format("{}", fmt::join(ground_class_names(), ", ")); }
 
 LandCoverClass parse_class(const std::string& name, const std::string& where) {
-  const std::optional<LandCoverClass> found = find_class(name);
-  if (found && *found != LandCoverClass::sky) return *found;
+  if (const std::optional<LandCoverClass> found = find_ground_class(name)) return *found;
   throw Error(ErrorKind::usage, where, fmt::format("unknown class \"{}\"", name), class_names());
 }
 
@@ -83,10 +76,9 @@ int label_column(const CsvTable& table) {
 int required_column(const CsvTable& table, const std::string& column, const std::string& where) {
   const int found = table.find(column);
   if (found >= 0) return found;
-  const std::string near = nearest_word(column, table.columns);
   throw Error(ErrorKind::usage, where,
               fmt::format("{} has no column \"{}\"{}", table.name, column,
-                          near.empty() ? "" : "; did you mean \"" + near + "\"?"),
+                          nearest_word_hint(column, table.columns)),
               fmt::format("{}", fmt::join(table.columns, ", ")));
 }
 

@@ -359,10 +359,8 @@ class RuleCompiler {
 
   [[noreturn]] void fail_unknown(const Token& token, std::string_view what,
                                  const std::vector<std::string>& known) const {
-    const std::string near = nearest_word(token.text, known);
     fail(token.offset,
-         fmt::format("unknown {} \"{}\"{}", what, token.text,
-                     near.empty() ? "" : "; did you mean \"" + near + "\"?"),
+         fmt::format("unknown {} \"{}\"{}", what, token.text, nearest_word_hint(token.text, known)),
          fmt::format("{}", fmt::join(known, ", ")));
   }
 

@@ -130,10 +130,8 @@ NamedNumbers with_settings(NamedNumbers parameters, const NamedNumbers& settings
     }
     std::vector<std::string> known;
     for (const auto& p : parameters) known.push_back(p.first);
-    const std::string near = nearest_word(name, known);
     throw Error(ErrorKind::usage, "setting " + name,
-                fmt::format("unknown parameter of {}{}", whose,
-                            near.empty() ? "" : "; did you mean \"" + near + "\"?"),
+                fmt::format("unknown parameter of {}{}", whose, nearest_word_hint(name, known)),
                 known.empty() ? "none: the file has no parameters"
                               : fmt::format("{}", fmt::join(known, ", ")));
   }

@@ -90,11 +90,10 @@ void require_command(const CommandDescription& program, const std::vector<std::s
   if (word.empty())
     throw Error(ErrorKind::usage, "command line",
                 fmt::format("missing subcommand of {}", group->name), allowed);
-  const std::string near = nearest_word(word, names);
-  throw Error(ErrorKind::usage, "command line",
-              fmt::format("{} has no command \"{}\"{}", group->name, word,
-                          near.empty() ? "" : "; did you mean \"" + near + "\"?"),
-              allowed);
+  throw Error(
+      ErrorKind::usage, "command line",
+      fmt::format("{} has no command \"{}\"{}", group->name, word, nearest_word_hint(word, names)),
+      allowed);
 }
 
 }  // namespace
