@@ -435,9 +435,38 @@ const std::string& as_path(const ConfigValue& value, const std::string& name) {
     refuse_value(value, name, misread, backslash_advice());
   return path;
 }
+std::vector<std::string> as_strings(const ConfigValue& value, const std::string& name) {
+  std::vector<std::string> texts;
+  for (const ConfigValue& text : as_array(value, name)) texts.push_back(as_string(text, name));
+  return texts;
+}
+
 bool as_bool(const ConfigValue& value, const std::string& name) {
   return as<bool>(value, name, "true or false");
 }
+double as_number(const ConfigValue& value, const std::string& name, double min, double max) {
+  const double number = as_number(value, name);
+  if (!(number >= min && number <= max))
+    refuse_value(value, name, describe(value), fmt::format("{} … {}", min, max));
+  return number;
+}
+
+std::vector<double> as_numbers(const ConfigValue& value, const std::string& name, std::size_t count,
+                               double min, double max) {
+  const ConfigArray& array = as_array(value, name);
+  const auto refuse = [&](const ConfigValue& at) {
+    const std::string number = count == 2 ? "two" : count == 3 ? "three" : std::to_string(count);
+    refuse_value(at, name, describe(at), fmt::format("{} numbers, {} … {}", number, min, max));
+  };
+  if (array.size() != count) refuse(value);
+  std::vector<double> numbers;
+  for (const ConfigValue& each : array) {
+    numbers.push_back(as_number(each, name));
+    if (!(numbers.back() >= min && numbers.back() <= max)) refuse(each);
+  }
+  return numbers;
+}
+
 std::int64_t as_integer(const ConfigValue& value, const std::string& name) {
   return as<std::int64_t>(value, name, "a whole number");
 }
@@ -459,6 +488,13 @@ const ConfigValue* find(const ConfigTable& table, std::string_view key) {
   const auto entry =
       std::find_if(table.begin(), table.end(), [&](const ConfigEntry& e) { return e.key == key; });
   return entry == table.end() ? nullptr : &entry->value;
+}
+
+const ConfigValue& required(const ConfigValue& table, std::string_view key, const std::string& name,
+                            const std::string& allowed) {
+  const ConfigValue* value = find(as_table(table, name), key);
+  if (value == nullptr) refuse_value(table, name, fmt::format("\"{}\" is missing", key), allowed);
+  return *value;
 }
 
 void allow_only(const ConfigTable& table, const std::vector<std::string>& allowed,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -71,10 +72,18 @@ const std::string& as_string(const ConfigValue& value, const std::string& name);
 // becomes.
 const std::string& as_path(const ConfigValue& value, const std::string& name);
 double as_number(const ConfigValue& value, const std::string& name);
+double as_number(const ConfigValue& value, const std::string& name, double min, double max);
+// An array of so many.
+std::vector<double> as_numbers(const ConfigValue& value, const std::string& name, std::size_t count,
+                               double min, double max);
 std::int64_t as_integer(const ConfigValue& value, const std::string& name);
 bool as_bool(const ConfigValue& value, const std::string& name);
+std::vector<std::string> as_strings(const ConfigValue& value, const std::string& name);
 // The value of that key, or null.
 const ConfigValue* find(const ConfigTable& table, std::string_view key);
+// The value of that key of a table; Error(usage) with `allowed` if it is missing.
+const ConfigValue& required(const ConfigValue& table, std::string_view key, const std::string& name,
+                            const std::string& allowed);
 // Error(usage) for the first key that is not in `allowed`, with the closest known one.
 void allow_only(const ConfigTable& table, const std::vector<std::string>& allowed,
                 const std::string& name);

@@ -1,16 +1,38 @@
 #include "base/text/config_reader.h"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "base/error.h"
+#include "base/text/embedded.h"
 #include "base/text/hex_colour.h"
+#include "base/text/text_encoding.h"
 
 namespace belvedere {
 
-void ConfigReader::fail(const ConfigValue& value, const std::string& allowed) const {
-  throw Error(ErrorKind::usage, config_where(name_, value.position), describe(value), allowed);
+NamedConfig read_named_config(const std::string& folder, const std::string& name_or_path,
+                              const std::string& what) {
+  const std::vector<std::string> known = embedded_names(folder);
+  if (std::find(known.begin(), known.end(), name_or_path) != known.end()) {
+    const std::string name = folder + "/" + name_or_path + ".toml";
+    return {parse_config(embedded_file(name), name), name};
+  }
+  if (name_or_path.find('/') == std::string::npos && lower_extension(name_or_path) != ".toml")
+    throw Error(ErrorKind::usage, what,
+                fmt::format("unknown {} \"{}\"{}", what, name_or_path,
+                            nearest_word_hint(name_or_path, known)),
+                fmt::format("{}, or a .toml file", fmt::join(known, ", ")));
+  return {read_config(name_or_path), name_or_path};
+}
+
+glm::vec3 as_colour(const ConfigValue& value, const std::string& name) {
+  const std::optional<glm::vec3> colour = colour_of_hex(as_string(value, name));
+  if (!colour)
+    refuse_value(value, name, describe(value), "\"#rrggbb\" in encoded sRGB, such as \"#7aa3cc\"");
+  return *colour;
 }
 
 const ConfigValue* ConfigReader::known(const char* key) {
@@ -18,22 +40,11 @@ const ConfigValue* ConfigReader::known(const char* key) {
   return find(table_, key);
 }
 
-void ConfigReader::number(const char* key, double& to, double min, double max) {
-  const ConfigValue* value = known(key);
-  if (value == nullptr) return;
-  to = as_number(*value, name_);
-  if (!(to >= min && to <= max)) fail(*value, fmt::format("{:g} … {:g}", min, max));
-}
-
 void ConfigReader::pair(const char* key, glm::dvec2& to, double min, double max) {
   const ConfigValue* value = known(key);
   if (value == nullptr) return;
-  const ConfigArray& array = as_array(*value, name_);
-  const auto allowed = [&] { return fmt::format("two numbers, {:g} … {:g}", min, max); };
-  if (array.size() != 2) fail(*value, allowed());
-  to = {as_number(array[0], name_), as_number(array[1], name_)};
-  for (int i = 0; i < 2; ++i)
-    if (!(to[i] >= min && to[i] <= max)) fail(array[static_cast<std::size_t>(i)], allowed());
+  const std::vector<double> both = as_numbers(*value, name_, 2, min, max);
+  to = {both[0], both[1]};
 }
 
 void ConfigReader::flag(const char* key, bool& to) {
@@ -45,24 +56,18 @@ void ConfigReader::text(const char* key, std::string& to) {
 }
 
 void ConfigReader::texts(const char* key, std::vector<std::string>& to) {
-  const ConfigValue* value = known(key);
-  if (value == nullptr) return;
-  to.clear();
-  for (const ConfigValue& element : as_array(*value, name_))
-    to.push_back(as_string(element, name_));
+  if (const ConfigValue* value = known(key)) to = as_strings(*value, name_);
 }
 
 void ConfigReader::colour(const char* key, std::string& to) {
   const ConfigValue* value = known(key);
   if (value == nullptr) return;
+  as_colour(*value, name_);
   to = as_string(*value, name_);
-  if (!colour_of_hex(to)) fail(*value, "\"#rrggbb\"");
 }
 
 void ConfigReader::colour(const char* key, glm::vec3& to) {
-  std::string text;
-  colour(key, text);
-  if (!text.empty()) to = *colour_of_hex(text);
+  if (const ConfigValue* value = known(key)) to = as_colour(*value, name_);
 }
 
 }  // namespace belvedere

@@ -10,6 +10,19 @@
 
 namespace belvedere {
 
+// A document and its name for messages.
+struct NamedConfig {
+  ConfigValue root;
+  std::string name;
+};
+// The built-in document of that name in `folder`, or that of a .toml file. Error(usage) for `what`
+// ("palette") if it is neither.
+NamedConfig read_named_config(const std::string& folder, const std::string& name_or_path,
+                              const std::string& what);
+
+// "#rrggbb" as encoded sRGB 0…1.
+glm::vec3 as_colour(const ConfigValue& value, const std::string& name);
+
 // Reads values of one table into members, each with its range, so that a style file's keys take one
 // line each. All throw Error(usage) at the value's line and column.
 class ConfigReader {
@@ -19,14 +32,17 @@ class ConfigReader {
       : table_(as_table(value, name)), name_(name) {}
 
   // Each leaves `to` unchanged if the key is absent.
-  void number(const char* key, double& to, double min, double max);
+  template <class T>
+  void number(const char* key, T& to, double min, double max) {
+    if (const ConfigValue* value = known(key))
+      to = static_cast<T>(as_number(*value, name_, min, max));
+  }
   void pair(const char* key, glm::dvec2& to, double min, double max);
   void flag(const char* key, bool& to);
   void text(const char* key, std::string& to);
   void texts(const char* key, std::vector<std::string>& to);
-  // "#rrggbb" as encoded sRGB 0…1.
   void colour(const char* key, glm::vec3& to);
-  // The same as text.
+  // "#rrggbb" as text.
   void colour(const char* key, std::string& to);
   template <class T>
   void word(const char* key, T& to, const std::vector<std::pair<std::string, T>>& words) {
@@ -41,7 +57,7 @@ class ConfigReader {
       }
       all += (all.empty() ? "\"" : ", \"") + word + '"';
     }
-    fail(*value, all);
+    refuse_value(*value, name_, describe(*value), all);
   }
   // The value of a key, which is then known; null if it is absent.
   const ConfigValue* known(const char* key);
@@ -49,8 +65,6 @@ class ConfigReader {
   void end() const { allow_only(table_, keys_, name_); }
 
  private:
-  [[noreturn]] void fail(const ConfigValue& value, const std::string& allowed) const;
-
   const ConfigTable& table_;
   const std::string& name_;
   std::vector<std::string> keys_;

@@ -9,6 +9,7 @@
 #include "base/config.h"
 #include "base/error.h"
 #include "base/random.h"
+#include "base/text/config_reader.h"
 #include "base/text/embedded.h"
 #include "base/text/json.h"
 
@@ -19,26 +20,20 @@ constexpr int row_px = 64;               // rows of panels begin at multiples of
 constexpr double fine_panel_px = 240.0;  // smaller panels have coarser terrains
 constexpr double margin_mm = 2.0;        // of bare paper between two panels
 
-std::vector<std::string> read_texts(const ConfigValue& value, const std::string& name) {
-  std::vector<std::string> texts;
-  for (const ConfigValue& text : as_array(value, name)) texts.push_back(as_string(text, name));
-  return texts;
-}
-
 using Named = std::vector<std::pair<std::string, std::vector<std::string>>>;
 
 // [terrains] or [views]: named lists of settings.
-Named read_named(const ConfigTable& root, const char* key, const std::string& name) {
+Named read_named(const ConfigValue* table, const std::string& name) {
   Named named;
-  if (const ConfigValue* table = find(root, key))
+  if (table != nullptr)
     for (const ConfigEntry& entry : as_table(*table, name))
-      named.emplace_back(entry.key, read_texts(entry.value, name));
+      named.emplace_back(entry.key, as_strings(entry.value, name));
   return named;
 }
 
-void append_named(ExampleSheetPanel& panel, const ConfigTable& table, const char* key,
-                  const Named& named, const std::string& name) {
-  const ConfigValue* value = find(table, key);
+void append_named(ExampleSheetPanel& panel, ConfigReader& read, const char* key, const Named& named,
+                  const std::string& name) {
+  const ConfigValue* value = read.known(key);
   if (value == nullptr) return;
   const std::string& given = as_string(*value, name);
   const auto found =
@@ -50,17 +45,6 @@ void append_named(ExampleSheetPanel& panel, const ConfigTable& table, const char
   }
   panel.settings.insert(panel.settings.end(), found->second.begin(), found->second.end());
   panel.name += (panel.name.empty() ? "" : ", ") + given;
-}
-
-template <class T>
-void read_number(const ConfigTable& table, const char* key, double min, double max,
-                 const std::string& name, T& number) {
-  const ConfigValue* value = find(table, key);
-  if (value == nullptr) return;
-  const double found = as_number(*value, name);
-  if (!(found >= min && found <= max))
-    refuse_value(*value, name, fmt::format("{} = {}", key, found), fmt::format("{}…{}", min, max));
-  number = static_cast<T>(found);
 }
 
 std::string quoted_list(const std::vector<std::string>& texts) {
@@ -85,40 +69,34 @@ int column_left(const ExampleSheetPlan& plan, int column) {
 }
 
 ExampleSheetPlan build_plan(const ConfigValue& root, const std::string& name) {
-  const ConfigTable& table = as_table(root, name);
-  allow_only(table,
-             {"width", "height", "dots_per_inch", "palette", "seed", "light_from_deg", "columns",
-              "scene", "terrains", "views", "panels"},
-             name);
+  ConfigReader read(root, name);
   ExampleSheetPlan plan;
-  read_number(table, "width", 256, 16384, name, plan.width);
-  read_number(table, "height", 256, 16384, name, plan.height);
-  read_number(table, "dots_per_inch", 5, 2540, name, plan.dots_per_inch);
-  read_number(table, "seed", 0, static_cast<double>(ExampleSheetPlan::largest_seed), name,
-              plan.seed);
-  read_number(table, "light_from_deg", -360, 360, name, plan.light_from_deg);
-  read_number(table, "columns", 1, 16, name, plan.columns);
-  if (const ConfigValue* palette = find(table, "palette")) plan.palette = as_string(*palette, name);
-  const ConfigValue* scene = find(table, "scene");
-  plan.scene =
-      scene != nullptr ? as_string(*scene, name) : std::string(embedded_file("sheet/scene.toml"));
-  const Named terrains = read_named(table, "terrains", name);
-  const Named views = read_named(table, "views", name);
-  const ConfigValue* panels = find(table, "panels");
+  plan.scene = embedded_file("sheet/scene.toml");
+  read.number("width", plan.width, 256, 16384);
+  read.number("height", plan.height, 256, 16384);
+  read.number("dots_per_inch", plan.dots_per_inch, 5, 2540);
+  read.number("seed", plan.seed, 0, static_cast<double>(ExampleSheetPlan::largest_seed));
+  read.number("light_from_deg", plan.light_from_deg, -360, 360);
+  read.number("columns", plan.columns, 1, 16);
+  read.text("palette", plan.palette);
+  read.text("scene", plan.scene);
+  const Named terrains = read_named(read.known("terrains"), name);
+  const Named views = read_named(read.known("views"), name);
+  const ConfigValue* panels = read.known("panels");
+  read.end();
   if (panels == nullptr)
     refuse_value(root, name, "the panels are missing", "[[panels]], row by row");
   for (const ConfigValue& value : as_array(*panels, name)) {
-    const ConfigTable& one = as_table(value, name);
-    allow_only(one, {"name", "terrain", "view", "set", "set_in_winter"}, name);
+    ConfigReader each(value, name);
     ExampleSheetPanel panel;
-    append_named(panel, one, "terrain", terrains, name);
-    append_named(panel, one, "view", views, name);
-    if (const ConfigValue* own = find(one, "name")) panel.name = as_string(*own, name);
-    if (const ConfigValue* set = find(one, "set"))
-      for (std::string& setting : read_texts(*set, name))
-        panel.settings.push_back(std::move(setting));
-    if (const ConfigValue* set = find(one, "set_in_winter"))
-      panel.snow_settings = read_texts(*set, name);
+    append_named(panel, each, "terrain", terrains, name);
+    append_named(panel, each, "view", views, name);
+    each.text("name", panel.name);
+    std::vector<std::string> own;
+    each.texts("set", own);
+    panel.settings.insert(panel.settings.end(), own.begin(), own.end());
+    each.texts("set_in_winter", panel.snow_settings);
+    each.end();
     plan.panels.push_back(std::move(panel));
   }
   if (plan.panels.empty() || plan.panels.size() % static_cast<std::size_t>(plan.columns) != 0)

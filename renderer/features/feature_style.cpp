@@ -12,7 +12,6 @@
 #include "base/config.h"
 #include "base/error.h"
 #include "base/text/config_reader.h"
-#include "base/text/embedded.h"
 #include "base/text/text_encoding.h"
 
 namespace belvedere {
@@ -169,13 +168,8 @@ FeatureStyle parse_feature_style(const std::string& text, const std::string& nam
 }
 
 FeatureStyle load_feature_style(const std::string& name_or_file) {
-  if (name_or_file.ends_with(".toml")) return read_style(read_config(name_or_file), name_or_file);
-  const std::vector<std::string> names = embedded_names("features");
-  if (std::find(names.begin(), names.end(), name_or_file) == names.end())
-    throw Error(ErrorKind::usage, "feature style", '"' + name_or_file + '"',
-                fmt::format("\"{}\" or a .toml file", fmt::join(names, "\", \"")));
-  const std::string file = "features/" + name_or_file + ".toml";
-  return parse_feature_style(std::string(embedded_file(file)), file);
+  const NamedConfig read = read_named_config("features", name_or_file, "style of features");
+  return read_style(read.root, read.name);
 }
 
 namespace {

@@ -8,17 +8,10 @@
 #include "base/config.h"
 #include "base/error.h"
 #include "base/text/config_reader.h"
-#include "base/text/embedded.h"
 #include "base/text/text_encoding.h"
 
 namespace belvedere {
 namespace {
-
-void read_weight(ConfigReader& read, int& weight) {
-  double value = weight;
-  read.number("weight", value, 100.0, 900.0);
-  weight = static_cast<int>(value);
-}
 
 LabelKindStyle read_kind(const ConfigEntry& entry, const std::string& name) {
   LabelKindStyle kind;
@@ -33,7 +26,7 @@ LabelKindStyle read_kind(const ConfigEntry& entry, const std::string& name) {
   read.text("family", kind.family);
   read.number("size_mm", kind.size_mm, 0.5, 100.0);
   read.number("rank_step", kind.rank_step, 0.0, 0.2);
-  read_weight(read, kind.weight);
+  read.number("weight", kind.weight, 100.0, 900.0);
   read.flag("italic", kind.italic);
   read.flag("capitals", kind.capitals);
   read.number("spacing", kind.spacing, 0.0, 2.0);
@@ -75,7 +68,7 @@ AltitudeStyle read_altitude(const ConfigValue& value, const std::string& name) {
   ConfigReader read(value, name);
   read.text("family", altitude.family);
   read.number("size", altitude.size, 0.3, 1.0);
-  read_weight(read, altitude.weight);
+  read.number("weight", altitude.weight, 100.0, 900.0);
   read.colour("colour", altitude.colour);
   read.end();
   return altitude;
@@ -145,16 +138,8 @@ LabelStyle parse_label_style(const std::string& text, const std::string& name) {
 }
 
 LabelStyle load_label_style(const std::string& name_or_file) {
-  if (name_or_file.ends_with(".toml")) return read_style(read_config(name_or_file), name_or_file);
-  const std::vector<std::string> names = embedded_names("labels");
-  if (std::find(names.begin(), names.end(), name_or_file) == names.end()) {
-    std::string all;
-    for (const std::string& name : names) all += '"' + name + "\", ";
-    throw Error(ErrorKind::usage, "the style of names", '"' + name_or_file + '"',
-                all + "or a .toml file");
-  }
-  const std::string file = "labels/" + name_or_file + ".toml";
-  return parse_label_style(std::string(embedded_file(file)), file);
+  const NamedConfig read = read_named_config("labels", name_or_file, "style of names");
+  return read_style(read.root, read.name);
 }
 
 }  // namespace belvedere

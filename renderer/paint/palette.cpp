@@ -1,67 +1,26 @@
 #include "renderer/paint/palette.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
-#include <optional>
 
 #include "base/config.h"
 #include "base/error.h"
+#include "base/text/config_reader.h"
 #include "base/text/embedded.h"
 
 namespace belvedere {
 namespace {
 
-[[noreturn]] void fail(const ConfigValue& value, const std::string& name, std::string found,
-                       std::string allowed) {
-  throw Error(ErrorKind::usage, config_where(name, value.position), std::move(found),
-              std::move(allowed));
-}
-
-const ConfigValue& require(const ConfigTable& table, const char* key, const ConfigValue& parent,
-                           const std::string& name) {
-  const ConfigValue* value = find(table, key);
-  if (value == nullptr)
-    fail(parent, name, std::string("the key \"") + key + "\" is missing", "every palette needs it");
-  return *value;
-}
-
-// "#rrggbb"
-glm::vec3 read_colour(const ConfigValue& value, const std::string& name) {
-  const std::string& text = as_string(value, name);
-  const auto digit = [&](char c) -> int {
-    if (c >= '0' && c <= '9') return c - '0';
-    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-    return -1;
-  };
-  const bool right =
-      text.size() == 7 && text[0] == '#' &&
-      std::all_of(text.begin() + 1, text.end(), [&](char c) { return digit(c) >= 0; });
-  if (!right)
-    fail(value, name, "the colour " + describe(value),
-         "\"#rrggbb\" in encoded sRGB, such as \"#7aa3cc\"");
-  glm::vec3 colour(0.0F);
-  for (int k = 0; k < 3; ++k)
-    colour[k] = static_cast<float>(digit(text[1 + 2 * k]) * 16 + digit(text[2 + 2 * k])) / 255.0F;
-  return colour;
-}
-
 ToneRamp read_ramp(const ConfigValue& value, const std::string& name) {
   const ConfigArray& array = as_array(value, name);
   if (array.size() != ramp_tones.size())
-    fail(value, name, "a ramp of " + std::to_string(array.size()) + " colours",
-         "four: at tone 0, 0.34, 0.66 and 1");
+    refuse_value(value, name, "a ramp of " + std::to_string(array.size()) + " colours",
+                 "four: at tone 0, 0.34, 0.66 and 1");
   ToneRamp ramp{};
-  for (std::size_t i = 0; i < ramp.size(); ++i) ramp[i] = read_colour(array[i], name);
+  for (std::size_t i = 0; i < ramp.size(); ++i) ramp[i] = as_colour(array[i], name);
   return ramp;
-}
-
-double read_number(const ConfigValue& value, const std::string& name, double min, double max,
-                   const char* meaning) {
-  const double number = as_number(value, name);
-  if (!(number >= min && number <= max))
-    fail(value, name, describe(value),
-         std::string(meaning) + ", " + std::to_string(min) + " … " + std::to_string(max));
-  return number;
 }
 
 // Either one ramp for all altitudes, or an array of { altitude_m, ramp } in ascending order.
@@ -73,13 +32,12 @@ ClassPalette read_class(const ConfigValue& value, const std::string& name) {
     return palette;
   }
   for (const ConfigValue& entry : array) {
-    const ConfigTable& table = as_table(entry, name);
-    allow_only(table, {"altitude_m", "ramp"}, name);
-    const ConfigValue& altitude = require(table, "altitude_m", entry, name);
-    const double altitude_m = read_number(altitude, name, -500.0, 9000.0, "an altitude in metres");
+    allow_only(as_table(entry, name), {"altitude_m", "ramp"}, name);
+    const ConfigValue& altitude = required(entry, "altitude_m", name, "an altitude in metres");
+    const double altitude_m = as_number(altitude, name, -500.0, 9000.0);
     if (!palette.stops.empty() && altitude_m <= palette.stops.back().altitude_m)
-      fail(altitude, name, describe(altitude), "an altitude above the one before it");
-    palette.stops.push_back({altitude_m, read_ramp(require(table, "ramp", entry, name), name)});
+      refuse_value(altitude, name, describe(altitude), "an altitude above the one before it");
+    palette.stops.push_back({altitude_m, read_ramp(required(entry, "ramp", name, "a ramp"), name)});
   }
   return palette;
 }
@@ -98,79 +56,66 @@ void read_classes(const ConfigValue& value, const std::string& name, Palette& pa
     missing += (missing.empty() ? "" : ", ") + std::string(info.name);
   }
   if (!missing.empty())
-    fail(value, name, "no colours for " + missing,
-         "a ramp for every class, or based_on = \"summer\"");
+    refuse_value(value, name, "no colours for " + missing,
+                 "a ramp for every class, or based_on = \"summer\"");
 }
 
 void read_sky(const ConfigValue& value, const std::string& name, Palette& palette) {
-  const ConfigTable& table = as_table(value, name);
-  allow_only(table, {"gradient", "cloud_light", "cloud_shade"}, name);
-  if (const ConfigValue* gradient = find(table, "gradient")) {
+  ConfigReader read(value, name);
+  if (const ConfigValue* gradient = read.known("gradient")) {
     palette.sky.clear();
     for (const ConfigValue& entry : as_array(*gradient, name)) {
-      const ConfigTable& stop = as_table(entry, name);
-      allow_only(stop, {"at", "colour"}, name);
-      const ConfigValue& at = require(stop, "at", entry, name);
-      const double position =
-          read_number(at, name, 0.0, 1.0, "from the top of the picture to the horizon");
+      allow_only(as_table(entry, name), {"at", "colour"}, name);
+      const ConfigValue& at =
+          required(entry, "at", name, "from 0, the top of the picture, to 1, the horizon");
+      const double position = as_number(at, name, 0.0, 1.0);
       if (!palette.sky.empty() && position <= palette.sky.back().first)
-        fail(at, name, describe(at), "a position below the one before it");
-      palette.sky.emplace_back(position, read_colour(require(stop, "colour", entry, name), name));
+        refuse_value(at, name, describe(at), "a position below the one before it");
+      palette.sky.emplace_back(position,
+                               as_colour(required(entry, "colour", name, "\"#rrggbb\""), name));
     }
     if (palette.sky.empty())
-      fail(*gradient, name, "an empty gradient", "at least one { at, colour }");
+      refuse_value(*gradient, name, "an empty gradient", "at least one { at, colour }");
   }
-  if (const ConfigValue* colour = find(table, "cloud_light"))
-    palette.cloud_light = read_colour(*colour, name);
-  if (const ConfigValue* colour = find(table, "cloud_shade"))
-    palette.cloud_shade = read_colour(*colour, name);
+  read.colour("cloud_light", palette.cloud_light);
+  read.colour("cloud_shade", palette.cloud_shade);
+  read.end();
 }
 
 void read_air(const ConfigValue& value, const std::string& name, Palette& palette) {
-  const ConfigTable& table = as_table(value, name);
-  allow_only(table, {"near", "far", "between_ranges"}, name);
-  if (const ConfigValue* colour = find(table, "near"))
-    palette.haze_near = read_colour(*colour, name);
-  if (const ConfigValue* colour = find(table, "far")) palette.haze_far = read_colour(*colour, name);
-  if (const ConfigValue* colour = find(table, "between_ranges"))
-    palette.range_mist = read_colour(*colour, name);
+  ConfigReader read(value, name);
+  read.colour("near", palette.haze_near);
+  read.colour("far", palette.haze_far);
+  read.colour("between_ranges", palette.range_mist);
+  read.end();
 }
 
 void read_strength(const ConfigValue& value, const std::string& name, Palette& palette) {
-  const ConfigTable& table = as_table(value, name);
-  allow_only(table, {"haze", "warm_near", "ground_drift", "forest_drift", "rock_drift"}, name);
-  const auto read = [&](const char* key, double& share) {
-    if (const ConfigValue* number = find(table, key))
-      share = read_number(*number, name, 0.0, 2.0, "a share");
-  };
-  read("haze", palette.haze_share);
-  read("warm_near", palette.warm_share);
-  read("ground_drift", palette.ground_drift_share);
-  read("forest_drift", palette.forest_drift_share);
-  read("rock_drift", palette.rock_drift_share);
+  ConfigReader read(value, name);
+  read.number("haze", palette.haze_share, 0.0, 2.0);
+  read.number("warm_near", palette.warm_share, 0.0, 2.0);
+  read.number("ground_drift", palette.ground_drift_share, 0.0, 2.0);
+  read.number("forest_drift", palette.forest_drift_share, 0.0, 2.0);
+  read.number("rock_drift", palette.rock_drift_share, 0.0, 2.0);
+  read.end();
 }
 
 void read_growth(const ConfigValue& value, const std::string& name, GrowthColours& growth) {
-  const ConfigTable& table = as_table(value, name);
-  allow_only(table, {"leaves", "leaf_share", "larch", "larch_share"}, name);
-  if (const ConfigValue* leaves = find(table, "leaves")) {
+  ConfigReader read(value, name);
+  if (const ConfigValue* leaves = read.known("leaves")) {
     growth.leaves.clear();
     for (const ConfigValue& colour : as_array(*leaves, name))
-      growth.leaves.push_back(read_colour(colour, name));
+      growth.leaves.push_back(as_colour(colour, name));
   }
-  if (const ConfigValue* share = find(table, "leaf_share"))
-    growth.leaf_share = read_number(*share, name, 0.0, 1.0, "a share");
-  if (const ConfigValue* colour = find(table, "larch")) growth.larch = read_colour(*colour, name);
-  if (const ConfigValue* share = find(table, "larch_share"))
-    growth.larch_share = read_number(*share, name, 0.0, 1.0, "a share");
+  read.number("leaf_share", growth.leaf_share, 0.0, 1.0);
+  read.colour("larch", growth.larch);
+  read.number("larch_share", growth.larch_share, 0.0, 1.0);
+  read.end();
 }
 
-bool is_built_in(const std::string& name) {
-  const std::vector<std::string> names = embedded_names("palettes");
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
+}  // namespace
 
-Palette build_palette(const ConfigValue& root, const std::string& name) {
+Palette parse_palette(const ConfigValue& root, const std::string& name) {
   const ConfigTable& table = as_table(root, name);
   allow_only(table, palette_keys(), name);
   Palette palette;
@@ -179,12 +124,9 @@ Palette build_palette(const ConfigValue& root, const std::string& name) {
     // Only built-in palettes: files that refer to files could form a cycle.
     const std::string& given = as_string(*base, name);
     const std::vector<std::string> names = embedded_names("palettes");
-    std::string allowed = "a built-in palette:";
-    for (const std::string& each : names) allowed += " " + each;
-    const std::string near = nearest_word(given, names);
-    if (!is_built_in(given))
-      fail(*base, name, "the palette \"" + given + "\"",
-           allowed + (near.empty() ? "" : "; nearest is " + near));
+    if (std::find(names.begin(), names.end(), given) == names.end())
+      refuse_value(*base, name, "the palette \"" + given + "\"" + nearest_word_hint(given, names),
+                   fmt::format("a built-in palette: {}", fmt::join(names, ", ")));
     palette = read_palette(given);
   }
   if (const ConfigValue* value = find(table, "name")) palette.name = as_string(*value, name);
@@ -192,19 +134,21 @@ Palette build_palette(const ConfigValue& root, const std::string& name) {
   if (const ConfigValue* value = find(table, "winter")) palette.winter = as_bool(*value, name);
   const auto section = [&](const char* key, auto read) {
     const ConfigValue* value =
-        base == nullptr ? &require(table, key, root, name) : find(table, key);
+        base == nullptr ? &required(root, key, name, "a table of every palette") : find(table, key);
     if (value != nullptr) read(*value, name, palette);
   };
   section("classes", read_classes);
   section("sky", read_sky);
   if (palette.sky.empty())
-    fail(*find(table, "sky"), name, "a sky without a gradient",
-         "gradient = [{ at = 0.0, colour = \"#5b8abb\" }, …]");
+    refuse_value(*find(table, "sky"), name, "a sky without a gradient",
+                 "gradient = [{ at = 0.0, colour = \"#5b8abb\" }, …]");
   section("air", read_air);
   if (const ConfigValue* value = find(table, "growth")) read_growth(*value, name, palette.growth);
   if (const ConfigValue* value = find(table, "strength")) read_strength(*value, name, palette);
   return palette;
 }
+
+namespace {
 
 glm::vec3 ramp_colour(const ToneRamp& ramp, double tone) {
   const double t = std::clamp(tone, 0.0, 1.0);
@@ -222,26 +166,13 @@ const std::vector<std::string>& palette_keys() {
   return keys;
 }
 
-Palette parse_palette(const ConfigValue& root, const std::string& name) {
-  return build_palette(root, name);
-}
-
 Palette parse_palette(std::string_view text, const std::string& name) {
-  return build_palette(parse_config(text, name), name);
+  return parse_palette(parse_config(text, name), name);
 }
 
 Palette read_palette(const std::string& name_or_path) {
-  if (is_built_in(name_or_path)) {
-    const std::string file = "palettes/" + name_or_path + ".toml";
-    return parse_palette(embedded_file(file), file);
-  }
-  if (name_or_path.find('/') == std::string::npos && !name_or_path.ends_with(".toml")) {
-    const std::vector<std::string> names = embedded_names("palettes");
-    std::string allowed = "a .toml file or one of:";
-    for (const std::string& each : names) allowed += " " + each;
-    throw Error(ErrorKind::usage, "palette", "\"" + name_or_path + "\"", allowed);
-  }
-  return build_palette(read_config(name_or_path), name_or_path);
+  const NamedConfig read = read_named_config("palettes", name_or_path, "palette");
+  return parse_palette(read.root, read.name);
 }
 
 glm::vec3 palette_colour(const Palette& palette, LandCoverClass id, double altitude_m,

@@ -203,65 +203,51 @@ constexpr const char* head =
     "verify` renders again and compares;\n"
     "# `belvedere lock --update` rewrites this file.\n";
 
-const ConfigValue& need(const ConfigTable& table, std::string_view key, const std::string& name) {
-  const ConfigValue* value = find(table, key);
-  if (value == nullptr)
-    throw Error(ErrorKind::input, name, fmt::format("{} is missing", key),
-                "a lock written by belvedere lock");
-  return *value;
+const ConfigValue& value_at(const ConfigValue& table, const char* key, const std::string& name) {
+  return required(table, key, name, "a lock written by belvedere lock");
 }
 
-std::string text_at(const ConfigTable& table, std::string_view key, const std::string& name) {
-  return as_string(need(table, key, name), name);
+std::string text_at(const ConfigValue& table, const char* key, const std::string& name) {
+  return as_string(value_at(table, key, name), name);
 }
 
-int pixels_at(const ConfigTable& table, std::string_view key, const std::string& name) {
-  constexpr std::int64_t max = 1 << 20;
-  const std::int64_t value = as_integer(need(table, key, name), name);
-  if (value < 1 || value > max)
-    throw Error(ErrorKind::input, name, fmt::format("{} is {}", key, value),
-                fmt::format("1 … {} px", max));
-  return static_cast<int>(value);
+int pixels_at(const ConfigValue& table, const char* key, const std::string& name) {
+  return static_cast<int>(as_number(value_at(table, key, name), name, 1.0, 1 << 20));
 }
 
 LockedInput parse_input(const ConfigValue& value, const std::string& name) {
   const ConfigTable& table = as_table(value, name);
   allow_only(table, {"file", "absent", "bytes", "hash"}, name);
-  LockedInput input{.file = text_at(table, "file", name), .absent = false, .bytes = 0, .hash = {}};
-  if (const ConfigValue* absent = find(table, "absent");
-      absent != nullptr && as_bool(*absent, name)) {
-    input.absent = true;
-    return input;
-  }
-  input.bytes = static_cast<std::uint64_t>(as_integer(need(table, "bytes", name), name));
-  input.hash = text_at(table, "hash", name);
+  LockedInput input{.file = text_at(value, "file", name), .absent = false, .bytes = 0, .hash = {}};
+  if (const ConfigValue* absent = find(table, "absent")) input.absent = as_bool(*absent, name);
+  if (input.absent) return input;
+  input.bytes = static_cast<std::uint64_t>(as_integer(value_at(value, "bytes", name), name));
+  input.hash = text_at(value, "hash", name);
   return input;
 }
 
 SceneLock parse_strictly(const std::string& text, const std::string& name) {
   const ConfigValue root = parse_config(text, name);
-  const ConfigTable& table = as_table(root, name);
   // A later format has other keys, so this is reported first.
-  if (const std::int64_t version = as_integer(need(table, "version", name), name);
+  if (const std::int64_t version = as_integer(value_at(root, "version", name), name);
       version != lock_format)
     throw Error(ErrorKind::input, name, fmt::format("is a lock of format {}", version),
                 fmt::format("format {}", lock_format));
+  const ConfigTable& table = as_table(root, name);
   allow_only(table,
              {"version", "program", "scene", "width", "height", "settings", "inputs", "products"},
              name);
-  SceneLock lock{.program = text_at(table, "program", name),
-                 .scene = text_at(table, "scene", name),
-                 .width = pixels_at(table, "width", name),
-                 .height = pixels_at(table, "height", name),
-                 .settings = {},
+  SceneLock lock{.program = text_at(root, "program", name),
+                 .scene = text_at(root, "scene", name),
+                 .width = pixels_at(root, "width", name),
+                 .height = pixels_at(root, "height", name),
+                 .settings = as_strings(value_at(root, "settings", name), name),
                  .inputs = {},
                  .products = {}};
-  for (const ConfigValue& setting : as_array(need(table, "settings", name), name))
-    lock.settings.push_back(as_string(setting, name));
   if (const ConfigValue* inputs = find(table, "inputs"))
     for (const ConfigValue& input : as_array(*inputs, name))
       lock.inputs.push_back(parse_input(input, name));
-  for (const ConfigEntry& product : as_table(need(table, "products", name), name)) {
+  for (const ConfigEntry& product : as_table(value_at(root, "products", name), name)) {
     LockedProduct& out = lock.products.emplace_back();
     out.file = product.key;
     for (const ConfigEntry& channel : as_table(product.value, name))

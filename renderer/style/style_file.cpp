@@ -9,7 +9,6 @@
 #include "base/config.h"
 #include "base/error.h"
 #include "base/text/config_reader.h"
-#include "base/text/embedded.h"
 #include "base/text/hex_colour.h"
 #include "renderer/image/srgb.h"
 
@@ -23,26 +22,12 @@ constexpr int max_sky_side = 32;
 const std::array<const char*, 3> third_keys = {"dark", "middle", "light"};
 
 glm::vec3 three_numbers(const ConfigValue& value, const std::string& name, double min, double max) {
-  const ConfigArray& array = as_array(value, name);
-  const auto refuse = [&](const ConfigValue& at) {
-    refuse_value(at, name, describe(at), fmt::format("three numbers, {:g} … {:g}", min, max));
-  };
-  if (array.size() != 3) refuse(value);
-  glm::vec3 out(0.0F);
-  for (std::size_t c = 0; c < 3; ++c) {
-    const double number = as_number(array[c], name);
-    if (!(number >= min && number <= max)) refuse(array[c]);
-    out[static_cast<int>(c)] = static_cast<float>(number);
-  }
-  return out;
+  const std::vector<double> numbers = as_numbers(value, name, 3, min, max);
+  return {numbers[0], numbers[1], numbers[2]};
 }
 
-// "#rrggbb", as OKLab.
 glm::vec3 lab_colour(const ConfigValue& value, const std::string& name) {
-  const std::optional<glm::vec3> colour = colour_of_hex(as_string(value, name));
-  if (!colour)
-    refuse_value(value, name, describe(value), "\"#rrggbb\" in encoded sRGB, such as \"#7aa3cc\"");
-  return glm::vec3(to_oklab(*colour));
+  return glm::vec3(to_oklab(as_colour(value, name)));
 }
 
 template <class Read>
@@ -203,11 +188,6 @@ Style build_style(const ConfigValue& root, const std::string& name) {
   return style;
 }
 
-bool is_built_in_style(const std::string& name) {
-  const std::vector<std::string> names = embedded_names("styles");
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
 }  // namespace
 
 Style parse_style(std::string_view text, const std::string& name) {
@@ -215,16 +195,8 @@ Style parse_style(std::string_view text, const std::string& name) {
 }
 
 Style read_style(const std::string& name_or_path) {
-  if (is_built_in_style(name_or_path)) {
-    const std::string file = "styles/" + name_or_path + ".toml";
-    return parse_style(embedded_file(file), file);
-  }
-  if (name_or_path.find('/') == std::string::npos && !name_or_path.ends_with(".toml")) {
-    std::string allowed = "a .toml file or one of:";
-    for (const std::string& each : embedded_names("styles")) allowed += " " + each;
-    throw Error(ErrorKind::usage, "style", "\"" + name_or_path + "\"", allowed);
-  }
-  return build_style(read_config(name_or_path), name_or_path);
+  const NamedConfig read = read_named_config("styles", name_or_path, "style");
+  return build_style(read.root, read.name);
 }
 
 namespace {

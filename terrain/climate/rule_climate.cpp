@@ -142,14 +142,6 @@ void fill_climate_row(const RuleClimate& climate, ClimateVariable variable,
                    altitude_m, out);
 }
 
-double ClimateRow::number(std::size_t column, double low, double high) const {
-  const double found = as_number(values_[column], name_);
-  if (!(found >= low && found <= high))
-    throw Error(ErrorKind::usage, config_where(name_, values_[column].position),
-                describe(values_[column]), fmt::format("{} to {}", low, high));
-  return found;
-}
-
 void for_each_row(const std::string& text, const std::string& name, const ClimateTable& table,
                   FunctionRef<void(const ClimateRow&)> use) {
   const ConfigValue document = parse_config(text, name);

@@ -78,7 +78,9 @@ void fill_climate_row(const RuleClimate& climate, ClimateVariable variable,
 class ClimateRow {
  public:
   ClimateRow(const ConfigArray& values, const std::string& name) : values_(values), name_(name) {}
-  double number(std::size_t column, double low, double high) const;
+  double number(std::size_t column, double min, double max) const {
+    return as_number(values_[column], name_, min, max);
+  }
   std::string text(std::size_t column) const { return as_string(values_[column], name_); }
 
  private:

@@ -420,16 +420,10 @@ void LayersReader::fail_unknown(ConfigPosition position, const std::string& what
        fmt::format("{}", fmt::join(known, ", ")));
 }
 
-double LayersReader::number(const ConfigValue& value) const {
-  const double read = as_number(value, where);
-  if (!std::isfinite(read)) fail(value.position, describe(value), "a finite number");
-  return read;
-}
-
 double LayersReader::number_or(const ConfigTable& table, std::string_view key,
                                double otherwise) const {
   const ConfigValue* value = find(table, key);
-  return value == nullptr ? otherwise : number(*value);
+  return value == nullptr ? otherwise : as_number(*value, where);
 }
 
 std::string LayersReader::text_or(const ConfigTable& table, std::string_view key,
@@ -440,7 +434,7 @@ std::string LayersReader::text_or(const ConfigTable& table, std::string_view key
 
 std::string LayersReader::expression(const ConfigValue& value) const {
   const std::string& text = as_string(value, where);
-  if (text.empty()) fail(value.position, "empty expression", "an expression");
+  if (text.empty()) refuse_value(value, where, "empty expression", "an expression");
   return text;
 }
 
@@ -450,23 +444,15 @@ LandCoverClass as_ground_class(const ConfigValue& value, const std::string& wher
   LayersReader{where}.fail_unknown(value.position, "class", word, ground_class_names());
 }
 
-const ConfigValue& LayersReader::required(const ConfigTable& table, std::string_view key,
-                                          ConfigPosition position, const std::string& of) const {
-  const ConfigValue* value = find(table, key);
-  if (value == nullptr) fail(position, fmt::format("{} without {}", of, key), std::string(key));
-  return *value;
-}
-
 LayersDocument read_layers_document(const LayersReader& reader, const ConfigValue& document,
                                     const std::vector<std::string>& own_keys) {
   const ConfigTable& root = as_table(document, reader.where);
   std::vector<std::string> keys = {"version", "name", "parameters", "terms", "layers"};
   keys.insert(keys.end(), own_keys.begin(), own_keys.end());
   allow_only(root, keys, reader.where);
-  const ConfigValue* version = find(root, "version");
-  if (version == nullptr || as_integer(*version, reader.where) != 1)
-    reader.fail(version == nullptr ? ConfigPosition{} : version->position,
-                version == nullptr ? "no version" : describe(*version), "version = 1");
+  const ConfigValue& version = required(document, "version", reader.where, "version = 1");
+  if (as_integer(version, reader.where) != 1)
+    refuse_value(version, reader.where, describe(version), "version = 1");
 
   LayersDocument read;
   read.name = reader.text_or(root, "name", "");
@@ -474,7 +460,7 @@ LayersDocument read_layers_document(const LayersReader& reader, const ConfigValu
   if (const ConfigValue* parameters = find(root, "parameters"))
     for (const ConfigEntry& entry : as_table(*parameters, reader.where)) {
       take_name(reader, entry, taken);
-      read.parameters.emplace_back(entry.key, reader.number(entry.value));
+      read.parameters.emplace_back(entry.key, as_number(entry.value, reader.where));
     }
   if (const ConfigValue* terms = find(root, "terms"))
     for (const ConfigEntry& entry : as_table(*terms, reader.where)) {
@@ -486,9 +472,7 @@ LayersDocument read_layers_document(const LayersReader& reader, const ConfigValu
 }
 
 const ConfigArray& layers_of(const LayersReader& reader, const ConfigValue& document) {
-  const ConfigValue* layers = find(as_table(document, reader.where), "layers");
-  if (layers == nullptr) reader.fail({}, "no layers", "[[layers]]");
-  return as_array(*layers, reader.where);
+  return as_array(required(document, "layers", reader.where, "[[layers]]"), reader.where);
 }
 
 }  // namespace belvedere

@@ -72,13 +72,10 @@ struct LayersReader {
                                  const std::string& word,
                                  const std::vector<std::string>& known) const;
 
-  double number(const ConfigValue& value) const;  // finite
   double number_or(const ConfigTable& table, std::string_view key, double otherwise) const;
   std::string text_or(const ConfigTable& table, std::string_view key,
                       const std::string& otherwise) const;
   std::string expression(const ConfigValue& value) const;  // not empty
-  const ConfigValue& required(const ConfigTable& table, std::string_view key,
-                              ConfigPosition position, const std::string& of) const;
 };
 
 // A class of the ground by its name, except the sky.

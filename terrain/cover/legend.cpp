@@ -7,7 +7,7 @@
 
 #include "base/config.h"
 #include "base/error.h"
-#include "base/text/embedded.h"
+#include "base/text/config_reader.h"
 #include "base/text/missing_file.h"
 #include "base/text/text_encoding.h"
 #include "terrain/cover/land_cover.h"
@@ -273,23 +273,11 @@ Legend legend_from_toml(const ConfigValue& value, const std::string& name,
 }  // namespace
 
 Legend read_legend(const std::string& name_or_path, const std::vector<std::string>& folders) {
-  const std::string extension = lower_extension(name_or_path);
-  if (extension == ".csv") return legend_from_csv(name_or_path);
-  if (extension == ".toml") {
-    std::vector<std::string> positions = {fs::path(name_or_path).parent_path().string()};
-    positions.insert(positions.end(), folders.begin(), folders.end());
-    return legend_from_toml(read_config(name_or_path), name_or_path, positions);
-  }
-  const std::vector<std::string> built_in = embedded_names("legends");
-  if (std::find(built_in.begin(), built_in.end(), name_or_path) == built_in.end()) {
-    const std::string near = nearest_word(name_or_path, built_in);
-    throw Error(ErrorKind::usage, "legend",
-                fmt::format("unknown legend \"{}\"{}", name_or_path,
-                            near.empty() ? "" : "; did you mean \"" + near + "\"?"),
-                fmt::format("{}, or a .toml or .csv file", fmt::join(built_in, ", ")));
-  }
-  const std::string name = "legends/" + name_or_path + ".toml";
-  return legend_from_toml(parse_config(embedded_file(name), name), name, {});
+  if (lower_extension(name_or_path) == ".csv") return legend_from_csv(name_or_path);
+  const NamedConfig read = read_named_config("legends", name_or_path, "legend");
+  std::vector<std::string> positions = {fs::path(name_or_path).parent_path().string()};
+  positions.insert(positions.end(), folders.begin(), folders.end());
+  return legend_from_toml(read.root, read.name, positions);
 }
 
 }  // namespace belvedere

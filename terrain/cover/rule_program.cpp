@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
-#include "base/text/embedded.h"
+#include "base/text/config_reader.h"
 #include "terrain/cover/class_rules_inputs.h"
 #include "terrain/cover/ground_variables.h"
 #include "terrain/cover/layer_inputs.h"
@@ -139,15 +139,7 @@ NamedNumbers with_settings(NamedNumbers parameters, const NamedNumbers& settings
 }
 
 ClassRules read_class_rules(const std::string& name_or_path) {
-  const std::vector<std::string> built_in = embedded_names("layers");
-  const bool is_file = name_or_path.ends_with(".toml");
-  if (!is_file && std::find(built_in.begin(), built_in.end(), name_or_path) == built_in.end())
-    throw Error(ErrorKind::usage, name_or_path, "unknown class rules",
-                fmt::format("{}, or a .toml file", fmt::join(built_in, ", ")));
-  const std::string where = is_file ? name_or_path : "layers/" + name_or_path + ".toml";
-  const ConfigValue document =
-      is_file ? read_config(name_or_path) : parse_config(embedded_file(where), where);
-
+  const auto [document, where] = read_named_config("layers", name_or_path, "class rules");
   ClassRules rules;
   RulePlaces positions;
   const LayersReader reader{where};
@@ -162,11 +154,10 @@ ClassRules read_class_rules(const std::string& name_or_path) {
         reader.fail(entry.key_position, "towns are not parameters of rules: " + entry.key,
                     "towns of the scene, with name, position and radius");
   for (const ConfigValue& value : layers_of(reader, document)) {
-    const ConfigTable& layer = as_table(value, where);
-    allow_only(layer, {"name", "class", "when"}, where);
+    allow_only(as_table(value, where), {"name", "class", "when"}, where);
     const LandCoverClass painted_as =
-        as_ground_class(reader.required(layer, "class", value.position, "a layer"), where);
-    const ConfigValue& when = reader.required(layer, "when", value.position, "a layer");
+        as_ground_class(required(value, "class", where, "a class of the ground"), where);
+    const ConfigValue& when = required(value, "when", where, "when = \"a condition\"");
     rules.layers.push_back({painted_as, reader.expression(when)});
     positions.conditions.push_back(when.position);
   }

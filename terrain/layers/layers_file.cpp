@@ -11,7 +11,7 @@
 
 #include "base/config.h"
 #include "base/error.h"
-#include "base/text/hex_colour.h"
+#include "base/text/config_reader.h"
 #include "base/text/text_encoding.h"
 #include "terrain/cover/ground_variables.h"
 #include "terrain/cover/layer_inputs.h"
@@ -35,18 +35,19 @@ std::optional<std::vector<std::uint8_t>> from_base64(std::string_view text) {
 struct Reader : LayersReader {
   std::uint32_t colour(const ConfigValue& value) const {
     const std::string& text = as_string(value, where);
-    if (!colour_of_hex(text)) fail(value.position, describe(value), "a colour as \"#rrggbb\"");
+    as_colour(value, where);
     return static_cast<std::uint32_t>(std::stoul(text.substr(1), nullptr, 16));
   }
 
   LayerInput input(const ConfigValue& value) const {
-    const ConfigTable& table = as_table(value, where);
-    allow_only(table, {"name", "low", "high"}, where);
-    const ConfigValue& name = required(table, "name", value.position, "an input");
+    allow_only(as_table(value, where), {"name", "low", "high"}, where);
+    const auto get = [&](const char* key) -> const ConfigValue& {
+      return required(value, key, where, "an input's name, low and high");
+    };
+    const ConfigValue& name = get("name");
     require_layer_input(as_string(name, where), config_where(where, name.position));
-    LayerInput read{as_string(name, where),
-                    number(required(table, "low", value.position, "an input")),
-                    number(required(table, "high", value.position, "an input"))};
+    LayerInput read{as_string(name, where), as_number(get("low"), where),
+                    as_number(get("high"), where)};
     if (!(read.low < read.high))
       fail(value.position, fmt::format("{} from {} to {}", read.name, read.low, read.high),
            "low < high");
@@ -122,7 +123,7 @@ ReadLayer read_layer(const Reader& reader, const ConfigValue& value, const Surfa
   ReadLayer read;
   read.position = value.position;
   read.layer.name =
-      as_string(reader.required(table, "name", value.position, "a layer"), reader.where);
+      as_string(required(value, "name", reader.where, "a name of the layer"), reader.where);
   if (read.layer.name.empty()) reader.fail(value.position, "layer with an empty name", "a name");
   if (const ConfigValue* parent = find(table, "parent")) {
     read.parent = as_string(*parent, reader.where);

@@ -48,49 +48,31 @@ std::string shares_text(const std::vector<float>& shares) {
   return base64(bytes);
 }
 
-class Reader {
- public:
-  explicit Reader(const std::string& name) : name_(name) {}
+constexpr const char* made_by = "a composite written by `belvedere composite learn`";
 
-  [[noreturn]] void refuse(const ConfigValue& at, const std::string& found,
-                           const std::string& allowed) const {
-    throw Error(ErrorKind::usage, config_where(name_, at.position), found, allowed);
+// As many shares as expected, in tables of `table` values that sum to 1.
+std::vector<float> shares_of(const ConfigValue& map, const char* key, const std::string& name,
+                             std::size_t count, std::size_t table) {
+  const ConfigValue& at = required(map, key, name, made_by);
+  const std::optional<std::string> bytes = base64_bytes(as_string(at, name));
+  if (!bytes || bytes->size() != 2 * count)
+    refuse_value(at, name, fmt::format("\"{}\" is damaged, or has another number of labels", key),
+                 "the unchanged text");
+  std::vector<float> out(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto low = static_cast<std::uint8_t>((*bytes)[2 * i]);
+    const auto high = static_cast<std::uint8_t>((*bytes)[2 * i + 1]);
+    out[i] = decode(static_cast<std::uint16_t>(low | high << 8));
   }
-  const ConfigValue& get(const ConfigTable& table, const char* key) const {
-    const ConfigValue* value = find(table, key);
-    if (value == nullptr)
-      throw Error(ErrorKind::usage, name_, fmt::format("\"{}\" is missing", key),
-                  "a composite written by `belvedere composite learn`");
-    return *value;
+  for (std::size_t first = 0; first < count; first += table) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < table; ++i) sum += static_cast<double>(out[first + i]);
+    if (!(std::abs(sum - 1.0) < .01))
+      refuse_value(at, name, fmt::format("table {} of \"{}\" is damaged", first / table, key),
+                   "shares that sum to 1");
   }
-  // As many shares as expected, in tables of `table` values that sum to 1.
-  std::vector<float> shares(const ConfigTable& from, const char* key, std::size_t count,
-                            std::size_t table) const {
-    const ConfigValue& at = get(from, key);
-    const std::optional<std::string> bytes = base64_bytes(as_string(at, name_));
-    if (!bytes || bytes->size() != 2 * count)
-      refuse(at, fmt::format("\"{}\" is damaged, or has another number of labels", key),
-             "the unchanged text");
-    std::vector<float> out(count);
-    for (std::size_t i = 0; i < count; ++i) {
-      const auto low = static_cast<std::uint8_t>((*bytes)[2 * i]);
-      const auto high = static_cast<std::uint8_t>((*bytes)[2 * i + 1]);
-      out[i] = decode(static_cast<std::uint16_t>(low | high << 8));
-    }
-    for (std::size_t first = 0; first < count; first += table) {
-      double sum = 0.0;
-      for (std::size_t i = 0; i < table; ++i) sum += static_cast<double>(out[first + i]);
-      if (!(std::abs(sum - 1.0) < .01))
-        refuse(at, fmt::format("table {} of \"{}\" is damaged", first / table, key),
-               "shares that sum to 1");
-    }
-    return out;
-  }
-  const std::string& name() const { return name_; }
-
- private:
-  const std::string& name_;
-};
+  return out;
+}
 
 CompositeModel composite_of(const ConfigValue& root, const std::string& name) {
   const ConfigValue* of =
@@ -105,46 +87,37 @@ CompositeModel composite_of(const ConfigValue& root, const std::string& name) {
   allow_only(table,
              {"belvedere_composite", "crop_size", "crop_hash", "map", "labels", "transition"},
              name);
-  const Reader read(name);
   CompositeModel out;
-  out.crop_hash = as_string(read.get(table, "crop_hash"), name);
-  const ConfigValue& size = read.get(table, "crop_size");
-  const ConfigArray& sides = as_array(size, name);
-  constexpr std::int64_t longest = 1 << 20;
-  if (sides.size() != 2)
-    read.refuse(size, fmt::format("{} numbers in \"crop_size\"", sides.size()), "2");
-  for (const ConfigValue& side : sides)
-    if (const std::int64_t n = as_integer(side, name); n < 1 || n > longest)
-      read.refuse(side, fmt::format("{} in \"crop_size\"", n), fmt::format("1 to {}", longest));
-
-  const ConfigValue& list = read.get(table, "labels");
-  for (const ConfigValue& value : as_array(list, name)) {
-    const ConfigTable& label = as_table(value, name);
-    allow_only(label, {"name", "model"}, name);
-    const std::string& called = as_string(read.get(label, "name"), name);
+  out.crop_hash = as_string(required(root, "crop_hash", name, made_by), name);
+  const std::vector<double> sides =
+      as_numbers(required(root, "crop_size", name, made_by), name, 2, 1.0, 1 << 20);
+  const ConfigValue& list = required(root, "labels", name, made_by);
+  for (const ConfigValue& label : as_array(list, name)) {
+    allow_only(as_table(label, name), {"name", "model"}, name);
+    const std::string& called = as_string(required(label, "name", name, made_by), name);
     if (std::any_of(out.labels.begin(), out.labels.end(),
                     [&](const CompositeLabel& l) { return l.name == called; }))
-      read.refuse(value, fmt::format("the label {} is given twice", json_quoted(called)),
-                  "each label once");
-    out.labels.push_back({called, parse_model(read.get(label, "model"), name)});
+      refuse_value(label, name, fmt::format("the label {} is given twice", json_quoted(called)),
+                   "each label once");
+    out.labels.push_back({called, parse_model(required(label, "model", name, made_by), name)});
   }
   if (out.labels.size() < 2 || out.labels.size() > max_labels)
-    read.refuse(list, fmt::format("{} labels", out.labels.size()),
-                fmt::format("2 to {}", max_labels));
+    refuse_value(list, name, fmt::format("{} labels", out.labels.size()),
+                 fmt::format("2 to {}", max_labels));
   if (const ConfigValue* transition = find(table, "transition"))
     out.transition = parse_model(*transition, name);
 
   const std::size_t n = out.labels.size();
   out.map.labels = static_cast<int>(n);
-  out.map.crop_width = static_cast<int>(as_integer(sides[0], name));
-  out.map.crop_height = static_cast<int>(as_integer(sides[1], name));
-  const ConfigTable& map = as_table(read.get(table, "map"), name);
-  allow_only(map, {"pairs", "rings", "profile"}, name);
+  out.map.crop_width = static_cast<int>(sides[0]);
+  out.map.crop_height = static_cast<int>(sides[1]);
+  const ConfigValue& map = required(root, "map", name, made_by);
+  allow_only(as_table(map, name), {"pairs", "rings", "profile"}, name);
   out.map.pairs =
-      read.shares(map, "pairs", std::size_t{label_scales} * label_offsets * n * n, n * n);
+      shares_of(map, "pairs", name, std::size_t{label_scales} * label_offsets * n * n, n * n);
   out.map.rings =
-      read.shares(map, "rings", std::size_t{label_scales} * ring_patterns, ring_patterns);
-  out.map.profile = read.shares(map, "profile", label_strips * n, n);
+      shares_of(map, "rings", name, std::size_t{label_scales} * ring_patterns, ring_patterns);
+  out.map.profile = shares_of(map, "profile", name, label_strips * n, n);
   return out;
 }
 

@@ -171,61 +171,10 @@ std::string clique_text(const std::vector<Clique>& cliques) {
   return base64(bytes);
 }
 
-class Reader {
- public:
-  Reader(const ConfigValue& root, const std::string& name)
-      : root_(as_table(root, name)), name_(name) {
-    allow_only(root_,
-               {"belvedere_texture", "levels", "mean", "axes", "low", "high", "seed", "seed_px",
-                "direction_deg", "direction_spread", "polish", "method", "crop_hash", "crop_size",
-                "types"},
-               name);
-  }
-
-  [[noreturn]] void refuse(const ConfigValue& at, const std::string& found,
-                           const std::string& allowed) const {
-    throw Error(ErrorKind::usage, config_where(name_, at.position), found, allowed);
-  }
-  const ConfigValue& get(const char* key) const {
-    const ConfigValue* value = find(root_, key);
-    if (value == nullptr)
-      throw Error(ErrorKind::usage, name_, fmt::format("\"{}\" is missing", key),
-                  "a texture model written by `belvedere texture learn`");
-    return *value;
-  }
-  double number(const char* key, double low, double high) const {
-    return in_range(get(key), key, low, high);
-  }
-  template <std::size_t N>
-  std::array<double, N> list(const char* key, double low, double high) const {
-    const ConfigValue& value = get(key);
-    const ConfigArray& array = as_array(value, name_);
-    if (array.size() != N)
-      refuse(value, fmt::format("{} numbers in \"{}\"", array.size(), key), fmt::format("{}", N));
-    std::array<double, N> out{};
-    for (std::size_t i = 0; i < N; ++i) out[i] = in_range(array[i], key, low, high);
-    return out;
-  }
-  const std::string& text(const char* key) const { return as_string(get(key), name_); }
-  bool flag(const char* key) const { return as_bool(get(key), name_); }
-
- private:
-  double in_range(const ConfigValue& value, const char* key, double low, double high) const {
-    const double number = as_number(value, name_);
-    if (!(number >= low && number <= high))
-      refuse(value, fmt::format("{} in \"{}\"", number, key), fmt::format("{} to {}", low, high));
-    return number;
-  }
-
-  const ConfigTable& root_;
-  const std::string& name_;
-};
-
-std::vector<Clique> read_cliques(const Reader& read, int levels) {
-  const ConfigValue& at = read.get("types");
-  const std::optional<std::string> bytes = base64_bytes(read.text("types"));
+std::vector<Clique> read_cliques(const ConfigValue& at, const std::string& name, int levels) {
+  const std::optional<std::string> bytes = base64_bytes(as_string(at, name));
   if (!bytes || bytes->empty() || bytes->size() % clique_bytes != 0)
-    read.refuse(at, "the types are damaged", "the unchanged text");
+    refuse_value(at, name, "the types are damaged", "the unchanged text");
   std::vector<Clique> cliques;
   for (std::size_t i = 0; i < bytes->size(); i += clique_bytes) {
     const auto byte = [&](std::size_t k) { return static_cast<std::int8_t>((*bytes)[i + k]); };
@@ -239,7 +188,8 @@ std::vector<Clique> read_cliques(const Reader& read, int levels) {
     for (std::size_t k = 1; k < clique_knots; ++k)
       rising = rising && clique.codes[k] >= clique.codes[k - 1];
     if (!known || !rising || clique.codes[0] < -127)
-      read.refuse(at, fmt::format("type {} is damaged", i / clique_bytes), "the unchanged text");
+      refuse_value(at, name, fmt::format("type {} is damaged", i / clique_bytes),
+                   "the unchanged text");
     cliques.push_back(clique);
   }
   return cliques;
@@ -276,13 +226,23 @@ CliqueModel parse_model(const ConfigValue& root, const std::string& name) {
   if (const std::int64_t found = as_integer(*of, name); found != version)
     throw Error(ErrorKind::usage, config_where(name, of->position),
                 fmt::format("version {} of texture models", found), fmt::format("{}", version));
-  const Reader read(root, name);
+  allow_only(
+      as_table(root, name),
+      {"belvedere_texture", "levels", "mean", "axes", "low", "high", "seed", "seed_px",
+       "direction_deg", "direction_spread", "polish", "method", "crop_hash", "crop_size", "types"},
+      name);
+  const auto get = [&](const char* key) -> const ConfigValue& {
+    return required(root, key, name, "a texture model written by `belvedere texture learn`");
+  };
+  const auto number = [&](const char* key, double min, double max) {
+    return static_cast<float>(as_number(get(key), name, min, max));
+  };
   CliqueModel model;
-  model.levels = static_cast<int>(read.number("levels", 0, max_levels));
-  const auto mean = read.list<3>("mean", 0.0, 255.0);
-  const auto axes = read.list<9>("axes", -32767.0, 32767.0);
-  const auto low = read.list<3>("low", -1000.0, 1000.0);
-  const auto high = read.list<3>("high", -1000.0, 1000.0);
+  model.levels = static_cast<int>(number("levels", 0, max_levels));
+  const auto mean = as_numbers(get("mean"), name, 3, 0.0, 255.0);
+  const auto axes = as_numbers(get("axes"), name, 9, -32767.0, 32767.0);
+  const auto low = as_numbers(get("low"), name, 3, -1000.0, 1000.0);
+  const auto high = as_numbers(get("high"), name, 3, -1000.0, 1000.0);
   for (std::size_t b = 0; b < 3; ++b) {
     model.bands.mean[b] = static_cast<float>(mean[b]);
     model.bands.low[b] = static_cast<float>(low[b]);
@@ -290,32 +250,33 @@ CliqueModel parse_model(const ConfigValue& root, const std::string& name) {
     for (std::size_t c = 0; c < 3; ++c)
       model.bands.axes[b][c] = static_cast<std::int16_t>(axes[3 * b + c]);
     if (!(low[b] < high[b]))
-      read.refuse(read.get("high"), fmt::format("{} is not above {}", high[b], low[b]), "a range");
+      refuse_value(get("high"), name, fmt::format("{} is not above {}", high[b], low[b]),
+                   "a range");
   }
-  const std::string& seed = read.text("seed");
+  const std::string& seed = as_string(get("seed"), name);
   std::size_t kind = 0;
   while (kind < seed_names.size() && seed_names[kind] != seed) ++kind;
   if (kind == seed_names.size())
-    read.refuse(read.get("seed"), json_quoted(seed),
-                fmt::format("{}", fmt::join(seed_names, ", ")));
+    refuse_value(get("seed"), name, json_quoted(seed),
+                 fmt::format("{}", fmt::join(seed_names, ", ")));
   model.seed = static_cast<TextureSeed>(kind);
-  model.seed_px = static_cast<float>(read.number("seed_px", 0.0, 256.0));
-  model.direction_deg = static_cast<float>(read.number("direction_deg", 0.0, 180.0));
-  model.direction_spread = static_cast<float>(read.number("direction_spread", 0.0, 1.0));
-  model.polish = read.flag("polish");
+  model.seed_px = number("seed_px", 0.0, 256.0);
+  model.direction_deg = number("direction_deg", 0.0, 180.0);
+  model.direction_spread = number("direction_spread", 0.0, 1.0);
+  model.polish = as_bool(get("polish"), name);
   if (const ConfigValue* method = find(as_table(root, name), "method")) {
     if (as_string(*method, name) != "paper")
-      read.refuse(*method, json_quoted(as_string(*method, name)), "paper, or no method");
+      refuse_value(*method, name, json_quoted(as_string(*method, name)), "paper, or no method");
     model.sampled = true;
     if (model.levels != 0)
-      read.refuse(*method, fmt::format("{} levels above the picture", model.levels),
-                  "0 with this method");
+      refuse_value(*method, name, fmt::format("{} levels above the picture", model.levels),
+                   "0 with this method");
   }
-  const auto size = read.list<2>("crop_size", 1.0, 1e6);
+  const auto size = as_numbers(get("crop_size"), name, 2, 1.0, 1e6);
   model.crop_width = static_cast<int>(size[0]);
   model.crop_height = static_cast<int>(size[1]);
-  model.crop_hash = read.text("crop_hash");
-  model.cliques = read_cliques(read, model.levels);
+  model.crop_hash = as_string(get("crop_hash"), name);
+  model.cliques = read_cliques(get("types"), name, model.levels);
   return model;
 }
 

@@ -79,5 +79,25 @@ TEST(ConfigReader, SaysWhereAndWhatIsAllowed) {
               HasSubstr("other"));
 }
 
+TEST(ConfigReader, NamedDocumentsAreBuiltInOrFiles) {
+  const NamedConfig summer = read_named_config("palettes", "summer", "palette");
+  EXPECT_EQ(summer.name, "palettes/summer.toml");
+  EXPECT_NE(find(as_table(summer.root, summer.name), "classes"), nullptr);
+  const test::Folder folder;
+  const std::string path = folder.write("own.toml", "a = 1\n");
+  const NamedConfig own = read_named_config("palettes", path, "palette");
+  EXPECT_EQ(own.name, path);
+  EXPECT_EQ(as_integer(required(own.root, "a", path, "a number"), path), 1);
+  EXPECT_THAT(
+      test::message_of(ErrorKind::usage, [] { read_named_config("palettes", "sumer", "palette"); }),
+      HasSubstr("unknown palette \"sumer\"; did you mean \"summer\"?"));
+  EXPECT_THAT(test::message_of(ErrorKind::input,
+                               [] { read_named_config("palettes", "none.toml", "palette"); }),
+              HasSubstr("none.toml"));
+  EXPECT_THAT(
+      test::message_of(ErrorKind::usage, [&] { required(own.root, "b", path, "a number"); }),
+      HasSubstr("\"b\" is missing"));
+}
+
 }  // namespace
 }  // namespace belvedere

@@ -66,7 +66,7 @@ TEST(SceneLock, WhatIsNoLockIsAnInputErrorWithItsPlace) {
               HasSubstr("x.lock"));
   EXPECT_THAT(test::message_of(ErrorKind::input,
                                [&] { parse_lock(with("width = 800", "width = 0"), "x.lock"); }),
-              HasSubstr("width"));
+              HasSubstr("the number 0"));
   EXPECT_THAT(test::message_of(ErrorKind::input,
                                [&] { parse_lock(with("bytes = 1234567890123\n", ""), "x.lock"); }),
               HasSubstr("bytes"));

@@ -109,7 +109,7 @@ TEST(ClimateTable, SaysWhichRowIsWrong) {
   EXPECT_THAT(message("version = 2\nhuts = []\n"), HasSubstr("not a table of huts"));
   EXPECT_THAT(message("version = 1\nhuts = [\n[\"A\"],\n]\n"),
               testing::AllOf(HasSubstr("huts.toml:3"), HasSubstr("name, altitude")));
-  EXPECT_THAT(message("version = 1\nhuts = [[\"A\", 9001]]\n"), HasSubstr("0 to 9000"));
+  EXPECT_THAT(message("version = 1\nhuts = [[\"A\", 9001]]\n"), HasSubstr("0 … 9000"));
 }
 
 }  // namespace

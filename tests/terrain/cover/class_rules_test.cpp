@@ -508,7 +508,7 @@ TEST(ClassRules, FilesAreRefusedWithTheirPlace) {
   EXPECT_THAT(refused(head + "[[layers]]\nclass = \"rok\"\nwhen = \"1\"\n"),
               testing::HasSubstr(":3:9 unknown class \"rok\"; did you mean \"rock\"?"));
   EXPECT_THAT(refused(head + "[[layers]]\nclass = \"rock\"\n"),
-              testing::HasSubstr("a layer without when"));
+              testing::HasSubstr("\"when\" is missing"));
   EXPECT_THAT(refused(head + "[[layers]]\nclass = \"rock\"\nwhen = \"1\"\nif = \"2\"\n"),
               testing::HasSubstr("unknown key \"if\""));
   EXPECT_THAT(
@@ -521,7 +521,7 @@ TEST(ClassRules, FilesAreRefusedWithTheirPlace) {
   EXPECT_THAT(refused(head + "[parameters]\nslope = 3\n"), testing::HasSubstr("already in use"));
   EXPECT_THAT(refused(head + "[parameters]\n\"a b\" = 3\n"),
               testing::HasSubstr("the name \"a b\""));
-  EXPECT_THAT(refused(head), testing::HasSubstr("no layers"));
+  EXPECT_THAT(refused(head), testing::HasSubstr("\"layers\" is missing"));
   EXPECT_THAT(refused("version = 2\n"), testing::HasSubstr("the number 2"));
   EXPECT_THROW(read_class_rules("alpin"), Error);
 }

@@ -253,7 +253,7 @@ TEST(CompositeModelFile, DamageIsNamed) {
   EXPECT_THAT(words(replaced("[map]", "[mop]")), HasSubstr("mop"));
   EXPECT_THAT(words(replaced("types = \"", "types = \"A")), HasSubstr("types are damaged"));
   EXPECT_THAT(words(replaced("crop_size = [200, 130]", "crop_size = [0, 130]")),
-              HasSubstr("crop_size"));
+              HasSubstr("two numbers"));
   EXPECT_THAT(words(text_of_small().substr(0, text_of_small().find("[[labels]]"))),
               HasSubstr("\"labels\" is missing"));
   EXPECT_THROW(read_composite("/nowhere/x.composite"), Error);
