@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/statistics.h"
 #include "renderer/labels/sheet_painter.h"
 #include "renderer/stages/lit_picture.h"
 #include "renderer/trace/camera.h"
@@ -164,11 +165,10 @@ std::vector<LegendEntry> find_legend(const PictureOverview& overview, glm::dvec2
     std::vector<float>& values = seen[static_cast<std::size_t>(info.id)];
     const double count = static_cast<double>(values.size());
     if (values.empty() || count < min_share * static_cast<double>(ground)) continue;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
+    const float middle = value_at_rank(values, values.size() / 2);
     const glm::dvec3 mean = sums[static_cast<std::size_t>(info.id)] / count;
-    const FoundPiece whole = best_piece(overview, light, info.id, *middle, swatch_px);
-    const FoundPiece half = best_piece(overview, light, info.id, *middle, .5 * swatch_px);
+    const FoundPiece whole = best_piece(overview, light, info.id, middle, swatch_px);
+    const FoundPiece half = best_piece(overview, light, info.id, middle, .5 * swatch_px);
     const FoundPiece& best = half.share > whole.share + worth_half ? half : whole;
     legend.push_back({words_of(info.name), hex(glm::vec3(mean)),
                       best.share >= min_piece_share ? best.rect : PixelRect()});

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "base/run.h"
 #include "renderer/features/drawn_features.h"
 #include "renderer/labels/margin.h"
 #include "renderer/paint/palette.h"

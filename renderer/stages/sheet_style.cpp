@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/statistics.h"
 #include "renderer/trace/camera.h"
 #include "renderer/world/picture_parameters.h"
 
@@ -35,14 +36,8 @@ StyleSight style_sight_of(const Grid<float>& depth_m, int scale) {
         distances.push_back(depth);
     }
   if (distances.empty()) return sight;
-  const auto at = [&](double share) {
-    const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(
-                                                share * static_cast<double>(distances.size() - 1));
-    std::nth_element(distances.begin(), middle, distances.end());
-    return static_cast<double>(*middle);
-  };
-  sight.near_m = std::max(1.0, at(left_out));
-  sight.far_m = std::max(1.001 * sight.near_m, at(1.0 - left_out));
+  sight.near_m = std::max<double>(1.0, value_at_share(distances, left_out));
+  sight.far_m = std::max<double>(1.001 * sight.near_m, value_at_share(distances, 1.0 - left_out));
   return sight;
 }
 

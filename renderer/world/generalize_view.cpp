@@ -10,6 +10,7 @@
 #include "base/math_exact.h"
 #include "base/parallel.h"
 #include "base/pyramid.h"
+#include "base/statistics.h"
 #include "renderer/ground/cached_products.h"
 #include "renderer/world/scene_dem.h"
 #include "renderer/world/scene_land_cover.h"
@@ -233,10 +234,9 @@ PixelGround ground_m_per_pixel(const Dem& dem, const View& view) {
   for (std::size_t i = 0; i < coarse.size(); ++i)
     if (coarse[i] > 0.F) angles.push_back(coarse[i] / distance_m[i]);
   if (angles.empty()) return {};
-  const auto centre = angles.begin() + static_cast<std::ptrdiff_t>(angles.size() / 2);
-  std::nth_element(angles.begin(), centre, angles.end());
+  const float centre = middle_value(std::move(angles));
   for (std::size_t i = 0; i < coarse.size(); ++i)
-    if (coarse[i] == 0.F) coarse[i] = *centre * distance_m[i];
+    if (coarse[i] == 0.F) coarse[i] = centre * distance_m[i];
   return {std::move(coarse), step_cells};
 }
 

@@ -12,6 +12,7 @@
 #include "base/cache/cache.h"
 #include "base/files/kept_files.h"
 #include "base/pixel_rect.h"
+#include "base/statistics.h"
 #include "renderer/ground/cached_products.h"
 #include "renderer/ground/laid_rivers.h"
 #include "renderer/ground/scene_ground_map.h"
@@ -154,9 +155,8 @@ std::string describe_dryness(const RuleClimate& climate, const Dem& dem) {
   constexpr std::size_t step = 97;
   for (std::size_t i = 0; i < dem.altitude_m.size(); i += step)
     altitude_m.push_back(dem.altitude_m[i]);
-  const auto low = altitude_m.begin() + static_cast<std::ptrdiff_t>(altitude_m.size() / 8);
-  std::nth_element(altitude_m.begin(), low, altitude_m.end());
-  const std::vector<float> ground(static_cast<std::size_t>(dem.width()), *low);
+  const float low = value_at_rank(altitude_m, altitude_m.size() / 8);
+  const std::vector<float> ground(static_cast<std::size_t>(dem.width()), low);
   const auto at_centre = [&](ClimateVariable variable) {
     std::vector<float> row(ground.size());
     fill_climate_row(climate, variable, dem.transform, dem.height() / 2, dem.width(), ground.data(),
@@ -168,7 +168,7 @@ std::string describe_dryness(const RuleClimate& climate, const Dem& dem) {
   if (!(moisture < enough)) return "";
   return fmt::format(
       "; at {:.0f} m {:.0f} mm of rain a year are {:.0f} % of what plants could use: {}",
-      static_cast<double>(*low), at_centre(ClimateVariable::rain), 100.0 * moisture,
+      static_cast<double>(low), at_centre(ClimateVariable::rain), 100.0 * moisture,
       moisture < 0.22   ? "desert, green only along water"
       : moisture < 0.46 ? "steppe, green only along water"
                         : "bushes and open woods");

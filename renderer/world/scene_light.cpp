@@ -15,6 +15,7 @@
 #include "base/math.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
+#include "base/statistics.h"
 #include "renderer/trace/light_field.h"
 #include "renderer/world/view.h"
 #include "terrain/io/features.h"
@@ -291,9 +292,7 @@ std::vector<SeenRange> find_ranges(std::span<const SeenSlope> slopes) {
     for (const std::size_t i : range.slopes)
       far.push_back(glm::length(slopes[i].position - range.centre));
     if (far.empty()) continue;
-    const auto at = far.begin() + static_cast<std::ptrdiff_t>(3 * far.size() / 4);
-    std::nth_element(far.begin(), at, far.end());
-    range.radius_m = *at;
+    range.radius_m = value_at_rank(far, 3 * far.size() / 4);
   }
   std::erase_if(ranges, [](const SeenRange& range) { return range.share < min_share; });
   std::stable_sort(ranges.begin(), ranges.end(),

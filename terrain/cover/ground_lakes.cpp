@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "base/statistics.h"
 #include "terrain/shape/mask_pieces.h"
 
 namespace belvedere {
@@ -121,11 +122,9 @@ LakeLevel level_of(const Dem& dem, const KnownLake& lake) {
   LakeLevel found;
   found.cells = all.size();
   if (all.empty()) return found;
-  std::vector<float>& from = known.empty() ? all : known;
-  std::sort(from.begin(), from.end());
+  const std::vector<float>& from = known.empty() ? all : known;
   const auto quantile = [&](double share) {
-    return static_cast<double>(
-        from[static_cast<std::size_t>(share * static_cast<double>(from.size() - 1))]);
+    return static_cast<double>(value_at_share(from, share));
   };
   if (quantile(level_to) - quantile(level_from) > max_fall_m) {
     found.uneven = true;

@@ -9,6 +9,7 @@
 #include "base/cache/cache.h"
 #include "base/parallel.h"
 #include "base/pyramid.h"
+#include "base/statistics.h"
 #include "renderer/live/live_view.h"
 #include "renderer/world/picture_parameters.h"
 #include "renderer/world/scene_dem.h"
@@ -43,11 +44,6 @@ constexpr Gesture gestures[] = {
     {"seed", "seed", 2.0, 1.0},
 };
 constexpr int steps_per_repeat = 4;
-
-double quantile(std::vector<double> values, double share) {
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5)];
-}
 
 // The bound: primary rays of the picture of a rung, prepared and without anything done with them.
 Cost bare_rays(const LoadedScene& scene, const Rung& rung, int repeats) {
@@ -108,9 +104,9 @@ std::vector<Measurement> bench_studio(const Options& options) {
         cpu_ms.push_back(cost.cpu_s * 1e3);
       }
       const std::string name = fmt::format("{}/{}", rung.name, gesture.name);
-      out.push_back({name + "/median", quantile(wall_ms, 0.5), "ms"});
-      out.push_back({name + "/95 %", quantile(wall_ms, 0.95), "ms"});
-      out.push_back({name + "/median", quantile(cpu_ms, 0.5), "CPU ms"});
+      out.push_back({name + "/median", percentile(wall_ms, 0.5), "ms"});
+      out.push_back({name + "/95 %", percentile(wall_ms, 0.95), "ms"});
+      out.push_back({name + "/median", percentile(cpu_ms, 0.5), "CPU ms"});
     }
     out.push_back({rung.name + "/resident", resident_memory_mb(), "MB"});
   }
