@@ -58,7 +58,10 @@ class ByteWriter {
   template <class T>
   void put(const std::vector<T>& values) {
     put_number(values.size());
-    for (const T& value : values) put(value);
+    if constexpr (PlainBytes<T>)
+      add(values.data(), values.size() * sizeof(T));
+    else
+      for (const T& value : values) put(value);
   }
   template <PlainBytes T>
   void put(const Grid<T>& grid) {
@@ -108,9 +111,12 @@ class ByteReader {
   template <class T>
   void take(std::vector<T>& values) {
     const std::uint64_t size = take_number();
-    if (!has(size, 1)) return;
+    if (!has(size, PlainBytes<T> ? sizeof(T) : 1)) return;
     values.resize(size);
-    for (T& value : values) take(value);
+    if constexpr (PlainBytes<T>)
+      copy(values.data(), size * sizeof(T));
+    else
+      for (T& value : values) take(value);
   }
   template <PlainBytes T>
   void take(Grid<T>& grid) {

@@ -4,20 +4,20 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <cstring>
+#include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "base/cache/bytes.h"
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/random.h"
 #include "texture/sheet/plan_data.h"
 #include "texture/synthesis/synthesize.h"
 
-// A plan as bytes: numbers of 8 bytes, little-endian; lists begin with their length; a checksum of
-// everything at the end.
+// A plan as bytes: its fields, and a checksum of them at the end.
 
 namespace belvedere {
 namespace {
@@ -151,77 +151,49 @@ SynthesisPlan plan_synthesis(const std::vector<Exemplar>& exemplars, const Guide
 
 namespace {
 
-constexpr std::string_view magic = "belvedere synthesis plan 2\n";
+constexpr std::string_view magic = "belvedere synthesis plan 3\n";
 
-class Writer {
- public:
-  template <class T>
-  void number(T value) {
-    const std::uint64_t bits = static_cast<std::uint64_t>(value);
-    for (int i = 0; i < 8; ++i) bytes_.push_back(static_cast<std::uint8_t>(bits >> (8 * i)));
-  }
-  template <class T>
-  void list(const std::vector<T>& values) {  // of 1 or 4 bytes, little-endian
-    number(values.size());
-    for (const T value : values)
-      for (std::size_t i = 0; i < sizeof(T); ++i)
-        bytes_.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
-  }
-  void text(std::string_view value) { list(std::vector<std::uint8_t>(value.begin(), value.end())); }
-  std::vector<std::uint8_t>& bytes() { return bytes_; }
-
- private:
-  std::vector<std::uint8_t> bytes_;
+struct PackedGuide {
+  std::string name;
+  std::int64_t weight_q4 = 0;
 };
+
+struct PackedPlan {
+  std::string magic;
+  std::uint64_t digest = 0;
+  SynthesisSheet sheet;
+  std::uint64_t seed = 0;
+  int neighbourhood = 0;
+  std::uint8_t all_surroundings = 0;
+  int copy_cap = 0;
+  double reuse = 0.0;
+  std::vector<PackedGuide> guides;
+  synth::Classes classes;
+  std::int64_t around_weight_q8 = 0;
+  std::vector<std::uint8_t> around_pairs;
+  std::vector<std::uint32_t> matches, demand;
+  std::vector<std::vector<std::uint8_t>> usual_errors;
+};
+
+void each_field(auto& bytes, FieldsOf<PackedGuide> auto& guide) {
+  auto& [name, weight_q4] = guide;
+  bytes(name, weight_q4);
+}
+
+void each_field(auto& bytes, FieldsOf<PackedPlan> auto& plan) {
+  auto& [title, digest, sheet, seed, neighbourhood, all_surroundings, copy_cap, reuse, guides,
+         classes, around_weight_q8, around_pairs, matches, demand, usual_errors] = plan;
+  bytes(title, digest, sheet, seed, neighbourhood, all_surroundings, copy_cap, reuse, guides,
+        classes, around_weight_q8, around_pairs, matches, demand, usual_errors);
+}
 
 [[noreturn]] void refuse(const std::string& found) {
   throw Error(ErrorKind::input, "plan of synthesis", found, "a complete plan of this version");
 }
 
-class Reader {
- public:
-  explicit Reader(const std::vector<std::uint8_t>& bytes, std::size_t end)
-      : bytes_(bytes), end_(end) {}
-  std::uint64_t number() {
-    need(8);
-    std::uint64_t bits = 0;
-    for (int i = 0; i < 8; ++i) bits |= static_cast<std::uint64_t>(bytes_[at_++]) << (8 * i);
-    return bits;
-  }
-  int small_number() {
-    const std::uint64_t value = number();
-    if (value > INT32_MAX) refuse("a number out of range");
-    return static_cast<int>(value);
-  }
-  std::int64_t weight(std::uint64_t max) {
-    const std::uint64_t value = number();
-    if (value > max) refuse("a weight out of range");
-    return static_cast<std::int64_t>(value);
-  }
-  template <class T>
-  std::vector<T> list() {
-    const std::uint64_t count = number();
-    if (count > (end_ - at_) / sizeof(T)) refuse("the data end too early");
-    std::vector<T> values(count, 0);
-    for (T& value : values)
-      for (std::size_t i = 0; i < sizeof(T); ++i)
-        value = static_cast<T>(value | static_cast<T>(bytes_[at_++]) << (8 * i));
-    return values;
-  }
-  std::string text() {
-    const std::vector<std::uint8_t> values = list<std::uint8_t>();
-    return {values.begin(), values.end()};
-  }
-  bool at_end() const { return at_ == end_; }
-
- private:
-  void need(std::size_t count) const {
-    if (end_ - at_ < count) refuse("the data end too early");
-  }
-  const std::vector<std::uint8_t>& bytes_;
-  std::size_t end_;
-  std::size_t at_ = 0;
-};
+void require_weight(std::int64_t weight, std::int64_t price) {
+  if (weight < 0 || weight > price * synth::max_weight) refuse("a weight out of range");
+}
 
 std::uint64_t checksum(const std::vector<std::uint8_t>& bytes, std::size_t count) {
   std::uint64_t sum = count;
@@ -229,102 +201,95 @@ std::uint64_t checksum(const std::vector<std::uint8_t>& bytes, std::size_t count
   return sum;
 }
 
-std::vector<std::uint32_t> to_list(const std::array<std::uint32_t, 256>& values) {
-  return {values.begin(), values.end()};
-}
-
-void read_classes(Reader& in, std::array<std::uint32_t, 256>& out, int count) {
-  const std::vector<std::uint32_t> values = in.list<std::uint32_t>();
-  if (values.size() != out.size()) refuse("the number of labels differs");
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    if (values[i] >= static_cast<std::uint32_t>(count) && values[i] != synth::no_class)
+void check_classes(const std::array<std::uint32_t, 256>& classes, int count) {
+  for (const std::uint32_t id : classes)
+    if (id >= static_cast<std::uint32_t>(count) && id != synth::no_class)
       refuse("an unknown class");
-    out[i] = values[i];
-  }
 }
 
 }  // namespace
 
 std::vector<std::uint8_t> pack_plan(const SynthesisPlan& plan) {
   const SynthesisPlanData& data = plan.data();
-  Writer out;
-  out.text(magic);
-  out.number(data.digest);
-  for (const int value :
-       {data.sheet.width, data.sheet.height, data.sheet.level, data.sheet.tile_px})
-    out.number(value);
   const SynthesisParameters& parameters = data.setup.parameters;
-  out.number(parameters.seed);
-  out.number(parameters.neighbourhood);
-  out.number(parameters.surroundings_of == "all" ? 1 : 0);
-  out.number(parameters.copy_cap);
-  out.number(std::bit_cast<std::uint64_t>(parameters.reuse));
-  out.number(data.setup.roles.size());
-  for (std::size_t g = 0; g < data.setup.roles.size(); ++g) {
-    out.text(data.setup.guide_names[g]);
-    out.number(data.setup.roles[g].weight_q4);
-  }
-  const synth::Classes& classes = data.setup.classes;
-  out.number(classes.count);
-  for (const auto* table : {&classes.of_exemplar, &classes.of_target, &classes.around})
-    out.list(to_list(*table));
-  out.number(data.setup.around_price.weight_q8());
-  out.list(data.setup.around_price.pairs());
-  out.list(data.matches);
-  out.list(data.demand.counts);
-  for (const std::vector<std::uint8_t>& errors : data.usual_errors) out.list(errors);
-  out.number(checksum(out.bytes(), out.bytes().size()));
-  return std::move(out.bytes());
+  PackedPlan packed{.magic = std::string(magic),
+                    .digest = data.digest,
+                    .sheet = data.sheet,
+                    .seed = parameters.seed,
+                    .neighbourhood = parameters.neighbourhood,
+                    .all_surroundings = parameters.surroundings_of == "all",
+                    .copy_cap = parameters.copy_cap,
+                    .reuse = parameters.reuse,
+                    .guides = {},
+                    .classes = data.setup.classes,
+                    .around_weight_q8 = data.setup.around_price.weight_q8(),
+                    .around_pairs = data.setup.around_price.pairs(),
+                    .matches = data.matches,
+                    .demand = data.demand.counts,
+                    .usual_errors = data.usual_errors};
+  for (std::size_t g = 0; g < data.setup.roles.size(); ++g)
+    packed.guides.push_back({data.setup.guide_names[g], data.setup.roles[g].weight_q4});
+  ByteWriter writer;
+  writer(packed);
+  std::vector<std::uint8_t> out;
+  for (const std::span<const std::byte> part : writer.parts())
+    for (const std::byte byte : part) out.push_back(static_cast<std::uint8_t>(byte));
+  const std::uint64_t sum = checksum(out, out.size());
+  for (int i = 0; i < 8; ++i) out.push_back(static_cast<std::uint8_t>(sum >> (8 * i)));
+  return out;
 }
 
 SynthesisPlan unpack_plan(const std::vector<std::uint8_t>& bytes,
                           const std::vector<Exemplar>& exemplars) {
   if (bytes.size() < 8) refuse("the data end too early");
-  Reader in(bytes, bytes.size() - 8);
-  if (in.text() != magic) refuse("not a synthesis plan");
+  const std::size_t content = bytes.size() - 8;
   std::uint64_t stored = 0;
   for (std::size_t i = 0; i < 8; ++i)
-    stored |= static_cast<std::uint64_t>(bytes[bytes.size() - 8 + i]) << (8 * i);
-  if (stored != checksum(bytes, bytes.size() - 8)) refuse("the data are damaged");
+    stored |= static_cast<std::uint64_t>(bytes[content + i]) << (8 * i);
+  if (stored != checksum(bytes, content)) refuse("the data are damaged");
+  PackedPlan packed;
+  ByteReader reader(std::as_bytes(std::span(bytes).first(content)));
+  reader(packed);
+  if (!reader.is_done() || packed.magic != magic) refuse("not a synthesis plan");
   auto data = std::make_unique<SynthesisPlanData>();
-  data->digest = in.number();
-  for (int* value :
-       {&data->sheet.width, &data->sheet.height, &data->sheet.level, &data->sheet.tile_px})
-    *value = in.small_number();
-  if (data->sheet.width < 1 || data->sheet.height < 1 || data->sheet.level > max_levels_in_tiles ||
-      data->sheet.tile_px < 1)
+  data->digest = packed.digest;
+  data->sheet = packed.sheet;
+  if (data->sheet.width < 1 || data->sheet.height < 1 || data->sheet.level < 0 ||
+      data->sheet.level > max_levels_in_tiles || data->sheet.tile_px < 1)
     refuse("the sheet is missing");
   SynthesisParameters& parameters = data->setup.parameters;
-  parameters.seed = in.number();
-  parameters.neighbourhood = in.small_number();
+  parameters.seed = packed.seed;
+  parameters.neighbourhood = packed.neighbourhood;
   if (parameters.neighbourhood % 2 == 0 || parameters.patch_radius() < 1 ||
       parameters.patch_radius() > synth::largest_patch_radius)
     refuse("a neighbourhood out of range");
-  if (in.number() != 0) parameters.surroundings_of = "all";
-  parameters.copy_cap = in.small_number();
-  parameters.reuse = std::bit_cast<double>(in.number());
-  const int guides = in.small_number();
-  for (int g = 0; g < guides; ++g) {
-    data->setup.guide_names.push_back(in.text());
-    data->setup.roles.push_back(
-        {in.weight(16 * static_cast<std::uint64_t>(synth::price::guide) * synth::max_weight)});
+  if (packed.all_surroundings != 0) parameters.surroundings_of = "all";
+  if (packed.copy_cap < 0) refuse("a number out of range");
+  parameters.copy_cap = packed.copy_cap;
+  parameters.reuse = packed.reuse;
+  for (PackedGuide& guide : packed.guides) {
+    require_weight(guide.weight_q4, std::int64_t{16} * synth::price::guide);
+    data->setup.guide_names.push_back(std::move(guide.name));
+    data->setup.roles.push_back({guide.weight_q4});
   }
   synth::Classes& classes = data->setup.classes;
-  classes.count = in.small_number();
-  for (auto* table : {&classes.of_exemplar, &classes.of_target, &classes.around})
-    read_classes(in, *table, classes.count);
-  const std::int64_t weight_q8 =
-      in.weight(static_cast<std::uint64_t>(synth::price::surroundings_q8) * synth::max_weight);
-  data->setup.around_price = {weight_q8, in.list<std::uint8_t>(), classes.count};
+  classes = packed.classes;
+  if (classes.count < 0) refuse("a number out of range");
+  for (const auto* table : {&classes.of_exemplar, &classes.of_target, &classes.around})
+    check_classes(*table, classes.count);
+  require_weight(packed.around_weight_q8, synth::price::surroundings_q8);
+  data->setup.around_price = {packed.around_weight_q8, std::move(packed.around_pairs),
+                              classes.count};
   if (data->setup.around_price.pairs().size() !=
       static_cast<std::size_t>(classes.count) * static_cast<std::size_t>(classes.count))
     refuse("the pairs of classes have another size");
-  data->matches = in.list<std::uint32_t>();
-  data->demand.counts = in.list<std::uint32_t>();
+  data->matches = std::move(packed.matches);
+  data->demand.counts = std::move(packed.demand);
   data->demand.keys = synth::choose_list_keys(data->setup.roles);
-  for (int level = 0; level < data->sheet.level && classes.count > 0; ++level)
-    data->usual_errors.push_back(in.list<std::uint8_t>());
-  if (!in.at_end()) refuse("there are data after the plan");
+  data->usual_errors = std::move(packed.usual_errors);
+  if (data->usual_errors.size() !=
+      (classes.count > 0 ? static_cast<std::size_t>(data->sheet.level) : 0))
+    refuse("the errors are of other levels");
   const std::size_t pixels = static_cast<std::size_t>(data->sheet.plan_width()) *
                              static_cast<std::size_t>(data->sheet.plan_height());
   const std::size_t asked = static_cast<std::size_t>(classes.count) *
