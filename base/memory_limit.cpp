@@ -4,14 +4,13 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstdlib>
-#include <cstring>
 #include <fstream>
 #include <mutex>
 #include <set>
 
 #include "base/error.h"
+#include "base/text/parse_number.h"
 
 namespace belvedere {
 namespace {
@@ -49,11 +48,8 @@ std::uint64_t memory_budget_bytes() {
     if (!limits.empty()) return *limits.begin();
   }
   if (const char* text = std::getenv("BELVEDERE_MEMORY_MIB"); text != nullptr && *text != 0) {
-    std::uint64_t value = 0;
-    const char* end = text + std::strlen(text);
-    const auto [stop, error] = std::from_chars(text, end, value);
-    if (error == std::errc{} && stop == end && value > 0 && value < (std::uint64_t{1} << 40))
-      return value << 20;
+    const std::uint64_t value = parse_number<std::uint64_t>(text).value_or(0);
+    if (value > 0 && value < (std::uint64_t{1} << 40)) return value << 20;
     throw Error(ErrorKind::usage, "BELVEDERE_MEMORY_MIB", fmt::format("\"{}\"", text),
                 "a whole number of MiB above 0");
   }

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <glm/common.hpp>
 
 #include "base/error.h"
+#include "base/text/parse_number.h"
 #include "texture/composite/make_composite.h"
 #include "texture/statistical/clique_model.h"
 #include "texture/synthesis/exemplar.h"
@@ -40,10 +40,8 @@ std::vector<SceneTextureModel>::const_iterator find_model(
 void add_labels(CompositeModel composite, const std::string& path, const SceneTextureModel& plain,
                 std::vector<SceneTextureModel>& models) {
   for (CompositeLabel& label : composite.labels) {
-    int number = -1;
-    const char* end = label.name.data() + label.name.size();
-    const auto [last, problem] = std::from_chars(label.name.data(), end, number);
-    if (problem != std::errc() || last != end || number < 0 || number >= land_cover_class_count)
+    const int number = parse_number<int>(label.name).value_or(-1);
+    if (number < 0 || number >= land_cover_class_count)
       throw Error(
           ErrorKind::usage, path, "a composite with the label " + label.name,
           "labels that are class numbers: run `belvedere composite learn` with a mask of classes");

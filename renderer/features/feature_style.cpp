@@ -12,6 +12,7 @@
 #include "base/config.h"
 #include "base/error.h"
 #include "base/text/config_reader.h"
+#include "base/text/parse_number.h"
 #include "base/text/text_encoding.h"
 
 namespace belvedere {
@@ -270,11 +271,9 @@ void add_source(FeatureSet& set, const FeatureSource& source, int number, const 
                                float& to) {
       if (name.empty() || one.values[column].empty()) return;
       const std::string& text = one.values[column];
-      double value = 0.0;
-      const auto [stop, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-      if (problem == std::errc() && stop == text.data() + text.size() && value >= min &&
-          value <= max)
-        to = static_cast<float>(value);
+      const std::optional<double> value = parse_number<double>(text);
+      if (value && *value >= min && *value <= max)
+        to = static_cast<float>(*value);
       else
         ++reading.wrong_number;
     };

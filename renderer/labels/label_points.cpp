@@ -44,20 +44,6 @@ int filled(const PointTable::Point& point, const std::vector<int>& columns) {
   return found == columns.end() ? -1 : *found;
 }
 
-std::optional<double> number_of(const PointTable& table, const PointTable::Point& point, int column,
-                                double min, double max) {
-  const std::string& text = text_of(point, column);
-  if (text.empty()) return std::nullopt;
-  double value = 0.0;
-  const auto [stop, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (problem != std::errc() || stop != text.data() + text.size() ||
-      !(value >= min && value <= max))
-    throw Error(ErrorKind::usage, point.where,
-                fmt::format("{} is \"{}\"", table.columns[static_cast<std::size_t>(column)], text),
-                fmt::format("a number, {:g} … {:g}; empty if not known", min, max));
-  return value;
-}
-
 // Valid UTF-8 (RFC 3629): no overlong forms, no surrogates.
 bool is_utf8(std::string_view text) {
   for (std::size_t i = 0; i < text.size();) {
@@ -182,11 +168,11 @@ std::vector<LabelPoint> read_label_points(const VectorSource& source, const std:
       if (found < 0) strange.insert(word);
       point.kind = std::max(0, found);
     }
-    point.rank = number_of(table, row, rank, 1.0, 9.0)
+    point.rank = table.number(row, rank, 1.0, 9.0)
                      .value_or(rank_of_population(text_of(row, population)).value_or(point.rank));
-    point.altitude_m = number_of(table, row, filled(row, altitude), -12000.0, 9000.0);
-    const std::optional<double> dx = number_of(table, row, dx_mm, -1000.0, 1000.0);
-    const std::optional<double> dy = number_of(table, row, dy_mm, -1000.0, 1000.0);
+    point.altitude_m = table.number(row, filled(row, altitude), -12000.0, 9000.0);
+    const std::optional<double> dx = table.number(row, dx_mm, -1000.0, 1000.0);
+    const std::optional<double> dy = table.number(row, dy_mm, -1000.0, 1000.0);
     if (dx || dy) point.by_hand_mm = {dx.value_or(0.0), dy.value_or(0.0)};
     points.push_back(std::move(point));
   }

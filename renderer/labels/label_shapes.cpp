@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <iterator>
@@ -15,6 +14,7 @@
 #include "base/error.h"
 #include "base/masks/polygon.h"
 #include "base/parallel.h"
+#include "base/text/parse_number.h"
 #include "renderer/labels/drawing.h"
 #include "terrain/io/features.h"
 
@@ -30,13 +30,11 @@ constexpr double shortest_gap_px = 6.0;  // shorter hidden gaps do not split a l
 
 double rank_of(const MapFeature& feature, const std::string& text) {
   if (text.empty()) return 5.0;
-  double value = 0.0;
-  const auto [stop, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (problem != std::errc() || stop != text.data() + text.size() ||
-      !(value >= 1.0 && value <= 9.0))
+  const std::optional<double> value = parse_number<double>(text);
+  if (!value || !(*value >= 1.0 && *value <= 9.0))
     throw Error(ErrorKind::usage, feature.where, "rank is \"" + text + '"',
                 "a number, 1 … 9; empty if not known");
-  return value;
+  return *value;
 }
 
 glm::dvec2 centre_of(const std::vector<glm::dvec2>& positions) {

@@ -3,11 +3,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <tuple>
 
 #include "base/error.h"
+#include "base/text/parse_number.h"
 #include "renderer/scene/scene_table.h"
 #include "renderer/trace/camera.h"
 #include "terrain/cover/class_rules.h"
@@ -383,8 +383,7 @@ class Rules {
       if (const auto* table = std::get_if<ConfigTable>(&node->value)) {
         node = find(*table, part);
       } else if (const auto* array = std::get_if<ConfigArray>(&node->value)) {
-        std::size_t index = array->size();
-        std::from_chars(part.data(), part.data() + part.size(), index);
+        const std::size_t index = parse_number<std::size_t>(part).value_or(array->size());
         node = index < array->size() ? &(*array)[index] : nullptr;
       } else {
         node = nullptr;

@@ -3,10 +3,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "base/error.h"
+#include "base/text/parse_number.h"
 #include "renderer/scene/scene_schema.h"
 
 namespace belvedere {
@@ -119,10 +119,8 @@ class Setting {
   ConfigValue& element(ConfigValue& list, const std::string& index_text,
                        decltype(ConfigValue::value) fresh) {
     auto& array = std::get<ConfigArray>(list.value);
-    std::size_t index = 0;
-    const char* end = index_text.data() + index_text.size();
-    const auto [stop, problem] = std::from_chars(index_text.data(), end, index);
-    if (problem != std::errc() || stop != end || index > array.size())
+    const std::size_t index = parse_number<std::size_t>(index_text).value_or(array.size() + 1);
+    if (index > array.size())
       throw Error(ErrorKind::usage, where_,
                   fmt::format("\"{}\" is not an index of a list of {}", index_text, array.size()),
                   fmt::format("0 … {}; {} appends one", array.size(), array.size()));

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <filesystem>
 
 #include "base/config.h"
 #include "base/error.h"
 #include "base/text/config_reader.h"
 #include "base/text/missing_file.h"
+#include "base/text/parse_number.h"
 #include "base/text/text_encoding.h"
 #include "terrain/cover/land_cover.h"
 #include "terrain/io/csv.h"
@@ -26,11 +26,8 @@ LandCoverClass parse_class(const std::string& name, const std::string& where) {
 }
 
 std::optional<std::int32_t> parse_code(std::string_view text) {
-  std::int32_t code = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), code);
-  if (text.empty() || error != std::errc{} || end != text.data() + text.size() || code < 0)
-    return std::nullopt;
-  return code;
+  const std::optional<std::int32_t> code = parse_number<std::int32_t>(text);
+  return code.value_or(-1) < 0 ? std::nullopt : code;
 }
 
 void add_entry(Legend& legend, std::int32_t code, Legend::Entry entry, const std::string& where) {

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -431,25 +430,6 @@ Grid<float> town_field(const std::vector<TownSite>& sites, const TownGround& g) 
   return field;
 }
 
-namespace {
-
-// A size in a column, 0 if the field is empty.
-double size_of(const PointTable& table, const PointTable::Point& point, int column) {
-  if (column < 0) return 0.0;
-  const std::string& text = point.values[static_cast<std::size_t>(column)];
-  if (text.empty()) return 0.0;
-  double value = 0.0;
-  const auto [stop, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (problem != std::errc() || stop != text.data() + text.size() || !(value >= 0.0) ||
-      !std::isfinite(value))
-    throw Error(ErrorKind::usage, point.where,
-                fmt::format("{} is \"{}\"", table.columns[static_cast<std::size_t>(column)], text),
-                "a number, 0 or more, or empty if unknown");
-  return value;
-}
-
-}  // namespace
-
 double town_radius_m(double population) {
   constexpr double m2_a_head = 170.0;
   return std::sqrt(population * m2_a_head / std::numbers::pi);
@@ -469,8 +449,10 @@ std::vector<KnownTown> read_towns(const VectorSource& source, const std::string&
                 "radius_m or population");
   std::vector<KnownTown> towns;
   for (const PointTable::Point& point : table.points) {
-    double radius_m = size_of(table, point, radius);
-    if (radius_m == 0.0) radius_m = town_radius_m(size_of(table, point, population));
+    constexpr double max_size = 1e9;
+    double radius_m = table.number(point, radius, 0.0, max_size).value_or(0.0);
+    if (radius_m == 0.0)
+      radius_m = town_radius_m(table.number(point, population, 0.0, max_size).value_or(0.0));
     if (radius_m > largest_town_radius_m)
       throw Error(ErrorKind::usage, point.where, fmt::format("town radius of {:.0f} m", radius_m),
                   fmt::format("at most {} m", largest_town_radius_m));

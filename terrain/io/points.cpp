@@ -5,11 +5,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <utility>
 
 #include "base/error.h"
+#include "base/text/parse_number.h"
 #include "base/text/text_encoding.h"
 #include "terrain/io/crs.h"
 #include "terrain/io/csv.h"
@@ -23,12 +23,11 @@ constexpr const char* longitude_latitude = "EPSG:4326";
 
 double number_of(const std::string& text, const std::string& where, const std::string& column,
                  double max) {
-  double value = 0.0;
-  const auto [stop, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (problem != std::errc() || stop != text.data() + text.size() || !(std::abs(value) <= max))
+  const std::optional<double> value = parse_number<double>(text);
+  if (!value || !(std::abs(*value) <= max))
     throw Error(ErrorKind::usage, where, fmt::format("{} is \"{}\"", column, text),
                 fmt::format("a number, -{} … {}, with a decimal point", max, max));
-  return value;
+  return *value;
 }
 
 PointTable read_csv_points(const VectorSource& source, const std::string& crs) {
@@ -75,6 +74,18 @@ PointTable read_csv_points(const VectorSource& source, const std::string& crs) {
 }
 
 }  // namespace
+
+std::optional<double> PointTable::number(const Point& point, int column, double min,
+                                         double max) const {
+  if (column < 0 || point.values[static_cast<std::size_t>(column)].empty()) return std::nullopt;
+  const std::string& text = point.values[static_cast<std::size_t>(column)];
+  const std::optional<double> value = parse_number<double>(text);
+  if (!value || !(*value >= min && *value <= max))
+    throw Error(ErrorKind::usage, point.where,
+                fmt::format("{} is \"{}\"", columns[static_cast<std::size_t>(column)], text),
+                fmt::format("a number, {} … {}, or empty if unknown", min, max));
+  return value;
+}
 
 int PointTable::find(std::string_view column) const {
   const auto found = std::find_if(columns.begin(), columns.end(), [&](const std::string& c) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/vec2.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,6 +23,9 @@ struct PointTable {
 
   // The column of that name, case-insensitive; -1 if there is none.
   int find(std::string_view column) const;
+  // The number in a column; nothing if the column is -1 or its field is empty. Error(usage) for
+  // other text and beyond min … max.
+  std::optional<double> number(const Point& point, int column, double min, double max) const;
 };
 
 // The points of a CSV file with columns lon and lat (degrees) or east and north (of `crs`), or of a

@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <string_view>
 #include <utility>
 
 #include "base/error.h"
 #include "base/filter.h"
+#include "base/text/parse_number.h"
 #include "terrain/io/crs.h"
 #include "terrain/io/csv.h"
 
@@ -54,13 +54,11 @@ class PairRow {
   }
   double number(int column, double min, double max) const {
     const std::string& field = text(column);
-    double value = 0.0;
-    const auto [stop, problem] = std::from_chars(field.data(), field.data() + field.size(), value);
-    if (problem != std::errc() || stop != field.data() + field.size() ||
-        !(value >= min && value <= max))
+    const std::optional<double> value = parse_number<double>(field);
+    if (!value || !(*value >= min && *value <= max))
       refuse(column, fmt::format("\"{}\"", field),
              fmt::format("a number, {} … {}, with a decimal point", min, max));
-    return value;
+    return *value;
   }
   bool sure(int column) const {
     if (column < 0 || text(column).empty() || text(column) == "0") return false;

@@ -10,6 +10,7 @@
 #include "base/cache/cache.h"
 #include "base/error.h"
 #include "base/text/json.h"
+#include "base/text/parse_number.h"
 #include "renderer/image/provenance.h"
 #include "renderer/scene/fetched_sources.h"
 #include "terrain/io/crs.h"
@@ -26,17 +27,9 @@ namespace {
 glm::dvec2 parse_size(const std::string& text) {
   const std::size_t cross = text.find('x');
   const auto number = [&](const std::string& part) {
-    std::size_t end = 0;
-    double value = 0.0;
-    try {
-      value = std::stod(part, &end);
-    } catch (const std::exception&) {
-      end = std::string::npos;
-    }
-    if (end != part.size())
-      throw Error(ErrorKind::usage, "--size", fmt::format("\"{}\"", text),
-                  "kilometres: 60, or 80x50");
-    return value;
+    if (const std::optional<double> value = parse_number<double>(part)) return *value;
+    throw Error(ErrorKind::usage, "--size", fmt::format("\"{}\"", text),
+                "kilometres: 60, or 80x50");
   };
   if (cross == std::string::npos) return glm::dvec2(number(text));
   return {number(text.substr(0, cross)), number(text.substr(cross + 1))};

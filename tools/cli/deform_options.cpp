@@ -2,24 +2,20 @@
 
 #include <fmt/core.h>
 
-#include <charconv>
 #include <filesystem>
 #include <sstream>
 
 #include "base/error.h"
 #include "base/text/json.h"
+#include "base/text/parse_number.h"
 #include "tools/options/options.h"
 
 namespace belvedere::tools {
 namespace {
 
-// Independent of the locale.
-double parse_number(std::string_view text, const std::string& option) {
-  double value = 0.0;
-  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (problem != std::errc() || end != text.data() + text.size())
-    throw Error(ErrorKind::usage, option, fmt::format("\"{}\"", text), "a number");
-  return value;
+double number_given(std::string_view text, const std::string& option) {
+  if (const std::optional<double> value = parse_number<double>(text)) return *value;
+  throw Error(ErrorKind::usage, option, fmt::format("\"{}\"", text), "a number");
 }
 
 std::vector<std::string> split(const std::string& text, char at) {
@@ -39,9 +35,9 @@ void add_bend(const std::string& text, std::vector<std::string>& settings) {
       throw Error(ErrorKind::usage, "--bend", fmt::format("\"{}\"", point),
                   "DISTANCE:INCLINATION, such as 10000:25,40000:12,80000:0");
     settings.push_back(
-        fmt::format("deform.bend.points.{}.distance_m={}", i, parse_number(parts[0], "--bend")));
+        fmt::format("deform.bend.points.{}.distance_m={}", i, number_given(parts[0], "--bend")));
     settings.push_back(fmt::format("deform.bend.points.{}.inclination_deg={}", i++,
-                                   parse_number(parts[1], "--bend")));
+                                   number_given(parts[1], "--bend")));
   }
 }
 
@@ -63,7 +59,7 @@ void add_handle(const std::string& text, std::size_t i, std::vector<std::string>
     const std::size_t equals = words[k].find('=');
     const std::string key = words[k].substr(0, equals);
     const std::string value = equals == std::string::npos ? "" : words[k].substr(equals + 1);
-    const auto number = [&] { return fmt::format("{}", parse_number(value, "--handle " + key)); };
+    const auto number = [&] { return fmt::format("{}", number_given(value, "--handle " + key)); };
     if (key == "radius")
       set("radius_m", number());
     else if (key == "core")
@@ -142,7 +138,7 @@ glm::dvec2 parse_pair(const std::string& text, const char* option) {
   if (parts.size() != 2)
     throw Error(ErrorKind::usage, option, fmt::format("\"{}\"", text),
                 "two numbers separated by a comma");
-  return {parse_number(parts[0], option), parse_number(parts[1], option)};
+  return {number_given(parts[0], option), number_given(parts[1], option)};
 }
 
 bool is_scene(const DeformOptions& options) {
@@ -154,7 +150,7 @@ LoadedScene load(const DeformOptions& options) {
   std::vector<std::string> asked;
   if (!options.exaggeration.empty())
     asked.push_back(fmt::format("deform.exaggeration={}",
-                                parse_number(options.exaggeration, "--exaggeration")));
+                                number_given(options.exaggeration, "--exaggeration")));
   if (!options.bend.empty()) {
     // Replaces the scene's own.
     asked.insert(asked.end(), {"deform.bend.points=[]", "deform.bend.radius_m=0",

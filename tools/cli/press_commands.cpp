@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/text/hex_colour.h"
 #include "base/text/json.h"
+#include "base/text/parse_number.h"
 #include "renderer/image/icc/press_colour.h"
 #include "renderer/image/rows/picture_files.h"
 #include "renderer/press/print_pdf.h"
@@ -217,16 +218,10 @@ glm::dvec2 paper_size(const std::string& text) {
     if (text == name) return size;
     if (text == name + "-landscape") return {size.y, size.x};
   }
-  const std::size_t by = text.find('x');
-  try {
-    std::size_t end_width = 0;
-    std::size_t end_height = 0;
-    const glm::dvec2 size = {
-        std::stod(text, &end_width),
-        by == std::string::npos ? 0.0 : std::stod(text.substr(by + 1), &end_height)};
-    if (end_width == by && by + 1 + end_height == text.size() && size.x >= 10.0 && size.y >= 10.0)
-      return size;
-  } catch (const std::exception&) {  // no numbers: refused below
+  if (const std::size_t by = text.find('x'); by != std::string::npos) {
+    const glm::dvec2 size = {parse_number<double>(text.substr(0, by)).value_or(0.0),
+                             parse_number<double>(text.substr(by + 1)).value_or(0.0)};
+    if (size.x >= 10.0 && size.y >= 10.0) return size;
   }
   throw Error(ErrorKind::usage, "--paper", fmt::format("\"{}\"", text),
               "A4, A3, A2, A1, A0, letter, tabloid, each with -landscape, or WIDTHxHEIGHT in mm");

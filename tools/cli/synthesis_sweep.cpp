@@ -3,12 +3,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "base/error.h"
+#include "base/text/parse_number.h"
 #include "tools/cli/contact/scene_sweep.h"
 #include "tools/options/options.h"
 #include "tools/report/report.h"
@@ -132,11 +132,10 @@ SweepAxis parse_sweep(const std::string& text, const std::vector<std::string>& g
   for (std::size_t begin = equals + 1; begin <= text.size();) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
     const std::string word = text.substr(begin, end - begin);
-    double value = 0.0;
-    const auto [rest, fault] = std::from_chars(word.data(), word.data() + word.size(), value);
-    const bool number = fault == std::errc() && rest == word.data() + word.size();
+    const double value =
+        parse_number<double>(word).value_or(std::numeric_limits<double>::quiet_NaN());
     const bool even = axis.name == "neighbourhood" && std::fmod(value, 2.0) == 0.0;
-    if (!number || even || !(value >= swept->min && value <= swept->max) ||
+    if (even || !(value >= swept->min && value <= swept->max) ||
         (swept->whole && value != std::floor(value)))
       refuse(where, fmt::format("a value \"{}\"", word),
              fmt::format(

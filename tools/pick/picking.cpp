@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <functional>
 #include <glm/common.hpp>
@@ -17,6 +16,7 @@
 #include "base/error.h"
 #include "base/grid.h"
 #include "base/statistics.h"
+#include "base/text/parse_number.h"
 #include "terrain/io/crs.h"
 #include "terrain/register/control_pairs.h"
 #include "terrain/shape/derivatives.h"
@@ -112,13 +112,11 @@ constexpr std::size_t max_proposals = 3;
 
 double number_of(const HttpRequest& request, const std::string& name, double min, double max) {
   const std::string text = request.value(name);
-  double value = 0.0;
-  const auto [stop, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (problem != std::errc() || stop != text.data() + text.size() ||
-      !(value >= min && value <= max))
+  const std::optional<double> value = parse_number<double>(text);
+  if (!value || !(*value >= min && *value <= max))
     throw Error(ErrorKind::usage, name, fmt::format("\"{}\"", text),
                 fmt::format("a number, {} … {}", min, max));
-  return value;
+  return *value;
 }
 
 // One line of text.

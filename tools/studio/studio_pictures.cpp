@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/files/output_file.h"
+#include "base/text/parse_number.h"
 #include "base/text/text_encoding.h"
 #include "renderer/pipeline/pipeline.h"
 #include "renderer/scene/scene_settings.h"
@@ -29,21 +30,13 @@ std::string length_prefix(std::size_t length) {
 }
 
 int whole_number(const std::string& text, const std::string& name) {
-  try {
-    std::size_t used = 0;
-    const int value = std::stoi(text, &used);
-    if (used == text.size()) return value;
-  } catch (const std::exception&) {
-  }
+  if (const std::optional<int> value = parse_number<int>(text)) return *value;
   throw Error(ErrorKind::usage, name, fmt::format("\"{}\"", text), "a whole number");
 }
 
 double share_of(const std::string& text, const std::string& name) {
-  try {
-    const double value = std::stod(text);
-    if (value >= 0.0 && value <= 1.0) return value;
-  } catch (const std::exception&) {
-  }
+  const std::optional<double> value = parse_number<double>(text);
+  if (value && *value >= 0.0 && *value <= 1.0) return *value;
   throw Error(ErrorKind::usage, name, fmt::format("\"{}\"", text), "0 … 1");
 }
 

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <charconv>
 #include <cstdlib>
 #include <map>
 #include <memory>
@@ -16,6 +15,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/text/parse_number.h"
 #include "terrain/io/gdal/gdal_files.h"
 #include "terrain/io/http_access.h"
 
@@ -187,13 +187,6 @@ HttpOutcome outcome_of_status(int status) {
   }
 }
 
-std::optional<std::uint64_t> number_in(std::string_view text) {
-  std::uint64_t value = 0;
-  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (problem != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
 // "bytes 100-199/4000": the first byte and the file's size ("*": unknown).
 void read_content_range(std::string_view text, HttpAnswer& answer) {
   constexpr std::string_view unit = "bytes ";
@@ -202,11 +195,11 @@ void read_content_range(std::string_view text, HttpAnswer& answer) {
   const std::size_t dash = text.find('-');
   const std::size_t slash = text.find('/');
   if (dash == std::string_view::npos || slash == std::string_view::npos) return;
-  const std::optional<std::uint64_t> first = number_in(text.substr(0, dash));
+  const std::optional<std::uint64_t> first = parse_number<std::uint64_t>(text.substr(0, dash));
   if (!first) return;
   answer.is_part = true;
   answer.first = *first;
-  answer.total = number_in(text.substr(slash + 1));
+  answer.total = parse_number<std::uint64_t>(text.substr(slash + 1));
 }
 
 int CPL_STDCALL report(double, const char*, void* request) {
@@ -258,7 +251,8 @@ HttpAnswer ask_server(const HttpRequest& request) {
   if (problem != nullptr && std::string_view(problem).starts_with(status_words)) {
     answer.status = std::atoi(problem + status_words.size());
     answer.outcome = outcome_of_status(answer.status);
-    answer.retry_after_s = static_cast<double>(number_in(header("Retry-After")).value_or(0));
+    answer.retry_after_s =
+        static_cast<double>(parse_number<std::uint64_t>(header("Retry-After")).value_or(0));
     return answer;
   }
   answer.outcome = result->nStatus == 0 && problem == nullptr ? HttpOutcome::good
@@ -267,7 +261,7 @@ HttpAnswer ask_server(const HttpRequest& request) {
       answer.outcome != HttpOutcome::silent)
     return answer;
   read_content_range(header("Content-Range"), answer);
-  if (!answer.is_part) answer.total = number_in(header("Content-Length"));
+  if (!answer.is_part) answer.total = parse_number<std::uint64_t>(header("Content-Length"));
   answer.tag = header("ETag");
   if (answer.tag.empty()) answer.tag = header("Last-Modified");
   if (result->pabyData != nullptr && result->nDataLen > 0)
