@@ -210,6 +210,24 @@ std::optional<std::string> base64_bytes(std::string_view text) {
   return out;
 }
 
+std::string on_one_line(std::string_view text) {
+  std::string out;
+  for (const char c : text)
+    out += c == '\n' ? std::string("\\n") : std::string(c == '\\' ? 2 : 1, c);
+  return out;
+}
+
+std::string from_one_line(std::string_view line) {
+  std::string out;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == '\\' && i + 1 < line.size())
+      out += line[++i] == 'n' ? '\n' : line[i];
+    else
+      out += line[i];
+  }
+  return out;
+}
+
 std::string markup_text(std::string_view text) {
   std::string out;
   for (const char c : text) {

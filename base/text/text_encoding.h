@@ -47,6 +47,10 @@ std::string grouped(std::size_t number);
 std::string base64(std::string_view bytes);
 std::optional<std::string> base64_bytes(std::string_view text);
 
+// Text on one line and back: line feeds as \\n, backslashes doubled.
+std::string on_one_line(std::string_view text);
+std::string from_one_line(std::string_view line);
+
 // Escapes text for the content or an attribute of a page or SVG file. Characters that XML 1.0
 // cannot contain, such as control characters, become blanks.
 std::string markup_text(std::string_view text);

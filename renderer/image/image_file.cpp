@@ -11,38 +11,12 @@
 #include "base/memory_limit.h"
 #include "base/parallel.h"
 #include "base/text/missing_file.h"
+#include "base/text/text_encoding.h"
 
 namespace belvedere {
 namespace {
 
 constexpr std::string_view notes_mark = "Belvedere notes\n";
-
-std::string escape(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '\\') {
-      out += "\\\\";
-    } else if (c == '\n') {
-      out += "\\n";
-    } else if (c != '\0') {  // would end the text in TIFF and PNG
-      out += c;
-    }
-  }
-  return out;
-}
-
-std::string unescape(std::string_view text) {
-  std::string out;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] == '\\' && i + 1 < text.size()) {
-      ++i;
-      out += text[i] == 'n' ? '\n' : text[i];
-    } else {
-      out += text[i];
-    }
-  }
-  return out;
-}
 
 }  // namespace
 
@@ -100,7 +74,9 @@ std::string join_notes(const FileNotes& notes) {
         key.find_first_of("\n\\") != std::string::npos) {
       throw Error(ErrorKind::bug, "notes", "the key \"" + key + "\" cannot be written");
     }
-    text += key + ": " + escape(value) + "\n";
+    std::string line = on_one_line(value);
+    std::erase(line, '\0');  // would end the text in TIFF and PNG
+    text += key + ": " + line + "\n";
   }
   return text;
 }
@@ -118,7 +94,7 @@ FileNotes split_notes(const std::string& text) {
     rest.remove_prefix(std::min(rest.size(), line.size() + 1));
     const std::size_t colon = line.find(": ");
     if (colon != std::string_view::npos)
-      notes[std::string(line.substr(0, colon))] = unescape(line.substr(colon + 2));
+      notes[std::string(line.substr(0, colon))] = from_one_line(line.substr(colon + 2));
   }
   return notes;
 }

@@ -15,6 +15,7 @@
 
 #include "base/error.h"
 #include "base/statistics.h"
+#include "base/text/hex_colour.h"
 #include "renderer/labels/sheet_painter.h"
 #include "renderer/stages/lit_picture.h"
 #include "renderer/trace/camera.h"
@@ -86,13 +87,6 @@ FoundPiece best_piece(const PictureOverview& overview, const Grid<float>& light,
       best = {{low.x, low.y, low.x + wanted.x, low.y + wanted.y}, share};
     }
   return best;
-}
-
-std::string hex(glm::vec3 colour) {
-  const auto byte = [](float value) {
-    return static_cast<int>(std::lround(255.0F * std::clamp(value, 0.0F, 1.0F)));
-  };
-  return fmt::format("#{:02x}{:02x}{:02x}", byte(colour.r), byte(colour.g), byte(colour.b));
 }
 
 std::string words_of(std::string_view name) {
@@ -170,16 +164,16 @@ std::vector<LegendEntry> find_legend(const PictureOverview& overview, glm::dvec2
     const FoundPiece whole = best_piece(overview, light, info.id, middle, swatch_px);
     const FoundPiece half = best_piece(overview, light, info.id, middle, .5 * swatch_px);
     const FoundPiece& best = half.share > whole.share + worth_half ? half : whole;
-    legend.push_back({words_of(info.name), hex(glm::vec3(mean)),
+    legend.push_back({words_of(info.name), hex_colour(glm::vec3(mean)),
                       best.share >= min_piece_share ? best.rect : PixelRect()});
   }
   return legend;
 }
 
 std::vector<FeatureSwatch> find_feature_legend(const DrawnFeatures& drawn, const Palette& palette) {
-  const std::string ground =
-      hex(palette_colour(palette, drawn.winter ? LandCoverClass::snow : LandCoverClass::pasture,
-                         open_ground_m, swatch_tone));
+  const std::string ground = hex_colour(
+      palette_colour(palette, drawn.winter ? LandCoverClass::snow : LandCoverClass::pasture,
+                     open_ground_m, swatch_tone));
   std::vector<FeatureSwatch> swatches;
   for (std::size_t k = 0; k < drawn.style.kinds.size(); ++k) {
     const FeatureKind& kind = drawn.style.kinds[k];
@@ -192,9 +186,9 @@ std::vector<FeatureSwatch> find_feature_legend(const DrawnFeatures& drawn, const
     swatches.push_back({.name = words_of(kind.name),
                         .form = form_of(kind.draw),
                         .ground = ground,
-                        .fill = hex(colours.fill),
-                        .casing = hex(colours.casing),
-                        .bed = hex(colours.bed),
+                        .fill = hex_colour(colours.fill),
+                        .casing = hex_colour(colours.casing),
+                        .bed = hex_colour(colours.bed),
                         .width_mm = kind.width_mm,
                         .min_px = kind.min_px,
                         .casing_mm = kind.casing_mm,

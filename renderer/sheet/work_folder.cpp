@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/text/text_encoding.h"
 #include "renderer/image/provenance.h"
 #include "renderer/sheet/piece_file.h"
 
@@ -187,12 +188,7 @@ void WorkFolder::clear() {
 // One line per entry; line feeds in values (a scene has many) are escaped.
 std::string to_text(const JobIdentity& identity) {
   std::string text = "belvedere job 1\n";
-  for (const auto& [name, value] : identity) {
-    text += name + "\t";
-    for (const char c : value)
-      text += c == '\n' ? std::string("\\n") : c == '\\' ? std::string("\\\\") : std::string(1, c);
-    text += "\n";
-  }
+  for (const auto& [name, value] : identity) text += name + "\t" + on_one_line(value) + "\n";
   return text;
 }
 
@@ -204,14 +200,7 @@ JobIdentity job_from_text(const std::string& text) {
   while (std::getline(lines, line)) {
     const std::size_t tab = line.find('\t');
     if (tab == std::string::npos) continue;
-    std::string value;
-    for (std::size_t i = tab + 1; i < line.size(); ++i) {
-      if (line[i] == '\\' && i + 1 < line.size())
-        value += line[++i] == 'n' ? '\n' : line[i];
-      else
-        value += line[i];
-    }
-    identity[line.substr(0, tab)] = value;
+    identity[line.substr(0, tab)] = from_one_line(line.substr(tab + 1));
   }
   return identity;
 }

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/text/config_reader.h"
 #include "base/text/hex_colour.h"
+#include "base/text/json.h"
 #include "renderer/image/srgb.h"
 
 namespace belvedere {
@@ -203,25 +204,6 @@ namespace {
 
 constexpr std::size_t max_line = 100;
 
-// A TOML string.
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\')
-      out += std::string("\\") + c;
-    else if (c == '\n')
-      out += "\\n";
-    else if (c == '\t')
-      out += "\\t";
-    else if (byte < 0x20 || byte == 0x7f)
-      out += fmt::format("\\u{:04x}", byte);
-    else
-      out += c;
-  }
-  return out + "\"";
-}
-
 std::string quoted_colour(const glm::vec3& rgb) { return '"' + hex_colour(rgb) + '"'; }
 std::string quoted_lab(const glm::vec3& lab) { return quoted_colour(from_oklab(lab)); }
 
@@ -367,12 +349,12 @@ std::string style_text(const Style& style) {
   std::string out =
       "# The look of a painting: its colours, its brushwork and its sky. Made by `belvedere style "
       "fit`;\n# any of it may be edited. See docs/style.md.\n";
-  out += "name = " + quoted(style.name) + "\n";
-  out += "origin = " + quoted(style.origin) + "\n";
-  out += "licence = " + quoted(style.licence) + "\n";
+  out += "name = " + json_quoted(style.name) + "\n";
+  out += "origin = " + json_quoted(style.origin) + "\n";
+  out += "licence = " + json_quoted(style.licence) + "\n";
   out += "winter = " + std::string(style.palette.winter ? "true" : "false") + "\n";
   out += "notes = [\n";
-  for (const std::string& note : style.notes) out += "  " + quoted(note) + ",\n";
+  for (const std::string& note : style.notes) out += "  " + json_quoted(note) + ",\n";
   out += "]\n";
   out += fmt::format(
       "# Units (0.5 mm of the sheet) that a pixel of the painting covers.\nunits_per_px = {}\n"

@@ -12,6 +12,7 @@
 #include "base/config.h"
 #include "base/error.h"
 #include "base/text/config_reader.h"
+#include "base/text/json.h"
 #include "base/text/text_encoding.h"
 #include "terrain/cover/ground_variables.h"
 #include "terrain/cover/layer_inputs.h"
@@ -224,19 +225,6 @@ void order_layers(const Reader& reader, const std::vector<ReadLayer>& read, Surf
   }
 }
 
-std::string toml_text(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\')
-      out += {'\\', c};
-    else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
-      out += fmt::format("\\u{:04x}", static_cast<unsigned>(static_cast<unsigned char>(c)));
-    else
-      out += c;
-  }
-  return out + "\"";
-}
-
 std::string coloured(std::uint32_t rgb) { return fmt::format("\"#{:06x}\"", rgb & 0xffffffU); }
 
 std::string function_text(const LayerFunction& function) {
@@ -263,10 +251,10 @@ std::string function_text(const LayerFunction& function) {
 }
 
 std::string layer_text(const SurfaceLayers& file, const SurfaceLayer& layer) {
-  std::string out = fmt::format("\n[[layers]]\nname = {}\n", toml_text(layer.name));
+  std::string out = fmt::format("\n[[layers]]\nname = {}\n", json_quoted(layer.name));
   if (layer.parent >= 0)
     out += fmt::format("parent = {}\n",
-                       toml_text(file.layers[static_cast<std::size_t>(layer.parent)].name));
+                       json_quoted(file.layers[static_cast<std::size_t>(layer.parent)].name));
   if (layer.painted_as) out += fmt::format("class = \"{}\"\n", class_name(*layer.painted_as));
   out += fmt::format("colour = {}\n", coloured(layer.rgb));
   const SurfaceLayer usual;
@@ -278,7 +266,7 @@ std::string layer_text(const SurfaceLayers& file, const SurfaceLayer& layer) {
       n.amplitude != usual.noise.amplitude || n.bias != usual.noise.bias)
     out += fmt::format("noise = {{ scale_m = {}, octaves = {}, amplitude = {}, bias = {} }}\n",
                        n.scale_m, n.octaves, n.amplitude, n.bias);
-  if (!layer.when.empty()) out += fmt::format("when = {}\n", toml_text(layer.when));
+  if (!layer.when.empty()) out += fmt::format("when = {}\n", json_quoted(layer.when));
   bool first = true;
   for (std::size_t i = 0; i < layer.functions.size(); ++i) {
     if (std::holds_alternative<std::monostate>(layer.functions[i])) continue;
@@ -348,7 +336,7 @@ std::string surface_layers_text(const SurfaceLayers& layers) {
   std::string out =
       "# Surface layers: what covers the ground, said by what is known of each place "
       "(docs/layers.md).\nversion = 1\n";
-  if (!layers.name.empty()) out += fmt::format("name = {}\n", toml_text(layers.name));
+  if (!layers.name.empty()) out += fmt::format("name = {}\n", json_quoted(layers.name));
   out +=
       fmt::format("model = \"{}\"\n", layers.model == LayerModel::product ? "product" : "additive");
   out += layers.ground_painted_as
@@ -363,7 +351,7 @@ std::string surface_layers_text(const SurfaceLayers& layers) {
   for (const auto& [name, value] : layers.parameters) out += fmt::format("{} = {}\n", name, value);
   if (!layers.terms.empty()) out += "\n[terms]\n";
   for (const auto& [name, text] : layers.terms)
-    out += fmt::format("{} = {}\n", name, toml_text(text));
+    out += fmt::format("{} = {}\n", name, json_quoted(text));
   for (const SurfaceLayer& layer : layers.layers) out += layer_text(layers, layer);
   return out;
 }

@@ -149,6 +149,13 @@ TEST(ScriptJson, NoTextEndsTheScript) {
             "{\"name\": \"\\u003c/script>\\u003c!--\"}");
 }
 
+TEST(OneLine, LineFeedsAndBackslashesComeBack) {
+  const std::string text = "a\nb\\n\\\\c\n";
+  EXPECT_EQ(on_one_line(text), "a\\nb\\\\n\\\\\\\\c\\n");
+  EXPECT_EQ(from_one_line(on_one_line(text)), text);
+  EXPECT_EQ(from_one_line("a\\"), "a\\");
+}
+
 }  // namespace
 
 }  // namespace belvedere
