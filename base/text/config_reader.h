@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <string>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "base/config.h"
+#include "base/text/text_encoding.h"
 
 namespace belvedere {
 
@@ -69,5 +71,18 @@ class ConfigReader {
   const std::string& name_;
   std::vector<std::string> keys_;
 };
+
+// The index of the kind of a style that a word means, by its name or one of `also`, in any case;
+// -1: none.
+template <class Kind>
+int find_kind(const std::vector<Kind>& kinds, const std::string& word) {
+  const std::string wanted = lower_case(word);
+  for (std::size_t k = 0; k < kinds.size(); ++k) {
+    if (lower_case(kinds[k].name) == wanted) return static_cast<int>(k);
+    for (const std::string& other : kinds[k].also)
+      if (lower_case(other) == wanted) return static_cast<int>(k);
+  }
+  return -1;
+}
 
 }  // namespace belvedere

@@ -148,15 +148,7 @@ const char* name_of(FeatureGeometry geometry) {
   return "";
 }
 
-int FeatureStyle::find(const std::string& word) const {
-  const std::string wanted = lower_case(word);
-  for (std::size_t k = 0; k < kinds.size(); ++k)
-    if (lower_case(kinds[k].name) == wanted ||
-        std::any_of(kinds[k].also.begin(), kinds[k].also.end(),
-                    [&](const std::string& other) { return lower_case(other) == wanted; }))
-      return static_cast<int>(k);
-  return -1;
-}
+int FeatureStyle::find(const std::string& word) const { return find_kind(kinds, word); }
 
 std::vector<std::string> FeatureStyle::names() const {
   std::vector<std::string> all;

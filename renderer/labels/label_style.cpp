@@ -2,13 +2,11 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <utility>
 
 #include "base/config.h"
 #include "base/error.h"
 #include "base/text/config_reader.h"
-#include "base/text/text_encoding.h"
 
 namespace belvedere {
 namespace {
@@ -123,15 +121,7 @@ LabelStyle read_style(const ConfigValue& document, const std::string& name) {
 
 }  // namespace
 
-int LabelStyle::find(const std::string& word) const {
-  const std::string wanted = lower_case(word);
-  for (std::size_t k = 0; k < kinds.size(); ++k)
-    if (lower_case(kinds[k].name) == wanted ||
-        std::any_of(kinds[k].also.begin(), kinds[k].also.end(),
-                    [&](const std::string& other) { return lower_case(other) == wanted; }))
-      return static_cast<int>(k);
-  return -1;
-}
+int LabelStyle::find(const std::string& word) const { return find_kind(kinds, word); }
 
 LabelStyle parse_label_style(const std::string& text, const std::string& name) {
   return read_style(parse_config(text, name), name);
