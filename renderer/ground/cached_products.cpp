@@ -18,8 +18,8 @@ constexpr std::array<CachedProductInfo, 9> table = {{
     {CachedProduct::ground_surroundings, "surroundings of the ground", 1},
     {CachedProduct::example_sheet, "example sheet", 1},
     {CachedProduct::synthesis_plan, "choice of texture", 2},
-    {CachedProduct::ground_features, "features of the ground", 1},
-    {CachedProduct::river_courses, "rivers of maps", 1},
+    {CachedProduct::ground_features, "features of the ground", 2},
+    {CachedProduct::river_courses, "rivers of maps", 2},
 }};
 
 // Two builds of one version may differ, so the running file is hashed. Where it cannot be read the

@@ -19,21 +19,13 @@
 #include "renderer/ground/cached_products.h"
 
 namespace belvedere {
-namespace {
 
-// For each river its group and number of positions; east, north and half width at each position.
-PackedRows pack(const RiverCentrelines& centrelines) {
-  std::vector<std::int32_t> counts;
-  std::vector<double> numbers;
-  for (const RiverCentreline& centreline : centrelines.lines) {
-    counts.insert(counts.end(),
-                  {centreline.group, static_cast<std::int32_t>(centreline.positions.size())});
-    for (std::size_t i = 0; i < centreline.positions.size(); ++i)
-      numbers.insert(numbers.end(), {centreline.positions[i].x, centreline.positions[i].y,
-                                     static_cast<double>(centreline.half_width_m[i])});
-  }
-  return {row_of(counts), row_of(numbers)};
+void each_field(auto& bytes, FieldsOf<RiverCentreline> auto& centreline) {
+  auto& [positions, half_width_m, group] = centreline;
+  bytes(positions, half_width_m, group);
 }
+
+namespace {
 
 constexpr float max_widened = 3.F;
 // Factors on min_px: inferred rivers narrower than the first at their widest are not drawn, from
@@ -45,22 +37,6 @@ constexpr float full_from = 0.8F;
 constexpr double min_of_half_m = 18.0;
 constexpr double grown_exponent = 0.85;
 constexpr double max_grown = 3.0;
-
-std::vector<CoverRiver> unpack(const PackedRows& packed, const MapRivers& rivers) {
-  std::vector<CoverRiver> centrelines;
-  std::size_t n = 0;
-  for (std::size_t c = 0; c + 2 <= packed.counts.size(); c += 2) {
-    const auto group = static_cast<std::size_t>(packed.counts[c]);
-    CoverRiver centreline = rivers.looks[group];
-    for (std::int32_t i = 0; i < packed.counts[c + 1]; ++i) {
-      centreline.positions.emplace_back(packed.numbers[n], packed.numbers[n + 1]);
-      centreline.half_width_m.push_back(static_cast<float>(packed.numbers[n + 2]));
-      n += 3;
-    }
-    centrelines.push_back(std::move(centreline));
-  }
-  return centrelines;
-}
 
 // Ground values that rivers depend on: flow and altitude.
 void add_ground(CacheKeyText& key, const Dem& dem) {
@@ -84,7 +60,9 @@ CacheKey rivers_key(const LoadedScene& loaded, const MapRivers& rivers, const De
     for (const glm::dvec2 position : positions)
       numbers.insert(numbers.end(), {position.x, position.y});
   }
-  key.add("rivers", row_of(numbers));
+  Grid<double> row(static_cast<int>(numbers.size()), 1);
+  std::copy(numbers.begin(), numbers.end(), row.begin());
+  key.add("rivers", row);
   add_ground(key, dem);
   return make_cache_key(CachedProduct::river_courses, key, subject_of(loaded));
 }
@@ -124,22 +102,29 @@ std::vector<CoverRiver> lay_rivers(const MapRivers& rivers, const LoadedScene& l
                                    const Dem& dem, Progress& progress, const Cache& cache,
                                    Catchments* catchments) {
   if (rivers.lines.empty()) return {};
-  const PackedRows packed = cached<PackedRows>(
+  const std::vector<RiverCentreline> courses = cached<std::vector<RiverCentreline>>(
       cache, [&] { return rivers_key(loaded, rivers, dem); }, progress,
       [&](Progress& watcher) {
         watcher.begin("aligning rivers with their valleys", 0.0);
         Catchments own(dem);
-        const RiverCentrelines laid =
+        RiverCentrelines laid =
             snap_rivers(rivers.lines, dem, (catchments != nullptr ? *catchments : own).km2());
-        if (laid.lines.empty()) return PackedRows{};
+        if (laid.lines.empty()) return std::move(laid.lines);
         watcher.note(
             fmt::format("rivers of the map: {} in {} pieces, moved to the bottoms of their valleys "
                         "by {:.0f} m on average, {:.0f} m at most",
                         laid.lines.size(), laid.lines.size() + laid.joined, laid.mean_moved_m,
                         laid.max_moved_m));
-        return pack(laid);
+        return std::move(laid.lines);
       });
-  return unpack(packed, rivers);
+  std::vector<CoverRiver> centrelines;
+  for (const RiverCentreline& course : courses) {
+    CoverRiver centreline = rivers.looks[static_cast<std::size_t>(course.group)];
+    centreline.positions = course.positions;
+    centreline.half_width_m = course.half_width_m;
+    centrelines.push_back(std::move(centreline));
+  }
+  return centrelines;
 }
 
 CoverRiver widen_for_view(CoverRiver centreline, const RiverLook& look, const Dem& dem,

@@ -78,6 +78,12 @@ std::vector<FeatureSource> feature_sources(const LoadedScene& loaded) {
   return sources;
 }
 
+void each_field(auto& bytes, FieldsOf<Feature> auto& feature) {
+  auto& [kind, source, block, shape, where, parts, width_mm, real_m, level_m, people] =
+      feature;  // ground has no width on paper, and its file is its block's
+  bytes(kind, block, shape, parts, real_m, level_m, people);
+}
+
 FeatureSet read_ground_features(const LoadedScene& loaded, const FeatureStyle& style,
                                 const Dem& dem, Progress& progress) {
   const MapBox ground = box_of(dem);
@@ -109,58 +115,10 @@ FeatureSet read_ground_features(const LoadedScene& loaded, const FeatureStyle& s
 
 namespace {
 
-constexpr int head_counts = 4;
 constexpr char inferred_kind[] = "river";  // the word by which a style addresses inferred rivers
 // Memory of areas and rivers per position while they are built: MapCover::bytes() four times,
 // original and widened.
 constexpr double bytes_a_place = 360.0;
-
-// Features that become ground. For each: kind, block, shape, number of parts, and the number of
-// positions of each part; its width, level and inhabitants before its positions.
-PackedRows pack(const FeatureSet& set) {
-  std::vector<std::int32_t> counts;
-  std::vector<double> numbers;
-  for (const Feature& feature : set.features) {
-    if (!becomes_ground(set.style.kinds[static_cast<std::size_t>(feature.kind)])) continue;
-    counts.insert(counts.end(), {feature.kind, feature.block, static_cast<int>(feature.shape),
-                                 static_cast<int>(feature.parts.size())});
-    numbers.insert(numbers.end(),
-                   {static_cast<double>(feature.real_m), static_cast<double>(feature.level_m),
-                    static_cast<double>(feature.people)});
-    for (const auto& part : feature.parts) {
-      counts.push_back(static_cast<std::int32_t>(part.size()));
-      for (const glm::dvec2 position : part)
-        numbers.insert(numbers.end(), {position.x, position.y});
-    }
-  }
-  return {row_of(counts), row_of(numbers)};
-}
-
-std::vector<Feature> unpack(const PackedRows& packed) {
-  std::vector<Feature> features;
-  std::size_t c = 0;
-  std::size_t n = 0;
-  while (c + head_counts <= packed.counts.size()) {
-    Feature feature;
-    feature.kind = packed.counts[c];
-    feature.block = packed.counts[c + 1];
-    feature.shape = static_cast<MapShape>(packed.counts[c + 2]);
-    feature.parts.resize(static_cast<std::size_t>(packed.counts[c + 3]));
-    c += head_counts;
-    feature.real_m = static_cast<float>(packed.numbers[n++]);
-    feature.level_m = static_cast<float>(packed.numbers[n++]);
-    feature.people = static_cast<float>(packed.numbers[n++]);
-    for (auto& part : feature.parts) {
-      part.resize(static_cast<std::size_t>(packed.counts[c++]));
-      for (glm::dvec2& position : part) {
-        position.x = packed.numbers[n++];
-        position.y = packed.numbers[n++];
-      }
-    }
-    features.push_back(std::move(feature));
-  }
-  return features;
-}
 
 std::string hash_of_parts(const std::string& path) {
   std::string all;
@@ -329,10 +287,18 @@ GroundMap read_ground_map(const LoadedScene& loaded, const Dem& dem, Progress& p
   for (const FeatureSource& source : feature_sources(loaded))
     for (std::string& part : vector_parts(source.file.path)) files.push_back(std::move(part));
   return *loaded.kept->get<GroundMap>(key.str(), files, [&] {
-    const PackedRows packed = cached<PackedRows>(
-        cache, [&] { return features_key(loaded, dem); }, progress,
-        [&](Progress& watcher) { return pack(read_ground_features(loaded, style, dem, watcher)); });
-    return sort_out(loaded, style, unpack(packed), box, progress);
+    using Features = std::vector<Feature>;
+    const auto read = [&](Progress& watcher) {
+      FeatureSet set = read_ground_features(loaded, style, dem, watcher);
+      std::erase_if(set.features, [&](const Feature& feature) {
+        return !becomes_ground(set.style.kinds[static_cast<std::size_t>(feature.kind)]);
+      });
+      return std::move(set.features);
+    };
+    return sort_out(loaded, style,
+                    cached<Features>(
+                        cache, [&] { return features_key(loaded, dem); }, progress, read),
+                    box, progress);
   });
 }
 

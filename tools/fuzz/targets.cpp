@@ -20,7 +20,6 @@
 #include "renderer/exemplar/available_texels.h"
 #include "renderer/exemplar/example_sheet_plan.h"
 #include "renderer/features/feature_style.h"
-#include "renderer/ground/cached_products.h"
 #include "renderer/image/exif.h"
 #include "renderer/image/guidance_io.h"
 #include "renderer/image/icc/painting_file.h"
@@ -200,18 +199,18 @@ void read_cache_entry(const std::string& bytes) {
   cache.find(key, silent_progress());
   std::ofstream(path, std::ios::binary | std::ios::trunc) << content;  // a damaged one is gone
   std::vector<std::string> notes;
-  PackedRows rows;
+  std::vector<double> numbers;
   cache.read(
-      key, [&](ByteReader& reader) { reader(notes, rows); }, silent_progress());
+      key, [&](ByteReader& reader) { reader(notes, numbers); }, silent_progress());
 }
 
 // The bytes of cached values, as a changed version of the program would find them.
 void read_values(const std::string& bytes) {
   std::vector<std::string> notes;
-  PackedRows rows;
+  std::vector<double> numbers;
   Grid<std::uint8_t> cells;
   ByteReader reader(std::as_bytes(std::span(bytes)));
-  reader(notes, rows, cells);
+  reader(notes, numbers, cells);
 }
 
 // Numbers of a good plan of synthesis, changed: each 5 bytes are a position and what is added
