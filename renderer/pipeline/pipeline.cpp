@@ -100,14 +100,6 @@ void render(const LoadedScene& loaded, const std::string& out_folder, const Run&
   work.clear();
 }
 
-void render_guidance(const LoadedScene& loaded, const std::string& out_folder, const Run& run,
-                     const SheetRequest& request) {
-  SheetRequest guidance = request;
-  guidance.panorama = guidance.matches = false;
-  guidance.layers.clear();
-  render(loaded, out_folder, run, guidance);
-}
-
 void plan_sheet(const LoadedScene& loaded, const std::string& folder, const Run& run,
                 const SheetRequest& request) {
   const RunLimits limits(run);

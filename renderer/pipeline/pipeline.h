@@ -16,9 +16,6 @@ namespace belvedere {
 // and a resumed run continues from them to the same bytes.
 void render(const LoadedScene& scene, const std::string& out_folder, const Run& run,
             const SheetRequest& request = {});
-// Renders guidance alone.
-void render_guidance(const LoadedScene& scene, const std::string& out_folder, const Run& run,
-                     const SheetRequest& request = {});
 
 // Renders one sheet by several processes or machines: a shared folder gets the plan, then anyone
 // makes parts 1 … `parts` in any order and any number at once, and one joins them. Each may be run

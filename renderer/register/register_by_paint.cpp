@@ -23,12 +23,6 @@ glm::dvec2 DrawnGround::drawn_position(glm::dvec2 position) const {
   return dem.transform.to_crs(cell.x, cell.y);
 }
 
-glm::dvec2 DrawnGround::map_position(glm::dvec2 drawn) const {
-  if (goes_to.empty()) return drawn;
-  const glm::dvec2 cell = origin_cell(goes_to, dem.transform.to_cell(drawn.x, drawn.y));
-  return dem.transform.to_crs(cell.x, cell.y);
-}
-
 ControlPair DrawnGround::drawn(ControlPair pair) const {
   if (goes_to.empty()) return pair;
   pair.position = drawn_position(pair.position);

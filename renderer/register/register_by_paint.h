@@ -22,7 +22,6 @@ struct DrawnGround {
   Grid<glm::vec2> goes_to = {};  // as WidenedValleys; empty: nothing moved
 
   glm::dvec2 drawn_position(glm::dvec2 position) const;
-  glm::dvec2 map_position(glm::dvec2 drawn) const;
   // At its drawn position, with the altitude there.
   ControlPair drawn(ControlPair pair) const;
   std::vector<ControlPair> drawn(std::span<const ControlPair> pairs) const;

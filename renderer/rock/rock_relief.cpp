@@ -415,13 +415,4 @@ int rock_margin_px(const RockParameters& parameters) {
   return std::max({spurs, around, apron, rock_near_margin_px(parameters)}) + 2;
 }
 
-void take_relief(GuidanceBuffers& guidance, RockRelief relief) {
-  guidance.land_cover = std::move(relief.land_cover);
-  guidance.fall_line = std::move(relief.fall_line);
-  guidance.rock_height = std::move(relief.height);
-  guidance.rock_facet = std::move(relief.facet);
-  guidance.rock_tone = std::move(relief.tone);
-  guidance.rock_cover = std::move(relief.cover);
-}
-
 }  // namespace belvedere

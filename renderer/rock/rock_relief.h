@@ -34,8 +34,4 @@ RockRelief make_rock_relief(const GuidanceBuffers& guidance, const WideView& wid
 int rock_near_margin_px(const RockParameters& parameters);
 int rock_margin_px(const RockParameters& parameters);
 
-// Moves the relief into the guidance: its channels, and class and fall line where rock has changed
-// them. Both of one size.
-void take_relief(GuidanceBuffers& guidance, RockRelief relief);
-
 }  // namespace belvedere

@@ -44,19 +44,4 @@ MatchField synthesize(const std::vector<Exemplar>& exemplars, const GuideStack& 
   return to_match_field(matches, part, stride, sources[0]);
 }
 
-std::size_t synthesis_bytes(std::size_t texels, std::size_t pixels, int guides, bool with_depth) {
-  // Per texel: word and guides plus a third for the coarser levels, its record and its list entry
-  // (synth_texels.h, synth_lists.h), and their inputs: bin and contrast or surroundings. Per pixel
-  // at the start of the finest level: word and guides, match, every fourth's next, pieces,
-  // surroundings (as they are and by shares), silhouettes, and a quarter of the words, guides and
-  // matches of the level above; later, instead, the memory for moving whole pieces. The result (6)
-  // is allocated when all but the matches is freed.
-  const std::size_t g = static_cast<std::size_t>(guides);
-  const std::size_t record = g <= 1 ? 8 : 8 + (g + 6) / 8 * 8;
-  const std::size_t entry = 4 + (10 + g + 3) / 4 * 4;
-  const std::size_t per_texel = (4 + g) * 4 / 3 + 1 + record + entry + 5;
-  const std::size_t per_pixel = 4 + g + 4 + 1 + 6 + 4 + (8 + g) / 4 + 3 + (with_depth ? 2 : 0);
-  return texels * per_texel + pixels * per_pixel + (std::size_t{32} << 20);
-}
-
 }  // namespace belvedere

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 #include "base/progress.h"
@@ -24,9 +23,5 @@ namespace belvedere {
 // side.
 MatchField synthesize(const std::vector<Exemplar>& exemplars, const GuideStack& target,
                       const SynthesisParameters& parameters, Progress& progress);
-
-// Memory that synthesize needs in addition to its arguments, including its result, bytes; an upper
-// bound for checks before the work.
-std::size_t synthesis_bytes(std::size_t texels, std::size_t pixels, int guides, bool with_depth);
 
 }  // namespace belvedere

@@ -110,7 +110,7 @@ TEST_F(Pipeline, GuidanceAloneEqualsGuidanceOfTheWholeRender) {
                                          "output.sheet_width_mm=96", "synthesis.enabled=false",
                                          "sampling.pixel_samples=1"};
   render(scene(tall), out("a"), {.cache = test::shared_cache()});
-  render_guidance(scene(tall), out("b"), {.cache = test::shared_cache()});
+  render(scene(tall), out("b"), {.cache = test::shared_cache()}, {.panorama = false});
   EXPECT_TRUE(read_bytes(out("a/guidance.exr")) == read_bytes(out("b/guidance.exr")));
 }
 
@@ -151,10 +151,10 @@ TEST_F(Pipeline, ColoursOfAPaintingReachTheBasePicture) {
   const std::string painting =
       "exemplar.0={ picture = \"red.png\", classes = \"classes.png\", stroke_px = 1 }";
   const auto redness = [&](const std::string& colours) {
-    render_guidance(scene({painting, "synthesis.colours=" + colours, "synthesis.enabled=false",
-                           "air.haze=0", "air.range_mist=0", "sampling.pixel_samples=1",
-                           "output.width=96", "output.height=64", "output.sheet_width_mm=96"}),
-                    out(colours), {});
+    render(scene({painting, "synthesis.colours=" + colours, "synthesis.enabled=false", "air.haze=0",
+                  "air.range_mist=0", "sampling.pixel_samples=1", "output.width=96",
+                  "output.height=64", "output.sheet_width_mm=96"}),
+           out(colours), {}, {.panorama = false});
     const GuidanceBuffers guidance = read_guidance(out(colours) + "/guidance.exr");
     double sum = 0.0;
     int count = 0;
@@ -270,8 +270,8 @@ TEST_F(Pipeline, ASunBelowTheHorizonIsNotedAndLeavesSkyLight) {
     std::string all;
     void note(std::string_view text) override { all += text; }
   } notes;
-  render_guidance(scene({"sun.altitude_deg=-5"}), out("a"),
-                  {.progress = notes, .cache = test::shared_cache()});
+  render(scene({"sun.altitude_deg=-5"}), out("a"),
+         {.progress = notes, .cache = test::shared_cache()}, {.panorama = false});
   EXPECT_NE(notes.all.find("below the horizon"), std::string::npos);
   const GuidanceBuffers guidance = read_guidance(out("a/guidance.exr"));
   for (std::size_t i = 0; i < guidance.shadow.size(); ++i) {

@@ -223,8 +223,8 @@ TEST_F(SheetJob, GuidanceHoldsTheChannelsThatWereAskedFor) {
   EXPECT_EQ(two.depth_m, part_of(all.depth_m, part));
   EXPECT_EQ(two.land_cover, part_of(all.land_cover, part));
   EXPECT_TRUE(two.normal.empty() && two.altitude_m.empty());
-  render_guidance(scene(), folder_ / "classes", shared(),
-                  {.channels = {{"landcover.id"}}, .part = part});
+  render(scene(), folder_ / "classes", shared(),
+         {.panorama = false, .channels = {{"landcover.id"}}, .part = part});
   EXPECT_EQ(read_guidance(folder_ / "classes/guidance.exr").land_cover, two.land_cover)
       << "without distances beside them";
   render(scene(), folder_ / "none", shared(),
@@ -234,8 +234,9 @@ TEST_F(SheetJob, GuidanceHoldsTheChannelsThatWereAskedFor) {
             test::read_bytes(folder_ / "two/panorama.tif"));
   EXPECT_THAT(test::message_of(ErrorKind::usage,
                                [&] {
-                                 render_guidance(scene(), folder_ / "none", shared(),
-                                                 {.channels = std::vector<std::string>()});
+                                 render(
+                                     scene(), folder_ / "none", shared(),
+                                     {.panorama = false, .channels = std::vector<std::string>()});
                                }),
               HasSubstr("--channels"));
 }

@@ -205,16 +205,6 @@ TEST(RockRelief, KindsOfRockDiffer) {
   }
 }
 
-TEST(RockRelief, IsTakenIntoTheGuidance) {
-  GuidanceBuffers g = test::make_wall(64, 64, 1.0);
-  const RockRelief relief = relief_of(g, parameters_of(1.0));
-  take_relief(g, relief);
-  EXPECT_TRUE(g.rock_facet == relief.facet);
-  EXPECT_TRUE(g.rock_tone == relief.tone);
-  EXPECT_TRUE(g.fall_line == relief.fall_line);
-  EXPECT_TRUE(has_channel(g, &GuidanceBuffers::rock_cover));
-}
-
 // The wide view shows crests where they were before they rose, and meadows of the valley at their
 // new position.
 TEST(RockRelief, ARisenCrestIsLitAsTheWallBelowIt) {

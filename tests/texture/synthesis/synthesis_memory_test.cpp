@@ -69,24 +69,6 @@ TEST(SynthesisMemory, SlopeStaysUnderTheBound) {
     // per pixel.
     EXPECT_LE(slope, c.guides == 1 ? 22.0 : 28.0) << c.guides << " guides";
     EXPECT_GE(slope, 12.0) << "nothing was measured";
-    const auto estimate = [&](std::size_t pixels) {
-      return static_cast<double>(synthesis_bytes(0, pixels, c.guides, c.with_depth));
-    };
-    EXPECT_LE(slope, (estimate(2000000) - estimate(1000000)) / 1e6) << "synthesis_bytes is too low";
-  }
-}
-
-// The largest documented print: 20000 × 8000 pixels from three exemplars of 4 million texels,
-// inputs and result included.
-TEST(SynthesisMemory, LargestPrintFitsInto8GiB) {
-  const std::size_t pixels = 20000ULL * 8000;
-  const std::size_t texels = 3 * 4000000ULL;
-  for (const int guides : {1, 6}) {
-    const std::size_t inputs = (1 + static_cast<std::size_t>(guides)) * pixels +
-                               (4 + static_cast<std::size_t>(guides)) * texels;
-    EXPECT_LT(synthesis_bytes(texels, pixels, guides, true) + inputs + 4 * pixels,
-              std::size_t{8} << 30)
-        << guides << " guides, with depths";
   }
 }
 
