@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -17,7 +16,6 @@
 #include "base/error.h"
 #include "base/grid.h"
 #include "base/guidance_buffers.h"
-#include "base/parallel.h"
 #include "base/random.h"
 #include "renderer/exemplar/available_texels.h"
 #include "renderer/exemplar/uncertain_places.h"
@@ -157,38 +155,16 @@ struct ExampleSheetPainter::State {
                        synthetic.lowest_m, synthetic.highest_m, synthetic.seed);
   }
 
-  // The drainage of a terrain is computed on one thread, so the terrains are made in parallel.
-  void make_terrains(const Run& run) {
-    std::map<std::string, LoadedScene> scenes;
-    for (int panel = 0; panel < static_cast<int>(plan.panels.size()); ++panel) {
-      LoadedScene loaded = panel_scene(plan, panel, hand.palette.winter);
-      std::string name = name_of_terrain(loaded);
-      scenes.emplace(std::move(name), std::move(loaded));
-    }
-    std::map<std::string, Terrain> made;
-    std::vector<std::pair<const LoadedScene*, Terrain*>> work;
-    for (const auto& [name, loaded] : scenes) work.emplace_back(&loaded, &made[name]);
-    // Progress is single-threaded, so a request to stop takes effect after them.
-    parallel_ranges(work.size(), std::size_t{1}, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i != end; ++i) {
-        const auto& [loaded, terrain] = work[i];
-        terrain->dem =
-            std::make_shared<const Dem>(make_scene_dem(*loaded, silent_progress(), run.cache));
-        terrain->catchments = std::make_unique<Catchments>(*terrain->dem);
-        terrain->catchments->km2();
-      }
-    });
-    run.progress.advance(0.0);
-    terrains = std::move(made);
-  }
-
   ExamplePainting paint_panel(int panel, const ExampleLayers& layers, const Run& run) {
     Progress& progress = run.progress;
     LoadedScene loaded = panel_scene(plan, panel, hand.palette.winter);
     if (hand.light) loaded.scene.light = *hand.light;
-    if (terrains.empty()) make_terrains(run);
     const std::string name = name_of_terrain(loaded);
-    const auto& [dem, catchments] = terrains.at(name);
+    auto& [dem, catchments] = terrains[name];
+    if (dem == nullptr) {
+      dem = std::make_shared<const Dem>(make_scene_dem(loaded, progress, run.cache));
+      catchments = std::make_unique<Catchments>(*dem);
+    }
     std::string rules = name + " " + loaded.scene.land_cover.rules;
     for (const auto& [key, value] : loaded.scene.land_cover.settings)
       rules += fmt::format(" {}={}", key, value);
@@ -423,28 +399,11 @@ glm::ivec2 example_sheet_size(const SceneExemplar& settings, const SceneOutput& 
   return {side(std::sqrt(texels * wide)), side(std::sqrt(texels / wide))};
 }
 
-std::vector<LandCoverClass> classes_of_example_sheet(const SceneExemplar& settings,
-                                                     const Scene& scene, const View& view,
-                                                     const Palette& palette, Progress& progress,
-                                                     const Cache& cache) {
-  // The plan was made for the classes that occur in panoramas, and a test checks sheets of this
-  // size.
-  constexpr int min_width = 500;
-  constexpr int min_height = 350;
+std::vector<LandCoverClass> classes_of_example_sheet() {
   std::vector<LandCoverClass> classes;
-  if (const glm::ivec2 size = example_sheet_size(settings, scene.output);
-      size.x >= min_width && size.y >= min_height) {
-    for (const LandCoverClassInfo& info : land_cover_classes())
-      if (built_in_needed_texels().texels[static_cast<std::size_t>(info.id)])
-        classes.push_back(info.id);
-    return classes;
-  }
-  const PaintedExemplar painted =
-      paint_example_sheet(settings, scene, view, palette, progress, cache);
-  std::array<bool, 256> found{};
-  for (const std::uint8_t label : painted.exemplar.guides.label) found[label] = true;
   for (const LandCoverClassInfo& info : land_cover_classes())
-    if (found[static_cast<std::size_t>(info.id)]) classes.push_back(info.id);
+    if (built_in_needed_texels().texels[static_cast<std::size_t>(info.id)])
+      classes.push_back(info.id);
   return classes;
 }
 

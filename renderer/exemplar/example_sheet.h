@@ -91,11 +91,8 @@ PaintedExemplar paint_example_sheet(const SceneExemplar& settings, const Scene& 
 // no visible gain.
 glm::ivec2 example_sheet_size(const SceneExemplar& settings, const SceneOutput& output);
 
-// The classes that such a sheet has texels of, known without painting it if it is large enough;
-// otherwise it is painted.
-std::vector<LandCoverClass> classes_of_example_sheet(const SceneExemplar& settings,
-                                                     const Scene& scene, const View& view,
-                                                     const Palette& palette, Progress& progress,
-                                                     const Cache& cache = no_cache());
+// The classes that such a sheet has texels of: those that occur in panoramas. One of less than 500
+// × 350 texels may lack some.
+std::vector<LandCoverClass> classes_of_example_sheet();
 
 }  // namespace belvedere

@@ -31,8 +31,7 @@ struct ExemplarClasses {
   std::vector<Flags> offered_by;  // by each of `names`
   Flags offered{};                // by any
 };
-ExemplarClasses look_at_classes(const LoadedScene& scene, const View& view, const Palette& palette,
-                                const std::vector<ScannedPainting>& scans, Progress& progress,
-                                const Cache& cache = no_cache());
+ExemplarClasses look_at_classes(const LoadedScene& scene,
+                                const std::vector<ScannedPainting>& scans);
 
 }  // namespace belvedere

@@ -201,9 +201,8 @@ SceneReport check_scene(const LoadedScene& scene, Progress& progress, const Cach
   read_output_colour(scene);
   SceneReport report;
   report.inputs = scene_inputs(scene);
-  ScenePaint paint = read_scene_paint(scene, progress);
+  const ScenePaint paint = read_scene_paint(scene, progress);
   Sight sight = look(scene, progress, cache, propose);
-  paint.palette = palette_for_location(paint.palette, scene, *sight.dem);
   report.view = sight.view;
   report.evaluation = evaluate_view(sight.region, sight.view,
                                     static_cast<double>(scene.scene.generalize.valleys.width_m));
@@ -226,8 +225,7 @@ SceneReport check_scene(const LoadedScene& scene, Progress& progress, const Cach
       report.classes.emplace_back(info.id, share);
   if (!scene.scene.copies()) return report;
 
-  const ExemplarClasses exemplars =
-      look_at_classes(scene, sight.view, paint.palette, paint.paintings, progress, cache);
+  const ExemplarClasses exemplars = look_at_classes(scene, paint.paintings);
   report.exemplars = exemplars.names;
   for (const ExemplarClasses::Flags& offered : exemplars.offered_by) {
     std::vector<LandCoverClass>& own = report.exemplar_classes.emplace_back();

@@ -143,12 +143,7 @@ TEST(Exemplars, SheetsHaveTheClassesThatAreToldWithoutPainting) {
   for (const char* palette : {"summer", "winter"}) {
     const LoadedScene scene = test::small_scene(
         {"exemplar.0={ width = 500, height = 350 }", std::string("palette=") + palette});
-    struct Painted : Progress {
-      void begin(std::string_view, double) override { ++stages; }
-      int stages = 0;
-    } told;
-    const ExemplarClasses known = look_at_classes(scene, {}, read_palette(palette), {}, told);
-    EXPECT_EQ(told.stages, 0);
+    const ExemplarClasses known = look_at_classes(scene, {});
     EXPECT_THAT(known.names, ElementsAre("painted sheet"));
     std::array<bool, land_cover_class_count> found{};
     const std::vector<PaintedExemplar> painted = make_exemplars(
@@ -160,14 +155,14 @@ TEST(Exemplars, SheetsHaveTheClassesThatAreToldWithoutPainting) {
   }
 }
 
-TEST(Exemplars, PaintingsAndSmallSheetsAreLookedAtThemselves) {
+TEST(Exemplars, PaintingsAreLookedAtThemselves) {
   ScannedPainting painting = scan("a");
   painting.painted.exemplar.guides.label =
       Grid<std::uint8_t>(4, 3, static_cast<std::uint8_t>(LandCoverClass::sand));
   const ExemplarClasses found =
       look_at_classes(test::small_scene({"exemplar.0={ picture = \"a.png\", " + files + " }",
-                                         "exemplar.1={ width = 256, height = 256 }"}),
-                      View{}, read_palette("summer"), {painting, {}}, silent_progress());
+                                         "exemplar.1={ width = 500 }"}),
+                      {painting, {}});
   EXPECT_THAT(found.names, ElementsAre("a", "painted sheet"));
   EXPECT_TRUE(found.offered[static_cast<std::size_t>(LandCoverClass::sand)]);
   EXPECT_TRUE(found.offered[static_cast<std::size_t>(LandCoverClass::forest)]);
