@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "base/random.h"
+#include "tests/texture/synthesis/synthetic_land.h"
 #include "texture/sheet/synthesis_tile.h"
 #include "texture/synthesis/synthesize.h"
 
@@ -13,17 +13,7 @@
 // tiles.
 namespace belvedere::sheet_samples {
 
-// Smooth noise 0…255 with features of about `scale` pixels.
-inline std::uint8_t smooth_noise(std::uint64_t seed, int x, int y, int scale) {
-  const int cx = x / scale;
-  const int cy = y / scale;
-  const auto corner = [&](int i, int j) { return random_uniform(seed, cx + i, cy + j); };
-  const double fx = static_cast<double>(x % scale) / scale;
-  const double fy = static_cast<double>(y % scale) / scale;
-  const double top = corner(0, 0) * (1 - fx) + corner(1, 0) * fx;
-  const double bottom = corner(0, 1) * (1 - fx) + corner(1, 1) * fx;
-  return static_cast<std::uint8_t>(255.0 * (top * (1 - fy) + bottom * fy));
-}
+using test::smooth_noise;
 
 inline GuideStack land(int width, int height, std::uint64_t seed, int guides = 1) {
   GuideStack stack;
@@ -50,9 +40,7 @@ inline Exemplar painting(int width, int height, std::uint64_t seed, int guides =
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const int label = exemplar.guides.label(x, y);
-      const int streak = static_cast<int>(label == 3   ? random_index(80, seed + 20, x / 5, y)
-                                          : label == 7 ? random_index(80, seed + 20, x, y / 4)
-                                                       : random_index(80, seed + 20, x / 2, y / 2));
+      const int streak = test::streak_of(label, x, y, seed + 20);
       const auto bright = [&](int of) {
         return static_cast<std::uint8_t>(streak + 40 + (label == of ? 90 : 0));
       };
@@ -62,20 +50,12 @@ inline Exemplar painting(int width, int height, std::uint64_t seed, int guides =
   return exemplar;
 }
 
-template <class T>
-Grid<T> cut(const Grid<T>& grid, const PixelRect& rect) {
-  Grid<T> out(rect.width(), rect.height());
-  for (int y = 0; y < rect.height(); ++y)
-    for (int x = 0; x < rect.width(); ++x) out(x, y) = grid(rect.x0 + x, rect.y0 + y);
-  return out;
-}
-
 inline GuideStack window_of(const GuideStack& stack, const PixelRect& rect) {
   GuideStack out;
-  out.label = cut(stack.label, rect);
+  out.label = part_of(stack.label, rect);
   for (const Guide& guide : stack.guides)
-    out.guides.push_back({guide.name, cut(guide.values, rect)});
-  if (!stack.depth_m.empty()) out.depth_m = cut(stack.depth_m, rect);
+    out.guides.push_back({guide.name, part_of(guide.values, rect)});
+  if (!stack.depth_m.empty()) out.depth_m = part_of(stack.depth_m, rect);
   return out;
 }
 

@@ -37,7 +37,7 @@ TEST(SynthesisTile, SameBitsInAnyOrderForAnyThreads) {
     const ThreadLimit two(2);
     SynthesisPlan plan = plan_of(exemplars, target, sheet);
     EXPECT_EQ(all_tiles(plan, target, true), reference) << "level " << level;
-    EXPECT_EQ(tile_of(plan, target, sheet.tile(1, 0)), cut(reference, sheet.tile(1, 0)))
+    EXPECT_EQ(tile_of(plan, target, sheet.tile(1, 0)), part_of(reference, sheet.tile(1, 0)))
         << "the plan is as it was";
   }
 }

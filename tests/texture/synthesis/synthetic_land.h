@@ -46,6 +46,13 @@ inline GuideStack land(int width, int height, std::uint64_t seed) {
   return stack;
 }
 
+// Streaks that differ by class, 0…79.
+inline int streak_of(int label, int x, int y, std::uint64_t seed) {
+  return static_cast<int>(label == 3   ? random_index(80, seed, x / 5, y)
+                          : label == 7 ? random_index(80, seed, x, y / 4)
+                                       : random_index(80, seed, x / 2, y / 2));
+}
+
 // Its painting: one hue per class, streaks that differ by class, brighter with tone.
 inline Exemplar painting(int width, int height, std::uint64_t seed) {
   Exemplar exemplar;
@@ -55,9 +62,7 @@ inline Exemplar painting(int width, int height, std::uint64_t seed) {
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const int label = exemplar.guides.label(x, y);
-      const int streak = static_cast<int>(label == 3   ? random_index(80, seed + 2, x / 5, y)
-                                          : label == 7 ? random_index(80, seed + 2, x, y / 4)
-                                                       : random_index(80, seed + 2, x / 2, y / 2));
+      const int streak = streak_of(label, x, y, seed + 2);
       const int bright = streak + exemplar.guides.guides[1].values(x, y) / 3;
       exemplar.picture(x, y) = {static_cast<std::uint8_t>(bright + (label == 9 ? 90 : 0)),
                                 static_cast<std::uint8_t>(bright + (label == 7 ? 90 : 0)),

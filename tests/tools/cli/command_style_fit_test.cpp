@@ -1,12 +1,10 @@
 // `belvedere style fit` from the command line.
 #include <gmock/gmock.h>
 
-#include <cmath>
 #include <filesystem>
 
-#include "base/random.h"
 #include "renderer/style/style_file.h"
-#include "tests/renderer/image/picture_bytes.h"
+#include "tests/tools/cli/bands.h"
 #include "tests/tools/program.h"
 
 namespace belvedere {
@@ -19,12 +17,7 @@ class StyleFit : public Program {
  protected:
   // Sky, forest and meadow.
   std::string write_painting() const {
-    return write_picture("painting.png", 120, 90, [](int x, int y) {
-      const glm::vec3 colour =
-          y < 30 ? glm::vec3(.55F, .7F, .9F)
-                 : (x < 60 ? glm::vec3(.12F, .25F, .1F) : glm::vec3(.6F, .75F, .35F));
-      return colour + glm::vec3(static_cast<float>(random_index(20, 5, x / 2, y / 2)) / 400.F);
-    });
+    return write_picture("painting.png", 120, 90, test::band_colour);
   }
   // The same as class numbers.
   std::string write_mask(int pasture = 10) const {
@@ -82,15 +75,8 @@ TEST_F(StyleFit, MistakesAreToldBeforeAnythingIsWritten) {
 TEST_F(StyleFit, HiddenColoursAreNotSeen) {
   const Grid<glm::vec3> picture = read_picture(write_painting());
   std::vector<std::string> results;
-  for (const std::string& hidden : {std::string("\xff\0\xff\0", 4), std::string("\0\xff\0\0", 4)}) {
-    std::string rows;
-    for (int y = 0; y < picture.height(); ++y)
-      for (int x = 0; x < picture.width(); ++x) {
-        for (int c = 0; x < 80 && c < 3; ++c)
-          rows += static_cast<char>(std::lround(picture(x, y)[c] * 255.F));
-        rows += x < 80 ? "\xff" : hidden;
-      }
-    write("cut.png", test::make_png(picture.width(), picture.height(), 8, 6, rows));
+  for (const std::string& hidden : test::hidden_colours) {
+    write("cut.png", test::cut_out(picture, hidden));
     for (const bool masked : {true, false}) {
       std::vector<std::string> fit = {"style", "fit",          path("cut.png"),
                                       "--out", path("c.toml"), "-q"};

@@ -2,15 +2,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
 #include <set>
 
-#include "base/random.h"
 #include "base/text/text_encoding.h"
-#include "tests/renderer/image/picture_bytes.h"
+#include "tests/tools/cli/bands.h"
 #include "tests/tools/program.h"
 #include "tests/tools/report/browser.h"
 
@@ -29,12 +27,7 @@ class ExemplarSegment : public Program {
  protected:
   // Sky, wood and meadow.
   std::string write_painting(const std::string& name = "painting.png") const {
-    return write_picture(name, 120, 90, [](int x, int y) {
-      const glm::vec3 colour =
-          y < 30 ? glm::vec3(.55F, .7F, .9F)
-                 : (x < 60 ? glm::vec3(.12F, .25F, .1F) : glm::vec3(.6F, .75F, .35F));
-      return colour + glm::vec3(static_cast<float>(random_index(20, 5, x / 2, y / 2)) / 400.F);
-    });
+    return write_picture(name, 120, 90, test::band_colour);
   }
 };
 
@@ -167,15 +160,8 @@ TEST_F(ExemplarSegment, BadInputIsNamed) {
 TEST_F(ExemplarSegment, HiddenColoursAreNotSeen) {
   const Grid<glm::vec3> picture = read_picture(write_painting());
   std::vector<std::string> results;
-  for (const std::string& hidden : {std::string("\xff\0\xff\0", 4), std::string("\0\xff\0\0", 4)}) {
-    std::string rows;
-    for (int y = 0; y < picture.height(); ++y)
-      for (int x = 0; x < picture.width(); ++x) {
-        for (int c = 0; x < 80 && c < 3; ++c)
-          rows += static_cast<char>(std::lround(picture(x, y)[c] * 255.F));
-        rows += x < 80 ? "\xff" : hidden;
-      }
-    write("cut.png", test::make_png(picture.width(), picture.height(), 8, 6, rows));
+  for (const std::string& hidden : test::hidden_colours) {
+    write("cut.png", test::cut_out(picture, hidden));
     const Outcome outcome = run({"exemplar", "segment", path("cut.png"), "--out", path("m.png"),
                                  "--report", path("m.html"), "-q"});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
@@ -188,12 +174,7 @@ class SegmentPage : public Program {
  protected:
   // Sky above, wood and meadow below; made in a few groups.
   std::string made_page() const {
-    write_picture("painting.png", 120, 90, [](int x, int y) {
-      const glm::vec3 colour =
-          y < 30 ? glm::vec3(.55F, .7F, .9F)
-                 : (x < 60 ? glm::vec3(.12F, .25F, .1F) : glm::vec3(.6F, .75F, .35F));
-      return colour + glm::vec3(static_cast<float>(random_index(20, 5, x / 2, y / 2)) / 400.F);
-    });
+    write_picture("painting.png", 120, 90, test::band_colour);
     const Outcome outcome =
         run({"exemplar", "segment", path("painting.png"), "--out", path("mask.png"), "--report",
              path("page.html"), "--max-groups", "3", "-q"});
