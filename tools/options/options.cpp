@@ -184,11 +184,6 @@ Option& Option::range(double min, double max) {
   return *this;
 }
 
-Option& Option::positive() {
-  option_->check(CLI::PositiveNumber);
-  return *this;
-}
-
 Option& Option::not_negative() {
   option_->check(CLI::NonNegativeNumber);
   return *this;

@@ -71,7 +71,6 @@ class Option {
   Option& range(int min, int max);
   Option& range(std::uint64_t min, std::uint64_t max);
   Option& range(double min, double max);
-  Option& positive();
   Option& not_negative();
   Option& one_of(const std::vector<std::string>& words);
   Option& one_of(std::initializer_list<int> numbers);

@@ -145,8 +145,6 @@ TEST(OptionChecks, SignsAndChoices) {
   EXPECT_EQ(value_of<double>("--x 0", [](Option option) { option.not_negative(); }), 0.0);
   EXPECT_THAT(refusal_of<double>("--x -0.1", [](Option option) { option.not_negative(); }),
               HasSubstr("-0.1"));
-  EXPECT_EQ(value_of<int>("--x 1", [](Option option) { option.positive(); }), 1);
-  EXPECT_THAT(refusal_of<int>("--x 0", [](Option option) { option.positive(); }), HasSubstr("0"));
   const Say words = [](Option option) { option.one_of({"lit", "shaded"}); };
   EXPECT_EQ(value_of<std::string>("--x shaded", words), "shaded");
   EXPECT_THAT(refusal_of<std::string>("--x dark", words),
