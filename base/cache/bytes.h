@@ -64,11 +64,6 @@ class ByteWriter {
       for (const T& value : values) put(value);
   }
   template <PlainBytes T>
-  void put(const std::vector<T>& values) {
-    put_number(values.size());
-    add(values.data(), values.size() * sizeof(T));
-  }
-  template <PlainBytes T>
   void put(const Grid<T>& grid) {
     put_number(static_cast<std::uint64_t>(grid.width()));
     put_number(static_cast<std::uint64_t>(grid.height()));
@@ -122,13 +117,6 @@ class ByteReader {
       copy(values.data(), size * sizeof(T));
     else
       for (T& value : values) take(value);
-  }
-  template <PlainBytes T>
-  void take(std::vector<T>& values) {
-    const std::uint64_t size = take_number();
-    if (!has(size, sizeof(T))) return;
-    values.resize(size);
-    copy(values.data(), size * sizeof(T));
   }
   template <PlainBytes T>
   void take(Grid<T>& grid) {
